@@ -73,7 +73,7 @@ static bool turn(struct reporter *reporter)
     uint64_t begun_ns = clock_now_ns();
     frame_protocol_beat(&reporter->view);
     if (reporter->takes_commands)
-        remote_commands_turn(&reporter->remote, begun_ns);
+        remote_commands_poll(&reporter->remote, begun_ns);
     bool more =
         !event_topics_publish(&reporter->events, &reporter->view, begun_ns + EVENTS_LIMIT_NS);
     tell_status(reporter, begun_ns);

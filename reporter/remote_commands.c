@@ -74,7 +74,7 @@ static void pass_replies(struct remote_commands *remote)
     }
 }
 
-void remote_commands_turn(struct remote_commands *remote, uint64_t now_ns)
+void remote_commands_poll(struct remote_commands *remote, uint64_t now_ns)
 {
     pass_commands(remote, now_ns);
     pass_replies(remote);

@@ -28,7 +28,7 @@ int remote_commands_open(struct remote_commands *remote, const char *world,
                          const struct dds_link *link, struct error_text *error);
 
 /* Passes on the commands and the replies that have come. */
-void remote_commands_turn(struct remote_commands *remote, uint64_t now_ns);
+void remote_commands_poll(struct remote_commands *remote, uint64_t now_ns);
 
 /* Waits for commands: at most busy_ns when a sender was heard lately, so that replies are to be
  * expected, else at most idle_ns. */

@@ -174,9 +174,9 @@ static void status_topics_process(struct status_topics *topics, const struct vie
     status.state = state_of(view, role, beat_age_ns);
     if (status.state != jolon_PROCESS_ABSENT)
         status.beat_age_ms = to_ms(beat_age_ns);
-    if (topics->told[role].sent_ns && topics->told[role].state == status.state &&
-        topics->told[role].pid == status.pid && topics->told[role].restarts == status.restarts &&
-        now_ns - topics->told[role].sent_ns < PROCESS_PERIOD_NS)
+    if (topics->sent[role].sent_ns && topics->sent[role].state == status.state &&
+        topics->sent[role].pid == status.pid && topics->sent[role].restarts == status.restarts &&
+        now_ns - topics->sent[role].sent_ns < PROCESS_PERIOD_NS)
         return;
     jolon_Times times = times_of(&slot->stage);
     status.stage_p50_ms = times.p50_ms;
@@ -185,10 +185,10 @@ static void status_topics_process(struct status_topics *topics, const struct vie
     copy_text(status.role, sizeof status.role, role_name(role));
     if (dds_write(topics->process, &status) < 0)
         return; /* again at the next call */
-    topics->told[role].state = status.state;
-    topics->told[role].pid = status.pid;
-    topics->told[role].restarts = status.restarts;
-    topics->told[role].sent_ns = now_ns;
+    topics->sent[role].state = status.state;
+    topics->sent[role].pid = status.pid;
+    topics->sent[role].restarts = status.restarts;
+    topics->sent[role].sent_ns = now_ns;
 }
 
 void status_topics_processes(struct status_topics *topics, const struct view *view, uint64_t now_ns)

@@ -21,7 +21,7 @@ struct status_topics {
         uint32_t pid;
         uint64_t restarts;
         uint64_t sent_ns; /* 0: never */
-    } told[ROLE_COUNT];
+    } sent[ROLE_COUNT];
     struct {
         uint64_t at_ns, commit;
     } rate[STATUS_TOPICS_RATE_SAMPLES];

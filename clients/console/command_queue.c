@@ -344,7 +344,7 @@ static void give_up(struct command_queue *queue, struct pending_command *pending
         player->wanted = player->vehicle;
         player->controls = player->accepted;
     }
-    result_text_none(&pending->answer, &pending->order, command_client_heard(&queue->client));
+    result_text_none(&pending->answer, &pending->order, command_client_reachable(&queue->client));
 }
 
 static void update_pending(struct command_queue *queue, struct players *players,
@@ -421,7 +421,7 @@ void command_queue_turn(struct command_queue *queue, struct players *players,
 {
     eventfd_t counter;
     (void)eventfd_read(queue->wake_fd, &counter);
-    command_client_turn(&queue->client);
+    command_client_poll(&queue->client);
     for (uint32_t i = 0; i < PLAYERS_MAX; i++) {
         if (players->player[i].number)
             update_player(queue, &players->player[i], players, reader, now_ns);

@@ -16,7 +16,7 @@ static uint64_t limit(const struct ctl *ctl)
 static void print_no_reply(const struct ctl *ctl, const struct command_text *order)
 {
     const struct ctl_request *request = &ctl->request;
-    if (!command_client_heard(&ctl->client))
+    if (!command_client_reachable(&ctl->client))
         (void)fprintf(stderr,
                       "jolon-ctl: world '%s': nobody takes commands for it%s; `jolon status -w "
                       "%s` shows whether it runs\n",
@@ -59,7 +59,7 @@ static bool carry_out(struct ctl *ctl, struct result_text_context *context)
     while (!command_series_over(series)) {
         uint64_t now_ns = clock_now_ns();
         command_series_send(series, &ctl->client, now_ns);
-        command_client_turn(&ctl->client);
+        command_client_poll(&ctl->client);
         while (command_series_answer(series, &ctl->client, &reply, &context->round)) {
             context->round++;
             print_answer(ctl, context, &reply);

@@ -73,7 +73,7 @@ bool lookup_wait(struct lookup *lookup, uint64_t until_ns)
         take_world(lookup);
         names_reader_take(&lookup->names_reader, &lookup->names);
         uint64_t now_ns = clock_now_ns();
-        if (lookup->names.told && lookup->hz > 0.0)
+        if (lookup->names.known && lookup->hz > 0.0)
             return true;
         if (now_ns >= until_ns)
             return false;

@@ -69,7 +69,7 @@ static void run(struct drive *drive)
         drive->inputs.summary_changed = false;
         due_ns = session_turn(session, now_ns);
         world_mirror_take(&drive->mirror);
-        (void)event_merge_turn(&drive->merge, recent_events_take, &drive->events);
+        (void)event_merge_poll(&drive->merge, recent_events_take, &drive->events);
         good = show(drive, intents.count > 0, clock_now_ns());
         session->ended |= drive->inputs.keys_ended && session->fire == 0;
     }

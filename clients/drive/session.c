@@ -437,8 +437,8 @@ static void take_first(struct session *session, uint64_t now_ns)
     struct error_text error;
     const struct world_mirror *mirror = session->mirror;
     struct vehicle_choice choice = any_vehicle(session);
-    if (!mirror->has_world || !mirror->has_batch || !mirror->frame_ns || !mirror->names.told ||
-        mirror->batch.run != mirror->world.run || !command_client_heard(session->client))
+    if (!mirror->has_world || !mirror->has_batch || !mirror->frame_ns || !mirror->names.known ||
+        mirror->batch.run != mirror->world.run || !command_client_reachable(session->client))
         return;
     session->run = mirror->world.run;
     session->state = SESSION_WATCHING;
@@ -469,7 +469,7 @@ uint64_t session_turn(struct session *session, uint64_t now_ns)
             (since_ns >= frame_ns && differs(&controls, &session->sent)))
             send_drive(session, &controls, now_ns);
     }
-    command_client_turn(session->client);
+    command_client_poll(session->client);
     read_drive_reply(session, now_ns);
     read_fire_reply(session, now_ns);
     if (session->lay_until_ns &&
@@ -506,6 +506,6 @@ void session_leave(struct session *session, uint64_t until_ns)
             return;
         command_client_wait(session->client,
                             until_ns - now_ns < IDLE_NS ? until_ns : now_ns + IDLE_NS);
-        command_client_turn(session->client);
+        command_client_poll(session->client);
     }
 }

@@ -67,7 +67,7 @@ void session_close(struct session *session)
 
 static bool knows_the_world(const struct session *session)
 {
-    return session->mirror.has_world && session->mirror.names.told && session->mirror.frame_ns;
+    return session->mirror.has_world && session->mirror.names.known && session->mirror.frame_ns;
 }
 
 bool session_wait_for_world(struct session *session)
@@ -151,7 +151,7 @@ void session_turn(struct session *session, uint64_t now_ns)
     write_world(session);
     take_lines(session);
     open_events(session);
-    command_client_turn(&session->client);
+    command_client_poll(&session->client);
     command_queue_turn(&session->queue, now_ns);
     leases_turn(&session->leases, &session->client, now_ns);
     subscription_states(&session->subscription, &session->mirror, &session->output, now_ns);

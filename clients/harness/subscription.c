@@ -260,7 +260,7 @@ void subscription_events(struct subscription *subscription, struct event_merge *
                          struct output *output)
 {
     struct event_output target = {.subscription = subscription, .output = output};
-    if (!event_merge_turn(merge, write_event, &target))
+    if (!event_merge_poll(merge, write_event, &target))
         output->closed = true; /* no memory */
     if (merge->missed > subscription->missed)
         output_missed(output, merge->missed - subscription->missed);

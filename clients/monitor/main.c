@@ -24,7 +24,7 @@
 static int run_events(struct event_merge *merge)
 {
     while (!process_stopping()) {
-        bool good = event_merge_turn(merge, plain_output_line, NULL);
+        bool good = event_merge_poll(merge, plain_output_line, NULL);
         if (!good || !plain_output_flush())
             return EXIT_REFUSED; /* nobody reads any more, or no memory */
         dds_topics_wait(merge->waitset, merge->count ? POLL_NS : NS_PER_S / 4);
@@ -45,7 +45,7 @@ static int run_screen(struct world_mirror *mirror, struct event_merge *merge,
     while (!process_stopping() && !screen.state.quit) {
         world_mirror_take(mirror);
         screen_sample(&screen, mirror);
-        (void)event_merge_turn(merge, screen_event, &screen);
+        (void)event_merge_poll(merge, screen_event, &screen);
         uint64_t now_ns = clock_now_ns();
         if (screen_keys(&screen, mirror) || now_ns >= due_ns) {
             screen_draw(&screen, mirror, now_ns);
@@ -70,7 +70,7 @@ int main(int argc, char **argv)
     bool screen = !options.once && !options.lines && !options.json && !options.events &&
                   isatty(STDOUT_FILENO);
     options.link.quiet = screen;
-    options.link.part = DDS_ONLOOKER;
+    options.link.part = DDS_OBSERVER;
     if (options.rate_hz <= 0.0)
         options.rate_hz = screen ? OPTIONS_SCREEN_HZ : OPTIONS_LINES_HZ;
     process_signals();

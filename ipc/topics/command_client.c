@@ -1,4 +1,4 @@
-/* Commands out, replies in. */
+/* Sends commands and takes replies. */
 #include "ipc/topics/command_client.h"
 
 #include "ipc/process/clock.h"
@@ -66,7 +66,7 @@ uint64_t command_client_send(struct command_client *client, const jolon_Command 
     call.command.sequence = ++client->sequence;
     call.repeat_ns = clock_now_ns() + COMMAND_CLIENT_REPEAT_NS;
     client->link.transport->send(client->link.self,
-                                 &call.command); /* what does not get out is repeated */
+                                 &call.command); /* a command that is lost here is repeated */
     client->call[client->count++] = call;
     return call.command.sequence;
 }
@@ -83,7 +83,7 @@ static void take_replies(struct command_client *client)
     }
 }
 
-void command_client_turn(struct command_client *client)
+void command_client_poll(struct command_client *client)
 {
     uint64_t now_ns = clock_now_ns();
     take_replies(client);
@@ -130,7 +130,7 @@ bool command_client_call(struct command_client *client, const jolon_Command *com
 {
     uint64_t sequence = command_client_send(client, command);
     while (sequence) {
-        command_client_turn(client);
+        command_client_poll(client);
         if (command_client_answered(client, sequence, reply))
             return true;
         if (clock_now_ns() >= until_ns || process_stopping())
@@ -141,9 +141,9 @@ bool command_client_call(struct command_client *client, const jolon_Command *com
     return false;
 }
 
-bool command_client_heard(const struct command_client *client)
+bool command_client_reachable(const struct command_client *client)
 {
-    return client->link.transport->heard(client->link.self);
+    return client->link.transport->reachable(client->link.self);
 }
 
 int command_client_descriptor(const struct command_client *client)

@@ -6,18 +6,18 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
-/* In one of Cyclone DDS's threads. */
-static void ring(dds_entity_t reader, void *context)
+/* Runs in one of Cyclone DDS's threads. */
+static void on_reply(dds_entity_t reader, void *context)
 {
     const struct command_dds *dds = context;
     (void)reader;
-    (void)eventfd_write(dds->bell, 1);
+    (void)eventfd_write(dds->wakeup, 1);
 }
 
-static int ring_for_replies(struct command_dds *dds, struct error_text *error)
+static int wake_on_reply(struct command_dds *dds, struct error_text *error)
 {
     dds_listener_t *listener = dds_create_listener(dds);
-    dds_lset_data_available(listener, ring);
+    dds_lset_data_available(listener, on_reply);
     dds_return_t code = dds_set_listener(dds->replies, listener);
     dds_delete_listener(listener);
     return code == DDS_RETCODE_OK ? 0
@@ -35,8 +35,8 @@ static bool receive(void *self, jolon_CommandReply *reply)
     const struct command_dds *dds = self;
     void *sample = NULL;
     dds_sample_info_t info;
-    eventfd_t rung;
-    (void)eventfd_read(dds->bell, &rung);
+    eventfd_t count;
+    (void)eventfd_read(dds->wakeup, &count);
     while (dds_take(dds->replies, &sample, &info, 1, 1) > 0) {
         bool valid = info.valid_data;
         if (valid)
@@ -49,7 +49,7 @@ static bool receive(void *self, jolon_CommandReply *reply)
     return false;
 }
 
-static bool heard(void *self)
+static bool reachable(void *self)
 {
     const struct command_dds *dds = self;
     dds_publication_matched_status_t matched = {0};
@@ -60,20 +60,21 @@ static bool heard(void *self)
 static int descriptor(void *self)
 {
     const struct command_dds *dds = self;
-    return dds->bell;
+    return dds->wakeup;
 }
 
 int command_dds_open(struct command_dds *dds, const struct dds_link *link,
                      struct command_link *command_link, struct error_text *error)
 {
-    static const struct command_transport transport = {send_command, receive, heard, descriptor};
+    static const struct command_transport transport = {send_command, receive, reachable,
+                                                       descriptor};
     *command_link = (struct command_link){&transport, dds};
-    dds->bell = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
-    if (dds->bell < 0)
+    dds->wakeup = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
+    if (dds->wakeup < 0)
         return error_text_set(error, "eventfd: %s", strerror(errno));
-    /* The reader first: the reply may come as soon as the command is out. */
+    /* The reader first: the reply may come as soon as the command is sent. */
     if ((dds->replies = dds_topics_reader(link, TOPIC_REPLY, error)) < 0 ||
         (dds->commands = dds_topics_writer(link, TOPIC_COMMAND, error)) < 0)
         return -1;
-    return ring_for_replies(dds, error);
+    return wake_on_reply(dds, error);
 }

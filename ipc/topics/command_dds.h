@@ -1,4 +1,4 @@
-/* The link for commands to a world on another machine: DDS, where that world's set was started with
+/* The link for commands to a world on another machine: DDS. That world's set must run with
  * --remote-commands. One thread. */
 #ifndef JOLON_IPC_TOPICS_COMMAND_DDS_H
 #define JOLON_IPC_TOPICS_COMMAND_DDS_H
@@ -8,10 +8,11 @@
 
 struct command_dds {
     dds_entity_t replies, commands;
-    int bell; /* an eventfd that a thread of Cyclone DDS rings */
+    int wakeup; /* an eventfd that a thread of Cyclone DDS writes when a reply comes */
 };
 
-/* Makes the reader and the writer in an open link; they end with it. 0, or -1 with the reason. */
+/* Makes the reader and the writer in an open link, with which they end. Returns 0, or -1 with the
+ * reason. */
 int command_dds_open(struct command_dds *dds, const struct dds_link *link,
                      struct command_link *command_link, struct error_text *error);
 

@@ -1,10 +1,10 @@
-/* An object's members into an order. */
+/* Reads orders from JSON objects. */
 #include "ipc/topics/command_json.h"
 
 #include <stdio.h>
 #include <string.h>
 
-/* Says what a verb takes. */
+/* Refuses a member, with the list of arguments that the verb takes. */
 static int strange_member(const struct command_text *order, const char *name,
                           struct error_text *error)
 {

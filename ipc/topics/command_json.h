@@ -6,12 +6,12 @@
 
 #include <cjson/cJSON.h>
 
-/* Reads an order out of an object: its verb in "do", and an argument each by its name. "id", which
- * is the caller's own, is not looked at. -1 with the reason: what is wrong and what would be right.
- */
+/* Reads an order from an object: its verb in "do", and each argument by its name. "id", which
+ * belongs to the caller, is ignored. Returns 0, or -1 with the reason: what is wrong and what would
+ * be right. */
 int command_from_json(struct command_text *order, const cJSON *object, struct error_text *error);
 
-/* The same without command_text_end(): the caller may add what was not said. */
+/* As command_from_json(), without command_text_end(): the caller may add missing arguments. */
 int command_json_give(struct command_text *order, const cJSON *object, struct error_text *error);
 
 #endif

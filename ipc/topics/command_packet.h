@@ -1,7 +1,7 @@
-/* What goes over the command socket of a world: one packet a command, one packet a reply.
+/* The packets of a world's command socket: one for each command, one for each reply.
  *
  * The socket is local, so packets hold the IDL's types as they lie in memory. Both ends must be of
- * one build of the interface: the version and the packet's size say so. */
+ * one build of the interface, which the version and the packet's size show. */
 #ifndef JOLON_IPC_TOPICS_COMMAND_PACKET_H
 #define JOLON_IPC_TOPICS_COMMAND_PACKET_H
 
@@ -9,7 +9,7 @@
 
 #include <stdint.h>
 
-/* In the world's runtime folder the socket is called NAME.commands. */
+/* In the runtime folder the socket is called NAME.commands. */
 #define COMMAND_SOCKET_SUFFIX "commands"
 
 #define COMMAND_PACKET_MAGIC   0x444d434au /* "JCMD" */

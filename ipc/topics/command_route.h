@@ -1,5 +1,5 @@
-/* The choice between the two links for commands, for programs that people call. Commands go to a
- * world of this user on this machine, or with --remote over DDS to a world anywhere. */
+/* The choice between the two links for commands, for client programs. Commands go to a world of
+ * this user on this machine, or with --remote over DDS to a world on any machine. */
 #ifndef JOLON_IPC_TOPICS_COMMAND_ROUTE_H
 #define JOLON_IPC_TOPICS_COMMAND_ROUTE_H
 
@@ -20,8 +20,8 @@ struct command_route {
     struct command_dds dds;
 };
 
-/* Opens the caller's link: over the open DDS link if remote is true, else over the local socket,
- * for which link is not looked at. 0, or -1 with the reason. */
+/* Opens the client: over the open DDS link if remote is true, else over the local socket (link is
+ * then ignored). Returns 0, or -1 with the reason. */
 int command_route_open(struct command_route *route, struct command_client *client, bool remote,
                        const struct dds_link *link, const char *world, struct error_text *error);
 

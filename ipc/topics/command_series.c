@@ -1,4 +1,4 @@
-/* Rounds out, answers in. */
+/* Sends the rounds of an order and takes the answers. */
 #include "ipc/topics/command_series.h"
 
 #include "ipc/process/clock.h"

@@ -27,13 +27,13 @@ static bool connected(struct command_socket *socket)
     return socket->fd >= 0;
 }
 
-static void hang_up(struct command_socket *socket)
+static void disconnect(struct command_socket *socket)
 {
     close(socket->fd);
     socket->fd = -1;
 }
 
-static bool heard(void *self)
+static bool reachable(void *self)
 {
     return connected(self);
 }
@@ -46,12 +46,13 @@ static void send_command(void *self, const jolon_Command *command)
     packet.magic = COMMAND_PACKET_MAGIC;
     packet.version = COMMAND_PACKET_VERSION;
     packet.command = *command;
-    /* The second time over a new connection: the first one's other end may have died. */
+    /* The second try is over a new connection, as the first connection's other end may have
+     * died. */
     for (int i = 0; i < 2 && connected(socket); i++) {
         if (send(socket->fd, &packet, sizeof packet, MSG_DONTWAIT | MSG_NOSIGNAL) >= 0 ||
             errno == EAGAIN || errno == ENOBUFS)
             return;
-        hang_up(socket);
+        disconnect(socket);
     }
 }
 
@@ -66,7 +67,7 @@ static bool receive(void *self, jolon_CommandReply *reply)
         return false;
     if (bytes != (ssize_t)sizeof packet || packet.magic != COMMAND_PACKET_MAGIC ||
         packet.version != COMMAND_PACKET_VERSION) {
-        hang_up(socket); /* the other end went away, or is of another build */
+        disconnect(socket); /* the other end has ended, or is of another build */
         return false;
     }
     *reply = packet.reply;
@@ -81,9 +82,10 @@ static int descriptor(void *self)
 
 struct command_link command_socket_open(struct command_socket *socket, const char *world)
 {
-    static const struct command_transport transport = {send_command, receive, heard, descriptor};
+    static const struct command_transport transport = {send_command, receive, reachable,
+                                                       descriptor};
     *socket = (struct command_socket){.world = world, .fd = -1};
-    /* The first look for the runtime folder needs more than a sandbox allows. */
+    /* Connect now: the first search for the runtime folder needs more than a sandbox allows. */
     (void)connected(socket);
     return (struct command_link){&transport, socket};
 }
@@ -91,5 +93,5 @@ struct command_link command_socket_open(struct command_socket *socket, const cha
 void command_socket_close(struct command_socket *socket)
 {
     if (socket->fd >= 0)
-        hang_up(socket);
+        disconnect(socket);
 }

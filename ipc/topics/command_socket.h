@@ -1,6 +1,6 @@
 /* The local link for commands: the command socket of a world of this user, on this machine.
  *
- * It connects when there is something to send and connects again when the other end was restarted.
+ * It connects when there is a command to send, and connects again when the other end was restarted.
  * One thread. */
 #ifndef JOLON_IPC_TOPICS_COMMAND_SOCKET_H
 #define JOLON_IPC_TOPICS_COMMAND_SOCKET_H
@@ -15,7 +15,7 @@ struct command_socket {
     uint64_t tried_ns;
 };
 
-/* Prepares the link; the world need not be there yet. */
+/* Prepares the link. The world need not exist yet. */
 struct command_link command_socket_open(struct command_socket *socket, const char *world);
 void command_socket_close(struct command_socket *socket);
 

@@ -1,15 +1,15 @@
-/* An order: a command as people and programs say it, word by word, and what is wrong with it.
+/* An order: a command as text, given word by word, and its checks.
  *
- * One table of the verbs and one of their arguments, for whoever takes orders: jolon ctl from a
- * command line, jolon harness and jolon console from JSON (ipc/topics/command_json.h). Every check
- * that needs no world is made here; what is wrong is said in words that name what would be right.
+ * One table of verbs and one of their arguments serve jolon ctl (command line), and jolon harness
+ * and jolon console (JSON, ipc/topics/command_json.h). Every check that needs no world is made
+ * here. Each error says what would be right.
  *
  *     command_text_begin(&order, "drive", &error);
  *     command_text_give(&order, COMMAND_TEXT_VEHICLE, &value, &error);    for each argument
- *     command_text_end(&order, &error);                            is it whole?
- *     command_text_resolve(&order, names, hz, &error);             names to ids, seconds to frames
+ *     command_text_end(&order, &error);                                   nothing is missing
+ *     command_text_resolve(&order, names, hz, &error);         names to ids, seconds to frames
  *
- * Pure; one thread an order. */
+ * Each order is used by one thread. */
 #ifndef JOLON_IPC_TOPICS_COMMAND_TEXT_H
 #define JOLON_IPC_TOPICS_COMMAND_TEXT_H
 
@@ -55,10 +55,10 @@ enum command_text_field {
     COMMAND_TEXT_FIELD_COUNT
 };
 
-/* An argument's value: a text where it came as one, from which numbers are read if loose says so
- * (a command line knows nothing else). */
+/* An argument's value. text is set for a text; with loose, which a command line sets, numbers are
+ * read from it. */
 struct command_text_value {
-    const char *text; /* NULL: number or truth */
+    const char *text; /* NULL: a number or a truth value */
     double number;
     bool truth, is_truth;
     bool loose;
@@ -67,59 +67,61 @@ struct command_text_value {
 struct command_text_verb {
     const char *name;
     jolon_CommandType type;
-    uint32_t allowed, needed; /* bits of command_text_field */
-    enum command_text_field
-        operand; /* what follows the verb on a command line, FIELD_COUNT: nothing */
+    uint32_t allowed, needed;        /* bits of command_text_field */
+    enum command_text_field operand; /* follows the verb on a command line; FIELD_COUNT: none */
 };
 
 struct command_text {
     const struct command_text_verb *verb;
     jolon_Command command; /* source and sequence are 0 */
     char vehicle[COMMAND_TEXT_NAME_MAX],
-        target[COMMAND_TEXT_NAME_MAX]; /* by name: still to be found; else "" */
+        target[COMMAND_TEXT_NAME_MAX]; /* names that are still to be resolved, or "" */
     double lease_s;                    /* 0: none */
     uint32_t rounds;                   /* of a fire mission, from 1 */
     double every_s, radius_m;
-    uint32_t seed;  /* of where its rounds fall */
+    uint32_t seed;  /* of the rounds' points of aim */
     uint32_t given; /* bits of command_text_field */
 };
 
-/* The verb i, NULL beyond the last. */
+/* Returns verb i, NULL beyond the last. */
 const struct command_text_verb *command_text_verb(size_t i);
 
-/* Begins an order. -1 with the reason, which names the verb that may have been meant. */
+/* Begins an order. Returns 0, or -1 with the reason, which names the verb that may have been
+ * meant. */
 int command_text_begin(struct command_text *order, const char *verb, struct error_text *error);
 
-/* The name of an argument in JSON ("lease_s") and as an option ("lease"). */
+/* Return the name of an argument in JSON ("lease_s") and as an option ("lease"). */
 const char *command_text_field_name(enum command_text_field field);
 const char *command_text_field_option(enum command_text_field field);
 
-/* The field of that JSON name, FIELD_COUNT when there is none. */
+/* Returns the field of that JSON name, FIELD_COUNT when there is none. */
 enum command_text_field command_text_field(const char *name);
 
-/* Does it take no value on a command line? */
+/* Returns true if the argument takes no value on a command line. */
 bool command_text_field_is_truth(enum command_text_field field);
 
-/* Takes an argument. -1 with the reason, which begins with the value: the caller says of what. */
+/* Takes an argument. Returns 0, or -1 with the reason, before which the caller puts the
+ * argument. */
 int command_text_give(struct command_text *order, enum command_text_field field,
                       const struct command_text_value *value, struct error_text *error);
 
-/* Is all there that the verb needs, and nothing that contradicts? -1 with the reason. */
+/* Checks that nothing is missing and nothing contradicts. Returns 0, or -1 with the reason. */
 int command_text_end(struct command_text *order, struct error_text *error);
 
-/* Does command_text_resolve() need the names, or the world's frames a second? */
+/* Return true if command_text_resolve() needs the names, or the world's frames a second. */
 bool command_text_needs_names(const struct command_text *order);
 bool command_text_needs_hz(const struct command_text *order);
 
-/* Puts ids for names and frames for seconds. -1 with the reason: nobody is called so. */
+/* Replaces names by ids and seconds by frames. Returns 0, or -1 with the reason: no vehicle has
+ * that name. */
 int command_text_resolve(struct command_text *order, const struct name_table *names, double hz,
                          struct error_text *error);
 
-/* The command of a fire mission's round, from 0: about the middle, within radius_m, by chance from
- * seed. Any other order has the one round 0. */
+/* Returns the command of a fire mission's round, counted from 0, aimed at random within radius_m of
+ * the middle. Any other order has the one round 0. */
 jolon_Command command_text_round(const struct command_text *order, uint64_t seed, uint32_t round);
 
-/* What to do about a refusal, as the end of a sentence: "; ..." or "". */
+/* Returns advice on a refusal, as the end of a sentence: "; ..." or "". */
 const char *command_text_advice(const struct command_text *order, jolon_CommandResult result);
 
 #endif

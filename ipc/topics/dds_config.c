@@ -1,4 +1,4 @@
-/* Cyclone DDS's configuration: the built-in text, a file's, and the choice of the interface. */
+/* The configuration of Cyclone DDS: the built-in text, a file, and the choice of the interface. */
 #include "ipc/topics/dds_config.h"
 
 #include <arpa/inet.h>
@@ -9,9 +9,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Discovery by multicast, data by unicast, and no participant index: that takes any number of
- * processes, works with nothing but lo and no multicast route, and starts without a warning.
- * Shared memory is off in so many words, because on it waits for a daemon. */
+/* Discovery by multicast, data by unicast, and no participant index: this takes any number of
+ * processes, works with nothing but lo and no multicast route, and starts without a warning. Shared
+ * memory is turned off explicitly, because with it Cyclone DDS waits for a daemon. */
 static const char builtin[] = "<CycloneDDS>\n"
                               "  <Domain Id=\"any\">\n"
                               "    <General>\n"
@@ -45,7 +45,7 @@ int dds_config_builtin(char *text, size_t bytes, const char *address, enum dds_p
     if (inet_pton(AF_INET, address, &parsed) != 1)
         return error_text_set(error, "interface address '%s': not an IPv4 address like %s", address,
                               DDS_LOOPBACK);
-    /* The kernel does not mark lo as able to multicast, though it is. */
+    /* The kernel does not mark lo as capable of multicast, although it is. */
     bool loopback = (ntohl(parsed.s_addr) >> 24) == 127;
     if (!loopback)
         part = DDS_PEER;
@@ -53,7 +53,7 @@ int dds_config_builtin(char *text, size_t bytes, const char *address, enum dds_p
         (void)snprintf(more, sizeof more, part == DDS_HOST ? hosts : peers, DDS_HOSTS - 1);
     int length =
         snprintf(text, bytes, builtin, address, loopback ? " multicast=\"true\"" : "",
-                 part == DDS_ONLOOKER ? "false" : "spdp", part == DDS_HOST ? "auto" : "none", more);
+                 part == DDS_OBSERVER ? "false" : "spdp", part == DDS_HOST ? "auto" : "none", more);
     if (length < 0 || (size_t)length >= bytes)
         return error_text_set(error, "DDS configuration: longer than %zu bytes", bytes - 1);
     return 0;
@@ -84,7 +84,8 @@ int dds_config_file(char *text, size_t bytes, const char *path, struct error_tex
     return 0;
 }
 
-/* Is there an element of this name, outside of comments? Cyclone DDS takes names in any case. */
+/* Returns true if there is an element of this name outside comments. Cyclone DDS ignores the case
+ * of names. */
 static bool has_element(const char *text, const char *name)
 {
     size_t length = strlen(name);

@@ -1,4 +1,4 @@
-/* The two calls, and who is there. */
+/* sendmsg() and recvmsg(), and the list of participants. */
 #include "ipc/topics/dds_datagrams.h"
 
 #include "ipc/process/clock.h"
@@ -12,17 +12,17 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-/* Participants that are told of; of more, those that were heard of last. */
-#define THERE_MAX 1024u
+/* Participants in the list. Of more, those heard of last stay. */
+#define PARTICIPANTS_MAX 1024u
 
-/* One that says nothing any more, as it was killed, is told for so long; announcements come every
- * 30 s at the least (Cyclone DDS's own interval). */
+/* A participant that is silent, as it was killed, stays in the list for so long. Announcements come
+ * at least every 30 s (Cyclone DDS's own interval). */
 #define SILENCE_NS ((uint64_t)60 * NS_PER_S)
 
-#define ANNOUNCEMENT_AT 512u /* within the first bytes of a datagram */
+#define ANNOUNCEMENT_BYTES 512u /* an announcement is within so many bytes of a datagram */
 
-struct there {
-    struct rtps_locator at; /* port 0: nobody */
+struct participant {
+    struct rtps_locator at; /* port 0: the entry is free */
     uint8_t prefix[RTPS_PREFIX_BYTES];
     uint64_t heard_ns;
 };
@@ -30,39 +30,40 @@ struct there {
 static struct {
     pthread_mutex_t lock;
     bool forget;
-    struct there there[THERE_MAX];
+    struct participant participant[PARTICIPANTS_MAX];
 } datagrams = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
 void dds_datagrams_begin(bool forget)
 {
     (void)pthread_mutex_lock(&datagrams.lock);
     datagrams.forget = forget;
-    memset(datagrams.there, 0, sizeof datagrams.there);
+    memset(datagrams.participant, 0, sizeof datagrams.participant);
     (void)pthread_mutex_unlock(&datagrams.lock);
 }
 
-static bool same_place(const struct rtps_locator *a, const struct rtps_locator *b)
+static bool same_address(const struct rtps_locator *a, const struct rtps_locator *b)
 {
     return a->address == b->address && a->port == b->port;
 }
 
-/* In the place that it has, or in the one that was silent for longest. */
+/* Updates the participant's entry, or replaces the one that has been silent for longest. */
 static void note(const struct rtps_locator *at, const uint8_t *prefix, uint64_t now_ns)
 {
-    struct there *place = &datagrams.there[0];
-    for (uint32_t i = 0; i < THERE_MAX && !same_place(&place->at, at); i++) {
-        if (same_place(&datagrams.there[i].at, at) || datagrams.there[i].heard_ns < place->heard_ns)
-            place = &datagrams.there[i];
+    struct participant *entry = &datagrams.participant[0];
+    for (uint32_t i = 0; i < PARTICIPANTS_MAX && !same_address(&entry->at, at); i++) {
+        if (same_address(&datagrams.participant[i].at, at) ||
+            datagrams.participant[i].heard_ns < entry->heard_ns)
+            entry = &datagrams.participant[i];
     }
-    *place = (struct there){.at = *at, .heard_ns = now_ns};
-    memcpy(place->prefix, prefix, RTPS_PREFIX_BYTES);
+    *entry = (struct participant){.at = *at, .heard_ns = now_ns};
+    memcpy(entry->prefix, prefix, RTPS_PREFIX_BYTES);
 }
 
 static void forget(const uint8_t *prefix)
 {
-    for (uint32_t i = 0; i < THERE_MAX; i++) {
-        if (memcmp(datagrams.there[i].prefix, prefix, RTPS_PREFIX_BYTES) == 0)
-            datagrams.there[i] = (struct there){0};
+    for (uint32_t i = 0; i < PARTICIPANTS_MAX; i++) {
+        if (memcmp(datagrams.participant[i].prefix, prefix, RTPS_PREFIX_BYTES) == 0)
+            datagrams.participant[i] = (struct participant){0};
     }
 }
 
@@ -81,21 +82,21 @@ static void take_announcement(const struct rtps_announcement *announcement,
     (void)pthread_mutex_unlock(&datagrams.lock);
 }
 
-static bool is_there(const struct sockaddr_in *to)
+static bool is_known(const struct sockaddr_in *to)
 {
     const struct rtps_locator at = {to->sin_addr.s_addr, ntohs(to->sin_port)};
     uint64_t now_ns = clock_now_ns();
     bool found = false;
     (void)pthread_mutex_lock(&datagrams.lock);
-    for (uint32_t i = 0; i < THERE_MAX && !found; i++) {
-        found = same_place(&datagrams.there[i].at, &at) &&
-                now_ns - datagrams.there[i].heard_ns < SILENCE_NS;
+    for (uint32_t i = 0; i < PARTICIPANTS_MAX && !found; i++) {
+        found = same_address(&datagrams.participant[i].at, &at) &&
+                now_ns - datagrams.participant[i].heard_ns < SILENCE_NS;
     }
     (void)pthread_mutex_unlock(&datagrams.lock);
     return found;
 }
 
-/* Its first bytes; their number, and its whole length. */
+/* Copies the first bytes of a message. Returns their number and sets length to the whole length. */
 static size_t beginning(const struct msghdr *message, uint8_t *bytes, size_t *length)
 {
     size_t have = 0;
@@ -103,7 +104,7 @@ static size_t beginning(const struct msghdr *message, uint8_t *bytes, size_t *le
     for (size_t i = 0; i < message->msg_iovlen; i++) {
         const struct iovec *part = &message->msg_iov[i];
         size_t count =
-            part->iov_len < ANNOUNCEMENT_AT - have ? part->iov_len : ANNOUNCEMENT_AT - have;
+            part->iov_len < ANNOUNCEMENT_BYTES - have ? part->iov_len : ANNOUNCEMENT_BYTES - have;
         if (count)
             memcpy(bytes + have, part->iov_base, count);
         have += count;
@@ -112,7 +113,7 @@ static size_t beginning(const struct msghdr *message, uint8_t *bytes, size_t *le
     return have;
 }
 
-static bool to_one(const struct msghdr *message, struct sockaddr_in *to)
+static bool is_unicast(const struct msghdr *message, struct sockaddr_in *to)
 {
     if (!message->msg_name || message->msg_namelen < sizeof *to)
         return false;
@@ -122,11 +123,11 @@ static bool to_one(const struct msghdr *message, struct sockaddr_in *to)
 
 ssize_t sendmsg(int fd, const struct msghdr *message, int flags)
 {
-    uint8_t bytes[ANNOUNCEMENT_AT];
+    uint8_t bytes[ANNOUNCEMENT_BYTES];
     struct sockaddr_in to;
     size_t length;
-    if (datagrams.forget && to_one(message, &to) &&
-        rtps_announces(bytes, beginning(message, bytes, &length)) && !is_there(&to))
+    if (datagrams.forget && is_unicast(message, &to) &&
+        rtps_announces(bytes, beginning(message, bytes, &length)) && !is_known(&to))
         return (ssize_t)length;
     return syscall(SYS_sendmsg, fd, message, flags);
 }
@@ -140,7 +141,7 @@ ssize_t recvmsg(int fd, struct msghdr *message, int flags)
         return length;
     uint8_t *datagram = message->msg_iov->iov_base;
     if (!rtps_filter(datagram, (size_t)length, &announcement))
-        datagram[0] = 0; /* without its mark Cyclone DDS passes over it */
+        datagram[0] = 0; /* Cyclone DDS ignores a datagram without the mark "RTPS" */
     if (message->msg_name && message->msg_namelen >= sizeof from)
         memcpy(&from, message->msg_name, sizeof from);
     if (from.sin_family == AF_INET && (announcement.here || announcement.gone))

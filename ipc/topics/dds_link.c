@@ -17,25 +17,25 @@
 
 #define CLOSE_LIMIT_S 1u
 
-/* Cyclone DDS says in its log, not in its return codes, what was wrong; its threads log too. */
+/* Cyclone DDS reports errors in its log and not in its return codes. Its threads log too. */
 static struct {
     pthread_mutex_t lock;
     char last[256]; /* the latest warning or error, without its newline */
     bool quiet;
     uint64_t logged_ns;
-} said = {.lock = PTHREAD_MUTEX_INITIALIZER};
+} library_log = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
 static volatile sig_atomic_t close_exit_code;
 
-/* Up to the end of its line. The text may come from any datagram, in no particular encoding. */
+/* Keeps one line of the message. The text may come from any datagram, in any encoding. */
 static void keep_text(const char *message)
 {
     size_t length = strcspn(message, "\n");
-    if (length >= sizeof said.last)
-        length = sizeof said.last - 1;
+    if (length >= sizeof library_log.last)
+        length = sizeof library_log.last - 1;
     for (size_t i = 0; i < length; i++)
-        said.last[i] = isprint((unsigned char)message[i]) ? message[i] : '?';
-    said.last[length] = '\0';
+        library_log.last[i] = isprint((unsigned char)message[i]) ? message[i] : '?';
+    library_log.last[length] = '\0';
 }
 
 static void take_log(void *unused, const dds_log_data_t *data)
@@ -43,21 +43,22 @@ static void take_log(void *unused, const dds_log_data_t *data)
     (void)unused;
     if (!(data->priority & (DDS_LC_FATAL | DDS_LC_ERROR | DDS_LC_WARNING)))
         return;
-    (void)pthread_mutex_lock(&said.lock);
+    (void)pthread_mutex_lock(&library_log.lock);
     keep_text(data->message);
     /* Cyclone DDS aborts after a fatal message. */
-    if (!said.quiet && (data->priority & DDS_LC_FATAL || log_due(&said.logged_ns, NS_PER_S)))
-        log_warn("dds: %s", said.last);
-    (void)pthread_mutex_unlock(&said.lock);
+    if (!library_log.quiet &&
+        (data->priority & DDS_LC_FATAL || log_due(&library_log.logged_ns, NS_PER_S)))
+        log_warn("dds: %s", library_log.last);
+    (void)pthread_mutex_unlock(&library_log.lock);
 }
 
-/* what: a part of DDS, or the configuration file that it did not like. */
+/* what is a part of DDS, or the configuration file that was refused. */
 static int refuse(struct error_text *error, const char *what, dds_return_t code)
 {
-    (void)pthread_mutex_lock(&said.lock);
+    (void)pthread_mutex_lock(&library_log.lock);
     int result = error_text_set(error, "DDS %s: %s%s%s", what, dds_strretcode(code),
-                                said.last[0] ? ": " : "", said.last);
-    (void)pthread_mutex_unlock(&said.lock);
+                                library_log.last[0] ? ": " : "", library_log.last);
+    (void)pthread_mutex_unlock(&library_log.lock);
     return result;
 }
 
@@ -78,7 +79,7 @@ static int configure(char *text, size_t bytes, const struct dds_link_options *op
     return dds_config_builtin(text, bytes, address, options->part, error);
 }
 
-/* Publisher and subscriber carry the partition: every reader and writer made in them is in it. */
+/* Publisher and subscriber have the partition, and so has every reader and writer made in them. */
 static int join_partition(struct dds_link *link, const char *world, struct error_text *error)
 {
     dds_qos_t *qos = dds_create_qos();
@@ -101,14 +102,15 @@ int dds_link_open(struct dds_link *link, const struct dds_link_options *options,
         return error_text_set(error, "DDS configuration: out of memory");
     if (configure(config, DDS_CONFIG_MAX, options, error) != 0)
         goto err_config;
-    said.quiet = true; /* until it is open: what is said goes into the reason */
-    said.last[0] = '\0';
+    library_log.quiet = true; /* until the link is open: messages go into the reason */
+    library_log.last[0] = '\0';
     dds_set_log_sink(take_log, NULL);
     link->secure = dds_config_secure(config);
-    /* Without peers in so many words all are found by multicast, or are told because they came. */
+    /* Without named peers participants are found by multicast, or because they announce
+     * themselves. */
     dds_datagrams_begin(!strcasestr(config, "<Peer"));
     link->domain = dds_create_domain(options->domain, config);
-    if (link->domain < 0 && strstr(said.last, "participant index")) {
+    if (link->domain < 0 && strstr(library_log.last, "participant index")) {
         (void)error_text_set(
             error,
             "DDS domain %u: it has %u worlds with reporters on this machine, and has "
@@ -128,7 +130,7 @@ int dds_link_open(struct dds_link *link, const struct dds_link_options *options,
     if (join_partition(link, world, error) != 0)
         goto err_domain;
     free(config);
-    said.quiet = options->quiet;
+    library_log.quiet = options->quiet;
     return 0;
 
 err_domain:

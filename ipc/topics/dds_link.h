@@ -1,7 +1,7 @@
-/* A process's link to DDS: its domain, participant, and the one partition of its world.
+/* A process's link to DDS: its domain, its participant, and the partition of its world.
  *
- * Shared by the reporter, jolon-ctl and the monitor. The configuration is given to Cyclone DDS in
- * so many words, so that CYCLONEDDS_URI in somebody's environment changes nothing. */
+ * The configuration is given to Cyclone DDS explicitly, so that CYCLONEDDS_URI in the environment
+ * changes nothing. */
 #ifndef JOLON_IPC_TOPICS_DDS_LINK_H
 #define JOLON_IPC_TOPICS_DDS_LINK_H
 
@@ -23,7 +23,7 @@ struct dds_link_options {
 #define DDS_LINK_DOMAIN_MAX 230u
 
 /* clang-format off */
-/* The options of every program with a link, which fill its struct dds_link_options. */
+/* The options of every program with a link. They fill its struct dds_link_options. */
 #define DDS_LINK_OPTION_ROWS(link)                                                                 \
     {"dds-config", "FILE", "a Cyclone DDS configuration instead of the built-in one",              \
      .text = &(link).config},                                                                      \
@@ -35,16 +35,16 @@ struct dds_link_options {
 
 struct dds_link {
     dds_entity_t domain, participant, publisher, subscriber;
-    bool secure; /* by DDS Security: nobody is heard whose certificate does not allow it */
+    bool secure; /* by DDS Security: only participants with a valid certificate are heard */
 };
 
-/* Opens the link; 0, or -1 with the reason: no such interface, a wrong configuration, no socket.
- * Blocks for some milliseconds. */
+/* Opens the link. Returns 0, or -1 with the reason: no such interface, a wrong configuration, no
+ * socket. Blocks for some milliseconds. */
 int dds_link_open(struct dds_link *link, const struct dds_link_options *options, const char *world,
                   struct error_text *error);
 
-/* Closes the link with all that was made in it. When Cyclone DDS hangs in that, which it may, the
- * process ends with exit_code after a second. */
+/* Closes the link with everything that was made in it. Cyclone DDS may hang in that; the process
+ * then ends with exit_code after a second. */
 void dds_link_close(struct dds_link *link, int exit_code);
 
 #endif

@@ -1,28 +1,28 @@
-/* Topics, their qualities of service, readers, writers and the wait for them. */
+/* Topics, their qualities of service, readers, writers and the wait for samples. */
 #include "ipc/topics/dds_topics.h"
 
 #include "status.h"
 
-/* How long a write may wait for room in the transport: the writer has a heart to beat. */
+/* How long a write may wait for room in the transport. The writer also has a heartbeat to send. */
 #define WRITE_LIMIT DDS_MSECS(10)
 
-/* Subscribers learn within this time that the writer was killed; shorter leases race. */
+/* Subscribers learn within this time that the writer was killed. Shorter leases are unreliable. */
 #define LIVELINESS_LEASE DDS_SECS(1)
 
-/* A late reader gets the writer's depth in one burst, and what happens meanwhile on top of it: a
- * reader that keeps no more than the writer loses some of it before it looks. */
+/* A late reader gets the writer's depth in one burst, and the samples that are written meanwhile on
+ * top. A reader that keeps no more than the writer would lose some of them. */
 #define READER_ROOM 4
 
 static const struct {
     const char *name;
     const dds_topic_descriptor_t *descriptor;
-    int32_t depth;           /* samples kept, of each instance: for late readers and slow ones */
-    dds_duration_t lifespan; /* 0: for ever */
+    int32_t depth;           /* samples kept of each instance, for late and slow readers */
+    dds_duration_t lifespan; /* 0: unlimited */
 } table[TOPIC_COUNT] = {
     [TOPIC_WORLD] = {"WorldInfo", &jolon_WorldInfo_desc, 1, 0},
     [TOPIC_PROCESS] = {"ProcessStatus", &jolon_ProcessStatus_desc, 1, 0},
     [TOPIC_FRAME] = {"FrameStatus", &jolon_FrameStatus_desc, 1, 0},
-    /* Batches are not written while nobody reads: an old one must not pass for the present. */
+    /* Batches are written only while there are readers: an old batch must not look current. */
     [TOPIC_ENTITIES] = {"EntityBatch", &jolon_EntityBatch_desc, 1, DDS_SECS(1)},
     [TOPIC_COLLISION] = {"CollisionEvent", &jolon_CollisionEvent_desc, 4096, 0},
     [TOPIC_FIRE] = {"FireEvent", &jolon_FireEvent_desc, 4096, 0},
@@ -43,7 +43,7 @@ static dds_qos_t *make_qos(enum dds_topic topic, bool writer)
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST,
                      writer || depth == 1 ? depth : depth * READER_ROOM);
     if (writer) {
-        /* What a late reader gets comes from the durability service's depth, not the history's. */
+        /* A late reader gets the depth of the durability service, not of the history. */
         dds_qset_durability_service(qos, 0, DDS_HISTORY_KEEP_LAST, depth, DDS_LENGTH_UNLIMITED,
                                     DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
         dds_qset_liveliness(qos, DDS_LIVELINESS_AUTOMATIC, LIVELINESS_LEASE);
@@ -89,30 +89,30 @@ static dds_return_t attach(dds_entity_t waitset, dds_entity_t reader)
     return code < 0 ? code : dds_waitset_attach(waitset, reader, reader);
 }
 
-bool dds_topics_orphaned(dds_entity_t reader, dds_instance_handle_t writer)
+bool dds_topics_writer_left(dds_entity_t reader, dds_instance_handle_t writer)
 {
-    dds_instance_handle_t there[16];
-    dds_return_t count = dds_get_matched_publications(reader, there, 16);
+    dds_instance_handle_t writers[16];
+    dds_return_t count = dds_get_matched_publications(reader, writers, 16);
     for (int i = 0; i < count && i < 16; i++) {
-        if (there[i] == writer)
+        if (writers[i] == writer)
             return false;
     }
-    return count > 0 && count <= 16; /* of so many it may be another */
+    return count > 0 && count <= 16; /* with more writers it may be one that was not listed */
 }
 
-void dds_topics_ask_again(const struct dds_link *link, enum dds_topic topic, dds_entity_t waitset,
-                          dds_entity_t *reader)
+void dds_topics_reopen(const struct dds_link *link, enum dds_topic topic, dds_entity_t waitset,
+                       dds_entity_t *reader)
 {
     struct error_text error;
-    dds_entity_t again = dds_topics_reader(link, topic, &error);
-    if (again < 0)
+    dds_entity_t replacement = dds_topics_reader(link, topic, &error);
+    if (replacement < 0)
         return;
     if (waitset) {
         (void)dds_waitset_detach(waitset, *reader);
-        (void)attach(waitset, again);
+        (void)attach(waitset, replacement);
     }
     (void)dds_delete(*reader);
-    *reader = again;
+    *reader = replacement;
 }
 
 dds_entity_t dds_topics_waitset(const struct dds_link *link, const dds_entity_t *readers,

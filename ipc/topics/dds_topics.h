@@ -1,7 +1,7 @@
 /* The topics: one table of their names, types and qualities of service, used by both ends.
  *
  * All are RELIABLE, TRANSIENT_LOCAL and KEEP_LAST with a bounded depth: a late reader gets the last
- * samples, and a stopped or slow one never blocks the writer (KEEP_ALL would). */
+ * samples, and a stopped or slow reader never blocks the writer (KEEP_ALL would). */
 #ifndef JOLON_IPC_TOPICS_DDS_TOPICS_H
 #define JOLON_IPC_TOPICS_DDS_TOPICS_H
 
@@ -23,24 +23,26 @@ enum dds_topic {
     TOPIC_COUNT
 };
 
-/* A reader or writer of the topic in the link's partition; it ends with the link. The entity, or
- * -1 with the reason. */
+/* Makes a reader or writer of the topic in the link's partition, which ends with the link. Returns
+ * the entity, or -1 with the reason. */
 dds_entity_t dds_topics_reader(const struct dds_link *link, enum dds_topic topic,
                                struct error_text *error);
 dds_entity_t dds_topics_writer(const struct dds_link *link, enum dds_topic topic,
                                struct error_text *error);
 
-/* A wait set that wakes when one of the readers has new samples. The entity, or -1 with reason. */
+/* Makes a wait set that wakes when one of the readers has new samples. Returns the entity, or -1
+ * with the reason. */
 dds_entity_t dds_topics_waitset(const struct dds_link *link, const dds_entity_t *readers,
                                 size_t count, struct error_text *error);
 
-/* Has the writer of a sample left the reader, and another is there? */
-bool dds_topics_orphaned(dds_entity_t reader, dds_instance_handle_t writer);
+/* Returns true if the writer of a sample is no longer matched with the reader, and another writer
+ * is. */
+bool dds_topics_writer_left(dds_entity_t reader, dds_instance_handle_t writer);
 
-/* Puts a new reader in place of one, also in its wait set if that is not 0: it gets again what
- * writers keep for late readers. If there can be none the old one stays. */
-void dds_topics_ask_again(const struct dds_link *link, enum dds_topic topic, dds_entity_t waitset,
-                          dds_entity_t *reader);
+/* Replaces a reader by a new one, also in its wait set unless that is 0, to get the samples that
+ * writers keep for late readers. If that fails the old reader stays. */
+void dds_topics_reopen(const struct dds_link *link, enum dds_topic topic, dds_entity_t waitset,
+                       dds_entity_t *reader);
 
 /* Waits for new samples or the timeout. */
 void dds_topics_wait(dds_entity_t waitset, uint64_t timeout_ns);

@@ -1,4 +1,4 @@
-/* An entity as JSON: the same members wherever one is told. */
+/* An entity as JSON, with the same members in every program. */
 #ifndef JOLON_IPC_TOPICS_ENTITY_JSON_H
 #define JOLON_IPC_TOPICS_ENTITY_JSON_H
 
@@ -6,7 +6,7 @@
 
 #include <cjson/cJSON.h>
 
-/* A new object: position and velocity in world axes [m, m/s], angles in degrees. */
+/* Returns a new object: position and velocity in world axes [m, m/s], angles in degrees. */
 cJSON *entity_json(const struct world_mirror *mirror, const jolon_Entity *entity);
 
 #endif

@@ -1,4 +1,4 @@
-/* An event as one line of JSON, as jolon events --json tells it, but for its sequence. */
+/* An event as one line of JSON, with the members of `jolon events --json` except its sequence. */
 #ifndef JOLON_IPC_TOPICS_EVENT_JSON_H
 #define JOLON_IPC_TOPICS_EVENT_JSON_H
 

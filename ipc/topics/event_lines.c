@@ -1,4 +1,4 @@
-/* Events in words. */
+/* Events as text. */
 #include "ipc/topics/event_lines.h"
 
 #include "ipc/process/clock.h"
@@ -19,8 +19,8 @@ static struct event_party party(const jolon_Party *party)
     return (struct event_party){.id = party->id, .damage = (uint8_t)party->damage};
 }
 
-/* The event without its time. */
-static void put_words(char text[EVENT_TEXT_MAX], enum dds_topic topic, const void *sample)
+/* Writes the event without its time. */
+static void write_text(char text[EVENT_TEXT_MAX], enum dds_topic topic, const void *sample)
 {
     struct event event = {0};
     const char *kind[EVENT_TEXT_PARTIES] = {NULL};
@@ -69,7 +69,7 @@ void event_lines_event(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic, co
 {
     char time[EVENT_LINES_CLOCK_MAX], words[EVENT_TEXT_MAX];
     const jolon_EventHeader *header = event;
-    put_words(words, topic, event);
+    write_text(words, topic, event);
     (void)snprintf(line, EVENT_MERGE_LINE_MAX, "%s %s", event_lines_clock(time, header->time_s),
                    words);
 }

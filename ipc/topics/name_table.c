@@ -1,4 +1,4 @@
-/* A list of names. */
+/* Names of vehicles, sorted by id. */
 #include "ipc/topics/name_table.h"
 
 #include "world/world.h"
@@ -12,19 +12,19 @@ void name_table_close(struct name_table *names)
     *names = (struct name_table){0};
 }
 
-bool name_table_learn(struct name_table *names, const jolon_EntityNames *told)
+bool name_table_copy(struct name_table *names, const jolon_EntityNames *sample)
 {
-    uint32_t count = told->names._length;
+    uint32_t count = sample->names._length;
     jolon_EntityName *entry = malloc((count + 1) * sizeof *entry);
     if (!entry)
         return false;
     if (count)
-        memcpy(entry, told->names._buffer, count * sizeof *entry);
+        memcpy(entry, sample->names._buffer, count * sizeof *entry);
     name_table_close(names);
     names->entry = entry;
     names->count = count;
-    names->run = told->run;
-    names->told = true;
+    names->run = sample->run;
+    names->known = true;
     return true;
 }
 
@@ -46,7 +46,7 @@ bool name_table_read_world(struct name_table *names, const struct world *world, 
     }
     names->entry = entry;
     names->run = run;
-    names->told = true;
+    names->known = true;
     return true;
 }
 

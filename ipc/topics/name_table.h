@@ -1,6 +1,7 @@
-/* What a world's vehicles are called: the names that its scenario gave them, by EntityNames.
+/* The names that a world's scenario gave its vehicles, from the topic EntityNames or from the
+ * world.
  *
- * A vehicle that was spawned has none. One thread at a time. */
+ * A spawned vehicle has none. One thread at a time. */
 #ifndef JOLON_IPC_TOPICS_NAME_TABLE_H
 #define JOLON_IPC_TOPICS_NAME_TABLE_H
 
@@ -12,26 +13,26 @@
 struct world;
 
 struct name_table {
-    bool told; /* the names are here; there may be none */
+    bool known; /* the names are known; there may be none */
     uint64_t run;
     uint32_t count;
     jolon_EntityName *entry; /* [count], by rising id */
 };
 
-/* Frees the names; begin with zeros. */
+/* Frees the names. A new table is all zeros. */
 void name_table_close(struct name_table *names);
 
-/* Takes these names for those of the world, in place of what there was; false: no memory. */
-bool name_table_learn(struct name_table *names, const jolon_EntityNames *told);
+/* Replaces the names by a copy of these. Returns false without memory. */
+bool name_table_copy(struct name_table *names, const jolon_EntityNames *sample);
 
-/* Reads the names of a mapped world, of which `run` is the creation's number (header->made). Of
- * more than jolon_NAMES_MAX it takes the first. false: no memory. */
+/* Reads the names of a mapped world. run is the creation's number (header->made). If there are more
+ * than jolon_NAMES_MAX, it takes the first. Returns false without memory. */
 bool name_table_read_world(struct name_table *names, const struct world *world, uint64_t run);
 
-/* The name of an entity, "" when it has none. */
+/* Returns the name of an entity, "" when it has none. */
 const char *name_table_of(const struct name_table *names, uint32_t id);
 
-/* Who is called so, 0 when nobody is. */
+/* Returns the id of the entity with this name, 0 when there is none. */
 uint32_t name_table_find(const struct name_table *names, const char *name);
 
 #endif

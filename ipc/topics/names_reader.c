@@ -1,4 +1,4 @@
-/* The topic of names into a list. */
+/* Reads the topic EntityNames. */
 #include "ipc/topics/names_reader.h"
 
 #include "ipc/process/clock.h"
@@ -17,11 +17,12 @@ void names_reader_take(struct names_reader *reader, struct name_table *names)
 {
     struct samples from = {.reader = reader->reader, .topic = TOPIC_NAMES};
     while (samples_next(&from)) {
-        (void)name_table_learn(names, from.sample); /* without memory no vehicle has a name */
+        (void)name_table_copy(names, from.sample); /* without memory no vehicle has a name */
         reader->writer = from.writer;
     }
-    /* They are written once: after their writer has left they are asked for again. */
-    if (names->told && log_due(&reader->looked_ns, NS_PER_S) &&
-        dds_topics_orphaned(reader->reader, reader->writer))
-        dds_topics_ask_again(reader->link, TOPIC_NAMES, 0, &reader->reader);
+    /* Names are written once. When their writer has left, a new reader gets them from its
+     * successor. */
+    if (names->known && log_due(&reader->looked_ns, NS_PER_S) &&
+        dds_topics_writer_left(reader->reader, reader->writer))
+        dds_topics_reopen(reader->link, TOPIC_NAMES, 0, &reader->reader);
 }

@@ -1,5 +1,5 @@
-/* The walk through a datagram's submessages and their lists of parameters. RTPS 2.5, 8.3 and 9.4;
- * where the two could differ it goes where Cyclone DDS's q_receive.c goes. */
+/* Walks through a datagram's submessages and their parameter lists (RTPS 2.5, 8.3 and 9.4). Where
+ * implementations may differ it reads as Cyclone DDS's q_receive.c does. */
 #include "ipc/topics/rtps_filter.h"
 
 #include <string.h>
@@ -19,14 +19,14 @@ enum { FLAG_LITTLE = 0x01, FLAG_INLINE_QOS = 0x02, FLAG_DATA = 0x04, FLAG_KEY = 
 #define WRITER_PARTICIPANT 0x000100c2u
 #define WRITER_TYPE_REPLY  0x000301c3u
 #define KIND_MASK          0xffu
-#define KIND_DISCOVERY     0xc2u /* built in, of keyed samples: lists of parameters */
+#define KIND_DISCOVERY     0xc2u /* built in, of keyed samples: parameter lists */
 
 enum {
     PID_SENTINEL = 0x0001,
     PID_METATRAFFIC_UNICAST_LOCATOR = 0x0032,
     PID_STATUS_INFO = 0x0071,
     PID_TYPE_INFORMATION = 0x0075,
-    PID_TYPE_INFORMATION_HIDDEN = 0x8075, /* a vendor's own, which nobody has: passed over */
+    PID_TYPE_INFORMATION_HIDDEN = 0x8075, /* an unknown vendor's parameter, which is ignored */
 };
 #define PARAMETER_HEADER 4u
 #define LOCATOR_BYTES    24u
@@ -34,7 +34,7 @@ enum {
 #define STATUS_GONE      0x03u /* disposed, unregistered */
 #define ENCAPSULATION    4u
 
-/* A part of the datagram, in the order of bytes of its own. */
+/* A part of the datagram, with its byte order. */
 struct part {
     uint8_t *at;
     size_t length;
@@ -72,8 +72,8 @@ static void note_locator(struct rtps_announcement *announcement, const struct pa
     announcement->locator_count++;
 }
 
-/* Hides type information in a list of parameters and returns the list's length; announcement may
- * be NULL. */
+/* Hides type information in a parameter list and returns the list's length. announcement may be
+ * NULL. */
 static size_t walk_parameters(struct part list, struct rtps_announcement *announcement)
 {
     size_t at = 0;
@@ -101,7 +101,7 @@ static struct part rest_of(const struct part *part, size_t at, bool little)
     return (struct part){part->at + at, part->length - at, little};
 }
 
-/* Of DATA and DATA_FRAG; its numbers' order is the submessage's. */
+/* For DATA and DATA_FRAG. Numbers have the submessage's byte order. */
 static void walk_data(const struct part *data, struct rtps_announcement *announcement)
 {
     const uint8_t flags = data->at[1];
@@ -116,7 +116,7 @@ static void walk_data(const struct part *data, struct rtps_announcement *announc
         at += walk_parameters(rest_of(data, at, data->little), announcement);
     if (data->at[0] == DATA && flags & (FLAG_DATA | FLAG_KEY) &&
         (writer & KIND_MASK) == KIND_DISCOVERY && at + ENCAPSULATION <= data->length) {
-        /* The second byte of the encapsulation says which order: odd is little. */
+        /* The second byte of the encapsulation tells the byte order: odd is little endian. */
         bool little = data->at[at + 1] & 1;
         (void)walk_parameters(rest_of(data, at + ENCAPSULATION, little), announcement);
     }
@@ -126,8 +126,8 @@ static void walk_data(const struct part *data, struct rtps_announcement *announc
     }
 }
 
-/* The submessage at this place, as far as the datagram goes, and the bytes that it says it has;
- * false when there is none. */
+/* Finds the submessage at this offset and sets bytes to its stated length. Returns false when there
+ * is none. */
 static bool submessage_at(struct part *submessage, uint8_t *datagram, size_t length, size_t at,
                           size_t *bytes)
 {
@@ -136,7 +136,7 @@ static bool submessage_at(struct part *submessage, uint8_t *datagram, size_t len
     *submessage = (struct part){datagram + at, length - at, (datagram[at + 1] & FLAG_LITTLE) != 0};
     *bytes = SUBMESSAGE_HEADER + number(submessage, 2, 2);
     if (*bytes == SUBMESSAGE_HEADER && submessage->at[0] != PAD && submessage->at[0] != INFO_TS)
-        *bytes = submessage->length; /* 0: to the end */
+        *bytes = submessage->length; /* 0: up to the end */
     return true;
 }
 

@@ -1,8 +1,9 @@
-/* What of an RTPS datagram reaches Cyclone DDS, and what it says of participants.
+/* A filter of RTPS datagrams before Cyclone DDS, which also reads participants' announcements.
  *
- * Anybody who can send to its ports can send anything, and Cyclone DDS 0.10.2 aborts at some type
- * information (PID 0x0075). Jolon's topics match by name; so type information is hidden, and what
- * could carry it past this filter is refused (docs/decisions/023-datagrams-filtered.md). Pure. */
+ * Any process that can reach its ports can send anything, and Cyclone DDS 0.10.2 aborts at some
+ * type information (PID 0x0075). Jolon's topics match by name, so type information is hidden, and
+ * submessages that could carry it past this filter are refused
+ * (docs/decisions/023-datagrams-filtered.md). */
 #ifndef JOLON_IPC_TOPICS_RTPS_FILTER_H
 #define JOLON_IPC_TOPICS_RTPS_FILTER_H
 
@@ -13,25 +14,24 @@
 #define RTPS_PREFIX_BYTES 12
 #define RTPS_LOCATORS_MAX 4
 
-/* What a participant says of itself in a datagram (SPDP). */
+/* A participant's announcement of itself (SPDP). */
 struct rtps_announcement {
-    bool here, gone; /* it announces itself, or takes its leave; both false: nothing of the kind */
+    bool here, gone; /* it announces itself, or leaves; both false: no announcement */
     uint8_t prefix[RTPS_PREFIX_BYTES];
-    /* Where announcements to it go, of IPv4; none: where the datagram came from. */
+    /* The IPv4 addresses for announcements to it; none: the datagram's source. */
     uint32_t locator_count;
     struct rtps_locator {
-        uint32_t address; /* in the order of the network */
+        uint32_t address; /* in network byte order */
         uint16_t port;
     } locator[RTPS_LOCATORS_MAX];
 };
 
-/* Hides type information within the datagram, and reads an announcement of discovery without
- * security. False when the datagram is to be dropped: discovery in fragments, and answers to
- * questions for types, which are never asked. What is no RTPS, or is cut short, is left to Cyclone
- * DDS: what this passes is no better formed than before. */
+/* Hides type information in the datagram, and reads an announcement that is not encrypted. Returns
+ * false when the datagram must be dropped: discovery in fragments, and replies to requests for
+ * types, which are never sent. A datagram that is not RTPS, or is cut short, passes unchanged. */
 bool rtps_filter(uint8_t *datagram, size_t length, struct rtps_announcement *announcement);
 
-/* Is it an announcement of a participant? Of a longer datagram the first bytes will do. */
+/* Returns true if the datagram is an announcement of a participant. The first bytes are enough. */
 bool rtps_announces(uint8_t *datagram, size_t length);
 
 #endif

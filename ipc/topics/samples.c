@@ -1,4 +1,4 @@
-/* What is asked of each type's members. */
+/* The checks of each type's members. */
 #include "ipc/topics/samples.h"
 
 #include "ipc/segment/role.h"
@@ -10,13 +10,13 @@
 #include <math.h>
 #include <string.h>
 
-/* Far beyond what any world has, and far within what arithmetic on it can hold. */
+/* Far beyond the numbers of any world, and safe for arithmetic. */
 #define NUMBER_MAX 1e15
 #define SIDE_MIN_M 1.0
 
 static bool number(double value)
 {
-    return fabs(value) <= NUMBER_MAX; /* not if it is none */
+    return fabs(value) <= NUMBER_MAX; /* false for NaN */
 }
 
 static bool amount(double value)
@@ -65,7 +65,7 @@ static bool good_names(jolon_EntityNames *names)
     for (uint32_t i = 0; i < names->names._length; i++) {
         clean(names->names._buffer[i].name);
         if (i > 0 && names->names._buffer[i].id <= names->names._buffer[i - 1].id)
-            return false; /* they are searched by halves */
+            return false; /* binary search needs this order */
     }
     return names->names._length <= jolon_NAMES_MAX;
 }

@@ -1,4 +1,4 @@
-/* The topics' samples into the mirror. */
+/* Copies the topics' samples into the mirror. */
 #include "ipc/topics/world_mirror.h"
 
 #include "ipc/process/clock.h"
@@ -34,8 +34,8 @@ void world_mirror_close(struct world_mirror *mirror)
 {
     name_table_close(&mirror->names);
     free(mirror->batch.entity);
-    free(mirror->coming.entity);
-    mirror->batch.entity = mirror->coming.entity = NULL;
+    free(mirror->pending.entity);
+    mirror->batch.entity = mirror->pending.entity = NULL;
 }
 
 static void take_world(struct world_mirror *mirror, const void *sample)
@@ -52,7 +52,7 @@ static void take_world(struct world_mirror *mirror, const void *sample)
     mirror->has_world = true;
 }
 
-/* Kept in the order of the roles' table, in whatever order they come. */
+/* Roles are kept in the order of their table, in whatever order they come. */
 static void take_process(struct world_mirror *mirror, const void *sample)
 {
     const jolon_ProcessStatus *status = sample;
@@ -75,7 +75,7 @@ static void take_frame(struct world_mirror *mirror, const void *sample)
     mirror->frame_ns = clock_now_ns();
 }
 
-/* Makes room for so many more; false without memory. */
+/* Makes room for count more entities. Returns false without memory. */
 static bool grow(struct world_mirror_batch *batch, uint32_t count)
 {
     if (count <= batch->room - batch->count)
@@ -92,48 +92,47 @@ static bool grow(struct world_mirror_batch *batch, uint32_t count)
 static void take_entities(struct world_mirror *mirror, const void *sample)
 {
     const jolon_EntityBatch *from = sample;
-    struct world_mirror_batch *coming = &mirror->coming;
+    struct world_mirror_batch *pending = &mirror->pending;
     uint32_t count = from->entities._length;
     if (from->parts > WORLD_MIRROR_PARTS_MAX)
         return;
-    if (from->frame != coming->frame || from->run != coming->run || coming->parts_left == 0) {
-        coming->frame = from->frame;
-        coming->run = from->run;
-        coming->parts_left = from->parts;
-        coming->count = 0;
-        memset(coming->part, 0, sizeof coming->part);
+    if (from->frame != pending->frame || from->run != pending->run || pending->parts_left == 0) {
+        pending->frame = from->frame;
+        pending->run = from->run;
+        pending->parts_left = from->parts;
+        pending->count = 0;
+        memset(pending->part, 0, sizeof pending->part);
     }
-    if (from->part >= WORLD_MIRROR_PARTS_MAX || coming->part[from->part])
+    if (from->part >= WORLD_MIRROR_PARTS_MAX || pending->part[from->part])
         return;
-    /* Parts that do not belong together, or no memory: this frame's entities are not shown. */
-    if (count > from->total - (coming->count < from->total ? coming->count : from->total) ||
-        !grow(coming, count)) {
-        coming->parts_left = 0;
+    /* On inconsistent parts, or without memory, this frame's entities are not shown. */
+    if (count > from->total - (pending->count < from->total ? pending->count : from->total) ||
+        !grow(pending, count)) {
+        pending->parts_left = 0;
         return;
     }
-    coming->part[from->part] = true;
+    pending->part[from->part] = true;
     if (count)
-        memcpy(coming->entity + coming->count, from->entities._buffer,
-               count * sizeof *coming->entity);
-    coming->count += count;
-    if (--coming->parts_left == 0) {
-        struct world_mirror_batch whole = *coming;
-        *coming = mirror->batch;
-        coming->parts_left = 0;
+        memcpy(pending->entity + pending->count, from->entities._buffer,
+               count * sizeof *pending->entity);
+    pending->count += count;
+    if (--pending->parts_left == 0) {
+        struct world_mirror_batch whole = *pending;
+        *pending = mirror->batch;
+        pending->parts_left = 0;
         mirror->batch = whole;
         mirror->has_batch = true;
     }
 }
 
-/* What is written once came from somebody who has left, and another is there: ask again for what
- * that one wrote. */
-static void look_after_world(struct world_mirror *mirror)
+/* WorldInfo is written once. When its writer has left, a new reader gets it from the successor. */
+static void check_world_writer(struct world_mirror *mirror)
 {
     if (!mirror->has_world || !log_due(&mirror->looked_ns, WORLD_MIRROR_LOOK_NS) ||
-        !dds_topics_orphaned(mirror->reader[WORLD_MIRROR_WORLD], mirror->world_writer))
+        !dds_topics_writer_left(mirror->reader[WORLD_MIRROR_WORLD], mirror->world_writer))
         return;
-    dds_topics_ask_again(mirror->link, TOPIC_WORLD, mirror->waitset,
-                         &mirror->reader[WORLD_MIRROR_WORLD]);
+    dds_topics_reopen(mirror->link, TOPIC_WORLD, mirror->waitset,
+                      &mirror->reader[WORLD_MIRROR_WORLD]);
 }
 
 void world_mirror_take(struct world_mirror *mirror)
@@ -148,7 +147,7 @@ void world_mirror_take(struct world_mirror *mirror)
                 mirror->world_writer = from.writer;
         }
     }
-    look_after_world(mirror);
+    check_world_writer(mirror);
     names_reader_take(&mirror->names_reader, &mirror->names);
 }
 

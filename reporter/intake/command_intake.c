@@ -158,7 +158,7 @@ static bool strained(const struct view *view)
            clock_now_ns() > beat_ns + LONG_FRAME_NS;
 }
 
-void command_intake_turn(struct command_intake *intake, struct view *view, uint64_t now_ns)
+void command_intake_poll(struct command_intake *intake, struct view *view, uint64_t now_ns)
 {
     jolon_Command wire;
     uint64_t client = 0;

@@ -29,7 +29,7 @@ void command_intake_close(struct command_intake *intake);
 
 /* Answers what was committed, receives, and puts what is admitted into the ring. Does not block.
  * Once the run is over, commands are refused. */
-void command_intake_turn(struct command_intake *intake, struct view *view, uint64_t now_ns);
+void command_intake_poll(struct command_intake *intake, struct view *view, uint64_t now_ns);
 
 /* True when a command waits for its turn or for its answer. */
 bool command_intake_busy(const struct command_intake *intake);

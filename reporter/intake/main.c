@@ -34,7 +34,7 @@ static void turn(struct command_intake *intake, struct view *view)
     struct role_slot *slot = view->slot[ROLE_INTAKE];
     uint64_t begun_ns = clock_now_ns();
     frame_protocol_beat(view);
-    command_intake_turn(intake, view, begun_ns);
+    command_intake_poll(intake, view, begun_ns);
     uint64_t frame = segment_load(&view->commit->commit);
     uint64_t stage_ns = clock_now_ns() - begun_ns;
     log_frame(frame);
@@ -69,7 +69,7 @@ int main(int argc, char **argv)
         client_sockets_wait(&intake.clients, &intake.admission, clock_now_ns() + wait_ns);
     }
 
-    command_intake_turn(&intake, &view, clock_now_ns());
+    command_intake_poll(&intake, &view, clock_now_ns());
     command_intake_close(&intake);
     segment_detach(&view);
     return EXIT_OK;

@@ -10,7 +10,7 @@
 static void check(struct command_text *order)
 {
     struct error_text error;
-    const struct name_table none = {.told = true};
+    const struct name_table none = {.known = true};
     const jolon_Command *c = &order->command;
     CHECK(order->verb && (order->given & ~order->verb->allowed) == 0 &&
           (order->verb->needed & ~order->given) == 0);

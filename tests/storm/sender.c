@@ -61,7 +61,7 @@ static bool exchange(struct sender *sender, const jolon_Command *command)
     jolon_CommandReply reply;
     uint64_t sequence = command_client_send(&sender->caller, command);
     for (;;) {
-        command_client_turn(&sender->caller);
+        command_client_poll(&sender->caller);
         if (command_client_answered(&sender->caller, sequence, &reply))
             return true;
         uint64_t now_ns = clock_now_ns();

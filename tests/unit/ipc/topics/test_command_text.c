@@ -65,7 +65,7 @@ static void test_names_become_ids(void **state)
 {
     struct command_text order;
     jolon_EntityName entry[] = {{2, "West"}, {5, "East-1"}, {9, "12"}};
-    struct name_table names = {.told = true, .count = 3, .entry = entry};
+    struct name_table names = {.known = true, .count = 3, .entry = entry};
     (void)state;
     assert_int_equal(read_order(&order, "{\"do\":\"fire\",\"vehicle\":\"West\",\"target\":"
                                         "\"East-1\"}"),

@@ -50,7 +50,7 @@ static void test_another_interface(void **state)
 static void test_onlookers_and_hosts(void **state)
 {
     (void)state;
-    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, DDS_ONLOOKER, &error), 0);
+    assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, DDS_OBSERVER, &error), 0);
     assert_non_null(strstr(text, "<AllowMulticast>false</AllowMulticast>"));
     assert_non_null(strstr(text, "<ParticipantIndex>none</ParticipantIndex>"));
     assert_non_null(strstr(text, "<Peer address=\"127.0.0.1\"/>"));
@@ -61,7 +61,7 @@ static void test_onlookers_and_hosts(void **state)
     assert_non_null(strstr(text, "<MaxAutoParticipantIndex>63</MaxAutoParticipantIndex>"));
     assert_null(strstr(text, "Peer"));
     /* From other machines' hosts it hears by multicast alone. */
-    assert_int_equal(dds_config_builtin(text, sizeof text, "10.1.2.3", DDS_ONLOOKER, &error), 0);
+    assert_int_equal(dds_config_builtin(text, sizeof text, "10.1.2.3", DDS_OBSERVER, &error), 0);
     assert_non_null(strstr(text, "<AllowMulticast>spdp</AllowMulticast>"));
     assert_null(strstr(text, "Peer"));
 }
