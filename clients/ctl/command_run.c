@@ -1,4 +1,4 @@
-/* Orders carried out, one at a time. */
+/* Runs commands, one at a time. */
 #include "clients/ctl/command_run.h"
 
 #include "clients/ctl/result_text.h"
@@ -18,12 +18,10 @@ static void print_no_reply(const struct ctl *ctl, const struct command_text *ord
     const struct ctl_request *request = &ctl->request;
     if (!command_client_reachable(&ctl->client))
         (void)fprintf(stderr,
-                      "jolon-ctl: world '%s': nobody takes commands for it%s; `jolon status -w "
+                      "jolon-ctl: world '%s': no process takes commands for it%s; `jolon status -w "
                       "%s` shows whether it runs\n",
                       request->world,
-                      request->remote ? " over DDS, which a set does that was started with "
-                                        "--remote-commands"
-                                      : "",
+                      request->remote ? " over DDS; start it with --remote-commands" : "",
                       request->world);
     else
         (void)fprintf(stderr,
@@ -50,7 +48,8 @@ static void print_answer(struct ctl *ctl, struct result_text_context *context,
         result_text_refusal(order, context, reply, more);
 }
 
-/* Sends the order's rounds, each when it is due, until all are answered. False: no reply. */
+/* Sends the command's rounds, each when it is due, until all are answered. Returns false if a reply
+ * did not come in time. */
 static bool carry_out(struct ctl *ctl, struct result_text_context *context)
 {
     struct command_series *series = &ctl->series;
@@ -67,7 +66,7 @@ static bool carry_out(struct ctl *ctl, struct result_text_context *context)
             until_ns = limit(ctl);
         }
         if (!series->waiting)
-            until_ns = limit(ctl); /* the time until the next round is nobody's silence */
+            until_ns = limit(ctl); /* no reply is due before the next round */
         if (command_series_over(series) || process_stopping() || now_ns >= until_ns)
             break;
         uint64_t due_ns = command_series_due_ns(series);

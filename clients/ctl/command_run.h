@@ -1,4 +1,5 @@
-/* An order of jolon-ctl's carried out: resolved, sent, repeated until it is answered, and told. */
+/* Runs a command of jolon-ctl: resolves its names, sends it until it is answered, and prints the
+ * result. */
 #ifndef JOLON_CLIENTS_CTL_COMMAND_RUN_H
 #define JOLON_CLIENTS_CTL_COMMAND_RUN_H
 
@@ -12,14 +13,14 @@ struct ctl {
     struct dds_link link; /* open when the request is remote */
     struct view view;     /* else */
     struct command_client client;
-    struct command_route route; /* of the caller */
+    struct command_route route; /* of the client */
     struct lookup lookup;
     struct command_series series;
 };
 
-/* Carries out an order of that line of standard input, 0: of the command line, and says what came
- * of it. EXIT_OK when it was done; EXIT_REFUSED; EXIT_GAVE_UP: there was no reply. Blocks until all
- * its rounds are answered, the time is over, or a request to stop. */
+/* Runs a command and prints the result. line: of standard input, 0: the command line. Returns
+ * EXIT_OK if it was done, EXIT_REFUSED, or EXIT_GAVE_UP without a reply. Blocks until all rounds
+ * are answered, at most for the timeout a round, or until a request to stop. */
 int command_run(struct ctl *ctl, struct command_text *order, uint32_t line);
 
 #endif

@@ -1,4 +1,4 @@
-/* WorldInfo and EntityNames, once. */
+/* Reads WorldInfo and EntityNames once. */
 #include "clients/ctl/lookup.h"
 
 #include "ipc/process/clock.h"

@@ -1,4 +1,4 @@
-/* jolon-ctl: sends commands to a world, one after the other, and waits for the reply of each. */
+/* jolon-ctl: sends commands to a world, one after the other, and waits for the reply to each. */
 #include "clients/ctl/command_run.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Leaves out what is left of a line that found no room. */
+/* Returns true if the line did not fit, after reading the rest of it. */
 static bool too_long(const char *line)
 {
     int letter = 0;
@@ -35,12 +35,12 @@ static int run_lines(struct ctl *ctl)
                                 : EXIT_OK;
         worst = code == EXIT_OK ? worst : EXIT_REFUSED;
         if (code == EXIT_GAVE_UP)
-            break; /* the next would wait as long */
+            break; /* the next command would wait as long */
     }
     return worst;
 }
 
-/* Nothing of the world is locked: it may be removed meanwhile. */
+/* Attaches or links to the world without a lock, so that it may be removed meanwhile. */
 static int open_world(struct ctl *ctl, struct error_text *error)
 {
     const struct ctl_request *request = &ctl->request;

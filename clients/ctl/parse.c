@@ -1,4 +1,5 @@
-/* jolon-ctl's arguments: its own options here, those of orders from their table. */
+/* The command line of jolon-ctl: the program's options, and those of the commands, which are made
+ * from the table of their fields. */
 #include "clients/ctl/parse.h"
 
 #include "ipc/process/log.h"
@@ -13,7 +14,7 @@
 
 static struct ctl_request given;
 
-/* The options of orders, by their fields; NULL where an option is not given. */
+/* The values of the commands' options, by field; NULL: not given. */
 static struct {
     const char *value[COMMAND_TEXT_FIELD_COUNT];
     const char *at;
@@ -28,7 +29,7 @@ static const struct option_row rows[] = {
     DDS_LINK_OPTION_ROWS(given.link),
     OPTION_ROWS_END};
 
-/* The usage says what they are. */
+/* The commands' options, which the usage text describes. */
 static const struct option_row *order_rows(void)
 {
     static struct option_row row[COMMAND_TEXT_FIELD_COUNT + 2] = {
@@ -51,7 +52,7 @@ static const char usage[] =
     "  drive WHO [--throttle T] [--steer S] [--climb C] [--traverse T] [--elevate E]\n"
     "        [--brake B] [--gear automatic|reverse|neutral|low] [--lease SECONDS]\n"
     "                         each -1 to 1, right and up are positive; the brake 0 to 1\n"
-    "  release WHO [--anyway] back to its agent; anyway: whoever drives it\n"
+    "  release WHO [--anyway] back to its agent; --anyway: from any driver\n"
     "  fire WHO [--target WHO]  without a target: straight ahead\n"
     "  fire --munition KIND --at X,Z [--rounds N] [--every SECONDS] [--radius METRES]\n"
     "        [--seed N]       out of the sky, N rounds about that place\n"
@@ -107,7 +108,7 @@ static int give_options(struct command_text *order, struct error_text *error)
     return words.at ? give_at(order, words.at, error) : 0;
 }
 
-/* The order of a verb, what follows it, and the options. */
+/* Makes the command of a verb, its operand and the options. */
 static int make_order(struct command_text *order, int count, char **plain, struct error_text *error)
 {
     if (count < 1)

@@ -1,4 +1,4 @@
-/* Answers as text. */
+/* Prints results. */
 #include "clients/ctl/result_text.h"
 
 #include "ipc/json/world_json.h"

@@ -1,25 +1,25 @@
-/* What jolon-ctl says of an answer: one line, or one JSON object. */
+/* Prints the result of a command as a line or as a JSON object. */
 #ifndef JOLON_CLIENTS_CTL_RESULT_TEXT_H
 #define JOLON_CLIENTS_CTL_RESULT_TEXT_H
 
 #include "ipc/topics/command_text.h"
 
-/* An order's place in what was asked for. */
+/* The command's place in the input. */
 struct result_text_context {
     const char *world;
     uint32_t line;          /* of standard input, 0: the command line */
-    uint32_t round, rounds; /* of a fire mission: from 1, of so many */
+    uint32_t round, rounds; /* of a fire mission: the round from 1, their number */
 };
 
-/* It is done, in words, on standard output. */
+/* Prints on standard output what was done. */
 void result_text_done(const struct command_text *order, const struct result_text_context *context,
                       const jolon_CommandReply *reply);
 
-/* The answer as JSON, on standard output; reply NULL: there was none. */
+/* Prints the result as JSON on standard output. reply NULL: no reply came. */
 void result_text_json(const struct command_text *order, const struct result_text_context *context,
                       const jolon_CommandReply *reply);
 
-/* A refusal, on standard error; more: what would be right, or "". */
+/* Prints a refusal on standard error. more: what would be right, or "". */
 void result_text_refusal(const struct command_text *order,
                          const struct result_text_context *context, const jolon_CommandReply *reply,
                          const char *more);

@@ -1,4 +1,4 @@
-/* Cells of the small map. */
+/* Draws the map's cells. */
 #include "clients/drive/character_map.h"
 
 #include "clients/drive/session.h"
@@ -58,7 +58,7 @@ static void draw_ground(struct character_map *map, const struct world_mirror *mi
             double z = z0 + (row + 0.5) * map->cell_m;
             struct character_map_cell *cell = &map->cell[row][column];
             if (!(x >= 0.0 && z >= 0.0 && x < side_m && z < side_m)) {
-                memcpy(cell->text, "//", 2); /* the edge of the world */
+                memcpy(cell->text, "//", 2); /* outside the world */
                 continue;
             }
             uint32_t at = (uint32_t)(z / side_m * jolon_MAP_SIDE) * jolon_MAP_SIDE +
@@ -71,7 +71,7 @@ static void draw_ground(struct character_map *map, const struct world_mirror *mi
     }
 }
 
-/* Where the vehicle points to, of eight. */
+/* The arrow of the vehicle's heading, one of eight. */
 static const char *arrow(const jolon_Entity *self)
 {
     static const char *const arrows[] = {"/\\", "_/", "=>", "~\\", "\\/", "/~", "<=", "\\_"};

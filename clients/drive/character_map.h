@@ -1,7 +1,7 @@
-/* The small map about the driven vehicle: square cells of two letters. North is up. Pure.
+/* The map around the driven vehicle, of square cells of two characters. North is up. Pure.
  *
- * A vehicle is the two letters of its kind: small for blue, CAPITALS for red, Capitalised for
- * neutral, so that no colour is needed to tell them. */
+ * A vehicle is shown by two letters of its kind: lower case for blue, UPPER CASE for red,
+ * Capitalised for neutral, so that the map needs no colours. */
 #ifndef JOLON_CLIENTS_DRIVE_CHARACTER_MAP_H
 #define JOLON_CLIENTS_DRIVE_CHARACTER_MAP_H
 
@@ -31,13 +31,13 @@ struct character_map {
     } cell[CHARACTER_MAP_ROWS_MAX][CHARACTER_MAP_COLUMNS_MAX];
 };
 
-/* The edge of a cell [m] at a zoom, 0 the nearest. */
+/* Returns the side of a cell [m]. zoom 0: the nearest. */
 double character_map_cell_m(uint32_t zoom);
 
-/* Two letters for each kind, no two alike while that can be; code: [kinds]. */
+/* Fills code[kinds] with two letters for each kind, which are different where that is possible. */
 void character_map_codes(char code[][3], const struct world_mirror *mirror);
 
-/* Draws what the mirror has about self; target: id, 0 for none. */
+/* Draws the ground and the entities around self. target: id, 0: none. */
 void character_map_draw(struct character_map *map, const struct world_mirror *mirror,
                         const jolon_Entity *self, uint32_t target, int rows, int columns,
                         double cell_m);

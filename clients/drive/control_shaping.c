@@ -1,14 +1,14 @@
-/* Shaping: curves of devices, and time of keys. */
+/* Response curves of devices, and the time of keys. */
 #include "clients/drive/control_shaping.h"
 
 #include "world/maths/maths.h"
 
 #define NS_A_SECOND 1e9
 
-/* The longest step at once: after a stop nothing jumps. [s] */
+/* The longest step [s], so that nothing jumps after the process was stopped. */
 #define STEP_MAX_S 0.1
 
-/* The order in which one shifts. */
+/* The gears in the order of shifting. */
 static const enum gearing shifts[GEAR_COUNT] = {GEAR_REVERSE, GEAR_NEUTRAL, GEAR_LOW,
                                                 GEAR_AUTOMATIC};
 
@@ -27,7 +27,7 @@ void control_shaping_reset(struct control_shaping *shaping, uint64_t now_ns)
     *shaping = (struct control_shaping){.gear = GEAR_AUTOMATIC, .step_ns = now_ns};
 }
 
-/* A press moves at once, so that a tap does something too. */
+/* A press changes the value at once, so that a short tap has an effect. */
 static void apply_press(struct control_shaping *shaping, enum input_axis axis, int direction)
 {
     struct control_shaping_axis *a = &shaping->axis[axis];
@@ -50,7 +50,7 @@ static void key_down(struct control_shaping *shaping, const struct intent *event
     int direction = event->value < 0.0f ? -1 : 1;
     bool again = a->held == direction;
     if (!again) {
-        /* Between a press and its auto-repeat nothing is heard: it is still the same push. */
+        /* Nothing is reported between a press and its auto-repeat: it is still the same press. */
         bool same = !event->reports_release && a->direction == direction &&
                     now_ns - a->last_ns < KEY_SAME_NS;
         if (!same)
@@ -145,7 +145,7 @@ bool control_shaping_step(struct control_shaping *shaping, uint64_t now_ns)
             a->held = 0;
         moves |= a->held || fabs(a->key) > 0.0 || fabs(a->rate) > 0.0;
     }
-    if (shaping->axis[AXIS_BRAKE].held) /* who brakes does not drive on afterwards */
+    if (shaping->axis[AXIS_BRAKE].held) /* the vehicle stays stopped after braking */
         shaping->lever = 0.0;
     return moves;
 }
@@ -173,7 +173,7 @@ struct controls control_shaping_controls(const struct control_shaping *shaping, 
         controls.climb =
             (float)maths_clamp((double)controls.climb + (double)controls.elevate, -1.0, 1.0);
         controls.traverse = controls.elevate = 0.0f;
-        controls.brake = (float)shaping->axis[AXIS_BRAKE].key; /* a puck pushed down sinks */
+        controls.brake = (float)shaping->axis[AXIS_BRAKE].key; /* a puck pushed down: descend */
     }
     return controls;
 }

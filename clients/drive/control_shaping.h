@@ -1,31 +1,32 @@
-/* The stick: makes controls of raw intents. More pressure, faster change (thesis row 11): a stick
- * or a puck counts by how far it is pushed, a key by how long it is held. Pure: no clock, no
- * devices.
+/* Control shaping: computes a vehicle's controls from intents. More pressure makes a faster change
+ * (thesis row 11): of a stick or a puck the deflection counts, of a key the time for which it is
+ * held. Pure: no clock, no devices.
  *
- * Steering, climbing and aiming centre themselves when they are let go. The throttle is a lever,
- * which stays; a key that pulls it back stops at nothing, and the next press goes on backwards. */
+ * Steering, climb and aim return to the centre when they are released. The throttle is a lever that
+ * keeps its position. A key that pulls the lever back stops at 0; the next press reverses. */
 #ifndef JOLON_CLIENTS_DRIVE_CONTROL_SHAPING_H
 #define JOLON_CLIENTS_DRIVE_CONTROL_SHAPING_H
 
 #include "clients/drive/input.h"
 #include "world/entity/entity.h"
 
-#define CONTROL_SHAPING_DEAD 0.12 /* 0..1: devices do not rest at 0 */
-#define CONTROL_SHAPING_LINEAR                                                                     \
-    0.35                 /* share of the curve that is straight: fine near the middle              \
-                          */
-#define LEVER_RATE   1.5 /* [1/s] at full push */
-#define KEY_KICK     0.2 /* what the press itself gives at once */
-#define KEY_RATE     0.8 /* [1/s] as the key goes down ... */
-#define KEY_GROWTH   4.0 /* [1/s2] ... and what it gains while it is held */
-#define LEVER_KICK   0.1 /* the same of the lever */
+/* Dead zone, 0..1, because devices do not rest at exactly 0; and the linear share of the curve,
+ * which is flat near the centre for fine control. */
+#define CONTROL_SHAPING_DEAD   0.12
+#define CONTROL_SHAPING_LINEAR 0.35
+
+#define LEVER_RATE   1.5 /* [1/s] of the lever at full deflection of a device */
+#define KEY_KICK     0.2 /* change at the press itself */
+#define KEY_RATE     0.8 /* [1/s] just after the press */
+#define KEY_GROWTH   4.0 /* [1/s2] increase of that rate while the key is held */
+#define LEVER_KICK   0.1 /* the same three for the lever */
 #define LEVER_SLOW   0.3
 #define LEVER_GROWTH 1.6
-#define CENTRE_RATE  5.0 /* [1/s] back to the middle */
+#define CENTRE_RATE  5.0 /* [1/s] return to the centre */
 
-/* A terminal that does not tell releases: a press counts for so long, each repeat for so long, and
- * a press within KEY_SAME_NS of the last goes on where that was. Auto-repeat begins after 0.25 to
- * 0.66 s and comes 20 to 40 times a second. */
+/* For a terminal that does not report releases: how long a press and a repeat count as held. A
+ * press within KEY_SAME_NS of the last one continues it. Auto-repeat begins after 0.25 to 0.66 s
+ * and comes 20 to 40 times a second. */
 #define KEY_FIRST_NS  200000000u
 #define KEY_REPEAT_NS 120000000u
 #define KEY_SAME_NS   700000000u
@@ -38,26 +39,27 @@ struct controls {
 
 struct control_shaping {
     struct control_shaping_axis {
-        double deflection; /* where a device holds it, shaped */
-        double rate;       /* how hard one pushes it, shaped */
-        double key;        /* what keys make of it */
-        int held;          /* -1, 0, 1: the key that is down */
-        int direction;     /* -1, 0, 1: the last one that was */
+        double deflection; /* of the device, shaped */
+        double rate;       /* of INTENT_RATE, shaped */
+        double key;        /* the value that keys have built up */
+        int held;          /* -1, 0, 1: direction of the key that is down */
+        int direction;     /* -1, 0, 1: of the last key that was down */
         uint64_t down_ns, last_ns, until_ns;
     } axis[AXIS_COUNT];
     double lever;    /* -1..1 */
-    bool lever_wait; /* came to nothing under a key that is still down */
+    bool lever_wait; /* the lever reached 0 under a key that is still down */
     enum gearing gear;
-    uint64_t step_ns; /* of the last step */
+    uint64_t step_ns; /* time of the last step */
 };
 
-/* Raw deflection -1..1 to what it means: nothing within the dead zone, then a curve to 1. */
+/* Returns the shaped value of a raw deflection, -1..1: 0 within the dead zone, then a curve to 1.
+ */
 double control_shaping_shape(double value);
 
-/* All let go; the lever at nothing, the gear automatic. */
+/* Releases all axes and sets the lever to 0 and the gear to automatic. */
 void control_shaping_reset(struct control_shaping *shaping, uint64_t now_ns);
 
-/* Takes an event other than INTENT_ACT. */
+/* Applies an intent other than INTENT_ACT. */
 void control_shaping_apply(struct control_shaping *shaping, const struct intent *event,
                            uint64_t now_ns);
 
@@ -65,13 +67,14 @@ void control_shaping_apply(struct control_shaping *shaping, const struct intent 
 void control_shaping_stop(struct control_shaping *shaping);
 void control_shaping_gear(struct control_shaping *shaping, int by);
 
-/* Moves on to now. True while something changes by itself: step again within a frame. */
+/* Advances to now_ns. Returns true while a value still changes by itself, so that the next step is
+ * due within a frame. */
 bool control_shaping_step(struct control_shaping *shaping, uint64_t now_ns);
 
-/* Of an aircraft the aim is the stick. */
+/* Returns the controls. Of an aircraft the aim axes are the control stick. */
 struct controls control_shaping_controls(const struct control_shaping *shaping, bool aircraft);
 
-/* Is there a hand on the turret, or on an aircraft's stick? */
+/* Returns true if an aim axis is deflected. */
 bool control_shaping_aims(const struct control_shaping *shaping);
 
 #endif

@@ -1,4 +1,4 @@
-/* A library at run time. */
+/* Loads a library at run time. */
 #include "clients/drive/device_library.h"
 
 #include <dlfcn.h>
@@ -13,7 +13,7 @@ int device_library_open(const char *name, const char *package,
         return error_text_set(
             error, "%s is not installed; on Debian and Ubuntu: apt-get install %s", name, package);
     for (size_t i = 0; i < count; i++) {
-        /* dlsym() tells functions as objects, which C keeps apart. */
+        /* C has no conversion from the object pointer of dlsym() to a function pointer. */
         void *found = dlsym(library, functions[i].name);
         if (!found)
             return error_text_set(error, "%s lacks %s; a newer %s has it", name, functions[i].name,

@@ -1,4 +1,4 @@
-/* Gamepads by libevdev. */
+/* Reads gamepads with libevdev. */
 #include "clients/drive/gamepad.h"
 
 #include "clients/drive/device_library.h"
@@ -53,7 +53,7 @@ static const struct {
     {BTN_THUMB2, ACTION_STOP},
 };
 
-/* How an axis counts: a stick from its middle, up and right positive; a pedal from its end. */
+/* A stick is measured from its middle, up and right positive; a pedal from its released end. */
 static const struct {
     uint16_t code;
     enum input_axis axis;
@@ -72,7 +72,7 @@ static void decode_button(uint16_t code, struct intents *queue)
     }
 }
 
-/* The cross: left and right change the vehicle, up and down the gear. */
+/* The directional pad: left and right change the vehicle, up and down the gear. */
 static void decode_hat(struct gamepad *gamepad, int which, int32_t value, struct intents *queue)
 {
     static const enum input_action actions[2][2] = {{ACTION_PREVIOUS, ACTION_NEXT},
@@ -109,7 +109,7 @@ void gamepad_decode(struct gamepad *gamepad, uint16_t type, uint16_t code, int32
         decode_axis(gamepad, code, value, queue);
 }
 
-/* After events were lost libevdev tells the present state: SYNC until there is no more. */
+/* After events were lost, libevdev reports the present state as SYNC events. */
 static int gamepad_read(struct input *input, struct intents *queue)
 {
     struct gamepad *gamepad = input->state;
@@ -139,7 +139,7 @@ static void gamepad_close(struct input *input)
     free(gamepad);
 }
 
-/* Does it have a stick and a button of a gamepad or joystick? */
+/* Returns true if the device has a stick and a button of a gamepad or joystick. */
 static bool is_gamepad(const struct libevdev *device)
 {
     return evdev.has_event_code(device, EV_ABS, ABS_X) &&
@@ -172,7 +172,7 @@ static int open_device(struct input *input, const char *path, struct error_text 
             evdev.free(device);
         free(gamepad);
         (void)close(fd);
-        return error_text_set(error, "%s: is no gamepad or joystick", path);
+        return error_text_set(error, "%s: not a gamepad or joystick", path);
     }
     gamepad->device = device;
     read_ranges(gamepad);
@@ -183,7 +183,7 @@ static int open_device(struct input *input, const char *path, struct error_text 
     return 0;
 }
 
-/* The first that suits, by the number of its node. */
+/* Opens the gamepad with the lowest device number. */
 static int find_device(struct input *input, struct error_text *error)
 {
     struct dirent **entry = NULL;
@@ -204,7 +204,7 @@ static int find_device(struct input *input, struct error_text *error)
     if (found == 0)
         return 0;
     return error_text_set(error, "no gamepad among " FOLDER "/event*%s",
-                          denied ? "; some may not be read: the group input may (docs/driving.md)"
+                          denied ? "; some are readable by the group input only (docs/driving.md)"
                                  : "");
 }
 

@@ -1,5 +1,5 @@
-/* A gamepad or joystick: events of the kernel's input layer into intents. The device is read
- * through libevdev, which is opened when one is asked for. */
+/* Gamepads and joysticks: translates events of the kernel's input layer into intents. libevdev,
+ * which reads the device, is loaded only when a gamepad is opened. */
 #ifndef JOLON_CLIENTS_DRIVE_GAMEPAD_H
 #define JOLON_CLIENTS_DRIVE_GAMEPAD_H
 
@@ -7,22 +7,22 @@
 
 #include <linux/input.h>
 
-/* What the device says of its axes, ABS_X to ABS_HAT0Y. */
+/* Number of the axes whose range is read from the device, ABS_X to ABS_HAT0Y. */
 #define GAMEPAD_AXES (ABS_HAT0Y + 1)
 
 struct gamepad {
     struct gamepad_range {
-        int32_t low, high; /* equal: it has no such axis */
+        int32_t low, high; /* equal: the device has no such axis */
     } range[GAMEPAD_AXES];
-    int hat[2]; /* where the cross stands, -1..1: right, down */
+    int hat[2]; /* position of the directional pad, -1..1: right, down */
     struct libevdev *device;
 };
 
-/* One event of the device: type, code and value of its event. Pure. */
+/* Translates one event of the device. Pure. */
 void gamepad_decode(struct gamepad *gamepad, uint16_t type, uint16_t code, int32_t value,
                     struct intents *queue);
 
-/* Opens the device; path: NULL for the first gamepad found. 0, or -1 with the reason. */
+/* Opens the device; path NULL: the first gamepad found. Returns 0, or -1 with the error. */
 int gamepad_open(struct input *input, const char *path, struct error_text *error);
 
 #endif

@@ -1,7 +1,6 @@
-/* Inputs: what a driver holds in the hands. Each sort is one small module that turns what its
- * device says into raw intents; clients/drive/control_shaping.h makes controls of them, the same
- * for all. One thread.
- */
+/* Input devices. Each kind of device is a small module that translates the device's events into
+ * intents. clients/drive/control_shaping.h then computes the controls from the intents of all
+ * devices. One thread. */
 #ifndef JOLON_CLIENTS_DRIVE_INPUT_H
 #define JOLON_CLIENTS_DRIVE_INPUT_H
 
@@ -10,12 +9,12 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* What can be pushed two ways: right, up and forwards are positive. */
+/* Axes with two directions. Right, up and forwards are positive. */
 enum input_axis {
-    AXIS_THROTTLE, /* a lever: it stays where it was left */
+    AXIS_THROTTLE, /* a lever, which keeps its position when it is released */
     AXIS_STEER,
     AXIS_CLIMB,
-    AXIS_AIM_X, /* the turret's; of aircraft, which have none, the stick's */
+    AXIS_AIM_X, /* the turret, or the control stick of an aircraft */
     AXIS_AIM_Y,
     AXIS_BRAKE, /* 0..1 */
     AXIS_COUNT
@@ -23,20 +22,20 @@ enum input_axis {
 
 enum input_action {
     ACTION_FIRE,
-    ACTION_LOCK, /* the next enemy ahead as target */
+    ACTION_LOCK, /* select the next enemy ahead as target */
     ACTION_UNLOCK,
-    ACTION_STOP, /* throttle to nothing, wheels straight */
+    ACTION_STOP, /* throttle 0, wheels straight */
     ACTION_GEAR_UP,
     ACTION_GEAR_DOWN,
-    ACTION_NEXT, /* become the next vehicle */
+    ACTION_NEXT, /* change to the vehicle with the next id */
     ACTION_PREVIOUS,
-    ACTION_NEAREST_KIND,  /* the nearest other one of its kind */
-    ACTION_NEAREST_FORCE, /* ... of its force */
+    ACTION_NEAREST_KIND,  /* change to the nearest vehicle of the same kind */
+    ACTION_NEAREST_FORCE, /* ... of the same force */
     ACTION_NEAREST_BLUE,
     ACTION_NEAREST_RED,
     ACTION_NEAREST_NEUTRAL,
-    ACTION_RELEASE, /* back to its agent */
-    ACTION_TAKE,    /* drive it again */
+    ACTION_RELEASE, /* return the vehicle to its agent */
+    ACTION_TAKE,    /* drive the vehicle again */
     ACTION_LOOK_LEFT,
     ACTION_LOOK_RIGHT,
     ACTION_LOOK_AHEAD,
@@ -48,11 +47,11 @@ enum input_action {
 };
 
 enum intent_type {
-    INTENT_SET,  /* axis stands at value, -1..1, until it says otherwise */
-    INTENT_RATE, /* axis is moved, the faster the further from 0 value is */
-    INTENT_DOWN, /* a key for axis, value -1 or 1, went down; again: its auto-repeat */
-    INTENT_UP,   /* ... was let go */
-    INTENT_ACT   /* action */
+    INTENT_SET,  /* the axis is at value, -1..1 */
+    INTENT_RATE, /* the axis moves at a rate that grows with value, -1..1 */
+    INTENT_DOWN, /* a key of the axis was pressed, or repeats; value is its direction, -1 or 1 */
+    INTENT_UP,   /* that key was released */
+    INTENT_ACT   /* the action was asked for */
 };
 
 struct intent {
@@ -65,20 +64,21 @@ struct intent {
 
 #define INTENTS_MAX 64u
 
-/* Events of one look at the devices; what is too much is dropped: nobody's hands are that quick. */
+/* The intents of one call of inputs_read(). Intents beyond INTENTS_MAX are dropped: no person is
+ * that quick. */
 struct intents {
     struct intent intent[INTENTS_MAX];
     uint32_t count;
 };
 
-/* One open device. */
+/* An open device. */
 struct input {
-    int fd;               /* poll() it */
-    char description[96]; /* for people: "gamepad \"8BitDo Pro 2\"" */
-    /* Reads what is there without blocking; -1 when the device is gone. */
+    int fd;               /* readable when the device has events */
+    char description[96]; /* as people read it: "gamepad \"8BitDo Pro 2\"" */
+    /* Reads the events that have come, without blocking. Returns -1 if the device was removed. */
     int (*read)(struct input *input, struct intents *queue);
     void (*close)(struct input *input);
-    void *state; /* the module's own */
+    void *state; /* of the module */
 };
 
 static inline void intent_put(struct intents *queue, struct intent intent)

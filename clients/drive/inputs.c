@@ -1,4 +1,4 @@
-/* Devices opened, awaited and read. */
+/* Opens, awaits and reads the devices. */
 #include "clients/drive/inputs.h"
 
 #include "clients/drive/gamepad.h"
@@ -19,7 +19,7 @@ static void add_to_summary(struct inputs *inputs, const char *text)
                    text);
 }
 
-/* 0 when it may be done without. */
+/* Adds a device that was opened, or notes why it was not. Returns -1 if it is needed. */
 static int note_result(struct inputs *inputs, int result, bool needed, struct error_text *detail,
                        struct error_text *error)
 {
@@ -61,7 +61,7 @@ void inputs_close(struct inputs *inputs)
     inputs->count = 0;
 }
 
-/* The first are the keys; they keep their place. */
+/* Removes a device. The keys, at place 0, keep their place and are only marked as ended. */
 static void drop_input(struct inputs *inputs, uint32_t which)
 {
     struct input *input = &inputs->input[which];

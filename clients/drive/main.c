@@ -1,5 +1,5 @@
-/* jolon-drive: sit down and drive. Takes a vehicle of a world, from a terminal and from what else
- * is in one's hands, and shows what it does. */
+/* jolon-drive: a person drives a vehicle of a world, with a terminal's keys and other input
+ * devices, and sees its state. */
 #include "clients/drive/inputs.h"
 #include "clients/drive/recent_events.h"
 #include "clients/drive/options.h"
@@ -23,7 +23,7 @@ struct drive {
     struct world_mirror mirror;
     struct event_merge merge;
     struct command_client client;
-    struct command_route route; /* of the caller */
+    struct command_route route; /* of the client */
     struct inputs inputs;
     struct session session;
     struct recent_events events;
@@ -32,7 +32,7 @@ struct drive {
     uint64_t draw_ns;   /* when the next picture is due */
 };
 
-/* Returns false when nobody reads any more. */
+/* Shows the session. Returns false if the reader of standard output has gone. */
 static bool show(struct drive *drive, bool touched, uint64_t now_ns)
 {
     if (drive->options.plain)
@@ -44,15 +44,16 @@ static bool show(struct drive *drive, bool touched, uint64_t now_ns)
     return true;
 }
 
-/* Keys of a pipe wait for the vehicle; a person's never wait. When the pipe ends, that is quitting.
- */
+/* Keys from a pipe wait until there is a vehicle; a person's keys do not. The end of the pipe ends
+ * the session. */
 static bool keys_wanted(const struct drive *drive)
 {
     return !drive->options.plain || drive->session.state >= SESSION_DRIVING ||
            drive->session.state == SESSION_WATCHING || isatty(STDIN_FILENO);
 }
 
-/* The hands first, and out with it: only then what came in meanwhile, and the picture of it. */
+/* Each turn first reads the inputs and sends commands, for a short delay, and then reads the
+ * world's data and shows it. */
 static void run(struct drive *drive)
 {
     struct session *session = &drive->session;
@@ -75,7 +76,7 @@ static void run(struct drive *drive)
     }
 }
 
-/* A world of one's own that is not there will not come by itself; one elsewhere may. */
+/* Refuses a world that is not on this machine. A remote world is waited for. */
 static int check_world(const struct options *options, struct error_text *error)
 {
     struct view view;

@@ -1,4 +1,4 @@
-/* jolon-drive's arguments. */
+/* The command line of jolon-drive. */
 #include "clients/drive/options.h"
 
 #include "ipc/process/log.h"
@@ -40,7 +40,7 @@ void options_parse(struct options *options, int argc, char **argv)
         given.wanted = argv[argc - 1];
     given.input = (enum inputs_choice)input;
     if (given.device && given.input != INPUTS_AUTO && given.input != INPUTS_GAMEPAD)
-        die_usage("--device %s: is a gamepad's; not together with another --input", given.device);
+        die_usage("--device %s: is for a gamepad, and not for another --input", given.device);
     given.plain = given.plain || !isatty(STDOUT_FILENO) || !isatty(STDIN_FILENO);
     if (given.rate_hz <= 0.0)
         given.rate_hz = given.plain ? LINES_HZ : SCREEN_HZ;

@@ -1,4 +1,4 @@
-/* jolon-drive's arguments. */
+/* The command line of jolon-drive. */
 #ifndef JOLON_CLIENTS_DRIVE_OPTIONS_H
 #define JOLON_CLIENTS_DRIVE_OPTIONS_H
 
@@ -18,7 +18,7 @@ struct options {
     bool remote; /* commands go over DDS */
 };
 
-/* Wrong usage ends the process (exit 2), --help prints usage and ends it (exit 0). */
+/* Fills options. Ends the process at --help (exit 0) and at wrong usage (exit 2). */
 void options_parse(struct options *options, int argc, char **argv);
 
 #endif

@@ -1,4 +1,4 @@
-/* Notices, news and statistics as lines on standard output. */
+/* Notices, events and statistics as lines on standard output. */
 #include "clients/drive/plain_output.h"
 
 #include "clients/drive/status_panel.h"
@@ -30,9 +30,9 @@ bool plain_output_show(struct plain_output *output, const struct session *sessio
     if (now_ns < output->line_ns)
         return good;
     output->line_ns = now_ns + output->period_ns;
-    bool silent = !world_mirror_live(session->mirror, now_ns), summary = output->silent;
+    bool silent = !world_mirror_live(session->mirror, now_ns), was_silent = output->silent;
     output->silent = silent;
-    if (silent && summary)
+    if (silent && was_silent)
         return good;
     if (silent)
         event_lines_silence(stpcpy(line, "# "), sizeof line - 2, session->mirror, now_ns);

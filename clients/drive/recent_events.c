@@ -1,4 +1,4 @@
-/* Events chosen by whom they concern. */
+/* Chooses events by the entities that they concern. */
 #include "clients/drive/recent_events.h"
 
 #include "ipc/topics/event_lines.h"

@@ -1,4 +1,4 @@
-/* The last events that concern the driven vehicle. */
+/* The last events that concern the driven vehicle or its last target. */
 #ifndef JOLON_CLIENTS_DRIVE_RECENT_EVENTS_H
 #define JOLON_CLIENTS_DRIVE_RECENT_EVENTS_H
 
@@ -15,12 +15,12 @@ struct recent_events {
     uint64_t count;
 };
 
-/* A event_merge_format that puts the ids before the words, for recent_events_take. */
+/* An event_merge_format that writes the ids of the entities before the text, for
+ * recent_events_take(). */
 void recent_events_format(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic, const void *event);
 
-/* A event_merge_print with a struct recent_events as context: keeps what concerns the vehicle or
- * its last target.
- */
+/* An event_merge_print whose context is a struct recent_events: keeps the events that concern the
+ * vehicle or its last target. */
 bool recent_events_take(void *events, const char *line);
 
 #endif

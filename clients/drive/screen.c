@@ -1,4 +1,5 @@
-/* Head, statistics beside the map, events, who else drives, a notice, the keys. */
+/* Draws the title, the statistics beside the map, the events, other drivers, a notice and the keys.
+ */
 #include "clients/drive/screen.h"
 
 #include "clients/drive/character_map.h"
@@ -15,7 +16,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-/* Told by letters as well; of the colours, blue and yellow differ for everybody. */
+/* Blue and yellow, which colour-blind people tell apart. The map's letters show the force as well.
+ */
 enum pair { PAIR_PLAIN, PAIR_BLUE, PAIR_RED, PAIR_WATER, PAIR_WARN };
 
 #define ROWS_MIN       20
@@ -27,7 +29,7 @@ enum pair { PAIR_PLAIN, PAIR_BLUE, PAIR_RED, PAIR_WATER, PAIR_WARN };
 int screen_open(struct error_text *error)
 {
     if (!newterm(NULL, stdout, stdin))
-        return error_text_set(error, "TERM=%s: no terminal that curses knows; --plain works on any",
+        return error_text_set(error, "TERM=%s: not known to curses; --plain works on any terminal",
                               getenv("TERM") ? getenv("TERM") : "");
     (void)curs_set(0);
     if (process_colours() && has_colors() && start_color() == OK) {

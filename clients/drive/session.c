@@ -1,4 +1,4 @@
-/* Choosing, taking, driving, firing, giving back. */
+/* Chooses, takes, drives, fires with and releases vehicles. */
 #include "clients/drive/session.h"
 
 #include "clients/drive/vehicle_choice.h"
@@ -11,16 +11,17 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A change of a control smaller than this is none. */
+/* A smaller change of a control is not sent. */
 #define CONTROL_STEP 0.004
 
-/* Where one looks for targets: to either side of the look, and over the weapon's range. */
+/* Where targets are searched: angle to either side of the direction of view, and multiple of the
+ * weapon's range. */
 #define LOCK_CONE_RAD  1.05
 #define LOCK_RANGE     1.5
 #define LOCK_RANGE_MIN 1000.0 /* [m] */
 #define LOOK_STEP_RAD  (PI / 12.0)
 
-/* A gun that does not bear on the target is laid on it, and the shot tried again for so long. */
+/* A gun that does not bear on its target is laid on it; for LAY_NS the shot is tried again. */
 #define LAY_NS       (8 * (uint64_t)NS_PER_S)
 #define LAY_RETRY_NS (100 * (uint64_t)NS_PER_MS)
 
@@ -74,13 +75,14 @@ static double rate_hz(const struct world_mirror *mirror)
     return maths_max(wanted, RATE_MIN_HZ);
 }
 
-uint64_t session_frame_ns(const struct world_mirror *mirror)
+/* The length of a frame [ns] at the world's rate and time scale. */
+static uint64_t frame_length_ns(const struct world_mirror *mirror)
 {
     uint64_t frame_ns = (uint64_t)(NS_PER_S / rate_hz(mirror));
     return frame_ns < FRAME_MIN_NS ? FRAME_MIN_NS : frame_ns;
 }
 
-/* A lease is counted in frames of the simulation. */
+/* The length of a lease in frames, as commands have it. */
 static uint32_t lease_frames(const struct world_mirror *mirror)
 {
     return (uint32_t)maths_clamp(rate_hz(mirror) * SESSION_LEASE_S, 1.0, COMMAND_LEASE_MAX);
@@ -125,7 +127,7 @@ static void send_drive(struct session *session, const struct controls *controls,
     session->sent_ns = now_ns;
 }
 
-/* No DRIVE of ours goes out after a RELEASE: it would take the vehicle again. */
+/* Drops a DRIVE that is still repeated, because it would take the vehicle again. */
 static void send_release(struct session *session)
 {
     jolon_Command command = {.type = jolon_COMMAND_RELEASE, .entity = session->vehicle};
@@ -218,7 +220,7 @@ static void fire(struct session *session, uint64_t now_ns)
     session->lay_until_ns = 0;
     if (!has_lease(session))
         session_notify(session, now_ns, "you drive nothing that could fire; enter takes it");
-    else if (session->fire == 0) /* one at a time: it reloads anyway */
+    else if (session->fire == 0) /* one shot at a time: the gun reloads anyway */
         send_fire(session);
 }
 
@@ -343,7 +345,8 @@ static void read_drive_reply(struct session *session, uint64_t now_ns)
                        command_result_name((enum command_result)reply.result));
 }
 
-/* It can fire, and did not: the gun is not laid on the target. The mover lays it from now on. */
+/* Called when a vehicle that can fire did not: its gun does not bear on the target. The refused
+ * command has made the mover begin to lay the gun. */
 static void lay(struct session *session, uint64_t now_ns)
 {
     char label[64];
@@ -406,7 +409,7 @@ static void read_fire_reply(struct session *session, uint64_t now_ns)
         session_notify(session, now_ns, "fired in frame %llu", (unsigned long long)reply.frame);
 }
 
-/* What happened to the vehicle and to the target, as the world tells it. */
+/* Notices that the vehicle or the target was destroyed or removed. */
 static void check_losses(struct session *session, uint64_t now_ns)
 {
     char label[64];
@@ -431,7 +434,7 @@ static void check_losses(struct session *session, uint64_t now_ns)
                    session_label(mirror, session->vehicle, label), self ? "destroyed" : "gone");
 }
 
-/* The first vehicle of this world: the one that was asked for, or any. */
+/* Takes the first vehicle of this world: the wanted one, or any. */
 static void take_first(struct session *session, uint64_t now_ns)
 {
     struct error_text error;
@@ -459,12 +462,12 @@ static void take_first(struct session *session, uint64_t now_ns)
 uint64_t session_turn(struct session *session, uint64_t now_ns)
 {
     const struct world_mirror *mirror = session->mirror;
-    uint64_t frame_ns = session_frame_ns(mirror);
+    uint64_t frame_ns = frame_length_ns(mirror);
     bool moves = control_shaping_step(&session->shaping, now_ns);
     struct controls controls = control_shaping_controls(&session->shaping, is_aircraft(session));
-    if (has_lease(session)) { /* first of all: somebody waits for it */
+    if (has_lease(session)) {
         uint64_t since_ns = now_ns - session->sent_ns;
-        bool paused = mirror->frame_ns && mirror->frame.paused; /* so does the lease */
+        bool paused = mirror->frame_ns && mirror->frame.paused; /* leases do not expire then */
         if ((since_ns >= SESSION_RENEW_NS && !paused) ||
             (since_ns >= frame_ns && differs(&controls, &session->sent)))
             send_drive(session, &controls, now_ns);
@@ -474,7 +477,7 @@ uint64_t session_turn(struct session *session, uint64_t now_ns)
     read_fire_reply(session, now_ns);
     if (session->lay_until_ns &&
         (!has_lease(session) || !session->target || control_shaping_aims(&session->shaping)))
-        session->lay_until_ns = 0; /* a hand on the turret takes it from the gunner */
+        session->lay_until_ns = 0; /* aiming by hand ends the laying */
     if (session->lay_until_ns && session->fire == 0 && now_ns >= session->lay_next_ns)
         send_fire(session);
     if (mirror->has_world && session->run && mirror->world.run != session->run) {
@@ -488,7 +491,7 @@ uint64_t session_turn(struct session *session, uint64_t now_ns)
     else if (mirror->has_batch && session->vehicle)
         check_losses(session, now_ns);
     uint64_t due_ns = now_ns + (moves && frame_ns < IDLE_NS ? frame_ns : IDLE_NS);
-    uint64_t next_ns = session->sent_ns + frame_ns; /* a change that had to wait for it */
+    uint64_t next_ns = session->sent_ns + frame_ns; /* when a changed control may be sent */
     if (has_lease(session) && differs(&controls, &session->sent) && next_ns < due_ns)
         due_ns = next_ns;
     return due_ns;

@@ -1,4 +1,4 @@
-/* SpaceMice by libspnav. */
+/* Reads a SpaceMouse with libspnav. */
 #include "clients/drive/spacemouse.h"
 
 #include "clients/drive/device_library.h"
@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-/* Its header would bring that of X, of which we need nothing. */
+/* Keeps spnav.h from including the X11 header, which is not needed here. */
 #define SPNAV_CONFIG_H_
 #include <spnav.h>
 
@@ -44,7 +44,7 @@ void spacemouse_motion(const int push[3], const int turn[3], struct intents *que
     intent_set(queue, AXIS_AIM_Y, -share(turn[0]));
 }
 
-/* The first is the pick button. */
+/* Button 0 is the pick button. */
 void spacemouse_button(int button, bool down, struct intents *queue)
 {
     static const enum input_action actions[] = {ACTION_FIRE, ACTION_LOCK, ACTION_NEXT,
@@ -58,7 +58,7 @@ static int spacemouse_read(struct input *input, struct intents *queue)
     spnav_event event;
     int events = 0;
     (void)input;
-    /* A whole motion is six intents. */
+    /* A motion makes six intents. */
     while (queue->count + 6 <= INTENTS_MAX && spnav.poll_event(&event) != 0) {
         const struct spnav_event_motion *motion = &event.motion;
         events++;

@@ -1,4 +1,4 @@
-/* Statistics and notes in words. */
+/* Statistics and notes as text. */
 #include "clients/drive/status_panel.h"
 
 #include "clients/drive/vehicle_choice.h"
@@ -67,7 +67,7 @@ void status_panel_head(char line[STATUS_PANEL_LINE], const struct session *sessi
                    event_lines_clock(time, mirror->frame.sim_time_s));
 }
 
-/* "[     |###  ]": -1..1 from its middle. */
+/* A bar for -1..1 from its middle: "[     |###  ]". */
 static const char *gauge(char text[GAUGE_CELLS + 4], double value)
 {
     int half = GAUGE_CELLS / 2;
@@ -83,7 +83,7 @@ static const char *gauge(char text[GAUGE_CELLS + 4], double value)
     return text;
 }
 
-/* "[######    ]": a share of a whole. */
+/* A bar for 0..1: "[######    ]". */
 static const char *level(char text[GAUGE_CELLS + 4], double share)
 {
     int cells = (int)(maths_clamp(share, 0.0, 1.0) * GAUGE_CELLS + 0.5);

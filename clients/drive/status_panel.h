@@ -1,5 +1,4 @@
-/* What the driver reads: the vehicle's statistics (thesis row 13) and what goes with them, as text.
- */
+/* Text for the driver: the vehicle's statistics (thesis row 13), the view ahead, other drivers. */
 #ifndef JOLON_CLIENTS_DRIVE_STATUS_PANEL_H
 #define JOLON_CLIENTS_DRIVE_STATUS_PANEL_H
 
@@ -9,18 +8,18 @@
 #define STATUS_PANEL_COLUMNS 36
 #define STATUS_PANEL_LINE    512u
 
-/* Everything in one line of key=value, as the table has it; for scripts. */
+/* All statistics in one line of key=value, for scripts. */
 void status_panel_line(char line[STATUS_PANEL_LINE], const struct session *session);
 
-/* Who, where, in which world: the line above all. */
+/* The title: the vehicle, the world, the frame. */
 void status_panel_head(char line[STATUS_PANEL_LINE], const struct session *session,
                        uint64_t now_ns);
 
-/* The statistics, a row each; rows that say nothing are empty. */
+/* The statistics, one a row; rows that do not apply are empty. */
 void status_panel_statistics(char row[STATUS_PANEL_ROWS][STATUS_PANEL_COLUMNS],
                              const struct session *session);
 
-/* What is there where one looks, and who else drives what. */
+/* The entity ahead in the direction of view; the vehicles of other drivers. */
 void status_panel_look(char line[STATUS_PANEL_LINE], const struct session *session);
 void status_panel_others(char line[STATUS_PANEL_LINE], const struct session *session);
 

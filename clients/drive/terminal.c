@@ -1,4 +1,4 @@
-/* Settings of the terminal, and signals that must not leave it spoilt. */
+/* Settings of the terminal, and the signals at which they are restored. */
 #include "clients/drive/terminal.h"
 
 #include "clients/drive/terminal_keys.h"
@@ -9,7 +9,7 @@
 #include <termios.h>
 #include <unistd.h>
 
-/* Leaves the other screen, shows the cursor, plain letters. */
+/* Leaves the alternate screen, shows the cursor, resets the attributes. */
 #define SCREEN_RESTORE "\033[?1049l\033[?25h\033[0m\r\n"
 
 static struct {
@@ -20,7 +20,7 @@ static struct {
 static void write_all(const char *text)
 {
     ssize_t written = write(STDOUT_FILENO, text, strlen(text));
-    (void)written; /* nobody is left to be told */
+    (void)written; /* an error cannot be reported: the process ends */
 }
 
 void terminal_restore(void)
@@ -34,7 +34,7 @@ void terminal_restore(void)
     terminal.protocol_on = terminal.screen = terminal.changed = 0;
 }
 
-/* Once: SA_RESETHAND. The signal does then what it does. */
+/* Runs once because of SA_RESETHAND, so that raise() then has the signal's default effect. */
 static void on_crash(int signal_number)
 {
     terminal_restore();
@@ -47,7 +47,7 @@ static void on_resize(int signal_number)
     terminal.resized = 1;
 }
 
-/* The console of the kernel takes part of the question for something else. */
+/* The kernel's console misinterprets part of TERMINAL_KEYS_ENABLE. */
 static bool supports_protocol(void)
 {
     const char *type = getenv("TERM");

@@ -1,18 +1,19 @@
-/* The terminal under our hands: keys one by one and unseen, releases where it can tell them; and
- * all of it given back at any end, a crash included. One a process. */
+/* The terminal's settings: keys without echo or line buffering, and with releases where the
+ * terminal reports them. They are restored at every end of the process, a crash included. One a
+ * process. */
 #ifndef JOLON_CLIENTS_DRIVE_TERMINAL_H
 #define JOLON_CLIENTS_DRIVE_TERMINAL_H
 
 #include <stdbool.h>
 
-/* Takes over standard input if it is a terminal; screen: standard output shows a full screen, which
- * is to be left as well. Ctrl-Z does nothing meanwhile: who sleeps does not drive. */
+/* Changes the settings if standard input is a terminal. screen: standard output shows a full
+ * screen, which is to be left as well. Ctrl-Z has no effect, as a stopped process cannot drive. */
 void terminal_open(bool screen);
 
-/* Gives it back; may be called more than once, and from a signal handler. */
+/* Restores the terminal. May be called more than once, and from a signal handler. */
 void terminal_restore(void);
 
-/* Was its size changed since the last call? */
+/* Returns true if the terminal's size has changed since the last call. */
 bool terminal_resized(void);
 
 #endif

@@ -1,4 +1,4 @@
-/* Bytes of a terminal into intents. */
+/* Decodes the bytes of a terminal into intents. */
 #include "clients/drive/terminal_keys.h"
 
 #include <errno.h>
@@ -12,16 +12,16 @@
 #define CTRL_D       4
 #define READ_AT_ONCE 256
 
-/* Modifiers of the protocol, less one. */
+/* Bits of the protocol's modifiers less one. */
 #define MODIFIER_SHIFT 1
 #define MODIFIER_CTRL  4
 
 enum press { PRESS_DOWN = 1, PRESS_REPEAT, PRESS_UP };
 
-/* A key is for an axis, or it is for an action. */
+/* A key moves an axis or triggers an action. */
 struct binding {
     uint32_t code;
-    int8_t direction; /* -1, 1: for axis; 0: for action */
+    int8_t direction; /* -1, 1: of the axis; 0: the key triggers the action */
     enum input_axis axis;
     enum input_action action;
 };
@@ -106,7 +106,7 @@ bool terminal_keys_help(uint32_t n, const char **keys, const char **meaning)
 static void key(const struct terminal_keys *keys, uint32_t code, enum press press,
                 struct intents *queue)
 {
-    if (code >= 'A' && code <= 'Z') /* with shift, or caps lock: the same */
+    if (code >= 'A' && code <= 'Z') /* shift and caps lock make no difference */
         code += 'a' - 'A';
     for (size_t i = 0; i < sizeof bindings / sizeof bindings[0]; i++) {
         const struct binding *b = &bindings[i];
@@ -150,7 +150,7 @@ static void protocol_key(struct terminal_keys *keys, const char *text, char last
         key(keys, (uint32_t)code, (enum press)press, queue);
 }
 
-/* A whole sequence, from its escape to its last byte. */
+/* Interprets a complete escape sequence. */
 static void sequence(struct terminal_keys *keys, struct intents *queue)
 {
     char last = keys->sequence[keys->length - 1];
@@ -159,14 +159,14 @@ static void sequence(struct terminal_keys *keys, struct intents *queue)
     if (keys->sequence[1] == 'O' && last >= 'A' && last <= 'D') {
         key(keys, TERMINAL_KEYS_UP + (uint32_t)(last - 'A'), PRESS_DOWN, queue);
     } else if (keys->sequence[1] == '[' && text[0] == '?') {
-        if (last == 'u') /* the answer to TERMINAL_KEYS_ENABLE: which parts it does */
+        if (last == 'u') /* reply to TERMINAL_KEYS_ENABLE: the parts that the terminal supports */
             keys->reports_release = (strtoul(text + 1, NULL, 10) & 2) != 0;
     } else if (keys->sequence[1] == '[' && (last == 'u' || (last >= 'A' && last <= 'D'))) {
         protocol_key(keys, text, last, queue);
     }
 }
 
-/* Is the sequence whole with this byte? */
+/* Returns true if the byte completes the sequence. */
 static bool ends(const struct terminal_keys *keys, char byte)
 {
     if (keys->length == 2)
@@ -179,7 +179,7 @@ void terminal_keys_decode(struct terminal_keys *keys, const char *bytes, size_t 
 {
     for (size_t i = 0; i < count; i++) {
         char byte = bytes[i];
-        if (byte == ESCAPE) { /* a lone one before it meant nothing */
+        if (byte == ESCAPE) { /* drops an unfinished sequence */
             keys->sequence[0] = byte;
             keys->length = 1;
         } else if (keys->length == 0) {

@@ -1,8 +1,9 @@
-/* Keys of a terminal. Bytes become keys, keys become intents by one table, which is also the help.
+/* Keys of a terminal: decodes bytes into keys and translates keys into intents by a table.
  *
- * Plain terminals send a byte for a press and the same again while the key is held; nothing when it
- * is let go. Terminals that know the Kitty keyboard protocol tell presses, repeats and releases:
- * we ask for it, and the answer, or the first such key, says that they do. */
+ * A plain terminal sends a byte for a press, the same byte again while the key is held, and nothing
+ * at its release. A terminal with the Kitty keyboard protocol reports presses, repeats and
+ * releases. The program asks for the protocol; the terminal's reply, or its first key in that form,
+ * shows that it has the protocol. */
 #ifndef JOLON_CLIENTS_DRIVE_TERMINAL_KEYS_H
 #define JOLON_CLIENTS_DRIVE_TERMINAL_KEYS_H
 
@@ -10,12 +11,12 @@
 
 #include <stddef.h>
 
-/* Asks for the protocol: keys without ambiguity, with their releases, all of them; then, what it
- * is. Takes it back. */
+/* Asks for the protocol, with unambiguous codes and releases of all keys, and for the terminal's
+ * reply; ends the protocol. */
 #define TERMINAL_KEYS_ENABLE  "\033[>11u\033[?u"
 #define TERMINAL_KEYS_DISABLE "\033[<u"
 
-/* Keys that are no character: arrows. */
+/* Arrow keys, which are no characters. */
 enum terminal_keys_code {
     TERMINAL_KEYS_UP = 0x110000,
     TERMINAL_KEYS_DOWN,
@@ -23,23 +24,24 @@ enum terminal_keys_code {
     TERMINAL_KEYS_LEFT
 };
 
-/* An escape sequence that does not end within this is none. */
+/* A longer escape sequence is dropped. */
 #define TERMINAL_KEYS_SEQUENCE_MAX 32u
 
 struct terminal_keys {
-    char sequence[TERMINAL_KEYS_SEQUENCE_MAX]; /* begun and not yet ended */
+    char sequence[TERMINAL_KEYS_SEQUENCE_MAX]; /* [length] an unfinished escape sequence */
     uint32_t length;
-    bool reports_release; /* the terminal tells releases */
+    bool reports_release;
 };
 
-/* Takes bytes as they came, in any pieces. Pure. */
+/* Decodes bytes; a sequence may be spread over several calls. Pure. */
 void terminal_keys_decode(struct terminal_keys *keys, const char *bytes, size_t count,
                           struct intents *queue);
 
-/* Line n of the help, from 0: "w s", "throttle up, down"; false after the last. */
+/* Fills keys and meaning with line n of the help, from 0: "w s", "throttle up, down". Returns false
+ * after the last line. */
 bool terminal_keys_help(uint32_t n, const char **keys, const char **meaning);
 
-/* Opens standard input for keys. 0, or -1 with the reason. */
+/* Opens standard input for keys. Returns 0, or -1 with the error. */
 int terminal_keys_open(struct input *input, struct error_text *error);
 
 #endif

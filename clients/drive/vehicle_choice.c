@@ -33,7 +33,7 @@ struct relative_position vehicle_choice_relative(const jolon_Entity *from, const
 uint32_t vehicle_choice_next(const struct world_mirror *mirror, const struct vehicle_choice *choice,
                              int by)
 {
-    uint32_t first = 0, next = 0; /* first: the other end, to go round */
+    uint32_t first = 0, next = 0; /* first: where the search starts again after the last id */
     for (uint32_t i = 0; mirror->has_batch && i < mirror->batch.count; i++) {
         const jolon_Entity *entity = &mirror->batch.entity[i];
         if (!is_candidate(mirror, choice, entity))

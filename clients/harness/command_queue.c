@@ -1,4 +1,4 @@
-/* Orders on their way. */
+/* Sends commands in their order and answers them. */
 #include "clients/harness/command_queue.h"
 
 #include "ipc/process/clock.h"
@@ -15,7 +15,7 @@ bool command_queue_room(const struct command_queue *queue)
     return queue->count < COMMAND_QUEUE_MAX;
 }
 
-/* What an order is about: everything, one vehicle, or nothing that is there yet (0). */
+/* The subject of a command: all, a vehicle's id, or 0 for a vehicle that does not exist yet. */
 #define SUBJECT_ALL UINT64_MAX
 
 static uint64_t subject_of(const struct command_text *order)
@@ -33,7 +33,7 @@ static uint64_t subject_of(const struct command_text *order)
     }
 }
 
-/* reply NULL: there was none, and result says why. */
+/* Writes the answer to a command. reply NULL: there was none, and result says why. */
 static void write_answer(struct command_queue *queue, const struct command_queue_item *item,
                          const char *result, const jolon_CommandReply *reply, uint32_t round)
 {
@@ -112,7 +112,7 @@ static void take_answers(struct command_queue *queue, struct command_queue_item 
                      round);
     }
     if (!item->series.waiting)
-        item->until_ns = now_ns + queue->timeout_ns; /* until the next round nobody is silent */
+        item->until_ns = now_ns + queue->timeout_ns; /* no reply is due before the next round */
 }
 
 void command_queue_turn(struct command_queue *queue, uint64_t now_ns)

@@ -1,8 +1,8 @@
-/* The desk: orders taken from the program and not yet answered, each under the program's own id.
+/* Queue of the program's commands that are not answered yet, each under the program's id.
  *
- * Orders of one vehicle are sent in the order they came, the next when the one before is answered;
- * what concerns the whole world (pause, step ...) is sent after all before it, and before all after
- * it. A drive takes the place of an older one of its vehicle that is not answered yet. */
+ * The commands of a vehicle are sent in their order, each when the one before it is answered. A
+ * command for the whole world (pause, step ...) waits for all commands before it, and those after
+ * it wait for it. A drive replaces an older drive of its vehicle that is not answered yet. */
 #ifndef JOLON_CLIENTS_HARNESS_COMMAND_QUEUE_H
 #define JOLON_CLIENTS_HARNESS_COMMAND_QUEUE_H
 
@@ -18,10 +18,10 @@ struct command_queue {
     struct output *output;
     struct leases *leases;
     uint64_t timeout_ns;
-    bool no_reply; /* a reply did not come in time */
+    bool no_reply; /* the reply to a command did not come in time */
     uint32_t count;
     struct command_queue_item {
-        char id[COMMAND_QUEUE_ID_MAX]; /* as JSON; "": it is our own, nobody hears the answer */
+        char id[COMMAND_QUEUE_ID_MAX]; /* as JSON; "": the harness's own command, without answer */
         bool begun;
         uint64_t until_ns;
         struct command_series series;
@@ -30,15 +30,15 @@ struct command_queue {
 
 bool command_queue_room(const struct command_queue *queue);
 
-/* Takes an order that is resolved; there must be room. */
+/* Appends a resolved command. There must be room. */
 void command_queue_add(struct command_queue *queue, const char *id,
                        const struct command_text *order);
 
-/* Sends what may be sent and tells what is answered. Does not block. */
+/* Sends the commands that may be sent and writes the answers of those with a reply. Does not block.
+ */
 void command_queue_turn(struct command_queue *queue, uint64_t now_ns);
 
-/* When command_queue_turn() has something to do [CLOCK_MONOTONIC ns], UINT64_MAX: when an answer
- * comes. */
+/* Returns when command_queue_turn() is due [CLOCK_MONOTONIC ns]; UINT64_MAX: at the next reply. */
 uint64_t command_queue_due_ns(const struct command_queue *queue);
 
 #endif

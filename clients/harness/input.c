@@ -1,4 +1,4 @@
-/* Bytes into lines. */
+/* Splits bytes into lines. */
 #include "clients/harness/input.h"
 
 #include <errno.h>

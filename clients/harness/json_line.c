@@ -1,4 +1,4 @@
-/* Lines read as JSON. */
+/* Parses and executes lines of JSON. */
 #include "clients/harness/json_line.h"
 
 #include "ipc/topics/command_json.h"
@@ -25,7 +25,8 @@ void json_line_refuse_length(struct session *session)
     json_line_error(session, NULL, text);
 }
 
-/* Is it UTF-8 without control characters but blanks? What we echo must be, too. */
+/* Returns true if the line is UTF-8 without control characters other than blanks. Parts of it are
+ * written back in answers, which must be such text too. */
 static bool is_text(const char *line, size_t bytes)
 {
     const char *end = line + bytes;
@@ -39,7 +40,8 @@ static bool is_text(const char *line, size_t bytes)
     return true;
 }
 
-/* The program's id for the line as JSON, "null" when it gave none; -1: it is none. */
+/* Reads the program's id of the line as JSON, "null" if it has none. Returns -1 if it is malformed.
+ */
 static int read_id(char id[COMMAND_QUEUE_ID_MAX], const cJSON *object)
 {
     cJSON *item = cJSON_GetObjectItemCaseSensitive(object, "id");
@@ -88,7 +90,7 @@ static void execute_object(struct session *session, const cJSON *object)
     }
     const cJSON *want = cJSON_GetObjectItemCaseSensitive(object, "want");
     if (want && cJSON_GetObjectItemCaseSensitive(object, "do"))
-        json_line_error(session, id, "\"do\" and \"want\" in one line; say them in two");
+        json_line_error(session, id, "\"do\" and \"want\" in one line: send two lines");
     else if (want)
         subscribe(session, want, id);
     else

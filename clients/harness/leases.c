@@ -1,4 +1,4 @@
-/* Vehicles held. */
+/* Keeps and renews leases. */
 #include "clients/harness/leases.h"
 
 #include "ipc/process/clock.h"
@@ -8,7 +8,7 @@
 
 #include <string.h>
 
-/* Renewals leave room in the caller for what the program orders. */
+/* Renewals leave room in the client for the program's commands. */
 #define WAITING_MAX (COMMAND_CLIENT_WAITING_MAX / 2)
 
 void leases_clear(struct leases *leases)
@@ -30,7 +30,7 @@ static void drop(struct leases *leases, struct lease *lease)
     *lease = leases->held[--leases->count];
 }
 
-/* A lease is in frames, however many of them the world makes a second now. */
+/* The length of a lease in frames, at the greatest rate that the world may have now. */
 static uint32_t lease_frames(const struct leases *leases)
 {
     const jolon_FrameStatus *frame = &leases->mirror->frame;
@@ -43,7 +43,7 @@ static uint32_t lease_frames(const struct leases *leases)
     return frames < COMMAND_LEASE_MAX ? (uint32_t)frames : COMMAND_LEASE_MAX;
 }
 
-/* The lease that an order changes, NULL: none. */
+/* Returns the lease that a command changes, or NULL. */
 static struct lease *lease_of(struct leases *leases, const struct command_text *order)
 {
     jolon_CommandType type = order->command.type;
@@ -77,7 +77,7 @@ void leases_answer(struct leases *leases, const struct command_text *order,
     struct lease *lease = lease_of(leases, order);
     if (reply->result != jolon_RESULT_DONE)
         return;
-    if (lease && !keeps) /* given back, or held by a lease that the program looks after itself */
+    if (lease && !keeps) /* released, or held by a lease that the program renews itself */
         drop(leases, lease);
     if (!keeps)
         return;
@@ -97,7 +97,8 @@ static void write_lost(const struct leases *leases, uint32_t vehicle, jolon_Comm
     output_object(leases->output, OUTPUT_ANSWER, object);
 }
 
-/* A paused world's leases do not run, and a command would make it commit a frame. */
+/* Returns true if the lease needs renewal. The leases of a paused world do not expire, and a
+ * command would make it commit a frame. */
 static bool runs(const struct leases *leases, const struct lease *lease)
 {
     return !leases->mirror->frame.paused || leases->mirror->frame.tick != lease->tick;

@@ -1,7 +1,7 @@
-/* Leases: the vehicles that the program drives, kept for it for as long as it lives.
+/* Leases of the vehicles that the program drives, renewed for as long as the program lives.
  *
- * A drive without a lease of its own gets one of LEASES_S, and what was last done is sent again
- * five times in that time, until the program releases the vehicle or somebody takes it. */
+ * A drive without a lease gets one of LEASES_S. The vehicle's last drive is sent again every
+ * LEASES_RENEW_NS until the program releases the vehicle or another client takes it. */
 #ifndef JOLON_CLIENTS_HARNESS_LEASES_H
 #define JOLON_CLIENTS_HARNESS_LEASES_H
 
@@ -19,32 +19,32 @@ struct leases {
     struct output *output;
     uint32_t count;
     struct lease {
-        jolon_Command command; /* what was last done */
+        jolon_Command command; /* the last drive that was done */
         uint64_t renew_ns;     /* CLOCK_MONOTONIC */
-        uint64_t tick;         /* of the world, when it was last renewed */
-        uint64_t sequence;     /* of the renewal under way, 0: none */
-        bool command_pending;  /* an order for it is under way, which a renewal must not overtake */
+        uint64_t tick;         /* of the world at the last renewal */
+        uint64_t sequence;     /* of the renewal that waits for its reply, 0: none */
+        bool command_pending;  /* a renewal must not overtake a command of the program */
     } held[LEASES_MAX];        /* [count] */
 };
 
-/* An order is about to be sent: a drive gets its lease, if it has none, and a renewal of the same
- * vehicle is not repeated any more. */
+/* Called before a command is sent: gives a drive its lease, if it has none, and stops repeating a
+ * renewal for the same vehicle. */
 void leases_begin(struct leases *leases, struct command_client *client, struct command_text *order);
 
-/* The order is still under way: no renewal in the next leases_turn(). */
+/* Called while a command has no reply yet: suppresses the renewal in the next leases_turn(). */
 void leases_hold_off(struct leases *leases, const struct command_text *order);
 
-/* Notes what an answered order means for the vehicle. */
+/* Begins, changes or ends the vehicle's lease after the reply to a command. */
 void leases_answer(struct leases *leases, const struct command_text *order,
                    const jolon_CommandReply *reply, uint64_t now_ns);
 
-/* Renews what is due, and tells of those that were lost. Does not block. */
+/* Renews the leases that are due and reports those that were lost. Does not block. */
 void leases_turn(struct leases *leases, struct command_client *client, uint64_t now_ns);
 
-/* When leases_turn() has something to do [CLOCK_MONOTONIC ns]; UINT64_MAX: never. */
+/* Returns when leases_turn() is due [CLOCK_MONOTONIC ns]; UINT64_MAX: never. */
 uint64_t leases_due_ns(const struct leases *leases);
 
-/* Another world: nothing is held in it. */
+/* Forgets all leases, when another world has taken this one's place. */
 void leases_clear(struct leases *leases);
 
 #endif

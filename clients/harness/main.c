@@ -1,5 +1,5 @@
-/* jolon-harness: drives vehicles for a program that speaks JSON lines. It has no shared memory:
- * everything goes over the topics. */
+/* jolon-harness: connects a program that drives vehicles, by JSON lines on standard input and
+ * output, to a world. It reads the topics and not the shared memory. */
 #include "clients/harness/session.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
@@ -17,7 +17,7 @@ int main(int argc, char **argv)
     const char *world = session.options.world;
     int code = EXIT_OK;
     if (!session_wait_for_world(&session)) {
-        log_warn("world '%s': nobody says anything of it; is it running, with its reporter? `jolon "
+        log_warn("world '%s': no data comes from it; is it running, with its reporter? `jolon "
                  "status -w %s` shows it",
                  world, world);
         code = EXIT_REFUSED;

@@ -22,12 +22,12 @@ void options_parse(struct options *options, int argc, char **argv)
             "Drives vehicles for a program: one JSON object a line on standard input, as\n"
             "  {\"id\":1,\"do\":\"drive\",\"vehicle\":7,\"throttle\":0.5,\"steer\":0.1}\n"
             "  {\"id\":2,\"want\":{\"entities\":[7,8],\"rate_hz\":10,\"events\":[\"fire\"]}}\n"
-            "and one a line on standard output: the world, answers, frames, entities, events, "
-            "errors.\n"
+            "and one object a line on standard output: the world, answers, frames, entities,\n"
+            "events, errors.\n"
             "It ends when standard input ends and every command is answered. See docs/harness.md.\n"
             "options:",
         .rows = rows,
-        .ending = "exit: 0 everything was answered, 1 no world, no reply, or nobody reads, 2 "
+        .ending = "exit: 0 every command was answered, 1 no world, no reply, or no reader, 2 "
                   "usage\n"};
     option_table_read(&table, argc, argv);
     *options = given;

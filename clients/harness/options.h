@@ -6,12 +6,12 @@
 
 struct options {
     const char *world;
-    double timeout_s; /* until a command without a reply is given up */
+    double timeout_s; /* for the world at the start, and for the reply to a command */
     struct dds_link_options link;
     bool remote; /* commands go over DDS */
 };
 
-/* Fills options. Ends the program: with help (0), or with what is wrong in one line (2). */
+/* Fills options. Ends the process at --help (exit 0) and at wrong usage (exit 2). */
 void options_parse(struct options *options, int argc, char **argv);
 
 #endif

@@ -1,4 +1,4 @@
-/* A queue of bytes with three bounds. */
+/* Queue of bytes with three limits. */
 #include "clients/harness/output.h"
 
 #include <errno.h>
@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A pipe that poll() calls writable takes so much without blocking (PIPE_BUF). */
+/* A pipe that is writable takes this many bytes without blocking (PIPE_BUF). */
 #define WRITE_AT_ONCE 4096u
 
 static void append(struct output *output, const char *line)

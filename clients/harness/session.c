@@ -1,4 +1,4 @@
-/* Turns of the session. */
+/* The session's loop. */
 #include "clients/harness/session.h"
 
 #include "clients/harness/json_line.h"
@@ -12,9 +12,9 @@
 #include <unistd.h>
 
 #define WAIT_NS        (250 * (uint64_t)NS_PER_MS)
-#define WAIT_EVENTS_NS (25 * (uint64_t)NS_PER_MS) /* events wait to be put in order */
+#define WAIT_EVENTS_NS (25 * (uint64_t)NS_PER_MS) /* while events wait to be put in order */
 
-/* From one of Cyclone DDS's threads. */
+/* Called by one of Cyclone DDS's threads. */
 static void on_data(dds_entity_t reader, void *context)
 {
     const struct session *session = context;
@@ -87,7 +87,7 @@ bool session_wait_for_world(struct session *session)
     return false;
 }
 
-/* Another world under the same name is another: what was driven is not there. */
+/* Writes the world's description when it is new. The leases of the world before are forgotten. */
 static void write_world(struct session *session)
 {
     if (session->mirror.world.run == session->run)
@@ -129,7 +129,7 @@ static void open_events(struct session *session)
         json_line_error(session, NULL, error.text);
 }
 
-/* What the program still drives goes back to its agents. */
+/* Releases the vehicles that the program still drives. */
 static void release_all(struct session *session)
 {
     for (uint32_t i = 0; i < session->leases.count && command_queue_room(&session->queue); i++) {

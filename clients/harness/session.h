@@ -1,4 +1,4 @@
-/* The session with the program: its lines carried out, and what the world says told. */
+/* The session with the program: executes its lines and reports the world's state and events. */
 #ifndef JOLON_CLIENTS_HARNESS_SESSION_H
 #define JOLON_CLIENTS_HARNESS_SESSION_H
 
@@ -13,33 +13,34 @@ struct session {
     struct dds_link link;
     struct world_mirror mirror;
     struct event_merge merge;
-    bool has_merge; /* the tail is open: events were wanted once */
+    bool has_merge; /* merge is open, since events were first subscribed to */
     struct command_client client;
-    struct command_route route; /* of the caller */
+    struct command_route route; /* of the client */
     struct input input;
     struct output output;
     struct leases leases;
     struct command_queue queue;
     struct subscription subscription;
-    uint64_t run;  /* of the world that was told last */
-    bool released; /* at the end: what it drove is given back */
-    int wake_fd;   /* readable when something came over DDS */
+    uint64_t run;  /* of the world whose description was written last */
+    bool released; /* at the end of input the program's vehicles were released */
+    int wake_fd;   /* readable when DDS data has come */
 };
 
-/* Opens the link and all that is read from the start. -1 with the reason. */
+/* Opens the link and its readers. Returns 0, or -1 with the error. */
 int session_open(struct session *session, struct error_text *error);
 void session_close(struct session *session);
 
-/* Waits until the world says what it is, at most the options' timeout. False: it does not. */
+/* Waits for the world's description, at most the options' timeout. Returns false if it has not
+ * come. */
 bool session_wait_for_world(struct session *session);
 
-/* One turn: lines, answers, states, events. Does not block. */
+/* Handles lines, replies, states and events. Does not block. */
 void session_turn(struct session *session, uint64_t now_ns);
 
-/* Waits for the next turn. */
+/* Waits until session_turn() is due, and reads and writes standard input and output. */
 void session_wait(struct session *session);
 
-/* Has everything been said and answered, or can it be told to nobody? */
+/* Returns true if input has ended and all answers are written, or if the reader has gone. */
 bool session_finished(const struct session *session);
 
 #endif

@@ -1,4 +1,4 @@
-/* Wants read, and met. */
+/* Reads subscriptions and writes what is subscribed to. */
 #include "clients/harness/subscription.h"
 
 #include "ipc/process/clock.h"

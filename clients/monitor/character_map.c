@@ -1,4 +1,4 @@
-/* The map in characters. */
+/* Draws the map's characters. */
 #include "clients/monitor/character_map.h"
 
 #include <math.h>
@@ -19,7 +19,8 @@ static uint32_t cell_of(double at, uint32_t side)
     return at <= 0.0 ? 0 : at >= (double)side ? side - 1 : (uint32_t)at;
 }
 
-/* Between the middles of four cells; at is in cells from the north-western corner. */
+/* The height interpolated between the centres of four cells. (x, z) is in cells from the
+ * north-western corner. */
 static double height_at(const struct character_map_ground *ground, double x, double z)
 {
     uint32_t x0 = cell_of(x - 0.5, ground->side), z0 = cell_of(z - 0.5, ground->side);
@@ -72,7 +73,7 @@ void character_map_begin(struct character_map *map, int rows, int columns,
     }
 }
 
-/* 0 for the ground. */
+/* The rank of a mark, from 1; 0 for the ground. */
 static int rank(char cell)
 {
     static const char ascending[] = {

@@ -1,4 +1,4 @@
-/* The map: the ground and what moves on it in characters. North is up. Pure; knows neither DDS nor
+/* The map of the ground and the entities in characters. North is up. Pure: it uses neither DDS nor
  * the terminal. */
 #ifndef JOLON_CLIENTS_MONITOR_CHARACTER_MAP_H
 #define JOLON_CLIENTS_MONITOR_CHARACTER_MAP_H
@@ -11,22 +11,22 @@
 /* A character is about twice as high as wide. */
 #define CHARACTER_MAP_COLUMNS_A_ROW 2
 
-/* Marks in ascending rank: the higher one shows where several share a cell. */
+/* Marks in ascending rank: a cell shows the highest of its marks. */
 #define CHARACTER_MAP_WRECK    'x'
 #define CHARACTER_MAP_NEUTRAL  'n'
 #define CHARACTER_MAP_RED      'r'
 #define CHARACTER_MAP_BLUE     'b'
 #define CHARACTER_MAP_BOTH     '%' /* red and blue in one cell */
 #define CHARACTER_MAP_MUNITION '*'
-#define CHARACTER_MAP_SELECTED '@' /* the one that is looked at */
+#define CHARACTER_MAP_SELECTED '@'
 
-/* The ground: water, then four bands from the lowest land to the highest, and beyond the world. */
+/* The ground: water, four bands of height from the lowest to the highest, and outside the world. */
 #define CHARACTER_MAP_WATER  '~'
 #define CHARACTER_MAP_BANDS  " .:^"
 #define CHARACTER_MAP_BEYOND '\''
 
-/* What there is of the ground: side x side heights [m] of cells of a square of side_m, row by row
- * from the north-west; water is 1 where a cell is. side 0: nothing. */
+/* The ground: a square of side_m in side x side cells, row by row from the north-west. A cell has a
+ * height [m], and water is 1 if it is water. side 0: no ground is known. */
 struct character_map_ground {
     const float *height_m;
     const uint8_t *water;
@@ -36,8 +36,8 @@ struct character_map_ground {
 
 /* The part of the world that is shown. */
 struct character_map_area {
-    double x, z;     /* [m] its middle */
-    double across_m; /* from its western to its eastern edge, above 0 */
+    double x, z;     /* [m] its centre */
+    double across_m; /* from the western to the eastern edge, above 0 */
 };
 
 struct character_map {
@@ -47,13 +47,13 @@ struct character_map {
     char cell[CHARACTER_MAP_ROWS_MAX][CHARACTER_MAP_COLUMNS_MAX];
 };
 
-/* Begins a map of rows x columns characters (cut to the most there can be) of an area, with the
- * ground, whose heights between the cells' middles are interpolated. */
+/* Begins a map of an area with rows x columns characters, limited to the maximum, and draws the
+ * ground. Heights between the centres of the ground's cells are interpolated. */
 void character_map_begin(struct character_map *map, int rows, int columns,
                          const struct character_map_area *area,
                          const struct character_map_ground *ground);
 
-/* Puts a mark at (x, z) [m]; what lies outside is left out. */
+/* Puts a mark at (x, z) [m]; outside the map it does nothing. */
 void character_map_mark(struct character_map *map, double x, double z, char mark);
 
 #endif

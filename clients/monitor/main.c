@@ -1,6 +1,6 @@
-/* jolon-monitor: attaches to a world at any time, from anywhere, and shows what it does: a terminal
- * view, one status line a second, one JSON object, or the events. Any number of them may run; none
- * is ever waited for. */
+/* jolon-monitor: shows a world as a screen in a terminal, as a status line a second, as a JSON
+ * object, or as its events. It may start at any time, on any machine. Any number of monitors may
+ * run, and the world waits for none. */
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
@@ -16,17 +16,17 @@
 #include <string.h>
 #include <unistd.h>
 
-/* How often the screen looks at the keyboard and at new events. */
+/* How often the screen reads keys and new events. */
 #define POLL_NS (50 * (uint64_t)NS_PER_MS)
 
-#define NICENESS 10 /* far behind the frame loop: a hundred of them make no frame late */
+#define NICENESS 10 /* a hundred monitors must not make a frame late */
 
 static int run_events(struct event_merge *merge)
 {
     while (!process_stopping()) {
         bool good = event_merge_poll(merge, plain_output_line, NULL);
         if (!good || !plain_output_flush())
-            return EXIT_REFUSED; /* nobody reads any more, or no memory */
+            return EXIT_REFUSED; /* the reader has gone, or there is no memory */
         dds_topics_wait(merge->waitset, merge->count ? POLL_NS : NS_PER_S / 4);
     }
     if (merge->missed)

@@ -1,4 +1,4 @@
-/* jolon-monitor's arguments. */
+/* The command line of jolon-monitor. */
 #include "clients/monitor/options.h"
 
 #include "ipc/process/log.h"
@@ -14,10 +14,10 @@ static const struct option_row rows[] = {
      .flag = &given.events},
     {"vehicles", NULL, "with --json: the vehicles too, one object each under \"list\"",
      .flag = &vehicles},
-    {"filter", "WORDS", "only those that suit, as 'red tank speed>10'; means --vehicles",
+    {"filter", "WORDS", "only vehicles that match, as 'red tank speed>10'; implies --vehicles",
      .text = &given.filter},
     {"lines", NULL, "one status line a second, also on a terminal", .flag = &given.lines},
-    {"rate", "HZ", "how often the screen (default 5) or the line (default 1) is made anew",
+    {"rate", "HZ", "updates a second of the screen (default 5) or the lines (default 1)",
      .real = &given.rate_hz, .low = 0.01, .high = 20.0},
     DDS_LINK_OPTION_ROWS(given.link),
     OPTION_ROWS_END};

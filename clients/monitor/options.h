@@ -11,14 +11,13 @@
 
 struct options {
     const char *world;
-    const char *filter; /* which vehicles, as vehicle_table_matches(); NULL: none are listed */
+    const char *filter; /* of vehicle_table_matches(); NULL: no vehicles are listed */
     bool once, json, events, lines;
-    double rate_hz; /* 0: as the mode likes it */
+    double rate_hz; /* 0: the default of the mode */
     struct dds_link_options link;
 };
 
-/* Fills options. Ends the program: with help on standard output (0), or with one line that says
- * what is wrong (2). */
+/* Fills options. Ends the process at --help (exit 0) and at wrong usage (exit 2). */
 void options_parse(struct options *options, int argc, char **argv);
 
 #endif

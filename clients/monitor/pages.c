@@ -1,4 +1,4 @@
-/* What each page shows. */
+/* The contents of the pages. */
 #include "clients/monitor/pages.h"
 
 #include "clients/monitor/status_lines.h"
@@ -8,7 +8,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* Columns that the events keep beside the map. */
+/* Columns reserved for the events beside the map. */
 #define EVENT_COLUMNS_MIN 40
 
 void pages_put(int row, int column, const char *text, unsigned attributes, enum pages_pair pair)
@@ -64,7 +64,7 @@ static void draw_map(struct screen *screen, const struct world_mirror *mirror, i
                                           mirror->has_world ? jolon_MAP_SIDE : 0, side_m};
     struct character_map_area area = screen_state_area(&screen->state, mirror, side_m);
     if (screen->state.zoom == 0 && columns > rows * CHARACTER_MAP_COLUMNS_A_ROW)
-        columns = rows * CHARACTER_MAP_COLUMNS_A_ROW; /* nothing is beyond the square */
+        columns = rows * CHARACTER_MAP_COLUMNS_A_ROW; /* the whole world is a square */
     character_map_begin(&screen->map, rows, columns, &area, &ground);
     for (uint32_t i = 0; mirror->has_batch && i < mirror->batch.count; i++) {
         const jolon_Entity *entity = &mirror->batch.entity[i];
@@ -114,7 +114,8 @@ static const char *event_at(const struct screen *screen, uint64_t back)
     return screen->event[(screen->event_count - 1 - back) % SCREEN_EVENTS];
 }
 
-/* The newest at the bottom, below it `skip` newer ones that suit; how many could be skipped. */
+/* Draws the events that match, the newest at the bottom, without the `skip` newest ones. Returns
+ * how many could be skipped. */
 static uint64_t draw_events(const struct screen *screen, const char *filter, uint64_t skip, int top,
                             int rows, int column)
 {
@@ -185,8 +186,7 @@ void pages_vehicles(struct screen *screen, const struct world_mirror *mirror, in
     }
     screen_state_table(state, table, mirror, rows > 2 ? (uint32_t)rows - 2 : 1);
     (void)snprintf(what, sizeof what, "%u vehicles, by %s%s", table->count,
-                   vehicle_table_column_name(state->sort),
-                   state->descending ? " from the most" : "");
+                   vehicle_table_column_name(state->sort), state->descending ? ", descending" : "");
     draw_filter(screen, top, what);
     vehicle_table_head(line, state->sort, state->descending);
     pages_put(top + 1, 0, line, A_BOLD, PAIR_PLAIN);
@@ -210,7 +210,7 @@ static bool needs_attention(const jolon_ProcessStatus *status)
            (status->state == jolon_PROCESS_READY && status->beat_age_ms > 100.0);
 }
 
-/* "frames ▁▁▂▁█ 0.91 ms, at most 16.7": the bars are full at a frame's whole time. */
+/* "frame time ▁▁▂▁█ 0.91 ms, most 4.20 of 16.7". A full bar is the whole time of a frame. */
 static void draw_spark(const struct screen *screen, const struct world_mirror *mirror, int row)
 {
     static char bars[SPARKLINE_TEXT_MAX];
@@ -254,20 +254,20 @@ void pages_all(struct screen *screen, const struct world_mirror *mirror, int top
 void pages_help(int top, int rows)
 {
     static const char *const text[] = {
-        "1 2 3 4  Tab   the whole, vehicles, events, map",
-        "q  Esc         quit; Esc goes back first",
+        "1 2 3 4  Tab   overview, vehicles, events, map",
+        "q  Esc         quit; Esc first returns to the overview",
         "",
-        "vehicles       arrows, PgUp, PgDn, Home, End choose; Enter shows it on the map",
-        "  s S          sort by the next or the last column, as right and left; r turns",
-        "  /            filter: words that must suit, as  red tank  speed>10  rnds<5  12",
-        "events         arrows, PgUp, PgDn, Home, End go back; / searches",
-        "map            + - zoom, arrows pan, 0 the whole, f follows the chosen one (@)",
+        "vehicles       arrows, PgUp, PgDn, Home, End select; Enter shows it on the map",
+        "  s S          sort by the next or previous column, as right and left; r reverses",
+        "  /            filter: words that must match, as  red tank  speed>10  rnds<5  12",
+        "events         arrows, PgUp, PgDn, Home, End scroll; / searches",
+        "map            + - zoom, arrows pan, 0 the whole world, f follows the selected (@)",
         "               b blue  r red  n neutral  % both  * munition  x wreck  ~ water",
         "",
-        "frame time     the longest of the last frames; a bar is full at a frame's time,",
-        "               ! is beyond it",
+        "frame time     the longest of the last frames; a full bar is the time of a frame,",
+        "               ! is longer than that",
         "",
-        "The monitor changes nothing: jolon ctl, jolon drive and jolon console do.",
+        "The monitor changes nothing: use jolon ctl, jolon drive or jolon console.",
     };
     for (int i = 0; i < (int)(sizeof text / sizeof text[0]) && i < rows; i++)
         pages_put(top + i, 0, text[i], A_NORMAL, PAIR_PLAIN);

@@ -12,13 +12,13 @@
 
 #define ONCE_LIMIT_NS (3 * (uint64_t)NS_PER_S)
 
-/* How often the line mode says that it still waits. */
+/* How often the line mode reports that it still waits. */
 #define NOTICE_NS (10 * (uint64_t)NS_PER_S)
 
-/* What a world that is there takes at most to be heard. */
+/* The longest time until the data of a present world has come. */
 #define FIRST_NS (500 * (uint64_t)NS_PER_MS)
 
-/* At most between two looks at whether it should end. */
+/* The longest time between two checks for a request to stop. */
 #define SLEEP_MAX_NS (250 * (uint64_t)NS_PER_MS)
 
 bool plain_output_flush(void)
@@ -82,8 +82,9 @@ int plain_output_once(struct world_mirror *mirror, const struct options *options
     return plain_output_flush() ? EXIT_OK : EXIT_REFUSED;
 }
 
-/* A line each time it is due; while there is no world, one when it goes and then seldom. It wakes
- * for that alone: what came meanwhile waits, the newest of each. */
+/* Prints a line each time one is due. While there is no world it prints one at once and then one
+ * every NOTICE_NS. It wakes for the lines alone; DDS keeps the newest sample of each topic
+ * meanwhile. */
 int plain_output_lines(struct world_mirror *mirror, const struct options *options)
 {
     char line[STATUS_LINES_MAX];
@@ -105,7 +106,7 @@ int plain_output_lines(struct world_mirror *mirror, const struct options *option
         status_lines_status(line, mirror, now_ns);
         if (options->json ? !print_json(mirror, options, now_ns)
                           : puts(line) < 0 || !plain_output_flush())
-            return EXIT_REFUSED; /* nobody reads any more */
+            return EXIT_REFUSED; /* the reader has gone */
     }
     return EXIT_OK;
 }

@@ -1,21 +1,21 @@
-/* The monitor without a screen: one look at the world, or line after line. */
+/* The monitor without a screen: prints the status once, or line after line. */
 #ifndef JOLON_CLIENTS_MONITOR_PLAIN_OUTPUT_H
 #define JOLON_CLIENTS_MONITOR_PLAIN_OUTPUT_H
 
 #include "clients/monitor/options.h"
 #include "ipc/topics/world_mirror.h"
 
-/* Prints the status once, when all of it has come; waits 3 s for that at most. An exit code. */
+/* Waits at most 3 s for the whole status and prints it. Returns the exit code. */
 int plain_output_once(struct world_mirror *mirror, const struct options *options);
 
-/* Prints a line (a JSON object) at the options' rate until the process is asked to stop or nobody
- * reads any more. An exit code. */
+/* Prints a line, or a JSON object, at the options' rate until the process is asked to stop or the
+ * reader of standard output has gone. Returns the exit code. */
 int plain_output_lines(struct world_mirror *mirror, const struct options *options);
 
-/* Puts a line to standard output; a event_merge_print. */
+/* An event_merge_print that writes a line to standard output. */
 bool plain_output_line(void *unused, const char *line);
 
-/* False when nobody reads standard output any more. */
+/* Flushes standard output. Returns false if its reader has gone. */
 bool plain_output_flush(void);
 
 #endif

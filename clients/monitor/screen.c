@@ -1,4 +1,4 @@
-/* The terminal: curses, its keys, and the frame around the pages. */
+/* Curses, its keys, and the title and footer around the pages. */
 #include "clients/monitor/screen.h"
 
 #include "ipc/process/process.h"
@@ -14,16 +14,16 @@
 #include <string.h>
 
 #define KEY_ESCAPE     27
-#define ESCAPE_WAIT_MS 25 /* that what follows an escape may take, for a key of several bytes */
+#define ESCAPE_WAIT_MS 25 /* longest pause within the bytes of a key */
 
 int screen_open(struct screen *screen, struct error_text *error)
 {
     *screen = (struct screen){0};
-    (void)setlocale(LC_CTYPE,
-                    ""); /* NOLINT(concurrency-mt-unsafe): before there are threads of ours */
+    /* NOLINTNEXTLINE(concurrency-mt-unsafe): the program's own threads do not exist yet */
+    (void)setlocale(LC_CTYPE, "");
     screen->utf8 = strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
     if (!newterm(NULL, stdout, stdin))
-        return error_text_set(error, "TERM=%s: no terminal that curses knows; --lines works on any",
+        return error_text_set(error, "TERM=%s: not known to curses; --lines works on any terminal",
                               getenv("TERM") ? getenv("TERM") : "");
     (void)set_escdelay(ESCAPE_WAIT_MS);
     (void)cbreak();
@@ -55,7 +55,7 @@ bool screen_event(void *context, const char *line)
     memcpy(slot, line, length);
     slot[length] = '\0';
     if (screen->state.back > 0)
-        screen->state.back++; /* what somebody reads stays where it is */
+        screen->state.back++; /* the events that are shown stay in place */
     return true;
 }
 
@@ -119,7 +119,7 @@ static const char *key_hint(const struct screen_state *state)
 {
     static const char *const keys[SCREEN_STATE_PAGES] = {
         "1 all  2 vehicles  3 events  4 map  ? help  q quit   b blue r red n neutral % both",
-        "up/down choose  s sort  r turn  / filter  Enter map  1-4 pages  ? help  q quit",
+        "up/down select  s sort  r reverse  / filter  Enter map  1-4 pages  ? help  q quit",
         "up/down PgUp PgDn  / search  1-4 pages  ? help  q quit",
         "+ - zoom  arrows pan  0 whole  f follow  1-4 pages  ? help  q quit",
         "? back  q quit",

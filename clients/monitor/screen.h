@@ -1,4 +1,4 @@
-/* The screen: the mirror in a terminal, 80 x 24 or any other size. One a process. */
+/* Shows the world in a terminal of 80 x 24 characters or any other size. One a process. */
 #ifndef JOLON_CLIENTS_MONITOR_SCREEN_H
 #define JOLON_CLIENTS_MONITOR_SCREEN_H
 
@@ -15,29 +15,28 @@ struct screen {
     struct character_map map;
     struct vehicle_table table;
     struct sparkline sparkline; /* [ms] the longest frame between two samples of FrameStatus */
-    uint64_t spark_frame;       /* of the last of them */
-    bool begun;                 /* the desk knows its world */
-    bool utf8;                  /* the terminal shows its characters */
+    uint64_t spark_frame;       /* frame of the last sample */
+    bool begun;                 /* the state is set up for the world */
+    bool utf8;                  /* the terminal shows UTF-8 */
     char event[SCREEN_EVENTS][SCREEN_EVENT_MAX]; /* a ring, [event_count % SCREEN_EVENTS] next */
     uint64_t event_count;
 };
 
-/* Takes the terminal over; -1 with the reason when its type is not known. */
+/* Starts curses. Returns 0, or -1 with the error if the terminal's type is not known. */
 int screen_open(struct screen *screen, struct error_text *error);
 
-/* Gives it back as it was. */
+/* Restores the terminal. */
 void screen_close(struct screen *screen);
 
-/* Adds a line to the events; a event_merge_print with a struct screen as context. */
+/* An event_merge_print whose context is a struct screen: adds a line to the events. */
 bool screen_event(void *screen, const char *line);
 
-/* Notes how long frames take now. */
+/* Adds the latest frame time to the sparkline. */
 void screen_sample(struct screen *screen, const struct world_mirror *mirror);
 
 void screen_draw(struct screen *screen, const struct world_mirror *mirror, uint64_t now_ns);
 
-/* Takes the keys that were pressed; true when there were any. desk.quit says the rest. Does not
- * block. */
+/* Handles the keys that were pressed and returns true if there were any. Does not block. */
 bool screen_keys(struct screen *screen, const struct world_mirror *mirror);
 
 #endif

@@ -1,4 +1,4 @@
-/* Keys and what they change. */
+/* How keys change the state. */
 #include "clients/monitor/screen_state.h"
 
 #include "world/maths/maths.h"
@@ -94,7 +94,7 @@ static void events_key(struct screen_state *state, int key)
     else if (key == SCREEN_STATE_END)
         state->back = 0;
     else if (key == SCREEN_STATE_HOME)
-        state->back = UINT32_MAX; /* drawing stops at the oldest */
+        state->back = UINT32_MAX; /* drawing limits it to the oldest event */
 }
 
 static void map_key(struct screen_state *state, int key, double side_m)

@@ -1,4 +1,4 @@
-/* The desk: what somebody at the screen looks at, and what a key makes of that. Pure. */
+/* The state of the screen: page, filters, sorting, selection, map; and how keys change it. Pure. */
 #ifndef JOLON_CLIENTS_MONITOR_SCREEN_STATE_H
 #define JOLON_CLIENTS_MONITOR_SCREEN_STATE_H
 
@@ -17,7 +17,7 @@ enum screen_state_page {
     SCREEN_STATE_PAGES
 };
 
-/* Keys that are no characters. */
+/* Keys that are not characters. */
 enum screen_state_key {
     SCREEN_STATE_UP = 256,
     SCREEN_STATE_DOWN,
@@ -33,7 +33,7 @@ enum screen_state_key {
     SCREEN_STATE_TAB
 };
 
-#define SCREEN_STATE_ZOOM_MAX 9 /* times two: 50 km down to 98 m */
+#define SCREEN_STATE_ZOOM_MAX 9 /* each step halves the width: 50 km down to 98 m */
 
 struct screen_state {
     enum screen_state_page page;
@@ -43,33 +43,33 @@ struct screen_state {
     enum vehicle_table_column sort;
     bool descending;
     uint32_t selected;     /* id of a vehicle, 0: none */
-    bool follow;           /* the map stays about the chosen one */
+    bool follow;           /* the map stays centred on the selected vehicle */
     uint32_t first;        /* row of the table at the top */
     uint64_t back;         /* events between the last one shown and the newest */
-    double x, z;           /* [m] the map's middle */
-    int zoom;              /* 0: the whole square */
-    uint32_t page_rows;    /* what the screen had room for when it was last drawn */
-    uint32_t selected_row; /* of the table; its count when the chosen one is not in it */
-    uint32_t table_count;  /* rows of it */
+    double x, z;           /* [m] the map's centre */
+    int zoom;              /* 0: the whole world */
+    uint32_t page_rows;    /* rows of the page when it was last drawn */
+    uint32_t selected_row; /* in the table; table_count if it is not in the table */
+    uint32_t table_count;  /* rows of the table */
 };
 
-/* As it is at the start, of a world of side_m. */
+/* Sets the state for the start, in a world of side_m. */
 void screen_state_begin(struct screen_state *state, double side_m);
 
-/* What a key does: a character, or an enum screen_state_key. Returns the way that the choice moves
- * in the table: 0, or rows down or up; the caller knows the ids. */
+/* Handles a key: a character or an enum screen_state_key. Returns by how many rows the selection
+ * is to move down (positive) or up; the caller then calls screen_state_select(). */
 int screen_state_key(struct screen_state *state, int key, double side_m);
 
-/* After the table was built: the chosen one's row, and the row at the top moved so that it shows.
- */
+/* Called after the table was built: finds the row of the selected vehicle and scrolls so that it is
+ * visible. */
 void screen_state_table(struct screen_state *state, const struct vehicle_table *table,
                         const struct world_mirror *mirror, uint32_t page_rows);
 
-/* Moves the choice by rows in the table. */
+/* Moves the selection by rows in the table. */
 void screen_state_select(struct screen_state *state, const struct vehicle_table *table,
                          const struct world_mirror *mirror, int rows);
 
-/* What the map shows; about the chosen one when it is followed and there. */
+/* Returns the area that the map shows, after centring it on a vehicle that is followed. */
 struct character_map_area screen_state_area(struct screen_state *state,
                                             const struct world_mirror *mirror, double side_m);
 

@@ -1,4 +1,4 @@
-/* Bars of frame times. */
+/* Draws frame times as bars. */
 #include "clients/monitor/sparkline.h"
 
 #include <string.h>
@@ -17,7 +17,7 @@ static size_t kept(const struct sparkline *sparkline, size_t wanted)
     return wanted < stored ? wanted : stored;
 }
 
-/* The nth of the last so many, the oldest first. */
+/* Sample n of the last `last` ones, the oldest first. */
 static double sample(const struct sparkline *sparkline, size_t last, size_t n)
 {
     return (double)sparkline->sample[(sparkline->count - last + n) % SPARKLINE_SAMPLES];

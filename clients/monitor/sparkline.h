@@ -1,4 +1,4 @@
-/* The sparkline: how long frames took, sample after sample, as a row of bars. Pure. */
+/* A sparkline: frame times as a row of bars. Pure. */
 #ifndef JOLON_CLIENTS_MONITOR_SPARKLINE_H
 #define JOLON_CLIENTS_MONITOR_SPARKLINE_H
 
@@ -16,12 +16,12 @@ struct sparkline {
 
 void sparkline_add(struct sparkline *sparkline, double value);
 
-/* The last samples, at most columns of them, the newest at the right: from nothing to a full bar at
- * full; '!' for what is above it. In the eighths of a block of UTF-8, or plain letters. */
+/* Writes at most `columns` of the last samples, the newest at the right. The value `full` is a full
+ * bar; a greater one is '!'. utf8: uses the eighths of a block instead of ASCII characters. */
 void sparkline_text(char text[SPARKLINE_TEXT_MAX], const struct sparkline *sparkline,
                     size_t columns, double full, bool utf8);
 
-/* The greatest of the last samples, 0 of none. */
+/* Returns the greatest of the last samples, 0 if there are none. */
 double sparkline_max(const struct sparkline *sparkline, size_t samples);
 
 #endif

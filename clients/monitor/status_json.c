@@ -1,5 +1,4 @@
-/* JSON of the status. Where cJSON has no memory it makes nothing of nothing, and the
- * text at the end is missing: only that needs a look. */
+/* Writes the status as JSON. */
 #include "clients/monitor/status_json.h"
 
 #include "clients/monitor/vehicle_table.h"
@@ -45,7 +44,7 @@ static void add_counters(cJSON *object, const jolon_FrameStatus *frame)
     json_whole(object, "events_dropped", frame->tally.events_dropped);
 }
 
-/* False when there was no memory for it. */
+/* Returns false if there is no memory for the table. */
 static bool add_vehicles(cJSON *object, const struct world_mirror *mirror, const char *filter)
 {
     struct vehicle_table table = {0};

@@ -1,12 +1,12 @@
-/* What the monitor prints as JSON: the shapes of `jolon status --json` and `jolon events --json`,
- * with more in them. Pure. */
+/* The status as JSON: the members of `jolon status --json` and more. Pure. */
 #ifndef JOLON_CLIENTS_MONITOR_STATUS_JSON_H
 #define JOLON_CLIENTS_MONITOR_STATUS_JSON_H
 
 #include "ipc/topics/world_mirror.h"
 
-/* The status as one object, without a newline, NULL when there is no memory; for cJSON_free(). With
- * a filter also the vehicles that suit it (vehicle_table_matches()), by their ids. */
+/* Returns the status as an object without a newline, to be freed with cJSON_free(), or NULL if
+ * there is no memory. With a filter it lists the vehicles that match it
+ * (vehicle_table_matches()), sorted by id. */
 char *status_json(const struct world_mirror *mirror, const char *filter, uint64_t now_ns);
 
 #endif

@@ -1,4 +1,4 @@
-/* The status and the events as lines of text. */
+/* Writes the status as lines of text. */
 #include "clients/monitor/status_lines.h"
 
 #include "ipc/process/clock.h"
@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* "59.9 of 60.0 Hz", or without the second number when frames are made as fast as can be */
+/* "59.9 of 60.0 Hz"; without the second number if the world does not run in real time. */
 static const char *rate_text(char text[EVENT_LINES_CLOCK_MAX], const struct world_mirror *mirror)
 {
     const jolon_FrameStatus *frame = &mirror->frame;

@@ -1,4 +1,4 @@
-/* What the monitor says in words: lines of text for the screen, the line mode and --once. Pure. */
+/* The status as lines of text for the screen, the line mode and --once. Pure. */
 #ifndef JOLON_CLIENTS_MONITOR_STATUS_LINES_H
 #define JOLON_CLIENTS_MONITOR_STATUS_LINES_H
 
@@ -6,17 +6,17 @@
 
 #define STATUS_LINES_MAX 256u
 
-/* "running  frame 12345  00:03:25.7  60.0 of 60.0 Hz ...": everything in one line. */
+/* The whole status in a line: "running  frame 12345  00:03:25.7  60.0 of 60.0 Hz ...". */
 void status_lines_status(char line[STATUS_LINES_MAX], const struct world_mirror *mirror,
                          uint64_t now_ns);
 
-/* The same in three lines. */
+/* The status in three lines. */
 void status_lines_world(char line[STATUS_LINES_MAX], const struct world_mirror *mirror,
                         uint64_t now_ns);
 void status_lines_frame(char line[STATUS_LINES_MAX], const struct world_mirror *mirror);
 void status_lines_counts(char line[STATUS_LINES_MAX], const struct world_mirror *mirror);
 
-/* A table of the processes. */
+/* The head and a row of the table of processes. */
 void status_lines_process_head(char line[STATUS_LINES_MAX]);
 void status_lines_process(char line[STATUS_LINES_MAX], const jolon_ProcessStatus *status);
 

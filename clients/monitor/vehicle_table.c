@@ -1,4 +1,4 @@
-/* Rows of vehicles: filtered, sorted, written. */
+/* Filters, sorts and writes the rows. */
 #include "clients/monitor/vehicle_table.h"
 
 #include "world/entity/entity.h"
@@ -13,7 +13,7 @@
 
 static const struct {
     const char *name;
-    int width; /* negative: to the left */
+    int width; /* negative: aligned to the left */
 } columns[VEHICLE_TABLE_COLUMNS] = {
     [VEHICLE_TABLE_ID] = {"id", 6},
     [VEHICLE_TABLE_KIND] = {"kind", -12},
@@ -39,7 +39,7 @@ static double speed_of(const jolon_Entity *entity)
     return sqrt(x * x + y * y + z * z);
 }
 
-/* What a column of numbers says; NAN of the others. */
+/* The value in a column of numbers; NAN for the other columns. */
 static double number_of(const jolon_Entity *entity, enum vehicle_table_column column)
 {
     switch (column) {
@@ -91,7 +91,8 @@ static bool contains(const char *text, const char *part, size_t length)
     return false;
 }
 
-/* "speed>10": the sign is at word + sign. A column that there is not, or no number, suits none. */
+/* A comparison like "speed>10", whose sign is at word + sign. False if there is no such column or
+ * no number. */
 static bool compares(const jolon_Entity *entity, const char *word, size_t sign, size_t length)
 {
     char text[VEHICLE_TABLE_FILTER_MAX], *end;
@@ -136,7 +137,7 @@ bool vehicle_table_matches(const struct world_mirror *mirror, const jolon_Entity
         size_t length = strcspn(filter, " ");
         if (length >= VEHICLE_TABLE_FILTER_MAX ||
             (length > 0 && !word_matches(mirror, entity, filter, length)))
-            return false; /* nothing has so long a name */
+            return false; /* no text is that long */
         wants_flight |= length == 6 && strncasecmp(filter, "flight", length) == 0;
         filter += length;
         filter += strspn(filter, " ");
@@ -207,7 +208,8 @@ void vehicle_table_head(char line[VEHICLE_TABLE_LINE_MAX], enum vehicle_table_co
     size_t used = 0;
     for (int i = 0; i < VEHICLE_TABLE_COLUMNS; i++) {
         char arrow = (int)sort != i ? ' ' : descending ? 'v' : '^';
-        /* Beside a name that leaves room in its column, else in the gap behind it. */
+        /* The arrow stands beside a name that leaves room in its column, or else after the column.
+         */
         bool inside = columns[i].width < -(int)strlen(columns[i].name);
         char name[24];
         (void)snprintf(name, sizeof name, "%s%c", columns[i].name, inside ? arrow : '\0');

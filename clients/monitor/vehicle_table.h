@@ -1,4 +1,4 @@
-/* The table of vehicles: which of them are shown, in which order, and what a row says. Pure. */
+/* The table of vehicles: filtering, sorting and the text of the rows. Pure. */
 #ifndef JOLON_CLIENTS_MONITOR_VEHICLE_TABLE_H
 #define JOLON_CLIENTS_MONITOR_VEHICLE_TABLE_H
 
@@ -32,25 +32,23 @@ struct vehicle_table {
 
 const char *vehicle_table_column_name(enum vehicle_table_column column);
 
-/* Does an entity suit a filter? Words, of which each must suit: part of its name, kind, force,
- * behaviour, damage or state, its id, or a comparison with a column of numbers as "speed>10" or
- * "rounds<5".
- * "" suits all. Munitions in flight suit none but "flight". */
+/* Returns true if the entity matches each word of the filter. A word is a part of the name, kind,
+ * force, behaviour, damage or state, the id, or a comparison with a column of numbers like
+ * "speed>10" or "rnds<5". Munitions in flight match only if a word is "flight". */
 bool vehicle_table_matches(const struct world_mirror *mirror, const jolon_Entity *entity,
                            const char *filter);
 
-/* Fills the table anew from the mirror's batch; equal rows by their ids. False when there was no
- * memory: the table is empty then. */
+/* Fills the table from the mirror's batch. Rows that are equal in the sorted column are sorted by
+ * id. Returns false, with an empty table, if there is no memory. */
 bool vehicle_table_build(struct vehicle_table *table, const struct world_mirror *mirror,
                          const char *filter, enum vehicle_table_column sort, bool descending);
 void vehicle_table_free(struct vehicle_table *table);
 
-/* The place of an id in the table, table->count when it is not in it. */
+/* Returns the row of an id, or table->count if it is not in the table. */
 uint32_t vehicle_table_find(const struct vehicle_table *table, const struct world_mirror *mirror,
                             uint32_t id);
 
-/* The head, with an arrow at the column that is sorted by, and a row: 80 columns, and then the
- * name of a vehicle that has one. */
+/* The head, with an arrow at the sorted column, and a row: 80 columns, then the vehicle's name. */
 void vehicle_table_head(char line[VEHICLE_TABLE_LINE_MAX], enum vehicle_table_column sort,
                         bool descending);
 void vehicle_table_line(char line[VEHICLE_TABLE_LINE_MAX], const struct world_mirror *mirror,
