@@ -223,7 +223,7 @@ static void derive(struct load *load)
     params->crater_slots = CRATER_SLOTS;
     params->dent_slots = DENT_SLOTS;
     params->scenario_hash = XXH3_64bits_digest(load->hash);
-    /* Of a path that is too long the end is kept, which tells people more than its beginning. */
+    /* The end of a path that is too long is kept, as it says more than the beginning. */
     if (length < PATH_TEXT_MAX)
         memcpy(params->scenario, path, length + 1);
     else

@@ -164,7 +164,7 @@ int connected_pieces_find(struct connected_pieces *pieces, const struct scenario
         struct piece *piece = &pieces->piece[i];
         result = thicken(piece);
         if (result == 0)
-            result = convex_hull_points(&piece->wrap, piece->point, piece->count);
+            result = convex_hull_points(&piece->hull, piece->point, piece->count);
     }
     return result;
 }
@@ -172,7 +172,7 @@ int connected_pieces_find(struct connected_pieces *pieces, const struct scenario
 static void drop(struct piece *piece)
 {
     free(piece->point);
-    convex_hull_free(&piece->wrap);
+    convex_hull_free(&piece->hull);
     memset(piece, 0, sizeof(*piece));
 }
 
@@ -183,7 +183,7 @@ void connected_pieces_free(struct connected_pieces *pieces)
     pieces->count = 0;
 }
 
-int connected_pieces_join(struct piece *piece, struct piece *other, struct convex_hull *wrap)
+int connected_pieces_join(struct piece *piece, struct piece *other, struct convex_hull *hull)
 {
     void *table = piece->point;
     struct vec3 *point = table_extend(&table, &piece->count, other->count, sizeof(*point));
@@ -192,10 +192,10 @@ int connected_pieces_join(struct piece *piece, struct piece *other, struct conve
     piece->point = table;
     memcpy(point, other->point, other->count * sizeof(*point));
     drop(other);
-    if (wrap != NULL) {
-        convex_hull_free(&piece->wrap);
-        piece->wrap = *wrap;
-        memset(wrap, 0, sizeof(*wrap));
+    if (hull != NULL) {
+        convex_hull_free(&piece->hull);
+        piece->hull = *hull;
+        memset(hull, 0, sizeof(*hull));
     }
     return 0;
 }

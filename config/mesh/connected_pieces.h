@@ -22,7 +22,7 @@ struct scenario;
 struct piece {
     struct vec3 *point; /* every corner */
     uint32_t count;     /* 0: it was joined to another piece */
-    struct convex_hull wrap;
+    struct convex_hull hull;
 };
 
 struct connected_pieces {
@@ -36,8 +36,8 @@ int connected_pieces_find(struct connected_pieces *pieces, const struct scenario
                           const struct model *model);
 void connected_pieces_free(struct connected_pieces *pieces);
 
-/* Moves the points of another piece to a piece. wrap: the hull of both, which the piece then owns;
+/* Moves the points of another piece to a piece. hull: the hull of both, which the piece then owns;
  * NULL: the hull of the piece holds the other. 0; -1 with errno ENOMEM. */
-int connected_pieces_join(struct piece *piece, struct piece *other, struct convex_hull *wrap);
+int connected_pieces_join(struct piece *piece, struct piece *other, struct convex_hull *hull);
 
 #endif

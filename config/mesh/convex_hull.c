@@ -242,33 +242,33 @@ static double volume_of(const struct wrapping *w)
 }
 
 /* Copies the hull, with new indices of its points, into memory of the right size. */
-static int finish(struct convex_hull *wrap, const struct wrapping *w)
+static int finish(struct convex_hull *hull, const struct wrapping *w)
 {
     uint32_t *number = calloc(w->count, sizeof(*number)); /* new index + 1; 0: not a vertex */
-    wrap->point = malloc(w->count * sizeof(*wrap->point));
-    wrap->face = malloc(w->face_count * sizeof(*wrap->face));
-    if (number == NULL || wrap->point == NULL || wrap->face == NULL) {
+    hull->point = malloc(w->count * sizeof(*hull->point));
+    hull->face = malloc(w->face_count * sizeof(*hull->face));
+    if (number == NULL || hull->point == NULL || hull->face == NULL) {
         free(number);
-        convex_hull_free(wrap);
+        convex_hull_free(hull);
         return -1;
     }
-    wrap->face_count = w->face_count;
-    memcpy(wrap->face, w->face, w->face_count * sizeof(*wrap->face));
-    for (uint32_t i = 0; i < wrap->face_count; i++) {
+    hull->face_count = w->face_count;
+    memcpy(hull->face, w->face, w->face_count * sizeof(*hull->face));
+    for (uint32_t i = 0; i < hull->face_count; i++) {
         for (int k = 0; k < 3; k++) {
-            uint32_t *corner = &wrap->face[i].corner[k];
+            uint32_t *corner = &hull->face[i].corner[k];
             if (number[*corner] == 0) {
-                wrap->point[wrap->point_count++] = w->point[*corner];
-                number[*corner] = wrap->point_count;
+                hull->point[hull->point_count++] = w->point[*corner];
+                number[*corner] = hull->point_count;
             }
             *corner = number[*corner] - 1;
         }
     }
     free(number);
-    for (uint32_t i = 0; i < wrap->point_count; i++)
-        wrap->middle = vec3_add(wrap->middle, wrap->point[i]);
-    wrap->middle = vec3_scale(wrap->middle, 1.0 / wrap->point_count);
-    wrap->volume_m3 = volume_of(w);
+    for (uint32_t i = 0; i < hull->point_count; i++)
+        hull->middle = vec3_add(hull->middle, hull->point[i]);
+    hull->middle = vec3_scale(hull->middle, 1.0 / hull->point_count);
+    hull->volume_m3 = volume_of(w);
     return 0;
 }
 
@@ -329,7 +329,7 @@ static int rank_points(struct vec3 *to, const struct vec3 *point, uint32_t count
     return 0;
 }
 
-static int convex_hull_ranked(struct wrapping *w, struct convex_hull *wrap)
+static int convex_hull_ranked(struct wrapping *w, struct convex_hull *hull)
 {
     struct span span = span_of(w->point, w->count, CONVEX_HULL_THIN_M);
     if (span.axes < 3) {
@@ -337,29 +337,29 @@ static int convex_hull_ranked(struct wrapping *w, struct convex_hull *wrap)
         return -1;
     }
     begin(w, &span);
-    return add_points(w, 0) == 0 ? finish(wrap, w) : -1;
+    return add_points(w, 0) == 0 ? finish(hull, w) : -1;
 }
 
-int convex_hull_points(struct convex_hull *wrap, const struct vec3 *point, uint32_t count)
+int convex_hull_points(struct convex_hull *hull, const struct vec3 *point, uint32_t count)
 {
     struct wrapping w;
     int result = -1;
-    memset(wrap, 0, sizeof(*wrap));
+    memset(hull, 0, sizeof(*hull));
     if (count == 0) {
         errno = EDOM;
         return -1;
     }
     if (open_wrapping(&w, count) == 0 && rank_points(w.point, point, count) == 0)
-        result = convex_hull_ranked(&w, wrap);
+        result = convex_hull_ranked(&w, hull);
     close_wrapping(&w);
     return result;
 }
 
-void convex_hull_free(struct convex_hull *wrap)
+void convex_hull_free(struct convex_hull *hull)
 {
-    free(wrap->point);
-    free(wrap->face);
-    memset(wrap, 0, sizeof(*wrap));
+    free(hull->point);
+    free(hull->face);
+    memset(hull, 0, sizeof(*hull));
 }
 
 /* --- two hulls ---------------------------------------------------------------------------------*/
@@ -376,14 +376,14 @@ static int add_both(struct wrapping *w, const struct convex_hull *a, const struc
     return add_points(w, large->point_count);
 }
 
-int convex_hull_both(struct convex_hull *wrap, const struct convex_hull *a,
+int convex_hull_both(struct convex_hull *hull, const struct convex_hull *a,
                      const struct convex_hull *b)
 {
     struct wrapping w;
     int result = -1;
-    memset(wrap, 0, sizeof(*wrap));
+    memset(hull, 0, sizeof(*hull));
     if (open_wrapping(&w, a->point_count + b->point_count) == 0 && add_both(&w, a, b) == 0)
-        result = finish(wrap, &w);
+        result = finish(hull, &w);
     close_wrapping(&w);
     return result;
 }
@@ -400,11 +400,11 @@ int convex_hull_volume(double *volume_m3, const struct convex_hull *a, const str
     return result;
 }
 
-double convex_hull_growth(const struct convex_hull *wrap, struct vec3 point)
+double convex_hull_growth(const struct convex_hull *hull, struct vec3 point)
 {
     double growth = 0.0;
-    for (uint32_t i = 0; i < wrap->face_count; i++) {
-        const struct convex_hull_face *face = &wrap->face[i];
+    for (uint32_t i = 0; i < hull->face_count; i++) {
+        const struct convex_hull_face *face = &hull->face[i];
         double above = vec3_dot(face->normal, point) - face->offset_m;
         if (above > 0.0)
             growth += above * face->area_m2;

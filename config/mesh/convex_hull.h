@@ -49,16 +49,16 @@ int convex_hull_missing(const struct vec3 *point, uint32_t count, double least_m
 
 /* Makes the hull of points, in any order; a point may be given twice. 0; -1 with errno ENOMEM, EDOM
  * (the points span fewer than three axes by CONVEX_HULL_THIN_M) or ERANGE. */
-int convex_hull_points(struct convex_hull *wrap, const struct vec3 *point, uint32_t count);
-void convex_hull_free(struct convex_hull *wrap);
+int convex_hull_points(struct convex_hull *hull, const struct vec3 *point, uint32_t count);
+void convex_hull_free(struct convex_hull *hull);
 
 /* The hull around two hulls, and its volume alone. Errors as above. */
-int convex_hull_both(struct convex_hull *wrap, const struct convex_hull *a,
+int convex_hull_both(struct convex_hull *hull, const struct convex_hull *a,
                      const struct convex_hull *b);
 int convex_hull_volume(double *volume_m3, const struct convex_hull *a, const struct convex_hull *b);
 
 /* The volume that a hull would gain with this point [m3]; 0: the point is inside. */
-double convex_hull_growth(const struct convex_hull *wrap, struct vec3 point);
+double convex_hull_growth(const struct convex_hull *hull, struct vec3 point);
 
 /* Returns true if no point of inner is outside of outer by more than slack_m. */
 bool convex_hull_holds(const struct convex_hull *outer, const struct convex_hull *inner,

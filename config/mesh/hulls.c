@@ -40,7 +40,7 @@ static int take_inside(struct joining *joining, uint32_t outer)
     struct connected_pieces *pieces = joining->pieces;
     for (uint32_t i = 0; pieces->piece[outer].count > 0 && i < pieces->count; i++) {
         if (i == outer || pieces->piece[i].count == 0 ||
-            !convex_hull_holds(&pieces->piece[outer].wrap, &pieces->piece[i].wrap, NESTED_M))
+            !convex_hull_holds(&pieces->piece[outer].hull, &pieces->piece[i].hull, NESTED_M))
             continue;
         if (connected_pieces_join(&pieces->piece[outer], &pieces->piece[i], NULL) != 0)
             return -1;
@@ -49,20 +49,21 @@ static int take_inside(struct joining *joining, uint32_t outer)
     return 0;
 }
 
-/* A lower bound of the cost: the common hull has at least wrap and the furthest point of other. */
-static double least_cost(const struct convex_hull *wrap, const struct convex_hull *other)
+/* A lower bound of the cost: the common hull holds at least this hull and the furthest point of the
+ * other. */
+static double least_cost(const struct convex_hull *hull, const struct convex_hull *other)
 {
     struct vec3 furthest = other->point[0];
     double most = 0.0;
     for (uint32_t i = 0; i < other->point_count; i++) {
-        struct vec3 out = vec3_sub(other->point[i], wrap->middle);
+        struct vec3 out = vec3_sub(other->point[i], hull->middle);
         double far = vec3_dot(out, out);
         if (far > most) {
             most = far;
             furthest = other->point[i];
         }
     }
-    return convex_hull_growth(wrap, furthest) - other->volume_m3;
+    return convex_hull_growth(hull, furthest) - other->volume_m3;
 }
 
 /* Sets the lower bounds of piece i with every piece from `from` on. */
@@ -73,8 +74,8 @@ static void guess_joints(const struct joining *joining, uint32_t i, uint32_t fro
         if (j == i || piece[j].count == 0)
             continue;
         *joint_of(joining, i, j) = (struct joint){
-            maths_max(least_cost(&piece[i].wrap, &piece[j].wrap),
-                      least_cost(&piece[j].wrap, &piece[i].wrap)),
+            maths_max(least_cost(&piece[i].hull, &piece[j].hull),
+                      least_cost(&piece[j].hull, &piece[i].hull)),
             false,
         };
     }
@@ -82,8 +83,8 @@ static void guess_joints(const struct joining *joining, uint32_t i, uint32_t fro
 
 static int measure_joint(const struct joining *joining, uint32_t i, uint32_t j)
 {
-    const struct convex_hull *a = &joining->pieces->piece[i].wrap,
-                             *b = &joining->pieces->piece[j].wrap;
+    const struct convex_hull *a = &joining->pieces->piece[i].hull,
+                             *b = &joining->pieces->piece[j].hull;
     double volume;
     if (convex_hull_volume(&volume, a, b) != 0)
         return -1;
@@ -95,7 +96,7 @@ static int join(struct joining *joining, uint32_t i, uint32_t j)
 {
     struct piece *a = &joining->pieces->piece[i], *b = &joining->pieces->piece[j];
     struct convex_hull both;
-    if (convex_hull_both(&both, &a->wrap, &b->wrap) != 0)
+    if (convex_hull_both(&both, &a->hull, &b->hull) != 0)
         return -1;
     if (connected_pieces_join(a, b, &both) != 0) {
         convex_hull_free(&both);
@@ -175,7 +176,7 @@ struct shell {
     uint32_t vertices;
     struct hull_plane *plane; /* in order of their normals */
     uint32_t planes;
-    uint32_t *plane_of; /* [wrap.face_count], while the shell is made */
+    uint32_t *plane_of; /* [face_count of the piece's hull], while the shell is made */
 };
 
 static void shell_free(struct shell *shell)
@@ -200,11 +201,11 @@ static int compare_planes(const void *left, const void *right)
     return normals != 0 ? normals : (a->offset_m > b->offset_m) - (a->offset_m < b->offset_m);
 }
 
-static bool lies_on(const struct hull_plane *plane, const struct convex_hull *wrap,
+static bool lies_on(const struct hull_plane *plane, const struct convex_hull *hull,
                     const struct convex_hull_face *face)
 {
     for (int k = 0; k < 3; k++) {
-        double above = vec3_dot(plane->normal, wrap->point[face->corner[k]]) - plane->offset_m;
+        double above = vec3_dot(plane->normal, hull->point[face->corner[k]]) - plane->offset_m;
         if (fabs(above) > HULLS_FLAT_M)
             return false;
     }
@@ -212,13 +213,13 @@ static bool lies_on(const struct hull_plane *plane, const struct convex_hull *wr
 }
 
 /* Finds the plane of each face: that of the largest face in whose plane it lies. */
-static void find_planes(struct shell *shell, struct convex_hull *wrap)
+static void find_planes(struct shell *shell, struct convex_hull *hull)
 {
-    qsort(wrap->face, wrap->face_count, sizeof(*wrap->face), compare_areas);
-    for (uint32_t i = 0; i < wrap->face_count; i++) {
-        const struct convex_hull_face *face = &wrap->face[i];
+    qsort(hull->face, hull->face_count, sizeof(*hull->face), compare_areas);
+    for (uint32_t i = 0; i < hull->face_count; i++) {
+        const struct convex_hull_face *face = &hull->face[i];
         uint32_t plane = 0;
-        while (plane < shell->planes && !lies_on(&shell->plane[plane], wrap, face))
+        while (plane < shell->planes && !lies_on(&shell->plane[plane], hull, face))
             plane++;
         if (plane == shell->planes)
             shell->plane[shell->planes++] = (struct hull_plane){face->normal, face->offset_m};
@@ -227,11 +228,11 @@ static void find_planes(struct shell *shell, struct convex_hull *wrap)
 }
 
 /* Returns true for a corner of three planes or more. Other points are within a face or an edge. */
-static bool is_corner(const struct shell *shell, const struct convex_hull *wrap, uint32_t point)
+static bool is_corner(const struct shell *shell, const struct convex_hull *hull, uint32_t point)
 {
     uint32_t seen[2] = {UINT32_MAX, UINT32_MAX};
-    for (uint32_t i = 0; i < wrap->face_count; i++) {
-        const struct convex_hull_face *face = &wrap->face[i];
+    for (uint32_t i = 0; i < hull->face_count; i++) {
+        const struct convex_hull_face *face = &hull->face[i];
         uint32_t plane = shell->plane_of[i];
         if (face->corner[0] != point && face->corner[1] != point && face->corner[2] != point)
             continue;
@@ -258,17 +259,17 @@ static void hold_points(struct shell *shell, const struct piece *piece)
 
 static int shell_make(struct shell *shell, struct piece *piece)
 {
-    struct convex_hull *wrap = &piece->wrap;
+    struct convex_hull *hull = &piece->hull;
     memset(shell, 0, sizeof(*shell));
-    shell->vertex = malloc(wrap->point_count * sizeof(*shell->vertex));
-    shell->plane = malloc(wrap->face_count * sizeof(*shell->plane));
-    shell->plane_of = malloc(wrap->face_count * sizeof(*shell->plane_of));
+    shell->vertex = malloc(hull->point_count * sizeof(*shell->vertex));
+    shell->plane = malloc(hull->face_count * sizeof(*shell->plane));
+    shell->plane_of = malloc(hull->face_count * sizeof(*shell->plane_of));
     if (shell->vertex == NULL || shell->plane == NULL || shell->plane_of == NULL)
         return -1;
-    find_planes(shell, wrap);
-    for (uint32_t i = 0; i < wrap->point_count; i++) {
-        if (is_corner(shell, wrap, i))
-            shell->vertex[shell->vertices++] = wrap->point[i];
+    find_planes(shell, hull);
+    for (uint32_t i = 0; i < hull->point_count; i++) {
+        if (is_corner(shell, hull, i))
+            shell->vertex[shell->vertices++] = hull->point[i];
     }
     qsort(shell->vertex, shell->vertices, sizeof(*shell->vertex), convex_hull_compare);
     qsort(shell->plane, shell->planes, sizeof(*shell->plane), compare_planes);
@@ -362,7 +363,7 @@ static int outer_make(struct shell *shell, const struct connected_pieces *pieces
     uint32_t count = 0, taken = 0;
     int result = -1;
     for (uint32_t i = 0; i < pieces->count; i++)
-        count += pieces->piece[i].wrap.point_count;
+        count += pieces->piece[i].hull.point_count;
     if (count == 0) {
         errno = EDOM; /* as convex_hull_points() would say */
         return -1;
@@ -371,14 +372,14 @@ static int outer_make(struct shell *shell, const struct connected_pieces *pieces
     if (point == NULL)
         return -1;
     for (uint32_t i = 0; i < pieces->count; i++) {
-        const struct convex_hull *wrap = &pieces->piece[i].wrap;
-        memcpy(point + taken, wrap->point, wrap->point_count * sizeof(*point));
-        taken += wrap->point_count;
+        const struct convex_hull *hull = &pieces->piece[i].hull;
+        memcpy(point + taken, hull->point, hull->point_count * sizeof(*point));
+        taken += hull->point_count;
     }
     struct piece all = {.point = point, .count = count};
-    if (convex_hull_points(&all.wrap, all.point, all.count) == 0) {
+    if (convex_hull_points(&all.hull, all.point, all.count) == 0) {
         result = shell_make(shell, &all);
-        convex_hull_free(&all.wrap);
+        convex_hull_free(&all.hull);
     }
     free(point);
     return result;

@@ -2,7 +2,6 @@
 #include "config/syntax/schema_internal.h"
 #include "world/entity/entity.h"
 #include "world/enum_names.h"
-#include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
 #include "world/param_values.h"
 
@@ -163,5 +162,5 @@ static const struct key scenario_keys[] = {
 };
 #undef S
 const struct key_table schema_scenario = {"", scenario_keys, COUNT(scenario_keys),
-                                          sizeof(struct scenario)};
+                                          sizeof(struct scenario_settings)};
 _Static_assert(COUNT(scenario_keys) <= 64, "key_reading.given is one word");

@@ -40,4 +40,9 @@
 #define PLACE(key, of_type, how, D, field, ...)                                                    \
     ROW(key, of_type, how, D, field, .low = 0.0, .high = WORLD_SIDE_M, .unit = "m", __VA_ARGS__)
 
+/* Defines the table of an entry's rows, with a row for each of `count` keys. */
+#define KEY_TABLE(table, path, rows, D, count)                                                     \
+    _Static_assert(COUNT(rows) == (count), "a row for each key");                                  \
+    const struct key_table table = {path, rows, COUNT(rows), sizeof(D)}
+
 #endif

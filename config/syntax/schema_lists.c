@@ -100,10 +100,8 @@ static const struct key vehicle_keys[] = {
     [VEHICLE_SPACING] = NUMBER("spacing_m", V, spacing_m, 1, 5000, "50", .unit = "m",
                                .meaning = "The distance between neighbours in a formation."),
 };
+KEY_TABLE(schema_vehicle, "vehicles", vehicle_keys, V, VEHICLE_KEY_COUNT);
 #undef V
-const struct key_table schema_vehicle = {"vehicles", vehicle_keys, COUNT(vehicle_keys),
-                                         sizeof(struct vehicle_entry)};
-_Static_assert(COUNT(vehicle_keys) == VEHICLE_KEY_COUNT, "a row for each vehicle_key");
 
 #define C struct script_entry
 static const struct key script_keys[] = {
@@ -123,10 +121,8 @@ static const struct key script_keys[] = {
                            "its kind does, and then goes on with the script. false: only a "
                            "collision or an empty fuel tank interrupts the script."),
 };
+KEY_TABLE(schema_script, "scripts", script_keys, C, SCRIPT_KEY_COUNT);
 #undef C
-const struct key_table schema_script = {"scripts", script_keys, COUNT(script_keys),
-                                        sizeof(struct script_entry)};
-_Static_assert(COUNT(script_keys) == SCRIPT_KEY_COUNT, "a row for each script_key");
 
 #define T struct step_entry
 static const struct key step_keys[] = {
@@ -185,10 +181,8 @@ static const struct key step_keys[] = {
                           "beside `go`, `arrive`, `face_deg` or `wait_s`, or alone in a step that "
                           "ends at that height."),
 };
+KEY_TABLE(schema_step, "steps", step_keys, T, STEP_KEY_COUNT);
 #undef T
-const struct key_table schema_step = {"steps", step_keys, COUNT(step_keys),
-                                      sizeof(struct step_entry)};
-_Static_assert(COUNT(step_keys) == STEP_KEY_COUNT, "a row for each step_key");
 
 #define B struct base_entry
 static const struct key base_keys[] = {
@@ -200,10 +194,8 @@ static const struct key base_keys[] = {
                                  "without an entry is where its land vehicle starts that is "
                                  "nearest to the middle of the force."),
 };
+KEY_TABLE(schema_base, "bases", base_keys, B, BASE_KEY_COUNT);
 #undef B
-const struct key_table schema_base = {"bases", base_keys, COUNT(base_keys),
-                                      sizeof(struct base_entry)};
-_Static_assert(COUNT(base_keys) == BASE_KEY_COUNT, "a row for each base_key");
 
 #define O struct object_entry
 static const struct key object_keys[] = {
@@ -215,10 +207,8 @@ static const struct key object_keys[] = {
         SCALED("heading_deg", O, heading_rad, -360, 360, RAD_PER_DEG, "0", .unit = "degrees",
                .meaning = "The heading of the object, clockwise from north."),
 };
+KEY_TABLE(schema_object, "objects", object_keys, O, OBJECT_KEY_COUNT);
 #undef O
-const struct key_table schema_object = {"objects", object_keys, COUNT(object_keys),
-                                        sizeof(struct object_entry)};
-_Static_assert(COUNT(object_keys) == OBJECT_KEY_COUNT, "a row for each object_key");
 
 #define F struct fire_entry
 static const struct key fire_keys[] = {
@@ -236,7 +226,5 @@ static const struct key fire_keys[] = {
     [FIRE_POINT] = PLACE("point", KEY_POINT, STORE_DOUBLE, F, point,
                          .meaning = "The point on the ground that the shot is aimed at."),
 };
+KEY_TABLE(schema_fire, "fires", fire_keys, F, FIRE_KEY_COUNT);
 #undef F
-const struct key_table schema_fire = {"fires", fire_keys, COUNT(fire_keys),
-                                      sizeof(struct fire_entry)};
-_Static_assert(COUNT(fire_keys) == FIRE_KEY_COUNT, "a row for each fire_key");

@@ -1,4 +1,4 @@
-/* Two frames, field by field. */
+/* Compares two frames, field by field. */
 #include "supervisor/worldctl/compare.h"
 
 #include "world/entity/dent.h"
@@ -63,7 +63,7 @@ struct column {
     const unsigned char *a, *b;
 };
 
-/* Row of the first value that differs, count when none does. */
+/* Returns the row of the first value that differs, or count. */
 static uint32_t first_row(const struct column *column, uint32_t count)
 {
     size_t bytes = value_bytes[column->type];
@@ -113,7 +113,8 @@ static bool compare_entities(const struct compared *a, const struct compared *b,
     return difference->columns > 0;
 }
 
-/* --- what lies beside them ---------------------------------------------------------------------*/
+/* --- fixed objects, craters, dents, head
+ * -------------------------------------------------------- */
 
 static bool compare_fixed(const struct compared *a, const struct compared *b,
                           struct difference *difference)
@@ -145,7 +146,7 @@ struct member {
 #name, TYPE_OF(type), offsetof(struct struct_name, name)                                   \
     }
 
-/* First member in which two structs differ; NULL when none does. */
+/* Returns the first member in which two structs differ, or NULL. */
 static const struct member *first_member(const struct member *members, size_t count, const void *a,
                                          const void *b)
 {
@@ -213,7 +214,8 @@ static bool compare_dents(const struct compared *a, const struct compared *b,
     return false;
 }
 
-/* As in state_digest(): without pacing, quit, stage times and the checksum. */
+/* Compares the members that state_digest() covers: not pacing, quit, stage times and the
+ * checksum. */
 static bool compare_heads(const struct compared *a, const struct compared *b,
                           struct difference *difference)
 {

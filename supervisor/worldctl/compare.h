@@ -1,4 +1,4 @@
-/* Comparing two frames, field by field. */
+/* Comparison of two frames, field by field. */
 #ifndef JOLON_SUPERVISOR_WORLDCTL_COMPARE_H
 #define JOLON_SUPERVISOR_WORLDCTL_COMPARE_H
 
@@ -9,7 +9,7 @@
 
 struct world;
 
-/* One frame: what never changes and what does. */
+/* One frame: the static world and the state. */
 struct compared {
     const struct world *world;
     struct state state;
@@ -18,19 +18,19 @@ struct compared {
 struct difference {
     char field[96];  /* "x of entity 41 \"alpha-1\" (row 40)" */
     char column[32]; /* "x" */
-    uint64_t row;    /* or the object's, crater's, dent's number */
+    uint64_t row;    /* or the number of the object, crater or dent */
     char a[32], b[32];
-    uint32_t columns; /* of the entities that differ somewhere */
+    uint32_t columns; /* number of entity columns that differ */
 };
 
-/* The first field that differs: of the entities column by column, then of the fixed objects, the
- * craters, the dents and the head. Everything that state_digest() is taken over but the seed.
- * False when all is equal. */
+/* Finds the first field that differs: first of the entities, column by column, then of the fixed
+ * objects, the craters, the dents and the head. Covers everything that state_digest() covers,
+ * except the seed. Returns false if all is equal. */
 bool compare_states(const struct compared *a, const struct compared *b,
                     struct difference *difference);
 
-/* The first parameter that makes two worlds another run each: seed, step of time, capacity, size of
- * their tables. False when there is none. */
+/* Finds the first parameter that makes the runs of two worlds differ: seed, time step, capacity,
+ * table sizes. Returns false if there is none. */
 bool compare_worlds(const struct world *a, const struct world *b, struct difference *difference);
 
 #endif

@@ -1,4 +1,4 @@
-/* Verbs that make, check and repair worlds. */
+/* Verbs create, check and repair. */
 #include "ipc/segment/segment_attach.h"
 #include "ipc/segment/segment_check.h"
 #include "ipc/segment/segment_repair.h"

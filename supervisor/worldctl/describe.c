@@ -1,5 +1,5 @@
-/* Verbs that describe a world: info, status, summary, digest. Each as a few lines for people, and
- * as one JSON object for scripts. */
+/* Verbs that describe a world: info, status, summary, digest. Each prints a few lines for people,
+ * or one JSON object for scripts. */
 #include "ipc/segment/segment_attach.h"
 #include "ipc/segment/segment_locks.h"
 #include "supervisor/worldctl/verbs.h"
@@ -26,7 +26,7 @@ struct dispersion {
     uint32_t occupied, most;
 };
 
-static struct dispersion disperse(const struct world *world)
+static struct dispersion count_objects(const struct world *world)
 {
     struct dispersion d = {0};
     uint32_t run = 0;
@@ -104,7 +104,7 @@ int verb_info(const struct arguments *arguments)
 {
     struct view view;
     arguments_attach(arguments, &view);
-    struct dispersion d = disperse(&view.world);
+    struct dispersion d = count_objects(&view.world);
     if (arguments->json)
         info_json(&view, &d);
     else
@@ -136,7 +136,8 @@ static void add_role(cJSON *array, const struct view *view, enum role role)
     const struct role_slot *slot = view->slot[role];
     int pid = segment_holder(view->name, role);
     cJSON *entry = cJSON_CreateObject();
-    cJSON_AddItemToArray(array, entry); /* if there was no memory, its first value says so */
+    cJSON_AddItemToArray(
+        array, entry); /* entry is NULL if memory is out: the first json_text() reports that */
     json_text(entry, "role", role_name(role));
     json_whole(entry, "pid", (uint64_t)pid);
     json_text(entry, "state",

@@ -1,4 +1,4 @@
-/* Verb diff: the first frame and field in which two runs differ. */
+/* Verb diff: finds the first frame and field in which two runs differ. */
 #include "supervisor/worldctl/verbs.h"
 
 #include "ipc/process/log.h"
@@ -15,8 +15,8 @@ static const struct state_head *head_of(const struct frame_source *source)
     return frame_source_frame(source).state.head;
 }
 
-/* Brings the earlier side to the later one's frame. Without knowing the commands between nobody can
- * say what the run was: then it is refused. */
+/* Steps the earlier source to the later one's frame. Refuses if commands between the two are
+ * unknown. */
 static void catch_up(struct frame_source *early, const struct frame_source *late)
 {
     const struct state_head *to = head_of(late);
@@ -43,8 +43,8 @@ static void catch_up(struct frame_source *early, const struct frame_source *late
     }
 }
 
-static void tell_difference(const struct arguments *arguments, uint64_t frame,
-                            const struct difference *difference)
+static void print_difference(const struct arguments *arguments, uint64_t frame,
+                             const struct difference *difference)
 {
     if (!arguments->json) {
         printf("frame %" PRIu64 ": %s: %s | %s", frame, difference->field, difference->a,
@@ -65,7 +65,7 @@ static void tell_difference(const struct arguments *arguments, uint64_t frame,
     json_print(object);
 }
 
-static void tell_equal(const struct arguments *arguments, uint64_t frame)
+static void print_equal(const struct arguments *arguments, uint64_t frame)
 {
     if (!arguments->json) {
         printf("equal up to frame %" PRIu64 "\n", frame);
@@ -77,7 +77,7 @@ static void tell_equal(const struct arguments *arguments, uint64_t frame)
     json_print(object);
 }
 
-/* True, having said it, when the two frames differ. */
+/* Prints the difference of the two frames. Returns false if there is none. */
 static bool differ(const struct arguments *arguments, const struct frame_source *a,
                    const struct frame_source *b)
 {
@@ -85,11 +85,11 @@ static bool differ(const struct arguments *arguments, const struct frame_source 
     const struct compared p = frame_source_frame(a), q = frame_source_frame(b);
     if (!compare_states(&p, &q, &difference))
         return false;
-    tell_difference(arguments, p.state.head->frame, &difference);
+    print_difference(arguments, p.state.head->frame, &difference);
     return true;
 }
 
-/* Two logs frame by frame, as far as both know their run. */
+/* Steps two logs, as far as both know their run, until their frames differ. */
 static bool differ_later(const struct arguments *arguments, struct frame_source *a,
                          struct frame_source *b, uint64_t *equal_until)
 {
@@ -108,8 +108,8 @@ static int diff(const struct arguments *arguments, struct frame_source *a, struc
 {
     struct difference difference;
     const struct compared p = frame_source_frame(a), q = frame_source_frame(b);
-    bool made = compare_worlds(p.world, q.world, &difference);
-    if (made && !arguments->json)
+    bool worlds_differ = compare_worlds(p.world, q.world, &difference);
+    if (worlds_differ && !arguments->json)
         printf("made with another %s: %s | %s\n", difference.field, difference.a, difference.b);
     if (frame_source_number(a) < frame_source_number(b))
         catch_up(a, b);
@@ -118,11 +118,11 @@ static int diff(const struct arguments *arguments, struct frame_source *a, struc
     uint64_t equal_until = frame_source_number(a);
     if (differ(arguments, a, b) || differ_later(arguments, a, b, &equal_until))
         return EXIT_REFUSED;
-    if (made) {
-        tell_difference(arguments, equal_until, &difference);
+    if (worlds_differ) {
+        print_difference(arguments, equal_until, &difference);
         return EXIT_REFUSED;
     }
-    tell_equal(arguments, equal_until);
+    print_equal(arguments, equal_until);
     return EXIT_OK;
 }
 

@@ -1,4 +1,4 @@
-/* Verb dump: every entity, every fixed object, or the heights of a piece of ground. */
+/* Verb dump: prints every entity, every fixed object, or the heights of a piece of terrain. */
 #include "ipc/segment/segment_attach.h"
 #include "supervisor/worldctl/verbs.h"
 
@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Until it may fire again. */
+/* Time until the gun can fire again. */
 static double reload_s(const struct world *world, const struct state_head *head, uint32_t tick)
 {
     return tick > head->tick ? (double)(tick - head->tick) * world_dt_s(world) : 0.0;

@@ -1,4 +1,4 @@
-/* Verb events: the run's events in order, once or as they come. */
+/* Verb events: prints the run's events in order, once or continuously. */
 #include "ipc/frame/event_cursor.h"
 #include "ipc/segment/segment_attach.h"
 #include "supervisor/worldctl/verbs.h"

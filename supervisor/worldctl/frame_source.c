@@ -1,4 +1,4 @@
-/* Images, logs and worlds as frames to be compared. */
+/* Images, command logs and running worlds as sources of frames. */
 #include "supervisor/worldctl/frame_source.h"
 
 #include "ipc/segment/segment_attach.h"

@@ -1,4 +1,4 @@
-/* A side of a comparison: an image, a log of commands, or a world that runs. */
+/* A source of frames to compare: an image, a command log, or a running world. */
 #ifndef JOLON_SUPERVISOR_WORLDCTL_FRAME_SOURCE_H
 #define JOLON_SUPERVISOR_WORLDCTL_FRAME_SOURCE_H
 
@@ -21,20 +21,21 @@ struct frame_source {
     uint32_t threads;
 };
 
-/* What name stands for: a file that is an image or a log of commands, else the name of a world.
- * Ends the process (exit 1) when it is none of them. */
+/* Opens what name stands for: a file that is an image or a command log, otherwise the world of that
+ * name. Ends the process (exit 1) if it is none of these. */
 void frame_source_open(struct frame_source *source, const char *name, uint32_t threads);
 void frame_source_close(struct frame_source *source);
 
-/* Its present frame. Valid until it is stepped. */
+/* The current frame, and its number. Valid until the next step. */
 struct compared frame_source_frame(const struct frame_source *source);
 uint64_t frame_source_number(const struct frame_source *source);
 
-/* May it be stepped by what it knows: of a log the next frame is known, of an image nothing is. */
+/* Returns true if the next frame is known: that of a log up to its last known frame, none of the
+ * others. */
 bool frame_source_known(const struct frame_source *source);
 
-/* Makes the next frame. False when the run cannot go on. A log that does not fit ends the process
- * (exit 1). Not for FRAME_SOURCE_WORLD. */
+/* Computes the next frame. Returns false if the run cannot go on. A log that does not fit its world
+ * ends the process (exit 1). Not for FRAME_SOURCE_WORLD. */
 bool frame_source_step(struct frame_source *source);
 
 #endif

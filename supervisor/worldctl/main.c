@@ -11,8 +11,8 @@
 struct verb {
     const char *name;
     int (*run)(const struct arguments *arguments);
-    int plain;         /* arguments that are no options, at most */
-    const char *usage; /* the options that it names are those that the verb takes */
+    int plain;         /* plain arguments, at most */
+    const char *usage; /* the verb takes the options that it names */
 };
 
 static const struct verb verbs[] = {
@@ -24,7 +24,7 @@ static const struct verb verbs[] = {
     {"repair", verb_repair, 0,
      "[--world NAME]     go back to a damaged world's newest whole frame, while nobody runs it"},
     {"info", verb_info, 0, "[--world NAME] [--json]     what the world is made of"},
-    {"status", verb_status, 0, "[--world NAME] [--json]     who runs it and how far it is"},
+    {"status", verb_status, 0, "[--world NAME] [--json]     its processes and its frame"},
     {"summary", verb_summary, 0, "[--world NAME] [--json] [--wall SECONDS]     what happened"},
     {"digest", verb_digest, 0, "[--world NAME] [--json]     digests of the last committed frame"},
     {"dump", verb_dump, 0,
@@ -60,7 +60,7 @@ static int usage(FILE *to, int code)
     return code;
 }
 
-/* at: the verb's place. Options before it are the verb's too. */
+/* at: index of the verb in argv. Options before it are the verb's, too. */
 static int run(const struct verb *verb, int argc, char **argv, int at)
 {
     memmove(argv + 2, argv + 1, (size_t)(at - 1) * sizeof *argv);

@@ -1,4 +1,4 @@
-/* Verbs about worlds' names: where they lead, what there is, what is left, removal. */
+/* Verbs about worlds' names: list, paths, remove, sweep. */
 #include "supervisor/worldctl/verbs.h"
 
 #include "ipc/process/log.h"

@@ -1,4 +1,4 @@
-/* Verb replay: a run once more, in this process, from its log of commands. */
+/* Verb replay: repeats a run in this process from its command log. */
 #include "supervisor/worldctl/verbs.h"
 
 #include "ipc/process/log.h"
@@ -13,12 +13,12 @@
 #include <stdio.h>
 #include <string.h>
 
-/* How the run was played. */
+/* The result of a replay. */
 struct replayed {
     uint64_t frame, commands;
     uint64_t digest, event_digest;
-    bool held;  /* against the log's end */
-    bool equal; /* to it; false also when a mark before it was not met */
+    bool held;  /* compared with the log's end record */
+    bool equal; /* no difference found: of the end record or an earlier mark */
 };
 
 static uint64_t last_frame(const struct arguments *arguments, const struct log_replay *replay)
@@ -41,7 +41,8 @@ static void log_events(struct event_log *events, const struct view *view)
                     strerror(events->journal.error));
 }
 
-/* Steps the world to that frame or to the run's end. False when a mark of the log is not met. */
+/* Steps the world to that frame or to the run's end. Returns false if the world differs from a mark
+ * of the log. */
 static bool play(struct log_replay *replay, struct frame_stepper *stepper, uint64_t last,
                  struct event_log *events)
 {
@@ -58,8 +59,8 @@ static bool play(struct log_replay *replay, struct frame_stepper *stepper, uint6
     return step != LOG_REPLAY_MISMATCH;
 }
 
-static void tell(const struct arguments *arguments, const struct log_replay *replay,
-                 const struct replayed *outcome)
+static void print_result(const struct arguments *arguments, const struct log_replay *replay,
+                         const struct replayed *outcome)
 {
     const char *verdict = log_replay_end(replay) ? "not yet at the log's end"
                                                  : "the log has no end to hold it against";
@@ -126,7 +127,7 @@ int verb_replay(const struct arguments *arguments)
         log_warn("%s: commands are lost after frame %" PRIu64 ": replayed to there", replay.path,
                  replay.known_frame);
     struct replayed outcome = compare_end(&replay, &stepper, met);
-    tell(arguments, &replay, &outcome);
+    print_result(arguments, &replay, &outcome);
     frame_stepper_free(&stepper);
     segment_abandon(&view);
     log_replay_close(&replay);

@@ -1,5 +1,5 @@
-/* Verb replay-frame: the frame after an image's once more, in this process and on one thread, so
- * that a debugger sees what a role died of. */
+/* Verb replay-frame: computes the frame after an image's in this process and on one thread, so that
+ * a debugger can catch the crash of a role. */
 #include "supervisor/worldctl/verbs.h"
 
 #include "recorder/archive/image_read.h"
@@ -13,7 +13,8 @@
 #include <string.h>
 #include <sys/mman.h>
 
-/* The page tables that the role had: a store elsewhere dies here as it died there. */
+/* Gives the memory the protection that the role had, so that a stray store crashes here as it
+ * crashed there. */
 static void protect(const struct view *view, enum role role)
 {
     const struct layout *layout = &view->layout;

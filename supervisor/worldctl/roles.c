@@ -1,4 +1,4 @@
-/* Verbs that scripts ask about roles: pid, frame. */
+/* Verbs by which scripts query roles: pid, frame. */
 #include "ipc/segment/segment_attach.h"
 #include "ipc/segment/segment_locks.h"
 #include "supervisor/worldctl/verbs.h"
@@ -12,7 +12,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#define PID_NS (200 * (uint64_t)NS_PER_MS) /* for who has just taken a role to say its pid */
+#define PID_NS (200 * (uint64_t)NS_PER_MS) /* for a new holder of a role to publish its pid */
 
 static enum role role_argument(const struct arguments *arguments)
 {

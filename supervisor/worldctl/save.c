@@ -1,4 +1,4 @@
-/* Verb save: an image of a world as it is now. */
+/* Verb save: writes an image of a world's current frame. */
 #include "ipc/segment/segment_attach.h"
 #include "supervisor/worldctl/verbs.h"
 
@@ -35,7 +35,7 @@ int verb_save(const struct arguments *arguments)
     struct error_text error;
     if (!arguments->path)
         die_usage("save: wants the FILE to write, for example save world.image");
-    signal(SIGXFSZ, SIG_IGN); /* a file at its limit is one that cannot be written */
+    signal(SIGXFSZ, SIG_IGN); /* a write beyond the file size limit then fails with EFBIG */
     arguments_attach(arguments, &view);
     if (image_place_open(&place, arguments->path, &error) != 0)
         die_refused("%s", error.text);

@@ -1,6 +1,6 @@
-/* jolon-world: one function a verb. Each gets its arguments, of which it has those that main.c's
- * table says, prints its result to standard output and returns an exit code; wrong usage and
- * refusals end the process. */
+/* The verbs of jolon-world, one function each. A verb gets the arguments that main.c's table allows
+ * it, prints its result to standard output and returns an exit code. Wrong usage and refusals end
+ * the process. */
 #ifndef JOLON_SUPERVISOR_WORLDCTL_VERBS_H
 #define JOLON_SUPERVISOR_WORLDCTL_VERBS_H
 

@@ -122,31 +122,31 @@ static double volume_of(const struct vec3 *given, uint32_t all)
 
 /* --- properties --------------------------------------------------------------------------------*/
 
-static void check_holds(const struct convex_hull *wrap, const struct vec3 *point, uint32_t count)
+static void check_holds(const struct convex_hull *hull, const struct vec3 *point, uint32_t count)
 {
-    for (uint32_t f = 0; f < wrap->face_count; f++) {
+    for (uint32_t f = 0; f < hull->face_count; f++) {
         for (uint32_t i = 0; i < count; i++)
-            assert_true(vec3_dot(wrap->face[f].normal, point[i]) - wrap->face[f].offset_m < 1e-6);
+            assert_true(vec3_dot(hull->face[f].normal, point[i]) - hull->face[f].offset_m < 1e-6);
     }
 }
 
 /* Every edge is walked once in each direction, and no corner is above any triangle. */
-static void check_closed(const struct convex_hull *wrap)
+static void check_closed(const struct convex_hull *hull)
 {
     uint8_t walked[2 * LATTICE][2 * LATTICE] = {{0}};
-    for (uint32_t f = 0; f < wrap->face_count; f++) {
-        const uint32_t *corner = wrap->face[f].corner;
+    for (uint32_t f = 0; f < hull->face_count; f++) {
+        const uint32_t *corner = hull->face[f].corner;
         for (int k = 0; k < 3; k++)
             walked[corner[k]][corner[(k + 1) % 3]]++;
-        for (uint32_t i = 0; i < wrap->point_count; i++)
-            assert_true(vec3_dot(wrap->face[f].normal, wrap->point[i]) - wrap->face[f].offset_m <
+        for (uint32_t i = 0; i < hull->point_count; i++)
+            assert_true(vec3_dot(hull->face[f].normal, hull->point[i]) - hull->face[f].offset_m <
                         1e-10);
     }
-    for (uint32_t i = 0; i < wrap->point_count; i++) {
-        for (uint32_t k = 0; k < wrap->point_count; k++)
+    for (uint32_t i = 0; i < hull->point_count; i++) {
+        for (uint32_t k = 0; k < hull->point_count; k++)
             assert_true(walked[i][k] <= 1 && walked[i][k] == walked[k][i]);
     }
-    assert_int_equal(wrap->face_count, 2 * wrap->point_count - 4);
+    assert_int_equal(hull->face_count, 2 * hull->point_count - 4);
 }
 
 static void check_near(double is, double expected, double size)
@@ -165,19 +165,19 @@ static double size_of(const struct vec3 *point, uint32_t count)
 
 static void check_one(const struct vec3 *point, uint32_t count)
 {
-    struct convex_hull wrap;
+    struct convex_hull hull;
     double volume = volume_of(point, count), size = size_of(point, count);
-    if (convex_hull_points(&wrap, point, count) != 0) {
+    if (convex_hull_points(&hull, point, count) != 0) {
         assert_int_equal(errno, EDOM);
         assert_true(volume < 1e-5 * size * size); /* flat: no thicker than the slack */
         return;
     }
-    check_near(wrap.volume_m3, volume, size);
-    check_holds(&wrap, point, count);
-    check_closed(&wrap);
-    for (uint32_t i = 0; i < wrap.point_count; i++)
-        assert_true(is_given(point, count, wrap.point[i]));
-    convex_hull_free(&wrap);
+    check_near(hull.volume_m3, volume, size);
+    check_holds(&hull, point, count);
+    check_closed(&hull);
+    for (uint32_t i = 0; i < hull.point_count; i++)
+        assert_true(is_given(point, count, hull.point[i]));
+    convex_hull_free(&hull);
 }
 
 static void test_wraps_are_the_hulls_of_every_plane(void **state)
@@ -273,7 +273,7 @@ static void test_nearly_flat_points_do_not_tear_a_wrap(void **state)
     (void)state;
     for (int round = 0; round < ROUNDS; round++) {
         struct vec3 exact[LATTICE], rough[LATTICE];
-        struct convex_hull wrap, other;
+        struct convex_hull hull, other;
         double jitter = fixture_uniform(&random, -9.0, -3.0), size = 0.0;
         uint32_t count = 8 + (uint32_t)(fixture_random(&random) % (LATTICE - 7));
         uint64_t side = 2 + fixture_random(&random) % 4;
@@ -288,15 +288,15 @@ static void test_nearly_flat_points_do_not_tear_a_wrap(void **state)
             rough[i].y += jitter * fixture_uniform(&random, -1, 1);
             rough[i].z += jitter * fixture_uniform(&random, -1, 1);
         }
-        if (convex_hull_points(&wrap, exact, count) != 0)
+        if (convex_hull_points(&hull, exact, count) != 0)
             continue;
         size = size_of(exact, count);
         assert_int_equal(convex_hull_points(&other, rough, count), 0);
-        check_closed(&wrap);
+        check_closed(&hull);
         check_closed(&other);
         check_holds(&other, rough, count);
-        assert_true(fabs(other.volume_m3 - wrap.volume_m3) < (10.0 * jitter + 1e-5) * size * size);
-        convex_hull_free(&wrap);
+        assert_true(fabs(other.volume_m3 - hull.volume_m3) < (10.0 * jitter + 1e-5) * size * size);
+        convex_hull_free(&hull);
         convex_hull_free(&other);
     }
 }
