@@ -1,4 +1,4 @@
-/* The entities of a frame onto their topic. */
+/* Publishes the entities of a frame. */
 #include "reporter/entity_topic.h"
 
 #include "ipc/process/clock.h"
@@ -41,7 +41,7 @@ void entity_topic_close(struct entity_topic *topic)
     topic->entity = NULL;
 }
 
-/* tick: of the frame; dt_s: of a tick. */
+/* tick is the frame's, dt_s the duration of a tick. */
 static void fill(jolon_Entity *to, const struct entities *from, uint32_t row, uint64_t tick,
                  double dt_s)
 {
@@ -89,7 +89,8 @@ static bool has_subscribers(const struct entity_topic *topic)
            matched.current_count > 0;
 }
 
-/* A new snapshot, to be written from its first row; false when there is none to be had. */
+/* Takes a new snapshot, to be written from its first row. Returns false when none could be
+ * taken. */
 static bool begin(struct entity_topic *topic, const struct view *view)
 {
     const struct state_head *head = &topic->snapshot.head;
@@ -115,7 +116,7 @@ static void write_part(struct entity_topic *topic)
     }
     topic->wire.entities._buffer = topic->entity;
     topic->wire.entities._length = topic->wire.entities._maximum = count;
-    (void)dds_write(topic->writer, &topic->wire); /* the next batch makes up for a lost one */
+    (void)dds_write(topic->writer, &topic->wire); /* the next batch replaces a lost one */
     topic->busy = ++topic->wire.part < topic->wire.parts;
 }
 

@@ -1,4 +1,4 @@
-/* Batches: every entity of a frame in one sample, or in a few for a large world. */
+/* Publishes the entities of a frame, in one sample, or in several for a large world. */
 #ifndef JOLON_REPORTER_ENTITY_TOPIC_H
 #define JOLON_REPORTER_ENTITY_TOPIC_H
 
@@ -9,12 +9,12 @@
 
 #define ENTITY_TOPIC_PERIOD_NS 100000000u
 
-/* Entities in one sample, far below what the type allows: a sample is one write, about 5 ms, and
- * between two of them this process takes commands and shows that it lives. */
+/* Entities in one sample, far below what the type allows. Writing a sample takes about 5 ms, and
+ * between two samples this process takes commands and sends its heartbeat. */
 #define ENTITY_TOPIC_PART 8192u
 
-/* Batches may take one part in so many of the time: a world too large for ten a second gets fewer
- * rather than a whole processor. */
+/* Batches may take one part in so many of the time. A world that is too large for ten batches a
+ * second gets fewer, and does not occupy a whole processor. */
 #define ENTITY_TOPIC_SHARE 8u
 
 struct entity_topic {
@@ -23,20 +23,20 @@ struct entity_topic {
     jolon_Entity *entity; /* [room] */
     uint32_t room;
     double dt_s;
-    jolon_EntityBatch wire;      /* the part to be written next */
+    jolon_EntityBatch wire;      /* the next part to be written */
     bool busy;                   /* parts of the snapshot are still to be written */
     uint32_t row;                /* where the next part begins */
     uint64_t begun_ns, spent_ns; /* of this batch */
     uint64_t due_ns;
 };
 
-/* -1 with the reason: no memory, no writer. */
+/* Makes the writer. Returns 0, or -1 with the reason. */
 int entity_topic_open(struct entity_topic *topic, const struct view *view,
                       const struct dds_link *link, uint64_t run, struct error_text *error);
 void entity_topic_close(struct entity_topic *topic);
 
-/* Writes a part of the last committed frame's entities if that is due and somebody reads them. True
- * when more parts wait for the next call. */
+/* Writes a part of the last committed frame's entities if that is due and there are readers.
+ * Returns true when further parts wait for the next call. */
 bool entity_topic_publish(struct entity_topic *topic, const struct view *view, uint64_t now_ns);
 
 #endif

@@ -1,4 +1,4 @@
-/* The event ring onto the event topics. */
+/* Publishes the event ring. */
 #include "reporter/event_topics.h"
 
 #include "ipc/frame/event_cursor.h"
@@ -45,7 +45,7 @@ int event_topics_open(struct event_topics *events, const struct view *view,
     }
     if (snapshot_head(&head, view) != 0)
         return error_text_set(error, "world \"%s\": its last frame cannot be read", view->name);
-    /* Our slot still has the frame that the predecessor finished; 0 when there was none. */
+    /* The slot still holds the last frame that the predecessor finished, 0 when there was none. */
     const struct role_slot *slot = view->slot[view->role];
     uint64_t before = atomic_load_explicit(&slot->frame, memory_order_relaxed);
     uint64_t again = (uint64_t)(EVENT_TOPICS_AGAIN_S * view->world.params->hz);
@@ -53,7 +53,7 @@ int event_topics_open(struct event_topics *events, const struct view *view,
         head.event_end > EVENT_TOPICS_AGAIN ? head.event_end - EVENT_TOPICS_AGAIN : 0;
     events->publish_from_frame = before > again ? before - again : 0;
     events->gaps = atomic_load_explicit(&slot->gaps, memory_order_relaxed);
-    /* From the ring's oldest. What went before it is nobody's gap. */
+    /* Begins with the oldest event in the ring. Earlier events are no gap. */
     uint64_t slots = view->header->event_slots;
     events->cursor.next = head.event_end > slots ? head.event_end - slots : 0;
     events->cursor.next -= events_read(view, &events->cursor, events->event, 1);
@@ -75,17 +75,29 @@ static jolon_Party party_of(const struct world *world, const struct event_party 
 {
     jolon_Party wire = {
         .id = party->id, .fixed = party->fixed != 0, .damage = (jolon_Damage)party->damage};
-    const char *kind = party->fixed ? "ground" : "none"; /* nobody: the terrain, or none */
+    const char *kind = party->fixed ? "ground" : "none"; /* the terrain, or none */
     if (party->id)
         kind = party->kind < world->counts.kinds ? world->kinds[party->kind].name : "?";
     (void)stpncpy(wire.kind, kind, sizeof wire.kind - 1);
     return wire;
 }
 
-static dds_return_t write_collision(dds_entity_t writer, const jolon_EventHeader *header,
-                                    const struct world *world, const struct event_collision *from)
+union event_sample {
+    jolon_CollisionEvent collision;
+    jolon_FireEvent fire;
+    jolon_DetonationEvent detonation;
+    jolon_CraterEvent crater;
+    jolon_AgentEvent agent;
+};
+
+typedef void fill_sample(union event_sample *sample, const jolon_EventHeader *header,
+                         const struct world *world, const struct event *event);
+
+static void fill_collision(union event_sample *sample, const jolon_EventHeader *header,
+                           const struct world *world, const struct event *event)
 {
-    jolon_CollisionEvent wire = {
+    const struct event_collision *from = &event->collision;
+    sample->collision = (jolon_CollisionEvent){
         .header = *header,
         .a = party_of(world, &from->a),
         .b = party_of(world, &from->b),
@@ -98,26 +110,26 @@ static dds_return_t write_collision(dds_entity_t writer, const jolon_EventHeader
         .direction = direction_of(from->direction_a),
         .response = (jolon_Response)from->response,
     };
-    return dds_write(writer, &wire);
 }
 
-static dds_return_t write_fire(dds_entity_t writer, const jolon_EventHeader *header,
-                               const struct world *world, const struct event_fire *from)
+static void fill_fire(union event_sample *sample, const jolon_EventHeader *header,
+                      const struct world *world, const struct event *event)
 {
-    jolon_FireEvent wire = {
+    const struct event_fire *from = &event->fire;
+    sample->fire = (jolon_FireEvent){
         .header = *header,
         .shooter = party_of(world, &from->shooter),
         .target = party_of(world, &from->target),
         .munition = party_of(world, &from->munition),
         .point = point_of(from->point),
     };
-    return dds_write(writer, &wire);
 }
 
-static dds_return_t write_detonation(dds_entity_t writer, const jolon_EventHeader *header,
-                                     const struct world *world, const struct event_detonation *from)
+static void fill_detonation(union event_sample *sample, const jolon_EventHeader *header,
+                            const struct world *world, const struct event *event)
 {
-    jolon_DetonationEvent wire = {
+    const struct event_detonation *from = &event->detonation;
+    sample->detonation = (jolon_DetonationEvent){
         .header = *header,
         .munition = party_of(world, &from->munition),
         .victim = party_of(world, &from->struck_party),
@@ -125,35 +137,44 @@ static dds_return_t write_detonation(dds_entity_t writer, const jolon_EventHeade
         .explosive_kg = from->explosive_kg,
         .struck = (jolon_Struck)from->struck,
     };
-    return dds_write(writer, &wire);
 }
 
-static dds_return_t write_crater(dds_entity_t writer, const jolon_EventHeader *header,
-                                 const struct event_crater *from)
+static void fill_crater(union event_sample *sample, const jolon_EventHeader *header,
+                        const struct world *world, const struct event *event)
 {
-    jolon_CraterEvent wire = {
+    const struct event_crater *from = &event->crater;
+    (void)world;
+    sample->crater = (jolon_CraterEvent){
         .header = *header,
         .point = point_of(from->point),
         .radius_m = from->radius_m,
         .depth_m = from->depth_m,
     };
-    return dds_write(writer, &wire);
 }
 
-static dds_return_t write_agent(dds_entity_t writer, const jolon_EventHeader *header,
-                                const struct world *world, const struct event_agent *from)
+static void fill_agent(union event_sample *sample, const jolon_EventHeader *header,
+                       const struct world *world, const struct event *event)
 {
-    jolon_AgentEvent wire = {
+    const struct event_agent *from = &event->agent;
+    sample->agent = (jolon_AgentEvent){
         .header = *header,
         .agent = party_of(world, &from->agent),
         .before = (jolon_Behaviour)from->from,
         .after = (jolon_Behaviour)from->to,
         .because = (jolon_AgentReason)from->because,
     };
-    return dds_write(writer, &wire);
 }
 
-/* False when DDS had no room: the event is to be written again. */
+/* The topics are in the order of the event types. */
+static fill_sample *const fill[EVENT_TOPICS_COUNT] = {
+    [EVENT_COLLISION - EVENT_COLLISION] = fill_collision,
+    [EVENT_FIRE - EVENT_COLLISION] = fill_fire,
+    [EVENT_DETONATION - EVENT_COLLISION] = fill_detonation,
+    [EVENT_CRATER - EVENT_COLLISION] = fill_crater,
+    [EVENT_AGENT - EVENT_COLLISION] = fill_agent,
+};
+
+/* Returns false when DDS had no room, and the event must be written again. */
 static bool publish_one(struct event_topics *events, const struct world *world,
                         const struct event *event, bool publish)
 {
@@ -169,28 +190,9 @@ static bool publish_one(struct event_topics *events, const struct world *world,
         .time_s = (double)event->tick * world->params->dt_s,
     };
     if (publish) {
-        dds_entity_t writer = events->writer[topic];
-        switch ((enum event_type)event->type) {
-        case EVENT_COLLISION:
-            code = write_collision(writer, &header, world, &event->collision);
-            break;
-        case EVENT_FIRE:
-            code = write_fire(writer, &header, world, &event->fire);
-            break;
-        case EVENT_DETONATION:
-            code = write_detonation(writer, &header, world, &event->detonation);
-            break;
-        case EVENT_CRATER:
-            code = write_crater(writer, &header, &event->crater);
-            break;
-        case EVENT_AGENT:
-            code = write_agent(writer, &header, world, &event->agent);
-            break;
-        case EVENT_NONE:
-        case EVENT_COMMAND:
-        case EVENT_TYPE_COUNT:
-            break;
-        }
+        union event_sample sample;
+        fill[topic](&sample, &header, world, event);
+        code = dds_write(events->writer[topic], &sample);
     }
     if (code == DDS_RETCODE_TIMEOUT)
         return false;

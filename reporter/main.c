@@ -1,6 +1,6 @@
-/* jolon-reporter: the only process of a world with DDS. It publishes the status topics and, where
- * it was told to, passes on the commands of other machines. The frame loop waits neither for it nor
- * for its subscribers. */
+/* jolon-reporter: the only process of a set that uses DDS. It publishes the status topics and, with
+ * --remote-commands, passes on the commands of other machines. The frame loop waits neither for it
+ * nor for its subscribers. */
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
@@ -15,15 +15,15 @@
 
 #define NICENESS 5
 
-/* Longest waits between two looks at the world: alone, and with a command under way. Both leave
- * the heart beating more often than every 25 ms. */
+/* Longest waits between two polls: idle, and with a command in progress. With either the heartbeat
+ * comes at least every 25 ms. */
 #define WAIT_NS         (10 * (uint64_t)NS_PER_MS)
 #define WAIT_COMMAND_NS (2 * (uint64_t)NS_PER_MS)
 
-/* How long one turn may be busy with events. */
+/* The longest time for events in one poll. */
 #define EVENTS_LIMIT_NS (10 * (uint64_t)NS_PER_MS)
 
-/* At the end: for the last events, and for subscribers to have them. */
+/* At the end: the longest times for the last events, and for subscribers to receive them. */
 #define LAST_EVENTS_NS (500 * (uint64_t)NS_PER_MS)
 #define LAST_ACKS_NS   (200 * (uint64_t)NS_PER_MS)
 
@@ -54,8 +54,8 @@ static int open_topics(struct reporter *reporter, struct error_text *error)
     return 0;
 }
 
-/* What the processes and the frame say, ten times a second. */
-static void tell_status(struct reporter *reporter, uint64_t now_ns)
+/* Publishes the status of processes and frame ten times a second. */
+static void publish_status(struct reporter *reporter, uint64_t now_ns)
 {
     if (now_ns < reporter->frame_due_ns)
         return;
@@ -66,8 +66,8 @@ static void tell_status(struct reporter *reporter, uint64_t now_ns)
     status_topics_frame(&reporter->status, &reporter->view, now_ns);
 }
 
-/* True when there is more to do at once. */
-static bool turn(struct reporter *reporter)
+/* Returns true when more work is waiting. */
+static bool poll_once(struct reporter *reporter)
 {
     struct role_slot *slot = reporter->view.slot[ROLE_REPORTER];
     uint64_t begun_ns = clock_now_ns();
@@ -76,28 +76,26 @@ static bool turn(struct reporter *reporter)
         remote_commands_poll(&reporter->remote, begun_ns);
     bool more =
         !event_topics_publish(&reporter->events, &reporter->view, begun_ns + EVENTS_LIMIT_NS);
-    tell_status(reporter, begun_ns);
+    publish_status(reporter, begun_ns);
     more |= entity_topic_publish(&reporter->entities, &reporter->view, clock_now_ns());
     uint64_t stage_ns = clock_now_ns() - begun_ns;
     log_frame(reporter->events.frame);
-    atomic_store_explicit(&slot->frame, reporter->events.frame, memory_order_relaxed);
     atomic_store_explicit(&slot->gaps, reporter->events.gaps, memory_order_relaxed);
-    atomic_store_explicit(&slot->stage_ns, stage_ns, memory_order_relaxed);
-    histogram_add(&slot->stage, stage_ns);
+    frame_protocol_stage_done(&reporter->view, reporter->events.frame, stage_ns);
     return more;
 }
 
-/* Until the next turn, or until a command comes. */
-static void rest(const struct reporter *reporter)
+/* Waits until the next poll is due, or a command comes. */
+static void wait_for_poll(const struct reporter *reporter)
 {
     if (reporter->takes_commands)
         remote_commands_wait(&reporter->remote, WAIT_COMMAND_NS, WAIT_NS);
-    else /* a wait set of nothing would not wait */
+    else /* an empty wait set would not wait */
         clock_sleep_until_ns(clock_now_ns() + WAIT_NS);
 }
 
-/* What is committed goes out before the process ends, within bounds. */
-static void last_words(struct reporter *reporter)
+/* Publishes what is committed before the process ends, within bounds. */
+static void publish_last(struct reporter *reporter)
 {
     uint64_t now_ns = clock_now_ns();
     atomic_store(&reporter->view.slot[ROLE_REPORTER]->state, ROLE_STOPPING);
@@ -134,11 +132,11 @@ int main(int argc, char **argv)
     segment_ready(&reporter.view);
 
     while (!process_stopping()) {
-        if (!turn(&reporter))
-            rest(&reporter);
+        if (!poll_once(&reporter))
+            wait_for_poll(&reporter);
     }
 
-    last_words(&reporter);
+    publish_last(&reporter);
     entity_topic_close(&reporter.entities);
     segment_detach(&reporter.view);
     dds_link_close(&reporter.link, EXIT_OK);

@@ -6,14 +6,14 @@
 
 struct options {
     const char *world;
-    int parent; /* process id, 0: none */
+    int parent; /* ends with this process; 0: none */
     bool sandbox_off;
     bool remote_commands; /* commands are taken over DDS too */
     struct dds_link_options link;
 };
 
-/* Fills options. Ends the program: with help on standard output (0), or with one line that says
- * what is wrong (2). */
+/* Fills options. --help ends the program with the usage on standard output (exit 0), wrong usage
+ * with one line that says what is wrong (exit 2). */
 void options_parse(struct options *options, int argc, char **argv);
 
 #endif

@@ -1,4 +1,4 @@
-/* Commands from DDS to the intake, replies to DDS. */
+/* Passes commands from DDS to the intake, and replies to DDS. */
 #include "reporter/remote_commands.h"
 
 #include "ipc/process/clock.h"
@@ -13,7 +13,7 @@
 int remote_commands_open(struct remote_commands *remote, const char *world,
                          const struct dds_link *link, struct error_text *error)
 {
-    /* Finding the runtime folder needs more than the sandbox allows: it is found now. */
+    /* Finding the runtime folder needs more than the sandbox allows, so it is found now. */
     int folder = runtime_folder_open(error);
     *remote = (struct remote_commands){.world = world};
     if (folder < 0)
@@ -29,7 +29,8 @@ int remote_commands_open(struct remote_commands *remote, const char *world,
     return remote->waitset < 0 ? -1 : 0;
 }
 
-/* The sender of a DDS writer; a new one takes the place of the one that has been silent longest. */
+/* Returns the entry of a DDS writer. A new writer replaces the one that has been silent for
+ * longest. */
 static struct remote_sender *find_sender(struct remote_commands *remote,
                                          dds_instance_handle_t handle)
 {
@@ -70,7 +71,8 @@ static void pass_replies(struct remote_commands *remote)
     for (uint32_t i = 0; i < REMOTE_SENDERS; i++) {
         const struct remote_sender *sender = &remote->sender[i];
         while (sender->handle && sender->link.transport->receive(sender->link.self, &reply))
-            (void)dds_write(remote->writer, &reply); /* one that is lost is asked for again */
+            (void)dds_write(remote->writer,
+                            &reply); /* the sender repeats its command if a reply is lost */
     }
 }
 

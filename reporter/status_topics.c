@@ -1,4 +1,4 @@
-/* WorldInfo, EntityNames, ProcessStatus and FrameStatus out of the segment. */
+/* WorldInfo, EntityNames, ProcessStatus and FrameStatus from the segment. */
 #include "reporter/status_topics.h"
 
 #include "ipc/process/clock.h"
@@ -17,10 +17,10 @@
 
 #define PROCESS_PERIOD_NS NS_PER_S
 
-/* A beat this fresh says that a process lives; an older one makes us ask for its lock. */
+/* A process with a newer heartbeat lives. With an older one its lock is checked. */
 #define BEAT_FRESH_NS (200 * (uint64_t)NS_PER_MS)
 
-/* No commit for this long, and for three frames, is a stall. */
+/* A world without a commit for this long, and for three frames, is stalled. */
 #define STALL_NS     NS_PER_S
 #define STALL_FRAMES 3.0
 
@@ -38,7 +38,7 @@ int status_topics_open(struct status_topics *topics, const struct view *view,
                        const struct dds_link *link, struct error_text *error)
 {
     *topics =
-        (struct status_topics){.run = view->header->made}; /* the same name may be given again */
+        (struct status_topics){.run = view->header->made}; /* tells worlds of one name apart */
     topics->world = dds_topics_writer(link, TOPIC_WORLD, error);
     if (topics->world < 0)
         return -1;
@@ -66,7 +66,7 @@ static void fill_map(jolon_WorldInfo *info, const struct terrain *terrain)
     }
 }
 
-/* to has bytes bytes; a longer text is cut. */
+/* bytes is the size of to. A longer text is cut. */
 static void copy_text(char *to, size_t bytes, const char *from)
 {
     size_t length = strnlen(from, bytes - 1);
@@ -184,7 +184,7 @@ static void status_topics_process(struct status_topics *topics, const struct vie
     status.stage_max_ms = times.max_ms;
     copy_text(status.role, sizeof status.role, role_name(role));
     if (dds_write(topics->process, &status) < 0)
-        return; /* again at the next call */
+        return; /* tried again at the next call */
     topics->sent[role].state = status.state;
     topics->sent[role].pid = status.pid;
     topics->sent[role].restarts = status.restarts;
@@ -194,13 +194,13 @@ static void status_topics_process(struct status_topics *topics, const struct vie
 void status_topics_processes(struct status_topics *topics, const struct view *view, uint64_t now_ns)
 {
     for (int role = 0; role < ROLE_COUNT; role++) {
-        /* Of the roles that a world need not have, those it once had. */
+        /* Optional roles are reported once they have been started. */
         if (role <= ROLE_REPORTER || load(&view->slot[role]->starts))
             status_topics_process(topics, view, (enum role)role, now_ns);
     }
 }
 
-/* Frames a second of the clock over the last calls. */
+/* Returns the frames a second of the clock over the last calls. */
 static double measure_rate(struct status_topics *topics, uint64_t commit, uint64_t now_ns)
 {
     uint32_t oldest = topics->rate_count < STATUS_TOPICS_RATE_SAMPLES ? 0 : topics->rate_next;
@@ -222,7 +222,7 @@ static jolon_RunState run_state(struct status_topics *topics, const struct view 
     double frames_ns = STALL_FRAMES * view->world.params->dt_s * NS_PER_S / head->time_scale;
     if (head->frame != topics->commit || !topics->advanced_ns || head->paused) {
         topics->commit = head->frame;
-        topics->advanced_ns = now_ns; /* standing still on purpose is no stall */
+        topics->advanced_ns = now_ns; /* a paused world is not stalled */
     }
     jolon_ProcessState mover = state_of(view, ROLE_MOVER, beat_age(view, ROLE_MOVER, now_ns));
     if (frame_protocol_finished(view))
@@ -236,10 +236,10 @@ static jolon_RunState run_state(struct status_topics *topics, const struct view 
                                                                  : jolon_RUN_RUNNING;
 }
 
-/* Of the frames since the last call. */
+/* Returns the times of the frames since the last call. */
 static jolon_Times recent_times(struct status_topics *topics, const struct histogram *whole)
 {
-    static struct histogram now, since; /* too large for the stack's comfort */
+    static struct histogram now, since; /* too large for the stack */
     now = *whole;
     histogram_since(&since, &now, &topics->whole);
     topics->whole = now;
@@ -251,14 +251,15 @@ void status_topics_frame(struct status_topics *topics, const struct view *view, 
     struct state_head head;
     uint64_t moved = atomic_load_explicit(&view->moved_word->moved, memory_order_acquire);
     if (snapshot_head(&head, view) != 0)
-        return; /* the next call finds a frame that stands still for long enough */
+        return; /* tried again at the next call */
     const struct counters *tally = &head.tally;
     const struct role_slot *collider = view->slot[ROLE_COLLIDER];
     const struct role_slot *mover = view->slot[ROLE_MOVER];
     jolon_FrameStatus status = {
         .run = topics->run,
         .frame = head.frame,
-        /* Read before the head, the word may be frames behind it; it is never below commit. */
+        /* The word was read before the head and may be frames behind it. It is never below
+         * commit. */
         .moved = moved > head.frame ? moved : head.frame,
         .tick = head.tick,
         .sim_time_s = state_time_s(&view->world, &head),
@@ -280,5 +281,5 @@ void status_topics_frame(struct status_topics *topics, const struct view *view, 
         .collider_time = times_of(&collider->stage),
         .recent = recent_times(topics, &collider->whole),
     };
-    (void)dds_write(topics->frame, &status); /* ten a second: the next one makes up for it */
+    (void)dds_write(topics->frame, &status); /* the next sample replaces a lost one */
 }

@@ -1,7 +1,6 @@
-/* Reports: what the world, its processes and its frames say of themselves.
- *
- * WorldInfo and EntityNames once, ProcessStatus of each role on change and once a second,
- * FrameStatus as often as the caller asks. Reads the segment; writes nothing but DDS samples. */
+/* The status topics: WorldInfo and EntityNames once, ProcessStatus of each role on change and once
+ * a second, FrameStatus as often as the caller asks. Reads the segment and writes only DDS
+ * samples. */
 #ifndef JOLON_REPORTER_STATUS_TOPICS_H
 #define JOLON_REPORTER_STATUS_TOPICS_H
 
@@ -26,28 +25,28 @@ struct status_topics {
         uint64_t at_ns, commit;
     } rate[STATUS_TOPICS_RATE_SAMPLES];
     uint32_t rate_next, rate_count;
-    struct histogram whole;       /* of frame times, when the last FrameStatus was made */
-    uint64_t commit, advanced_ns; /* last commit seen, and when it was new */
+    struct histogram whole;       /* frame times when the last FrameStatus was written */
+    uint64_t commit, advanced_ns; /* last commit seen, and when it was first seen */
 };
 
-/* Makes the writers; -1 with the reason. */
+/* Makes the writers. Returns 0, or -1 with the reason. */
 int status_topics_open(struct status_topics *topics, const struct view *view,
                        const struct dds_link *link, struct error_text *error);
 
-/* Writes WorldInfo; -1 with the reason when there is no memory for it. */
+/* Writes WorldInfo. Returns 0, or -1 with the reason. */
 int status_topics_world(struct status_topics *topics, const struct view *view,
                         struct error_text *error);
 
-/* Writes EntityNames; same error. */
+/* Writes EntityNames. Returns 0, or -1 with the reason. */
 int status_topics_names(const struct status_topics *topics, const struct view *view,
                         struct error_text *error);
 
-/* Writes the ProcessStatus of each role that changed, or was not written for a second. */
+/* Writes the ProcessStatus of each role that has changed, or was not written for a second. */
 void status_topics_processes(struct status_topics *topics, const struct view *view,
                              uint64_t now_ns);
 
-/* Writes FrameStatus of the last committed frame. Every STATUS_TOPICS_PERIOD_NS: the frame rate is
- * measured over the calls. */
+/* Writes FrameStatus of the last committed frame. To be called every STATUS_TOPICS_PERIOD_NS,
+ * because the frame rate is measured over the calls. */
 void status_topics_frame(struct status_topics *topics, const struct view *view, uint64_t now_ns);
 
 #endif

@@ -33,6 +33,16 @@ void frame_protocol_beat(struct view *view)
     atomic_store_explicit(&view->slot[view->role]->beat_ns, clock_now_ns(), memory_order_relaxed);
 }
 
+void frame_protocol_stage_done(struct view *view, uint64_t number, uint64_t stage_ns)
+{
+    struct role_slot *slot = view->slot[view->role];
+    histogram_add(&slot->stage, stage_ns);
+    CRASH_POINT("stage's time");
+    atomic_store_explicit(&slot->stage_ns, stage_ns, memory_order_relaxed);
+    CRASH_POINT("stage's frame");
+    atomic_store_explicit(&slot->frame, number, memory_order_relaxed);
+}
+
 static bool head_finished(const struct view *view, const struct state_head *head, uint64_t commit)
 {
     uint64_t limit = view->world.params->frame_limit;
@@ -167,23 +177,13 @@ int frame_protocol_mover_begin(struct frame_protocol *frame, struct view *view)
     return -1;
 }
 
-static void stage_done(struct view *view, const struct frame_protocol *frame, uint64_t stage_ns)
-{
-    struct role_slot *slot = view->slot[view->role];
-    histogram_add(&slot->stage, stage_ns);
-    CRASH_POINT("stage's time");
-    atomic_store_explicit(&slot->stage_ns, stage_ns, memory_order_relaxed);
-    CRASH_POINT("stage's frame");
-    atomic_store_explicit(&slot->frame, frame->number, memory_order_relaxed);
-}
-
 void frame_protocol_mover_end(struct frame_protocol *frame, struct view *view)
 {
     uint64_t stage_ns = clock_now_ns() - frame->begun_ns;
     CRASH_POINT_UNGUARD();
     CRASH_POINT("mover's time");
     view->m.head->mover_ns = stage_ns;
-    stage_done(view, frame, stage_ns);
+    frame_protocol_stage_done(view, frame->number, stage_ns);
     CRASH_POINT("moved");
     atomic_store_explicit(&view->moved_word->moved, frame->number, memory_order_release);
     doorbell_ring(view->doorbells, ROLE_COLLIDER);
@@ -229,7 +229,7 @@ void frame_protocol_collider_end(struct frame_protocol *frame, struct view *view
     CRASH_POINT_UNGUARD();
     uint64_t mover_ns = view->m.head->mover_ns;
     uint64_t stage_ns = clock_now_ns() - frame->begun_ns;
-    stage_done(view, frame, stage_ns);
+    frame_protocol_stage_done(view, frame->number, stage_ns);
     histogram_add(&view->slot[ROLE_COLLIDER]->whole, mover_ns + stage_ns);
     CRASH_POINT("commit");
     atomic_store_explicit(&view->commit->commit, frame->number, memory_order_release);

@@ -40,4 +40,7 @@ bool frame_protocol_finished(const struct view *view);
 /* Writes the heartbeat of the view's role. */
 void frame_protocol_beat(struct view *view);
 
+/* Writes the work of the view's role on a frame into its slot. */
+void frame_protocol_stage_done(struct view *view, uint64_t number, uint64_t stage_ns);
+
 #endif

@@ -1,4 +1,4 @@
-/* Queues, budgets and turns of the sources of commands. */
+/* Queues and budgets of the sources of commands. */
 #include "reporter/intake/admission.h"
 
 void admission_enter(struct admission *admission, uint32_t i, uint64_t client)
@@ -44,7 +44,7 @@ bool admission_is_costly(const jolon_Command *command)
            (command->type == jolon_COMMAND_FIRE && command->entity == 0);
 }
 
-/* Takes what the command costs from the budgets; false, with nothing taken, when one is empty. */
+/* Takes the command from the budgets. Returns false, and takes nothing, when one is empty. */
 static bool pay(struct admission *admission, struct admission_source *source,
                 const jolon_Command *command, bool strained, uint64_t now_ns)
 {
@@ -65,7 +65,7 @@ static bool pay(struct admission *admission, struct admission_source *source,
     return true;
 }
 
-/* One round over the sources, from the one whose turn it is. */
+/* Goes round the sources once, beginning with admission->next. */
 static bool take_of(struct admission *admission, bool operators, bool strained, uint64_t now_ns,
                     jolon_Command *command, uint64_t *client)
 {

@@ -1,4 +1,4 @@
-/* Accepting clients, reading commands, sending replies. */
+/* Accepts clients, reads commands and sends replies. */
 #include "reporter/intake/client_sockets.h"
 
 #include "ipc/process/clock.h"
@@ -35,7 +35,7 @@ void client_sockets_close(struct client_sockets *sockets)
     close(sockets->listener);
 }
 
-static void forget(struct client_sockets *sockets, struct admission *admission, uint32_t i)
+static void close_client(struct client_sockets *sockets, struct admission *admission, uint32_t i)
 {
     close(sockets->client[i].fd);
     sockets->client[i].fd = -1;
@@ -53,35 +53,37 @@ static uint32_t connections_of(const struct client_sockets *sockets, pid_t pid)
     return count;
 }
 
-/* The client to make room for a newcomer: of the process with the most connections, the one that
- * has been silent longest. A newcomer whose process has as many already finds none. */
-static uint32_t find_victim(const struct client_sockets *sockets, uint32_t newcomers)
+/* Returns the client that a new client evicts: of the process with the most connections, the one
+ * that has been silent for longest. Returns ADMISSION_SOURCES if the new client's process has as
+ * many. */
+static uint32_t find_evicted(const struct client_sockets *sockets, uint32_t newcomers)
 {
-    uint32_t victim = ADMISSION_SOURCES, most = newcomers;
+    uint32_t evicted = ADMISSION_SOURCES, most = newcomers;
     for (uint32_t i = 0; i < ADMISSION_SOURCES; i++) {
         const struct client *client = &sockets->client[i];
         uint32_t count = connections_of(sockets, client->pid);
-        if (count > most || (victim < ADMISSION_SOURCES && count == most &&
-                             client->heard_ns < sockets->client[victim].heard_ns)) {
-            victim = i;
+        if (count > most || (evicted < ADMISSION_SOURCES && count == most &&
+                             client->heard_ns < sockets->client[evicted].heard_ns)) {
+            evicted = i;
             most = count;
         }
     }
-    return victim;
+    return evicted;
 }
 
-/* A place for a new client of a process with so many already; ADMISSION_SOURCES: there is none. */
-static uint32_t find_place(struct client_sockets *sockets, struct admission *admission,
+/* Returns the entry for a new client of a process with so many connections, ADMISSION_SOURCES if
+ * there is none. */
+static uint32_t find_entry(struct client_sockets *sockets, struct admission *admission,
                            uint32_t newcomers)
 {
     for (uint32_t i = 0; i < ADMISSION_SOURCES; i++) {
         if (!sockets->client[i].key)
             return i;
     }
-    uint32_t victim = find_victim(sockets, newcomers);
-    if (victim < ADMISSION_SOURCES)
-        forget(sockets, admission, victim);
-    return victim;
+    uint32_t evicted = find_evicted(sockets, newcomers);
+    if (evicted < ADMISSION_SOURCES)
+        close_client(sockets, admission, evicted);
+    return evicted;
 }
 
 static void refuse(struct client_sockets *sockets, int fd, const char *detail, pid_t pid)
@@ -91,8 +93,8 @@ static void refuse(struct client_sockets *sockets, int fd, const char *detail, p
     close(fd);
 }
 
-static void welcome(struct client_sockets *sockets, struct admission *admission, int fd,
-                    uint64_t now_ns)
+static void admit(struct client_sockets *sockets, struct admission *admission, int fd,
+                  uint64_t now_ns)
 {
     struct ucred peer;
     if (!local_socket_peer(fd, &peer)) {
@@ -108,7 +110,7 @@ static void welcome(struct client_sockets *sockets, struct admission *admission,
         refuse(sockets, fd, "it has too many connections already", peer.pid);
         return;
     }
-    uint32_t i = find_place(sockets, admission, others);
+    uint32_t i = find_entry(sockets, admission, others);
     if (i == ADMISSION_SOURCES) {
         refuse(sockets, fd, "all places are taken", peer.pid);
         return;
@@ -124,14 +126,14 @@ static void accept_new(struct client_sockets *sockets, struct admission *admissi
         int fd = accept4(sockets->listener, NULL, NULL, SOCK_NONBLOCK | SOCK_CLOEXEC);
         if (fd < 0)
             return;
-        welcome(sockets, admission, fd, now_ns);
+        admit(sockets, admission, fd, now_ns);
     }
 }
 
 /* --- reading -----------------------------------------------------------------------------------*/
 
-/* Whatever the bytes are, afterwards they are a command: a text with an end, a truth of 0 or 1. */
-static void make_readable(struct command_packet *packet)
+/* Makes any bytes a valid object: the text gets an end, and the truth value becomes 0 or 1. */
+static void make_valid(struct command_packet *packet)
 {
     unsigned char anyway;
     unsigned char *bytes = (unsigned char *)packet;
@@ -142,7 +144,7 @@ static void make_readable(struct command_packet *packet)
     packet->command.kind[sizeof packet->command.kind - 1] = '\0';
 }
 
-/* False when the client is to be let go of. */
+/* Returns false when the client must be closed. */
 static bool read_one(struct client_sockets *sockets, struct admission *admission, uint32_t i,
                      uint64_t now_ns, bool *more)
 {
@@ -161,15 +163,15 @@ static bool read_one(struct client_sockets *sockets, struct admission *admission
                      (int)client->pid, bytes);
         return false;
     }
-    make_readable(&packet);
+    make_valid(&packet);
     client->heard_ns = now_ns;
     admission_put(admission, i, &packet.command);
     *more = true;
     return true;
 }
 
-/* Also of a flooder whose commands nobody reads any more, the death is seen at once. */
-static void forget_the_gone(struct client_sockets *sockets, struct admission *admission)
+/* Closes clients that hung up, also those whose commands are not being read. */
+static void close_hung_up(struct client_sockets *sockets, struct admission *admission)
 {
     struct pollfd polled[ADMISSION_SOURCES];
     for (uint32_t i = 0; i < ADMISSION_SOURCES; i++)
@@ -178,20 +180,20 @@ static void forget_the_gone(struct client_sockets *sockets, struct admission *ad
         return;
     for (uint32_t i = 0; i < ADMISSION_SOURCES; i++) {
         if (polled[i].fd >= 0 && polled[i].revents & (POLLHUP | POLLERR))
-            forget(sockets, admission, i);
+            close_client(sockets, admission, i);
     }
 }
 
 void client_sockets_receive(struct client_sockets *sockets, struct admission *admission,
                             uint64_t now_ns)
 {
-    forget_the_gone(sockets, admission);
+    close_hung_up(sockets, admission);
     accept_new(sockets, admission, now_ns);
     for (uint32_t i = 0; i < ADMISSION_SOURCES; i++) {
         bool more = sockets->client[i].fd >= 0;
         while (more && admission_room(admission, i)) {
             if (!read_one(sockets, admission, i, now_ns, &more))
-                forget(sockets, admission, i);
+                close_client(sockets, admission, i);
         }
     }
 }

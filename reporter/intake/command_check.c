@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-/* The wire's enumerations are the world's, so that values need no translation. */
+/* The enumerations of status.idl are those of the world, so values need no translation. */
 _Static_assert((int)jolon_COMMAND_QUIT == (int)COMMAND_QUIT &&
                    (int)COMMAND_TYPE_COUNT == (int)jolon_COMMAND_QUIT + 1,
                "command types in ipc/topics/status.idl");
@@ -25,7 +25,7 @@ _Static_assert((int)jolon_GEAR_LOW == (int)GEAR_LOW && (int)GEAR_COUNT == (int)j
 _Static_assert(sizeof((jolon_Command *)0)->kind == KIND_NAME_MAX,
                "kind names in ipc/topics/status.idl");
 
-/* False also for what is no number. */
+/* Returns false also for NaN. */
 static bool within(double value, double low, double high)
 {
     return value >= low && value <= high;

@@ -1,8 +1,7 @@
-/* Checks a command that came over DDS and puts it into the form of the command ring.
+/* Checks a command from outside and converts it into the form of the command ring.
  *
- * Whoever reaches the domain can send anything: numbers that are none, ranges nobody thought of,
- * names of nothing. What passes here is well-formed; whether the world can do it now, and whether
- * its entity exists, only the mover knows. Pure. */
+ * A client can send anything: NaN, numbers out of range, unknown names. A command that passes is
+ * well-formed. Whether its entity exists, and the world can do it now, only the mover knows. */
 #ifndef JOLON_REPORTER_INTAKE_COMMAND_CHECK_H
 #define JOLON_REPORTER_INTAKE_COMMAND_CHECK_H
 
@@ -17,7 +16,7 @@ struct world;
 #define COMMAND_CHECK_ALTITUDE_MAX 20000.0 /* [m] */
 #define COMMAND_CHECK_SPEED_MAX    2000.0  /* [m/s] */
 
-/* Fills command from wire; COMMAND_DONE when it may go into the ring, else why not. */
+/* Fills command from wire. Returns COMMAND_DONE when it may go into the ring, else the reason. */
 enum command_result command_check(struct command *command, const jolon_Command *wire,
                                   const struct world *world);
 

@@ -1,4 +1,4 @@
-/* The history of commands: a ring of entries, found by chains of their keys' hashes. */
+/* The history of commands: a ring of entries in hash chains. */
 #include "reporter/intake/command_history.h"
 
 #include <stddef.h>

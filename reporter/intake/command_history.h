@@ -1,8 +1,8 @@
-/* The history of commands: which (source, sequence) was taken, and what became of it.
+/* The history of commands: which (source, sequence) was taken, and its result.
  *
- * It keeps the last HISTORY_ENTRIES keys: at the most that the ring takes (ADMISSION_RING_ROOM a
- * frame) some 2.8 s at 60 Hz, many times a client's pause between two repeats. The command ring and
- * the event ring still know what the history has forgotten. Pure; one thread. */
+ * It keeps the last HISTORY_ENTRIES keys. At the highest rate of commands (ADMISSION_RING_ROOM a
+ * frame) this is about 2.8 s at 60 Hz, much longer than a client waits between two repeats. Older
+ * keys are still in the command ring and the event ring. One thread. */
 #ifndef JOLON_REPORTER_INTAKE_COMMAND_HISTORY_H
 #define JOLON_REPORTER_INTAKE_COMMAND_HISTORY_H
 
@@ -14,8 +14,8 @@
 
 struct history_entry {
     uint64_t source, sequence; /* source 0: the entry is empty */
-    uint64_t frame;            /* that answered it */
-    uint64_t client;           /* that sent it last (client_sockets.h), 0: not known */
+    uint64_t frame;            /* the frame that answered it */
+    uint64_t client;           /* the client that sent it last (client_sockets.h), 0: unknown */
     uint32_t type;             /* enum command_type */
     uint32_t result;           /* enum command_result, when answered */
     uint32_t entity;
@@ -31,19 +31,18 @@ struct command_history {
     uint64_t seed;                  /* of the chains' hash */
 };
 
-/* Empties it. The seed should be a random number. */
+/* Empties the history. The seed should be random. */
 void command_history_clear(struct command_history *history, uint64_t seed);
 
-/* The entry of a key, NULL when the history does not have it. */
+/* Returns the entry of a key, NULL when there is none. */
 struct history_entry *command_history_find(struct command_history *history, uint64_t source,
                                            uint64_t sequence);
 
-/* Notes a command that waits for its answer, and its client. A key that the history has already is
- * left as it is. */
+/* Adds a command that waits for its answer, with its client. A key that exists stays as it is. */
 void command_history_wait(struct command_history *history, uint64_t source, uint64_t sequence,
                           uint32_t type, uint64_t client);
 
-/* Notes an answer, whether or not the history knew the command. Returns its entry. */
+/* Adds an answer, also to an unknown command. Returns its entry. */
 struct history_entry *command_history_answer(struct command_history *history, uint64_t source,
                                              uint64_t sequence, uint32_t type, uint32_t result,
                                              uint32_t entity, uint64_t frame);

@@ -1,4 +1,4 @@
-/* Commands in, replies out. */
+/* Takes commands and sends replies. */
 #include "reporter/intake/command_intake.h"
 
 #include "ipc/frame/command_ring.h"
@@ -15,7 +15,8 @@
 #include <errno.h>
 #include <sys/random.h>
 
-#define LONG_FRAME_NS (50 * (uint64_t)NS_PER_MS) /* an idle collider beats every 20 ms */
+#define LONG_FRAME_NS                                                                              \
+    (50 * (uint64_t)NS_PER_MS) /* an idle collider's heartbeat comes every 20 ms */
 
 static int cannot_read(const struct view *view, struct error_text *error)
 {
@@ -31,7 +32,8 @@ int command_intake_open(struct command_intake *intake, const struct view *view,
     if (getrandom(&seed, sizeof seed, 0) != (ssize_t)sizeof seed)
         return error_text_set(error, "the system gives no random numbers");
     command_history_clear(&intake->history, seed);
-    /* The recovery notes every answer up to a later head; what is read twice changes nothing. */
+    /* history_recover() reads every answer up to a later head. Reading an answer twice changes
+     * nothing. */
     if (snapshot_head(&head, view) != 0)
         return cannot_read(view, error);
     intake->cursor.next = head.event_end;
@@ -122,7 +124,7 @@ static void take_one(struct command_intake *intake, struct view *view, const jol
     struct command command;
     struct history_entry *known =
         command_history_find(&intake->history, wire->source, wire->sequence);
-    if (known) { /* a repetition, perhaps over a new connection */
+    if (known) { /* a repeat, perhaps over a new connection */
         known->client = client;
         if (known->answered)
             reply_to(intake, known);
@@ -130,24 +132,25 @@ static void take_one(struct command_intake *intake, struct view *view, const jol
     }
     enum command_result result = command_check(&command, wire, &view->world);
     if (result == COMMAND_DONE && over)
-        result = COMMAND_CANNOT; /* no mover takes commands out of the ring any more */
+        result = COMMAND_CANNOT; /* the mover no longer takes commands from the ring */
     if (result == COMMAND_DONE)
         put(intake, view, &command, client);
     else
         refuse(intake, view, wire, result, client);
 }
 
-/* Commands that lie in the ring and that no committed frame has taken. */
+/* Returns the number of commands in the ring that no committed frame has taken. */
 static uint64_t untaken(const struct view *view)
 {
     struct state_head head;
     uint64_t end = atomic_load_explicit(&view->commands[RING_CLIENTS]->head, memory_order_relaxed);
     if (snapshot_head(&head, view) != 0)
-        return UINT64_MAX; /* the next turn finds a frame that stands still for long enough */
+        return UINT64_MAX; /* the next call tries again */
     return end - head.command_cursor[RING_CLIENTS];
 }
 
-/* Did the last frame's work take too large a share of its time, or is a long one under way? */
+/* Returns true if the last frame took too large a share of its time, or a long frame is in
+ * progress. */
 static bool strained(const struct view *view)
 {
     const struct role_slot *mover = view->slot[ROLE_MOVER], *collider = view->slot[ROLE_COLLIDER];
@@ -163,7 +166,7 @@ void command_intake_poll(struct command_intake *intake, struct view *view, uint6
     jolon_Command wire;
     uint64_t client = 0;
     bool over =
-        frame_protocol_finished(view); /* before the answers: then every one of them is read */
+        frame_protocol_finished(view); /* read first, so that take_answers() reads every answer */
     take_answers(intake, view);
     client_sockets_receive(&intake->clients, &intake->admission, now_ns);
     if (!admission_waiting(&intake->admission))

@@ -1,8 +1,8 @@
-/* The way of a command from a client into the command ring, and of its reply back.
+/* The path of a command from a client into the command ring, and of its reply back.
  *
- * A command is done once however often it comes and whenever this process is killed: the ring and
- * the events tell a successor what was taken and what was answered, and a client repeats what was
- * not answered. One thread. */
+ * A command is executed once, however often it comes and whenever this process is killed. A new
+ * intake learns from the ring and the events which commands were taken and answered, and a client
+ * repeats a command until it is answered. One thread. */
 #ifndef JOLON_REPORTER_INTAKE_COMMAND_INTAKE_H
 #define JOLON_REPORTER_INTAKE_COMMAND_INTAKE_H
 
@@ -17,21 +17,22 @@ struct command_intake {
     struct client_sockets clients;
     struct admission admission;
     struct command_history history;
-    struct event_cursor cursor; /* of the answers */
+    struct event_cursor cursor; /* for the answers */
     struct event event[INTAKE_EVENTS_AT_ONCE];
     uint64_t refused_logged_ns, full_logged_ns;
 };
 
-/* Finds out what a predecessor took, then listens for clients. 0, or -1 with the reason. */
+/* Recovers the predecessor's history, then listens for clients. Returns 0, or -1 with the
+ * reason. */
 int command_intake_open(struct command_intake *intake, const struct view *view,
                         struct error_text *error);
 void command_intake_close(struct command_intake *intake);
 
-/* Answers what was committed, receives, and puts what is admitted into the ring. Does not block.
- * Once the run is over, commands are refused. */
+/* Replies to commands of committed frames, receives commands, and puts admitted commands into the
+ * ring. Once the run has ended, commands are refused. Does not block. */
 void command_intake_poll(struct command_intake *intake, struct view *view, uint64_t now_ns);
 
-/* True when a command waits for its turn or for its answer. */
+/* Returns true if a command waits for admission or for its answer. */
 bool command_intake_busy(const struct command_intake *intake);
 
 #endif

@@ -1,4 +1,4 @@
-/* The history of a predecessor, from what it left in the world. */
+/* Recovers the history from what the predecessor left in the world. */
 #include "reporter/intake/history_recovery.h"
 
 #include "ipc/frame/event_cursor.h"
@@ -18,7 +18,7 @@ static int whole_head(struct state_head *head, const struct view *view)
     return 0;
 }
 
-/* Answers of events up to end. */
+/* Adds the answers of the events up to end. */
 static int note_answers(struct command_history *history, const struct view *view,
                         enum command_ring ring, uint64_t end)
 {
@@ -48,8 +48,8 @@ int history_recover(struct command_history *history, const struct view *view,
     struct state_head head;
     if (whole_head(&head, view) != 0 || note_answers(history, view, ring, head.event_end) != 0)
         return -1;
-    /* Every command before that head's cursor has its answer before its event end; the others are
-     * in the ring, which nobody else writes. */
+    /* Every command before the head's cursor has its answer before the head's event end. The others
+     * are in the ring, which only this process writes. */
     uint64_t end = atomic_load_explicit(&words->head, memory_order_relaxed);
     for (uint64_t i = head.command_cursor[ring]; i < end; i++) {
         const struct command *command = &words->slot[i & (slots - 1)];

@@ -1,7 +1,7 @@
 /* jolon-intake: takes the commands of local clients into the command ring, and sends the replies.
  *
- * It is the only writer of the clients' ring, and it knows neither DDS nor any other network: what
- * comes from other machines reaches it through the reporter, which is a client like any other. */
+ * It is the only writer of the clients' ring, and it uses no network. Commands of other machines
+ * come through the reporter, which is a client like any other. */
 #include "ipc/segment/segment_attach.h"
 #include "reporter/intake/command_intake.h"
 #include "ipc/process/clock.h"
@@ -11,14 +11,14 @@
 #include "ipc/process/process.h"
 #include "ipc/sandbox/sandbox.h"
 
-/* Longest waits between two looks at the world: with nothing to do, and with a command under way.
- * Both leave the heart beating more often than every 20 ms. */
+/* Longest waits between two polls: idle, and with a command in progress. With either the heartbeat
+ * comes at least every 20 ms. */
 #define WAIT_NS      (10 * (uint64_t)NS_PER_MS)
 #define WAIT_BUSY_NS ((uint64_t)NS_PER_MS)
 
 static struct {
     const char *world;
-    int parent; /* process id, 0: none */
+    int parent; /* ends with this process; 0: none */
     bool sandbox_off;
 } options = {.world = "default"};
 
@@ -29,18 +29,15 @@ static const struct option_row rows[] = {OPTION_ROW_WORLD(options, NULL),
 static const struct option_table table = {
     .program = "jolon-intake", .usage = "[options]", .rows = rows};
 
-static void turn(struct command_intake *intake, struct view *view)
+static void poll_once(struct command_intake *intake, struct view *view)
 {
-    struct role_slot *slot = view->slot[ROLE_INTAKE];
     uint64_t begun_ns = clock_now_ns();
     frame_protocol_beat(view);
     command_intake_poll(intake, view, begun_ns);
     uint64_t frame = segment_load(&view->commit->commit);
     uint64_t stage_ns = clock_now_ns() - begun_ns;
     log_frame(frame);
-    atomic_store_explicit(&slot->frame, frame, memory_order_relaxed);
-    atomic_store_explicit(&slot->stage_ns, stage_ns, memory_order_relaxed);
-    histogram_add(&slot->stage, stage_ns);
+    frame_protocol_stage_done(view, frame, stage_ns);
 }
 
 int main(int argc, char **argv)
@@ -64,7 +61,7 @@ int main(int argc, char **argv)
     segment_ready(&view);
 
     while (!process_stopping()) {
-        turn(&intake, &view);
+        poll_once(&intake, &view);
         uint64_t wait_ns = command_intake_busy(&intake) ? WAIT_BUSY_NS : WAIT_NS;
         client_sockets_wait(&intake.clients, &intake.admission, clock_now_ns() + wait_ns);
     }
