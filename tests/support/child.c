@@ -2,6 +2,7 @@
 #include "tests/support/child.h"
 
 #include "ipc/process/clock.h"
+#include "tests/support/fixture.h"
 
 #include <setjmp.h>
 #include <signal.h>
@@ -17,6 +18,7 @@
 
 pid_t child_start(int (*body)(void *context), void *context)
 {
+    fixture_data_dir(); /* made here: a child ends without its exit handlers, which remove it */
     pid_t parent = getpid();
     pid_t pid = fork();
     assert_true(pid >= 0);
