@@ -52,7 +52,7 @@ for suffix in ("pictures", "commands"):
     holders[-1].listen()
 time.sleep(120)
 P
-start() { as "$first" "$theirs" start -w "$name" --hz 60 --set renderer.width=160 --set renderer.height=90 --out out duel; }
+start() { as "$first" "$theirs" start -w "$name" --set world.frames=0 --set renderer.width=160 --set renderer.height=90 --out out duel; }
 check "the first user's world starts all the same" start
 runs() { as "$first" "$theirs" status -w "$name" | grep -q 'is running'; }
 check "and runs" eventually runs
