@@ -46,7 +46,7 @@ refuses() {
 }
 
 # A value of a JSON object on one line: json KEY[.KEY] < FILE
-json() { python3 -c '
+json() { python3 -I -S -c '
 import json, sys
 value = json.load(sys.stdin)
 for key in sys.argv[1].split("."):
@@ -69,6 +69,46 @@ copy_programs() {
     done
     chmod -R go+rX "$1"
 }
+
+# Late frames. A busy machine makes frames late too: a process of the frame loop is ready to run while
+# another program has the processor. The kernel counts that time, and in_time allows for it.
+# kept_waiting: prints how long mover and collider have waited for a processor since they began [ms].
+kept_waiting() {
+    local role file waited total=0
+    for role in mover collider; do
+        for file in /proc/"$("$bin/jolon-world" pid --world "$name" $role)"/task/*/schedstat; do
+            [ ! -r "$file" ] || read -r _ waited _ <"$file" && total=$((total + ${waited:-0} / 1000000))
+        done
+    done 2>/dev/null
+    echo $total
+}
+summary() { "$bin/jolon-world" summary --json --world "$name" | json "$1"; }
+time_begins() { # late frames are counted from here on
+    late_before=$(summary late_frames) frame_before=$(summary frame) waited_before=$(kept_waiting)
+}
+waited() { echo $(($(kept_waiting) - waited_before)); } # since time_begins [ms]
+# in_time LIMIT [SLACK_MS]: at most LIMIT frames were late since time_begins, besides one for every
+# SLACK_MS (12, what a frame has to spare) that the loop waited for a processor. LIMIT may use the
+# word "frames", the number of frames since then.
+in_time() {
+    local late waited frames
+    waited=$(waited) late=$(($(summary late_frames) - late_before))
+    frames=$(($(summary frame) - frame_before))
+    echo "# $late of $frames frames late; the frame loop waited $waited ms for a processor"
+    [ $frames -gt 0 ] && [ $late -le $(($1 + waited / ${2:-12})) ]
+}
+
+# at_pace SECONDS: the world ran at 50 of its 60 frames a second or more in the SECONDS since
+# time_begins, besides the time that the loop waited for a processor.
+at_pace() { [ $(($(summary frame) - frame_before)) -ge $(($1 * 50 - $(waited) * 60 / 1000)) ]; }
+# behind_loop PID STEPS: the process runs this many steps of niceness below the mover, or at the lowest
+# priority. So it does not take the processor from the frame loop, which in_time could not see.
+behind_loop() {
+    local niceness
+    niceness=$(($(niceness "$("$bin/jolon-world" pid --world "$name" mover)") + $2))
+    equal "$(niceness "$1")" $((niceness < 19 ? niceness : 19))
+}
+niceness() { cut -d' ' -f19 "/proc/$1/stat"; }
 
 # Waits up to 10 s for a condition.
 eventually() {

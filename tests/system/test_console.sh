@@ -2,7 +2,6 @@
 # The console over real processes: what it tells, what can be ordered through it, what it refuses, and that
 # hostile clients of it and of the live stream stop nobody. SEED=n and FUZZ=n choose other hostile bytes, and how many.
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
-# Runs alone: it measures time.
 . "$here/lib.sh"
 
 console() { # options...
@@ -60,7 +59,10 @@ fi
 checks console.py "$(cat url)" "$name"
 renderer_pid() { "$bin/jolon-world" pid --world "$name" renderer; }
 renderer_before=$(renderer_pid)
+time_begins
 checks hostile.py "$(cat url)" "http://127.0.0.1:$port/" chase
+# Its clients load the machine too.
+check "no frames are late because of them" in_time "frames / 50 + 3"
 check "the renderer is the same process as before" equal "$(renderer_pid)" "$renderer_before"
 check "the sandbox forbade nothing" bash -c "! grep -h 'the sandbox forbids' log out/jolon.log"
 

@@ -3,7 +3,6 @@
 # client that dies loses its vehicle; a second driver is refused; the statistics are the table's; the
 # lag from a key to the moved vehicle.
 here=$(cd "$(dirname "$0")" && pwd)
-# Runs alone: it measures time.
 . "$(dirname "$0")/lib.sh"
 lag=$bin/../tests/lag/lag
 

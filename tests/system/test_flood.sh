@@ -2,7 +2,6 @@
 # A client that floods hurts only itself: while one connection tries to send 100,000 commands a second,
 # another's drive is answered within 3 frames, at the 99th of a hundred; spawns on one spot are bounded
 # in time and place; connections without end keep nobody out; the world goes on. SECONDS_EACH=n.
-# Runs alone: it measures time.
 . "$(dirname "$0")/lib.sh"
 flood="$bin/../tests/flood/flood --world $name --seconds ${SECONDS_EACH:-3} --vehicle 1"
 frames=${FRAMES_MAX:-3}

@@ -2,7 +2,6 @@
 # Somebody writes samples on a world's topics that no reporter would write: monitors say nothing but
 # well-formed lines meanwhile, and the truth afterwards. SEED=n chooses others.
 here=$(cd "$(dirname "$0")" && pwd)
-# Runs alone: it measures time.
 . "$here/lib.sh"
 peer=$bin/../tests/rtps/peer
 [ -e "$peer" ] || { skip "hostile samples" "make test builds who writes them"; done_testing; }

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # Nothing is lost: random SIGKILLs of every role during a run, and it ends with the digests of an
 # undisturbed one. KILLS=n and SEED=n choose others.
-# Runs alone: it measures time.
 . "$(dirname "$0")/lib.sh"
 kills=${KILLS:-$([ -n "${JOLON_SANITIZER-}" ] && echo 10 || echo 60)}
 RANDOM=${SEED:=$((RANDOM))}

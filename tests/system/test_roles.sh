@@ -24,6 +24,8 @@ for role in mover collider reporter renderer recorder; do
     check "$role comes back" eventually replaced $role "$before"
     check "and the world moves on" moves_on
 done
+check "the reporter runs behind the frame loop" behind_loop "$(pid reporter)" 5
+check "the renderer runs far behind it" behind_loop "$(pid renderer)" 12
 for role in mover renderer; do
     check "restart $role" "$jolon" restart -w "$name" $role
 done

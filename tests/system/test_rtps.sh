@@ -3,7 +3,6 @@
 # ones of captured discovery and data, participants that come and go.
 # PACKETS=n and SEED=n choose others, RATE=n more a second.
 here=$(cd "$(dirname "$0")" && pwd)
-# Runs alone: it measures time.
 . "$here/lib.sh"
 peer=$bin/../tests/rtps/peer
 rtps=$here/../rtps
@@ -16,7 +15,6 @@ domain=$((100 + $$ % 100)) # of its own: nobody else's reporter is to hear what 
 
 check "a set starts" "$jolon" start -w "$name" --remote-commands --domain $domain --without renderer --out out
 reporter() { "$bin/jolon-world" pid --world "$name" reporter; }
-key() { "$bin/jolon-world" summary --json --world "$name" | json "$1"; }
 answers() { timeout 20 "$bin/jolon-monitor" -w "$name" --domain $domain --once --json >told && [ "$(json world <told)" = "$name" ]; }
 check "the reporter answers" answers
 first=$(reporter)
@@ -50,24 +48,17 @@ check "forty participants come and are answered" equal "$(json heard <left)" 40
 check "and are not told of anything once they have left" [ "$(json after <left)" -le 4 ]
 
 # --- mutated datagrams --------------------------------------------------------------------------------
-late() { # of so many seconds, in late.NAME
-    local before
-    before=$(key late_frames)
-    "${@:2}"
-    echo $(($(key late_frames) - before)) >"late.$1"
-}
-seconds=$((packets / rate))
-late quiet sleep $((seconds < 5 ? seconds : 5))
+time_begins
 echo "# SEED=$seed"
-late fuzz python3 "$rtps/fuzz.py" --bin "$bin" --world "$name" --capture captured --packets "$packets" --rate "$rate" \
+python3 "$rtps/fuzz.py" --bin "$bin" --world "$name" --capture captured --packets "$packets" --rate "$rate" \
     --seed "$seed" >fuzzed
+check "no frame was late because of them" in_time "frames / 100 + 1"
 restarts=$(json restarts <fuzzed)
 check "$packets mutated datagrams are survived" [ "$(json packets <fuzzed)" = "$packets" ]
-echo "# figures: $packets mutated datagrams (SEED=$seed), $(json dropped <fuzzed) not taken, $restarts deaths of the reporter, $(cat late.fuzz) late frames, $(cat late.quiet) without"
+echo "# figures: $packets mutated datagrams (SEED=$seed), $(json dropped <fuzzed) not taken, $restarts deaths of the reporter"
 check "the reporter answers after them" answers
 check "its commands too" equal "$("$peer" -w "$name" --domain $domain command)" answered
 check "it did not die of them" equal "$restarts" 0
-check "no frame was late because of them" [ "$(cat late.fuzz)" -le $(($(cat late.quiet) + seconds * 60 / 100 + 1)) ]
 check "the sandbox forbade nothing" bash -c "! grep 'the sandbox forbids' out/jolon.log"
 check "the set stops" "$jolon" stop -w "$name"
 check "nothing is left" nothing_left "$name"
