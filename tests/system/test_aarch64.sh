@@ -2,6 +2,7 @@
 # The same run to the bit on aarch64: runs of this machine are replayed by programs compiled for
 # aarch64, which an emulator of user programs executes. The emulator also plays kernels with pages of
 # 16 and 64 KiB, on which the two roles then run a world that this machine has made.
+# Long: it compiles the steps for another machine and emulates it.
 . "$(dirname "$0")/lib.sh"
 source_dir=$(cd "$(dirname "$bin")/.." && pwd)
 until [ -e "$source_dir/Makefile" ] || [ "$source_dir" = / ]; do source_dir=$(dirname "$source_dir"); done
@@ -35,7 +36,7 @@ fused_there() { OBJDUMP=aarch64-linux-gnu-objdump "$source_dir/tests/fused" "$so
 check "no instruction there rounds once" fused_there
 
 # emulate [-p PAGE_BYTES] PROGRAM ...
-emulate() { timeout 120 qemu-aarch64 -L /usr/aarch64-linux-gnu -E "LD_LIBRARY_PATH=$lib:$second" "$@"; }
+emulate() { timeout 900 qemu-aarch64 -L /usr/aarch64-linux-gnu -E "LD_LIBRARY_PATH=$lib:$second" "$@"; }
 
 # --- runs of this machine, replayed there ---------------------------------------------------------
 

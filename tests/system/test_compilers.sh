@@ -2,6 +2,7 @@
 # The same run to the bit whoever compiled it: gcc without optimisation, gcc and clang with all that
 # this processor can do, beside the build that is tested; on one thread, two and four. What moves,
 # collides and makes worlds is built anew for each, below build/.
+# Long: it compiles the steps three times.
 . "$(dirname "$0")/lib.sh"
 source_dir=$(cd "$(dirname "$bin")/.." && pwd)
 until [ -e "$source_dir/Makefile" ] || [ "$source_dir" = / ]; do source_dir=$(dirname "$source_dir"); done

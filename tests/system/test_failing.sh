@@ -2,6 +2,7 @@
 # No memory, no descriptor, no room: whatever call fails, a program ends with one clear line and exit
 # 1, or does without and gives the same result. tests/faults/failing.c makes the nth call of a class
 # fail; long rows of calls are sampled. SEED=n chooses others, SAMPLES=n more, ONLY=dump programs.
+# Long: it runs each program hundreds of times.
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/lib.sh"
 

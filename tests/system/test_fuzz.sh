@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Hostile input: each harness of tests/fuzz over its corpus and a fixed number of inputs from a
 # fixed seed. `make fuzz SECONDS=n` goes on for longer.
+# Long: it compiles the harnesses.
 . "$(dirname "$0")/lib.sh"
 source_dir=$(cd "$(dirname "$bin")/.." && pwd)
 until [ -e "$source_dir/Makefile" ] || [ "$source_dir" = / ]; do source_dir=$(dirname "$source_dir"); done

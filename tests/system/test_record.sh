@@ -2,6 +2,7 @@
 # What is recorded can be played again: the log of commands gives the run's digests, over recorders
 # that are killed, disks that are full, worlds that go on from a checkpoint; and what differs between
 # two runs is named. KILLS=n and SEED=n choose others.
+# Long: it kills recorders one after the other.
 . "$(dirname "$0")/lib.sh"
 kills=${KILLS:-15}
 RANDOM=${SEED:=$((RANDOM))}
