@@ -1,4 +1,4 @@
-/* Commands: a function a type, and the loop over the rings. */
+/* Commands: one function for each type, and the loop over the rings. */
 #include "mover/command_apply.h"
 
 #include "mover/motion/driver_controls.h"
@@ -14,7 +14,7 @@
 
 #include <string.h>
 
-#define COMMANDS_A_FRAME 256 /* of one ring; the rest waits for the next frame */
+#define COMMANDS_A_FRAME 256 /* of one ring; further commands wait for the next frame */
 #define TIME_SCALE_MIN   0.01
 #define TIME_SCALE_MAX   100.0
 #define STEPS_MAX        1000000u
@@ -59,7 +59,7 @@ static enum command_result set_behaviour(struct serial_context *context, uint32_
     return COMMAND_DONE;
 }
 
-/* Does another source have this vehicle to itself? */
+/* Returns true if another source alone drives this vehicle. */
 static bool taken(const struct serial_context *context, uint32_t row, const struct command *command)
 {
     const struct entities *m = &context->moved->entities;
@@ -161,8 +161,9 @@ static enum command_result fire(struct serial_context *context, const struct com
     return fire_shoot(context, row, target, KIND_NONE) ? COMMAND_DONE : COMMAND_TABLE_FULL;
 }
 
-/* Are there COMMAND_SPOT_VEHICLES vehicles within COMMAND_SPOT_M of this place? The collider's time
- * for bodies that are spawned into one another grows with the square of their number. */
+/* Returns true if there are COMMAND_SPOT_VEHICLES vehicles within COMMAND_SPOT_M of this place. The
+ * collider's time for bodies that are spawned into one another grows with the square of their
+ * number. */
 static bool crowded(const struct serial_context *context, struct vec3 place)
 {
     const struct entities *m = &context->moved->entities;

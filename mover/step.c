@@ -75,7 +75,7 @@ struct batches {
     uint8_t motion[CHECKSUM_ROWS];
     struct ground_vehicle land;
     struct aircraft air;
-    struct constant_course hold;
+    struct constant_course course;
     struct wrecks wrecks;
 };
 
@@ -113,16 +113,16 @@ static void move_air(const struct step_context *context, struct batches *batches
     air->count = 0;
 }
 
-static void move_hold(const struct step_context *context, struct batches *batches)
+static void move_course(const struct step_context *context, struct batches *batches)
 {
-    struct constant_course *hold = &batches->hold;
+    struct constant_course *course = &batches->course;
     const bool guns = !row_block_lacks(batches->block, GUN_COLUMNS);
-    constant_course_set_down(context, hold);
-    for (int l = 0; l < hold->count; l++) {
-        if (guns && context->m->state[hold->row[l]] != ENTITY_WRECK)
-            turret_turn(context, hold->row[l], &(struct turret_solution){0});
+    constant_course_set_down(context, course);
+    for (int l = 0; l < course->count; l++) {
+        if (guns && context->m->state[course->row[l]] != ENTITY_WRECK)
+            turret_turn(context, course->row[l], &(struct turret_solution){0});
     }
-    hold->count = 0;
+    course->count = 0;
 }
 
 static void move_wrecks(const struct step_context *context, struct batches *batches)
@@ -132,14 +132,14 @@ static void move_wrecks(const struct step_context *context, struct batches *batc
     for (int l = 0; l < wrecks->count; l++) {
         uint32_t i = wrecks->row[l];
         if (wreck_row(context, i, wrecks->y.lane[l]) &&
-            constant_course_take(context, &batches->hold, i))
-            move_hold(context, batches);
+            constant_course_take(context, &batches->course, i))
+            move_course(context, batches);
     }
     wrecks->count = 0;
 }
 
-static void move_by_wish(const struct step_context *context, uint32_t i,
-                         const struct desired_motion *desired, struct batches *batches)
+static void move_as_desired(const struct step_context *context, uint32_t i,
+                            const struct desired_motion *desired, struct batches *batches)
 {
     switch ((enum domain)context->world->kinds[context->m->kind[i]].domain) {
     case DOMAIN_SEA:
@@ -162,7 +162,7 @@ static void move_held(const struct step_context *context, uint32_t i, struct bat
     struct desired_motion desired;
     if (context->world->kinds[context->m->kind[i]].domain != DOMAIN_LAND) {
         agent_controls_motion(context, i, &desired);
-        move_by_wish(context, i, &desired, batches);
+        move_as_desired(context, i, &desired, batches);
     } else if (ground_vehicle_take_held(context, &batches->land, i)) {
         move_land(context, batches);
     }
@@ -184,12 +184,12 @@ static void move_row(const struct step_context *context, uint32_t i, struct batc
     case MOTION_HOLD:
         if (!constant_course_row(context, i))
             turret_turn(context, i, &(struct turret_solution){0});
-        else if (constant_course_take(context, &batches->hold, i))
-            move_hold(context, batches);
+        else if (constant_course_take(context, &batches->course, i))
+            move_course(context, batches);
         break;
     case MOTION_ALONE:
         agent_direct(context, i, &desired);
-        move_by_wish(context, i, &desired, batches);
+        move_as_desired(context, i, &desired, batches);
         break;
     case MOTION_COURSE:
     case MOTION_AGENT:
@@ -206,8 +206,8 @@ static void move_rest(const struct step_context *context, struct batches *batche
         move_air(context, batches);
     if (batches->wrecks.count > 0)
         move_wrecks(context, batches);
-    if (batches->hold.count > 0)
-        move_hold(context, batches);
+    if (batches->course.count > 0)
+        move_course(context, batches);
 }
 
 /* Columns that only commands, shots and collisions change. */
@@ -224,8 +224,8 @@ static void move_rest(const struct step_context *context, struct batches *batche
      COLUMN_BIT(fuel_l))
 #define LAID_COLUMNS (GUN_COLUMNS | COLUMN_BIT(trigger))
 
-/* The columns of the block that were zero in every row and still are. Only rows that did more than
- * move can have written to them. */
+/* Returns the columns of the block that were zero in every row and still are. Only rows that did
+ * more than move can have written to them. */
 static uint64_t still_blank(const struct rows *rows, const struct batches *batches)
 {
     const struct row_block *block = batches->block;
@@ -252,7 +252,7 @@ static uint64_t move_block(const struct rows *rows, const struct row_block *bloc
     think_schedule_run(context, block, batches.motion);
     ground_vehicle_begin(&batches.land);
     aircraft_begin(&batches.air);
-    constant_course_begin(&batches.hold);
+    constant_course_begin(&batches.course);
     wrecks_begin(&batches.wrecks);
     for (uint32_t i = block->first; i < block->end; i++)
         move_row(context, i, &batches);
@@ -366,8 +366,8 @@ static void begin_head(struct moved *moved, const struct state_head *committed)
     moved->head->checksum = 0;
 }
 
-/* Is the moved table the one that this process left for the frame that is now committed? Then it
- * differs from that frame only where collisions changed rows. */
+/* Returns true if the moved table is the one that this process left for the frame that is now
+ * committed. Then it differs from that frame only where collisions changed rows. */
 static bool is_own(const struct mover *mover, const struct state *committed,
                    const struct moved *moved)
 {

@@ -24,7 +24,7 @@ struct mover {
     /* What follows from the static world. */
     struct avoidance avoidance;
     struct square_bounds slopes;
-    /* Of the committed world, made in each frame. */
+    /* Of the committed world, built in each frame. */
     struct neighbour_index neighbours;
     struct neighbour_lists neighbour_lists;
     struct line_of_sight line_of_sight;

@@ -123,7 +123,8 @@ static void drive_to_goal(const struct step_context *context, uint32_t i, double
     desired->speed_mps = speed;
 }
 
-/* Drives away from what it ran into: forwards, or backwards where that needs a smaller turn. */
+/* Drives away from the obstacle that it ran into: forwards, or backwards where that needs a smaller
+ * turn. */
 static void drive_back_off(const struct step_context *context, uint32_t i, double speed,
                            struct desired_motion *desired)
 {

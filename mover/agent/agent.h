@@ -18,7 +18,8 @@ void agent_direct(const struct step_context *context, uint32_t i, struct desired
 void agent_controls_motion(const struct step_context *context, uint32_t i,
                            struct desired_motion *desired);
 
-/* Does a script or a driver set the controls, so that the row decides in every frame? */
+/* Returns true if a script or a driver sets the controls, so that the row decides in every
+ * frame. */
 static inline bool agent_thinks_each_frame(enum behaviour behaviour)
 {
     return behaviour == BEHAVIOUR_DRIVEN || behaviour == BEHAVIOUR_SCRIPT;

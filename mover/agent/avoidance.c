@@ -15,26 +15,27 @@
 
 #include <stddef.h>
 
-#define REACT_S        0.6  /* time until a look has turned or slowed the vehicle */
-#define TURNS_AHEAD    1.5  /* least horizon in turning circles */
-#define HORIZON_M      12.0 /* added to the horizon */
-#define FARTHEST_M     600.0
-#define TALL_M         3.0   /* parts above this height are no obstacle for land vehicles */
-#define GAP_M          1.0   /* gap to obstacles at the sides and ahead */
-#define AIR_GAP_M      8.0   /* the same in the air, and above and below */
-#define LOW_FLIGHT_M   40.0  /* above this height no fixed object is an obstacle */
-#define BRAKE_SHARE    0.8   /* share of the hardest braking that it relies on */
-#define HARMLESS_SHARE 0.005 /* share of its resistance_j that a harmless object may cost */
-#define YIELDS         0.1   /* fixed kinds with less rigidity bend aside */
-#define TURN_COST      0.25  /* of each radian of turning, in shares of the horizon */
-#define CHANGE_COST    0.10  /* of each radian off the last dodge, so that it does not waver */
-#define LEFT_COST      0.03  /* of turning left, so that two vehicles that meet both turn right */
-#define SHARP_SHARE    0.25  /* share of its speed in turns of 90 degrees and more */
-#define STRAYS         0.05  /* how far bodies stray from their course, over the distance */
-#define GIVEN_WAY_S    2.5   /* it relies on the other to give way if they meet after this time */
-#define CROSSING       0.94  /* cosine of 20 degrees: courses that differ by less do not cross */
-#define ROUNDED_MPS    1e-4  /* more than the index rounds velocities */
-#define CLIMB_AHEAD_S  6.0   /* how far ahead aircraft look at the ground */
+#define REACT_S      0.6  /* time until a look has turned or slowed the vehicle */
+#define TURNS_AHEAD  1.5  /* least horizon in turning circles */
+#define HORIZON_M    12.0 /* added to the horizon */
+#define FARTHEST_M   600.0
+#define TALL_M       3.0  /* parts above this height are no obstacle for land vehicles */
+#define GAP_M        1.0  /* gap to obstacles at the sides and ahead */
+#define AIR_GAP_M    8.0  /* the same in the air, and above and below */
+#define LOW_FLIGHT_M 40.0 /* above this height no fixed object is an obstacle */
+#define BRAKE_SHARE  0.8  /* share of the hardest braking that it relies on */
+#define HARMLESS_SHARE                                                                             \
+    0.005 /* share of its resistance_j that it may lose to an object that counts as harmless */
+#define YIELDS        0.1  /* fixed kinds with less rigidity bend aside */
+#define TURN_COST     0.25 /* of each radian of turning, in shares of the horizon */
+#define CHANGE_COST   0.10 /* of each radian off the last dodge, against wavering */
+#define LEFT_COST     0.03 /* of turning left, so that two vehicles that meet both turn right */
+#define SHARP_SHARE   0.25 /* share of its speed in turns of 90 degrees and more */
+#define STRAYS        0.05 /* how far bodies leave their course, as a share of the distance */
+#define GIVEN_WAY_S   2.5  /* the other is expected to give way if they meet later */
+#define CROSSING      0.94 /* cosine of 20 degrees: courses that differ by less do not cross */
+#define ROUNDED_MPS   1e-4 /* more than the index's rounding of velocities */
+#define CLIMB_AHEAD_S 6.0  /* how far ahead aircraft look at the ground */
 
 /* The fan: angles off the desired heading, with their sines and cosines. Direction PRESENT is the
  * present heading. */
@@ -58,7 +59,7 @@ struct look {
     const struct kind *kind;
     int step; /* 1: looks along all of the fan; PRESENT: only along directions 0 and PRESENT */
     double sine, cosine; /* of the desired heading */
-    double way;          /* 1; backwards -1 */
+    double sign;         /* 1; backwards -1 */
     double desired_mps, present_mps;
     double speed_mps; /* along the fan: the speed that it can reach within a second */
     double horizon_m;
@@ -150,7 +151,7 @@ void avoidance_init(struct avoidance *avoidance, const struct world *world)
     }
     for (uint32_t square = 0; square < GRIDSQUARE_COUNT; square++) {
         if (world->reach_start[square + 1] > world->reach_start[square])
-            avoidance->stands[square / 64] |= UINT64_C(1) << square % 64;
+            avoidance->occupied[square / 64] |= UINT64_C(1) << square % 64;
     }
 }
 
@@ -158,8 +159,8 @@ void avoidance_init(struct avoidance *avoidance, const struct world *world)
 
 static void direct(struct look *look, int k)
 {
-    look->x[k] = look->way * (look->sine * fan_cosine[k] + look->cosine * fan_sine[k]);
-    look->z[k] = look->way * (look->sine * fan_sine[k] - look->cosine * fan_cosine[k]);
+    look->x[k] = look->sign * (look->sine * fan_cosine[k] + look->cosine * fan_sine[k]);
+    look->z[k] = look->sign * (look->sine * fan_sine[k] - look->cosine * fan_cosine[k]);
     look->free_m[k] = look->horizon_m;
 }
 
@@ -171,7 +172,7 @@ static void begin(struct look *look, const struct step_context *context, uint32_
     double speed = fabs(desired->speed_mps), sine, cosine, forward, rightward;
     look->kind = kind;
     look->step = PRESENT;
-    look->way = desired->speed_mps < 0.0 ? -1.0 : 1.0;
+    look->sign = desired->speed_mps < 0.0 ? -1.0 : 1.0;
     look->desired_mps = speed;
     look->half_width = 0.5 * kind->width_m;
     look->half_length = 0.5 * kind->length_m;
@@ -181,9 +182,9 @@ static void begin(struct look *look, const struct step_context *context, uint32_
     direct(look, 0);
     maths_sincos(m->heading[i], &sine, &cosine);
     kinematics_along(m, i, sine, cosine, &forward, &rightward);
-    look->x[PRESENT] = look->way * sine;
-    look->z[PRESENT] = -look->way * cosine;
-    look->present_mps = maths_max(1.0, look->way * forward);
+    look->x[PRESENT] = look->sign * sine;
+    look->z[PRESENT] = -look->sign * cosine;
+    look->present_mps = maths_max(1.0, look->sign * forward);
     look->speed_mps = maths_min(speed, look->present_mps + kind->acceleration_mps2);
     look->free_m[PRESENT] = look->horizon_m;
 }
@@ -199,7 +200,7 @@ static void open_fan(struct look *look)
 }
 
 /* Limits the directions by an obstacle of radius reach_m at (dx, dz), relative to the vehicle. */
-static void stands(struct look *look, double dx, double dz, double reach_m)
+static void limit_by_standing(struct look *look, double dx, double dz, double reach_m)
 {
     double beside = reach_m + look->half_width + look->gap;
     double ahead = reach_m + look->half_length + look->gap;
@@ -211,8 +212,8 @@ static void stands(struct look *look, double dx, double dz, double reach_m)
     }
 }
 
-/* Must the other vehicle give way? As at sea, a vehicle gives way to one on its right and to one
- * that it overtakes. */
+/* Returns true if the other vehicle must give way. As at sea, a vehicle gives way to one on its
+ * right and to one that it overtakes. */
 static bool gives_way(const struct look *look, double dx, double dz, double vx, double vz)
 {
     double ahead = dx * look->x[0] + dz * look->z[0];
@@ -226,8 +227,8 @@ static bool gives_way(const struct look *look, double dx, double dz, double vx, 
     return same > -CROSSING * speed && to_right < 0.0;
 }
 
-/* Can it meet an obstacle that moves at (vx, vz) before the horizon, along direction k? False is
- * certain, also for the rounded values of the index. Needs no division. */
+/* Returns false only if the obstacle, which moves at (vx, vz), cannot be met before the horizon
+ * along direction k; this holds for the rounded values of the index too. Needs no division. */
 static bool may_meet(const struct look *look, int k, double dx, double dz, double vx, double vz,
                      double reach_m)
 {
@@ -246,7 +247,8 @@ static bool may_meet(const struct look *look, int k, double dx, double dz, doubl
 
 /* Limits the directions by an obstacle that moves at (vx, vz): to the distance that the vehicle
  * goes until they meet. */
-static void goes(struct look *look, double dx, double dz, double vx, double vz, double reach_m)
+static void limit_by_moving(struct look *look, double dx, double dz, double vx, double vz,
+                            double reach_m)
 {
     double beside = reach_m + look->half_width + look->gap;
     double ahead = reach_m + look->half_length + look->gap;
@@ -292,9 +294,10 @@ static void see_square(const struct step_context *context, uint32_t i, struct lo
             (double)object->y + (double)object->height_m + 0.5 * look->kind->height_m < m->y[i])
             continue;
         const struct kind *kind = &world->kinds[object->kind];
-        stands(look, dx, dz,
-               flies ? fixed_index_of_fixed(object, world->kinds)
-                     : context->avoidance->reach_m[object->kind] * fixed_scale(object, kind));
+        limit_by_standing(look, dx, dz,
+                          flies ? fixed_index_of_fixed(object, world->kinds)
+                                : context->avoidance->reach_m[object->kind] *
+                                      fixed_scale(object, kind));
     }
 }
 
@@ -307,7 +310,7 @@ static void see_fixed(const struct step_context *context, uint32_t i, struct loo
     for (int32_t row = box.z0; row <= box.z1; row++)
         for (int32_t column = box.x0; column <= box.x1; column++) {
             uint32_t square = gridsquare_index(column, row);
-            if (context->avoidance->stands[square / 64] >> square % 64 & 1u)
+            if (context->avoidance->occupied[square / 64] >> square % 64 & 1u)
                 see_square(context, i, look, square);
         }
 }
@@ -328,7 +331,7 @@ static void see_vehicle(const struct step_context *context, uint32_t i, struct l
         !may_meet(look, PRESENT, dx, dz, vx, vz, reach))
         return;
     if (fabs(w->y[j] - m->y[i]) <= apart)
-        goes(look, w->x[j] - m->x[i], w->z[j] - m->z[i], w->vx[j], w->vz[j], reach);
+        limit_by_moving(look, w->x[j] - m->x[i], w->z[j] - m->z[i], w->vx[j], w->vz[j], reach);
 }
 
 static void see_vehicles(const struct step_context *context, uint32_t i, struct look *look)
@@ -356,8 +359,8 @@ static bool in_world(double x, double z)
     return x > 0.0 && z > 0.0 && x < WORLD_SIDE_M && z < WORLD_SIDE_M;
 }
 
-/* Returns true if the ground on the way to (x, z) is surely dry, without craters and no steeper
- * than the vehicle can climb. */
+/* Returns true only if the ground up to (x, z) is dry, without craters and no steeper than the
+ * vehicle can climb. */
 static bool surely_passable(const struct step_context *context, uint32_t i, double x, double z)
 {
     const struct entities *m = context->m;
@@ -381,19 +384,19 @@ static double ground_free(const struct step_context *context, uint32_t i, const 
         surely_passable(context, i, end_x, end_z))
         return look->horizon_m;
     for (int n = 1; n <= 2; n++) {
-        double way = 0.5 * n * look->horizon_m;
-        double x = m->x[i] + way * look->x[k], z = m->z[i] + way * look->z[k];
+        double distance = 0.5 * n * look->horizon_m;
+        double x = m->x[i] + distance * look->x[k], z = m->z[i] + distance * look->z[k];
         if (!in_world(x, z) || cover_is_water(terrain_cover(&context->world->terrain, x, z)) !=
                                    (look->kind->domain == DOMAIN_SEA))
             return before_m;
         if (look->kind->domain == DOMAIN_LAND) {
             double y = kinematics_ground(context, x, z);
             if (y > before_y &&
-                maths_atan2(y - before_y, way - before_m) >= look->kind->max_slope_rad)
+                maths_atan2(y - before_y, distance - before_m) >= look->kind->max_slope_rad)
                 return before_m;
             before_y = y;
         }
-        before_m = way;
+        before_m = distance;
     }
     return look->horizon_m;
 }
@@ -427,9 +430,9 @@ static double climbing_ease(const struct step_context *context, uint32_t i, cons
                             const struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    double way = look->desired_mps * CLIMB_AHEAD_S;
-    double ground =
-        kinematics_ground(context, m->x[i] + way * look->x[0], m->z[i] + way * look->z[0]);
+    double distance = look->desired_mps * CLIMB_AHEAD_S;
+    double ground = kinematics_ground(context, m->x[i] + distance * look->x[0],
+                                      m->z[i] + distance * look->z[0]);
     double climb = ground + 0.5 * desired->altitude_m - m->y[i];
     double most = look->kind->climb_rate_mps * CLIMB_AHEAD_S;
     return climb > most ? 1.0 - most / climb : 0.0;
@@ -450,15 +453,15 @@ static int choose(const struct step_context *context, uint32_t i, struct look *l
     double dodge = (double)context->m->dodge[i];
     open_fan(look);
     see(context, i, look, low);
-    int way = best(look, dodge);
+    int direction = best(look, dodge);
     for (int tries = 0; tries < FAN && look->kind->domain != DOMAIN_AIR; tries++) {
-        double free_m = ground_free(context, i, look, way);
-        if (free_m >= look->free_m[way])
+        double free_m = ground_free(context, i, look, direction);
+        if (free_m >= look->free_m[direction])
             break;
-        look->free_m[way] = free_m;
-        way = best(look, dodge);
+        look->free_m[direction] = free_m;
+        direction = best(look, dodge);
     }
-    return way;
+    return direction;
 }
 
 /* Looks along the desired direction first: when it is free no other is better. */
@@ -471,17 +474,17 @@ static void look_ahead(const struct step_context *context, uint32_t i,
     bool flies = look.kind->domain == DOMAIN_AIR;
     bool low = !flies || m->y[i] - kinematics_ground(context, m->x[i], m->z[i]) < LOW_FLIGHT_M;
     double ease = flies ? climbing_ease(context, i, &look, desired) : 0.0;
-    int way = desired->speed_mps < 0.0 ? PRESENT : 0;
+    int direction = desired->speed_mps < 0.0 ? PRESENT : 0;
     see(context, i, &look, low);
-    if (way == 0 && (look.free_m[0] < look.horizon_m ||
-                     (!flies && ground_free(context, i, &look, 0) < look.horizon_m)))
-        way = choose(context, i, &look, low);
-    double free_m = look.free_m[way];
-    if (look.x[way] * look.x[PRESENT] + look.z[way] * look.z[PRESENT] < fan_cosine[1])
+    if (direction == 0 && (look.free_m[0] < look.horizon_m ||
+                           (!flies && ground_free(context, i, &look, 0) < look.horizon_m)))
+        direction = choose(context, i, &look, low);
+    double free_m = look.free_m[direction];
+    if (look.x[direction] * look.x[PRESENT] + look.z[direction] * look.z[PRESENT] < fan_cosine[1])
         free_m = maths_min(free_m, look.free_m[PRESENT]); /* it has not turned there yet */
     if (free_m < look.horizon_m)
         ease = maths_max(ease, 1.0 - stopping_speed(&look, free_m) / look.desired_mps);
-    m->dodge[i] = way < FAN ? (float)fan_rad[way] : 0.0f; /* backwards it only slows */
+    m->dodge[i] = direction < FAN ? (float)fan_rad[direction] : 0.0f; /* backwards it only slows */
     m->ease[i] = (float)maths_max(ease, 0.0);
 }
 

@@ -12,7 +12,7 @@
 #include "mover/context/step_context.h"
 #include "world/terrain/gridsquare.h"
 
-#define AVOIDANCE_ROUNDED_M 0.01 /* more than the index rounds positions */
+#define AVOIDANCE_ROUNDED_M 0.01 /* more than the index's rounding of positions */
 
 /* What follows from the kinds and the fixed objects. */
 struct avoidance {
@@ -28,7 +28,7 @@ struct avoidance {
     /* Of vehicle kinds [m]: the radius in which one at full speed looks for other vehicles. */
     double around_m[KIND_COUNT_MAX];
     /* A bit for each gridsquare that a fixed object reaches into. */
-    uint64_t stands[GRIDSQUARE_COUNT / 64];
+    uint64_t occupied[GRIDSQUARE_COUNT / 64];
 };
 
 void avoidance_init(struct avoidance *avoidance, const struct world *world);

@@ -46,7 +46,7 @@
         ROW(B(ATTACK), P(NO_ROUNDS), 0, ORDER, AS(OUT_OF_ROUNDS), 0),                              \
         ROW(CALM | B(ATTACK), P(LOW_FUEL), P(STAND), TO(WITHDRAW), AS(LOW_FUEL), 0)
 
-/* It backs off from what it ran into for a while, and then goes on. */
+/* It backs off from an obstacle that it ran into, and then goes on. */
 #define BUMPS                                                                                      \
     ROW(MOVING, P(BUMP), 0, TO(BACK_OFF), AS(COLLISION), BACK_OFF_S),                              \
         ROW(B(BACK_OFF), P(TIME_OVER) | P(TARGET) | P(ARMED) | P(BRAVE), 0, TO(ATTACK),            \

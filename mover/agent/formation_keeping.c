@@ -20,7 +20,7 @@
 
 /* --- leaders -----------------------------------------------------------------------------------*/
 
-/* Does the member drive with the others? */
+/* Returns true if the member drives with the others. */
 static bool present(const struct step_context *context, uint32_t slot)
 {
     const struct entities *w = &context->committed->entities;

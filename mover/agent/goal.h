@@ -18,11 +18,12 @@ void goal_cover(const struct step_context *context, uint32_t i, uint32_t enemy);
 /* Makes that row its target, and the place of the target its goal. */
 void goal_target(const struct step_context *context, uint32_t i, uint32_t row, uint32_t id);
 
-/* Its goal becomes the base of its force. Is it there? A ship has arrived where the water ends. */
+/* Makes the base of its force its goal. Returns true if it is there; a ship has arrived where the
+ * water ends. */
 void goal_base(const struct step_context *context, uint32_t i);
 bool goal_at_base(const struct step_context *context, uint32_t i);
 
-/* Is it as near to its goal as a body of its kind can get? */
+/* Returns true if it is as near to its goal as a body of its kind can get. */
 bool goal_arrived(const struct step_context *context, uint32_t i);
 
 /* Chooses another goal after the path was blocked. */

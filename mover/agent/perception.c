@@ -229,7 +229,7 @@ bool perception_armed(const struct step_context *context, uint32_t i)
            !(m->flags[i] & ENTITY_FLAG_HOLD_FIRE);
 }
 
-/* Is its fuel only just enough for the path to its base? */
+/* Returns true if its fuel is only just enough for the path to its base. */
 static bool low_fuel(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
@@ -238,8 +238,9 @@ static bool low_fuel(const struct step_context *context, uint32_t i)
         return false;
     const struct force_base *base = &context->world->params->base[m->force[i] % FORCE_COUNT];
     double dx = base->x - m->x[i], dz = base->z - m->z[i];
-    double way = sqrt(dx * dx + dz * dz) * kind->fuel_lps / maths_max(kind->max_speed_mps, 1e-9);
-    return m->fuel_l[i] < FUEL_MARGIN * way + FUEL_RESERVE * kind->fuel_l;
+    double needed_l =
+        sqrt(dx * dx + dz * dz) * kind->fuel_lps / maths_max(kind->max_speed_mps, 1e-9);
+    return m->fuel_l[i] < FUEL_MARGIN * needed_l + FUEL_RESERVE * kind->fuel_l;
 }
 
 static bool has_arrived(const struct step_context *context, uint32_t i)
@@ -309,7 +310,7 @@ static void notice_events(const struct step_context *context, uint32_t i, struct
 
 /* --- looks -------------------------------------------------------------------------------------*/
 
-/* Would its table choose another row with these percepts added? */
+/* Returns true if its table would choose another row with these percepts added. */
 static bool matters(const struct step_context *context, uint32_t i, uint32_t percepts,
                     uint32_t also)
 {

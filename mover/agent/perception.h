@@ -21,23 +21,24 @@ struct notice {
 uint32_t perception_think_frames(const struct params *params, uint32_t used);
 uint32_t perception_look_frames(const struct params *params, uint32_t used);
 
-/* Has an event happened to row i, so that it decides in this frame even if it is not due? */
+/* Returns true if an event has happened to row i, so that it decides in this frame even if it is
+ * not due. */
 bool perception_event(const struct step_context *context, uint32_t i);
 
 /* All percepts of row i. Clears the events (shot at, bumped) in its row. */
 struct notice perception_notice(const struct step_context *context, uint32_t i);
 
-/* Does row i see the other row: in range, within its view, and nothing between? */
+/* Returns true if row i sees the other row: in range, within its view, with nothing between. */
 bool perception_sees(const struct step_context *context, uint32_t i, uint32_t other);
 
 /* The eye of row i, and the point of row i that others look at [m, world]. */
 struct vec3 perception_eye(const struct step_context *context, uint32_t i);
 struct vec3 perception_middle(const struct step_context *context, uint32_t i);
 
-/* Can row i fire, and may it? */
+/* Returns true if row i can fire and may fire. */
 bool perception_armed(const struct step_context *context, uint32_t i);
 
-/* Has it seen its target within its last two looks? */
+/* Returns true if it saw its target within its last two looks. */
 bool perception_in_sight(const struct step_context *context, uint32_t i);
 
 #endif

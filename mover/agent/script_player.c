@@ -57,7 +57,7 @@ static double seconds_to(const struct reading *r, const struct script_step *step
     return step->at_s + (double)pass_of(r) * r->script->period_s - r->now_s;
 }
 
-/* Has the time come, rounded to frames? */
+/* Returns true if the time has come, rounded to frames. */
 static bool is_time(const struct reading *r, double seconds)
 {
     return seconds < 0.5 * r->context->dt_s;
@@ -86,8 +86,8 @@ static void begin(const struct reading *r, uint32_t leg)
     m->throttle[r->i] = m->steer[r->i] = m->climb[r->i] = 0.0f;
 }
 
-/* Begins the next step. False: there is none, and the row is now idle. */
-static bool go_on(const struct reading *r)
+/* Begins the next step. Returns false if there is none; the row is then idle. */
+static bool begin_next(const struct reading *r)
 {
     struct entities *m = r->context->m;
     uint32_t leg = m->leg[r->i] + 1;
@@ -103,8 +103,8 @@ static bool go_on(const struct reading *r)
     return true;
 }
 
-/* A step with a time that has come cuts off the steps before it. A point whose time has passed is
- * given up when the next is due. False: nothing is cut off. */
+/* Cuts off the steps before a step whose time has come. A point whose time has passed is given up
+ * when the next is due. Returns false if nothing is cut off. */
 static bool cut_off(const struct reading *r)
 {
     const struct entities *m = r->context->m;
@@ -171,8 +171,8 @@ static double timed_speed(const struct reading *r, const struct script_step *ste
     return r->kind->max_speed_mps;
 }
 
-static void wish_point(const struct reading *r, const struct script_step *step, double speed,
-                       struct desired_motion *desired)
+static void desire_point(const struct reading *r, const struct script_step *step, double speed,
+                         struct desired_motion *desired)
 {
     struct entities *m = r->context->m;
     double metres = distance_to(r, step);
@@ -186,7 +186,8 @@ static void wish_point(const struct reading *r, const struct script_step *step, 
     desired->speed_mps = maths_min(speed, turning_speed(r, metres, off));
 }
 
-/* Is it at its point? A row that goes on from there need only pass as near as it can turn. */
+/* Returns true if it is at its point. A row that continues from there need only pass as near as it
+ * can turn. */
 static bool is_there(const struct reading *r, const struct script_step *step)
 {
     double near = THERE_M + speed_now(r) * r->context->dt_s;
@@ -199,11 +200,11 @@ static bool is_there(const struct reading *r, const struct script_step *step)
 
 /* --- steps: each sets the desired motion and returns true when it is over ----------------------*/
 
-static bool go(const struct reading *r, const struct script_step *step,
-               struct desired_motion *desired)
+static bool move_to_point(const struct reading *r, const struct script_step *step,
+                          struct desired_motion *desired)
 {
-    wish_point(r, step, step->amount > 0.0 ? step->amount : CRUISE_SHARE * r->kind->max_speed_mps,
-               desired);
+    desire_point(r, step, step->amount > 0.0 ? step->amount : CRUISE_SHARE * r->kind->max_speed_mps,
+                 desired);
     if (!is_there(r, step))
         return false;
     say(r, BEHAVIOUR_SCRIPT, REASON_ARRIVED);
@@ -216,8 +217,8 @@ static bool arrive(const struct reading *r, const struct script_step *step,
 {
     double seconds = seconds_to(r, step);
     /* The distance is measured before the motion of this frame, the time after it. */
-    wish_point(r, step, timed_speed(r, step, distance_to(r, step), seconds + r->context->dt_s),
-               desired);
+    desire_point(r, step, timed_speed(r, step, distance_to(r, step), seconds + r->context->dt_s),
+                 desired);
     if (!is_time(r, seconds) ||
         (!is_there(r, step) &&
          distance_to(r, step) > desired->speed_mps * r->context->dt_s + THERE_M))
@@ -234,7 +235,7 @@ static bool face(const struct reading *r, const struct script_step *step,
     return fabs(maths_wrap_half(step->amount - r->context->m->heading[r->i])) < FACED_RAD;
 }
 
-/* Until its own time, or for a duration since it began. */
+/* Waits until its own time, or for a duration since it began. */
 static bool wait(const struct reading *r, const struct script_step *step)
 {
     uint32_t *until = &r->context->m->until_tick[r->i];
@@ -298,8 +299,8 @@ static bool climb(const struct reading *r, const struct script_step *step)
     return r->kind->domain != DOMAIN_AIR || fabs(height - step->altitude_m) < LEVEL_M;
 }
 
-/* Returns the vehicle to its agent with an order. A vehicle that withdraws then stays at its base.
- */
+/* Returns the vehicle to its agent with an order. A vehicle that withdraws then stays at its
+ * base. */
 static void order(const struct reading *r, const struct script_step *step)
 {
     struct entities *m = r->context->m;
@@ -318,7 +319,8 @@ static void order(const struct reading *r, const struct script_step *step)
     say(r, (enum behaviour)step->behaviour, REASON_SCRIPT);
 }
 
-/* Does the present step. True: it is over, and the next can begin in the same frame. */
+/* Carries out the present step. Returns true if it is over; the next can then begin in the same
+ * frame. */
 static bool do_step(const struct reading *r, struct desired_motion *desired)
 {
     const struct script_step *step = step_of(r);
@@ -328,7 +330,7 @@ static bool do_step(const struct reading *r, struct desired_motion *desired)
         return false; /* it stands until its time */
     switch ((enum step_type)step->type) {
     case STEP_GO:
-        return go(r, step, desired);
+        return move_to_point(r, step, desired);
     case STEP_ARRIVE:
         return arrive(r, step, desired);
     case STEP_FACE:
@@ -358,7 +360,7 @@ void script_player_motion(const struct step_context *context, uint32_t i,
     for (int n = 0; n < STEPS_A_FRAME && cut_off(&r); n++)
         continue;
     for (int n = 0; n < STEPS_A_FRAME && do_step(&r, desired); n++) {
-        if (!go_on(&r) || context->m->trigger[i] != 0)
+        if (!begin_next(&r) || context->m->trigger[i] != 0)
             return;
     }
 }

@@ -8,8 +8,8 @@
 
 #include "mover/context/step_context.h"
 
-/* Does the steps whose time has come, and sets the desired motion of the present one. A step may
- * change the behaviour, and after the last step the row is idle. */
+/* Carries out the steps whose time has come, and sets the desired motion of the present one. A step
+ * may change the behaviour, and after the last step the row is idle. */
 void script_player_motion(const struct step_context *context, uint32_t i,
                           struct desired_motion *desired);
 

@@ -21,7 +21,7 @@ struct think_schedule {
 
 /* --- how rows move -----------------------------------------------------------------------------*/
 
-/* Does it follow a leader on a script? It carries the script on when it has to lead. */
+/* Returns true if it follows a leader on a script. It continues the script when it has to lead. */
 static bool follows_script(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
@@ -30,7 +30,7 @@ static bool follows_script(const struct step_context *context, uint32_t i)
                (enum behaviour)context->world->formations[m->order_arg[i]].order);
 }
 
-/* How a row moves that existed before this frame. */
+/* Returns how a row moves that existed before this frame. */
 static enum motion motion_of(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
@@ -49,7 +49,7 @@ static enum motion motion_of(const struct step_context *context, uint32_t i)
                : MOTION_AGENT;
 }
 
-/* Has a command of this frame made the row? */
+/* Returns true if a command of this frame made the row. */
 static bool is_new(const struct step_context *context, uint32_t i)
 {
     const struct entities *w = &context->committed->entities;

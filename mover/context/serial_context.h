@@ -10,10 +10,10 @@
 struct serial_context {
     const struct step_context *step;
     struct moved *moved;
-    struct table_writer writer; /* by which everything changes rows of moved */
+    struct table_writer writer; /* every change of moved's rows goes through this */
 };
 
-/* Appends an intent and returns it, zero but for its type. NULL when the frame has no room. */
+/* Appends an intent and returns it, zero except its type. NULL when the frame has no room. */
 struct event *serial_context_intent(struct serial_context *context, enum event_type type);
 
 /* A row as events name it. */

@@ -1,6 +1,6 @@
-/* The data that all functions which move one row share, and the words in which they speak to each
- * other. Such a function reads the committed world and writes row i of the moved table only, so
- * rows may be moved in any order, by any thread. */
+/* The data shared by all functions that move one row, and the types by which they pass motion on.
+ * Such a function reads the committed world and writes row i of the moved table only, so rows may
+ * be moved in any order, by any thread. */
 #ifndef JOLON_MOVER_CONTEXT_STEP_CONTEXT_H
 #define JOLON_MOVER_CONTEXT_STEP_CONTEXT_H
 
@@ -32,14 +32,15 @@ struct step_context {
     /* [capacity] Caches of the ground: about row i's position, and where an aircraft soon will be.
      * Written with row i. */
     struct terrain_cache_entry *terrain_entries, *terrain_entries_ahead;
-    uint64_t tick;         /* that this frame reaches */
-    uint32_t think_frames; /* [frame] between two decisions of one agent */
-    uint32_t look_frames;  /* [frame] between two of its looks, a multiple of think */
-    uint32_t aim_frames;   /* [frame] between two shots that it tries */
+    uint64_t tick;         /* of the frame being made */
+    uint32_t think_frames; /* [frame] from one decision of an agent to the next */
+    uint32_t
+        look_frames;     /* [frame] from one of its looks to the next, a multiple of think_frames */
+    uint32_t aim_frames; /* [frame] from one attempt to fire to the next */
     double dt_s;
 };
 
-/* Does row i's agent decide in this frame? */
+/* Returns true if row i's agent decides in this frame. */
 static inline bool step_context_thinks(const struct step_context *context, uint32_t i)
 {
     return neighbour_index_divides(context->neighbours->think_divisor,

@@ -113,7 +113,7 @@ static inline void advance(f64x4 *metres, f64x4 *speed_mps, double dt_s)
 }
 
 /* Moves it, and notes whether it is near the edge. */
-static inline void go(struct aircraft *batch, int h, double dt_s)
+static inline void change_position(struct aircraft *batch, int h, double dt_s)
 {
     const f64x4 last = SIMD_EVERY(WORLD_SIDE_M - EDGE_M);
     advance(&batch->x.f64x4[h], &batch->vx.f64x4[h], dt_s);
@@ -197,7 +197,7 @@ void aircraft_move(const struct step_context *context, struct aircraft *batch)
         batch->vz.f64x4[h] =
             SIMD_NEGATIVE(speed) * cosine.f64x4[h] + rightward.f64x4[h] * sine.f64x4[h];
         kinematics_simd_approach(&batch->vy.f64x4[h], &climb, &steeper);
-        go(batch, h, context->dt_s);
+        change_position(batch, h, context->dt_s);
         f64x4 full = SIMD_MAX(batch->full_mps.f64x4[h], least);
         leaning.turning.f64x4[h] = turned.f64x4[h] / context->dt_s * speed;
         leaning.weight.f64x4[h] = SIMD_EVERY(GRAVITY_MPS2);

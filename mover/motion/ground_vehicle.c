@@ -119,7 +119,7 @@ bool ground_vehicle_take_held(const struct step_context *context, struct ground_
 /* Comments describe one vehicle. Each function treats the four of vector h. */
 
 /* agent_controls_motion(), for held lanes. */
-static inline void find_wish(struct ground_vehicle *batch, int h, double dt_s)
+static inline void find_desired(struct ground_vehicle *batch, int h, double dt_s)
 {
     four_masks held = batch->held.f64x4[h];
     f64x4 full = batch->full_mps.f64x4[h], most = batch->turn_rate.f64x4[h] * dt_s;
@@ -196,9 +196,9 @@ static double rolling(const struct step_context *context, const struct ground_ve
                       double forward)
 {
     double pull = -GRAVITY_MPS2 * maths_sin(batch->pitch.lane[l]);
-    double hold =
+    double drag =
         ROLLING * GRAVITY_MPS2 + batch->brake.lane[l] * (BRAKES * batch->acceleration.lane[l]);
-    forward = kinematics_approach(forward + pull * context->dt_s, 0.0, hold * context->dt_s);
+    forward = kinematics_approach(forward + pull * context->dt_s, 0.0, drag * context->dt_s);
     return maths_clamp(forward, -batch->full_mps.lane[l], batch->full_mps.lane[l]);
 }
 
@@ -227,7 +227,7 @@ static inline void find_ahead(const struct step_context *context, struct ground_
     }
 }
 
-/* Is the point in the world and on dry land? */
+/* Tests whether the point is in the world and on dry land. */
 static inline void passable(const struct step_context *context, const struct ground_vehicle *batch,
                             const union simd_lanes *x, const union simd_lanes *z,
                             union lane_masks *pass)
@@ -239,8 +239,8 @@ static inline void passable(const struct step_context *context, const struct gro
 }
 
 /* Moves the vehicle there unless it is blocked. */
-static inline void go(const struct step_context *context, struct ground_vehicle *batch,
-                      const struct ahead *ahead)
+static inline void change_position(const struct step_context *context, struct ground_vehicle *batch,
+                                   const struct ahead *ahead)
 {
     const f64x4 none = SIMD_EVERY(0.0);
     union lane_masks pass, lead_pass;
@@ -249,8 +249,8 @@ static inline void go(const struct step_context *context, struct ground_vehicle 
     passable(context, batch, &ahead->lead_x, &ahead->lead_z, &lead_pass);
     for (int h = 0; h < LANE_FOURS; h++) {
         f64x4 x = batch->pose.x.f64x4[h], z = batch->pose.z.f64x4[h];
-        four_masks goes = (ahead->x.f64x4[h] != x) | (ahead->z.f64x4[h] != z);
-        four_masks stays = goes & ~(pass.f64x4[h] & lead_pass.f64x4[h]);
+        four_masks moves = (ahead->x.f64x4[h] != x) | (ahead->z.f64x4[h] != z);
+        four_masks stays = moves & ~(pass.f64x4[h] & lead_pass.f64x4[h]);
         batch->blocked.f64x4[h] |= stays;
         batch->pose.x.f64x4[h] = SIMD_CHOOSE(stays, x, ahead->x.f64x4[h]);
         batch->pose.z.f64x4[h] = SIMD_CHOOSE(stays, z, ahead->z.f64x4[h]);
@@ -289,7 +289,7 @@ void ground_vehicle_move(const struct step_context *context, struct ground_vehic
     find_scars(context, batch);
     maths_sincos_lanes(&batch->heading, &sine, &cosine);
     for (int h = 0; h < LANE_FOURS; h++) {
-        find_wish(batch, h, context->dt_s);
+        find_desired(batch, h, context->dt_s);
         f64x4 wanted = batch->wanted_mps.f64x4[h];
         f64x4 vx = batch->vx.f64x4[h], vz = batch->vz.f64x4[h];
         forward.f64x4[h] = vx * sine.f64x4[h] - vz * cosine.f64x4[h];
@@ -306,7 +306,7 @@ void ground_vehicle_move(const struct step_context *context, struct ground_vehic
     }
     maths_sincos_lanes(&batch->heading, &batch->pose.sine, &batch->pose.cosine);
     find_ahead(context, batch, &under_power, &rightward, &ahead);
-    go(context, batch, &ahead);
+    change_position(context, batch, &ahead);
     ground_pose_find(context, &batch->pose);
     write_rows(context, batch);
 }

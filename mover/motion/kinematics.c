@@ -1,4 +1,4 @@
-/* Parts of motion that the domains share. */
+/* Parts of motion shared by the domains. */
 #include "mover/motion/kinematics.h"
 
 #include "mover/query/ground_marks.h"

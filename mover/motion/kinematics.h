@@ -1,4 +1,5 @@
-/* Parts of motion that the domains share, for one body. kinematics_simd.h has them for four. */
+/* Parts of motion shared by the domains, for one body. kinematics_simd.h has them for four
+ * bodies. */
 #ifndef JOLON_MOVER_MOTION_KINEMATICS_H
 #define JOLON_MOVER_MOTION_KINEMATICS_H
 
@@ -36,8 +37,8 @@ void kinematics_along(const struct entities *m, uint32_t i, double sine, double 
 /* The value moved towards wanted by at most step. */
 double kinematics_approach(double value, double wanted, double step);
 
-/* Moves a map coordinate by its speed. At the edge of the world the coordinate and the speed stop.
- */
+/* Advances a map coordinate by its speed. At the edge of the world the coordinate and the speed
+ * stop. */
 void kinematics_advance(double *metres, double *speed_mps, double dt_s);
 
 /* Burns fuel at a share of full throttle. False when the tank is empty. A kind without a tank

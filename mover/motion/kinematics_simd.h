@@ -1,7 +1,6 @@
-/* Parts of motion that land vehicles and aircraft share, for four bodies at once. Each gives to the
- * bit what its namesake for one body gives (kinematics.h, world/maths/maths.h), for angles up to
- * 1e6.
- */
+/* Parts of motion shared by land vehicles and aircraft, for four bodies at once. Each result is
+ * equal to the bit to that of the function of the same name for one body (kinematics.h,
+ * world/maths/maths.h), for angles up to 1e6. */
 #ifndef JOLON_MOVER_MOTION_KINEMATICS_SIMD_H
 #define JOLON_MOVER_MOTION_KINEMATICS_SIMD_H
 

@@ -21,7 +21,7 @@ static struct vec3 turned(struct vec3 velocity, struct vec3 direction, double mo
     double angle = maths_atan2(across, along);
     if (angle <= most_rad)
         return vec3_scale(direction, speed);
-    if (across <= 0.0) { /* straight behind: either side will do */
+    if (across <= 0.0) { /* straight behind: it may turn to either side */
         side = (struct vec3){-ahead.z, 0.0, ahead.x};
         across = maths_max(vec3_length(side), 1e-12);
     }
@@ -30,7 +30,7 @@ static struct vec3 turned(struct vec3 velocity, struct vec3 direction, double mo
     return vec3_add(vec3_scale(ahead, speed * cosine), vec3_scale(side, speed * sine / across));
 }
 
-/* Is the target in the seeker's cone? Its range is not limited. */
+/* Returns true if the target is in the seeker's cone. Its range is not limited. */
 static bool sees(const struct kind *kind, struct vec3 velocity, struct vec3 to)
 {
     double across = vec3_length(vec3_cross(velocity, to)), along = vec3_dot(velocity, to);

@@ -4,7 +4,7 @@
 
 #include "mover/context/step_context.h"
 
-/* True when land or the edge of the world blocks the ship. */
+/* Returns true when land or the edge of the world blocks the ship. */
 bool ship_move(const struct step_context *context, uint32_t i,
                const struct desired_motion *desired);
 

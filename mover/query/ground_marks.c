@@ -59,7 +59,7 @@ static void forget(struct ground_marks *marks, const struct world *world)
     marks->any = false;
 }
 
-/* False when an object stands again that had fallen: the marks must then be built again. */
+/* Returns false if a fallen object stands again: the marks must then be built again. */
 static bool take_damage(struct ground_marks *marks, const struct world *world,
                         const uint8_t *damage, uint32_t first, uint32_t end)
 {

@@ -1,6 +1,6 @@
-/* The gridsquares that have craters or the debris of objects. Most bodies are near neither, and one
- * look at a bit says so. This is the mover's own cache of the committed world. It is built again
- * after a start, and after the world has been set back to an earlier frame. */
+/* The gridsquares that have craters or the debris of objects. Most bodies are near neither, which
+ * one bit shows. This is the mover's own cache of the committed world. It is built again after a
+ * start, and after the world has been set back to an earlier frame. */
 #ifndef JOLON_MOVER_QUERY_GROUND_MARKS_H
 #define JOLON_MOVER_QUERY_GROUND_MARKS_H
 
@@ -33,7 +33,7 @@ struct ground_marks {
 int ground_marks_init(struct ground_marks *marks, const struct world *world);
 void ground_marks_free(struct ground_marks *marks);
 
-/* Adds what is new in the committed world. Serial, before the frame's queries. */
+/* Adds the new marks of the committed world. Serial, before the frame's queries. */
 void ground_marks_update(struct ground_marks *marks, const struct world *world,
                          const struct state *committed);
 

@@ -17,8 +17,8 @@
 
 struct line {
     const struct line_of_sight *sight;
-    struct vec3 from, way; /* the point at t 0..1 is from + way * t */
-    double level;          /* length on the map */
+    struct vec3 from, delta; /* the point at t in 0..1 is from + delta * t */
+    double level;            /* length on the map */
 };
 
 double line_of_sight_kept(enum damage damage)
@@ -99,37 +99,38 @@ void line_of_sight_free(struct line_of_sight *sight)
 
 static double height_at(const struct line *line, double t)
 {
-    return line->from.y + line->way.y * t;
+    return line->from.y + line->delta.y * t;
 }
 
 static bool ground_above(const struct line *line, double t)
 {
     return terrain_height(&line->sight->world->terrain, line->sight->craters,
-                          line->from.x + line->way.x * t,
-                          line->from.z + line->way.z * t) > height_at(line, t);
+                          line->from.x + line->delta.x * t,
+                          line->from.z + line->delta.z * t) > height_at(line, t);
 }
 
-/* Is the ground above the line where start + way * t is a whole number of spacings, t0..t1? */
-static bool edges_above(const struct line *line, double start, double way, double t0, double t1)
+/* Returns true if the ground is above the line where start + delta * t is a whole number of
+ * spacings, for t in t0..t1. */
+static bool edges_above(const struct line *line, double start, double delta, double t0, double t1)
 {
     double spacing = line->sight->world->terrain.spacing_m;
-    double a = (start + way * t0) / spacing, b = (start + way * t1) / spacing;
+    double a = (start + delta * t0) / spacing, b = (start + delta * t1) / spacing;
     int64_t last = (int64_t)floor(maths_max(a, b));
-    if (way == 0.0)
+    if (delta == 0.0)
         return false;
     for (int64_t k = (int64_t)floor(maths_min(a, b)) + 1; k <= last; k++) {
-        if (ground_above(line, maths_clamp(((double)k * spacing - start) / way, t0, t1)))
+        if (ground_above(line, maths_clamp(((double)k * spacing - start) / delta, t0, t1)))
             return true;
     }
     return false;
 }
 
-/* Is the ground above the line within one crater, rim included? */
+/* Returns true if the ground is above the line within one crater, rim included. */
 static bool crater_above(const struct line *line, const struct crater *crater, double t0, double t1)
 {
     double reach = CRATER_RIM * (double)crater->radius_m, square = line->level * line->level;
     double dx = crater->x - line->from.x, dz = crater->z - line->from.z;
-    double middle = (dx * line->way.x + dz * line->way.z) / square;
+    double middle = (dx * line->delta.x + dz * line->delta.z) / square;
     double off = dx * dx + dz * dz - middle * middle * square;
     if (off >= reach * reach)
         return false;
@@ -149,10 +150,10 @@ static bool crater_above(const struct line *line, const struct crater *crater, d
 static bool ground_hides(const struct line *line, uint32_t square, double t0, double t1)
 {
     const struct crater_index *craters = line->sight->craters;
-    const struct vec3 *from = &line->from, *way = &line->way;
-    if (ground_above(line, t1) || edges_above(line, from->x, way->x, t0, t1) ||
-        edges_above(line, from->z, way->z, t0, t1) ||
-        edges_above(line, from->x - from->z, way->x - way->z, t0, t1))
+    const struct vec3 *from = &line->from, *delta = &line->delta;
+    if (ground_above(line, t1) || edges_above(line, from->x, delta->x, t0, t1) ||
+        edges_above(line, from->z, delta->z, t0, t1) ||
+        edges_above(line, from->x - from->z, delta->x - delta->z, t0, t1))
         return true;
     for (uint32_t link = craters->head[square]; link != 0; link = craters->links[link - 1].next) {
         if (crater_above(line, &craters->craters[craters->links[link - 1].crater], t0, t1))
@@ -163,12 +164,13 @@ static bool ground_hides(const struct line *line, uint32_t square, double t0, do
 
 /* --- fixed objects -----------------------------------------------------------------------------*/
 
-/* Narrows t0..t1 to where the line is between two parallel sides of a box. False: it never is. */
-static bool within_side(double start, double way, double half, double *t0, double *t1)
+/* Narrows t0..t1 to where the line is between two parallel sides of a box. Returns false if it
+ * never is. */
+static bool within_side(double start, double delta, double half, double *t0, double *t1)
 {
-    if (way == 0.0)
+    if (delta == 0.0)
         return fabs(start) <= half;
-    double a = (-half - start) / way, b = (half - start) / way;
+    double a = (-half - start) / delta, b = (half - start) / delta;
     *t0 = maths_max(*t0, maths_min(a, b));
     *t1 = maths_min(*t1, maths_max(a, b));
     return *t0 < *t1;
@@ -182,7 +184,7 @@ static bool object_hides(const struct line *line, uint32_t index)
     double scale = fixed_scale(object, kind);
     double length = 0.5 * scale * kind->length_m, width = 0.5 * scale * kind->width_m;
     double dx = line->from.x - object->x, dz = line->from.z - object->z;
-    double across = (dx * line->way.z - dz * line->way.x) / line->level;
+    double across = (dx * line->delta.z - dz * line->delta.x) / line->level;
     if (across * across > length * length + width * width || kind->object_class == OBJECT_POLE)
         return false;
     double top =
@@ -190,10 +192,10 @@ static bool object_hides(const struct line *line, uint32_t index)
         scale * kind->height_m * line_of_sight_kept((enum damage)line->sight->fixed_damage[index]);
     double sine, cosine, t0 = 0.0, t1 = 1.0;
     maths_sincos(fixed_heading(object), &sine, &cosine);
-    if (!within_side(dx * sine - dz * cosine, line->way.x * sine - line->way.z * cosine, length,
+    if (!within_side(dx * sine - dz * cosine, line->delta.x * sine - line->delta.z * cosine, length,
                      &t0, &t1) ||
-        !within_side(dx * cosine + dz * sine, line->way.x * cosine + line->way.z * sine, width, &t0,
-                     &t1))
+        !within_side(dx * cosine + dz * sine, line->delta.x * cosine + line->delta.z * sine, width,
+                     &t0, &t1))
         return false;
     if (t0 <= 0.0 || t1 >= 1.0) /* an end of the line is in the box */
         return false;
@@ -224,19 +226,19 @@ static bool square_hides(const struct line *line, int32_t column, int32_t row, d
 }
 
 /* The t at which the line leaves this column or row of squares. */
-static double border(double start, double way, int32_t axis)
+static double border(double start, double delta, int32_t axis)
 {
-    if (way == 0.0)
+    if (delta == 0.0)
         return INFINITY;
-    return ((double)(way > 0.0 ? axis + 1 : axis) * GRIDSQUARE_SIDE_M - start) / way;
+    return ((double)(delta > 0.0 ? axis + 1 : axis) * GRIDSQUARE_SIDE_M - start) / delta;
 }
 
 bool line_of_sight_clear(const struct line_of_sight *sight, struct vec3 from, struct vec3 to)
 {
-    struct line line = {.sight = sight, .from = from, .way = vec3_sub(to, from)};
+    struct line line = {.sight = sight, .from = from, .delta = vec3_sub(to, from)};
     int32_t column = gridsquare_axis(from.x), row = gridsquare_axis(from.z);
     double t = 0.0;
-    line.level = sqrt(line.way.x * line.way.x + line.way.z * line.way.z);
+    line.level = sqrt(line.delta.x * line.delta.x + line.delta.z * line.delta.z);
     if (line.level < LEAST_M)
         return true;
     for (int n = 1; n <= FIRST_LOOKS; n++) {
@@ -246,16 +248,16 @@ bool line_of_sight_clear(const struct line_of_sight *sight, struct vec3 from, st
             return false;
     }
     while (column >= 0 && row >= 0 && column < GRIDSQUARE_PER_SIDE && row < GRIDSQUARE_PER_SIDE) {
-        double tx = border(from.x, line.way.x, column), tz = border(from.z, line.way.z, row);
+        double tx = border(from.x, line.delta.x, column), tz = border(from.z, line.delta.z, row);
         double end = maths_clamp(maths_min(tx, tz), t, 1.0);
         if (square_hides(&line, column, row, t, end))
             return false;
         if (!(end < 1.0))
             return true;
         if (tx <= tz)
-            column += line.way.x > 0.0 ? 1 : -1;
+            column += line.delta.x > 0.0 ? 1 : -1;
         else
-            row += line.way.z > 0.0 ? 1 : -1;
+            row += line.delta.z > 0.0 ? 1 : -1;
         t = end;
     }
     return true;

@@ -23,7 +23,7 @@ static uint32_t blocks_of(uint32_t rows)
     return (rows + BLOCK_ROWS - 1) / BLOCK_ROWS;
 }
 
-/* Queries read all parts of the entries. Large pages, where the kernel has them, make fewer misses
+/* Queries read all parts of the entries. Large pages, where the kernel has them, cause fewer misses
  * of the translation buffer. */
 static void *large(size_t bytes)
 {
@@ -32,7 +32,8 @@ static void *large(size_t bytes)
     bytes = (bytes + HUGE_PAGE - 1) / HUGE_PAGE * HUGE_PAGE;
     void *memory = aligned_alloc(HUGE_PAGE, bytes);
     if (memory)
-        madvise(memory, bytes, MADV_HUGEPAGE); /* a kernel without them refuses: no harm */
+        madvise(memory, bytes,
+                MADV_HUGEPAGE); /* a kernel without large pages refuses, which does no harm */
     return memory;
 }
 
@@ -225,7 +226,7 @@ struct neighbour_query neighbour_query_begin(const struct neighbour_index *index
     return query;
 }
 
-/* Goes to the lowest of the layers that are left, and those that follow it without a gap. */
+/* Advances to the lowest of the remaining layers, and those that follow it without a gap. */
 static bool next_layers(struct neighbour_query *query)
 {
     if (query->left == 0)

@@ -34,13 +34,13 @@ struct neighbour_index_entry {
 _Static_assert(CAPACITY_MAX <= 1u << 20 && KIND_COUNT_MAX <= NEIGHBOUR_INDEX_KINDS,
                "an entry holds both");
 
-/* A number of frames as neighbour_index_divides() takes it. */
+/* Returns a number of frames in the form that neighbour_index_divides() takes. */
 static inline uint64_t neighbour_index_divisor(uint32_t frames)
 {
     return UINT64_MAX / frames + 1;
 }
 
-/* number % frames == 0 without a division (Lemire, Kaser, Kurz 2019). */
+/* Returns number % frames == 0 without a division (Lemire, Kaser, Kurz 2019). */
 static inline bool neighbour_index_divides(uint64_t divisor, uint32_t number)
 {
     return number * divisor <= divisor - 1;
@@ -74,7 +74,8 @@ void neighbour_index_build(struct neighbour_index *index, const struct entities 
                            uint32_t used, uint32_t tick, uint32_t think_frames,
                            struct thread_pool *workers);
 
-/* The layers of a force's enemies. Neutral vehicles have no enemies and are nobody's enemy. */
+/* Returns the layers of a force's enemies. Neutral vehicles have no enemies and are nobody's
+ * enemy. */
 static inline uint32_t neighbour_index_enemies(enum force force)
 {
     return force == FORCE_BLUE  ? NEIGHBOUR_INDEX_LAYER(FORCE_RED)
@@ -102,7 +103,7 @@ struct neighbour_query {
 struct neighbour_query neighbour_query_begin(const struct neighbour_index *index, uint32_t layers,
                                              double x, double z, double radius_m);
 
-/* Is an entry within a distance of a point, given the square of the distance? */
+/* Returns true if an entry is within a distance of a point, given the square of the distance. */
 static inline bool neighbour_index_within(const struct neighbour_index_entry *entry, double x,
                                           double z, double square)
 {
@@ -110,10 +111,10 @@ static inline bool neighbour_index_within(const struct neighbour_index_entry *en
     return dx * dx + dz * dz <= square;
 }
 
-/* Goes to the next consecutive entries, at .. end. False: there are none left. */
+/* Advances to the next consecutive entries, at .. end. Returns false if there are none left. */
 bool neighbour_query_next_span(struct neighbour_query *query);
 
-/* The next entry; NULL: there are none left. */
+/* Returns the next entry, or NULL if there are none left. */
 static inline const struct neighbour_index_entry *
 neighbour_query_next(struct neighbour_query *query)
 {

@@ -18,7 +18,7 @@ static uint32_t free_row(struct serial_context *context)
         uint32_t row = (head->alloc_next + n) % m->capacity;
         if (row < head->used && m->state[row] != ENTITY_FREE)
             continue;
-        if (row > head->used) /* rows are first used in their order */
+        if (row > head->used) /* rows are used for the first time in their order */
             row = head->used;
         return row;
     }

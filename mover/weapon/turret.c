@@ -229,7 +229,8 @@ bool turret_bears(const struct step_context *context, const struct entities *row
     return bears(context, rows, i, target, turret_barrel(rows, i), NULL);
 }
 
-/* Would the round pass near a friend or a neutral vehicle on its way to the target? */
+/* Returns true if the round would pass near a friend or a neutral vehicle on its way to the
+ * target. */
 static bool friend_ahead(const struct step_context *context, uint32_t i, uint32_t target,
                          struct vec3 barrel)
 {

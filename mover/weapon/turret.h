@@ -37,7 +37,8 @@ struct vec3 turret_lead(const struct step_context *context, struct vec3 muzzle,
 /* The same for a point [m, world]. */
 struct vec3 turret_lead_point(struct vec3 muzzle, const struct kind *munition, struct vec3 point);
 
-/* Would a shot of row i hit the committed row target? For missiles: does the seeker see it? */
+/* Returns true if a shot of row i would hit the committed row target. For missiles: if the seeker
+ * sees it. */
 bool turret_bears(const struct step_context *context, const struct entities *rows, uint32_t i,
                   uint32_t target);
 
