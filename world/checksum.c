@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <string.h>
 
-#define PIECES_A_WORKER 2u /* at a time */
+#define BLOCKS_A_WORKER 2u /* at a time */
 
 /* --- blocks ------------------------------------------------------------------------------------*/
 
@@ -37,7 +37,7 @@ static const uint8_t cell_bytes[ENTITY_COLUMN_COUNT] = {
 #undef X
 };
 
-/* Where a block begins in each column. */
+/* The first cell of a block in each column. */
 struct cells {
     void *column[ENTITY_COLUMN_COUNT];
 };
@@ -74,7 +74,7 @@ struct hashing {
     const uint64_t *columns;
 };
 
-static void hash_pieces(void *context, uint32_t first, uint32_t end, uint32_t worker)
+static void hash_blocks(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct hashing *job = context;
     (void)worker;
@@ -89,7 +89,7 @@ void table_hash(struct table table, uint32_t used, const uint64_t *columns,
                 struct thread_pool *workers)
 {
     struct hashing job = {table, used, columns};
-    thread_pool_run(workers, hash_pieces, &job, block_count(used), PIECES_A_WORKER);
+    thread_pool_run(workers, hash_blocks, &job, block_count(used), BLOCKS_A_WORKER);
 }
 
 void block_hashes_blank(struct block_hashes *blank)
@@ -110,7 +110,7 @@ uint64_t table_blank(struct table table, uint32_t block, uint32_t used,
     return columns;
 }
 
-/* Of one column: what is not zero in any of the rows, all in one number. */
+/* Returns the bits that are set in any of the rows of one column. */
 static uint64_t gather(const void *column, uint8_t bytes, const uint32_t *rows, uint32_t count)
 {
     uint64_t all = 0;
@@ -155,7 +155,7 @@ void table_take(struct table to, struct table from, uint32_t block, uint32_t use
 /* --- checksums ---------------------------------------------------------------------------------*/
 
 /* Each block's hashes are chained into the whole. */
-static uint64_t add_piece(uint64_t hash, const struct block_hashes *hashes)
+static uint64_t add_block(uint64_t hash, const struct block_hashes *hashes)
 {
     return XXH3_64bits_withSeed(hashes, sizeof *hashes, hash);
 }
@@ -164,7 +164,7 @@ uint64_t rows_hash(const struct block_hashes *hashes, uint32_t used)
 {
     uint64_t hash = 0;
     for (uint32_t block = 0; block < block_count(used); block++)
-        hash = add_piece(hash, &hashes[block]);
+        hash = add_block(hash, &hashes[block]);
     return hash;
 }
 
@@ -174,7 +174,7 @@ uint64_t rows_hash_again(const struct entities *entities, uint32_t used)
     for (uint32_t block = 0; block < block_count(used); block++) {
         struct block_hashes hashes;
         hash_columns(entities, block, used, COLUMNS_ALL, &hashes);
-        hash = add_piece(hash, &hashes);
+        hash = add_block(hash, &hashes);
     }
     return hash;
 }
@@ -206,7 +206,7 @@ uint64_t state_checksum_of(const struct state *state, uint64_t rows, uint64_t fi
     return XXH3_64bits_withSeed(&head, sizeof head, XXH3_64bits(rest, sizeof rest));
 }
 
-/* With this hash of the rows. */
+/* Returns the checksum for this hash of the rows. */
 static uint64_t checksum_with(const struct state *state, uint64_t rows, uint32_t fixed_count)
 {
     struct list_hashes lists = {0};

@@ -19,7 +19,7 @@ struct block_hashes {
     uint64_t column[ENTITY_COLUMN_COUNT];
 };
 
-/* Blocks of so many rows; the last one may be short. */
+/* Returns the number of blocks of this many rows; the last one may be short. */
 uint32_t block_count(uint32_t rows);
 
 /* Bytes of a table's hashes, up to the next boundary of COLUMN_ALIGN. */
@@ -69,7 +69,7 @@ void table_take(struct table to, struct table from, uint32_t block, uint32_t use
 
 /* Running hashes of the lists that only grow; all zero before the first entry. */
 struct list_hashes {
-    uint32_t craters, dents; /* entries that are in */
+    uint32_t craters, dents; /* entries included */
     uint64_t crater_hash, dent_hash;
 };
 

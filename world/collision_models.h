@@ -1,17 +1,16 @@
-/* The methods that find collisions, and the responses that answer them: one row each. The enums,
- * the words of a scenario and the registries in collider/method and collider/response all follow
- * from these rows.
+/* The methods of collision detection and the responses: one row each. The enums, the words of a
+ * scenario and the registries in collider/method and collider/response all follow from these rows.
  *
- * A row is X(NAME, value, word, text), with a METHOD_TESTS_... before the text for a method: images
- * hold the value, and docs/scenario.md has the text. */
+ * A row is X(NAME, value, word, text), with a METHOD_TESTS_... before the text for a method. Images
+ * contain the value, and docs/scenario.md the text. */
 #ifndef JOLON_WORLD_COLLISION_MODELS_H
 #define JOLON_WORLD_COLLISION_MODELS_H
 
-/* What of a frame a method tests. */
+/* What a method tests of a frame. */
 enum method_test {
     METHOD_TESTS_NEAR,  /* the whole paths of bodies that come near others */
     METHOD_TESTS_PATHS, /* the whole paths of all bodies */
-    METHOD_TESTS_END,   /* where bodies are at its end */
+    METHOD_TESTS_END,   /* the positions of bodies at its end */
 };
 
 /* Swept, occupancy, hopcroft and brute find the same collisions. npsnet2 and mps test only the end

@@ -3,7 +3,7 @@
 
 #include <stddef.h>
 
-/* A function that gives the word of each of the count values of an enumeration, from 0 on. */
+/* Defines a function that returns the word of each of an enumeration's count values, from 0 on. */
 #define WORDS(function, type, count, ...)                                                          \
     const char *function(enum type value)                                                          \
     {                                                                                              \

@@ -8,7 +8,7 @@
 
 /* The parties of an event; a type of event does not have all of them. */
 enum event_text_party {
-    EVENT_TEXT_FIRST,  /* the body a, the shooter, what was struck, the agent */
+    EVENT_TEXT_FIRST,  /* the body a, the shooter, the party struck, the agent */
     EVENT_TEXT_SECOND, /* the body b, the target */
     EVENT_TEXT_MUNITION,
     EVENT_TEXT_PARTIES
@@ -18,8 +18,8 @@ enum event_text_party {
 void event_text_parties(const struct event *event,
                         const struct event_party *parties[EVENT_TEXT_PARTIES]);
 
-/* Writes the event's text, "" for an unknown type. kind: the name of the kind of each party that
- * the event has; of a party without an id, all that is said of it. */
+/* Writes the event's text, "" for an unknown type. kind: for each party of the event the name of
+ * its kind; a party without an id is named by that alone. */
 void event_text(char text[EVENT_TEXT_MAX], const struct event *event,
                 const char *const kind[EVENT_TEXT_PARTIES]);
 

@@ -1,5 +1,5 @@
-/* Polygon models of the kinds, as they are drawn; world/entity/hull.h has what collides. Written
- * once at creation, read-only to all. */
+/* Polygon models of the kinds, as they are drawn; world/entity/hull.h has the shapes that collide.
+ * Written once at creation, read-only to all. */
 #ifndef JOLON_WORLD_MODEL_H
 #define JOLON_WORLD_MODEL_H
 
@@ -13,8 +13,8 @@ struct model {
     char name[KIND_NAME_MAX];
     uint32_t first_triangle, triangle_count;
     uint32_t first_vertex, vertex_count;
-    uint32_t solid_triangles, solid_vertices; /* the first so many collide and are not seen, the
-                                                 others are seen only; 0: all of them do both */
+    uint32_t solid_triangles, solid_vertices; /* the first ones collide and are invisible, the
+                                                 others are only visible; 0: all are both */
 };
 
 struct model_vertex {
@@ -34,10 +34,10 @@ enum model_part {
     PART_COUNT
 };
 
-#define MODEL_JOINTS_MAX 32u /* things of a model that move each by itself, and the turret */
+#define MODEL_JOINTS_MAX 32u /* parts of a model that move independently, the turret included */
 
-/* How much of a triangle's colour is its force's, 255 being all of it: of the materials "force",
- * for flags and panels, "paint", in camouflage, and "wash" with what follows, plain. */
+/* The share of the force's colour in a triangle's colour, 255 being all of it: for the materials
+ * "force" (flags and panels), "paint" (in camouflage), and "wash" and those below (plain). */
 #define MODEL_TINT_FORCE 255
 #define MODEL_TINT_PAINT 80
 #define MODEL_TINT_WASH  70
@@ -50,7 +50,7 @@ struct model_triangle {
     uint16_t joint;           /* which of them; 0: the body and the turret */
 };
 
-/* How many of a model's first triangles collide. */
+/* Returns how many of a model's first triangles collide. */
 static inline uint32_t model_solid_triangles(const struct model *model)
 {
     return model->solid_triangles > 0 ? model->solid_triangles : model->triangle_count;

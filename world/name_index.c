@@ -1,4 +1,4 @@
-/* Names in their order, and the search among them. */
+/* Names in ascending order, and a binary search. */
 #include "world/name_index.h"
 
 #include "world/entity/entity.h"

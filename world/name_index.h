@@ -8,7 +8,7 @@ struct entity_name;
 
 struct name_index {
     const struct entity_name *names;   /* the caller's, of the initial slots */
-    const struct entity_name **sorted; /* by name; lookups may be as many as vehicles */
+    const struct entity_name **sorted; /* by name, since there may be as many lookups as vehicles */
     uint32_t count;
 };
 

@@ -1,4 +1,4 @@
-/* Parameters of a run: what a scenario sets once for the whole world. A new scenario key changes
+/* Parameters of a run: the settings of a scenario for the whole world. A new scenario key changes
  * this header, so only .c files that read or write parameters include it. Headers declare `struct
  * params;`. */
 #ifndef JOLON_WORLD_PARAMS_H
@@ -20,9 +20,9 @@ struct collision_params {
     uint32_t nearness; /* enum nearness; method npsnet2 */
     uint32_t measure;  /* enum figure8_measure */
     uint32_t reserved;
-    double mps_near_m;                         /* method mps: this near on the map is a collision */
+    double mps_near_m; /* method mps: greatest distance on the map of a collision */
     double mass_c1_kg, mass_c2_kg, mass_c3_kg; /* Fig. 8 by mass alone: c1 > c2 > c3 */
-    double threshold_height_m;                 /* above it nothing fixed is tested (row 17) */
+    double threshold_height_m;                 /* above it fixed objects are not tested (row 17) */
     double fast_vehicle_mps;                   /* Fig. 8 "speed of colliding vehicle > constant" */
     double fast_fixed_mps; /* Fig. 8 "moving quickly", against a large fixed object */
     double large_fixed_kg; /* Fig. 8 "large" */
@@ -30,26 +30,26 @@ struct collision_params {
                                                    fixed object's resistance (row 27) */
 };
 
-/* What the renderer is told; the simulation does not read it. */
+/* Settings of the renderer; the simulation does not read them. */
 struct renderer_params {
     uint32_t width, height; /* [pixel] */
     double fps;             /* pictures a second of the clock, 0..120 */
-    uint32_t views;         /* 1 << enum view_mode of each that is wanted */
-    uint32_t follow;        /* entity id, 0: picks one */
+    uint32_t views;         /* 1 << enum view_mode for each view */
+    uint32_t follow;        /* entity id, 0: the renderer chooses */
     uint32_t fog, haze, texture;
     uint32_t back_end; /* enum back_end */
-    uint32_t hold;     /* 1: less detail, then smaller, rather than fewer pictures */
+    uint32_t hold;     /* 1: keeps fps by less detail, then by smaller pictures */
     uint32_t reserved;
 };
 
-/* Where vehicles of a force withdraw to. */
+/* The place to which vehicles of a force withdraw. */
 struct force_base {
     double x, z; /* [m] */
 };
 
 struct params {
     char name[WORLD_NAME_MAX];    /* of the ground: "hunter-liggett" */
-    char scenario[PATH_TEXT_MAX]; /* the file it came from, for people */
+    char scenario[PATH_TEXT_MAX]; /* path of its file, for people */
     uint64_t seed;
     uint64_t scenario_hash; /* of the text and the overrides */
     uint64_t frame_limit;   /* the run ends with this frame, 0: never */
@@ -67,7 +67,7 @@ struct params {
     uint32_t initial_entities;
     struct collision_params collision;
     struct force_base
-        base[FORCE_COUNT]; /* a scenario's, or the mean of the force's initial places */
+        base[FORCE_COUNT]; /* the scenario's, or the middle of the force's initial places */
     struct renderer_params renderer;
 };
 

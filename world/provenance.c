@@ -1,4 +1,4 @@
-/* Recipes. */
+/* The provenance of a world. */
 #include "world/provenance.h"
 
 #include <errno.h>
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROOM_BYTES 4096u /* a recipe's room is a multiple of this */
+#define ROOM_BYTES 4096u /* room for it is a multiple of this */
 
 int provenance_add(struct provenance *recipe, const char *key, const char *value)
 {

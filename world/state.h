@@ -1,5 +1,5 @@
-/* The state of a world: what a frame changes. The structs point into memory that somebody else
- * owns: the shared segment, or a test's heap. */
+/* The state of a world: what a frame changes. The structs point into memory with another owner: the
+ * shared segment, or a test's heap. */
 #ifndef JOLON_WORLD_STATE_H
 #define JOLON_WORLD_STATE_H
 
@@ -26,7 +26,7 @@ struct counters {
 /* The head of a world buffer and, as the mover stages it, of the moved table. */
 struct state_head {
     uint64_t frame;        /* this buffer holds this frame */
-    uint64_t tick;         /* steps of simulated time: frames less those that stood paused */
+    uint64_t tick;         /* steps of simulated time: frames without those that were paused */
     uint64_t event_end;    /* events of the run so far */
     uint64_t event_digest; /* over all of them, in order */
     uint64_t command_cursor[COMMAND_RING_COUNT]; /* commands taken from each ring */
@@ -35,16 +35,16 @@ struct state_head {
     uint32_t steps_left; /* frames to advance while paused */
     uint32_t quit;
     uint32_t used;       /* slots 0 .. used - 1 have ever held an entity */
-    uint32_t alloc_next; /* where the search for a free slot goes on */
+    uint32_t alloc_next; /* where the search for a free slot continues */
     uint32_t next_id;
     uint32_t vehicles, munitions; /* active or wrecks; in flight */
     uint32_t crater_count;
     uint32_t dent_count;
     uint32_t reserved;
-    uint32_t fire_cursor;  /* scenario fires done */
+    uint32_t fire_cursor;  /* fire orders of the scenario carried out */
     uint32_t intent_count; /* M only: events the mover hands to the collider */
     uint32_t advanced;     /* 1: simulated time moved in this frame */
-    uint64_t mover_ns;     /* M only: what moving took; not in the digest */
+    uint64_t mover_ns;     /* M only: time of the mover's step; not in the digest */
     struct counters tally;
     uint64_t checksum; /* state_checksum(), moved_checksum() */
 };
@@ -70,8 +70,8 @@ struct moved {
 /* Simulated time of a state [s]. */
 double state_time_s(const struct world *world, const struct state_head *head);
 
-/* Digest of a frame: everything that the next frame depends on, in a fixed order, as XXH3-64.
- * Not in it: pacing, stage times, slots beyond used. */
+/* Returns the digest of a frame: everything on which the next frame depends, in a fixed order, as
+ * XXH3-64. It leaves out pacing, stage times and slots beyond used. */
 uint64_t state_digest(const struct world *world, const struct state *state);
 
 #endif

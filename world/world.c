@@ -1,4 +1,4 @@
-/* Questions about a world. */
+/* Look-ups in a world. */
 #include "world/world.h"
 
 #include "world/entity/entity.h"

@@ -1,5 +1,5 @@
-/* The world: what never changes after creation. struct world points into memory that somebody else
- * owns: the shared segment, or a test's heap. */
+/* The world: what never changes after creation. struct world points into memory with another owner:
+ * the shared segment, or a test's heap. */
 #ifndef JOLON_WORLD_WORLD_H
 #define JOLON_WORLD_WORLD_H
 
@@ -32,10 +32,10 @@ struct route {
     uint32_t first, count; /* points */
 };
 
-/* A shot the scenario orders. */
+/* A shot ordered by the scenario. */
 struct fire_order {
     uint64_t tick;         /* when, in steps of simulated time */
-    uint32_t shooter_slot; /* initial slot, SLOT_NONE: out of the sky */
+    uint32_t shooter_slot; /* initial slot, SLOT_NONE: the round falls from the sky */
     uint32_t target_slot;  /* SLOT_NONE: the point */
     uint16_t kind;         /* munition, KIND_NONE: the shooter's own */
     uint16_t reserved;
@@ -44,7 +44,7 @@ struct fire_order {
 
 struct road_point {
     float x, z;
-    uint32_t road; /* points of one road follow each other */
+    uint32_t road; /* the points of one road are consecutive */
     uint32_t reserved;
 };
 
@@ -79,19 +79,19 @@ struct world {
     const struct script *scripts;
     const struct script_step *script_steps;
     const struct entity_name *names; /* of the initial entities: slot i has id i + 1 */
-    const char *recipe;              /* [counts.recipe] what it was made from */
+    const char *recipe;              /* [counts.recipe] its provenance */
 };
 
-/* A step of simulated time [s]: params->dt_s, for files that need no other parameter. */
+/* Returns a step of simulated time [s]: params->dt_s, for files that need no other parameter. */
 double world_dt_s(const struct world *world);
 
-/* Name of the entity with this id if the scenario gave it one, else "". */
+/* Returns the name that the scenario gave the entity with this id, or "". */
 const char *world_entity_name(const struct world *world, uint32_t id);
 
-/* Id of the entity that the scenario gave this name, 0 when there is none. */
+/* Returns the id of the entity with this name in the scenario, 0 if there is none. */
 uint32_t world_entity_named(const struct world *world, const char *name);
 
-/* Indices of the fixed objects that reach into a square. */
+/* Returns the indices of the fixed objects that overlap a square. */
 static inline uint32_t world_reach(const struct world *world, uint32_t square,
                                    const uint32_t **objects)
 {

@@ -74,7 +74,7 @@ static double left_of(struct uv a, struct uv b, struct uv p)
     return (b.u - a.u) * (p.v - a.v) - (p.u - a.u) * (b.v - a.v);
 }
 
-/* Sorts by u, then v. Insertion sort: there are few points. */
+/* finer noise moves the shore by up to half of this */
 static void sort(struct outline *outline)
 {
     for (uint32_t i = 1; i < outline->count; i++) {

@@ -15,27 +15,26 @@
 
 #include <stddef.h>
 
-#define REACT_S      0.6  /* time until a look has turned or slowed the vehicle */
-#define TURNS_AHEAD  1.5  /* least horizon in turning circles */
-#define HORIZON_M    12.0 /* added to the horizon */
-#define FARTHEST_M   600.0
-#define TALL_M       3.0  /* parts above this height are no obstacle for land vehicles */
-#define GAP_M        1.0  /* gap to obstacles at the sides and ahead */
-#define AIR_GAP_M    8.0  /* the same in the air, and above and below */
-#define LOW_FLIGHT_M 40.0 /* above this height no fixed object is an obstacle */
-#define BRAKE_SHARE  0.8  /* share of the hardest braking that it relies on */
-#define HARMLESS_SHARE                                                                             \
-    0.005 /* share of its resistance_j that it may lose to an object that counts as harmless */
-#define YIELDS        0.1  /* fixed kinds with less rigidity bend aside */
-#define TURN_COST     0.25 /* of each radian of turning, in shares of the horizon */
-#define CHANGE_COST   0.10 /* of each radian off the last dodge, against wavering */
-#define LEFT_COST     0.03 /* of turning left, so that two vehicles that meet both turn right */
-#define SHARP_SHARE   0.25 /* share of its speed in turns of 90 degrees and more */
-#define STRAYS        0.05 /* how far bodies leave their course, as a share of the distance */
-#define GIVEN_WAY_S   2.5  /* the other is expected to give way if they meet later */
-#define CROSSING      0.94 /* cosine of 20 degrees: courses that differ by less do not cross */
-#define ROUNDED_MPS   1e-4 /* more than the index's rounding of velocities */
-#define CLIMB_AHEAD_S 6.0  /* how far ahead aircraft look at the ground */
+#define REACT_S        0.6  /* time until a look has turned or slowed the vehicle */
+#define TURNS_AHEAD    1.5  /* least horizon in turning circles */
+#define HORIZON_M      12.0 /* added to the horizon */
+#define FARTHEST_M     600.0
+#define TALL_M         3.0   /* parts above this height are no obstacle for land vehicles */
+#define GAP_M          1.0   /* gap to obstacles at the sides and ahead */
+#define AIR_GAP_M      8.0   /* the same in the air, and above and below */
+#define LOW_FLIGHT_M   40.0  /* above this height no fixed object is an obstacle */
+#define BRAKE_SHARE    0.8   /* share of the hardest braking that it relies on */
+#define HARMLESS_SHARE 0.005 /* most of its resistance_j that a harmless object costs */
+#define YIELDS         0.1   /* fixed kinds with less rigidity bend aside */
+#define TURN_COST      0.25  /* of each radian of turning, in shares of the horizon */
+#define CHANGE_COST    0.10  /* of each radian off the last dodge, against wavering */
+#define LEFT_COST      0.03  /* of turning left, so that two vehicles that meet both turn right */
+#define SHARP_SHARE    0.25  /* share of its speed in turns of 90 degrees and more */
+#define STRAYS         0.05  /* how far bodies leave their course, as a share of the distance */
+#define GIVEN_WAY_S    2.5   /* the other is expected to give way if they meet later */
+#define CROSSING       0.94  /* cosine of 20 degrees: courses that differ by less do not cross */
+#define ROUNDED_MPS    1e-4  /* more than the index's rounding of velocities */
+#define CLIMB_AHEAD_S  6.0   /* how far ahead aircraft look at the ground */
 
 /* The fan: angles off the desired heading, with their sines and cosines. Direction PRESENT is the
  * present heading. */

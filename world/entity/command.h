@@ -1,6 +1,6 @@
-/* Commands: what players and outside programs ask of the world. They reach the mover through one
- * ring a writing process; each is applied in exactly one frame and answered by an EVENT_COMMAND of
- * that frame. Key (source, sequence): the sender's own, repeats are dropped by it. */
+/* Commands: requests of players and outside programs. They reach the mover through one ring for
+ * each writing process. Each is applied in exactly one frame and answered by an EVENT_COMMAND of
+ * that frame. The key (source, sequence) is the sender's own; a repeated key is dropped. */
 #ifndef JOLON_WORLD_ENTITY_COMMAND_H
 #define JOLON_WORLD_ENTITY_COMMAND_H
 
@@ -11,7 +11,7 @@ enum command_ring {
     RING_CLIENTS, /* of all clients of the command socket */
     RING_GATEWAY,
     RING_CONSOLE,
-    RING_RECORDER, /* pauses and resumes, where recorder.when_full says so */
+    RING_RECORDER, /* pauses and resumes, as recorder.when_full requests */
     COMMAND_RING_COUNT
 };
 
@@ -47,7 +47,7 @@ enum command_result {
 };
 
 struct command {
-    uint64_t sequence;        /* place in its ring's whole row, from 0; set with the slot */
+    uint64_t sequence;        /* number of the command in its ring, from 0; set with the slot */
     uint64_t source;          /* the sender: a number of its own choice */
     uint64_t source_sequence; /* counted by the sender, from 1 */
     uint32_t type;            /* enum command_type */
@@ -65,7 +65,7 @@ _Static_assert(sizeof(struct command) == 128, "two cache lines a slot");
 /* Frames of simulation for which a DRIVE can hold a vehicle, at most. */
 #define COMMAND_LEASE_MAX 1000000u
 
-/* A vehicle is not spawned where so many stand already within so many metres. */
+/* A vehicle is not spawned where this many stand within this many metres. */
 #define COMMAND_SPOT_VEHICLES 8u
 #define COMMAND_SPOT_M        10.0
 

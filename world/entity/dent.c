@@ -1,4 +1,4 @@
-/* How dents come back. */
+/* The recovery of dents. */
 #include "world/entity/dent.h"
 
 double crush_elastic_left(double elastic_m, double age_s)

@@ -1,4 +1,4 @@
-/* The entity table's memory: where columns lie, and copies of rows. */
+/* The entity table's memory: the places of columns, and copies of rows. */
 #include "world/entity/entity.h"
 
 #include <string.h>

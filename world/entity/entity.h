@@ -1,8 +1,8 @@
 /* Entities: vehicles and munitions as a structure of arrays.
  *
  * The same columns make up each of the world's two buffers (written by the collider alone) and the
- * moved table (written by the mover alone). A slot is a row; slots are used again, ids never are:
- * a reference is (slot, id) and is dead when id[slot] differs. Id 0 is nobody. */
+ * moved table (written by the mover alone). A slot is a row. Slots are used again, ids never are: a
+ * reference is (slot, id), and it is void when id[slot] differs. Id 0 is no entity. */
 #ifndef JOLON_WORLD_ENTITY_ENTITY_H
 #define JOLON_WORLD_ENTITY_ENTITY_H
 
@@ -47,9 +47,9 @@ enum force { FORCE_NEUTRAL, FORCE_BLUE, FORCE_RED, FORCE_COUNT };
 /* Damage of anything, fixed or moving (thesis rows 27, 33). */
 enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED, DAMAGE_COUNT };
 
-/* X(type, name): every column once. Rates of the body, then what an agent remembers.
- * Who writes: M all of it by the mover; W all of it by the collider, which copies M and changes
- * what collisions change: motion, state, damage, harm_j, threat_*, bump*, touch_*. */
+/* X(type, name) for every column: the state of the body, then the agent's memory. The mover writes
+ * all of M. The collider writes all of W: it copies M and changes what collisions change: motion,
+ * state, damage, harm_j, threat_*, bump*, touch_*. */
 #define ENTITY_COLUMNS(X)                                                                          \
     X(double, x)           /* [m] world frame: east; metres to better than 1e-10 */                \
     X(double, y)           /* [m] up */                                                            \
@@ -60,38 +60,37 @@ enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED
     X(double, heading)     /* [rad] clockwise from north, 0..2 pi */                               \
     X(double, pitch)       /* [rad] nose up */                                                     \
     X(double, roll)        /* [rad] right side down */                                             \
-    X(double, spin_x)      /* [rad/s, world axes] turning that collisions gave it; what its driver \
-                              steers comes on top */                                               \
+    X(double, spin_x)      /* [rad/s, world axes] by collisions, without steering */               \
     X(double, spin_y)      /* [rad/s] */                                                           \
     X(double, spin_z)      /* [rad/s] */                                                           \
-    X(double, harm_j)      /* [J] energy taken; at the kind's resistance_j it is destroyed */      \
-    X(double, goal_x)      /* [m] where the behaviour is going */                                  \
+    X(double, harm_j)      /* [J] energy absorbed; destroyed at the kind's resistance_j */         \
+    X(double, goal_x)      /* [m] the behaviour's destination */                                   \
     X(double, goal_z)      /* [m] */                                                               \
     X(double, fuel_l)      /* [l] */                                                               \
     X(float, throttle)     /* -1..1, by its driver or its agent */                                 \
-    X(float, steer)        /* -1..1, likewise: right */                                            \
+    X(float, steer)        /* -1..1, by its driver or its agent: right */                          \
     X(float, climb)        /* -1..1, when driven: up (aircraft) */                                 \
     X(float, brake)        /* 0..1, when driven */                                                 \
-    X(float, traverse)     /* -1..1, likewise: turret to the right */                              \
-    X(float, elevate)      /* -1..1, likewise: gun up */                                           \
+    X(float, traverse)     /* -1..1, when driven: turret to the right */                           \
+    X(float, elevate)      /* -1..1, when driven: gun up */                                        \
     X(float, turret)       /* [rad] clockwise off the heading, -pi..pi */                          \
     X(float, gun)          /* [rad] up off the body's own plane */                                 \
-    X(float, dodge)        /* [rad] to the right of its goal, around what is in its way */         \
-    X(float, ease)         /* 0..1: share of its speed that it does without for what is ahead */   \
-    X(float, bump_heading) /* [rad] away from what it ran into this frame */                       \
-    X(uint64_t, driver) /* who drives it alone until until_tick: a command's source, 0: nobody */  \
+    X(float, dodge)        /* [rad] to the right of its goal, around obstacles */                  \
+    X(float, ease)         /* 0..1: share of its speed that it gives up for obstacles ahead */     \
+    X(float, bump_heading) /* [rad] away from the obstacle that it ran into */                     \
+    X(uint64_t, driver) /* the one source of commands that drives it, until until_tick; 0: none */ \
     X(uint32_t, id)                                                                                \
     X(uint32_t, target_slot) /* what it attacks, flees, or homes on */                             \
     X(uint32_t, target_id)                                                                         \
     X(uint32_t, owner_slot) /* a munition's shooter */                                             \
     X(uint32_t, owner_id)                                                                          \
-    X(uint32_t, threat_slot) /* who fired at it since its agent last looked */                     \
+    X(uint32_t, threat_slot) /* fired at it since its agent last decided */                        \
     X(uint32_t, threat_id)                                                                         \
-    X(uint32_t, until_tick)  /* when the present behaviour ends, a munition's life likewise */     \
+    X(uint32_t, until_tick)  /* when the present behaviour, or a munition's life, ends */          \
     X(uint32_t, reload_tick) /* when it may fire again */                                          \
     X(uint32_t, seen_tick)   /* when it last saw its target */                                     \
-    X(uint32_t, touch_body)  /* what it touched last: an id, or a fixed object with the top bit */ \
-    X(uint32_t, touch_tick)  /* when; a press that goes on is no new collision */                  \
+    X(uint32_t, touch_body)  /* last contact: an id, or a fixed object with the top bit */         \
+    X(uint32_t, touch_tick)  /* when; a contact that persists is no new collision */               \
     X(uint32_t, born_tick)                                                                         \
     X(uint32_t, changed_tick) /* when its damage last grew; for fire and smoke */                  \
     X(uint32_t, order_arg)    /* its area (patrol), route, formation or script */                  \
@@ -103,9 +102,9 @@ enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED
     X(uint8_t, behaviour)                                                                          \
     X(uint8_t, order)   /* the behaviour it goes back to */                                        \
     X(uint8_t, damage)  /* enum damage */                                                          \
-    X(uint8_t, bumped)  /* ran into something this frame */                                        \
+    X(uint8_t, bumped)  /* 1: ran into something in this frame */                                  \
     X(uint8_t, flags)   /* ENTITY_FLAG_* */                                                        \
-    X(uint8_t, trigger) /* mover's own: wants to fire this frame */
+    X(uint8_t, trigger) /* of the mover: the row's requests in this frame */
 
 /* clang-format off */
 enum entity_column {
@@ -121,15 +120,15 @@ enum entity_column {
 #define COLUMNS_ALL      (UINT64_MAX >> (64 - ENTITY_COLUMN_COUNT))
 _Static_assert(ENTITY_COLUMN_COUNT <= 64, "a set of columns is one word");
 
-#define ENTITY_FLAG_FIRE_AT_WILL 1u /* engages enemies that it sees, not only who fires at it */
+#define ENTITY_FLAG_FIRE_AT_WILL 1u /* engages all enemies that it sees */
 #define ENTITY_FLAG_HOLD_FIRE    2u /* fires at nobody, whatever happens to it */
 #define ENTITY_FLAG_STAND        4u /* never flees or withdraws */
 
-/* How a driven vehicle's throttle goes to its wheels; a driver's choice, in flags. */
+/* How a driven vehicle's throttle acts on its wheels; a driver's choice, in flags. */
 enum gearing {
     GEAR_AUTOMATIC, /* forwards, or backwards when the throttle is negative */
     GEAR_REVERSE,   /* the throttle drives backwards */
-    GEAR_NEUTRAL,   /* not at all: it rolls */
+    GEAR_NEUTRAL,   /* not at all: the vehicle rolls */
     GEAR_LOW,       /* slow and strong */
     GEAR_COUNT
 };

@@ -55,7 +55,7 @@ enum agent_reason {
     REASON_ARRIVED,
     REASON_LEADER_LOST,
     REASON_SCRIPT,     /* a step of its script says so */
-    REASON_LEASE_OVER, /* its driver was not heard from any more */
+    REASON_LEASE_OVER, /* its driver sent no more commands */
     REASON_COUNT
 };
 
@@ -74,7 +74,7 @@ struct event_collision {
     float normal[3];      /* unit, from a towards b */
     float closing_mps;    /* along the normal, before */
     float angle_deg;      /* 0..360: b's heading off a's */
-    float impulse_ns;     /* on each of them, friction included */
+    float impulse_ns;     /* on each body, friction included */
     float direction_a[3]; /* unit direction of travel, 0 when at rest (thesis row 34) */
     uint32_t response;    /* enum response */
 };
@@ -102,23 +102,23 @@ struct event_agent {
     uint32_t because;  /* enum agent_reason */
 };
 
-/* The whole command, as it was taken: a run's commands can be sent again from its events. */
+/* The whole command as it was taken, so that a run's commands can be sent again from its events. */
 struct event_command {
     uint64_t source, sequence; /* the sender's own key */
-    double value[6];           /* this and what follows: as sent, see struct command */
+    double value[6];           /* this and the following: as sent, see struct command */
     uint32_t type;             /* enum command_type */
     uint32_t given;            /* entity */
     uint32_t target, amount;
     uint16_t kind, force;
     uint8_t result; /* enum command_result */
-    uint8_t ring;   /* enum command_ring that brought it */
+    uint8_t ring;   /* enum command_ring from which it came */
     uint8_t reserved[2];
     uint32_t entity; /* the entity it made or changed, 0 for none */
     uint32_t number; /* commands of the run before it, modulo 2^32 */
 };
 
 struct event {
-    uint64_t sequence; /* place in the run's whole row of events, from 0 */
+    uint64_t sequence; /* number among all of the run's events, from 0 */
     uint64_t frame;
     uint64_t tick;  /* steps of simulated time at that frame */
     uint32_t index; /* within the frame, from 0 */

@@ -1,7 +1,7 @@
-/* Where each vehicle of a formation has its place. */
+/* The places of the vehicles in a formation. */
 #include "world/entity/formation.h"
 
-#define WEDGE_SHARE 0.7071067811865476 /* half a right angle off the leader's tail */
+#define WEDGE_SHARE 0.7071067811865476 /* at 45 degrees to the leader's tail */
 
 void formation_place(enum formation_shape shape, double spacing_m, uint32_t member, double *ahead_m,
                      double *right_m)

@@ -1,6 +1,6 @@
-/* Convex hulls: what a kind's polygon model is to the narrow phase. Each connected piece of a model
- * (a trunk, a crown, a turret) gives one hull; near ones are joined until at most HULLS_A_MODEL are
- * left. Written once at creation, read-only to all. */
+/* Convex hulls: a kind's polygon model as the narrow phase sees it. Each connected piece of a model
+ * (a trunk, a crown, a turret) gives one hull; near hulls are joined until at most HULLS_A_MODEL
+ * are left. Written once at creation, read-only to all. */
 #ifndef JOLON_WORLD_ENTITY_HULL_H
 #define JOLON_WORLD_ENTITY_HULL_H
 

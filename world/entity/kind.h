@@ -1,5 +1,5 @@
-/* Kinds: what every vehicle, munition and fixed object of one sort shares (thesis row 49:
- * physical attributes in the object file). Written once at creation, read-only to all. */
+/* Kinds: the properties shared by all vehicles, munitions and fixed objects of one sort (thesis row
+ * 49: physical attributes in the object file). Written once at creation, read-only to all. */
 #ifndef JOLON_WORLD_ENTITY_KIND_H
 #define JOLON_WORLD_ENTITY_KIND_H
 
@@ -14,7 +14,7 @@ enum domain { DOMAIN_LAND, DOMAIN_SEA, DOMAIN_AIR, DOMAIN_MUNITION, DOMAIN_FIXED
 /* How a munition flies. */
 enum guidance { GUIDANCE_BALLISTIC, GUIDANCE_HOMING };
 
-/* What a vehicle does about what it notices: mover/agent/behaviour_table.c. */
+/* The table by which an agent reacts: mover/agent/behaviour_table.c. */
 enum doctrine {
     DOCTRINE_ARMOUR,
     DOCTRINE_LIGHT,
@@ -43,7 +43,7 @@ struct kind {
     uint8_t domain;       /* enum domain */
     uint8_t guidance;     /* enum guidance; munitions */
     uint8_t object_class; /* enum object_class; fixed objects */
-    uint8_t craters;      /* munitions: digs a crater where it strikes the ground */
+    uint8_t craters;      /* munitions: makes a crater when it hits the ground */
     uint16_t model;       /* index into the world's models */
     uint16_t munition;    /* kind it fires, KIND_NONE for none */
     double mass_kg;
@@ -56,39 +56,38 @@ struct kind {
     double length_m, width_m, height_m;
     double cruise_altitude_m; /* aircraft: above the ground */
     double climb_rate_mps;    /* aircraft */
-    double rigidity;          /* 0..1: share of an impact that goes into harm at once */
-    double moldability;       /* 0..1: share of a dent that stays */
-    double restitution;       /* 0..1: closing speed that comes back */
+    double rigidity;          /* 0..1: share of an impact that becomes damage at once */
+    double moldability;       /* 0..1: share of a dent that remains */
+    double restitution;       /* 0..1: share of the closing speed after a bounce */
     double friction;          /* 0..2: Coulomb's coefficient of its skin */
     double resistance_j;      /* energy that destroys it */
     double stiffness_npm;     /* [N/m] of its skin, for the response "spring" */
-    double severe_rad;        /* Fig. 8: how near a quarter turn an impact counts as square */
-    double bounce_keep;       /* Fig. 8: 0..1 of its speed that a bounce leaves it */
-    double fast_mps;          /* Fig. 8: from here a square impact kills; 0: the scenario's */
+    double severe_rad;        /* Fig. 8: largest angle off a quarter turn of a square impact */
+    double bounce_keep;       /* Fig. 8: 0..1 of its speed after a bounce */
+    double fast_mps;          /* Fig. 8: a square impact is fatal from here; 0: the scenario's */
     double damage_high;       /* fixed objects, Fig. 8 c1 > c2 > c3: impact energy over its */
     double damage_med;        /* resistance_j from which damage is high, medium, low; 0: the */
     double damage_low;        /* scenario's */
-    double debris_keep;       /* fixed objects: 0..1 of its speed that a vehicle keeps on what is
-                                 left of one */
-    double explosive_kg;      /* TNT; of a vehicle: what burns when it is destroyed */
-    double range_m;           /* vehicles: how far they shoot */
-    double sight_m;           /* vehicles: how far they see enemies */
-    double view_rad;          /* vehicles: how wide, about where the turret points */
-    uint32_t doctrine;        /* enum doctrine; vehicles */
-    double reload_s;          /* vehicles: between two rounds */
-    double turret_rate_rps;   /* vehicles: 0: no turret, it aims with the hull */
-    double gun_rate_rps;      /* up and down; 0: the gun does not move */
-    double gun_low_rad, gun_high_rad; /* how far, off the hull's own plane */
-    double seeker_rad;                /* homing munitions: how far off their way they see */
-    double dispersion_rad;            /* munitions: one standard error */
+    double debris_keep;  /* fixed objects: 0..1 of its speed that a vehicle keeps on the debris */
+    double explosive_kg; /* TNT; of a vehicle: explodes when it is destroyed */
+    double range_m;      /* vehicles: of their guns */
+    double sight_m;      /* vehicles: at which they see enemies */
+    double view_rad;     /* vehicles: width of view, about the turret's direction */
+    uint32_t doctrine;   /* enum doctrine; vehicles */
+    double reload_s;     /* vehicles: between two rounds */
+    double turret_rate_rps;           /* vehicles: 0: no turret, it aims with the hull */
+    double gun_rate_rps;              /* up and down; 0: the gun does not move */
+    double gun_low_rad, gun_high_rad; /* limits, relative to the hull's own plane */
+    double seeker_rad;                /* homing munitions: half angle of the seeker's cone */
+    double dispersion_rad;            /* munitions: standard error */
     double life_s;                    /* munitions: end of flight */
-    double courage;                   /* 0..1: how often it returns fire rather than flee */
+    double courage;                   /* 0..1: probability of returning fire rather than fleeing */
     double fuel_l, fuel_lps;          /* tank, and burnt at full throttle a second */
     uint32_t rounds;
-    /* What follows comes from the model's hulls. */
+    /* These follow from the model's hulls. */
     uint32_t first_hull, hull_count; /* index into the world's hulls */
-    uint32_t outer_hull;             /* the one around all of them */
-    double bound_m;       /* radius about the position that holds every hull, however turned */
+    uint32_t outer_hull;             /* the hull around all of them */
+    double bound_m;       /* radius about the position that contains every hull in any rotation */
     double level_m;       /* the same on the map, upright */
     double low_m, high_m; /* lowest and highest point over the position, upright */
 };

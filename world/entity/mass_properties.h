@@ -1,5 +1,5 @@
-/* Mass properties of a kind: a box of even density, as long, high and wide as the kind says. Pure;
- * any thread. */
+/* Mass properties of a kind: a box of uniform density with the kind's length, height and width.
+ * Pure; any thread. */
 #ifndef JOLON_WORLD_ENTITY_MASS_PROPERTIES_H
 #define JOLON_WORLD_ENTITY_MASS_PROPERTIES_H
 
@@ -12,17 +12,19 @@ struct mass_properties {
     double centre_m;    /* height of the centre of mass over the position */
 };
 
-/* The position is on the ground below what stands on it, on the water line of ships and in the
- * middle of what flies (docs/scenario.md, "Models"): the centre is half the height above it on
- * land, and at it elsewhere; a ship floats with its masses about the water line. */
+/* The position is on the ground below land vehicles and fixed objects, on the water line of ships
+ * and in the middle of aircraft and munitions (docs/scenario.md, "Models"). The centre of mass is
+ * half the height above it on land, and at it elsewhere; a ship floats with its mass about the
+ * water line. */
 struct mass_properties mass_properties_of(const struct kind *kind);
 
-/* [1/(kg m2)] on world axes, of a body turned so (world = turn * body): symmetric to the bit. */
+/* [1/(kg m2)] on world axes, for this rotation of the body (world = turn * body): symmetric to the
+ * bit. */
 struct mat3 mass_properties_inverse_world(const struct mass_properties *properties,
                                           const struct mat3 *turn);
 
-/* The spin that keeps angular momentum when a body that nothing holds has turned from before to
- * after with this spin [rad/s, world axes]. */
+/* Returns the spin that conserves angular momentum when a free body with this spin [rad/s, world
+ * axes] has rotated from before to after. */
 struct vec3 mass_properties_carried(const struct mass_properties *properties,
                                     const struct mat3 *before, struct vec3 spin_rps,
                                     const struct mat3 *after);

@@ -8,7 +8,7 @@
 
 #include "world/entity/entity.h"
 
-#define CHECKSUM_ROWS   1024u /* of a block; docs/decisions/019 has what others cost */
+#define CHECKSUM_ROWS   1024u /* of a block; docs/decisions/019 has the cost of others */
 #define CHECKSUM_BLOCKS (CAPACITY_MAX / CHECKSUM_ROWS)
 
 struct table_writer {

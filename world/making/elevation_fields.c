@@ -6,15 +6,15 @@
 
 #include <stdlib.h>
 
-/* Lines of the tables are straight; nature's wind: by up to a kilometre or two in six. */
+/* Lines of the tables are straight; real ones wind by up to a kilometre or two in six. */
 #define WARP_M            2200.0
 #define WARP_WAVELENGTH_M 6500.0
-#define WARP_FREE_M       1300.0 /* around the places of known height there is little */
+#define WARP_FREE_M       1300.0 /* near the places of known height they wind little */
 
 /* The coast is better known than the rivers' bends. */
 #define COAST_WARP 0.3
 
-/* Hills are at least so much higher than the valleys beside them. */
+/* Least height of hills over the valleys beside them. */
 #define RELIEF_MIN_M 60.0
 
 enum { NOISE_WARP_X = 100, NOISE_WARP_Z = 200 };
@@ -36,7 +36,7 @@ static void warp_node(struct elevation_fields *s, uint32_t node, double x, doubl
     s->warp_z[node] = (float)(amount * noise_fractal(seed + NOISE_WARP_Z, u, v, 4));
 }
 
-/* Heights of several lines at a point, each weighed by its nearness. */
+/* Heights of several lines at a point, weighted by their nearness. */
 struct blend {
     double nearest_m, weight, height;
 };
@@ -49,8 +49,8 @@ static void blend_add(struct blend *blend, double distance_m, double height_m)
     blend->height += weight * height_m;
 }
 
-/* Between the low lines (rivers, the coast) and the high ones (ridges), the envelope's height is
- * shared by the distances to both. */
+/* Between the low lines (rivers, the coast) and the high ones (ridges) the height is interpolated
+ * by the distances to both. */
 static void draw_node(struct elevation_fields *s, uint32_t node, double x, double z)
 {
     double wx = x + s->warp_x[node], wz = z + s->warp_z[node], beyond = INFINITY;

@@ -1,5 +1,5 @@
-/* Builds the land: the coarse fields and noise say where water flows, streams cut it, creep
- * rounds it. */
+/* Builds the elevation grid: coarse fields and noise determine where water flows, streams erode
+ * valleys, and soil creep rounds the ground. */
 #include "world/making/elevation_grid.h"
 
 #include "world/making/stream_erosion.h"
@@ -14,20 +14,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The network of streams settles on every second node first, which is four times as cheap, then
- * finds its smaller branches on all. */
+/* The network of streams converges on every second node first, which takes a quarter of the time.
+ * Its smaller branches are then found on all nodes. */
 #define HALF_SIDE   ((ELEVATION_GRID_SIDE - 1) / 2 + 1)
 #define HALF_ROUNDS 7
 #define FULL_ROUNDS 3
 
-/* The mean height of hills over their valley, of the envelope's. */
+/* The mean height of hills over their valley, as a share of the envelope's. */
 #define MEAN_SHARE 0.88f
 
 #define CREEP_PASSES 2
 
 #define BEND_M 430.0
 
-/* Only its slope at the shore shows: the ground between nodes meets the water so. */
+/* Depth of the sea. Only the slope at the shore is visible, where the ground between nodes meets
+ * the water. */
 #define SEA_BED_SLOPE 0.12f
 
 enum {
@@ -46,7 +47,8 @@ struct builder {
     struct stream_erosion half, full;
     struct anchor anchors[GEOGRAPHY_PLACE_COUNT];
     uint64_t seed;
-    float *gain, *have, *spare; /* [ELEVATION_FIELDS_COUNT]; gain: on the steepness of the ground */
+    float *gain, *have,
+        *spare; /* [ELEVATION_FIELDS_COUNT]; gain: factor of the ground's steepness */
 };
 
 /* Noises of one row of nodes. */
@@ -60,7 +62,7 @@ static double square(double v)
     return v * v;
 }
 
-/* 0 at 0 or below, 1 at 1 or above, smooth between. */
+/* Returns 0 at or below 0, 1 at or above 1, and a smooth curve between. */
 static double ramp(double t)
 {
     t = maths_clamp(t, 0.0, 1.0);
@@ -78,8 +80,7 @@ static void fill_row_noise(struct row_noise *noise, uint64_t seed, double z)
     noise_add_fractal_row(seed + NOISE_BREADTH, 2900.0, 1.0, 4, row, noise->breadth);
 }
 
-/* The floor of the nearest valley, when the node is on it: the river's height, rising gently away
- * from it. */
+/* On a node of a valley floor: sets the river's height, rising gently away from the river. */
 static void lay_floor(struct builder *b, uint32_t node, double breadth)
 {
     uint32_t column = node % ELEVATION_GRID_SIDE, row = node / ELEVATION_GRID_SIDE;
@@ -88,7 +89,7 @@ static void lay_floor(struct builder *b, uint32_t node, double breadth)
     uint32_t drawn =
         row / ELEVATION_FIELDS_STEP * ELEVATION_FIELDS_SIDE + column / ELEVATION_FIELDS_STEP;
     struct geography_near near = geography_nearest(&geography_rivers[b->fields.river[drawn]], x, z);
-    /* At least wide enough that the nodes of a river on the grid are neighbours. */
+    /* At least so wide that the nodes of a river are neighbours on the grid. */
     double half_width = maths_max(near.half_width_m * breadth, 0.72 * ELEVATION_GRID_SPACING_M);
     if (near.distance_m > half_width)
         return;
@@ -130,7 +131,7 @@ static void lay(struct builder *b)
     }
 }
 
-/* Every second node; a river that runs between them is not lost. */
+/* Takes every second node, and keeps rivers that run between them. */
 static void lay_half(struct builder *b)
 {
     const struct stream_erosion *full = &b->full;
@@ -153,9 +154,9 @@ static void lay_half(struct builder *b)
     }
 }
 
-/* Streams decide where hills are, the coarse fields how high: ground becomes steeper where the
- * hills of a kilometre or two came out lower than the coarse fields, gentler where higher. step is
- * 1 or 2 nodes of the land. */
+/* Streams determine where hills are, the coarse fields their height. Makes the ground steeper where
+ * hills of a kilometre or two came out lower than the coarse fields, and gentler where they came
+ * out higher. step is 1 or 2 nodes of the elevation grid. */
 static void calibrate(struct builder *b, struct stream_erosion *d, uint32_t step)
 {
     float *want = b->gain, *have = b->have;
@@ -194,7 +195,7 @@ static float between_halves(const float *field, uint32_t node)
     return 0.25f * (p[0] + p[east] + p[south] + p[south + east]);
 }
 
-/* Hands what the half grid found to the full one, with noise for the branches it cannot show. */
+/* Copies the result of the half grid to the full one, with noise for branches too fine for it. */
 static void refine(struct builder *b)
 {
     float gully[ELEVATION_GRID_SIDE];
@@ -230,11 +231,11 @@ static void erode(struct builder *b)
     }
 }
 
-/* Soil creeps: rounds crests and fills gullies, more where the hills are low. */
+/* Soil creep: rounds crests and fills gullies, more where the hills are low. */
 static void creep(struct builder *b)
 {
     float *h = b->grid->height;
-    float *p = b->full.height; /* of the pass before */
+    float *p = b->full.height; /* of the previous pass */
     for (int pass = 0; pass < CREEP_PASSES; pass++) {
         memcpy(p, h, ELEVATION_GRID_COUNT * sizeof *h);
         for (uint32_t row = 1; row + 1 < ELEVATION_GRID_SIDE; row++) {
@@ -253,8 +254,8 @@ static void creep(struct builder *b)
     }
 }
 
-/* Water on a grid runs along its rows, columns and diagonals: what it left is bent, so that no
- * valley is straight. */
+/* On a grid water flows along rows, columns and diagonals. Displaces the eroded heights by noise,
+ * so that no valley is straight. */
 static void bend(struct builder *b, const float *from, float *to)
 {
     float east[ELEVATION_GRID_SIDE], south[ELEVATION_GRID_SIDE];
@@ -273,13 +274,13 @@ static void bend(struct builder *b, const float *from, float *to)
     }
 }
 
-/* What the streams leave, beside the heights. */
+/* Copies the other results of erosion beside the heights. */
 static void take(struct builder *b)
 {
     struct elevation_grid *grid = b->grid;
     for (uint32_t node = 0; node < ELEVATION_GRID_COUNT; node++) {
         double area_km2 = (double)b->full.area_m2[node] * 1e-6;
-        /* The area is not needed any more. */
+        /* The area is not needed any more: its memory is used again. */
         b->full.area_m2[node] = b->full.fixed[node] ? 0.0f : (float)(area_km2 / (area_km2 + 2.0));
     }
     bend(b, b->full.height, grid->height);

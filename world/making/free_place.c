@@ -11,7 +11,7 @@
 
 #define TRIES       1000
 #define CLEARANCE_M 1.0
-#define EDGE_M      50.0 /* nobody starts nearer to the world's edge, if the area allows */
+#define EDGE_M      50.0 /* least distance from the world's edge, if the area allows it */
 #define SLOPE_SHARE 0.7  /* of the steepest slope that a kind climbs */
 
 int free_place_init(struct free_place *place, const struct terrain *terrain,
@@ -109,7 +109,7 @@ static bool clear_of_objects(const struct free_place *place, double x, double z,
     return true;
 }
 
-/* The vehicles come first: in a crowd it is they who refuse most points. */
+/* The vehicles are tested first: in a crowd they exclude most points. */
 static bool free_and_fit(const struct free_place *place, const struct kind *kind, double x,
                          double z, double reach_m)
 {
@@ -117,7 +117,7 @@ static bool free_and_fit(const struct free_place *place, const struct kind *kind
            (kind->domain == DOMAIN_AIR || clear_of_objects(place, x, z, reach_m));
 }
 
-/* Narrows a range to keep off the world's edge, unless nothing would be left of it. */
+/* Narrows a range to keep away from the world's edge, unless nothing would be left of it. */
 static void leave_edge(double *low, double *high)
 {
     double from = maths_max(*low, EDGE_M), to = maths_min(*high, WORLD_SIDE_M - EDGE_M);

@@ -1,5 +1,5 @@
 /* Places where vehicles start: random points of an area on ground that suits the kind, clear of
- * each other and of fixed objects as far as either reaches (world/terrain/fixed_index.h). */
+ * other vehicles and of fixed objects within the reach of either (world/terrain/fixed_index.h). */
 #ifndef JOLON_WORLD_MAKING_FREE_PLACE_H
 #define JOLON_WORLD_MAKING_FREE_PLACE_H
 
@@ -13,8 +13,8 @@
 
 struct area;
 
-/* What is taken is found by cells finer than gridsquares: a crowd of a million in one part of the
- * map has thousands in a gridsquare, and at most some fifteen in a cell. */
+/* Taken places are found by cells finer than gridsquares: with a million vehicles in one part of
+ * the map a gridsquare holds thousands, and a cell at most some fifteen. */
 #define FREE_PLACE_CELL_M 25.0
 #define FREE_PLACE_CELLS  ((uint32_t)(WORLD_SIDE_M / FREE_PLACE_CELL_M))
 
@@ -32,7 +32,7 @@ struct free_place {
     uint32_t *head; /* [FREE_PLACE_CELLS * FREE_PLACE_CELLS] taken + 1 */
     struct free_place_taken *taken;
     uint32_t count, capacity;
-    double largest_m; /* reach taken so far */
+    double largest_m; /* greatest reach taken so far */
 };
 
 /* 0, or -1 with errno ENOMEM. */
@@ -41,14 +41,14 @@ int free_place_init(struct free_place *place, const struct terrain *terrain,
                     const uint32_t *reach_start, const uint32_t *reach, uint64_t seed);
 void free_place_free(struct free_place *place);
 
-/* Is this what the kind goes on: water for ships, dry land for what drives? Aircraft go anywhere.
- */
+/* Returns true if the ground is right for the kind: water for ships, dry land for land vehicles.
+ * Aircraft can be anywhere. */
 bool free_place_carries(const struct terrain *terrain, const struct kind *kind, double x, double z);
 
-/* May a vehicle of this kind stand here? */
+/* Returns true if a vehicle of this kind may stand here. */
 bool free_place_suits(const struct free_place *place, const struct kind *kind, double x, double z);
 
-/* A place for entity number slot; 0, or -1 after 1,000 tries. */
+/* Finds a place for entity number slot. Returns 0, or -1 after 1,000 tries. */
 int free_place_find(struct free_place *place, const struct area *area, const struct kind *kind,
                     uint32_t slot, double *x, double *z);
 

@@ -1,6 +1,6 @@
-/* Generated ground: Fort Hunter Liggett from its real places, ridges and valleys between them by
- * seeded noise, and the fixed objects of Table 1 clustered on it. Pure functions of their
- * arguments; the same bytes on every machine. They run at creation only. */
+/* Generated ground: Fort Hunter Liggett from its real places, with ridges and valleys between them
+ * by seeded noise, and the fixed objects of Table 1 in clusters on it. Pure functions of their
+ * arguments; the same bytes on every machine. Called at creation only. */
 #ifndef JOLON_WORLD_MAKING_GENERATE_H
 #define JOLON_WORLD_MAKING_GENERATE_H
 
@@ -12,8 +12,9 @@
 
 struct road_point;
 
-/* Local metres of a place on WGS 84 near the square: its centre is 35.95 N, 121.25 W. Second-order
- * series with the radii of curvature there; within 2 m of ECEF's tangent plane over the square. */
+/* Converts a place on WGS 84 near the square to local metres; the square's centre is 35.95 N,
+ * 121.25 W. Second-order series with the radii of curvature there; within 2 m of ECEF's tangent
+ * plane over the square. */
 void generate_place(double latitude_deg, double longitude_deg, double *x, double *z);
 
 /* Fills posts [side * side, m] and cover [side * side] for side posts over WORLD_SIDE_M, and at
@@ -33,12 +34,12 @@ extern const uint32_t generate_table1[OBJECT_CLASS_COUNT];
 #define GENERATE_TABLE1_TOTAL 40303u
 
 /* Fills objects [GENERATE_TABLE1_TOTAL] in gridsquare order: exactly Table 1 by class, each of a
- * kind of that class (kinds of one class are mixed), at most 18 in a square, occupied squares
- * averaging 3.9, none in water; trees and bushes in the hills, poles along roads (where there are
- * none, on the line from Jolon to the Mission). No bounding spheres touch, and none is within 8 m
- * of a road's middle but the poles'. y is the ground's height, radius and height come from the kind
- * (trees and bushes vary by up to 20 %). 0; -1 with errno ENOMEM, EINVAL when a class has no kind,
- * or ENOSPC when there is too little dry ground. */
+ * kind of that class (kinds of one class are mixed), at most 18 in a square, 3.9 on average in
+ * occupied squares, none in water. Trees and bushes are in the hills, poles along roads (without
+ * roads on the line from Jolon to the Mission). No bounding spheres touch, and none but the poles'
+ * is within 8 m of a road's middle. y is the ground's height; radius and height come from the kind
+ * (trees and bushes vary by up to 20 %). Returns 0; -1 with errno ENOMEM, EINVAL if a class has no
+ * kind, or ENOSPC if there is too little dry ground. */
 int generate_table1_objects(struct fixed_object *objects, const struct terrain *terrain,
                             const struct kind *kinds, uint32_t kind_count,
                             const struct road_point *roads, uint32_t road_count, uint64_t seed);

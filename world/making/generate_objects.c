@@ -1,5 +1,5 @@
 /* Table 1's objects on the generated ground: poles along a road, buildings at the Mission and
- * Jolon, rocks in the hills; then trees and bushes, which groves plant. */
+ * Jolon, rocks in the hills; then trees and bushes (plant_placement.h). */
 #include "world/making/generate.h"
 
 #include "world/making/geography.h"
@@ -18,7 +18,7 @@
 #define POLE_SPACING_M 55.0
 #define POLE_OFF_M     11.0 /* from the road's middle */
 #define POLE_COUNT     54
-#define POLE_START_M   700.0 /* from the road's beginning, which is a junction, or as far again */
+#define POLE_START_M   700.0 /* from the road's beginning, a junction, and between tries */
 #define POLE_STARTS    5
 
 #define TRIES      16000u /* places tried for one object: out to some 300 m */
@@ -31,7 +31,7 @@ const uint32_t generate_table1[OBJECT_CLASS_COUNT] = {
     [OBJECT_OTHER_NATURAL] = 5,
 };
 
-/* One object as near to (x, z) as a clear, dry place is: rings of growing radius. */
+/* Adds one object at the nearest clear, dry place to (x, z): in rings of growing radius. */
 static int add_near(struct object_placement *p, enum object_class of, uint32_t number, double x,
                     double z)
 {
@@ -51,8 +51,8 @@ static int add_near(struct object_placement *p, enum object_class of, uint32_t n
     return -1;
 }
 
-/* Where a line of poles stands beside legs of a road, from start_m on, on its right (side 1) or
- * left (-1). False when the road is too short or a pole is not allowed. */
+/* Sets the places of a line of poles beside the legs of a road, from start_m on, on its right (side
+ * 1) or left (-1). Returns false if the road is too short or a pole is not allowed. */
 static bool line_up(const struct object_placement *p, const struct road_point *a,
                     const struct road_point *end, double start_m, double side,
                     double poles[POLE_COUNT][2])
@@ -78,7 +78,7 @@ static bool line_up(const struct object_placement *p, const struct road_point *a
     return false;
 }
 
-/* The first road, side and beginning that the poles can stand along. */
+/* Finds the first road, side and beginning along which the poles can stand. */
 static bool find_line(const struct object_placement *p, const struct road_point *roads,
                       uint32_t count, double poles[POLE_COUNT][2])
 {
@@ -112,7 +112,7 @@ static int add_poles(struct object_placement *p, const double jolon[2], const do
     return 0;
 }
 
-/* Where rocks lie: the barest of some hundred places in the hills around Jolon. */
+/* Adds a rock at the barest of about a hundred places in the hills around Jolon. */
 static int add_rock(struct object_placement *p, uint32_t number, const double jolon[2])
 {
     double best = -1.0, x = jolon[0], z = jolon[1];
@@ -183,7 +183,8 @@ int generate_table1_objects(struct fixed_object *objects, const struct terrain *
 {
     struct object_placement placement;
     seed =
-        random_u64(seed, 0, 0, RANDOM_FOREST); /* noises add to it: seeds must not be neighbours */
+        random_u64(seed, 0, 0,
+                   RANDOM_FOREST); /* noise functions add to the seed: seeds must not be adjacent */
     if (object_placement_init(&placement, terrain, kinds, kind_count, roads, road_count, seed,
                               objects) != 0)
         return -1;

@@ -1,4 +1,4 @@
-/* Roads by A* on every second node of the land, around water and over gentle grades, then
+/* Roads by A* on every second node of the elevation grid, around water and over gentle grades, then
  * rounded. Later roads join earlier ones, which are cheaper than open ground. */
 #include "world/making/generate_roads.h"
 
@@ -21,9 +21,9 @@
 #define GRADE_EASY   0.06 /* a grade that doubles the effort */
 #define SHORE_FREE_M 60.0 /* finer noise moves the shore by half of it */
 #define LAKE_FREE_M  4.0  /* over the lake's surface */
-#define ON_ROAD      0.55 /* effort on an earlier road, of that on open ground */
+#define ON_ROAD      0.55 /* effort on an earlier road, as a share of that on open ground */
 
-/* Small things that a map does not show make roads wind, on the flat too. */
+/* Roads wind around small obstacles that no map shows, also on flat ground. */
 #define TOIL       0.4
 #define NOISE_TOIL 1400u
 
@@ -31,7 +31,7 @@
 #define ROUNDINGS       3
 #define VIA_MAX         12
 
-/* Ways to go from a node: eight neighbours and eight knight's moves. */
+/* Steps from a node: eight neighbours and eight knight's moves. */
 #define WAY_COUNT 16
 static const int32_t way_x[WAY_COUNT] = {1, 1, 0, -1, -1, -1, 0, 1, 2, 1, -1, -2, -2, -1, 1, 2};
 static const int32_t way_z[WAY_COUNT] = {0, 1, 1, 1, 0, -1, -1, -1, 1, 2, 2, 1, -1, -2, -2, -1};
@@ -79,16 +79,16 @@ static const struct course courses[] = {
 #define COURSE_COUNT (sizeof courses / sizeof courses[0])
 
 struct waiting {
-    float effort; /* so far, and at least to the goal */
+    float effort; /* so far, and at least from here to the goal */
     uint32_t node;
 };
 
 struct survey {
     const struct elevation_grid *grid;
     float *height, *inland; /* [GRID_COUNT, m] */
-    float *toil;            /* [GRID_COUNT] what going there takes, of plain ground */
+    float *toil;            /* [GRID_COUNT] effort of crossing, relative to plain ground */
     uint8_t *water, *road;  /* [GRID_COUNT] */
-    float *effort;          /* [GRID_COUNT, m of level way] from the start */
+    float *effort;          /* [GRID_COUNT, m of level ground] from the start */
     uint32_t *from;         /* [GRID_COUNT] */
     uint8_t *done;          /* [GRID_COUNT] */
     struct waiting *heap;   /* [GRID_COUNT * WAY_COUNT] binary, least first */
@@ -140,8 +140,8 @@ static int wet(const struct elevation_grid *grid, uint32_t node)
            (grid->lake[node] && grid->height[node] < (float)(GEOGRAPHY_LAKE_M + LAKE_FREE_M));
 }
 
-/* Heights, and water wherever a node within two of the land's is wet: the roads' rounding and the
- * shore's bends stay within that. */
+/* Reads heights, and marks water wherever a node within two of the elevation grid's is wet:
+ * rounding the roads and noise at the shore move them by less than that. */
 static void read_land(struct survey *s)
 {
     for (uint32_t i = 0; i < GRID_COUNT; i++) {
@@ -221,7 +221,8 @@ static double step_effort(const struct survey *s, uint32_t a, uint32_t b, int co
     return s->road[a] && s->road[b] ? effort * ON_ROAD : effort;
 }
 
-/* Least effort from start to goal; from[] leads back. 0, or -1 when water is between. */
+/* Finds the path of least effort from start to goal; from[] leads back. Returns 0, or -1 if water
+ * is between. */
 static int find_way(struct survey *s, uint32_t start, uint32_t goal, int coastal)
 {
     for (uint32_t i = 0; i < GRID_COUNT; i++)
@@ -254,8 +255,8 @@ static int find_way(struct survey *s, uint32_t start, uint32_t goal, int coastal
     return -1;
 }
 
-/* Adds the way found to the road's line, start first; a start that is already its end is not
- * repeated. */
+/* Appends the path found to the road's line, start first; a start that is already the line's end is
+ * not repeated. */
 static void add_way(struct survey *s, uint32_t start, uint32_t goal)
 {
     uint32_t length = 0;
@@ -271,7 +272,7 @@ static void add_way(struct survey *s, uint32_t start, uint32_t goal)
     }
 }
 
-/* Chaikin's corner cutting: each corner becomes two, a quarter along the lines beside it. */
+/* Chaikin's corner cutting: replaces each corner by two, a quarter along the lines beside it. */
 static void round_corners(struct survey *s)
 {
     uint32_t count = 0;
@@ -293,7 +294,7 @@ static void round_corners(struct survey *s)
     s->line_count = count + 1;
 }
 
-/* Points at even distances along the line, and its end. */
+/* Writes points at even distances along the line, and its end. */
 static int emit(const struct survey *s, uint32_t road, struct road_point *roads, uint32_t road_max,
                 uint32_t *road_count)
 {
@@ -318,7 +319,7 @@ static int emit(const struct survey *s, uint32_t road, struct road_point *roads,
     return 0;
 }
 
-/* 0; -1 with errno EHOSTUNREACH when water is between two of its points. */
+/* Returns 0; -1 with errno EHOSTUNREACH if water is between two of its points. */
 static int lay_course(struct survey *s, const struct course *course)
 {
     uint32_t start = dry_node(s, grid_node(course->via[0]));

@@ -1,4 +1,4 @@
-/* The roads of the generated ground: ways of least effort between real places. */
+/* The roads of the generated ground: paths of least effort between real places. */
 #ifndef JOLON_WORLD_MAKING_GENERATE_ROADS_H
 #define JOLON_WORLD_MAKING_GENERATE_ROADS_H
 

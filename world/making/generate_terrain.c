@@ -1,5 +1,5 @@
-/* The square's posts and their cover from the land: between its nodes a cubic, finer noise on it.
- */
+/* The square's posts and their cover from the elevation grid: cubic interpolation and finer
+ * noise. */
 #include "world/making/generate.h"
 
 #include "world/making/generate_roads.h"
@@ -21,13 +21,14 @@
 #define CENTRE_LATITUDE  35.95
 #define CENTRE_LONGITUDE (-121.25)
 
-/* Land is at least so far over the sea. */
+/* Least height of land over the sea [m]. */
 #define LAND_MIN_M 0.7f
 
-/* The shore winds so far about the land's. */
+/* Amplitude of the shore's winding about the elevation grid's shore [m]. */
 #define SHORE_M 35.0f
 
-/* Posts closer than this show roads: a post's cover is as wide as the posts are apart. */
+/* Roads are shown if posts are closer than this: a post's cover is as wide as the posts'
+ * spacing. */
 #define ROAD_SPACING_M 40.0
 #define ROAD_HALF_M    20.0
 
@@ -43,7 +44,7 @@ void generate_place(double latitude_deg, double longitude_deg, double *x, double
     double meridian_m = normal_m * (1.0 - e2) / w2;
     double north = (latitude_deg - CENTRE_LATITUDE) * RAD_PER_DEG;
     double east = (longitude_deg - CENTRE_LONGITUDE) * RAD_PER_DEG;
-    /* Second order: the parallels are shorter farther north, and curve. */
+    /* Second order: parallels are shorter in the north, and curved. */
     *x = 0.5 * WORLD_SIDE_M + normal_m * cosine_there * east;
     *z = 0.5 * WORLD_SIDE_M - meridian_m * north - 0.5 * normal_m * sine * cosine * east * east;
 }
@@ -56,14 +57,14 @@ void generate_flat(float *posts, uint8_t *cover, uint32_t side, double height_m)
     memset(cover, COVER_GRASS, count);
 }
 
-/* Where a post lies between the columns of nodes. */
+/* The position of a post between the columns of nodes. */
 struct between {
     uint32_t west;  /* the node before it */
-    float share;    /* of the way to the next */
-    float cubic[4]; /* weights of the node before that one, and of the three on */
+    float share;    /* of the distance to the next node */
+    float cubic[4]; /* weights of the node before that one, of it and of the two after it */
 };
 
-/* One row of posts at a time: fields of the land and noise along it. */
+/* Works on one row of posts at a time: fields of the elevation grid and noise along it. */
 struct weave {
     const struct elevation_grid *grid;
     uint64_t seed;
@@ -76,7 +77,7 @@ struct weave {
 
 #define WEAVE_ROWS 6
 
-/* Catmull-Rom's weights between the second and the third of four values. */
+/* Catmull-Rom weights between the second and the third of four values. */
 static void cubic_weights(double t, float weight[4])
 {
     weight[0] = (float)(0.5 * t * (t * (2.0 - t) - 1.0));
@@ -116,7 +117,8 @@ static int weave_init(struct weave *w, const struct elevation_grid *grid, uint32
     return 0;
 }
 
-/* Heights of a row of posts: first the four rows of nodes around it become one. */
+/* Computes the heights of a row of posts: first interpolates between the four rows of nodes around
+ * it. */
 static void weave_heights(struct weave *w, double z)
 {
     double v = z / ELEVATION_GRID_SPACING_M + ELEVATION_GRID_MARGIN, row = floor(v);
@@ -153,7 +155,7 @@ static void weave_noise(struct weave *w, uint64_t seed, double wavelength_m, int
     noise_add_fractal_row(w->seed + seed, wavelength_m, 1.0, octaves, row, w->noise);
 }
 
-/* Height and water of one post; row is the nearest of the land's nodes. */
+/* Returns the height of one post and whether it is water; row is the nearest row of nodes. */
 static float place_post(const struct weave *w, uint32_t i, uint32_t row, uint8_t *cover)
 {
     *cover = COVER_SEA;
@@ -227,7 +229,7 @@ static void fill_cover(struct weave *w, const float *posts, uint8_t *cover)
     }
 }
 
-/* Posts near a road become road, where posts are dense enough to show one. */
+/* Makes posts near a road road, if posts are dense enough to show one. */
 static void pave(const struct weave *w, uint8_t *cover, const struct road_point *roads,
                  uint32_t count)
 {
@@ -257,8 +259,8 @@ int generate_hunter_liggett(float *posts, uint8_t *cover, uint32_t side, uint64_
     struct weave weave;
     int result = -1;
     *road_count = 0;
-    seed =
-        random_u64(seed, 0, 0, RANDOM_NOISE); /* noises add to it: seeds must not be neighbours */
+    seed = random_u64(
+        seed, 0, 0, RANDOM_NOISE); /* noise functions add to the seed: seeds must not be adjacent */
     if (elevation_grid_build(&grid, seed) != 0)
         goto err_land;
     if (weave_init(&weave, &grid, side, seed) != 0)

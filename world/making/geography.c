@@ -5,8 +5,8 @@
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-/* From The Indians past the Mission and Jolon into the lake; beyond the lake's head the heights
- * are the drowned bed's. */
+/* From The Indians past the Mission and Jolon into the lake; beyond the lake's head the heights are
+ * those of the drowned bed. */
 static const struct geography_point san_antonio[] = {
     {6200, 6300, 690, 60},     {8200, 8600, 600, 90},     {10800, 11100, 520, 150},
     {14200, 13400, 440, 300},  {18800, 15700, 376, 600},  {22600, 17000, 336, 950},

@@ -1,6 +1,6 @@
-/* The real places that the generated ground is built on: Fort Hunter Liggett, from the Pacific to
- * the Salinas Valley. Constant tables in the world frame; some points lie outside the square, so
- * that what is inside does not end at its edge. */
+/* The real places of the generated ground: Fort Hunter Liggett, from the Pacific to the Salinas
+ * Valley. Constant tables in world coordinates; some points lie outside the square, so that rivers
+ * and ridges do not end at its edge. */
 #ifndef JOLON_WORLD_MAKING_GEOGRAPHY_H
 #define JOLON_WORLD_MAKING_GEOGRAPHY_H
 
@@ -34,7 +34,7 @@ struct geography_place {
 #define GEOGRAPHY_RIDGE_COUNT 5
 #define GEOGRAPHY_PLACE_COUNT 4
 
-/* The river whose lower course the reservoir has drowned. */
+/* The river whose lower course is under the reservoir. */
 #define GEOGRAPHY_SAN_ANTONIO 0
 
 #define GEOGRAPHY_MISSION 2
@@ -42,7 +42,7 @@ struct geography_place {
 
 extern const struct geography_line geography_rivers[GEOGRAPHY_RIVER_COUNT];
 extern const struct geography_line geography_ridges[GEOGRAPHY_RIDGE_COUNT];
-extern const struct geography_line geography_coast; /* north to south: z only grows */
+extern const struct geography_line geography_coast; /* north to south: z ascends */
 extern const struct geography_place geography_places[GEOGRAPHY_PLACE_COUNT];
 
 /* The nearest point of a line to (x, z): its distance [m], height and half-width there. */

@@ -8,13 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SUMMIT_REACH_M  5000.0 /* ground that goes along when a summit is moved or raised */
-#define SUMMIT_SEARCH_M 1500.0 /* how far from its true place the streams may have left it */
+#define SUMMIT_REACH_M  5000.0 /* radius of the ground that moves with a summit */
+#define SUMMIT_SEARCH_M 1500.0 /* radius in which erosion may have displaced it */
 #define TOP_M           900.0
 #define PLACE_REACH_M   2500.0
-#define SMOOTH_FREE_M   400.0 /* around an anchor finer noise is little */
+#define SMOOTH_FREE_M   400.0 /* there is little fine noise this near to an anchor */
 
-/* Between two heights that meet in a crease, a fillet of so many metres. */
+/* Width of the fillet between two surfaces that meet in a crease [m]. */
 #define FILLET_M 12.0
 
 /* The nodes around a point. */
@@ -39,7 +39,7 @@ static struct window window_around(double x, double z, double reach_m)
                            node_near(z + reach_m)};
 }
 
-/* 1 at the middle, 0 with no slope at the reach. */
+/* Returns 1 in the middle, falling to 0 with no slope at the reach. */
 static double bell(double distance_m, double reach_m)
 {
     double inside = 1.0 - square(distance_m / reach_m);
@@ -52,7 +52,7 @@ static double distance_to(const struct anchor *a, uint32_t column, uint32_t row)
                 square(elevation_grid_metres(row) - a->z));
 }
 
-/* Where the ground is highest within the search. */
+/* Finds the highest ground within the search radius. */
 static void find_top(const struct elevation_grid *grid, const struct anchor *a, double *x,
                      double *z)
 {
@@ -72,7 +72,7 @@ static void find_top(const struct elevation_grid *grid, const struct anchor *a, 
     }
 }
 
-/* Moves the top that the streams left to where it is, the ground around it going along. */
+/* Moves the eroded summit to its true place, together with the ground around it. */
 static void move_top(struct elevation_grid *grid, const struct anchor *a, float *spare)
 {
     double top_x, top_z;
@@ -90,7 +90,7 @@ static void move_top(struct elevation_grid *grid, const struct anchor *a, float 
     }
 }
 
-/* A top is round: nodes near it become the mean of those about them. */
+/* Rounds a summit: nodes near it become the mean of their surroundings. */
 static void round_top(struct elevation_grid *grid, const struct anchor *a, float *spare)
 {
     struct window w = window_around(a->x, a->z, TOP_M);
@@ -106,8 +106,8 @@ static void round_top(struct elevation_grid *grid, const struct anchor *a, float
     }
 }
 
-/* Raises or lowers the ground so that it is height_m at the anchor; what lies far below changes
- * less, so that valleys keep their floors. */
+/* Raises or lowers the ground so that it is height_m at the anchor. Ground far below changes less,
+ * so that valleys keep their floors. */
 static void shift(struct elevation_grid *grid, const struct anchor *a, double height_m,
                   double reach_m)
 {
@@ -129,7 +129,8 @@ static double lower(double a, double b)
     return maths_min(a, b) - 0.25 * FILLET_M * near * near;
 }
 
-/* Nothing on its ridge is higher than a summit; the highest one tops everything. */
+/* Lowers ground that is higher than the summit of its ridge; the highest summit limits all
+ * ground. */
 static void cap(struct elevation_grid *grid, const struct anchor *a, int highest)
 {
     for (uint32_t node = 0; node < ELEVATION_GRID_COUNT; node++) {
@@ -147,7 +148,7 @@ static void cap(struct elevation_grid *grid, const struct anchor *a, int highest
 static int fill_lake(struct elevation_grid *grid)
 {
     uint32_t *todo = malloc(4u * ELEVATION_GRID_COUNT * sizeof *todo),
-             count = 0; /* once a neighbour */
+             count = 0; /* once for each neighbour */
     if (!todo)
         return -1;
     const struct geography_line *river = &geography_rivers[GEOGRAPHY_SAN_ANTONIO];

@@ -10,7 +10,7 @@
 #include <errno.h>
 #include <stdlib.h>
 
-/* Roads are looked for this far around a square: past the largest fixed object. */
+/* Roads within this distance of a square belong to it: more than the largest fixed object [m]. */
 #define ROAD_REACH_M 40.0
 
 enum { NOISE_MIX = 1520 };
@@ -52,7 +52,7 @@ static struct gridsquare_box leg_box(const struct road_point *a)
         maths_max(a->x, b->x) + ROAD_REACH_M, maths_max(a->z, b->z) + ROAD_REACH_M);
 }
 
-/* The legs of roads by the squares they come near: counts first, then places. */
+/* Indexes the legs of roads by the squares near them: counts first, then fills. */
 static int index_roads(struct object_placement *p)
 {
     uint32_t *fill = calloc(GRIDSQUARE_COUNT, sizeof *fill);

@@ -1,5 +1,5 @@
-/* What placing fixed objects needs: the kinds of each class, the roads by gridsquare, what is built
- * already. Private to the making of Table 1's objects. */
+/* Data for placing fixed objects: the kinds of each class, the roads by gridsquare, the objects so
+ * far. Private to the making of Table 1's objects. */
 #ifndef JOLON_WORLD_MAKING_OBJECT_PLACEMENT_H
 #define JOLON_WORLD_MAKING_OBJECT_PLACEMENT_H
 
@@ -15,10 +15,10 @@ struct road_point;
 /* Free ground between a road's middle and an object's sphere [m]. */
 #define OBJECT_PLACEMENT_ROAD_FREE_M 8.0
 
-/* Nothing stands nearer to the world's edge [m]. */
+/* Least distance of objects from the world's edge [m]. */
 #define OBJECT_PLACEMENT_EDGE_FREE_M 2.0
 
-/* Trees and bushes vary about their kind's size by this share either way. */
+/* Largest deviation of a tree's or bush's size from its kind's, as a share. */
 #define OBJECT_PLACEMENT_SIZE_SPREAD 0.2
 
 struct object_placement {
@@ -43,17 +43,18 @@ int object_placement_init(struct object_placement *placement, const struct terra
                           struct fixed_object *objects);
 void object_placement_free(struct object_placement *placement);
 
-/* A kind of the class for a place: low kinds in the valleys, tall ones on the heights, mixed by
- * place and by chance, which number decides. */
+/* Returns a kind of the class for a place: low kinds in the valleys, tall ones on the heights,
+ * mixed by place and by chance, which number determines. */
 uint16_t object_placement_mixed_kind(const struct object_placement *placement,
                                      enum object_class object_class, double x, double z,
                                      uint32_t number);
 
-/* Whether an object of this radius may stand at (x, z): dry, off the roads, within the world. */
+/* Returns true if an object of this radius may stand at (x, z): dry, off the roads, within the
+ * world. */
 bool object_placement_allows(const struct object_placement *placement, double x, double z,
                              double radius_m);
 
-/* Whether its sphere is a metre clear of the first count objects. */
+/* Returns true if its sphere is a metre away from the first count objects. */
 bool object_placement_clear(const struct object_placement *placement, uint32_t count, double x,
                             double z, double radius_m);
 

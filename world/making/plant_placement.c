@@ -1,4 +1,5 @@
-/* Trees and bushes: squares by how well they suit, how many in each, where, and which is a tree. */
+/* Places trees and bushes: chooses squares by suitability, the number in each, the spots, and which
+ * are trees. */
 #include "world/making/plant_placement.h"
 
 #include "world/making/generate.h"
@@ -13,32 +14,32 @@
 
 #define TRIES 400u
 
-/* Groves are thickest around the fort: vehicles go there. */
+/* Vegetation is densest around the fort, where most vehicles go. */
 #define FORT_X_M     28000.0
 #define FORT_Z_M     23000.0
 #define FORT_REACH_M 15000.0
 
 enum { NOISE_GROVE = 1500, NOISE_THICKET = 1540 };
 
-/* A square and how well trees and bushes do in it. */
+/* A square and its suitability for trees and bushes. */
 struct stand {
     double score;
     uint32_t square;
-    uint32_t count; /* of objects it gets */
+    uint32_t count; /* of objects in it */
 };
 
 /* A place for a tree or bush. */
 struct spot {
     double x, z;
-    double treeness; /* the highest are trees */
+    double treeness; /* those with the highest become trees */
     uint32_t number;
 };
 
 struct plant_placement {
     struct object_placement *placement;
-    uint32_t growing;     /* trees and bushes */
-    uint32_t built;       /* objects there before */
-    uint8_t *taken;       /* [GRIDSQUARE_COUNT] something stands there before */
+    uint32_t growing;     /* number of trees and bushes */
+    uint32_t built;       /* objects placed before */
+    uint8_t *taken;       /* [GRIDSQUARE_COUNT] objects were placed there before */
     struct stand *stands; /* [GRIDSQUARE_COUNT] best first, then in the order of squares */
     uint32_t stand_count;
     uint32_t *first;    /* [GRIDSQUARE_COUNT] first spot */
@@ -46,7 +47,7 @@ struct plant_placement {
     struct spot *spots; /* [growing] */
 };
 
-/* How well trees and bushes do on a cover. */
+/* Returns the suitability of a cover for trees and bushes. */
 static double cover_suits(enum cover cover)
 {
     switch (cover) {
@@ -68,7 +69,8 @@ static double cover_suits(enum cover cover)
     return 0.0;
 }
 
-/* Mean over a square, on a raster as fine as the densest posts; -1 when any of it is water. */
+/* Returns the mean suitability of a square, sampled as finely as the densest posts; -1 if any of it
+ * is water. */
 static double square_suits(const struct object_placement *p, uint32_t square)
 {
     double x0 = square % GRIDSQUARE_PER_SIDE * GRIDSQUARE_SIDE_M, sum = 0.0;
@@ -117,7 +119,7 @@ static int by_treeness(const void *left, const void *right)
     return (a->number > b->number) - (a->number < b->number);
 }
 
-/* The best free squares, as many as are still to be occupied. */
+/* Chooses the best free squares, as many as must still be occupied. */
 static int choose_squares(struct plant_placement *g)
 {
     const struct object_placement *p = g->placement;
@@ -141,8 +143,8 @@ static int choose_squares(struct plant_placement *g)
     return 0;
 }
 
-/* How many each square gets: one, and more the better it is, mostly few, seldom many; the best gets
- * the maximum. Then one more or less here and there until the sum is right. */
+/* Sets the number of each square: one, and more in better squares, with few of high numbers; the
+ * best gets the maximum. Then adjusts single squares by one until the sum is right. */
 static void share_out(struct plant_placement *g)
 {
     const struct object_placement *p = g->placement;
@@ -171,7 +173,8 @@ static void share_out(struct plant_placement *g)
     }
 }
 
-/* No spot of the square or its neighbours is so near that the largest of two would touch. */
+/* Returns true if no spot of the square or its neighbours is so near that the largest objects of
+ * the two would touch. */
 static int apart(const struct plant_placement *g, double x, double z)
 {
     double apart_m = 2.0 * g->placement->grown_m + 0.5;
@@ -191,7 +194,7 @@ static int apart(const struct plant_placement *g, double x, double z)
     return 1;
 }
 
-/* Trees prefer forest, in grass they stand alone; bushes prefer chaparral. */
+/* Trees prefer forest, and stand alone in grass; bushes prefer chaparral. */
 static double treeness(const struct object_placement *p, double x, double z, uint32_t number)
 {
     static const double of_cover[COVER_COUNT] = {

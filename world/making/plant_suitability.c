@@ -1,4 +1,4 @@
-/* Growth in the Santa Lucia Range: redwood and fir in the seaward canyons, pine on the heights,
+/* Vegetation of the Santa Lucia Range: redwood and fir in the seaward canyons, pine on the heights,
  * chaparral on dry slopes, oaks along creeks and scattered in the valleys, grass inland. */
 #include "world/making/plant_suitability.h"
 
@@ -15,15 +15,16 @@ struct row_noise {
     float stand[ELEVATION_GRID_SIDE], savanna[ELEVATION_GRID_SIDE], brush[ELEVATION_GRID_SIDE];
 };
 
-/* 0 at 0 or below, 1 at 1 or above, smooth between. */
+/* Returns 0 at or below 0, 1 at or above 1, and a smooth curve between. */
 static double ramp(double t)
 {
     t = maths_clamp(t, 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
 }
 
-/* Mean slope around each node, from which hills and flats are told apart: crests and creek beds are
- * level too. Running sums over rows into spare and over columns back, three times. */
+/* Computes the mean slope around each node, which distinguishes hills from flats, since crests and
+ * creek beds are level too. Running sums over rows into spare and over columns back, three
+ * times. */
 static void fill_hills(const struct elevation_grid *grid, float *hills, float *spare)
 {
     const uint32_t reach = 2, width = 2 * reach + 1;

@@ -1,4 +1,4 @@
-/* What grows where: how well trees and bushes do on the land. */
+/* Suitability of the terrain for trees and bushes. */
 #ifndef JOLON_WORLD_MAKING_PLANT_SUITABILITY_H
 #define JOLON_WORLD_MAKING_PLANT_SUITABILITY_H
 

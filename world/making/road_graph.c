@@ -1,4 +1,4 @@
-/* Roads become chains of nodes, cut where they meet others; Dijkstra's search over them. */
+/* Splits roads into chains of nodes at their junctions; Dijkstra's search over them. */
 #include "world/making/road_graph.h"
 
 #include "world/maths/maths.h"
@@ -9,18 +9,18 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-/* A place on a stretch of road, which begins with a point and ends with the next. */
+/* A place on a segment of a road, which begins with a point and ends with the next. */
 struct cut {
     uint32_t stretch;
     double share; /* 0..1 */
     uint32_t meeting;
 };
 
-/* Two cuts that are the same place, or nearly. */
+/* A junction: two cuts at the same place, or nearly. */
 struct survey {
     const struct road_point *points;
     uint32_t count;
-    struct cut *cuts; /* two of each meeting */
+    struct cut *cuts; /* two of each junction */
     uint32_t cut_count, cut_room;
 };
 
@@ -45,7 +45,8 @@ static int add_meeting(struct survey *s, uint32_t a, double a_share, uint32_t b,
     return 0;
 }
 
-/* Share of the way from a to b that is nearest to (x, z), and how far off that is. */
+/* Returns the share of the distance from a to b that is nearest to (x, z), and its distance from
+ * there. */
 static double nearest_share(double ax, double az, double bx, double bz, double x, double z,
                             double *off_m)
 {
@@ -63,7 +64,7 @@ static double stretch_share(const struct survey *s, uint32_t i, double x, double
     return nearest_share((double)a->x, (double)a->z, (double)b->x, (double)b->z, x, z, off_m);
 }
 
-/* Do two stretches cross? Then the share of each at which they do. */
+/* Returns true if two segments cross, and the share of each at which they do. */
 static bool crossing(const struct survey *s, uint32_t i, uint32_t j, double *share_i,
                      double *share_j)
 {
@@ -79,7 +80,7 @@ static bool crossing(const struct survey *s, uint32_t i, uint32_t j, double *sha
     return *share_i >= 0.0 && *share_i <= 1.0 && *share_j >= 0.0 && *share_j <= 1.0;
 }
 
-/* Where two stretches are nearest to each other: where they cross, or at an end of one. */
+/* Finds where two segments are nearest to each other: at a crossing, or at an end of one. */
 static double nearest(const struct survey *s, uint32_t i, uint32_t j, double *share_i,
                       double *share_j)
 {
@@ -99,7 +100,8 @@ static double nearest(const struct survey *s, uint32_t i, uint32_t j, double *sh
     return least;
 }
 
-/* Do the ranges a0..a1 and b0..b1, either way round, lie farther apart than a meeting is wide? */
+/* Returns true if the ranges a0..a1 and b0..b1, in either order, are farther apart than the width
+ * of a junction. */
 static bool ranges_apart(float a0, float a1, float b0, float b1)
 {
     return maths_min((double)a0, (double)a1) >
@@ -131,7 +133,7 @@ static int meet_between(struct survey *s)
     return 0;
 }
 
-/* An end of a road meets the nearest other road. */
+/* Joins an end of a road to the nearest other road. */
 static int meet_end(struct survey *s, uint32_t end)
 {
     const struct road_point *p = &s->points[end];
@@ -174,7 +176,7 @@ static int by_place(const void *a, const void *b)
     return (p->meeting > q->meeting) - (p->meeting < q->meeting);
 }
 
-/* The nodes in the roads' order; met[meeting][2]: both nodes of each. */
+/* Adds the nodes in the roads' order; met[junction][2]: both nodes of each. */
 static void lay_nodes(struct road_graph *net, const struct survey *s, uint32_t (*met)[2],
                       uint8_t *seen)
 {
@@ -213,7 +215,7 @@ static void put_edge(struct road_graph *net, uint32_t a, uint32_t b)
     net->edges[q->first_edge + q->edge_count++] = (struct road_edge){a, length};
 }
 
-/* Calls each for the two nodes of every edge. */
+/* Calls each() for the two nodes of every edge. */
 static void each_edge(struct road_graph *net, uint32_t (*met)[2], uint32_t meetings,
                       void (*each)(struct road_graph *net, uint32_t a, uint32_t b))
 {
@@ -369,7 +371,7 @@ static void spread(const struct road_graph *net, struct search *s, const struct 
     }
 }
 
-/* The way back from the last node, UINT32_MAX: straight from one place to the other. */
+/* Writes the path back from the last node; UINT32_MAX: straight from one place to the other. */
 static int write_way(const struct road_graph *net, const struct search *s,
                      const struct road_place *from, const struct road_place *to, uint32_t last,
                      struct route_point **points, uint32_t *count)

@@ -1,4 +1,4 @@
-/* From a route's few points to all those of the roads between them. */
+/* Replaces a route's few points by all those of the roads between them. */
 #include "world/making/road_routing.h"
 
 #include "world/making/scenario.h"
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A route on its way onto the roads. */
+/* A route that is being laid along roads. */
 struct laying {
     struct world_build *built;
     const struct road_graph *net;
@@ -65,7 +65,7 @@ static int find_road(const struct laying *laying, const struct route_point *poin
     return 0;
 }
 
-/* The way from one point to the next, without the latter: the next way begins with it. */
+/* Adds the path from one point to the next without its end, with which the next path begins. */
 static int lay_leg(struct laying *laying, const struct route_point *points, uint32_t count,
                    uint32_t leg)
 {
@@ -92,7 +92,7 @@ static int lay_leg(struct laying *laying, const struct route_point *points, uint
     return result;
 }
 
-/* The points of one route, of which none is where the one before it is. */
+/* Adds the points of one route, leaving out points at the place of the one before. */
 static int lay_route(struct laying *laying)
 {
     const struct scenario *scenario = laying->built->scenario;

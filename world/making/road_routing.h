@@ -1,4 +1,4 @@
-/* Routes along roads: the points that a scenario gives, joined by the shortest ways. */
+/* Routes along roads: the points of a scenario, joined by shortest paths. */
 #ifndef JOLON_WORLD_MAKING_ROAD_ROUTING_H
 #define JOLON_WORLD_MAKING_ROAD_ROUTING_H
 
@@ -9,15 +9,16 @@
 struct route;
 struct world_build;
 
-/* How far from a road a point of a route along roads may be [m]. */
+/* Greatest distance from a road of a point of a route along roads [m]. */
 #define ROAD_ROUTE_OFF_M 250.0
 
-/* Fills the built world's routes and their points from the scenario's; its roads must be there. 0,
- * or -1 with the complaint: a point too far from any road, no way between two, out of memory. */
+/* Fills the built world's routes and their points from the scenario's; its roads must be there.
+ * Returns 0, or -1 with error set: a point too far from any road, no path between two points, out
+ * of memory. */
 int road_routing_build(struct world_build *built, struct error_text *error);
 
-/* Place on a closed route this far along it [m] (modulo its length), the heading of the way there,
- * and the point that comes next. */
+/* A place on a closed route at a distance along it [m] (modulo its length), the heading there, and
+ * the next point. */
 struct route_place {
     double x, z, heading;
     uint32_t next;

@@ -1,4 +1,4 @@
-/* A scenario as data: only its end is here, its beginning is config/loader.c. */
+/* Freeing a scenario; config/loader.c reads it. */
 #include "world/making/scenario.h"
 
 #include <stdlib.h>

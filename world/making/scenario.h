@@ -1,5 +1,5 @@
-/* A scenario as data: what config/ read from files, before there is a world. Plain memory owned by
- * struct scenario; strings are bounded; references between parts are indices. */
+/* A scenario as data: the content of the files that config/ read, before there is a world. Plain
+ * memory owned by struct scenario; strings are bounded; references between parts are indices. */
 #ifndef JOLON_WORLD_MAKING_SCENARIO_H
 #define JOLON_WORLD_MAKING_SCENARIO_H
 
@@ -25,13 +25,13 @@ struct vec3;
 
 /* One entry of "vehicles": count of them in an area, or one at a place. */
 struct scenario_group {
-    char name[ENTITY_NAME_MAX]; /* "" for none; with count > 1 "-1", "-2", ... is added */
+    char name[ENTITY_NAME_MAX]; /* "" for none; with count > 1, "-1", "-2", ... is appended */
     uint16_t kind;
     uint8_t force, behaviour;
     uint8_t flags;    /* ENTITY_FLAG_* */
     uint8_t roads;    /* 1: its route goes along roads */
-    uint8_t formed;   /* 1: in a formation: leads it, or follows the group before */
-    uint8_t placed;   /* 1: at x, z; 0: anywhere in the area where its kind can be */
+    uint8_t formed;   /* 1: in a formation: leads it, or follows the previous group */
+    uint8_t placed;   /* 1: at x, z; 0: anywhere in the area on suitable ground */
     uint8_t turned;   /* 1: heading_rad was given */
     uint8_t moving;   /* 1: speed_mps was given */
     uint8_t floating; /* 1: altitude_m was given */
@@ -44,10 +44,10 @@ struct scenario_group {
     double x, z, altitude_m, heading_rad, speed_mps, spacing_m;
 };
 
-/* A step of a script, as it stands in the file. */
+/* A step of a script, as it is in the file. */
 struct scenario_step {
     struct script_step step;      /* target_slot and order_arg are set when the world is built */
-    char target[ENTITY_NAME_MAX]; /* whom it fires at */
+    char target[ENTITY_NAME_MAX]; /* its target's name */
     int line;                     /* of the script's file, for messages */
 };
 
@@ -68,7 +68,7 @@ struct scenario_object {
 
 struct scenario_fire {
     double at_s;
-    char shooter[ENTITY_NAME_MAX]; /* "" for none: out of the sky */
+    char shooter[ENTITY_NAME_MAX]; /* "" for none: the round falls from the sky */
     char target[ENTITY_NAME_MAX];  /* "" for the point */
     uint16_t munition;             /* KIND_NONE: the shooter's own */
     double x, z;
@@ -111,7 +111,7 @@ struct scenario {
     struct route_point *route_points;
     uint32_t route_point_count;
     struct provenance recipe;
-    /* Told now and then how many vehicles have their place, of how many; NULL: nobody is. */
+    /* Called now and then with the number of vehicles placed so far, and of all; may be NULL. */
     void (*placing)(uint32_t placed, uint32_t of);
 };
 

@@ -1,4 +1,4 @@
-/* What the groups of a scenario say: one value for each key. A new key of a group changes this
+/* The groups of settings of a scenario: one value for each key. A new key of a group changes this
  * header or world/params.h, so only the .c files that read the settings include it. */
 #ifndef JOLON_WORLD_MAKING_SCENARIO_SETTINGS_H
 #define JOLON_WORLD_MAKING_SCENARIO_SETTINGS_H

@@ -16,18 +16,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define IN_TIME_SHARE 1.001 /* of full speed: what rounding may add */
-#define THERE_M       1.0   /* as near to its first point it is there at time 0 */
+#define IN_TIME_SHARE 1.001 /* of full speed: tolerance for rounding */
+#define THERE_M       1.0   /* a vehicle this near to its first point is there at time 0 */
 
-/* A script on its way to a vehicle. */
+/* A script that is being copied to a vehicle. */
 struct copy {
     struct world_build *built;
     const struct scenario_script *from;
     const struct scenario_group *group;
     const struct name_index *name_index;
     struct error_text *error;
-    uint32_t slot;       /* whose it will be */
-    double off_x, off_z; /* its place off the group's first vehicle's */
+    uint32_t slot;       /* of the vehicle */
+    double off_x, off_z; /* its place relative to the group's first vehicle */
 };
 
 static bool goes(const struct script_step *step)
@@ -35,7 +35,7 @@ static bool goes(const struct script_step *step)
     return step->type == STEP_GO || step->type == STEP_ARRIVE;
 }
 
-/* Steps that are done standing, or are the last. */
+/* Returns true for steps at which the vehicle halts, and for the last step. */
 static bool stands(const struct scenario_script *script, const struct scenario_step *steps,
                    uint32_t index)
 {
@@ -84,7 +84,7 @@ static int check_ground(const struct copy *copy, const struct scenario_step *fro
                           water ? "water" : "land", kind->name, water ? "land" : "water");
 }
 
-/* Can it be here at this time, when it was there at that? */
+/* Checks whether the vehicle can be here at this time if it was there at that time. */
 static int check_pace(const struct copy *copy, const struct scenario_step *from, double x, double z,
                       double time_s)
 {
@@ -101,7 +101,8 @@ static int check_pace(const struct copy *copy, const struct scenario_step *from,
                           time_s + ceil(10.0 * metres / kind->max_speed_mps) / 10.0);
 }
 
-/* From one arrival to the next right behind it; the first from where the vehicle starts. */
+/* Checks each arrival that directly follows another, and the first from where the vehicle
+ * starts. */
 static int check_paces(const struct copy *copy)
 {
     const struct scenario *scenario = copy->built->scenario;
@@ -164,7 +165,7 @@ static int copy_step(const struct copy *copy, uint32_t index, double *altitude_m
     return check_ground(copy, from, step);
 }
 
-/* Which step each is cut off by; the last time of all. */
+/* Sets for each step the one that cuts it off. Returns the last begin time. */
 static double link_dues(struct script_step *steps, uint32_t count)
 {
     uint32_t due = UINT32_MAX;
@@ -202,7 +203,7 @@ static int copy_script(const struct copy *copy)
     return check_paces(copy);
 }
 
-/* The scripts of one group, whose first vehicle is in this slot. */
+/* Gives scripts to the vehicles of one group, whose first one is in this slot. */
 static int give_scripts(struct copy *copy, uint32_t first)
 {
     struct world_build *built = copy->built;

@@ -1,5 +1,5 @@
-/* Flow over a grid: priority flood for the order, steepest descent for the tree, stream power for
- * the heights. */
+/* Flow over a grid: priority flood for the order, steepest descent for the tree, the stream power
+ * law for the heights. */
 #include "world/making/stream_erosion.h"
 
 #include "world/maths/random.h"
@@ -11,12 +11,12 @@
 
 #define NODE_NONE UINT32_MAX
 
-/* The flood's queue holds nodes by height in steps of half a metre; everything above its last
- * step shares that. Finer steps change little: ties are broken by arrival. */
+/* The flood's queue holds nodes by height in steps of half a metre; all higher nodes share the last
+ * step. Finer steps change little, since ties are broken by arrival. */
 #define LEVEL_COUNT  4400
 #define LEVELS_PER_M 2.0f
 
-/* Above so small an area creep, not water, shapes the ground: slopes hardly change. */
+/* Above areas smaller than this creep shapes the ground, not water: slopes hardly change [m2]. */
 #define HEAD_AREA_M2 150000.0f
 
 static const int32_t neighbour_x[8] = {1, 1, 0, -1, -1, -1, 0, 1};
@@ -81,14 +81,14 @@ static void push(struct stream_erosion *d, uint32_t level, uint32_t node)
     d->seen[node] = 1;
 }
 
-/* Chance in the choice of the way, so that streams on even slopes do not follow the eight
- * directions of the grid: a weight of 0.45..1.55 for each node and direction. */
+/* A random weight of 0.45..1.55 for each node and direction, so that streams on uniform slopes do
+ * not follow the eight directions of the grid. */
 static float whim(uint64_t bits, uint32_t k)
 {
     return 0.45f + (float)((bits >> (8 * k)) & 0xffu) * (1.1f / 255.0f);
 }
 
-/* Takes a node out of the flood: it drains to the steepest neighbour taken before it, or, in a
+/* Takes a node out of the flood: it drains to the steepest neighbour taken before it or, in a
  * hollow, to the one that flooded it. */
 static void settle(struct stream_erosion *d, uint32_t node, uint32_t level, uint64_t seed)
 {

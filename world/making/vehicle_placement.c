@@ -1,4 +1,4 @@
-/* Places for vehicles, one group of the scenario after the other. */
+/* Places vehicles, one group of the scenario after the other. */
 #include "world/making/vehicle_placement.h"
 
 #include "world/entity/entity.h"
@@ -17,22 +17,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define NEAR_TRIES  8    /* a place near another: each time twice as far around it */
-#define NEAR_ROAD_M 10.0 /* to begin with, on a road */
+#define NEAR_TRIES  8    /* for a place near another; each doubles the radius */
+#define NEAR_ROAD_M 10.0 /* the first radius for a place on a road */
 
-#define PLACING_STEP 256u /* vehicles from one word about them to the next */
+#define PLACING_STEP 256u /* vehicles between two reports of progress */
 
-/* A group on its way into the table. */
+/* A group that is being placed. */
 struct rank {
     const struct scenario_group *group;
-    uint32_t first;            /* slot of its first vehicle */
-    uint32_t leader, member;   /* of its formation: slot of the leader, number of its own first */
-    double heading;            /* [rad] of a formation */
+    uint32_t first; /* slot of its first vehicle */
+    uint32_t leader,
+        member;     /* of its formation: the leader's slot, and the number of its first member */
+    double heading; /* [rad] of a formation */
     const struct route *along; /* starts on this route; NULL: in its area */
     double along_m;            /* where on it the leader of a formation is */
 };
 
-/* Where one vehicle starts. */
+/* The place where one vehicle starts. */
 struct stand {
     double x, z, heading;
     uint32_t leg; /* the point of its route that it heads for */
@@ -42,7 +43,8 @@ struct vehicle_placement {
     struct world_build *built;
     struct free_place place;
     struct error_text *error;
-    struct rank rank; /* of the group at hand; who follows goes on with that of the one before */
+    struct rank rank; /* of the present group; a group that follows continues the formation of the
+                         one before */
 };
 
 static double heading_of(const struct vehicle_placement *placement, uint32_t slot)
@@ -90,11 +92,11 @@ static void put_entity(const struct vehicle_placement *placement, uint32_t slot,
     e->vz[slot] = -speed * cosine;
     e->fuel_l[slot] = kind->fuel_l;
     e->rounds[slot] = kind->rounds;
-    e->goal_x[slot] = stand->x; /* reached: the mover's first think chooses the next */
+    e->goal_x[slot] = stand->x; /* reached: the agent's first decision chooses the next */
     e->goal_z[slot] = stand->z;
 }
 
-/* Where it should stand, or near that where the ground allows no vehicle. */
+/* Finds the wanted place, or one near it if the ground there is unsuitable. */
 static int near_stand(struct vehicle_placement *placement, uint32_t slot, double reach,
                       struct stand *stand)
 {
@@ -124,7 +126,7 @@ static int stand_on_route(struct vehicle_placement *placement, uint32_t slot, do
     return near_stand(placement, slot, NEAR_ROAD_M, stand);
 }
 
-/* Its place in the formation; a column that starts on a road bends with it. */
+/* Finds its place in the formation; a column that starts on a road bends with it. */
 static int stand_in_formation(struct vehicle_placement *placement, uint32_t slot,
                               struct stand *stand)
 {
@@ -184,7 +186,7 @@ static int find_stand(struct vehicle_placement *placement, uint32_t slot, struct
                            &scenario->kinds[group->kind], slot, &stand->x, &stand->z);
 }
 
-/* Vehicles behind the leader, in its own group and those that follow it. */
+/* Returns the number of vehicles behind the leader, in its own group and those that follow it. */
 static uint32_t tail_of(const struct scenario *scenario, const struct scenario_group *group)
 {
     uint32_t tail = group->count - 1;
@@ -195,7 +197,7 @@ static uint32_t tail_of(const struct scenario *scenario, const struct scenario_g
     return tail;
 }
 
-/* A new formation, or the group's vehicles behind those of the formation before it. */
+/* Begins a new formation, or adds the group's vehicles to the formation before it. */
 static void form(struct vehicle_placement *placement, const struct scenario_group *group)
 {
     struct world_build *built = placement->built;
@@ -241,8 +243,8 @@ static int no_stand(const struct vehicle_placement *placement, uint32_t number)
                           area->z0, area->x1, area->z1);
 }
 
-/* May the group's kind stand where the scenario puts it? As for the command spawn: a ship needs
- * water, and what drives needs land. */
+/* Checks whether the group's kind may be where the scenario puts it. As for the command spawn, a
+ * ship needs water and a land vehicle needs land. */
 static int check_ground(const struct vehicle_placement *placement)
 {
     const struct scenario *scenario = placement->built->scenario;
@@ -306,8 +308,8 @@ static struct force_base middle_of(const struct entities *e, uint32_t used, uint
                        : (struct force_base){0.5 * WORLD_SIDE_M, 0.5 * WORLD_SIDE_M};
 }
 
-/* Where that land vehicle of the force stands that is nearest to its middle: the middle itself may
- * lie in a lake or on a cliff. Without land vehicles it is the middle. */
+/* Returns the place of the force's land vehicle that is nearest to the middle of the force, since
+ * the middle itself may be in a lake or on a cliff. Without land vehicles it is the middle. */
 static struct force_base base_of(const struct world_build *built, uint32_t force)
 {
     const struct entities *e = &built->first;
@@ -324,7 +326,8 @@ static struct force_base base_of(const struct world_build *built, uint32_t force
     return base;
 }
 
-/* Of forces that none was given for: in their midst; of those without vehicles amid the map. */
+/* Sets the bases that the scenario does not give: in the middle of the force; without vehicles in
+ * the middle of the map. */
 static void set_bases(struct world_build *built)
 {
     for (uint32_t force = 0; force < FORCE_COUNT; force++)

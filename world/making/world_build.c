@@ -108,7 +108,9 @@ static int by_tick(const void *a, const void *b)
     const struct fire_order *p = a, *q = b;
     if (p->tick != q->tick)
         return p->tick < q->tick ? -1 : 1;
-    return p->reserved < q->reserved ? -1 : p->reserved > q->reserved; /* the file's order */
+    return p->reserved < q->reserved
+               ? -1
+               : p->reserved > q->reserved; /* equal ones in the order of the file */
 }
 
 static int build_fire(struct world_build *built, uint32_t index, const struct name_index *names,
@@ -148,7 +150,7 @@ static int build_fires(struct world_build *built, const struct name_index *name_
     return 0;
 }
 
-/* What goes by vehicles' names: ordered shots, and those of scripts. */
+/* Builds the parts that refer to vehicles by name: ordered shots, and scripts. */
 static int build_orders(struct world_build *built, struct error_text *error)
 {
     struct name_index name_index;
@@ -210,7 +212,7 @@ void world_build_free(struct world_build *built)
     *built = (struct world_build){0};
 }
 
-/* Static parts are const to everybody after this one writer. */
+/* Static parts are const for everything except this one writer. */
 static void fill(const void *to, const void *from, size_t count, size_t size)
 {
     if (count > 0)

@@ -44,7 +44,7 @@ struct world_build {
  * a fire order, no place found for a vehicle, out of memory. */
 int world_build_make(struct world_build *built, const struct scenario *scenario,
                      struct error_text *error);
-/* The ground as built so far. */
+/* Returns the ground as built so far. */
 struct terrain world_build_terrain(const struct world_build *built);
 
 void world_build_free(struct world_build *built);

@@ -1,4 +1,4 @@
-/* XXH3 with the widest vectors that the machine has: the same hash with any of them. */
+/* XXH3 with the widest vectors of the machine; the hash is the same with any of them. */
 #ifndef JOLON_WORLD_MATHS_HASH_H
 #define JOLON_WORLD_MATHS_HASH_H
 

@@ -76,7 +76,7 @@ void maths_sincos(double angle_rad, double *sine, double *cosine)
     int64_t quadrant = (int64_t)(turns + (turns < 0.0 ? -0.5 : 0.5)); /* rounds to the nearest */
     double n = (double)quadrant;
     double x = (angle_rad - n * PIO2_HIGH) - n * PIO2_LOW;
-    /* By tables, not branches: which quadrant a heading is in no processor can guess. */
+    /* By tables instead of branches, since the quadrant of a heading cannot be predicted. */
     double kernel[2];
     kernel_sincos(&x, &kernel[0], &kernel[1]);
     static const double sign[4] = {1.0, 1.0, -1.0, -1.0};

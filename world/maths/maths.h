@@ -1,8 +1,9 @@
 /* Maths whose results do not depend on the C library, the instruction set or the thread count.
  *
- * libm picks its sin, cos and atan2 by the processor (with and without fused multiply-add) and
- * their last bit differs; a digest that must be equal on every machine cannot use them. What is
- * here uses only + - * / sqrt and floor, which IEEE 754 fixes to the bit. Pure; any thread. */
+ * libm selects its sin, cos and atan2 by the processor (with and without fused multiply-add), and
+ * their last bit differs; a digest that must be equal on every machine cannot use them. The
+ * functions here use only + - * / sqrt and floor, which IEEE 754 defines to the bit. Pure; any
+ * thread. */
 #ifndef JOLON_WORLD_MATHS_MATHS_H
 #define JOLON_WORLD_MATHS_MATHS_H
 
@@ -30,11 +31,11 @@ double maths_cos(double angle_rad);
 /* Angle of the vector (x, y) from the x axis, -pi..pi; 0 for (0, 0). Error below 5e-16. */
 double maths_atan2(double y, double x);
 
-/* To the bit maths_sincos() of each. */
+/* The same for each lane, equal to the bit. */
 void maths_sincos_lanes(const union simd_lanes *angle_rad, union simd_lanes *sine,
                         union simd_lanes *cosine);
 
-/* Angles of slopes: to the bit what maths_atan2(rise, run) gives of each; run > 0. */
+/* Angles of slopes: maths_atan2(rise, run) of each lane, equal to the bit; run > 0. */
 void maths_slopes_lanes(const union simd_lanes *rise, const union simd_lanes *run,
                         union simd_lanes *angle_rad);
 
@@ -42,7 +43,7 @@ void maths_slopes_lanes(const union simd_lanes *rise, const union simd_lanes *ru
  * error below 1e-15. */
 double maths_cbrt(double value);
 
-/* The same angle within [0, 2 pi) and within [-pi, pi). */
+/* Return the same angle within [0, 2 pi) and within [-pi, pi). */
 double maths_wrap_turn(double angle_rad);
 double maths_wrap_half(double angle_rad);
 

@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* Brings gradient noise, whose extremes are rare, to about -1..1. */
+/* Scales gradient noise, whose extremes are rare, to about -1..1. */
 #define NOISE_GAIN 1.45
 
 struct gradient {
@@ -30,7 +30,7 @@ static struct gradient gradient_at(uint64_t seed, int64_t column, int64_t row)
     return directions[v >> 60];
 }
 
-/* Where the lattice of a seed begins: noises of two seeds do not share their zeros. */
+/* Returns the offset of a seed's lattice, so that the noises of two seeds have different zeros. */
 static double phase(uint64_t seed, uint64_t axis)
 {
     return (double)(random_mix(seed + axis * 0x9e3779b97f4a7c15u) >> 44) * 0x1.0p-12;

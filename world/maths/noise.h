@@ -5,14 +5,16 @@
 
 #include <stdint.h>
 
-/* Share of the first octave in a fractal sum; each further one has half of the last. */
+/* Amplitude of the first octave in a fractal sum; each further octave has half of the previous
+ * amplitude. */
 #define NOISE_FIRST_OCTAVE 0.6
 
-/* About -1..1, mean 0, one hill or hollow a unit of x and z; a lattice of its own for each seed. */
+/* Returns noise of about -1..1 with mean 0, one hill or hollow for each unit of x and z; each seed
+ * has a lattice of its own. */
 double noise_at(uint64_t seed, double x, double z);
 
-/* Sum of octaves, each of twice the frequency and half the amplitude; about -1..1. Octave i takes
- * seed + i. */
+/* Returns a sum of octaves, each of twice the frequency and half the amplitude; about -1..1. Octave
+ * i uses seed + i. */
 double noise_fractal(uint64_t seed, double x, double z, int octaves);
 
 /* Points x_m + i * step_m, z_m for i = 0 .. count - 1, eastwards. */

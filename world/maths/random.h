@@ -1,11 +1,12 @@
-/* Random numbers as a function of (seed, frame, entity, purpose): no state, no order of calls, so
- * a frame that is computed again, or by more threads, draws the same numbers. Pure; any thread. */
+/* Random numbers as a function of (seed, frame, entity, purpose): they have no state and no order
+ * of calls. A frame that is computed again, or by more threads, draws the same numbers. Pure; any
+ * thread. */
 #ifndef JOLON_WORLD_MATHS_RANDOM_H
 #define JOLON_WORLD_MATHS_RANDOM_H
 
 #include <stdint.h>
 
-/* One name for each use of a number, so that two uses never draw the same one. */
+/* Each use of a number has its own purpose, so that two uses never draw the same number. */
 enum random_purpose {
     RANDOM_PLACE_X = 1, /* creation: where a vehicle of a group starts */
     RANDOM_PLACE_Z,

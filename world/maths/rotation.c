@@ -1,7 +1,9 @@
-/* Quaternions: products written out, no trigonometry where a ratio of lengths does. */
+/* Quaternions: products are written out, and ratios of lengths replace trigonometry where
+ * possible. */
 #include "world/maths/rotation.h"
 
-/* Below this share of the nose's length on the map it points straight up or down. */
+/* If the horizontal part of the nose is a smaller share of its length, the nose points straight up
+ * or down. */
 #define STRAIGHT 1e-15
 
 static struct quat multiply(struct quat a, struct quat b)
@@ -27,7 +29,7 @@ static struct quat sum(struct quat a, struct quat b)
     return (struct quat){a.w + b.w, a.x + b.x, a.y + b.y, a.z + b.z};
 }
 
-/* b or -b, which is the same turn: the one nearer to a. */
+/* Returns b or -b, which is the same rotation: the one nearer to a. */
 static struct quat nearer(struct quat a, struct quat b)
 {
     return dot(a, b) < 0.0 ? scaled(b, -1.0) : b;
@@ -35,7 +37,8 @@ static struct quat nearer(struct quat a, struct quat b)
 
 struct quat rotation_of(double heading_rad, double pitch_rad, double roll_rad)
 {
-    /* Without a turn the nose points east: the heading is taken off a quarter turn about y. */
+    /* With the identity the nose points east, so the heading is taken relative to a quarter turn
+     * about y. */
     struct quat yaw = {0}, pitch = {0}, roll = {0};
     maths_sincos(0.5 * (HALF_PI - heading_rad), &yaw.y, &yaw.w);
     maths_sincos(0.5 * pitch_rad, &pitch.z, &pitch.w);
@@ -47,14 +50,14 @@ void rotation_angles(struct quat q, double *heading_rad, double *pitch_rad, doub
 {
     const struct mat3 turn = rotation_matrix(q);
     const double(*m)[3] = turn.m;
-    double level = sqrt(m[0][0] * m[0][0] + m[2][0] * m[2][0]); /* the nose on the map */
+    double level = sqrt(m[0][0] * m[0][0] + m[2][0] * m[2][0]); /* horizontal length of the nose */
     *pitch_rad = maths_atan2(m[1][0], level);
     if (level < STRAIGHT) {
-        *heading_rad = maths_wrap_turn(maths_atan2(m[2][2], m[0][2])); /* what is right is level */
+        *heading_rad = maths_wrap_turn(maths_atan2(m[2][2], m[0][2])); /* the right side is level */
         *roll_rad = 0.0;
         return;
     }
-    /* The level line across the nose; how far up and right have turned from it is the roll. */
+    /* The horizontal direction across the nose; the angle of up and right from it is the roll. */
     double east = -m[2][0] / level, south = m[0][0] / level;
     *heading_rad = maths_heading(m[0][0], m[2][0]);
     *roll_rad = maths_atan2(east * m[0][1] + south * m[2][1], east * m[0][2] + south * m[2][2]);
@@ -85,8 +88,8 @@ double rotation_rate(struct quat a, struct quat b)
 
 struct vec3 rotation_speed(struct quat a, struct quat b, double t)
 {
-    /* The speed of q = (1 - t) a + t b is b - a, and the turning 2 (b - a) q* / |q|^2, whose
-     * vector part is that of 2 (b - a) a* / |q|^2: always along one axis. */
+    /* The derivative of q = (1 - t) a + t b is b - a, and the angular velocity 2 (b - a) q* /
+     * |q|^2, whose vector part is that of 2 (b - a) a* / |q|^2: always along one axis. */
     struct quat to = nearer(a, b), back = {a.w, -a.x, -a.y, -a.z};
     struct quat q = sum(scaled(a, 1.0 - t), scaled(to, t));
     struct quat way = multiply(sum(to, scaled(a, -1.0)), back);

@@ -1,6 +1,6 @@
 /* Rotations as unit quaternions and matrices. Body axes: x forward, y up, z right; world axes: x
- * east, y up, z south. Only + - * / sqrt and maths_sincos: the same bits everywhere. Pure; any
- * thread. */
+ * east, y up, z south. Uses only + - * / sqrt and maths_sincos, so the result is the same to the
+ * bit on every machine. Pure; any thread. */
 #ifndef JOLON_WORLD_MATHS_ROTATION_H
 #define JOLON_WORLD_MATHS_ROTATION_H
 
@@ -18,9 +18,9 @@ struct mat3 {
 /* Heading clockwise from north, then pitch nose up, then roll right side down [rad]. */
 struct quat rotation_of(double heading_rad, double pitch_rad, double roll_rad);
 
-/* Back: heading 0..2 pi, pitch -pi/2..pi/2, roll -pi..pi; roll is 0 when the nose is straight up
- * or down. rotation_of() of the three is the same turn to within 1e-14 of a radian everywhere, near
- * straight up and down too, where heading and roll by themselves mean little. */
+/* The inverse: heading 0..2 pi, pitch -pi/2..pi/2, roll -pi..pi; roll is 0 if the nose is straight
+ * up or down. rotation_of() of the three is the same rotation to within 1e-14 rad everywhere, also
+ * near straight up and down, where heading and roll are ill-conditioned. */
 void rotation_angles(struct quat q, double *heading_rad, double *pitch_rad, double *roll_rad);
 
 struct mat3 rotation_matrix(struct quat q);
@@ -43,19 +43,21 @@ static inline struct vec3 rotation_back(const struct mat3 *turn, struct vec3 wor
                          m[0][2] * world.x + m[1][2] * world.y + m[2][2] * world.z};
 }
 
-/* The shorter way from a to b, t in 0..1, by normalised linear interpolation: about one axis that
- * stands still in the world and in the body, a little faster in the middle than at the ends. Of the
- * two ways of half a turn the one that rotation_of gave the signs for. */
+/* Returns the rotation at t in 0..1 on the shorter path from a to b, by normalised linear
+ * interpolation: about one axis that is fixed in the world and in the body, slightly faster in the
+ * middle than at the ends. For half a turn the signs of rotation_of() determine the path. */
 struct quat rotation_between(struct quat a, struct quat b, double t);
 
-/* The fastest turning on that way [rad over the whole of it]: 4 tan(angle / 4); INFINITY-free:
- * at most 4 for half a turn. A point r from the axis is never accelerated by more than rate^2 r. */
+/* Returns the greatest angular speed on that path [rad for the whole of it]: 4 tan(angle / 4),
+ * which is finite, at most 4 for half a turn. No point at r from the axis is accelerated by more
+ * than rate^2 r. */
 double rotation_rate(struct quat a, struct quat b);
 
-/* How it turns on that way at t [rad over the whole of it, world axes]; rotation_rate at most. */
+/* Returns the angular velocity on that path at t [rad for the whole of it, world axes]; at most
+ * rotation_rate(). */
 struct vec3 rotation_speed(struct quat a, struct quat b, double t);
 
-/* q turned by spin (world axes, [rad/s]) for dt seconds: exact for a constant spin. */
+/* Returns q rotated by spin (world axes, [rad/s]) for dt seconds: exact for a constant spin. */
 struct quat rotation_spun(struct quat q, struct vec3 spin_rps, double dt_s);
 
 #endif

@@ -1,6 +1,6 @@
 /* Eight numbers at once, for functions that do the same to many bodies: lane l of every argument
- * belongs to body l. Vectors of four are what AVX2 has; any x86-64 does them in twos. Each
- * operation has one result on every machine, that of the same operation on one number. */
+ * belongs to body l. AVX2 has vectors of four; other x86-64 processors compute them in pairs. Each
+ * operation has the same result as on a single number, on every machine. */
 #ifndef JOLON_WORLD_MATHS_SIMD_H
 #define JOLON_WORLD_MATHS_SIMD_H
 
@@ -32,8 +32,8 @@ union lane_cells {
     four_cells f64x4[LANE_FOURS];
 };
 
-/* Of fours. Macros, since a function with vectors for arguments is another one where there is AVX.
- */
+/* Operations on four lanes. They are macros, since a function with vector arguments has another
+ * calling convention with AVX. */
 #define SIMD_EVERY(value) ((f64x4){(value), (value), (value), (value)})
 #define SIMD_CHOOSE(mask, yes, no)                                                                 \
     ((f64x4)(((mask) & (four_masks)(yes)) | (~(mask) & (four_masks)(no))))
@@ -43,7 +43,7 @@ union lane_cells {
 #define SIMD_NEGATIVE(a)         ((f64x4)((four_masks)(a) ^ INT64_MIN))
 #define SIMD_CLAMP(a, low, high) SIMD_CHOOSE((a) < (low), low, SIMD_CHOOSE((a) > (high), high, a))
 
-/* Every mask, or cell, in one number: 0 when none is set. */
+/* All masks, or cells, or-ed into one number: 0 if none is set. */
 #define SIMD_ANY(mask)      ((mask)[0] | (mask)[1] | (mask)[2] | (mask)[3])
 #define SIMD_ANY_CELL(cell) (((two_masks)(cell))[0] | ((two_masks)(cell))[1])
 

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#define FEW     32u /* records that an insertion sort takes */
+#define FEW     32u /* at most so many records are sorted by insertion */
 #define BUCKETS 256u
 
 /* The caller's records have a type of their own. */

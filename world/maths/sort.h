@@ -1,7 +1,7 @@
-/* Sorting within a frame's step: in place, without memory, and never slow.
+/* Sorting within a frame's step: in place, without allocation, in bounded time.
  *
- * The C library's qsort() takes memory for more than 1 KiB and asks the kernel how much there is,
- * which the sandbox of mover and collider forbids. */
+ * The C library's qsort() allocates memory for more than 1 KiB and asks the kernel for the memory
+ * size, which the sandbox of mover and collider forbids. */
 #ifndef JOLON_WORLD_MATHS_SORT_H
 #define JOLON_WORLD_MATHS_SORT_H
 

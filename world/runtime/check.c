@@ -1,4 +1,4 @@
-/* The end of a process in which a check fails. */
+/* Ends the process when a check fails. */
 #include "world/runtime/check.h"
 
 #include <stdarg.h>

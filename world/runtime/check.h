@@ -1,4 +1,4 @@
-/* Checks of what must hold, in every build. The process ends where one fails. */
+/* Checks of conditions that must hold, in every build. The process ends when one fails. */
 #ifndef JOLON_WORLD_RUNTIME_CHECK_H
 #define JOLON_WORLD_RUNTIME_CHECK_H
 

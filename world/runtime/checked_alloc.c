@@ -1,5 +1,5 @@
-/* Where libraries' allocations fail: all of the program's go through here, by the linker's --wrap.
- */
+/* Allocation failures in libraries: all allocations of the program go through this file, by the
+ * linker's --wrap. */
 #include "world/runtime/checked_alloc.h"
 
 #include <setjmp.h>

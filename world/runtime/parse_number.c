@@ -1,4 +1,4 @@
-/* Numbers of a text that comes from outside. */
+/* Numbers in texts from outside. */
 #include "world/runtime/parse_number.h"
 
 #include <errno.h>

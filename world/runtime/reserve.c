@@ -9,7 +9,7 @@
 #include <string.h>
 #include <sys/mman.h>
 
-/* A large page of memory for an array that holds a few items would cost more than the items. */
+/* Large pages would take more memory than an array of few items needs. */
 #define SMALL_PAGES_BYTES (UINT64_C(2) << 20)
 
 static _Atomic uint64_t growths;
@@ -37,7 +37,8 @@ void *reserve_take(uint64_t count, size_t size)
     if (mapping == MAP_FAILED)
         return NULL;
     size_t first = bytes < SMALL_PAGES_BYTES ? bytes : SMALL_PAGES_BYTES;
-    (void)madvise(mapping, first, MADV_NOHUGEPAGE); /* advice: a kernel without them needs none */
+    (void)madvise(mapping, first,
+                  MADV_NOHUGEPAGE); /* only advice: a kernel without large pages needs none */
     uintptr_t over = (uintptr_t)mapping % RESERVE_ALIGN;
     char *memory = mapping + (over > 0 ? 2 * (size_t)RESERVE_ALIGN - over : RESERVE_ALIGN);
     *of(memory) = (struct reservation){mapping, bytes};

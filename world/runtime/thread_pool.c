@@ -1,8 +1,9 @@
-/* A fork-join pool: the caller opens a job and works on it too; helpers go in while it is open.
+/* A fork-join pool: the caller opens a job and works on it too; helper threads enter while it is
+ * open.
  *
- * Jobs follow each other within microseconds, and to put a thread to sleep and wake it costs tens
- * of them: so who waits looks for a short while before he sleeps. Nobody waits for a helper that
- * woke when all was done. */
+ * Jobs follow each other within microseconds, and putting a thread to sleep and waking it takes
+ * tens of them. So a waiting thread polls for a short while before it sleeps. The caller does not
+ * wait for a helper that woke after all work was done. */
 #include "world/runtime/thread_pool.h"
 
 #include "world/runtime/work_done.h"
@@ -14,7 +15,7 @@
 #include <stdbool.h>
 #include <stdlib.h>
 
-#define LOOKS 1500 /* before sleeping: some 40 us */
+#define POLLS 1500 /* polls before sleeping: about 40 us */
 
 /* The gate: the job's number, whether it is open, and how many helpers are in it. */
 #define GATE_IN   0xffu
@@ -23,23 +24,23 @@
 
 struct thread_pool {
     uint32_t threads;
-    uint32_t looks; /* 0: fewer processors than threads, who waits gives way */
+    uint32_t polls; /* 0: fewer processors than threads, so a waiting thread sleeps at once */
     pthread_t thread[THREAD_POOL_MAX];
     pthread_mutex_t mutex;
     pthread_cond_t begin, done;
     _Atomic uint32_t names; /* next helper's number */
     _Atomic uint64_t gate;
-    _Atomic uint32_t asleep; /* helpers that are, or about to be; changed under mutex */
+    _Atomic uint32_t asleep; /* helpers that sleep, or are about to; changed under mutex */
     _Atomic bool waiting;    /* the caller sleeps, or is about to; changed under mutex */
     _Atomic bool stop;       /* changed under mutex */
-    /* Of the job; written while the gate is shut and nobody is in. */
+    /* The job; written while the gate is shut and no helper is in it. */
     thread_pool_function *function;
     void *context;
     uint32_t count, grain;
     _Atomic uint32_t next;
 };
 
-static void look_again(void)
+static void pause_briefly(void)
 {
 #if defined(__x86_64__)
     __builtin_ia32_pause();
@@ -64,29 +65,29 @@ static void work(struct thread_pool *workers, uint32_t worker)
 
 /* --- helpers -----------------------------------------------------------------------------------*/
 
-/* Is a job open that the helper has not seen, or none to come? */
-static bool has_news(struct thread_pool *workers, uint64_t seen)
+/* Returns true if a job is open that the helper has not seen, or if the pool ends. */
+static bool is_needed(struct thread_pool *workers, uint64_t seen)
 {
     uint64_t gate = atomic_load(&workers->gate);
     return (gate & GATE_OPEN && gate / GATE_JOB != seen) || atomic_load(&workers->stop);
 }
 
-static void wait_for_news(struct thread_pool *workers, uint64_t seen)
+static void wait_for_job(struct thread_pool *workers, uint64_t seen)
 {
-    for (uint32_t i = 0; i < workers->looks; i++) {
-        if (has_news(workers, seen))
+    for (uint32_t i = 0; i < workers->polls; i++) {
+        if (is_needed(workers, seen))
             return;
-        look_again();
+        pause_briefly();
     }
     pthread_mutex_lock(&workers->mutex);
     atomic_fetch_add(&workers->asleep, 1);
-    while (!has_news(workers, seen))
+    while (!is_needed(workers, seen))
         pthread_cond_wait(&workers->begin, &workers->mutex);
     atomic_fetch_sub(&workers->asleep, 1);
     pthread_mutex_unlock(&workers->mutex);
 }
 
-/* Goes into the open job; false when it is shut. */
+/* Enters the open job. Returns false if it is shut. */
 static bool enter(struct thread_pool *workers, uint64_t *seen)
 {
     uint64_t gate = atomic_load(&workers->gate);
@@ -99,7 +100,7 @@ static bool enter(struct thread_pool *workers, uint64_t *seen)
     return false;
 }
 
-/* The last one out of a shut job wakes the caller if he sleeps. */
+/* Leaves the job. The last helper to leave a shut job wakes the caller if it sleeps. */
 static void leave(struct thread_pool *workers)
 {
     uint64_t gate = atomic_fetch_sub(&workers->gate, 1) - 1;
@@ -116,7 +117,7 @@ static void *helper(void *argument)
     uint32_t worker = atomic_fetch_add(&workers->names, 1) + 1;
     uint64_t seen = 0;
     for (;;) {
-        wait_for_news(workers, seen);
+        wait_for_job(workers, seen);
         if (atomic_load(&workers->stop))
             return NULL;
         if (enter(workers, &seen)) {
@@ -128,7 +129,7 @@ static void *helper(void *argument)
 
 /* --- the caller --------------------------------------------------------------------------------*/
 
-/* From now on helpers go in; those that sleep are woken. */
+/* Opens the job to helpers, and wakes those that sleep. */
 static void open_job(struct thread_pool *workers)
 {
     uint64_t job = atomic_load(&workers->gate) / GATE_JOB + 1;
@@ -145,14 +146,14 @@ static bool is_empty(struct thread_pool *workers)
     return (atomic_load(&workers->gate) & GATE_IN) == 0;
 }
 
-/* Nobody goes in any more; returns when nobody is. */
+/* Shuts the job to further helpers, and returns when none is in it. */
 static void shut_job(struct thread_pool *workers)
 {
     atomic_fetch_and(&workers->gate, ~(uint64_t)GATE_OPEN);
-    for (uint32_t i = 0; i < workers->looks; i++) {
+    for (uint32_t i = 0; i < workers->polls; i++) {
         if (is_empty(workers))
             return;
-        look_again();
+        pause_briefly();
     }
     pthread_mutex_lock(&workers->mutex);
     atomic_store(&workers->waiting, true);
@@ -162,12 +163,12 @@ static void shut_job(struct thread_pool *workers)
     pthread_mutex_unlock(&workers->mutex);
 }
 
-static uint32_t looks_for(uint32_t threads)
+static uint32_t polls_for(uint32_t threads)
 {
     cpu_set_t processors;
     if (sched_getaffinity(0, sizeof processors, &processors) != 0)
         return 0;
-    return (uint32_t)CPU_COUNT(&processors) >= threads ? LOOKS : 0;
+    return (uint32_t)CPU_COUNT(&processors) >= threads ? POLLS : 0;
 }
 
 struct thread_pool *thread_pool_create(uint32_t threads)
@@ -180,7 +181,7 @@ struct thread_pool *thread_pool_create(uint32_t threads)
     if (!workers)
         return NULL;
     workers->threads = 1;
-    workers->looks = looks_for(threads);
+    workers->polls = polls_for(threads);
     pthread_mutex_init(&workers->mutex, NULL);
     pthread_cond_init(&workers->begin, NULL);
     pthread_cond_init(&workers->done, NULL);

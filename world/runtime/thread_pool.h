@@ -1,5 +1,5 @@
-/* Workers: a few threads that share one loop. Results must not depend on how many there are: the
- * function may write only what belongs to its own rows. */
+/* A pool of a few threads that share one loop. Results must not depend on the number of threads:
+ * the function may write only what belongs to its own rows. */
 #ifndef JOLON_WORLD_RUNTIME_THREAD_POOL_H
 #define JOLON_WORLD_RUNTIME_THREAD_POOL_H
 
@@ -9,17 +9,18 @@
 
 struct thread_pool;
 
-/* Does rows first .. end - 1; worker is 0 .. threads - 1. */
+/* Processes rows first .. end - 1; worker is 0 .. threads - 1. */
 typedef void thread_pool_function(void *context, uint32_t first, uint32_t end, uint32_t worker);
 
-/* threads 1..THREAD_POOL_MAX, the caller being one of them. NULL with errno. */
+/* Creates a pool of 1..THREAD_POOL_MAX threads, one of which is the caller. Returns NULL with errno
+ * on failure. */
 struct thread_pool *thread_pool_create(uint32_t threads);
 void thread_pool_destroy(struct thread_pool *workers);
 uint32_t thread_pool_threads(const struct thread_pool *workers);
 
-/* Runs function over 0 .. count - 1 in pieces of at most grain rows, on all threads; returns when
- * all is done. Below two pieces, on one thread or with workers NULL, the caller does it alone and
- * in one piece. */
+/* Runs function over 0 .. count - 1 in blocks of at most grain rows, on all threads; returns when
+ * all are done. With fewer than two blocks, one thread or workers NULL the caller does it alone and
+ * in one call. */
 void thread_pool_run(struct thread_pool *workers, thread_pool_function *function, void *context,
                      uint32_t count, uint32_t grain);
 

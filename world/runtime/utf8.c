@@ -1,9 +1,9 @@
-/* Reading and mending UTF-8. */
+/* Reading and repairing UTF-8. */
 #include "world/runtime/utf8.h"
 
 #include <stdio.h>
 
-/* Bytes of the character that begins with this one, 0 for a byte that begins none. */
+/* Returns the bytes of the character that begins with this one, 0 for a byte that begins none. */
 static size_t bytes_after(unsigned char first)
 {
     if (first < 0x80)
@@ -13,7 +13,7 @@ static size_t bytes_after(unsigned char first)
     return first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
 }
 
-/* How many of the character's bytes are there. */
+/* Returns how many of the character's bytes are there. */
 static size_t bytes_there(const char *text, size_t wanted)
 {
     size_t count = 1;
@@ -77,7 +77,7 @@ size_t utf8_mend(char *text)
         uint32_t code;
         size_t bytes = utf8_read(at, &code), wanted = bytes_after((unsigned char)*at);
         size_t there = bytes_there(at, wanted);
-        if (bytes == 0 && there < wanted) { /* it was cut */
+        if (bytes == 0 && there < wanted) { /* the character was cut off */
             at += there;
             continue;
         }

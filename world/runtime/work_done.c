@@ -1,4 +1,4 @@
-/* The counter of a process that nobody watches. */
+/* The work counter of a process that is not supervised. */
 #include "world/runtime/work_done.h"
 
 static _Atomic uint64_t own;

@@ -1,4 +1,4 @@
-/* The private index over the shared list of craters, and the ground they leave. */
+/* The private index over the shared list of craters, and the shape of the ground in them. */
 #include "world/terrain/crater.h"
 
 #include "world/maths/maths.h"

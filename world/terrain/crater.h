@@ -1,8 +1,8 @@
 /* Craters: an append-only list in shared memory and a private index over it by gridsquare.
  *
- * The list is part of the world (written by the collider, committed by its count); the index is
- * a cache that each process builds for itself from the committed entries, so it is never shared
- * and never wrong after a kill. */
+ * The list is part of the world (written by the collider, committed by its count). The index is a
+ * cache that each process builds for itself from the committed entries, so it is never shared, and
+ * a kill cannot damage it. */
 #ifndef JOLON_WORLD_TERRAIN_CRATER_H
 #define JOLON_WORLD_TERRAIN_CRATER_H
 
@@ -11,8 +11,8 @@
 struct crater {
     double x, z;    /* [m] centre */
     float radius_m; /* of the bowl; the rim reaches CRATER_RIM times as far */
-    float depth_m;  /* below the ground that was there */
-    uint64_t frame; /* that dug it */
+    float depth_m;  /* below the original ground */
+    uint64_t frame; /* in which it was made */
 };
 
 _Static_assert(sizeof(struct crater) == 32, "shared layout");
@@ -23,8 +23,7 @@ _Static_assert(sizeof(struct crater) == 32, "shared layout");
 #define CRATER_RIM_HEIGHT 0.2
 
 /* [m] More than the bowl of the largest charge that a kind can have
- * (collider/response/explosion.c): nothing is wider. So a crater reaches into CRATER_SQUARES
- * gridsquares at most. */
+ * (collider/response/explosion.c). So a crater reaches into CRATER_SQUARES gridsquares at most. */
 #define CRATER_RADIUS_MAX 60.0
 #define CRATER_SQUARES    9u
 
@@ -41,19 +40,19 @@ struct crater_index {
     uint32_t *head;            /* [GRIDSQUARE_COUNT] link + 1, 0 for none */
     struct crater_link *links; /* CRATER_SQUARES for each of CRATER_SLOTS_MAX craters */
     uint32_t link_count;
-    double rim_m; /* the highest rim that any of them raises the ground by */
+    double rim_m; /* the greatest height of a rim over the ground [m] */
 };
 
 /* 0, or -1 with errno ENOMEM. The list must outlive the index. */
 int crater_index_init(struct crater_index *index, const struct crater *craters);
 void crater_index_free(struct crater_index *index);
 
-/* Takes the list's entries up to count in, at most CRATER_SLOTS_MAX. A count below what was indexed
- * (another world's past) rebuilds from the start. It takes no memory. */
+/* Indexes the list's entries up to count, at most CRATER_SLOTS_MAX. A count below what was indexed
+ * (the world was set back) rebuilds the index from the start. Takes no memory. */
 void crater_index_update(struct crater_index *index, uint32_t count);
 
-/* What the craters add to the ground at (x, z) [m]: the deepest bowl, else the highest rim, else
- * 0. Does not depend on the order of the craters. */
+/* Returns what craters add to the height at (x, z) [m]: the deepest bowl, else the highest rim,
+ * else 0. Does not depend on the order of the craters. */
 double crater_offset(const struct crater_index *index, double x, double z);
 
 #endif

@@ -1,6 +1,6 @@
-/* Fixed objects: trees, bushes, poles, buildings (Table 1), in gridsquare order, and the reach of
- * each square: every object that overlaps it, also those that stand in a neighbour (thesis row 37:
- * none near a border is found late). Written once at creation, read-only to all. */
+/* Fixed objects: trees, bushes, poles, buildings (Table 1), in gridsquare order. Each square also
+ * has the list of all objects that overlap it, those of neighbouring squares included, so that none
+ * near a border is found late (thesis row 37). Written once at creation, read-only to all. */
 #ifndef JOLON_WORLD_TERRAIN_FIXED_H
 #define JOLON_WORLD_TERRAIN_FIXED_H
 
@@ -15,13 +15,13 @@ struct fixed_object {
     float radius_m; /* of the bounding sphere */
     float height_m; /* for drawing */
     uint16_t kind;
-    uint16_t turn; /* heading, 65536 a full turn, for drawing */
+    uint16_t turn; /* heading, 65536 for a full turn, for drawing */
 };
 
 _Static_assert(sizeof(struct fixed_object) == 32, "shared layout");
 
-/* Where it stands [m, world], how it is turned [rad, heading], and its size over its kind's, which
- * is kinds[object->kind] of the world. */
+/* Return its position [m, world], its heading [rad], and its size relative to its kind's, which is
+ * kinds[object->kind] of the world. */
 static inline struct vec3 fixed_position(const struct fixed_object *object)
 {
     return (struct vec3){object->x, (double)object->y, object->z};

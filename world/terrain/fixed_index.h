@@ -9,14 +9,14 @@
 
 #include <stdint.h>
 
-/* How far over the map an upright body is from its position at most [m], whichever shape it is
- * given: the sphere's radius, or the hulls'. */
+/* Returns how far an upright body reaches from its position on the map at most [m], with either
+ * shape: the sphere or the hulls. */
 static inline double fixed_index_of_kind(const struct kind *kind)
 {
     return maths_max(kind->radius_m, kind->level_m);
 }
 
-/* The same of a fixed object, whose size varies about its kind's. */
+/* The same for a fixed object, whose size varies about its kind's. */
 static inline double fixed_index_of_fixed(const struct fixed_object *object,
                                           const struct kind *kinds)
 {

@@ -20,7 +20,8 @@ static inline int32_t gridsquare_axis(double metres)
         return 0;
     if (metres >= WORLD_SIDE_M)
         return GRIDSQUARE_PER_SIDE - 1;
-    /* Division, not the reciprocal: the point one ulp before a border must stay before it. */
+    /* A division, not a multiplication by the reciprocal: the point one ulp before a border must
+     * stay before it. */
     return (int32_t)(metres / GRIDSQUARE_SIDE_M);
 }
 

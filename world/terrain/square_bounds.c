@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #define SLACK_M      0.01 /* more than rounding adds to a height or moves a path */
-#define SQUARES_MOST 9    /* of a box; the ground itself is looked at under a larger one */
+#define SQUARES_MOST 9    /* of a box; for a larger one the ground itself is tested */
 
 int square_bounds_init(struct square_bounds *bounds, square_bounds_function *compute,
                        const void *context)
@@ -74,7 +74,7 @@ uint16_t square_bounds_above_height(double height_m)
 
 /* --- the ground --------------------------------------------------------------------------------*/
 
-/* The posts of a square, row by row and those of its borders too. */
+/* The posts of a square row by row, those of its borders included. */
 struct posts {
     struct terrain_posts across, down;
 };

@@ -1,8 +1,8 @@
 /* Upper bounds of a quantity, such as the height of the ground, in each gridsquare.
  *
- * The bound of a square is computed when it is first asked for: computing those of 50 km x 50 km
- * would delay a process's start. Bounds follow from the static world, so what these functions
- * return does not depend on what was asked before. Any thread. */
+ * The bound of a square is computed on its first use: computing those of 50 km x 50 km would delay
+ * a process's start. Bounds follow from the static world, so the results do not depend on earlier
+ * calls. Any thread. */
 #ifndef JOLON_WORLD_TERRAIN_SQUARE_BOUNDS_H
 #define JOLON_WORLD_TERRAIN_SQUARE_BOUNDS_H
 
@@ -47,18 +47,19 @@ static inline uint16_t square_bounds_of(const struct square_bounds *bounds, uint
 bool square_bounds_within(const struct square_bounds *bounds, struct gridsquare_box box,
                           uint16_t most);
 
-/* The greatest bound that is at most this height [m] or this slope (a tangent). 0: none is. */
+/* Return the greatest bound that is at most this height [m] or this slope (a tangent). 0: none
+ * is. */
 uint16_t square_bounds_below_height(double height_m);
 uint16_t square_bounds_below_slope(double slope);
 
-/* The least bound that is surely above this height [m], whatever rounding adds to it. */
+/* Returns the least bound that is certainly above this height [m], rounding included. */
 uint16_t square_bounds_above_height(double height_m);
 
 /* The height of the ground without its craters; the context is a struct terrain. */
 square_bounds_function square_bounds_height;
 
-/* The slope of the ground without its craters, likewise, at least half a step above the steepest
- * one. A square with water has no bound. */
+/* The slope of the ground without its craters, at least half a step above the steepest one; the
+ * context is a struct terrain. A square with water has no bound. */
 square_bounds_function square_bounds_slope;
 
 /* Returns true if the straight path from p to q is above the ground and its craters (NULL: none)

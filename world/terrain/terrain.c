@@ -3,8 +3,8 @@
 
 #include <stddef.h>
 
-/* The cell's column or row and how far into it, 0..1; outside the square the edge. Without
- * branches: where a vehicle stands no processor can guess. */
+/* Returns the cell's column or row and the position in it, 0..1; outside the square those of the
+ * edge. Without branches, since they cannot be predicted. */
 static inline uint32_t cell_of(const struct terrain *terrain, double metres, double *fraction)
 {
     uint32_t last = terrain->side - 2;

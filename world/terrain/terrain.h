@@ -1,9 +1,9 @@
-/* The ground: heights and cover at posts of a regular grid, with craters dug into it.
+/* The ground: heights and cover at posts of a regular grid, with craters in it.
  *
- * Between posts the ground is two flat triangles a cell, split along the diagonal from the
+ * Between posts the ground is two flat triangles for each cell, split along the diagonal from the
  * north-west to the south-east post; renderers that draw the same triangles draw the same ground.
  * Post (column, row) lies at x = column * spacing_m, z = row * spacing_m. Outside the square the
- * edge's height goes on. Pure; any thread. */
+ * edge's height continues. Pure; any thread. */
 #ifndef JOLON_WORLD_TERRAIN_TERRAIN_H
 #define JOLON_WORLD_TERRAIN_TERRAIN_H
 
@@ -13,7 +13,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/* What lies on the ground around a post. */
+/* The cover of the ground around a post. */
 enum cover {
     COVER_GRASS,
     COVER_CHAPARRAL,
@@ -40,7 +40,7 @@ double terrain_base_height(const struct terrain *terrain, double x, double z);
 double terrain_height(const struct terrain *terrain, const struct crater_index *craters, double x,
                       double z);
 
-/* The first and last posts along one axis whose cells reach into so many metres from a place on. */
+/* The first and last posts along one axis whose cells overlap the given range. */
 struct terrain_posts {
     uint32_t first, last;
 };

@@ -29,7 +29,7 @@ static inline void nearest_of(const struct terrain *terrain, const f64x4 *metres
     *post -= __builtin_convertvector(fraction >= 0.5, four_cells); /* of which true is -1 */
 }
 
-/* The first column or row of the patch in whose middle a post is, as far as the world goes. */
+/* The first column or row of the patch with a post in its middle, limited to the world. */
 static inline void patch_begin(const struct terrain *terrain, four_cells *post)
 {
     const int32_t last = (int32_t)terrain->side - TERRAIN_CACHE_SIDE;
@@ -72,7 +72,7 @@ void terrain_cache_find(const struct terrain *terrain, struct terrain_cache *cac
     }
 }
 
-/* Where points lie in their patches, counted in posts, and which lie outside: they get 0. */
+/* Finds the indices of points in their patches [posts]. Points outside are marked and get 0. */
 static inline void find_in_patches(const struct terrain_cache *cache, int h, uint32_t side,
                                    const four_cells *column, const four_cells *row,
                                    four_cells *post, four_cells *outside)
@@ -82,7 +82,7 @@ static inline void find_in_patches(const struct terrain_cache *cache, int h, uin
     *post = (down * TERRAIN_CACHE_SIDE + right) & ~*outside;
 }
 
-/* Two posts side by side of each of four cells, from these on. */
+/* Reads two adjacent posts of each of four cells, beginning with these. */
 static inline void two_posts(const float *a, const float *b, const float *c, const float *d,
                              f64x4 *west, f64x4 *east)
 {
@@ -97,7 +97,7 @@ static inline void two_posts(const float *a, const float *b, const float *c, con
     *east = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
 }
 
-/* Heights of four points at once, as base_height() does it. */
+/* Heights of four points at once, computed as in base_height(). */
 static inline void heights_four(const struct terrain *terrain, const struct terrain_cache *cache,
                                 int h, const f64x4 *x, const f64x4 *z, f64x4 *height)
 {

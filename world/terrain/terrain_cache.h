@@ -1,5 +1,5 @@
-/* The ground under LANE_COUNT bodies at a time, from a few posts cached for each. Pure; any thread.
- */
+/* The ground under LANE_COUNT bodies at once, from a few posts cached for each. Pure; any
+ * thread. */
 #ifndef JOLON_WORLD_TERRAIN_TERRAIN_CACHE_H
 #define JOLON_WORLD_TERRAIN_TERRAIN_CACHE_H
 
@@ -12,23 +12,24 @@
 #define TERRAIN_CACHE_SIDE 3
 struct terrain_cache_entry {
     uint16_t column, row; /* of its first post, the north-west one */
-    uint16_t water;       /* bit i: there is water about post i */
+    uint16_t water;       /* bit i: there is water around post i */
     uint16_t held;        /* 1: the entry is filled */
     float post[TERRAIN_CACHE_SIDE * TERRAIN_CACHE_SIDE];
 };
 
 /* The entries of the bodies. The terrain has at least TERRAIN_CACHE_SIDE posts a side. */
 struct terrain_cache {
-    struct terrain_cache_entry *patch[LANE_COUNT]; /* of each lane; an idle lane has any */
-    union lane_cells column, row;                  /* of the entries */
+    struct terrain_cache_entry
+        *patch[LANE_COUNT];       /* of each lane; an unused lane may have any entry */
+    union lane_cells column, row; /* of the entries */
 };
 
 /* Fills the entries with the posts about (x, z). */
 void terrain_cache_find(const struct terrain *terrain, struct terrain_cache *cache,
                         const union simd_lanes *x, const union simd_lanes *z);
 
-/* Height of the uncratered ground [m] at a point of each body, to the bit terrain_base_height();
- * and whether there is water, as terrain_cover() says. Fast where the entry has the posts. */
+/* Height of the uncratered ground [m] at a point of each body, equal to terrain_base_height() to
+ * the bit; and whether there is water, as by terrain_cover(). Fast if the entry has the posts. */
 void terrain_cache_heights(const struct terrain *terrain, const struct terrain_cache *cache,
                            const union simd_lanes *x, const union simd_lanes *z,
                            union simd_lanes *height);

@@ -98,7 +98,7 @@ __attribute__((format(printf, 1, 2))) static void put(const char *format, ...)
     assert_true(strlen(text) + 1 < sizeof text);
 }
 
-/* Trucks on a field, a heap of tanks in a wood, and bombs on all of it. */
+/* Finds where its script begins, with the heading to the script's next point. */
 static void write_world(const char *method, uint32_t trucks)
 {
     text[0] = '\0';
