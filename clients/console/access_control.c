@@ -6,8 +6,8 @@
 #include <string.h>
 #include <strings.h>
 
-#define CHANGES_PER_S 100u /* orders a second of one player ... */
-#define OTHERS_PER_S  50u  /* ... and of all others together */
+#define CHANGES_PER_S 100u /* requests a second of one player ... */
+#define OTHERS_PER_S  50u  /* ... and of all clients without a player's key together */
 
 #define BEARER "Bearer "
 
@@ -42,7 +42,7 @@ bool access_control_open(struct request *request, const struct player *player, u
 {
     if (!is_same_site(request)) {
         http_answer_error(answer, HTTP_ANSWER_FORBIDDEN, "open the console's own page",
-                          "another site's page may ask nothing here");
+                          "a page of another site may not send requests");
         return false;
     }
     /* Each player has a rate of its own, which spectators at the same address do not use up. */
@@ -72,17 +72,17 @@ bool access_control_open_to_change(struct request *request, struct player *playe
     if (!has_token(request)) {
         http_answer_error(answer, HTTP_ANSWER_UNAUTHORIZED,
                           "open the address as the console printed it, with its #token=...",
-                          "who has no token may only look");
+                          "without the token the world can be seen, but not changed");
         return false;
     }
     if (!is_json(http_header(request->http, "Content-Type"))) {
         http_answer_error(answer, HTTP_ANSWER_NOT_JSON, "send Content-Type: application/json",
-                          "the body must be JSON, and say so");
+                          "the body must be declared as JSON");
         return false;
     }
     if (request->http->body_bytes > REQUEST_BODY) {
-        http_answer_error(answer, HTTP_ANSWER_TOO_LARGE, "an order is short", "more than %u bytes",
-                          REQUEST_BODY);
+        http_answer_error(answer, HTTP_ANSWER_TOO_LARGE, "send a shorter body",
+                          "the body has more than %u bytes", REQUEST_BODY);
         return false;
     }
     return (player

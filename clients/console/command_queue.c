@@ -1,4 +1,4 @@
-/* Sends orders and reads replies. */
+/* Sends commands and reads replies. */
 #include "clients/console/command_queue.h"
 
 #include "clients/console/result_text.h"
@@ -24,7 +24,7 @@ int command_queue_open(struct command_queue *queue, const char *world, struct er
     return command_client_open(&queue->client, command_socket_open(&queue->socket, world), error);
 }
 
-/* --- tickets -----------------------------------------------------------------------------------*/
+/* --- pending commands --------------------------------------------------------------------------*/
 
 static void finish(struct command_queue *queue, struct pending_command **at)
 {
@@ -56,7 +56,7 @@ static bool is_mission(const struct command_text *order)
     return order->given & 1u << COMMAND_TEXT_MUNITION;
 }
 
-/* One command with one reply, as it is. */
+/* Returns true if the command is sent as it is and has one reply. */
 static bool is_command(const struct command_text *order)
 {
     return !is_drive(order) && !is_mission(order);
@@ -71,7 +71,7 @@ static struct fire_mission *find_mission(struct command_queue *queue, uint32_t n
     return NULL;
 }
 
-/* An order without a vehicle is for the player's own. */
+/* Without a vehicle the command is for the vehicle that the player drives. */
 static bool name_vehicle(struct command_text *order, const struct player *player,
                          struct http_answer *answer)
 {
@@ -128,7 +128,7 @@ static bool put_cancel(struct command_queue *queue, struct pending_command *pend
     struct fire_mission *mission = find_mission(queue, pending->cancel);
     if (!mission) {
         http_answer_error(answer, HTTP_ANSWER_CONFLICT, "the state lists the missions there are",
-                          "there is no mission %u any more, or never was", pending->cancel);
+                          "there is no mission %u", pending->cancel);
         return false;
     }
     json_writer_begin(&answer->json, '{');
@@ -151,7 +151,7 @@ bool command_queue_put(struct command_queue *queue, struct pending_command *pend
         return false;
     if (is_drive(order) && !player) {
         http_answer_error(answer, HTTP_ANSWER_FORBIDDEN, "POST /api/join first",
-                          "only a player drives; X-Jolon-Player names none");
+                          "only a player can drive, and X-Jolon-Player names no player");
         return false;
     }
     if (queue->pending_count == COMMAND_QUEUE_PENDING_MAX || (mission && !find_mission(queue, 0))) {
@@ -241,7 +241,7 @@ static void on_drive_reply(struct command_queue *queue, struct player *player,
     }
 }
 
-/* The drives of the player that this reply answers. */
+/* Answers the player's drives that this reply covers. */
 static void answer_drives(struct command_queue *queue, const struct player *player,
                           const jolon_CommandReply *reply, const struct world_reader *reader,
                           const struct players *players)
@@ -287,7 +287,7 @@ static void update_player(struct command_queue *queue, struct player *player,
         player->number = 0;
 }
 
-/* --- other orders ------------------------------------------------------------------------------*/
+/* --- other commands ----------------------------------------------------------------------------*/
 
 static struct player *player_of(struct players *players, uint32_t number)
 {

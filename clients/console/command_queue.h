@@ -1,7 +1,6 @@
-/* The console's commands: it sends the players' orders over the world's command socket and reads
- * the replies. The server's thread appends pending commands. The console's main thread sends them,
- * repeats them and writes the answers, so that each order is carried out once although a process
- * may die meanwhile.
+/* Sends the players' commands over the world's command socket and reads the replies. The server's
+ * thread appends pending commands. The console's main thread sends them, repeats them and writes
+ * the answers, so that each command is done once although a process may die meanwhile.
  *
  * A player holds a vehicle by a lease of COMMAND_QUEUE_LEASE_S of simulated time. The lease is
  * renewed while the player's page sends requests (clients/console/players.h). When the page is
@@ -16,8 +15,8 @@
 #include "ipc/topics/command_socket.h"
 #include "ipc/topics/command_series.h"
 
-#define COMMAND_QUEUE_PENDING_MAX 128u /* orders that wait, in all */
-#define COMMAND_QUEUE_MISSIONS    8u   /* that run at a time */
+#define COMMAND_QUEUE_PENDING_MAX 128u /* commands that wait, in all */
+#define COMMAND_QUEUE_MISSIONS    8u   /* fire missions at a time */
 #define COMMAND_QUEUE_REPLY_NS    3000000000u
 #define COMMAND_QUEUE_RENEW_NS    150000000u
 #define COMMAND_QUEUE_LEASE_S     1.0
@@ -25,41 +24,42 @@
 struct pending_command {
     struct pending_command *next;
     struct command_text order;
-    uint32_t cancel; /* the mission to call off, 0: it is an order */
+    uint32_t cancel; /* number of the fire mission to cancel, 0: a command */
     uint32_t player; /* its number, 0: none */
     uint64_t source;
-    uint64_t sequence; /* 0: not sent yet; of a drive: the version of the
-                          controls; of a mission: its number */
+    uint64_t sequence; /* 0: not sent yet; of a drive: the version of the controls; of a fire
+                          mission: its number */
     uint64_t until_ns;
-    struct http_answer answer; /* when it is done */
+    struct http_answer answer; /* set when done */
     bool done;
-    void (*ready)(struct pending_command *pending); /* called once, when it is done */
+    void (*ready)(struct pending_command *pending); /* called once, when done */
 };
 
-/* Its rounds are due in simulated time. */
+/* A fire mission, whose rounds are due in simulated time. */
 struct fire_mission {
     uint32_t number; /* 1, 2, ...; 0: the place is free */
     struct command_series series;
 };
 
 struct command_queue {
-    struct command_socket socket; /* of the caller */
+    struct command_socket socket; /* of the client */
     struct command_client client;
     struct name_table names;
     int wake_fd;                     /* an eventfd that wakes the main thread */
-    struct pending_command *pending; /* those that wait, the oldest first */
+    struct pending_command *pending; /* a list, the oldest first */
     uint32_t pending_count;
     struct fire_mission mission[COMMAND_QUEUE_MISSIONS];
-    uint32_t missions; /* ever */
+    uint32_t missions; /* number of missions started so far */
 };
 
-/* 0, or -1 with the reason. */
+/* Returns 0, or -1 with the error. */
 int command_queue_open(struct command_queue *queue, const char *world, struct error_text *error);
-/* Also answers the pending commands: there was no reply. */
+/* Also answers the pending commands, as without a reply. */
 void command_queue_close(struct command_queue *queue);
 
-/* Appends an order, which stays with the queue until ready() is called; player NULL: the order is
- * the console's own. Returns false, with the answer, if the order is refused or done at once. */
+/* Appends a command, which belongs to the queue until ready() is called. player NULL: the request
+ * came without a player's key. Returns false, with the answer, if the command is refused or done at
+ * once. */
 bool command_queue_put(struct command_queue *queue, struct pending_command *pending,
                        struct player *player, uint64_t now_ns, struct http_answer *answer);
 

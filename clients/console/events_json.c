@@ -1,4 +1,4 @@
-/* What happened, in words, out of the event ring. */
+/* Writes events of the event ring as text. */
 #include "clients/console/events_json.h"
 
 #include "ipc/frame/event_cursor.h"
@@ -14,8 +14,8 @@
 #define BATCH      128u
 #define SCAN_MAX   8192u /* events looked at for one answer */
 
-/* Bits of event types, and one for drives that were done: there are several a second of each
- * player, so they are told only to who asks for them. */
+/* Types of events are bits. Drives that were done have a bit of their own: each player makes
+ * several a second, so they are written only when they are asked for. */
 #define EVENT_WORD(tag, word) #word ", "
 
 #define DRIVE_BIT (1u << EVENT_TYPE_COUNT)
@@ -25,7 +25,7 @@ static const char *type_word(uint32_t bit)
     return bit == EVENT_TYPE_COUNT ? "drive" : event_type_name((enum event_type)bit);
 }
 
-/* types=collision,fire,... */
+/* Reads types=collision,fire,... */
 static bool read_types(const struct world_query *query, uint32_t *types, struct http_answer *answer)
 {
     const char *at = query_text(&query->arguments, "types");
@@ -60,10 +60,10 @@ static const char *kind_of(const struct world *world, const struct event_party *
 {
     if (party->id)
         return party->kind < world->counts.kinds ? world->kinds[party->kind].name : "?";
-    return party->fixed ? "ground" : "none"; /* nobody: the terrain, or none */
+    return party->fixed ? "ground" : "none";
 }
 
-/* Where it happened; NULL: the type has no place. */
+/* Returns the place of the event, or NULL for a type without a place. */
 static const double *point_of(const struct event *event)
 {
     switch ((enum event_type)event->type) {
@@ -119,10 +119,10 @@ static void put_event(struct json_writer *json, const struct world *world,
 struct event_query {
     uint64_t after, most;
     uint32_t types;
-    bool from_now; /* nothing was said: the newest */
+    bool from_now; /* without "after": the newest events */
 };
 
-/* The place from which the newest `most` are what is wanted. */
+/* Returns the sequence number from which on there are `most` events of the wanted types. */
 static uint64_t newest(const struct view *view, const struct event_query *asked, uint64_t end)
 {
     struct event batch[BATCH];
@@ -158,7 +158,7 @@ static void put_events(struct json_writer *json, const struct view *view,
             put_event(json, &view->world, &batch[i]);
             put++;
         }
-        cursor->next = from; /* what is left of the batch is for the next time */
+        cursor->next = from; /* the rest of the batch is for the next answer */
         scanned += count;
     }
     json_writer_end(json, ']');
@@ -182,7 +182,7 @@ void events_json(const struct world_query *query, struct http_answer *answer)
     struct event_cursor cursor = {.next = asked.after};
     if (asked.from_now)
         cursor.next = newest(view, &asked, head.event_end);
-    else if (asked.after > head.event_end) /* of another run, or before a repair */
+    else if (asked.after > head.event_end) /* from another run, or from before a repair */
         cursor.next = head.event_end;
     json_writer_begin(json, '{');
     put_events(json, view, &asked, &cursor);

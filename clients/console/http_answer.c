@@ -1,4 +1,4 @@
-/* Errors in words, and numbers of an address. */
+/* Writes errors and reads the arguments of an address. */
 #include "clients/console/http_answer.h"
 
 #include "world/runtime/parse_number.h"
@@ -8,7 +8,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-#define SHOWN_MAX 40 /* letters of a wrong value that are shown again */
+#define SHOWN_MAX 40 /* characters of a wrong value that the error repeats */
 
 void http_answer_error(struct http_answer *answer, enum http_answer_status status, const char *next,
                        const char *format, ...)

@@ -1,4 +1,4 @@
-/* JSON into a buffer. */
+/* Writes JSON into a buffer. */
 #include "clients/console/json_writer.h"
 
 #include <math.h>
@@ -86,7 +86,7 @@ void json_writer_word(struct json_writer *json, const char *word)
     put_escaped(json, word);
 }
 
-/* The digits of value into the end of a field; where they begin. */
+/* Writes the digits of value at the end of the array and returns where they begin. */
 static char *digits_of(char digits[DIGITS_MAX], uint64_t value)
 {
     char *at = digits + DIGITS_MAX;
@@ -122,7 +122,7 @@ void json_writer_number(struct json_writer *json, double value, int decimals)
     put(json, at, (size_t)(whole + DIGITS_MAX - at));
     if (scaled % scale == 0)
         return;
-    /* A one before the fraction keeps its leading zeros. */
+    /* The digit 1 before the fraction keeps the fraction's leading zeros. */
     uint64_t fraction = scaled % scale + scale;
     while (fraction % 10 == 0)
         fraction /= 10;

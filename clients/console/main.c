@@ -1,7 +1,7 @@
-/* jolon-console: the page in a browser, and the server behind it. It reads the world as any reader
- * does and writes nothing of the world's memory, but for the slot of its role when it is the
- * console of the world's set. What its players want goes to the intake over the command socket, as
- * every client's commands do. It may come, go and be killed. */
+/* jolon-console: serves the console's page to browsers. It reads the world like any reader and
+ * writes nothing of the world's memory except the slot of its role, if it is the console of the
+ * world's set. Its players' commands go to the intake over the command socket, like those of every
+ * client. It may start, end and be killed at any time. */
 #include "clients/console/options.h"
 #include "clients/console/server.h"
 #include "ipc/process/clock.h"
@@ -15,7 +15,7 @@
 
 #define NICENESS 5
 
-/* Longest wait between two looks at the world. */
+/* Longest time between two turns of the main loop. */
 #define TURN_NS (50 * (uint64_t)NS_PER_MS)
 
 static struct console console = {.lock = PTHREAD_MUTEX_INITIALIZER};
@@ -31,7 +31,8 @@ static int choose_token(const struct options *options, struct error_text *error)
     return 0;
 }
 
-/* The set's console speaks into the set's log, where the token has no place. */
+/* Prints the address. The set's console prints no token, because its output goes to the set's log.
+ */
 static void print_address(const struct options *options)
 {
     if (options->role) {
@@ -39,17 +40,17 @@ static void print_address(const struct options *options)
     } else {
         printf("%s#token=%s\n", console.listener.url, console.token);
         (void)fflush(stdout);
-        log_info("world \"%s\": open the address above; without its end (#...) one may look and "
-                 "change nothing",
+        log_info("world \"%s\": open the address above; without its end (#...) the page shows the "
+                 "world and changes nothing",
                  options->world);
     }
     if (!console.listener.local)
-        log_warn("everybody who reaches %s may look, and what is sent can be read on the way, the "
-                 "token too: use it in a network of your own",
+        log_warn("everybody who reaches %s can see the world, and the traffic, with the token, is "
+                 "not encrypted: use it in a private network",
                  options->address);
 }
 
-/* The keeper looks after who has the role: it has to hear that this process lives. */
+/* Writes the heartbeat of the role, by which the keeper sees that this process lives. */
 static void beat(struct view *set)
 {
     frame_protocol_beat(set);
@@ -100,7 +101,7 @@ int main(int argc, char **argv)
         picture_proxy_open(&console.proxy, options.world, &error) != 0 ||
         server_start(&console, &error) != 0)
         die_refused("%s", error.text);
-    print_address(&options); /* the first word to a terminal asks what it is: not in the sandbox */
+    print_address(&options); /* before the sandbox: the first output asks for the terminal's type */
     if (sandbox_enter(&sandbox, &error) != 0)
         die_refused("%s", error.text);
     if (options.role)

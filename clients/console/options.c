@@ -1,4 +1,4 @@
-/* jolon-console's arguments. */
+/* The command line of jolon-console. */
 #include "clients/console/options.h"
 
 #include "ipc/http/listen.h"
@@ -11,12 +11,12 @@ static struct options given = {
 
 static const struct option_row rows[] = {
     OPTION_ROW_WORLD(given, segment_name_option),
-    {"port", "N", "where browsers find it (default 8080; 0: any that is free)", .u32 = &given.port,
+    {"port", "N", "port of the server (default 8080; 0: any free one)", .u32 = &given.port,
      .most = UINT16_MAX},
-    {"address", "ADDRESS", "(default 127.0.0.1: nobody but this machine reaches it)",
+    {"address", "ADDRESS", "(default 127.0.0.1: only this machine reaches it)",
      .text = &given.address},
     {"token-file", "FILE",
-     "who knows what it holds may change the world; made when it is not there (default: a new "
+     "holds the token, without which the world cannot be changed; made if missing (default: a new "
      "token each time, which is printed)",
      .text = &given.token_file},
     OPTION_ROW_PARENT(given),
@@ -31,7 +31,7 @@ void options_parse(struct options *options, int argc, char **argv)
         .program = "jolon-console",
         .usage = "[options]",
         .rows = rows,
-        .ending = "It prints the address to open. Ctrl-C ends it; the world goes on.\n"};
+        .ending = "It prints the address to open. Ctrl-C ends it; the world continues.\n"};
     option_table_read(&table, argc, argv);
     *options = given;
 }

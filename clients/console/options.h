@@ -13,12 +13,11 @@ struct options {
     uint32_t port;          /* 0..65535 */
     const char *token_file; /* NULL: a new token */
     int parent;             /* process id, 0: none */
-    bool role;              /* it is its set's console: has the role's lock and slot */
+    bool role;              /* this is the set's console, with the role's lock and slot */
     bool sandbox_off;
 };
 
-/* Fills options. Ends the program: with help on standard output (0), or with one line that says
- * what is wrong (2). */
+/* Fills options. Ends the process at --help (exit 0) and at wrong usage (exit 2). */
 void options_parse(struct options *options, int argc, char **argv);
 
 #endif

@@ -1,4 +1,4 @@
-/* Files by name. */
+/* Finds files by name. */
 #include "clients/console/page_files.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* The page's files, compiled in from console/page/ by clients/console/embed. */
+/* The page's files, compiled in from clients/console/page/ by clients/console/embed. */
 #ifndef JOLON_CLIENTS_CONSOLE_PAGE_FILES_H
 #define JOLON_CLIENTS_CONSOLE_PAGE_FILES_H
 
@@ -14,10 +14,10 @@ struct page_files_file {
 extern const struct page_files_file page_files[];
 extern const size_t page_file_count;
 
-/* The file that a path of a request names, "/" being index.html; NULL when there is none. */
+/* Returns the file of a request's path, "/" being index.html, or NULL. */
 const struct page_files_file *page_files_find(const char *path);
 
-/* Its media type, by its ending. */
+/* Returns the file's media type, by its ending. */
 const char *page_files_type(const struct page_files_file *file);
 
 #endif

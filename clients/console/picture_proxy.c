@@ -70,8 +70,8 @@ void picture_proxy_explain(const struct picture_copy *copy, struct http_answer *
 {
     if (!copy || copy->status == 0) {
         http_answer_error(answer, HTTP_ANSWER_AWAY,
-                          "it comes back by itself when it was killed; the process table shows it",
-                          "nobody draws pictures of this world just now");
+                          "it is restarted if it was killed; the process table shows it",
+                          "no renderer draws this world now");
         return;
     }
     int length = copy->body_bytes < 300 ? (int)copy->body_bytes : 300;
@@ -130,7 +130,7 @@ bool picture_proxy_ask(struct picture_proxy *proxy, const char *target,
     struct channel *channel = proxy->ending ? NULL : find_channel(proxy, target);
     bool now = !channel || is_fresh(channel, waiter, now_ns);
     if (!channel) {
-        http_answer_error(answer, HTTP_ANSWER_AWAY, "look at what others look at, or ask again",
+        http_answer_error(answer, HTTP_ANSWER_AWAY, "ask for a picture that others see, or again",
                           "more than %u different pictures are asked for", PICTURE_PROXY_CHANNELS);
     } else if (now) {
         waiter->copy = retain(channel->copy);

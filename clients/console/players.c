@@ -1,4 +1,4 @@
-/* Who plays. */
+/* The list of players. */
 #include "clients/console/players.h"
 
 #include "clients/console/session_key.h"
@@ -6,7 +6,7 @@
 
 #include <string.h>
 
-_Static_assert(PLAYERS_KEY_BYTES == SESSION_KEY_BYTES, "a key is a secret");
+_Static_assert(PLAYERS_KEY_BYTES == SESSION_KEY_BYTES, "session_key_text() writes players' keys");
 
 bool players_name_is_valid(const char *name)
 {

@@ -1,4 +1,4 @@
-/* What may be posted. */
+/* Executes POST requests. */
 #include "clients/console/post_requests.h"
 
 #include "clients/console/access_control.h"
@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/* From the desk's thread: the server goes on with the request, and finds the answer. */
+/* Called by the main thread when the command is done: the server then continues the request. */
 static void on_ready(struct pending_command *pending)
 {
     struct request *request =
@@ -33,8 +33,8 @@ static bool join(struct request *request, struct player *player, struct http_ans
     const struct player *joined =
         players_join(&request->console->players, name, key, source, now_ns);
     if (!joined) {
-        http_answer_error(answer, HTTP_ANSWER_TOO_MANY, "wait until one has left, or look on",
-                          "there are %u players, more cannot be", PLAYERS_MAX);
+        http_answer_error(answer, HTTP_ANSWER_TOO_MANY, "wait until a player has left, or watch",
+                          "there are %u players already", PLAYERS_MAX);
         return true;
     }
     json_writer_begin(json, '{');
@@ -52,7 +52,8 @@ static bool command(struct request *request, struct player *player, struct http_
     const char *key = http_header(request->http, "X-Jolon-Player");
     if (key && !player) {
         http_answer_error(answer, HTTP_ANSWER_UNAUTHORIZED, "POST /api/join again",
-                          "no player has this key; who is not heard of for two minutes has left");
+                          "no player has this key; a player without requests for two minutes is "
+                          "removed");
         return true;
     }
     if (console->ending || !console->reader.attached) {

@@ -1,4 +1,4 @@
-/* The process table, and signals. */
+/* Writes the process table and sends signals. */
 #include "clients/console/process_control.h"
 
 #include "ipc/process/clock.h"
@@ -44,8 +44,8 @@ void process_control_list(const struct world_query *query, struct http_answer *a
     json_writer_end(json, ']');
 }
 
-/* The process is still the role's when the descriptor is its own: another one with its number is
- * never hit. 0, or an errno. */
+/* Sends a signal to the role's process. After the descriptor was opened the process must still hold
+ * the role, so that another process with the same number is never hit. Returns 0, or an errno. */
 static int signal_holder(const struct world_reader *reader, enum role role, int pid,
                          int signal_number)
 {
@@ -71,7 +71,7 @@ void process_control_end(const struct world_reader *reader, const char *name, bo
         return;
     }
     int pid = segment_holder(reader->name, role);
-    /* Asked to stop, a frame role would end the run; killed, it is only replaced. */
+    /* SIGTERM to a frame role would end the run. After SIGKILL the role is only restarted. */
     bool kills = !restart || role_has(role, ROLE_MAKES_FRAMES);
     int cause = pid ? signal_holder(reader, role, pid, kills ? SIGKILL : SIGTERM) : ESRCH;
     if (cause != 0) {

@@ -1,4 +1,4 @@
-/* HTTP to the renderer. */
+/* HTTP client of the renderer. */
 #include "clients/console/renderer_client.h"
 
 #include "ipc/process/clock.h"
@@ -18,7 +18,7 @@
 
 /* --- reading an answer -------------------------------------------------------------------------*/
 
-/* The value of a header in a head of NUL-ended lines; "" when there is none. */
+/* Returns the value of a header in a head of NUL-terminated lines, or "". */
 static const char *head_value(const char *head, const char *end, const char *name)
 {
     size_t length = strlen(name);
@@ -83,7 +83,7 @@ static bool wait_for(int fd, short what, uint64_t until_ns)
     return poll(&poller, 1, (int)((until_ns - now_ns) / NS_PER_MS) + 1) == 1;
 }
 
-/* A question fits into any socket's buffer. */
+/* The request fits into any socket's buffer. */
 static bool send_request(int fd, const char *target, uint64_t after)
 {
     char text[PICTURE_PROXY_TARGET + 128], number[48] = "";
@@ -110,7 +110,7 @@ static bool make_room(struct picture_copy *copy)
     return true;
 }
 
-/* To the end of what it says. */
+/* Receives until the renderer closes the connection. */
 static bool receive(int fd, struct picture_copy *copy, uint64_t until_ns)
 {
     while (make_room(copy)) {

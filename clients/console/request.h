@@ -1,4 +1,4 @@
-/* A request under way, as the server's parts share it. */
+/* A request in progress, which the parts of the server share. */
 #ifndef JOLON_CLIENTS_CONSOLE_REQUEST_H
 #define JOLON_CLIENTS_CONSOLE_REQUEST_H
 
@@ -6,14 +6,14 @@
 
 #include <stddef.h>
 
-#define REQUEST_BODY 4096u /* [byte] of a body at most */
+#define REQUEST_BODY 4096u /* [byte] longest body */
 
-/* The request's own room in the server (ipc/http/server.h). */
+/* The request's memory in the server (own_bytes of ipc/http/server.h). */
 struct request {
     struct console *console;
     struct http_request *http;
-    struct pending_command pending; /* of its order; its answer comes when that is done */
-    struct picture_waiter waiter;   /* of the picture that it wants */
+    struct pending_command pending; /* its command, whose answer comes when it is done */
+    struct picture_waiter waiter;   /* its picture */
 };
 
 #endif

@@ -1,4 +1,4 @@
-/* JSON of people's requests: orders as everywhere, and what the console alone knows. */
+/* Parses commands as all clients write them, and the requests of the console alone. */
 #include "clients/console/request_body.h"
 
 #include "ipc/topics/command_json.h"
@@ -7,9 +7,9 @@
 
 #define BIT(field) (1u << (field))
 
-static const char format_hint[] = "docs/console.md says what an order looks like";
+static const char format_hint[] = "docs/console.md describes the commands";
 
-/* An object without anything after it; NULL with the answer. */
+/* Parses a body that is one JSON object. Returns NULL, with the answer, if it is malformed. */
 static cJSON *parse(const char *body, size_t bytes, struct http_answer *answer)
 {
     const char *end = NULL;
@@ -43,7 +43,7 @@ static bool read_cancel(uint32_t *cancel, const cJSON *object, struct http_answe
     return false;
 }
 
-/* What a page need not say: its player's own vehicle, one step, a round a second. */
+/* Fills in what a page may leave out: the player's own vehicle, one step, a round a second. */
 static void apply_defaults(struct command_text *order)
 {
     enum command_text_field operand = order->verb->operand;
@@ -57,15 +57,15 @@ static void apply_defaults(struct command_text *order)
         order->given |= BIT(operand);
 }
 
-/* What is said elsewhere, but not to a console. */
+/* Refuses the commands and members that other clients may send, but not a page. */
 static bool is_allowed(const struct command_text *order, struct http_answer *answer)
 {
     if (order->command.type == jolon_COMMAND_QUIT)
-        http_answer_error(answer, HTTP_ANSWER_BAD, "jolon ctl quit does",
-                          "quit: no page ends a world");
+        http_answer_error(answer, HTTP_ANSWER_BAD, "use jolon ctl quit",
+                          "quit: a page cannot end a world");
     else if (order->given & BIT(COMMAND_TEXT_LEASE))
         http_answer_error(answer, HTTP_ANSWER_BAD, "leave it out",
-                          "drive: lease_s: the console holds what its players drive");
+                          "drive: lease_s: the console renews the leases of its players");
     else
         return true;
     return false;

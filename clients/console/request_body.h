@@ -1,7 +1,7 @@
-/* The bodies of requests, checked to the last member. Pure.
+/* Parses and checks the bodies of requests. Pure.
  *
- * An order is one of ipc/topics/command_json.h. What passes is well-formed; whether the world can
- * do it now, only the mover knows. */
+ * A command is as in ipc/topics/command_json.h. A command that passes is well-formed; only the
+ * mover knows whether the world can do it now. */
 #ifndef JOLON_CLIENTS_CONSOLE_REQUEST_BODY_H
 #define JOLON_CLIENTS_CONSOLE_REQUEST_BODY_H
 
@@ -15,8 +15,8 @@
 
 #define REQUEST_BODY_ROLE_MAX 16u
 
-/* Reads a command: an order, to which the vehicle of the player's own need not be said (it is left
- * 0), or the number of a mission to cancel; cancel is 0 for an order. False with the answer. */
+/* Reads a command, in which the vehicle may be missing (0: the player's own), or the number of a
+ * fire mission to cancel; cancel is 0 for a command. Returns false with the answer. */
 bool request_body_order(struct command_text *order, uint32_t *cancel, const char *body,
                         size_t bytes, struct http_answer *answer);
 

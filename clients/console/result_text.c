@@ -1,4 +1,4 @@
-/* Words of replies. */
+/* Describes replies. */
 #include "clients/console/result_text.h"
 
 #include "world/entity/command.h"
@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-/* The kinds there are, for whoever named another. */
+/* Lists the kinds, for the error about an unknown kind. */
 static void list_kinds(const struct world_reader *reader, bool munitions, char *text, size_t bytes)
 {
     size_t used = (size_t)snprintf(text, bytes, "there are");
@@ -36,7 +36,7 @@ static void explain_cannot(struct http_answer *answer, const struct command_text
                           command->entity);
     else
         http_answer_error(answer, HTTP_ANSWER_CONFLICT, "take another one",
-                          "%u cannot do that: it is destroyed, or no vehicle", command->entity);
+                          "%u cannot do that: it is destroyed, or not a vehicle", command->entity);
 }
 
 static void explain(struct http_answer *answer, const struct command_text *order,
@@ -49,7 +49,7 @@ static void explain(struct http_answer *answer, const struct command_text *order
     switch (result) {
     case COMMAND_NO_SUCH_ENTITY:
         http_answer_error(answer, HTTP_ANSWER_CONFLICT, "choose one on the map or in the list",
-                          "there is no %u any more, or never was", command->entity);
+                          "there is no entity %u", command->entity);
         break;
     case COMMAND_NO_SUCH_KIND:
         list_kinds(reader, command->type == jolon_COMMAND_FIRE, kinds, sizeof kinds);
@@ -70,9 +70,8 @@ static void explain(struct http_answer *answer, const struct command_text *order
         explain_cannot(answer, order);
         break;
     default:
-        http_answer_error(answer, HTTP_ANSWER_CONFLICT,
-                          "docs/console.md says what an order looks like", "%s: %s",
-                          order->verb->name, command_result_name(result));
+        http_answer_error(answer, HTTP_ANSWER_CONFLICT, "docs/console.md describes the commands",
+                          "%s: %s", order->verb->name, command_result_name(result));
         break;
     }
 }
@@ -97,9 +96,9 @@ void result_text_put(struct http_answer *answer, const struct command_text *orde
 void result_text_none(struct http_answer *answer, const struct command_text *order, bool heard)
 {
     http_answer_error(answer, HTTP_ANSWER_NO_REPLY,
-                      heard ? "look whether it was done before you order it again"
+                      heard ? "check whether it was done before you send it again"
                             : "is the reporter running? The process table shows it",
                       heard ? "%s: no reply came in time"
-                            : "%s: nobody takes commands for the world",
+                            : "%s: no process takes commands for the world",
                       order->verb->name);
 }

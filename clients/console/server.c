@@ -1,4 +1,4 @@
-/* Requests: their checks, and who answers them. */
+/* Checks the requests and passes them to the functions that answer them. */
 #include "clients/console/server.h"
 
 #include "clients/console/post_requests.h"
@@ -30,7 +30,7 @@ static const struct http_header headers[] = {
 
 /* --- answers -----------------------------------------------------------------------------------*/
 
-/* The answer's text becomes the reply's. */
+/* Moves the answer's JSON to the reply. */
 static void reply_answer(struct http_reply *reply, struct http_answer *answer)
 {
     if (answer->json.failed || answer->json.used == 0)
@@ -56,7 +56,7 @@ static void detach(void *copy)
     picture_proxy_release(copy);
 }
 
-/* The copy becomes the reply's. */
+/* Moves the picture to the reply. */
 static void reply_picture(struct http_reply *reply, struct request *request)
 {
     struct picture_copy *copy = request->waiter.copy;
@@ -88,7 +88,7 @@ static void reply_page(struct http_reply *reply, const struct page_files_file *f
                                  .count = file->count};
 }
 
-/* --- what there is to ask for ------------------------------------------------------------------*/
+/* --- GET requests ------------------------------------------------------------------------------*/
 
 typedef void answer_function(const struct world_query *query, struct http_answer *answer);
 
@@ -117,7 +117,8 @@ static answer_function *find_get_request(const char *path)
     return NULL;
 }
 
-/* From a thread of the pictures': the server goes on with the request, once it is suspended. */
+/* Called by a thread of the proxy: the server then continues the request. The lock makes sure that
+ * the request is suspended first. */
 static void on_picture(struct picture_waiter *waiter)
 {
     struct request *request =
@@ -128,7 +129,8 @@ static void on_picture(struct picture_waiter *waiter)
     pthread_mutex_unlock(&console->lock);
 }
 
-/* Under the lock. False: it waits for its picture, and is called again. */
+/* Called under the lock. Returns false if the request waits for its picture; it is then called
+ * again. */
 static bool read_picture(struct request *request, bool map, struct http_answer *answer)
 {
     char target[PICTURE_PROXY_TARGET];
@@ -141,7 +143,7 @@ static bool read_picture(struct request *request, bool map, struct http_answer *
            picture_proxy_ask(&request->console->proxy, target, &request->waiter, answer);
 }
 
-/* Under the lock. */
+/* Called under the lock. */
 static void read_world(struct request *request, const char *path, struct http_answer *answer)
 {
     struct console *console = request->console;
@@ -160,14 +162,14 @@ static void read_world(struct request *request, const char *path, struct http_an
         function(&query, answer);
     else if (!page_files_find(path))
         http_answer_error(answer, HTTP_ANSWER_NOT_FOUND,
-                          "the page begins at /; docs/console.md lists the "
-                          "rest",
+                          "the page is at /; docs/console.md lists the other paths",
                           "there is nothing at %.60s", path);
 }
 
 /* --- the server's calls ------------------------------------------------------------------------*/
 
-/* Under the lock: what is answered now; false: it waits for its ticket, and is called again. */
+/* Called under the lock. Returns true with the answer; false if the request waits for its command
+ * or picture; it is then called again. */
 static bool make_answer(struct request *request, const char *path, const char *method,
                         struct http_answer *answer)
 {
@@ -188,9 +190,8 @@ static bool make_answer(struct request *request, const char *path, const char *m
         return post_requests_handle(request, path, answer);
     else
         http_answer_error(answer, HTTP_ANSWER_NOT_ALLOWED,
-                          post_requests_find(path) ? "POST it"
-                                                   : "GET it; nothing else is to be had here",
-                          "%.20s is not for %.60s", method, path);
+                          post_requests_find(path) ? "POST it" : "GET it", "%.20s is not for %.60s",
+                          method, path);
     return true;
 }
 

@@ -1,4 +1,4 @@
-/* Tokens and keys. */
+/* Makes, reads and compares tokens and keys. */
 #include "clients/console/session_key.h"
 
 #include <errno.h>
@@ -62,7 +62,7 @@ int session_key_file(char token[SESSION_KEY_MAX], const char *path, struct error
     ssize_t count = fstat(fd, &status) == 0 ? read(fd, line, sizeof line - 1) : -1;
     close(fd);
     if (count < 0 || !S_ISREG(status.st_mode))
-        return error_text_set(error, "--token-file %s: is no file that can be read", path);
+        return error_text_set(error, "--token-file %s: not a regular file that can be read", path);
     if (status.st_mode & 077)
         return error_text_set(error, "--token-file %s: others may read it; chmod 600 %s", path,
                               path);

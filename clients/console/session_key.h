@@ -1,4 +1,4 @@
-/* Comparing what must not be guessed. */
+/* The token and the players' keys. */
 #ifndef JOLON_CLIENTS_CONSOLE_SESSION_KEY_H
 #define JOLON_CLIENTS_CONSOLE_SESSION_KEY_H
 
@@ -10,20 +10,20 @@
 
 #define SESSION_KEY_BYTES 16u
 #define SESSION_KEY_TEXT  (2 * SESSION_KEY_BYTES + 1)
-#define SESSION_KEY_MAX   129u /* of a file's, with the NUL */
+#define SESSION_KEY_MAX   129u /* longest token of a file, with the NUL */
 
-/* Are they equal? Takes as long wherever they differ; the length of given shows. */
+/* Returns true if the keys are equal. The time depends only on the length of given. */
 bool session_key_equal(const char *kept, const char *given);
 
-/* Bytes as hexadecimal digits. */
+/* Writes the bytes as hexadecimal digits. */
 void session_key_text(char text[SESSION_KEY_TEXT], const uint8_t bytes[SESSION_KEY_BYTES]);
 
-/* New random bytes; false when the system gives none. */
+/* Makes random bytes. Returns false if the system has none. */
 bool session_key_random(uint8_t bytes[SESSION_KEY_BYTES]);
 
-/* The token that a file holds, one line of 16 to 128 letters, digits, - or _; a file that is not
- * there is made with a new one, mode 0600. 0, or -1 with the reason: others may read it, it holds
- * something else. */
+/* Reads the token from a file with one line of 16 to 128 letters, digits, - or _. A missing file is
+ * made with a new token, mode 0600. Returns 0, or -1 with the error, for example if other users may
+ * read the file. */
 int session_key_file(char token[SESSION_KEY_MAX], const char *path, struct error_text *error);
 
 #endif

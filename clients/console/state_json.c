@@ -1,4 +1,4 @@
-/* The moment: the frame, its numbers, who is in an area, and the vehicle that is asked for. */
+/* Writes the frame, its counters, the entities of an area and the vehicle that is asked for. */
 #include "clients/console/state_json.h"
 
 #include "world/entity/kind.h"
@@ -104,7 +104,8 @@ static void put_entity(struct json_writer *json, const struct world_query *query
     json_writer_end(json, ']');
 }
 
-/* When more are there than are wanted, every so manieth by its id: the same ones the next time. */
+/* If the area has more entities than are asked for, only the multiples of an id stride are written,
+ * so that the next answer has the same ones. */
 static void put_entities(struct json_writer *json, const struct world_query *query,
                          const struct area_asked *area)
 {

@@ -1,5 +1,5 @@
-/* The list of vehicles: filtered, sorted, a page of it. However many there are, only the rows up to
- * the end of that page are kept, in a heap. */
+/* Filters and sorts the list of vehicles and writes a page of it. Only the rows up to the end of
+ * the page are kept, in a heap. */
 #include "clients/console/vehicles_json.h"
 
 #include "world/entity/kind.h"
@@ -35,17 +35,17 @@ struct list_query {
     enum sorting sort;
     bool descending;
     uint64_t from, most;
-    bool kind_found[KIND_COUNT_MAX]; /* is the search in its name? */
+    bool kind_found[KIND_COUNT_MAX]; /* the kind's name contains the search text */
 };
 
-/* A row and what it is sorted by. */
+/* A row and its sort key. */
 struct entry {
     double key;
-    const char *word; /* "" but where it is sorted by words */
+    const char *word; /* sort key of text columns, else "" */
     uint32_t row, id;
 };
 
-/* --- what is asked -----------------------------------------------------------------------------*/
+/* --- the query ---------------------------------------------------------------------------------*/
 
 static bool read_sort(const struct world_query *query, struct list_query *list,
                       struct http_answer *answer)
@@ -108,7 +108,8 @@ static bool read_asked(const struct world_query *query, struct list_query *list,
     return true;
 }
 
-/* Is the row of the list? The search is a part of its name or kind, or its id's beginning. */
+/* Returns true if the row belongs to the list. The search text is a part of the name or the kind,
+ * or the beginning of the id. */
 static bool matches(const struct world_query *query, const struct list_query *list, uint32_t row)
 {
     const struct entities *e = &query->reader->snapshot.entities;
@@ -138,7 +139,7 @@ static struct entry entry_of(const struct world_query *query, const struct list_
     switch (list->sort) {
     case SORT_NAME:
         entry.word = world_entity_name(world, entry.id);
-        if (entry.word[0] == '\0') /* those without one behind the others, either way */
+        if (entry.word[0] == '\0') /* vehicles without a name come last in both directions */
             entry.key = list->descending ? -1.0 : 1.0;
         break;
     case SORT_KIND:
@@ -167,7 +168,8 @@ static struct entry entry_of(const struct world_query *query, const struct list_
     return entry;
 }
 
-/* Below 0: a comes before b. Equal ones by their id, so that pages fit each other. */
+/* Returns a number below 0 if a comes before b. Equal keys are ordered by id, so that pages neither
+ * repeat nor miss a row. */
 static int compare(const struct entry *a, const struct entry *b, bool descending)
 {
     int order = (a->key > b->key) - (a->key < b->key);
@@ -178,7 +180,7 @@ static int compare(const struct entry *a, const struct entry *b, bool descending
     return (a->id > b->id) - (a->id < b->id);
 }
 
-/* A heap whose first is the last of those kept. */
+/* A heap with the last kept row at its root. */
 struct heap {
     struct entry *entry; /* [room] */
     uint32_t count, room;

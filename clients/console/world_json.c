@@ -1,4 +1,4 @@
-/* What of a world never changes. */
+/* Writes what never changes in a world. */
 #include "clients/console/world_json.h"
 
 #include "world/entity/kind.h"

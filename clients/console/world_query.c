@@ -5,10 +5,11 @@ bool world_query_attached(const struct world_query *query, struct http_answer *a
 {
     if (query->reader->attached)
         return true;
-    http_answer_error(answer, HTTP_ANSWER_AWAY,
-                      "this page goes on by itself when it is there; jolon start makes one, jolon "
-                      "worlds lists those there are",
-                      "%s", query->reader->detail.text);
+    http_answer_error(
+        answer, HTTP_ANSWER_AWAY,
+        "start it with jolon start; jolon worlds lists the worlds; this page continues "
+        "by itself",
+        "%s", query->reader->detail.text);
     return false;
 }
 

@@ -1,4 +1,4 @@
-/* Attaching, letting go, copying. */
+/* Attaches to the world and copies its state. */
 #include "clients/console/world_reader.h"
 
 #include "ipc/process/clock.h"
@@ -34,7 +34,8 @@ void world_reader_close(struct world_reader *reader)
     detach(reader);
 }
 
-/* The object that the name leads to now; false with the reason when it leads nowhere. */
+/* Finds the shared memory object that the name leads to now. Returns false, with the error, if
+ * there is none. */
 static bool find_object(const struct world_reader *reader, char object[SEGMENT_PATH_MAX],
                         struct error_text *detail)
 {
@@ -61,7 +62,7 @@ static void note_turrets(struct world_reader *reader)
     }
 }
 
-/* The object may be another one before and after: then it is for the next look. */
+/* If the name leads to another object before and after attaching, the next check tries again. */
 static bool attach(struct world_reader *reader)
 {
     char before[SEGMENT_PATH_MAX];
@@ -111,7 +112,7 @@ static void note_time(struct world_reader *reader)
 {
     struct state_head head;
     if (snapshot_head(&head, &reader->view) != 0)
-        return; /* the time before is near enough */
+        return; /* the previous time is near enough */
     reader->time_s = state_time_s(&reader->view.world, &head);
     reader->scale = head.time_scale;
 }
@@ -144,14 +145,14 @@ int world_reader_copy(struct world_reader *reader, uint64_t now_ns)
     reader->copied_ns = now_ns;
     if (result == 0)
         reader->copied = true;
-    /* The one before is whole and still serves; a world that stays damaged says so itself. */
+    /* After a failure the previous copy is still used. */
     if (!reader->copied)
         error_text_set(&reader->detail, "world \"%s\": no frame of it can be read whole",
                        reader->name);
     return reader->copied ? 0 : -1;
 }
 
-/* The oldest sample that there is. */
+/* Returns the place of the oldest sample. */
 static uint32_t oldest(const struct world_reader *reader)
 {
     return reader->rate_count < WORLD_READER_RATE_SAMPLES ? 0 : reader->rate_next;
