@@ -1,4 +1,4 @@
-/* Copies a document line by line, and puts tables made of the schema in place of its own. */
+/* Copies a document line by line, and replaces its tables by tables made from the schema. */
 #include "docs/keys/key_tables.h"
 
 #include "config/syntax/schema.h"
@@ -14,8 +14,8 @@
 #define ALLOWED_MAX 256
 
 static const struct {
-    const char *name;   /* in "keys of NAME"; NULL: that of a group */
-    const char *prefix; /* of its keys in the document */
+    const char *name;   /* as in "keys of NAME"; NULL: a group's name */
+    const char *prefix; /* prefix of its keys in the document */
     const struct key_table *table;
 } sources[] = {
     {NULL, "", &schema_scenario},
@@ -55,7 +55,7 @@ static void write_key(FILE *to, const char *prefix, const struct key *key)
             key->meaning);
 }
 
-/* Is this key of a scenario in the group? */
+/* Returns true if this key of a scenario is in the group. */
 static bool is_in_group(const struct key *key, const char *group)
 {
     size_t length = strlen(group);
@@ -87,7 +87,7 @@ static int write_keys(struct writing *writing, const char *name)
     return any ? 0 : fail(writing, name, "is no group, list or kind");
 }
 
-/* The key of this name in the document; NULL when there is none. */
+/* Returns the key of this name in the document, or NULL. */
 static const struct key *find_key(const char *name)
 {
     for (size_t s = 0; s < COUNT(sources); s++) {
@@ -133,7 +133,7 @@ static int check_all_written(struct writing *writing)
     return 0;
 }
 
-/* Copies the name out of the line "BEGIN NAME -->"; false when the line is no such line. */
+/* Copies the name out of the line "BEGIN NAME -->". Returns false for any other line. */
 static bool take_name(const char *line, size_t length, const char *begin, char name[KEY_PATH_MAX])
 {
     size_t before = strlen(begin), after = strlen(NAME_END);

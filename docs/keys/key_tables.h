@@ -1,5 +1,5 @@
-/* The tables of docs/scenario.md, which say what the rows of config/syntax/schema.h say. In the
- * document a table stands between a line that names it and the line "<!-- end -->":
+/* The tables of docs/scenario.md, made from the rows of config/syntax/schema.h. In the document a
+ * table stands between a line that names it and the line "<!-- end -->":
  *
  *     <!-- keys of collision -->                the scenario keys below the group "collision"
  *     <!-- keys of vehicles[] -->               the keys of a list's entries
@@ -11,8 +11,8 @@
 
 #include <stdio.h>
 
-/* Writes the document with every table made anew. 0; -1 when a line names no table, a table has no
- * end, or a key of the schema is in no table or in two: then `problem` says which. */
+/* Writes the document with every table made anew. Returns 0, or -1 with `problem`: a line names no
+ * table, a table has no end, or a key of the schema is in no table or in two. */
 int key_tables_write(FILE *to, const char *document, char *problem, size_t bytes);
 
 #endif

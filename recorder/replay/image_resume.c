@@ -84,6 +84,16 @@ int image_resume_fill(struct view *view, const struct arguments *arguments,
     return write_provenance(view, arguments, image, error);
 }
 
+void image_resume_private(struct view *view, struct image *image, const char *path)
+{
+    struct error_text error;
+    if (image_open(image, path, &error) != 0)
+        die_refused("%s", error.text);
+    struct segment_header header = image_segment(image);
+    if (segment_private(view, &header, &error) != 0 || image_load(view, image, &error) != 0)
+        die_refused("%s", error.text);
+}
+
 static void make(const struct arguments *arguments, const struct image *image)
 {
     struct view view;

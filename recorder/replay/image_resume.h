@@ -13,6 +13,10 @@ void image_resume_open(const struct arguments *arguments, struct image *image);
 int image_resume_fill(struct view *view, const struct arguments *arguments,
                       const struct image *image, struct error_text *error);
 
+/* Opens the image at path and loads it unchanged into a private segment, or ends the process with
+ * the reason (exit 1). The caller calls segment_abandon() and image_close(). */
+void image_resume_private(struct view *view, struct image *image, const char *path);
+
 /* Makes the world of the image --from with --set and --seconds. Returns an exit code. A wrong image
  * or setting ends the process with the reason. */
 int image_resume_world(const struct arguments *arguments);

@@ -151,11 +151,11 @@ static void add_role(cJSON *array, const struct view *view, enum role role)
     }
 }
 
-static int snapshot_head_or_refuse(const struct view *view, struct state_head *head)
+static void read_head(const struct view *view, struct state_head *head)
 {
     for (int tries = 0; tries < 1000; tries++) {
         if (snapshot_head(head, view) == 0)
-            return 0;
+            return;
     }
     die_refused("world \"%s\" is damaged: its last frame cannot be read", view->name);
 }
@@ -166,58 +166,69 @@ static bool unguarded(const struct view *view)
            atomic_load(&view->slot[ROLE_REPORTER]->unguarded) != 0;
 }
 
+static void status_json(const struct view *view, const struct state_head *head)
+{
+    cJSON *object = cJSON_CreateObject();
+    json_text(object, "world", view->name);
+    json_text(object, "state", state_of(view, head));
+    json_whole(object, "commit", head->frame);
+    json_whole(object, "moved", atomic_load(&view->moved_word->moved));
+    json_number(object, "sim_time_s", state_time_s(&view->world, head));
+    json_number(object, "hz", view->world.params->hz);
+    json_bool(object, "paused", head->paused != 0);
+    json_number(object, "time_scale", head->time_scale);
+    json_whole(object, "vehicles", head->vehicles);
+    json_whole(object, "munitions", head->munitions);
+    json_whole(object, "events", head->event_end);
+    json_bool(object, "unguarded", unguarded(view));
+    cJSON *roles = json_array(object, "roles");
+    for (int role = 0; role < ROLE_COUNT; role++) {
+        if (atomic_load(&view->slot[role]->starts) > 0)
+            add_role(roles, view, (enum role)role);
+    }
+    json_print(object);
+}
+
+static void print_role(const struct view *view, enum role role)
+{
+    const struct role_slot *slot = view->slot[role];
+    int pid = segment_holder(view->name, role);
+    printf("  %-10s %-8s pid %-7d beat %6.1f ms ago, %" PRIu64 " restarts, %.3f ms a frame",
+           role_name(role),
+           pid ? role_state_name((enum role_state)atomic_load(&slot->state)) : "dead", pid,
+           beat_age_ms(slot), (uint64_t)atomic_load(&slot->starts) - 1,
+           (double)atomic_load(&slot->stage_ns) / 1e6);
+    if (atomic_load(&slot->detail_pct) > 0)
+        printf(", %u %% of the detail at %u %% of the size", atomic_load(&slot->detail_pct),
+               atomic_load(&slot->size_pct));
+    printf("\n");
+}
+
+static void status_text(const struct view *view, const struct state_head *head)
+{
+    printf("world \"%s\" is %s at frame %" PRIu64 ", %.2f s; %u vehicles, %u munitions, %" PRIu64
+           " events; scenario %s\n",
+           view->name, state_of(view, head), head->frame, state_time_s(&view->world, head),
+           head->vehicles, head->munitions, head->event_end, view->world.params->scenario);
+    for (int role = 0; role < ROLE_COUNT; role++) {
+        if (atomic_load(&view->slot[role]->starts) > 0)
+            print_role(view, (enum role)role);
+    }
+    if (unguarded(view))
+        printf("WARNING: the reporter takes commands from everybody who reaches its network "
+               "(--remote-commands without DDS Security)\n");
+}
+
 int verb_status(const struct arguments *arguments)
 {
     struct view view;
     struct state_head head;
     arguments_attach(arguments, &view);
-    snapshot_head_or_refuse(&view, &head);
-    double time_s = state_time_s(&view.world, &head);
-    if (arguments->json) {
-        cJSON *object = cJSON_CreateObject();
-        json_text(object, "world", view.name);
-        json_text(object, "state", state_of(&view, &head));
-        json_whole(object, "commit", head.frame);
-        json_whole(object, "moved", atomic_load(&view.moved_word->moved));
-        json_number(object, "sim_time_s", time_s);
-        json_number(object, "hz", view.world.params->hz);
-        json_bool(object, "paused", head.paused != 0);
-        json_number(object, "time_scale", head.time_scale);
-        json_whole(object, "vehicles", head.vehicles);
-        json_whole(object, "munitions", head.munitions);
-        json_whole(object, "events", head.event_end);
-        json_bool(object, "unguarded", unguarded(&view));
-        cJSON *roles = json_array(object, "roles");
-        for (int role = 0; role < ROLE_COUNT; role++) {
-            if (atomic_load(&view.slot[role]->starts) > 0)
-                add_role(roles, &view, (enum role)role);
-        }
-        json_print(object);
-        segment_detach(&view);
-        return EXIT_OK;
-    }
-    printf("world \"%s\" is %s at frame %" PRIu64 ", %.2f s; %u vehicles, %u munitions, %" PRIu64
-           " events; scenario %s\n",
-           view.name, state_of(&view, &head), head.frame, time_s, head.vehicles, head.munitions,
-           head.event_end, view.world.params->scenario);
-    for (int role = 0; role < ROLE_COUNT; role++) {
-        const struct role_slot *slot = view.slot[role];
-        uint64_t starts = atomic_load(&slot->starts);
-        if (starts == 0)
-            continue;
-        int pid = segment_holder(view.name, (enum role)role);
-        printf("  %-10s %-8s pid %-7d beat %6.1f ms ago, %" PRIu64 " restarts, %.3f ms a frame",
-               role_name((enum role)role),
-               pid ? role_state_name((enum role_state)atomic_load(&slot->state)) : "dead", pid,
-               beat_age_ms(slot), starts - 1, (double)atomic_load(&slot->stage_ns) / 1e6);
-        if (atomic_load(&slot->detail_pct) > 0)
-            printf(", %u %% of the detail at %u %% of the size", atomic_load(&slot->detail_pct),
-                   atomic_load(&slot->size_pct));
-        printf("\n");
-    }
-    if (unguarded(&view))
-        printf("WARNING: the reporter takes commands from everybody who reaches its network "
-               "(--remote-commands without DDS Security)\n");
+    read_head(&view, &head);
+    if (arguments->json)
+        status_json(&view, &head);
+    else
+        status_text(&view, &head);
     segment_detach(&view);
     return EXIT_OK;
 }

@@ -2,9 +2,9 @@
 #include "supervisor/worldctl/frame_source.h"
 
 #include "ipc/segment/segment_attach.h"
-#include "recorder/archive/image_read.h"
 #include "ipc/process/log.h"
 #include "recorder/replay/arguments.h"
+#include "recorder/replay/image_resume.h"
 #include "recorder/replay/run_start.h"
 
 #include <errno.h>
@@ -20,13 +20,7 @@ static void start_stepper(struct frame_source *source)
 static void open_image(struct frame_source *source)
 {
     static struct image image;
-    struct error_text error;
-    if (image_open(&image, source->name, &error) != 0)
-        die_refused("%s", error.text);
-    struct segment_header header = image_segment(&image);
-    if (segment_private(&source->view, &header, &error) != 0 ||
-        image_load(&source->view, &image, &error) != 0)
-        die_refused("%s", error.text);
+    image_resume_private(&source->view, &image, source->name);
     image_close(&image);
     start_stepper(source);
 }

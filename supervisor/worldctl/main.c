@@ -18,35 +18,36 @@ struct verb {
 static const struct verb verbs[] = {
     {"create", verb_create, 1,
      "[--world NAME] [--seconds S] [--adopt] [--set KEY=VALUE]... [SCENARIO | --from FILE]     "
-     "make a world, or go on from an image"},
+     "make a world, or continue from an image"},
     {"check", verb_check, 1,
      "[--world NAME | [--set KEY=VALUE]... SCENARIO]     check a world's memory, or a scenario"},
     {"repair", verb_repair, 0,
-     "[--world NAME]     go back to a damaged world's newest whole frame, while nobody runs it"},
+     "[--world NAME]     set a damaged world that no set runs back to its newest whole frame"},
     {"info", verb_info, 0, "[--world NAME] [--json]     what the world is made of"},
     {"status", verb_status, 0, "[--world NAME] [--json]     its processes and its frame"},
-    {"summary", verb_summary, 0, "[--world NAME] [--json] [--wall SECONDS]     what happened"},
+    {"summary", verb_summary, 0,
+     "[--world NAME] [--json] [--wall SECONDS]     print what happened in the run"},
     {"digest", verb_digest, 0, "[--world NAME] [--json]     digests of the last committed frame"},
     {"dump", verb_dump, 0,
-     "[--world NAME] [--json] [--fixed | --terrain X0,Z0,X1,Z1,STEP]     every entity"},
+     "[--world NAME] [--json] [--fixed | --terrain X0,Z0,X1,Z1,STEP]     print every entity"},
     {"events", verb_events, 0,
-     "[--world NAME] [--follow] [--from FRAME] [--json]     what happened, in order"},
+     "[--world NAME] [--follow] [--from FRAME] [--json]     print the events in order"},
     {"replay", verb_replay, 1,
-     "[--frames N] [--json] [--events FILE] [--threads N] LOG     run a log of commands again"},
+     "[--frames N] [--json] [--events FILE] [--threads N] LOG     replay a log of commands"},
     {"diff", verb_diff, 2,
-     "[--json] [--threads N] A B     first difference of two logs of commands, images, worlds"},
+     "[--json] [--threads N] A B     find the first difference of two logs of commands, images, "
+     "worlds"},
     {"list", verb_list, 1,
-     "[worlds | all | lost]     this user's worlds; all: what is left of dead ones too; lost: "
+     "[worlds | all | lost]     list this user's worlds; all: also the remains of dead ones; lost: "
      "files in /dev/shm that no name leads to"},
-    {"paths", verb_paths, 1,
-     "[--world NAME] [name | lock | object]     where the world is in the file system"},
+    {"paths", verb_paths, 1, "[--world NAME] [name | lock | object]     print the world's paths"},
     {"remove", verb_remove, 0, "[--world NAME] [--force]     free a world's shared memory"},
     {"sweep", verb_sweep, 0, "[--world NAME]     remove what a dead process left under the name"},
     {"pid", verb_pid, 1, "[--world NAME] ROLE     pid of a role's live process"},
     {"frame", verb_frame, 0, "[--world NAME]     the last committed frame"},
     {"save", verb_save, 1, "[--world NAME] [--inputs] FILE     write an image of the world"},
     {"replay-frame", verb_replay_frame, 1,
-     "DUMP     run the frame after an image's in this process, for a debugger"},
+     "DUMP     compute the frame after an image's in this process, for a debugger"},
 };
 
 #define VERBS (sizeof verbs / sizeof verbs[0])

@@ -2,10 +2,10 @@
  * a debugger can catch the crash of a role. */
 #include "supervisor/worldctl/verbs.h"
 
-#include "recorder/archive/image_read.h"
 #include "ipc/process/log.h"
 #include "recorder/replay/frame_stepper.h"
 #include "recorder/replay/arguments.h"
+#include "recorder/replay/image_resume.h"
 
 #include <errno.h>
 #include <inttypes.h>
@@ -25,16 +25,6 @@ static void protect(const struct view *view, enum role role)
                                                 end - layout->offset[i], PROT_READ | writable) != 0)
             die_refused("cannot protect the world's memory: %s", strerror(errno));
     }
-}
-
-static void load(const struct arguments *arguments, struct image *image, struct view *view)
-{
-    struct error_text error;
-    if (image_open(image, arguments->path, &error) != 0)
-        die_refused("%s", error.text);
-    struct segment_header header = image_segment(image);
-    if (segment_private(view, &header, &error) != 0 || image_load(view, image, &error) != 0)
-        die_refused("%s", error.text);
 }
 
 static void run(struct frame_stepper *stepper, bool moved)
@@ -62,7 +52,7 @@ int verb_replay_frame(const struct arguments *arguments)
     if (!arguments->path)
         die_usage("replay-frame: wants the DUMP to run, as `save --inputs` or a set that gave up "
                   "wrote it");
-    load(arguments, &image, &view);
+    image_resume_private(&view, &image, arguments->path);
     if (frame_stepper_init(&stepper, &view, 1) != 0)
         die_refused("out of memory to run a frame");
     bool moved = atomic_load(&view.moved_word->moved) == image.header.frame + 1;

@@ -1,5 +1,5 @@
-/* Wraps against trying every plane through three points (row 38: what bodies are, if no spheres).
- */
+/* Convex hulls, compared with a search of every plane through three points (row 38: the shape of
+ * bodies). */
 #include "config/mesh/convex_hull.h"
 
 #include "tests/support/fixture.h"
@@ -21,8 +21,8 @@
 
 /* --- drawing -----------------------------------------------------------------------------------*/
 
-/* Points of many kinds: anywhere; on a coarse lattice, where most are on planes and lines with
- * others and some are the same; on a sphere; in two heaps; all of it far from the origin. */
+/* Draws sets of points: anywhere; on a coarse lattice, where most share planes and lines and some
+ * coincide; on a sphere; in two clusters; far from the origin. */
 static uint32_t draw(struct vec3 *point, uint64_t *random)
 {
     uint32_t count = 4 + (uint32_t)(fixture_random(random) % (POINTS_MAX - 3));
@@ -48,8 +48,8 @@ static uint32_t draw(struct vec3 *point, uint64_t *random)
 
 /* --- the oracle --------------------------------------------------------------------------------*/
 
-/* Area of the convex hull of points on the plane of this normal: their outermost ones around their
- * middle, found as those with all others on one side of an edge. */
+/* The area of the convex hull of points in the plane of this normal. Its edges are those pairs that
+ * have all other points on one side. */
 static double area_on(const struct vec3 *point, uint32_t count, struct vec3 normal)
 {
     double area = 0.0;
@@ -61,7 +61,7 @@ static double area_on(const struct vec3 *point, uint32_t count, struct vec3 norm
             for (uint32_t k = 0; outer && k < count; k++) {
                 struct vec3 to = vec3_sub(point[k], point[i]);
                 double left = vec3_dot(normal, vec3_cross(edge, to)), along = vec3_dot(edge, to);
-                /* On the edge's line only what is between its ends. */
+                /* A point on the line of the edge must lie between its ends. */
                 outer = left > 1e-9 * length || (left > -1e-9 * length && along >= -1e-9 &&
                                                  along <= length * length + 1e-9);
             }
@@ -82,7 +82,8 @@ static bool is_given(const struct vec3 *point, uint32_t count, struct vec3 p)
     return false;
 }
 
-/* Volume of the hull: over every plane that has all points on one side, once each. */
+/* The volume of the hull: the sum over every plane that has all points on one side, each plane
+ * once. */
 static double volume_of(const struct vec3 *given, uint32_t all)
 {
     struct vec3 point[POINTS_MAX];
@@ -130,7 +131,7 @@ static void check_holds(const struct convex_hull *hull, const struct vec3 *point
     }
 }
 
-/* Every edge is walked once in each direction, and no corner is above any triangle. */
+/* Every edge occurs once in each direction, and no corner is above a triangle. */
 static void check_closed(const struct convex_hull *hull)
 {
     uint8_t walked[2 * LATTICE][2 * LATTICE] = {{0}};
@@ -169,7 +170,8 @@ static void check_one(const struct vec3 *point, uint32_t count)
     double volume = volume_of(point, count), size = size_of(point, count);
     if (convex_hull_points(&hull, point, count) != 0) {
         assert_int_equal(errno, EDOM);
-        assert_true(volume < 1e-5 * size * size); /* flat: no thicker than the slack */
+        assert_true(volume <
+                    1e-5 * size * size); /* true: the points are no thicker than the slack */
         return;
     }
     check_near(hull.volume_m3, volume, size);
@@ -180,7 +182,7 @@ static void check_one(const struct vec3 *point, uint32_t count)
     convex_hull_free(&hull);
 }
 
-static void test_wraps_are_the_hulls_of_every_plane(void **state)
+static void test_hull_equals_search_of_all_planes(void **state)
 {
     uint64_t random = fixture_seed(38);
     (void)state;
@@ -191,7 +193,7 @@ static void test_wraps_are_the_hulls_of_every_plane(void **state)
     }
 }
 
-/* The same set in another order, and with every point twice. */
+/* The same set in another order, with every point twice. */
 static void test_order_and_repetition_change_nothing(void **state)
 {
     uint64_t random = fixture_seed(39);
@@ -218,7 +220,7 @@ static void test_order_and_repetition_change_nothing(void **state)
     }
 }
 
-static void test_two_wraps_are_one_of_all_points(void **state)
+static void test_joined_hull_equals_hull_of_all_points(void **state)
 {
     uint64_t random = fixture_seed(40);
     (void)state;
@@ -248,7 +250,7 @@ static void test_two_wraps_are_one_of_all_points(void **state)
     }
 }
 
-static void test_growth_is_what_a_point_adds(void **state)
+static void test_growth_is_the_volume_that_a_point_adds(void **state)
 {
     uint64_t random = fixture_seed(41);
     (void)state;
@@ -266,8 +268,8 @@ static void test_growth_is_what_a_point_adds(void **state)
     }
 }
 
-/* Faces and edges of many points that rounding has left nearly flat, as of a file's decimals. */
-static void test_nearly_flat_points_do_not_tear_a_wrap(void **state)
+/* Faces and edges of many points that rounding to a file's decimals has left nearly flat. */
+static void test_nearly_flat_points_give_a_closed_hull(void **state)
 {
     uint64_t random = fixture_seed(42);
     (void)state;
@@ -304,11 +306,11 @@ static void test_nearly_flat_points_do_not_tear_a_wrap(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_wraps_are_the_hulls_of_every_plane),
+        cmocka_unit_test(test_hull_equals_search_of_all_planes),
         cmocka_unit_test(test_order_and_repetition_change_nothing),
-        cmocka_unit_test(test_two_wraps_are_one_of_all_points),
-        cmocka_unit_test(test_growth_is_what_a_point_adds),
-        cmocka_unit_test(test_nearly_flat_points_do_not_tear_a_wrap),
+        cmocka_unit_test(test_joined_hull_equals_hull_of_all_points),
+        cmocka_unit_test(test_growth_is_the_volume_that_a_point_adds),
+        cmocka_unit_test(test_nearly_flat_points_give_a_closed_hull),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Settings of a world that was made already: which may change, and that the change shows. */
+/* Settings of an existing world: which may change, and that a change shows in the hash. */
 #include "config/loader.h"
 
 #include "tests/support/fixture.h"
@@ -52,8 +52,8 @@ static void test_changes_are_stored_and_change_the_hash(void **state)
     assert_int_equal(branch(&params, "renderer.width=640", NULL), 0);
 }
 
-/* Said again at every start of a service, they make no other world of it. */
-static void test_what_changes_nothing_keeps_the_hash(void **state)
+/* The same overrides at every start of a service leave it the same world. */
+static void test_same_values_keep_the_hash(void **state)
 {
     struct params params;
     (void)state;
@@ -75,7 +75,8 @@ static void test_other_keys_are_refused_by_name(void **state)
         snprintf(name, sizeof name, "%.*s", (int)strcspn(fixed[i], "="), fixed[i]);
         assert_non_null(strstr(error.text, name));
         assert_non_null(strstr(error.text, "allowed: world.seed, hz, frames"));
-        assert_memory_equal(&params, &made, sizeof made); /* the first is not half done */
+        assert_memory_equal(&params, &made,
+                            sizeof made); /* a refusal leaves the first override undone */
     }
 }
 
@@ -96,7 +97,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_changes_are_stored_and_change_the_hash),
-        cmocka_unit_test(test_what_changes_nothing_keeps_the_hash),
+        cmocka_unit_test(test_same_values_keep_the_hash),
         cmocka_unit_test(test_other_keys_are_refused_by_name),
         cmocka_unit_test(test_rules_of_values_hold),
     };

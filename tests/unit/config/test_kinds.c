@@ -1,5 +1,5 @@
-/* Kinds: what their files leave out, what follows from it, and what those shipped say (rows 26, 27,
- * 49). What is refused is in test_refusals.c. */
+/* Kinds: defaults, derived values, and the shipped kinds (rows 26, 27, 49). Refusals are in
+ * test_refusals.c. */
 #include "config/kinds.h"
 
 #include "config/loader.h"
@@ -22,7 +22,7 @@
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-/* Two pieces that share no corner: two hulls. */
+/* Two pieces that share no corner, so two hulls. */
 #define SHAPE                                                                                      \
     "mtllib k.mtl\no body\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 9 0 0\nv 8 0 0\nv 9 1 0\n"        \
     "v 9 0 1\nusemtl red\nf 1 2 3\nf 1 2 4\nf 5 6 7\nf 5 6 8\n"
@@ -42,7 +42,7 @@ static void write_in(const char *folder, const char *file, const char *text)
     quick_config_write(path, text);
 }
 
-/* Loads the kinds k, with this text beside what is needed, and l, with nothing beside it. */
+/* Loads the kind k with this text after the required keys, and the kind l with these alone. */
 static void load(struct scenario *scenario, const char *text)
 {
     char kind[512];
@@ -61,7 +61,7 @@ static void load(struct scenario *scenario, const char *text)
     assert_int_equal(scenario->kind_count, 3);
 }
 
-static void test_what_a_file_leaves_out(void **state)
+static void test_defaults(void **state)
 {
     struct scenario s;
 
@@ -79,7 +79,7 @@ static void test_what_a_file_leaves_out(void **state)
     scenario_free(&s);
 }
 
-static void test_what_a_file_gives(void **state)
+static void test_given_values(void **state)
 {
     static const struct {
         const char *text;
@@ -139,7 +139,7 @@ static void test_kinds_of_one_model_share_its_hulls(void **state)
     scenario_free(&s);
 }
 
-/* Row 32 and what else debris does: a stump slows less than a house's rubble. */
+/* Row 32: a stump slows a vehicle less than a house's rubble. */
 static void test_shipped_kinds_slide_and_leave_debris(void **state)
 {
     struct scenario s;
@@ -170,8 +170,8 @@ static void test_shipped_kinds_slide_and_leave_debris(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_what_a_file_leaves_out),
-        cmocka_unit_test(test_what_a_file_gives),
+        cmocka_unit_test(test_defaults),
+        cmocka_unit_test(test_given_values),
         cmocka_unit_test(test_kinds_of_one_model_share_its_hulls),
         cmocka_unit_test(test_shipped_kinds_slide_and_leave_debris),
     };

@@ -1,4 +1,4 @@
-/* The loader: defaults, overrides, what follows from them, and the shipped kinds and scenarios. */
+/* The loader: defaults, overrides, derived parameters, and the shipped kinds and scenarios. */
 #include "config/loader.h"
 
 #include "config/syntax/schema.h"
@@ -33,7 +33,7 @@ static int load_with(struct scenario *scenario, const char *text, const char *ov
                            override != NULL, &error);
 }
 
-/* For texts that must be taken. */
+/* Loads a text that must be accepted. */
 static void must_load(struct scenario *scenario, const char *text, const char *override)
 {
     if (load_with(scenario, text, override) != 0)
@@ -123,7 +123,7 @@ static void test_sizes_follow_capacity(void **state)
     }
 }
 
-static void test_objects_follow_ground(void **state)
+static void test_default_objects_depend_on_ground(void **state)
 {
     static const struct {
         const char *text, *override;
@@ -201,8 +201,8 @@ static void test_vehicle_entry(void **state)
     scenario_free(&s);
 }
 
-/* Every key that an override can set is set by it, and by the file, to the same. */
-static void test_override_is_file(void **state)
+/* An override and the file store the same value, for every key that an override can set. */
+static void test_override_equals_file(void **state)
 {
     static const struct {
         const char *override, *text;
@@ -320,7 +320,8 @@ static void test_same_input_same_hash(void **state)
     scenario_free(&b);
 }
 
-/* Rows 42 to 45: every method goes with every shape and every response (rows 27 to 29, 42, 43). */
+/* Rows 42 to 45: every method can be combined with every shape and response (rows 27 to 29, 42,
+ * 43). */
 static void test_methods_shapes_and_responses_combine(void **state)
 {
     (void)state;
@@ -416,9 +417,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_empty_file_has_defaults),
         cmocka_unit_test(test_sizes_follow_capacity),
-        cmocka_unit_test(test_objects_follow_ground),
+        cmocka_unit_test(test_default_objects_depend_on_ground),
         cmocka_unit_test(test_vehicle_entry),
-        cmocka_unit_test(test_override_is_file),
+        cmocka_unit_test(test_override_equals_file),
         cmocka_unit_test(test_last_override_counts),
         cmocka_unit_test(test_same_input_same_hash),
         cmocka_unit_test(test_methods_shapes_and_responses_combine),

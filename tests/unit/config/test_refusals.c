@@ -1,4 +1,4 @@
-/* What config/ refuses: word for word, with file, line, key, value and what is allowed. */
+/* The refusals of config/, word for word: file, line, key, value and what is allowed. */
 #include "config/loader.h"
 
 #include "config/syntax/schema.h"
@@ -32,7 +32,8 @@ static int load_with(struct scenario *scenario, const char *text, const char *ov
 struct refusal {
     const char *text;
     int line;
-    const char *says; /* the whole message after "file:line: "; "..." at its end: begins so */
+    const char
+        *says; /* the message after "file:line: "; with "..." at its end only its beginning */
 };
 
 #define VEHICLE(entry) "vehicles = (\n{ kind = \"tank\"; " entry " } );"
@@ -153,7 +154,7 @@ static const struct refusal refusals[] = {
      "vehicles[0].altitude_m = 20001: out of range; allowed: 0..20000 m"},
     {"fires = ( { at_s = -1; munition = \"bomb\"; point = [1, 2]; } );", 1,
      "fires[0].at_s = -1: out of range; allowed: 0..10000000 s"},
-    /* Long numbers, which must not become others. */
+    /* Long numbers, which must not be read as others. */
     {"world = { capacity = 4294967312; };", 1,
      "world.capacity = 4294967312: out of range; allowed: 16..1048576"},
     {"world = { capacity = 0x100000010; };", 1,
@@ -199,7 +200,7 @@ static const struct refusal refusals[] = {
     {"fires = ( { munition = \"tank\"; point = [1, 2]; } );", 1,
      "fires[0].munition = \"tank\": is not a kind for this list; allowed: artillery, bomb, bullet, "
      "burst, missile, rocket, shell"},
-    /* Keys that do not go together. */
+    /* Keys that exclude each other. */
     {VEHICLE("at = [1, 2]; count = 2;"), 2,
      "vehicles[0].count = 2: is not 1, but at places one vehicle; allowed: 1, or a "
      "formation"},
@@ -326,7 +327,7 @@ static const struct refusal refusals[] = {
     {"vehicles = ( { kind = \"truck\"; name = \"A\"; } );\nfires = ( { shooter = \"A\"; point = "
      "[1, 2]; } );",
      2, "fires[0].shooter = \"A\": is a truck, which has no munition; right would be: ..."},
-    /* Not this language at all. */
+    /* Files in other languages. */
     {"world = {\n seed 7; };", 2,
      "syntax error; right would be: group = { key = value; key = value; };"},
     {"world = { seed = 1;\n seed = 2; };", 2, "duplicate setting name; right would be: ..."},

@@ -1,5 +1,5 @@
-/* Files of waypoints: what they say, and what is refused with line, value and what is right; and
- * what the building of the world refuses of scripts. */
+/* Files of waypoints: their values, refusals with line, value and what is right, and scripts that a
+ * world cannot carry out. */
 #include "config/waypoints.h"
 
 #include "tests/support/fixture.h"

@@ -1,4 +1,4 @@
-/* Checkpoints: written when due, not lost by a kill, and never in the run's way. */
+/* Checkpoints: written when due, not lost by a kill, and never blocking the run. */
 #include "recorder/checkpoint.h"
 
 #include "tests/support/bare_view.h"
@@ -59,7 +59,7 @@ static void open_checkpoint(struct checkpoint *checkpoint, uint64_t every)
         fail_msg("%s", error.text);
 }
 
-/* Of the checkpoint in the file; 0 for none. */
+/* The frame of the checkpoint in the file; 0: there is none. */
 static uint64_t frame_of_file(void)
 {
     struct image_header header;
@@ -67,7 +67,7 @@ static uint64_t frame_of_file(void)
     return image_peek(&header, path, &error) == 0 ? header.frame : 0;
 }
 
-static void test_one_is_written_every_so_many_frames(void **state)
+static void test_checkpoint_is_written_every_n_frames(void **state)
 {
     struct checkpoint checkpoint;
     struct view view_of_role = recorder();
@@ -75,7 +75,7 @@ static void test_one_is_written_every_so_many_frames(void **state)
     open_checkpoint(&checkpoint, 10);
     for (unsigned frame = 0; frame <= 35; frame++) {
         checkpoint_write_if_due(&checkpoint, &view_of_role);
-        checkpoint_write_if_due(&checkpoint, &view_of_role); /* a second look writes nothing */
+        checkpoint_write_if_due(&checkpoint, &view_of_role); /* a second call writes nothing */
         assert_int_equal(checkpoint.written, frame / 10);
         assert_int_equal(frame_of_file(), frame / 10 * 10);
         make_frames(1);
@@ -83,7 +83,7 @@ static void test_one_is_written_every_so_many_frames(void **state)
     checkpoint_close(&checkpoint);
 }
 
-static void test_late_look_writes_one_and_goes_on_at_the_next_multiple(void **state)
+static void test_late_call_writes_one_and_continues_at_next_multiple(void **state)
 {
     struct checkpoint checkpoint;
     struct view view_of_role = recorder();
@@ -102,14 +102,15 @@ static void test_late_look_writes_one_and_goes_on_at_the_next_multiple(void **st
     checkpoint_close(&checkpoint);
 }
 
-/* The role was killed and came back after a multiple had passed: written at once. */
+/* The role was killed and restarted after a multiple had passed: the checkpoint is written at
+ * once. */
 static void test_restart_does_not_skip_one(void **state)
 {
     struct checkpoint checkpoint;
     struct view view_of_role = recorder();
     (void)state;
     make_frames(13);
-    open_checkpoint(&checkpoint, 10); /* no file: nothing is owed */
+    open_checkpoint(&checkpoint, 10); /* no file: no checkpoint was missed */
     checkpoint_write_if_due(&checkpoint, &view_of_role);
     assert_int_equal(checkpoint.written, 0);
     make_frames(8);
@@ -123,7 +124,7 @@ static void test_restart_does_not_skip_one(void **state)
     checkpoint_close(&checkpoint);
 }
 
-static void test_file_of_another_world_owes_nothing(void **state)
+static void test_file_of_another_world_is_not_continued(void **state)
 {
     struct checkpoint checkpoint;
     struct view view_of_role = recorder();
@@ -140,7 +141,7 @@ static void test_file_of_another_world_owes_nothing(void **state)
     checkpoint_close(&checkpoint);
 }
 
-static void test_heart_beats(void **state)
+static void test_role_beats_while_writing(void **state)
 {
     struct checkpoint checkpoint;
     struct view view_of_role = recorder();
@@ -154,7 +155,7 @@ static void test_heart_beats(void **state)
     checkpoint_close(&checkpoint);
 }
 
-/* Writes at 10 with room, at 20 without, at 30 with room again. */
+/* Writes at frame 10 with room, at 20 without, at 30 with room again. */
 static int fill_the_disk(void *context)
 {
     const struct rlimit none = {100, RLIM_INFINITY}, all = {RLIM_INFINITY, RLIM_INFINITY};
@@ -185,7 +186,7 @@ static int fill_the_disk(void *context)
     return checkpoint.written == 2 && frame_of_file() == 30 ? 0 : 14;
 }
 
-static void test_full_disk_keeps_the_old_one_and_is_tried_again(void **state)
+static void test_full_disk_keeps_the_old_file_and_is_tried_again(void **state)
 {
     (void)state;
     assert_int_equal(child_run(fill_the_disk, NULL), 0);
@@ -193,7 +194,7 @@ static void test_full_disk_keeps_the_old_one_and_is_tried_again(void **state)
     assert_int_equal(image_file_count(), 1);
 }
 
-static void test_damaged_world_takes_no_good_ones_place(void **state)
+static void test_damaged_world_replaces_no_image(void **state)
 {
     struct checkpoint checkpoint;
     struct view view_of_role = recorder();
@@ -214,13 +215,13 @@ static void test_damaged_world_takes_no_good_ones_place(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_one_is_written_every_so_many_frames),
-        TEST(test_late_look_writes_one_and_goes_on_at_the_next_multiple),
+        TEST(test_checkpoint_is_written_every_n_frames),
+        TEST(test_late_call_writes_one_and_continues_at_next_multiple),
         TEST(test_restart_does_not_skip_one),
-        TEST(test_file_of_another_world_owes_nothing),
-        TEST(test_heart_beats),
-        TEST(test_full_disk_keeps_the_old_one_and_is_tried_again),
-        TEST(test_damaged_world_takes_no_good_ones_place),
+        TEST(test_file_of_another_world_is_not_continued),
+        TEST(test_role_beats_while_writing),
+        TEST(test_full_disk_keeps_the_old_file_and_is_tried_again),
+        TEST(test_damaged_world_replaces_no_image),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* The recorder's logs of events and commands, on a world in this process: recorders that come and
- * go, a ring that goes round, the brake; and the tape that plays a log again. */
+/* The recorder's logs of events and commands, on a world in this process: recorders that are
+ * replaced, a ring that overwrites events, back-pressure, and the replay of a log. */
 #include "recorder/back_pressure.h"
 #include "recorder/log/command_log.h"
 #include "recorder/log/event_log.h"
@@ -21,7 +21,7 @@
 
 #include <cmocka.h>
 
-#define SLOTS  256u /* of the event ring */
+#define SLOTS  256u /* slots of the event ring */
 #define FRAMES 300
 
 static struct fixture f;
@@ -78,7 +78,7 @@ static int close_world(void **state)
     return 0;
 }
 
-/* A ring that goes round soon. Its memory is larger, which harms nothing. */
+/* Opens a world with a small ring. Its memory is larger, which does no harm. */
 static int open_small_ring(void **state)
 {
     open_world(state);
@@ -89,7 +89,7 @@ static int open_small_ring(void **state)
     return 0;
 }
 
-/* A command that often is possible and sometimes is not. */
+/* Draws a command that is possible often, but not always. */
 static void send_any(uint64_t *random, uint64_t number)
 {
     struct command command = {.source = 7, .source_sequence = number};
@@ -111,7 +111,7 @@ static void send_any(uint64_t *random, uint64_t number)
         command.value[1] = fixture_uniform(random, 24000.0, 26000.0);
         break;
     case 3:
-        command.type = 77777; /* no type */
+        command.type = 77777; /* an unknown type */
         command.value[3] = (double)NAN;
         break;
     case 4:
@@ -164,7 +164,8 @@ static void put_text(const char *path, const char *text, size_t length)
     close(fd);
 }
 
-/* Walks the log of events: every sequence once, in order, gaps standing for theirs. */
+/* Checks the event log: every sequence number once, in order; a gap counts for the events that it
+ * lost. */
 static void check_events(uint64_t total, uint64_t lost)
 {
     size_t length;
@@ -199,7 +200,7 @@ static void turn_all(struct event_log *events, struct command_log *commands)
 
 /* --- logs of events ----------------------------------------------------------------------------*/
 
-static void test_events_come_once_over_any_number_of_recorders(void **state)
+static void test_events_are_logged_once_over_several_recorders(void **state)
 {
     uint64_t random = fixture_seed(11);
     struct event_log log;
@@ -219,7 +220,7 @@ static void test_events_come_once_over_any_number_of_recorders(void **state)
     check_events(head()->event_end, 0);
 }
 
-static void test_what_the_ring_overwrote_is_a_gap(void **state)
+static void test_overwritten_events_are_a_gap(void **state)
 {
     uint64_t random = fixture_seed(12);
     struct event_log log;
@@ -260,10 +261,10 @@ static void test_another_runs_events_are_refused(void **state)
     fixture_close(&f);
     begin_world(&f);
     fixture_run(&f, 1);
-    assert_int_equal(child_run(open_events, NULL), 1); /* more than the world has */
+    assert_int_equal(child_run(open_events, NULL), 1); /* the log holds more than the world */
     while (head()->event_end < end + 10)
         run_with_commands(&random, 10);
-    assert_int_equal(child_run(open_events, NULL), 1); /* its last is not this world's */
+    assert_int_equal(child_run(open_events, NULL), 1); /* its last event is not this world's */
 }
 
 /* --- logs of commands --------------------------------------------------------------------------*/
@@ -285,21 +286,21 @@ static void record_run(uint64_t seed)
     }
 }
 
-static void open_tape(struct log_replay *replay)
+static void open_replay(struct log_replay *replay)
 {
     struct error_text error;
     if (log_replay_open(replay, commands_path, &error) != 0)
         fail_msg("%s", error.text);
 }
 
-static void test_a_run_is_played_again_from_its_log(void **state)
+static void test_run_is_replayed_from_its_log(void **state)
 {
     struct fixture again;
     struct log_replay replay;
     struct error_text error;
     (void)state;
     record_run(21);
-    open_tape(&replay);
+    open_replay(&replay);
     assert_int_equal(replay.known_frame, FRAMES);
     assert_int_equal(log_replay_commands(&replay, FRAMES), head()->tally.commands);
     const struct command_record *end = log_replay_end(&replay);
@@ -317,7 +318,7 @@ static void test_a_run_is_played_again_from_its_log(void **state)
     fixture_close(&again);
 }
 
-static void test_a_mark_that_is_not_met_is_said(void **state)
+static void test_wrong_mark_is_reported(void **state)
 {
     struct fixture other;
     struct log_replay replay;
@@ -325,9 +326,9 @@ static void test_a_mark_that_is_not_met_is_said(void **state)
     enum log_replay_step step = LOG_REPLAY_STEPPED;
     (void)state;
     record_run(22);
-    open_tape(&replay);
+    open_replay(&replay);
     begin_world(&other);
-    steps_rows(&other).x[1] += 0.5; /* the two meet a little earlier */
+    steps_rows(&other).x[1] += 0.5; /* the log ends a little earlier */
     while (step == LOG_REPLAY_STEPPED && frame_stepper_frame(&other.player) < replay.known_frame)
         step = log_replay_step(&replay, &other.player, &error);
     assert_int_equal(step, LOG_REPLAY_MISMATCH);
@@ -336,7 +337,7 @@ static void test_a_mark_that_is_not_met_is_said(void **state)
     fixture_close(&other);
 }
 
-static void test_a_damaged_log_is_not_played(void **state)
+static void test_damaged_log_is_refused(void **state)
 {
     struct log_replay replay;
     struct error_text error;
@@ -350,13 +351,13 @@ static void test_a_damaged_log_is_not_played(void **state)
         char before = text[at];
         text[at] = (char)(text[at] ^ 1 << fixture_random(&random) % 8);
         put_text(commands_path, text, length);
-        /* The last end of line makes of its line a torn one. */
+        /* Without its last newline, the last line counts as torn. */
         if (at != length - 1) {
             assert_int_equal(log_replay_open(&replay, commands_path, &error), -1);
         }
         text[at] = before;
     }
-    /* A line taken away, wherever it stands. */
+    /* Removes a line, at any position. */
     char *second = strchr(text, '\n') + 1, *third = strchr(second, '\n') + 1;
     memmove(second, third, length - (size_t)(third - text));
     put_text(commands_path, text, length - (size_t)(third - second));
@@ -364,7 +365,7 @@ static void test_a_damaged_log_is_not_played(void **state)
     free(text);
 }
 
-static void test_a_killed_runs_log_is_played_as_far_as_it_knows(void **state)
+static void test_log_of_a_killed_run_is_replayed_as_far_as_known(void **state)
 {
     struct log_replay replay;
     size_t length;
@@ -378,7 +379,7 @@ static void test_a_killed_runs_log_is_played_as_far_as_it_knows(void **state)
         if (!border && fixture_random(&random) % 64 != 0)
             continue;
         put_text(commands_path, text, cut);
-        open_tape(&replay);
+        open_replay(&replay);
         assert_true(replay.known_frame >= known && replay.known_frame <= FRAMES);
         assert_int_equal(replay.torn, text[cut - 1] != '\n');
         known = replay.known_frame;
@@ -387,7 +388,7 @@ static void test_a_killed_runs_log_is_played_as_far_as_it_knows(void **state)
     free(text);
 }
 
-static void test_lost_commands_are_a_gap_beyond_which_nothing_is_known(void **state)
+static void test_lost_commands_end_the_known_run(void **state)
 {
     uint64_t random = fixture_seed(25);
     struct command_log log;
@@ -401,7 +402,7 @@ static void test_lost_commands_are_a_gap_beyond_which_nothing_is_known(void **st
     while (head()->event_end < 2 * SLOTS)
         run_with_commands(&random, 10);
     assert_int_equal(command_log_close(&log, &f.view), 0);
-    open_tape(&replay);
+    open_replay(&replay);
     assert_true(replay.gap && replay.known_frame <= known);
     assert_null(log_replay_end(&replay));
     uint64_t lost = 0;
@@ -422,17 +423,17 @@ static void test_events_without_commands_lose_no_command(void **state)
     while (command_log_append(&log, &f.view))
         ;
     struct state now = fixture_state(&f);
-    now.head->event_end += 2 * SLOTS; /* as if there had been so many, none of them a command */
+    now.head->event_end += 2 * SLOTS; /* as if the run had so many events, none of them a command */
     now.head->checksum = state_checksum(&now, f.view.world.counts.fixed);
     memset(f.view.events, 0, SLOTS * sizeof *f.view.events);
     assert_int_equal(command_log_close(&log, &f.view), 0);
-    open_tape(&replay);
+    open_replay(&replay);
     assert_false(replay.gap);
     assert_non_null(log_replay_end(&replay));
     log_replay_close(&replay);
 }
 
-static void test_another_runs_log_is_put_aside(void **state)
+static void test_log_of_another_run_is_renamed(void **state)
 {
     struct command_log log;
     size_t length, kept;
@@ -450,7 +451,7 @@ static void test_another_runs_log_is_put_aside(void **state)
     free(old);
 }
 
-static void test_both_logs_are_one_run(void **state)
+static void test_both_logs_agree(void **state)
 {
     uint64_t random = fixture_seed(27);
     struct event_log events;
@@ -468,9 +469,10 @@ static void test_both_logs_are_one_run(void **state)
     assert_int_equal(event_log_close(&events, &f.view), 0);
 }
 
-/* --- the brake ---------------------------------------------------------------------------------*/
+/* --- back-pressure
+ * ----------------------------------------------------------------------------- */
 
-static int open_braked(void **state)
+static int open_pausing(void **state)
 {
     open_small_ring(state);
     steps_params(&f)->when_full = WHEN_FULL_PAUSE;
@@ -485,8 +487,9 @@ static void send_console(enum command_type type)
     fixture_run(&f, 1);
 }
 
-/* Until the brake is on, nothing written meanwhile; then the frame that takes it. */
-static void brake_hard(struct back_pressure *pressure)
+/* Steps without writing until back-pressure pauses the world, and then the frame that applies the
+ * pause. */
+static void step_until_paused(struct back_pressure *pressure)
 {
     while (atomic_load(&f.view.commands[RING_RECORDER]->head) == 0) {
         for (int i = 0; i < 4; i++)
@@ -501,14 +504,15 @@ static void brake_hard(struct back_pressure *pressure)
     assert_true(back_pressure_holds(pressure));
 }
 
-static void test_the_brake_holds_until_all_is_written(void **state)
+static void test_back_pressure_pauses_until_all_is_written(void **state)
 {
     struct back_pressure pressure, next;
     (void)state;
     back_pressure_open(&pressure, &f.view);
-    brake_hard(&pressure);
+    step_until_paused(&pressure);
     uint64_t tick = head()->tick;
-    back_pressure_open(&next, &f.view); /* a new recorder finds that it holds the world */
+    back_pressure_open(&next,
+                       &f.view); /* a new recorder finds that the recorder holds the world paused */
     assert_true(back_pressure_holds(&next));
     back_pressure_update(&next, &f.view, head()->event_end - 1);
     assert_int_equal(atomic_load(&f.view.commands[RING_RECORDER]->head), 1);
@@ -522,7 +526,7 @@ static void test_the_brake_holds_until_all_is_written(void **state)
     assert_int_equal(atomic_load(&f.view.commands[RING_RECORDER]->head), 2);
 }
 
-static void test_the_brake_leaves_others_pauses_alone(void **state)
+static void test_back_pressure_keeps_the_pauses_of_others(void **state)
 {
     struct back_pressure pressure;
     (void)state;
@@ -531,18 +535,18 @@ static void test_the_brake_leaves_others_pauses_alone(void **state)
     back_pressure_update(&pressure, &f.view, head()->event_end);
     assert_int_equal(atomic_load(&f.view.commands[RING_RECORDER]->head), 0);
     send_console(COMMAND_RESUME);
-    brake_hard(&pressure);
-    send_console(COMMAND_PAUSE); /* now somebody else wants it too */
+    step_until_paused(&pressure);
+    send_console(COMMAND_PAUSE); /* now another ring wants the pause, too */
     back_pressure_update(&pressure, &f.view, head()->event_end);
     assert_int_equal(atomic_load(&f.view.commands[RING_RECORDER]->head), 1);
     send_console(COMMAND_RESUME);
     assert_int_equal(head()->paused, 0);
-    back_pressure_update(&pressure, &f.view, 0); /* too early: nothing is written yet */
+    back_pressure_update(&pressure, &f.view, 0); /* too early: no event is written yet */
     fixture_run(&f, 1);
     assert_int_equal(head()->paused, 1);
 }
 
-static void test_there_is_no_brake_where_gaps_are_wanted(void **state)
+static void test_no_back_pressure_with_gaps(void **state)
 {
     struct back_pressure pressure;
     (void)state;
@@ -562,22 +566,22 @@ int main(void)
 {
 #define TEST(function)  cmocka_unit_test_setup_teardown(function, open_world, close_world)
 #define SMALL(function) cmocka_unit_test_setup_teardown(function, open_small_ring, close_world)
-#define BRAKE(function) cmocka_unit_test_setup_teardown(function, open_braked, close_world)
+#define BRAKE(function) cmocka_unit_test_setup_teardown(function, open_pausing, close_world)
     const struct CMUnitTest tests[] = {
-        TEST(test_events_come_once_over_any_number_of_recorders),
-        SMALL(test_what_the_ring_overwrote_is_a_gap),
+        TEST(test_events_are_logged_once_over_several_recorders),
+        SMALL(test_overwritten_events_are_a_gap),
         TEST(test_another_runs_events_are_refused),
-        TEST(test_a_run_is_played_again_from_its_log),
-        TEST(test_a_mark_that_is_not_met_is_said),
-        TEST(test_a_damaged_log_is_not_played),
-        TEST(test_a_killed_runs_log_is_played_as_far_as_it_knows),
-        SMALL(test_lost_commands_are_a_gap_beyond_which_nothing_is_known),
+        TEST(test_run_is_replayed_from_its_log),
+        TEST(test_wrong_mark_is_reported),
+        TEST(test_damaged_log_is_refused),
+        TEST(test_log_of_a_killed_run_is_replayed_as_far_as_known),
+        SMALL(test_lost_commands_end_the_known_run),
         SMALL(test_events_without_commands_lose_no_command),
-        TEST(test_another_runs_log_is_put_aside),
-        TEST(test_both_logs_are_one_run),
-        BRAKE(test_the_brake_holds_until_all_is_written),
-        BRAKE(test_the_brake_leaves_others_pauses_alone),
-        BRAKE(test_there_is_no_brake_where_gaps_are_wanted),
+        TEST(test_log_of_another_run_is_renamed),
+        TEST(test_both_logs_agree),
+        BRAKE(test_back_pressure_pauses_until_all_is_written),
+        BRAKE(test_back_pressure_keeps_the_pauses_of_others),
+        BRAKE(test_no_back_pressure_with_gaps),
     };
     return cmocka_run_group_tests(tests, open_folder, close_folder);
 }

@@ -1,5 +1,5 @@
-/* Whom the keeper's watch kills, and whom it must not: supervisor/watchdog.h. The watch is given
- * its own time, so that hours pass at once; the processes are real. */
+/* Which processes the watchdog kills, and which it must not: supervisor/watchdog.h. The test sets
+ * the watchdog's clock, so that hours pass at once; the processes are real. */
 #include "supervisor/watchdog.h"
 
 #include "ipc/process/clock.h"
@@ -23,7 +23,7 @@ struct scene {
     struct fixture fixture;
     struct plan plan;
     struct process_set set;
-    struct watchdog watch;
+    struct watchdog watchdog;
     uint64_t now_ns;
 };
 
@@ -66,21 +66,22 @@ static void open_scene(struct scene *scene)
     for (int i = 0; i < ROLE_COUNT; i++)
         scene->set.service[i].role = (enum role)i;
     scene->now_ns = clock_now_ns();
-    scene->watch = (struct watchdog){scene->now_ns, scene->now_ns};
+    scene->watchdog = (struct watchdog){scene->now_ns, scene->now_ns};
 }
 
-/* Looks every tick until the child is found hanging, at most limit_ms. How long it took [ms]. */
-static uint64_t look(struct scene *scene, const struct child *child, uint64_t limit_ms)
+/* Checks every tick until the child is found hanging, at most limit_ms. Returns the time that took
+ * [ms]. */
+static uint64_t check_until_hung(struct scene *scene, const struct child *child, uint64_t limit_ms)
 {
     uint64_t begun = scene->now_ns;
     while (!child->hung && scene->now_ns < begun + limit_ms * MS) {
         scene->now_ns += WATCHDOG_TICK_NS;
-        watchdog_check(&scene->watch, &scene->set, scene->now_ns);
+        watchdog_check(&scene->watchdog, &scene->set, scene->now_ns);
     }
     return (scene->now_ns - begun) / MS;
 }
 
-/* Processor time that a process has had [ns]. */
+/* The processor time of a process [ns]. */
 static uint64_t used_ns(int pid)
 {
     char path[64];
@@ -93,8 +94,9 @@ static uint64_t used_ns(int pid)
     return used;
 }
 
-/* The watch's time goes as fast as the child's own: a busy machine only makes the test longer. */
-static void test_who_runs_in_circles_is_killed(void **state)
+/* The watchdog's clock follows the child's processor time, so that a busy machine only makes the
+ * test longer. */
+static void test_endless_loop_is_killed(void **state)
 {
     struct scene scene;
     (void)state;
@@ -105,39 +107,40 @@ static void test_who_runs_in_circles_is_killed(void **state)
         uint64_t used = used_ns(child->pid);
         while (used_ns(child->pid) < used + WATCHDOG_TICK_NS)
             clock_sleep_until_ns(clock_now_ns() + MS);
-        look(&scene, child, WATCHDOG_TICK_NS / MS);
+        check_until_hung(&scene, child, WATCHDOG_TICK_NS / MS);
         assert_true(scene.now_ns < begun + 200 * MS);
     }
     assert_int_equal(child_wait(child->pid) & 0x7f, SIGKILL);
     fixture_close(&scene.fixture);
 }
 
-static void test_who_is_not_let_run_is_left_alone(void **state)
+static void test_process_without_processor_time_is_left_alone(void **state)
 {
     struct scene scene;
     (void)state;
     open_scene(&scene);
     struct child *child = take_role(&scene, ROLE_COLLIDER, loop);
-    look(&scene, child, 100000); /* much of the watch's time, hardly any of the child's */
+    check_until_hung(&scene, child,
+                     100000); /* much of the watchdog's time, hardly any processor time */
     assert_false(child->hung);
     child_kill(child->pid);
     fixture_close(&scene.fixture);
 }
 
-static void test_who_blocks_is_killed_within_the_limit(void **state)
+static void test_blocked_process_is_killed_within_the_limit(void **state)
 {
     struct scene scene;
     (void)state;
     open_scene(&scene);
     struct child *child = take_role(&scene, ROLE_MOVER, block);
-    uint64_t took = look(&scene, child, 10000);
+    uint64_t took = check_until_hung(&scene, child, 10000);
     assert_true(child->hung);
     assert_in_range(took, 100, 130);
     child_kill(child->pid);
     fixture_close(&scene.fixture);
 }
 
-static void test_who_beats_is_left_alone(void **state)
+static void test_process_with_heartbeat_is_left_alone(void **state)
 {
     struct scene scene;
     (void)state;
@@ -145,7 +148,7 @@ static void test_who_beats_is_left_alone(void **state)
     struct child *child = take_role(&scene, ROLE_MOVER, block);
     for (int i = 0; i < 1000; i++) {
         atomic_store(&scene.set.view.slot[ROLE_MOVER]->beat_ns, scene.now_ns);
-        look(&scene, child, 50);
+        check_until_hung(&scene, child, 50);
     }
     assert_false(child->hung);
     assert_true(child->was_ready);
@@ -161,14 +164,15 @@ static void test_a_stopped_standby_is_killed_within_the_limit(void **state)
     struct child *child = &scene.set.service[ROLE_COLLIDER].child[1];
     child->pid = child_start(block, NULL);
     child->stopped_ns = scene.now_ns;
-    assert_in_range(look(&scene, child, 10000), 100, 120);
+    assert_in_range(check_until_hung(&scene, child, 10000), 100, 120);
     assert_true(child->hung);
     child_kill(child->pid);
     fixture_close(&scene.fixture);
 }
 
-/* The machine, or the watch, stood still for 30 s: everybody gets a whole limit from then on. */
-static void test_a_watch_that_slept_judges_nobody_by_it(void **state)
+/* The machine, or the watchdog, stood still for 30 s: every process gets a whole limit from then
+ * on. */
+static void test_late_watchdog_kills_no_process(void **state)
 {
     struct scene scene;
     (void)state;
@@ -177,14 +181,14 @@ static void test_a_watch_that_slept_judges_nobody_by_it(void **state)
     struct child *stopped = &scene.set.service[ROLE_COLLIDER].child[1];
     stopped->pid = child_start(block, NULL);
     stopped->stopped_ns = scene.now_ns;
-    look(&scene, mover, 50);
+    check_until_hung(&scene, mover, 50);
     scene.now_ns += 30 * (uint64_t)NS_PER_S;
-    look(&scene, mover, 90);
+    check_until_hung(&scene, mover, 90);
     assert_false(mover->hung);
     assert_false(stopped->hung);
     atomic_store(&scene.set.view.slot[ROLE_MOVER]->beat_ns, scene.now_ns);
-    stopped->stopped_ns = 0; /* both woke up in time */
-    look(&scene, mover, 90);
+    stopped->stopped_ns = 0; /* both were continued in time */
+    check_until_hung(&scene, mover, 90);
     assert_false(mover->hung);
     assert_false(stopped->hung);
     child_kill(mover->pid);
@@ -198,7 +202,7 @@ static void test_roles_outside_the_frame_loop_have_more_time(void **state)
     (void)state;
     open_scene(&scene);
     struct child *child = take_role(&scene, ROLE_RENDERER, block);
-    assert_in_range(look(&scene, child, 100000), 2000, 2050);
+    assert_in_range(check_until_hung(&scene, child, 100000), 2000, 2050);
     child_kill(child->pid);
     fixture_close(&scene.fixture);
 }
@@ -210,48 +214,48 @@ static void test_long_frames_give_more_time(void **state)
     open_scene(&scene);
     struct child *child = take_role(&scene, ROLE_COLLIDER, block);
     atomic_store(&scene.set.view.slot[ROLE_COLLIDER]->stage_ns, 500 * MS);
-    assert_in_range(look(&scene, child, 100000), 4000, 4050);
+    assert_in_range(check_until_hung(&scene, child, 100000), 4000, 4050);
     child_kill(child->pid);
     fixture_close(&scene.fixture);
 }
 
-/* Looks every tick while the slot's work goes up, until the child is found hanging. */
-static uint64_t look_while_it_works(struct scene *scene, const struct child *child, uint64_t ms)
+/* Checks every tick while the slot's work goes up, until the child is found hanging. */
+static uint64_t check_while_working(struct scene *scene, const struct child *child, uint64_t ms)
 {
     uint64_t begun = scene->now_ns;
     while (!child->hung && scene->now_ns < begun + ms * MS) {
         atomic_fetch_add(&scene->set.view.slot[ROLE_COLLIDER]->work, 1);
-        look(scene, child, WATCHDOG_TICK_NS / MS);
+        check_until_hung(scene, child, WATCHDOG_TICK_NS / MS);
     }
     return (scene->now_ns - begun) / MS;
 }
 
-static void test_who_gets_on_with_a_long_frame_is_left_alone_and_said_once(void **state)
+static void test_long_frame_with_progress_is_logged_once(void **state)
 {
     struct scene scene;
     (void)state;
     open_scene(&scene);
     struct child *child = take_role(&scene, ROLE_COLLIDER, block);
-    look_while_it_works(&scene, child, 3000);
+    check_while_working(&scene, child, 3000);
     assert_false(child->hung);
     assert_int_equal(scene.set.service[ROLE_COLLIDER].long_frames, 1);
     atomic_store(&scene.set.view.slot[ROLE_COLLIDER]->beat_ns, scene.now_ns);
-    look_while_it_works(&scene, child, 3000); /* the next one is long, too */
+    check_while_working(&scene, child, 3000); /* the next frame is long, too */
     assert_int_equal(scene.set.service[ROLE_COLLIDER].long_frames, 2);
-    uint64_t took = look(&scene, child, 10000); /* and then it hangs in it */
+    uint64_t took = check_until_hung(&scene, child, 10000); /* then it hangs within that frame */
     assert_true(child->hung);
     assert_in_range(took, 90, 130);
     child_kill(child->pid);
     fixture_close(&scene.fixture);
 }
 
-static void test_a_frame_without_an_end_ends(void **state)
+static void test_endless_frame_is_killed(void **state)
 {
     struct scene scene;
     (void)state;
     open_scene(&scene);
     struct child *child = take_role(&scene, ROLE_COLLIDER, block);
-    uint64_t took = look_while_it_works(&scene, child, 400000);
+    uint64_t took = check_while_working(&scene, child, 400000);
     assert_true(child->hung);
     assert_in_range(took, WATCHDOG_FRAME_MAX_NS / MS, WATCHDOG_FRAME_MAX_NS / MS + 50);
     child_kill(child->pid);
@@ -261,14 +265,14 @@ static void test_a_frame_without_an_end_ends(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_who_gets_on_with_a_long_frame_is_left_alone_and_said_once),
-        cmocka_unit_test(test_a_frame_without_an_end_ends),
-        cmocka_unit_test(test_who_runs_in_circles_is_killed),
-        cmocka_unit_test(test_who_is_not_let_run_is_left_alone),
-        cmocka_unit_test(test_who_blocks_is_killed_within_the_limit),
-        cmocka_unit_test(test_who_beats_is_left_alone),
+        cmocka_unit_test(test_long_frame_with_progress_is_logged_once),
+        cmocka_unit_test(test_endless_frame_is_killed),
+        cmocka_unit_test(test_endless_loop_is_killed),
+        cmocka_unit_test(test_process_without_processor_time_is_left_alone),
+        cmocka_unit_test(test_blocked_process_is_killed_within_the_limit),
+        cmocka_unit_test(test_process_with_heartbeat_is_left_alone),
         cmocka_unit_test(test_a_stopped_standby_is_killed_within_the_limit),
-        cmocka_unit_test(test_a_watch_that_slept_judges_nobody_by_it),
+        cmocka_unit_test(test_late_watchdog_kills_no_process),
         cmocka_unit_test(test_roles_outside_the_frame_loop_have_more_time),
         cmocka_unit_test(test_long_frames_give_more_time),
     };

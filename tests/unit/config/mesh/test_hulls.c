@@ -1,5 +1,5 @@
-/* Hulls of models (row 38): of simple shapes to the last plane, and of those shipped that they hold
- * the whole model, are what they say, and leave free what is free. */
+/* Hulls of models (row 38). Simple shapes are checked to the last plane. The hulls of shipped
+ * models must hold the whole model, be valid, and leave the free space free. */
 #include "config/mesh/hulls.h"
 
 #include "config/loader.h"
@@ -21,7 +21,7 @@
 
 #include <cmocka.h>
 
-#define HALF_STEP 0.5e-6 /* what the lattice may move a corner */
+#define HALF_STEP 0.5e-6 /* the lattice may move a corner by this */
 #define NEAR_M    1e-6
 
 static struct error_text error;
@@ -31,7 +31,7 @@ static struct error_text error;
 #define SHAPE_VERTICES  16384
 #define SHAPE_TRIANGLES 16384
 
-/* A model in the making, in tables like a scenario's. */
+/* A model under construction, in tables like a scenario's. */
 static struct model_vertex vertices[SHAPE_VERTICES];
 static struct model_triangle triangles[SHAPE_TRIANGLES];
 static struct model model;
@@ -57,7 +57,7 @@ static void triangle(uint32_t a, uint32_t b, uint32_t c)
     triangles[model.triangle_count++] = (struct model_triangle){.vertex = {a, b, c}};
 }
 
-/* Corners of its own, as models have them: places are shared, vertices are not. */
+/* Adds a vertex for each corner, as models do: several vertices share a place. */
 static void quad(const double a[3], const double b[3], const double c[3], const double d[3])
 {
     uint32_t first = vertex(a[0], a[1], a[2]);
@@ -69,7 +69,7 @@ static void quad(const double a[3], const double b[3], const double c[3], const 
     triangle(first, first + 2, first + 3);
 }
 
-/* A box around a middle, every face of it of side * side squares. */
+/* Adds a box around a middle; each face has side * side squares. */
 static void box(double x, double y, double z, const double half[3], int side)
 {
     const double middle[3] = {x, y, z};
@@ -99,7 +99,7 @@ static void cube(double x, double y, double z, double half)
     box(x, y, z, halves, 1);
 }
 
-/* A ball of rings * around corners and two poles. */
+/* Adds a ball of rings * around corners and two poles. */
 static void ball(double x, double radius, int rings, int around)
 {
     uint32_t first = model.vertex_count;
@@ -144,7 +144,7 @@ static void must_build(uint32_t count)
         fail_msg("refused: %s", error.text);
     assert_int_equal(hulls.first, 0);
     assert_int_equal(hulls.count, count);
-    assert_int_equal(hulls.outer, count); /* the one around all of them comes last */
+    assert_int_equal(hulls.outer, count); /* the hull around all of them comes last */
     assert_int_equal(scenario.hull_count, count + 1);
 }
 
@@ -214,8 +214,9 @@ static void test_cube_has_8_vertices_and_6_planes(void **state)
     drop();
 }
 
-/* Corners within faces and edges are none of the hull's, and triangles on one plane are one. */
-static void test_what_is_flat_is_one(void **state)
+/* Corners within faces and edges are not vertices of the hull, and triangles in one plane are one
+ * face. */
+static void test_triangles_in_one_plane_are_one_face(void **state)
 {
     const double half[3] = {0.3, 0.3, 0.3};
 
@@ -240,7 +241,7 @@ static void test_two_pieces_are_two_hulls(void **state)
     drop();
 }
 
-/* Cubes that touch with one corner: the same place, other vertices. */
+/* Cubes that touch at one corner: the same place, but different vertices. */
 static void test_pieces_that_share_a_corner_are_one(void **state)
 {
     (void)state;
@@ -273,7 +274,8 @@ static void test_piece_within_another_is_left_out(void **state)
     drop();
 }
 
-/* What adds less than a can of fuel is joined, even where there is room for more. */
+/* Pieces whose joining adds less than HULLS_FREE_M3 are joined, even if more hulls would be
+ * allowed. */
 static void test_pieces_close_together_are_joined(void **state)
 {
     (void)state;
@@ -297,7 +299,7 @@ static double width_of(uint32_t n)
            scenario.hull_vertices[hull->first_vertex].x;
 }
 
-/* Ten cubes with ever wider gaps: the two narrowest are filled. */
+/* Ten cubes with increasing gaps: the two narrowest gaps are filled. */
 static void test_cheapest_pairs_are_joined_until_eight_are_left(void **state)
 {
     double x = 0;
@@ -315,8 +317,8 @@ static void test_cheapest_pairs_are_joined_until_eight_are_left(void **state)
     drop();
 }
 
-/* Nine, of which two pairs are as near as each other: both are joined. */
-static void test_what_is_the_same_on_both_sides_stays_so(void **state)
+/* Nine cubes, two pairs of them equally near: both pairs are joined. */
+static void test_symmetry_is_kept(void **state)
 {
     static const double x[] = {0, 5, 7, 20, 40, -5, -7, -20, -40};
 
@@ -371,7 +373,7 @@ static void test_flat_piece_is_given_a_little_thickness(void **state)
     drop();
 }
 
-/* A blade that leans: thickened across itself, not across an axis. */
+/* A blade that leans: it becomes thicker across itself, not along an axis. */
 static void test_flat_piece_that_leans(void **state)
 {
     const double a[3] = {0, 0, 0}, b[3] = {3, 4, 0}, c[3] = {3, 4, 1}, d[3] = {0, 0, 1};
@@ -389,7 +391,7 @@ static void test_flat_piece_that_leans(void **state)
 
 /* --- the same from the same --------------------------------------------------------------------*/
 
-/* Triangles and vertices in another order are the same model. */
+/* Triangles and vertices in another order give the same hulls. */
 static void test_order_of_triangles_changes_nothing(void **state)
 {
     struct hull first_hulls[16];
@@ -439,7 +441,7 @@ static void test_ball_of_as_many_corners_as_a_hull_has(void **state)
     ball(0, 2.0, 15, 17); /* 257 corners */
     must_be_refused("k.obj: has a piece whose hull has too many corners; allowed: up to 256");
     begin();
-    ball(0, 2.0, 90, 91); /* more than are even tried */
+    ball(0, 2.0, 90, 91); /* more than CONVEX_HULL_FACES_MAX */
     must_be_refused("k.obj: has a piece whose hull has too many corners; allowed: up to 256");
 }
 
@@ -497,7 +499,7 @@ static double outside(const struct hull *hull, struct vec3 p)
     return most;
 }
 
-/* Of a kind's hulls the one that the point is in or nearest to. */
+/* Returns the hull of a kind that holds the point or is nearest to it. */
 static double outside_all(const struct kind *kind, struct vec3 p)
 {
     double least = INFINITY;
@@ -517,7 +519,7 @@ static void test_shipped_hulls_fill_the_tables(void **state)
 
         assert_in_range(kind->hull_count, 1, HULLS_A_MODEL);
         assert_int_equal(kind->outer_hull, kind->first_hull + kind->hull_count);
-        if (kind->first_hull < hull_count) /* the model of an earlier kind */
+        if (kind->first_hull < hull_count) /* the model was checked with an earlier kind */
             continue;
         assert_int_equal(kind->first_hull, hull_count);
         hull_count += kind->hull_count + 1;
@@ -537,8 +539,8 @@ static void test_shipped_hulls_fill_the_tables(void **state)
     assert_int_equal(plane_count, shipped.hull_plane_count);
 }
 
-/* Planes are unit, hold every vertex, and each has three of them or more on it; each vertex is on
- * three planes or more; the sphere holds all. */
+/* Normals have unit length. All vertices are behind each plane, and three or more lie in it; each
+ * vertex is on three planes or more. The sphere holds all vertices. */
 static void check_hull(const struct hull *hull)
 {
     const struct vec3 *v = &shipped.hull_vertices[hull->first_vertex];
@@ -575,8 +577,8 @@ static void test_shipped_hulls_are_convex_and_closed(void **state)
         check_hull(&shipped.hulls[i]);
 }
 
-/* Each corner of what is solid of the model is in some hull, and each of a hull's is one of them.
- */
+/* Each corner of the solid parts of the model is in a hull, and each vertex of a hull is such a
+ * corner. */
 static void test_shipped_hulls_hold_their_models(void **state)
 {
     (void)state;
@@ -609,7 +611,7 @@ static void test_shipped_hulls_hold_their_models(void **state)
     }
 }
 
-static void test_shipped_kinds_know_how_far_their_hulls_reach(void **state)
+static void test_extents_of_shipped_kinds(void **state)
 {
     (void)state;
     for (uint32_t k = 0; k < shipped.kind_count; k++) {
@@ -630,14 +632,15 @@ static void test_shipped_kinds_know_how_far_their_hulls_reach(void **state)
         }
         assert_true(fabs(kind->bound_m - bound) < 1e-12 && fabs(kind->level_m - level) < 1e-12);
         assert_true(kind->low_m == low && kind->high_m == high);
-        /* Of the size that the kind says: guns, rotors and aerials stick out. */
+        /* The hulls have the size that the kind says. Guns, rotors and aerials may stick out. */
         assert_true(level < 0.9 * kind->length_m + 0.5 * kind->width_m);
         assert_true(high - low < 1.3 * kind->height_m + 0.6);
     }
 }
 
-/* A jeep with its gun is 1.7 m high, a crown begins 3 m up: between trunk and crown it is free. */
-static void test_trunks_are_apart_from_crowns(void **state)
+/* A jeep with its gun is 1.7 m high, and the crown of a tree begins at 3 m: the space between trunk
+ * and crown is free. */
+static void test_space_between_trunk_and_crown_is_free(void **state)
 {
     const struct kind *tree = kind_of("tree"), *jeep = kind_of("jeep");
 
@@ -655,8 +658,8 @@ static void test_trunks_are_apart_from_crowns(void **state)
     assert_true(outside_all(tree, (struct vec3){2.5, 5.5, 0}) < 0.0); /* in the crown */
 }
 
-/* Under the water tower's tank and between its legs it is free too. */
-static void test_legs_stand_apart(void **state)
+/* The space under the water tower's tank and between its legs is free. */
+static void test_space_between_legs_is_free(void **state)
 {
     const struct kind *tower = kind_of("watertower");
 
@@ -668,8 +671,8 @@ static void test_legs_stand_apart(void **state)
     assert_true(outside_all(tower, (struct vec3){0, 16, 0}) < 0.0);
 }
 
-/* A tank's gun is a hull of its own: beside it is air. */
-static void test_gun_is_apart_from_the_turret(void **state)
+/* A tank's gun is a hull of its own; the space beside it is free. */
+static void test_space_beside_gun_is_free(void **state)
 {
     const struct kind *tank = kind_of("tank");
 
@@ -683,13 +686,13 @@ int main(void)
 {
     const struct CMUnitTest shapes[] = {
         cmocka_unit_test(test_cube_has_8_vertices_and_6_planes),
-        cmocka_unit_test(test_what_is_flat_is_one),
+        cmocka_unit_test(test_triangles_in_one_plane_are_one_face),
         cmocka_unit_test(test_two_pieces_are_two_hulls),
         cmocka_unit_test(test_pieces_that_share_a_corner_are_one),
         cmocka_unit_test(test_piece_within_another_is_left_out),
         cmocka_unit_test(test_pieces_close_together_are_joined),
         cmocka_unit_test(test_cheapest_pairs_are_joined_until_eight_are_left),
-        cmocka_unit_test(test_what_is_the_same_on_both_sides_stays_so),
+        cmocka_unit_test(test_symmetry_is_kept),
         cmocka_unit_test(test_flat_piece_is_given_a_little_thickness),
         cmocka_unit_test(test_flat_piece_that_leans),
         cmocka_unit_test(test_order_of_triangles_changes_nothing),
@@ -700,10 +703,10 @@ int main(void)
         cmocka_unit_test(test_shipped_hulls_fill_the_tables),
         cmocka_unit_test(test_shipped_hulls_are_convex_and_closed),
         cmocka_unit_test(test_shipped_hulls_hold_their_models),
-        cmocka_unit_test(test_shipped_kinds_know_how_far_their_hulls_reach),
-        cmocka_unit_test(test_trunks_are_apart_from_crowns),
-        cmocka_unit_test(test_legs_stand_apart),
-        cmocka_unit_test(test_gun_is_apart_from_the_turret),
+        cmocka_unit_test(test_extents_of_shipped_kinds),
+        cmocka_unit_test(test_space_between_trunk_and_crown_is_free),
+        cmocka_unit_test(test_space_between_legs_is_free),
+        cmocka_unit_test(test_space_beside_gun_is_free),
     };
 
     return cmocka_run_group_tests(shapes, NULL, NULL) +

@@ -1,5 +1,5 @@
-/* Models: that those shipped are closed, turned outwards, of their kind's size and in the parts
- * that the renderer moves; and what of a bad one is refused. */
+/* Models. Shipped ones are closed, turned outwards, of their kind's size, and have the parts that
+ * the renderer moves. Bad ones are refused. */
 #include "config/loader.h"
 
 #include "config/mesh/models.h"
@@ -82,7 +82,7 @@ static void test_tables_fit(void **state)
     assert_int_equal(triangles, shipped.triangle_count);
 }
 
-/* An edge by its two places; surfaces share places, not always vertices. */
+/* An edge, by its two places: surfaces share places, not always vertices. */
 struct edge {
     struct model_vertex from, to;
 };
@@ -99,7 +99,7 @@ static uint32_t root_of(uint32_t *parent, uint32_t i)
     return i;
 }
 
-/* Every edge is walked as often in one direction as in the other. */
+/* Every edge occurs as often in one direction as in the other. */
 static void check_closed(const struct model *model)
 {
     size_t count = (size_t)model->triangle_count * 3;
@@ -144,12 +144,13 @@ static double area(const struct model *model, uint32_t t)
     return sqrt(nx * nx + ny * ny + nz * nz) / 2;
 }
 
-/* The pieces that hang together by their corners' places, of the triangles first .. end - 1: each
- * holds a volume, so none is inside out. */
+/* The connected pieces of triangles first .. end - 1 each have a positive volume, so that none is
+ * inside out. */
 static void check_pieces(const struct model *model, uint32_t first, uint32_t end)
 {
     uint32_t count = 3 * (end - first), *parent = calloc(count + 1, sizeof(*parent));
-    struct edge *place = calloc(count + 1, sizeof(*place)); /* to: which corner, as x and y */
+    struct edge *place =
+        calloc(count + 1, sizeof(*place)); /* to: index of the other corner, as x and y */
     double *inside = calloc(count + 1, sizeof(*inside));
 
     assert_true(parent != NULL && place != NULL && inside != NULL);
@@ -196,7 +197,7 @@ struct box {
     double low[3], high[3];
 };
 
-/* Around what collides. */
+/* The box around the parts that collide. */
 static struct box box_of(const struct model *model)
 {
     uint32_t count = model->solid_triangles > 0 ? model->solid_vertices : model->vertex_count;
@@ -214,9 +215,9 @@ static struct box box_of(const struct model *model)
     return box;
 }
 
-/* Aerials apart, what is seen is what collides: nearly all of its corners are within or near the
- * box of that, and none is far. */
-static void test_seen_where_solid(void **state)
+/* Apart from aerials, the drawn shape is the colliding shape: nearly all of its corners are in or
+ * near the colliding box, and none is far from it. */
+static void test_drawn_shape_is_the_colliding_shape(void **state)
 {
     (void)state;
     for (uint32_t m = 0; m < shipped.model_count; m++) {
@@ -245,7 +246,7 @@ static void test_seen_where_solid(void **state)
     }
 }
 
-/* Guns and aerials stick out of a body; nothing is much smaller than its kind says. */
+/* Guns and aerials may stick out of a body; no part is much smaller than its kind says. */
 static void test_sizes_are_the_kinds(void **state)
 {
     (void)state;
@@ -301,7 +302,7 @@ static void test_parts(void **state)
     static const struct {
         const char *kind;
         bool turret, gun, rotors, tracks;
-        int wheels; /* joints of them */
+        int wheels; /* number of joints */
     } rows[] = {
         {"tank", true, true, false, true, 14},      {"carrier", true, true, false, true, 14},
         {"ship", true, true, false, false, 0},      {"helicopter", false, true, true, false, 0},
@@ -324,7 +325,7 @@ static void test_parts(void **state)
     }
 }
 
-static void test_forces_can_be_told_apart(void **state)
+static void test_forces_have_different_colours(void **state)
 {
     (void)state;
     for (uint32_t k = 0; k < shipped.kind_count; k++) {
@@ -337,7 +338,7 @@ static void test_forces_can_be_told_apart(void **state)
     }
 }
 
-static void test_colours_are_the_palettes(void **state)
+static void test_colours_are_of_the_palette(void **state)
 {
     const struct model *model = model_of("attack-tomato");
     uint32_t red = 0;
@@ -358,7 +359,7 @@ static void test_colours_are_the_palettes(void **state)
 #define MATERIALS "newmtl red\nKd 1 0 0\nnewmtl plain\nKa 1 0 0\n"
 
 static const struct {
-    const char *text; /* NULL: no file */
+    const char *text; /* NULL: the file is missing */
     const char *says;
 } bad[] = {
     {NULL, "k.obj: cannot be opened: No such file or directory"},
@@ -471,8 +472,8 @@ static void test_square_is_two_triangles(void **state)
     scenario_free(&s);
 }
 
-/* What programs that draw models write beside what is needed. */
-static void test_whole_grammar_is_taken(void **state)
+/* Lines that modelling programs write, beside the ones that are needed. */
+static void test_whole_grammar_is_accepted(void **state)
 {
     struct scenario s;
 
@@ -494,16 +495,16 @@ int main(void)
     const struct CMUnitTest shipped_tests[] = {
         cmocka_unit_test(test_tables_fit),
         cmocka_unit_test(test_closed_and_outwards),
-        cmocka_unit_test(test_seen_where_solid),
+        cmocka_unit_test(test_drawn_shape_is_the_colliding_shape),
         cmocka_unit_test(test_sizes_are_the_kinds),
         cmocka_unit_test(test_parts),
-        cmocka_unit_test(test_forces_can_be_told_apart),
-        cmocka_unit_test(test_colours_are_the_palettes),
+        cmocka_unit_test(test_forces_have_different_colours),
+        cmocka_unit_test(test_colours_are_of_the_palette),
     };
     const struct CMUnitTest bad_tests[] = {
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_square_is_two_triangles),
-        cmocka_unit_test(test_whole_grammar_is_taken),
+        cmocka_unit_test(test_whole_grammar_is_accepted),
     };
 
     return cmocka_run_group_tests(shipped_tests, load_shipped, free_shipped) +

@@ -74,7 +74,7 @@ static void test_document_is_made_of_the_schema(void **state)
     free(document);
 }
 
-/* Does the text give the key a value somewhere: "name = "? */
+/* Returns true if the text sets the key somewhere: "name = ". */
 static bool has_example(const char *text, const char *name)
 {
     for (const char *at = strstr(text, name); at != NULL; at = strstr(at + 1, name)) {

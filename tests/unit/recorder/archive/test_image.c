@@ -1,4 +1,5 @@
-/* Images: what goes in comes out, and a world goes on from one as if nothing had been. */
+/* Images: the content is restored, and a world continues from an image like an uninterrupted
+ * one. */
 #include "ipc/frame/command_ring.h"
 #include "ipc/frame/event_cursor.h"
 #include "recorder/archive/image_read.h"
@@ -22,7 +23,7 @@
 
 #include <cmocka.h>
 
-/* Shots, craters, dents and broken trees within a second. */
+/* A scenario with shots, craters, dents and broken trees within a second. */
 static const char battle[] =
     "world = { seed = 5; capacity = 96; pace = \"max\"; };\n"
     "objects = ( { kind = \"tree\"; at = [25040.0, 25010.0]; },"
@@ -44,7 +45,7 @@ static const struct state_head *head_of(const struct view *view)
     return view->w[atomic_load(&view->commit->commit) & 1].head;
 }
 
-/* Drives the first rows about, each command different. */
+/* Sends drive commands to the first rows, each different. */
 static void send_orders(struct fixture *f, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
@@ -56,7 +57,7 @@ static void send_orders(struct fixture *f, uint32_t count)
                                     .value = {1.0, (double)(i % 7) / 7.0 - 0.5, 0.0}});
 }
 
-static void test_world_goes_on_as_if_nothing_had_been(void **state)
+static void test_world_continues_like_an_uninterrupted_one(void **state)
 {
     struct fixture f;
     struct view again;
@@ -79,7 +80,7 @@ static void test_world_goes_on_as_if_nothing_had_been(void **state)
     fixture_close(&f);
 }
 
-static void test_commands_that_wait_are_taken_in_their_frames(void **state)
+static void test_waiting_commands_are_applied_in_their_frames(void **state)
 {
     struct fixture f;
     struct view again;
@@ -120,7 +121,7 @@ static void test_keys_of_commands_are_remembered(void **state)
     fixture_close(&f);
 }
 
-static void test_ring_that_went_round_is_kept_in_order(void **state)
+static void test_wrapped_ring_keeps_its_order(void **state)
 {
     struct fixture f;
     struct view again;
@@ -146,14 +147,14 @@ static void test_ring_that_went_round_is_kept_in_order(void **state)
     fixture_close(&f);
 }
 
-static void test_inputs_of_the_frame_under_way_come_along(void **state)
+static void test_inputs_of_the_frame_under_way_are_saved(void **state)
 {
     struct fixture f;
     struct view again;
     (void)state;
     fixture_open(&f, battle);
     fixture_run(&f, 20);
-    image_file_save(&f.view, path, true); /* not moved yet: none to be had */
+    image_file_save(&f.view, path, true); /* the next frame is not moved yet: no inputs */
     image_file_load(&again, path);
     assert_int_equal(atomic_load(&again.moved_word->moved), 20);
     segment_abandon(&again);
@@ -225,7 +226,8 @@ static void test_capacities_cannot_be_changed(void **state)
     fixture_close(&f);
 }
 
-/* Events before the image are in no ring: skipped, and no gap; the next has the next sequence. */
+/* Events before the image are in no ring. They are skipped without a gap, and sequence numbers
+ * continue. */
 static void test_events_go_on_with_their_sequence(void **state)
 {
     static struct event events[4096];
@@ -252,7 +254,8 @@ static void test_events_go_on_with_their_sequence(void **state)
     fixture_close(&f);
 }
 
-/* --- out of a world that runs ------------------------------------------------------------------*/
+/* --- images of a running world
+ * ----------------------------------------------------------------- */
 
 #define LAST_FRAME 300u
 #define IMAGES     8
@@ -276,8 +279,8 @@ static void write_capture(struct view *view, const struct capture *capture, cons
     image_place_close(&place);
 }
 
-/* Mover and collider are processes that run on while the images are taken: at first with commands
- * waiting, every second one with the inputs of the frame under way. */
+/* Mover and collider are processes that go on while images are taken: the first images with
+ * commands waiting, every second one with the inputs of the frame under way. */
 static void test_images_of_a_running_world(void **state)
 {
     static const uint64_t at[IMAGES] = {0, 1, 2, 3, 20, 80, 140, 200};
@@ -287,7 +290,7 @@ static void test_images_of_a_running_world(void **state)
     (void)state;
     fixture_open(&f, battle);
     steps_params(&f)->frame_limit = LAST_FRAME;
-    steps_params(&f)->pace = PACE_REAL; /* slow enough to be seen at work */
+    steps_params(&f)->pace = PACE_REAL; /* slow enough that images fall into its steps */
     steps_params(&f)->dt_s = 1.0 / (steps_params(&f)->hz = 400.0);
     send_orders(&f, 3000);
     for (int i = 0; i < IMAGES; i++)
@@ -327,11 +330,11 @@ static int make_path(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_world_goes_on_as_if_nothing_had_been),
-        cmocka_unit_test(test_commands_that_wait_are_taken_in_their_frames),
+        cmocka_unit_test(test_world_continues_like_an_uninterrupted_one),
+        cmocka_unit_test(test_waiting_commands_are_applied_in_their_frames),
         cmocka_unit_test(test_keys_of_commands_are_remembered),
-        cmocka_unit_test(test_ring_that_went_round_is_kept_in_order),
-        cmocka_unit_test(test_inputs_of_the_frame_under_way_come_along),
+        cmocka_unit_test(test_wrapped_ring_keeps_its_order),
+        cmocka_unit_test(test_inputs_of_the_frame_under_way_are_saved),
         cmocka_unit_test(test_branch_has_other_settings_and_no_inputs),
         cmocka_unit_test(test_capacities_cannot_be_changed),
         cmocka_unit_test(test_events_go_on_with_their_sequence),

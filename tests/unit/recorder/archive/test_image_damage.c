@@ -1,5 +1,4 @@
-/* Images that are not what was written: whatever is wrong, one line says what, and nothing else
- * happens. */
+/* Damaged and forged images: each is refused in one line that says why, without another effect. */
 #include "ipc/frame/command_ring.h"
 #include "recorder/archive/image_read.h"
 
@@ -21,7 +20,7 @@ static unsigned char *good;
 static size_t good_bytes;
 static struct view view;
 
-/* As small as an image can be, with something of everything: 3 frames, rows, damage, commands. */
+/* A minimal image that has every part: 3 frames, rows, damage, commands. */
 static int make_image(void **state)
 {
     const struct bare_sizes sizes = {
@@ -55,7 +54,7 @@ static int drop_image(void **state)
     return 0;
 }
 
-/* Opens and loads what is at path: 0, or -1 with the reason. */
+/* Opens and loads the image at path. Returns 0, or -1 with the reason. */
 static int load(struct error_text *error)
 {
     struct view again;
@@ -75,7 +74,7 @@ static int load(struct error_text *error)
     return result;
 }
 
-/* Refused in one line that begins with the file and says what. */
+/* Checks that the image is refused in one line that begins with the path and has this text. */
 static void assert_refused(const void *bytes, size_t count, const char *says)
 {
     struct error_text error;
@@ -87,7 +86,7 @@ static void assert_refused(const void *bytes, size_t count, const char *says)
         fail_msg("\"%s\" does not say \"%s\"", error.text, says);
 }
 
-static void test_good_one_is_taken(void **state)
+static void test_good_image_is_loaded(void **state)
 {
     struct error_text error;
     (void)state;
@@ -101,7 +100,8 @@ static void test_every_flipped_byte_is_found(void **state)
     (void)state;
     for (size_t i = 0; i < good_bytes; i++) {
         unsigned char before = good[i];
-        good[i] ^= (unsigned char)(1u << (i % 8)); /* every bit of a byte is somebody's turn */
+        good[i] ^=
+            (unsigned char)(1u << (i % 8)); /* over the file, every bit of a byte gets its turn */
         assert_refused(good, good_bytes, ": ");
         good[i] = (unsigned char)~before;
         assert_refused(good, good_bytes, ": ");
@@ -119,7 +119,7 @@ static void test_every_bit_of_the_header_is_found(void **state)
     }
 }
 
-static void test_every_length_but_its_own_is_refused(void **state)
+static void test_every_other_length_is_refused(void **state)
 {
     unsigned char *longer = calloc(1, good_bytes + 4096);
     (void)state;
@@ -131,7 +131,8 @@ static void test_every_length_but_its_own_is_refused(void **state)
     free(longer);
 }
 
-/* --- wrong, but with right hashes --------------------------------------------------------------*/
+/* --- wrong values with correct hashes
+ * ---------------------------------------------------------- */
 
 static struct image_header header_of_good(void)
 {
@@ -158,7 +159,7 @@ static void assert_header_refused(struct image_header header, const char *says)
         assert_header_refused(header, says);                                                       \
     } while (0)
 
-static void test_others_are_told_apart(void **state)
+static void test_foreign_files_are_refused(void **state)
 {
     (void)state;
     assert_refused("#!/bin/sh\n", 10, "too small");
@@ -168,7 +169,7 @@ static void test_others_are_told_apart(void **state)
     REFUSED(header_bytes, sizeof(struct image_header) + 8, "another build");
 }
 
-/* Sizes are held against bounds before memory is asked for: none of these may allocate. */
+/* Sizes are checked against bounds before memory is allocated: none of these may allocate. */
 static void test_sizes_beyond_bounds_are_refused(void **state)
 {
     (void)state;
@@ -205,7 +206,8 @@ static void test_contents_must_fit_the_header(void **state)
     REFUSED(packed_hash, 1, "packed hash");
 }
 
-/* Whoever computes the hash anew after a flip meets zstd's own checks, then the content's hash. */
+/* If the hash is computed anew after a flip, zstd's own checks find it, and then the content's
+ * hash. */
 static void test_flips_within_zstd_are_found(void **state)
 {
     struct image_header header = header_of_good();
@@ -222,22 +224,22 @@ static void test_flips_within_zstd_are_found(void **state)
         header.header_hash = image_header_hash(&header);
         memcpy(bytes, &header, sizeof header);
         image_file_put(path, bytes, good_bytes);
-        if (load(&error) == 0) /* load() has seen that the world is the same */
+        if (load(&error) == 0) /* load() has checked that the world is the same */
             harmless++;
         packed[i] ^= (unsigned char)(1u << (i % 8));
     }
-    assert_true(harmless <= 8); /* a bit that means nothing to zstd */
+    assert_true(harmless <= 8); /* zstd ignores this bit */
     free(bytes);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_good_one_is_taken),
+        cmocka_unit_test(test_good_image_is_loaded),
         cmocka_unit_test(test_every_flipped_byte_is_found),
         cmocka_unit_test(test_every_bit_of_the_header_is_found),
-        cmocka_unit_test(test_every_length_but_its_own_is_refused),
-        cmocka_unit_test(test_others_are_told_apart),
+        cmocka_unit_test(test_every_other_length_is_refused),
+        cmocka_unit_test(test_foreign_files_are_refused),
         cmocka_unit_test(test_sizes_beyond_bounds_are_refused),
         cmocka_unit_test(test_contents_must_fit_the_header),
         cmocka_unit_test(test_flips_within_zstd_are_found),

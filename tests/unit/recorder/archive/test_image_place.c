@@ -1,4 +1,4 @@
-/* Where images are written: what may be written over, and that a file is whole whatever happens. */
+/* The file of an image: what it may replace, and that it is whole at any time. */
 #include "recorder/archive/image_read.h"
 #include "recorder/archive/image_write.h"
 
@@ -25,7 +25,8 @@
 static struct view view;
 static char path[PATH_MAX];
 
-/* Rows that do not pack well, so that the file is larger than the header by some kilobytes. */
+/* Fills rows with values that pack badly, so that the file is some kilobytes larger than the
+ * header. */
 static void make_frame(void)
 {
     struct view collider = bare_view_as(&view, ROLE_COLLIDER);
@@ -76,7 +77,7 @@ static void assert_place_refused(const char *where, const char *says)
         fail_msg("\"%s\" does not say \"%s\"", error.text, says);
 }
 
-static void test_file_is_ours_alone(void **state)
+static void test_file_is_private(void **state)
 {
     struct stat status;
     (void)state;
@@ -86,7 +87,7 @@ static void test_file_is_ours_alone(void **state)
     assert_int_equal(image_file_count(), 1);
 }
 
-static void test_only_plain_files_are_written_over(void **state)
+static void test_only_plain_files_are_replaced(void **state)
 {
     char other[PATH_MAX], target[PATH_MAX];
     struct error_text error;
@@ -102,7 +103,7 @@ static void test_only_plain_files_are_written_over(void **state)
     image_file_path(other, "pipe");
     assert_int_equal(mkfifo(other, 0600), 0);
     assert_place_refused(other, "a device or pipe");
-    assert_int_equal(image_open(&image, other, &error), -1); /* and does not wait for a writer */
+    assert_int_equal(image_open(&image, other, &error), -1); /* and the open does not block */
     unlink(other);
     image_file_path(other, "folder");
     assert_int_equal(mkdir(other, 0700), 0);
@@ -115,7 +116,7 @@ static void test_only_plain_files_are_written_over(void **state)
     assert_int_equal(image_file_count(), 0);
 }
 
-static void test_link_that_comes_later_is_not_followed(void **state)
+static void test_later_link_is_not_followed(void **state)
 {
     char target[PATH_MAX];
     struct image_place place;
@@ -134,7 +135,7 @@ static void test_link_that_comes_later_is_not_followed(void **state)
     image_place_close(&place);
 }
 
-static void test_leftovers_of_the_dead_are_removed(void **state)
+static void test_files_of_dead_writers_are_removed(void **state)
 {
     char dead[PATH_MAX + 16], alive[PATH_MAX + 16], other[PATH_MAX + 16];
     pid_t gone = fork();
@@ -157,11 +158,11 @@ static void test_leftovers_of_the_dead_are_removed(void **state)
 /* --- no room, and killed -----------------------------------------------------------------------*/
 
 struct attempt {
-    rlim_t room; /* bytes that the file may have */
-    bool killed; /* SIGXFSZ kills at the byte after; else the write fails */
+    rlim_t room; /* limit of the file size [byte] */
+    bool killed; /* true: SIGXFSZ kills the writer at the limit; false: the write fails */
 };
 
-/* Writes into the file with so much room: 0 written, 1 refused, 2 wrong refusal. */
+/* Writes the file under a size limit. Returns 0: written, 1: refused, 2: a wrong refusal. */
 static int write_with_little_room(void *context)
 {
     const struct attempt *attempt = context;
@@ -190,7 +191,7 @@ static void test_without_room_the_old_file_stays(void **state)
         struct attempt attempt = {room, false};
         assert_int_equal(child_run(write_with_little_room, &attempt), 1);
         assert_int_equal(frame_at_path(), 1);
-        assert_int_equal(image_file_count(), 1); /* and nothing beside it */
+        assert_int_equal(image_file_count(), 1); /* and no temporary file is left */
     }
     struct attempt enough = {bytes + 4096, false};
     assert_int_equal(child_run(write_with_little_room, &enough), 0);
@@ -208,7 +209,7 @@ static void test_killed_while_writing_leaves_the_old_file(void **state)
         struct attempt attempt = {room, true};
         assert_int_equal(child_run(write_with_little_room, &attempt), -SIGXFSZ);
         assert_int_equal(frame_at_path(), 1);
-        assert_int_equal(image_file_count(), 2); /* the next writer sweeps it */
+        assert_int_equal(image_file_count(), 2); /* the next writer removes the temporary file */
     }
     image_file_save(&view, path, false);
     assert_int_equal(frame_at_path(), 2);
@@ -220,10 +221,10 @@ static void test_killed_while_writing_leaves_the_old_file(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_file_is_ours_alone),
-        TEST(test_only_plain_files_are_written_over),
-        TEST(test_link_that_comes_later_is_not_followed),
-        TEST(test_leftovers_of_the_dead_are_removed),
+        TEST(test_file_is_private),
+        TEST(test_only_plain_files_are_replaced),
+        TEST(test_later_link_is_not_followed),
+        TEST(test_files_of_dead_writers_are_removed),
         TEST(test_without_room_the_old_file_stays),
         TEST(test_killed_while_writing_leaves_the_old_file),
     };

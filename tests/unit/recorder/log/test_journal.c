@@ -1,4 +1,4 @@
-/* Journals: what a kill, damage, another file or a full disk leaves of their records. */
+/* Journals after a kill, damage, a foreign file or a full disk. */
 #include "recorder/log/journal.h"
 
 #include "tests/support/child.h"
@@ -55,7 +55,7 @@ static size_t get_file(char *bytes, size_t room)
     return length < 0 ? 0 : (size_t)length;
 }
 
-/* What the recorder says of each end that it cuts off is not of interest a thousand times. */
+/* Drops the recorder's warnings about the ends that it cuts off, of which there are thousands. */
 static int quiet(void **state)
 {
     (void)state;
@@ -91,7 +91,7 @@ static int clear(void **state)
     return 0;
 }
 
-/* Opens what there is, adds record next, and holds the file against the first next + 1 records. */
+/* Opens the journal, adds record next, and compares the file with the first next + 1 records. */
 static void goes_on_with(int next)
 {
     char now[sizeof whole];
@@ -127,7 +127,7 @@ static void test_every_record_is_json_and_checked(void **state)
     }
 }
 
-static void test_it_goes_on_after_any_torn_end(void **state)
+static void test_journal_continues_after_any_torn_end(void **state)
 {
     int records = 0;
     (void)state;
@@ -181,11 +181,11 @@ static void test_another_file_is_refused_and_left_as_it_is(void **state)
     left_as_it_is(text, sizeof text - 1);
     left_as_it_is(json, sizeof json - 1);
     memcpy(damaged, whole, ends[1]);
-    damaged[3] ^= 1; /* not even its only record begins like one */
+    damaged[3] ^= 1; /* even its only record begins differently */
     left_as_it_is(damaged, ends[1]);
 }
 
-static void test_what_is_no_plain_file_is_refused(void **state)
+static void test_other_than_plain_file_is_refused(void **state)
 {
     (void)state;
     (void)unlink(path);
@@ -207,7 +207,7 @@ static void test_two_writers_are_refused(void **state)
     assert_int_equal(child_run(open_it, NULL), 77);
 }
 
-/* In a process of its own, which alone the limit holds. */
+/* Runs in a child process, so that the limit holds only there. */
 static int fill_up(void *context)
 {
     struct journal journal;
@@ -246,7 +246,7 @@ static void test_a_file_system_without_room_loses_nothing(void **state)
     }
 }
 
-/* From here on a system call of this process fails, whatever it is asked to do. */
+/* Makes a system call of this process fail from now on. */
 static int let_fail(uint32_t call, uint32_t error)
 {
     struct sock_filter code[] = {
@@ -272,7 +272,7 @@ static int write_in_vain(void *context)
     return journal_flush(&journal) == -1 && journal.error == error && journal.used > 0 ? 10 : 3;
 }
 
-static void test_a_device_that_fails_is_waited_for(void **state)
+static void test_failing_device_is_tried_again(void **state)
 {
     static const int passing[] = {ENOSPC, EDQUOT, EIO, EROFS, ESTALE, ENXIO};
     int never = EBADF;
@@ -310,7 +310,7 @@ static void test_a_journal_is_cut_and_its_end_kept(void **state)
     assert_memory_equal(now, whole + ends[2], whole_length - ends[2]);
 }
 
-/* It is the open file that is read and cut, not what has its name by now. */
+/* The open file is read and cut, not the file that has its name by now. */
 static void test_the_open_file_is_cut_not_a_link_of_its_name(void **state)
 {
     struct journal journal;
@@ -342,7 +342,7 @@ static int cut_while_failing(void *context)
     return 77;
 }
 
-static void test_what_cannot_be_read_or_kept_is_not_cut(void **state)
+static void test_unreadable_end_is_not_cut(void **state)
 {
     static const uint32_t calls[] = {SYS_read, SYS_write};
     char old[sizeof path + 8], now[sizeof whole];
@@ -363,16 +363,16 @@ int main(void)
 #define TEST(function) cmocka_unit_test_setup(function, quiet)
     const struct CMUnitTest tests[] = {
         TEST(test_every_record_is_json_and_checked),
-        TEST(test_it_goes_on_after_any_torn_end),
+        TEST(test_journal_continues_after_any_torn_end),
         TEST(test_any_flipped_bit_of_the_end_is_found),
         TEST(test_another_file_is_refused_and_left_as_it_is),
-        TEST(test_what_is_no_plain_file_is_refused),
+        TEST(test_other_than_plain_file_is_refused),
         TEST(test_two_writers_are_refused),
         TEST(test_a_file_system_without_room_loses_nothing),
-        TEST(test_a_device_that_fails_is_waited_for),
+        TEST(test_failing_device_is_tried_again),
         TEST(test_a_journal_is_cut_and_its_end_kept),
         TEST(test_the_open_file_is_cut_not_a_link_of_its_name),
-        TEST(test_what_cannot_be_read_or_kept_is_not_cut),
+        TEST(test_unreadable_end_is_not_cut),
     };
     return cmocka_run_group_tests(tests, make, clear);
 }

@@ -1,4 +1,4 @@
-/* Comparing two frames: whatever differs is found and named. */
+/* Comparison of two frames: every difference is found and named. */
 #include "supervisor/worldctl/compare.h"
 
 #include "tests/support/steps.h"
@@ -63,7 +63,7 @@ static void test_equal_frames_are_equal(void **state)
     assert_false(differ(&difference));
 }
 
-static void test_every_column_is_looked_at(void **state)
+static void test_every_column_is_compared(void **state)
 {
     const struct entities e = steps_rows(&g);
     struct difference difference;
@@ -96,7 +96,7 @@ static void test_the_smallest_difference_is_named_with_both_values(void **state)
     assert_int_equal(difference.columns, 2);
 }
 
-static void test_craters_dents_and_the_head_are_looked_at(void **state)
+static void test_craters_dents_and_the_head_are_compared(void **state)
 {
     struct state p = fixture_state(&f), q = fixture_state(&g);
     (void)state;
@@ -113,7 +113,7 @@ static void test_craters_dents_and_the_head_are_looked_at(void **state)
     differs_in("radius_m of crater 0");
 }
 
-static void test_what_worlds_are_made_of(void **state)
+static void test_parameters_are_compared(void **state)
 {
     struct difference difference;
     (void)state;
@@ -130,10 +130,10 @@ int main(void)
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_both, close_both)
     const struct CMUnitTest tests[] = {
         TEST(test_equal_frames_are_equal),
-        TEST(test_every_column_is_looked_at),
+        TEST(test_every_column_is_compared),
         TEST(test_the_smallest_difference_is_named_with_both_values),
-        TEST(test_craters_dents_and_the_head_are_looked_at),
-        TEST(test_what_worlds_are_made_of),
+        TEST(test_craters_dents_and_the_head_are_compared),
+        TEST(test_parameters_are_compared),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
