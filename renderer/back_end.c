@@ -1,4 +1,4 @@
-/* Choosing what draws. */
+/* Choosing and opening the back end. */
 #include "renderer/back_end.h"
 
 #include "ipc/process/log.h"
@@ -9,8 +9,8 @@
 #include <stdio.h>
 #include <unistd.h>
 
-#define WHY_BYTES    400
-#define THREADS_MOST 4u /* unless more are asked for */
+#define REASON_BYTES    400
+#define THREADS_DEFAULT 4u /* at most, without --threads */
 
 static int open_gl(struct back_end_interface *draw, const struct options *options,
                    const struct static_scene *static_scene, const char *because,
@@ -25,13 +25,13 @@ static int open_gl(struct back_end_interface *draw, const struct options *option
     return 0;
 }
 
-/* Half of the cores are left for the simulation, and for other renderers. */
+/* Without --threads half of the cores remain for the simulation and other renderers. */
 static uint32_t threads_for(const struct options *options)
 {
     if (options->threads > 0)
         return options->threads;
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    return cores < 4 ? 1 : cores > 8 ? THREADS_MOST : (uint32_t)(cores / 2);
+    return cores < 4 ? 1 : cores > 8 ? THREADS_DEFAULT : (uint32_t)(cores / 2);
 }
 
 static int open_soft(struct back_end_interface *draw, const struct options *options,
@@ -49,7 +49,7 @@ static int open_soft(struct back_end_interface *draw, const struct options *opti
 int back_end_open(struct back_end_interface *draw, const struct options *options,
                   const struct static_scene *static_scene, struct error_text *error)
 {
-    char missing[WHY_BYTES], because[WHY_BYTES + 32];
+    char missing[REASON_BYTES], because[REASON_BYTES + 32];
     if (options->back_end == BACK_END_GL || options->device != NULL)
         return open_gl(draw, options, static_scene, "asked for", error);
     if (options->back_end == BACK_END_SOFT)

@@ -1,4 +1,4 @@
-/* Whose turn it is. */
+/* Waiting, and drawing requested pictures between the renderer's own. */
 #include "renderer/draw_schedule.h"
 
 #include "ipc/process/clock.h"
@@ -6,8 +6,8 @@
 #include "ipc/process/process.h"
 #include "renderer/output/stream_requests.h"
 
-#define UPDATE_INTERVAL_NS 500000000u /* between two looks at the world when no picture is due */
-#define WAIT_NS            100000000u /* the longest wait without a look at the signals */
+#define UPDATE_INTERVAL_NS 500000000u /* between two updates when no picture is due */
+#define WAIT_NS            100000000u /* longest wait before signals are checked */
 
 int draw_schedule_wait(struct render_session *session, struct view *view, struct error_text *error)
 {

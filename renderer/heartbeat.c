@@ -1,4 +1,4 @@
-/* The beating thread. */
+/* The heartbeat thread. */
 #include "renderer/heartbeat.h"
 
 #include "ipc/process/clock.h"
@@ -13,7 +13,7 @@ static void *beat(void *argument)
     while (atomic_load_explicit(&heartbeat->ending, memory_order_acquire) == 0) {
         uint64_t now = clock_now_ns();
         if (now - atomic_load_explicit(&heartbeat->stage_ns, memory_order_relaxed) <
-            HEARTBEAT_PATIENCE_NS)
+            HEARTBEAT_STAGE_MAX_NS)
             frame_protocol_beat(heartbeat->view);
         clock_sleep_until_ns(now + HEARTBEAT_INTERVAL_NS);
     }
@@ -25,7 +25,7 @@ int heartbeat_start(struct heartbeat *heartbeat, struct view *view)
     heartbeat->view = view;
     atomic_store(&heartbeat->ending, 0);
     heartbeat_stage(heartbeat);
-    /* Signals are the drawing thread's: they must wake its waits. */
+    /* Signals must go to the drawing thread, to interrupt its waits. */
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);

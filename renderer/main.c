@@ -1,5 +1,5 @@
-/* jolon-renderer: draws a running world off-screen. It copies committed frames at its own rate;
- * the simulation never waits for it, and it leaves the processor to it. */
+/* jolon-renderer: draws a running world off-screen. It copies committed frames at its own rate and
+ * runs at a low priority. The simulation never waits for it. */
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
@@ -26,7 +26,7 @@ static int run(struct render_session *session, struct view *view, struct error_t
     if (render_session_update(session, error) != 0)
         return -1;
     if (render_session_check_vehicles(session, error) != 0)
-        log_warn("%s; follows another until it is there", error->text);
+        log_warn("%s; follows another vehicle until it exists", error->text);
     while (!last) {
         last = process_stopping() || frame_protocol_finished(view);
         if (!last) {
@@ -34,7 +34,7 @@ static int run(struct render_session *session, struct view *view, struct error_t
                 return -1;
             last = process_stopping() || frame_protocol_finished(view);
         }
-        /* The look that belongs to the last picture comes after the run's end was seen. */
+        /* The last picture shows the last frame: update again after the end was seen. */
         if (last && render_session_update(session, error) != 0)
             return -1;
         uint64_t begun_ns = clock_now_ns();
@@ -47,9 +47,10 @@ static int run(struct render_session *session, struct view *view, struct error_t
     return 0;
 }
 
-/* Before any thread: what pictures go to is opened, and nothing but their folder can be written to
- * by name. The driver's cache moves there too: it holds programs, and others run those that it
- * keeps at home. */
+/* Opens the outputs and begins the sandbox, before any thread starts. Afterwards files can be made
+ * only in the folder of pictures. The graphics driver's shader cache moves into it as well: cached
+ * shaders are programs, and a cache in the home folder is shared with other processes. Returns 0,
+ * or -1 with the reason. */
 static int confine(struct sandbox *sandbox, struct output_set *outputs,
                    const struct options *options, struct error_text *error)
 {
@@ -63,7 +64,7 @@ static int confine(struct sandbox *sandbox, struct output_set *outputs,
     return sandbox_files(sandbox, &outputs->output.folder, 1, error);
 }
 
-/* Whom it follows, where that is said by name: names are the world's, and never change. */
+/* Looks up the vehicle of --follow NAME. A vehicle keeps its name. */
 static void find_followed(struct options *options, const struct view *view)
 {
     if (options->follow_name == NULL)
@@ -75,7 +76,7 @@ static void find_followed(struct options *options, const struct view *view)
                     options->follow_name, view->name, view->name);
 }
 
-/* One picture of the present frame, without a role. */
+/* Draws the present frame into the file of --snap. Returns 0, or -1 with the reason. */
 static int snap(struct render_session *session, struct error_text *error)
 {
     return render_session_update(session, error) == 0 &&
@@ -89,7 +90,7 @@ int main(int argc, char **argv)
 {
     static struct render_session session;
     static struct output_set outputs;
-    static struct base_map_service service;
+    static struct base_map base;
     struct options options;
     struct view view;
     struct sandbox sandbox = {.on = false};
@@ -108,12 +109,12 @@ int main(int argc, char **argv)
     if (segment_attach(&view, options.world, snapping ? ROLE_NONE : options.role, &error) != 0)
         die_refused("%s", error.text);
     find_followed(&options, &view);
-    base_map_service_open(&service, &view.world);
-    options.outputs.painter = base_map_service_painter(&service);
+    base_map_open(&base, &view.world);
+    options.outputs.painter = base_map_service_painter(&base);
     if (!snapping && confine(&sandbox, &outputs, &options, &error) != 0)
         die_refused("%s", error.text);
-    /* The pulse keeps its priority; drawing, and the threads of the OpenGL driver, get out of the
-     * frame loop's way. */
+    /* The heartbeat keeps its priority. The drawing thread, and the threads of the OpenGL driver
+     * that it starts, yield to the frame loop. */
     if (!snapping && heartbeat_start(&heartbeat, &view) != 0)
         die_refused("cannot start a thread: %s", strerror(errno));
     if (process_lower_priority(NICENESS) != 0)
@@ -143,7 +144,7 @@ int main(int argc, char **argv)
     if (result != 0)
         die_refused("%s", error.text);
     render_session_close(&session);
-    base_map_service_close(&service);
+    base_map_close(&base);
     segment_detach(&view);
     return EXIT_OK;
 }

@@ -1,4 +1,4 @@
-/* Levels, and when to change them. */
+/* The levels of quality, and when they change. */
 #include "renderer/quality_control.h"
 
 #include <math.h>
@@ -11,7 +11,7 @@ const struct quality_control_level quality_control_levels[QUALITY_CONTROL_LEVELS
 void quality_control_init(struct quality_control *quality, double fps)
 {
     *quality = (struct quality_control){.interval_s = fps > 0.0 ? 1.0 / fps : 0.0,
-                                        .patience_s = QUALITY_CONTROL_PATIENCE_S,
+                                        .raise_delay_s = QUALITY_CONTROL_RAISE_DELAY_S,
                                         .raised_s = -INFINITY};
 }
 
@@ -39,10 +39,12 @@ static int change(struct quality_control *quality, int by, double now_s)
         quality->raised_s = now_s;
         return by;
     }
-    /* Twice the patience when the rise was too much; else it is a new load, and as at first. */
-    bool too_much = now_s - quality->raised_s < QUALITY_CONTROL_TRIAL_S;
-    quality->patience_s = too_much ? fmin(2.0 * quality->patience_s, QUALITY_CONTROL_LONGEST_S)
-                                   : QUALITY_CONTROL_PATIENCE_S;
+    /* A fall soon after a raise means that the raise was too early; a later one has another cause.
+     */
+    bool too_early = now_s - quality->raised_s < QUALITY_CONTROL_TRIAL_S;
+    quality->raise_delay_s =
+        too_early ? fmin(2.0 * quality->raise_delay_s, QUALITY_CONTROL_RAISE_DELAY_MAX_S)
+                  : QUALITY_CONTROL_RAISE_DELAY_S;
     return by;
 }
 
@@ -59,7 +61,7 @@ int quality_control_note(struct quality_control *quality, double took_s, double 
     if (median_s > QUALITY_CONTROL_BUSY * quality->interval_s &&
         quality->level + 1 < QUALITY_CONTROL_LEVELS)
         return change(quality, -1, now_s);
-    if (quality->level > 0 && now_s - quality->idle_since_s >= quality->patience_s)
+    if (quality->level > 0 && now_s - quality->idle_since_s >= quality->raise_delay_s)
         return change(quality, 1, now_s);
     return 0;
 }

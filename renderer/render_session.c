@@ -1,4 +1,4 @@
-/* From a committed frame to files. */
+/* What a renderer keeps, and copying frames and events into it. */
 #include "renderer/render_session.h"
 
 #include "ipc/frame/event_cursor.h"
@@ -15,7 +15,7 @@
 #include <string.h>
 
 #define EVENT_BATCH         256u
-#define EVENTS_BEFORE       2048u /* read at the start, for what still burns */
+#define EVENTS_BEFORE       2048u /* read at the start: their fires may still burn */
 #define WARNING_INTERVAL_NS 10000000000ull
 
 static void take_defaults(struct options *options, const struct renderer_params *params)
@@ -49,7 +49,7 @@ static void init_pictures(struct render_session *session)
     session->picture_count = options->views.count;
 }
 
-/* May clients ask for pictures, of their own sizes? */
+/* Returns true if clients may request pictures, of their own sizes. */
 static bool takes_requests(const struct render_session *session)
 {
     return session->outputs != NULL && session->outputs->stream != NULL;
@@ -65,7 +65,7 @@ static bool needs_back_end(const struct render_session *session)
     return false;
 }
 
-/* The world as it is copied: two frames, and what is known beside them. */
+/* Makes room for the snapshots and what is derived from them. Returns 0, or -1 with errno. */
 static int open_world(struct render_session *session, struct view *view)
 {
     if (snapshot_init(&session->snapshot[0], view) != 0)
@@ -107,7 +107,8 @@ static void close_world(struct render_session *session)
     snapshot_free(&session->snapshot[0]);
 }
 
-/* The options for whatever picture may be drawn. Memory that no picture needs is not touched. */
+/* Returns options with the largest size of a picture. Memory that no picture needs is not touched.
+ */
 static struct options largest_pictures(const struct render_session *session)
 {
     struct options options = session->options;
@@ -118,7 +119,6 @@ static struct options largest_pictures(const struct render_session *session)
     return options;
 }
 
-/* What pictures are made of. */
 static int open_images(struct render_session *session, struct view *view)
 {
     uint32_t width = session->options.width, height = session->options.height;
@@ -166,21 +166,21 @@ static void begin(struct render_session *session, struct view *view, struct hear
     quality_control_init(&session->quality, session->options.hold ? fps : 0.0);
 }
 
-/* Is the view of the video among those that are drawn? 0, or -1 with the reason. */
+/* Checks that the view of the video is drawn. Returns 0, or -1 with the reason. */
 static int check_video_view(const struct render_session *session, struct error_text *error)
 {
-    const char *wanted = session->outputs != NULL ? session->options.outputs.video_view : NULL;
+    const char *view = session->outputs != NULL ? session->options.outputs.video_view : NULL;
     char drawn[VIEWS_MAX * (VIEW_NAME_BYTES + 2)] = "";
-    for (uint32_t i = 0; i < session->picture_count && wanted != NULL; i++) {
+    for (uint32_t i = 0; i < session->picture_count && view != NULL; i++) {
         const char *name = session->pictures[i].spec.name;
-        if (strcmp(name, wanted) == 0)
+        if (strcmp(name, view) == 0)
             return 0;
         size_t used = strlen(drawn);
         snprintf(drawn + used, sizeof drawn - used, "%s%s", used > 0 ? ", " : "", name);
     }
-    return wanted == NULL
+    return view == NULL
                ? 0
-               : error_text_set(error, "--video-view %s: is not drawn; there is %s", wanted, drawn);
+               : error_text_set(error, "--video-view %s: is not drawn; there is %s", view, drawn);
 }
 
 int render_session_open(struct render_session *session, struct view *view,
@@ -245,7 +245,7 @@ static void take_events(struct render_session *session, const struct frame_view 
     uint32_t count;
     do {
         count = events_read(session->view, &session->events, events, EVENT_BATCH);
-        /* The ring may be ahead of the snapshot: what is not yet in it comes with the next. */
+        /* Events after the snapshot's frame are read again with a later snapshot. */
         uint32_t old = 0;
         while (old < count && events[old].frame <= frame_view->head->frame)
             old++;
@@ -267,7 +267,7 @@ struct frame_view render_session_frame_view(const struct render_session *session
                                .articulation = &session->articulation};
 }
 
-/* Takes a frame in beside the one before it, unless it is that one. */
+/* Takes a snapshot of the latest frame if that is new. Returns 0, or -1 with errno. */
 static int take_frame(struct render_session *session)
 {
     uint32_t other = 1 - session->latest;
@@ -275,8 +275,7 @@ static int take_frame(struct render_session *session)
         segment_load(&session->view->commit->commit) == session->seen)
         return 0;
     if (snapshot_take(&session->snapshot[other], session->view) != 0) {
-        session->snapshots_taken =
-            session->snapshots_taken > 0; /* the earlier one was written over */
+        session->snapshots_taken = session->snapshots_taken > 0; /* the older one was overwritten */
         return -1;
     }
     session->latest = other;
@@ -308,16 +307,16 @@ int render_session_update(struct render_session *session, struct error_text *err
 int render_session_check_vehicles(const struct render_session *session, struct error_text *error)
 {
     struct frame_view frame_view = render_session_frame_view(session, session->latest);
-    uint32_t wanted[VIEWS_MAX + 1] = {session->options.follow_given ? session->options.follow : 0};
+    uint32_t ids[VIEWS_MAX + 1] = {session->options.follow_given ? session->options.follow : 0};
     for (uint32_t i = 0; i < session->picture_count; i++)
-        wanted[i + 1] = session->pictures[i].spec.vehicle;
+        ids[i + 1] = session->pictures[i].spec.vehicle;
     for (uint32_t i = 0; i <= session->picture_count; i++)
-        if (wanted[i] != 0 &&
-            entities_find(frame_view.entities, frame_view.head->used, wanted[i]) == SLOT_NONE)
+        if (ids[i] != 0 &&
+            entities_find(frame_view.entities, frame_view.head->used, ids[i]) == SLOT_NONE)
             return error_text_set(
                 error,
                 "vehicle %u: world \"%s\" has none of that number; jolon world dump "
                 "-w %s lists them",
-                wanted[i], session->view->name, session->view->name);
+                ids[i], session->view->name, session->view->name);
     return 0;
 }

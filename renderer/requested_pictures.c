@@ -1,4 +1,4 @@
-/* Drawing what is asked for. */
+/* Drawing requested pictures. */
 #include "renderer/requested_pictures.h"
 
 #include "ipc/process/clock.h"
@@ -9,10 +9,9 @@
 #include <string.h>
 
 #define INTERVAL_NS    ((uint64_t)((double)NS_PER_S / REQUESTED_PICTURES_FPS))
-#define PAINTINGS      8u       /* tiles of ground that one of these paints, 1 ms each ... */
-#define PAINTINGS_MOST 32u      /* ... and the first of a view */
-#define RATE_SHARE     0.1      /* of the latest interval in the rate that is shown */
-#define RATE_PAUSE_NS  NS_PER_S /* after so long it is measured anew */
+#define PAINTINGS      8u       /* terrain tiles that one of these pictures paints, 1 ms each */
+#define PAINTINGS_MOST 32u      /* ... and the first picture of a request */
+#define RATE_PAUSE_NS  NS_PER_S /* after such a pause the rate is measured anew */
 
 void requested_pictures_open(struct render_session *session)
 {
@@ -51,7 +50,7 @@ uint64_t requested_pictures_due_ns(struct render_session *session)
         return due_ns;
     requested->waiting = stream_requests_read(session->outputs->stream, requested->requests);
     for (uint32_t i = 0; i < PICTURE_REQUESTS_MAX; i++) {
-        /* What nobody asks for any more gives its memory back. */
+        /* A request that has ended gives its memory back. */
         if (requested->requests[i].generation == 0 && requested->row[i].generation != 0)
             clear_row(&requested->row[i]);
         due_ns = row_due_ns(requested, i) < due_ns ? row_due_ns(requested, i) : due_ns;
@@ -59,7 +58,7 @@ uint64_t requested_pictures_due_ns(struct render_session *session)
     return due_ns;
 }
 
-/* -1 when there is no memory: nothing is drawn, and who waits hears so in time. */
+/* Returns -1 when there is no memory. Then nothing is drawn, and the request times out. */
 static int begin_row(struct render_session *session, struct requested_pictures_row *row,
                      const struct stream_request *request)
 {
@@ -80,28 +79,10 @@ static int begin_row(struct render_session *session, struct requested_pictures_r
 
 static void note_rate(struct requested_pictures_row *row, uint64_t now_ns)
 {
-    if (row->begun_ns == 0 || now_ns - row->begun_ns > RATE_PAUSE_NS) {
-        row->rate = 0.0;
-    } else {
-        double rate = (double)NS_PER_S / (double)(now_ns - row->begun_ns);
-        row->rate += (row->rate == 0.0 ? 1.0 : RATE_SHARE) * (rate - row->rate);
-    }
+    uint64_t interval_ns = now_ns - row->begun_ns;
+    bool measured = row->begun_ns != 0 && interval_ns <= RATE_PAUSE_NS;
+    row->rate = measured ? view_pictures_rate(row->rate, interval_ns) : 0.0;
     row->begun_ns = now_ns;
-}
-
-/* All that wait count as if they took as long as this one. */
-static void adjust_quality(struct requested_pictures *requested, uint64_t begun_ns)
-{
-    struct quality_control *quality = &requested->quality;
-    uint64_t now_ns = clock_now_ns();
-    double took_s = (double)(now_ns - begun_ns) / 1e9 * requested->waiting;
-    int change = quality_control_note(quality, took_s, (double)now_ns / 1e9);
-    const struct quality_control_level *level = &quality_control_levels[quality->level];
-    if (change != 0)
-        log_info("pictures that are asked for take %.1f of %.1f ms: draws %s of them, %.0f %% of "
-                 "the detail at %u %% of the size",
-                 1e3 * quality->judged_s, 1e3 * quality->interval_s, change < 0 ? "less" : "more",
-                 100.0 * level->detail, 25 * level->quarters);
 }
 
 static int draw_row(struct render_session *session, uint32_t i, struct error_text *error)
@@ -114,7 +95,7 @@ static int draw_row(struct render_session *session, uint32_t i, struct error_tex
     struct frame_view frame_view = view_pictures_frame(session, false);
     bool paused = frame_view.head->paused != 0;
     bool same = row->frame == frame_view.head->frame && row->ahead_s == frame_view.ahead_s;
-    bool complete = same && paused; /* what stands still is drawn once more, with everything */
+    bool complete = same && paused; /* an unchanged picture is drawn once more, at full quality */
     if (same && !requested->requests[i].again && (row->complete || !paused))
         return 0;
     row->picture.slot = view_pictures_vehicle(session, &frame_view, row->picture.spec.vehicle);
@@ -141,8 +122,10 @@ static int draw_row(struct render_session *session, uint32_t i, struct error_tex
     output_set_answer(session->outputs, i, row->generation, &row->image, frame_view.head->frame,
                       frame_view_time_s(&frame_view));
     heartbeat_stage(session->heartbeat);
+    /* Each picture that a client waits for counts as if it took as long as this one. */
     if (!complete && !first)
-        adjust_quality(requested, begun_ns);
+        view_pictures_adjust_quality(&requested->quality, begun_ns, requested->waiting,
+                                     " that are asked for", " of them");
     return 0;
 }
 

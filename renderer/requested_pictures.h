@@ -1,7 +1,7 @@
-/* The booth: pictures that clients of the stream ask for, drawn between the renderer's own by the
- * same thread. Each is drawn when somebody waits for it, REQUESTED_PICTURES_FPS times a second at
- * most; whichever is due longest comes first, and a governor of their own lowers what they show
- * when all of them together take too long. While nobody asks, nothing is done. */
+/* Pictures that clients of the stream request, drawn between the renderer's own by the same thread.
+ * A picture is drawn when a client waits for it, at most REQUESTED_PICTURES_FPS times a second; the
+ * one that has been due longest comes first. Their quality is lowered, independently of the
+ * renderer's own pictures, when all of them together take too long. */
 #ifndef JOLON_RENDERER_REQUESTED_PICTURES_H
 #define JOLON_RENDERER_REQUESTED_PICTURES_H
 
@@ -15,39 +15,39 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define REQUESTED_PICTURES_FPS      30.0 /* of one picture, at most ... */
-#define REQUESTED_PICTURES_HOLD_FPS 20.0 /* ... and below this they show less */
+#define REQUESTED_PICTURES_FPS      30.0 /* of one picture, at most */
+#define REQUESTED_PICTURES_HOLD_FPS 20.0 /* below this rate their quality is lowered */
 
 struct render_session;
 
-/* What is kept of a picture while somebody asks for it. */
+/* What is kept of a picture while clients request it. */
 struct requested_pictures_row {
-    uint64_t generation; /* of the wish that it is for; 0: none */
+    uint64_t generation; /* of its request; 0: free */
     struct view_picture picture;
-    struct annotated_picture annotated; /* of the bar; text is NULL when there is none */
+    struct annotated_picture annotated; /* of its statistics bar; text is NULL without one */
     struct image image;
     uint64_t begun_ns; /* CLOCK_MONOTONIC when it was last drawn; 0: not yet */
-    uint64_t frame;    /* that it was drawn of, ... */
-    double ahead_s;    /* ... and how much later than that; below 0: not yet */
-    bool complete;     /* ... and with everything */
-    double rate;       /* pictures a second, measured; 0: not yet */
+    uint64_t frame;    /* of the last picture */
+    double ahead_s;    /* how much later than that frame it was; below 0: none yet */
+    bool complete;     /* at full quality */
+    double rate;       /* pictures a second, measured; 0: not yet known */
 };
 
 struct requested_pictures {
     struct requested_pictures_row row[PICTURE_REQUESTS_MAX];
-    struct stream_request requests[PICTURE_REQUESTS_MAX]; /* as they were looked at last */
-    uint32_t waiting;                                     /* of them */
+    struct stream_request requests[PICTURE_REQUESTS_MAX]; /* as they were read last */
+    uint32_t waiting;                                     /* how many of them a client waits for */
     struct quality_control quality;
 };
 
 void requested_pictures_open(struct render_session *session);
 void requested_pictures_close(struct render_session *session);
 
-/* Looks at what is asked for. When the next of it is due (CLOCK_MONOTONIC), UINT64_MAX for none. */
+/* Reads the requests. Returns when the next one is due (CLOCK_MONOTONIC), UINT64_MAX for none. */
 uint64_t requested_pictures_due_ns(struct render_session *session);
 
-/* Draws the one that has been due longest, of the frame seen last, and gives it to who waits.
- * Nothing when none is due. 0, or -1 with the reason: the back end is of no more use. */
+/* Draws the request that has been due longest, if any, with the latest frame, and answers it.
+ * Returns 0, or -1 with the reason: the back end has failed. */
 int requested_pictures_draw(struct render_session *session, struct error_text *error);
 
 #endif

@@ -1,4 +1,4 @@
-/* The renderer's slot. */
+/* Writing the renderer's statistics. */
 #include "renderer/timing.h"
 
 #include "ipc/process/clock.h"

@@ -1,4 +1,4 @@
-/* The pictures of one moment: each view drawn, its words put on it, and given away. */
+/* Drawing and output of the pictures of one frame. */
 #include "renderer/render_session.h"
 
 #include "ipc/process/clock.h"
@@ -13,14 +13,14 @@
 #include <string.h>
 
 #define WARNING_INTERVAL_NS 10000000000ull
-#define PAINT_S             0.001 /* about what one tile of the ground takes */
-#define PAINT_SHARE         0.25  /* of a picture's time for it */
+#define PAINT_S             0.001 /* about what painting one terrain tile takes */
+#define PAINT_SHARE         0.25  /* share of a picture's time for painting */
 #define PAINT_LEAST         2u
 #define PAINT_FIRST         64u
-#define RATE_SHARE          0.1 /* of the latest interval in the rate that is shown */
-#define SIDE_LEAST          16u /* [pixel] of a picture that is drawn smaller */
+#define RATE_SHARE          0.1 /* weight of the latest interval in the average */
+#define SIDE_LEAST          16u /* [pixel] of a reduced picture */
 
-/* Time of simulation to show: as it was asked for, or by the clock. */
+/* Returns the time of simulation to show [s]: that of the session, or by the clock. */
 static double show_time(struct render_session *session, const struct frame_view *latest)
 {
     if (session->at_s >= 0.0)
@@ -54,7 +54,7 @@ uint32_t view_pictures_vehicle(struct render_session *session, const struct fram
                          session->options.follow_given);
 }
 
-/* The vehicle of each view: its own, or the one that the renderer follows. */
+/* Sets the vehicle of each view: its own, or the one that the renderer follows. */
 static void choose_vehicles(struct render_session *session, const struct frame_view *frame_view)
 {
     uint32_t followed = view_pictures_vehicle(session, frame_view, 0);
@@ -67,7 +67,7 @@ static void choose_vehicles(struct render_session *session, const struct frame_v
     }
 }
 
-/* What is stored with the picture: the vehicle's figures as they are in it. */
+/* Writes the comment of a picture's file: the vehicle's statistics in this frame. */
 static void describe(const struct view_picture *picture, const struct frame_view *frame_view,
                      char *comment, size_t bytes)
 {
@@ -82,12 +82,12 @@ static void describe(const struct view_picture *picture, const struct frame_view
     size_t used = strlen(comment);
     int more =
         snprintf(comment + used, bytes - used, " view=%s", view_mode_name(picture->spec.mode));
-    if (frame_view->ahead_s > 0.0) /* the picture is so much later than the frame */
+    if (frame_view->ahead_s > 0.0) /* the picture is later than the frame */
         snprintf(comment + used + more, bytes - used - (size_t)more, " ahead_s=%.4f",
                  frame_view->ahead_s);
 }
 
-/* The first view goes where --snap says; others have their names before its ending. */
+/* Writes the first view to the file of --snap, another view to "NAME-VIEW.png" beside it. */
 static int write_snapshot(const struct render_session *session, const struct view_picture *picture,
                           const char *comment, struct error_text *error)
 {
@@ -117,7 +117,7 @@ static int output_picture(struct render_session *session, const struct view_pict
                           frame_view->head->frame, frame_view_time_s(frame_view), comment, error);
 }
 
-/* Where the scene is drawn: the picture itself, or a smaller one. */
+/* Returns the image that the scene is drawn into: the picture itself, or a smaller one. */
 static struct image *canvas(struct render_session *session, struct image *complete,
                             const struct quality_control_level *level)
 {
@@ -130,8 +130,8 @@ static struct image *canvas(struct render_session *session, struct image *comple
     return &session->small;
 }
 
-/* At a high rate the ground is painted over several pictures, so that none comes late; and a
- * renderer that begins shows its first soon. */
+/* Returns how many terrain tiles a picture may paint. At a high rate they are spread over several
+ * pictures, so that none is late. The first picture paints few, so that it comes soon. */
 static uint32_t paintings_of(const struct render_session *session, bool complete)
 {
     if (complete || (!session->smooth && session->drawn != UINT64_MAX))
@@ -193,13 +193,12 @@ static int draw_camera(struct render_session *session, struct view_picture *pict
         .image = &session->image, .annotated = &session->annotated, .rate = session->rate};
     if (view_pictures_camera(session, picture, frame_view, level, &target, error) != 0)
         return -1;
-    /* The first picture waits for all its ground; at a rate, ground comes when there is time. */
     if (session->smooth)
         session->draw_list.texture_budget = RENDER_SESSION_PAINTINGS;
     return 0;
 }
 
-/* The map, with what the chase camera would see. */
+/* Draws the map, with the triangle that the chase camera would see. */
 static int draw_map(struct render_session *session, struct view_picture *picture,
                     const struct frame_view *frame_view, struct error_text *error)
 {
@@ -228,30 +227,34 @@ static int draw_picture(struct render_session *session, struct view_picture *pic
     return output_picture(session, picture, frame_view, error);
 }
 
-/* Draws less or more from the next picture on, and says so. */
-static void adjust_quality(struct render_session *session)
+void view_pictures_adjust_quality(struct quality_control *quality, uint64_t begun_ns,
+                                  uint32_t count, const char *which, const char *object)
 {
-    struct quality_control *quality = &session->quality;
     uint64_t now_ns = clock_now_ns();
-    double took_s = (double)(now_ns - session->drawn_ns) / 1e9;
+    double took_s = (double)(now_ns - begun_ns) / 1e9 * count;
     int change = quality_control_note(quality, took_s, (double)now_ns / 1e9);
-    if (change == 0)
-        return;
     const struct quality_control_level *level = &quality_control_levels[quality->level];
-    log_info("pictures take %.1f of %.1f ms: draws %s, %.0f %% of the detail at %u %% of the size",
-             1e3 * quality->judged_s, 1e3 * quality->interval_s, change < 0 ? "less" : "more",
-             100.0 * level->detail, 25 * level->quarters);
+    if (change != 0)
+        log_info("pictures%s take %.1f of %.1f ms: draws %s%s, %.0f %% of the detail at %u %% of "
+                 "the size",
+                 which, 1e3 * quality->judged_s, 1e3 * quality->interval_s,
+                 change < 0 ? "less" : "more", object, 100.0 * level->detail, 25 * level->quarters);
 }
 
-/* Pictures a second, as they have been lately; of a film, as it will be seen. */
+double view_pictures_rate(double rate, uint64_t interval_ns)
+{
+    double latest = (double)NS_PER_S / (double)interval_ns;
+    return rate + (rate == 0.0 ? 1.0 : RATE_SHARE) * (latest - rate);
+}
+
+/* Measures the rate. A replayed video shows the rate at which it will be played. */
 static void note_rate(struct render_session *session)
 {
     uint64_t now_ns = clock_now_ns();
     if (session->at_s >= 0.0) {
         session->rate = session->options.fps;
     } else if (session->drawn_ns != 0) {
-        double rate = (double)NS_PER_S / (double)(now_ns - session->drawn_ns);
-        session->rate += (session->rate == 0.0 ? 1.0 : RATE_SHARE) * (rate - session->rate);
+        session->rate = view_pictures_rate(session->rate, now_ns - session->drawn_ns);
     }
     session->drawn_ns = now_ns;
 }
@@ -260,7 +263,7 @@ int view_pictures_draw(struct render_session *session, bool last, struct error_t
 {
     note_rate(session);
     struct frame_view frame_view = view_pictures_frame(session, last);
-    /* What stands still is drawn once more, with everything. */
+    /* An unchanged picture of a paused world is drawn once more, at full quality. */
     bool same =
         session->drawn == frame_view.head->frame && session->drawn_ahead_s == frame_view.ahead_s;
     bool complete = last || (same && frame_view.head->paused != 0);
@@ -282,6 +285,6 @@ int view_pictures_draw(struct render_session *session, bool last, struct error_t
     session->drawn_complete =
         level == quality_control_levels && session->draw_list.texture_budget == TERRAIN_TILES_ALL;
     if (!complete)
-        adjust_quality(session);
+        view_pictures_adjust_quality(&session->quality, session->drawn_ns, 1, "", "");
     return 0;
 }

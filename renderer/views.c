@@ -24,7 +24,7 @@ static void add(struct views *views, enum view_mode mode, uint32_t vehicle)
         snprintf(spec->name, sizeof spec->name, "%s.%u", view_mode_name(mode), vehicle);
 }
 
-/* The id after a colon; 0 without one. -1 when it is no id. */
+/* Reads ":ID"; an empty text gives 0. Returns 0, or -1 when it is no id. */
 static int read_vehicle(const char *text, size_t length, uint32_t *vehicle)
 {
     uint64_t id = 0;
@@ -42,7 +42,7 @@ static int read_vehicle(const char *text, size_t length, uint32_t *vehicle)
     return id >= 1 && id <= UINT32_MAX ? 0 : -1;
 }
 
-/* One entry of the list: its word and, from the colon on, its vehicle. */
+/* Reads one entry of the list, "VIEW" or "VIEW:ID". */
 static int read_entry(struct views *views, const char *text, size_t length,
                       struct error_text *error)
 {

@@ -1,4 +1,4 @@
-/* Which pictures a renderer makes of a frame: the list of its views. Pure. */
+/* The list of a renderer's views: which pictures it draws of a frame. Pure. */
 #ifndef JOLON_RENDERER_VIEWS_H
 #define JOLON_RENDERER_VIEWS_H
 
@@ -12,8 +12,8 @@
 
 struct view_spec {
     enum view_mode mode;
-    uint32_t vehicle;           /* its own; 0: whom the renderer follows */
-    char name[VIEW_NAME_BYTES]; /* of its files: "chase", or "chase.17" for vehicle 17's own */
+    uint32_t vehicle; /* id of the vehicle to show; 0: the one that the renderer follows */
+    char name[VIEW_NAME_BYTES]; /* of its files: "chase", or "chase.17" with a vehicle */
 };
 
 struct views {
@@ -21,11 +21,11 @@ struct views {
     uint32_t count;
 };
 
-/* Reads "VIEW[:ID][,VIEW[:ID]...]"; "both" is "chase,map". 0, or -1 with what is wrong and what
- * would be right: the value's, without the option's name. */
+/* Reads "VIEW[:ID][,VIEW[:ID]...]"; "both" is "chase,map". Returns 0, or -1 with the reason, which
+ * does not name the option. */
 int views_read(struct views *views, const char *text, struct error_text *error);
 
-/* The list that a set of bits 1 << enum view_mode stands for, in the order of the enum. */
+/* Makes the list of a set of bits 1 << enum view_mode, in the order of the enum. */
 void views_of_bits(struct views *views, uint32_t bits);
 
 #endif

@@ -1,4 +1,5 @@
-/* The governor: less when it cannot keep its rate, more when it could, and no to and fro. */
+/* Quality control: it lowers quality when the rate cannot be kept, raises it again, and does not
+ * oscillate. */
 #include "renderer/quality_control.h"
 
 #include <setjmp.h>
@@ -12,11 +13,12 @@
 
 static double now_s;
 
-/* Pictures that take so long, for so many seconds; how often it lowered and raised. */
+/* How often quality was lowered and raised. */
 struct changes {
     int lowered, raised;
 };
 
+/* Draws pictures that take took_s each, for for_s seconds. */
 static struct changes draw(struct quality_control *quality, double took_s, double for_s)
 {
     struct changes changes = {0, 0};
@@ -29,7 +31,8 @@ static struct changes draw(struct quality_control *quality, double took_s, doubl
     return changes;
 }
 
-/* A renderer whose pictures take so long at full quality, and less by level. */
+/* Simulates for_s seconds of a renderer whose pictures take full_s at level 0, and less at others.
+ */
 static struct changes live(struct quality_control *quality, double full_s, double for_s)
 {
     static const double share[QUALITY_CONTROL_LEVELS] = {1.0, 0.8, 0.68, 0.6, 0.4, 0.2};
@@ -103,14 +106,14 @@ static void test_more_again_when_there_is_time(void **state)
 {
     struct quality_control *quality = *state;
     draw(quality, 2.0 / FPS, 10.0);
-    assert_int_equal(draw(quality, 0.2 / FPS, QUALITY_CONTROL_PATIENCE_S - 0.3).raised, 0);
+    assert_int_equal(draw(quality, 0.2 / FPS, QUALITY_CONTROL_RAISE_DELAY_S - 0.3).raised, 0);
     struct changes changes = draw(quality, 0.2 / FPS, 60.0);
     assert_int_equal(changes.raised, QUALITY_CONTROL_LEVELS - 1);
     assert_int_equal(changes.lowered, 0);
     assert_int_equal(quality->level, 0);
 }
 
-/* One level is too little and the next too much: it tries, ever more seldom. */
+/* The right quality lies between two levels: the higher one is tried ever more seldom. */
 static void test_no_to_and_fro(void **state)
 {
     struct quality_control *quality = *state;
@@ -120,7 +123,7 @@ static void test_no_to_and_fro(void **state)
     assert_true(settled.lowered + settled.raised <= 8);
 
     quality_control_init(quality, FPS);
-    /* At level 5 it takes 0.48 of the interval, at level 4 0.96: either is wrong. */
+    /* A picture takes 0.48 of the interval at level 5, and 0.96 at level 4. */
     double wrong_s = 0.48 / 0.2 / FPS;
     struct changes first = live(quality, wrong_s, 60.0), later = live(quality, wrong_s, 600.0);
     assert_true(first.lowered >= 5);

@@ -1,4 +1,4 @@
-/* Lists of views: what they may say, and what they are told when they do not. */
+/* Reading lists of views: valid ones, and the reasons for refusing others. */
 #include "renderer/views.h"
 
 #include <setjmp.h>
