@@ -1,4 +1,4 @@
-/* Composing the map picture. */
+/* Composing the map's picture. */
 #include "renderer/chart/annotated_picture.h"
 
 #include "renderer/chart/legend.h"
@@ -8,14 +8,14 @@
 #include <math.h>
 #include <string.h>
 
-#define CLOSE_UP_SIDE_M 6000.0 /* of ground across the close-up */
-#define WIDE_M          60.0   /* a pixel: from here symbols are smallest */
-#define NEAR_M          15.0   /* ... and from here down largest */
-#define WIDE_SYMBOL     0.46   /* of the letters' size */
+#define CLOSE_UP_SIDE_M 6000.0 /* width of the ground in the close-up */
+#define WIDE_M          60.0   /* a pixel: from here on symbols are smallest */
+#define NEAR_M          15.0   /* a pixel: up to here symbols are largest */
+#define WIDE_SYMBOL     0.46   /* symbols' length in font sizes */
 #define NEAR_SYMBOL     0.80
 #define SYMBOL_LEAST    5.5 /* [pixel] */
-#define TRIANGLE        5.0 /* the viewing triangle's length, in letters' sizes */
-#define WIDE_OPACITY    150 /* of tracks */
+#define TRIANGLE        5.0 /* length of the camera's triangle in font sizes */
+#define WIDE_OPACITY    150 /* of tracks, as for symbols */
 #define NEAR_OPACITY    210
 
 static const struct rgba panel = {22, 26, 30, 255};
@@ -25,11 +25,10 @@ static void begin(struct annotated_picture *picture, const struct world *world, 
                   uint32_t height)
 {
     *picture = (struct annotated_picture){.world = world, .width = width, .height = height};
-    map_layout_map(&picture->layout, width, height);
+    map_layout_init(&picture->layout, width, height);
     base_map_open(&picture->whole, world);
     base_map_open(&picture->close_up.base, world);
     base_map_open(&picture->small.base, world);
-    base_map_open(&picture->area, world);
 }
 
 int annotated_picture_open(struct annotated_picture *picture, const struct world *world,
@@ -49,10 +48,10 @@ void annotated_picture_open_shared(struct annotated_picture *picture,
     picture->shares_text = true;
 }
 
-static void close_inset(struct annotated_picture_inset *part)
+static void close_inset(struct annotated_picture_inset *inset)
 {
-    base_map_close(&part->base);
-    image_free(&part->image);
+    base_map_close(&inset->base);
+    image_free(&inset->image);
 }
 
 void annotated_picture_close(struct annotated_picture *picture)
@@ -62,16 +61,15 @@ void annotated_picture_close(struct annotated_picture *picture)
     base_map_close(&picture->whole);
     close_inset(&picture->close_up);
     close_inset(&picture->small);
-    base_map_close(&picture->area);
 }
 
-int annotated_picture_inset_resize(struct annotated_picture_inset *part, uint32_t width,
+int annotated_picture_inset_resize(struct annotated_picture_inset *inset, uint32_t width,
                                    uint32_t height)
 {
-    if (part->image.pixels != NULL && part->image.width == width && part->image.height == height)
+    if (inset->image.pixels != NULL && inset->image.width == width && inset->image.height == height)
         return 0;
-    image_free(&part->image);
-    return image_init(&part->image, width, height);
+    image_free(&inset->image);
+    return image_init(&inset->image, width, height);
 }
 
 void annotated_picture_shorten(struct annotated_picture *picture, char *label, uint32_t size,
@@ -106,7 +104,7 @@ void annotated_picture_symbols(struct image *image, const struct map_view *view,
                                const struct annotated_picture_style *style)
 {
     const struct frame_view *frame_view = source->frame_view;
-    /* Below the vehicles, which they would hide; not on a map so small that they would be all. */
+    /* Detonations lie below the vehicles, and would cover a small map. */
     if (source->effects != NULL && style->symbol >= SYMBOL_LEAST)
         map_blasts(image, view, frame_view, source->effects, style->symbol);
     map_vehicles(image, view, frame_view, source->slot, style->symbol);
@@ -114,7 +112,7 @@ void annotated_picture_symbols(struct image *image, const struct map_view *view,
         map_followed(image, view, frame_view, source->slot, style->symbol, 0.8 * style->triangle);
 }
 
-/* 0 for a map of a wide country, 1 for one near by. */
+/* Returns from 0 for a wide map to 1 for a close one. */
 static double nearness(const struct map_view *view)
 {
     return maths_clamp((WIDE_M - view->metres) / (WIDE_M - NEAR_M), 0.0, 1.0);
@@ -131,7 +129,7 @@ static struct annotated_picture_style style_of(const struct annotated_picture *p
         .tracks = (uint8_t)(WIDE_OPACITY + (NEAR_OPACITY - WIDE_OPACITY) * share)};
 }
 
-/* Keeps words off the followed vehicle and what it drives and looks at. */
+/* Keeps labels off the followed vehicle and the ground ahead of it. */
 static void take_followed(struct label_space *space, const struct map_view *view,
                           const struct annotated_picture_source *source, double length)
 {
@@ -146,7 +144,7 @@ static void take_followed(struct label_space *space, const struct map_view *view
                      (int32_t)fabs(ahead_x - at.x) + 1, (int32_t)fabs(ahead_y - at.y) + 1};
 }
 
-/* A map with its words; what is taken before is kept clear of them. */
+/* Draws a map with its labels, which keep off the boxes that are already in the space. */
 static int draw_map(struct annotated_picture *picture, struct base_map *base, struct image *image,
                     const struct map_view *view, const struct annotated_picture_source *source,
                     struct label_space *space)
@@ -162,7 +160,7 @@ static int draw_map(struct annotated_picture *picture, struct base_map *base, st
     return 0;
 }
 
-/* The picture outside of a box, to cover what was drawn over the box's edges. */
+/* Fills the picture outside of a box, to cover what was drawn over the box's edges. */
 static void blank_around(struct image *image, struct box box)
 {
     int32_t width = (int32_t)image->width, height = (int32_t)image->height;
@@ -230,14 +228,4 @@ int annotated_picture_map(struct annotated_picture *picture, struct image *image
     legend_figures(picture, image, figures, source);
     legend_symbols(picture, image, legend, layout->close_up.width > 0);
     return 0;
-}
-
-int annotated_picture_area(struct annotated_picture *picture, struct image *image,
-                           const struct annotated_picture_source *source, double x, double z,
-                           double metres)
-{
-    struct map_view view = map_around(x, z, metres, 0, 0, picture->width, picture->height);
-    struct label_space space = {.count = 0};
-    map_align(&view);
-    return draw_map(picture, &picture->area, image, &view, source, &space);
 }

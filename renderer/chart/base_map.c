@@ -9,14 +9,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define RELIEF        2.2 /* slopes look so much steeper than they are */
-#define INDEX_CONTOUR 5
-#define STRIP         8 /* [pixel] what comes into view is painted in strips so wide */
+#define RELIEF        2.2 /* exaggeration of slopes in the shading */
+#define INDEX_CONTOUR 5   /* every fifth contour is darker */
+#define STRIP         8   /* [pixel] width of the strips that are painted */
 #define ROAD_LINE_M   24.0
 #define ROAD_LEAST    1.0 /* [pixel] */
 #define ROAD_MOST     2.5
 
-static const struct rgba beyond = {22, 26, 30, 255}; /* where there is no world */
+static const struct rgba beyond = {22, 26, 30, 255}; /* outside of the world */
 
 void base_map_open(struct base_map *base, const struct world *world)
 {
@@ -45,6 +45,7 @@ static void darken(uint8_t *pixel, int32_t share)
         pixel[i] = (uint8_t)(pixel[i] * (256 - share) / 256);
 }
 
+/* Fills bands[width + 1] with the number of the contour band of each pixel of a row. */
 static void fill_bands(int32_t *bands, const struct map_view *view, const struct terrain *terrain,
                        uint32_t row, double contour_m)
 {
@@ -55,7 +56,8 @@ static void fill_bands(int32_t *bands, const struct map_view *view, const struct
     }
 }
 
-/* A pixel whose right or lower neighbour lies in another band of height is on a contour. */
+/* Darkens pixels whose right or lower neighbour lies in another contour band. Returns 0, or -1 with
+ * errno ENOMEM. */
 static int draw_contours(struct image *image, const struct map_view *view,
                          const struct terrain *terrain)
 {
@@ -83,7 +85,7 @@ static int draw_contours(struct image *image, const struct map_view *view,
     return 0;
 }
 
-/* Roads as lines, which the ground's own dust hardly shows from so high. */
+/* Draws roads as lines: at a map's scale the ground's colour hardly shows them. */
 static void draw_roads(struct image *image, const struct map_view *view, const struct world *world)
 {
     const struct rgba line = {112, 58, 34, 190};
@@ -109,7 +111,7 @@ static void blank_beyond(struct image *image, const struct map_view *view)
     image_rectangle(image, 0, bottom, width, height - bottom, beyond);
 }
 
-/* The view's ground into an image of its size. */
+/* Paints the view's ground into an image of its size. Returns 0, or -1 with errno ENOMEM. */
 static int paint_view(struct image *image, const struct map_view *view, const struct world *world)
 {
     size_t count = (size_t)view->width * view->height;
@@ -122,7 +124,7 @@ static int paint_view(struct image *image, const struct map_view *view, const st
         .step_m = view->metres,
         .columns = view->width,
         .rows = view->height,
-        .sun = {-0.52, 0.68, -0.52}, /* from the north-west, as on all maps */
+        .sun = {-0.52, 0.68, -0.52}, /* from the north-west, as is usual on maps */
         .relief = RELIEF,
         .rgba = image->pixels,
         .light = light,
@@ -188,7 +190,8 @@ static int paint_part(struct base_map *base, struct base_map_part part)
     return result;
 }
 
-/* A ring for parts of a size; what another held is lost. */
+/* Makes the ring large enough for a part at this scale; a new ring is empty. Returns 0, or -1 with
+ * errno ENOMEM. */
 static int make_ring(struct base_map *base, double metres, struct base_map_part part)
 {
     uint32_t width = (uint32_t)(part.x1 - part.x0), height = (uint32_t)(part.y1 - part.y0);
@@ -214,7 +217,8 @@ static int64_t most(int64_t a, int64_t b)
     return a > b ? a : b;
 }
 
-/* Paints what of a part is not yet held; what is held outside of it gives way. */
+/* Paints the pixels of a part that are not held. Then only the part is held. Returns 0, or -1 with
+ * errno ENOMEM. */
 static int paint_missing(struct base_map *base, struct base_map_part part)
 {
     struct base_map_part kept = {most(part.x0, base->held.x0), most(part.y0, base->held.y0),

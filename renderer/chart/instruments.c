@@ -6,13 +6,13 @@
 #include <stdio.h>
 #include <string.h>
 
-#define BAR_LETTERS   38  /* letters' sizes in a picture's height ... */
-#define BAR_ACROSS    64  /* ... and in its width, whichever gives smaller ones */
+#define BAR_LETTERS   38  /* font sizes in a picture's height */
+#define BAR_ACROSS    64  /* font sizes in its width; the smaller font is taken */
 #define BAR_LEAST     11u /* [pixel] smaller values cannot be read at a glance */
 #define NAME_LEAST    8u
 #define ROWS_MOST     2u
 #define ROW_LESS_THAN 280u /* [pixel] a lower picture has one row of fields */
-#define SMALL_SHARE   4    /* the small map's side, of the picture's shorter side */
+#define SMALL_SHARE   4    /* the picture's shorter side by the small map's side */
 #define SMALL_SYMBOL  4.0  /* [pixel] at a height of 720 */
 
 static const struct rgba white = {240, 242, 238, 255};
@@ -48,7 +48,7 @@ struct cell {
 };
 
 struct bar {
-    uint32_t large, small; /* [pixel] letters of values and of names */
+    uint32_t large, small; /* [pixel] font sizes of values and of names */
     int32_t margin, row_height, name_width;
     uint32_t rows, count;
     struct cell cells[STATISTICS_BAR_MAX];
@@ -64,14 +64,14 @@ static int32_t cell_width(struct annotated_picture *picture, const struct bar *b
     return (name > value ? name : value) + gap;
 }
 
-/* Gives cells their rows, filling one after the other; false when they do not fit. */
+/* Distributes the cells over rows. Returns false if they do not fit. */
 static bool fill_rows(struct bar *bar, int32_t width, uint32_t rows)
 {
     int32_t room = width - 2 * bar->margin - bar->name_width, x = 0, total = 0;
     uint32_t row = 0;
     for (uint32_t i = 0; i < bar->count; i++)
         total += bar->cells[i].field != NULL ? bar->cells[i].width : 0;
-    /* Rows of about one length look better than a full one over a short one. */
+    /* Rows of about equal length look better than a full one above a short one. */
     int32_t target = rows == 1 ? room : total / (int32_t)rows;
     for (uint32_t i = 0; i < bar->count; i++) {
         struct cell *cell = &bar->cells[i];
@@ -90,7 +90,7 @@ static bool fill_rows(struct bar *bar, int32_t width, uint32_t rows)
     return true;
 }
 
-/* The least important field, if it is of this rank or a higher one. */
+/* Leaves out the least important field, if its rank is at least this. */
 static void leave_out_one(struct bar *bar, uint32_t rank)
 {
     struct cell *last = NULL;
@@ -102,7 +102,7 @@ static void leave_out_one(struct bar *bar, uint32_t rank)
         last->field = NULL;
 }
 
-/* Measures all fields with a gap between them. */
+/* Gives every field a cell of its width and the gap. */
 static void measure(struct annotated_picture *picture, struct bar *bar,
                     const struct statistics_bar_field *fields, int32_t gap)
 {
@@ -111,8 +111,8 @@ static void measure(struct annotated_picture *picture, struct bar *bar,
             (struct cell){.field = &fields[i], .width = cell_width(picture, bar, &fields[i], gap)};
 }
 
-/* One row if all of it fits, if need be closer and without the spare field; else two; then the
- * least important fields go. */
+/* Takes one row if the fields fit, perhaps with a smaller gap and without the spare field; else
+ * two. If they do not fit either, the least important fields are left out. */
 static void choose_rows(struct annotated_picture *picture, struct bar *bar,
                         const struct statistics_bar_field *fields)
 {
@@ -133,7 +133,7 @@ static void choose_rows(struct annotated_picture *picture, struct bar *bar,
         leave_out_one(bar, 0);
 }
 
-/* Gives fields what is left of their row, as far as they still belong together. */
+/* Widens the cells of each row by the room that is left, to a limit. */
 static void spread(struct bar *bar, int32_t width)
 {
     for (uint32_t row = 0; row < bar->rows; row++) {
@@ -182,8 +182,7 @@ static void draw_cell(struct annotated_picture *picture, struct image *image, co
                                           [STATISTICS_BAR_ALARM] = {255, 255, 255, 255}};
     int32_t small = (int32_t)bar->small, large = (int32_t)bar->large;
     int32_t upper = top + small * 11 / 10, lower = upper + large * 11 / 10;
-    /* An alarm shows by its form too: its value stands on a red ground, a warning's is underlined.
-     */
+    /* Alarms can be told without colour: an alarm has a red background, a warning an underline. */
     if (field->state >= STATISTICS_BAR_WARNING) {
         int32_t width = text_width(picture->text, bar->large, field->value);
         int32_t height = field->state == STATISTICS_BAR_ALARM ? large * 108 / 100 : 1 + large / 16;

@@ -4,8 +4,8 @@
 
 #include "renderer/chart/annotated_picture.h"
 
-/* The statistics bar below and a small map in the corner of a camera's picture. A small map that
- * there is no memory for is left out. */
+/* Draws the statistics bar at the foot and a small map in the corner of a camera's picture. Without
+ * memory for the small map it is left out. */
 void annotated_picture_instruments(struct annotated_picture *picture, struct image *image,
                                    const struct annotated_picture_source *source);
 

@@ -1,4 +1,4 @@
-/* Where words go on the map, and what they say. */
+/* Placing and drawing the map's labels. */
 #include "renderer/chart/legend.h"
 
 #include "renderer/chart/statistics_bar.h"
@@ -9,14 +9,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#define GRID_LETTERS  6.0  /* letters' sizes between two lines, at least */
-#define SCALE_SHARE   0.24 /* of the view's width that the scale bar may take */
-#define CROWD_STEP    3u   /* so many vehicles under a name weigh as much as a worse side */
-#define FINE_LEAST    8u   /* [pixel] smaller letters cannot be read */
-#define LEGEND_COLUMN 8    /* letters' sizes */
-#define FIGURE_COLUMN 13
-#define FIGURE_NAME   6 /* letters' sizes of a figure's name */
-#define FIGURES_MAX   24u
+#define GRID_LETTERS   6.0  /* font sizes between two lines, at least */
+#define SCALE_SHARE    0.24 /* greatest width of the scale bar in the view's */
+#define CROWD_STEP     3u   /* a better place for a label is worth covering so many vehicles */
+#define SMALL_FONT_MIN 8u   /* [pixel] a smaller font cannot be read */
+#define LEGEND_COLUMN  8    /* font sizes */
+#define FIGURE_COLUMN  13
+#define FIGURE_NAME    6 /* font sizes of a figure's name */
+#define FIGURES_MAX    24u
 
 static const struct rgba white = {240, 242, 238, 255};
 static const struct rgba grey = {172, 180, 180, 255};
@@ -30,7 +30,7 @@ struct place {
     bool water;
 };
 
-/* Places of Fort Hunter Liggett, where its ground is what the world shows. */
+/* Places of Fort Hunter Liggett, shown where the world has its terrain. */
 static const struct place places[] = {
     {"Mission San Antonio", 25000.0, 17750.0, false},
     {"Jolon", 31500.0, 22450.0, false},
@@ -41,7 +41,7 @@ static const struct place places[] = {
 static uint32_t small_font_size(const struct annotated_picture *picture, uint32_t percent)
 {
     uint32_t size = picture->layout.font_size * percent / 100;
-    return size < FINE_LEAST ? FINE_LEAST : size;
+    return size < SMALL_FONT_MIN ? SMALL_FONT_MIN : size;
 }
 
 static int32_t em_of(const struct annotated_picture *picture)
@@ -49,12 +49,12 @@ static int32_t em_of(const struct annotated_picture *picture)
     return (int32_t)picture->layout.font_size;
 }
 
-/* How many vehicles a box would touch. */
+/* Returns how many vehicles a box would touch. */
 static uint32_t vehicles_under(const struct map_view *view,
                                const struct annotated_picture_source *source, struct box box)
 {
     const struct entities *e = source->frame_view->entities;
-    int32_t edge = box.height / 3; /* about a symbol's */
+    int32_t edge = box.height / 3; /* about half a symbol */
     box =
         (struct box){box.left - edge, box.top - edge, box.width + 2 * edge, box.height + 2 * edge};
     uint32_t count = 0;
@@ -66,8 +66,8 @@ static uint32_t vehicles_under(const struct map_view *view,
     return count;
 }
 
-/* The free box of the fewest vehicles, the first of equals, CROWD_STEP being as good as none; -1
- * when none is free. */
+/* Returns the index of the free box with the fewest vehicles in steps of CROWD_STEP, the first of
+ * equals; -1 when none is free. */
 static int32_t best_box(const struct map_view *view, const struct annotated_picture_source *source,
                         const struct label_space *space, const struct box *boxes, uint32_t count)
 {
@@ -95,7 +95,7 @@ static void format_length(char *label, size_t bytes, double metres)
         snprintf(label, bytes, "%.0f m", metres);
 }
 
-/* A bar of a length that is easily read, in a lower corner, and what the contours mean. */
+/* Draws a scale bar of a round length in a lower corner, with the contours' interval above it. */
 static void scale_bar(struct annotated_picture *picture, struct image *image,
                       const struct map_view *view, const struct annotated_picture_source *source,
                       struct label_space *space)
@@ -126,7 +126,7 @@ static void scale_bar(struct annotated_picture *picture, struct image *image,
         image_rectangle(image, x + i * pixels / 4, y - thick, (i + 1) * pixels / 4 - i * pixels / 4,
                         thick, i & 1 ? ink : white);
     text_draw_rimmed(picture->text, image, x + pixels + em / 2, y, size, white, label);
-    /* Above the bar, and above the words beside it when it reaches that far. */
+    /* The interval lies above the bar, and above its length where it reaches that far. */
     int32_t lift = over > pixels && thick + em / 3 < (int32_t)size ? (int32_t)size : thick + em / 3;
     text_draw_rimmed(picture->text, image, x, y - lift, fine, white, interval);
 }
@@ -153,7 +153,7 @@ static void north_arrow(struct annotated_picture *picture, struct image *image,
                      picture->layout.font_size, white, "N");
 }
 
-/* A number of the grid beside its line, if there is room. */
+/* Draws a number of the grid beside its line, if there is room. */
 static void grid_number(struct annotated_picture *picture, struct image *image,
                         struct label_space *space, int32_t x, int32_t y, double metres,
                         double step_m)
@@ -181,12 +181,12 @@ static void grid_numbers(struct annotated_picture *picture, struct image *image,
 
 #define NAME_BOXES_MAX 14u
 
-/* Boxes for a name, the best first: beside its place, and farther out with a line to it; the name
- * of a water upon it. Returns how many. */
+/* Fills the boxes that a name may take, the best first: beside its place, then farther away. The
+ * name of a lake or sea lies on it. Returns how many there are. */
 static uint32_t name_boxes(struct box boxes[NAME_BOXES_MAX], struct point at, bool water,
                            int32_t width, int32_t height, int32_t gap)
 {
-    /* Of the name's middle, in its own width and height and in gaps. */
+    /* The name's centre from its place, in widths and heights of the name; distance in gaps. */
     static const double beside[][3] = {
         {0.5, -0.5, 1.0}, {-0.5, -0.5, 1.0}, {0.5, 0.5, 1.0},   {-0.5, 0.5, 1.0},
         {0.0, 0.5, 2.0},  {0.0, -0.5, 2.0},  {0.5, -0.5, 6.0},  {-0.5, -0.5, 6.0},
@@ -206,6 +206,7 @@ static uint32_t name_boxes(struct box boxes[NAME_BOXES_MAX], struct point at, bo
     return count;
 }
 
+/* Marks a place with a dot, and a line to a name that is far away. */
 static void place_mark(struct annotated_picture *picture, struct image *image, struct point at,
                        struct box name)
 {
@@ -275,7 +276,7 @@ struct entry {
     enum symbol_shape shape;
 };
 
-/* The most important first. */
+/* By importance. */
 static const struct entry entries[MAP_LAYOUT_SYMBOLS] = {
     {"blue", ENTRY_VEHICLE, FORCE_BLUE, SYMBOL_LAND},
     {"red", ENTRY_VEHICLE, FORCE_RED, SYMBOL_LAND},
@@ -412,7 +413,8 @@ static uint32_t vehicle_figures(struct figure *figures, const struct statistics 
     return n;
 }
 
-/* Name, and force and kind where they have room beside it. */
+/* Draws the vehicle's name, and force and kind if there is room. Returns where the figures begin.
+ */
 static int32_t title(struct annotated_picture *picture, struct image *image, struct box box,
                      const struct statistics *s)
 {

@@ -1,24 +1,26 @@
-/* Words on the map: scale, grid numbers, north, names, the legend, and the panel's figures. */
+/* Labels of the map: scale, grid numbers, north arrow, names, the legend, and the panel's figures.
+ */
 #ifndef JOLON_RENDERER_CHART_LEGEND_H
 #define JOLON_RENDERER_CHART_LEGEND_H
 
 #include "renderer/chart/annotated_picture.h"
 
-/* Grid, numbers, scale bar, north arrow and names, each where it covers the fewest vehicles and
- * none of what is taken. */
+/* Draws the grid with its numbers, scale bar, north arrow and names. Each label takes a free box in
+ * the space, where it covers the fewest vehicles. */
 void legend_marks(struct annotated_picture *picture, struct image *image,
                   const struct map_view *view, const struct annotated_picture_source *source,
                   struct label_space *space);
 
-/* The legend in its box: as many rows as fit, the most important first; with kinds or without. */
+/* Draws as many entries of the legend as fit into the box, the most important first. kinds: with
+ * the kinds of vehicles. */
 void legend_symbols(struct annotated_picture *picture, struct image *image, struct box box,
                     bool kinds);
 
-/* A corner of the view for a legend without a panel: that with the fewest vehicles. */
+/* Returns the corner of the view with the fewest vehicles, for a legend on the map itself. */
 struct box legend_corner(struct annotated_picture *picture, const struct map_view *view,
                          const struct annotated_picture_source *source);
 
-/* The followed vehicle and the world in figures, as many as fit. */
+/* Draws figures of the followed vehicle and of the world, as many as fit. */
 void legend_figures(struct annotated_picture *picture, struct image *image, struct box box,
                     const struct annotated_picture_source *source);
 

@@ -7,15 +7,15 @@
 
 #include <math.h>
 
-#define CRATER_SHARE  0.2   /* of a symbol's length: a crater's radius is drawn no smaller */
-#define CRATER_LEAST  1.6   /* [pixel] nor than this */
-#define TRACK_DOT     0.14  /* of a symbol's length */
+#define CRATER_SHARE  0.2   /* least radius of a crater in symbols' lengths */
+#define CRATER_LEAST  1.6   /* [pixel] least radius of a crater */
+#define TRACK_DOT     0.14  /* side of a dot in symbols' lengths */
 #define DOT_LEAST     1.7   /* [pixel] */
-#define BLAST_LIFE_S  3.0   /* a detonation shows */
-#define FIRE_LIFE_S   150.0 /* a wreck burns, as in the other views */
-#define LEVEL_LEAST   0.2   /* of a direction's length on the map: less is straight down */
-#define STROKE_LENGTH 75.0  /* [pixel] a longer triangle has thicker lines */
-#define OUTSIDE_MOST  40.0  /* [pixel] a symbol farther out does not show */
+#define BLAST_LIFE_S  3.0   /* for which a detonation shows */
+#define FIRE_LIFE_S   150.0 /* for which a wreck burns, as in the other views */
+#define LEVEL_LEAST   0.2   /* least horizontal part of the camera's direction */
+#define STROKE_LENGTH 75.0  /* [pixel] longer triangles have thicker lines */
+#define OUTSIDE_MOST  40.0  /* [pixel] a symbol farther outside does not show */
 
 struct map_view map_whole(int32_t left, int32_t top, uint32_t side)
 {
@@ -95,7 +95,7 @@ static bool is_drawn(const struct frame_view *frame_view, uint32_t slot)
            frame_view->entities->kind[slot] < frame_view->world->counts.kinds;
 }
 
-/* A dot where the vehicle was every few seconds: how far apart they are tells its speed. */
+/* Draws the dots of a track from the newest on, leaving out those too close to the one before. */
 static void draw_track(struct image *image, const struct map_view *view, const struct track *track,
                        struct point to, double pixels, struct rgba colour)
 {

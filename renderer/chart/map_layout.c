@@ -1,22 +1,21 @@
-/* Laying out. All measures follow from the letters' size. */
+/* The layout: all measures follow from the font size. */
 #include "renderer/chart/map_layout.h"
 
-#define PICTURE_LETTERS 48 /* letters' sizes in the shorter side of a picture */
-#define PANEL_LEAST     9  /* letters' sizes: a narrower panel holds nothing */
-#define CLOSE_UP_LEAST  14 /* a smaller close-up shows nothing */
-#define SIDE_BY_SIDE    36 /* a panel so wide has the close-up beside the words */
-#define FIGURE_WIDTH    13
-#define SYMBOL_WIDTH    8
+#define PICTURE_LETTERS 48 /* font sizes in the shorter side of a picture */
+#define PANEL_LEAST     9  /* font sizes: no narrower panel is made */
+#define CLOSE_UP_LEAST  14 /* font sizes: no narrower close-up is made */
+#define SIDE_BY_SIDE    36 /* font sizes: a panel so wide has the close-up beside the figures */
+#define FIGURE_WIDTH    13 /* font sizes */
+#define SYMBOL_WIDTH    8  /* font sizes */
 #define RULE            2  /* [pixel] between the maps */
-#define CLOSE_UP_MOST   65 /* [%] of a panel */
-#define CLOSE_UP_ENOUGH 42
+#define CLOSE_UP_MOST   65 /* [%] greatest share of a panel's height */
+#define CLOSE_UP_ENOUGH 42 /* [%] least share */
 
 static int32_t least(int32_t a, int32_t b)
 {
     return a < b ? a : b;
 }
 
-/* Size of ordinary words in a picture. */
 static uint32_t font_size_of(uint32_t width, uint32_t height)
 {
     uint32_t font_size = (width < height ? width : height) / PICTURE_LETTERS;
@@ -29,31 +28,32 @@ static int32_t rows_for(int32_t count, int32_t width, int32_t each)
     return (count + columns - 1) / columns;
 }
 
-/* Figures above the legend, both with what they need, or sharing what there is. */
-static void stack_words(struct map_layout *layout, struct box box)
+static int32_t legend_height(int32_t em, int32_t width)
 {
-    int32_t em = (int32_t)layout->font_size, inner = box.width - 2 * em;
-    int32_t legend = rows_for(MAP_LAYOUT_SYMBOLS, inner, SYMBOL_WIDTH * em) * em * 7 / 5 + em;
-    int32_t figures =
-        rows_for(MAP_LAYOUT_FIGURES, inner, FIGURE_WIDTH * em) * em * 27 / 20 + em * 3;
-    if (figures + legend > box.height)
+    return rows_for(MAP_LAYOUT_SYMBOLS, width - 2 * em, SYMBOL_WIDTH * em) * em * 7 / 5 + em;
+}
+
+static int32_t figures_height(int32_t em, int32_t width)
+{
+    return rows_for(MAP_LAYOUT_FIGURES, width - 2 * em, FIGURE_WIDTH * em) * em * 27 / 20 + em * 3;
+}
+
+/* Puts the figures above the legend. If they do not fit, both are made lower. */
+static void stack_texts(struct map_layout *layout, struct box box)
+{
+    int32_t em = (int32_t)layout->font_size, legend = legend_height(em, box.width);
+    if (figures_height(em, box.width) + legend > box.height)
         legend = least(legend, box.height * 9 / 20);
     layout->figures = (struct box){box.left, box.top, box.width, box.height - legend};
     layout->legend = (struct box){box.left, box.top + box.height - legend, box.width, legend};
 }
 
-static int32_t words_height(int32_t em, int32_t width)
-{
-    int32_t inner = width - 2 * em;
-    return rows_for(MAP_LAYOUT_FIGURES, inner, FIGURE_WIDTH * em) * em * 27 / 20 + em * 3 +
-           rows_for(MAP_LAYOUT_SYMBOLS, inner, SYMBOL_WIDTH * em) * em * 7 / 5 + em;
-}
-
-/* The close-up above the words, with what they leave, but within shares of the panel. */
+/* Puts the close-up above figures and legend, in the height that they leave, within limits. */
 static void stack_panel(struct map_layout *layout, struct box panel)
 {
     int32_t em = (int32_t)layout->font_size;
-    int32_t height = panel.height - words_height(em, panel.width);
+    int32_t height =
+        panel.height - figures_height(em, panel.width) - legend_height(em, panel.width);
     height = least(height, panel.height * CLOSE_UP_MOST / 100);
     if (height < panel.height * CLOSE_UP_ENOUGH / 100)
         height = panel.height * CLOSE_UP_ENOUGH / 100;
@@ -62,10 +62,10 @@ static void stack_panel(struct map_layout *layout, struct box panel)
         panel.top += height;
         panel.height -= height;
     }
-    stack_words(layout, panel);
+    stack_texts(layout, panel);
 }
 
-void map_layout_map(struct map_layout *layout, uint32_t width, uint32_t height)
+void map_layout_init(struct map_layout *layout, uint32_t width, uint32_t height)
 {
     int32_t w = (int32_t)width, h = (int32_t)height, side = least(w, h);
     int32_t em = (int32_t)font_size_of(width, height);
@@ -79,7 +79,7 @@ void map_layout_map(struct map_layout *layout, uint32_t width, uint32_t height)
             return;
         }
         layout->close_up = (struct box){0, panel.top, w / 2, panel.height};
-        stack_words(layout, (struct box){w / 2, panel.top, w - w / 2, panel.height});
+        stack_texts(layout, (struct box){w / 2, panel.top, w - w / 2, panel.height});
     } else {
         layout->whole.left = (w - side) / 2;
         layout->whole.top = (h - side) / 2;

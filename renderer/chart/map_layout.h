@@ -1,47 +1,47 @@
-/* Where the parts of a map picture go, at any size and aspect. Pure.
+/* The layout of a map's picture, at any size and aspect. Pure.
  *
- * The whole square is as large as fits. What is left beside or below it holds the close-up, the
- * figures and the legend, the close-up only where it is large enough to be worth it; a picture that
- * is nearly square has the legend alone, on the map itself. */
+ * The map of the whole world is as large as possible. The panel beside or below it has the figures,
+ * the legend and, if it is large enough, the close-up. A picture that is nearly square has no
+ * panel: its legend is drawn on the map. */
 #ifndef JOLON_RENDERER_CHART_MAP_LAYOUT_H
 #define JOLON_RENDERER_CHART_MAP_LAYOUT_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-#define MAP_LAYOUT_FONT_MIN 9u /* [pixel] smaller ones cannot be read */
-#define MAP_LAYOUT_FIGURES  13 /* that the panel has room for, if it is large */
-#define MAP_LAYOUT_SYMBOLS  15 /* in the legend, likewise */
+#define MAP_LAYOUT_FONT_MIN 9u /* [pixel] a smaller font cannot be read */
+#define MAP_LAYOUT_FIGURES  13 /* that a large panel has room for */
+#define MAP_LAYOUT_SYMBOLS  15 /* entries of the legend, likewise for a large panel */
 
 struct box {
-    int32_t left, top, width, height; /* [pixel]; width 0: not there */
+    int32_t left, top, width, height; /* [pixel] width 0: there is none */
 };
 
 struct map_layout {
-    uint32_t font_size; /* [pixel] size of ordinary words */
+    uint32_t font_size; /* [pixel] of ordinary labels */
     struct box whole, close_up, figures, legend;
 };
 
-void map_layout_map(struct map_layout *layout, uint32_t width, uint32_t height);
+void map_layout_init(struct map_layout *layout, uint32_t width, uint32_t height);
 
 bool box_within(struct box box, struct box bounds);
 bool box_overlap(struct box a, struct box b);
 
-/* --- places for words ------------------------------------------------------------------------- */
+/* --- space for labels ------------------------------------------------------------------------- */
 
 #define LABEL_SPACE_MAX 64u
 
-/* What of a map is taken by words and marks, so that nothing is written over another. */
+/* The boxes of a map that labels and marks have taken, so that none overlap. */
 struct label_space {
     struct box bounds;
     struct box boxes[LABEL_SPACE_MAX];
     uint32_t count;
 };
 
-/* Is the box free and within the bounds? */
+/* Returns true if the box is within the bounds and overlaps no box that is taken. */
 bool label_space_free(const struct label_space *space, struct box box);
 
-/* Takes the box if it is free. */
+/* Takes the box if it is free. Returns true if it was. */
 bool label_space_take(struct label_space *space, struct box box);
 
 #endif

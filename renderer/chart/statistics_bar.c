@@ -10,7 +10,7 @@
 #define FUEL_WARNING   0.25
 #define FUEL_ALARM     0.1
 #define ROUNDS_LOW     0.2  /* of a full load */
-#define STEEP_DEG      25.0 /* few land vehicles climb more than 30 */
+#define STEEP_DEG      25.0 /* few land vehicles climb slopes of more than 30 */
 #define VERY_STEEP_DEG 40.0
 
 static uint32_t tilt_state(double degrees)
@@ -28,7 +28,7 @@ static uint32_t fuel_state(double share)
                                   : STATISTICS_BAR_GOOD;
 }
 
-/* Kinds that carry none never run out. */
+/* A kind that carries no rounds causes no alarm. */
 static uint32_t rounds_state(const struct statistics *s)
 {
     if (s->rounds_full == 0)
@@ -45,7 +45,7 @@ static uint32_t damage_state(const char *damage)
                                                           : STATISTICS_BAR_ALARM;
 }
 
-/* Without a sign where nothing shows of it. */
+/* Avoids "-0.0". */
 static double unsigned_zero(double degrees)
 {
     return fabs(degrees) < 0.05 ? 0.0 : degrees;

@@ -1,5 +1,5 @@
-/* Drawing symbols: a form is a few convex pieces, and a pixel's distance to the edge of their union
- * gives both its rim's coverage and its own. */
+/* Drawing symbols: a shape is the union of a few convex polygons. A pixel's distance to its edge
+ * gives the coverage by the fill and by the rim. */
 #include "renderer/chart/symbol.h"
 
 #include "world/entity/kind.h"
@@ -13,7 +13,8 @@
 #define POLYGONS_MAX 4u
 #define CORNERS_MAX  6u
 
-/* Corners in units of the symbol's length: forward, to the right. */
+/* Corners in units of the symbol's length: forward, to the right. The console's page has the same
+ * shapes (clients/console/page/symbols.js). */
 struct polygon {
     uint32_t count;
     float corner[CORNERS_MAX][2];
@@ -102,13 +103,13 @@ enum symbol_shape symbol_shape(const struct world *world, const struct kind *kin
 
 /* --- shapes ----------------------------------------------------------------------------------- */
 
-/* A piece's edge: how deep within it a pixel lies is x * px + y * py + at. */
+/* An edge of a polygon. A pixel's depth within it is x * px + y * py + at. */
 struct edge {
     float x, y, at;
 };
 
 struct outline {
-    float x0, y0, x1, y1; /* what it fits in, from its place */
+    float x0, y0, x1, y1; /* bounds, relative to the symbol's place */
     struct edge edges[POLYGONS_MAX][CORNERS_MAX];
     uint32_t counts[POLYGONS_MAX], count;
 };
@@ -146,7 +147,7 @@ static void transform(struct outline *outline, const struct shape *shape, double
     }
 }
 
-/* Four pixels of a row at once; the compiler makes of it what the machine has. */
+/* Four pixels of a row at once. */
 #define LANES 4
 typedef float f32x4 __attribute__((vector_size(16)));
 typedef int32_t i32x4 __attribute__((vector_size(16)));
@@ -167,7 +168,7 @@ static f32x4 max4(f32x4 a, f32x4 b)
     return -min4(-a, -b);
 }
 
-/* How deep within the outline; rows[p][i]: what an edge has of the pixels' row. */
+/* Returns the pixels' depths within the outline. rows[p][i]: what an edge adds for their row. */
 static f32x4 depth_in(const struct outline *outline, float rows[POLYGONS_MAX][CORNERS_MAX], f32x4 x)
 {
     f32x4 depth = splat(-1e6f);
@@ -181,7 +182,7 @@ static f32x4 depth_in(const struct outline *outline, float rows[POLYGONS_MAX][CO
     return depth;
 }
 
-/* Coverage of pixels so deep within an edge, 0..255. */
+/* Returns the coverage of pixels of this depth, 0 to 255. */
 static i32x4 coverage(f32x4 depth)
 {
     f32x4 share = min4(max4(depth + 0.5f, splat(0.0f)), splat(1.0f)) * 255.0f + 0.5f;
@@ -250,7 +251,7 @@ struct rgba symbol_colour(enum force force)
     }
 }
 
-/* Pale rims of small symbols that crowd together would be all that one sees. */
+/* Small symbols have a fainter pale rim, which would hide those of vehicles close to each other. */
 static struct rgba rim_colour(enum force force, double pixels)
 {
     uint8_t pale = pixels < SYMBOL_KINDS_PIXELS ? 110 : 255;

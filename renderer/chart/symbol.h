@@ -1,6 +1,6 @@
-/* Symbols of the map. What a symbol is shows in its form, whose it is in its colour and its rim, so
- * that people who see few colours can tell as well: blue and dark rims are the blue force, red and
- * pale ones the red, yellow and dark ones neutral. Pure. */
+/* Symbols of the map. The shape shows the kind of vehicle. Fill and rim show the force, so that
+ * people with defective colour vision can tell them apart as well: blue with a dark rim is the blue
+ * force, red with a pale rim the red force, yellow with a dark rim neutral. Pure. */
 #ifndef JOLON_RENDERER_CHART_SYMBOL_H
 #define JOLON_RENDERER_CHART_SYMBOL_H
 
@@ -12,7 +12,7 @@
 struct kind;
 struct world;
 
-#define SYMBOL_KINDS_PIXELS 8.5 /* smaller ones tell land, air and sea apart, no more */
+#define SYMBOL_KINDS_PIXELS 8.5 /* smaller symbols tell only land, air and sea apart */
 
 enum symbol_shape {
     SYMBOL_LAND,
@@ -27,12 +27,13 @@ enum symbol_shape {
     SYMBOL_COUNT
 };
 
-/* The form that a kind's vehicles have on the map at a size; by its model, else by its domain. */
+/* Returns the shape of a kind's symbols of this length: by its model, else by its domain. */
 enum symbol_shape symbol_shape(const struct world *world, const struct kind *kind, double pixels);
 
 struct rgba symbol_colour(enum force force);
 
-/* A vehicle about so long. Within 0.1 of its length around its place it has its force's colour. */
+/* Draws a vehicle of about this length. It has the force's colour within 0.1 of its length around
+ * its place. */
 void symbol_vehicle(struct image *image, struct point at, enum symbol_shape shape,
                     double heading_rad, double pixels, enum force force);
 
@@ -40,7 +41,7 @@ void symbol_munition(struct image *image, struct point at, double heading_rad, d
 void symbol_wreck(struct image *image, struct point at, double pixels);
 void symbol_fire(struct image *image, struct point at, double pixels);
 
-/* A detonation; age from 0, just now, to 1, when it is gone. */
+/* Draws a detonation. age: from 0, just now, to 1, when it has faded. */
 void symbol_blast(struct image *image, struct point at, double age, double pixels);
 
 void symbol_crater(struct image *image, struct point at, double radius);

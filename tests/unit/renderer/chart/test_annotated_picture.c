@@ -1,5 +1,5 @@
-/* Whole pictures of charts, words and all: at every size they stay within their bounds, show every
- * vehicle of the whole map where the table says, and are the same when drawn again. */
+/* Annotated pictures: at every size nothing is drawn outside of the image, every vehicle shows
+ * where the world table says, and drawing again gives the same pixels. */
 #include "renderer/chart/annotated_picture.h"
 
 #include "tests/support/map_stage.h"
@@ -77,7 +77,7 @@ static void open_picture(struct annotated_picture *picture, const struct map_sta
         fail_msg("%s", error.text);
 }
 
-static void test_the_whole_map_shows_everyone(void **context)
+static void test_the_whole_map_shows_every_vehicle(void **context)
 {
     const struct map_stage *stage = *context;
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
@@ -97,7 +97,7 @@ static void test_the_whole_map_shows_everyone(void **context)
         uint32_t hidden = 0;
         for (uint32_t slot = 0; slot < stage->state.head->used; slot++)
             hidden += !map_stage_shows(stage, &first.image, &view, slot);
-        /* A legend on the map may lie over some; at 64 pixels symbols lie over each other. */
+        /* A legend on the map may cover some vehicles; at 64 pixels symbols cover each other. */
         if (box.width >= 200 && hidden > (picture.layout.legend.width > 0 ? 0 : 6))
             fail_msg("%ux%u: %u vehicles do not show", sizes[i][0], sizes[i][1], hidden);
         annotated_picture_close(&picture);
@@ -105,31 +105,6 @@ static void test_the_whole_map_shows_everyone(void **context)
         canvas_close(&first);
         canvas_close(&again);
     }
-}
-
-static void test_an_area_shows_who_is_there(void **context)
-{
-    const struct map_stage *stage = *context;
-    struct annotated_picture picture;
-    struct tracks tracks;
-    struct canvas canvas;
-    struct annotated_picture_source source = source_of(stage, &tracks, SLOT_NONE);
-    const struct entities *e = &stage->state.entities;
-    open_picture(&picture, stage, 400, 300);
-    canvas_open(&canvas, 400, 300);
-    for (uint32_t slot = 0; slot < stage->state.head->used; slot += 5) {
-        double metres = 4.0 + slot;
-        assert_int_equal(annotated_picture_area(&picture, &canvas.image, &source,
-                                                e->x[slot] + 300.0, e->z[slot], metres),
-                         0);
-        struct map_view view = map_around(e->x[slot] + 300.0, e->z[slot], metres, 0, 0, 400, 300);
-        map_align(&view);
-        if (!map_stage_shows(stage, &canvas.image, &view, slot))
-            fail_msg("slot %u does not show at %.0f m a pixel", slot, metres);
-    }
-    annotated_picture_close(&picture);
-    tracks_free(&tracks);
-    canvas_close(&canvas);
 }
 
 static uint32_t changed(const struct image *image, struct box box)
@@ -143,7 +118,7 @@ static uint32_t changed(const struct image *image, struct box box)
     return count;
 }
 
-/* Instruments leave the middle of the picture alone, and an alarm is red whatever the size. */
+/* Instruments leave the middle of the picture free, and an alarm is red at every size. */
 static void test_instruments_keep_to_their_places(void **context)
 {
     const struct map_stage *stage = *context;
@@ -178,7 +153,7 @@ static void test_instruments_keep_to_their_places(void **context)
     }
 }
 
-static void test_words_are_shortened_to_fit(void **context)
+static void test_labels_are_shortened_to_fit(void **context)
 {
     const struct map_stage *stage = *context;
     struct annotated_picture picture;
@@ -194,8 +169,8 @@ static void test_words_are_shortened_to_fit(void **context)
     annotated_picture_close(&picture);
 }
 
-/* Letters of a size are the same before and after others pushed them out of the cache. */
-static void test_letters_are_kept_and_made_again(void **context)
+/* A glyph is the same after other sizes have evicted it from the cache. */
+static void test_glyphs_are_kept_and_made_again(void **context)
 {
     const struct map_stage *stage = *context;
     struct annotated_picture picture;
@@ -220,9 +195,10 @@ int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, close_stage)
     const struct CMUnitTest tests[] = {
-        TEST(test_the_whole_map_shows_everyone),     TEST(test_an_area_shows_who_is_there),
-        TEST(test_instruments_keep_to_their_places), TEST(test_words_are_shortened_to_fit),
-        TEST(test_letters_are_kept_and_made_again),
+        TEST(test_the_whole_map_shows_every_vehicle),
+        TEST(test_instruments_keep_to_their_places),
+        TEST(test_labels_are_shortened_to_fit),
+        TEST(test_glyphs_are_kept_and_made_again),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,5 @@
-/* The map against the table (row 12): every vehicle's symbol is where its position says, at every
- * scale and size; what it is and whose can be told; the kept ground is what painting it anew gives.
- */
+/* The map against the world table (row 12): every vehicle's symbol is at its position at every
+ * scale and size; shapes and forces can be told apart; kept ground equals ground painted anew. */
 #include "renderer/chart/map.h"
 
 #include "renderer/chart/base_map.h"
@@ -56,7 +55,7 @@ static void test_points_of_the_map(void **context)
                 map_round_down(1.5) == 1.0);
 }
 
-/* Every vehicle in the view shows, and nothing shows where there is none. */
+/* Every vehicle in the view shows, and nothing is drawn away from vehicles. */
 static void check_view(const struct map_stage *stage, const struct map_view *view, double pixels)
 {
     struct image image;
@@ -132,7 +131,7 @@ static void test_every_symbol_is_its_force_in_the_middle(void **context)
     image_free(&image);
 }
 
-/* Forms are told apart without colour: their outlines differ in a good part of their area. */
+/* Shapes can be told apart without colour: they differ in a good part of their area. */
 static void test_shapes_differ(void **context)
 {
     (void)context;
@@ -225,8 +224,7 @@ static void test_blasts_show_and_fade(void **context)
     image_free(&image);
 }
 
-/* What is lit on the map is what the camera's frustum holds on level ground, as far as the triangle
- * reaches. */
+/* The triangle covers what the camera's frustum covers of level ground, up to its length. */
 static void test_the_triangle_is_the_cameras(void **context)
 {
     (void)context;
@@ -256,7 +254,7 @@ static void test_the_triangle_is_the_cameras(void **context)
     image_free(&image);
 }
 
-/* A base map that is moved about is the same as one painted at each place. */
+/* A base map that was moved equals one that was painted anew. */
 static void test_kept_ground_is_what_would_be_painted(void **context)
 {
     struct map_stage *stage = *context;
@@ -297,7 +295,7 @@ static void test_a_map_that_follows_paints_strips(void **context)
         map_align(&view);
         assert_int_equal(base_map_draw(&base, &image, &view), 0);
     }
-    /* A hundred pixels on: not twice the picture in all. */
+    /* It moved by a hundred pixels: altogether less than two pictures are painted. */
     assert_true(base.painted < 2u * 160u * 120u);
     uint64_t painted = base.painted;
     struct map_view same = map_around(21000.0, 20000.0, 10.0, 0, 0, 160, 120);

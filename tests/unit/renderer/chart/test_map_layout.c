@@ -1,4 +1,4 @@
-/* Layouts of all sizes: nothing overlaps, nothing is cut. */
+/* Layouts of all sizes: no parts overlap, and none is cut off. */
 #include "renderer/chart/map_layout.h"
 
 #include "tests/support/fixture.h"
@@ -11,7 +11,7 @@
 static void check(uint32_t width, uint32_t height)
 {
     struct map_layout layout;
-    map_layout_map(&layout, width, height);
+    map_layout_init(&layout, width, height);
     const struct box picture = {0, 0, (int32_t)width, (int32_t)height};
     const struct box boxes[] = {layout.whole, layout.close_up, layout.figures, layout.legend};
     const size_t count = sizeof boxes / sizeof boxes[0];
@@ -49,14 +49,14 @@ static void test_usual_sizes_have_all_parts(void **context)
                                         {3840, 2160}, {720, 1280}, {1024, 768}};
     struct map_layout layout;
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
-        map_layout_map(&layout, sizes[i][0], sizes[i][1]);
+        map_layout_init(&layout, sizes[i][0], sizes[i][1]);
         assert_true(layout.close_up.width > 0);
         assert_true(layout.figures.width > 0);
         assert_true(layout.legend.width > 0);
     }
-    map_layout_map(&layout, 512, 512);
+    map_layout_init(&layout, 512, 512);
     assert_int_equal(layout.legend.width, 0);
-    map_layout_map(&layout, 320, 200);
+    map_layout_init(&layout, 320, 200);
     assert_int_equal(layout.close_up.width, 0);
     assert_true(layout.legend.width > 0);
 }
@@ -68,7 +68,7 @@ static void test_a_place_is_taken_once(void **context)
     assert_true(label_space_take(&space, (struct box){10, 10, 20, 10}));
     assert_false(label_space_take(&space, (struct box){29, 19, 5, 5}));
     assert_true(label_space_take(&space, (struct box){30, 19, 5, 5}));
-    assert_false(label_space_take(&space, (struct box){100, 30, 11, 5})); /* over the edge */
+    assert_false(label_space_take(&space, (struct box){100, 30, 11, 5})); /* beyond the edge */
     assert_false(label_space_take(&space, (struct box){9, 30, 5, 5}));
     for (uint32_t i = 0; i < 2 * LABEL_SPACE_MAX; i++)
         label_space_take(&space, (struct box){10 + (int32_t)i % 50, 40 + (int32_t)i / 50, 1, 1});

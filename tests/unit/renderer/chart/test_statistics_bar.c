@@ -1,4 +1,4 @@
-/* The statistics bar says what the table holds (row 13), and what is alarming. */
+/* The statistics bar against the world table (row 13), and its warnings and alarms. */
 #include "renderer/chart/statistics_bar.h"
 
 #include "tests/support/map_stage.h"
@@ -23,7 +23,7 @@ static const struct statistics_bar_field *find(const struct statistics_bar_field
     return fields;
 }
 
-/* The number in a field, as a reader would take it. */
+/* Returns the number that a field shows. */
 static double number(const struct statistics_bar_field *fields, uint32_t count, const char *name)
 {
     return strtod(find(fields, count, name)->value, NULL);
@@ -99,7 +99,7 @@ static void test_alarms(void **context)
     assert_int_equal(state_of(&s, "ROUNDS"), STATISTICS_BAR_WARNING);
     s.rounds = 0;
     assert_int_equal(state_of(&s, "ROUNDS"), STATISTICS_BAR_ALARM);
-    s.rounds_full = 0; /* it never had any */
+    s.rounds_full = 0; /* its kind carries none */
     assert_int_equal(state_of(&s, "ROUNDS"), STATISTICS_BAR_GOOD);
     s.damage = "low";
     assert_int_equal(state_of(&s, "DAMAGE"), STATISTICS_BAR_WARNING);
