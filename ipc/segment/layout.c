@@ -1,4 +1,4 @@
-/* Sizes and offsets of the regions, and who writes which. */
+/* Sizes, offsets and writers of the regions. */
 #include "ipc/segment/layout.h"
 
 #include "ipc/segment/doorbell.h"
@@ -22,7 +22,7 @@
 
 _Static_assert(sizeof(struct state_head) <= LAYOUT_HEAD_BYTES, "columns begin after the head");
 
-/* Bounds that a header from elsewhere cannot pass; each is far above what a world needs. */
+/* Bounds for a forged header; each is far above what a world needs. */
 #define POSTS_SIDE_MAX 4097u
 #define PART_MAX       (1u << 26)
 

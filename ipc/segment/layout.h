@@ -1,8 +1,8 @@
-/* Layout of a world's segment: which regions there are, how large, where, and who may write them.
+/* Layout of a world's segment: its regions, their sizes and offsets, and their writers.
  *
- * Offsets follow from struct params and struct counts alone, so every process computes them anew
- * from the checked header and trusts none from memory. Regions begin on page borders of every
- * kernel, so that a process maps for writing what its role writes and nothing else. */
+ * Offsets follow from struct params and struct counts only, so every process computes them from the
+ * checked header and reads none from memory. Regions begin on page borders of every kernel, so that
+ * a process maps for writing only the regions that its role writes. */
 #ifndef JOLON_IPC_SEGMENT_LAYOUT_H
 #define JOLON_IPC_SEGMENT_LAYOUT_H
 
@@ -18,14 +18,14 @@
 #define SEGMENT_VERSION 5u
 
 /* Every region begins at a multiple of this [byte]. A mapping begins on a page border, and pages
- * are 4, 16 or 64 KiB, as the kernel was built (aarch64 has all three). */
+ * are 4, 16 or 64 KiB, depending on the kernel (aarch64 has all three). */
 #define REGION_ALIGN 65536u
 
-/* A table's head has this much room before its columns begin. */
+/* Room for a table's head before its columns [byte]. */
 #define LAYOUT_HEAD_BYTES 512u
 
 enum region {
-    REGION_HEADER, /* struct segment_header; written at creation only, like all up to REACH */
+    REGION_HEADER, /* struct segment_header; never changes, like all regions before COMMIT */
     REGION_PARAMS,
     REGION_KINDS,
     REGION_MODELS,
@@ -49,7 +49,7 @@ enum region {
     REGION_SCRIPT_STEPS,
     REGION_NAMES,
     REGION_RECIPE,
-    REGION_COMMIT,  /* struct commit_words: collider; the regions before it never change */
+    REGION_COMMIT,  /* struct commit_words: collider */
     REGION_WORLD_A, /* head, columns, their hashes, fixed damage: collider */
     REGION_WORLD_B,
     REGION_CRATERS,    /* collider */
@@ -66,18 +66,18 @@ enum region {
 };
 
 struct segment_header {
-    uint64_t magic; /* written last at creation */
+    uint64_t magic; /* written last */
     uint32_t version;
     uint32_t header_bytes;
-    uint64_t layout_hash; /* of sizes and offsets as compiled: another build refuses */
+    uint64_t layout_hash; /* of compiled sizes and offsets: other builds refuse the world */
     uint64_t total_bytes;
     uint64_t static_hash[REGION_COMMIT]; /* XXH3 of each region that never changes; [0] is 0 */
     struct counts counts;
     uint32_t capacity, event_slots, intents_per_frame, command_slots, crater_slots;
     uint32_t dent_slots;
-    uint64_t made;        /* random: one creation's own, which its images carry with them */
-    uint64_t origin;      /* of the image it was loaded from (image_segment()); 0: of a scenario */
-    uint64_t first_event; /* the event ring begins with it: 0, or where the image was taken */
+    uint64_t made;        /* random number of this creation, also in its images */
+    uint64_t origin;      /* hash of the image it was made from (image_segment()); 0: none */
+    uint64_t first_event; /* the first event of the ring: 0, or the image's next event */
     uint64_t head_hash;   /* XXH3 over the words above but magic */
 };
 
@@ -87,17 +87,17 @@ struct layout {
     size_t total;
 };
 
-/* Bytes of a table: head, columns, and the columns' hashes (world/checksum.h). */
+/* Returns the bytes of a table: head, columns and the columns' hashes (world/checksum.h). */
 size_t layout_table_bytes(uint32_t capacity);
 
-/* Fills layout from the header's counts and sizes. 0; -1 with errno EOVERFLOW when a size is
- * beyond its bound (a header from elsewhere). */
+/* Computes layout from the header's counts and sizes. Returns 0, or -1 with errno EOVERFLOW when a
+ * size exceeds its bound, as a forged header's may. */
 int layout_compute(struct layout *layout, const struct segment_header *header);
 
-/* Hash of everything compiled in that two attached processes must agree on. */
+/* Returns a hash of all compiled-in sizes and offsets on which attached processes must agree. */
 uint64_t layout_hash(void);
 
-/* May a holder of this role write this region? ROLE_NONE writes nothing. */
+/* Returns true if the holder of this role writes this region. ROLE_NONE writes none. */
 bool layout_writable(enum role role, enum region region);
 
 const char *region_name(enum region region);

@@ -1,8 +1,8 @@
-/* Roles: the one table of process kinds, their locks and their slots.
+/* Roles: the kinds of processes, their locks and their slots.
  *
- * A role is held by one live process at a time: it owns one byte of the world's lock file through
- * an open-file-description lock, which the kernel drops when the process dies. A slot is a region
- * of the segment that only the holder writes: who it is, that it lives, what its stages take. */
+ * A role has one live holder at a time, the process that locks the role's byte of the world's lock
+ * file by an open-file-description lock. The kernel drops the lock when the process dies. A slot is
+ * a region of the segment that only the role's holder writes. */
 #ifndef JOLON_IPC_SEGMENT_ROLE_H
 #define JOLON_IPC_SEGMENT_ROLE_H
 
@@ -61,42 +61,42 @@ enum role_trait {
     ROLE_OPTIONAL = 8      /* may be left out of a set */
 };
 
-/* Has the role the trait? False for ROLE_NONE. */
+/* Returns true if the role has the trait, false for ROLE_NONE. */
 bool role_has(enum role role, enum role_trait trait);
 
-/* The roles that the keeper starts, in the order in which it starts or stops them. Returns how many
- * there are. */
+/* Fills order with the roles that the keeper starts, in the order of starting or stopping. Returns
+ * their number. */
 int role_order(enum role order[ROLE_COUNT], bool stopping);
 
-/* "mover", ..., "renderer", "renderer-2", ..., "console"; "?" out of range. */
+/* Returns "mover", ..., "renderer", "renderer-2", ..., "console", or "?" out of range. */
 const char *role_name(enum role role);
 
-/* The role called name, ROLE_NONE when there is none. */
+/* Returns the role of this name, ROLE_NONE when there is none. */
 enum role role_find(const char *name);
 
 enum role_state { ROLE_ABSENT, ROLE_STARTING, ROLE_READY, ROLE_STOPPING, ROLE_STATE_COUNT };
 
 const char *role_state_name(enum role_state state);
 
-/* Written by the role's holder alone, read by anyone without waiting: statistics, of which a torn
- * read shows an old number beside a new one, and of which none goes into the world. */
+/* A role's slot: statistics that only its holder writes and any process reads without waiting. A
+ * torn read shows an old number beside a new one. No result depends on a slot. */
 struct role_slot {
     _Alignas(64) _Atomic uint64_t beat_ns; /* CLOCK_MONOTONIC of the last sign of life */
     _Atomic uint32_t pid;
     _Atomic uint32_t state; /* enum role_state */
     _Atomic uint64_t started_ns;
     _Atomic uint64_t starts;      /* times the role was taken; restarts are one fewer */
-    _Atomic uint64_t frame;       /* it last worked on */
-    _Atomic uint64_t stage_ns;    /* its last frame's work */
-    _Atomic uint64_t late_frames; /* mover: not committed within a frame's time of their due */
+    _Atomic uint64_t frame;       /* the last frame that it worked on */
+    _Atomic uint64_t stage_ns;    /* work on its last frame */
+    _Atomic uint64_t late_frames; /* mover: frames not committed when the next was due */
     _Atomic uint64_t due_ns;      /* mover: CLOCK_MONOTONIC when the next frame is due */
-    _Atomic uint64_t gaps;        /* consumers: events lost to a ring that went round */
-    _Atomic uint32_t detail_pct;  /* renderers: what is drawn of all detail; 0: others ... */
-    _Atomic uint32_t size_pct;    /* ... and the size it is drawn at, of the picture's */
-    _Atomic uint64_t work;      /* mover and collider: goes up as a step gets on, also within it */
-    _Atomic uint32_t unguarded; /* reporter: 1: anybody on its network commands the world */
-    struct histogram stage;     /* the role's own work a frame */
-    struct histogram whole;     /* collider: mover's and collider's work of one frame */
+    _Atomic uint64_t gaps;        /* consumers: events that the ring overwrote unread */
+    _Atomic uint32_t detail_pct;  /* renderers: share of the full detail, else 0 */
+    _Atomic uint32_t size_pct;    /* renderers: drawn size, of the picture's size */
+    _Atomic uint64_t work;        /* mover and collider: grows with progress within a step */
+    _Atomic uint32_t unguarded;   /* reporter: 1: takes commands without DDS Security */
+    struct histogram stage;       /* the role's work a frame */
+    struct histogram whole;       /* collider: mover's and collider's work a frame */
 };
 
 #define ROLE_SLOT_BYTES 8192u

@@ -1,4 +1,4 @@
-/* Orders: the tables of verbs and arguments, and their checks. */
+/* Orders: the tables of verbs and arguments, and the checks. */
 #include "ipc/topics/command_text.h"
 
 #include "world/entity/command.h"
@@ -36,52 +36,56 @@ static const char *behaviour_word(int value)
     return behaviour_name((enum behaviour)value);
 }
 
-#define AT(member)         offsetof(struct command_text, member)
-#define FLOAT(member, low) SORT_FLOAT, low, 1.0, AT(command.member), NULL
+#define OFFSET(member)     offsetof(struct command_text, member)
+#define FLOAT(member, low) SORT_FLOAT, low, 1.0, OFFSET(command.member), NULL
 #define BIT(field)         (1u << (field))
 
-/* Numbers: low to high. Words: low is the first, high the last of the enumeration. */
+/* For numbers the range is low to high. For words low is the first and high the last of the
+ * enumeration. */
 static const struct {
     const char *name, *option;
     enum sort sort;
     double low, high;
-    size_t at; /* within struct command_text */
+    size_t at; /* offset in struct command_text */
     word_name *word;
 } fields[COMMAND_TEXT_FIELD_COUNT] = {
-    [COMMAND_TEXT_VEHICLE] = {"vehicle", "vehicle", SORT_ENTITY, 1, UINT32_MAX, AT(vehicle), NULL},
-    [COMMAND_TEXT_TARGET] = {"target", "target", SORT_ENTITY, 1, UINT32_MAX, AT(target), NULL},
+    [COMMAND_TEXT_VEHICLE] = {"vehicle", "vehicle", SORT_ENTITY, 1, UINT32_MAX, OFFSET(vehicle),
+                              NULL},
+    [COMMAND_TEXT_TARGET] = {"target", "target", SORT_ENTITY, 1, UINT32_MAX, OFFSET(target), NULL},
     [COMMAND_TEXT_THROTTLE] = {"throttle", "throttle", FLOAT(throttle, -1.0)},
     [COMMAND_TEXT_STEER] = {"steer", "steer", FLOAT(steer, -1.0)},
     [COMMAND_TEXT_CLIMB] = {"climb", "climb", FLOAT(climb, -1.0)},
     [COMMAND_TEXT_TRAVERSE] = {"traverse", "traverse", FLOAT(traverse, -1.0)},
     [COMMAND_TEXT_ELEVATE] = {"elevate", "elevate", FLOAT(elevate, -1.0)},
     [COMMAND_TEXT_BRAKE] = {"brake", "brake", FLOAT(brake, 0.0)},
-    [COMMAND_TEXT_GEAR] = {"gear", "gear", SORT_WORD, 0, GEAR_COUNT - 1, AT(command.gear),
+    [COMMAND_TEXT_GEAR] = {"gear", "gear", SORT_WORD, 0, GEAR_COUNT - 1, OFFSET(command.gear),
                            gear_word},
-    [COMMAND_TEXT_LEASE] = {"lease_s", "lease", SORT_DOUBLE, LEASE_MIN_S, LEASE_MAX_S, AT(lease_s),
-                            NULL},
-    [COMMAND_TEXT_ANYWAY] = {"anyway", "anyway", SORT_TRUTH, 0, 1, AT(command.anyway), NULL},
-    [COMMAND_TEXT_KIND] = {"kind", "kind", SORT_KIND, 0, 0, AT(command.kind), NULL},
-    [COMMAND_TEXT_MUNITION] = {"munition", "munition", SORT_KIND, 0, 0, AT(command.kind), NULL},
-    [COMMAND_TEXT_X] = {"x", "x", SORT_DOUBLE, 0, WORLD_SIDE_M, AT(command.x_m), NULL},
-    [COMMAND_TEXT_Z] = {"z", "z", SORT_DOUBLE, 0, WORLD_SIDE_M, AT(command.z_m), NULL},
-    [COMMAND_TEXT_FORCE] = {"force", "force", SORT_WORD, 0, FORCE_COUNT - 1, AT(command.force),
+    [COMMAND_TEXT_LEASE] = {"lease_s", "lease", SORT_DOUBLE, LEASE_MIN_S, LEASE_MAX_S,
+                            OFFSET(lease_s), NULL},
+    [COMMAND_TEXT_ANYWAY] = {"anyway", "anyway", SORT_TRUTH, 0, 1, OFFSET(command.anyway), NULL},
+    [COMMAND_TEXT_KIND] = {"kind", "kind", SORT_KIND, 0, 0, OFFSET(command.kind), NULL},
+    [COMMAND_TEXT_MUNITION] = {"munition", "munition", SORT_KIND, 0, 0, OFFSET(command.kind), NULL},
+    [COMMAND_TEXT_X] = {"x", "x", SORT_DOUBLE, 0, WORLD_SIDE_M, OFFSET(command.x_m), NULL},
+    [COMMAND_TEXT_Z] = {"z", "z", SORT_DOUBLE, 0, WORLD_SIDE_M, OFFSET(command.z_m), NULL},
+    [COMMAND_TEXT_FORCE] = {"force", "force", SORT_WORD, 0, FORCE_COUNT - 1, OFFSET(command.force),
                             force_word},
     [COMMAND_TEXT_BEHAVIOUR] = {"behaviour", "behaviour", SORT_WORD, 0, BEHAVIOUR_PATROL,
-                                AT(command.behaviour), behaviour_word},
+                                OFFSET(command.behaviour), behaviour_word},
     [COMMAND_TEXT_ALTITUDE] = {"altitude_m", "altitude", SORT_DOUBLE, 0, 20000,
-                               AT(command.altitude_m), NULL},
+                               OFFSET(command.altitude_m), NULL},
     [COMMAND_TEXT_HEADING] = {"heading_deg", "heading", SORT_DOUBLE, -360, 360,
-                              AT(command.heading_rad), NULL},
-    [COMMAND_TEXT_SPEED] = {"speed_mps", "speed", SORT_DOUBLE, 0, 2000, AT(command.speed_mps),
+                              OFFSET(command.heading_rad), NULL},
+    [COMMAND_TEXT_SPEED] = {"speed_mps", "speed", SORT_DOUBLE, 0, 2000, OFFSET(command.speed_mps),
                             NULL},
-    [COMMAND_TEXT_FRAMES] = {"frames", "frames", SORT_WHOLE, 1, 1000000, AT(command.frames), NULL},
-    [COMMAND_TEXT_SCALE] = {"scale", "scale", SORT_DOUBLE, 0.01, 100, AT(command.scale), NULL},
-    [COMMAND_TEXT_ROUNDS] = {"rounds", "rounds", SORT_WHOLE, 1, COMMAND_TEXT_ROUNDS_MAX, AT(rounds),
+    [COMMAND_TEXT_FRAMES] = {"frames", "frames", SORT_WHOLE, 1, 1000000, OFFSET(command.frames),
                              NULL},
-    [COMMAND_TEXT_EVERY] = {"every_s", "every", SORT_DOUBLE, 0, EVERY_MAX_S, AT(every_s), NULL},
-    [COMMAND_TEXT_RADIUS] = {"radius_m", "radius", SORT_DOUBLE, 0, RADIUS_MAX, AT(radius_m), NULL},
-    [COMMAND_TEXT_SEED] = {"seed", "seed", SORT_WHOLE, 0, UINT32_MAX, AT(seed), NULL},
+    [COMMAND_TEXT_SCALE] = {"scale", "scale", SORT_DOUBLE, 0.01, 100, OFFSET(command.scale), NULL},
+    [COMMAND_TEXT_ROUNDS] = {"rounds", "rounds", SORT_WHOLE, 1, COMMAND_TEXT_ROUNDS_MAX,
+                             OFFSET(rounds), NULL},
+    [COMMAND_TEXT_EVERY] = {"every_s", "every", SORT_DOUBLE, 0, EVERY_MAX_S, OFFSET(every_s), NULL},
+    [COMMAND_TEXT_RADIUS] = {"radius_m", "radius", SORT_DOUBLE, 0, RADIUS_MAX, OFFSET(radius_m),
+                             NULL},
+    [COMMAND_TEXT_SEED] = {"seed", "seed", SORT_WHOLE, 0, UINT32_MAX, OFFSET(seed), NULL},
 };
 
 _Static_assert(sizeof(jolon_Gear) == sizeof(int) && sizeof(jolon_Force) == sizeof(int) &&
@@ -94,15 +98,15 @@ _Static_assert(COMMAND_TEXT_NAME_MAX == ENTITY_NAME_MAX, "names of vehicles");
     (BIT(COMMAND_TEXT_THROTTLE) | BIT(COMMAND_TEXT_STEER) | BIT(COMMAND_TEXT_CLIMB) |              \
      BIT(COMMAND_TEXT_TRAVERSE) | BIT(COMMAND_TEXT_ELEVATE) | BIT(COMMAND_TEXT_BRAKE) |            \
      BIT(COMMAND_TEXT_GEAR) | BIT(COMMAND_TEXT_LEASE))
-#define SKY (BIT(COMMAND_TEXT_MUNITION) | BIT(COMMAND_TEXT_X) | BIT(COMMAND_TEXT_Z))
+#define MISSION_NEEDED (BIT(COMMAND_TEXT_MUNITION) | BIT(COMMAND_TEXT_X) | BIT(COMMAND_TEXT_Z))
 #define MISSION                                                                                    \
-    (SKY | BIT(COMMAND_TEXT_ROUNDS) | BIT(COMMAND_TEXT_EVERY) | BIT(COMMAND_TEXT_RADIUS) |         \
-     BIT(COMMAND_TEXT_SEED))
-#define PLACE (BIT(COMMAND_TEXT_KIND) | BIT(COMMAND_TEXT_X) | BIT(COMMAND_TEXT_Z))
+    (MISSION_NEEDED | BIT(COMMAND_TEXT_ROUNDS) | BIT(COMMAND_TEXT_EVERY) |                         \
+     BIT(COMMAND_TEXT_RADIUS) | BIT(COMMAND_TEXT_SEED))
+#define SPAWN_NEEDED (BIT(COMMAND_TEXT_KIND) | BIT(COMMAND_TEXT_X) | BIT(COMMAND_TEXT_Z))
 #define SPAWN                                                                                      \
-    (PLACE | BIT(COMMAND_TEXT_FORCE) | BIT(COMMAND_TEXT_BEHAVIOUR) | BIT(COMMAND_TEXT_ALTITUDE) |  \
-     BIT(COMMAND_TEXT_HEADING) | BIT(COMMAND_TEXT_SPEED))
-#define WHO     BIT(COMMAND_TEXT_VEHICLE)
+    (SPAWN_NEEDED | BIT(COMMAND_TEXT_FORCE) | BIT(COMMAND_TEXT_BEHAVIOUR) |                        \
+     BIT(COMMAND_TEXT_ALTITUDE) | BIT(COMMAND_TEXT_HEADING) | BIT(COMMAND_TEXT_SPEED))
+#define VEHICLE BIT(COMMAND_TEXT_VEHICLE)
 #define NOTHING COMMAND_TEXT_FIELD_COUNT
 
 static const struct command_text_verb verbs[] = {
@@ -112,12 +116,14 @@ static const struct command_text_verb verbs[] = {
      COMMAND_TEXT_FRAMES},
     {"scale", jolon_COMMAND_SCALE, BIT(COMMAND_TEXT_SCALE), BIT(COMMAND_TEXT_SCALE),
      COMMAND_TEXT_SCALE},
-    {"drive", jolon_COMMAND_DRIVE, WHO | CONTROLS, WHO, COMMAND_TEXT_VEHICLE},
-    {"release", jolon_COMMAND_RELEASE, WHO | BIT(COMMAND_TEXT_ANYWAY), WHO, COMMAND_TEXT_VEHICLE},
-    {"fire", jolon_COMMAND_FIRE, WHO | BIT(COMMAND_TEXT_TARGET) | MISSION, 0, COMMAND_TEXT_VEHICLE},
-    {"mission", jolon_COMMAND_FIRE, MISSION, SKY, NOTHING},
-    {"spawn", jolon_COMMAND_SPAWN, SPAWN, PLACE, COMMAND_TEXT_KIND},
-    {"remove", jolon_COMMAND_REMOVE, WHO, WHO, COMMAND_TEXT_VEHICLE},
+    {"drive", jolon_COMMAND_DRIVE, VEHICLE | CONTROLS, VEHICLE, COMMAND_TEXT_VEHICLE},
+    {"release", jolon_COMMAND_RELEASE, VEHICLE | BIT(COMMAND_TEXT_ANYWAY), VEHICLE,
+     COMMAND_TEXT_VEHICLE},
+    {"fire", jolon_COMMAND_FIRE, VEHICLE | BIT(COMMAND_TEXT_TARGET) | MISSION, 0,
+     COMMAND_TEXT_VEHICLE},
+    {"mission", jolon_COMMAND_FIRE, MISSION, MISSION_NEEDED, NOTHING},
+    {"spawn", jolon_COMMAND_SPAWN, SPAWN, SPAWN_NEEDED, COMMAND_TEXT_KIND},
+    {"remove", jolon_COMMAND_REMOVE, VEHICLE, VEHICLE, COMMAND_TEXT_VEHICLE},
     {"quit", jolon_COMMAND_QUIT, 0, 0, NOTHING},
 };
 
@@ -153,8 +159,9 @@ bool command_text_field_is_truth(enum command_text_field field)
     return fields[field].sort == SORT_TRUTH;
 }
 
-/* How many letters to put in, take out or change; words are short. */
-static size_t edits(const char *a, const char *b)
+/* Returns the number of letters to insert, delete or change (Levenshtein distance) for short
+ * words. */
+static size_t edit_distance(const char *a, const char *b)
 {
     size_t row[COMMAND_TEXT_NAME_MAX + 1];
     size_t width = strnlen(b, COMMAND_TEXT_NAME_MAX);
@@ -173,7 +180,7 @@ static size_t edits(const char *a, const char *b)
     return row[width];
 }
 
-/* "a, b, c" */
+/* Appends a word to a list "a, b, c". */
 static void list(char *text, size_t bytes, const char *word)
 {
     size_t used = strlen(text);
@@ -191,11 +198,11 @@ int command_text_begin(struct command_text *order, const char *verb, struct erro
             order->command.type = verbs[i].type;
             return 0;
         }
-        if (edits(verb, verbs[i].name) < edits(verb, verbs[best].name))
+        if (edit_distance(verb, verbs[i].name) < edit_distance(verb, verbs[best].name))
             best = i;
         list(all, sizeof all, verbs[i].name);
     }
-    if (edits(verb, verbs[best].name) <= 2)
+    if (edit_distance(verb, verbs[best].name) <= 2)
         return error_text_set(error, "'%.32s': no such command; did you mean %s?", verb,
                               verbs[best].name);
     return error_text_set(error, "'%.32s': no such command; there are %s", verb, all);
@@ -211,7 +218,7 @@ static int wrong(const struct command_text_value *value, struct error_text *erro
     return error_text_set(error, "%g: not %s", value->number, right);
 }
 
-/* A number within the field's range, and a whole one if it must be. */
+/* Reads a number in the field's range, which must be whole for some fields. */
 static int take_number(double *number, enum command_text_field field,
                        const struct command_text_value *value, struct error_text *error)
 {
@@ -253,7 +260,7 @@ static bool is_digits(const char *text)
     return *text && text[strspn(text, "0123456789")] == '\0';
 }
 
-/* An id, or a name that is looked up later. */
+/* Reads an id, or a name that is resolved later. */
 static int take_entity(struct command_text *order, enum command_text_field field,
                        const struct command_text_value *value, struct error_text *error)
 {
@@ -340,12 +347,13 @@ int command_text_give(struct command_text *order, enum command_text_field field,
     return 0;
 }
 
-/* Out of the sky onto a place, or by a vehicle: not both. */
+/* Checks that FIRE is either a vehicle's or a mission's. */
 static int check_fire(const struct command_text *order, struct error_text *error)
 {
-    uint32_t by_vehicle = order->given & (WHO | BIT(COMMAND_TEXT_TARGET));
+    uint32_t by_vehicle = order->given & (VEHICLE | BIT(COMMAND_TEXT_TARGET));
     uint32_t by_sky = order->given & MISSION;
-    if (by_vehicle & WHO ? by_sky != 0 : by_vehicle != 0 || (by_sky & SKY) != SKY)
+    if (by_vehicle & VEHICLE ? by_sky != 0
+                             : by_vehicle != 0 || (by_sky & MISSION_NEEDED) != MISSION_NEEDED)
         return error_text_set(error,
                               "%s: either a vehicle, and a target or none; or a munition and a "
                               "place x, z, and rounds, every, radius and seed or none",
@@ -382,7 +390,7 @@ static int resolve_name(uint32_t *id, const char *name, const struct name_table 
     if (*id)
         return 0;
     for (uint32_t i = 0; i < names->count; i++) {
-        if (!*nearest || edits(name, names->entry[i].name) < edits(name, nearest))
+        if (!*nearest || edit_distance(name, names->entry[i].name) < edit_distance(name, nearest))
             nearest = names->entry[i].name;
     }
     if (!*nearest)
