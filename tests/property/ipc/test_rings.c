@@ -1,5 +1,5 @@
-/* Rings between processes: events in order, none lost unsaid and none doubled; commands likewise.
- */
+/* Rings between processes: events arrive in order and once, and losses are counted; so do
+ * commands. */
 #include "ipc/frame/command_ring.h"
 #include "ipc/frame/event_cursor.h"
 
@@ -119,7 +119,8 @@ static struct tale read_all(bool slow)
         if (slow && fixture_random(&random) % 16 == 0)
             usleep(100);
     }
-    assert_int_equal(tale.events + tale.gaps, end); /* nothing lost unsaid, nothing doubled */
+    assert_int_equal(tale.events + tale.gaps,
+                     end); /* each event arrived once or was counted as lost */
     return tale;
 }
 
@@ -132,7 +133,7 @@ static void check_readers(bool slow)
                   (unsigned long long)tale.gaps);
     assert_true(tale.events > 0);
     if (slow)
-        assert_true(tale.gaps > 0); /* the ring did go round */
+        assert_true(tale.gaps > 0); /* the ring has overwritten events */
 }
 
 static void test_events_beside_a_writer(void **state)
@@ -149,7 +150,7 @@ static void test_events_read_too_slowly_are_counted(void **state)
 
 /* --- commands ----------------------------------------------------------------------------------*/
 
-/* Puts every command twice: the second time it must be known. */
+/* Puts every command twice. The second must be refused as a repeat. */
 static int put_commands(void *context)
 {
     struct view sender = bare_view_as(&view, ROLE_INTAKE);
@@ -175,7 +176,7 @@ static void test_commands_arrive_once_and_in_order(void **state)
     pid_t sender = child_start(put_commands, NULL);
     while (taken < COMMANDS) {
         uint64_t head = atomic_load_explicit(&ring->head, memory_order_acquire);
-        uint64_t most = fixture_random(&random) % 20; /* now and then none, or not all */
+        uint64_t most = fixture_random(&random) % 20; /* sometimes none, or not all */
         struct state *next = bare_view_begin(&collider);
         for (; taken < head && most > 0; taken++, most--) {
             const struct command *command = &ring->slot[taken & 15];

@@ -1,5 +1,5 @@
-/* Snapshots are never torn: while another process commits as fast as it can, every value of a
- * snapshot says the same frame. */
+/* Snapshots are never torn: while another process commits as fast as it can, all values of a
+ * snapshot are of one frame. */
 #include "ipc/frame/snapshot.h"
 
 #include "tests/support/bare_view.h"
@@ -61,7 +61,7 @@ static bool whole(const struct snapshot *s)
 
 enum { WHOLE, NO_MEMORY, DAMAGED, TORN, TORN_HEAD, BACKWARDS };
 
-/* Also as a child's body, so no asserts. EAGAIN is an answer, not a snapshot. */
+/* Runs also in a child, so it has no asserts. EAGAIN is a valid answer. */
 static int read_snapshots(void *context)
 {
     const struct view *reader = context;
@@ -110,7 +110,7 @@ static void test_snapshots_are_never_torn(void **state)
     print_message("2 x %d snapshots beside %llu frames\n", SNAPSHOTS, (unsigned long long)frames);
     assert_int_equal(here, WHOLE);
     assert_int_equal(there, WHOLE);
-    assert_true(frames > 1000); /* there was a race to lose */
+    assert_true(frames > 1000); /* there were enough races */
     segment_abandon(&view);
 }
 

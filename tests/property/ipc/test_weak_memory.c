@@ -1,9 +1,9 @@
-/* The protocol's real words and fences between processes that hurry: mover, collider, a writer of
- * commands and two readers, none of which waits for more than it must. Every value says its frame,
- * so whatever is seen before its time shows: a moved table, a world, a copy, a command.
+/* The protocol's real words and fences between processes that wait as little as possible: mover,
+ * collider, a writer of commands and two readers. Every value contains its frame, so a value that
+ * is seen too early is found: in a moved table, a world, a copy or a command.
  *
- * What a weak memory may do without each fence is in tests/model/fences.pml; this is the check that
- * the compiled code on this machine does none of it. */
+ * tests/model/fences.pml shows what weak memory may do without each fence. This test checks that
+ * the compiled code does none of it on this machine. */
 #include "ipc/frame/command_ring.h"
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
@@ -27,21 +27,21 @@
 #define CAPACITY      2048u
 #define COMMAND_SLOTS 8u
 #define FEW           2u /* rows of a small frame: two of them pass while a large one is copied */
-#define ACCEPTED      20000u /* copies that a reader wants to have seen, and of which sorts */
+#define ACCEPTED      20000u /* copies that a reader must see, of each kind */
 #define LARGE         1000u
 #define OVERTAKEN     200u
-#define LIMIT_NS      (12 * (uint64_t)NS_PER_S) /* what it has seen by then must do */
+#define LIMIT_NS      (12 * (uint64_t)NS_PER_S) /* the copies seen by then must be enough */
 
-/* What the processes tell each other beside the world. */
+/* Counters that the processes share beside the world. */
 struct shared {
     _Atomic bool stop;
     _Atomic uint64_t commands; /* put */
 };
 
-/* What a reader saw. */
+/* The counts of a reader. */
 struct sight {
     uint64_t accepted, large, overtaken, torn;
-    uint64_t commands; /* put meanwhile */
+    uint64_t commands; /* put during its time */
 };
 
 enum outcome { GOOD, NO_MEMORY, DAMAGED, TORN, BACKWARDS, TORN_COMMAND, BAD_COMMAND };
@@ -161,7 +161,7 @@ static int read_frames(struct sight *sight)
                 return DAMAGED;
             continue;
         }
-        if (snapshot.damaged > 0) /* torn, and only its checksum found it */
+        if (snapshot.damaged > 0) /* torn, which only its checksum showed */
             return TORN;
         if (!told_frame_head(&snapshot.head) ||
             !told_frame_rows(&snapshot.head, &snapshot.entities))
@@ -185,7 +185,7 @@ static int read_as_child(void *context)
     return read_frames(&sight);
 }
 
-/* Takes every copy as it is, which no reader may: what the others would see without their look. */
+/* Uses every copy without the check of rule 6, to show what it prevents. */
 static int read_without_look(struct sight *sight)
 {
     struct snapshot copy;
@@ -248,12 +248,12 @@ static void test_nothing_is_seen_before_its_time(void **state)
     (void)state;
     assert_int_equal(run_beside(read_frames, &sight, true), GOOD);
     assert_true(sight.accepted > 0 && sight.large > 0);
-    assert_true(sight.overtaken > 0);            /* there were races to lose, and they were seen */
-    assert_true(sight.commands > COMMAND_SLOTS); /* the ring went round */
+    assert_true(sight.overtaken > 0);            /* there were races */
+    assert_true(sight.commands > COMMAND_SLOTS); /* the ring has wrapped */
 }
 
-/* Else the test above would prove nothing. */
-static void test_without_the_look_copies_are_torn(void **state)
+/* Shows that the test above can fail. */
+static void test_without_the_check_copies_are_torn(void **state)
 {
     struct sight sight;
     (void)state;
@@ -265,7 +265,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_nothing_is_seen_before_its_time),
-        cmocka_unit_test(test_without_the_look_copies_are_torn),
+        cmocka_unit_test(test_without_the_check_copies_are_torn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

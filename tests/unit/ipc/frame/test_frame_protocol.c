@@ -24,7 +24,8 @@
 
 #define LONG_NS (15 * (uint64_t)NS_PER_S)
 
-/* Patrols in a small yard, a crash, shots and craters: enough to notice a frame made wrong. */
+/* Patrols in a small area, a collision, shots and craters: enough to notice a frame that is
+ * wrong. */
 #define BATTLE                                                                                     \
     "vehicles = ( { kind = \"tank\"; count = 12; force = \"blue\"; fire_at_will = true; area = "   \
     "[25000.0, 25000.0, 25150.0, 25150.0]; }, { kind = \"jeep\"; count = 12; force = \"red\"; "    \
@@ -52,7 +53,7 @@ static uint64_t commit_of(const struct view *view)
     return atomic_load(&view->commit->commit);
 }
 
-/* Rule 1 as a third process sees it: each word is read between two looks at the other. */
+/* Rule 1 as a third process sees it: each word is read between two reads of the other. */
 static void check_words(const struct view *view)
 {
     uint64_t before = commit_of(view);
@@ -75,7 +76,7 @@ static struct ending ending_of(const struct fixture *f)
     return (struct ending){fixture_digest(f), last.head->event_digest, last.head->event_end};
 }
 
-/* The same world by the steps alone, in one process. */
+/* The same world by the steps only, in one process. */
 static struct ending undisturbed(void)
 {
     struct fixture f;
@@ -106,14 +107,14 @@ static void test_two_processes_make_the_frames_that_one_makes(void **state)
     pid_t collider = stage_start(&f.view, ROLE_COLLIDER, false);
     while (!frame_protocol_finished(&f.view))
         check_words(&f.view);
-    assert_int_equal(child_wait(mover), 0); /* both end by themselves with the last frame */
+    assert_int_equal(child_wait(mover), 0); /* both end after the last frame */
     assert_int_equal(child_wait(collider), 0);
     assert_int_equal(atomic_load(&f.view.moved_word->moved), FRAMES);
     check_ending(&f, right);
     fixture_close(&f);
 }
 
-/* SIGKILL at any moment of either process, at once started again: the same end to the bit. */
+/* Either process is killed at any moment and restarted at once. The end is the same to the bit. */
 static void test_kills_at_any_moment_change_nothing(void **state)
 {
     struct ending right = undisturbed();
@@ -201,7 +202,7 @@ static void test_frames_are_not_made_before_they_are_due(void **state)
     segment_abandon(&view);
 }
 
-/* Time scale 2: two seconds of simulation a second; 0.5 the other way. */
+/* Time scale 2 makes two seconds of simulation a second, 0.5 half a second. */
 static void test_time_scale_changes_the_pace(void **state)
 {
     struct view view;
@@ -231,8 +232,8 @@ static void test_time_scale_changes_the_pace(void **state)
     assert_true(took[1] < took[0]);
 }
 
-/* A long stall is one late frame, and the frames after it keep their distance. */
-static void test_stall_is_counted_once_and_not_run_after(void **state)
+/* A long stall is one late frame, and the later frames keep their intervals. */
+static void test_stall_is_one_late_frame(void **state)
 {
     struct view view;
     struct frame_protocol frame;
@@ -258,8 +259,8 @@ static void test_stall_is_counted_once_and_not_run_after(void **state)
     segment_abandon(&view);
 }
 
-/* "not committed within a frame's time of their due" (role.h): so is each frame that takes one and
- * a half. */
+/* A frame that is not committed when the next is due is late (role.h): so is each frame that takes
+ * one and a half times its time. */
 static void test_every_frame_that_overruns_is_late(void **state)
 {
     struct view view;
@@ -278,7 +279,7 @@ static void test_every_frame_that_overruns_is_late(void **state)
         fail_msg("12 frames of 15 ms each at 100 Hz, %llu of them late", (unsigned long long)late);
 }
 
-/* A lost ring would only cost time, so it is looked for here and not in the frames. */
+/* A lost ring would only cost time and would not be seen in the frames, so it is checked here. */
 static bool rings(const struct view *view, int role)
 {
     int value = -1;
@@ -286,7 +287,7 @@ static bool rings(const struct view *view, int role)
     return value > 0;
 }
 
-static void test_each_stage_rings_who_waits_for_it(void **state)
+static void test_each_stage_rings_the_waiting_roles(void **state)
 {
     struct view view;
     struct frame_protocol frame;
@@ -356,10 +357,10 @@ static void test_pause_step_resume_and_quit(void **state)
         usleep(200);
     send(&f.view, COMMAND_PAUSE, 0);
     struct state_head paused = wait_head(&f.view, is_paused);
-    usleep(60000); /* a paused world makes no frames */
+    usleep(60000); /* a paused world has no frames */
     assert_int_equal(commit_of(&f.view), paused.frame);
     assert_int_equal(atomic_load(&f.view.moved_word->moved), paused.frame);
-    for (int role = ROLE_MOVER; role <= ROLE_COLLIDER; role++) { /* though its heart beats */
+    for (int role = ROLE_MOVER; role <= ROLE_COLLIDER; role++) { /* its heartbeat continues */
         uint64_t beat = atomic_load(&f.view.slot[role]->beat_ns);
         usleep(100000);
         assert_true(atomic_load(&f.view.slot[role]->beat_ns) > beat);
@@ -368,7 +369,7 @@ static void test_pause_step_resume_and_quit(void **state)
     struct state_head stepped = wait_head(&f.view, has_stepped);
     usleep(30000);
     assert_int_equal(commit_of(&f.view), stepped.frame);
-    assert_int_equal(stepped.frame, paused.frame + 7); /* 7 frames, of which each moves time */
+    assert_int_equal(stepped.frame, paused.frame + 7); /* 7 frames, each of which advances time */
     assert_int_equal(stepped.tick, paused.tick + 7);
     assert_int_equal(stepped.paused, 1);
     send(&f.view, COMMAND_RESUME, 0);
@@ -419,7 +420,7 @@ static void test_sigterm_ends_both_stages_cleanly(void **state)
         usleep(200);
     kill(collider, SIGTERM);
     assert_int_equal(child_wait(collider), 0);
-    kill(mover, SIGTERM); /* while it waits for a collider that is gone */
+    kill(mover, SIGTERM); /* while it waits for a collider that has ended */
     assert_int_equal(child_wait(mover), 0);
     check_words(&f.view);
     fixture_close(&f);
@@ -498,7 +499,7 @@ static void test_readers_and_renderers_wake_with_the_commit(void **state)
         assert_true(clock_now_ns() - begin < LONG_NS / 2);
         assert_int_equal(child_wait(child), 0);
         assert_int_equal(frame_protocol_wait(&reader, i, 0),
-                         i + 1); /* what is there needs no wait */
+                         i + 1); /* an existing frame needs no wait */
     }
     segment_abandon(&view);
 }
@@ -551,9 +552,9 @@ int main(void)
         cmocka_unit_test(test_kills_at_any_moment_change_nothing),
         cmocka_unit_test(test_frames_are_not_made_before_they_are_due),
         cmocka_unit_test(test_time_scale_changes_the_pace),
-        cmocka_unit_test(test_stall_is_counted_once_and_not_run_after),
+        cmocka_unit_test(test_stall_is_one_late_frame),
         cmocka_unit_test(test_every_frame_that_overruns_is_late),
-        cmocka_unit_test(test_each_stage_rings_who_waits_for_it),
+        cmocka_unit_test(test_each_stage_rings_the_waiting_roles),
         cmocka_unit_test(test_pause_step_resume_and_quit),
         cmocka_unit_test(test_command_is_applied_once_though_the_mover_is_killed),
         cmocka_unit_test(test_sigterm_ends_both_stages_cleanly),

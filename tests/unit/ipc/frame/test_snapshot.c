@@ -98,13 +98,13 @@ static void test_frame_being_made_does_not_hinder_a_snapshot(void **state)
     snapshot_free(&snapshot);
 }
 
-static void test_world_that_runs_away_is_eagain(void **state)
+static void test_constant_writing_is_eagain(void **state)
 {
     struct snapshot snapshot;
     struct state_head head;
     (void)state;
     assert_int_equal(snapshot_init(&snapshot, &view), 0);
-    atomic_store(&view.commit->writing, 2); /* W[0], which frame 0 is in, is written for ever */
+    atomic_store(&view.commit->writing, 2); /* W[0], which holds frame 0, is always being written */
     errno = 0;
     assert_int_equal(snapshot_take(&snapshot, &view), -1);
     assert_int_equal(errno, EAGAIN);
@@ -227,8 +227,9 @@ static void test_events_not_yet_committed_are_not_read(void **state)
     assert_int_equal(events_read(&view, &cursor, events, SLOTS), 2);
 }
 
-/* A reader that falls behind is told how many it lost, and goes on with the oldest that is safe. */
-static void test_ring_that_went_round_is_a_counted_gap(void **state)
+/* A reader that falls behind gets the number of lost events, and continues with the oldest safe
+ * one. */
+static void test_overwritten_events_are_a_counted_gap(void **state)
 {
     struct event_cursor cursor = {0};
     struct event events[SLOTS];
@@ -236,7 +237,7 @@ static void test_ring_that_went_round_is_a_counted_gap(void **state)
     for (int i = 0; i < 20; i++)
         make_frame(1, 8);
     uint32_t count = events_read(&view, &cursor, events, SLOTS);
-    assert_int_equal(count, SLOTS - PER_FRAME); /* one frame's most is left to the writer */
+    assert_int_equal(count, SLOTS - PER_FRAME); /* one frame's maximum is left to the writer */
     assert_int_equal(cursor.gap, 160 - count);
     check_events(events, count, cursor.gap);
     assert_int_equal(cursor.next, 160);
@@ -296,7 +297,7 @@ static void test_full_ring_is_enobufs_until_a_commit_takes_some(void **state)
         assert_int_equal(put(RING_CLIENTS, 1, i), 0);
     assert_int_equal(put(RING_CLIENTS, 1, COMMANDS + 1), -1);
     assert_int_equal(errno, ENOBUFS);
-    assert_int_equal(put(RING_CONSOLE, 1, 1), 0); /* each ring has its own room */
+    assert_int_equal(put(RING_CONSOLE, 1, 1), 0); /* each ring has its own slots */
     take(RING_CLIENTS, 3);
     for (uint64_t i = 1; i <= 3; i++)
         assert_int_equal(put(RING_CLIENTS, 1, COMMANDS + i), 0);
@@ -314,7 +315,7 @@ static void test_repeat_is_eexist_also_after_it_was_taken(void **state)
     take(RING_CLIENTS, 1);
     assert_int_equal(put(RING_CLIENTS, 1, 1), -1);
     assert_int_equal(errno, EEXIST);
-    assert_int_equal(put(RING_CLIENTS, 2, 1), 0); /* another source counts for itself */
+    assert_int_equal(put(RING_CLIENTS, 2, 1), 0); /* another source has its own sequences */
     assert_int_equal(put(RING_CLIENTS, 1, 2), 0);
     assert_int_equal(atomic_load(&view.commands[RING_CLIENTS]->head), 3);
 }
@@ -324,13 +325,13 @@ static void test_repeat_in_a_full_ring_is_eexist(void **state)
     (void)state;
     for (uint64_t i = 1; i <= COMMANDS; i++)
         assert_int_equal(put(RING_CLIENTS, 1, i), 0);
-    for (uint64_t i = 1; i <= COMMANDS; i++) { /* the oldest too: it still waits to be taken */
+    for (uint64_t i = 1; i <= COMMANDS; i++) { /* also the oldest, which still waits to be taken */
         assert_int_equal(put(RING_CLIENTS, 1, i), -1);
         assert_int_equal(errno, EEXIST);
     }
 }
 
-/* A sender that was killed before it moved the head has not sent: what it left does not count. */
+/* The slot of a writer that was killed before it stored the head does not count. */
 static void test_command_that_was_never_finished_can_be_put_again(void **state)
 {
     (void)state;
@@ -361,14 +362,14 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_snapshot_is_the_committed_frame),
         TEST(test_frame_being_made_does_not_hinder_a_snapshot),
-        TEST(test_world_that_runs_away_is_eagain),
+        TEST(test_constant_writing_is_eagain),
         TEST(test_damaged_column_or_head_is_ebadmsg),
         TEST(test_used_past_the_capacity_reads_nothing_there),
         TEST(test_head_of_another_frame_is_ebadmsg),
         TEST(test_events_come_in_order_once),
         TEST(test_events_come_in_parts_of_max),
         TEST(test_events_not_yet_committed_are_not_read),
-        TEST(test_ring_that_went_round_is_a_counted_gap),
+        TEST(test_overwritten_events_are_a_counted_gap),
         TEST(test_cursor_ahead_of_the_world_reads_nothing),
         TEST(test_commands_keep_their_order_and_content),
         TEST(test_full_ring_is_enobufs_until_a_commit_takes_some),

@@ -1,4 +1,4 @@
-/* The connections of a server: which one goes when all slots are taken, and which one is out of
+/* The connections of a server: which is shut when all slots are taken, and which exceed their
  * time. */
 #include "ipc/http/connection_limit.h"
 
@@ -18,7 +18,7 @@ static struct connection_limit limit;
 static int pair[PAIRS][2];
 static struct connection *connection[PAIRS];
 
-/* The first connections, of which a test sees whether they are shut. */
+/* The first connections; a test checks whether they are shut. */
 static int set_up(void **state)
 {
     (void)state;
@@ -41,7 +41,7 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* The peer of a socket that is shut reads an end. */
+/* The peer of a socket that is shut reads end of file. */
 static bool is_shut(int i)
 {
     char byte;
@@ -69,7 +69,7 @@ static void fill_with_askers(uint64_t now_ns)
         limit.connection[i].asked = true;
 }
 
-static void test_who_asked_nothing_goes_before_who_did(void **state)
+static void test_silent_connections_are_shut_first(void **state)
 {
     (void)state;
     connection_note(connection[0], CONNECTION_ANSWERING, SECOND); /* older, but it has asked */
@@ -85,7 +85,7 @@ static void test_who_asked_nothing_goes_before_who_did(void **state)
     assert_false(is_shut(0));
 }
 
-static void test_a_newcomer_has_a_moment_to_ask(void **state)
+static void test_a_new_connection_has_time_to_ask(void **state)
 {
     (void)state;
     for (int i = 0; i < PAIRS; i++)
@@ -99,11 +99,11 @@ static void test_a_newcomer_has_a_moment_to_ask(void **state)
     }
 }
 
-static void test_who_takes_its_answer_stays(void **state)
+static void test_connections_with_progress_stay(void **state)
 {
     (void)state;
     connection_note(connection[0], CONNECTION_ANSWERING, 2 * SECOND); /* takes nothing */
-    connection_note(connection[1], CONNECTION_WAITING, 2 * SECOND);   /* the server's turn */
+    connection_note(connection[1], CONNECTION_WAITING, 2 * SECOND);   /* waits for the server */
     connection_note(connection[2], CONNECTION_ANSWERING, 2 * SECOND);
     fill_with_askers(3 * SECOND);
     connection_note(connection[2], CONNECTION_ANSWERING, 4 * SECOND); /* took a part */
@@ -114,7 +114,7 @@ static void test_who_takes_its_answer_stays(void **state)
     assert_false(is_shut(2));
 }
 
-static void test_room_has_an_end(void **state)
+static void test_room_is_limited(void **state)
 {
     (void)state;
     while (limit.taken < CONNECTION_ROOM(limit.slots))
@@ -124,7 +124,7 @@ static void test_room_has_an_end(void **state)
     assert_ptr_equal(connection_come(&limit, -1, 2 * SECOND), connection[1]);
 }
 
-static void test_who_is_out_of_time_is_given_up(void **state)
+static void test_connections_out_of_time_are_shut(void **state)
 {
     (void)state;
     connection_note(connection[0], CONNECTION_ANSWERING, SECOND);
@@ -155,11 +155,11 @@ static void test_only_an_answer_that_is_not_taken_stalls(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_who_asked_nothing_goes_before_who_did),
-        TEST(test_a_newcomer_has_a_moment_to_ask),
-        TEST(test_who_takes_its_answer_stays),
-        TEST(test_room_has_an_end),
-        TEST(test_who_is_out_of_time_is_given_up),
+        TEST(test_silent_connections_are_shut_first),
+        TEST(test_a_new_connection_has_time_to_ask),
+        TEST(test_connections_with_progress_stay),
+        TEST(test_room_is_limited),
+        TEST(test_connections_out_of_time_are_shut),
         TEST(test_only_an_answer_that_is_not_taken_stalls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,5 +1,5 @@
-/* The log: one line an entry, whatever the text; and the ways a program ends. Each test reads what
- * a child wrote to standard error. */
+/* The log: one line for each entry and any text, and the ways in which a program ends. Each test
+ * reads the standard error of a child. */
 #include "ipc/process/log.h"
 
 #include "ipc/process/clock.h"
@@ -33,7 +33,8 @@ static int redirected(void *context)
     return run->body(run->context);
 }
 
-/* Runs body in a child; what it wrote is in written. Its exit code, or minus its signal. */
+/* Runs body in a child and reads its output into written. Returns its exit code, or minus its
+ * signal. */
 static int run(int (*body)(void *context), void *context)
 {
     struct run what = {body, context};

@@ -1,4 +1,4 @@
-/* The reader of command lines: each kind of value, what is refused and in which words, the help. */
+/* Command lines: each kind of value, each refusal and its words, and the help. */
 #include "ipc/process/option_table.h"
 
 #include "ipc/process/log.h"
@@ -65,7 +65,7 @@ static const struct option_table table = {.program = "jolon-test",
 static struct error_text error;
 static char line[1024], *words[WORDS_MAX + 1];
 
-/* Splits a line at its blanks ('_' stands for an empty word); how many words there are. */
+/* Splits a line at its blanks ('_' stands for an empty word). Returns the number of words. */
 static int split(const char *text)
 {
     int count = 0;
@@ -288,7 +288,7 @@ static int read_redirected(void *context)
     return 0;
 }
 
-/* Reads a line in a child: its exit code, and all that it wrote. */
+/* Reads a line in a child, and keeps its exit code and output. */
 static int end_with(const char *text, char *written, size_t bytes)
 {
     char copy[64];

@@ -1,4 +1,5 @@
-/* Which files a role reaches in its sandbox, and how it ends when the world's file shrinks. */
+/* The files that a role can use in its sandbox, and its end when the world's object is made
+ * shorter. */
 #include "ipc/sandbox/sandbox.h"
 
 #include "ipc/process/log.h"
@@ -23,7 +24,7 @@
 
 static struct error_text error;
 
-/* Tries files outside and inside the folder. Returns the number of the first that is wrong. */
+/* Tries files outside and inside the folder. Returns the number of the first wrong result. */
 static int touch_files(void *context)
 {
     const enum role *role = context;
@@ -64,7 +65,7 @@ static void test_files_only_beneath_the_folder(void **state)
     }
 }
 
-/* The console reads worlds, and writes and makes nothing anywhere. */
+/* The console reads worlds, and writes and makes no file. */
 static int look_at_worlds(void *context)
 {
     const char *shm = context;
@@ -100,7 +101,7 @@ static void test_a_console_only_reads_worlds(void **state)
 
 /* --- the world's memory taken away --- */
 
-/* A world of its own, and the role that attaches to it. */
+/* Makes a world, and the role that attaches to it. */
 struct loss {
     enum role role;
     char name[SEGMENT_NAME_MAX];
@@ -121,7 +122,7 @@ static int lose_memory(void *context)
     return *frame == UINT64_MAX ? 2 : 3;
 }
 
-static void test_memory_that_goes_away_is_said_inside(void **state)
+static void test_shortened_object_is_reported_in_the_sandbox(void **state)
 {
     (void)state;
     for (int role = 0; role < ROLE_COUNT; role++) {
@@ -140,7 +141,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_files_only_beneath_the_folder),
         cmocka_unit_test(test_a_console_only_reads_worlds),
-        cmocka_unit_test(test_memory_that_goes_away_is_said_inside),
+        cmocka_unit_test(test_shortened_object_is_reported_in_the_sandbox),
     };
     if (!confined_there())
         return confined_skip();

@@ -1,5 +1,5 @@
-/* Each role's sandbox is tried by doing what it forbids: the kernel must end the process, which
- * must have said why; and by doing what the role needs. */
+/* Each role makes forbidden system calls, for which the kernel must end it after a line that names
+ * the call, and those that it needs. */
 #include "ipc/sandbox/sandbox.h"
 
 #include "ipc/process/log.h"
@@ -79,14 +79,14 @@ static void new_process_fork(void)
         _exit(0);
 }
 
-/* Its flags are out of a filter's sight, so there is none. */
+/* A filter cannot see its flags, so it is hidden. */
 static void new_process_clone3(void)
 {
     if (syscall(SYS_clone3, NULL, 0) != -1 || errno != ENOSYS)
         syscall(SYS_fork);
 }
 
-/* Not done, but nobody dies of it. */
+/* Refused, but does not end the process. */
 static void waived(long result)
 {
     if (result != -1 || errno != EPERM)
@@ -153,8 +153,8 @@ static void handle(int signal_number)
 
 /* --- the table --- */
 
-/* An attempt: the system call that is said to be forbidden, who may, and what does it. Nothing is
- * said where signals are blocked: by a thread that makes another. */
+/* An attempt: the system call in the report, the roles that may make it, and the code. A thread
+ * that starts another has signals blocked, and reports nothing. */
 #define ATTEMPTS(X)                                                                                \
     X("open", NONE, syscall(SYS_open, "/etc/passwd", O_RDONLY))                                    \
     X("openat", R | D | W, open("/etc/passwd", O_RDONLY | O_CLOEXEC))                              \
@@ -365,7 +365,7 @@ static void test_a_thread_made_before_is_confined_too(void **state)
     assert_int_equal(confined_run(confine_older_thread, NULL), -SIGSYS);
 }
 
-/* The ways to block every signal: the C library's functions, and none of them. */
+/* Blocks every signal by the C library's functions, and by the system call. */
 static int block_and_open(void *context)
 {
     const int *way = context;
@@ -415,7 +415,7 @@ static int make_dds_thread(void *context)
     return 1;
 }
 
-static void test_a_thread_of_dds_says_why_it_ends(void **state)
+static void test_a_thread_of_dds_reports_its_forbidden_call(void **state)
 {
     (void)state;
     assert_int_equal(confined_run(make_dds_thread, NULL), -SIGSYS);
@@ -431,7 +431,7 @@ static void allocate_row(void *context, uint32_t first, uint32_t end, uint32_t w
         blocks[i] = malloc(100000);
 }
 
-/* Threads whose first allocation comes after it: glibc makes them arenas. */
+/* Threads whose first allocation comes after the sandbox: glibc makes arenas for them. */
 static int work_inside(void *context)
 {
     void *blocks[4096];
@@ -498,7 +498,7 @@ static int refuse(void *context)
     die_refused("out of patience");
 }
 
-static void test_crashes_stay_what_they_are(void **state)
+static void test_crashes_keep_their_signals(void **state)
 {
     (void)state;
     assert_int_equal(confined_run(fail_a_check, NULL), -SIGABRT);
@@ -519,7 +519,7 @@ static int sleep_inside(void *context)
     return result;
 }
 
-/* The kernel lets a wait go on by a system call of its own (restart_syscall). */
+/* The kernel continues a wait by a system call of its own (restart_syscall). */
 static void test_a_wait_goes_on_after_stop_and_continue(void **state)
 {
     (void)state;
@@ -564,7 +564,7 @@ static void test_the_environment_cannot_switch_it_off(void **state)
     assert_int_equal(confined_run(enter_in_a_strange_environment, NULL), -SIGSYS);
 }
 
-static void test_no_sandbox_is_said_loudly(void **state)
+static void test_no_sandbox_is_logged(void **state)
 {
     (void)state;
     assert_int_equal(confined_run(go_without, NULL), 0);
@@ -588,7 +588,7 @@ static int forbid_filters(void *context)
     return result == -1 ? 0 : 1;
 }
 
-static void test_a_kernel_that_refuses_is_said_and_never_passed_over(void **state)
+static void test_a_refusing_kernel_is_an_error(void **state)
 {
     (void)state;
     assert_int_equal(confined_run(forbid_filters, NULL), 0);
@@ -597,18 +597,18 @@ static void test_a_kernel_that_refuses_is_said_and_never_passed_over(void **stat
 
 int main(void)
 {
-    const struct CMUnitTest without[] = {cmocka_unit_test(test_no_sandbox_is_said_loudly)};
+    const struct CMUnitTest without[] = {cmocka_unit_test(test_no_sandbox_is_logged)};
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_each_role_may_do_what_it_needs_and_nothing_else),
         cmocka_unit_test(test_a_thread_made_before_is_confined_too),
         cmocka_unit_test(test_blocking_the_signal_does_not_help),
-        cmocka_unit_test(test_a_thread_of_dds_says_why_it_ends),
+        cmocka_unit_test(test_a_thread_of_dds_reports_its_forbidden_call),
         cmocka_unit_test(test_workers_allocate_and_end_inside),
-        cmocka_unit_test(test_crashes_stay_what_they_are),
+        cmocka_unit_test(test_crashes_keep_their_signals),
         cmocka_unit_test(test_a_wait_goes_on_after_stop_and_continue),
         cmocka_unit_test(test_the_environment_cannot_switch_it_off),
-        cmocka_unit_test(test_no_sandbox_is_said_loudly),
-        cmocka_unit_test(test_a_kernel_that_refuses_is_said_and_never_passed_over),
+        cmocka_unit_test(test_no_sandbox_is_logged),
+        cmocka_unit_test(test_a_refusing_kernel_is_an_error),
     };
     if (!confined_there())
         return cmocka_run_group_tests_name("without a sandbox", without, NULL, NULL);

@@ -1,4 +1,4 @@
-/* The keeper's sandbox, which all that it starts inherits. */
+/* The keeper's sandbox, which its children inherit. */
 #include "ipc/process/log.h"
 #include "ipc/sandbox/sandbox.h"
 #include "tests/support/confined.h"
@@ -25,8 +25,8 @@
 
 static struct error_text error;
 
-/* What fails with EPERM in the keeper and all that it starts; without the filter each of these
- * would do something, or fail with another error, also for a user without privileges. */
+/* Calls that fail with EPERM in the keeper and its children. Without the filter each would have an
+ * effect, or fail with another error, also for a user without privileges. */
 #define DENIED(X)                                                                                  \
     X(ptrace(PTRACE_TRACEME, 0, NULL, NULL))                                                       \
     X(syscall(SYS_process_vm_readv, getpid(), NULL, 0, NULL, 0, 0))                                \
@@ -58,7 +58,7 @@ static struct error_text error;
     X(syscall(SYS_personality, 0xffffffff))                                                        \
     X(syscall(SYS_open_by_handle_at, -1, NULL, 0))
 
-/* The number of the first that is not refused. */
+/* Returns the number of the first that is not refused. */
 static int try_denied(void)
 {
     int number = 0;
@@ -90,7 +90,7 @@ static int keep(void *context)
     int first = try_denied();
     if (first != 0)
         return first;
-    pid_t pid = fork(); /* what it starts is confined as well */
+    pid_t pid = fork(); /* its children are confined too */
     if (pid == 0)
         _exit(try_denied() == 0 ? 0 : 1);
     if (pid < 0 || waitpid(pid, status, 0) != pid || *status != 0)
@@ -108,7 +108,7 @@ static int keep(void *context)
     return 0;
 }
 
-static void test_the_keeper_and_what_it_starts_may_not_do_everything(void **state)
+static void test_the_keeper_and_its_children_are_confined(void **state)
 {
     int status = 0;
     (void)state;
@@ -147,7 +147,7 @@ static void test_the_keeper_writes_only_beneath_its_folders(void **state)
         fail_msg("%d: %s", result, confined_said);
 }
 
-/* A role's own sandbox lies over what it has inherited. */
+/* A role enters its own sandbox within the inherited one. */
 static int enter_beneath_keeper(void *context)
 {
     const enum role *role = context;
@@ -175,7 +175,7 @@ static void test_every_role_enters_its_sandbox_beneath_the_keepers(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_the_keeper_and_what_it_starts_may_not_do_everything),
+        cmocka_unit_test(test_the_keeper_and_its_children_are_confined),
         cmocka_unit_test(test_the_keeper_writes_only_beneath_its_folders),
         cmocka_unit_test(test_every_role_enters_its_sandbox_beneath_the_keepers),
     };

@@ -1,4 +1,4 @@
-/* Doorbells: a ring wakes, a lost ring costs one time-out, a spurious one one look. */
+/* Doorbells: a ring wakes, a lost ring costs one time-out, a spurious ring costs one look. */
 #include "ipc/segment/doorbell.h"
 
 #include "ipc/process/clock.h"
@@ -16,7 +16,7 @@
 #include <cmocka.h>
 
 #define SHORT_NS (10 * (uint64_t)NS_PER_MS)
-#define LONG_NS  (15 * (uint64_t)NS_PER_S) /* never waited for in a test that passes */
+#define LONG_NS  (15 * (uint64_t)NS_PER_S) /* a test that passes never waits so long */
 
 struct shared {
     struct doorbells doorbells;
@@ -93,8 +93,7 @@ static void test_time_that_is_over_does_not_wait(void **state)
     assert_true(clock_now_ns() - begin < LONG_NS / 2);
 }
 
-/* Somebody posted more often than doorbell_ring would: one wait drains what a role can have rung.
- */
+/* A damaged count: one wait clears as many posts as a role can have rung. */
 static void test_spurious_posts_are_drained_by_one_wait(void **state)
 {
     (void)state;
@@ -148,15 +147,15 @@ static void test_a_signal_ends_the_wait(void **state)
 static int wait_for_ever(void *context)
 {
     (void)context;
-    for (int i = 0; i < 1000; i++) { /* far longer than it is let live */
+    for (int i = 0; i < 1000; i++) { /* far longer than its life */
         atomic_store(&shared->word, 7);
         doorbell_wait(&shared->doorbells, ROLE_MOVER, clock_now_ns() + LONG_NS);
     }
     return 0;
 }
 
-/* Nothing needs re-arming after a kill, wherever the waiter was. */
-static void test_killed_waiters_leave_a_door_that_works(void **state)
+/* Nothing needs re-arming after a kill at any point of the wait. */
+static void test_killed_waiters_leave_a_working_doorbell(void **state)
 {
     (void)state;
     for (int i = 0; i < 20; i++) {
@@ -175,7 +174,7 @@ static void test_killed_waiters_leave_a_door_that_works(void **state)
 
 #define ROUNDS 2000
 
-/* The frame loop's use of two doorbells: the predicate is the word, the bell only says look. */
+/* Two doorbells as in the frame loop: the condition is the word, and the bell only says look. */
 static int answer(void *context)
 {
     (void)context;
@@ -188,7 +187,7 @@ static int answer(void *context)
     return 0;
 }
 
-static void test_two_processes_hand_a_word_to_and_fro(void **state)
+static void test_two_processes_pass_a_word_back_and_forth(void **state)
 {
     (void)state;
     pid_t child = child_start(answer, NULL);
@@ -216,8 +215,8 @@ int main(void)
         TEST(test_spurious_posts_are_drained_by_one_wait),
         TEST(test_a_ring_from_another_process_ends_the_wait),
         TEST(test_a_signal_ends_the_wait),
-        TEST(test_killed_waiters_leave_a_door_that_works),
-        TEST(test_two_processes_hand_a_word_to_and_fro),
+        TEST(test_killed_waiters_leave_a_working_doorbell),
+        TEST(test_two_processes_pass_a_word_back_and_forth),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* Every bit of what sizes, places and waits are computed from, flipped: attaching is refused by the
- * name of the region. Bits of a region that never changes: the check finds them. */
+/* Flips every bit of the data from which sizes, offsets and waits are computed. Attaching refuses
+ * each and names the region. segment_verify() finds flipped bits of regions that never change. */
 #include "ipc/segment/segment.h"
 
 #include "ipc/segment/segment_attach.h"
@@ -27,7 +27,7 @@
 
 struct world_file {
     char name[SEGMENT_NAME_MAX];
-    unsigned char *memory; /* the whole object, writable as no process of a set has it */
+    unsigned char *memory; /* the whole object, mapped writable */
     struct layout layout;
 };
 
@@ -59,7 +59,8 @@ static int remove_world(void **state)
     return 0;
 }
 
-/* Flips every bit of bytes first .. end - 1 of the object, and wants each refused by such words. */
+/* Flips every bit of bytes first .. end - 1 of the object. Each must be refused with these
+ * words. */
 static void check_flips(size_t first, size_t end, const char *words)
 {
     for (size_t byte = first; byte < end; byte++) {
@@ -95,7 +96,7 @@ static void test_every_bit_of_the_parameters(void **state)
     check_flips(first, first + sizeof(struct params), "params are damaged");
 }
 
-/* Bits between the fields' ends and the next page mean nothing: the world attaches and is good. */
+/* Bits between the last field and the next page have no meaning: the world attaches and is good. */
 static void test_bits_behind_the_header_are_harmless(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* Sockets in the runtime folder: their place, the place of a dead listener, whose process is at the
- * other end. */
+/* Sockets in the runtime folder: their file, the file of a dead listener, and the peer's
+ * process. */
 #include "ipc/segment/local_socket.h"
 
 #include "ipc/segment/segment.h"
@@ -20,7 +20,7 @@
 
 #include <cmocka.h>
 
-/* Longer than the address of a socket can be. */
+/* Longer than a socket's address may be. */
 static char folder[180];
 static struct error_text error;
 
@@ -69,7 +69,7 @@ static void test_messages_pass_and_the_file_is_private(void **state)
     assert_false(local_socket_peer_is(served, geteuid() + 1));
     assert_int_equal(send(client, "one", 3, 0), 3);
     assert_int_equal(send(client, "two", 3, 0), 3);
-    assert_int_equal(recv(served, text, sizeof text, 0), 3); /* the bounds of messages stay */
+    assert_int_equal(recv(served, text, sizeof text, 0), 3); /* messages are not joined */
     close(served);
     close(client);
     close(listener);
@@ -81,7 +81,7 @@ static int listens_and_dies(void *context)
     return local_socket_listen("field", "pictures", SOCK_STREAM, 4, context) >= 0 ? 0 : 1;
 }
 
-static void test_place_of_a_dead_listener_is_taken(void **state)
+static void test_socket_of_a_dead_listener_is_replaced(void **state)
 {
     (void)state;
     assert_int_equal(local_socket_connect("field", "pictures", SOCK_STREAM, &error), -1);
@@ -109,7 +109,7 @@ static void test_what_cannot_be_removed_is_refused(void **state)
     assert_int_equal(rmdir(path), 0);
 }
 
-/* A process that became another user's before it listened; the kernel tells of that moment. */
+/* A process that changed its user before it listened. The kernel keeps the user of that moment. */
 static int listens_as_nobody(void *context)
 {
     struct sockaddr_un address = {.sun_family = AF_UNIX, .sun_path = "field.pictures"};
@@ -122,7 +122,7 @@ static int listens_as_nobody(void *context)
     return accept(listener, NULL, NULL) >= 0 ? 0 : 2;
 }
 
-static void test_process_of_another_user_is_not_talked_to(void **state)
+static void test_process_of_another_user_is_refused(void **state)
 {
     (void)state;
     if (geteuid() != 0)
@@ -144,9 +144,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_messages_pass_and_the_file_is_private),
-        cmocka_unit_test(test_place_of_a_dead_listener_is_taken),
+        cmocka_unit_test(test_socket_of_a_dead_listener_is_replaced),
         cmocka_unit_test(test_what_cannot_be_removed_is_refused),
-        cmocka_unit_test(test_process_of_another_user_is_not_talked_to),
+        cmocka_unit_test(test_process_of_another_user_is_refused),
     };
     return cmocka_run_group_tests(tests, make_folder, drop_folder);
 }

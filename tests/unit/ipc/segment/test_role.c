@@ -21,7 +21,7 @@ static void test_every_role_is_found_by_its_name(void **state)
     assert_string_equal(role_name(ROLE_RENDERER_2), "renderer-2");
 }
 
-static void test_what_is_no_role_is_none(void **state)
+static void test_unknown_names_are_role_none(void **state)
 {
     (void)state;
     assert_int_equal(role_find("nobody"), ROLE_NONE);
@@ -66,7 +66,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_role_is_found_by_its_name),
-        cmocka_unit_test(test_what_is_no_role_is_none),
+        cmocka_unit_test(test_unknown_names_are_role_none),
         cmocka_unit_test(test_the_keeper_starts_the_mover_last_and_stops_it_first),
         cmocka_unit_test(test_a_reader_has_no_trait),
     };

@@ -1,5 +1,5 @@
-/* Which folder is a user's runtime folder, and what is refused or passed over. Each search runs in
- * a child, because a process keeps the folder that it has found first. */
+/* Finds the runtime folder, and refuses or passes over others. Each search runs in a child, because
+ * a process keeps the folder that it found first. */
 #include "ipc/segment/runtime_folder.h"
 
 #include "ipc/segment/segment.h"
@@ -117,7 +117,7 @@ static void test_own_variable_comes_first_and_is_made(void **state)
     char *own = place("own", 0);
     (void)state;
     finds((struct names){.own = own, .session = place("session", 0700)}, own);
-    finds((struct names){.own = own}, own); /* it is there now */
+    finds((struct names){.own = own}, own); /* it exists now */
 }
 
 static void test_slashes_at_the_end_change_nothing(void **state)
@@ -139,7 +139,7 @@ static void test_folder_of_a_service_is_taken_as_it_is(void **state)
     refuses((struct names){.service = both}, "0750", "chmod 700");
 }
 
-/* Of another user than root, whose folder is /run/jolon. */
+/* For users other than root, whose folder is /run/jolon. */
 static void test_session_and_home(void **state)
 {
     (void)state;
@@ -224,7 +224,7 @@ static int changes_the_folder(void *context)
     setenv("JOLON_RUNTIME_DIR", context, 1);
     if (runtime_folder(path, &error) != 0)
         return 1;
-    setenv("JOLON_RUNTIME_DIR", "/nowhere", 1); /* it stays with what it has found */
+    setenv("JOLON_RUNTIME_DIR", "/nowhere", 1); /* it keeps the folder that it found */
     if (runtime_folder(path, &error) != 0 || strcmp(path, context) != 0)
         return 2;
     if (chmod(path, 0755) != 0 || runtime_folder(path, &error) == 0 ||

@@ -1,4 +1,5 @@
-/* Segments: made, named, attached to in roles, left, removed; one live holder a role. */
+/* Segments: creation, names, attaching in roles, detaching, removal; one live holder for each
+ * role. */
 #include "ipc/segment/segment.h"
 
 #include "ipc/segment/local_socket.h"
@@ -77,7 +78,7 @@ static void make_again(void)
     fixture_close(&f);
 }
 
-/* Is the test's world among the names? */
+/* Returns true if the test's world is among the names. */
 static bool has(char names[][SEGMENT_NAME_MAX], int count)
 {
     int found = 0;
@@ -152,7 +153,7 @@ static void test_abandoned_world_leaves_nothing(void **state)
     assert_int_equal(segment_begin(&view, unborn, &header, &error), 0);
     segment_abandon(&view);
     assert_null(view.base);
-    segment_abandon(&view); /* once more does nothing */
+    segment_abandon(&view); /* a second call does nothing */
     assert_int_equal(named_world_leftovers(), before);
 }
 
@@ -170,7 +171,7 @@ static void test_second_world_of_the_name_is_refused(void **state)
     assert_non_null(strstr(error.text, "exists already"));
     assert_non_null(strstr(error.text, name));
     segment_abandon(&second);
-    attach(&first, ROLE_NONE); /* and the first is as it was */
+    attach(&first, ROLE_NONE); /* the first is unchanged */
     assert_int_equal(first.world.params->seed, 1);
     assert_int_equal(first.w[0].head->used, 3);
     assert_int_equal(segment_verify(&first, &error), 0);
@@ -222,7 +223,7 @@ static void test_counts_out_of_range_make_no_world(void **state)
 
 /* --- names -------------------------------------------------------------------------------------*/
 
-static void test_name_leads_to_an_object_that_nobody_can_guess(void **state)
+static void test_name_leads_to_an_object_of_random_name(void **state)
 {
     struct segment_paths again;
     char prefix[128];
@@ -238,7 +239,7 @@ static void test_name_leads_to_an_object_that_nobody_can_guess(void **state)
     assert_string_equal(again.name, paths.name);
 }
 
-/* What a creator leaves that is killed between the name and the object. */
+/* The remains of a creator that was killed between making the name and the object. */
 static void test_name_that_leads_nowhere_is_taken(void **state)
 {
     struct segment_paths left;
@@ -271,7 +272,7 @@ static void test_name_whose_object_is_gone_while_a_role_runs_is_not_taken(void *
     make_again();
 }
 
-static void test_sweep_takes_what_is_left_and_no_world(void **state)
+static void test_sweep_removes_remains_and_no_world(void **state)
 {
     struct view view;
     (void)state;
@@ -283,8 +284,8 @@ static void test_sweep_takes_what_is_left_and_no_world(void **state)
     assert_int_equal(named_world_leftovers(), 0);
 }
 
-/* Files of the user's under a world's name are the user's. */
-static void test_what_is_no_link_to_an_object_is_refused(void **state)
+/* Other files under a world's name are not touched. */
+static void test_other_files_under_a_name_are_refused(void **state)
 {
     static const char *const targets[] = {"/dev/shm/jolon.", "/etc/passwd", "elsewhere"};
     char target[SEGMENT_PATH_MAX + 8];
@@ -326,7 +327,7 @@ static int create_once(void *context)
     return result == -1 ? 1 : result;
 }
 
-/* One of those that make the same name at once succeeds, whatever lies there before. */
+/* One of several creators of a name succeeds, whatever has the name before. */
 static void test_creators_of_one_name_race(void **state)
 {
     pid_t creators[8];
@@ -388,10 +389,10 @@ static void test_reader_sees_the_world_and_takes_no_slot(void **state)
     assert_int_equal(segment_verify(&view, &error), 0);
     segment_detach(&view);
     assert_null(view.base);
-    segment_detach(&view); /* once more does nothing */
+    segment_detach(&view); /* a second call does nothing */
 }
 
-static void test_slot_says_who_holds_the_role_and_how_far_it_is(void **state)
+static void test_slot_has_the_holder_and_its_state(void **state)
 {
     struct view holder, reader;
     (void)state;
@@ -425,7 +426,8 @@ static void test_second_holder_of_a_role_is_refused_by_name_and_pid(void **state
         attach(&first, (enum role)role);
         attach_refused(name, (enum role)role, role_name((enum role)role));
         assert_non_null(strstr(error.text, pid));
-        assert_int_equal(atomic_load(&first.slot[role]->starts), 1); /* the refused one wrote not */
+        assert_int_equal(atomic_load(&first.slot[role]->starts),
+                         1); /* the refused process wrote nothing */
         segment_detach(&first);
     }
 }
@@ -480,15 +482,15 @@ static void test_kill_of_the_holder_frees_the_role(void **state)
         assert_int_equal(segment_holder_alive(name, role, 0), holder);
         child_kill(holder);
         assert_int_equal(segment_holder_alive(name, role, UINT64_MAX), 0);
-        assert_int_equal(segment_holder(name, role), 0); /* though its slot still says ready */
+        assert_int_equal(segment_holder(name, role), 0); /* although its slot still says ready */
         attach(&view, role);
         assert_int_equal(atomic_load(&view.slot[role]->pid), getpid());
         segment_detach(&view);
     }
 }
 
-/* Between the taking of a lock and the storing of the pid nobody is named, or the one before. */
-static void test_waits_go_by_the_lock_and_not_by_the_pid(void **state)
+/* Between taking a lock and storing the pid the slot has no pid, or the previous holder's. */
+static void test_waits_follow_the_lock_and_not_the_pid(void **state)
 {
     enum role role = ROLE_MOVER;
     struct view view;
@@ -524,10 +526,10 @@ static void test_removal_is_refused_while_a_role_is_held(void **state)
     assert_non_null(strstr(error.text, "reporter"));
     assert_true(exists(paths.object) && exists(paths.lock));
     segment_detach(&view);
-    attach(&view, ROLE_NONE); /* a reader hinders nobody */
+    attach(&view, ROLE_NONE); /* a reader prevents no removal */
     assert_int_equal(segment_remove(name, false, &error), 0);
     assert_false(exists(paths.object) || exists(paths.lock));
-    assert_int_equal(view.w[0].head->used, 3); /* and goes on reading what it has mapped */
+    assert_int_equal(view.w[0].head->used, 3); /* and it can still read its mapping */
     segment_detach(&view);
 }
 
@@ -551,7 +553,8 @@ static void test_lock_file_stays_while_a_supervisor_holds_it(void **state)
     assert_false(exists(paths.object));
     assert_true(exists(paths.lock));
     close(fd);
-    assert_int_equal(segment_remove(name, false, &error), 0); /* what is gone is no mistake */
+    assert_int_equal(segment_remove(name, false, &error),
+                     0); /* removing a missing world is no error */
     assert_false(exists(paths.lock));
 }
 
@@ -578,7 +581,7 @@ static void test_removed_name_can_be_made_again(void **state)
     segment_detach(&new);
 }
 
-static void test_removal_takes_the_sockets_along(void **state)
+static void test_removal_removes_the_sockets(void **state)
 {
     (void)state;
     close(local_socket_listen(name, "pictures", SOCK_STREAM, 1, &error));
@@ -641,24 +644,24 @@ int main(void)
         TEST(test_second_world_of_the_name_is_refused),
         cmocka_unit_test(test_names_that_a_world_may_have),
         cmocka_unit_test(test_counts_out_of_range_make_no_world),
-        TEST(test_name_leads_to_an_object_that_nobody_can_guess),
+        TEST(test_name_leads_to_an_object_of_random_name),
         TEST(test_name_that_leads_nowhere_is_taken),
         TEST(test_name_whose_object_is_gone_while_a_role_runs_is_not_taken),
-        TEST(test_sweep_takes_what_is_left_and_no_world),
-        TEST(test_what_is_no_link_to_an_object_is_refused),
+        TEST(test_sweep_removes_remains_and_no_world),
+        TEST(test_other_files_under_a_name_are_refused),
         TEST(test_creators_of_one_name_race),
         TEST(test_files_that_no_name_leads_to_are_listed),
         TEST(test_reader_sees_the_world_and_takes_no_slot),
-        TEST(test_slot_says_who_holds_the_role_and_how_far_it_is),
+        TEST(test_slot_has_the_holder_and_its_state),
         TEST(test_second_holder_of_a_role_is_refused_by_name_and_pid),
         TEST(test_all_roles_side_by_side),
         TEST(test_kill_of_the_holder_frees_the_role),
-        TEST(test_waits_go_by_the_lock_and_not_by_the_pid),
+        TEST(test_waits_follow_the_lock_and_not_the_pid),
         TEST(test_removal_is_refused_while_a_role_is_held),
         TEST(test_removal_by_force),
         TEST(test_lock_file_stays_while_a_supervisor_holds_it),
         TEST(test_removed_name_can_be_made_again),
-        TEST(test_removal_takes_the_sockets_along),
+        TEST(test_removal_removes_the_sockets),
         TEST(test_supervisor_removes_its_own_lock_file),
         TEST(test_list_has_worlds_and_nothing_else),
         cmocka_unit_test(test_private_world_is_shared_with_children_and_has_no_name),

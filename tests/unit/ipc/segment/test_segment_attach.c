@@ -1,4 +1,4 @@
-/* Attaching refuses what is not whole, by the name of the field; page tables keep roles apart. */
+/* Attaching refuses a damaged object and names the field. Page tables separate the roles. */
 #include "ipc/segment/segment.h"
 
 #include "ipc/segment/segment_attach.h"
@@ -69,7 +69,7 @@ static void put_header(const struct segment_header *h)
     patch(h, sizeof *h, 0);
 }
 
-/* A header that is consistent with itself: from another build, or a forger. */
+/* A consistent header of another build, or a forged one. */
 static void put_hashed(struct segment_header h)
 {
     struct segment_header copy = h;
@@ -203,7 +203,8 @@ static void test_wrong_sizes(void **state)
                             layout.total + 1,
                             layout.total + 4096};
     (void)state;
-    for (size_t i = sizeof sizes / sizeof sizes[0]; i-- > 0;) { /* the header goes last */
+    for (size_t i = sizeof sizes / sizeof sizes[0];
+         i-- > 0;) { /* smaller than the header comes last */
         assert_int_equal(truncate(paths.object, (off_t)sizes[i]), 0);
         check_refused("size");
         assert_true(error.damaged);
@@ -217,7 +218,7 @@ static void test_wrong_mode(void **state)
     check_refused("mode 644");
     assert_int_equal(chmod(paths.object, 0660), 0);
     check_refused("mode 660");
-    assert_false(error.damaged); /* the world within may be good */
+    assert_false(error.damaged); /* the world itself may be good */
     assert_int_equal(chmod(paths.object, 0600), 0);
     check_attaches();
 }
@@ -226,7 +227,7 @@ static void test_wrong_owner(void **state)
 {
     (void)state;
     if (geteuid() != 0)
-        skip(); /* only root can give a file away */
+        skip(); /* only root can change a file's owner */
     assert_int_equal(chown(paths.object, 12345, (gid_t)-1), 0);
     check_refused("belongs to user 12345");
     assert_int_equal(chown(paths.object, 0, (gid_t)-1), 0);
@@ -261,7 +262,7 @@ static void test_symbolic_link_for_the_lock(void **state)
     check_attaches();
 }
 
-static void test_what_is_no_file(void **state)
+static void test_no_regular_file(void **state)
 {
     (void)state;
     assert_int_equal(unlink(paths.object), 0);
@@ -279,7 +280,7 @@ static int attach_reader(void *context)
     return segment_attach(&view, name, ROLE_NONE, &error) == 0;
 }
 
-/* "Does not block": a pipe of that name has no writer, and opening it would wait for one. */
+/* A pipe of that name has no writer, and opening it would block. */
 static void test_pipe_does_not_block(void **state)
 {
     int status = 0;
@@ -329,7 +330,7 @@ struct probe {
     size_t offset;
 };
 
-/* Reads a byte and writes it back: changes nothing where it may. */
+/* Reads a byte and writes it back, which changes nothing if writing is allowed. */
 static int probe_write(void *context)
 {
     const struct probe *probe = context;
@@ -366,7 +367,7 @@ static void test_writing_where_a_role_may_not_faults(void **state)
     }
 }
 
-/* What is mapped for reading cannot be made writable by mprotect() either. */
+/* A read-only mapping cannot be made writable by mprotect() either. */
 static int make_writable(void *context)
 {
     const struct probe *probe = context;
@@ -376,7 +377,7 @@ static int make_writable(void *context)
     return mprotect((unsigned char *)view.base + probe->offset, 1, PROT_READ | PROT_WRITE) == 0;
 }
 
-static void test_what_is_read_only_stays_so(void **state)
+static void test_read_only_regions_stay_read_only(void **state)
 {
     (void)state;
     for (int role = 0; role <= ROLE_NONE; role++) {
@@ -410,11 +411,11 @@ int main(void)
         TEST(test_wrong_owner),
         TEST(test_symbolic_link),
         TEST(test_symbolic_link_for_the_lock),
-        TEST(test_what_is_no_file),
+        TEST(test_no_regular_file),
         TEST(test_pipe_does_not_block),
         TEST(test_damaged_static_regions_are_found_by_verify),
         TEST(test_writing_where_a_role_may_not_faults),
-        TEST(test_what_is_read_only_stays_so),
+        TEST(test_read_only_regions_stay_read_only),
     };
     return cmocka_run_group_tests(tests, NULL, named_world_check_left);
 }

@@ -1,5 +1,5 @@
-/* A damaged world goes back to its newest whole frame and makes again what was lost: the same
- * digest, the same events, the same commands. Damage beyond that is refused by its fields. */
+/* A damaged world goes back to its newest whole frame and computes the lost frame again: the same
+ * digest, events and commands. Worse damage is refused, with the names of the fields. */
 #include "ipc/frame/command_ring.h"
 #include "ipc/frame/frame_protocol.h"
 
@@ -120,7 +120,7 @@ static void move_one(void)
 /* --- a look at the object, and at all of it for writing ----------------------------------------*/
 
 static struct view look;      /* a reader's */
-static unsigned char *memory; /* the whole object, writable as no process of a set has it */
+static unsigned char *memory; /* the whole object, mapped writable */
 
 static int make_world(void **state)
 {
@@ -145,7 +145,7 @@ static int remove_world(void **state)
     return 0;
 }
 
-/* The place in memory of what a reader sees at address. */
+/* Returns the writable address of the data that a reader sees at address. */
 static unsigned char *place(const void *address)
 {
     return memory + ((const unsigned char *)address - (const unsigned char *)look.base);
@@ -201,7 +201,7 @@ static void test_good_world_is_left_alone(void **state)
     repaired(0, "good at frame 9");
     move_one();
     repaired(0, "good at frame 9");
-    assert_int_equal(moved_of(&look), 10); /* what is moved stays moved */
+    assert_int_equal(moved_of(&look), 10); /* the moved table stays */
 }
 
 static void test_every_bit_of_the_head_is_found(void **state)
@@ -233,7 +233,7 @@ static unsigned char *random_cell(const struct entities *entities, uint32_t used
     return cells[column] + fixture_random(random) % sizes[column];
 }
 
-/* A byte of what the last frame says: head, a row of some column, damage, its own craters. */
+/* Returns a byte of the last frame: its head, a row of a column, damage, its own craters. */
 static unsigned char *random_byte(const struct state *last, const struct state *before,
                                   uint64_t *random)
 {
@@ -282,7 +282,7 @@ static void test_damage_in_both_buffers_is_refused_and_named(void **state)
     *b ^= 8;
     repaired(-1, "both buffers: frame 12 fails its checksum (world A");
     assert_non_null(strstr(error.text, "frame 11 fails its checksum (world B"));
-    assert_int_equal(commit_of(&look), 12); /* and nothing is touched */
+    assert_int_equal(commit_of(&look), 12); /* nothing has changed */
     *a ^= 4;
     *b ^= 8;
     repaired(0, "good at frame 12");
@@ -366,7 +366,7 @@ static void test_flipped_bits_of_the_words(void **state)
 
 /* --- commands ----------------------------------------------------------------------------------*/
 
-/* Sends commands first .. end - 1: rounds out of the sky. */
+/* Sends commands first .. end - 1: shells without a shooter. */
 static void send(uint64_t first, uint64_t end)
 {
     struct view sender;
@@ -398,7 +398,7 @@ static void test_frame_made_again_takes_the_commands_that_it_took(void **state)
         run_to(11);
         send(2, 3);
         if (variant == 2)
-            move_one(); /* the table of frame 11 is gone: its commands must be taken again */
+            move_one(); /* frame 11 must take its commands again */
         if (variant > 0) {
             *place(&look.w[1].entities.x[2]) ^= 1;
             repaired(1, "goes on from frame 10");
@@ -413,7 +413,7 @@ static void test_frame_made_again_takes_the_commands_that_it_took(void **state)
     }
 }
 
-static void test_commands_that_are_overwritten_are_not_made_up(void **state)
+static void test_overwritten_commands_prevent_the_repair(void **state)
 {
     (void)state;
     run_to(10);
@@ -439,7 +439,7 @@ static void test_running_world_is_not_repaired(void **state)
         assert_false(error.damaged);
         segment_detach(&view);
     }
-    repaired(0, "good at frame 0"); /* and whoever refused holds no lock */
+    repaired(0, "good at frame 0"); /* the refused repair holds no lock */
     assert_int_equal(segment_holder(name, ROLE_MOVER), 0);
     assert_int_equal(atomic_load(&look.slot[ROLE_MOVER]->starts), 1); /* a repair is no start */
 }
@@ -453,7 +453,7 @@ static void test_no_world_and_no_name(void **state)
     assert_non_null(strstr(error.text, "is no name"));
 }
 
-/* A reader that copies goes on over a repair: it finds one of the frames whole. */
+/* A reader copies during a repair, and finds one of the frames whole. */
 static void test_snapshots_after_a_repair(void **state)
 {
     struct snapshot snapshot;
@@ -483,7 +483,7 @@ int main(void)
         cmocka_unit_test(test_flipped_bits_of_the_moved_table_are_moved_again),
         cmocka_unit_test(test_flipped_bits_of_the_words),
         cmocka_unit_test(test_frame_made_again_takes_the_commands_that_it_took),
-        TEST(test_commands_that_are_overwritten_are_not_made_up),
+        TEST(test_overwritten_commands_prevent_the_repair),
         TEST(test_running_world_is_not_repaired),
         TEST(test_no_world_and_no_name),
         TEST(test_snapshots_after_a_repair),

@@ -1,5 +1,4 @@
-/* Orders: what a verb takes, what it needs, and that what is wrong is said with what would be
- * right. */
+/* Orders: the arguments that a verb takes and needs, and errors that say what would be right. */
 #include "ipc/topics/command_json.h"
 
 #include "world/terrain/gridsquare.h"
@@ -84,7 +83,7 @@ static void test_names_become_ids(void **state)
     assert_non_null(strstr(error.text, "say its id"));
 }
 
-static void test_a_command_line_says_numbers_as_text(void **state)
+static void test_a_command_line_gives_numbers_as_text(void **state)
 {
     struct command_text order;
     struct command_text_value value = {.text = "12", .loose = true};
@@ -102,7 +101,7 @@ static void test_a_command_line_says_numbers_as_text(void **state)
     assert_int_equal(command_text_give(&order, COMMAND_TEXT_CLIMB, &value, &error), -1);
 }
 
-static void test_what_is_wrong_is_named(void **state)
+static void test_wrong_arguments_are_named(void **state)
 {
     (void)state;
     refused("[]", "not an object");
@@ -183,8 +182,8 @@ int main(void)
         cmocka_unit_test(test_all_controls),
         cmocka_unit_test(test_a_lease_is_at_least_a_frame_and_at_most_what_a_command_holds),
         cmocka_unit_test(test_names_become_ids),
-        cmocka_unit_test(test_a_command_line_says_numbers_as_text),
-        cmocka_unit_test(test_what_is_wrong_is_named),
+        cmocka_unit_test(test_a_command_line_gives_numbers_as_text),
+        cmocka_unit_test(test_wrong_arguments_are_named),
         cmocka_unit_test(test_a_mission_falls_about_its_middle),
         cmocka_unit_test(test_every_verb_has_all_that_it_needs_among_what_it_takes),
     };

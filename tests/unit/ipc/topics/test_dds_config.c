@@ -1,5 +1,5 @@
-/* The configuration that Cyclone DDS gets: the file that is installed says what is built in, and
- * what cannot be right is refused with its name. */
+/* The configuration of Cyclone DDS: the installed file is the built-in text, and wrong values are
+ * refused by name. */
 #include "ipc/topics/dds_config.c" /* the unit tests are not linked with the processes */
 
 #include <setjmp.h>
@@ -14,7 +14,7 @@
 static char text[DDS_CONFIG_MAX];
 static struct error_text error;
 
-/* Writes a file of its own and gives its name. */
+/* Writes a new file and returns its name. */
 static const char *file_of(const char *content, size_t bytes)
 {
     static char path[] = "/tmp/jolon-test-XXXXXX";
@@ -40,14 +40,14 @@ static void test_another_interface(void **state)
     (void)state;
     assert_int_equal(dds_config_builtin(text, sizeof text, "10.1.2.3", DDS_PEER, &error), 0);
     assert_non_null(strstr(text, "address=\"10.1.2.3\"/>"));
-    /* What is put into XML is an address and nothing else. */
+    /* Only an address is put into the XML. */
     assert_int_equal(dds_config_builtin(text, sizeof text, "1.2.3.4\"/><x", DDS_PEER, &error), -1);
     assert_non_null(strstr(error.text, "not an IPv4 address"));
     assert_int_equal(dds_config_builtin(text, 10, DDS_LOOPBACK, DDS_PEER, &error), -1);
 }
 
-/* Who only looks on asks at the ports where hosts are, and nobody hears it but they. */
-static void test_onlookers_and_hosts(void **state)
+/* Observers ask at the ports of hosts, and only hosts hear them. */
+static void test_observers_and_hosts(void **state)
 {
     (void)state;
     assert_int_equal(dds_config_builtin(text, sizeof text, DDS_LOOPBACK, DDS_OBSERVER, &error), 0);
@@ -60,7 +60,7 @@ static void test_onlookers_and_hosts(void **state)
     assert_non_null(strstr(text, "<ParticipantIndex>auto</ParticipantIndex>"));
     assert_non_null(strstr(text, "<MaxAutoParticipantIndex>63</MaxAutoParticipantIndex>"));
     assert_null(strstr(text, "Peer"));
-    /* From other machines' hosts it hears by multicast alone. */
+    /* Hosts on other machines are found by multicast only. */
     assert_int_equal(dds_config_builtin(text, sizeof text, "10.1.2.3", DDS_OBSERVER, &error), 0);
     assert_non_null(strstr(text, "<AllowMulticast>spdp</AllowMulticast>"));
     assert_null(strstr(text, "Peer"));
@@ -139,7 +139,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_installed_file_is_the_built_in_text),
         cmocka_unit_test(test_another_interface),
-        cmocka_unit_test(test_onlookers_and_hosts),
+        cmocka_unit_test(test_observers_and_hosts),
         cmocka_unit_test(test_interfaces),
         cmocka_unit_test(test_files_refused),
         cmocka_unit_test(test_security_is_seen),

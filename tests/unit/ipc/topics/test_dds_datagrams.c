@@ -1,5 +1,5 @@
-/* The calls that stand in front of the C library's, between two sockets of loopback: what comes is
- * filtered, and announcements go only to who is there. */
+/* sendmsg() and recvmsg() between two sockets of loopback: received datagrams are filtered, and
+ * announcements go only to known participants. */
 #include "ipc/topics/dds_datagrams.h"
 
 #include <netinet/in.h>
@@ -12,21 +12,21 @@
 
 #include <cmocka.h>
 
-/* An announcement without addresses, so that it counts for where it came from: DATA of the
- * participants' writer, whose list of parameters ends at once. */
+/* An announcement without addresses, so that its source counts: DATA of the participants' writer
+ * with an empty parameter list. */
 static const uint8_t come[] =
     "RTPS\2\1\1\20prefix-of-it\x15\x05\x1c\0\0\0\x10\0\0\1\0\xc7\0\1\0\xc2"
     "\0\0\0\0\1\0\0\0\0\3\0\0\1\0\0";
 /* The same with a key instead of data. */
 static const uint8_t go[] = "RTPS\2\1\1\20prefix-of-it\x15\x09\x1c\0\0\0\x10\0\0\1\0\xc7\0\1\0\xc2"
                             "\0\0\0\0\2\0\0\0\0\3\0\0\1\0\0";
-/* Of another writer, with type information in it. */
+/* DATA of another writer, with type information. */
 static const uint8_t typed[] =
     "RTPS\2\1\1\20prefix-of-it\x15\x05\x24\0\0\0\x10\0\0\0\3\xc7\0\0\3\xc2"
     "\0\0\0\0\1\0\0\0\0\3\0\0\x75\0\4\0\1\2\3\4\1\0\0";
 
 struct ends {
-    int fd[2]; /* ours, and the other's */
+    int fd[2]; /* this side's, and the other's */
     struct sockaddr_in at[2];
 };
 
@@ -59,7 +59,7 @@ static void send_to_other(const struct ends *ends, const uint8_t *bytes, size_t 
 {
     uint8_t copy[128];
     struct sockaddr_in to = ends->at[1];
-    /* In parts, as Cyclone DDS does it. */
+    /* In parts, as Cyclone DDS sends. */
     struct iovec parts[] = {{copy, 20}, {copy + 20, length - 20}};
     struct msghdr message = {
         .msg_name = &to, .msg_namelen = sizeof to, .msg_iov = parts, .msg_iovlen = 2};
@@ -67,14 +67,14 @@ static void send_to_other(const struct ends *ends, const uint8_t *bytes, size_t 
     assert_int_equal(sendmsg(ends->fd[0], &message, 0), length);
 }
 
-/* What the other one has got, without waiting. */
+/* Reads what the other side has received, without waiting. */
 static bool other_got(const struct ends *ends)
 {
     uint8_t bytes[128];
     return recv(ends->fd[1], bytes, sizeof bytes, MSG_DONTWAIT) > 0;
 }
 
-/* From the other to us, through recvmsg(); what comes out of it. */
+/* Sends from the other side, and reads by recvmsg(). */
 static size_t hear(const struct ends *ends, const uint8_t *bytes, size_t length, uint8_t *heard)
 {
     struct sockaddr_in from;
@@ -89,7 +89,7 @@ static size_t hear(const struct ends *ends, const uint8_t *bytes, size_t length,
     return (size_t)got;
 }
 
-static void test_only_who_is_there_is_told(void **state)
+static void test_only_known_participants_get_announcements(void **state)
 {
     const struct ends *ends = *state;
     uint8_t heard[128];
@@ -103,7 +103,7 @@ static void test_only_who_is_there_is_told(void **state)
     assert_false(other_got(ends));
 }
 
-static void test_all_else_goes_out(void **state)
+static void test_other_datagrams_are_sent(void **state)
 {
     const struct ends *ends = *state;
     send_to_other(ends, typed, sizeof typed);
@@ -117,7 +117,7 @@ static void test_a_thousand_others_leave_room_for_the_last(void **state)
 {
     const struct ends *ends = *state;
     uint8_t heard[128], forged[sizeof come - 4 + 28 + 4];
-    /* Locators of their own, the parameter 0x32, in front of the end of the list. */
+    /* Own locators, parameter 0x32, before the end of the list. */
     memcpy(forged, come, sizeof come - 4);
     uint8_t *locator = forged + sizeof come - 4;
     memset(locator, 0, 32);
@@ -133,7 +133,7 @@ static void test_a_thousand_others_leave_room_for_the_last(void **state)
     assert_true(other_got(ends));
 }
 
-static void test_what_comes_is_filtered(void **state)
+static void test_received_datagrams_are_filtered(void **state)
 {
     const struct ends *ends = *state;
     uint8_t heard[128], fragment[sizeof typed];
@@ -143,7 +143,7 @@ static void test_what_comes_is_filtered(void **state)
     memcpy(fragment, typed, sizeof typed);
     fragment[20] = 0x16;
     assert_int_equal(hear(ends, fragment, sizeof fragment, heard), sizeof fragment);
-    assert_int_equal(heard[0], 0); /* no RTPS any more */
+    assert_int_equal(heard[0], 0); /* no longer RTPS */
 }
 
 static void test_other_messages_are_left_alone(void **state)
@@ -160,10 +160,10 @@ static void test_other_messages_are_left_alone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_only_who_is_there_is_told),
-        TEST(test_all_else_goes_out),
+        TEST(test_only_known_participants_get_announcements),
+        TEST(test_other_datagrams_are_sent),
         TEST(test_a_thousand_others_leave_room_for_the_last),
-        TEST(test_what_comes_is_filtered),
+        TEST(test_received_datagrams_are_filtered),
         TEST(test_other_messages_are_left_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

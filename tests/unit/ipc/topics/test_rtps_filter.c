@@ -1,5 +1,5 @@
-/* What reaches Cyclone DDS of datagrams that hold type information, fragments of discovery, or
- * nothing that fits; and what is read of announcements. */
+/* The filter of datagrams with type information, fragments of discovery or wrong lengths, and the
+ * reading of announcements. */
 #include "ipc/topics/rtps_filter.h"
 
 #include "world/maths/random.h"
@@ -49,7 +49,7 @@ static void begin(struct datagram *datagram)
     datagram->length = 20;
 }
 
-/* A submessage's head; for DATA and DATA_FRAG up to what follows the sequence number. */
+/* A submessage's head; for DATA and DATA_FRAG up to the sequence number. */
 static void begin_data(struct datagram *datagram, uint8_t kind, uint8_t flags, uint32_t writer)
 {
     datagram->submessage = datagram->length;
@@ -145,7 +145,7 @@ static void test_it_is_hidden_in_front_of_any_data_too(void **state)
     }
 }
 
-static void test_what_users_write_is_left_alone(void **state)
+static void test_user_data_is_left_alone(void **state)
 {
     struct rtps_announcement announcement;
     struct datagram datagram;
@@ -179,7 +179,7 @@ static void test_fragments_of_discovery_and_answers_are_dropped(void **state)
     assert_false(rtps_filter(datagram.bytes, datagram.length, &announcement));
 }
 
-/* The announcement of a participant; flags of its DATA beside the order. */
+/* The announcement of a participant. flags are those of its DATA beside the byte order. */
 static void announce(struct datagram *datagram, bool little, uint8_t flags, uint32_t locators)
 {
     begin(datagram);
@@ -243,7 +243,7 @@ static void test_an_announcement_is_known_by_its_beginning(void **state)
     assert_false(rtps_announces(datagram.bytes, datagram.length));
 }
 
-/* In a block of its very length, where a sanitizer sees each byte read beyond it. */
+/* In a block of the exact length, so that a sanitizer finds each read beyond it. */
 static void test_nothing_is_read_beyond_the_end(void **state)
 {
     struct rtps_announcement said;
@@ -275,7 +275,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_type_information_is_hidden),
         cmocka_unit_test(test_it_is_hidden_in_front_of_any_data_too),
-        cmocka_unit_test(test_what_users_write_is_left_alone),
+        cmocka_unit_test(test_user_data_is_left_alone),
         cmocka_unit_test(test_fragments_of_discovery_and_answers_are_dropped),
         cmocka_unit_test(test_an_announcement_says_where_to_answer),
         cmocka_unit_test(test_a_leave_is_read),

@@ -1,4 +1,4 @@
-/* Which samples a reporter could have written, and what is left of their texts. */
+/* The samples that a reporter could have written, and the cleaning of their texts. */
 #include "ipc/topics/samples.h"
 
 #include "status.h"
@@ -25,11 +25,11 @@ static void test_texts_are_cleaned(void **state)
          "0m",
          "??0m"},                          /* a control character of eight bits */
         {"\xc0\xaf\xe0\x80\xaf", "?????"}, /* overlong */
-        {"\xed\xa0\x80", "???"},           /* half of a pair */
-        {"\xf4\x90\x80\x80\xff", "?????"}, /* beyond the last */
+        {"\xed\xa0\x80", "???"},           /* half of a surrogate pair */
+        {"\xf4\x90\x80\x80\xff", "?????"}, /* beyond the last code point */
         {"\xe2\x80\xae"
          "abc",
-         "???abc"}, /* from right to left */
+         "???abc"}, /* changes the direction of writing */
         {"cut \xe2\x82", "cut ??"},
     };
     (void)state;

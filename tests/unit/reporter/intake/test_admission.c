@@ -1,4 +1,4 @@
-/* Admission: turns, budgets and reserved places, in virtual time. */
+/* Admission: order of service, budgets and reserved slots, in virtual time. */
 #include "reporter/intake/admission.c" /* the unit tests are not linked with the processes */
 
 #include <setjmp.h>
@@ -25,7 +25,7 @@ static void fill(uint32_t place, jolon_CommandType type)
         put(place, type, 1);
 }
 
-/* Takes what may go at a time, at most `most`; how many were of the client. */
+/* Takes the commands that may go now, at most `most`. Returns how many were of the client. */
 static uint32_t take_of_client(uint64_t client, uint32_t most, uint64_t now_ns)
 {
     jolon_Command command;
@@ -48,7 +48,7 @@ static int set_up(void **state)
     return 0;
 }
 
-static void test_sources_take_turns(void **state)
+static void test_sources_are_served_in_turn(void **state)
 {
     (void)state;
     fill(0, jolon_COMMAND_DRIVE);
@@ -111,13 +111,13 @@ static void test_spawns_have_a_budget_for_one_and_for_all(void **state)
     assert_in_range(one, 25, ADMISSION_COSTLY_PER_S + ADMISSION_COSTLY_BURST + 1);
     assert_in_range(all, ADMISSION_ALL_COSTLY_PER_S,
                     ADMISSION_ALL_COSTLY_PER_S + ADMISSION_ALL_COSTLY_BURST + 1);
-    /* What waits for a spawn's budget keeps no other source waiting. */
+    /* A command that waits for the budget of spawns does not delay other sources. */
     admission_enter(&admission, 3, 103);
     put(3, jolon_COMMAND_DRIVE, 1);
     assert_int_equal(take_of_client(103, 16, 2 * (uint64_t)SECOND), 1);
 }
 
-static void test_operators_go_first_and_have_room_kept(void **state)
+static void test_operators_go_first_and_have_reserved_slots(void **state)
 {
     (void)state;
     jolon_Command command;
@@ -159,17 +159,18 @@ static void test_a_strained_world_gets_few_costly_commands(void **state)
     }
     assert_in_range(spawns, 10 * ADMISSION_STRAINED_PER_S,
                     10 * ADMISSION_STRAINED_PER_S + ADMISSION_STRAINED_BURST);
-    assert_in_range(of_another, spawns * 2 / 5, spawns * 3 / 5); /* they take turns */
+    assert_in_range(of_another, spawns * 2 / 5,
+                    spawns * 3 / 5); /* the sources are served in turn */
     put(2, jolon_COMMAND_DRIVE, 1);
     assert_true(admission_take(&admission, &strained, 12 * (uint64_t)SECOND, &command, &client));
     put(2, jolon_COMMAND_DRIVE, 2);
-    do { /* drives are as free as ever */
+    do { /* drives are not limited */
         assert_true(
             admission_take(&admission, &strained, 12 * (uint64_t)SECOND, &command, &client));
     } while (client != 102);
 }
 
-static void test_a_place_that_is_left_is_empty(void **state)
+static void test_a_freed_source_is_empty(void **state)
 {
     (void)state;
     fill(0, jolon_COMMAND_DRIVE);
@@ -183,13 +184,13 @@ static void test_a_place_that_is_left_is_empty(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(test_sources_take_turns, set_up),
+        cmocka_unit_test_setup(test_sources_are_served_in_turn, set_up),
         cmocka_unit_test_setup(test_a_source_keeps_its_order, set_up),
         cmocka_unit_test_setup(test_a_flood_is_held_to_its_budget, set_up),
         cmocka_unit_test_setup(test_spawns_have_a_budget_for_one_and_for_all, set_up),
-        cmocka_unit_test_setup(test_operators_go_first_and_have_room_kept, set_up),
+        cmocka_unit_test_setup(test_operators_go_first_and_have_reserved_slots, set_up),
         cmocka_unit_test_setup(test_a_strained_world_gets_few_costly_commands, set_up),
-        cmocka_unit_test_setup(test_a_place_that_is_left_is_empty, set_up),
+        cmocka_unit_test_setup(test_a_freed_source_is_empty, set_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

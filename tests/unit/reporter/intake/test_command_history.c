@@ -1,4 +1,4 @@
-/* The history of commands: every key once, answers kept, the oldest forgotten first. */
+/* The history of commands: each key once, answers kept, the oldest overwritten first. */
 #include "reporter/intake/command_history.c" /* the unit tests are not linked with the processes */
 
 #include <setjmp.h>
@@ -10,7 +10,7 @@
 
 static struct command_history history;
 
-/* The entry, which has to be there. */
+/* Returns the entry, which must exist. */
 static struct history_entry entry_of(uint64_t source, uint64_t sequence)
 {
     const struct history_entry *entry = command_history_find(&history, source, sequence);
@@ -52,11 +52,11 @@ static void test_a_repeat_changes_nothing(void **state)
     assert_int_equal(history.waiting, 0);
     assert_true(entry_of(7, 1).answered);
     assert_int_equal(entry_of(7, 1).result, 3);
-    (void)command_history_answer(&history, 7, 1, 9, 3, 0, 10); /* the event ring read again */
+    (void)command_history_answer(&history, 7, 1, 9, 3, 0, 10); /* the event ring is read again */
     assert_int_equal(history.waiting, 0);
 }
 
-static void test_an_answer_to_a_stranger_is_kept(void **state)
+static void test_an_answer_to_an_unknown_command_is_kept(void **state)
 {
     (void)state;
     command_history_clear(&history, 1991);
@@ -65,13 +65,13 @@ static void test_an_answer_to_a_stranger_is_kept(void **state)
     assert_int_equal(entry_of(99, 5).frame, 42);
 }
 
-/* Three times round, half of them answered: what is kept is always the last HISTORY_ENTRIES. */
+/* Fills the history three times, half of it answered. It always holds the last HISTORY_ENTRIES. */
 static void test_forgets_the_oldest(void **state)
 {
     (void)state;
     command_history_clear(&history, 1991);
     for (uint64_t i = 1; i <= 3 * HISTORY_ENTRIES; i++) {
-        uint64_t source = i % 5 + 1; /* few sources: long chains if the hash were poor */
+        uint64_t source = i % 5 + 1; /* few sources, whose chains a poor hash would make long */
         command_history_wait(&history, source, i, 1, 0);
         if (i % 2)
             (void)command_history_answer(&history, source, i, 1, 0, (uint32_t)i, i);
@@ -91,7 +91,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_waits_until_answered),
         cmocka_unit_test(test_a_repeat_changes_nothing),
-        cmocka_unit_test(test_an_answer_to_a_stranger_is_kept),
+        cmocka_unit_test(test_an_answer_to_an_unknown_command_is_kept),
         cmocka_unit_test(test_forgets_the_oldest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

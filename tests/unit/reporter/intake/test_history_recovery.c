@@ -1,4 +1,4 @@
-/* What a reporter knows of commands that its predecessor took: everything, or one is done twice. */
+/* A new intake knows every command that its predecessor took; else one would be executed twice. */
 #include "ipc/frame/command_ring.h"
 #include "reporter/intake/history_recovery.h"
 
@@ -49,7 +49,7 @@ static void put(uint64_t first, uint64_t last)
     }
 }
 
-/* One frame that applies so many commands of the ring and answers them. */
+/* Makes a frame that applies so many commands of the ring and answers them. */
 static void apply(uint32_t count)
 {
     struct state_head *head = bare_view_begin(&collider)->head;
@@ -93,7 +93,7 @@ static void test_answers_and_waiting_commands_are_known(void **state)
     (void)state;
     put(1, SLOTS);
     apply(SLOTS - 2);
-    put(SLOTS + 1, 2 * SLOTS - 2); /* the ring has forgotten 1 .. SLOTS - 2 */
+    put(SLOTS + 1, 2 * SLOTS - 2); /* the ring has overwritten 1 .. SLOTS - 2 */
     assert_int_equal(history_recover(&history, &view, RING_CLIENTS), 0);
     for (uint64_t i = 1; i <= 2 * SLOTS - 2; i++)
         check(i, i <= SLOTS - 2);
@@ -103,7 +103,7 @@ static void test_answers_and_waiting_commands_are_known(void **state)
     assert_int_equal(entry.frame, 1);
 }
 
-/* The next put may take the place of a command that was applied only since: it must be known. */
+/* The next put may overwrite a command that was applied since, so it must be known. */
 static void test_a_command_applied_since_is_known(void **state)
 {
     (void)state;
@@ -126,7 +126,7 @@ static void test_a_slot_that_a_kill_left_is_not_taken(void **state)
     assert_int_equal(history.waiting, 0);
 }
 
-static void test_other_rings_answers_are_theirs(void **state)
+static void test_answers_of_other_rings_are_ignored(void **state)
 {
     (void)state;
     put(1, 1);
@@ -153,7 +153,7 @@ int main(void)
         TEST(test_answers_and_waiting_commands_are_known),
         TEST(test_a_command_applied_since_is_known),
         TEST(test_a_slot_that_a_kill_left_is_not_taken),
-        TEST(test_other_rings_answers_are_theirs),
+        TEST(test_answers_of_other_rings_are_ignored),
         TEST(test_a_damaged_world_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
