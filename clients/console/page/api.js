@@ -1,9 +1,9 @@
 /**
- * What the console's server offers, and how to ask it. Reading needs nothing; what changes the
- * world needs the token of the link, and driving a player's key.
+ * Sends requests to the console's server. Requests that change the world need the token of the
+ * link, and driving needs a player's key.
  */
 
-/** An answer that is a refusal, in the server's words. */
+/** A refusal of the server. */
 export class Refusal extends Error {
   /**
    * @param {string} message what was refused, and why
@@ -25,7 +25,7 @@ export class Refusal extends Error {
 
 const TOKEN_PLACE = 'jolon-token';
 
-/** The link's token; out of the address bar, so that nobody copies it by mistake. */
+/** Reads the link's token and removes it from the address bar, so that nobody copies it. */
 function takeToken() {
   const found = /^#token=(.+)$/.exec(location.hash);
   if (found) {
@@ -61,8 +61,8 @@ export class Api {
       throw new Refusal('The console does not answer.', 'It comes back by itself when the console runs again.', 0);
     }
     if (response.ok) return response;
-    const said = await response.json().catch(() => ({}));
-    throw new Refusal(said.error ?? `The console answered ${response.status}.`, said.next ?? '', response.status);
+    const refusal = await response.json().catch(() => ({}));
+    throw new Refusal(refusal.error ?? `The console answered ${response.status}.`, refusal.next ?? '', response.status);
   }
 
   /**

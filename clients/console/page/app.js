@@ -1,10 +1,10 @@
-/** The page: makes its parts and ties them together. */
+/** The page: makes its parts and connects them. */
 
 import { Api } from './api.js';
 import { Drive } from './drive.js';
 import { Events } from './events.js';
 import { Feed } from './feed.js';
-import { number, say, time, words } from './format.js';
+import { number, setText, time, words } from './format.js';
 import { Pads } from './gamepad.js';
 import { listen } from './gestures.js';
 import { Hands } from './hands.js';
@@ -48,7 +48,7 @@ function mapNote(state) {
   return map.ground.missing ? 'The ground is on its way.' : '';
 }
 
-/** Somebody who has just come sees something: the first tank, or whatever there is. */
+/** Selects a vehicle for a new visitor: the first tank, or else the first vehicle. */
 function lookAtSomething() {
   if (session.selected || !world.state) return;
   const there = world.entities.filter((entity) => entity[STATE] !== STATE_WRECK &&
@@ -62,19 +62,19 @@ world.addEventListener('meet', () => {
   session.reset();
   world.addEventListener('state', lookAtSomething);
 });
-world.addEventListener('meet', () => say(byId('world-name'), `${world.info.world} · ${words(world.info.ground)}`));
+world.addEventListener('meet', () => setText(byId('world-name'), `${world.info.world} · ${words(world.info.ground)}`));
 world.addEventListener('state', () => {
   const { state } = world;
-  say(byId('g-time'), time(state.time_s));
-  say(byId('g-frame'), number(state.frame));
-  say(byId('g-rate'), `${number(state.rate_hz, 1)} Hz`);
-  say(byId('g-late'), number(state.late_frames));
-  say(byId('g-vehicles'), number(state.vehicles));
-  if (!orders.tool) say(byId('map-note'), mapNote(state));
+  setText(byId('g-time'), time(state.time_s));
+  setText(byId('g-frame'), number(state.frame));
+  setText(byId('g-rate'), `${number(state.rate_hz, 1)} Hz`);
+  setText(byId('g-late'), number(state.late_frames));
+  setText(byId('g-vehicles'), number(state.vehicles));
+  if (!orders.tool) setText(byId('map-note'), mapNote(state));
 });
 const showState = () => {
   const text = world.trouble || words(world.state?.state ?? 'loading');
-  say(byId('world-state'), text);
+  setText(byId('world-state'), text);
   byId('world-state').className = `badge ${world.trouble ? 'bad' : world.state?.state === 'running' ? 'good' : 'low'}`;
 };
 world.addEventListener('state', showState);
@@ -88,7 +88,7 @@ byId('join').addEventListener('submit', async (event) => {
 session.addEventListener('change', () => {
   byId('join').hidden = session.player !== '';
   byId('player').hidden = session.player === '';
-  say(byId('player'), session.player);
+  setText(byId('player'), session.player);
 });
 
 /* --- driving -------------------------------------------------------------------------------- */
@@ -105,7 +105,7 @@ const keys = new Keys({
   KeyV: () => picture.next(),
   KeyC: () => follow(!map.follow),
   KeyT: () => vehicle.toggle(),
-  Escape: () => orders.choose(''),
+  Escape: () => orders.select(''),
 });
 const hands = new Hands(byId('picture'), byId('pad'), () => session.fire());
 const pads = new Pads({ fire: () => session.fire(), gear, view: () => picture.next() });
@@ -148,7 +148,7 @@ listen(map, {
   hover(px, py) {
     const near = map.nearest(px, py);
     const place = `x ${number(map.camera.worldX(px))}  z ${number(map.camera.worldZ(py))} m`;
-    say(byId('map-where'), near ? `${world.name(near)} · ${place}` : place);
+    setText(byId('map-where'), near ? `${world.name(near)} · ${place}` : place);
     map.canvas.classList.toggle('over', near !== 0);
   },
   moved() {

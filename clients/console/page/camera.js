@@ -1,4 +1,4 @@
-/** Which part of the square the map shows: a middle and how many metres a pixel is. */
+/** The part of the world that the map shows: its centre and the metres a pixel. */
 
 const CLOSEST_M = 60;
 
@@ -20,7 +20,7 @@ export class Camera {
     this.scale = this.widest();
   }
 
-  /** The scale at which all of the square shows. */
+  /** The scale at which the whole world is visible. */
   widest() {
     return this.side / Math.min(this.width, this.height);
   }
@@ -31,7 +31,7 @@ export class Camera {
     this.bound();
   }
 
-  /** Zooms so that what is at a place of the canvas stays there. */
+  /** Zooms about a place of the canvas, which keeps its place in the world. */
   zoom(factor, px = this.width / 2, py = this.height / 2) {
     const x = this.worldX(px), z = this.worldZ(py);
     this.scale = Math.min(Math.max(this.scale * factor, CLOSEST_M / this.width), this.widest() * 1.1);

@@ -1,11 +1,11 @@
-/** The last minute of the vehicle in view: its speed and its altitude, drawn small. */
+/** A small chart of the selected vehicle's speed and altitude over the last minute. */
 
 import { number } from './format.js';
 
 const LENGTH_S = 60;
 const EVERY_S = 0.25;
 const LEAST_PX = 54;
-/** Each with the least range that its axis has, so that noise does not look like a mountain. */
+/** The lines, each with the smallest range of its axis, so that noise stays small. */
 const LINES = [
   { key: 'speed', unit: 'km/h', least: 20, colour: '#e8b44c', dash: [] },
   { key: 'altitude', unit: 'm', least: 20, colour: '#6cacff', dash: [5, 3] },
@@ -55,7 +55,7 @@ export class Course {
     context.textAlign = 'left';
   }
 
-  /** @returns {number} where the next line's words begin */
+  /** @returns {number} where the next line's text begins */
   drawLine({ key, unit, least, colour, dash }, x, width, height) {
     const { context, samples } = this;
     const values = samples.map((sample) => sample[key]);

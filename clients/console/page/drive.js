@@ -1,10 +1,10 @@
 /**
- * Driving: reads keys, hands and gamepad every frame and sends what they say: at once when it
- * changes, at most 30 times a second, and again before the vehicle would go back to its agent.
+ * Driving: reads the keys, the on-screen sticks and the gamepad every frame and sends the controls
+ * when they change, at most 30 times a second, and again before the vehicle's lease ends.
  */
 
 import { Refusal } from './api.js';
-import { say, words } from './format.js';
+import { setText, words } from './format.js';
 import { KIND } from './world.js';
 
 const LEAST_MS = 33;
@@ -13,7 +13,7 @@ const STEP_MS = 16;
 const GEARS = ['automatic', 'reverse', 'neutral', 'low'];
 const clamp = (value, least, most) => Math.round(Math.min(Math.max(value, least), most) * 100) / 100;
 
-/** A bar from the middle to the right or to the left. */
+/** Draws a bar from the middle to the right or to the left. */
 function showLever(id, value) {
   const bar = document.getElementById(id);
   bar.style.left = `${50 + 50 * Math.min(value, 0)}%`;
@@ -44,7 +44,7 @@ export class Drive {
 
   nextGear() {
     this.gear = GEARS[(GEARS.indexOf(this.gear) + 1) % GEARS.length];
-    say(document.getElementById('driving-gear'), words(this.gear));
+    setText(document.getElementById('driving-gear'), words(this.gear));
   }
 
   turn() {
@@ -56,17 +56,17 @@ export class Drive {
       this.keys.rest();
       this.keys.driving = driven !== 0;
       this.hands.show(driven !== 0);
-      say(document.getElementById('driving-gear'), words(this.gear));
+      setText(document.getElementById('driving-gear'), words(this.gear));
     }
     this.strip.classList.toggle('on', driven !== 0);
     document.getElementById('driving-levers').hidden = driven === 0;
     document.getElementById('driving-show').hidden = driven === 0 || driven === selected;
-    say(document.getElementById('driving-what'), driven ? 'you drive' :
+    setText(document.getElementById('driving-what'), driven ? 'you drive' :
       'You drive nothing yet: press Take, or double click a vehicle.');
-    say(document.getElementById('driving-name'), driven ? this.world.name(driven) : '');
+    setText(document.getElementById('driving-name'), driven ? this.world.name(driven) : '');
   }
 
-  /** What the levers say now. */
+  /** The present controls. */
   read(dt) {
     const all = [this.keys.step(dt), this.hands.levers, this.pads.step()].filter((levers) => levers);
     const sum = (lever) => all.reduce((total, levers) => total + levers[lever], 0);
@@ -108,7 +108,7 @@ export class Drive {
       if (!(error instanceof Refusal)) throw error;
       const lasting = error.status >= 400 && error.status < 500 && error.status !== 429;
       if (lasting && vehicle === this.session.driven) {
-        this.session.tell(error);
+        this.session.showError(error);
         this.session.lose();
       }
     } finally {

@@ -1,4 +1,4 @@
-/** The world's events as they come, newest last; for the feed and for the map. */
+/** Polls the world's events, newest last, for the feed and the map. */
 
 import { Refusal } from './api.js';
 
@@ -35,7 +35,7 @@ export class Events extends EventTarget {
     this.dispatchEvent(new Event('clear'));
   }
 
-  /** Asks for ever. */
+  /** Polls for ever. */
   async run() {
     for (;;) {
       try {
@@ -64,7 +64,7 @@ export class Events extends EventTarget {
     this.dispatchEvent(new CustomEvent('fresh', { detail: fresh }));
   }
 
-  /** An event's words with the names of those who have one: "Padre fired at ...". */
+  /** An event's text with the names of vehicles that have one: "Padre fired at ...". */
   withNames(event) {
     const before = event.type === 'command' ? '' : '[\\w-]+ ';
     return (event.ids ?? []).reduce((text, id) => {

@@ -1,6 +1,6 @@
 /** The feed of events: the newest first, filtered by type; a click shows the place. */
 
-import { number, say, time, words } from './format.js';
+import { number, setText, time, words } from './format.js';
 import { KIND } from './world.js';
 
 const SHOWN = 200;
@@ -38,7 +38,7 @@ export class Feed {
     return label;
   }
 
-  /** Anew, after another choice of types. */
+  /** Rewrites the list after another choice of types. */
   fill() {
     this.rows.replaceChildren();
     this.add(this.events.all);
@@ -54,8 +54,8 @@ export class Feed {
 
   note() {
     byId('feed-empty').hidden = this.rows.children.length > 0;
-    say(byId('feed-empty'), this.types.size ? 'Nothing of that kind has happened yet.' : 'Choose a kind of event above.');
-    say(this.missed, this.events.missed ? `${number(this.events.missed)} went by too fast` : '');
+    setText(byId('feed-empty'), this.types.size ? 'Nothing of that kind has happened yet.' : 'Choose a kind of event above.');
+    setText(this.missed, this.events.missed ? `${number(this.events.missed)} went by too fast` : '');
   }
 
   line(event) {
@@ -72,7 +72,7 @@ export class Feed {
     const here = (event.ids ?? []).map((id) => this.map.where(id)).find((place) => place);
     if (event.point) this.map.showEvent(event.point[0], event.point[1]);
     else if (here) this.map.showEvent(here.x, here.z);
-    else this.session.notices.say('This event has no place on the map.', 'bad');
+    else this.session.notices.show('This event has no place on the map.', 'bad');
     const vehicle = (event.ids ?? []).find((id) => this.isVehicle(id));
     if (vehicle) this.session.select(vehicle);
   }

@@ -1,6 +1,6 @@
 /** Numbers and times as people read them. */
 
-/** @type {Intl.NumberFormat[]} by digits after the point; dear to make */
+/** @type {Intl.NumberFormat[]} by digits after the point; cached because they are slow to make */
 const FORMATS = [];
 
 /**
@@ -41,7 +41,7 @@ export function words(word) {
   return String(word).replaceAll('_', ' ').replaceAll('-', ' ');
 }
 
-/** Sets an element's text, and leaves it alone when it is the same. */
-export function say(element, text) {
+/** Sets an element's text if it is another one. */
+export function setText(element, text) {
   if (element.textContent !== text) element.textContent = text;
 }

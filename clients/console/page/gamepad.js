@@ -1,4 +1,4 @@
-/** A gamepad of the standard layout: sticks and triggers as they are, buttons as deeds. */
+/** Reads a gamepad of the standard layout: sticks and triggers as values, buttons as actions. */
 
 const DEAD = 0.08;
 const FIRE = 0, BRAKE = 1, VIEW = 2, GEAR = 3, TRIGGER_BACK = 6, TRIGGER_ON = 7;
@@ -9,9 +9,9 @@ function stick(value = 0) {
 }
 
 export class Pads {
-  /** @param {{fire: () => void, gear: () => void, view: () => void}} deeds */
-  constructor(deeds) {
-    this.deeds = deeds;
+  /** @param {{fire: () => void, gear: () => void, view: () => void}} actions */
+  constructor(actions) {
+    this.actions = actions;
     /** @type {boolean[]} */
     this.before = [];
   }
@@ -21,8 +21,8 @@ export class Pads {
     const pad = [...(navigator.getGamepads?.() ?? [])].find((one) => one?.connected);
     if (!pad) return null;
     const pressed = pad.buttons.map((button) => button.pressed);
-    for (const [index, deed] of [[FIRE, this.deeds.fire], [GEAR, this.deeds.gear], [VIEW, this.deeds.view]]) {
-      if (pressed[index] && !this.before[index]) deed();
+    for (const [index, action] of [[FIRE, this.actions.fire], [GEAR, this.actions.gear], [VIEW, this.actions.view]]) {
+      if (pressed[index] && !this.before[index]) action();
     }
     this.before = pressed;
     const pull = (index) => pad.buttons[index]?.value ?? 0;

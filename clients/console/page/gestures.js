@@ -1,4 +1,4 @@
-/** Hands on the map: drag, wheel, pinch, click, double click, and the keyboard. */
+/** Gestures on the map: drag, wheel, pinch, click, double click, and the keyboard. */
 
 const CLICK_PX = 5;
 const KEY_PX = 60;
@@ -7,9 +7,9 @@ const KEY_ZOOM = 1.3;
 /**
  * @param {import('./map.js').MapView} map
  * @param {{click: (px: number, py: number, again: boolean) => void,
- *   hover: (px: number, py: number) => void, moved: () => void}} told
+ *   hover: (px: number, py: number) => void, moved: () => void}} handlers
  */
-export function listen(map, told) {
+export function listen(map, handlers) {
   const { canvas, camera } = map;
   /** @type {Map<number, {x: number, y: number}>} */
   const held = new Map();
@@ -32,7 +32,7 @@ export function listen(map, told) {
     const at = place(event);
     const from = held.get(event.pointerId);
     if (!from) {
-      told.hover(at.x, at.y);
+      handlers.hover(at.x, at.y);
       return;
     }
     travelled += Math.hypot(at.x - from.x, at.y - from.y);
@@ -44,7 +44,7 @@ export function listen(map, told) {
     }
     if (travelled > CLICK_PX) {
       camera.pan((at.x - from.x) / held.size, (at.y - from.y) / held.size);
-      told.moved();
+      handlers.moved();
     }
     held.set(event.pointerId, at);
     map.touch();
@@ -58,7 +58,7 @@ export function listen(map, told) {
     const at = place(event);
     const again = event.timeStamp - clicked < 350;
     clicked = again ? 0 : event.timeStamp;
-    told.click(at.x, at.y, again);
+    handlers.click(at.x, at.y, again);
   };
   canvas.addEventListener('pointerup', end);
   canvas.addEventListener('pointercancel', end);
@@ -81,7 +81,7 @@ export function listen(map, told) {
     if (zoom) camera.zoom(zoom);
     if (move) {
       camera.pan(move[0] * KEY_PX, move[1] * KEY_PX);
-      told.moved();
+      handlers.moved();
     }
     map.touch();
   });

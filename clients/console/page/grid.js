@@ -1,4 +1,4 @@
-/** What lies over the ground of the map: kilometres, a scale, and words that can be read on it. */
+/** Draws the grid, the scale and text over the map. */
 
 import { distance } from './format.js';
 
@@ -6,7 +6,7 @@ const GRID_PX = 90;
 const STEPS_M = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000];
 const FONT = '11px system-ui, "DejaVu Sans", sans-serif';
 
-/** Words with a dark rim. */
+/** Draws text with a dark rim. */
 export function drawLabel(context, words, x, y) {
   context.lineWidth = 3;
   context.lineJoin = 'round';
@@ -17,7 +17,7 @@ export function drawLabel(context, words, x, y) {
 }
 
 /**
- * Lines at round distances, with kilometres at the edges.
+ * Draws lines at round distances, with kilometres at the edges.
  * @param {CanvasRenderingContext2D} context
  * @param {import('./camera.js').Camera} camera
  * @param {boolean} bare there is no ground below it
@@ -50,7 +50,7 @@ export function drawGrid(context, camera, bare) {
   for (const [label, x, y] of labels) drawLabel(context, label, x, y);
 }
 
-/** A bar of a round length, at the lower right. */
+/** Draws a scale bar of a round length at the lower right. */
 export function drawScaleBar(context, camera) {
   const most = Math.min(150, camera.width / 4) * camera.scale;
   const power = 10 ** Math.floor(Math.log10(most));

@@ -1,6 +1,6 @@
 /**
  * The ground of the map: square tiles from the renderer, each level of detail twice as fine as the
- * one before it. Tiles are kept; while a finer one is on its way, a coarser one stands in for it.
+ * previous one. Tiles are cached; while a finer tile is loading, a coarser one is drawn instead.
  */
 
 const TILE_PX = 512;
@@ -25,7 +25,7 @@ export class Ground {
     this.missing = false;
   }
 
-  /** Forgets all tiles: another world, or another ground. */
+  /** Forgets all tiles, for another world or another ground. */
   clear() {
     for (const tile of this.tiles.values()) tile.image?.close();
     this.tiles.clear();
@@ -96,7 +96,7 @@ export class Ground {
     this.redraw();
   }
 
-  /** Lets go the tiles that were not seen for longest; never the coarsest. */
+  /** Evicts the tiles that were not drawn for longest, but never the coarsest. */
   drop() {
     if (this.tiles.size <= KEPT) return;
     const old = [...this.tiles].filter(([name, tile]) => name !== '0/0/0' && !tile.asked)

@@ -1,12 +1,12 @@
 /**
- * A hand on the picture: press and drag anywhere to aim, double click to fire; on a touch screen
- * two sticks, one to drive and one to aim.
+ * Pointers on the picture: press and drag anywhere to aim, double click to fire; on a touch screen
+ * two virtual sticks, one to drive and one to aim.
  */
 
 const REACH_PX = 130;
 
 /**
- * A stick that is wherever it is pressed: how far it was pulled, -1 to 1.
+ * A virtual stick centred where it is pressed. It reports how far it is pulled, -1 to 1.
  * @param {HTMLElement} place
  * @param {number} reach [CSS pixel] for 1
  * @param {(x: number, y: number) => void} moved y up

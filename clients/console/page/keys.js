@@ -1,6 +1,6 @@
 /**
- * The keyboard as levers: the longer a key is held, the further its lever goes; let go, and it
- * comes back. Letters that do one thing are told at once.
+ * The keyboard: the longer a key is held, the further its lever moves; when it is released, the
+ * lever returns. Keys with a single action trigger it at once.
  */
 
 /** code: [lever, direction] */
@@ -10,21 +10,21 @@ const LEVERS = {
   KeyE: ['traverse', 1], KeyQ: ['traverse', -1], KeyR: ['rise', 1], KeyF: ['rise', -1],
   KeyB: ['brake', 1],
 };
-/** A touch of a key moves a lever so far at once ... */
+/** How far a press moves a lever at once ... */
 const FIRST = 0.35;
-/** ... the rest in so many seconds, and back in as many. */
+/** ... and the time in seconds of the rest, and of the return. */
 const TO_FULL_S = { throttle: 0.6, steer: 0.7, traverse: 0.6, rise: 0.6, brake: 0.3 };
 const BACK_S = 0.12;
 
-/** True while keys belong to something else: a field, a list, a dialog. */
+/** Returns true while a field, a list or a dialog has the keys. */
 function isTyping(target) {
   return target instanceof Element &&
     target.closest('input, select, textarea, dialog, [role="tablist"]') !== null;
 }
 
 export class Keys {
-  /** @param {Record<string, () => void>} deeds by KeyboardEvent.code */
-  constructor(deeds) {
+  /** @param {Record<string, () => void>} actions by KeyboardEvent.code */
+  constructor(actions) {
     /** @type {Set<string>} */
     this.held = new Set();
     this.levers = { throttle: 0, steer: 0, traverse: 0, rise: 0, brake: 0 };
@@ -34,10 +34,10 @@ export class Keys {
       if (this.driving && event.code in LEVERS) {
         this.held.add(event.code);
         event.preventDefault();
-      } else if (event.code in deeds) {
+      } else if (event.code in actions) {
         if (event.code === 'Space' && event.target instanceof HTMLButtonElement) return;
         event.preventDefault();
-        if (!event.repeat) deeds[event.code]();
+        if (!event.repeat) actions[event.code]();
       }
     });
     addEventListener('keyup', (event) => this.held.delete(event.code));
@@ -62,7 +62,7 @@ export class Keys {
     return this.levers;
   }
 
-  /** Lets go of every key. */
+  /** Releases every key. */
   rest() {
     this.held.clear();
     for (const lever of Object.keys(this.levers)) this.levers[lever] = 0;

@@ -1,14 +1,14 @@
 /** The table of vehicles: searched, filtered and sorted by the server, a page at a time. */
 
 import { Refusal } from './api.js';
-import { number, say, words } from './format.js';
+import { number, setText, words } from './format.js';
 import { FORCE_CLASS } from './symbols.js';
 
 const PAGE = 100;
 const EVERY_MS = 1000;
 const TYPING_MS = 150;
 
-/** key of a row, words, what it sorts by ('' for nothing), numeric, text */
+/** key of a row, title, sort key ('' for none), numeric, text */
 const COLUMNS = [
   ['name', 'name', 'name', false, (row) => row.name || `${row.kind} ${row.id}`],
   ['id', 'number', 'id', true, (row) => String(row.id)],
@@ -117,7 +117,7 @@ export class List {
       if (asked === this.asked) this.show(total, rows);
     } catch (error) {
       if (!(error instanceof Refusal)) throw error;
-      if (asked === this.asked) say(byId('list-count'), 'no answer');
+      if (asked === this.asked) setText(byId('list-count'), 'no answer');
     }
   }
 
@@ -131,8 +131,8 @@ export class List {
     rows.forEach((row, i) => this.fill(this.rows.children[i], row));
     this.mark();
     byId('list-empty').hidden = total > 0;
-    say(byId('list-empty'), 'No vehicle is like that. Search for a part of its name or its number.');
-    say(byId('list-count'), total ? `${number(this.from + 1)}–${number(this.from + rows.length)} of ${number(total)}` : 'none');
+    setText(byId('list-empty'), 'No vehicle is like that. Search for a part of its name or its number.');
+    setText(byId('list-count'), total ? `${number(this.from + 1)}–${number(this.from + rows.length)} of ${number(total)}` : 'none');
     byId('list-before').disabled = this.from === 0;
     byId('list-after').disabled = this.from + rows.length >= total;
   }
@@ -160,7 +160,7 @@ export class List {
     Object.assign(line.dataset, { id: row.id, x: row.x, z: row.z });
     COLUMNS.forEach(([key, , , , text], i) => {
       const cell = line.children[i];
-      say(i === 0 ? cell.firstElementChild : cell, text(row));
+      setText(i === 0 ? cell.firstElementChild : cell, text(row));
       if (key === 'force') cell.className = FORCE_CLASS.includes(row.force) ? `force ${row.force}` : 'force';
     });
   }

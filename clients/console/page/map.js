@@ -1,4 +1,4 @@
-/** The map: ground, grid, tracks, vehicles, shots, and what is chosen. Draws when there is reason. */
+/** The map: ground, grid, trails, vehicles, shots and the selection. It draws only on a change. */
 
 import { Camera } from './camera.js';
 import { drawGrid, drawLabel, drawScaleBar } from './grid.js';
@@ -8,10 +8,10 @@ import { DRIVEN, DRIVEN_BY_ANOTHER, FORCE, HEADING, ID, KIND, STATE, STATE_WRECK
 
 const FRAME_MS = 1000 / 30;
 const SLOW_FRAME_MS = 100;
-const FAST_MPS = 25; /* what moves so fast should move a pixel a frame, no less */
+const FAST_MPS = 25; /* a vehicle of this speed should move at least a pixel a frame */
 const SYMBOLS_MOST = 1200;
 const SYMBOL_PX = 13;
-const FORMS_BELOW_MPP = 60; /* coarser, and a symbol is a dot */
+const FORMS_BELOW_MPP = 60; /* [m] a pixel; at a coarser scale a symbol is a dot */
 const BLAST_MS = 2500;
 const NEAR_PX = 22;
 
@@ -39,9 +39,9 @@ export class MapView {
     this.pin = null;
     this.density = 1;
     this.dirty = true;
-    /** Until the first state there is nothing to show but all of the square. */
+    /** Until the first state the map shows the whole world. */
     this.first = true;
-    /** So many that they are dots; and somebody moves the map meanwhile. */
+    /** There are so many vehicles that they are dots; the user is moving the map. */
     this.crowd = false;
     this.held = false;
     this.drawn = 0;
@@ -66,7 +66,7 @@ export class MapView {
     this.touch();
   }
 
-  /** Shows where most of the vehicles are. */
+  /** Centres the map where most of the vehicles are. */
   frame() {
     const { camera, world } = this;
     if (world.entities.length === 0 || camera.width < 2) return;
@@ -93,7 +93,7 @@ export class MapView {
     this.draw();
   }
 
-  /** Something changed: draws with the next frame. */
+  /** Draws with the next frame. */
   touch() {
     this.dirty = true;
     this.world.area = this.camera.area(40);
@@ -118,7 +118,7 @@ export class MapView {
     this.draw();
   }
 
-  /** [ms] from one drawing to the next: no more of them than one can see. */
+  /** [ms] between two drawings, as many as can be seen. */
   pause() {
     if (this.held) return FRAME_MS;
     if (this.crowd) return SLOW_FRAME_MS;
@@ -129,7 +129,7 @@ export class MapView {
     return this.calm.matches ? 1 : this.world.progress();
   }
 
-  /** The entity of a vehicle that is chosen, with where it is shown; null when it is not there. */
+  /** The entity of the selected vehicle with its place on the map, or null. */
   shown(id) {
     const entity = this.world.now.get(id);
     if (!entity) return null;
@@ -195,7 +195,7 @@ export class MapView {
     }
   }
 
-  /** Shapes tell forces apart even so small: square, upright and flat. */
+  /** Draws a dot, whose shape shows the force: square, upright or flat. */
   drawDot(entity, px, py) {
     const { context } = this;
     const force = entity[FORCE];
@@ -207,7 +207,7 @@ export class MapView {
     if (entity[DRIVEN]) this.drawDriver(entity, px, py, 6);
   }
 
-  /** Somebody drives it: a ring, and who. */
+  /** Marks a driven vehicle with a ring and the driver's name. */
   drawDriver(entity, px, py, radius) {
     this.ring(px, py, radius, entity[DRIVEN] === DRIVEN_BY_ANOTHER);
     const name = this.world.players.get(entity[ID]);
@@ -250,7 +250,7 @@ export class MapView {
     context.globalAlpha = 1;
   }
 
-  /** [CSS pixel] how long a symbol is: its true length when that is more than the least. */
+  /** [CSS pixel] the length of a symbol: its true length, but at least the minimum. */
   pixels(entity) {
     const least = this.camera.scale > FORMS_BELOW_MPP ? SYMBOL_PX * 0.7 : SYMBOL_PX;
     return Math.max(this.world.kind(entity[KIND]).length_m / this.camera.scale, least);
@@ -287,7 +287,7 @@ export class MapView {
     }
   }
 
-  /** The triangle that one sees from it. */
+  /** Draws the triangle of the camera's view. */
   drawSight(px, py, direction, radius) {
     const { context } = this;
     const reach = radius + 70;
@@ -322,7 +322,7 @@ export class MapView {
     return best;
   }
 
-  /** Brings a place into the middle, close enough to see single vehicles. */
+  /** Centres the map on a place, close enough to see single vehicles. */
   show(x, z) {
     this.camera.centre(x, z);
     if (this.camera.scale > 6) this.camera.zoom(6 / this.camera.scale);
@@ -335,7 +335,7 @@ export class MapView {
     this.show(x, z);
   }
 
-  /** Where an entity of the newest state is, null when it is not in it. */
+  /** The place of an entity in the newest state, or null. */
   where(id) {
     const entity = this.world.now.get(id);
     return entity ? { x: entity[X], z: entity[Z], heading: entity[HEADING] } : null;

@@ -1,4 +1,4 @@
-/** Lines that say what came of something; they go by themselves. */
+/** Notices of results, which disappear by themselves. */
 
 const STAY_MS = 6000;
 const MOST = 4;
@@ -13,7 +13,7 @@ export class Notices {
    * @param {string} text
    * @param {'good' | 'bad'} kind
    */
-  say(text, kind = 'good') {
+  show(text, kind = 'good') {
     const same = [...this.place.children].find((line) => line.textContent === text);
     same?.remove();
     const line = document.createElement('p');
@@ -26,7 +26,7 @@ export class Notices {
 }
 
 /**
- * Asks before something that hurts.
+ * Asks for confirmation.
  * @param {string} question
  * @param {string} yes what the button says
  * @returns {Promise<boolean>}

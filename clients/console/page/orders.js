@@ -1,8 +1,8 @@
-/** What changes the whole world: time, spawning, fire missions, fire at a target. */
+/** Commands to the world: time, spawning, fire missions, fire at a target. */
 
-import { number, say, words } from './format.js';
+import { number, setText, words } from './format.js';
 
-/** What a new vehicle can be told to do; the other behaviours come by themselves. */
+/** The behaviours that a new vehicle can be given; agents choose the others themselves. */
 const FIRST_ORDERS = ['idle', 'hold', 'patrol'];
 
 const byId = (id) => document.getElementById(id);
@@ -14,19 +14,19 @@ export class Orders {
    */
   constructor(world, session) {
     Object.assign(this, { world, session });
-    /** What a click on the map does: '', 'spawn', 'mission' or 'target'. */
+    /** The tool of a click on the map: '', 'spawn', 'mission' or 'target'. */
     this.tool = '';
     byId('pause').addEventListener('click', () => this.pause());
     byId('step').addEventListener('click', () => session.command({ do: 'step', frames: 1 }));
     byId('scale').addEventListener('change', () =>
       session.command({ do: 'scale', scale: Number(byId('scale').value) }));
     for (const button of document.querySelectorAll('[data-tool]')) {
-      button.addEventListener('click', () => this.choose(button.dataset.tool));
+      button.addEventListener('click', () => this.select(button.dataset.tool));
     }
-    byId('v-fire-at').addEventListener('click', () => this.choose('target'));
+    byId('v-fire-at').addEventListener('click', () => this.select('target'));
     for (const form of ['spawn-form', 'mission-form']) {
       byId(form).addEventListener('submit', (event) => event.preventDefault());
-      byId(form).querySelector('[data-done]').addEventListener('click', () => this.choose(''));
+      byId(form).querySelector('[data-done]').addEventListener('click', () => this.select(''));
     }
     world.addEventListener('meet', () => this.meet());
     world.addEventListener('state', () => this.show());
@@ -52,7 +52,7 @@ export class Orders {
   }
 
   show() {
-    say(byId('pause'), this.paused ? 'Go on' : 'Pause');
+    setText(byId('pause'), this.paused ? 'Go on' : 'Pause');
     byId('step').disabled = !this.paused;
     const scale = String(this.world.state.scale ?? 1), choice = byId('scale');
     if (document.activeElement === choice || choice.value === scale) return;
@@ -62,8 +62,8 @@ export class Orders {
     choice.value = scale;
   }
 
-  /** Takes a tool into the hand, or puts it away when it is in it. */
-  choose(tool) {
+  /** Selects a tool, or deselects it if it is selected. */
+  select(tool) {
     this.tool = tool === this.tool ? '' : tool;
     for (const button of document.querySelectorAll('[data-tool]')) {
       button.setAttribute('aria-pressed', String(button.dataset.tool === this.tool));
@@ -72,11 +72,11 @@ export class Orders {
     byId('spawn-form').hidden = this.tool !== 'spawn';
     byId('mission-form').hidden = this.tool !== 'mission';
     byId('map').classList.toggle('aims', this.tool !== '');
-    say(byId('map-note'), this.tool === 'target' ? 'Click the vehicle to fire at. Esc leaves it.' : '');
+    setText(byId('map-note'), this.tool === 'target' ? 'Click the vehicle to fire at. Esc leaves it.' : '');
   }
 
   /**
-   * A click on the map with a tool.
+   * Handles a click on the map with a tool.
    * @param {number} x [m]
    * @param {number} z [m]
    * @param {number} near the vehicle there, 0: none
@@ -85,7 +85,7 @@ export class Orders {
     if (this.tool === 'spawn') await this.spawn(x, z);
     else if (this.tool === 'mission') await this.mission(x, z);
     else if (near) {
-      this.choose('');
+      this.select('');
       await this.session.fire(near);
     }
   }
@@ -98,7 +98,7 @@ export class Orders {
     });
     if (!answer) return;
     this.session.select(answer.entity);
-    this.session.notices.say(`A ${words(kind)}, number ${answer.entity}, is there since frame ${number(answer.frame)}.`);
+    this.session.notices.show(`A ${words(kind)}, number ${answer.entity}, is there since frame ${number(answer.frame)}.`);
   }
 
   async mission(x, z) {
@@ -107,6 +107,6 @@ export class Orders {
       do: 'mission', munition: byId('mission-munition').value, rounds, x, z,
       every_s: Number(byId('mission-every').value), radius_m: Number(byId('mission-radius').value),
     });
-    if (answer) this.session.notices.say(`${number(rounds)} rounds are on their way.`);
+    if (answer) this.session.notices.show(`${number(rounds)} rounds are on their way.`);
   }
 }

@@ -1,13 +1,13 @@
 /**
- * The live picture: asks for one newer than the last, decodes it off the page and only then puts it
- * on the canvas, so that nothing flickers. When the renderer is away it says so and goes on.
+ * The live picture: requests a newer picture than the last, decodes it and only then draws it on
+ * the canvas, so that nothing flickers. While the renderer is absent it says so and tries again.
  */
 
 import { Refusal } from './api.js';
 
 const AGAIN_MS = 700;
 const IDLE_MS = 250;
-/** Few sizes, so that people who look at the same vehicle share one picture. */
+/** A few fixed sizes, so that viewers of the same vehicle share a picture. */
 const SIZES = [[480, 270], [640, 360], [960, 540], [1280, 720]];
 
 export class Picture {
@@ -28,13 +28,13 @@ export class Picture {
     this.shown = 0;
     this.stop = new AbortController();
     for (const button of place.querySelectorAll('[data-view]')) {
-      button.addEventListener('click', () => this.choose(button.dataset.view));
+      button.addEventListener('click', () => this.select(button.dataset.view));
     }
     session.addEventListener('change', () => this.turn());
   }
 
   /** @param {string} view */
-  choose(view) {
+  select(view) {
     this.view = view;
     for (const button of this.place.querySelectorAll('[data-view]')) {
       button.setAttribute('aria-pressed', String(button.dataset.view === view));
@@ -44,10 +44,10 @@ export class Picture {
 
   next() {
     const views = [...this.place.querySelectorAll('[data-view]')].map((button) => button.dataset.view);
-    this.choose(views[(views.indexOf(this.view) + 1) % views.length]);
+    this.select(views[(views.indexOf(this.view) + 1) % views.length]);
   }
 
-  /** Something else is to be shown: does not wait for a picture of what was. */
+  /** Called when another view is wanted: does not wait for a picture of the previous one. */
   turn() {
     const subject = `${this.session.selected} ${this.view}`;
     if (subject === this.subject) return;
@@ -57,12 +57,12 @@ export class Picture {
     this.stop = new AbortController();
   }
 
-  /** Asks for ever. */
+  /** Requests pictures for ever. */
   async run() {
     for (;;) {
       const { selected } = this.session;
       if (!selected || document.hidden) {
-        if (!selected) this.say('Choose a vehicle on the map or in the list.');
+        if (!selected) this.showText('Choose a vehicle on the map or in the list.');
         await new Promise((resolve) => setTimeout(resolve, IDLE_MS));
         continue;
       }
@@ -92,7 +92,7 @@ export class Picture {
       this.context.drawImage(bitmap, 0, 0);
       this.shown++;
       this.place.dataset.pictures = String(this.shown);
-      this.say('');
+      this.showText('');
     }
     bitmap.close();
     if (!this.newest) await new Promise((resolve) => setTimeout(resolve, IDLE_MS));
@@ -101,13 +101,13 @@ export class Picture {
   /** @param {Refusal} refusal */
   async wait(refusal) {
     const away = refusal.status === 503 || refusal.status === 502 || refusal.status === 0;
-    this.say(away && !/different pictures/.test(refusal.message) ?
+    this.showText(away && !/different pictures/.test(refusal.message) ?
       'The renderer is away; it comes back by itself.' : refusal.text);
     this.newest = 0;
     await new Promise((resolve) => setTimeout(resolve, AGAIN_MS));
   }
 
-  say(text) {
+  showText(text) {
     if (this.note.textContent === text) return;
     this.note.textContent = text;
     this.note.hidden = text === '';

@@ -1,11 +1,11 @@
-/** The processes of the world: who runs, and buttons that kill or restart them. */
+/** The table of the world's processes, with buttons that kill or restart them. */
 
 import { Refusal } from './api.js';
-import { number, say, words } from './format.js';
+import { number, setText, words } from './format.js';
 import { ask } from './notices.js';
 
 const EVERY_MS = 500;
-/** Without these the world stands for a moment. */
+/** Without these roles the world stops for a moment. */
 const CENTRAL = ['mover', 'collider'];
 
 const byId = (id) => document.getElementById(id);
@@ -30,7 +30,7 @@ export class Processes {
       this.show(all);
     } catch (error) {
       if (!(error instanceof Refusal)) throw error;
-      say(byId('process-empty'), error.text);
+      setText(byId('process-empty'), error.text);
       byId('process-empty').hidden = false;
     }
   }
@@ -42,12 +42,12 @@ export class Processes {
       known.delete(process.role);
       const texts = [process.role, words(process.state), process.pid ? String(process.pid) : '–', number(process.restarts),
         number(process.beat_age_ms), number(process.stage_ms, 2), number(process.late_frames)];
-      texts.forEach((text, i) => say(line.children[i], text));
+      texts.forEach((text, i) => setText(line.children[i], text));
       line.children[1].className = process.state === 'ready' ? 'good' : 'low';
     }
     for (const line of known.values()) line.remove();
     byId('process-empty').hidden = all.length > 0;
-    say(byId('process-empty'), 'No process of this world runs. Start it with jolon start.');
+    setText(byId('process-empty'), 'No process of this world runs. Start it with jolon start.');
   }
 
   line(role) {
@@ -64,21 +64,21 @@ export class Processes {
     return line;
   }
 
-  button(role, deed, text, label) {
+  button(role, action, text, label) {
     const button = Object.assign(document.createElement('button'), { type: 'button', textContent: text, ariaLabel: label });
-    if (deed === 'kill') button.className = 'hurts';
-    button.addEventListener('click', () => this.act(role, deed));
+    if (action === 'kill') button.className = 'hurts';
+    button.addEventListener('click', () => this.act(role, action));
     return button;
   }
 
-  async act(role, deed) {
+  async act(role, action) {
     const stands = CENTRAL.includes(role) ? ' The world stands for a moment; nothing is lost.' : '';
-    if (deed === 'kill' && !(await ask(`Kill the ${role}? It comes back by itself.${stands}`, 'Kill it'))) return;
+    if (action === 'kill' && !(await ask(`Kill the ${role}? It comes back by itself.${stands}`, 'Kill it'))) return;
     try {
-      await this.api.post('process', { do: deed, role });
-      this.session.notices.say(deed === 'kill' ? `The ${role} was killed.` : `The ${role} starts again.`);
+      await this.api.post('process', { do: action, role });
+      this.session.notices.show(action === 'kill' ? `The ${role} was killed.` : `The ${role} starts again.`);
     } catch (error) {
-      this.session.tell(error);
+      this.session.showError(error);
     }
     this.look();
   }

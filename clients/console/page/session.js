@@ -1,6 +1,6 @@
 /**
- * Who sits at this page: the vehicle in view, the vehicle they drive, and what they may ask for.
- * Tells 'change' when one of these is another.
+ * The user's session: the selected vehicle, the driven vehicle, and the right to send commands.
+ * Dispatches 'change' when one of them changes.
  */
 
 import { Refusal } from './api.js';
@@ -14,7 +14,7 @@ export class Session extends EventTarget {
     super();
     this.api = api;
     this.notices = notices;
-    /** The vehicle whose picture and statistics show; 0: none. */
+    /** The selected vehicle, whose picture and statistics are shown; 0: none. */
     this.selected = 0;
     /** The vehicle that this page drives; 0: none. */
     this.driven = 0;
@@ -46,13 +46,13 @@ export class Session extends EventTarget {
       this.changed();
       return true;
     } catch (error) {
-      this.tell(error);
+      this.showError(error);
       return false;
     }
   }
 
   /**
-   * Asks the world to do something, and says so when it is refused.
+   * Sends a command and shows a notice if it is refused.
    * @param {object} body of /api/command
    * @returns {Promise<any>} the answer; null when it was refused
    */
@@ -61,14 +61,14 @@ export class Session extends EventTarget {
       if (!this.player && !(await this.join('player'))) return null;
       return await this.order(body);
     } catch (error) {
-      this.tell(error);
+      this.showError(error);
       return null;
     }
   }
 
   /**
-   * The same without a word when it is refused. Who was away for long is not known any more, and
-   * joins again under the same name.
+   * Sends a command without a notice. A player whom the server has forgotten joins again under the
+   * same name.
    * @param {object} body of /api/command
    * @throws {Refusal}
    */
@@ -82,7 +82,7 @@ export class Session extends EventTarget {
     }
   }
 
-  /** Becomes a vehicle; the server gives back the one before it. */
+  /** Takes a vehicle; the server then releases the previous one. */
   async take(id) {
     if (!this.mayChange || !id || id === this.driven) return;
     const answer = await this.command({ do: 'drive', vehicle: id, throttle: 0, steer: 0 });
@@ -92,7 +92,7 @@ export class Session extends EventTarget {
     this.changed();
   }
 
-  /** Gives the driven vehicle back to its agent. */
+  /** Releases the driven vehicle to its agent. */
   async release() {
     const left = this.driven;
     if (!left) return;
@@ -100,14 +100,14 @@ export class Session extends EventTarget {
     await this.command({ do: 'release', vehicle: left });
   }
 
-  /** Another world: nobody of it is known. */
+  /** Forgets the vehicles when another world has begun. */
   reset() {
     this.driven = 0;
     this.selected = 0;
     this.changed();
   }
 
-  /** It is not ours any more. */
+  /** Called when the driven vehicle is lost. */
   lose() {
     this.driven = 0;
     this.changed();
@@ -120,9 +120,9 @@ export class Session extends EventTarget {
     await this.command(target ? { do: 'fire', vehicle, target } : { do: 'fire', vehicle });
   }
 
-  /** Says what went wrong, in the words of the answer. */
-  tell(error) {
+  /** Shows the text of a refusal. */
+  showError(error) {
     if (!(error instanceof Refusal)) throw error;
-    this.notices.say(error.text, 'bad');
+    this.notices.show(error.text, 'bad');
   }
 }

@@ -1,7 +1,7 @@
 /**
- * Symbols of the map, the same as in the renderer's: what a symbol is shows in its form, whose it is
- * in its colour and its rim, so that people who see few colours can tell as well. Blue with a dark
- * rim is the blue force, red with a pale one the red, yellow with a dark one is neutral.
+ * Symbols of the map, the same as the renderer's. The shape shows the kind; the colour and the rim
+ * show the force, so that colour-blind people can tell it as well. The blue force is blue with a
+ * dark rim, the red force red with a pale rim, the neutral force yellow with a dark rim.
  */
 
 /** Corners in units of the symbol's length, forward and to the right; each piece is convex. */
@@ -24,7 +24,7 @@ const GUN = [0.85, 0.08, 0.1, 0.08, 0.1, -0.08, 0.85, -0.08];
 /** By enum force: neutral, blue, red. */
 export const FILL = ['#ffe260', '#4f9bff', '#f0432b'];
 const RIM = ['#282004', '#040e30', '#ffeee4'];
-/** For words on a dark ground. */
+/** Colours of text on a dark background. */
 export const FORCE_CLASS = ['neutral', 'blue', 'red'];
 
 function outline(corners) {
@@ -78,7 +78,7 @@ export function drawVehicle(context, form, x, y, heading, pixels, force, turret)
   context.restore();
 }
 
-/** A wreck: a cross, black on pale. */
+/** Draws a wreck: a black cross on a pale ground. */
 export function drawWreck(context, x, y, pixels) {
   const half = 0.3 * pixels;
   for (const [style, width] of [['rgba(235, 225, 205, 0.7)', 3.2], ['#0a0806', 1.6]]) {
@@ -93,7 +93,7 @@ export function drawWreck(context, x, y, pixels) {
   }
 }
 
-/** A munition in flight: a pale dot with a tail. */
+/** Draws a munition in flight: a pale dot with a tail. */
 export function drawMunition(context, x, y, heading) {
   context.strokeStyle = 'rgba(255, 245, 200, 0.6)';
   context.lineWidth = 1.2;
@@ -107,7 +107,7 @@ export function drawMunition(context, x, y, heading) {
   context.fillRect(x - 1.5, y - 1.5, 3, 3);
 }
 
-/** Something that just happened; age 0: now, 1: gone. */
+/** Draws a recent event; age 0: now, 1: invisible. */
 export function drawBlast(context, x, y, age, pixels) {
   const reach = pixels * (0.7 + 0.6 * age);
   context.save();

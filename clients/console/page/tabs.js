@@ -1,12 +1,12 @@
-/** Tabs: arrow keys go from one to the next. */
+/** Tabs, which arrow keys change. */
 
 /**
  * @param {HTMLElement} list role tablist
- * @param {(name: string) => void} chosen told the panel's id
+ * @param {(name: string) => void} chosen called with the id of the panel
  */
 export function tabs(list, chosen) {
   const all = /** @type {HTMLElement[]} */ ([...list.querySelectorAll('[role="tab"]')]);
-  const choose = (tab) => {
+  const select = (tab) => {
     for (const one of all) {
       const is = one === tab;
       one.setAttribute('aria-selected', String(is));
@@ -15,13 +15,13 @@ export function tabs(list, chosen) {
     }
     chosen(tab.getAttribute('aria-controls'));
   };
-  for (const tab of all) tab.addEventListener('click', () => choose(tab));
+  for (const tab of all) tab.addEventListener('click', () => select(tab));
   list.addEventListener('keydown', (event) => {
     const way = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (!way) return;
     event.preventDefault();
     const next = all[(all.indexOf(document.activeElement) + way + all.length) % all.length];
     next.focus();
-    choose(next);
+    select(next);
   });
 }

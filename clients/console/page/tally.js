@@ -1,6 +1,6 @@
-/** What the world has counted since its first frame, and how long its frames take. */
+/** The world's counters since its first frame, and its frame times. */
 
-import { number, say, words } from './format.js';
+import { number, setText, words } from './format.js';
 
 export class Tally {
   /** @param {import('./world.js').World} world */
@@ -21,7 +21,7 @@ export class Tally {
     for (const [name, value] of Object.entries(state.frame_ms ?? {})) this.set(`frame ${name} [ms]`, number(value, 2));
     if (state.munitions !== undefined) this.set('munitions in flight', number(state.munitions));
     document.getElementById('tally-empty').hidden = this.cells.size > 0;
-    say(document.getElementById('tally-empty'), 'Nothing is counted yet.');
+    setText(document.getElementById('tally-empty'), 'Nothing is counted yet.');
   }
 
   set(name, text) {
@@ -33,6 +33,6 @@ export class Tally {
       this.list.append(row);
       this.cells.set(name, cell);
     }
-    say(cell, text);
+    setText(cell, text);
   }
 }

@@ -1,4 +1,4 @@
-/** Where vehicles came from: places of the last half minute, a second apart. */
+/** The vehicles' trails: places of the last half minute, a second apart. */
 
 import { ID, X, Z, STATE, STATE_WRECK, KIND } from './world.js';
 

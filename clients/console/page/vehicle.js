@@ -1,13 +1,13 @@
-/** The vehicle in view: what it is, how it is, and what can be asked of it. */
+/** The panel of the selected vehicle: its description, its state and its buttons. */
 
 import { Course } from './course.js';
-import { number, say, share, words } from './format.js';
+import { number, setText, share, words } from './format.js';
 import { ask } from './notices.js';
 import { drawVehicle, drawWreck, FORCE_CLASS, formOf } from './symbols.js';
 
 const byId = (id) => document.getElementById(id);
 
-/** name, what it says of a state's `me`, and a note on how serious it is. */
+/** name, value from a state's `me`, and how serious the value is. */
 const FIGURES = [
   ['speed', (me) => `${number(me.speed_mps * 3.6, 1)} km/h`],
   ['heading', (me) => `${number(me.heading_deg, 1)}°`],
@@ -40,7 +40,7 @@ export class Vehicle {
   constructor(world, session, map) {
     Object.assign(this, { world, session, map });
     this.drawnAs = '';
-    /** Whose statistics were wanted of the state before, and did not come. */
+    /** The vehicle whose statistics were asked for and were not in the previous state. */
     this.asked = 0;
     this.course = new Course(byId('v-course'));
     const list = byId('v-gauges');
@@ -60,25 +60,25 @@ export class Vehicle {
       if (at) map.show(at.x, at.z);
     });
     world.addEventListener('state', () => this.show());
-    session.addEventListener('change', () => this.choose());
-    this.choose();
+    session.addEventListener('change', () => this.select());
+    this.select();
   }
 
-  /** Takes the vehicle in view, or lets it go when it is ours. */
+  /** Takes the selected vehicle, or releases it if this page drives it. */
   async toggle() {
     const { session } = this;
     if (session.driven && session.driven === session.selected) await session.release();
     else await session.take(session.selected);
   }
 
-  choose() {
+  select() {
     const { selected, driven } = this.session;
     this.world.me = selected;
-    say(byId('v-take'), driven && driven === selected ? 'Let go' : 'Take');
+    setText(byId('v-take'), driven && driven === selected ? 'Let go' : 'Take');
     const me = this.world.state?.me;
     if (!me || me.id !== selected) {
-      say(byId('v-name'), selected ? this.world.name(selected) : 'No vehicle');
-      say(byId('v-kind'), '');
+      setText(byId('v-name'), selected ? this.world.name(selected) : 'No vehicle');
+      setText(byId('v-kind'), '');
       byId('v-gauges').hidden = byId('v-course').hidden = true;
       byId('v-empty').hidden = selected !== 0;
     }
@@ -97,7 +97,7 @@ export class Vehicle {
       const gone = this.asked === selected;
       this.asked = selected;
       if (!gone) return;
-      say(byId('v-empty'), 'It is not in the world any more. Choose another on the map or in the list.');
+      setText(byId('v-empty'), 'It is not in the world any more. Choose another on the map or in the list.');
       byId('v-empty').hidden = false;
       byId('v-gauges').hidden = byId('v-course').hidden = true;
       this.enable(false);
@@ -108,12 +108,12 @@ export class Vehicle {
     byId('v-gauges').hidden = byId('v-course').hidden = false;
     this.enable(true);
     byId('v-take').disabled = me.state === 'wreck' || me.driver === 'another';
-    say(byId('v-name'), me.name || this.world.name(selected));
-    say(byId('v-kind'), `${words(me.force)} ${words(me.kind)} ${selected}${me.state === 'wreck' ? ', a wreck' : ''}`);
+    setText(byId('v-name'), me.name || this.world.name(selected));
+    setText(byId('v-kind'), `${words(me.force)} ${words(me.kind)} ${selected}${me.state === 'wreck' ? ', a wreck' : ''}`);
     byId('v-driver').hidden = !me.driver;
-    say(byId('v-driver'), !me.driver ? '' : me.driver === 'you' ? 'yours' : `${this.world.players.get(selected) ?? 'somebody'} drives it`);
+    setText(byId('v-driver'), !me.driver ? '' : me.driver === 'you' ? 'yours' : `${this.world.players.get(selected) ?? 'somebody'} drives it`);
     FIGURES.forEach(([, text, left], i) => {
-      say(this.cells[i], text(me, this.world));
+      setText(this.cells[i], text(me, this.world));
       const part = left ? left(me) : 1;
       const how = part === false || part > 0.5 ? '' : part > 0.2 ? 'low' : 'bad';
       if (this.cells[i].className !== how) this.cells[i].className = how;
@@ -141,6 +141,6 @@ export class Vehicle {
     if (!answer) return;
     if (this.session.driven === selected) this.session.lose();
     this.session.select(0);
-    this.session.notices.say(`${name} is gone, since frame ${number(answer.frame)}.`);
+    this.session.notices.show(`${name} is gone, since frame ${number(answer.frame)}.`);
   }
 }

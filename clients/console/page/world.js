@@ -1,6 +1,6 @@
 /**
- * What this page knows of the world: its description once, its state ten times a second, and where
- * everything is between two states.
+ * The world as the page knows it: its description, read once, its state, read ten times a second,
+ * and the places of the entities between two states.
  */
 
 import { Refusal } from './api.js';
@@ -40,12 +40,12 @@ export class World extends EventTarget {
     this.gap = EVERY_MS;
     /** @type {string} what is wrong with the connection, '' for nothing */
     this.trouble = '';
-    /** What to ask for: the part of the map that shows, and whose statistics. */
+    /** The query: the visible part of the map, and the vehicle whose statistics are wanted. */
     this.area = [0, 0, 1e6, 1e6];
     this.me = 0;
   }
 
-  /** Asks for ever. */
+  /** Polls for ever. */
   async run() {
     for (;;) {
       const began = performance.now();
@@ -64,7 +64,7 @@ export class World extends EventTarget {
     }
   }
 
-  /** Reads the world's description; when it is another run than before, all begins anew. */
+  /** Reads the world's description. For another run than before, everything is reset. */
   async meet() {
     const info = await this.api.get('world');
     const known = this.info?.run === info.run;
@@ -97,13 +97,13 @@ export class World extends EventTarget {
     this.dispatchEvent(new Event('state'));
   }
 
-  /** Where between the last two states this moment is shown, 0 to 1 and a little beyond. */
+  /** The present moment's place between the last two states, 0 to 1 and a little beyond. */
   progress() {
     return Math.min((performance.now() - this.arrived) / Math.max(this.gap, 1), 1.2);
   }
 
   /**
-   * Where an entity is shown.
+   * The place where an entity is shown.
    * @param {Entity} entity of the newest state
    * @param {number} progress
    * @param {{x: number, z: number, heading: number}} place is filled
