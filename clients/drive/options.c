@@ -14,12 +14,12 @@ static int input = INPUTS_AUTO;
 
 static const struct option_row rows[] = {
     OPTION_ROW_WORLD(given, segment_name_option),
-    {"input", "auto|keys|gamepad|spacemouse", "(default auto: keys and what else is there)",
+    {"input", "auto|keys|gamepad|spacemouse", "(default auto: keys and the connected devices)",
      .choice = &input},
     {"device", "PATH", "the gamepad: /dev/input/event*", .text = &given.device},
     {"plain", NULL, "no screen: lines on standard output; keys may come from a pipe",
      .flag = &given.plain},
-    {"rate", "HZ", "how often the screen (default 10) or the line (default 1) is made",
+    {"rate", "HZ", "updates a second of the screen (default 10) or the lines (default 1)",
      .real = &given.rate_hz, .low = 0.1, .high = 60.0},
     DDS_LINK_OPTION_ROWS(given.link),
     COMMAND_ROUTE_OPTION_ROW(given.remote),
