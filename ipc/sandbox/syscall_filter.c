@@ -170,7 +170,7 @@ static const struct rule networking[] = {
     WITH(rt_sigaction, 0, SIGALRM),
 };
 
-/* Clients of a socket that listens already: none is made, and nobody is connected to. */
+/* Serving the clients of a listening socket. No socket is made, and none is connected. */
 static const struct rule serving[] = {
     ANY(accept4),
     ANY(recvfrom),

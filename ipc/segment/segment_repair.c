@@ -164,7 +164,7 @@ int segment_repair(const char *name, struct error_text *report)
     if (segment_view_named(&view, name, ROLE_NONE, report) != 0 ||
         segment_paths(&paths, name, report) != 0)
         return -1;
-    bool exists = paths.object[0] != '\0'; /* if not, segment_map() says so */
+    bool exists = paths.object[0] != '\0'; /* if not, segment_map() refuses */
     for (int i = 0; i < 2 && exists; i++) {
         view.role = writers[i];
         if (segment_lock(&view, paths.lock, false, report) != 0)
