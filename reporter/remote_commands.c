@@ -71,8 +71,7 @@ static void pass_replies(struct remote_commands *remote)
     for (uint32_t i = 0; i < REMOTE_SENDERS; i++) {
         const struct remote_sender *sender = &remote->sender[i];
         while (sender->handle && sender->link.transport->receive(sender->link.self, &reply))
-            (void)dds_write(remote->writer,
-                            &reply); /* the sender repeats its command if a reply is lost */
+            (void)dds_write(remote->writer, &reply); /* repeated if it is lost */
     }
 }
 
