@@ -8,7 +8,7 @@ struct libav libav;
 
 #define LIBRARY(name, major) "lib" #name ".so." AV_STRINGIFY(major)
 
-/* dlsym() tells functions as objects, which C keeps apart. */
+/* Copies the result of dlsym(): C has no conversion from a pointer to an object to a function. */
 static int find(void *library, const char *name, void *to, size_t bytes)
 {
     void *found = library != NULL ? dlsym(library, name) : NULL;
@@ -35,6 +35,6 @@ int libav_open(struct error_text *error)
                                            "and Ubuntu: apt-get install libavformat" AV_STRINGIFY(
                                                LIBAVFORMAT_VERSION_MAJOR),
             avformat != NULL ? ", or one of its kin, lacks a function" : " is not installed");
-    libav.av_log_set_level(AV_LOG_QUIET); /* what matters we say ourselves */
+    libav.av_log_set_level(AV_LOG_QUIET); /* errors are reported by the caller */
     return 0;
 }

@@ -1,5 +1,5 @@
-/* libavcodec and its kin, opened only when there is video to be made: they bring 130 libraries into
- * a process, and a machine without them does without video alone. */
+/* The libraries of FFmpeg, loaded only when a video is made: they bring 130 libraries into a
+ * process. On a machine without them everything but video works. */
 #ifndef JOLON_RENDERER_OUTPUT_LIBAV_H
 #define JOLON_RENDERER_OUTPUT_LIBAV_H
 
@@ -49,7 +49,7 @@ struct libav {
 
 extern struct libav libav;
 
-/* Opens them, once. 0, or -1 with the reason, which says what to install. */
+/* Loads the libraries. Returns 0, or -1 with the reason, which says what to install. */
 int libav_open(struct error_text *error);
 
 #endif

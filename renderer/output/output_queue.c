@@ -8,8 +8,7 @@
 #include <signal.h>
 #include <string.h>
 
-/* The oldest picture that waits, now the caller's; NULL when the end is asked for and none waits.
- */
+/* Waits for a picture. Returns the oldest with its reference; NULL at the end. Under the lock. */
 static struct picture *next(struct output_queue *queue)
 {
     while (queue->count == 0 && !queue->ending)
@@ -64,7 +63,7 @@ int output_queue_start(struct output_queue *queue, const struct output_queue_wor
                                    .added = PTHREAD_COND_INITIALIZER,
                                    .removed = PTHREAD_COND_INITIALIZER};
     sigfillset(&all);
-    sigdelset(&all, SIGSYS); /* what the sandbox forbids is to be told */
+    sigdelset(&all, SIGSYS); /* the sandbox reports forbidden calls with it */
     pthread_sigmask(SIG_SETMASK, &all, &before);
     int code = pthread_create(&queue->thread, NULL, work, queue);
     pthread_sigmask(SIG_SETMASK, &before, NULL);
@@ -80,7 +79,7 @@ int output_queue_start(struct output_queue *queue, const struct output_queue_wor
     return 0;
 }
 
-/* Where the newest that waits of this view is, when there may not be more of it; else the end. */
+/* Returns the place for a picture: that of its view's newest if enough wait, else the end. */
 static uint32_t place_for(const struct output_queue *queue, const char *view)
 {
     uint32_t of_view = 0, newest = queue->count;

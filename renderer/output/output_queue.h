@@ -1,5 +1,5 @@
-/* An outlet: something slow that is done with pictures, in a thread of its own behind a bounded
- * queue, so that drawing never waits for a disk or an encoder. */
+/* An output queue: slow work on pictures, in a thread of its own behind a bounded queue, so that
+ * drawing does not wait for a disk or an encoder. */
 #ifndef JOLON_RENDERER_OUTPUT_OUTPUT_QUEUE_H
 #define JOLON_RENDERER_OUTPUT_OUTPUT_QUEUE_H
 
@@ -11,16 +11,16 @@
 #include <stdint.h>
 
 #define OUTPUT_QUEUE_NICENESS                                                                      \
-    15 /* behind the drawing: what comes late is dropped, not waited for */
+    15 /* below the drawing thread: it drops pictures, and does not wait */
 #define OUTPUT_QUEUE_MAX 32u
 
 struct output_queue_work {
     void *self;
-    /* Takes one picture, in the outlet's thread. 0, or -1 with the reason: it takes no more then.
-     */
+    /* Processes one picture, in the queue's thread. Returns 0, or -1 with the reason, after which
+     * it is not called again. */
     int (*take)(void *self, const struct picture *picture, struct error_text *error);
     uint32_t depth; /* pictures of one view that may wait, 1 or more */
-    bool lossless;  /* a full queue is waited for: every picture counts, whenever it comes */
+    bool lossless;  /* output_queue_put() waits for room, and drops no picture */
 };
 
 struct output_queue {
@@ -35,19 +35,20 @@ struct output_queue {
     struct error_text error; /* when it failed */
 };
 
-/* Returns when the thread runs; signals are not for it. 0, or -1 with errno. */
+/* Starts the thread, which takes no signals but SIGSYS, and waits until it runs. Returns 0, or -1
+ * with errno. */
 int output_queue_start(struct output_queue *queue, const struct output_queue_work *work);
 
-/* Hands it a picture, which the caller goes on holding. A view of which enough waits keeps the
- * newest and loses the one before, which is counted: so order holds, and the last always comes. A
- * patient outlet waits for room instead. */
+/* Queues a picture, with a reference of its own. When enough pictures of its view wait, it replaces
+ * the newest of them, which counts as dropped. So the order is kept, and a view's last picture is
+ * always processed. A lossless queue waits for room instead. */
 void output_queue_put(struct output_queue *queue, struct picture *picture);
 
-/* Has it failed? Then the reason is copied. */
+/* Returns true if the work has failed, with the reason. */
 bool output_queue_failed(struct output_queue *queue, struct error_text *error);
 
-/* Waits until what waits is done, and ends the thread; taken and dropped stay. 0, or -1 with the
- * reason when it had failed. */
+/* Processes the pictures that wait and ends the thread. The counters remain. Returns 0, or -1 with
+ * the reason if the work has failed. */
 int output_queue_end(struct output_queue *queue, struct error_text *error);
 
 #endif

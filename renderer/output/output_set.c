@@ -1,4 +1,4 @@
-/* The outlets of one renderer. */
+/* The outputs of one renderer. */
 #include "renderer/output/output_set.h"
 
 #include "ipc/process/clock.h"
@@ -12,10 +12,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#define STILLS_DEPTH  2u    /* of a view: half a second of stills at the usual rate */
-#define VIDEO_DEPTH   4u    /* an encoder's hiccup */
+#define STILLS_DEPTH  2u    /* of a view */
+#define VIDEO_DEPTH   4u    /* bridges short delays of the encoder */
 #define NUMBERS_MAX   10000 /* of files with one name */
-#define STILL_SLACK_S 0.01  /* pictures come a little early or late */
+#define STILL_SLACK_S 0.01  /* pictures may come a little early */
 
 /* --- opening -----------------------------------------------------------------------------------*/
 
@@ -68,7 +68,7 @@ static int open_video(struct output_set *outputs, struct error_text *error)
     return 0;
 }
 
-/* Without a socket of its own the renderer draws all the same: it says so and goes on. */
+/* Opens the stream. A missing Unix socket is only logged: the renderer draws without it. */
 static int open_stream(struct output_set *outputs, struct error_text *error)
 {
     const struct output_set_options *options = &outputs->options;
@@ -136,7 +136,7 @@ int output_set_start(struct output_set *outputs, struct error_text *error)
 
 /* --- pictures ----------------------------------------------------------------------------------*/
 
-/* NULL: there are more views than rows; every picture of such a one is a still. */
+/* Returns the view's row; NULL when all are in use. Then each of its pictures is written. */
 static struct output_set_view *row_of(struct output_set *outputs, const char *view)
 {
     for (uint32_t i = 0; i < OUTPUT_SET_VIEWS_MAX; i++) {
@@ -166,7 +166,7 @@ static void put_still(struct output_set *outputs, struct picture *picture)
     output_queue_put(&outputs->stills, picture);
 }
 
-/* 0, or -1 with the reason when there can be no more video. */
+/* Returns 0, or -1 with the reason when the video has failed. */
 static int put_video(struct output_set *outputs, struct picture *picture, struct error_text *error)
 {
     if (outputs->video_view[0] == '\0')
@@ -214,7 +214,7 @@ void output_set_answer(struct output_set *outputs, uint32_t row, uint64_t genera
     if (image != NULL) {
         picture = picture_make(&outputs->request_pool, image, "asked", "");
         if (picture == NULL)
-            return; /* whoever waits asks again */
+            return; /* the client's wait times out */
         picture->frame = frame;
         picture->time_s = time_s;
     }

@@ -28,8 +28,8 @@ void picture_pool_free(struct picture_pool *pool)
     pthread_mutex_destroy(&pool->lock);
 }
 
-/* A spare picture of that size; others are let go, as sizes seldom change. NULL for none. Under the
- * lock. */
+/* Returns a spare picture of that size, NULL for none. Frees spare pictures of other sizes, which
+ * are seldom needed again. Under the lock. */
 static struct picture *take_spare(struct picture_pool *pool, const struct image *like)
 {
     while (pool->spare != NULL) {

@@ -1,4 +1,4 @@
-/* Numbered pictures, a bounded number of them. */
+/* Writing PNG files, and removing the oldest. */
 #include "renderer/output/picture_folder.h"
 
 #include "renderer/image/png.h"
@@ -18,7 +18,7 @@
 #define NAME_BYTES 64
 #define CACHE_NAME ".shaders"
 
-/* VIEW-FRAME.png, or VIEW.png without a frame. */
+/* Writes "VIEW-FRAME.png", or "VIEW.png" without a frame. */
 static void name_of(char name[NAME_BYTES], const char *view, const uint64_t *frame,
                     const char *suffix)
 {
@@ -28,7 +28,7 @@ static void name_of(char name[NAME_BYTES], const char *view, const uint64_t *fra
         snprintf(name, NAME_BYTES, "%s.png%s", view, suffix);
 }
 
-/* mkdir -p, the folders above it too, for their owner alone. A descriptor of the last, or -1. */
+/* Makes a folder and those above it with mode 0700. Returns its descriptor, or -1 with errno. */
 static int make_folders(const char *folder)
 {
     char path[PATH_BYTES];
@@ -48,15 +48,14 @@ static int make_folders(const char *folder)
     return open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
 }
 
-/* Gives the frame's picture a place among those kept; the one that had it is removed. */
+/* Adds the frame to the ring of kept pictures and removes the file that it replaces. */
 static void keep(const struct picture_folder *output, struct picture_folder_row *row,
                  const char *view, uint64_t frame)
 {
     char old[NAME_BYTES];
     for (uint32_t i = 0; i < PICTURE_FOLDER_KEPT; i++)
         if (row->frame[i] == frame)
-            row->frame[i] =
-                PICTURE_FOLDER_NONE; /* of an earlier run: the file is the new one's now */
+            row->frame[i] = PICTURE_FOLDER_NONE; /* the file of an earlier run was replaced */
     uint64_t *place = &row->frame[row->written++ % PICTURE_FOLDER_KEPT];
     if (*place != PICTURE_FOLDER_NONE) {
         name_of(old, view, place, "");
@@ -70,7 +69,7 @@ static int is_numbered(const struct dirent *entry)
     return fnmatch("*-[0-9]*.png", entry->d_name, 0) == 0;
 }
 
-/* The numbered pictures that there are of a view. */
+/* Fills the row's ring with the numbered pictures that exist. */
 static void keep_found(const struct picture_folder *output, struct picture_folder_row *row,
                        const char *view)
 {
@@ -94,7 +93,7 @@ static int is_temporary(const struct dirent *entry)
     return fnmatch("*.png.[0-9]*.tmp", entry->d_name, 0) == 0;
 }
 
-/* Half pictures of renderers that were killed. */
+/* Removes partial files of renderers that were killed. */
 static void sweep_temporaries(int folder)
 {
     struct dirent **found;
@@ -125,7 +124,8 @@ int picture_folder_open(struct picture_folder *output, const char *folder, struc
     return 0;
 }
 
-/* The view's row; its first picture looks for those that an earlier renderer left. */
+/* Returns the view's row, NULL when all are in use. A new row finds pictures of earlier renderers.
+ */
 static struct picture_folder_row *row_of(struct picture_folder *output, const char *view)
 {
     for (uint32_t i = 0; i < PICTURE_FOLDER_ROWS; i++) {
@@ -163,7 +163,7 @@ int picture_folder_cache(const struct picture_folder *output, char *path, size_t
     return 0;
 }
 
-/* The latest picture is another name of the numbered file, so it is written once. */
+/* Makes latest a hard link to the numbered file, atomically. Returns 0, or -1 with errno. */
 static int point_latest(int folder, const char *numbered, const char *temporary, const char *latest)
 {
     if (unlinkat(folder, temporary, 0) != 0 && errno != ENOENT)
@@ -189,7 +189,7 @@ int picture_folder_picture(struct picture_folder *output, const char *view,
     name_of(numbered, view, &frame, "");
     name_of(latest, view, NULL, "");
     name_of(temporary, view, NULL, ".tmp");
-    /* File systems without links get a second copy. */
+    /* On a file system without hard links the picture is written twice. */
     if (png_write_file(output->folder, numbered, image, comment) != 0 ||
         (point_latest(output->folder, numbered, temporary, latest) != 0 &&
          png_write_file(output->folder, latest, image, comment) != 0))

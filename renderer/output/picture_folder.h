@@ -1,5 +1,4 @@
-/* Where pictures go: a folder with the latest picture of each view and the last of them by frame
- * number. */
+/* A folder of PNG files: the latest picture of each view, and the last ones by frame number. */
 #ifndef JOLON_RENDERER_OUTPUT_PICTURE_FOLDER_H
 #define JOLON_RENDERER_OUTPUT_PICTURE_FOLDER_H
 
@@ -9,7 +8,7 @@
 #include <stdint.h>
 
 #define PICTURE_FOLDER_KEPT                                                                        \
-    120u /* numbered pictures of a view; older ones are removed: about 150 MB */
+    120u /* numbered pictures of a view, about 150 MB; older ones are removed */
 
 #define PICTURE_FOLDER_NONE UINT64_MAX
 
@@ -29,26 +28,24 @@ struct picture_folder {
     struct picture_folder_row row[PICTURE_FOLDER_ROWS];
 };
 
-/* Makes the folder if need be, mode 0700, and tries that it can be written to. 0, or -1 with the
- * reason. */
+/* Makes the folder with mode 0700 if it does not exist, and checks that it is writable. Returns 0,
+ * or -1 with the reason. */
 int picture_folder_open(struct picture_folder *output, const char *folder,
                         struct error_text *error);
 void picture_folder_close(struct picture_folder *output);
 
-/* Makes a folder there, mode 0700, for what the graphics driver wants to keep, and tells its path.
- * 0, or -1 with errno; a link of its name is no folder. */
+/* Makes a folder in it with mode 0700 for the graphics driver's cache, and copies its path. Returns
+ * 0, or -1 with errno, also when a symbolic link has its name. */
 int picture_folder_cache(const struct picture_folder *output, char *path, size_t bytes);
 
-/* Writes "VIEW-FRAME.png" and makes "VIEW.png" the same picture, each in one step: a reader never
- * finds half a picture. Of a view's numbered pictures the last PICTURE_FOLDER_KEPT are kept, those
- * among them that an earlier renderer left there; of PICTURE_FOLDER_ROWS views at most. 0, or -1
- * with the reason.
- */
+/* Writes "VIEW-FRAME.png" and makes "VIEW.png" the same picture, each atomically. Keeps a view's
+ * last PICTURE_FOLDER_KEPT numbered pictures, including those of earlier renderers. Returns 0, or
+ * -1 with the reason, also for more than PICTURE_FOLDER_ROWS views. */
 int picture_folder_picture(struct picture_folder *output, const char *view,
                            const struct image *image, uint64_t frame, const char *comment,
                            struct error_text *error);
 
-/* Writes one picture to a path. 0, or -1 with the reason. */
+/* Writes one picture to a path. Returns 0, or -1 with the reason. */
 int picture_folder_file(const char *path, const struct image *image, const char *comment,
                         struct error_text *error);
 

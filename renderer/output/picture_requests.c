@@ -1,4 +1,4 @@
-/* Rows found, made and given up. */
+/* Finding, making and evicting rows. */
 #include "renderer/output/picture_requests.h"
 
 #include <stddef.h>
@@ -15,7 +15,7 @@ bool picture_requests_lives(const struct picture_requests *row, uint64_t now_ns)
            (row->unanswered > 0 || now_ns < row->requested_ns + PICTURE_REQUESTS_KEEP_NS);
 }
 
-/* Is a better to give up than b? */
+/* Returns true if a is evicted before b. */
 static bool goes_before(const struct picture_requests *a, const struct picture_requests *b,
                         uint64_t now_ns)
 {

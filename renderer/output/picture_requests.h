@@ -1,10 +1,10 @@
-/* The table of pictures that clients of the stream ask for: which view, of whom, how large. Pure;
- * the caller has the lock that guards it (renderer/output/stream_internal.h).
+/* The table of requested pictures: view, vehicle and size. Pure; the caller holds the lock that
+ * guards it (renderer/output/stream_internal.h).
  *
- * Two sides use it. The clients' threads make rows and note when somebody asked; the drawing thread
- * reads them, and notes that a vehicle is gone. A row stays while somebody has asked for it lately:
- * with it stay the number of its pictures and what its camera remembers. One that was asked for
- * just once gives way to another: who looks once keeps nobody from watching. */
+ * The clients' threads make rows and note the times of requests. The drawing thread reads the rows,
+ * and notes that a vehicle does not exist. A row is kept while clients have requested it lately,
+ * and with it the number of its pictures and its camera's state. A row that was requested only once
+ * is evicted first, so that single requests do not displace clients that watch. */
 #ifndef JOLON_RENDERER_OUTPUT_PICTURE_REQUESTS_H
 #define JOLON_RENDERER_OUTPUT_PICTURE_REQUESTS_H
 
@@ -15,23 +15,24 @@
 
 #define PICTURE_REQUESTS_MAX     8u
 #define PICTURE_REQUESTS_NONE    UINT32_MAX
-#define PICTURE_REQUESTS_KEEP_NS 2000000000ull /* a row that nobody asks for stays so long */
+#define PICTURE_REQUESTS_KEEP_NS 2000000000ull /* for which a row is kept after its last request   \
+                                                */
 
 struct picture_requests_key {
     enum view_mode view; /* not VIEW_MAP, not VIEW_FREE */
-    uint32_t vehicle;    /* id; 0: whom the renderer follows */
+    uint32_t vehicle;    /* id; 0: the one that the renderer follows */
     uint32_t width, height;
     bool bar; /* statistics bar and small map */
 };
 
 struct picture_requests {
-    /* By the clients' threads. */
+    /* Written by the clients' threads. */
     struct picture_requests_key key;
-    uint64_t generation;   /* no two rows ever have the same; 0: free */
-    uint64_t requested_ns; /* CLOCK_MONOTONIC when somebody last asked */
-    uint32_t unanswered;   /* requests that are not answered yet */
-    bool watched;          /* asked for more than once */
-    /* By the drawing thread, but for the beginning. */
+    uint64_t generation;   /* unique; 0: the row is free */
+    uint64_t requested_ns; /* CLOCK_MONOTONIC of the last request */
+    uint32_t unanswered;   /* requests without an answer yet */
+    bool watched;          /* requested more than once */
+    /* Written by the drawing thread, and cleared by the clients' threads. */
     bool gone; /* there is no such vehicle */
 };
 
@@ -40,16 +41,16 @@ struct picture_requests_table {
     uint64_t generations;
 };
 
-/* Is anybody waiting for it, or was lately? */
+/* Returns true if a client waits for the row or has requested it lately. */
 bool picture_requests_lives(const struct picture_requests *row, uint64_t now_ns);
 
-/* The row of this key, asked for now; a new one if there is none, in the place of one that nobody
- * has asked for lately, or else of the one that has been answered for longest of those that are not
- * watched. PICTURE_REQUESTS_NONE when there is neither. */
+/* Returns the index of the key's row, and notes the request. A new row takes the place of one that
+ * is not alive, or else of the answered row that is not watched and whose request is the oldest.
+ * Returns PICTURE_REQUESTS_NONE when there is neither. */
 uint32_t picture_requests_ask(struct picture_requests_table *table,
                               const struct picture_requests_key *key, uint64_t now_ns);
 
-/* Gives a row up now, unless somebody waits. */
+/* Frees a row, unless a client waits for it. */
 void picture_requests_forget(struct picture_requests *row);
 
 #endif

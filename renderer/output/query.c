@@ -1,4 +1,4 @@
-/* Reading queries, from whoever they come. */
+/* Reading queries of clients that are not trusted. */
 #include "renderer/output/query.h"
 
 #include "world/enum_names.h"
@@ -15,7 +15,7 @@
 
 /* --- values ------------------------------------------------------------------------------------*/
 
-/* As much of it as can be shown, with marks for what is no plain letter. */
+/* Copies the beginning of a text with '?' for characters that cannot be printed. */
 static const char *shown(const char *text, char room[SHOWN_BYTES])
 {
     size_t used = 0;
@@ -31,7 +31,7 @@ static int refuse(struct error_text *error, const char *key, const char *value, 
     return error_text_set(error, "%s=%s: %s", key, shown(value, room), right);
 }
 
-/* Digits alone, at most so many; returns what follows them, NULL when there are none. */
+/* Reads digits. Returns what follows them; NULL without digits or for a value above most. */
 static const char *read_whole(const char *text, uint64_t most, uint64_t *value)
 {
     const char *at = text;
@@ -73,7 +73,7 @@ static int take_size(uint32_t *width, uint32_t *height, const char *value, struc
 
 /* --- keys --------------------------------------------------------------------------------------*/
 
-/* The key's place in the list, which a query may have once. -1 with the reason. */
+/* Returns the index of a key, which may be given once; -1 with the reason. */
 static int find_key(const char *const *keys, int count, const char *key, const char *value,
                     uint32_t *seen, const char *all, struct error_text *error)
 {

@@ -1,6 +1,6 @@
-/* What clients of the stream ask for, read from the addresses' queries: "view=chase&vehicle=17".
- * Pure. Every call returns 0, or -1 with a reason that says what would be right; what a client
- * wrote is repeated in it shortened, and letters alone. */
+/* Reading the queries of HTTP requests to the stream: "view=chase&vehicle=17". Pure. Functions
+ * return 0, or -1 with a reason that says what would be right. It repeats the client's text only
+ * shortened and without characters that cannot be printed. */
 #ifndef JOLON_RENDERER_OUTPUT_QUERY_H
 #define JOLON_RENDERER_OUTPUT_QUERY_H
 
@@ -15,29 +15,30 @@
 #define QUERY_HEIGHT_MAX 1080u
 #define QUERY_METRES_MIN 100.0 /* across a map */
 #define QUERY_METRES_MAX 200000.0
-#define QUERY_PLACE_MOST 100000.0 /* [m] of a map's middle, in the world or somewhat beyond */
+#define QUERY_PLACE_MOST                                                                           \
+    100000.0 /* [m] coordinates of a map's centre may lie outside of the world */
 
 /* /picture.jpg?view=&vehicle=&size=WxH&after=N&bar=0|1 */
 struct query_picture {
     struct picture_requests_key key;
     bool after_given;
-    uint64_t after; /* waits for another picture than this */
-    uint32_t seen;  /* keys that came, a bit each */
+    uint64_t after; /* number of the picture that the client has */
+    uint32_t seen;  /* bits of the keys that were given */
 };
 
 /* /map.jpg?x=&z=&metres=&size=WxH */
 struct query_map {
-    double x, z;   /* [m, world] of the middle */
-    double metres; /* across the width */
+    double x, z;   /* [m, world] of the centre */
+    double metres; /* [m] width of the map */
     uint32_t width, height;
     uint32_t seen;
 };
 
-/* What holds for keys that do not come. */
+/* Set the defaults. */
 void query_picture_begin(struct query_picture *query);
 void query_map_begin(struct query_map *query);
 
-/* One key and its value, NULL for a key without one. */
+/* Take one key and its value, NULL for a key without one. */
 int query_picture_take(struct query_picture *query, const char *key, const char *value,
                        struct error_text *error);
 int query_map_take(struct query_map *query, const char *key, const char *value,

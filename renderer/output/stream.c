@@ -17,8 +17,8 @@
 #include <unistd.h>
 
 #define QUALITY 80
-/* A picture that stands is sent again: so a browser does not give up, and who is gone is noticed.
- */
+/* An unchanged picture is sent again, so that browsers do not time out and lost clients are
+ * noticed. */
 #define REPEAT_NS (2ull * NS_PER_S)
 
 /* --- opening -----------------------------------------------------------------------------------*/
@@ -54,7 +54,7 @@ struct stream_view *stream_find_view(struct stream *stream, const char *name, si
     return NULL;
 }
 
-/* Names stand in addresses and pages as they are. */
+/* Returns true if a name needs no escaping in addresses and pages. */
 static bool is_plain(const char *name)
 {
     static const char letters[] =
@@ -113,7 +113,8 @@ struct stream_jpeg *stream_encode(const struct image *image, uint64_t frame, dou
     return NULL;
 }
 
-/* Under the lock, which it leaves meanwhile. Out of memory the picture is left out. */
+/* Encodes the view's new picture. Called under the lock, which it leaves meanwhile. Without memory
+ * the picture is dropped. */
 static void renew(struct stream *stream, struct stream_view *view)
 {
     struct picture *picture = view->unencoded;
@@ -129,7 +130,7 @@ static void renew(struct stream *stream, struct stream_view *view)
     view->encoded++;
 }
 
-/* One look at every view, under the lock; true when something was done. */
+/* Encodes the new pictures of watched views. Returns true if there were any. Under the lock. */
 static bool serve_views(struct stream *stream)
 {
     bool done = false;
@@ -150,8 +151,7 @@ static bool serve_views(struct stream *stream)
     return done;
 }
 
-/* The same for pictures that were asked for. A row that has become another's while its picture was
- * encoded is not given that. */
+/* The same for requested pictures. A JPEG is dropped if its row was reused while it was encoded. */
 static bool serve_requests(struct stream *stream)
 {
     bool done = false;
@@ -174,7 +174,7 @@ static bool serve_requests(struct stream *stream)
     return done;
 }
 
-/* Until something comes, or somebody has waited long enough. */
+/* Waits until there is something to encode or a client's wait ends, at most 1 s. Under the lock. */
 static void wait_shortly(struct stream *stream)
 {
     uint64_t now = clock_now_ns(), until = stream_http_expire(stream, now);
@@ -225,7 +225,7 @@ static void end_threads(struct stream *stream, bool painting)
         pthread_join(stream->painting, NULL);
 }
 
-/* 0, or -1 with the reason, and no thread. */
+/* Returns 0, or -1 with the reason and no thread. */
 static int start_threads(struct stream *stream, struct error_text *error)
 {
     int cause = pthread_create(&stream->encoding, NULL, serve, stream);
@@ -247,9 +247,9 @@ int stream_start(struct stream *stream, struct error_text *error)
 {
     sigset_t all, before;
     init_locks(stream);
-    /* Signals are the drawing thread's. */
+    /* Signals must go to the drawing thread. */
     sigfillset(&all);
-    sigdelset(&all, SIGSYS); /* what the sandbox forbids is to be told */
+    sigdelset(&all, SIGSYS); /* the sandbox reports forbidden calls with it */
     pthread_sigmask(SIG_SETMASK, &all, &before);
     int result = start_threads(stream, error);
     pthread_sigmask(SIG_SETMASK, &before, NULL);

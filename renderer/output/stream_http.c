@@ -1,5 +1,5 @@
-/* The stream's clients. Every function here runs in the thread of a door's server
- * (ipc/http/server.h) but those that start, end, sweep and wake. */
+/* The stream's clients. Functions run in an endpoint's server thread (ipc/http/server.h), except
+ * those that start, end, sweep and wake. */
 #include "renderer/output/stream_internal.h"
 
 #include "ipc/process/clock.h"
@@ -9,11 +9,11 @@
 #include <string.h>
 
 #define PAGE_BYTES    8192
-#define REQUEST_BYTES 64 /* of a path that can name something here */
+#define REQUEST_BYTES 64 /* a longer path names no picture */
 #define BOUNDARY      "picture"
 #define MULTIPART     "multipart/x-mixed-replace; boundary=" BOUNDARY
 
-/* Between the pictures. Browsers show one when its boundary has come, so that follows at once. */
+/* After each picture. Browsers show a picture when its boundary has arrived. */
 static const char between[] = "\r\n--" BOUNDARY "\r\n";
 #define BETWEEN_BYTES (sizeof between - 1)
 
@@ -33,7 +33,7 @@ static void wait_here(struct stream_client *client)
     http_wait(client->request);
 }
 
-/* Takes the client out of those that wait. */
+/* Removes a client from the waiting list and resumes its request. */
 static void resume(struct stream_client **at)
 {
     struct stream_client *client = *at;
@@ -152,7 +152,8 @@ static void reply_status(const struct stream *stream, struct http_reply *reply)
 
 /* --- one picture -------------------------------------------------------------------------------*/
 
-/* Under the lock. The newest one: when it is not encoded yet, the first call waits for that. */
+/* Replies with the newest picture. The first call waits if it is not encoded yet. Under the lock.
+ */
 static bool reply_picture(struct stream_client *client, struct http_reply *reply)
 {
     struct stream_view *view = client->view;
@@ -168,7 +169,8 @@ static bool reply_picture(struct stream_client *client, struct http_reply *reply
 
 /* --- all of them -------------------------------------------------------------------------------*/
 
-/* Under the lock: the next picture to send, when there is one that was not sent. */
+/* Takes the view's picture if the client has not got it. Returns false if there is none. Under the
+ * lock. */
 static bool take_next(struct stream_client *client)
 {
     const struct stream_view *view = client->view;
@@ -189,7 +191,7 @@ static bool take_next(struct stream_client *client)
     return true;
 }
 
-/* Of a part of the client's text from `sent` on, as much as fits; how much. */
+/* Copies as much of the client's part, from `sent` on, as there is room for. Returns its bytes. */
 static size_t copy_part(const struct stream_client *client, char *to, size_t room)
 {
     const struct {
@@ -236,7 +238,7 @@ static ssize_t give(struct http_request *request, char *to, size_t room)
     return given;
 }
 
-/* Under the lock. The place of client, NULL: a free one; else NULL. */
+/* Returns the place of a client, or a free one if client is NULL; NULL for none. Under the lock. */
 static struct stream_client **find_place(struct stream *stream, const struct stream_client *client)
 {
     for (uint32_t i = 0; i < STREAM_WATCHERS; i++)
@@ -252,8 +254,8 @@ static void stop_watching(struct stream_client **place)
     *place = NULL;
 }
 
-/* Under the lock. A free place, or that of a client that does not read: its connection is shut.
- * NULL: there is neither. */
+/* Returns a free place, or that of a client that does not read, whose connection is shut; NULL for
+ * neither. Under the lock. */
 static struct stream_client **make_place(struct stream *stream)
 {
     struct stream_client **place = find_place(stream, NULL);
@@ -292,7 +294,7 @@ static bool ends_with(const char *path, size_t length, const char *ending, size_
     return true;
 }
 
-/* Under the lock. False: it waits. */
+/* Returns false if the request waits. Under the lock. */
 static bool reply_path(struct stream_client *client, const char *path, struct http_reply *reply)
 {
     struct stream *stream = client->stream;

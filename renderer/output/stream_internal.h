@@ -1,7 +1,7 @@
-/* What the parts of the stream share: stream.c has the views and the thread that encodes them,
- * stream_listen.c where it listens, stream_http.c the clients, stream_requests.c the pictures and
- * maps that clients ask for. One lock is over all of it, held for copies at most: no
- * thread draws, encodes or sends under it. */
+/* What the parts of the stream share: stream.c has the views and the encoding thread,
+ * stream_listen.c the listening sockets, stream_http.c the clients, stream_requests.c requested
+ * pictures and maps. One lock guards all of it. No thread draws, encodes or sends under the lock.
+ */
 #ifndef JOLON_RENDERER_OUTPUT_STREAM_INTERNAL_H
 #define JOLON_RENDERER_OUTPUT_STREAM_INTERNAL_H
 
@@ -17,11 +17,11 @@
 #include <stdint.h>
 
 #define STREAM_VIEWS_MAX 16u
-#define STREAM_WATCHERS  16u /* clients that watch at the same time */
+#define STREAM_WATCHERS  16u /* clients that watch a view at the same time */
 #define STREAM_ENDPOINTS 2u
-#define STREAM_MAPS      16u /* maps that are kept, or under way */
+#define STREAM_MAPS      16u /* maps that are kept or being painted */
 
-/* An encoded picture, which nobody changes. */
+/* An encoded picture, immutable and shared by counted references. */
 struct stream_jpeg {
     _Atomic uint32_t references;
     uint8_t *bytes;
@@ -33,44 +33,44 @@ struct stream_jpeg {
 
 struct stream_view {
     char name[PICTURE_VIEW_BYTES];
-    struct picture *unencoded;  /* the newest, when there is no JPEG of it yet; else NULL */
-    struct stream_jpeg *jpeg;   /* the newest there is; NULL before the first */
-    uint64_t number;            /* of what is shown: goes up with every JPEG */
-    uint64_t shown_ns;          /* CLOCK_MONOTONIC of that */
+    struct picture *unencoded;  /* the newest picture, until its JPEG is made; else NULL */
+    struct stream_jpeg *jpeg;   /* the newest; NULL before the first */
+    uint64_t number;            /* of the JPEG, increasing */
+    uint64_t shown_ns;          /* CLOCK_MONOTONIC when it was made or sent again */
     uint32_t watchers, waiters; /* clients of the stream; those who wait for one picture now */
     uint64_t drawn, encoded, skipped; /* pictures put; JPEGs made; those that clients passed over */
 };
 
-/* Where clients come in. */
+/* A listening socket and its server. */
 struct stream_endpoint {
     struct http_listener listener;
     struct http_server *server;
 };
 
-/* A map that was asked for: its ground never changes, so it is kept until others take its place. */
+/* A requested map. Ground never changes, so a map is kept until another takes its place. */
 struct stream_map {
     struct query_map key;
     bool used;
-    bool to_paint;         /* to be painted; the painting thread clears it */
-    uint64_t requested_ns; /* CLOCK_MONOTONIC when somebody last asked */
-    uint32_t unanswered;   /* requests that are not answered yet */
+    bool to_paint;         /* the painting thread clears it */
+    uint64_t requested_ns; /* CLOCK_MONOTONIC of the last request */
+    uint32_t unanswered;   /* requests without an answer yet */
     struct stream_view view;
 };
 
-/* A request, in its own room in the server (ipc/http/server.h). It may wait for a picture. */
+/* The state of one HTTP request, in the server's memory for it (ipc/http/server.h). */
 struct stream_client {
-    struct stream *stream; /* NULL: nothing was asked yet */
+    struct stream *stream; /* NULL before the request was read */
     struct stream_view *view;
-    struct picture_requests *row; /* the row that the request holds; NULL: none */
+    struct picture_requests *row; /* of the request, while it has no answer; NULL: none */
     struct stream_map *map;       /* likewise */
-    uint64_t until_ns;            /* waits no longer; 0: as long as it takes */
+    uint64_t until_ns;            /* end of the wait; 0: no limit */
     struct http_request *request;
-    struct stream_client *next; /* of those that wait */
-    bool waits_once;            /* counted in the view's askers */
+    struct stream_client *next; /* in the list of waiting clients */
+    bool waits_once;            /* for one picture: counted in the view's waiters */
     struct stream_jpeg *jpeg;   /* being sent */
-    char head[192];             /* before it */
+    char head[192];             /* part header before the JPEG */
     size_t head_bytes, sent;
-    uint64_t number; /* of the last that was sent */
+    uint64_t number; /* of the last picture sent */
 };
 
 struct stream {
@@ -85,7 +85,7 @@ struct stream {
     pthread_cond_t draw_cond;   /* ... the drawing thread, ... */
     pthread_cond_t paint_cond;  /* ... the painting thread */
     bool ending;
-    uint64_t numbers; /* of pictures that were asked for: no two have the same */
+    uint64_t numbers; /* the last number given to a requested picture */
     uint64_t request_count,
         request_count_seen; /* requests that wait for a picture; ... by the drawing thread */
     struct picture_requests_table requests;
@@ -95,7 +95,7 @@ struct stream {
     struct stream_map map[STREAM_MAPS];
     struct stream_view view[STREAM_VIEWS_MAX];
     uint32_t views;
-    struct stream_client *watcher[STREAM_WATCHERS]; /* NULL: the place is free */
+    struct stream_client *watcher[STREAM_WATCHERS]; /* NULL: free */
     struct stream_client *waiting;
 };
 

@@ -1,4 +1,4 @@
-/* Where the stream listens. */
+/* Binding the stream's sockets. */
 #include "renderer/output/stream_internal.h"
 
 #include "ipc/process/log.h"
@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #define BACKLOG    64
-#define SEND_BYTES (256 * 1024) /* of a client's socket: more only makes what it sees older */
+#define SEND_BYTES (256 * 1024) /* of a client's socket: a larger buffer only delays pictures */
 
 static void add_endpoint(struct stream *stream, const struct http_listener *listener)
 {
@@ -39,7 +39,6 @@ int stream_listen(struct stream *stream, const char *address, uint16_t port,
     return 0;
 }
 
-/* The renderer holds its role: a socket of that name is a dead renderer's. */
 int stream_listen_here(struct stream *stream, enum role role, struct error_text *error)
 {
     const int bytes = SEND_BYTES;

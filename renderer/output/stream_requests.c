@@ -1,5 +1,5 @@
-/* Pictures and maps that clients of the stream ask for: a request finds its row of a bounded table,
- * or is told that there is none, and waits there for a while. */
+/* Requested pictures and maps: a request finds or makes its row in a bounded table, or is refused,
+ * and waits there for a limited time. */
 #include "renderer/output/stream_internal.h"
 
 #include "ipc/process/clock.h"
@@ -10,9 +10,9 @@
 #include <stdio.h>
 
 #define WAIT_NS     1000000000ull /* for a picture, at most */
-#define MAP_WAIT_NS 5000000000ull /* for a map: some of them are large, and painting goes last */
-#define NEW_NS      50000000u     /* a picture no older is as good as a new one ... */
-#define STALE_NS    500000000u    /* ... and one no older is, to who had another before */
+#define MAP_WAIT_NS 5000000000ull /* for a map: large ones take long, at a low priority */
+#define NEW_NS      50000000u     /* a picture of this age answers a request without `after` */
+#define STALE_NS    500000000u    /* ... and of this age a request with `after` */
 
 /* --- queries -----------------------------------------------------------------------------------*/
 
@@ -33,7 +33,7 @@ static bool take_argument(void *context, const char *key, const char *value)
     return result == 0;
 }
 
-/* false: the reply says what is wrong. */
+/* Returns false if the query is wrong; then the reply says why. */
 static bool read_query(const struct stream_client *client, struct reading *reading,
                        struct http_reply *reply)
 {
@@ -56,7 +56,7 @@ static void reply_numbered(struct http_reply *reply, const struct stream_view *v
     http_reply_add(reply, "X-Time", "%.4f", view->jpeg->time_s);
 }
 
-/* What the last key's clients left there is of no use to the next one's. */
+/* Empties a view before it is used for another key. */
 static void clear_view(struct stream_view *view)
 {
     picture_release(view->unencoded);
@@ -66,7 +66,7 @@ static void clear_view(struct stream_view *view)
 
 /* --- pictures ----------------------------------------------------------------------------------*/
 
-/* The request's row; false when all are in use. */
+/* Finds or makes the request's row. Returns false when all are in use. */
 static bool hold_row(struct stream_client *client, const struct picture_requests_key *key,
                      uint64_t now_ns)
 {
@@ -85,7 +85,7 @@ static bool hold_row(struct stream_client *client, const struct picture_requests
     return true;
 }
 
-/* Is what there is already as good as what would come? */
+/* Returns true if the view's present picture answers the query. */
 static bool is_enough(const struct stream_view *view, const struct query_picture *query,
                       uint64_t now_ns)
 {
@@ -96,7 +96,7 @@ static bool is_enough(const struct stream_view *view, const struct query_picture
                               : now_ns < view->shown_ns + NEW_NS;
 }
 
-/* The row is let go with the answer: who is slow to read it keeps nobody from another's. */
+/* Answers and leaves the row, so that a client that reads slowly does not occupy it. */
 static bool answer_picture(struct stream_client *client, struct http_reply *reply)
 {
     const struct stream_view *view = client->view;
@@ -151,8 +151,8 @@ static bool is_same_map(const struct query_map *a, const struct query_map *b)
            a->height == b->height;
 }
 
-/* The map's place: where it is kept, else a free one, else the one that was longest not asked for
- * and that nobody waits for; NULL when there is none. */
+/* Returns the map of this key, else a free place, else that of the least recently requested map
+ * that no client waits for; NULL when there is none. */
 static struct stream_map *find_map(struct stream *stream, const struct query_map *key)
 {
     struct stream_map *found = NULL;
@@ -209,7 +209,7 @@ bool stream_requests_map(struct stream_client *client, struct http_reply *reply)
     return stream_wait_here(client);
 }
 
-/* The map that has been waited for longest; NULL: none. Under the lock. */
+/* Returns the map whose last request is the oldest; NULL: none. Under the lock. */
 static struct stream_map *next_map(struct stream *stream)
 {
     struct stream_map *next = NULL;
@@ -220,7 +220,7 @@ static struct stream_map *next_map(struct stream *stream)
     return next;
 }
 
-/* Without the lock. NULL when there is no memory. */
+/* Paints and encodes a map. Without the lock. Returns NULL when there is no memory. */
 static struct stream_jpeg *make_map(const struct stream_painter *painter,
                                     const struct query_map *key)
 {
@@ -245,7 +245,7 @@ void *stream_paint(void *argument)
             pthread_cond_wait(&stream->paint_cond, &stream->lock);
             continue;
         }
-        struct query_map key = map->key; /* a map that is wanted stays what it is */
+        struct query_map key = map->key; /* its place is not reused meanwhile */
         pthread_mutex_unlock(&stream->lock);
         struct stream_jpeg *jpeg = make_map(&stream->painter, &key);
         pthread_mutex_lock(&stream->lock);

@@ -1,4 +1,4 @@
-/* Pictures that clients of the stream ask for, as the drawing thread sees them. */
+/* Requested pictures, for the drawing thread. */
 #ifndef JOLON_RENDERER_OUTPUT_STREAM_REQUESTS_H
 #define JOLON_RENDERER_OUTPUT_STREAM_REQUESTS_H
 
@@ -12,9 +12,9 @@ struct stream;
 
 struct stream_request {
     struct picture_requests_key key;
-    uint64_t generation; /* another for another wish in the same row; 0: none is there */
-    bool waiting;        /* somebody waits for it now */
-    bool again;          /* ... even if it would be as the last */
+    uint64_t generation; /* of its row; 0: there is no request */
+    bool waiting;        /* a client waits for it now */
+    bool again;          /* draw it even if the last picture is still up to date */
 };
 
 /* Fills wishes[PICTURE_REQUESTS_MAX] with the rows that somebody has asked for lately. How many
@@ -26,7 +26,7 @@ uint32_t stream_requests_read(struct stream *stream, struct stream_request *requ
 void stream_requests_answer(struct stream *stream, uint32_t row, uint64_t generation,
                             struct picture *picture);
 
-/* Sleeps until the time (CLOCK_MONOTONIC), or until somebody begins to wait for a picture. */
+/* Sleeps until the time (CLOCK_MONOTONIC), or until a client requests a picture. */
 void stream_requests_wait(struct stream *stream, uint64_t until_ns);
 
 #endif

@@ -1,4 +1,4 @@
-/* Encoding and writing video, by libav. */
+/* Encoding and writing video with FFmpeg's libraries. */
 #include "renderer/output/video.h"
 
 #include "renderer/image/yuv.h"
@@ -10,14 +10,14 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Of a second: 24, 25, 30, 50 and 60 pictures are whole numbers of them, and MPEG-4 takes no more
- * than 65535. */
+/* Ticks a second: a multiple of the usual rates 24, 25, 30, 50 and 60. MPEG-4 allows at most 65535.
+ */
 #define TICKS        60000
 #define WRITE_BYTES  65536
 #define SETTINGS_MAX 8
-#define LIVE_GOP_S   1.0 /* from one whole picture to the next: what a kill loses at most */
+#define LIVE_GOP_S   1.0 /* between key frames: what is lost at most when it is killed */
 #define REPLAY_GOP_S 4.0
-#define EARLY_SLOTS  1e-6 /* times are sums: a hair too soon is in time */
+#define EARLY_SLOTS  1e-6 /* tolerance for rounding of times */
 
 struct setting {
     const char *key, *value;
@@ -56,18 +56,18 @@ struct video {
     const struct encoder *encoder;
     enum video_purpose purpose;
     double fps;
-    int fd, write_error; /* errno of the write that failed, 0: none has */
+    int fd, write_error; /* errno of a failed write; 0: none */
     AVFormatContext *file;
     AVCodecContext *codec;
     AVStream *stream;
     AVFrame *frame;
     AVPacket *packet;
     double start_s;
-    int64_t slot; /* of the last picture: a place among fps a second */
+    int64_t slot; /* of the last picture, in 1/fps s from the first */
     uint64_t pictures;
 };
 
-/* --- what it is to be --------------------------------------------------------------------------*/
+/* --- format and encoder ------------------------------------------------------------------------*/
 
 static const struct container *find_container(const char *path)
 {
@@ -146,12 +146,12 @@ static int64_t seek_bytes(void *context, int64_t offset, int whence)
 {
     const struct video *video = context;
     if (whence != SEEK_SET && whence != SEEK_CUR && whence != SEEK_END)
-        return AVERROR(EINVAL); /* the library's own ways to ask */
+        return AVERROR(EINVAL); /* FFmpeg's own values of whence */
     int64_t at = lseek(video->fd, offset, whence);
     return at < 0 ? AVERROR(errno) : at;
 }
 
-/* What a library's error, below 0, means to people; the cause of a failed write is better. */
+/* Sets the text of a library's error code, or that of a failed write. Returns -1. */
 static int failed(const struct video *video, const char *what, int code, struct error_text *error)
 {
     char text[128];
@@ -184,7 +184,7 @@ static int open_file(struct video *video)
         libav.av_free(buffer);
         return AVERROR(ENOMEM);
     }
-    /* Nothing by chance in it, for which the library would open a device. */
+    /* Without random identifiers, for which the library would open a device. */
     video->file->flags |= AVFMT_FLAG_BITEXACT;
     video->stream = libav.avformat_new_stream(video->file, NULL);
     if (video->stream == NULL)
@@ -254,7 +254,8 @@ static int begin(struct video *video, const struct picture *picture)
     return result;
 }
 
-/* Writes the packets that are ready. A frame of NULL says that none comes after. */
+/* Encodes a frame, NULL at the end, and writes the packets that are ready. Returns 0, or an error
+ * code below 0. */
 static int encode(struct video *video, const AVFrame *frame)
 {
     int result = libav.avcodec_send_frame(video->codec, frame);

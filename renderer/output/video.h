@@ -1,6 +1,5 @@
-/* A video file: pictures of one view, one after the other, with the times of the simulation. A
- * second of the video is a second of the simulation, however fast it went. What the file is follows
- * from its ending:
+/* A video file of one view. A second of the video is a second of the simulation, however fast that
+ * runs. The name's ending selects the format:
  *
  *     .mkv    Matroska, H.264
  *     .mp4    MP4, H.264
@@ -16,31 +15,30 @@
 #include <stdint.h>
 
 enum video_purpose {
-    VIDEO_LIVE,   /* little work, and what is written can be played when the writer is killed */
-    VIDEO_REPLAY, /* from a recording: nobody waits, so the better picture */
+    VIDEO_LIVE,   /* fast, and the file can be played even if the writer is killed */
+    VIDEO_REPLAY, /* of a recorded run: slower and with better quality */
 };
 
 struct video;
 
-/* What the file at this path is to be, without a file yet. fps: pictures a second at most; those
- * that come too soon are left out. NULL with the reason: no such ending, the library or an encoder
- * for it is not there. Loads libraries: before the sandbox. */
+/* Prepares a video of the path's format, without a file yet. fps: pictures a second at most; others
+ * are left out. Loads libraries, so it must come before the sandbox. Returns NULL with the reason:
+ * unknown ending, missing library or encoder. */
 struct video *video_open(const char *path, double fps, enum video_purpose purpose,
                          struct error_text *error);
 
-/* Where it is written to: a descriptor of a new file, which stays the caller's. Before the first
- * picture. */
+/* Sets the descriptor of a new file, which the caller closes, before the first picture. */
 void video_write_to(struct video *video, int fd);
 
-/* Adds a picture. The first decides the size that all have, both sides rounded down to even
- * numbers. One that is not later than the last is left out. 0, or -1 with the reason. */
+/* Adds a picture. The first one sets the size, rounded down to even numbers. A picture that is not
+ * later than the last is left out. Returns 0, or -1 with the reason. */
 int video_put(struct video *video, const struct picture *picture, struct error_text *error);
 
 uint64_t video_pictures(const struct video *video);
 const char *video_codec(const struct video *video);
 
-/* Completes the file and frees the rest. NULL is nothing. 0, or -1 with the reason: it cannot be
- * written. */
+/* Completes the file and frees the video. NULL is allowed. Returns 0, or -1 with the reason: the
+ * file cannot be written. */
 int video_close(struct video *video, struct error_text *error);
 
 #endif
