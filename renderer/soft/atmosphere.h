@@ -32,22 +32,9 @@ SIMD8 struct colour8 colour_scale(struct colour8 a, v8f by)
     return (struct colour8){a.r * by, a.g * by, a.b * by};
 }
 
-SIMD8 struct colour8 colour_times(struct colour8 a, struct colour8 b)
+SIMD8 struct colour8 colour_add(struct colour8 a, struct colour8 b)
 {
-    return (struct colour8){a.r * b.r, a.g * b.g, a.b * b.b};
-}
-
-SIMD8 v8u colour_pack(struct colour8 c)
-{
-    return simd8_pack(c.r, c.g, c.b);
-}
-
-/* Bytes to fractions. */
-SIMD8 struct colour8 colour_unpack(v8u texels)
-{
-    return (struct colour8){simd8_byte(texels, 0) * (1.0f / 255.0f),
-                            simd8_byte(texels, 8) * (1.0f / 255.0f),
-                            simd8_byte(texels, 16) * (1.0f / 255.0f)};
+    return (struct colour8){a.r + b.r, a.g + b.g, a.b + b.b};
 }
 
 /* The sky's colour where it meets the ground; x and z of any way there. */

@@ -123,7 +123,7 @@ SIMD8 void store3(float *const column[3], uint32_t at, const v8f v[3])
 SIMD8 void apply(const struct affine *a, const v8f v[3], float one, v8f out[3])
 {
     for (uint32_t i = 0; i < 3; i++)
-        out[i] = a->m[i][0] * v[0] + a->m[i][1] * v[1] + a->m[i][2] * v[2] + one * a->t[i];
+        out[i] = simd8_dot3_f(a->m[i], v) + one * a->t[i];
 }
 
 /* Where the corners of a body that is not as it was built are now, and its normals as they were. */
@@ -181,8 +181,7 @@ SIMD8 struct colour8 light_of(const struct soft_frame *f, const v8f world[3], co
     struct colour8 sun_light = colour_of(SUN_LIGHT_RED, SUN_LIGHT_GREEN, SUN_LIGHT_BLUE);
     struct colour8 sky =
         colour_of(SKY_LIGHT_RED * 1.12f, SKY_LIGHT_GREEN * 1.12f, SKY_LIGHT_BLUE * 1.12f);
-    v8f zero = simd8_f(0.0f),
-        sun = simd8_max(n[0] * f->sun[0] + n[1] * f->sun[1] + n[2] * f->sun[2], zero);
+    v8f zero = simd8_f(0.0f), sun = simd8_max(simd8_dot3_f(f->sun, n), zero);
     v8f open = 0.55f + 0.45f * simd8_smoothstep(0.0f, 1.3f, high);
     struct colour8 around = colour_mix(colour_of(0.36f, 0.31f, 0.24f), sky, 0.5f + 0.5f * n[1]);
     v8f far = simd8_sqrt(simd8_dot3(world, world)), along = 2.0f * simd8_dot3(world, n),
@@ -201,9 +200,9 @@ SIMD8 struct colour8 light_of(const struct soft_frame *f, const v8f world[3], co
 SIMD8 void project(const struct soft_frame *f, float *const *column, uint32_t at,
                    const v8f place[3])
 {
-    v8f ahead = f->ahead[0] * place[0] + f->ahead[1] * place[1] + f->ahead[2] * place[2];
-    v8f across = f->across[0] * place[0] + f->across[1] * place[1] + f->across[2] * place[2];
-    v8f down = f->down[0] * place[0] + f->down[1] * place[1] + f->down[2] * place[2];
+    v8f ahead = simd8_dot3_f(f->ahead, place);
+    v8f across = simd8_dot3_f(f->across, place);
+    v8f down = simd8_dot3_f(f->down, place);
     v8f over = 1.0f / simd8_max(ahead, simd8_f(1e-3f));
     simd8_store_f(column[CORNER_AHEAD] + at, ahead);
     simd8_store_f(column[CORNER_ACROSS] + at, across);
@@ -217,7 +216,7 @@ SIMD8 void project(const struct soft_frame *f, float *const *column, uint32_t at
 SIMD8 void drop(const struct soft_frame *f, const float plane[4], v8f place[3])
 {
     float steep = 1.0f / (plane[0] * f->sun[0] + plane[1] * f->sun[1] + plane[2] * f->sun[2]);
-    v8f high = plane[0] * place[0] + plane[1] * place[1] + plane[2] * place[2] - plane[3];
+    v8f high = simd8_dot3_f(plane, place) - plane[3];
     v8f back = simd8_max(high * steep, simd8_f(0.0f));
     for (uint32_t i = 0; i < 3; i++)
         place[i] -= f->sun[i] * back;
@@ -266,7 +265,7 @@ static void place_group(const struct maker *m, const struct soft_group *group, b
         v8f over = 1.0f / simd8_sqrt(simd8_dot3(normal, normal) + 1e-20f);
         for (uint32_t i = 0; i < 3; i++)
             normal[i] *= over;
-        v8f high = part.m[1][0] * v[0] + part.m[1][1] * v[1] + part.m[1][2] * v[2] + part.t[1];
+        v8f high = simd8_dot3_f(part.m[1], v) + part.t[1];
         struct colour8 light = light_of(m->frame, place, normal, high - low);
         simd8_store_f(value[SIDE_RED] + at, light.r);
         simd8_store_f(value[SIDE_GREEN] + at, light.g);

@@ -18,16 +18,9 @@ struct edges {
     uint32_t count;
 };
 
-SIMD8 v8u pixels_from(const uint8_t *from)
-{
-    v8u pixels;
-    memcpy(&pixels, from, sizeof pixels);
-    return pixels;
-}
-
 SIMD8 v8u pixels_at(const struct image *image, uint32_t row, int32_t column)
 {
-    return pixels_from(image->pixels + ((ptrdiff_t)row * image->width + column) * 4);
+    return simd8_load_u(image->pixels + ((ptrdiff_t)row * image->width + column) * 4);
 }
 
 SIMD8 v8i luma(v8u pixels)
@@ -60,7 +53,7 @@ SIMD8 uint32_t edges_near(const struct alphas *above, const struct alphas *here,
     const uint8_t *from[3] = {above->of + column, here->of + column, below->of + column};
     v8u least = simd8_u(UINT32_MAX), most = simd8_u(0);
     for (uint32_t i = 0; i < 3; i++) {
-        v8u left = pixels_from(from[i] - 1), right = pixels_from(from[i] + 1);
+        v8u left = simd8_load_u(from[i] - 1), right = simd8_load_u(from[i] + 1);
         least = simd8_min_b(least, simd8_min_b(left, right));
         most = simd8_max_b(most, simd8_max_b(left, right));
     }
@@ -157,8 +150,8 @@ static void smooth(struct edges *edges, struct image *to, const struct image *fr
 {
     uint32_t count = edges->count < LANES ? edges->count : LANES;
     /* Where there are fewer, some that were there before are smoothed for nothing. */
-    v8f x = simd8_to_f((v8i)simd8_load_u((uint32_t *)edges->column));
-    v8f y = simd8_to_f((v8i)simd8_load_u((uint32_t *)edges->row));
+    v8f x = simd8_to_f((v8i)simd8_load_u(edges->column));
+    v8f y = simd8_to_f((v8i)simd8_load_u(edges->row));
     v8f dx = simd8_load_f(edges->dx), dy = simd8_load_f(edges->dy);
     struct sample8 close = along(from, x, y, dx * (1.0f / 6.0f), dy * (1.0f / 6.0f));
     struct sample8 wide = middle_of(close, along(from, x, y, dx * 0.5f, dy * 0.5f));
@@ -191,12 +184,11 @@ static void take_row(struct alphas *alphas, struct image *to, const struct image
     for (; column + 32 <= from->width; column += 32) {
         v8u four[4];
         for (uint32_t i = 0; i < 4; i++)
-            four[i] = pixels_from(pixels + (size_t)(column + i * LANES) * 4);
+            four[i] = simd8_load_u(pixels + (size_t)(column + i * LANES) * 4);
         v8u tops = simd8_top_bytes(four);
         memcpy(alphas->of + column, &tops, sizeof tops);
         for (uint32_t i = 0; copy != NULL && i < 4; i++)
-            simd8_store_u((uint32_t *)(void *)(copy + (size_t)(column + i * LANES) * 4),
-                          four[i] | 0xff000000u);
+            simd8_store_u(copy + (size_t)(column + i * LANES) * 4, four[i] | 0xff000000u);
     }
     for (; column < from->width; column++) {
         alphas->of[column] = pixels[(size_t)column * 4 + 3];

@@ -41,11 +41,6 @@ SIMD8 v8f sine(v8f turns)
     return s * (0.775f + 0.225f * simd8_abs(s));
 }
 
-SIMD8 v8f along(const float way[3], const v8f at[3])
-{
-    return way[0] * at[0] + way[1] * at[1] + way[2] * at[2];
-}
-
 /* What a round puff's place in the picture is. */
 struct round8 {
     v8f x, y, radius, depth, cosine, sine;
@@ -59,8 +54,8 @@ SIMD8 struct round8 place_round(const struct soft_frame *f, const struct particl
     v8f near = ahead * (1.0f - simd8_min(p->size, 0.5f * far) / simd8_max(far, simd8_f(1e-3f)));
     v8f turns = p->turn * (1.0f / 6.28318531f);
     return (struct round8){
-        .x = f->centre_x + along(f->across, p->at) / ahead,
-        .y = f->centre_y + along(f->down, p->at) / ahead,
+        .x = f->centre_x + simd8_dot3_f(f->across, p->at) / ahead,
+        .y = f->centre_y + simd8_dot3_f(f->down, p->at) / ahead,
         .radius = p->size / (ahead * f->pixel_m),
         .depth = 1.0f / simd8_select(near > 0.5f, near, ahead),
         .cosine = sine(turns + 0.25f),
@@ -298,7 +293,7 @@ void KERNEL(soft_particles_set_up)(struct soft_particles *particles, const struc
             list->particle_count - first < LANES ? list->particle_count - first : LANES;
         const struct draw_list_particle *from = &list->particles[first];
         struct particles8 p = load_particles(from, count);
-        v8f ahead = along(frame->ahead, p.at);
+        v8f ahead = simd8_dot3_f(frame->ahead, p.at);
         struct round8 round = place_round(frame, &p, ahead);
         struct atmosphere8 air = atmosphere_at(frame, p.at);
         for (uint32_t i = 0; i < count; i++) {
@@ -380,8 +375,7 @@ SIMD8 bool find_columns(const struct soft_particle *p, const struct soft_target 
 SIMD8 v8i seen_pixels(const struct soft_particle *p, const float *depth, int32_t x, int32_t first,
                       int32_t end)
 {
-    v8i column = simd8_count() + x;
-    return (column >= first) & (column < end) & (p->depth[0] > simd8_load_f(depth));
+    return simd8_within(x, first, end) & (p->depth[0] > simd8_load_f(depth));
 }
 
 SIMD8 void fill_flat(const struct soft_particle *p, const uint16_t *texels,
@@ -452,9 +446,9 @@ SIMD8 void fill_streak(const struct soft_particle *p, const uint16_t *texels,
     size_t row = (size_t)(y - t->first) * t->stride;
     float down = (float)y;
     for (int32_t x = first & -LANES; x < end; x += LANES) {
-        v8i column = simd8_count() + x;
-        v8f at = simd8_to_f(column), depth = p->depth[0] + down * p->depth[2] + at * p->depth[1];
-        v8i seen = (column >= first) & (column < end) & (depth > 0.0f) &
+        v8f at = simd8_to_f(simd8_count() + x),
+            depth = p->depth[0] + down * p->depth[2] + at * p->depth[1];
+        v8i seen = simd8_within(x, first, end) & (depth > 0.0f) &
                    (depth > simd8_load_f(t->depth + row + (size_t)x));
         v8f over = 1.0f / simd8_select(seen, depth, simd8_f(1.0f));
         v8f s = (p->across[0] + down * p->across[2] + at * p->across[1]) * over;

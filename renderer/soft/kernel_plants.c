@@ -82,9 +82,9 @@ SIMD8 struct values8 sum(struct values8 a, v8f by, struct values8 b, v8f by_b)
 SIMD8 void take_corner(const struct soft_frame *f, struct billboards8 *b, const v8f place[3],
                        v8i *cut)
 {
-    v8f ahead = f->ahead[0] * place[0] + f->ahead[1] * place[1] + f->ahead[2] * place[2];
-    v8f across = f->across[0] * place[0] + f->across[1] * place[1] + f->across[2] * place[2];
-    v8f down = f->down[0] * place[0] + f->down[1] * place[1] + f->down[2] * place[2];
+    v8f ahead = simd8_dot3_f(f->ahead, place);
+    v8f across = simd8_dot3_f(f->across, place);
+    v8f down = simd8_dot3_f(f->down, place);
     v8i behind = ahead < f->near_m;
     v8f over = 1.0f / simd8_select(behind, simd8_f(f->near_m), ahead);
     v8f x = f->centre_x + across * over, y = f->centre_y + down * over;
@@ -351,8 +351,7 @@ SIMD8 struct leaves8 four_leaves(const struct soft_billboard *b, const struct so
 /* Light on leaves, some of it from behind through them. */
 SIMD8 v8u lit(const struct soft_plant *p, const struct leaves8 *l)
 {
-    v8f sun =
-        l->facing[0] * p->to_sun[0] + l->facing[1] * p->to_sun[1] + l->facing[2] * p->to_sun[2];
+    v8f sun = simd8_dot3_f(p->to_sun, l->facing);
     v8f zero = simd8_f(0.0f), most = simd8_f(255.0f);
     v8f straight = simd8_max(0.85f * sun + 0.15f, zero) + simd8_max(-0.16f * sun, zero);
     v8f around = 0.80f + 0.35f * l->facing[1];
@@ -398,10 +397,8 @@ void KERNEL(soft_plants_fill)(const struct soft_plants *plants, const struct sof
         int32_t y = rows->first > target->first ? rows->first : target->first;
         int32_t last = rows->end < target->end ? rows->end : target->end;
         for (; y < last; y++)
-            for (int32_t x = p->board.left & -LANES; x < p->board.right; x += LANES) {
-                v8i column = simd8_count() + x;
+            for (int32_t x = p->board.left & -LANES; x < p->board.right; x += LANES)
                 plant_pixels(p, leaves, target, x, y,
-                             (column >= p->board.left) & (column < p->board.right), frame->texture);
-            }
+                             simd8_within(x, p->board.left, p->board.right), frame->texture);
     }
 }

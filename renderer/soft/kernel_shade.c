@@ -198,8 +198,7 @@ static struct colour8 water(const struct soft_ground *ground, const struct soft_
     back[1] = simd8_max(back[1], simd8_f(0.0f));
     v8f grazing = simd8_clamp(1.0f + facing, 0.0f, 1.0f);
     v8f mirror = 0.04f + 0.80f * (grazing * grazing) * (grazing * grazing);
-    v8f glint = simd8_max(
-        back[0] * frame->sun[0] + back[1] * frame->sun[1] + back[2] * frame->sun[2], simd8_f(0.0f));
+    v8f glint = simd8_max(simd8_dot3_f(frame->sun, back), simd8_f(0.0f));
     for (uint32_t i = 0; i < 7; i++)
         glint *= glint; /* to the 128th */
     back[1] += WAVE_LIFT;
@@ -533,10 +532,9 @@ static struct colour8 sky_at(const struct soft_ground *ground, const struct soft
     for (uint32_t i = 0; i < 3; i++)
         way[i] = ray[i] * over;
     struct colour8 c = atmosphere_sky(frame, way);
-    *sun = simd8_max(way[0] * frame->sun[0] + way[1] * frame->sun[1] + way[2] * frame->sun[2],
-                     simd8_f(0.0f));
+    *sun = simd8_max(simd8_dot3_f(frame->sun, way), simd8_f(0.0f));
     struct colour8 glow = sun_glow(*sun);
-    c = (struct colour8){c.r + glow.r, c.g + glow.g, c.b + glow.b};
+    c = colour_add(c, glow);
     v8f near = 1.0f / (simd8_max(way[1], simd8_f(0.0f)) + 0.12f), x = way[0] * near,
         z = way[2] * near;
     float t = frame->time_s;
@@ -546,7 +544,7 @@ static struct colour8 sky_at(const struct soft_ground *ground, const struct soft
     cloud *= 0.72f * simd8_smoothstep(0.02f, 0.16f, way[1]);
     struct colour8 lit =
         colour_mix(colour_of(CLOUD_SHADE), colour_of(CLOUD_LIT), 0.4f + 0.6f * fine);
-    lit = (struct colour8){lit.r + 0.5f * glow.r, lit.g + 0.5f * glow.g, lit.b + 0.5f * glow.b};
+    lit = colour_add(lit, colour_scale(glow, simd8_f(0.5f)));
     struct atmosphere8 air = atmosphere_before_sky(frame, way);
     return atmosphere_over(colour_mix(c, lit, cloud), &air);
 }
@@ -602,7 +600,7 @@ SIMD8 v8f sun_disc(const struct soft_frame *frame, uint32_t x, int32_t y)
     v8f ray[3], column = simd8_to_f(simd8_count()) + ((float)x + 0.5f);
     for (uint32_t i = 0; i < 3; i++)
         ray[i] = frame->ray[i] + ((float)y + 0.5f) * frame->ray_y[i] + column * frame->ray_x[i];
-    v8f sun = ray[0] * frame->sun[0] + ray[1] * frame->sun[1] + ray[2] * frame->sun[2];
+    v8f sun = simd8_dot3_f(frame->sun, ray);
     sun /= simd8_sqrt(simd8_dot3(ray, ray));
     return simd8_clamp((sun - SUN_EDGE) * (1.0f / (SUN_WHOLE - SUN_EDGE)), 0.0f, 1.0f);
 }
@@ -625,7 +623,7 @@ static void sky_pixels(struct shading *r, uint32_t x, int32_t y, v8i mine, uint3
     if (r->above.sun[step] > SUN_NEAR) {
         v8f disc = 255.0f * sun_disc(r->frame, x, y);
         struct colour8 sun = colour_scale(colour_of(SUN_WARM), disc);
-        c = (struct colour8){c.r + sun.r, c.g + sun.g, c.b + sun.b};
+        c = colour_add(c, sun);
     }
     simd8_store_u(colour, simd8_select_u(mine, bytes_of(c), simd8_load_u(colour)));
 }

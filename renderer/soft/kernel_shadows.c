@@ -42,9 +42,8 @@ static void fill_cast(const struct soft_plants *plants, const struct soft_target
         billboard_range(&c->board, y, &first, &end);
         for (int32_t x = first & -LANES; x < end; x += LANES) {
             size_t at = (size_t)(y - t->first) * t->stride + (size_t)x;
-            v8i column = simd8_count() + x;
-            struct billboard8 b = billboard_pixels(&c->board, t->depth + at, x, y,
-                                                   (column >= first) & (column < end));
+            struct billboard8 b =
+                billboard_pixels(&c->board, t->depth + at, x, y, simd8_within(x, first, end));
             b.seen &= simd8_load_f(t->depth + at) > 0.0f;
             if (simd8_bits(b.seen) == 0)
                 continue;

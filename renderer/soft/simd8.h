@@ -58,7 +58,7 @@ SIMD8 v8f simd8_load_f(const float *from)
     return v;
 }
 
-SIMD8 v8u simd8_load_u(const uint32_t *from)
+SIMD8 v8u simd8_load_u(const void *from)
 {
     v8u v;
     memcpy(&v, from, sizeof v);
@@ -70,7 +70,7 @@ SIMD8 void simd8_store_f(float *to, v8f v)
     memcpy(to, &v, sizeof v);
 }
 
-SIMD8 void simd8_store_u(uint32_t *to, v8u v)
+SIMD8 void simd8_store_u(void *to, v8u v)
 {
     memcpy(to, &v, sizeof v);
 }
@@ -86,18 +86,36 @@ SIMD8 v8i simd8_to_i(v8f v)
     return __builtin_convertvector(v, v8i);
 }
 
+#ifdef __SSE2__
+/* The two halves of a vector, for instructions of 128 bits. */
+struct simd8_halves {
+    __m128 low, high;
+};
+
+SIMD8 struct simd8_halves simd8_split(v8f v)
+{
+    struct simd8_halves halves;
+    memcpy(&halves, &v, sizeof v);
+    return halves;
+}
+
+SIMD8 v8f simd8_join(__m128 low, __m128 high)
+{
+    struct simd8_halves halves = {low, high};
+    v8f v;
+    memcpy(&v, &halves, sizeof v);
+    return v;
+}
+#endif
+
 /* To the nearest, to the even one of two; |v| below 2^31. */
 SIMD8 v8i simd8_round(v8f v)
 {
 #if defined(__AVX2__)
     return (v8i)_mm256_cvtps_epi32((__m256)v);
 #elif defined(__SSE2__)
-    __m128 half[2];
-    memcpy(half, &v, sizeof v);
-    __m128i whole[2] = {_mm_cvtps_epi32(half[0]), _mm_cvtps_epi32(half[1])};
-    v8i i;
-    memcpy(&i, whole, sizeof i);
-    return i;
+    struct simd8_halves x = simd8_split(v);
+    return (v8i)simd8_join((__m128)_mm_cvtps_epi32(x.low), (__m128)_mm_cvtps_epi32(x.high));
 #else
     v8i i;
     for (int lane = 0; lane < LANES; lane++)
@@ -139,26 +157,6 @@ SIMD8 v8u simd8_select_u(v8i mask, v8u a, v8u b)
     return (v8u)simd8_select(mask, (v8f)a, (v8f)b);
 }
 
-#if defined(__SSE2__) && !defined(__AVX2__)
-struct simd8_halves {
-    __m128 low, high;
-};
-
-SIMD8 struct simd8_halves simd8_split(v8f v)
-{
-    struct simd8_halves halves;
-    memcpy(&halves, &v, sizeof v);
-    return halves;
-}
-
-SIMD8 v8f simd8_join(struct simd8_halves halves)
-{
-    v8f v;
-    memcpy(&v, &halves, sizeof v);
-    return v;
-}
-#endif
-
 /* a < b ? a : b, and a > b ? a : b: b when either is not a number. */
 SIMD8 v8f simd8_min(v8f a, v8f b)
 {
@@ -166,7 +164,7 @@ SIMD8 v8f simd8_min(v8f a, v8f b)
     return (v8f)_mm256_min_ps((__m256)a, (__m256)b);
 #elif defined(__SSE2__)
     struct simd8_halves x = simd8_split(a), y = simd8_split(b);
-    return simd8_join((struct simd8_halves){_mm_min_ps(x.low, y.low), _mm_min_ps(x.high, y.high)});
+    return simd8_join(_mm_min_ps(x.low, y.low), _mm_min_ps(x.high, y.high));
 #else
     return simd8_select(a < b, a, b);
 #endif
@@ -178,31 +176,11 @@ SIMD8 v8f simd8_max(v8f a, v8f b)
     return (v8f)_mm256_max_ps((__m256)a, (__m256)b);
 #elif defined(__SSE2__)
     struct simd8_halves x = simd8_split(a), y = simd8_split(b);
-    return simd8_join((struct simd8_halves){_mm_max_ps(x.low, y.low), _mm_max_ps(x.high, y.high)});
+    return simd8_join(_mm_max_ps(x.low, y.low), _mm_max_ps(x.high, y.high));
 #else
     return simd8_select(a > b, a, b);
 #endif
 }
-
-#if defined(__SSE2__) && !defined(__AVX2__)
-struct simd8_wholes {
-    __m128i low, high;
-};
-
-SIMD8 struct simd8_wholes simd8_split_u(v8u v)
-{
-    struct simd8_wholes wholes;
-    memcpy(&wholes, &v, sizeof v);
-    return wholes;
-}
-
-SIMD8 v8u simd8_join_u(struct simd8_wholes wholes)
-{
-    v8u v;
-    memcpy(&v, &wholes, sizeof v);
-    return v;
-}
-#endif
 
 /* The same byte by byte, unsigned. */
 SIMD8 v8u simd8_min_b(v8u a, v8u b)
@@ -210,9 +188,9 @@ SIMD8 v8u simd8_min_b(v8u a, v8u b)
 #if defined(__AVX2__)
     return (v8u)_mm256_min_epu8((__m256i)a, (__m256i)b);
 #elif defined(__SSE2__)
-    struct simd8_wholes x = simd8_split_u(a), y = simd8_split_u(b);
-    return simd8_join_u(
-        (struct simd8_wholes){_mm_min_epu8(x.low, y.low), _mm_min_epu8(x.high, y.high)});
+    struct simd8_halves x = simd8_split((v8f)a), y = simd8_split((v8f)b);
+    return (v8u)simd8_join((__m128)_mm_min_epu8((__m128i)x.low, (__m128i)y.low),
+                           (__m128)_mm_min_epu8((__m128i)x.high, (__m128i)y.high));
 #else
     v8u less = (v8u)((v32b)a < (v32b)b);
     return (a & less) | (b & ~less);
@@ -224,9 +202,9 @@ SIMD8 v8u simd8_max_b(v8u a, v8u b)
 #if defined(__AVX2__)
     return (v8u)_mm256_max_epu8((__m256i)a, (__m256i)b);
 #elif defined(__SSE2__)
-    struct simd8_wholes x = simd8_split_u(a), y = simd8_split_u(b);
-    return simd8_join_u(
-        (struct simd8_wholes){_mm_max_epu8(x.low, y.low), _mm_max_epu8(x.high, y.high)});
+    struct simd8_halves x = simd8_split((v8f)a), y = simd8_split((v8f)b);
+    return (v8u)simd8_join((__m128)_mm_max_epu8((__m128i)x.low, (__m128i)y.low),
+                           (__m128)_mm_max_epu8((__m128i)x.high, (__m128i)y.high));
 #else
     v8u less = (v8u)((v32b)a < (v32b)b);
     return (b & less) | (a & ~less);
@@ -249,7 +227,7 @@ SIMD8 v8f simd8_sqrt(v8f v)
     return (v8f)_mm256_sqrt_ps((__m256)v);
 #elif defined(__SSE2__)
     struct simd8_halves x = simd8_split(v);
-    return simd8_join((struct simd8_halves){_mm_sqrt_ps(x.low), _mm_sqrt_ps(x.high)});
+    return simd8_join(_mm_sqrt_ps(x.low), _mm_sqrt_ps(x.high));
 #else
     for (int i = 0; i < LANES; i++)
         v[i] = sqrtf(v[i]);
@@ -279,8 +257,9 @@ SIMD8 uint32_t simd8_bits_b(v32b mask)
 #if defined(__AVX2__)
     return (uint32_t)_mm256_movemask_epi8((__m256i)mask);
 #elif defined(__SSE2__)
-    struct simd8_wholes x = simd8_split_u((v8u)mask);
-    return (uint32_t)_mm_movemask_epi8(x.low) | (uint32_t)_mm_movemask_epi8(x.high) << 16;
+    struct simd8_halves x = simd8_split((v8f)mask);
+    return (uint32_t)_mm_movemask_epi8((__m128i)x.low) |
+           (uint32_t)_mm_movemask_epi8((__m128i)x.high) << 16;
 #else
     uint32_t bits = 0;
     for (uint32_t i = 0; i < 32; i++)
@@ -300,11 +279,11 @@ SIMD8 v8u simd8_top_bytes(const v8u four[4])
 #elif defined(__SSE2__)
     __m128i pair[4];
     for (uint32_t i = 0; i < 4; i++) {
-        struct simd8_wholes x = simd8_split_u(four[i] >> 24);
-        pair[i] = _mm_packs_epi32(x.low, x.high);
+        struct simd8_halves x = simd8_split((v8f)(four[i] >> 24));
+        pair[i] = _mm_packs_epi32((__m128i)x.low, (__m128i)x.high);
     }
-    return simd8_join_u((struct simd8_wholes){_mm_packus_epi16(pair[0], pair[1]),
-                                              _mm_packus_epi16(pair[2], pair[3])});
+    return (v8u)simd8_join((__m128)_mm_packus_epi16(pair[0], pair[1]),
+                           (__m128)_mm_packus_epi16(pair[2], pair[3]));
 #else
     v32b tops;
     for (uint32_t i = 0; i < 32; i++)
@@ -318,6 +297,13 @@ SIMD8 v8i simd8_mask(uint32_t bits)
 {
     v8i one = (v8i){1, 2, 4, 8, 16, 32, 64, 128};
     return (simd8_i((int32_t)bits) & one) == one;
+}
+
+/* A mask of the numbers x .. x + 7 that lie in first .. end - 1. */
+SIMD8 v8i simd8_within(int32_t x, int32_t first, int32_t end)
+{
+    v8i number = simd8_count() + x;
+    return (number >= first) & (number < end);
 }
 
 /* --- table look-ups: plain loads, which are as fast as the gathers of today's processors --- */
@@ -342,11 +328,6 @@ SIMD8 v8u simd8_gather_bytes(const void *from, v8i at)
     for (int i = 0; i < LANES; i++)
         memcpy(&t[i], first + lanes.lane[i], sizeof t[i]);
     return (v8u){t[0], t[1], t[2], t[3], t[4], t[5], t[6], t[7]};
-}
-
-SIMD8 v8u simd8_gather_u(const uint32_t *table, v8i at)
-{
-    return simd8_gather_bytes(table, at << 2);
 }
 
 SIMD8 v8f simd8_gather_f(const float *table, v8i at)
@@ -382,9 +363,9 @@ SIMD8 struct simd8_pairs simd8_gather_pairs(const void *from, v8i at)
 #elif defined(__SSE2__)
     __m128 a = simd8_two(first, l[0], l[1]), b = simd8_two(first, l[2], l[3]);
     __m128 c = simd8_two(first, l[4], l[5]), d = simd8_two(first, l[6], l[7]);
-    struct simd8_halves low = {_mm_shuffle_ps(a, b, 0x88), _mm_shuffle_ps(c, d, 0x88)};
-    struct simd8_halves high = {_mm_shuffle_ps(a, b, 0xdd), _mm_shuffle_ps(c, d, 0xdd)};
-    return (struct simd8_pairs){(v8u)simd8_join(low), (v8u)simd8_join(high)};
+    return (struct simd8_pairs){
+        (v8u)simd8_join(_mm_shuffle_ps(a, b, 0x88), _mm_shuffle_ps(c, d, 0x88)),
+        (v8u)simd8_join(_mm_shuffle_ps(a, b, 0xdd), _mm_shuffle_ps(c, d, 0xdd))};
 #else
     struct simd8_pairs pairs;
     for (int i = 0; i < LANES; i++) {
@@ -437,20 +418,21 @@ SIMD8 v8f simd8_dot3(const v8f a[3], const v8f b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/* The same with one direction for all eight. */
+SIMD8 v8f simd8_dot3_f(const float a[3], const v8f b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 /* Of sixteen bits: a's products with b's, the two of each lane added. */
 SIMD8 v8i simd8_add_products(v16s a, v16s b)
 {
 #if defined(__AVX2__)
     return (v8i)_mm256_madd_epi16((__m256i)a, (__m256i)b);
 #elif defined(__SSE2__)
-    __m128i x[2], y[2];
-    memcpy(x, &a, sizeof a);
-    memcpy(y, &b, sizeof b);
-    x[0] = _mm_madd_epi16(x[0], y[0]);
-    x[1] = _mm_madd_epi16(x[1], y[1]);
-    v8i sums;
-    memcpy(&sums, x, sizeof sums);
-    return sums;
+    struct simd8_halves x = simd8_split((v8f)a), y = simd8_split((v8f)b);
+    return (v8i)simd8_join((__m128)_mm_madd_epi16((__m128i)x.low, (__m128i)y.low),
+                           (__m128)_mm_madd_epi16((__m128i)x.high, (__m128i)y.high));
 #else
     v8i x = (v8i)a, y = (v8i)b;
     return (x << 16 >> 16) * (y << 16 >> 16) + (x >> 16) * (y >> 16);

@@ -188,11 +188,9 @@ SIMD8 void triangle_raster_walk(const struct triangle_edges *s, const struct sof
         int32_t rows_left = end - y < LANES ? end - y : LANES;
         size_t row = (size_t)(y - t->first) * t->stride;
         for (int32_t i = 0; i < rows_left; i++, row += t->stride)
-            for (int32_t x = first.lane[i] & -LANES; x < last.lane[i]; x += LANES) {
-                v8i column = simd8_count() + x;
+            for (int32_t x = first.lane[i] & -LANES; x < last.lane[i]; x += LANES)
                 pixels(context, x, y + i, row + (size_t)x,
-                       (column >= first.lane[i]) & (column < last.lane[i]));
-            }
+                       simd8_within(x, first.lane[i], last.lane[i]));
     }
 }
 
