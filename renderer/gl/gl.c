@@ -1,4 +1,4 @@
-/* The OpenGL back end: one picture from start to read-back. */
+/* The OpenGL back end: drawing one picture and reading it back. */
 #include "renderer/gl/gl.h"
 
 #include "renderer/gl/gl_context.h"
@@ -15,11 +15,11 @@ struct gl {
     struct gl_textures textures;
     struct gl_ground ground;
     struct gl_bodies bodies;
-    struct gl_billboards boards;
-    GLuint sky_program, smooth_program, empty_array, frame_block;
-    GLuint target, colour, depth; /* where the scene is drawn */
+    struct gl_billboards billboards;
+    GLuint sky_program, empty_array, frame_block;
+    GLuint target, colour, depth; /* what the scene is drawn into */
     uint32_t width, height;       /* of the largest picture */
-    struct image drawn;           /* read back, its edges still rough; of the last one's size */
+    struct image drawn;           /* read back, before FXAA; it has the size of the last picture */
     uint8_t *row;                 /* scratch */
 };
 
@@ -104,7 +104,7 @@ static void send_frame(const struct gl *gl, const struct draw_list *list)
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, gl->frame_block);
 }
 
-/* Shadows darken a pixel once, however many fall on it: the stencil remembers. */
+/* The stencil makes shadows darken a pixel only once, however many fall on it. */
 static void draw_shadows(struct gl *gl, const struct draw_list *list)
 {
     glEnable(GL_STENCIL_TEST);
@@ -116,7 +116,7 @@ static void draw_shadows(struct gl *gl, const struct draw_list *list)
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(-2.0f, -4.0f);
     gl_bodies_draw_shadows(&gl->bodies, list);
-    gl_plants_draw_shadows(&gl->boards, list);
+    gl_plants_draw_shadows(&gl->billboards, list);
     glDisable(GL_POLYGON_OFFSET_FILL);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
@@ -135,20 +135,20 @@ static void draw_scene(struct gl *gl, const struct draw_list *list,
     gl_ground_draw(&gl->ground, list, frame_view);
     draw_shadows(gl, list);
     gl_bodies_draw(&gl->bodies, list);
-    gl_plants_draw(&gl->boards, list);
+    gl_plants_draw(&gl->billboards, list);
     glUseProgram(gl->sky_program);
     glBindVertexArray(gl->empty_array);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glEnable(GL_BLEND);
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glDepthMask(GL_FALSE);
-    gl_particles_draw(&gl->boards, list);
+    gl_particles_draw(&gl->billboards, list);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     glDisable(GL_DEPTH_TEST);
 }
 
-/* OpenGL gives rows from the bottom. */
+/* Reads the picture back and flips it, since OpenGL's rows begin at the bottom. */
 static void read_back(struct gl *gl)
 {
     GLsizei width = (GLsizei)gl->drawn.width, height = (GLsizei)gl->drawn.height;
@@ -171,7 +171,7 @@ static int gl_picture(void *self, const struct draw_list *list, const struct fra
     gl->drawn.height = image->height;
     send_frame(gl, list);
     gl_bodies_send(&gl->bodies, list);
-    gl_billboards_send(&gl->boards, list);
+    gl_billboards_send(&gl->billboards, list);
     draw_scene(gl, list, frame_view);
 
     read_back(gl);
@@ -193,7 +193,7 @@ static void free_memory(struct gl *gl)
 static void gl_close(void *self)
 {
     struct gl *gl = self;
-    gl_billboards_close(&gl->boards);
+    gl_billboards_close(&gl->billboards);
     gl_bodies_close(&gl->bodies);
     gl_ground_close(&gl->ground);
     gl_textures_close(&gl->textures);
@@ -240,7 +240,7 @@ int gl_open(struct back_end_interface *draw, const struct static_scene *static_s
         goto err_textures;
     if (gl_bodies_open(&gl->bodies, static_scene, error) != 0)
         goto err_ground;
-    if (gl_billboards_open(&gl->boards, error) != 0)
+    if (gl_billboards_open(&gl->billboards, error) != 0)
         goto err_bodies;
     snprintf(name, BACK_END_NAME_BYTES, "%s", gl->context.name);
     *draw = (struct back_end_interface){.self = gl, .picture = gl_picture, .close = gl_close};

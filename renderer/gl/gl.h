@@ -6,14 +6,14 @@
 
 struct gl_wish;
 
-/* OpenGL 3.3 core or later without a window (EGL), on the machine's graphics hardware or in
- * software, for pictures up to width x height; name: how it is called, for people. 0, or -1 with
+/* Opens OpenGL 3.3 core or later without a window (EGL), on the machine's graphics hardware or in
+ * software, for pictures up to width x height. name: a description for users. Returns 0, or -1 with
  * the reason, which names what is missing. Takes up to a second. */
 int gl_open(struct back_end_interface *draw, const struct static_scene *static_scene,
             uint32_t width, uint32_t height, const struct gl_wish *wish,
             char name[BACK_END_NAME_BYTES], struct error_text *error);
 
-/* Prints every OpenGL that there is to standard output, a line each. */
+/* Prints every OpenGL device to standard output, one a line. */
 void gl_list(void);
 
 #endif

@@ -1,4 +1,4 @@
-/* Plants and puffs in OpenGL: one picture each, turned to the eye, all in one draw a kind. */
+/* Plants and particles in OpenGL: pictures that face the eye, each kind in one draw. */
 #include "renderer/gl/gl_internal.h"
 
 #include <stddef.h>
@@ -26,7 +26,8 @@ static const char plant_vertex_text[] =
     "    v_picture = vec3(corner.x, 1.0 - corner.y, i_form.w);\n"
     "    v_tint = i_tint;\n"
     "    v_air = air(place);\n"
-    /* Small pictures are averages of leaf and gap: a lower threshold keeps their size. */
+    /* Texels of small pictures are averages of leaves and gaps: a lower threshold keeps the plant's
+     * size. */
     "    v_cut = mix(0.5, 0.22, smoothstep(150.0, 1800.0, length(i_at)));\n"
     "}\n";
 
@@ -52,7 +53,7 @@ static const char plant_fragment_text[] =
     "    o_colour = vec4(mix(colour * light, v_air.rgb, v_air.a), 1.0);\n"
     "}\n";
 
-/* The same picture laid on the ground, away from the sun. */
+/* A plant's shadow: its picture laid on the ground, away from the sun. */
 static const char shadow_vertex_text[] =
     "layout(location = 0) in vec3 i_at;\n"
     "layout(location = 1) in vec4 i_form;\n"
@@ -70,7 +71,7 @@ static const char shadow_vertex_text[] =
     "    vec2 corner = vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1));\n"
     "    vec2 away = -normalize(u_sun.xz);\n"
     "    vec2 across = vec2(-away.y, away.x);\n"
-    /* Where the sun's ray through the top meets the slope. */
+    /* The shadow ends where the sun's ray through the top meets the slope. */
     "    float steep = u_sun.y / length(u_sun.xz) + dot(i_slope, away);\n"
     "    float reach = i_form.y / max(steep, 0.25);\n"
     "    float aside = (corner.x - 0.5) * i_form.x + i_form.z * corner.y * i_form.y;\n"
@@ -114,8 +115,8 @@ static const char particle_vertex_text[] =
     "        off = (u_right.xyz * turned.x + u_up.xyz * turned.y) * i_form.x;\n"
     "    }\n"
     "    gl_Position = u_matrix * vec4(i_at + off, 1.0);\n"
-    /* It is a ball, not a sheet: for depth it counts from its near side, so that the ground does
-       not cut it along a line. */
+    /* A particle is a ball. Its depth is that of its near side, so that the ground does not cut it
+     * along a line. */
     "    vec3 near = i_at + off - normalize(i_at) * min(i_form.x, 0.5 * length(i_at));\n"
     "    vec4 clip = u_matrix * vec4(near, 1.0);\n"
     "    if (clip.w > 0.5)\n"
@@ -145,88 +146,101 @@ static const char particle_fragment_text[] =
     "    o_colour = vec4(colour * much, much * (1.0 - v_glow));\n"
     "}\n";
 
-static void describe_plants(const struct gl_billboards *boards)
+/* A vertex attribute of an instance: so many floats at an offset [byte]. */
+struct attribute {
+    GLint floats;
+    size_t offset;
+};
+
+static const struct attribute plant_attributes[] = {
+    {3, offsetof(struct draw_list_plant, at)},
+    {4, offsetof(struct draw_list_plant, width)},
+    {2, offsetof(struct draw_list_plant, slope)},
+    {3, offsetof(struct draw_list_plant, tint)},
+};
+
+static const struct attribute particle_attributes[] = {
+    {3, offsetof(struct draw_list_particle, at)},
+    {3, offsetof(struct draw_list_particle, axis)},
+    {4, offsetof(struct draw_list_particle, size)},
+    {4, offsetof(struct draw_list_particle, colour)},
+};
+
+static void open_instances(struct gl_instances *instances, const struct attribute attributes[4],
+                           size_t stride)
 {
-    size_t stride = sizeof(struct draw_list_plant);
-    glBindVertexArray(boards->plant_array);
-    glBindBuffer(GL_ARRAY_BUFFER, boards->plants);
-    gl_attribute(0, 3, stride, offsetof(struct draw_list_plant, at), 1);
-    gl_attribute(1, 4, stride, offsetof(struct draw_list_plant, width), 1);
-    gl_attribute(2, 2, stride, offsetof(struct draw_list_plant, slope), 1);
-    gl_attribute(3, 3, stride, offsetof(struct draw_list_plant, tint), 1);
+    glGenVertexArrays(1, &instances->array);
+    glGenBuffers(1, &instances->buffer);
+    glBindVertexArray(instances->array);
+    glBindBuffer(GL_ARRAY_BUFFER, instances->buffer);
+    for (GLuint i = 0; i < 4; i++)
+        gl_attribute(i, attributes[i].floats, stride, attributes[i].offset, 1);
 }
 
-static void describe_particles(const struct gl_billboards *boards)
+static void close_instances(struct gl_instances *instances)
 {
-    size_t stride = sizeof(struct draw_list_particle);
-    glBindVertexArray(boards->particle_array);
-    glBindBuffer(GL_ARRAY_BUFFER, boards->particles);
-    gl_attribute(0, 3, stride, offsetof(struct draw_list_particle, at), 1);
-    gl_attribute(1, 3, stride, offsetof(struct draw_list_particle, axis), 1);
-    gl_attribute(2, 4, stride, offsetof(struct draw_list_particle, size), 1);
-    gl_attribute(3, 4, stride, offsetof(struct draw_list_particle, colour), 1);
+    glDeleteVertexArrays(1, &instances->array);
+    glDeleteBuffers(1, &instances->buffer);
 }
 
-int gl_billboards_open(struct gl_billboards *boards, struct error_text *error)
+static void send_instances(const struct gl_instances *instances, const void *data, size_t bytes)
 {
-    *boards = (struct gl_billboards){.plants = 0};
-    boards->plant_program = gl_program("plant", plant_vertex_text, plant_fragment_text, error);
-    boards->shadow_program =
+    glBindBuffer(GL_ARRAY_BUFFER, instances->buffer);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)bytes, data, GL_STREAM_DRAW);
+}
+
+static void draw_instances(const struct gl_instances *instances, GLuint program, uint32_t count)
+{
+    glUseProgram(program);
+    glBindVertexArray(instances->array);
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)count);
+}
+
+int gl_billboards_open(struct gl_billboards *billboards, struct error_text *error)
+{
+    *billboards = (struct gl_billboards){.plant_program = 0};
+    billboards->plant_program = gl_program("plant", plant_vertex_text, plant_fragment_text, error);
+    billboards->shadow_program =
         gl_program("plant shadow", shadow_vertex_text, shadow_fragment_text, error);
-    boards->particle_program =
-        gl_program("puff", particle_vertex_text, particle_fragment_text, error);
-    if (boards->plant_program == 0 || boards->shadow_program == 0 ||
-        boards->particle_program == 0) {
-        gl_billboards_close(boards);
+    billboards->particle_program =
+        gl_program("particle", particle_vertex_text, particle_fragment_text, error);
+    if (billboards->plant_program == 0 || billboards->shadow_program == 0 ||
+        billboards->particle_program == 0) {
+        gl_billboards_close(billboards);
         return -1;
     }
-    glGenVertexArrays(1, &boards->plant_array);
-    glGenVertexArrays(1, &boards->particle_array);
-    glGenBuffers(1, &boards->plants);
-    glGenBuffers(1, &boards->particles);
-    describe_plants(boards);
-    describe_particles(boards);
+    open_instances(&billboards->plants, plant_attributes, sizeof(struct draw_list_plant));
+    open_instances(&billboards->particles, particle_attributes, sizeof(struct draw_list_particle));
     return 0;
 }
 
-void gl_billboards_close(struct gl_billboards *boards)
+void gl_billboards_close(struct gl_billboards *billboards)
 {
-    glDeleteProgram(boards->plant_program);
-    glDeleteProgram(boards->shadow_program);
-    glDeleteProgram(boards->particle_program);
-    glDeleteVertexArrays(1, &boards->plant_array);
-    glDeleteVertexArrays(1, &boards->particle_array);
-    glDeleteBuffers(1, &boards->plants);
-    glDeleteBuffers(1, &boards->particles);
+    glDeleteProgram(billboards->plant_program);
+    glDeleteProgram(billboards->shadow_program);
+    glDeleteProgram(billboards->particle_program);
+    close_instances(&billboards->plants);
+    close_instances(&billboards->particles);
 }
 
-void gl_billboards_send(struct gl_billboards *boards, const struct draw_list *list)
+void gl_billboards_send(struct gl_billboards *billboards, const struct draw_list *list)
 {
-    glBindBuffer(GL_ARRAY_BUFFER, boards->plants);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(list->plant_count * sizeof *list->plants),
-                 list->plants, GL_STREAM_DRAW);
-    glBindBuffer(GL_ARRAY_BUFFER, boards->particles);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(list->particle_count * sizeof *list->particles),
-                 list->particles, GL_STREAM_DRAW);
+    send_instances(&billboards->plants, list->plants, list->plant_count * sizeof *list->plants);
+    send_instances(&billboards->particles, list->particles,
+                   list->particle_count * sizeof *list->particles);
 }
 
-void gl_plants_draw_shadows(struct gl_billboards *boards, const struct draw_list *list)
+void gl_plants_draw_shadows(struct gl_billboards *billboards, const struct draw_list *list)
 {
-    glUseProgram(boards->shadow_program);
-    glBindVertexArray(boards->plant_array);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)list->plant_count);
+    draw_instances(&billboards->plants, billboards->shadow_program, list->plant_count);
 }
 
-void gl_plants_draw(struct gl_billboards *boards, const struct draw_list *list)
+void gl_plants_draw(struct gl_billboards *billboards, const struct draw_list *list)
 {
-    glUseProgram(boards->plant_program);
-    glBindVertexArray(boards->plant_array);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)list->plant_count);
+    draw_instances(&billboards->plants, billboards->plant_program, list->plant_count);
 }
 
-void gl_particles_draw(struct gl_billboards *boards, const struct draw_list *list)
+void gl_particles_draw(struct gl_billboards *billboards, const struct draw_list *list)
 {
-    glUseProgram(boards->particle_program);
-    glBindVertexArray(boards->particle_array);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, (GLsizei)list->particle_count);
+    draw_instances(&billboards->particles, billboards->particle_program, list->particle_count);
 }

@@ -1,12 +1,12 @@
-/* Polygon bodies in OpenGL: every mesh once, drawn as often as the scene has copies of it, and once
- * more flattened onto the ground as their shadows. */
+/* Bodies in OpenGL. Each mesh is drawn once for all its instances, and a second time, flattened
+ * onto the ground, for their shadows. */
 #include "renderer/gl/gl_internal.h"
 
 #include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define SHADE "vec4(0.05, 0.06, 0.09, 0.50)"
+#define SHADOW_COLOUR "vec4(0.05, 0.06, 0.09, 0.50)"
 
 static const char vertex_text[] =
     "uniform float u_low;\n"
@@ -18,7 +18,7 @@ static const char vertex_text[] =
     "{\n"
     "    vec3 rolling = rolled(a_place, 1.0);\n"
     "    vec3 place = formed(rolling), normal = rolled(a_normal, 0.0);\n"
-    /* Where the form is another, so is the way the surface faces. */
+    /* A deformed surface has other normals. */
     "    if (i_form.y > 0.5 || i_falls.z > 0.0 || i_broken.z > 0.0) {\n"
     "        vec3 along = normalize(cross(normal, abs(normal.y) < 0.8 ? vec3(0.0, 1.0, 0.0)\n"
     "                                                               : vec3(1.0, 0.0, 0.0)));\n"
@@ -35,8 +35,8 @@ static const char vertex_text[] =
     "    vec3 n = normalize(in_world(normal));\n"
     "    gl_Position = u_matrix * vec4(world, 1.0);\n"
     "    float sun = max(dot(n, u_sun.xyz), 0.0);\n"
-    /* The sky lights what faces up, the ground throws a little back, and what is low under a
-       body gets neither. */
+    /* The sky lights surfaces that face up, the ground reflects a little, and both are weaker low
+     * under a body. */
     "    float open = mix(0.55, 1.0, smoothstep(0.0, 1.3, place.y - u_low));\n"
     "    vec3 sky_part = mix(vec3(0.36, 0.31, 0.24), sky_light * 1.12, 0.5 + 0.5 * n.y);\n"
     "    v_light = sky_part * open + sun_light * sun * mix(0.8, 1.0, open);\n"
@@ -62,18 +62,18 @@ static const char fragment_text[] =
     "void main()\n"
     "{\n"
     "    vec3 colour = v_colour.rgb;\n"
-    /* A track's links, light and dark by turns, until they are finer than pixels. */
+    /* A track's links alternate between light and dark until they are narrower than pixels. */
     "    float link = smoothstep(0.1, 0.3, abs(fract(0.5 * v_link.x) - 0.5));\n"
     "    link = mix(link, 0.5, clamp(2.0 * fwidth(v_link.x) - 0.5, 0.0, 1.0));\n"
     "    colour *= mix(1.0, 0.55 + 0.9 * link, v_link.y);\n"
-    /* Bent sheet: the paint has gone where it bent most. (No level of detail is known within a
-       branch that not all pixels take.) */
+    /* A dented surface shows bare metal. (The level of detail is undefined in a branch that not all
+     * pixels take.) */
     "    if (v_bare > 0.0) {\n"
     "        float scrape = textureLod(u_detail, v_body.xy * 0.9 + v_body.z, 0.0).g;\n"
     "        colour = mix(colour, vec3(0.30, 0.285, 0.27) * (0.5 + scrape),\n"
     "                     0.85 * smoothstep(1.0 - v_bare, 1.25 - v_bare, scrape + 0.15));\n"
     "    }\n"
-    /* Rubble: what it was, dust, and dark gaps between. */
+    /* A collapsed body has its own colour, dust, and dark gaps. */
     "    if (v_fell > 0.0) {\n"
     "        vec2 at = v_body.xz + 0.7 * v_body.y;\n"
     "        float lump = textureLod(u_detail, at * 0.21, 0.0).g;\n"
@@ -81,7 +81,7 @@ static const char fragment_text[] =
     "        vec3 dust = vec3(0.60, 0.53, 0.43) * (0.7 + 0.5 * gap);\n"
     "        vec3 rubble = mix(colour, dust, smoothstep(0.36, 0.52, lump));\n"
     "        rubble *= mix(0.35, 1.0, smoothstep(0.34, 0.50, gap));\n"
-    /* Between what stands and what lies, a slope of earth. */
+    /* Earth lies between the standing and the collapsed part. */
     "        float torn = smoothstep(0.01, 0.15, v_fell) * (1.0 - smoothstep(0.85, 1.0, v_fell));\n"
     "        vec3 earth = vec3(0.42, 0.35, 0.27) * (0.55 + 0.9 * lump * gap);\n"
     "        colour = mix(mix(colour, rubble, smoothstep(0.5, 1.0, v_fell)), earth, 0.92 * torn);\n"
@@ -94,7 +94,7 @@ static const char fragment_text[] =
     "step(v_colour.a, 0.6);\n"
     "        colour *= 1.0 - 0.30 * patch_dark;\n"
     "        colour *= 0.86 + 0.28 * fine.r;\n"
-    /* Soot lies in drifts, thin at the edges, and never quite covers what still goes. */
+    /* Soot lies in patches with soft edges and never fully covers a body that still works. */
     "        float soot = smoothstep(1.12 - 1.15 * v_burn, 1.54 - 1.15 * v_burn,\n"
     "                                fine.g + 0.3 * blot.g);\n"
     "        soot *= min(0.5 + 0.8 * v_burn, 1.0) * smoothstep(0.0, 0.1, v_burn);\n"
@@ -129,11 +129,11 @@ static const char shadow_fragment_text[] = "in float v_clear;\n"
                                            "out vec4 o_colour;\n"
                                            "void main()\n"
                                            "{\n"
-                                           "    vec4 shade = " SHADE ";\n"
+                                           "    vec4 shade = " SHADOW_COLOUR ";\n"
                                            "    o_colour = vec4(shade.rgb, shade.a * v_clear);\n"
                                            "}\n";
 
-/* All meshes of all models into one buffer. 0, or -1 with errno. */
+/* Sends all meshes of all models in one buffer. Returns 0, or -1 with errno. */
 static int send_meshes(struct gl_bodies *bodies)
 {
     const struct world *world = bodies->static_scene->world;
@@ -182,7 +182,8 @@ static void describe_vertices(const struct gl_bodies *bodies)
     gl_attribute(15, 1, stride, offsetof(struct mesh_vertex, along), 0);
 }
 
-/* Points the copies' attributes at the first of a batch: OpenGL 3.3 has no first instance. */
+/* Points the instances' attributes at the first of a batch, since OpenGL 3.3 has no base
+ * instance. */
 static void describe_copies(const struct gl_bodies *bodies, uint32_t first)
 {
     size_t stride = sizeof(struct draw_list_body), base = first * stride;
@@ -272,7 +273,7 @@ static bool same_mesh(const struct draw_list_instance *a, const struct draw_list
     return a->model == b->model && a->detail == b->detail;
 }
 
-/* One draw for each run of copies of a mesh. */
+/* Draws each run of instances of one mesh. */
 static void draw_runs(const struct gl_bodies *bodies, const struct draw_list *list, GLint u_pivots,
                       GLint u_low)
 {

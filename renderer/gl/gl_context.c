@@ -1,6 +1,6 @@
-/* The search for a usable OpenGL. The commonest complaints about off-screen rendering are that
- * only the first device was tried, that no cause was given, and that pictures were silently black;
- * so every candidate is tried, every failure is named, and a known pixel must come back. */
+/* The search for a usable OpenGL. Users of off-screen rendering mostly complain that only the first
+ * device was tried, that no cause was given, and that pictures were silently black. Therefore every
+ * candidate is tried, every failure is reported, and a known pixel must be read back. */
 #include "renderer/gl/gl_context.h"
 
 #include "renderer/gl/gl_devices.h"
@@ -36,15 +36,15 @@ static const char *egl_error(void)
     }
 }
 
-/* Adds "name: what; " to the reason, as far as there is room. */
-static void note(struct error_text *error, const char *name, const char *what)
+/* Appends "name: what" to the reason, if there is space. */
+static void append_failure(struct error_text *error, const char *name, const char *what)
 {
     size_t used = strlen(error->text);
     snprintf(error->text + used, sizeof error->text - used, "%s%.40s: %.60s", used > 0 ? "; " : "",
              name, what);
 }
 
-/* A green that no cleared, lost or uninitialised memory looks like must come back. */
+/* Draws a pixel and reads it back. No cleared or uninitialised memory has this green. */
 static bool draws_a_pixel(void)
 {
     GLuint buffer, frame;
@@ -64,7 +64,7 @@ static bool draws_a_pixel(void)
     return pixel[0] == 51 && pixel[1] == 204 && pixel[2] == 102 && pixel[3] == 255;
 }
 
-/* A current context on an initialised display; NULL, or why there is none. */
+/* Makes a context current on an initialised display. Returns NULL, or the reason. */
 static const char *make_context(struct gl_context *gl)
 {
     const char *extensions = eglQueryString(gl->display, EGL_EXTENSIONS);
@@ -123,7 +123,7 @@ static const char *try_candidate(struct gl_context *gl, const struct gl_candidat
     return detail;
 }
 
-/* Is the context on hardware, and how is it called? */
+/* Finds whether the context is on hardware, and its name. */
 static void describe(struct gl_context *gl, const struct gl_candidate *candidate)
 {
     const char *renderer = (const char *)glGetString(GL_RENDERER);
@@ -134,9 +134,9 @@ static void describe(struct gl_context *gl, const struct gl_candidate *candidate
              gl->software ? "software" : "hardware");
 }
 
-/* A context on this candidate as it is wished for; NULL, or why there is none. */
-static const char *try_wished(struct gl_context *gl, const struct gl_candidate *candidate,
-                              const struct gl_wish *wish)
+/* Opens a context on the candidate if it fulfils the wish. Returns NULL, or the reason. */
+static const char *try_if_wished(struct gl_context *gl, const struct gl_candidate *candidate,
+                                 const struct gl_wish *wish)
 {
     if (!gl_may_be(candidate, wish))
         return "not asked for";
@@ -163,10 +163,10 @@ int gl_context_open(struct gl_context *gl, const struct gl_wish *wish, struct er
     uint32_t count = gl_find_candidates(candidates);
     struct error_text failures = {.text = ""};
     for (uint32_t i = 0; i < count; i++) {
-        const char *detail = try_wished(gl, &candidates[i], wish);
+        const char *detail = try_if_wished(gl, &candidates[i], wish);
         if (detail == NULL)
             return 0;
-        note(&failures, candidates[i].name, detail);
+        append_failure(&failures, candidates[i].name, detail);
     }
     if (wish->device != NULL)
         return error_text_set(error,

@@ -1,4 +1,4 @@
-/* Devices by EGL, and what the system says of them. */
+/* Devices that EGL lists, and what the system reports about them. */
 #include "renderer/gl/gl_devices.h"
 
 #include "world/runtime/parse_number.h"
@@ -110,7 +110,7 @@ bool gl_hardware(char *detail, size_t bytes)
 
 int gl_library(struct error_text *error)
 {
-    /* epoxy ends the process when it finds no libEGL, so it is asked only when there is one. */
+    /* epoxy ends the process when there is no libEGL, so this is checked first. */
     if (dlopen("libEGL.so.1", RTLD_LAZY | RTLD_GLOBAL) == NULL)
         return error_text_set(error,
                               "no OpenGL: libEGL.so.1 is not installed; on Debian and Ubuntu: "
@@ -119,7 +119,7 @@ int gl_library(struct error_text *error)
     return 0;
 }
 
-/* A number, when the wish is nothing else; -1 else. */
+/* Returns the device's number if the wish is a number, else -1. */
 static int number_of(const char *device)
 {
     uint64_t number;

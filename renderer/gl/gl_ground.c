@@ -1,4 +1,4 @@
-/* The ground in OpenGL: the cache's tiles, each sent to the driver when it is new. */
+/* The ground in OpenGL: the tiles of the cache, each sent to the driver when it has changed. */
 #include "renderer/gl/gl_internal.h"
 
 #include "renderer/scene/frame/light.h"
@@ -8,9 +8,9 @@
 
 static const char vertex_text[] =
     "layout(location = 0) in vec3 a_place;\n"
-    "uniform vec4 u_origin;\n"    /* the patch's corner from the eye; its side */
-    "uniform vec4 u_detail_at;\n" /* the corner in the fine texture and in the waves */
-    "uniform vec3 u_part;\n"      /* of the painting: its corner, its side */
+    "uniform vec4 u_origin;\n"    /* the patch's corner from the eye [m]; its side */
+    "uniform vec4 u_detail_at;\n" /* the corner in the detail texture and in the waves [period] */
+    "uniform vec3 u_part;\n"      /* the part of the ground texture: its corner, its side */
     "out vec2 v_tile, v_fine, v_waves;\n"
     "out vec3 v_place;\n"
     "out vec4 v_air;\n"
@@ -19,7 +19,8 @@ static const char vertex_text[] =
     "{\n"
     "    vec3 place = u_origin.xyz + a_place;\n"
     "    gl_Position = u_matrix * vec4(place, 1.0);\n"
-    /* The first and last texel lie on the patch's edges: neighbours meet in the same colour. */
+    /* The first and last texel lie on the patch's edges, so that neighbours have the same colour
+     * there. */
     "    vec2 at = u_part.xy + a_place.xz * (u_part.z / u_origin.w);\n"
     "    v_tile = (at * (texels - 1.0) + 0.5) / texels;\n"
     "    v_fine = u_detail_at.xy + a_place.xz / FINE_M;\n"
@@ -29,15 +30,16 @@ static const char vertex_text[] =
     "    v_air = air(place);\n"
     "}\n";
 
-/* Software OpenGL runs through every branch of a shader, so ground without water has one of its
- * own, at a fifth of the cost. */
+/* Software OpenGL executes every branch of a shader. Ground without water therefore has a shader of
+ * its own, at a fifth of the cost. */
 #define LAND                                                                                       \
     "uniform sampler2D u_tile, u_detail;\n"                                                        \
     "uniform float u_texel_m;\n"                                                                   \
     "in vec2 v_tile, v_fine, v_waves;\n"                                                           \
     "in vec3 v_place;\n"                                                                           \
     "in vec4 v_air;\n"                                                                             \
-    "out vec4 o_colour;\n" /* The mip is tile_texels()'s; the filter takes the nearest. */         \
+    "out vec4 o_colour;\n" /* The mip is that of tile_texels(); the filter rounds it to the        \
+                              nearest. */                                                          \
     "vec4 painting()\n"                                                                            \
     "{\n"                                                                                          \
     "    float covers = max(length(dFdx(v_place)), length(dFdy(v_place)));\n"                      \
@@ -79,7 +81,7 @@ static const char shore_text[] =
          "    float glint = max(dot(back, u_sun.xyz), 0.0);\n"
          "    back.y += WAVE_LIFT;\n"
          "    vec3 water = mix(tile.rgb, sky(back), mirror);\n"
-         "    glint *= glint;\n" /* to the 128th */
+         "    glint *= glint;\n" /* to the power of 128 */
          "    glint *= glint;\n"
          "    glint *= glint;\n"
          "    glint *= glint;\n"
@@ -87,7 +89,7 @@ static const char shore_text[] =
          "    glint *= glint;\n"
          "    glint *= glint;\n"
          "    water += sun_light * glint * 1.6;\n"
-         /* Two lines of foam that come and go, and the wash at the water's edge. */
+         /* There are two lines of foam that come and go, and the wash at the water's edge. */
          "    float shore = clamp(tile.a / SHORE_WATER, 0.0, 1.0);\n"
          "    float beat = abs(2.0 * fract(u_forward.w / SURF_S) - 1.0);\n"
          "    beat = beat * beat * (3.0 - 2.0 * beat);\n"
@@ -160,7 +162,7 @@ void gl_ground_close(struct gl_ground *ground)
     terrain_tiles_free(&ground->cache);
 }
 
-/* The driver's copy of a tile in the cache. */
+/* Returns the driver's copy of a tile. */
 static struct gl_tile *copy_of(struct gl_ground *ground, const struct tile *tile)
 {
     struct gl_tile *copy = &ground->tiles[terrain_tiles_index(&ground->cache, tile)];
@@ -169,7 +171,7 @@ static struct gl_tile *copy_of(struct gl_ground *ground, const struct tile *tile
     return copy;
 }
 
-static void send_shape(struct gl_ground *ground, const struct tile *tile)
+static void send_mesh(struct gl_ground *ground, const struct tile *tile)
 {
     struct gl_tile *copy = copy_of(ground, tile);
     if (copy->mesh_version == tile->mesh_version)
@@ -185,7 +187,7 @@ static void send_shape(struct gl_ground *ground, const struct tile *tile)
                  GL_STATIC_DRAW);
 }
 
-static void send_paint(struct gl_ground *ground, const struct tile *tile)
+static void send_texture(struct gl_ground *ground, const struct tile *tile)
 {
     struct gl_tile *copy = copy_of(ground, tile);
     if (copy->texture_version == tile->texture_version)
@@ -235,8 +237,8 @@ void gl_ground_draw(struct gl_ground *ground, const struct draw_list *list,
         const struct tile_view *view = &cache->views[i];
         const struct gl_ground_shader *shader =
             view->texture_tile->wet ? &ground->shore : &ground->land;
-        send_shape(ground, view->tile);
-        send_paint(ground, view->texture_tile);
+        send_mesh(ground, view->tile);
+        send_texture(ground, view->texture_tile);
         glUseProgram(shader->program);
         draw_view(ground, shader, list, view);
     }

@@ -1,4 +1,4 @@
-/* Shaders: compiling them, and the text that all of them share. */
+/* Compiling shaders, and the text that all of them share. */
 #include "renderer/gl/gl_internal.h"
 
 #include "renderer/scene/frame/light.h"
@@ -9,7 +9,7 @@
 
 #define LOG_BYTES 512
 
-/* Numbers of light.h and tiles.h, by their own names. */
+/* Constants of light.h and terrain_tiles.h, under the same names. */
 #define NUMBER(name) "const float " #name " = " LIGHT_TEXT(name) ";\n"
 #define COLOUR(name) "const vec3 " #name " = vec3(" LIGHT_TEXT(name) ");\n"
 
@@ -26,8 +26,8 @@ static const char numbers_text[] =
     NUMBER(SUN_LIGHT_RED) NUMBER(SUN_LIGHT_GREEN) NUMBER(SUN_LIGHT_BLUE);
 /* clang-format on */
 
-/* Light and air are one model for everything in a picture: ground fades into the very colour that
- * the sky has there. */
+/* One model of light and air for all shaders, so that distant ground fades into the colour that the
+ * sky has there. */
 static const char shared_text[] =
     "layout(std140) uniform frame {\n"
     "    mat4 u_matrix;\n"
@@ -41,7 +41,7 @@ static const char shared_text[] =
     "    float glow = 0.5 + 0.5 * towards;\n"
     "    return mix(HORIZON_COOL, HORIZON_WARM, glow * glow * glow);\n"
     "}\n"
-    /* Of the fog, whose own white takes the horizon's colour on. */
+    /* The fog's colour is half the horizon's. */
     "vec3 white(vec3 way)\n"
     "{\n"
     "    return mix(FOG_WHITE, horizon(way), 0.5);\n"
@@ -52,14 +52,15 @@ static const char shared_text[] =
     "    vec3 c = mix(SKY_MID, SKY_DEEP, 1.0 - exp(-2.6 * high));\n"
     "    return mix(c, horizon(way), exp(-9.0 * high));\n"
     "}\n"
-    /* How much fog there is between the eye and the sky along a unit way: all the fog above the
-     * eye, seen aslant. */
+    /* The opacity of the fog between the eye and the sky in a unit direction: all the fog above the
+     * eye, along the slanted path. */
     "float sky_fog(vec3 way)\n"
     "{\n"
     "    float fog = u_fog.y * exp(-u_fog.w * u_fog.z);\n"
     "    return fog / (fog + u_fog.z * max(way.y, 1e-4));\n"
     "}\n"
-    /* rgb: what the air puts in front of a thing at this place from the eye; a: how much. */
+    /* The air between the eye and a point [m from the eye]: its colour, and its opacity in
+     * alpha. */
     "vec4 air(vec3 place)\n"
     "{\n"
     "    float far = length(place);\n"

@@ -1,5 +1,5 @@
-/* Light and air for eight pixels or corners at a time: one model for everything in a picture, so
- * that the ground fades into the very colour that the sky has there. Kernels only. */
+/* The colours of sky and air for eight pixels or corners at a time. All kernels use this one model,
+ * so that distant ground fades into the colour that the sky has there. Kernels only. */
 #ifndef JOLON_RENDERER_SOFT_ATMOSPHERE_H
 #define JOLON_RENDERER_SOFT_ATMOSPHERE_H
 
@@ -11,10 +11,10 @@ struct colour8 {
     v8f r, g, b;
 };
 
-/* What the air puts in front of a thing, and how much of it. */
+/* The haze and fog between the eye and a point. */
 struct atmosphere8 {
     struct colour8 colour;
-    v8f much;
+    v8f opacity;
 };
 
 SIMD8 struct colour8 colour_of(float r, float g, float b)
@@ -37,7 +37,7 @@ SIMD8 struct colour8 colour_add(struct colour8 a, struct colour8 b)
     return (struct colour8){a.r + b.r, a.g + b.g, a.b + b.b};
 }
 
-/* The sky's colour where it meets the ground; x and z of any way there. */
+/* Returns the sky's colour at the horizon in the directions (x, z), of any length. */
 SIMD8 struct colour8 atmosphere_horizon(const struct soft_frame *frame, v8f x, v8f z)
 {
     float level = sqrtf(frame->sun[0] * frame->sun[0] + frame->sun[2] * frame->sun[2]);
@@ -47,22 +47,23 @@ SIMD8 struct colour8 atmosphere_horizon(const struct soft_frame *frame, v8f x, v
     return colour_mix(colour_of(HORIZON_COOL), colour_of(HORIZON_WARM), glow * glow * glow);
 }
 
-/* Of the fog, whose own white takes the horizon's colour on. */
+/* Returns the fog's colour, which is half the horizon's. */
 SIMD8 struct colour8 atmosphere_white(struct colour8 horizon)
 {
     return colour_mix(colour_of(FOG_WHITE), horizon, simd8_f(0.5f));
 }
 
-/* The sky without sun and clouds, along unit ways. */
-SIMD8 struct colour8 atmosphere_sky(const struct soft_frame *frame, const v8f way[3])
+/* Returns the sky's colour without sun and clouds in unit directions. */
+SIMD8 struct colour8 atmosphere_sky(const struct soft_frame *frame, const v8f direction[3])
 {
-    v8f high = simd8_max(way[1], simd8_f(0.0f));
+    v8f high = simd8_max(direction[1], simd8_f(0.0f));
     struct colour8 c =
         colour_mix(colour_of(SKY_MID), colour_of(SKY_DEEP), 1.0f - simd8_exp_minus(2.6f * high));
-    return colour_mix(c, atmosphere_horizon(frame, way[0], way[2]), simd8_exp_minus(9.0f * high));
+    return colour_mix(c, atmosphere_horizon(frame, direction[0], direction[2]),
+                      simd8_exp_minus(9.0f * high));
 }
 
-/* The air between the eye and places [m from the eye]. */
+/* Returns the air between the eye and points [m from the eye]. */
 SIMD8 struct atmosphere8 atmosphere_at(const struct soft_frame *frame, const v8f place[3])
 {
     v8f far = simd8_sqrt(simd8_dot3(place, place));
@@ -77,17 +78,20 @@ SIMD8 struct atmosphere8 atmosphere_at(const struct soft_frame *frame, const v8f
         1.0f - simd8_exp_minus(all)};
 }
 
-/* The fog between the eye and the sky along unit ways: all the fog above the eye, seen aslant. */
-SIMD8 struct atmosphere8 atmosphere_before_sky(const struct soft_frame *frame, const v8f way[3])
+/* Returns the fog between the eye and the sky in unit directions: all the fog above the eye, along
+ * the slanted path. */
+SIMD8 struct atmosphere8 atmosphere_before_sky(const struct soft_frame *frame,
+                                               const v8f direction[3])
 {
-    v8f up = frame->fog_fall * simd8_max(way[1], simd8_f(1e-4f));
-    return (struct atmosphere8){atmosphere_white(atmosphere_horizon(frame, way[0], way[2])),
-                                frame->fog / (frame->fog + up)};
+    v8f up = frame->fog_fall * simd8_max(direction[1], simd8_f(1e-4f));
+    return (struct atmosphere8){
+        atmosphere_white(atmosphere_horizon(frame, direction[0], direction[2])),
+        frame->fog / (frame->fog + up)};
 }
 
 SIMD8 struct colour8 atmosphere_over(struct colour8 c, const struct atmosphere8 *air)
 {
-    return colour_mix(c, air->colour, air->much);
+    return colour_mix(c, air->colour, air->opacity);
 }
 
 #endif

@@ -1,17 +1,17 @@
-/* Lists of what touches each band, and lists that grow. */
+/* Sorting of items into the bands of a picture, and arrays that grow. */
 #include "renderer/soft/band_lists.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-int band_lists_room(void **list, size_t *room, size_t count, size_t size)
+int band_lists_reserve(void **list, size_t *room, size_t count, size_t size)
 {
     if (count <= *room)
         return 0;
-    size_t wanted = count + count / 2;
-    /* Aligned, for rows of pixels as for records. */
-    size_t bytes = (wanted * size + SOFT_ALIGN - 1) / SOFT_ALIGN * SOFT_ALIGN;
+    size_t capacity = count + count / 2;
+    /* aligned_alloc() needs a multiple of the alignment. */
+    size_t bytes = (capacity * size + SOFT_ALIGN - 1) / SOFT_ALIGN * SOFT_ALIGN;
     void *grown = aligned_alloc(SOFT_ALIGN, bytes);
     if (grown == NULL) {
         errno = ENOMEM;
@@ -21,7 +21,7 @@ int band_lists_room(void **list, size_t *room, size_t count, size_t size)
         memcpy(grown, *list, *room * size);
     free(*list);
     *list = grown;
-    *room = wanted;
+    *room = capacity;
     return 0;
 }
 
@@ -39,7 +39,7 @@ int band_lists_sort(struct band_lists *lists, const struct band_rows *rows, uint
         next[b] = start[b];
     }
     void *item = lists->item;
-    if (band_lists_room(&item, &lists->room, start[bands], sizeof *lists->item) != 0)
+    if (band_lists_reserve(&item, &lists->room, start[bands], sizeof *lists->item) != 0)
         return -1;
     lists->item = item;
     for (uint32_t i = 0; i < count; i++)

@@ -1,4 +1,4 @@
-/* Lists of what touches each band of the picture. */
+/* For each band of the picture the list of items that touch it. */
 #ifndef JOLON_RENDERER_SOFT_BAND_LISTS_H
 #define JOLON_RENDERER_SOFT_BAND_LISTS_H
 
@@ -8,21 +8,23 @@
 #include <stdint.h>
 
 struct band_rows {
-    int16_t first, end; /* rows of the picture, within it; first < end */
+    int16_t first, end; /* rows first .. end - 1 of the picture; first < end */
 };
 
 struct band_lists {
-    uint32_t *item; /* owned; of band b: item[start[b]] .. item[start[b + 1] - 1], rising */
+    uint32_t
+        *item; /* owned; band b has item[start[b]] .. item[start[b + 1] - 1], in rising order */
     size_t room;
     uint32_t start[SOFT_BANDS_MAX + 1];
 };
 
-/* Sorts count items, whose rows are given, into the bands. 0, or -1 with errno ENOMEM. */
+/* Sorts items into the bands by the rows that each touches. Returns 0, or -1 with errno ENOMEM. */
 int band_lists_sort(struct band_lists *lists, const struct band_rows *rows, uint32_t count,
                     uint32_t bands);
 void band_lists_free(struct band_lists *lists);
 
-/* Makes room for count things of a size; what was there is kept. 0, or -1 with errno ENOMEM. */
-int band_lists_room(void **list, size_t *room, size_t count, size_t size);
+/* Enlarges an array to hold count elements of a size [byte] and keeps its content. Returns 0, or -1
+ * with errno ENOMEM. */
+int band_lists_reserve(void **list, size_t *room, size_t count, size_t size);
 
 #endif

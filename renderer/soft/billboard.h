@@ -1,4 +1,5 @@
-/* Pictures standing in space: walking the pixels of one. Kernels only. */
+/* Billboards (pictures that stand in space or lie on the ground): the pixels that each covers.
+ * Kernels only. */
 #ifndef JOLON_RENDERER_SOFT_BILLBOARD_H
 #define JOLON_RENDERER_SOFT_BILLBOARD_H
 
@@ -6,13 +7,14 @@
 #include "renderer/soft/triangle_raster.h"
 #include "renderer/soft/simd8.h"
 
-/* A value at eight pixels of a row from x on. */
+/* Returns a value of the billboard at eight columns of a row. */
 SIMD8 v8f billboard_value(const float value[3], v8f x, float y)
 {
     return value[0] + y * value[2] + x * value[1];
 }
 
-/* Makes the range of columns smaller to where a value is not below 0, or a little beyond. */
+/* Narrows the range of columns to those where a value that grows by a step a column is at least 0,
+ * and a column beyond. */
 SIMD8 void billboard_bound(float at, float step, float *left, float *right)
 {
     float bound = -at / step;
@@ -24,7 +26,7 @@ SIMD8 void billboard_bound(float at, float step, float *left, float *right)
         *right = *left;
 }
 
-/* The columns of a row in which the picture lies. */
+/* Finds the columns first .. end - 1 of a row that the billboard may cover. */
 SIMD8 void billboard_range(const struct soft_billboard *b, int32_t y, int32_t *first, int32_t *end)
 {
     float side = (float)(1u << b->level), left = b->left, right = b->right, row = (float)y;
@@ -38,14 +40,14 @@ SIMD8 void billboard_range(const struct soft_billboard *b, int32_t y, int32_t *f
     *end = right > left ? (int32_t)right : 0;
 }
 
-/* Eight pixels of a board. */
+/* Eight pixels of a billboard. */
 struct billboard8 {
     v8f depth, column, row; /* texels */
     v8i seen;
 };
 
-/* Where eight pixels fall in the picture, and which are in it and at least as near as what is
- * there. */
+/* Finds the texels of eight pixels, and which pixels lie in the picture and nearer than the depth
+ * that is stored. */
 SIMD8 struct billboard8 billboard_pixels(const struct soft_billboard *b, const float *there,
                                          int32_t x, int32_t y, v8i inside)
 {

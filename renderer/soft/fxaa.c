@@ -1,4 +1,4 @@
-/* The choice between the two builds of the same loop. */
+/* Chooses between the two builds of the same loop. */
 #include "renderer/soft/fxaa.h"
 
 void fxaa_rows(struct image *to, const struct image *from, uint32_t first, uint32_t end)

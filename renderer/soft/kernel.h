@@ -1,6 +1,6 @@
-/* Kernels: the inner loops, compiled twice from files named kernel_*.c, once for every processor of
- * the architecture and once for those with AVX2. Both give the same picture to the bit. Which is
- * used is chosen when the back end is opened. */
+/* Kernels: the inner loops, in the files kernel_*.c. Each is compiled twice, for every processor of
+ * the architecture and for those with AVX2. Both give the same picture to the bit. The back end
+ * chooses when it is opened. */
 #ifndef JOLON_RENDERER_SOFT_KERNEL_H
 #define JOLON_RENDERER_SOFT_KERNEL_H
 
@@ -11,7 +11,7 @@ struct soft_bodies;
 struct soft_plants;
 struct soft_particles;
 
-/* X(name, results, parameters) of each kernel. */
+/* X(name, result, parameters) of each kernel. */
 #define SOFT_KERNELS(X)                                                                            \
     X(soft_ground_set_up, void, (struct soft_ground * ground, const struct soft_frame *frame))     \
     X(soft_ground_fill, void,                                                                      \

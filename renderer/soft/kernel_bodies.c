@@ -1,31 +1,32 @@
-/* Bodies and their shadows, made ready: corners are moved, lit and projected; faces set up. */
+/* Sets up bodies and their shadows: corners are transformed, lit and projected, faces set up. */
 #include "renderer/soft/atmosphere.h"
 #include "renderer/soft/body_deform.h"
 #include "renderer/soft/kernel.h"
 #include "renderer/soft/soft_bodies.h"
 #include "renderer/soft/triangle_raster.h"
 
-#define SHADE_BIAS   0.002f /* of the distance: a shadow lies so much nearer than its plane */
-#define SHADE_PIXELS 2.0f   /* and as its plane is so many pixels further */
+#define SHADOW_BIAS   0.002f /* of the distance, by which a shadow is nearer than its plane, */
+#define SHADOW_PIXELS 2.0f   /* plus the plane's slope over this many pixels */
 
-/* m times a place, and t. */
+/* The map m * v + t. */
 struct affine {
     float m[3][3], t[3];
 };
 
-/* One body on its way. */
-struct maker {
+/* The state of setting up one body. */
+struct body_setup {
     struct soft_bodies *bodies;
     const struct soft_frame *frame;
     const struct draw_list_body *body;
     const struct soft_mesh *mesh;
     const struct mesh_skeleton *skeleton;
-    struct body_deform form;
-    struct soft_paint paint;
-    float dark;   /* of its shadow; 0: it has none */
-    float link_m; /* of its tracks */
-    bool shaped, sides, cuts;
-    /* Faces at hand, at most eight, and corners cut for them. */
+    struct body_deform deform;
+    struct soft_material material;
+    float dark;   /* of its shadow; 0: no shadow */
+    float link_m; /* length of its tracks' links */
+    bool deformed, textured, cuts;
+    /* At most eight faces that are set up together, and the corners that clipping has added for
+     * them. */
     uint32_t corner[3][LANES];
     const struct soft_face *face[LANES];
     uint32_t count, cut;
@@ -33,10 +34,10 @@ struct maker {
 
 /* --- parts ------------------------------------------------------------------------------------ */
 
-static const struct affine still = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
+static const struct affine identity = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
 
-/* First b, then a. */
-static struct affine after(const struct affine *a, const struct affine *b)
+/* Returns the map that applies b, then a. */
+static struct affine compose(const struct affine *a, const struct affine *b)
 {
     struct affine both;
     for (uint32_t i = 0; i < 3; i++) {
@@ -50,11 +51,11 @@ static struct affine after(const struct affine *a, const struct affine *b)
     return both;
 }
 
-/* Turns about a pivot, from axis i towards axis j. */
-static struct affine swing(const float pivot[4], uint32_t i, uint32_t j, float angle_rad)
+/* Returns a rotation about a pivot from axis i towards axis j. */
+static struct affine rotation_about(const float pivot[4], uint32_t i, uint32_t j, float angle_rad)
 {
     double s, c;
-    struct affine a = still;
+    struct affine a = identity;
     maths_sincos((double)angle_rad, &s, &c);
     a.m[i][i] = a.m[j][j] = (float)c;
     a.m[i][j] = -(float)s;
@@ -64,45 +65,45 @@ static struct affine swing(const float pivot[4], uint32_t i, uint32_t j, float a
     return a;
 }
 
-/* [radians or links] */
-static float way_of(const struct maker *m, const struct soft_group *group)
+/* Returns how far the running gear has moved [rad or links]. */
+static float travel_of(const struct body_setup *m, const struct soft_group *group)
 {
     const float *pivot = m->skeleton->pivot[group->joint];
     return m->body->travel_m[pivot[2] < 0.0f ? 0 : 1] / pivot[3];
 }
 
-/* What a part does before the body's form changes ... */
-static struct affine rolled(const struct maker *m, const struct soft_group *group)
+/* Returns the motion of a part before the deformation. */
+static struct affine rolled(const struct body_setup *m, const struct soft_group *group)
 {
     const float *pivot = m->skeleton->pivot[group->joint];
     if (group->part != PART_WHEEL && group->part != PART_FRONT_WHEEL)
-        return still;
-    struct affine roll = swing(pivot, 0, 1, -way_of(m, group));
+        return identity;
+    struct affine roll = rotation_about(pivot, 0, 1, -travel_of(m, group));
     if (group->part == PART_WHEEL)
         return roll;
-    struct affine steer = swing(pivot, 0, 2, m->body->steer_rad);
-    return after(&steer, &roll);
+    struct affine steer = rotation_about(pivot, 0, 2, m->body->steer_rad);
+    return compose(&steer, &roll);
 }
 
-/* ... and after. */
-static struct affine turned(const struct maker *m, const struct soft_group *group)
+/* Returns the motion of a part after the deformation. */
+static struct affine turned(const struct body_setup *m, const struct soft_group *group)
 {
     const struct draw_list_body *body = m->body;
     const float *pivot = m->skeleton->pivot[group->joint];
     struct affine turret, gun;
     switch (group->part) {
     case PART_TAIL_ROTOR:
-        return swing(pivot, 0, 1, body->rotor_rad);
+        return rotation_about(pivot, 0, 1, body->rotor_rad);
     case PART_ROTOR:
-        return swing(pivot, 0, 2, body->rotor_rad);
+        return rotation_about(pivot, 0, 2, body->rotor_rad);
     case PART_TURRET:
-        return swing(m->skeleton->pivot[0], 0, 2, body->turret_rad);
+        return rotation_about(m->skeleton->pivot[0], 0, 2, body->turret_rad);
     case PART_GUN:
-        turret = swing(m->skeleton->pivot[0], 0, 2, body->turret_rad);
-        gun = swing(pivot, 0, 1, body->gun_rad);
-        return after(&turret, &gun);
+        turret = rotation_about(m->skeleton->pivot[0], 0, 2, body->turret_rad);
+        gun = rotation_about(pivot, 0, 1, body->gun_rad);
+        return compose(&turret, &gun);
     default:
-        return still;
+        return identity;
     }
 }
 
@@ -126,8 +127,8 @@ SIMD8 void apply(const struct affine *a, const v8f v[3], float one, v8f out[3])
         out[i] = simd8_dot3_f(a->m[i], v) + one * a->t[i];
 }
 
-/* Where the corners of a body that is not as it was built are now, and its normals as they were. */
-static void form_group(const struct maker *m, const struct soft_group *group)
+/* Deforms a group's corners. The normals stay those of the original shape. */
+static void deform_group(const struct body_setup *m, const struct soft_group *group)
 {
     float **column = m->bodies->column;
     struct affine roll = rolled(m, group);
@@ -137,23 +138,23 @@ static void form_group(const struct maker *m, const struct soft_group *group)
         load3(n, m->mesh->column + MESH_NORMAL_X, at);
         apply(&roll, built, 1.0f, v);
         apply(&roll, n, 0.0f, normal);
-        v8f bare = m->form.dent_count > 0 ? body_deform_bare(&m->form, v) : simd8_f(0.0f);
-        v8f fell = m->form.fallen ? body_deform_fell(&m->form, built) : simd8_f(0.0f);
-        body_deform_corners(&m->form, v);
-        simd8_store_f(column[CORNER_VALUE + SIDE_BARE] + at, bare);
-        simd8_store_f(column[CORNER_VALUE + SIDE_FELL] + at, fell);
+        v8f bare = m->deform.dent_count > 0 ? body_deform_bare(&m->deform, v) : simd8_f(0.0f);
+        v8f fell = m->deform.collapsed ? body_deform_collapsed(&m->deform, built) : simd8_f(0.0f);
+        body_deform_corners(&m->deform, v);
+        simd8_store_f(column[CORNER_VALUE + VALUE_BARE] + at, bare);
+        simd8_store_f(column[CORNER_VALUE + VALUE_COLLAPSED] + at, fell);
         store3(column + CORNER_PLACE, at, v);
         store3(column + CORNER_NORMAL, at, normal);
     }
 }
 
-/* Adds each face's normal, as it is now, to those of its corners that moved. */
-static void form_normals(const struct maker *m)
+/* Adds each deformed face's normal to those of its deformed corners. */
+static void deform_normals(const struct body_setup *m)
 {
     float *const *place = m->bodies->column + CORNER_PLACE;
     float *const *normal = m->bodies->column + CORNER_NORMAL;
-    const float *bare = m->bodies->column[CORNER_VALUE + SIDE_BARE];
-    const float *fell = m->bodies->column[CORNER_VALUE + SIDE_FELL];
+    const float *bare = m->bodies->column[CORNER_VALUE + VALUE_BARE];
+    const float *fell = m->bodies->column[CORNER_VALUE + VALUE_COLLAPSED];
     for (uint32_t i = 0; i < m->mesh->face_count; i++) {
         const uint32_t *corner = m->mesh->faces[i].corner;
         float u[3], v[3], across[3];
@@ -165,18 +166,19 @@ static void form_normals(const struct maker *m)
             uint32_t next = axis < 2 ? axis + 1 : 0, last = axis > 0 ? axis - 1 : 2;
             across[axis] = u[next] * v[last] - u[last] * v[next];
         }
-        /* Much more than the unit normals that are there. */
+        /* The factor makes the unit normals that are already there negligible. */
         for (uint32_t k = 0; k < 3; k++)
-            if (m->form.broken || bare[corner[k]] > 0.0f || fell[corner[k]] > 0.0f)
+            if (m->deform.broken || bare[corner[k]] > 0.0f || fell[corner[k]] > 0.0f)
                 for (uint32_t axis = 0; axis < 3; axis++)
                     normal[axis][corner[k]] += 1.0e4f * across[axis];
     }
 }
 
-/* The sky lights what faces up, the ground throws a little back, and what is low under a body gets
- * neither. */
-SIMD8 struct colour8 light_of(const struct soft_frame *f, const v8f world[3], const v8f n[3],
-                              v8f high)
+/* Returns the light on corners. The sky lights surfaces that face up, the ground reflects a little,
+ * and both are weaker low under a body. world: points from the eye [m]; n: unit normals; high:
+ * height above the body's bottom [m]. */
+SIMD8 struct colour8 corner_light(const struct soft_frame *f, const v8f world[3], const v8f n[3],
+                                  v8f high)
 {
     struct colour8 sun_light = colour_of(SUN_LIGHT_RED, SUN_LIGHT_GREEN, SUN_LIGHT_BLUE);
     struct colour8 sky =
@@ -196,7 +198,8 @@ SIMD8 struct colour8 light_of(const struct soft_frame *f, const v8f world[3], co
                             around.b * open + sun_light.b * strong};
 }
 
-/* Places from the eye to where they are in the picture; set: 0 or CORNER_SHADE. */
+/* Projects points from the eye and stores them as corners from index at on, in the columns of a set
+ * (for the body or its shadow). */
 SIMD8 void project(const struct soft_frame *f, float *const *column, uint32_t at,
                    const v8f place[3])
 {
@@ -212,8 +215,8 @@ SIMD8 void project(const struct soft_frame *f, float *const *column, uint32_t at
     simd8_store_f(column[CORNER_ROW] + at, f->centre_y + down * over);
 }
 
-/* Along the sun's light onto the plane. */
-SIMD8 void drop(const struct soft_frame *f, const float plane[4], v8f place[3])
+/* Moves points along the sun's light onto the plane. */
+SIMD8 void project_onto(const struct soft_frame *f, const float plane[4], v8f place[3])
 {
     float steep = 1.0f / (plane[0] * f->sun[0] + plane[1] * f->sun[1] + plane[2] * f->sun[2]);
     v8f high = simd8_dot3_f(plane, place) - plane[3];
@@ -222,7 +225,7 @@ SIMD8 void drop(const struct soft_frame *f, const float plane[4], v8f place[3])
         place[i] -= f->sun[i] * back;
 }
 
-static struct affine in_world(const struct draw_list_body *body)
+static struct affine body_to_world(const struct draw_list_body *body)
 {
     struct affine a;
     for (uint32_t i = 0; i < 3; i++) {
@@ -234,28 +237,29 @@ static struct affine in_world(const struct draw_list_body *body)
     return a;
 }
 
-/* Corners of a part: to the picture, and lit. seen: by itself, not by its shadow alone. */
-static void place_group(const struct maker *m, const struct soft_group *group, bool seen)
+/* Projects and lights the corners of a part. seen: the body itself is visible, not only its
+ * shadow. */
+static void place_group(const struct body_setup *m, const struct soft_group *group, bool seen)
 {
     float **column = m->bodies->column;
     float *const *value = column + CORNER_VALUE, *const *mesh = m->mesh->column;
-    float *const *from = m->shaped ? column + CORNER_PLACE : mesh + MESH_PLACE_X;
-    float *const *facing = m->shaped ? column + CORNER_NORMAL : mesh + MESH_NORMAL_X;
-    struct affine part = turned(m, group), world = in_world(m->body);
-    if (!m->shaped) {
+    float *const *from = m->deformed ? column + CORNER_PLACE : mesh + MESH_PLACE_X;
+    float *const *facing = m->deformed ? column + CORNER_NORMAL : mesh + MESH_NORMAL_X;
+    struct affine part = turned(m, group), world = body_to_world(m->body);
+    if (!m->deformed) {
         struct affine roll = rolled(m, group);
-        part = after(&part, &roll);
+        part = compose(&part, &roll);
     }
-    world = after(&world, &part);
-    float links = group->part == PART_TRACK ? way_of(m, group) : 0.0f, low = m->skeleton->low[1];
+    world = compose(&world, &part);
+    float links = group->part == PART_TRACK ? travel_of(m, group) : 0.0f, low = m->skeleton->low[1];
     for (uint32_t at = group->first; at < group->end; at += LANES) {
         v8f v[3], n[3], place[3], normal[3];
         load3(v, from, at);
         apply(&world, v, 1.0f, place);
         if (m->dark > 0.0f) {
-            v8f fallen[3] = {place[0], place[1], place[2]};
-            drop(m->frame, m->body->plane, fallen);
-            project(m->frame, column + CORNER_SHADE, at, fallen);
+            v8f collapsed[3] = {place[0], place[1], place[2]};
+            project_onto(m->frame, m->body->plane, collapsed);
+            project(m->frame, column + CORNER_SHADOW, at, collapsed);
         }
         if (!seen)
             continue;
@@ -266,25 +270,26 @@ static void place_group(const struct maker *m, const struct soft_group *group, b
         for (uint32_t i = 0; i < 3; i++)
             normal[i] *= over;
         v8f high = simd8_dot3_f(part.m[1], v) + part.t[1];
-        struct colour8 light = light_of(m->frame, place, normal, high - low);
-        simd8_store_f(value[SIDE_RED] + at, light.r);
-        simd8_store_f(value[SIDE_GREEN] + at, light.g);
-        simd8_store_f(value[SIDE_BLUE] + at, light.b);
-        simd8_store_f(value[SIDE_ALONG] + at, simd8_load_f(mesh[MESH_ALONG] + at) + links);
+        struct colour8 light = corner_light(m->frame, place, normal, high - low);
+        simd8_store_f(value[VALUE_RED] + at, light.r);
+        simd8_store_f(value[VALUE_GREEN] + at, light.g);
+        simd8_store_f(value[VALUE_BLUE] + at, light.b);
+        simd8_store_f(value[VALUE_ALONG] + at, simd8_load_f(mesh[MESH_ALONG] + at) + links);
     }
 }
 
 /* --- faces ------------------------------------------------------------------------------------ */
 
-enum face_kind { FACE_FLAT, FACE_SIDE, FACE_SHADE };
+enum face_kind { FACE_FLAT, FACE_TEXTURED, FACE_SHADOW };
 
-SIMD8 v8f corner_value(const struct maker *m, uint32_t column, v8i corner)
+SIMD8 v8f corner_value(const struct body_setup *m, uint32_t column, v8i corner)
 {
     return simd8_gather_f(m->bodies->column[column], corner);
 }
 
-/* Base colours of the faces at hand, with the force's; which are in camouflage. */
-SIMD8 struct colour8 base_colours(const struct maker *m, v8f *worn)
+/* Returns the base colours of the faces, tinted by the force. worn: 1 for camouflage paint, else
+ * 0. */
+SIMD8 struct colour8 base_colours(const struct body_setup *m, v8f *worn)
 {
     struct colour8 c;
     const float *tint = m->body->tint;
@@ -304,16 +309,16 @@ SIMD8 struct colour8 base_colours(const struct maker *m, v8f *worn)
     return c;
 }
 
-/* The colours of faces too small for their paint to be seen: its mean. */
-SIMD8 v8u flat_colours(const struct maker *m, const v8i corner[3])
+/* Returns the colours of flat faces, for which the mean of the textures is used. */
+SIMD8 v8u flat_colours(const struct body_setup *m, const v8i corner[3])
 {
-    const struct soft_paint *p = &m->paint;
+    const struct soft_material *p = &m->material;
     v8f worn, light[3];
     struct colour8 c = base_colours(m, &worn);
     for (uint32_t i = 0; i < 3; i++)
-        light[i] = (corner_value(m, CORNER_VALUE + SIDE_RED + i, corner[0]) +
-                    corner_value(m, CORNER_VALUE + SIDE_RED + i, corner[1]) +
-                    corner_value(m, CORNER_VALUE + SIDE_RED + i, corner[2])) *
+        light[i] = (corner_value(m, CORNER_VALUE + VALUE_RED + i, corner[0]) +
+                    corner_value(m, CORNER_VALUE + VALUE_RED + i, corner[1]) +
+                    corner_value(m, CORNER_VALUE + VALUE_RED + i, corner[2])) *
                    (p->clear / 3.0f);
     if (m->frame->texture) {
         v8f soot = simd8_clamp((0.65f - simd8_f(p->soot_low)) * p->soot_over, 0.0f, 1.0f);
@@ -334,23 +339,24 @@ static struct band_rows *next_rows(struct soft_faces *faces, const struct edges8
     return rows;
 }
 
-SIMD8 void put_flats(struct maker *m, const struct edges8 *s, const v8i corner[3], uint32_t lanes)
+SIMD8 void put_flat_faces(struct body_setup *m, const struct edges8 *s, const v8i corner[3],
+                          uint32_t lanes)
 {
-    struct soft_faces *faces = &m->bodies->flats;
+    struct soft_faces *faces = &m->bodies->flat_faces;
     struct plane8 depth = triangle_raster_plane(s, corner_value(m, CORNER_OVER, corner[0]),
                                                 corner_value(m, CORNER_OVER, corner[1]),
                                                 corner_value(m, CORNER_OVER, corner[2]));
     v8u colours = flat_colours(m, corner);
     for (; lanes != 0; lanes &= lanes - 1) {
         uint32_t lane = (uint32_t)__builtin_ctz(lanes);
-        struct soft_flat *flat = (struct soft_flat *)faces->list + faces->count;
-        *flat = (struct soft_flat){triangle_raster_of(s, (int)lane),
-                                   triangle_raster_plane_of(&depth, (int)lane), colours[lane]};
+        struct soft_flat_face *flat = (struct soft_flat_face *)faces->list + faces->count;
+        *flat = (struct soft_flat_face){triangle_raster_of(s, (int)lane),
+                                        triangle_raster_plane_of(&depth, (int)lane), colours[lane]};
         next_rows(faces, s, lane);
     }
 }
 
-/* The mip whose texels are as large as pixels, or a little finer. */
+/* Returns the mip whose texels are as large as pixels, or a little smaller. */
 SIMD8 v8i mip_of(v8f pixel_m, float per_m)
 {
     v8f texels =
@@ -359,15 +365,16 @@ SIMD8 v8i mip_of(v8f pixel_m, float per_m)
     return simd8_select_i(mip < SOFT_DETAIL_MIPS, mip, simd8_i(SOFT_DETAIL_MIPS - 1));
 }
 
-SIMD8 void put_sides(struct maker *m, const struct edges8 *s, const v8i corner[3], uint32_t lanes)
+SIMD8 void put_textured_faces(struct body_setup *m, const struct edges8 *s, const v8i corner[3],
+                              uint32_t lanes)
 {
-    struct soft_faces *faces = &m->bodies->sides;
+    struct soft_faces *faces = &m->bodies->textured_faces;
     v8f over[3], worn;
     for (uint32_t i = 0; i < 3; i++)
         over[i] = corner_value(m, CORNER_OVER, corner[i]);
-    struct plane8 depth = triangle_raster_plane(s, over[0], over[1], over[2]), value[SIDE_VALUES];
-    for (uint32_t i = 0; i < SIDE_VALUES; i++)
-        if (m->shaped || (i != SIDE_FELL && i != SIDE_BARE))
+    struct plane8 depth = triangle_raster_plane(s, over[0], over[1], over[2]), value[VALUE_COUNT];
+    for (uint32_t i = 0; i < VALUE_COUNT; i++)
+        if (m->deformed || (i != VALUE_COLLAPSED && i != VALUE_BARE))
             value[i] =
                 triangle_raster_plane(s, corner_value(m, CORNER_VALUE + i, corner[0]) * over[0],
                                       corner_value(m, CORNER_VALUE + i, corner[1]) * over[1],
@@ -375,25 +382,25 @@ SIMD8 void put_sides(struct maker *m, const struct edges8 *s, const v8i corner[3
         else
             value[i] = (struct plane8){simd8_f(0.0f), simd8_f(0.0f), simd8_f(0.0f)};
     v8f pixel_m = 3.0f * m->frame->pixel_m / (over[0] + over[1] + over[2]);
-    v8i broad = mip_of(pixel_m, PAINT_BROAD_PER_M), fine = mip_of(pixel_m, PAINT_FINE_PER_M);
-    /* The largest is too large for a processor's nearer caches, and no one sees it. */
+    v8i broad = mip_of(pixel_m, PATTERN_BROAD_PER_M), fine = mip_of(pixel_m, PATTERN_FINE_PER_M);
+    /* The largest mip would not fit the nearer caches, and its detail does not show. */
     fine = simd8_select_i(fine > 0, fine, simd8_i(1));
     struct colour8 c = base_colours(m, &worn);
-    /* Until they are finer than pixels. */
+    /* Links show until they are narrower than pixels. */
     v8f links = simd8_clamp(1.5f - 2.0f * pixel_m / m->link_m, 0.0f, 1.0f);
     for (; lanes != 0; lanes &= lanes - 1) {
         uint32_t lane = (uint32_t)__builtin_ctz(lanes);
-        struct soft_side *side = (struct soft_side *)faces->list + faces->count;
+        struct soft_textured_face *side = (struct soft_textured_face *)faces->list + faces->count;
         side->edges = triangle_raster_of(s, (int)lane);
         side->depth = triangle_raster_plane_of(&depth, (int)lane);
-        for (uint32_t i = 0; i < SIDE_VALUES; i++)
+        for (uint32_t i = 0; i < VALUE_COUNT; i++)
             side->value[i] = triangle_raster_plane_of(&value[i], (int)lane);
         side->colour[0] = c.r[lane];
         side->colour[1] = c.g[lane];
         side->colour[2] = c.b[lane];
         side->worn = worn[lane];
         side->links = links[lane];
-        side->paint = (uint16_t)(m->bodies->paint_count - 1);
+        side->material = (uint16_t)(m->bodies->material_count - 1);
         side->broad = (uint8_t)broad[lane];
         side->fine = (uint8_t)fine[lane];
         side->track = m->face[lane]->track;
@@ -401,31 +408,32 @@ SIMD8 void put_sides(struct maker *m, const struct edges8 *s, const v8i corner[3
     }
 }
 
-SIMD8 void put_shades(struct maker *m, const struct edges8 *s, const v8i corner[3], uint32_t lanes)
+SIMD8 void put_shadow_faces(struct body_setup *m, const struct edges8 *s, const v8i corner[3],
+                            uint32_t lanes)
 {
-    struct soft_faces *faces = &m->bodies->shades;
+    struct soft_faces *faces = &m->bodies->shadow_faces;
     struct plane8 depth =
-        triangle_raster_plane(s, corner_value(m, CORNER_SHADE + CORNER_OVER, corner[0]),
-                              corner_value(m, CORNER_SHADE + CORNER_OVER, corner[1]),
-                              corner_value(m, CORNER_SHADE + CORNER_OVER, corner[2]));
-    float more = 1.0f + SHADE_BIAS;
-    depth.top = more * depth.top + SHADE_PIXELS * (simd8_abs(depth.x) + simd8_abs(depth.y));
+        triangle_raster_plane(s, corner_value(m, CORNER_SHADOW + CORNER_OVER, corner[0]),
+                              corner_value(m, CORNER_SHADOW + CORNER_OVER, corner[1]),
+                              corner_value(m, CORNER_SHADOW + CORNER_OVER, corner[2]));
+    float more = 1.0f + SHADOW_BIAS;
+    depth.top = more * depth.top + SHADOW_PIXELS * (simd8_abs(depth.x) + simd8_abs(depth.y));
     depth.x *= more;
     depth.y *= more;
     for (; lanes != 0; lanes &= lanes - 1) {
         uint32_t lane = (uint32_t)__builtin_ctz(lanes);
-        struct soft_shadow *shade = (struct soft_shadow *)faces->list + faces->count;
-        *shade = (struct soft_shadow){triangle_raster_of(s, (int)lane),
-                                      triangle_raster_plane_of(&depth, (int)lane),
-                                      (uint32_t)(m->dark * (float)SOFT_SHADOW_FULL + 0.5f)};
+        struct soft_shadow_face *shade = (struct soft_shadow_face *)faces->list + faces->count;
+        *shade = (struct soft_shadow_face){triangle_raster_of(s, (int)lane),
+                                           triangle_raster_plane_of(&depth, (int)lane),
+                                           (uint32_t)(m->dark * (float)SOFT_SHADOW_FULL + 0.5f)};
         next_rows(faces, s, lane);
     }
 }
 
-/* Sets up the faces at hand. */
-SIMD8 void put_faces(struct maker *m, enum face_kind kind)
+/* Sets up the collected faces. */
+SIMD8 void flush_faces(struct body_setup *m, enum face_kind kind)
 {
-    uint32_t set = kind == FACE_SHADE ? CORNER_SHADE : 0;
+    uint32_t set = kind == FACE_SHADOW ? CORNER_SHADOW : 0;
     struct corners8 c;
     struct edges8 s;
     v8i corner[3];
@@ -443,15 +451,15 @@ SIMD8 void put_faces(struct maker *m, enum face_kind kind)
         there &= s.area < 0.0f;
     uint32_t lanes = simd8_bits(there);
     if (lanes != 0 && kind == FACE_FLAT)
-        put_flats(m, &s, corner, lanes);
-    if (lanes != 0 && kind == FACE_SIDE)
-        put_sides(m, &s, corner, lanes);
-    if (lanes != 0 && kind == FACE_SHADE)
-        put_shades(m, &s, corner, lanes);
+        put_flat_faces(m, &s, corner, lanes);
+    if (lanes != 0 && kind == FACE_TEXTURED)
+        put_textured_faces(m, &s, corner, lanes);
+    if (lanes != 0 && kind == FACE_SHADOW)
+        put_shadow_faces(m, &s, corner, lanes);
     m->count = m->cut = 0;
 }
 
-SIMD8 void add_face(struct maker *m, const struct soft_face *face, uint32_t a, uint32_t b,
+SIMD8 void add_face(struct body_setup *m, const struct soft_face *face, uint32_t a, uint32_t b,
                     uint32_t c)
 {
     m->corner[0][m->count] = a;
@@ -460,12 +468,12 @@ SIMD8 void add_face(struct maker *m, const struct soft_face *face, uint32_t a, u
     m->face[m->count++] = face;
 }
 
-/* The values of a corner that mix evenly along an edge. */
-#define CUT_VALUES (2 + SIDE_VALUES)
+/* The values of a corner that clipping interpolates. */
+#define CUT_VALUES (2 + VALUE_COUNT)
 
 _Static_assert(CUT_VALUES <= TRIANGLE_RASTER_VALUES_MAX, "more values than can be cut");
 
-static void add_cut_face(struct maker *m, const struct soft_face *face, uint32_t set)
+static void add_clipped_face(struct body_setup *m, const struct soft_face *face, uint32_t set)
 {
     float **column = m->bodies->column;
     struct clip_corner from[3], cut[4];
@@ -474,7 +482,7 @@ static void add_cut_face(struct maker *m, const struct soft_face *face, uint32_t
         from[i].ahead = column[set + CORNER_AHEAD][at];
         from[i].value[0] = column[set + CORNER_ACROSS][at];
         from[i].value[1] = column[set + CORNER_DOWN][at];
-        for (uint32_t v = 0; v < SIDE_VALUES; v++)
+        for (uint32_t v = 0; v < VALUE_COUNT; v++)
             from[i].value[2 + v] = column[CORNER_VALUE + v][at];
     }
     uint32_t count = triangle_raster_clip(from, CUT_VALUES, m->frame->near_m, cut);
@@ -485,7 +493,7 @@ static void add_cut_face(struct maker *m, const struct soft_face *face, uint32_t
         column[set + CORNER_OVER][at] = over;
         column[set + CORNER_COLUMN][at] = m->frame->centre_x + cut[i].value[0] * over;
         column[set + CORNER_ROW][at] = m->frame->centre_y + cut[i].value[1] * over;
-        for (uint32_t v = 0; v < SIDE_VALUES; v++)
+        for (uint32_t v = 0; v < VALUE_COUNT; v++)
             column[CORNER_VALUE + v][at] = cut[i].value[2 + v];
     }
     m->cut += count;
@@ -493,27 +501,27 @@ static void add_cut_face(struct maker *m, const struct soft_face *face, uint32_t
         add_face(m, face, first, first + i - 1, first + i);
 }
 
-/* Sets up what crosses the near plane, and all other faces of a body that does. */
-SIMD8 void make_cut_faces(struct maker *m, enum face_kind kind)
+/* Sets up all faces of a body that crosses the near plane. */
+SIMD8 void set_up_clipped_faces(struct body_setup *m, enum face_kind kind)
 {
-    uint32_t set = kind == FACE_SHADE ? CORNER_SHADE : 0;
+    uint32_t set = kind == FACE_SHADOW ? CORNER_SHADOW : 0;
     const float *ahead = m->bodies->column[set + CORNER_AHEAD];
     float near = m->frame->near_m;
     for (uint32_t i = 0; i < m->mesh->face_count; i++) {
         const struct soft_face *face = &m->mesh->faces[i];
         const uint32_t *corner = face->corner;
         if (ahead[corner[0]] < near || ahead[corner[1]] < near || ahead[corner[2]] < near)
-            add_cut_face(m, face, set);
+            add_clipped_face(m, face, set);
         else
             add_face(m, face, corner[0], corner[1], corner[2]);
         if (m->count >= LANES - 1)
-            put_faces(m, kind);
+            flush_faces(m, kind);
     }
-    put_faces(m, kind);
+    flush_faces(m, kind);
 }
 
-/* Which of eight faces are seen, a bit each. */
-SIMD8 uint32_t seen_faces(const struct maker *m, const struct soft_face *faces, uint32_t count,
+/* Returns which of eight faces are visible, one bit each. */
+SIMD8 uint32_t seen_faces(const struct body_setup *m, const struct soft_face *faces, uint32_t count,
                           uint32_t set)
 {
     struct corners8 c;
@@ -530,13 +538,13 @@ SIMD8 uint32_t seen_faces(const struct maker *m, const struct soft_face *faces, 
     return simd8_bits(m->mesh->closed ? shown & (area < 0.0f) : shown);
 }
 
-/* Most faces look away or hold no pixel: those that are seen are gathered before they are set up.
- */
-SIMD8 void make_faces(struct maker *m, enum face_kind kind)
+/* Sets up the visible faces. Most faces look away or contain no pixel, so the others are collected
+ * before they are set up. */
+SIMD8 void set_up_faces(struct body_setup *m, enum face_kind kind)
 {
-    uint32_t set = kind == FACE_SHADE ? CORNER_SHADE : 0, count = m->mesh->face_count;
+    uint32_t set = kind == FACE_SHADOW ? CORNER_SHADOW : 0, count = m->mesh->face_count;
     if (m->cuts) {
-        make_cut_faces(m, kind);
+        set_up_clipped_faces(m, kind);
         return;
     }
     for (uint32_t i = 0; i < count; i += LANES) {
@@ -546,10 +554,10 @@ SIMD8 void make_faces(struct maker *m, enum face_kind kind)
             const struct soft_face *face = &faces[__builtin_ctz(bits)];
             add_face(m, face, face->corner[0], face->corner[1], face->corner[2]);
             if (m->count == LANES)
-                put_faces(m, kind);
+                flush_faces(m, kind);
         }
     }
-    put_faces(m, kind);
+    flush_faces(m, kind);
 }
 
 /* --- bodies ----------------------------------------------------------------------------------- */
@@ -561,28 +569,28 @@ static float step(float low, float high, float v)
     return t * t * (3.0f - 2.0f * t);
 }
 
-/* What all faces of the body have in common, with the air before it. */
-static void mix_paint(struct maker *m)
+/* Computes what all faces of the body have in common, and the air in front of it. */
+static void compute_material(struct body_setup *m)
 {
     const float *at = m->body->at;
     v8f place[3] = {simd8_f(at[0]), simd8_f(at[1]), simd8_f(at[2])};
     struct atmosphere8 air = atmosphere_at(m->frame, place);
-    float burn = m->body->burn, much = air.much[0];
-    m->paint = (struct soft_paint){
+    float burn = m->body->burn, opacity = air.opacity[0];
+    m->material = (struct soft_material){
         .soot_low = 1.12f - 1.15f * burn,
         .soot_over = 1.0f / 0.42f,
         .soot_most = fminf(0.5f + 0.8f * burn, 1.0f) * step(0.0f, 0.1f, burn),
         .burnt = 0.94f * step(0.8f, 1.0f, burn),
         .rust = burn >= 0.9f ? 0.8f : 0.0f,
         .plain = 0.9f * burn,
-        .air = {much * air.colour.r[0], much * air.colour.g[0], much * air.colour.b[0]},
-        .clear = 1.0f - much,
-        .shaped = m->shaped,
+        .air = {opacity * air.colour.r[0], opacity * air.colour.g[0], opacity * air.colour.b[0]},
+        .clear = 1.0f - opacity,
+        .deformed = m->deformed,
     };
 }
 
-/* Is the ball about its place wholly outside the picture? */
-static bool outside(const struct soft_frame *f, const struct soft_reach *reach, const float at[3])
+/* Returns true if the body's bounding sphere lies wholly outside the picture. */
+static bool outside(const struct soft_frame *f, const struct soft_bounds *reach, const float at[3])
 {
     float half_x = f->centre_x * f->pixel_m, half_y = f->centre_y * f->pixel_m;
     float x = fabsf(f->right[0] * at[0] + f->right[1] * at[1] + f->right[2] * at[2]);
@@ -592,53 +600,53 @@ static bool outside(const struct soft_frame *f, const struct soft_reach *reach, 
            y - reach->ahead * half_y > reach->metres * sqrtf(1.0f + half_y * half_y);
 }
 
-static void make_body(struct maker *m, uint32_t index)
+static void set_up_body(struct body_setup *m, uint32_t index)
 {
     const struct soft_frame *f = m->frame;
     const struct draw_list_instance *instance = &f->list->instances[index];
     struct soft_bodies *bodies = m->bodies;
-    struct soft_reach reach = soft_bodies_reach(bodies, f, index);
+    struct soft_bounds reach = soft_bodies_bounds(bodies, f, index);
     m->body = &f->list->bodies[index];
     bool seen = !outside(f, &reach, m->body->at);
     if (!seen && !instance->shadow)
         return;
     m->mesh = &bodies->mesh[instance->model * MESH_DETAIL_COUNT + instance->detail];
     m->skeleton = &bodies->static_scene->skeletons[instance->model];
-    m->form = body_deform_of(m->body, f->list->dents);
-    m->shaped = body_deform_any(&m->form);
-    m->sides = reach.pixels >= SIDE_LEAST_PIXELS;
+    m->deform = body_deform_of(m->body, f->list->dents);
+    m->deformed = body_deform_any(&m->deform);
+    m->textured = reach.pixels >= TEXTURED_PIXELS_MIN;
     m->cuts = reach.ahead - 4.0f * reach.metres < f->near_m;
     m->count = m->cut = 0;
     m->link_m = 1.0f;
     for (uint32_t i = 0; i < m->mesh->group_count; i++)
         if (m->mesh->groups[i].part == PART_TRACK)
             m->link_m = m->skeleton->pivot[m->mesh->groups[i].joint][3];
-    mix_paint(m);
-    m->dark = instance->shadow ? m->paint.clear : 0.0f;
-    for (uint32_t i = 0; m->shaped && i < m->mesh->group_count; i++)
-        form_group(m, &m->mesh->groups[i]);
-    if (m->shaped)
-        form_normals(m);
+    compute_material(m);
+    m->dark = instance->shadow ? m->material.clear : 0.0f;
+    for (uint32_t i = 0; m->deformed && i < m->mesh->group_count; i++)
+        deform_group(m, &m->mesh->groups[i]);
+    if (m->deformed)
+        deform_normals(m);
     for (uint32_t i = 0; i < m->mesh->group_count; i++)
         place_group(m, &m->mesh->groups[i], seen);
     if (m->dark > 0.0f)
-        make_faces(m, FACE_SHADE);
+        set_up_faces(m, FACE_SHADOW);
     if (!seen)
         return;
-    if (!m->sides) {
-        make_faces(m, FACE_FLAT);
+    if (!m->textured) {
+        set_up_faces(m, FACE_FLAT);
         return;
     }
-    bodies->paints[bodies->paint_count++] = m->paint;
+    bodies->materials[bodies->material_count++] = m->material;
     for (uint32_t axis = 0; axis < 3; axis++)
-        memcpy(bodies->column[CORNER_VALUE + SIDE_X + axis], m->mesh->column[MESH_PLACE_X + axis],
+        memcpy(bodies->column[CORNER_VALUE + VALUE_X + axis], m->mesh->column[MESH_PLACE_X + axis],
                m->mesh->corner_count * sizeof(float));
-    make_faces(m, FACE_SIDE);
+    set_up_faces(m, FACE_TEXTURED);
 }
 
 void KERNEL(soft_bodies_set_up)(struct soft_bodies *bodies, const struct soft_frame *frame)
 {
-    struct maker maker = {.bodies = bodies, .frame = frame};
+    struct body_setup setup = {.bodies = bodies, .frame = frame};
     for (uint32_t i = 0; i < frame->list->body_count; i++)
-        make_body(&maker, i);
+        set_up_body(&setup, i);
 }

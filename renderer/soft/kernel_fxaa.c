@@ -1,16 +1,16 @@
-/* Edge smoothing after T. Lottes, FXAA (2009), on the processor: only the few pixels on edges cost
- * anything, where a software OpenGL would run the whole shader for all of them. Several times
- * cheaper than drawing every pixel from several samples. Eight pixels at a time find out whether
- * they are on an edge; those that are wait until there are eight of them. */
+/* Antialiasing after T. Lottes, FXAA (2009), on the processor. Only the few pixels on edges cost
+ * time, where a software OpenGL would run the whole shader for every pixel. It is several times
+ * cheaper than multisampling. Edges are detected for eight pixels at a time. Pixels on edges are
+ * collected until there are eight to smooth. */
 #include "renderer/soft/fxaa.h"
 #include "renderer/soft/texel.h"
 #include "renderer/soft/simd8.h"
 
-#define CONTRAST_LEAST 14   /* of 255: less is no edge */
-#define CONTRAST_SHARE 7    /* nor is less than a seventh of the brightest pixel around */
-#define SPAN_MOST      8.0f /* pixels along an edge */
+#define CONTRAST_LEAST 14   /* of 255: a lower contrast is no edge */
+#define CONTRAST_SHARE 7    /* nor is a contrast below a seventh of the brightest pixel around */
+#define SPAN_MOST      8.0f /* [pixel] along an edge */
 
-/* Pixels on edges; those beyond count were once. */
+/* Pixels on edges that wait to be smoothed. Entries beyond count hold earlier pixels. */
 struct edges {
     int32_t column[2 * LANES], row[2 * LANES];
     float dx[2 * LANES], dy[2 * LANES]; /* along the edge */
@@ -41,14 +41,14 @@ SIMD8 v8i most_of(v8i a, v8i b)
     return simd8_select_i(a > b, a, b);
 }
 
-/* The alphas of a row, a byte each; and room for what is loaded with them. */
+/* The alphas of a row, with space at both ends for what vector loads read beyond. */
 struct alphas {
     uint8_t before[32], of[FXAA_WIDTH_MAX], after[32];
 };
 
-/* Which of 32 pixels of a row may lie on an edge, a bit each. */
-SIMD8 uint32_t edges_near(const struct alphas *above, const struct alphas *here,
-                          const struct alphas *below, uint32_t column)
+/* Returns which of 32 pixels of a row may lie on an edge, one bit each. */
+SIMD8 uint32_t edge_candidates(const struct alphas *above, const struct alphas *here,
+                               const struct alphas *below, uint32_t column)
 {
     const uint8_t *from[3] = {above->of + column, here->of + column, below->of + column};
     v8u least = simd8_u(UINT32_MAX), most = simd8_u(0);
@@ -57,15 +57,15 @@ SIMD8 uint32_t edges_near(const struct alphas *above, const struct alphas *here,
         least = simd8_min_b(least, simd8_min_b(left, right));
         most = simd8_max_b(most, simd8_max_b(left, right));
     }
-    v32b thing = (v32b)simd8_u(FXAA_THING_ALPHA * 0x01010101u);
+    v32b thing = (v32b)simd8_u(FXAA_OBJECT_ALPHA * 0x01010101u);
     v32b step = (v32b)most - (v32b)least, enough = (v32b)simd8_u(FXAA_STEP_ALPHA * 0x01010101u);
     v32b stepped = (v32b)((v32b)simd8_max_b((v8u)step, (v8u)enough) == step);
     return simd8_bits_b((v32b)((v32b)most == thing) | stepped);
 }
 
-/* Keeps those of eight pixels that are on an edge. */
-static inline void find(struct edges *edges, const struct image *from, uint32_t row, int32_t column,
-                        v8i wanted)
+/* Collects those of eight pixels that are on an edge. */
+static inline void collect_edges(struct edges *edges, const struct image *from, uint32_t row,
+                                 int32_t column, v8i candidates)
 {
     v8i nw = luma(pixels_at(from, row - 1, column - 1));
     v8i ne = luma(pixels_at(from, row - 1, column + 1));
@@ -74,7 +74,7 @@ static inline void find(struct edges *edges, const struct image *from, uint32_t 
     v8i here = luma(pixels_at(from, row, column));
     v8i least = least_of(least_of(least_of(nw, ne), least_of(sw, se)), here);
     v8i most = most_of(most_of(most_of(nw, ne), most_of(sw, se)), here), step = most - least;
-    v8i on = wanted & (step >= CONTRAST_LEAST) & (((step << 3) - step) >= most);
+    v8i on = candidates & (step >= CONTRAST_LEAST) & (((step << 3) - step) >= most);
     uint32_t bits = simd8_bits(on);
     if (bits == 0)
         return;
@@ -96,12 +96,13 @@ static inline void find(struct edges *edges, const struct image *from, uint32_t 
     }
 }
 
-/* Colours times 256. */
+/* The colours of eight pixels, times 256. */
 struct sample8 {
     v16s red_blue, green;
 };
 
-/* The colour between four pixels; x and y of a pixel's centre are whole numbers. */
+/* Returns the picture's colour at points by bilinear interpolation; whole numbers are pixel
+ * centres. */
 SIMD8 struct sample8 sample_at(const struct image *from, v8f x, v8f y)
 {
     float right = 256.0f * (float)(from->width - 1) - 1.0f;
@@ -124,14 +125,14 @@ SIMD8 struct sample8 middle_of(struct sample8 a, struct sample8 b)
     return (struct sample8){(a.red_blue >> 1) + (b.red_blue >> 1), (a.green >> 1) + (b.green >> 1)};
 }
 
-/* The mean of two places to both sides, along the edge. */
+/* Returns the mean of the colours at (x, y) - (dx, dy) and (x, y) + (dx, dy). */
 SIMD8 struct sample8 along(const struct image *from, v8f x, v8f y, v8f dx, v8f dy)
 {
     return middle_of(sample_at(from, x - dx, y - dy), sample_at(from, x + dx, y + dy));
 }
 
-/* 0 .. 255 */
-SIMD8 v8f bright(struct sample8 s)
+/* Returns the brightness, 0 .. 255. */
+SIMD8 v8f brightness(struct sample8 s)
 {
     v8u red_blue = (v8u)s.red_blue;
     return simd8_to_f((v8i)(red_blue & 0xffffu)) * (0.299f / 256.0f) +
@@ -145,18 +146,19 @@ SIMD8 v8u rounded(struct sample8 s)
     return red_blue | (((v8u)s.green + 128u) & 0xff00u) | 0xff000000u;
 }
 
-/* Smooths the first eight, or what there are of them, and forgets them. */
+/* Smooths the first eight collected pixels, or all if there are fewer, and removes them. */
 static void smooth(struct edges *edges, struct image *to, const struct image *from)
 {
     uint32_t count = edges->count < LANES ? edges->count : LANES;
-    /* Where there are fewer, some that were there before are smoothed for nothing. */
+    /* If there are fewer than eight, earlier pixels are computed too and discarded. */
     v8f x = simd8_to_f((v8i)simd8_load_u(edges->column));
     v8f y = simd8_to_f((v8i)simd8_load_u(edges->row));
     v8f dx = simd8_load_f(edges->dx), dy = simd8_load_f(edges->dy);
     struct sample8 close = along(from, x, y, dx * (1.0f / 6.0f), dy * (1.0f / 6.0f));
     struct sample8 wide = middle_of(close, along(from, x, y, dx * 0.5f, dy * 0.5f));
-    v8f b = bright(wide);
-    /* The wide mean left the edge: the close one did not. */
+    v8f b = brightness(wide);
+    /* A wide mean outside the range of the neighbourhood has crossed the edge; the close one is
+     * used. */
     v8i left = (b < simd8_load_f(edges->least)) | (b > simd8_load_f(edges->most));
     uint32_t best[LANES];
     simd8_store_u(best, simd8_select_u(left, rounded(close), rounded(wide)));
@@ -173,8 +175,8 @@ static void smooth(struct edges *edges, struct image *to, const struct image *fr
     memcpy(edges->most, edges->most + LANES, LANES * sizeof *edges->most);
 }
 
-/* Takes a row's alphas, and copies the row if there is somewhere to. */
-static void take_row(struct alphas *alphas, struct image *to, const struct image *from,
+/* Reads a row's alphas, and copies the row with alpha 255 unless to is NULL. */
+static void read_row(struct alphas *alphas, struct image *to, const struct image *from,
                      uint32_t row)
 {
     size_t first = (size_t)row * from->width * 4;
@@ -199,26 +201,27 @@ static void take_row(struct alphas *alphas, struct image *to, const struct image
     }
 }
 
-/* Smooths a row that is not on the picture's rim; some pixels may be left to wait. */
+/* Finds and smooths the edges of a row, not the first or last of the picture. Fewer than eight
+ * pixels may stay in edges. */
 static void smooth_row(struct edges *edges, struct image *to, const struct image *from,
                        uint32_t row, const struct alphas *const alphas[3])
 {
     uint32_t last = from->width - 1;
     for (uint32_t column = 0; column < last; column += 32) {
-        uint32_t bits = edges_near(alphas[0], alphas[1], alphas[2], column);
+        uint32_t bits = edge_candidates(alphas[0], alphas[1], alphas[2], column);
         if (column == 0)
             bits &= ~1u;
         if (last - column < 32)
             bits &= (1u << (last - column)) - 1u;
         for (uint32_t begin = column; bits != 0; begin += LANES, bits >>= LANES) {
-            /* What is left and right of the eight must be within the picture. */
+            /* The neighbours of the eight pixels must lie in the picture. */
             uint32_t most = last - LANES, at = begin < most ? begin : most, eight = bits & 255u;
             if (eight == 0)
                 continue;
             if (at == 0)
-                find(edges, from, row, 1, simd8_mask(eight >> 1));
+                collect_edges(edges, from, row, 1, simd8_mask(eight >> 1));
             else
-                find(edges, from, row, (int32_t)at, simd8_mask(eight << (begin - at)));
+                collect_edges(edges, from, row, (int32_t)at, simd8_mask(eight << (begin - at)));
             if (edges->count >= LANES)
                 smooth(edges, to, from);
         }
@@ -231,11 +234,11 @@ void KERNEL(fxaa_rows)(struct image *to, const struct image *from, uint32_t firs
     struct alphas alphas[3];
     bool narrow = from->width < LANES + 2;
     if (first > 0)
-        take_row(&alphas[(first - 1) % 3], NULL, from, first - 1);
-    take_row(&alphas[first % 3], to, from, first);
+        read_row(&alphas[(first - 1) % 3], NULL, from, first - 1);
+    read_row(&alphas[first % 3], to, from, first);
     for (uint32_t row = first; row < end; row++) {
         if (row + 1 < from->height)
-            take_row(&alphas[(row + 1) % 3], row + 1 < end ? to : NULL, from, row + 1);
+            read_row(&alphas[(row + 1) % 3], row + 1 < end ? to : NULL, from, row + 1);
         if (row == 0 || row + 1 >= from->height || narrow)
             continue;
         const struct alphas *const around[3] = {&alphas[(row - 1) % 3], &alphas[row % 3],

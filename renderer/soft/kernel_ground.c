@@ -1,24 +1,25 @@
-/* The ground's triangles, and its depth in a band. */
+/* The ground: sets up its triangles, and fills a band with their depth. */
 #include "renderer/soft/kernel.h"
 #include "renderer/soft/soft_ground.h"
 #include "renderer/soft/triangle_raster.h"
 
-/* Where a patch's vertices are seen: x, y [pixel] and depth. */
-struct seen {
+/* A patch's vertices in the picture: x, y [pixel] and depth. */
+struct projected_vertices {
     float *x, *y, *depth;
 };
 
-/* Triangles on their way into the list, eight at a time. */
+/* Up to eight triangles that are set up together. */
 struct batch {
     struct corners8 corners;
     v8f depth[3];
     uint32_t count, patch;
 };
 
-/* A patch's vertices into the picture. Those nearer than the near plane have no place there; the
- * rest of a vector is whatever lies behind the last vertex. Returns whether any is too near. */
-static bool project(const struct seen *seen, const float (*vertices)[3], uint32_t count,
-                    const float corner[3], const struct soft_frame *frame)
+/* Projects a patch's vertices. Those nearer than the near plane get depth 0. Whole vectors are
+ * written; beyond the last vertex they contain copies of the first. Returns whether any vertex is
+ * too near. */
+static bool project(const struct projected_vertices *seen, const float (*vertices)[3],
+                    uint32_t count, const float corner[3], const struct soft_frame *frame)
 {
     v8i near = simd8_i(0);
     for (uint32_t i = 0; i < count; i += LANES) {
@@ -46,11 +47,11 @@ static bool project(const struct seen *seen, const float (*vertices)[3], uint32_
     return simd8_bits(near) != 0;
 }
 
-/* How steeply depth changes from pixel to pixel, in the promise's code. */
+/* Returns the slope of the depth from pixel to pixel, as stored in the ground code. */
 static v8u steepness(const struct plane8 *depth)
 {
     v8f steep = simd8_max(simd8_abs(depth->x), simd8_abs(depth->y));
-    /* The float's own bits are its logarithm, near enough. */
+    /* A float's bits approximate its logarithm. */
     v8i halves = (((v8i)steep) >> 22) - 2 * (127 - SOFT_STEEP_LOW);
     halves = simd8_select_i(halves < 0, simd8_i(0), halves);
     int32_t most = (1 << SOFT_STEEP_BITS) - 1;
@@ -79,7 +80,7 @@ static void flush(struct soft_ground *ground, const struct soft_frame *frame, st
             .depth = triangle_raster_plane_of(&depth, lane),
             .least = least[lane],
             .most = most[lane],
-            .promise = batch->patch | steep[lane] << SOFT_PATCH_BITS,
+            .code = batch->patch | steep[lane] << SOFT_PATCH_BITS,
         };
         ground->rows[n] = (struct band_rows){(int16_t)edges.first[lane], (int16_t)edges.end[lane]};
     }
@@ -93,7 +94,7 @@ static void put(struct batch *batch, uint32_t corner, float x, float y, float de
     batch->depth[corner][lane] = depth;
 }
 
-/* A triangle of which a part, but not all, is too near. */
+/* Adds a triangle that crosses the near plane. */
 static void put_cut(struct soft_ground *ground, const struct soft_frame *frame, struct batch *batch,
                     const float (*vertices)[3], const float corner[3], const uint16_t triangle[3])
 {
@@ -122,9 +123,10 @@ static void put_cut(struct soft_ground *ground, const struct soft_frame *frame, 
     }
 }
 
-/* All triangles of a patch of which none is too near: eight at a time from their vertices. */
+/* Adds all triangles of a patch that lies wholly beyond the near plane. */
 static void put_all(struct soft_ground *ground, const struct soft_frame *frame, struct batch *batch,
-                    const struct seen *seen, const uint16_t (*triangles)[3], uint32_t count)
+                    const struct projected_vertices *seen, const uint16_t (*triangles)[3],
+                    uint32_t count)
 {
     for (uint32_t i = 0; i < count; i += LANES) {
         uint32_t held = count - i < LANES ? count - i : LANES;
@@ -142,8 +144,8 @@ static void put_all(struct soft_ground *ground, const struct soft_frame *frame, 
 }
 
 static void put_near(struct soft_ground *ground, const struct soft_frame *frame,
-                     struct batch *batch, const struct seen *seen, const struct tile *tile,
-                     const float corner[3])
+                     struct batch *batch, const struct projected_vertices *seen,
+                     const struct tile *tile, const float corner[3])
 {
     const uint16_t(*triangles)[3] = (const uint16_t(*)[3])tile->mesh.triangles;
     const float(*vertices)[3] = (const float(*)[3])tile->mesh.vertices;
@@ -168,8 +170,9 @@ static void put_near(struct soft_ground *ground, const struct soft_frame *frame,
 void KERNEL(soft_ground_set_up)(struct soft_ground *ground, const struct soft_frame *frame)
 {
     const struct draw_list *list = frame->list;
-    size_t room = SOFT_SEEN_ROOM;
-    struct seen seen = {ground->seen, ground->seen + room, ground->seen + 2 * room};
+    size_t room = SOFT_PATCH_VERTICES;
+    struct projected_vertices seen = {ground->projected, ground->projected + room,
+                                      ground->projected + 2 * room};
     struct batch batch = {.count = 0};
     ground->count = 0;
     for (uint32_t i = 0; i < list->patch_count; i++) {
@@ -209,7 +212,7 @@ SIMD8 void depth_pixels(void *context, int32_t x, int32_t y, size_t at, v8i insi
     if (simd8_bits(seen) == 0)
         return;
     simd8_store_f(depth, simd8_select(seen, here, old));
-    simd8_store_u(colour, simd8_select_u(seen, simd8_u(t->promise), simd8_load_u(colour)));
+    simd8_store_u(colour, simd8_select_u(seen, simd8_u(t->code), simd8_load_u(colour)));
 }
 
 void KERNEL(soft_ground_fill)(const struct soft_ground *ground, const struct soft_frame *frame,

@@ -1,17 +1,18 @@
-/* Puffs: smoke, fire, tracers, farthest first, each over what is there. */
+/* Particles: smoke, fire, tracers. They are blended into the picture, farthest first. */
 #include "renderer/soft/atmosphere.h"
 #include "renderer/soft/kernel.h"
 #include "renderer/soft/soft_particles.h"
 #include "renderer/soft/triangle_raster.h"
 
-#define LEAST_RADIUS  0.7f   /* [pixel] smaller ones are drawn as large, and fainter */
-#define COARSE_PIXELS 100.0f /* across: larger ones are worked out for 2 x 2 pixels at once, */
-#define COARSE_COVER  0.6f   /* if they cover so much: fire's edges are sharp */
-#define STRIP_DEEP    0.15f  /* share of its distance by which a strip may be nearer at one end */
+#define LEAST_RADIUS  0.7f   /* [pixel] smaller particles are drawn with this radius, and fainter */
+#define COARSE_PIXELS 100.0f /* [pixel] diameter above which one look-up serves 2 x 2 pixels, */
+#define COARSE_COVER  0.6f   /* if the particle covers this much: the edges of fire are sharp */
+#define STRIP_DEEP                                                                                 \
+    0.15f /* share of its distance by which a strip's ends may differ from its middle */
 
 /* --- set-up ----------------------------------------------------------------------------------- */
 
-/* Eight puffs of the scene; where there are fewer, the last is there again. */
+/* Eight particles of the draw list. If there are fewer, the last is repeated. */
 struct particles8 {
     v8f at[3], size, turn, glow, colour[3], alpha;
 };
@@ -33,7 +34,7 @@ static struct particles8 load_particles(const struct draw_list_particle *from, u
     return p;
 }
 
-/* Sine of an angle in turns to a thousandth: enough to turn a picture of smoke. */
+/* Returns the sine of an angle in turns, to 0.001, which is enough to turn a picture of smoke. */
 SIMD8 v8f sine(v8f turns)
 {
     v8f t = turns - simd8_to_f(simd8_floor(turns + 0.5f));
@@ -41,7 +42,7 @@ SIMD8 v8f sine(v8f turns)
     return s * (0.775f + 0.225f * simd8_abs(s));
 }
 
-/* What a round puff's place in the picture is. */
+/* The positions of eight round particles in the picture. */
 struct round8 {
     v8f x, y, radius, depth, cosine, sine;
 };
@@ -49,8 +50,8 @@ struct round8 {
 SIMD8 struct round8 place_round(const struct soft_frame *f, const struct particles8 *p, v8f ahead)
 {
     v8f far = simd8_sqrt(simd8_dot3(p->at, p->at));
-    /* It is a ball, not a sheet: for depth it counts from its near side, so that the ground does
-     * not cut it along a line. */
+    /* A particle is a ball. Its depth is that of its near side, so that the ground does not cut it
+     * along a line. */
     v8f near = ahead * (1.0f - simd8_min(p->size, 0.5f * far) / simd8_max(far, simd8_f(1e-3f)));
     v8f turns = p->turn * (1.0f / 6.28318531f);
     return (struct round8){
@@ -63,7 +64,8 @@ SIMD8 struct round8 place_round(const struct soft_frame *f, const struct particl
     };
 }
 
-/* log2 of the side of the largest picture whose texels are no larger than the puff's pixels. */
+/* Returns log2 of the side of the largest picture whose texels are no smaller than the particle's
+ * pixels. */
 static uint32_t level_of(float side)
 {
     uint32_t level = 1;
@@ -85,8 +87,8 @@ static bool find_rows(const struct soft_frame *f, struct band_rows *rows, float 
     return rows->first < rows->end;
 }
 
-/* A puff that lies in the picture as a parallelogram: from its middle to the edges of its picture
- * to the right and upwards [pixel]. */
+/* A particle that is a parallelogram in the picture: its middle, and the vectors to its right and
+ * its upper edge [pixel]. */
 struct outline {
     float x, y;
     float right_x, right_y, up_x, up_y;
@@ -100,7 +102,7 @@ static bool set_flat(const struct soft_particles *particles, const struct soft_f
     float reach = particles->reach[picture];
     float wide = reach * sqrtf(o->right_x * o->right_x + o->up_x * o->up_x);
     float high = reach * sqrtf(o->right_y * o->right_y + o->up_y * o->up_y);
-    /* No comparison holds for what is no number. */
+    /* Comparisons with NaN are false. */
     if (!(x > -wide && x < (float)f->width + wide && wide < TRIANGLE_RASTER_FAR &&
           turn * turn > 0.0f) ||
         !find_rows(f, rows, y - high, y + high))
@@ -134,7 +136,7 @@ static bool set_round(const struct soft_particles *particles, const struct soft_
     float share = r->radius[i] / radius, c = radius * r->cosine[i], s = radius * r->sine[i];
     struct outline o = {r->x[i], r->y[i], c, -s, -s, -c};
     particle->depth[0] = r->depth[i];
-    particle->much *= share * share;
+    particle->opacity *= share * share;
     return set_flat(particles, f, particle, rows, picture_of(from), &o);
 }
 
@@ -153,19 +155,22 @@ static void cross(const float a[3], const float b[3], float out[3])
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* How a dot product with a pixel's ray changes over the picture. */
-static void over_picture(const struct soft_frame *f, const float way[3], float by, float out[3])
+/* Computes the dot product of the pixels' rays with a vector, as a linear function over the
+ * picture. */
+static void over_picture(const struct soft_frame *f, const float direction[3], float by,
+                         float out[3])
 {
-    out[1] = by * dot(f->ray_x, way);
-    out[2] = by * dot(f->ray_y, way);
-    out[0] = by * dot(f->ray, way) + 0.5f * (out[1] + out[2]);
+    out[1] = by * dot(f->ray_x, direction);
+    out[2] = by * dot(f->ray_y, direction);
+    out[0] = by * dot(f->ray, direction) + 0.5f * (out[1] + out[2]);
 }
 
-/* The picture's texels lie evenly along side and axis; over the distance they do in the picture. */
+/* Sets the texture coordinates of a streak. Divided by the distance, they are linear over the
+ * picture. */
 static bool set_strip(const struct soft_frame *f, struct soft_particle *particle,
                       const struct draw_list_particle *from, const float side[3], float nearer)
 {
-    float normal[3], way[3], texels = (float)(1u << particle->level), depth[3];
+    float normal[3], direction[3], texels = (float)(1u << particle->level), depth[3];
     cross(side, from->axis, normal);
     float away = dot(from->at, normal);
     if (!(away * away > 1e-12f * dot(normal, normal) * dot(from->at, from->at)))
@@ -173,23 +178,23 @@ static bool set_strip(const struct soft_frame *f, struct soft_particle *particle
     over_picture(f, normal, 1.0f / away, depth);
     for (uint32_t i = 0; i < 3; i++)
         particle->depth[i] = depth[i] * nearer;
-    /* A share of a half side from the middle, from -1 to 1, over the distance. */
-    cross(from->axis, normal, way);
-    float scale = 1.0f / dot(side, way), at = dot(from->at, way) * scale;
-    over_picture(f, way, scale, particle->across);
+    /* The coordinates go from -1 to 1 over the strip and are divided by the distance. */
+    cross(from->axis, normal, direction);
+    float scale = 1.0f / dot(side, direction), at = dot(from->at, direction) * scale;
+    over_picture(f, direction, scale, particle->across);
     for (uint32_t i = 0; i < 3; i++)
         particle->across[i] =
             0.5f * texels * nearer * (particle->across[i] - at * depth[i] + depth[i]);
-    cross(side, normal, way);
-    scale = 1.0f / dot(from->axis, way);
-    at = dot(from->at, way) * scale;
-    over_picture(f, way, scale, particle->down);
+    cross(side, normal, direction);
+    scale = 1.0f / dot(from->axis, direction);
+    at = dot(from->at, direction) * scale;
+    over_picture(f, direction, scale, particle->down);
     for (uint32_t i = 0; i < 3; i++)
         particle->down[i] = 0.5f * texels * nearer * (depth[i] - particle->down[i] + at * depth[i]);
     return true;
 }
 
-/* A strip that keeps its distance from the eye. */
+/* Sets up a strip at a constant distance from the eye. */
 static bool set_flat_strip(const struct soft_particles *particles, const struct soft_frame *f,
                            struct soft_particle *particle, struct band_rows *rows,
                            const struct draw_list_particle *from, const float side[3], float ahead)
@@ -208,7 +213,7 @@ static bool set_flat_strip(const struct soft_particles *particles, const struct 
         float wider = LEAST_RADIUS / (thin + 1e-6f);
         o.right_x *= wider;
         o.right_y *= wider;
-        particle->much /= wider;
+        particle->opacity /= wider;
     }
     float towards = from->size < 0.5f * far ? from->size / far : 0.5f;
     particle->depth[0] = over / (1.0f - towards);
@@ -224,14 +229,14 @@ static bool set_streak(const struct soft_particles *particles, const struct soft
     float long_side = sqrtf(dot(side, side)), far = sqrtf(dot(from->at, from->at));
     float ahead = dot(f->ahead, from->at), grows = dot(f->ahead, from->axis);
     if (!(long_side > 1e-6f * far))
-        return false; /* it comes straight at the eye */
+        return false; /* it points at the eye */
     for (uint32_t i = 0; i < 3; i++)
         side[i] *= from->size / long_side;
     float deep = dot(f->ahead, side);
     deep = (deep < 0.0f ? -deep : deep) + (grows < 0.0f ? -grows : grows);
     if (deep < STRIP_DEEP * ahead && ahead > f->near_m)
         return set_flat_strip(particles, f, particle, rows, from, side, ahead);
-    /* What is before the near plane. */
+    /* The strip is cut at the near plane. */
     for (uint32_t i = 0; i < 2; i++)
         if (ahead + end[i] * grows < f->near_m) {
             if (ahead + end[1 - i] * grows < f->near_m)
@@ -272,16 +277,16 @@ static void set_colour(struct soft_particle *particle, const struct particles8 *
                        const struct atmosphere8 *air, uint32_t i)
 {
     const v8f *ahead[3] = {&air->colour.r, &air->colour.g, &air->colour.b};
-    float glow = p->glow[i], clear = 1.0f - air->much[i];
+    float glow = p->glow[i], clear = 1.0f - air->opacity[i];
     for (uint32_t c = 0; c < 3; c++) {
         particle->colour[c] = 255.0f * clear * p->colour[c][i];
-        particle->air[c] = 255.0f * air->much[i] * (1.0f - glow) * (*ahead[c])[i];
+        particle->air[c] = 255.0f * air->opacity[i] * (1.0f - glow) * (*ahead[c])[i];
     }
     particle->dark = 0.35f + (0.63f - 0.35f) * glow;
     particle->bright = (1.3f + (0.84f - 1.3f) * glow) / 255.0f;
     particle->hot = 255.0f * 0.06f * glow * clear / (255.0f * 255.0f);
     particle->cover = 1.0f - glow;
-    particle->much = p->alpha[i] / 255.0f;
+    particle->opacity = p->alpha[i] / 255.0f;
 }
 
 void KERNEL(soft_particles_set_up)(struct soft_particles *particles, const struct soft_frame *frame)
@@ -313,12 +318,12 @@ void KERNEL(soft_particles_set_up)(struct soft_particles *particles, const struc
 
 /* --- bands ------------------------------------------------------------------------------------ */
 
-/* Eight pixels of a puff: what it adds to what is behind it, 0 .. 255 and a half more to round, and
- * what it leaves of that. */
+/* Eight pixels of a particle: what it adds to the background, 0 .. 255 plus a half for rounding,
+ * and the share of the background that it keeps. */
 struct smoke8 {
     struct colour8 adds;
     v8f keep;
-    v8i seen; /* there is a texel */
+    v8i seen; /* pixels that have a texel */
 };
 
 SIMD8 struct smoke8 smoke_at(const struct soft_particle *p, const uint16_t *texels, v8f column,
@@ -331,17 +336,17 @@ SIMD8 struct smoke8 smoke_at(const struct soft_particle *p, const uint16_t *texe
     v8i texel = (v8i)(simd8_gather_bytes(texels, at * 2) & 0xffffu);
     if (clipped)
         smoke.seen = (s >= 0) & (t >= 0) & (s <= last) & (t <= last);
-    v8f full = simd8_to_f(texel & 255), much = full * p->much;
-    v8f lit = much * (p->dark + p->bright * simd8_to_f(texel >> 8));
-    v8f hot = p->hot * full * full * much + 0.5f;
-    smoke.adds.r = lit * p->colour[0] + much * p->air[0] + hot;
-    smoke.adds.g = lit * p->colour[1] + much * p->air[1] + hot;
-    smoke.adds.b = lit * p->colour[2] + much * p->air[2] + hot;
-    smoke.keep = 1.0f - much * p->cover;
+    v8f full = simd8_to_f(texel & 255), opacity = full * p->opacity;
+    v8f lit = opacity * (p->dark + p->bright * simd8_to_f(texel >> 8));
+    v8f hot = p->hot * full * full * opacity + 0.5f;
+    smoke.adds.r = lit * p->colour[0] + opacity * p->air[0] + hot;
+    smoke.adds.g = lit * p->colour[1] + opacity * p->air[1] + hot;
+    smoke.adds.b = lit * p->colour[2] + opacity * p->air[2] + hot;
+    smoke.keep = 1.0f - opacity * p->cover;
     return smoke;
 }
 
-/* Over what is there. */
+/* Blends over the background. */
 SIMD8 void blend(const struct smoke8 *smoke, v8i seen, uint32_t *colour)
 {
     v8u behind = simd8_load_u(colour);
@@ -353,8 +358,8 @@ SIMD8 void blend(const struct smoke8 *smoke, v8i seen, uint32_t *colour)
     simd8_store_u(colour, simd8_select_u(seen & smoke->seen, sum, behind));
 }
 
-/* The columns of a row, given at its middle, in which a puff's circle, an ellipse in the picture,
- * lies. */
+/* Finds the columns first .. end - 1 of a row whose middle is y that the particle's circle covers.
+ * Returns false if there are none. The circle is an ellipse in the picture. */
 SIMD8 bool find_columns(const struct soft_particle *p, const struct soft_target *t, float y,
                         int32_t *first, int32_t *end)
 {
@@ -408,7 +413,7 @@ SIMD8 v8f twice_high(v8f v)
     return __builtin_shufflevector(v, v, 4, 4, 5, 5, 6, 6, 7, 7);
 }
 
-/* Rows y and y + 1, as far as they are in rows, sixteen columns at a time. */
+/* Fills rows y and y + 1, if they are in rows, sixteen columns at a time. */
 SIMD8 void fill_coarse(const struct soft_particle *p, const uint16_t *texels,
                        const struct soft_target *t, int32_t y, const struct band_rows *rows)
 {
@@ -453,7 +458,7 @@ SIMD8 void fill_streak(const struct soft_particle *p, const uint16_t *texels,
         v8f over = 1.0f / simd8_select(seen, depth, simd8_f(1.0f));
         v8f s = (p->across[0] + down * p->across[2] + at * p->across[1]) * over;
         v8f r = (p->down[0] + down * p->down[2] + at * p->down[1]) * over;
-        /* Far outside it is no texel's number. */
+        /* Coordinates far outside would not fit a texel's number. */
         float side = (float)(1u << p->level);
         seen &= (s > -1.0f) & (r > -1.0f) & (s < side) & (r < side);
         if (simd8_bits(seen) == 0)
@@ -479,7 +484,7 @@ static void fill_particle(const struct soft_particles *particles, const struct s
         for (; y < last; y++)
             fill_streak(p, texels, t, y, first, end);
     } else if (p->coarse) {
-        /* Pairs of rows, which are in one band. */
+        /* Both rows of a pair are in one band. */
         for (y &= -2; y < last; y += 2)
             fill_coarse(p, texels, t, y, rows);
     } else if (p->clipped) {

@@ -1,40 +1,42 @@
-/* Plants and their shadows, made ready, and plants into a band. */
+/* Sets up plants and their shadows, and fills a band with plants. */
 #include "renderer/soft/atmosphere.h"
 #include "renderer/soft/billboard.h"
 #include "renderer/soft/kernel.h"
 #include "renderer/soft/soft_plants.h"
 #include "renderer/soft/triangle_raster.h"
 
-#define SHADE_RANGE_M 2200.0f /* no shadows beyond */
-#define SHADE_FULL_M  1400.0f
-#define SHADE_LOW_M   60.0f /* nor beyond this of what is lower than: */
-#define SHADE_HIGH_M  1.3f
-#define SHADE_LEAST_M 0.3f
-#define SHADE_STEEP   0.25f  /* a shadow is at most so many times as long as the plant over this */
-#define SHADE_BIAS    0.002f /* of the distance: a shadow lies so much nearer than the slope */
-#define SHADE_CUT     102u   /* of alpha, 0.4 */
-#define MIX_TEXELS    1.5f   /* pixels a texel, above which texels are mixed */
-#define MIX_LEVEL     5u     /* and up to which level: few pixels, which must not be blocks */
+#define SHADOW_RANGE_M 2200.0f /* no plant farther away has a shadow */
+#define SHADOW_FULL_M  1400.0f
+#define SHADOW_LOW_M   60.0f /* the limit for plants that are lower than: */
+#define SHADOW_HIGH_M  1.3f
+#define SHADOW_LEAST_M 0.3f
+#define SHADOW_STEEP   0.25f  /* a shadow is at most 1 / this times as long as the plant is high */
+#define SHADOW_BIAS    0.002f /* of the distance, by which a shadow is nearer than the slope */
+#define SHADOW_CUT     102u   /* alpha 0.4 */
+#define MIX_TEXELS     1.5f   /* pixels a texel above which texels are interpolated, */
+#define MIX_LEVEL                                                                                  \
+    5u /* and the level up to which they always are, since few large texels would show as blocks   \
+        */
 
 /* --- set-up ----------------------------------------------------------------------------------- */
 
-/* Eight plants of the scene; where there are fewer, the last is there again. */
+/* Eight plants of the draw list. If there are fewer, the last is repeated. */
 struct plants8 {
     v8f at[3], width, height, lean, slope[2], tint[3];
-    v8f far, level;       /* [m] distance, and without height */
-    v8f ahead_x, ahead_z; /* unit, level, from the eye */
+    v8f far, level;       /* [m] distance, and horizontal distance */
+    v8f ahead_x, ahead_z; /* unit vector from the eye, horizontal */
     struct atmosphere8 air;
 };
 
-/* Something over the picture for each of eight boards. */
+/* A linear function over the picture for each of eight billboards. */
 struct values8 {
     v8f v[3];
 };
 
 struct billboards8 {
-    struct values8 depth, across, down; /* the last two in pictures, not texels */
+    struct values8 depth, across, down; /* the last two in units of the picture, not texels */
     v8f left, right, high, low;         /* [pixel] within the picture */
-    v8f size;                           /* [pixel] the lesser of width and height */
+    v8f size;                           /* [pixel] the smaller of width and height */
     v8i there;
 };
 
@@ -60,7 +62,8 @@ static void load_plants(const struct soft_frame *f, struct plants8 *p,
     p->air = atmosphere_at(f, p->at);
 }
 
-/* Over the picture: the dot product of a pixel's ray with a way. */
+/* Returns the dot product of the pixels' rays with a vector, as a linear function over the
+ * picture. */
 SIMD8 struct values8 over_picture(const struct soft_frame *f, v8f x, v8f y, v8f z)
 {
     struct values8 o;
@@ -78,7 +81,8 @@ SIMD8 struct values8 sum(struct values8 a, v8f by, struct values8 b, v8f by_b)
     return o;
 }
 
-/* A board's corner in the picture. */
+/* Extends the bounds of billboards by a corner. cut: those with a corner nearer than the near
+ * plane. */
 SIMD8 void take_corner(const struct soft_frame *f, struct billboards8 *b, const v8f place[3],
                        v8i *cut)
 {
@@ -96,8 +100,8 @@ SIMD8 void take_corner(const struct soft_frame *f, struct billboards8 *b, const 
     b->low = simd8_max(b->low, y);
 }
 
-/* Where in the picture boards may be, of which a corner is at the foot, and two sides. What reaches
- * behind the near plane may be anywhere. */
+/* Finds the bounds in the picture of billboards with this foot and these two sides. One that
+ * crosses the near plane may be anywhere in the picture. */
 SIMD8 void find_bounds(const struct soft_frame *f, struct billboards8 *b, const v8f foot[3],
                        const v8f side[3], const v8f up[3])
 {
@@ -122,15 +126,15 @@ SIMD8 void find_bounds(const struct soft_frame *f, struct billboards8 *b, const 
     b->there &= (b->left < b->right) & (b->high < b->low);
 }
 
-/* Upright, turned to the eye about the vertical; seen steeply from above, with its top away from
- * the eye (struct draw_list_plant). */
-SIMD8 struct billboards8 stand(const struct soft_frame *f, const struct plants8 *p)
+/* Returns upright billboards that face the eye about the vertical. Seen steeply from above, their
+ * tops lean away from the eye (struct draw_list_plant). */
+SIMD8 struct billboards8 upright_billboards(const struct soft_frame *f, const struct plants8 *p)
 {
     struct billboards8 b;
     v8f right_x = -p->ahead_z, right_z = p->ahead_x, zero = simd8_f(0.0f), one = simd8_f(1.0f);
     v8f side[3] = {right_x * p->width, zero, right_z * p->width};
     v8f leans = p->lean * p->height;
-    /* Sine and cosine of how far it lies back. */
+    /* These are the sine and cosine of the angle by which it leans back. */
     v8f back = simd8_max((-p->at[1] - p->level) * DRAW_LIST_PLANT_STEEP / p->far, zero);
     v8f rise =
         simd8_select(back > zero, (p->level - p->at[1]) * DRAW_LIST_PLANT_STEEP / p->far, one);
@@ -138,10 +142,11 @@ SIMD8 struct billboards8 stand(const struct soft_frame *f, const struct plants8 
     v8f up[3] = {right_x * leans + back_x * p->height, rise * p->height,
                  right_z * leans + back_z * p->height};
     find_bounds(f, &b, p->at, side, up);
-    v8f off_plane = p->level * rise - p->at[1] * back; /* the eye, from the board's plane */
+    v8f off_plane =
+        p->level * rise - p->at[1] * back; /* distance of the eye from the billboard's plane */
     b.depth = over_picture(f, p->ahead_x * rise / off_plane, -back / off_plane,
                            p->ahead_z * rise / off_plane);
-    /* How high in the picture, then how far across. */
+    /* First the height in the picture, then the position across. */
     v8f foot = (p->level * back + p->at[1] * rise) / p->height;
     struct values8 high =
         sum(over_picture(f, back_x / p->height, rise / p->height, back_z / p->height), one, b.depth,
@@ -152,18 +157,19 @@ SIMD8 struct billboards8 stand(const struct soft_frame *f, const struct plants8 
     return b;
 }
 
-/* Laid on the slope, away from the sun. */
-SIMD8 struct billboards8 lie(const struct soft_frame *f, const struct plants8 *p, v8f *reach)
+/* Returns the plants' shadows: billboards on the slope, away from the sun. */
+SIMD8 struct billboards8 shadow_billboards(const struct soft_frame *f, const struct plants8 *p,
+                                           v8f *reach)
 {
     struct billboards8 b;
     float level = sqrtf(f->sun[0] * f->sun[0] + f->sun[2] * f->sun[2]);
     float away_x = -f->sun[0] / level, away_z = -f->sun[2] / level;
     float aside_x = -away_z, aside_z = away_x;
     v8f one = simd8_f(1.0f), leans = p->lean * p->height;
-    /* Where the sun's ray through the top meets the slope. */
+    /* The shadow ends where the sun's ray through the top meets the slope. */
     v8f fall = p->slope[0] * away_x + p->slope[1] * away_z;
     v8f bank = p->slope[0] * aside_x + p->slope[1] * aside_z;
-    *reach = p->height / simd8_max(f->sun[1] / level + fall, simd8_f(SHADE_STEEP));
+    *reach = p->height / simd8_max(f->sun[1] / level + fall, simd8_f(SHADOW_STEEP));
     v8f foot[3] = {p->at[0], p->at[1] + 0.10f + 0.02f * p->height, p->at[2]};
     v8f side[3] = {aside_x * p->width, bank * p->width, aside_z * p->width};
     v8f up[3] = {away_x * *reach + aside_x * leans, fall * *reach + bank * leans,
@@ -184,7 +190,7 @@ SIMD8 struct billboards8 lie(const struct soft_frame *f, const struct plants8 *p
     return b;
 }
 
-/* log2 of the side of the picture whose texels are as large as its pixels. */
+/* Returns log2 of the side of the picture whose texels are about as large as pixels. */
 static uint32_t level_of(float side)
 {
     uint32_t level = 1;
@@ -220,12 +226,12 @@ static void set_light(const struct soft_frame *f, struct soft_plant *plant, cons
     static const float sky[3] = {SKY_LIGHT_RED, SKY_LIGHT_GREEN, SKY_LIGHT_BLUE};
     static const float sun[3] = {SUN_LIGHT_RED, SUN_LIGHT_GREEN, SUN_LIGHT_BLUE};
     const v8f air[3] = {p->air.colour.r, p->air.colour.g, p->air.colour.b};
-    float much = p->air.much[lane], x = p->ahead_x[lane], z = p->ahead_z[lane];
+    float opacity = p->air.opacity[lane], x = p->ahead_x[lane], z = p->ahead_z[lane];
     for (uint32_t i = 0; i < 3; i++) {
         float tint = f->texture ? p->tint[i][lane] : 1.0f;
-        plant->sky[i] = PLANT_OPEN * (1.0f - much) * tint * sky[i];
-        plant->sun[i] = PLANT_OPEN * (1.0f - much) * tint * sun[i];
-        plant->air[i] = 255.0f * much * air[i][lane];
+        plant->sky[i] = PLANT_OPEN * (1.0f - opacity) * tint * sky[i];
+        plant->sun[i] = PLANT_OPEN * (1.0f - opacity) * tint * sun[i];
+        plant->air[i] = 255.0f * opacity * air[i][lane];
     }
     plant->to_sun[0] = x * f->sun[2] - z * f->sun[0];
     plant->to_sun[1] = f->sun[1];
@@ -235,8 +241,9 @@ static void set_light(const struct soft_frame *f, struct soft_plant *plant, cons
 static void put_plants(struct soft_plants *plants, const struct soft_frame *f,
                        const struct plants8 *p, const struct draw_list_plant *from, uint32_t lanes)
 {
-    struct billboards8 b = stand(f, p);
-    /* Small pictures are averages of leaf and gap: a lower threshold keeps their size. */
+    struct billboards8 b = upright_billboards(f, p);
+    /* Texels of small pictures are averages of leaves and gaps: a lower threshold keeps the plant's
+     * size. */
     v8f cut = 255.0f * (0.5f - 0.28f * simd8_smoothstep(150.0f, 1800.0f, p->far));
     for (lanes &= simd8_bits(b.there); lanes != 0; lanes &= lanes - 1) {
         uint32_t lane = (uint32_t)__builtin_ctz(lanes);
@@ -252,32 +259,32 @@ static void put_plants(struct soft_plants *plants, const struct soft_frame *f,
     }
 }
 
-static void put_casts(struct soft_plants *plants, const struct soft_frame *f,
-                      const struct plants8 *p, const struct draw_list_plant *from, uint32_t lanes)
+static void put_shadows(struct soft_plants *plants, const struct soft_frame *f,
+                        const struct plants8 *p, const struct draw_list_plant *from, uint32_t lanes)
 {
     v8f reach, far = p->far;
-    v8i none = (far > SHADE_RANGE_M) | (p->height < SHADE_LEAST_M) |
-               ((p->height < SHADE_HIGH_M) & (far > SHADE_LOW_M));
+    v8i none = (far > SHADOW_RANGE_M) | (p->height < SHADOW_LEAST_M) |
+               ((p->height < SHADOW_HIGH_M) & (far > SHADOW_LOW_M));
     lanes &= simd8_bits(~none);
     if (lanes == 0)
         return;
-    struct billboards8 b = lie(f, p, &reach);
-    v8f strong = 1.0f - simd8_smoothstep(SHADE_FULL_M, SHADE_RANGE_M, far);
-    v8f dark = (float)SOFT_SHADOW_FULL * (1.0f - p->air.much) * strong;
+    struct billboards8 b = shadow_billboards(f, p, &reach);
+    v8f strong = 1.0f - simd8_smoothstep(SHADOW_FULL_M, SHADOW_RANGE_M, far);
+    v8f dark = (float)SOFT_SHADOW_FULL * (1.0f - p->air.opacity) * strong;
     for (lanes &= simd8_bits(b.there); lanes != 0; lanes &= lanes - 1) {
         uint32_t lane = (uint32_t)__builtin_ctz(lanes);
-        struct soft_cast *cast = &plants->casts[plants->cast_count];
-        cast->dark = (uint32_t)(dark[lane] + 0.5f);
-        cast->board.cut = SHADE_CUT;
-        if (cast->dark > 0 &&
-            set_board(plants, &cast->board, &plants->cast_rows[plants->cast_count], &b,
+        struct soft_plant_shadow *shadow = &plants->shadows[plants->shadow_count];
+        shadow->dark = (uint32_t)(dark[lane] + 0.5f);
+        shadow->board.cut = SHADOW_CUT;
+        if (shadow->dark > 0 &&
+            set_board(plants, &shadow->board, &plants->shadow_rows[plants->shadow_count], &b,
                       from[lane].picture, lane)) {
             for (uint32_t i = 0; i < 3; i++) {
-                cast->board.depth[i] *= 1.0f + SHADE_BIAS;
-                cast->board.across[i] *= 1.0f + SHADE_BIAS;
-                cast->board.down[i] *= 1.0f + SHADE_BIAS;
+                shadow->board.depth[i] *= 1.0f + SHADOW_BIAS;
+                shadow->board.across[i] *= 1.0f + SHADOW_BIAS;
+                shadow->board.down[i] *= 1.0f + SHADOW_BIAS;
             }
-            plants->cast_count++;
+            plants->shadow_count++;
         }
     }
 }
@@ -285,20 +292,20 @@ static void put_casts(struct soft_plants *plants, const struct soft_frame *f,
 void KERNEL(soft_plants_set_up)(struct soft_plants *plants, const struct soft_frame *frame)
 {
     const struct draw_list *list = frame->list;
-    plants->count = plants->cast_count = 0;
+    plants->count = plants->shadow_count = 0;
     for (uint32_t first = 0; first < list->plant_count; first += LANES) {
         uint32_t count = list->plant_count - first < LANES ? list->plant_count - first : LANES;
         const struct draw_list_plant *from = &list->plants[first];
         struct plants8 p;
         load_plants(frame, &p, from, count);
         put_plants(plants, frame, &p, from, (1u << count) - 1u);
-        put_casts(plants, frame, &p, from, (1u << count) - 1u);
+        put_shadows(plants, frame, &p, from, (1u << count) - 1u);
     }
 }
 
 /* --- bands ------------------------------------------------------------------------------------ */
 
-/* What eight texels are: colour 0 .. 255, the way they face. */
+/* Eight texels: colour 0 .. 255, and normal. */
 struct leaves8 {
     struct colour8 colour;
     v8f alpha, facing[3];
@@ -318,7 +325,7 @@ SIMD8 struct leaves8 unpack(v8u colour, v8u facing, bool texture)
     return l;
 }
 
-SIMD8 struct leaves8 mix(const struct leaves8 *a, const struct leaves8 *b, v8f t)
+SIMD8 struct leaves8 mix_leaves(const struct leaves8 *a, const struct leaves8 *b, v8f t)
 {
     struct leaves8 l = {.colour = colour_mix(a->colour, b->colour, t),
                         .alpha = simd8_mix(a->alpha, b->alpha, t)};
@@ -327,9 +334,9 @@ SIMD8 struct leaves8 mix(const struct leaves8 *a, const struct leaves8 *b, v8f t
     return l;
 }
 
-/* Between the four nearest texels. */
-SIMD8 struct leaves8 four_leaves(const struct soft_billboard *b, const struct soft_leaf *leaves,
-                                 v8f column, v8f row, bool texture)
+/* Returns texels by bilinear interpolation. */
+SIMD8 struct leaves8 bilinear_leaves(const struct soft_billboard *b, const struct soft_leaf *leaves,
+                                     v8f column, v8f row, bool texture)
 {
     float last = (float)(1u << b->level) - 1.0f;
     v8f left = simd8_clamp(column - 0.5f, 0.0f, last), high = simd8_clamp(row - 0.5f, 0.0f, last);
@@ -343,12 +350,12 @@ SIMD8 struct leaves8 four_leaves(const struct soft_billboard *b, const struct so
         struct simd8_pairs pair = simd8_gather_pairs(leaves, texel);
         four[i] = unpack(pair.low, pair.high, texture);
     }
-    struct leaves8 top = mix(&four[0], &four[1], left - simd8_to_f(x));
-    struct leaves8 low = mix(&four[2], &four[3], left - simd8_to_f(x));
-    return mix(&top, &low, high - simd8_to_f(y));
+    struct leaves8 top = mix_leaves(&four[0], &four[1], left - simd8_to_f(x));
+    struct leaves8 low = mix_leaves(&four[2], &four[3], left - simd8_to_f(x));
+    return mix_leaves(&top, &low, high - simd8_to_f(y));
 }
 
-/* Light on leaves, some of it from behind through them. */
+/* Returns the colour of lit leaves; a part of the sunlight shines through from behind. */
 SIMD8 v8u lit(const struct soft_plant *p, const struct leaves8 *l)
 {
     v8f sun = simd8_dot3_f(p->to_sun, l->facing);
@@ -372,7 +379,7 @@ SIMD8 void plant_pixels(const struct soft_plant *p, const struct soft_leaf *leav
     if (simd8_bits(b.seen) == 0)
         return;
     if (p->mixed) {
-        l = four_leaves(&p->board, leaves, b.column, b.row, texture);
+        l = bilinear_leaves(&p->board, leaves, b.column, b.row, texture);
         b.seen &= l.alpha >= (float)p->board.cut;
     } else {
         v8i texel = billboard_texel(&p->board, b.column, b.row);

@@ -1,84 +1,85 @@
-/* The colours of ground, water and sky, eight pixels of a row at a time.
+/* The shading pass: the colours of ground, water and sky, eight pixels of a row at a time.
  *
- * What changes slowly over the picture is worked out at every eighth pixel of every fourth row: the
- * horizon's colour and the length of the ray for the air before the ground, and the whole sky,
- * which is mixed from four such places for each pixel. Ground seen at a low angle is drawn from
- * textures that are coarse enough for it lengthwise, and so several pixels broad: there every
- * second or fourth pixel is looked up, and those between are mixed. */
+ * Two slowly varying values are computed only at every eighth pixel of every fourth row: for the
+ * air in front of the ground, the horizon's colour and the length of the ray; and the sky, which is
+ * interpolated between four such points. Ground at a low angle uses mips whose texels are several
+ * pixels wide. There only every second or fourth pixel is looked up, and those between are
+ * interpolated. */
 #include "renderer/soft/atmosphere.h"
 #include "renderer/soft/kernel.h"
 #include "renderer/soft/soft_ground.h"
 #include "renderer/soft/texel.h"
 
 #define STEP_ROWS 4
-#define SUN_NEAR  0.998f /* cosine of an angle to the sun within which its disc may be */
+#define SUN_NEAR  0.998f /* cosine of an angle to the sun that contains its disc */
 #define STEPS_MAX (SOFT_SIDE_MAX / LANES)
 
 _Static_assert(SOFT_BAND_ROWS % STEP_ROWS == 0, "a step is within one band");
 
-/* Along a row, at the middle of every eight pixels; colours 0..255. */
+/* Values at the middle of every eight pixels of a row; colours 0..255. */
 struct horizon_row {
     float r[STEPS_MAX], g[STEPS_MAX], b[STEPS_MAX];
-    float far[STEPS_MAX]; /* length of the ray that is 1 m ahead */
-    int32_t y;            /* the row it is for, -1: none yet */
+    float far[STEPS_MAX]; /* [m] length of the ray to 1 m along the view */
+    int32_t y;            /* the row it was computed for; -1: none */
 };
 
-/* Along a row, at the left end of every eight pixels, and at the right end of the last. */
+/* Values at the left end of every eight pixels of a row, and at the right end of the last. */
 struct sky_row {
     float r[STEPS_MAX + LANES], g[STEPS_MAX + LANES], b[STEPS_MAX + LANES];
-    float sun[STEPS_MAX + LANES]; /* the cosine of the angle to the sun */
+    float sun[STEPS_MAX + LANES]; /* cosine of the angle to the sun */
     int32_t y;
 };
 
-/* What a band's resolving knows. */
+/* The state of shading a band. */
 struct shading {
     const struct soft_ground *ground;
     const struct soft_frame *frame;
     struct horizon_row horizon;
-    struct sky_row above, below; /* of the four rows in question */
-    float ray[3];                /* of the row's left end */
-    float rise;                  /* of a metre ahead along the row's rays */
-    float fog_share, fog_fall;   /* of the row: see air_before() */
+    struct sky_row above, below; /* at the first of four rows, and at the first of the next four */
+    float ray[3];                /* at the row's left end */
+    float rise;                  /* rise of the row's rays for each metre along the view */
+    float fog_share, fog_fall;   /* for this row; see air_before() */
 };
 
-/* Eight places on the ground of one patch, on their way through the steps below. */
+/* Eight points of one ground patch, while they are shaded. */
 struct ground8 {
     v8f ahead;         /* [m] */
     v8f east, south;   /* from the eye [m] */
-    v8i mine;          /* places in question */
-    struct texels8 at; /* the painting, then the colour, 0..255 */
-    uint32_t x;        /* the first's column */
+    v8i mask;          /* mask of the points that are shaded */
+    struct texels8 at; /* the ground texture, then the colour, 0..255 */
+    uint32_t x;        /* column of the first */
     uint32_t patch;
-    uint32_t rate;  /* pixels that each place stands for: 1; or 2 or 4, all in question */
-    float far_m;    /* of one of those in question */
-    float covers_m; /* how much ground it covers along the view */
+    uint32_t rate;  /* pixels for each point: 1, or 2 or 4 if all points are shaded */
+    float far_m;    /* [m] distance of one of the points */
+    float covers_m; /* [m] ground that its pixel covers along the view */
 };
 
-/* A few of them take each step before any takes the next: while one waits for its texels, the
- * processor goes on with others. */
-#define WAITING 12u
+/* Several groups take each step together: while one waits for its texels from memory, the processor
+ * continues with others. */
+#define QUEUE_LENGTH 12u
 
-struct waiting {
-    struct ground8 ground[WAITING];
-    uint32_t count, coloured, drawn; /* so many, and the first so many of them */
+struct ground_queue {
+    struct ground8 ground[QUEUE_LENGTH];
+    uint32_t count, coloured,
+        drawn; /* groups; of these, the first that are coloured and that are stored */
 };
 
-/* Which share the next coarser of a texture's sizes has, where so many (1 .. 2) of this size's
- * texels would do: from one to the next a picture changes over a short way. */
-SIMD8 float to_next(float texels)
+/* Returns the weight of the next coarser mip, when the ideal texel is 1 .. 2 texels of this mip
+ * wide. The transition is short. */
+SIMD8 float next_mip_weight(float texels)
 {
     float share = (texels - 1.7f) * (1.0f / 0.3f);
     return share < 1.0f ? share : 1.0f;
 }
 
-/* Which of its sizes is looked up where so many of the largest one's texels would do. */
+/* Returns the mip of the detail texture for an ideal width in texels of the largest mip. */
 SIMD8 int32_t fine_mip(float texels_wide)
 {
     int32_t mip = power_of_2(texels_wide) + 1;
     return mip < 0 ? 0 : mip > SOFT_DETAIL_POWER ? SOFT_DETAIL_POWER : mip;
 }
 
-/* The fine texture, 0..65280, at places in periods: at + by * place, turned a little. */
+/* Looks up the detail texture, 0..65280, at at + by * point [period], turned a little by across. */
 SIMD8 struct pair8 fine_at(const struct soft_ground *ground, const struct ground8 *g,
                            float texels_wide, const float at[2], float by, float across)
 {
@@ -90,7 +91,7 @@ SIMD8 struct pair8 fine_at(const struct soft_ground *ground, const struct ground
         v -= g->east * aside;
     }
     struct pair8 fine = texel_pair(ground->detail.mip[mip], power, u, v);
-    float share = to_next(texels_wide * (1.0f / (float)(1u << mip)) * 2.0f);
+    float share = next_mip_weight(texels_wide * (1.0f / (float)(1u << mip)) * 2.0f);
     if (share > 0.0f && power > 0) {
         struct pair8 next =
             texel_pair(ground->detail.mip[mip + 1], power - 1, u * 0.5f - 64.0f, v * 0.5f - 64.0f);
@@ -102,20 +103,19 @@ SIMD8 struct pair8 fine_at(const struct soft_ground *ground, const struct ground
 
 #define FINE_PER_M  (1.0f / FINE_M)
 #define WAVES_ASIDE 0.35f
-/* Sharper than a mean over all that a pixel covers: at a low angle it would blur long before the
- * eye expects it. */
+/* Less than the full width that a pixel covers: at a low angle the mean would look too blurred. */
 #define SHARP 0.66f
 #define WIDE  ((float)(1 << SOFT_DETAIL_POWER))
 
-/* How much is left at a distance of what fades out between two others. */
+/* Returns the share that is left at a distance when fading from fades to faded [m]. */
 static inline float fading(float far, float fades, float faded)
 {
     float left = (faded - far) / (faded - fades);
     return left > 1.0f ? 1.0f : left;
 }
 
-/* How much the fine texture brightens or darkens the ground. */
-SIMD8 v8f grain(const struct soft_ground *ground, const struct ground8 *g, v8f scrub)
+/* Returns the factor by which the detail texture changes the ground's brightness. */
+SIMD8 v8f detail_brightness(const struct soft_ground *ground, const struct ground8 *g, v8f scrub)
 {
     float fine = fading(g->far_m, FINE_FADES_M, FINE_FADED_M);
     if (fine <= 0.0f)
@@ -125,11 +125,11 @@ SIMD8 v8f grain(const struct soft_ground *ground, const struct ground8 *g, v8f s
     return 1.0f + fine * (simd8_mix(at.red, at.green, scrub) * TEXEL_OVER - 0.5f);
 }
 
-/* The painting: channels 0..65280. */
-SIMD8 struct texels8 painting(const struct soft_patch *patch, const struct ground8 *g)
+/* Looks up the ground texture; channels 0..65280. */
+SIMD8 struct texels8 ground_texture(const struct soft_patch *patch, const struct ground8 *g)
 {
-    /* By distance alone, and by what a pixel covers: patches of different levels meet in the same
-     * sharpness, and nothing changes suddenly when a patch is divided. */
+    /* The mip depends only on the distance and on what a pixel covers. Patches of different levels
+     * therefore meet with equal sharpness, and nothing changes suddenly when a patch is divided. */
     float texels = tile_texels(g->far_m, g->covers_m, 1.0f) * patch->per_m;
     int32_t power = power_of_2(texels);
     uint32_t mip = power < 0 ? 0 : power > 5 ? 5 : (uint32_t)power;
@@ -137,10 +137,11 @@ SIMD8 struct texels8 painting(const struct soft_patch *patch, const struct groun
     float step = patch->per_m * size, off = 128.0f * scale - 128.0f;
     v8f u = g->east * step + (patch->at_u * size + off);
     v8f v = g->south * step + (patch->at_v * size + off);
-    struct texels8 tile = texel_four(patch->paint, mip, u, v);
-    float share = to_next(texels * scale);
+    struct texels8 tile = texel_four(patch->look_up_textures, mip, u, v);
+    float share = next_mip_weight(texels * scale);
     if (share > 0.0f) {
-        struct texels8 next = texel_four(patch->paint, mip + 1, u * 0.5f - 64.0f, v * 0.5f - 64.0f);
+        struct texels8 next =
+            texel_four(patch->look_up_textures, mip + 1, u * 0.5f - 64.0f, v * 0.5f - 64.0f);
         tile.r += (next.r - tile.r) * share;
         tile.g += (next.g - tile.g) * share;
         tile.b += (next.b - tile.b) * share;
@@ -149,8 +150,8 @@ SIMD8 struct texels8 painting(const struct soft_patch *patch, const struct groun
     return tile;
 }
 
-/* Foam on the sea, where the painting's alpha says that the shore is near: two lines that come and
- * go, and the wash at the water's edge. */
+/* Returns the foam on the sea near the shore, which the texture's alpha tells: two lines that come
+ * and go, and the wash at the water's edge. */
 SIMD8 v8f foam(const struct soft_frame *frame, v8f alpha, v8f ragged, v8f lumps)
 {
     float beat = frame->time_s * (1.0f / SURF_S);
@@ -158,19 +159,19 @@ SIMD8 v8f foam(const struct soft_frame *frame, v8f alpha, v8f ragged, v8f lumps)
     beat = beat * beat * (3.0f - 2.0f * beat);
     v8f shore = simd8_clamp(alpha * (1.0f / SHORE_WATER), 0.0f, 1.0f);
     v8f line = shore - 0.29f - 0.32f * beat - 0.5f * ragged;
-    v8f much = simd8_max(1.0f - 7.0f * simd8_abs(line), simd8_f(0.0f));
-    much += 0.5f * simd8_max(1.0f - 6.0f * simd8_abs(line + 0.34f), simd8_f(0.0f));
-    much = simd8_max(much, 5.0f * (shore - 0.86f)) * (0.3f + 1.2f * lumps);
-    return simd8_clamp(much * simd8_clamp(3.0f * shore - 0.4f, 0.0f, 1.0f), 0.0f, 0.9f);
+    v8f amount = simd8_max(1.0f - 7.0f * simd8_abs(line), simd8_f(0.0f));
+    amount += 0.5f * simd8_max(1.0f - 6.0f * simd8_abs(line + 0.34f), simd8_f(0.0f));
+    amount = simd8_max(amount, 5.0f * (shore - 0.86f)) * (0.3f + 1.2f * lumps);
+    return simd8_clamp(amount * simd8_clamp(3.0f * shore - 0.4f, 0.0f, 1.0f), 0.0f, 0.9f);
 }
 
-/* Water, 0..1: the sky in it, the sun on its waves, and foam. */
+/* Returns the water's colour, 0..1: the reflected sky, the sun on the waves, and foam. */
 static struct colour8 water(const struct soft_ground *ground, const struct soft_frame *frame,
                             const struct ground8 *g, float rise, struct colour8 deep, v8f alpha,
                             bool surf)
 {
-    v8f way[3] = {g->east, g->ahead * rise, g->south}, back[3], n[3];
-    v8f far = simd8_sqrt(simd8_dot3(way, way));
+    v8f direction[3] = {g->east, g->ahead * rise, g->south}, back[3], n[3];
+    v8f far = simd8_sqrt(simd8_dot3(direction, direction));
     float t = frame->time_s;
     const float ripples_at[2] = {ground->ripples_at[0] + 0.023f * t,
                                  ground->ripples_at[1] + 0.023f * t};
@@ -191,28 +192,28 @@ static struct colour8 water(const struct soft_ground *ground, const struct soft_
     n[1] = over;
     n[2] = south * over;
     for (uint32_t i = 0; i < 3; i++)
-        way[i] = way[i] / far;
-    v8f facing = simd8_dot3(way, n);
+        direction[i] = direction[i] / far;
+    v8f facing = simd8_dot3(direction, n);
     for (uint32_t i = 0; i < 3; i++)
-        back[i] = way[i] - 2.0f * facing * n[i];
+        back[i] = direction[i] - 2.0f * facing * n[i];
     back[1] = simd8_max(back[1], simd8_f(0.0f));
     v8f grazing = simd8_clamp(1.0f + facing, 0.0f, 1.0f);
     v8f mirror = 0.04f + 0.80f * (grazing * grazing) * (grazing * grazing);
     v8f glint = simd8_max(simd8_dot3_f(frame->sun, back), simd8_f(0.0f));
     for (uint32_t i = 0; i < 7; i++)
-        glint *= glint; /* to the 128th */
+        glint *= glint; /* to the power of 128 */
     back[1] += WAVE_LIFT;
     struct colour8 c = colour_mix(deep, atmosphere_sky(frame, back), mirror);
     c.r += SUN_LIGHT_RED * 1.6f * glint;
     c.g += SUN_LIGHT_GREEN * 1.6f * glint;
     c.b += SUN_LIGHT_BLUE * 1.6f * glint;
-    if (!surf || simd8_bits((alpha > 0.005f) & g->mine) == 0)
+    if (!surf || simd8_bits((alpha > 0.005f) & g->mask) == 0)
         return c;
     return colour_mix(c, colour_of(FOAM_WHITE),
                       foam(frame, alpha, swell.red * TEXEL_OVER, ripples.green * TEXEL_OVER));
 }
 
-/* Bytes of a colour of 0..255 and more, alpha 0. */
+/* Packs a colour of 0..255, or brighter, to bytes with alpha 0. */
 SIMD8 v8u bytes_of(struct colour8 c)
 {
     v8i r = simd8_round(simd8_min(c.r, simd8_f(255.0f))),
@@ -221,8 +222,8 @@ SIMD8 v8u bytes_of(struct colour8 c)
     return (v8u)(r | g << 8 | b << 16);
 }
 
-/* The alpha that tells fxaa_rows() where edges may be: how far away the ground is, in quarters of
- * a power of two, and whether it lies in shadow. */
+/* Returns the alpha by which fxaa_rows() finds edges: the ground's depth in quarters of a power of
+ * two, and whether it lies in shadow. */
 SIMD8 v8u edge_alpha(v8f depth, v8u shadow)
 {
     v8i quarters = ((v8i)depth >> 21) - 4 * (127 - 20);
@@ -231,15 +232,15 @@ SIMD8 v8u edge_alpha(v8f depth, v8u shadow)
     return ((v8u)quarters | dark) << 24;
 }
 
-/* What the air puts before the ground. Along one ray the fog in the way grows with the distance as
- * 1 - exp(-distance * fall), which needs no division by pixel. */
+/* Returns the air in front of the ground. Along one ray the fog grows with the distance as 1 -
+ * exp(-distance * fall), which needs no division for each pixel. */
 SIMD8 struct atmosphere8 air_before(const struct shading *r, uint32_t step, v8f ahead)
 {
     const struct horizon_row *h = &r->horizon;
     v8f far = ahead * h->far[step];
     v8f fog = (r->fog_share * h->far[step]) * (1.0f - simd8_exp2(ahead * r->fog_fall));
     v8f all = fog + r->frame->haze * far, share = 0.5f * fog / simd8_max(all, simd8_f(1e-6f));
-    struct atmosphere8 air = {.much = 1.0f - simd8_exp_minus(all)};
+    struct atmosphere8 air = {.opacity = 1.0f - simd8_exp_minus(all)};
     struct colour8 white = colour_scale(colour_of(FOG_WHITE), simd8_f(255.0f));
     air.colour.r = h->r[step] + (white.r - h->r[step]) * share;
     air.colour.g = h->g[step] + (white.g - h->g[step]) * share;
@@ -249,25 +250,25 @@ SIMD8 struct atmosphere8 air_before(const struct shading *r, uint32_t step, v8f 
 
 /* --- the steps -------------------------------------------------------------------------------- */
 
-static void paint(const struct shading *r, struct waiting *w)
+static void look_up_textures(const struct shading *r, struct ground_queue *w)
 {
     for (uint32_t i = w->coloured; i < w->count; i++) {
         struct ground8 *g = &w->ground[i];
-        g->at = painting(&r->ground->patches[g->patch], g);
+        g->at = ground_texture(&r->ground->patches[g->patch], g);
     }
 }
 
-static void roughen(const struct shading *r, struct waiting *w)
+static void shade_ground(const struct shading *r, struct ground_queue *w)
 {
     for (uint32_t i = w->coloured; i < w->count; i++) {
         struct ground8 *g = &w->ground[i];
         v8f scrub = simd8_clamp((g->at.a * TEXEL_OVER - 0.376f) * (1.0f / 0.624f), 0.0f, 1.0f);
-        v8f bright = r->frame->texture ? grain(r->ground, g, scrub) * (1.0f / 256.0f)
+        v8f bright = r->frame->texture ? detail_brightness(r->ground, g, scrub) * (1.0f / 256.0f)
                                        : simd8_f(1.0f / 256.0f);
         struct colour8 dry = {g->at.r * bright, g->at.g * bright, g->at.b * bright}, c = dry;
         const struct soft_patch *patch = &r->ground->patches[g->patch];
         v8f alpha = g->at.a * TEXEL_OVER;
-        if (patch->wet && simd8_bits((alpha < SHORE_GROUND) & g->mine) != 0) {
+        if (patch->wet && simd8_bits((alpha < SHORE_GROUND) & g->mask) != 0) {
             struct colour8 deep = {g->at.r * TEXEL_OVER, g->at.g * TEXEL_OVER,
                                    g->at.b * TEXEL_OVER};
             c = water(r->ground, r->frame, g, r->rise, deep, alpha, patch->surf);
@@ -280,27 +281,27 @@ static void roughen(const struct shading *r, struct waiting *w)
     }
 }
 
-/* Pixel by pixel, with their shadows. */
-SIMD8 void put_pixels(const struct ground8 *g, const struct atmosphere8 *air, uint32_t *colour,
-                      const float *depth)
+/* Stores one pixel for each point, with shadows. */
+SIMD8 void store_pixels(const struct ground8 *g, const struct atmosphere8 *air, uint32_t *colour,
+                        const float *depth)
 {
     const struct colour8 dark = colour_of(12.75f, 15.3f, 22.95f);
     struct colour8 c = {g->at.r, g->at.g, g->at.b};
-    v8u promise = simd8_load_u(colour), shadow = (promise >> SOFT_SHADOW_BITS) & 255u;
-    if (simd8_bits(g->mine & (v8i)(shadow != 0)) != 0)
+    v8u code = simd8_load_u(colour), shadow = (code >> SOFT_SHADOW_BITS) & 255u;
+    if (simd8_bits(g->mask & (v8i)(shadow != 0)) != 0)
         c = colour_mix(c, dark, simd8_to_f((v8i)shadow) * (0.5f / 255.0f));
     v8u packed = bytes_of(atmosphere_over(c, air)) | edge_alpha(simd8_load_f(depth), shadow);
-    simd8_store_u(colour, simd8_select_u(g->mine, packed, promise));
+    simd8_store_u(colour, simd8_select_u(g->mask, packed, code));
 }
 
-/* Between each place's own colour and its neighbours'. */
-SIMD8 v8u mixed(const struct colour8 *c, const struct colour8 *beside, float share)
+/* Interpolates between each point's colour and its neighbour's. */
+SIMD8 v8u interpolate(const struct colour8 *c, const struct colour8 *beside, float share)
 {
     return bytes_of(colour_mix(*c, *beside, simd8_f(share)));
 }
 
-/* The neighbours to the left: before comes the last of the places that end where these begin, or,
- * where there are none, what goes on evenly. */
+/* Returns each point's left neighbour. That of the first is the last of before, or, where there is
+ * none, extrapolated. */
 SIMD8 v8f to_left(v8f v, const v8f *before)
 {
     v8f moved = __builtin_shufflevector(v, v, 0, 0, 1, 2, 3, 4, 5, 6);
@@ -315,7 +316,7 @@ SIMD8 v8f to_right(v8f v, const v8f *after)
     return moved;
 }
 
-SIMD8 void put_sixteen(v8u even, v8u odd, uint32_t *colour, const float *depth)
+SIMD8 void store_sixteen(v8u even, v8u odd, uint32_t *colour, const float *depth)
 {
     v8u low = __builtin_shufflevector(even, odd, 0, 8, 1, 9, 2, 10, 3, 11);
     v8u high = __builtin_shufflevector(even, odd, 4, 12, 5, 13, 6, 14, 7, 15);
@@ -323,9 +324,9 @@ SIMD8 void put_sixteen(v8u even, v8u odd, uint32_t *colour, const float *depth)
     simd8_store_u(colour + LANES, high | edge_alpha(simd8_load_f(depth + LANES), simd8_u(0u)));
 }
 
-/* Two or four pixels for each place. */
-SIMD8 void put_between(const struct ground8 *g, const struct texels8 *before,
-                       const struct texels8 *after, uint32_t *colour, const float *depth)
+/* Stores two or four pixels for each point. */
+SIMD8 void store_interpolated(const struct ground8 *g, const struct texels8 *before,
+                              const struct texels8 *after, uint32_t *colour, const float *depth)
 {
     struct colour8 c = {g->at.r, g->at.g, g->at.b};
     struct colour8 left = {to_left(c.r, before ? &before->r : NULL),
@@ -335,57 +336,58 @@ SIMD8 void put_between(const struct ground8 *g, const struct texels8 *before,
                             to_right(c.g, after ? &after->g : NULL),
                             to_right(c.b, after ? &after->b : NULL)};
     if (g->rate == 2) {
-        put_sixteen(mixed(&c, &left, 0.25f), mixed(&c, &right, 0.25f), colour, depth);
+        store_sixteen(interpolate(&c, &left, 0.25f), interpolate(&c, &right, 0.25f), colour, depth);
         return;
     }
-    v8u first = mixed(&c, &left, 0.375f), second = mixed(&c, &left, 0.125f);
-    v8u third = mixed(&c, &right, 0.125f), fourth = mixed(&c, &right, 0.375f);
+    v8u first = interpolate(&c, &left, 0.375f), second = interpolate(&c, &left, 0.125f);
+    v8u third = interpolate(&c, &right, 0.125f), fourth = interpolate(&c, &right, 0.375f);
     v8u odd = __builtin_shufflevector(first, third, 0, 8, 1, 9, 2, 10, 3, 11);
     v8u even = __builtin_shufflevector(second, fourth, 0, 8, 1, 9, 2, 10, 3, 11);
-    put_sixteen(odd, even, colour, depth);
+    store_sixteen(odd, even, colour, depth);
     odd = __builtin_shufflevector(first, third, 4, 12, 5, 13, 6, 14, 7, 15);
     even = __builtin_shufflevector(second, fourth, 4, 12, 5, 13, 6, 14, 7, 15);
-    put_sixteen(odd, even, colour + 2 * LANES, depth + 2 * LANES);
+    store_sixteen(odd, even, colour + 2 * LANES, depth + 2 * LANES);
 }
 
-/* Do they lie side by side, and is each more than a pixel? */
-SIMD8 bool adjoin(const struct ground8 *a, const struct ground8 *b)
+/* Returns true if both groups have several pixels a point and are adjacent. */
+SIMD8 bool are_adjacent(const struct ground8 *a, const struct ground8 *b)
 {
     return a->rate > 1 && b->rate > 1 && a->x + a->rate * LANES == b->x;
 }
 
-/* Draws those before end. */
-static void put_down(const struct shading *r, struct waiting *w, uint32_t end, uint32_t *colour,
-                     const float *depth)
+/* Stores the pixels of the groups before end. */
+static void store_groups(const struct shading *r, struct ground_queue *w, uint32_t end,
+                         uint32_t *colour, const float *depth)
 {
     struct ground8 *all = w->ground;
     for (uint32_t i = w->coloured; i < w->count; i++) {
         struct ground8 *g = &all[i];
         struct atmosphere8 air = air_before(r, g->x / LANES + g->rate / 2, g->ahead);
         if (g->rate == 1) {
-            put_pixels(g, &air, colour + g->x, depth + g->x);
+            store_pixels(g, &air, colour + g->x, depth + g->x);
             continue;
         }
         struct colour8 c = atmosphere_over((struct colour8){g->at.r, g->at.g, g->at.b}, &air);
-        g->at = (struct texels8){c.r, c.g, c.b, air.much};
+        g->at = (struct texels8){c.r, c.g, c.b, air.opacity};
     }
     for (uint32_t i = w->drawn; i < end; i++) {
-        bool before = i > 0 && adjoin(&all[i - 1], &all[i]);
-        bool after = i + 1 < w->count && adjoin(&all[i], &all[i + 1]);
+        bool before = i > 0 && are_adjacent(&all[i - 1], &all[i]);
+        bool after = i + 1 < w->count && are_adjacent(&all[i], &all[i + 1]);
         if (all[i].rate > 1)
-            put_between(&all[i], before ? &all[i - 1].at : NULL, after ? &all[i + 1].at : NULL,
-                        colour + all[i].x, depth + all[i].x);
+            store_interpolated(&all[i], before ? &all[i - 1].at : NULL,
+                               after ? &all[i + 1].at : NULL, colour + all[i].x, depth + all[i].x);
     }
 }
 
-/* The last waits on for what comes to its right, unless the row ends. */
-static void go_on(const struct shading *r, struct waiting *w, bool ends, uint32_t *colour,
-                  const float *depth)
+/* Shades and stores the queued groups. Unless the row ends, a last group with several pixels a
+ * point stays queued until its right neighbour is known. */
+static void flush_queue(const struct shading *r, struct ground_queue *w, bool ends,
+                        uint32_t *colour, const float *depth)
 {
-    paint(r, w);
-    roughen(r, w);
+    look_up_textures(r, w);
+    shade_ground(r, w);
     bool waits = !ends && w->ground[w->count - 1].rate > 1;
-    put_down(r, w, waits ? w->count - 1 : w->count, colour, depth);
+    store_groups(r, w, waits ? w->count - 1 : w->count, colour, depth);
     if (waits) {
         w->ground[0] = w->ground[w->count - 2];
         w->ground[1] = w->ground[w->count - 1];
@@ -394,55 +396,55 @@ static void go_on(const struct shading *r, struct waiting *w, bool ends, uint32_
     w->drawn = waits ? 1 : 0;
 }
 
-/* How much ground a pixel covers along the view, of this steepness. */
+/* Returns how much ground a pixel covers along the view [m]; code: the slope of its depth. */
 SIMD8 float covered(const struct shading *r, uint32_t code, float ahead, float far)
 {
     float across = ahead * r->frame->pixel_m, along = soft_steepness(code) * ahead * far;
     return along > across ? along : across;
 }
 
-/* Eight pixels of ground begin, once for each patch that they are of: mostly one. */
-SIMD8 void begin(const struct shading *r, struct waiting *w, uint32_t x, v8i mine, uint32_t *colour,
-                 const float *depth)
+/* Queues eight ground pixels, once for each patch among them, which is mostly one. */
+SIMD8 void queue_pixels(const struct shading *r, struct ground_queue *w, uint32_t x, v8i mask,
+                        uint32_t *colour, const float *depth)
 {
-    v8u promise = simd8_load_u(colour + x), patch = promise & ((1u << SOFT_PATCH_BITS) - 1);
+    v8u code = simd8_load_u(colour + x), patch = code & ((1u << SOFT_PATCH_BITS) - 1);
     v8f column = simd8_to_f(simd8_count() + (int32_t)x) + 0.5f;
-    v8f ahead = 1.0f / simd8_select(mine, simd8_load_f(depth + x), simd8_f(1.0f));
-    for (uint32_t bits = simd8_bits(mine); bits != 0;) {
+    v8f ahead = 1.0f / simd8_select(mask, simd8_load_f(depth + x), simd8_f(1.0f));
+    for (uint32_t bits = simd8_bits(mask); bits != 0;) {
         int first = __builtin_ctz(bits);
         struct ground8 *g = &w->ground[w->count++];
         g->ahead = ahead;
         g->east = (r->ray[0] + column * r->frame->ray_x[0]) * ahead;
         g->south = (r->ray[2] + column * r->frame->ray_x[2]) * ahead;
-        g->mine = mine & ((v8i)patch == (int32_t)patch[first]);
+        g->mask = mask & ((v8i)patch == (int32_t)patch[first]);
         g->x = x;
         g->rate = 1;
         g->patch = patch[first];
         g->far_m = ahead[first] * r->horizon.far[x / LANES];
-        g->covers_m = covered(r, promise[first] >> SOFT_PATCH_BITS, ahead[first], g->far_m);
-        bits &= ~simd8_bits(g->mine);
-        if (w->count == WAITING)
-            go_on(r, w, false, colour, depth);
+        g->covers_m = covered(r, code[first] >> SOFT_PATCH_BITS, ahead[first], g->far_m);
+        bits &= ~simd8_bits(g->mask);
+        if (w->count == QUEUE_LENGTH)
+            flush_queue(r, w, false, colour, depth);
     }
 }
 
-/* So much nearer may one of the pixels be than another that are mixed. */
+/* The greatest ratio of depths between pixels that are interpolated. */
 #define MIX_DEPTH 1.2f
 
-/* Texels that are so many pixels broad need only every second or fourth pixel. */
+/* The width of texels [pixel] from which every second or fourth pixel is enough. */
 #define BROAD_FOR_2 1.3f
 #define BROAD_FOR_4 2.6f
 
-/* The mean depth of every two of sixteen pixels. */
-SIMD8 v8f of_two(v8f a, v8f b)
+/* Returns the mean depth of each pair of sixteen pixels. */
+SIMD8 v8f mean_of_pairs(v8f a, v8f b)
 {
     return 0.5f * (__builtin_shufflevector(a, b, 0, 2, 4, 6, 8, 10, 12, 14) +
                    __builtin_shufflevector(a, b, 1, 3, 5, 7, 9, 11, 13, 15));
 }
 
-/* How broad a texel is of the finest texture that will be looked up there [m]; waves are no finer
- * than the fine texture. */
-SIMD8 float broadness(const struct soft_patch *patch, float far, float covers)
+/* Returns the width [m] of a texel of the finest texture that will be looked up. Waves are no finer
+ * than the detail texture. */
+SIMD8 float texel_width(const struct soft_patch *patch, float far, float covers)
 {
     int32_t mip = power_of_2(tile_texels(far, covers, 1.0f) * patch->per_m);
     float broad = (float)(1u << (mip < 0 ? 0 : mip > 5 ? 5 : mip)) / patch->per_m;
@@ -452,9 +454,9 @@ SIMD8 float broadness(const struct soft_patch *patch, float far, float covers)
     return fminf(broad, (float)(1u << mip) * (1.0f / (WIDE * FINE_PER_M)));
 }
 
-/* Are so many pixels of one smooth piece of ground, all in the light? mean: the depth of each two
- * or four of them. */
-SIMD8 bool smooth(uint32_t rate, const uint32_t *colour, const float *depth, v8f *mean)
+/* Returns true if rate * 8 pixels belong to one smooth piece of ground without shadow. mean: the
+ * mean depth of each two or four of them. */
+SIMD8 bool is_smooth(uint32_t rate, const uint32_t *colour, const float *depth, v8f *mean)
 {
     const v8u same = simd8_u(~(((1u << SOFT_STEEP_BITS) - 1) << SOFT_PATCH_BITS));
     float middle = depth[LANES];
@@ -466,53 +468,52 @@ SIMD8 bool smooth(uint32_t rate, const uint32_t *colour, const float *depth, v8f
         most = simd8_max(most, at[i]);
         other |= (simd8_load_u(colour + i * LANES) ^ colour[LANES]) & same;
     }
-    *mean = of_two(at[0], at[1]);
+    *mean = mean_of_pairs(at[0], at[1]);
     if (rate == 4)
-        *mean = of_two(*mean, of_two(at[2], at[3]));
+        *mean = mean_of_pairs(*mean, mean_of_pairs(at[2], at[3]));
     return simd8_bits((v8i)(other != 0u) | (most > MIX_DEPTH * middle) |
                       (least * MIX_DEPTH < middle) | (least == 0.0f)) == 0;
 }
 
-/* Sixteen or 32 pixels begin together, if they are smooth and their textures so broad. Returns how
- * many did. */
-SIMD8 uint32_t begin_many(const struct shading *r, struct waiting *w, uint32_t x, uint32_t *colour,
-                          const float *depth)
+/* Queues 16 or 32 pixels together if they are smooth and their texels wide enough. Returns their
+ * number, or 0. */
+SIMD8 uint32_t queue_smooth_pixels(const struct shading *r, struct ground_queue *w, uint32_t x,
+                                   uint32_t *colour, const float *depth)
 {
-    uint32_t promise = colour[x + LANES], patch = promise & ((1u << SOFT_PATCH_BITS) - 1);
-    if (x + 2 * LANES > r->frame->width || promise >> SOFT_SHADOW_BITS != 0 ||
+    uint32_t code = colour[x + LANES], patch = code & ((1u << SOFT_PATCH_BITS) - 1);
+    if (x + 2 * LANES > r->frame->width || code >> SOFT_SHADOW_BITS != 0 ||
         depth[x + LANES] <= 0.0f)
         return 0;
     float ahead = 1.0f / depth[x + LANES], far = ahead * r->horizon.far[x / LANES + 1];
-    float covers = covered(r, promise >> SOFT_PATCH_BITS, ahead, far);
-    float broad = broadness(&r->ground->patches[patch], far, covers);
+    float covers = covered(r, code >> SOFT_PATCH_BITS, ahead, far);
+    float broad = texel_width(&r->ground->patches[patch], far, covers);
     float across = ahead * r->frame->pixel_m;
     uint32_t rate = 4;
     v8f mean;
     if (x + 4 * LANES > r->frame->width || broad < BROAD_FOR_4 * across ||
-        !smooth(4, colour + x, depth + x, &mean))
+        !is_smooth(4, colour + x, depth + x, &mean))
         rate = 2;
-    if (rate == 2 && (broad < BROAD_FOR_2 * across || !smooth(2, colour + x, depth + x, &mean)))
+    if (rate == 2 && (broad < BROAD_FOR_2 * across || !is_smooth(2, colour + x, depth + x, &mean)))
         return 0;
     v8f column = simd8_to_f(simd8_count() * (int32_t)rate + (int32_t)x) + 0.5f * (float)rate;
     struct ground8 *g = &w->ground[w->count++];
     g->ahead = 1.0f / mean;
     g->east = (r->ray[0] + column * r->frame->ray_x[0]) * g->ahead;
     g->south = (r->ray[2] + column * r->frame->ray_x[2]) * g->ahead;
-    g->mine = simd8_i(-1);
+    g->mask = simd8_i(-1);
     g->x = x;
     g->rate = rate;
     g->patch = patch;
     g->far_m = far;
     g->covers_m = covers;
-    if (w->count == WAITING)
-        go_on(r, w, false, colour, depth);
+    if (w->count == QUEUE_LENGTH)
+        flush_queue(r, w, false, colour, depth);
     return rate * LANES;
 }
 
 /* --- sky -------------------------------------------------------------------------------------- */
 
-/* The light around the sun; its disc is finer than what is known of the sky: sky_pixels() has it.
- */
+/* Returns the glow around the sun. Its disc needs a higher resolution: see sky_pixels(). */
 SIMD8 struct colour8 sun_glow(v8f sun)
 {
     v8f s32 = sun;
@@ -524,32 +525,32 @@ SIMD8 struct colour8 sun_glow(v8f sun)
     return colour_scale(colour_of(SUN_WARM), 0.20f * s32 + 0.30f * s256);
 }
 
-/* sun: how near the sun they look, the cosine of the angle to it. */
+/* Returns the sky's colour along rays. sun: the cosine of their angle to the sun. */
 static struct colour8 sky_at(const struct soft_ground *ground, const struct soft_frame *frame,
                              const v8f ray[3], v8f *sun)
 {
-    v8f over = 1.0f / simd8_sqrt(simd8_dot3(ray, ray)), way[3];
+    v8f over = 1.0f / simd8_sqrt(simd8_dot3(ray, ray)), direction[3];
     for (uint32_t i = 0; i < 3; i++)
-        way[i] = ray[i] * over;
-    struct colour8 c = atmosphere_sky(frame, way);
-    *sun = simd8_max(simd8_dot3_f(frame->sun, way), simd8_f(0.0f));
+        direction[i] = ray[i] * over;
+    struct colour8 c = atmosphere_sky(frame, direction);
+    *sun = simd8_max(simd8_dot3_f(frame->sun, direction), simd8_f(0.0f));
     struct colour8 glow = sun_glow(*sun);
     c = colour_add(c, glow);
-    v8f near = 1.0f / (simd8_max(way[1], simd8_f(0.0f)) + 0.12f), x = way[0] * near,
-        z = way[2] * near;
+    v8f near = 1.0f / (simd8_max(direction[1], simd8_f(0.0f)) + 0.12f), x = direction[0] * near,
+        z = direction[2] * near;
     float t = frame->time_s;
     v8f broad = texel_cloud(ground->clouds, x * 0.11f + 0.0004f * t, z * 0.11f + 0.0004f * t);
     v8f fine = texel_cloud(ground->clouds, x * 0.47f + 0.0007f * t, z * 0.47f + 0.0007f * t);
     v8f cloud = simd8_smoothstep(0.50f, 0.78f, 0.68f * broad + 0.36f * fine);
-    cloud *= 0.72f * simd8_smoothstep(0.02f, 0.16f, way[1]);
+    cloud *= 0.72f * simd8_smoothstep(0.02f, 0.16f, direction[1]);
     struct colour8 lit =
         colour_mix(colour_of(CLOUD_SHADE), colour_of(CLOUD_LIT), 0.4f + 0.6f * fine);
     lit = colour_add(lit, colour_scale(glow, simd8_f(0.5f)));
-    struct atmosphere8 air = atmosphere_before_sky(frame, way);
+    struct atmosphere8 air = atmosphere_before_sky(frame, direction);
     return atmosphere_over(colour_mix(c, lit, cloud), &air);
 }
 
-/* The rays of every eighth pixel of a row, from x on. */
+/* Computes the rays of every eighth pixel of a row, from column x on. */
 SIMD8 void rays_at(const struct soft_frame *frame, float x, float y, v8f ray[3])
 {
     v8f column = simd8_to_f(simd8_count()) * (float)LANES + x;
@@ -594,7 +595,7 @@ SIMD8 v8f sky_mix(const float *above, const float *below, v8f across, float down
     return left + across * (right - left);
 }
 
-/* The sun's disc at eight pixels, behind the clouds and the fog that the sky has there. */
+/* Returns how much of the sun's disc eight pixels see, without clouds and fog. */
 SIMD8 v8f sun_disc(const struct soft_frame *frame, uint32_t x, int32_t y)
 {
     v8f ray[3], column = simd8_to_f(simd8_count()) + ((float)x + 0.5f);
@@ -605,7 +606,7 @@ SIMD8 v8f sun_disc(const struct soft_frame *frame, uint32_t x, int32_t y)
     return simd8_clamp((sun - SUN_EDGE) * (1.0f / (SUN_WHOLE - SUN_EDGE)), 0.0f, 1.0f);
 }
 
-static void sky_pixels(struct shading *r, uint32_t x, int32_t y, v8i mine, uint32_t *colour)
+static void sky_pixels(struct shading *r, uint32_t x, int32_t y, v8i mask, uint32_t *colour)
 {
     int32_t first = y & -STEP_ROWS;
     if (r->below.y == first)
@@ -625,7 +626,7 @@ static void sky_pixels(struct shading *r, uint32_t x, int32_t y, v8i mine, uint3
         struct colour8 sun = colour_scale(colour_of(SUN_WARM), disc);
         c = colour_add(c, sun);
     }
-    simd8_store_u(colour, simd8_select_u(mine, bytes_of(c), simd8_load_u(colour)));
+    simd8_store_u(colour, simd8_select_u(mask, bytes_of(c), simd8_load_u(colour)));
 }
 
 /* --- rows ------------------------------------------------------------------------------------- */
@@ -637,7 +638,7 @@ static void begin_row(struct shading *r, int32_t y)
         r->ray[i] = f->ray[i] + ((float)y + 0.5f) * f->ray_y[i];
     if (r->horizon.y != (y & -STEP_ROWS))
         fill_horizon(r, y & -STEP_ROWS);
-    /* Level rays stay in one height: as good as level will do. */
+    /* A nearly level ray is treated as rising slightly, since the fog divides by the rise. */
     float rise = r->ray[1] + 0.5f * (float)f->width * f->ray_x[1];
     rise = rise > 1e-3f || rise < -1e-3f ? rise : rise < 0.0f ? -1e-3f : 1e-3f;
     r->rise = rise;
@@ -645,16 +646,16 @@ static void begin_row(struct shading *r, int32_t y)
     r->fog_fall = -1.44269504f * rise * f->fog_fall;
 }
 
-static void resolve_row(struct shading *r, uint32_t *colour, const float *depth, int32_t y)
+static void shade_row(struct shading *r, uint32_t *colour, const float *depth, int32_t y)
 {
-    struct waiting waiting;
-    waiting.count = waiting.coloured = waiting.drawn = 0;
+    struct ground_queue queue;
+    queue.count = queue.coloured = queue.drawn = 0;
     begin_row(r, y);
     for (uint32_t x = 0; x < r->frame->width;) {
-        v8i open = (v8i)((simd8_load_u(colour + x) >> 24) == 0);
-        v8i earth = open & (simd8_load_f(depth + x) > 0.0f), sky = open & ~earth;
-        if (simd8_bits(earth) == 255) {
-            uint32_t done = begin_many(r, &waiting, x, colour, depth);
+        v8i unshaded = (v8i)((simd8_load_u(colour + x) >> 24) == 0);
+        v8i on_ground = unshaded & (simd8_load_f(depth + x) > 0.0f), sky = unshaded & ~on_ground;
+        if (simd8_bits(on_ground) == 255) {
+            uint32_t done = queue_smooth_pixels(r, &queue, x, colour, depth);
             if (done > 0) {
                 x += done;
                 continue;
@@ -662,11 +663,11 @@ static void resolve_row(struct shading *r, uint32_t *colour, const float *depth,
         }
         if (simd8_bits(sky) != 0)
             sky_pixels(r, x, y, sky, colour + x);
-        if (simd8_bits(earth) != 0)
-            begin(r, &waiting, x, earth, colour, depth);
+        if (simd8_bits(on_ground) != 0)
+            queue_pixels(r, &queue, x, on_ground, colour, depth);
         x += LANES;
     }
-    go_on(r, &waiting, true, colour, depth);
+    flush_queue(r, &queue, true, colour, depth);
 }
 
 void KERNEL(soft_shade_fill)(const struct soft_ground *ground, const struct soft_frame *frame,
@@ -679,6 +680,6 @@ void KERNEL(soft_shade_fill)(const struct soft_ground *ground, const struct soft
                         .below = {.y = -1}};
     for (int32_t y = target->first; y < target->end; y++) {
         size_t row = (size_t)(y - target->first) * target->stride;
-        resolve_row(&r, target->colour + row, target->depth + row, y);
+        shade_row(&r, target->colour + row, target->depth + row, y);
     }
 }

@@ -1,11 +1,12 @@
-/* Shadows of bodies and plants on the ground of a band: marks that resolve darkens by. */
+/* The shadows of bodies and plants on the ground of a band: marks by which the shading pass darkens
+ * the ground. */
 #include "renderer/soft/billboard.h"
 #include "renderer/soft/kernel.h"
 #include "renderer/soft/soft_bodies.h"
 #include "renderer/soft/soft_plants.h"
 #include "renderer/soft/triangle_raster.h"
 
-/* Darkens ground, where it is not darker, and nothing else. */
+/* Marks ground pixels with a shadow unless theirs is darker. Other pixels stay. */
 SIMD8 void darken(uint32_t *colour, v8i seen, uint32_t dark)
 {
     v8u there = simd8_load_u(colour), mark = simd8_u(dark << SOFT_SHADOW_BITS);
@@ -14,26 +15,27 @@ SIMD8 void darken(uint32_t *colour, v8i seen, uint32_t dark)
     simd8_store_u(colour, simd8_select_u(seen, (there & others) | mark, there));
 }
 
-struct shading {
+struct shadow_pass {
     const struct soft_target *target;
-    const struct soft_shadow *shade;
+    const struct soft_shadow_face *face;
 };
 
-SIMD8 void shade_pixels(void *context, int32_t x, int32_t y, size_t at, v8i inside)
+SIMD8 void shadow_pixels(void *context, int32_t x, int32_t y, size_t at, v8i inside)
 {
-    const struct shading *s = context;
-    v8f depth = triangle_raster_value(&s->shade->edges, &s->shade->depth, x, y);
+    const struct shadow_pass *s = context;
+    v8f depth = triangle_raster_value(&s->face->edges, &s->face->depth, x, y);
     v8f there = simd8_load_f(s->target->depth + at);
     v8i seen = inside & (depth >= there) & (there > 0.0f);
     if (simd8_bits(seen) != 0)
-        darken(s->target->colour + at, seen, s->shade->dark);
+        darken(s->target->colour + at, seen, s->face->dark);
 }
 
-/* A plant's shadow has the plant's outline. */
-static void fill_cast(const struct soft_plants *plants, const struct soft_target *t, uint32_t index)
+/* Fills the shadow of a plant, which has the outline of its picture. */
+static void fill_plant_shadow(const struct soft_plants *plants, const struct soft_target *t,
+                              uint32_t index)
 {
-    const struct soft_cast *c = &plants->casts[index];
-    const struct band_rows *rows = &plants->cast_rows[index];
+    const struct soft_plant_shadow *c = &plants->shadows[index];
+    const struct band_rows *rows = &plants->shadow_rows[index];
     const struct soft_leaf *leaves = &plants->leaves[c->board.leaves];
     int32_t y = rows->first > t->first ? rows->first : t->first;
     int32_t last = rows->end < t->end ? rows->end : t->end;
@@ -57,13 +59,13 @@ void KERNEL(soft_shadows_fill)(const struct soft_bodies *bodies, const struct so
                                const struct soft_frame *frame, const struct soft_target *target)
 {
     (void)frame;
-    struct shading s = {.target = target};
-    const struct band_lists *lists = &bodies->shades.lists;
+    struct shadow_pass s = {.target = target};
+    const struct band_lists *lists = &bodies->shadow_faces.lists;
     for (uint32_t i = lists->start[target->band]; i < lists->start[target->band + 1]; i++) {
-        s.shade = (const struct soft_shadow *)bodies->shades.list + lists->item[i];
-        triangle_raster_walk(&s.shade->edges, target, shade_pixels, &s);
+        s.face = (const struct soft_shadow_face *)bodies->shadow_faces.list + lists->item[i];
+        triangle_raster_walk(&s.face->edges, target, shadow_pixels, &s);
     }
-    lists = &plants->cast_lists;
+    lists = &plants->shadow_lists;
     for (uint32_t i = lists->start[target->band]; i < lists->start[target->band + 1]; i++)
-        fill_cast(plants, target, lists->item[i]);
+        fill_plant_shadow(plants, target, lists->item[i]);
 }

@@ -1,5 +1,5 @@
-/* Vectors of eight: what the kernels are written in. Every operation here gives the same bits
- * whatever instructions it becomes: no reciprocal estimates, no fused multiply-add. The compiler
+/* Vectors of eight numbers, in which the kernels are written. Every operation gives the same bits
+ * on any processor: there are no reciprocal estimates and no fused multiply-add. The compiler
  * splits a vector where registers are shorter. Kernels only: see kernel.h. */
 #ifndef JOLON_RENDERER_SOFT_SIMD8_H
 #define JOLON_RENDERER_SOFT_SIMD8_H
@@ -13,7 +13,8 @@
 #include <immintrin.h>
 #endif
 
-/* The name of a kernel of this build: every function of a kernel's file that others see has it. */
+/* The name of a kernel in this build. Every function of a kernel file that other files call has
+ * such a name. */
 #ifdef __AVX2__
 #define KERNEL(name) name##_avx2
 #else
@@ -21,11 +22,11 @@
 #endif
 
 #define LANES 8
-/* Kernels live from being inlined with constants. */
+/* Kernels are fast only when these are inlined with constants. */
 #define SIMD8 static inline __attribute__((always_inline))
 
 typedef float v8f __attribute__((vector_size(32)));
-typedef int32_t v8i __attribute__((vector_size(32))); /* also masks: a lane is 0 or -1 */
+typedef int32_t v8i __attribute__((vector_size(32))); /* also masks, whose lanes are 0 or -1 */
 typedef uint32_t v8u __attribute__((vector_size(32)));
 typedef uint16_t v16s __attribute__((vector_size(32)));
 typedef uint8_t v32b __attribute__((vector_size(32)));
@@ -50,7 +51,7 @@ SIMD8 v8i simd8_count(void)
     return (v8i){0, 1, 2, 3, 4, 5, 6, 7};
 }
 
-/* Memory of any alignment. */
+/* Loads and stores take memory of any alignment. */
 SIMD8 v8f simd8_load_f(const float *from)
 {
     v8f v;
@@ -80,7 +81,7 @@ SIMD8 v8f simd8_to_f(v8i v)
     return __builtin_convertvector(v, v8f);
 }
 
-/* Towards zero; |v| below 2^31. */
+/* Rounds towards zero; |v| below 2^31. */
 SIMD8 v8i simd8_to_i(v8f v)
 {
     return __builtin_convertvector(v, v8i);
@@ -108,7 +109,7 @@ SIMD8 v8f simd8_join(__m128 low, __m128 high)
 }
 #endif
 
-/* To the nearest, to the even one of two; |v| below 2^31. */
+/* Rounds to the nearest whole number, halves to even; |v| below 2^31. */
 SIMD8 v8i simd8_round(v8f v)
 {
 #if defined(__AVX2__)
@@ -124,7 +125,7 @@ SIMD8 v8i simd8_round(v8f v)
 #endif
 }
 
-/* Rounded down, up; |v| below 2^31. */
+/* Round down and up; |v| below 2^31. */
 SIMD8 v8i simd8_floor(v8f v)
 {
     v8i whole = simd8_to_i(v);
@@ -137,7 +138,7 @@ SIMD8 v8i simd8_ceil(v8f v)
     return whole - (v > simd8_to_f(whole));
 }
 
-/* a where the mask is -1, b where it is 0. */
+/* Returns a where the mask is -1 and b where it is 0. */
 SIMD8 v8f simd8_select(v8i mask, v8f a, v8f b)
 {
 #ifdef __AVX2__
@@ -157,7 +158,7 @@ SIMD8 v8u simd8_select_u(v8i mask, v8u a, v8u b)
     return (v8u)simd8_select(mask, (v8f)a, (v8f)b);
 }
 
-/* a < b ? a : b, and a > b ? a : b: b when either is not a number. */
+/* Return a < b ? a : b and a > b ? a : b, hence b when either is NaN. */
 SIMD8 v8f simd8_min(v8f a, v8f b)
 {
 #if defined(__AVX2__)
@@ -182,7 +183,7 @@ SIMD8 v8f simd8_max(v8f a, v8f b)
 #endif
 }
 
-/* The same byte by byte, unsigned. */
+/* The same for each unsigned byte. */
 SIMD8 v8u simd8_min_b(v8u a, v8u b)
 {
 #if defined(__AVX2__)
@@ -235,7 +236,7 @@ SIMD8 v8f simd8_sqrt(v8f v)
 #endif
 }
 
-/* A bit for each lane, the first lowest. */
+/* Returns one bit for each lane of a mask, the first lane's lowest. */
 SIMD8 uint32_t simd8_bits(v8i mask)
 {
 #if defined(__AVX2__)
@@ -251,7 +252,7 @@ SIMD8 uint32_t simd8_bits(v8i mask)
 #endif
 }
 
-/* A bit for each byte, which is 0 or 255. */
+/* Returns one bit for each byte of a mask, whose bytes are 0 or 255. */
 SIMD8 uint32_t simd8_bits_b(v32b mask)
 {
 #if defined(__AVX2__)
@@ -268,7 +269,7 @@ SIMD8 uint32_t simd8_bits_b(v32b mask)
 #endif
 }
 
-/* The uppermost byte of every lane of four vectors, in their order. */
+/* Returns the highest byte of every lane of four vectors, in their order. */
 SIMD8 v8u simd8_top_bytes(const v8u four[4])
 {
 #if defined(__AVX2__)
@@ -292,21 +293,21 @@ SIMD8 v8u simd8_top_bytes(const v8u four[4])
 #endif
 }
 
-/* A mask of the lanes whose bits are set. */
+/* Returns a mask of the lanes whose bits are set. */
 SIMD8 v8i simd8_mask(uint32_t bits)
 {
     v8i one = (v8i){1, 2, 4, 8, 16, 32, 64, 128};
     return (simd8_i((int32_t)bits) & one) == one;
 }
 
-/* A mask of the numbers x .. x + 7 that lie in first .. end - 1. */
+/* Returns a mask of those numbers x .. x + 7 that lie in first .. end - 1. */
 SIMD8 v8i simd8_within(int32_t x, int32_t first, int32_t end)
 {
     v8i number = simd8_count() + x;
     return (number >= first) & (number < end);
 }
 
-/* --- table look-ups: plain loads, which are as fast as the gathers of today's processors --- */
+/* --- table look-ups: plain loads, which are as fast as the gather instructions --- */
 
 struct simd8_lanes {
     int32_t lane[LANES];
@@ -319,7 +320,7 @@ SIMD8 struct simd8_lanes simd8_lanes(v8i v)
     return lanes;
 }
 
-/* Four bytes from each of eight places, in bytes from the first. */
+/* Loads four bytes from each of eight offsets [byte]. */
 SIMD8 v8u simd8_gather_bytes(const void *from, v8i at)
 {
     const char *first = from;
@@ -335,7 +336,7 @@ SIMD8 v8f simd8_gather_f(const float *table, v8i at)
     return (v8f)simd8_gather_bytes(table, at << 2);
 }
 
-/* Eight bytes from each of eight places: the lower four, and the upper. */
+/* The lower and the upper four bytes of eight loads of eight bytes. */
 struct simd8_pairs {
     v8u low, high;
 };
@@ -343,7 +344,7 @@ struct simd8_pairs {
 #ifdef __SSE2__
 SIMD8 __m128 simd8_two(const char *first, int32_t a, int32_t b)
 {
-    int64_t low, high; /* of any alignment */
+    int64_t low, high; /* memcpy() allows any alignment */
     memcpy(&low, first + a, sizeof low);
     memcpy(&high, first + b, sizeof high);
     return _mm_castsi128_ps(_mm_set_epi64x(high, low));
@@ -389,7 +390,7 @@ SIMD8 v8f simd8_smoothstep(float low, float high, v8f v)
     return t * t * (3.0f - 2.0f * t);
 }
 
-/* 2^v, for v of -126 .. 126; below that as for -126. Off by less than 1e-5 of it. */
+/* Returns 2^v for v in -126 .. 126, and 2^-126 below. The relative error is below 1e-5. */
 SIMD8 v8f simd8_exp2(v8f v)
 {
     v8f clamped = simd8_max(v, simd8_f(-126.0f));
@@ -399,13 +400,13 @@ SIMD8 v8f simd8_exp2(v8f v)
     return (v8f)((v8i)part + (whole << 23));
 }
 
-/* e^-v for v >= 0. */
+/* Returns e^-v for v >= 0. */
 SIMD8 v8f simd8_exp_minus(v8f v)
 {
     return simd8_exp2(v * -1.44269504f);
 }
 
-/* Of one number above 0: the greatest whole power of 2 not above it. */
+/* Returns the exponent of the greatest power of 2 that is not above v; v > 0. */
 SIMD8 int32_t power_of_2(float v)
 {
     uint32_t bits;
@@ -418,13 +419,13 @@ SIMD8 v8f simd8_dot3(const v8f a[3], const v8f b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* The same with one direction for all eight. */
+/* The same with one vector a for all eight. */
 SIMD8 v8f simd8_dot3_f(const float a[3], const v8f b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Of sixteen bits: a's products with b's, the two of each lane added. */
+/* Returns for each lane the sum of the two products of its signed 16-bit halves. */
 SIMD8 v8i simd8_add_products(v16s a, v16s b)
 {
 #if defined(__AVX2__)
@@ -439,7 +440,7 @@ SIMD8 v8i simd8_add_products(v16s a, v16s b)
 #endif
 }
 
-/* Bytes of a colour from fractions: red lowest, then green, blue; alpha 255. */
+/* Packs a colour of 0..1 to bytes: red lowest, then green, blue; alpha 255. */
 SIMD8 v8u simd8_pack(v8f red, v8f green, v8f blue)
 {
     v8i r = simd8_to_i(simd8_clamp(red, 0.0f, 1.0f) * 255.0f + 0.5f);
@@ -448,7 +449,7 @@ SIMD8 v8u simd8_pack(v8f red, v8f green, v8f blue)
     return (v8u)(r | g << 8 | b << 16) | 0xff000000u;
 }
 
-/* A byte of each lane as 0..255. */
+/* Returns a byte of each lane, 0..255. */
 SIMD8 v8f simd8_byte(v8u texels, int shift)
 {
     return simd8_to_f((v8i)((texels >> shift) & 0xffu));

@@ -1,4 +1,4 @@
-/* The software back end: one picture from start to end. */
+/* The software back end: drawing one picture, opening and closing. */
 #include "renderer/soft/soft.h"
 
 #include "renderer/soft/fxaa.h"
@@ -22,27 +22,27 @@ enum stage {
     STAGE_SHADOWS,
     STAGE_BODIES,
     STAGE_PLANTS,
-    STAGE_RESOLVE,
+    STAGE_SHADE,
     STAGE_PARTICLES,
-    STAGE_SMOOTH,
+    STAGE_FXAA,
     STAGE_COUNT
 };
 
 static const char *const stage_names[STAGE_COUNT] = {
     [STAGE_TILES] = "tiles",     [STAGE_PREPARE] = "prepare", [STAGE_GROUND] = "ground",
     [STAGE_SHADOWS] = "shadows", [STAGE_BODIES] = "bodies",   [STAGE_PLANTS] = "plants",
-    [STAGE_RESOLVE] = "resolve", [STAGE_PARTICLES] = "puffs", [STAGE_SMOOTH] = "smooth",
+    [STAGE_SHADE] = "resolve",   [STAGE_PARTICLES] = "puffs", [STAGE_FXAA] = "smooth",
 };
 
 _Static_assert(STAGE_COUNT <= BACK_END_STAGES_MAX, "more stages than can be told");
 
 enum soft_kind { KIND_GROUND, KIND_BODIES, KIND_PLANTS, KIND_PARTICLES, KIND_COUNT };
 
-/* What one thread keeps to itself. */
+/* The data of one thread. */
 struct soft_worker {
-    _Alignas(SOFT_ALIGN) uint32_t *colour; /* a band; owned */
+    _Alignas(SOFT_ALIGN) uint32_t *colour; /* of a band; owned */
     float *depth;
-    uint64_t cpu_ns[STAGE_COUNT]; /* of this picture */
+    uint64_t cpu_ns[STAGE_COUNT]; /* for this picture */
     uint64_t mark_ns;
 };
 
@@ -55,12 +55,12 @@ struct soft {
     struct thread_pool *workers;
     struct soft_worker worker[THREAD_POOL_MAX];
     uint32_t width, height; /* of the largest picture */
-    struct image drawn;     /* its edges still rough */
-    struct image *smoothed; /* where the picture goes */
-    /* Bands of this picture that are drawn, and that a thread smooths or did. */
+    struct image drawn;     /* before FXAA */
+    struct image *smoothed; /* the caller's picture, after FXAA */
+    /* The bands of this picture that are drawn, and those that a thread has taken for FXAA. */
     atomic_bool ready[SOFT_BANDS_MAX], taken[SOFT_BANDS_MAX];
     struct soft_frame frame;
-    int failed[KIND_COUNT]; /* by the thread that prepared it */
+    int failed[KIND_COUNT]; /* set by the thread that prepares the kind */
     struct back_end_stages stages;
 };
 
@@ -74,13 +74,13 @@ static uint64_t cpu_ns(void)
     return (uint64_t)t.tv_sec * 1000000000u + (uint64_t)t.tv_nsec;
 }
 
-static void mark(struct soft_worker *worker)
+static void start_timer(struct soft_worker *worker)
 {
     worker->mark_ns = cpu_ns();
 }
 
-/* What was spent since the last mark went into this stage. */
-static void spent(struct soft_worker *worker, enum stage stage)
+/* Adds the processor time since the last mark to a stage. */
+static void add_time(struct soft_worker *worker, enum stage stage)
 {
     uint64_t now = cpu_ns();
     worker->cpu_ns[stage] += now - worker->mark_ns;
@@ -102,15 +102,16 @@ static const struct back_end_stages *soft_stages(void *self)
 /* --- one picture -------------------------------------------------------------------------------
  */
 
-static void scaled(float to[3], struct vec3 axis, double by)
+static void set_scaled(float to[3], struct vec3 axis, double by)
 {
     to[0] = (float)(axis.x * by);
     to[1] = (float)(axis.y * by);
     to[2] = (float)(axis.z * by);
 }
 
-/* e^x, off by less than 1e-9 of it for x in -20..20; the C library's is not the same everywhere. */
-static double power_of_e(double x)
+/* Returns e^x for x in -20..20 with a relative error below 1e-9. The C library's result differs
+ * between machines. */
+static double exponential(double x)
 {
     double part = x / 1024.0, power = 1.0 + part * (1.0 + part * (0.5 + part / 6.0));
     for (uint32_t i = 0; i < 10; i++)
@@ -124,7 +125,7 @@ static void frame_begin(struct soft *soft, const struct draw_list *list,
     const struct camera *c = &list->camera;
     struct soft_frame *f = &soft->frame;
     double half_x = 0.5 * (double)image->width, half_y = 0.5 * (double)image->height;
-    double wide = c->tan_x / half_x, high = c->tan_y / half_y; /* of a pixel, at a metre */
+    double wide = c->tan_x / half_x, high = c->tan_y / half_y; /* of a pixel at 1 m */
     *f = (struct soft_frame){
         .list = list,
         .frame_view = frame_view,
@@ -139,20 +140,20 @@ static void frame_begin(struct soft *soft, const struct draw_list *list,
         .sun = {(float)SUN_X, (float)SUN_Y, (float)SUN_Z},
         .haze = (float)(list->haze ? HAZE_PER_M : CLEAR_PER_M),
         .fog = list->fog
-                   ? (float)(FOG_PER_M * power_of_e(-(c->eye.y - FOG_BASE_M) * FOG_FALL_PER_M))
+                   ? (float)(FOG_PER_M * exponential(-(c->eye.y - FOG_BASE_M) * FOG_FALL_PER_M))
                    : 0.0f,
         .fog_fall = (float)FOG_FALL_PER_M,
         .time_s = (float)fmod(list->time_s, 3600.0),
         .texture = list->texture,
     };
-    scaled(f->across, c->right, 1.0 / wide);
-    scaled(f->down, c->up, -1.0 / high);
-    scaled(f->ahead, c->forward, 1.0);
-    scaled(f->right, c->right, 1.0);
-    scaled(f->up, c->up, 1.0);
-    scaled(f->forward, c->forward, 1.0);
-    scaled(f->ray_x, c->right, wide);
-    scaled(f->ray_y, c->up, -high);
+    set_scaled(f->across, c->right, 1.0 / wide);
+    set_scaled(f->down, c->up, -1.0 / high);
+    set_scaled(f->ahead, c->forward, 1.0);
+    set_scaled(f->right, c->right, 1.0);
+    set_scaled(f->up, c->up, 1.0);
+    set_scaled(f->forward, c->forward, 1.0);
+    set_scaled(f->ray_x, c->right, wide);
+    set_scaled(f->ray_y, c->up, -high);
     for (uint32_t i = 0; i < 3; i++)
         f->ray[i] = f->ahead[i] - f->centre_x * f->ray_x[i] - f->centre_y * f->ray_y[i];
 }
@@ -162,7 +163,7 @@ static void prepare_kinds(void *context, uint32_t first, uint32_t end, uint32_t 
     struct soft *soft = context;
     for (uint32_t kind = first; kind < end; kind++) {
         int *failed = &soft->failed[kind];
-        mark(&soft->worker[worker]);
+        start_timer(&soft->worker[worker]);
         if (kind == KIND_GROUND)
             *failed = soft_ground_prepare(soft->ground, &soft->frame);
         else if (kind == KIND_BODIES)
@@ -171,7 +172,7 @@ static void prepare_kinds(void *context, uint32_t first, uint32_t end, uint32_t 
             *failed = soft_plants_prepare(soft->plants, &soft->frame);
         else
             *failed = soft_particles_prepare(soft->particles, &soft->frame);
-        spent(&soft->worker[worker], STAGE_PREPARE);
+        add_time(&soft->worker[worker], STAGE_PREPARE);
     }
 }
 
@@ -180,25 +181,26 @@ static void fill_band(struct soft *soft, struct soft_worker *worker, const struc
     const struct soft_frame *f = &soft->frame;
     const struct soft_kernels *k = soft->kernels;
     size_t pixels = (size_t)t->stride * (size_t)(t->end - t->first);
-    mark(worker);
+    start_timer(worker);
     memset(t->colour, 0, pixels * sizeof *t->colour);
     memset(t->depth, 0, pixels * sizeof *t->depth);
     k->soft_ground_fill(soft->ground, f, t);
-    spent(worker, STAGE_GROUND);
+    add_time(worker, STAGE_GROUND);
     k->soft_shadows_fill(soft->bodies, soft->plants, f, t);
-    spent(worker, STAGE_SHADOWS);
+    add_time(worker, STAGE_SHADOWS);
     k->soft_bodies_fill(soft->bodies, f, t);
-    spent(worker, STAGE_BODIES);
+    add_time(worker, STAGE_BODIES);
     k->soft_plants_fill(soft->plants, f, t);
-    spent(worker, STAGE_PLANTS);
+    add_time(worker, STAGE_PLANTS);
     k->soft_shade_fill(soft->ground, f, t);
-    spent(worker, STAGE_RESOLVE);
+    add_time(worker, STAGE_SHADE);
     k->soft_particles_fill(soft->particles, f, t);
-    spent(worker, STAGE_PARTICLES);
+    add_time(worker, STAGE_PARTICLES);
 }
 
-/* A band is smoothed when the rows above and below it are drawn, which are then still near. */
-static void smooth_ready(struct soft *soft, uint32_t band)
+/* Marks a band as drawn, and smooths each band whose neighbours above and below are drawn too.
+ * Their rows are then still in the cache. */
+static void smooth_ready_bands(struct soft *soft, uint32_t band)
 {
     uint32_t last = soft->frame.bands - 1;
     atomic_store(&soft->ready[band], true);
@@ -228,15 +230,16 @@ static void draw_bands(void *context, uint32_t first, uint32_t end, uint32_t wor
         target.first = (int32_t)target.band * SOFT_BAND_ROWS;
         target.end = bottom < (int32_t)f->height ? bottom : (int32_t)f->height;
         uint8_t *rows = soft->drawn.pixels + (size_t)target.first * row_bytes;
-        bool whole = target.stride == target.width; /* the picture's rows are a band's */
+        bool whole =
+            target.stride == target.width; /* the band can be drawn in the picture itself */
         if (whole)
             target.colour = (uint32_t *)(void *)rows;
         fill_band(soft, &soft->worker[worker], &target);
         for (int32_t y = target.first; y < target.end && !whole; y++)
             memcpy(rows + (size_t)(y - target.first) * row_bytes,
                    target.colour + (size_t)(y - target.first) * target.stride, row_bytes);
-        smooth_ready(soft, target.band);
-        spent(&soft->worker[worker], STAGE_SMOOTH);
+        smooth_ready_bands(soft, target.band);
+        add_time(&soft->worker[worker], STAGE_FXAA);
     }
 }
 
@@ -251,9 +254,9 @@ static int soft_picture(void *self, const struct draw_list *list,
     for (uint32_t w = 0; w < thread_pool_threads(soft->workers); w++)
         memset(soft->worker[w].cpu_ns, 0, sizeof soft->worker[w].cpu_ns);
     frame_begin(soft, list, frame_view, image);
-    mark(&soft->worker[0]);
-    soft_ground_bring(soft->ground, &soft->frame);
-    spent(&soft->worker[0], STAGE_TILES);
+    start_timer(&soft->worker[0]);
+    soft_ground_update(soft->ground, &soft->frame);
+    add_time(&soft->worker[0], STAGE_TILES);
     thread_pool_run(soft->workers, prepare_kinds, soft, KIND_COUNT, 1);
     int failed = 0;
     for (uint32_t kind = 0; kind < KIND_COUNT; kind++)
@@ -304,7 +307,6 @@ const char *soft_vectors(void)
     return best_kernels() == &soft_kernels_plain ? "SSE2" : "AVX2";
 }
 
-/* 0, or -1 with the reason. */
 static int open_parts(struct soft *soft, const struct static_scene *static_scene, uint32_t threads,
                       struct error_text *error)
 {

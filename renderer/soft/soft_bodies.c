@@ -5,19 +5,20 @@
 
 #include <stdlib.h>
 
-#define REACH_SPARE 1.2f /* parts that turn, sheet that is bent */
+#define REACH_SPARE 1.2f /* for parts that turn and metal that is bent */
 
 /* --- opening and closing ---------------------------------------------------------------------- */
 
-/* The mesh of this place in the list, and room to work out its corners. 0, or -1: no memory. */
-static int open_mesh(struct soft_bodies *bodies, uint32_t i)
+/* Builds a mesh of the list and enlarges the scratch columns for its corners. Returns 0, or -1 when
+ * there is no memory. */
+static int build_mesh(struct soft_bodies *bodies, uint32_t i)
 {
     struct soft_mesh *mesh = &bodies->mesh[i];
     if (soft_mesh_open(mesh, bodies->static_scene->world, i / MESH_DETAIL_COUNT,
                        (enum mesh_detail)(i % MESH_DETAIL_COUNT)) != 0)
         return -1;
-    bodies->opened[i] = true;
-    /* A multiple of SOFT_ALIGN bytes. */
+    bodies->built[i] = true;
+    /* A column is a multiple of SOFT_ALIGN bytes long. */
     size_t room = ((size_t)mesh->corner_count + CORNERS_CUT + 15u) / 16u * 16u;
     if (room <= bodies->column_room)
         return 0;
@@ -32,14 +33,14 @@ static int open_mesh(struct soft_bodies *bodies, uint32_t i)
     return 0;
 }
 
-/* Room for all meshes. Each is made when it is first needed: a picture takes few of them, and to
- * make them all takes a quarter of a second, which no one waits for. */
+/* Allocates the list of meshes. Each mesh is built when it is first needed: one picture needs few
+ * of them, and building all takes a quarter of a second. */
 static int room_for_meshes(struct soft_bodies *bodies)
 {
     bodies->meshes = bodies->static_scene->world->counts.models * MESH_DETAIL_COUNT;
     bodies->mesh = calloc(bodies->meshes + 1, sizeof *bodies->mesh);
-    bodies->opened = calloc(bodies->meshes + 1, sizeof *bodies->opened);
-    return bodies->mesh == NULL || bodies->opened == NULL ? -1 : 0;
+    bodies->built = calloc(bodies->meshes + 1, sizeof *bodies->built);
+    return bodies->mesh == NULL || bodies->built == NULL ? -1 : 0;
 }
 
 struct soft_bodies *soft_bodies_open(const struct static_scene *static_scene,
@@ -70,20 +71,20 @@ void soft_bodies_close(struct soft_bodies *bodies)
         return;
     for (uint32_t i = 0; bodies->mesh != NULL && i < bodies->meshes; i++)
         soft_mesh_close(&bodies->mesh[i]);
-    free_faces(&bodies->flats);
-    free_faces(&bodies->sides);
-    free_faces(&bodies->shades);
+    free_faces(&bodies->flat_faces);
+    free_faces(&bodies->textured_faces);
+    free_faces(&bodies->shadow_faces);
     free(bodies->mesh);
-    free(bodies->opened);
+    free(bodies->built);
     free(bodies->column[0]);
-    free(bodies->paints);
+    free(bodies->materials);
     free(bodies);
 }
 
 /* --- a picture -------------------------------------------------------------------------------- */
 
-struct soft_reach soft_bodies_reach(const struct soft_bodies *bodies,
-                                    const struct soft_frame *frame, uint32_t index)
+struct soft_bounds soft_bodies_bounds(const struct soft_bodies *bodies,
+                                      const struct soft_frame *frame, uint32_t index)
 {
     const struct draw_list_body *body = &frame->list->bodies[index];
     const struct mesh_skeleton *box =
@@ -94,19 +95,19 @@ struct soft_reach soft_bodies_reach(const struct soft_bodies *bodies,
         float most = fmaxf(-box->low[axis], box->high[axis]);
         reach += most * most;
     }
-    struct soft_reach r = {.metres = REACH_SPARE * sqrtf(reach * scale),
-                           .ahead = frame->ahead[0] * at[0] + frame->ahead[1] * at[1] +
-                                    frame->ahead[2] * at[2]};
+    struct soft_bounds r = {.metres = REACH_SPARE * sqrtf(reach * scale),
+                            .ahead = frame->ahead[0] * at[0] + frame->ahead[1] * at[1] +
+                                     frame->ahead[2] * at[2]};
     r.pixels = 2.0f * r.metres / (frame->pixel_m * fmaxf(r.ahead - r.metres, frame->near_m));
     return r;
 }
 
-/* Room for what a cut at the near plane may make of so many faces. */
+/* Allocates for this many faces, each of which the near plane may cut into two triangles. */
 static int face_room(struct soft_faces *faces, size_t count, size_t size)
 {
     void *rows = faces->rows;
-    int failed = band_lists_room(&faces->list, &faces->list_room, 2 * count, size);
-    failed |= band_lists_room(&rows, &faces->row_room, 2 * count, sizeof *faces->rows);
+    int failed = band_lists_reserve(&faces->list, &faces->list_room, 2 * count, size);
+    failed |= band_lists_reserve(&rows, &faces->row_room, 2 * count, sizeof *faces->rows);
     faces->rows = rows;
     faces->count = 0;
     return failed;
@@ -120,31 +121,33 @@ static int sort_faces(struct soft_faces *faces, uint32_t bands)
 int soft_bodies_prepare(struct soft_bodies *bodies, const struct soft_frame *frame)
 {
     const struct draw_list *list = frame->list;
-    size_t flats = 0, sides = 0, shades = 0;
+    size_t flat_faces = 0, textured_faces = 0, shadow_faces = 0;
     for (uint32_t i = 0; i < list->body_count; i++) {
         const struct draw_list_instance *instance = &list->instances[i];
         uint32_t which = instance->model * (uint32_t)MESH_DETAIL_COUNT + instance->detail;
-        if (!bodies->opened[which] && open_mesh(bodies, which) != 0)
+        if (!bodies->built[which] && build_mesh(bodies, which) != 0)
             return -1;
         uint32_t faces = bodies->mesh[which].face_count;
-        if (soft_bodies_reach(bodies, frame, i).pixels < SIDE_LEAST_PIXELS)
-            flats += faces;
+        if (soft_bodies_bounds(bodies, frame, i).pixels < TEXTURED_PIXELS_MIN)
+            flat_faces += faces;
         else
-            sides += faces;
-        shades += instance->shadow ? faces : 0;
+            textured_faces += faces;
+        shadow_faces += instance->shadow ? faces : 0;
     }
-    void *paints = bodies->paints;
-    int failed =
-        band_lists_room(&paints, &bodies->paint_room, list->body_count, sizeof *bodies->paints);
-    bodies->paints = paints;
-    bodies->paint_count = 0;
-    if (failed != 0 || face_room(&bodies->flats, flats, sizeof(struct soft_flat)) != 0 ||
-        face_room(&bodies->sides, sides, sizeof(struct soft_side)) != 0 ||
-        face_room(&bodies->shades, shades, sizeof(struct soft_shadow)) != 0)
+    void *materials = bodies->materials;
+    int failed = band_lists_reserve(&materials, &bodies->material_room, list->body_count,
+                                    sizeof *bodies->materials);
+    bodies->materials = materials;
+    bodies->material_count = 0;
+    if (failed != 0 ||
+        face_room(&bodies->flat_faces, flat_faces, sizeof(struct soft_flat_face)) != 0 ||
+        face_room(&bodies->textured_faces, textured_faces, sizeof(struct soft_textured_face)) !=
+            0 ||
+        face_room(&bodies->shadow_faces, shadow_faces, sizeof(struct soft_shadow_face)) != 0)
         return -1;
     frame->kernels->soft_bodies_set_up(bodies, frame);
-    if (sort_faces(&bodies->flats, frame->bands) != 0 ||
-        sort_faces(&bodies->sides, frame->bands) != 0)
+    if (sort_faces(&bodies->flat_faces, frame->bands) != 0 ||
+        sort_faces(&bodies->textured_faces, frame->bands) != 0)
         return -1;
-    return sort_faces(&bodies->shades, frame->bands);
+    return sort_faces(&bodies->shadow_faces, frame->bands);
 }

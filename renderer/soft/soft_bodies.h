@@ -1,5 +1,5 @@
-/* Bodies made ready for the picture: what set-up leaves for the bands. Private to soft_bodies.c and
- * its kernels. */
+/* Bodies that are prepared for the picture: the set-up kernel fills this, the fill kernels read it.
+ * Private to soft_bodies.c and its kernels. */
 #ifndef JOLON_RENDERER_SOFT_SOFT_BODIES_H
 #define JOLON_RENDERER_SOFT_SOFT_BODIES_H
 
@@ -7,63 +7,65 @@
 #include "renderer/soft/soft_mesh.h"
 #include "renderer/soft/soft_texture.h"
 
-#define SIDE_LEAST_PIXELS 24.0f /* a smaller body's faces are of one colour each */
-#define PAINT_BROAD_PER_M 0.035f
-#define PAINT_FINE_PER_M  0.31f
+#define TEXTURED_PIXELS_MIN 24.0f /* [pixel] the faces of a smaller body have one colour each */
+#define PATTERN_BROAD_PER_M 0.035f
+#define PATTERN_FINE_PER_M  0.31f
 
 /* A face of a small body. */
-struct soft_flat {
+struct soft_flat_face {
     struct triangle_edges edges;
     struct triangle_plane depth;
     uint32_t colour;
 };
 
-/* What varies over a side, each divided by the distance. The last three: of a body that is not as
- * it was built how far it fell in and is bare of paint, of a track the links along it. */
-enum side_value {
-    SIDE_RED, /* light */
-    SIDE_GREEN,
-    SIDE_BLUE,
-    SIDE_X, /* [m, body axes] as built */
-    SIDE_Y,
-    SIDE_Z,
-    SIDE_FELL,
-    SIDE_BARE,
-    SIDE_ALONG,
-    SIDE_VALUES
+/* The values that vary over a textured face, each divided by the distance. FELL and BARE are for
+ * deformed bodies, ALONG is for tracks. */
+enum face_value {
+    VALUE_RED, /* the light's colour */
+    VALUE_GREEN,
+    VALUE_BLUE,
+    VALUE_X, /* [m, body axes] before any deformation */
+    VALUE_Y,
+    VALUE_Z,
+    VALUE_COLLAPSED,
+    VALUE_BARE,
+    VALUE_ALONG,
+    VALUE_COUNT
 };
 
-/* A face with detail: light from corner to corner, paint by texture. */
-struct soft_side {
+/* A textured face: the light is interpolated between its corners. */
+struct soft_textured_face {
     struct triangle_edges edges;
     struct triangle_plane depth;
-    struct triangle_plane value[SIDE_VALUES];
+    struct triangle_plane value[VALUE_COUNT];
     float colour[3];
-    float worn;          /* 1: paint in camouflage */
-    float links;         /* of a track: 0 plain .. 1 each link shows */
-    uint16_t paint;      /* place in the list of paints */
-    uint8_t broad, fine; /* mips of the fine texture for its broad and its fine pattern */
+    float worn;          /* 1: camouflage paint */
+    float links;         /* of a track: how clearly single links show, 0 .. 1 */
+    uint16_t material;   /* index in the list of materials */
+    uint8_t broad, fine; /* mips of the detail texture for its broad and its fine pattern */
     bool track;
 };
 
 /* What all sides of a body have in common. */
-struct soft_paint {
-    float soot_low, soot_over; /* the step from paint to soot: where, and 1 over how wide */
-    float soot_most;           /* that it covers */
-    float burnt, rust;         /* how much is burnt at least; how much rust may show */
-    float plain;               /* how much is burnt where there is no texture */
-    float air[3], clear;       /* the air's colour times how much, and how much shows through */
-    bool shaped;
+struct soft_material {
+    float soot_low,
+        soot_over;       /* where the transition from paint to soot begins, and 1 over its width */
+    float soot_most;     /* the greatest share that soot covers */
+    float burnt, rust;   /* the least share that is burnt; the greatest share of rust */
+    float plain;         /* the share that is burnt when textures are off */
+    float air[3], clear; /* the air's colour times its opacity; 1 - opacity */
+    bool deformed;
 };
 
 /* A face's shadow on the ground. */
-struct soft_shadow {
+struct soft_shadow_face {
     struct triangle_edges edges;
-    struct triangle_plane depth; /* nearer by what the ground may be off */
-    uint32_t dark;               /* 1 .. SOFT_SHADOW_FULL */
+    struct triangle_plane
+        depth;     /* moved towards the eye by a bias, since the ground is not exactly the plane */
+    uint32_t dark; /* 1 .. SOFT_SHADOW_FULL */
 };
 
-/* Faces of a kind, and the bands they are in. */
+/* Faces of one kind, and the bands that they touch. */
 struct soft_faces {
     void *list; /* owned */
     struct band_rows *rows;
@@ -72,51 +74,52 @@ struct soft_faces {
     struct band_lists lists;
 };
 
-/* The corners of one body, as columns: its mesh's, and some that are cut at the near plane. First
- * where they are in the picture, for the body and again for its shadow. */
+/* The columns of one body's corners: those of its mesh, then those that clipping adds. The first
+ * set is projected for the body, the second, from CORNER_SHADOW on, for its shadow. */
 enum corner_column {
     CORNER_AHEAD, /* [m] along the view */
     CORNER_ACROSS,
-    CORNER_DOWN, /* times the frame's vectors of that name */
+    CORNER_DOWN, /* dot products with the frame's vectors of that name */
     CORNER_OVER, /* 1 / ahead */
     CORNER_COLUMN,
     CORNER_ROW, /* [pixel] */
-    CORNER_SHADE,
-    CORNER_VALUE = 2 * CORNER_SHADE,           /* as enum side_value, not divided */
-    CORNER_PLACE = CORNER_VALUE + SIDE_VALUES, /* three: as formed [m, body axes] */
+    CORNER_SHADOW,
+    CORNER_VALUE = 2 * CORNER_SHADOW,          /* as enum face_value, not divided by the distance */
+    CORNER_PLACE = CORNER_VALUE + VALUE_COUNT, /* three: after deformation [m, body axes] */
     CORNER_NORMAL = CORNER_PLACE + 3,
     CORNER_COLUMNS = CORNER_NORMAL + 3
 };
 
-#define CORNERS_CUT 32u /* room for those cut from faces at hand */
+#define CORNERS_CUT 32u /* for the corners that clipping adds to the faces at hand */
 
 struct soft_bodies {
     const struct static_scene *static_scene;
     struct soft_mesh *mesh; /* [models * MESH_DETAIL_COUNT]; owned */
-    bool *opened;           /* [meshes] is it there? it comes when it is needed; owned */
+    bool *built;            /* [meshes] true when the mesh has been built; owned */
     uint32_t meshes;
-    float *column[CORNER_COLUMNS]; /* scratch; [0] owns them all */
+    float *column[CORNER_COLUMNS]; /* scratch; [0] owns the memory of all */
     size_t column_room;            /* corners of each */
     const struct soft_detail *detail;
-    struct soft_faces flats, sides, shades;
-    struct soft_paint *paints; /* owned; of each body with sides */
-    size_t paint_room;
-    uint32_t paint_count;
+    struct soft_faces flat_faces, textured_faces, shadow_faces;
+    struct soft_material *materials; /* owned; one for each textured body */
+    size_t material_room;
+    uint32_t material_count;
 };
 
-/* How large the body may show and how far it reaches from its place. */
-struct soft_reach {
+/* A body's bounding sphere: its diameter in the picture [pixel], its radius [m] and its middle's
+ * distance along the view [m]. */
+struct soft_bounds {
     float pixels, metres, ahead;
 };
-struct soft_reach soft_bodies_reach(const struct soft_bodies *bodies,
-                                    const struct soft_frame *frame, uint32_t index);
+struct soft_bounds soft_bodies_bounds(const struct soft_bodies *bodies,
+                                      const struct soft_frame *frame, uint32_t index);
 
-/* NULL with the reason. */
+/* Returns NULL with the reason on failure. */
 struct soft_bodies *soft_bodies_open(const struct static_scene *static_scene,
                                      const struct soft_detail *detail, struct error_text *error);
 void soft_bodies_close(struct soft_bodies *bodies);
-/* Sorts the bodies of the scene into the bands, and their shadows. May run in a thread of its own.
- * 0, or -1 with errno ENOMEM. */
+/* Sorts the bodies and their shadows into the bands. May run in a thread of its own. Returns 0, or
+ * -1 with errno ENOMEM. */
 int soft_bodies_prepare(struct soft_bodies *bodies, const struct soft_frame *frame);
 
 #endif

@@ -1,4 +1,4 @@
-/* The ground of the software back end: its tiles, the textures over them, and its lists. */
+/* The ground of the software back end: its tiles, textures and triangles. */
 #include "renderer/soft/soft_ground.h"
 
 #include "renderer/soft/kernel.h"
@@ -12,9 +12,9 @@ struct soft_ground *soft_ground_open(const struct static_scene *static_scene,
     struct soft_ground *ground = calloc(1, sizeof *ground);
     if (ground != NULL) {
         ground->static_scene = static_scene;
-        /* Whole vectors of vertices are written. */
-        ground->seen = aligned_alloc(SOFT_ALIGN, 3 * SOFT_SEEN_ROOM * sizeof *ground->seen);
-        if (terrain_tiles_init(&ground->tiles) == 0 && ground->seen != NULL &&
+        ground->projected =
+            aligned_alloc(SOFT_ALIGN, 3 * SOFT_PATCH_VERTICES * sizeof *ground->projected);
+        if (terrain_tiles_init(&ground->tiles) == 0 && ground->projected != NULL &&
             soft_detail_make(&ground->detail) == 0 && (ground->clouds = soft_clouds_make()) != NULL)
             return ground;
         soft_ground_close(ground);
@@ -33,11 +33,11 @@ void soft_ground_close(struct soft_ground *ground)
     free(ground->clouds);
     free(ground->list);
     free(ground->rows);
-    free(ground->seen);
+    free(ground->projected);
     free(ground);
 }
 
-/* A place's part of a period, with all the precision that there is. */
+/* Returns the fraction of a period, computed in double precision. */
 static float fraction(double v)
 {
     return (float)(v - floor(v));
@@ -48,7 +48,7 @@ const struct soft_detail *soft_ground_detail(const struct soft_ground *ground)
     return &ground->detail;
 }
 
-void soft_ground_bring(struct soft_ground *ground, const struct soft_frame *frame)
+void soft_ground_update(struct soft_ground *ground, const struct soft_frame *frame)
 {
     const struct draw_list *list = frame->list;
     struct vec3 eye = list->camera.eye;
@@ -66,7 +66,7 @@ void soft_ground_bring(struct soft_ground *ground, const struct soft_frame *fram
         double side = terrain_quadtree_patch_side(list->patches[i].level), last = TILE_TEXELS - 1;
         double per_m = (double)view->share / side * last;
         ground->patches[i] = (struct soft_patch){
-            .paint = view->texture_tile->texture,
+            .texture = view->texture_tile->texture,
             .at_u = (float)((double)view->at_u * last +
                             (eye.x - list->patches[i].column * side) * per_m),
             .at_v =
@@ -83,10 +83,10 @@ int soft_ground_prepare(struct soft_ground *ground, const struct soft_frame *fra
     size_t most = 0;
     for (uint32_t i = 0; i < frame->list->patch_count; i++)
         most += ground->tiles.views[i].tile->mesh.triangle_count;
-    /* The near plane makes two of some. */
+    /* The near plane may cut a triangle into two. */
     void *list = ground->list, *rows = ground->rows;
-    int full = band_lists_room(&list, &ground->list_room, 2 * most, sizeof *ground->list);
-    full |= band_lists_room(&rows, &ground->rows_room, 2 * most, sizeof *ground->rows);
+    int full = band_lists_reserve(&list, &ground->list_room, 2 * most, sizeof *ground->list);
+    full |= band_lists_reserve(&rows, &ground->rows_room, 2 * most, sizeof *ground->rows);
     ground->list = list;
     ground->rows = rows;
     if (full != 0)

@@ -1,4 +1,4 @@
-/* What the ground's kernels share with soft_ground.c. Private to them. */
+/* What soft_ground.c and the ground's kernels share. Private to them. */
 #ifndef JOLON_RENDERER_SOFT_SOFT_GROUND_H
 #define JOLON_RENDERER_SOFT_SOFT_GROUND_H
 
@@ -9,16 +9,17 @@
 
 #include <string.h>
 
-/* A ground pixel's promise: the patch in the lowest bits, then how steeply its depth falls off, in
- * halves of a power of two: from it, how much ground the pixel covers. */
+/* The code of a ground pixel, from which it is shaded later: the patch in the lowest bits, then the
+ * slope of the depth, as its logarithm in halves of a power of two. The slope gives the area of
+ * ground that the pixel covers. */
 #define SOFT_PATCH_BITS 10
 #define SOFT_STEEP_BITS 6
-#define SOFT_STEEP_LOW  26 /* the least steepness told is 2^-26 */
+#define SOFT_STEEP_LOW  26 /* the least slope is 2^-26 */
 
 _Static_assert(TERRAIN_QUADTREE_PATCHES_MAX <= 1 << SOFT_PATCH_BITS,
                "patches that no pixel can name");
 
-/* What a code says, whatever stands in its higher bits. */
+/* Returns the slope of a code that is shifted right by SOFT_PATCH_BITS; higher bits are ignored. */
 static inline float soft_steepness(uint32_t code)
 {
     uint32_t bits = (((code & ((1u << SOFT_STEEP_BITS) - 1)) + 2 * (127 - SOFT_STEEP_LOW)) << 22);
@@ -27,17 +28,17 @@ static inline float soft_steepness(uint32_t code)
     return steep;
 }
 
-/* A patch's vertices, in whole vectors. */
-#define SOFT_SEEN_ROOM ((GROUND_VERTICES_MAX + 64u) / 64u * 64u)
+/* The number of a patch's vertices, rounded up to whole vectors. */
+#define SOFT_PATCH_VERTICES ((GROUND_VERTICES_MAX + 64u) / 64u * 64u)
 
-/* Waves are the fine texture, too. */
+/* Waves use the detail texture, too. */
 #define SOFT_RIPPLES_PER_M (5.7f / WAVES_M)
 #define SOFT_SWELL_PER_M   (1.7f / WAVES_M)
 
-/* What resolve knows of a patch. */
+/* A patch, for shading. */
 struct soft_patch {
-    const uint8_t *paint; /* RGBA, mip after mip */
-    /* A place (x, z) from the eye has the texel at_u + per_m * x, at_v + per_m * z of the largest
+    const uint8_t *texture; /* RGBA, all mips, the largest first */
+    /* The point (x, z) from the eye has the texel at_u + per_m * x, at_v + per_m * z of the largest
      * mip. */
     float at_u, at_v, per_m;
     bool wet, surf;
@@ -46,8 +47,8 @@ struct soft_patch {
 struct soft_ground_triangle {
     struct triangle_edges edges;
     struct triangle_plane depth;
-    float least, most; /* depth at its corners: rounding must not lead outside */
-    uint32_t promise;
+    float least, most; /* the range of depth at its corners, within which rounding must stay */
+    uint32_t code;
 };
 
 struct soft_ground {
@@ -60,22 +61,25 @@ struct soft_ground {
     size_t rows_room;
     uint32_t count;
     struct band_lists lists;
-    float *seen; /* scratch: x, y, depth of a patch's vertices */
+    float *projected; /* scratch: x, y, depth of a patch's vertices; owned */
     struct soft_detail detail;
-    uint8_t *clouds; /* laid out likewise; owned */
-    /* The eye's place in the fine texture and in the waves; the swell's axes are exchanged. */
+    uint8_t *clouds; /* see soft_clouds_make(); owned */
+    /* The eye's position in the detail texture and in the two wave textures [period]; the swell's
+     * axes are exchanged. */
     float fine_at[2], ripples_at[2], swell_at[2];
 };
 
-/* NULL with the reason. */
+/* Returns NULL with the reason on failure. */
 struct soft_ground *soft_ground_open(const struct static_scene *static_scene,
                                      struct error_text *error);
 void soft_ground_close(struct soft_ground *ground);
-/* The fine texture, for others too. */
+/* Returns the detail texture, which the bodies use too. */
 const struct soft_detail *soft_ground_detail(const struct soft_ground *ground);
-/* In the drawing thread, before prepare: brings the tiles of the scene's patches. */
-void soft_ground_bring(struct soft_ground *ground, const struct soft_frame *frame);
-/* Sorts the triangles of the ground into the bands. 0, or -1 with errno ENOMEM. */
+/* Updates the tiles of the picture's patches. The drawing thread calls it before
+ * soft_ground_prepare(). */
+void soft_ground_update(struct soft_ground *ground, const struct soft_frame *frame);
+/* Sorts the ground's triangles into the bands. May run in a thread of its own. Returns 0, or -1
+ * with errno ENOMEM. */
 int soft_ground_prepare(struct soft_ground *ground, const struct soft_frame *frame);
 
 #endif

@@ -1,11 +1,11 @@
-/* Corners are found equal by sorting them. */
+/* Conversion of meshes. Sorting the vertices brings those together that share a corner. */
 #include "renderer/soft/soft_mesh.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-/* A vertex of the mesh that is read, and which it is. */
-struct seen {
+/* A vertex of the source mesh and its index. */
+struct source_vertex {
     const struct mesh_vertex *vertex;
     uint32_t index;
 };
@@ -37,7 +37,7 @@ static int compare_corners(const struct mesh_vertex *a, const struct mesh_vertex
 
 static int by_corner(const void *a, const void *b)
 {
-    const struct seen *x = a, *y = b;
+    const struct source_vertex *x = a, *y = b;
     int order = compare_corners(x->vertex, y->vertex);
     return order != 0 ? order : (x->index > y->index) - (x->index < y->index);
 }
@@ -47,22 +47,23 @@ static uint32_t padded(uint32_t count)
     return (count + SOFT_MESH_PAD - 1) / SOFT_MESH_PAD * SOFT_MESH_PAD;
 }
 
-/* Counts corners and groups, and says which corner each vertex is. */
-static void number_corners(struct soft_mesh *mesh, const struct seen *seen, uint32_t count)
+/* Numbers corners and groups, and sets each face's corners. */
+static void number_corners(struct soft_mesh *mesh, const struct source_vertex *sorted,
+                           uint32_t count)
 {
     uint32_t next = 0;
     mesh->group_count = 0;
     for (uint32_t i = 0; i < count; i++) {
-        const struct mesh_vertex *v = seen[i].vertex;
-        if (i == 0 || compare_groups(seen[i - 1].vertex, v) != 0) {
+        const struct mesh_vertex *v = sorted[i].vertex;
+        if (i == 0 || compare_groups(sorted[i - 1].vertex, v) != 0) {
             next = padded(next);
             mesh->groups[mesh->group_count++] =
                 (struct soft_group){.first = next++, .part = v->part, .joint = v->joint};
-        } else if (compare_corners(seen[i - 1].vertex, v) != 0) {
+        } else if (compare_corners(sorted[i - 1].vertex, v) != 0) {
             next++;
         }
         mesh->groups[mesh->group_count - 1].end = padded(next);
-        mesh->faces[seen[i].index / 3].corner[seen[i].index % 3] = next - 1;
+        mesh->faces[sorted[i].index / 3].corner[sorted[i].index % 3] = next - 1;
     }
     mesh->corner_count = padded(next);
 }
@@ -76,7 +77,7 @@ static void set_corner(struct soft_mesh *mesh, uint32_t at, const struct mesh_ve
     mesh->column[MESH_ALONG][at] = v->along;
 }
 
-static int fill_columns(struct soft_mesh *mesh, const struct seen *seen, uint32_t count)
+static int fill_columns(struct soft_mesh *mesh, const struct source_vertex *sorted, uint32_t count)
 {
     size_t column = mesh->corner_count, bytes = column * MESH_COLUMNS * sizeof(float);
     mesh->column[0] = aligned_alloc(64, (bytes + 64) / 64 * 64);
@@ -85,15 +86,17 @@ static int fill_columns(struct soft_mesh *mesh, const struct seen *seen, uint32_
     for (uint32_t i = 1; i < MESH_COLUMNS; i++)
         mesh->column[i] = mesh->column[0] + column * i;
     for (uint32_t i = 0; i < count; i++) {
-        uint32_t at = mesh->faces[seen[i].index / 3].corner[seen[i].index % 3];
+        uint32_t at = mesh->faces[sorted[i].index / 3].corner[sorted[i].index % 3];
         do
-            set_corner(mesh, at, seen[i].vertex);
-        while (++at % SOFT_MESH_PAD != 0); /* overwritten by the corners that follow */
+            set_corner(mesh, at, sorted[i].vertex);
+        while (++at % SOFT_MESH_PAD !=
+               0); /* these copies are overwritten by the corners that follow */
     }
     return 0;
 }
 
-/* --- closed? ---------------------------------------------------------------------------------- */
+/* --- closed meshes
+ * ------------------------------------------------------------------------------- */
 
 struct edge {
     float from[3], to[3];
@@ -106,7 +109,8 @@ static int by_place(const void *a, const void *b)
     return order != 0 ? order : compare_floats(x->to, y->to, 3);
 }
 
-/* Every edge of every face has a face on its other side, which runs along it the other way. */
+/* Finds whether the mesh is closed: whether each edge of each face also belongs to another face, in
+ * the opposite direction. Returns 0, or -1 when there is no memory. */
 static int find_closed(bool *closed, const struct mesh *mesh)
 {
     size_t count = mesh->count;
@@ -135,29 +139,29 @@ static int find_closed(bool *closed, const struct mesh *mesh)
 static int convert(struct soft_mesh *mesh, const struct mesh *from)
 {
     uint32_t count = from->count;
-    struct seen *seen = malloc((count + 1) * sizeof *seen);
+    struct source_vertex *sorted = malloc((count + 1) * sizeof *sorted);
     mesh->face_count = count / 3;
     mesh->faces = malloc((mesh->face_count + 1) * sizeof *mesh->faces);
     mesh->groups = malloc((size_t)(MODEL_JOINTS_MAX * PART_COUNT) * sizeof *mesh->groups);
     int failed = -1;
-    if (seen == NULL || mesh->faces == NULL || mesh->groups == NULL)
+    if (sorted == NULL || mesh->faces == NULL || mesh->groups == NULL)
         goto err_seen;
     for (uint32_t i = 0; i < count; i++) {
         const struct mesh_vertex *v = &from->vertices[i];
         struct soft_face *face = &mesh->faces[i / 3];
-        seen[i] = (struct seen){v, i};
+        sorted[i] = (struct source_vertex){v, i};
         face->red = v->red;
         face->green = v->green;
         face->blue = v->blue;
         face->force_tint = v->force_tint;
         face->track = v->part == PART_TRACK;
     }
-    qsort(seen, count, sizeof *seen, by_corner);
-    number_corners(mesh, seen, count);
-    failed = fill_columns(mesh, seen, count);
+    qsort(sorted, count, sizeof *sorted, by_corner);
+    number_corners(mesh, sorted, count);
+    failed = fill_columns(mesh, sorted, count);
 
 err_seen:
-    free(seen);
+    free(sorted);
     return failed;
 }
 

@@ -1,5 +1,5 @@
-/* A model's mesh as the rasteriser wants it: corners that faces share, as columns that vector loops
- * run along; those of one part and joint follow each other. Pure. */
+/* A model's mesh for the rasteriser: faces share corners, which are stored as columns for vector
+ * loops. The corners of one part and joint are consecutive. Pure. */
 #ifndef JOLON_RENDERER_SOFT_SOFT_MESH_H
 #define JOLON_RENDERER_SOFT_SOFT_MESH_H
 
@@ -8,19 +8,20 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define SOFT_MESH_PAD 8u /* a group's corners begin at a multiple of this: a vector */
+#define SOFT_MESH_PAD 8u /* a group's corners begin at a multiple of this, one vector */
 
 struct soft_face {
     uint32_t corner[3];
     uint8_t red, green, blue;
-    uint8_t force_tint; /* 255: takes the force's colour */
+    uint8_t force_tint; /* 255: has the force's colour */
     bool track;
 };
 
-/* What moves together. */
+/* Corners that move together. */
 struct soft_group {
-    uint32_t first, end; /* corners, the last a multiple of SOFT_MESH_PAD, filled with copies */
-    uint16_t part;       /* enum model_part */
+    uint32_t first,
+        end;       /* corners first .. end - 1, padded with copies to a multiple of SOFT_MESH_PAD */
+    uint16_t part; /* enum model_part */
     uint16_t joint;
 };
 
@@ -31,19 +32,19 @@ enum mesh_column {
     MESH_NORMAL_X, /* unit */
     MESH_NORMAL_Y,
     MESH_NORMAL_Z,
-    MESH_ALONG, /* of a track: [links] */
+    MESH_ALONG, /* distance along a track [links] */
     MESH_COLUMNS
 };
 
 struct soft_mesh {
-    float *column[MESH_COLUMNS]; /* of each corner; [0] owns the memory of all */
+    float *column[MESH_COLUMNS]; /* [corner_count]; [0] owns the memory of all */
     struct soft_face *faces;     /* owned */
     struct soft_group *groups;   /* owned */
     uint32_t corner_count, face_count, group_count;
-    bool closed; /* no face is ever seen from behind */
+    bool closed; /* no face can be seen from behind */
 };
 
-/* 0, or -1 with errno ENOMEM. */
+/* Builds the mesh of a model. Returns 0, or -1 with errno ENOMEM. */
 int soft_mesh_open(struct soft_mesh *mesh, const struct world *world, uint32_t model,
                    enum mesh_detail detail);
 void soft_mesh_close(struct soft_mesh *mesh);

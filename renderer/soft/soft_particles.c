@@ -1,4 +1,4 @@
-/* Puffs of the software back end: their pictures and lists. */
+/* Particles of the software back end: their pictures at all sizes, and their lists. */
 #include "renderer/soft/soft_particles.h"
 
 #include "renderer/scene/draw_list/texture.h"
@@ -8,7 +8,7 @@
 
 /* --- pictures --------------------------------------------------------------------------------- */
 
-/* The painted picture at a place of the unit square, between its four nearest texels. */
+/* Looks up a picture at a point of the unit square by bilinear interpolation. */
 static void sample(const uint8_t (*painted)[2], float x, float y, uint32_t out[2])
 {
     float most = (float)(TEXTURE_PARTICLE_SIDE - 1);
@@ -38,16 +38,16 @@ static void fill_largest(uint16_t *to, const uint8_t (*painted)[2])
         }
 }
 
-/* Four texels into one. */
+/* Halves a picture: the mean of every four texels. */
 static void halve(uint16_t *to, const uint16_t *from, uint32_t side)
 {
     for (uint32_t row = 0; row < side; row++)
         for (uint32_t column = 0; column < side; column++) {
             const uint16_t *a = from + (size_t)row * 4 * side + (size_t)column * 2;
             const uint16_t *b = a + (size_t)side * 2;
-            uint32_t much = (a[0] & 255u) + (a[1] & 255u) + (b[0] & 255u) + (b[1] & 255u);
+            uint32_t opacity = (a[0] & 255u) + (a[1] & 255u) + (b[0] & 255u) + (b[1] & 255u);
             uint32_t bright = (uint32_t)(a[0] >> 8) + (a[1] >> 8) + (b[0] >> 8) + (b[1] >> 8);
-            to[row * side + column] = (uint16_t)(((much + 2) >> 2) | ((bright + 2) >> 2) << 8);
+            to[row * side + column] = (uint16_t)(((opacity + 2) >> 2) | ((bright + 2) >> 2) << 8);
         }
 }
 
@@ -70,7 +70,7 @@ static int open_pictures(struct soft_particles *particles)
     uint32_t all = 0;
     for (uint32_t side = PARTICLE_LARGEST; side > 1; side /= 2)
         all += side * side;
-    /* Four bytes are loaded where two are wanted. */
+    /* A look-up loads two bytes more than it uses. */
     particles->texels =
         malloc(((size_t)all * PARTICLE_PICTURE_COUNT + 1) * sizeof *particles->texels);
     if (painted == NULL || particles->texels == NULL) {
@@ -101,7 +101,7 @@ struct soft_particles *soft_particles_open(struct error_text *error)
     if (particles != NULL && open_pictures(particles) == 0)
         return particles;
     soft_particles_close(particles);
-    error_text_set(error, "no memory for the puffs");
+    error_text_set(error, "no memory for the particles");
     return NULL;
 }
 
@@ -121,9 +121,9 @@ int soft_particles_prepare(struct soft_particles *particles, const struct soft_f
     size_t count = frame->list->particle_count;
     void *list = particles->particles, *rows = particles->rows;
     int failed =
-        band_lists_room(&list, &particles->particle_room, count, sizeof *particles->particles);
+        band_lists_reserve(&list, &particles->particle_room, count, sizeof *particles->particles);
     particles->particles = list;
-    failed |= band_lists_room(&rows, &particles->row_room, count, sizeof *particles->rows);
+    failed |= band_lists_reserve(&rows, &particles->row_room, count, sizeof *particles->rows);
     particles->rows = rows;
     if (failed != 0)
         return -1;

@@ -1,4 +1,4 @@
-/* Plants of the software back end: their pictures and lists. */
+/* Plants of the software back end: their pictures at all sizes, and their lists. */
 #include "renderer/soft/soft_plants.h"
 
 #include "renderer/soft/kernel.h"
@@ -7,7 +7,7 @@
 
 /* --- pictures --------------------------------------------------------------------------------- */
 
-/* A texel on its way to smaller pictures. */
+/* A texel, from which smaller pictures are computed. */
 struct leaf {
     float colour[3], alpha, facing[3];
 };
@@ -25,7 +25,7 @@ static void read_picture(struct leaf *to, const struct plant_impostors_picture *
         }
 }
 
-/* Four texels into one; what is not there has no say in what colour it is. */
+/* Halves a picture in place: the mean of every four texels, weighted by their alpha. */
 static void halve(struct leaf *leaves, uint32_t side)
 {
     for (uint32_t row = 0; row < side; row++)
@@ -35,12 +35,12 @@ static void halve(struct leaf *leaves, uint32_t side)
             struct leaf sum = {.alpha = 0.0f};
             float all = 0.0f;
             for (uint32_t k = 0; k < 4; k++) {
-                float much = from[k].alpha + 0.01f;
-                all += much;
+                float weight = from[k].alpha + 0.01f;
+                all += weight;
                 sum.alpha += 0.25f * from[k].alpha;
                 for (uint32_t i = 0; i < 3; i++) {
-                    sum.colour[i] += much * from[k].colour[i];
-                    sum.facing[i] += much * from[k].facing[i];
+                    sum.colour[i] += weight * from[k].colour[i];
+                    sum.facing[i] += weight * from[k].facing[i];
                 }
             }
             for (uint32_t i = 0; i < 3; i++) {
@@ -51,7 +51,7 @@ static void halve(struct leaf *leaves, uint32_t side)
         }
 }
 
-/* Light gets less to what is low in a picture. */
+/* Returns how much light reaches a row of the picture: less towards the foot. */
 static float open_at(uint32_t row, uint32_t side)
 {
     float low = ((float)row + 0.5f) / (float)side, t = (1.0f - low) / (1.0f - 0.35f);
@@ -92,15 +92,15 @@ static int open_pictures(struct soft_plants *plants)
         all += side * side;
     plants->leaves = malloc((size_t)all * PLANT_IMPOSTORS_COUNT * sizeof *plants->leaves);
     int failed = picture == NULL || leaves == NULL || plants->leaves == NULL ? -1 : 0;
-    for (uint32_t which = 0; failed == 0 && which < PLANT_IMPOSTORS_COUNT; which++) {
+    for (uint32_t impostor = 0; failed == 0 && impostor < PLANT_IMPOSTORS_COUNT; impostor++) {
         uint32_t side = PLANT_IMPOSTORS_SIDE;
-        plant_impostors_paint(picture, (enum plant_impostors)which);
+        plant_impostors_paint(picture, (enum plant_impostors)impostor);
         read_picture(leaves, picture);
         for (uint32_t level = PLANT_LEVELS; level > 0; level--, side /= 2) {
             if (level < PLANT_LEVELS)
                 halve(leaves, side);
             write_level(plants->leaves + at, leaves, side);
-            plants->first[which][level] = at;
+            plants->first[impostor][level] = at;
             at += side * side;
         }
     }
@@ -126,33 +126,34 @@ void soft_plants_close(struct soft_plants *plants)
     if (plants == NULL)
         return;
     band_lists_free(&plants->lists);
-    band_lists_free(&plants->cast_lists);
+    band_lists_free(&plants->shadow_lists);
     free(plants->leaves);
     free(plants->plants);
-    free(plants->casts);
+    free(plants->shadows);
     free(plants->rows);
-    free(plants->cast_rows);
+    free(plants->shadow_rows);
     free(plants);
 }
 
 int soft_plants_prepare(struct soft_plants *plants, const struct soft_frame *frame)
 {
     size_t count = frame->list->plant_count;
-    void *list = plants->plants, *casts = plants->casts;
-    void *rows = plants->rows, *cast_rows = plants->cast_rows;
-    int failed = band_lists_room(&list, &plants->plant_room, count, sizeof *plants->plants);
-    failed |= band_lists_room(&casts, &plants->cast_room, count, sizeof *plants->casts);
-    failed |= band_lists_room(&rows, &plants->row_room, count, sizeof *plants->rows);
-    failed |= band_lists_room(&cast_rows, &plants->cast_row_room, count, sizeof *plants->cast_rows);
+    void *list = plants->plants, *shadows = plants->shadows;
+    void *rows = plants->rows, *shadow_rows = plants->shadow_rows;
+    int failed = band_lists_reserve(&list, &plants->plant_room, count, sizeof *plants->plants);
+    failed |= band_lists_reserve(&shadows, &plants->shadow_room, count, sizeof *plants->shadows);
+    failed |= band_lists_reserve(&rows, &plants->row_room, count, sizeof *plants->rows);
+    failed |= band_lists_reserve(&shadow_rows, &plants->shadow_row_room, count,
+                                 sizeof *plants->shadow_rows);
     plants->plants = list;
-    plants->casts = casts;
+    plants->shadows = shadows;
     plants->rows = rows;
-    plants->cast_rows = cast_rows;
+    plants->shadow_rows = shadow_rows;
     if (failed != 0)
         return -1;
     frame->kernels->soft_plants_set_up(plants, frame);
     if (band_lists_sort(&plants->lists, plants->rows, plants->count, frame->bands) != 0)
         return -1;
-    return band_lists_sort(&plants->cast_lists, plants->cast_rows, plants->cast_count,
+    return band_lists_sort(&plants->shadow_lists, plants->shadow_rows, plants->shadow_count,
                            frame->bands);
 }

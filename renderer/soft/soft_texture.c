@@ -1,4 +1,4 @@
-/* Laying textures out. */
+/* Building the textures in their memory layouts. */
 #include "renderer/soft/soft_texture.h"
 
 #include "renderer/scene/draw_list/texture.h"
@@ -7,7 +7,7 @@
 
 _Static_assert(TEXTURE_DETAIL_SIDE == 1u << SOFT_DETAIL_POWER, "its mips are counted by this");
 
-/* Halves a texture: the mean of every four texels, in place. */
+/* Halves a texture in place: the mean of every four texels. */
 static void halve(uint8_t (*texels)[2], uint32_t side)
 {
     uint32_t half = side / 2;
@@ -65,7 +65,7 @@ uint8_t *soft_clouds_make(void)
 {
     const size_t side = TEXTURE_CLOUD_SIDE, row = side + 2;
     uint8_t *flat = malloc(side * side);
-    /* Four bytes are loaded where two are wanted. */
+    /* A look-up loads two bytes more than it uses. */
     uint8_t *clouds = malloc((side + 1) * row + 2);
     if (flat != NULL && clouds != NULL) {
         texture_clouds(flat);

@@ -1,5 +1,5 @@
-/* Looking textures up for eight pixels, between four texels each. Weights are of eight bits and
- * sum to 256; sums keep sixteen. Kernels only. */
+/* Bilinear texture look-ups for eight pixels. Weights have eight bits and sum to 256; sums have
+ * sixteen bits. Kernels only. */
 #ifndef JOLON_RENDERER_SOFT_TEXEL_H
 #define JOLON_RENDERER_SOFT_TEXEL_H
 
@@ -10,7 +10,7 @@
 
 #define TEXEL_OVER (1.0f / 65280.0f) /* 256 * 255 */
 
-/* The weights of four texels around a place, in both halves of each lane. */
+/* The weights of the four texels around a point, in both halves of each lane. */
 struct weights8 {
     v16s w00, w10, w01, w11;
 };
@@ -20,7 +20,7 @@ SIMD8 v16s texel_twice(v8i w)
     return (v16s)(w | w << 16);
 }
 
-/* u and v: 0..255, from the first texel to the next. */
+/* u and v: 0..255, the position between the first texel and the next. */
 SIMD8 struct weights8 texel_weights(v8i u, v8i v)
 {
     v8i w11 = (v8i)((v16s)u * (v16s)v >> 8), w10 = u - w11, w01 = v - w11;
@@ -28,7 +28,7 @@ SIMD8 struct weights8 texel_weights(v8i u, v8i v)
                              texel_twice(w11)};
 }
 
-/* Four RGBA texels around each of eight places, of rows of width texels. */
+/* The four RGBA texels around each of eight points, in rows of width texels. */
 struct quad8 {
     v8u t00, t10, t01, t11;
 };
@@ -45,15 +45,15 @@ struct texels8 {
     v8f r, g, b, a;
 };
 
-/* A painting's mip (of two texels a side or more), channels 0..65280, at a place in 256ths of its
- * texels, 0 in the middle of the first. */
-SIMD8 struct texels8 texel_four(const uint8_t *paint, uint32_t mip, v8f u, v8f v)
+/* Looks up a mip of a ground texture, of at least two texels a side. u, v: in 256ths of its texels,
+ * 0 in the middle of the first. Channels are 0..65280. */
+SIMD8 struct texels8 texel_four(const uint8_t *texture, uint32_t mip, v8f u, v8f v)
 {
     int32_t side = (int32_t)tile_mip_side(mip);
     float most = 256.0f * (float)(side - 1) - 1.0f;
     v8i x = simd8_round(simd8_clamp(u, 0.0f, most)), y = simd8_round(simd8_clamp(v, 0.0f, most));
     v8i at = ((y >> 8 << (7 - mip)) + (x >> 8)) << 2;
-    const uint8_t *first = paint + tile_mip_offset(mip);
+    const uint8_t *first = texture + tile_mip_offset(mip);
     struct simd8_pairs top = simd8_gather_pairs(first, at);
     struct simd8_pairs low = simd8_gather_pairs(first + (ptrdiff_t)side * 4, at);
     v8i left = x & 255, up = y & 255;
@@ -73,9 +73,9 @@ SIMD8 struct texels8 texel_four(const uint8_t *paint, uint32_t mip, v8f u, v8f v
 
 _Static_assert(TILE_TEXELS == 1u << 7, "the shift above is for this size");
 
-/* A texture of two channels that repeats, of 2^power texels a side, each with the one below it:
- * bytes red, green, and red and green of the next row (soft_texture.h). The channels, 0..65280, at
- * a place in 256ths of a texel. */
+/* A look-up in a repeating texture of two channels, of 2^power texels a side. Each texel is stored
+ * with the one below it: red, green, then red and green of the next row (soft_texture.h). u, v: in
+ * 256ths of a texel. Channels are 0..65280. */
 struct pair8 {
     v8f red, green;
 };
@@ -96,7 +96,7 @@ SIMD8 struct pair8 texel_pair(const uint8_t *texels, int32_t power, v8f u, v8f v
                           simd8_to_f(simd8_add_products(green >> 8, down))};
 }
 
-/* The clouds' texture, one channel, rows and columns as above: 0..1. */
+/* Looks up the cloud texture, of one channel: 0..1. u, v: in periods. */
 SIMD8 v8f texel_cloud(const uint8_t *texels, v8f u, v8f v)
 {
     int32_t side = (int32_t)TEXTURE_CLOUD_SIDE, wrap = 256 * side - 1;
@@ -106,7 +106,7 @@ SIMD8 v8f texel_cloud(const uint8_t *texels, v8f u, v8f v)
     v8i at = (y >> 8) * (side + 2) + (x >> 8);
     v8u top = simd8_gather_bytes(texels, at), low = simd8_gather_bytes(texels + side + 2, at);
     v8u left = simd8_u(0xffffu);
-    /* One texel in each half of a lane. */
+    /* There is one texel in each half of a lane. */
     v16s t = (v16s)((top & 255u) | (top << 8 & 0xff0000u));
     v16s l = (v16s)((low & 255u) | (low << 8 & 0xff0000u));
     v16s w0 = (v16s)(((v8u)w.w00 & left) | ((v8u)w.w10 & ~left));

@@ -1,10 +1,10 @@
-/* Triangles into pixels: clipping at the near plane, setting up eight triangles at once, walking
- * one. Kernels only.
+/* Triangle rasterisation: clipping at the near plane, setting up eight triangles at once, walking
+ * the pixels of one. Kernels only.
  *
- * A pixel belongs to a triangle when its centre lies inside; a centre on an edge belongs to the
- * triangle below or to the right of it. Where an edge crosses a row is worked out from its upper to
- * its lower corner, so that two triangles that share an edge agree to the bit: no pixel between
- * them is missed, or drawn twice. */
+ * A pixel belongs to a triangle when its centre lies inside. A centre on an edge belongs to the
+ * triangle below or to the right. The crossing of an edge with a row is always computed from the
+ * edge's upper to its lower corner, so that two triangles that share an edge agree to the bit: no
+ * pixel between them is missed or drawn twice. */
 #ifndef JOLON_RENDERER_SOFT_TRIANGLE_RASTER_H
 #define JOLON_RENDERER_SOFT_TRIANGLE_RASTER_H
 
@@ -14,21 +14,21 @@
 #include <stdbool.h>
 
 #define TRIANGLE_RASTER_FAR                                                                        \
-    1.0e8f /* [pixel] from the picture's corner: corners further off are not drawn */
+    1.0e8f /* [pixel] triangles with corners farther from the picture's corner are not drawn */
 
-/* Eight triangles in the picture [pixel]. */
+/* The corners of eight triangles in the picture [pixel]. */
 struct corners8 {
     v8f x[3], y[3];
 };
 
-/* Of eight triangles. */
+/* The edges of eight triangles. */
 struct edges8 {
     v8f top_x, top_y, middle_x, middle_y, low_y;
     v8f long_slope, upper_slope, lower_slope;
-    v8f area;       /* twice; positive when the corners turn clockwise in the picture */
+    v8f area;       /* twice the area; positive when the corners turn clockwise in the picture */
     v8f over_area;  /* 1 / area */
     v8i first, end; /* rows, within the picture */
-    v8f x0, y0;     /* the first corner, and from it to the others */
+    v8f x0, y0;     /* the first corner, and the vectors from it to the others */
     v8f x1, y1, x2, y2;
 };
 
@@ -46,13 +46,14 @@ SIMD8 void triangle_raster_order(v8f *x, v8f *y, v8f *lower_x, v8f *lower_y)
     *y = swap_y;
 }
 
-/* The row or column whose centre is the first at or after a place, within 0 .. most. */
+/* Returns the row or column whose centre is the first at or after a coordinate, within 0 ..
+ * most. */
 SIMD8 v8i triangle_raster_line(v8f at, float most)
 {
     return simd8_ceil(simd8_clamp(at - 0.5f, 0.0f, most));
 }
 
-/* How far to the side an edge goes in a row; nothing where it crosses no row's centre. */
+/* Returns by how many columns an edge moves in a row; 0 for a level edge. */
 SIMD8 v8f triangle_raster_slope(v8f x, v8f y, v8f lower_x, v8f lower_y)
 {
     v8f high = lower_y - y;
@@ -60,14 +61,14 @@ SIMD8 v8f triangle_raster_slope(v8f x, v8f y, v8f lower_x, v8f lower_y)
                         simd8_f(0.0f));
 }
 
-/* Twice the triangles' areas; positive when the corners turn clockwise in the picture. */
+/* Returns twice the triangles' areas; positive when the corners turn clockwise in the picture. */
 SIMD8 v8f triangle_raster_area(const struct corners8 *c)
 {
     return (c->x[1] - c->x[0]) * (c->y[2] - c->y[0]) - (c->x[2] - c->x[0]) * (c->y[1] - c->y[0]);
 }
 
-/* The mask of the triangles that may hold a pixel's centre of a picture of this size: not of no
- * area, not wholly to a side, not of corners that are no numbers. */
+/* Returns a mask of the triangles that may contain a pixel's centre: their area is not 0, they do
+ * not lie wholly to one side of the picture, and no corner is NaN or infinite. */
 SIMD8 v8i triangle_raster_shown(const struct corners8 *c, v8f area, uint32_t width, uint32_t height)
 {
     float columns = (float)width, rows = (float)height;
@@ -75,17 +76,17 @@ SIMD8 v8i triangle_raster_shown(const struct corners8 *c, v8f area, uint32_t wid
     v8f right = simd8_max(simd8_max(c->x[0], c->x[1]), c->x[2]);
     v8f top = simd8_min(simd8_min(c->y[0], c->y[1]), c->y[2]);
     v8f low = simd8_max(simd8_max(c->y[0], c->y[1]), c->y[2]);
-    /* No comparison holds for what is no number. */
+    /* Comparisons with NaN are false. */
     v8i there = (area > 0.0f) | (area < 0.0f);
     v8i number = (left > -TRIANGLE_RASTER_FAR) & (right < TRIANGLE_RASTER_FAR) &
                  (top > -TRIANGLE_RASTER_FAR) & (low < TRIANGLE_RASTER_FAR);
-    /* Between two centres of columns, or of rows, there is nothing to draw. */
+    /* A triangle that lies between the centres of two columns or rows has no pixels. */
     v8i columns_held = triangle_raster_line(left, columns) < triangle_raster_line(right, columns);
     v8i rows_held = triangle_raster_line(top, rows) < triangle_raster_line(low, rows);
     return there & number & columns_held & rows_held;
 }
 
-/* Sets eight triangles up. Returns triangle_raster_shown(). */
+/* Sets up eight triangles. Returns triangle_raster_shown(). */
 SIMD8 v8i triangle_raster_set_up(struct edges8 *s, const struct corners8 *c, uint32_t width,
                                  uint32_t height)
 {
@@ -118,7 +119,7 @@ SIMD8 v8i triangle_raster_set_up(struct edges8 *s, const struct corners8 *c, uin
     return triangle_raster_shown(c, s->area, width, height);
 }
 
-/* The plane through the values at the corners. */
+/* Returns the plane through the values at the corners. */
 SIMD8 struct plane8 triangle_raster_plane(const struct edges8 *s, v8f at0, v8f at1, v8f at2)
 {
     v8f by1 = at1 - at0, by2 = at2 - at0;
@@ -127,7 +128,7 @@ SIMD8 struct plane8 triangle_raster_plane(const struct edges8 *s, v8f at0, v8f a
     return (struct plane8){at0 + (s->top_x - s->x0) * x + (s->top_y - s->y0) * y, x, y};
 }
 
-/* One of the eight. */
+/* Return one of the eight. */
 SIMD8 struct triangle_edges triangle_raster_of(const struct edges8 *s, int lane)
 {
     return (struct triangle_edges){s->top_x[lane],       s->top_y[lane],      s->middle_x[lane],
@@ -140,7 +141,7 @@ SIMD8 struct triangle_plane triangle_raster_plane_of(const struct plane8 *p, int
     return (struct triangle_plane){p->top[lane], p->x[lane], p->y[lane]};
 }
 
-/* The plane's value at the centres of eight pixels of a row from x on. */
+/* Returns the plane's value at the centres of eight pixels of a row, from column x on. */
 SIMD8 v8f triangle_raster_value(const struct triangle_edges *s, const struct triangle_plane *p,
                                 int32_t x, int32_t y)
 {
@@ -148,7 +149,7 @@ SIMD8 v8f triangle_raster_value(const struct triangle_edges *s, const struct tri
     return row + (simd8_to_f(simd8_count() + x) + (0.5f - s->top_x)) * p->x;
 }
 
-/* ceil(v - 0.5) within 0 .. most; 0 for what is no number. */
+/* Returns ceil(v - 0.5) within 0 .. most; 0 for NaN. */
 SIMD8 int32_t triangle_raster_ceil(float v, float most)
 {
     v -= 0.5f;
@@ -158,12 +159,12 @@ SIMD8 int32_t triangle_raster_ceil(float v, float most)
     return whole + (v > (float)whole);
 }
 
-/* Draws eight pixels of a row: x and y of the first, x a multiple of eight; its place in the
- * target's arrays; which of the eight are inside. */
+/* Draws eight pixels of a row. x, y: the first pixel, x a multiple of eight; at: its index in the
+ * target's arrays; inside: the mask of the pixels that belong to the triangle. */
 typedef void triangle_raster_pixels(void *context, int32_t x, int32_t y, size_t at, v8i inside);
 
-/* Calls pixels, which should be inlined, for all of the triangle that lies in the band. Where its
- * edges cross the rows is worked out for eight rows at once. */
+/* Calls pixels, which should be inlined, for all of the triangle that lies in the band. The
+ * crossings of its edges with eight rows are computed at once. */
 SIMD8 void triangle_raster_walk(const struct triangle_edges *s, const struct soft_target *t,
                                 triangle_raster_pixels *pixels, void *context)
 {
@@ -173,7 +174,7 @@ SIMD8 void triangle_raster_walk(const struct triangle_edges *s, const struct sof
     int32_t end = triangle_raster_ceil(s->low_y, rows);
     y = y > t->first ? y : t->first;
     end = end < t->end ? end : t->end;
-    /* Is the middle corner to the right of the long edge? */
+    /* True if the middle corner is to the right of the long edge. */
     bool right = s->middle_x > s->top_x + (s->middle_y - s->top_y) * s->long_slope;
     for (; y < end; y += LANES) {
         v8i number = simd8_count() + y;
@@ -198,15 +199,15 @@ SIMD8 void triangle_raster_walk(const struct triangle_edges *s, const struct sof
 
 #define TRIANGLE_RASTER_VALUES_MAX 12
 
-/* A triangle's corner before it is projected: where along the view, and its other values, which
- * are mixed evenly along an edge: x and y across and down, colours and the like. */
+/* A triangle's corner before projection: its distance along the view [m], and other values that are
+ * linear along an edge (across, down, colours and the like). */
 struct clip_corner {
     float ahead;
     float value[TRIANGLE_RASTER_VALUES_MAX];
 };
 
-/* Cuts away what is nearer than near_m. Returns how many corners are left: 0, 3 or 4, in the
- * same sense of turn. */
+/* Clips a triangle at the near plane. Returns the number of corners that are left: 0, 3 or 4, in
+ * the same order of turning. */
 SIMD8 uint32_t triangle_raster_clip(const struct clip_corner corner[3], uint32_t values,
                                     float near_m, struct clip_corner cut[4])
 {
@@ -218,7 +219,7 @@ SIMD8 uint32_t triangle_raster_clip(const struct clip_corner corner[3], uint32_t
             cut[count++] = *a;
         if (a_in == b_in)
             continue;
-        /* From the inner to the outer corner, whichever triangle asks. */
+        /* This goes from the inner to the outer corner, so that both triangles of an edge agree. */
         const struct clip_corner *in = a_in ? a : b, *out = a_in ? b : a;
         float t = (near_m - in->ahead) / (out->ahead - in->ahead);
         struct clip_corner *at = &cut[count++];

@@ -1,4 +1,4 @@
-/* Reading the command line: a few options of its own; the others are the renderer's. */
+/* Reads the command line: its own options and the renderer's. */
 #include "renderer/video/options.h"
 
 #include "ipc/process/log.h"

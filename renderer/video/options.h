@@ -6,10 +6,10 @@
 
 #include <stdint.h>
 
-#define VIDEO_FPS_MAX 60.0 /* by default no more; and no more than the simulation has frames */
+#define VIDEO_FPS_MAX 60.0 /* default: this, or the simulation's frame rate if that is lower */
 
 struct video_options {
-    struct options renderer; /* how it is drawn */
+    struct options renderer; /* how pictures are drawn */
     const char *log, *file;
     uint64_t from, frames; /* frames 0: to the end */
 };

@@ -1,5 +1,6 @@
-/* A film of a recorded run, or its last picture: the run is played again, frame by frame, and each
- * picture drawn at its time, as fast as that goes. The same log gives the same pictures. */
+/* Makes a video of a recorded run, or a still picture of its end: the run is replayed frame by
+ * frame as fast as possible, and each picture is drawn at its time. The same log gives the same
+ * pictures. */
 #ifndef JOLON_RENDERER_VIDEO_RUN_VIDEO_H
 #define JOLON_RENDERER_VIDEO_RUN_VIDEO_H
 
@@ -12,21 +13,22 @@
 
 struct run_video {
     struct video_options options;
-    struct log_replay tape;
+    struct log_replay replay;
     struct view view;
-    struct frame_stepper player;
-    struct heartbeat heartbeat; /* nobody waits for its beat */
+    struct frame_stepper stepper;
+    struct heartbeat heartbeat; /* no other process reads it */
     struct output_set outputs;
     struct render_session session;
-    bool still;          /* the last picture alone, as a PNG file */
-    uint64_t first, end; /* frames: from the first, and this one no more */
-    bool between;        /* pictures show what is between frames too */
-    uint64_t pictures, begun_ns, told_ns;
-    char path[RUN_VIDEO_PATH_BYTES]; /* of the file while it is made */
+    bool still;         /* only the last picture, as a PNG file */
+    uint64_t first, end; /* frames first .. end - 1 */
+    bool between;        /* pictures may lie between two frames */
+    uint64_t pictures, begun_ns, reported_ns;
+    char path[RUN_VIDEO_PATH_BYTES]; /* of the temporary file */
     int fd;
 };
 
-/* Makes what film->options say, all else zero; ends the process when it cannot. */
-enum log_replay_step run_video_make(struct run_video *film);
+/* Makes the video that video->options describe; all other members must be zero. Ends the process on
+ * failure. */
+enum log_replay_step run_video_make(struct run_video *video);
 
 #endif

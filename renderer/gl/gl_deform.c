@@ -1,6 +1,6 @@
-/* The form that a body has taken, as text of its vertex shaders: dents move its surface, what fell
- * in is low and lies about, what broke is bent over, parts turn about their pivots. Shared by the
- * bodies and their shadows. */
+/* The deformation of a body, as text of its vertex shaders: dents move the surface, collapsed parts
+ * sink into a heap, a broken part is bent over, parts turn about their pivots. Bodies and their
+ * shadows share it. It matches body_deform.h. */
 #include "renderer/gl/gl_internal.h"
 
 _Static_assert(PART_TURRET == 1 && PART_GUN == 2 && PART_ROTOR == 3 && PART_TAIL_ROTOR == 4 &&
@@ -54,7 +54,7 @@ const char gl_deform_text[] =
     "    float south = mix(lot(ivec3(i.x, i.y + 1, n)), lot(ivec3(i + 1, n)), t.x);\n"
     "    return mix(north, south, t.y);\n"
     "}\n"
-    "float fell(vec3 v)\n" /* 0 stands .. 1 lies */
+    "float fell(vec3 v)\n" /* 0 standing .. 1 in a heap */
     "{\n"
     "    float ragged = 0.5 * rough(v.xz * 0.3, i_form.z) - 0.25;\n"
     "    return smoothstep(1.0, 1.22, dot(v.xz, i_falls.xy) + i_falls.z + ragged);\n"
@@ -91,7 +91,7 @@ const char gl_deform_text[] =
     "    return vec2(c * v.x - s * v.y, s * v.x + c * v.y);\n"
     "}\n"
     "float way(vec4 pivot) { return (pivot.z < 0.0 ? i_way.x : i_way.y) / pivot.w; }\n"
-    /* at: 1.0 for places, 0.0 for directions. */
+    /* at: 1.0 for points, 0.0 for directions */
     "vec3 rolled(vec3 v, float at)\n"
     "{\n"
     "    if (a_part.x < 4.5 || a_part.x > 6.5)\n"
