@@ -7,8 +7,7 @@
 #define LEAST_RADIUS  0.7f   /* [pixel] smaller particles are drawn with this radius, and fainter */
 #define COARSE_PIXELS 100.0f /* [pixel] diameter above which one look-up serves 2 x 2 pixels, */
 #define COARSE_COVER  0.6f   /* if the particle covers this much: the edges of fire are sharp */
-#define STRIP_DEEP                                                                                 \
-    0.15f /* share of its distance by which a strip's ends may differ from its middle */
+#define STRIP_DEEP    0.15f  /* share of its distance by which a strip's ends may differ */
 
 /* --- set-up ----------------------------------------------------------------------------------- */
 

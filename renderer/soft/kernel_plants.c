@@ -14,9 +14,7 @@
 #define SHADOW_BIAS    0.002f /* of the distance, by which a shadow is nearer than the slope */
 #define SHADOW_CUT     102u   /* alpha 0.4 */
 #define MIX_TEXELS     1.5f   /* pixels a texel above which texels are interpolated, */
-#define MIX_LEVEL                                                                                  \
-    5u /* and the level up to which they always are, since few large texels would show as blocks   \
-        */
+#define MIX_LEVEL      5u     /* and the level up to which they always are, to hide blocks */
 
 /* --- set-up ----------------------------------------------------------------------------------- */
 

@@ -61,7 +61,7 @@ struct ground8 {
 struct ground_queue {
     struct ground8 ground[QUEUE_LENGTH];
     uint32_t count, coloured,
-        drawn; /* groups; of these, the first that are coloured and that are stored */
+        drawn; /* groups; the first of these that have been coloured, stored */
 };
 
 /* Returns the weight of the next coarser mip, when the ideal texel is 1 .. 2 texels of this mip
@@ -137,11 +137,11 @@ SIMD8 struct texels8 ground_texture(const struct soft_patch *patch, const struct
     float step = patch->per_m * size, off = 128.0f * scale - 128.0f;
     v8f u = g->east * step + (patch->at_u * size + off);
     v8f v = g->south * step + (patch->at_v * size + off);
-    struct texels8 tile = texel_four(patch->look_up_textures, mip, u, v);
+    struct texels8 tile = texel_four(patch->texture, mip, u, v);
     float share = next_mip_weight(texels * scale);
     if (share > 0.0f) {
         struct texels8 next =
-            texel_four(patch->look_up_textures, mip + 1, u * 0.5f - 64.0f, v * 0.5f - 64.0f);
+            texel_four(patch->texture, mip + 1, u * 0.5f - 64.0f, v * 0.5f - 64.0f);
         tile.r += (next.r - tile.r) * share;
         tile.g += (next.g - tile.g) * share;
         tile.b += (next.b - tile.b) * share;

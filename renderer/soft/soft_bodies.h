@@ -46,23 +46,21 @@ struct soft_textured_face {
     bool track;
 };
 
-/* What all sides of a body have in common. */
+/* What all textured faces of a body have in common. */
 struct soft_material {
-    float soot_low,
-        soot_over;       /* where the transition from paint to soot begins, and 1 over its width */
-    float soot_most;     /* the greatest share that soot covers */
-    float burnt, rust;   /* the least share that is burnt; the greatest share of rust */
-    float plain;         /* the share that is burnt when textures are off */
-    float air[3], clear; /* the air's colour times its opacity; 1 - opacity */
+    float soot_low, soot_over; /* start of the transition from paint to soot; 1 / its width */
+    float soot_most;           /* the greatest share that soot covers */
+    float burnt, rust;         /* the least share that is burnt; the greatest share of rust */
+    float plain;               /* the share that is burnt when textures are off */
+    float air[3], clear;       /* the air's colour times its opacity; 1 - opacity */
     bool deformed;
 };
 
 /* A face's shadow on the ground. */
 struct soft_shadow_face {
     struct triangle_edges edges;
-    struct triangle_plane
-        depth;     /* moved towards the eye by a bias, since the ground is not exactly the plane */
-    uint32_t dark; /* 1 .. SOFT_SHADOW_FULL */
+    struct triangle_plane depth; /* moved towards the eye, as the ground is not exactly the plane */
+    uint32_t dark;               /* 1 .. SOFT_SHADOW_FULL */
 };
 
 /* Faces of one kind, and the bands that they touch. */

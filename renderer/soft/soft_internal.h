@@ -57,8 +57,7 @@ struct soft_frame {
     float right[3], up[3], forward[3]; /* unit */
     float pixel_m;                     /* the width of a pixel at a distance of 1 m */
     float sun[3];
-    float haze, fog,
-        fog_fall; /* [1/m] haze; fog at the eye's height; the rate at which fog thins with height */
+    float haze, fog, fog_fall; /* [1/m] haze; fog at the eye's height; its thinning with height */
     float time_s;
     bool texture;
 };

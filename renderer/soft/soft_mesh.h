@@ -19,9 +19,8 @@ struct soft_face {
 
 /* Corners that move together. */
 struct soft_group {
-    uint32_t first,
-        end;       /* corners first .. end - 1, padded with copies to a multiple of SOFT_MESH_PAD */
-    uint16_t part; /* enum model_part */
+    uint32_t first, end; /* corners, padded with copies to a multiple of SOFT_MESH_PAD */
+    uint16_t part;       /* enum model_part */
     uint16_t joint;
 };
 

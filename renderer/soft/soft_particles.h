@@ -26,8 +26,7 @@ struct soft_particle {
     float down[3];        /* texel row */
     float colour[3];      /* the particle's own, seen through the air; 255 for full */
     float air[3];         /* what the air in front of it adds */
-    float dark, bright;   /* factors on the colour: at brightness 0, and the growth for each unit of
-                             brightness */
+    float dark, bright;   /* factor on the colour at brightness 0; its growth with brightness */
     float opacity;        /* opacity for each unit of the picture's opacity */
     float cover, hot;     /* share of the background that it hides; light that it adds */
     bool streak, clipped; /* clipped: the picture is not empty at the edges of its square */

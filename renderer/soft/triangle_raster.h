@@ -13,8 +13,7 @@
 
 #include <stdbool.h>
 
-#define TRIANGLE_RASTER_FAR                                                                        \
-    1.0e8f /* [pixel] triangles with corners farther from the picture's corner are not drawn */
+#define TRIANGLE_RASTER_FAR 1.0e8f /* [pixel] triangles with corners farther out are not drawn */
 
 /* The corners of eight triangles in the picture [pixel]. */
 struct corners8 {

@@ -1,5 +1,5 @@
-/* The software back end's core: what spans cover, and that a picture is the same on every processor
- * and any number of threads. */
+/* The core of the software back end: which pixels triangles cover, and that a picture is the same
+ * on every processor and for any number of threads. */
 #include "renderer/soft/fxaa.h"
 #include "renderer/scene/scene.h"
 #include "renderer/scene/terrain/terrain_tiles.h"
@@ -24,9 +24,10 @@
 #define POSTS   401u
 #define SPACING 125.0
 
-/* --- spans ------------------------------------------------------------------------------------ */
+/* --- triangles
+ * ---------------------------------------------------------------------------------- */
 
-/* How often each pixel of a picture was drawn, and the last value it was given. */
+/* How often each pixel was drawn, and the last value it was given. */
 struct sheet {
     uint32_t times[HEIGHT * STRIDE];
     float value[HEIGHT * STRIDE];
@@ -34,7 +35,7 @@ struct sheet {
     struct triangle_plane plane;
 };
 
-SIMD8 void note(void *context, int32_t x, int32_t y, size_t at, v8i inside)
+SIMD8 void count_pixels(void *context, int32_t x, int32_t y, size_t at, v8i inside)
 {
     struct sheet *sheet = context;
     v8f value = triangle_raster_value(&sheet->edges, &sheet->plane, x, y);
@@ -46,8 +47,8 @@ SIMD8 void note(void *context, int32_t x, int32_t y, size_t at, v8i inside)
         }
 }
 
-/* Draws a triangle in bands, as a picture is; corners are x, y and a value. False when nothing of
- * it could be seen. */
+/* Draws a triangle band by band; corners are x, y and a value. Returns false when no pixel could be
+ * covered. */
 static bool draw_triangle(struct sheet *sheet, float corner[3][3])
 {
     struct corners8 corners;
@@ -67,13 +68,13 @@ static bool draw_triangle(struct sheet *sheet, float corner[3][3])
         int32_t end = first + SOFT_BAND_ROWS;
         struct soft_target band = {
             .width = WIDTH, .stride = STRIDE, .first = first, .end = end < HEIGHT ? end : HEIGHT};
-        triangle_raster_walk(&sheet->edges, &band, note, sheet);
+        triangle_raster_walk(&sheet->edges, &band, count_pixels, sheet);
     }
     return true;
 }
 
-/* A grid of crooked quadrangles that hides the whole picture, some of them thinner than a pixel. */
-static void test_leaves_no_gap_and_no_overlap(void **context)
+/* A grid of irregular quadrangles covers the whole picture. Some are thinner than a pixel. */
+static void test_grid_has_no_gap_and_no_overlap(void **context)
 {
     static struct sheet sheet;
     uint64_t state = fixture_seed(SEED);
@@ -86,7 +87,7 @@ static void test_leaves_no_gap_and_no_overlap(void **context)
             for (int32_t c = 0; c <= SIDE; c++) {
                 double x = c + fixture_uniform(&state, -shake, shake);
                 double y = r + fixture_uniform(&state, -shake, shake);
-                /* Fine in the middle, and well over the picture's edges. */
+                /* The grid is fine in the middle and reaches beyond the picture's edges. */
                 double u = (x / SIDE - 0.5) * 2.0, v = (y / SIDE - 0.5) * 2.0;
                 grid[r][c][0] = (float)(WIDTH * (0.5 + 0.6 * u * u * u + 0.04 * u));
                 grid[r][c][1] = (float)(HEIGHT * (0.5 + 0.6 * v * v * v + 0.04 * v));
@@ -110,7 +111,7 @@ static void test_leaves_no_gap_and_no_overlap(void **context)
     }
 }
 
-/* Corners at pixels' centres: the pixel belongs to what lies below and to the right. */
+/* When corners lie on pixel centres, the pixel belongs to the triangle below and to the right. */
 static void test_centre_on_an_edge_belongs_to_one(void **context)
 {
     static struct sheet sheet;
@@ -126,11 +127,11 @@ static void test_centre_on_an_edge_belongs_to_one(void **context)
                              x >= 10 && x < 20 && y >= 10 && y < 20 ? 1 : 0);
 }
 
-static void test_nothing_comes_of_no_triangle(void **context)
+static void test_degenerate_triangles_are_refused(void **context)
 {
     static struct sheet sheet;
     const float nan = (float)NAN, inf = (float)INFINITY;
-    float none[][3][3] = {
+    float refused[][3][3] = {
         {{10, 10, 1}, {10, 10, 1}, {10, 10, 1}},          /* a point */
         {{10, 10, 1}, {50, 50, 1}, {90, 90, 1}},          /* a line */
         {{10.6f, 10, 1}, {11.4f, 10, 1}, {11, 90, 1}},    /* between two columns */
@@ -142,11 +143,11 @@ static void test_nothing_comes_of_no_triangle(void **context)
     };
     (void)context;
     memset(&sheet, 0, sizeof sheet);
-    for (size_t i = 0; i < sizeof none / sizeof none[0]; i++)
-        assert_false(draw_triangle(&sheet, none[i]));
+    for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++)
+        assert_false(draw_triangle(&sheet, refused[i]));
 }
 
-/* However far its corners are outside, a triangle fills the picture and no more. */
+/* A triangle whose corners are far outside fills the picture and no more. */
 static void test_huge_triangles_are_cut_to_the_picture(void **context)
 {
     static struct sheet sheet;
@@ -159,7 +160,7 @@ static void test_huge_triangles_are_cut_to_the_picture(void **context)
             assert_int_equal(sheet.times[y * STRIDE + x], x < WIDTH ? 1 : 0);
 }
 
-/* A plane through three corners has at every pixel the value it was made of. */
+/* The plane through three corners has the expected value at every pixel. */
 static void test_values_lie_on_the_plane(void **context)
 {
     static struct sheet sheet;
@@ -192,7 +193,8 @@ static void test_values_lie_on_the_plane(void **context)
 
 static void test_near_plane_cuts_where_it_lies(void **context)
 {
-    /* One corner behind, two before; then two behind; the value goes with the distance. */
+    /* First one corner is behind the plane, then two, then all. The value is proportional to the
+     * distance. */
     struct clip_corner corner[3] = {{.ahead = 3.0f, .value = {30.0f, 1.0f}},
                                     {.ahead = -1.0f, .value = {-10.0f, 1.0f}},
                                     {.ahead = 2.0f, .value = {20.0f, 1.0f}}};
@@ -216,8 +218,8 @@ static void test_near_plane_cuts_where_it_lies(void **context)
 
 /* --- pictures --------------------------------------------------------------------------------- */
 
-/* Hills, a sea in the west, and nothing on them. */
-struct country {
+/* A landscape of hills with a sea in the west. */
+struct landscape {
     struct world world;
     struct frame_view frame_view;
     struct crater craters[4];
@@ -229,9 +231,9 @@ struct country {
     uint8_t cover[POSTS * POSTS];
 };
 
-static int open_country(void **context)
+static int open_landscape(void **context)
 {
-    struct country *c = calloc(1, sizeof *c);
+    struct landscape *c = calloc(1, sizeof *c);
     assert_non_null(c);
     for (uint32_t row = 0; row < POSTS; row++)
         for (uint32_t column = 0; column < POSTS; column++) {
@@ -253,9 +255,9 @@ static int open_country(void **context)
     return 0;
 }
 
-static int close_country(void **context)
+static int close_landscape(void **context)
 {
-    struct country *c = *context;
+    struct landscape *c = *context;
     c->plain.close(c->plain.self);
     scene_free(&c->list);
     static_scene_free(&c->static_scene);
@@ -264,20 +266,20 @@ static int close_country(void **context)
     return 0;
 }
 
-/* The sea's shore from low above it, in the afternoon's haze. */
-static void look(struct country *c, uint32_t width, uint32_t height)
+/* Looks at the shore from a low eye, in haze and fog. */
+static void look(struct landscape *c, uint32_t width, uint32_t height)
 {
     struct vec3 eye = {7800.0, 0.0, 25000.0}, target = {3000.0, 0.0, 27000.0};
     eye.y = terrain_height(&c->world.terrain, NULL, eye.x, eye.z) + 3.0;
     camera_look(&c->list.camera, eye, target, width, height);
     c->list.time_s = 30.0;
     c->list.fog = c->list.haze = c->list.texture = true;
-    c->list.texture_budget = TERRAIN_TILES_ALL; /* none depends on an earlier picture */
+    c->list.texture_budget = TERRAIN_TILES_ALL; /* no picture depends on an earlier one */
     c->list.patch_count =
         terrain_quadtree_select(&c->static_scene.ground, &c->list.camera, c->list.patches);
 }
 
-static struct image draw(struct country *c, struct back_end_interface *by, uint32_t width,
+static struct image draw(struct landscape *c, struct back_end_interface *by, uint32_t width,
                          uint32_t height)
 {
     struct image image;
@@ -296,7 +298,7 @@ static void assert_same(const struct image *a, const struct image *b)
     assert_memory_equal(a->pixels, b->pixels, (size_t)a->width * a->height * 4);
 }
 
-/* The build that soft_open() takes here. */
+/* Returns the build that soft_open() chooses on this processor. */
 static const struct soft_kernels *best_build(void)
 {
 #if defined(__x86_64__)
@@ -306,10 +308,10 @@ static const struct soft_kernels *best_build(void)
     return &soft_kernels_plain;
 }
 
-/* Sizes that no vector divides, too. */
+/* Some widths are no multiple of a vector. */
 static void test_threads_and_vectors_change_nothing(void **context)
 {
-    struct country *c = *context;
+    struct landscape *c = *context;
     for (uint32_t threads = 2; threads <= 4; threads++) {
         const struct soft_kernels *build = threads % 2 == 0 ? best_build() : &soft_kernels_plain;
         struct back_end_interface many;
@@ -327,10 +329,10 @@ static void test_threads_and_vectors_change_nothing(void **context)
     }
 }
 
-/* Sky above, ground below, and water in between; every pixel has been coloured. */
+/* Sky is above, ground below, water between. Every pixel has a colour. */
 static void test_every_pixel_is_coloured(void **context)
 {
-    struct country *c = *context;
+    struct landscape *c = *context;
     struct image image = draw(c, &c->plain, 256, 144);
     const uint8_t *sky = image.pixels + (5 * 256 + 128) * 4;
     const uint8_t *ground = image.pixels + (138 * 256 + 128) * 4;
@@ -348,13 +350,13 @@ static void test_every_pixel_is_coloured(void **context)
 
 static void test_refuses_what_is_too_large(void **context)
 {
-    struct country *c = *context;
-    struct back_end_interface none;
+    struct landscape *c = *context;
+    struct back_end_interface refused;
     struct image image;
     struct error_text error;
     look(c, 301, 64);
-    assert_int_equal(soft_open(&none, &c->static_scene, 0, 64, 1, &error), -1);
-    assert_int_equal(soft_open(&none, &c->static_scene, 64, SOFT_SIDE_MAX + 1, 1, &error), -1);
+    assert_int_equal(soft_open(&refused, &c->static_scene, 0, 64, 1, &error), -1);
+    assert_int_equal(soft_open(&refused, &c->static_scene, 64, SOFT_SIDE_MAX + 1, 1, &error), -1);
     assert_int_equal(image_init(&image, 301, 64), 0);
     assert_int_equal(c->plain.picture(c->plain.self, &c->list, &c->frame_view, &image, &error), -1);
     image_free(&image);
@@ -365,12 +367,13 @@ static void test_refuses_what_is_too_large(void **context)
 static void fill(struct image *image, uint64_t *state)
 {
     for (size_t i = 0; i < (size_t)image->width * image->height; i++) {
-        uint64_t lot = fixture_random(state);
-        /* Steps and noise, marked as things, or as ground near and far. */
+        uint64_t random = fixture_random(state);
+        /* The pixels are steps with noise, marked as objects, or as ground near and far. */
         uint8_t level = i % 37 < 18 ? 40 : 200;
         for (uint32_t c = 0; c < 3; c++)
-            image->pixels[i * 4 + c] = (uint8_t)(level + ((lot >> (8 * c)) & 31));
-        image->pixels[i * 4 + 3] = (lot >> 32 & 7) == 0 ? 255 : (uint8_t)(40 + (lot >> 40 & 1));
+            image->pixels[i * 4 + c] = (uint8_t)(level + ((random >> (8 * c)) & 31));
+        image->pixels[i * 4 + 3] =
+            (random >> 32 & 7) == 0 ? 255 : (uint8_t)(40 + (random >> 40 & 1));
     }
 }
 
@@ -394,8 +397,8 @@ static void test_smoothing_is_the_same_in_any_parts(void **context)
     }
 }
 
-/* Stairs between black and white: smoothed where a thing is drawn, left in the grain of ground. */
-static void test_smooths_things_and_not_grain(void **context)
+/* Steps between black and white are smoothed on objects and stay on ground. */
+static void test_smooths_objects_and_not_ground(void **context)
 {
     struct image from, to;
     (void)context;
@@ -422,9 +425,9 @@ static void test_smooths_things_and_not_grain(void **context)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_leaves_no_gap_and_no_overlap),
+        cmocka_unit_test(test_grid_has_no_gap_and_no_overlap),
         cmocka_unit_test(test_centre_on_an_edge_belongs_to_one),
-        cmocka_unit_test(test_nothing_comes_of_no_triangle),
+        cmocka_unit_test(test_degenerate_triangles_are_refused),
         cmocka_unit_test(test_huge_triangles_are_cut_to_the_picture),
         cmocka_unit_test(test_values_lie_on_the_plane),
         cmocka_unit_test(test_near_plane_cuts_where_it_lies),
@@ -432,7 +435,7 @@ int main(void)
         cmocka_unit_test(test_every_pixel_is_coloured),
         cmocka_unit_test(test_refuses_what_is_too_large),
         cmocka_unit_test(test_smoothing_is_the_same_in_any_parts),
-        cmocka_unit_test(test_smooths_things_and_not_grain),
+        cmocka_unit_test(test_smooths_objects_and_not_ground),
     };
-    return cmocka_run_group_tests(tests, open_country, close_country);
+    return cmocka_run_group_tests(tests, open_landscape, close_landscape);
 }

@@ -14,7 +14,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Two metres a side about its middle, red below and, above, a turret's lid that is grey. */
+/* A red box of two metres a side about its middle. */
 static const struct model_vertex vertices[] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
                                                {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
 
@@ -82,7 +82,7 @@ static void draw(struct soft_stage *stage)
     }
 }
 
-/* A box whose front is to the north, its middle at a place. */
+/* Adds a box that faces north, its middle at a point. */
 static struct draw_list_body *add(struct soft_stage *stage, float x, float y, float far_m,
                                   float scale)
 {
@@ -107,7 +107,7 @@ static void expect_box(const struct soft_stage *stage, uint32_t half)
         }
 }
 
-/* Its near side, of 2 m at 20 m and 40 m: 20 and 10 pixels; with detail and without. */
+/* The near side of 2 m is 20 pixels wide at 20 m and 10 pixels at 40 m, textured and flat. */
 static void test_covers_its_square(void **context)
 {
     struct soft_stage stage;
@@ -128,8 +128,8 @@ static void test_covers_its_square(void **context)
     soft_stage_close(&stage);
 }
 
-/* The nearest wins, whatever the order; what is behind other things does not show. */
-static void test_order_of_depth(void **context)
+/* The nearest box is visible whatever the order; a box behind other things is hidden. */
+static void test_nearest_wins(void **context)
 {
     struct soft_stage stages[2];
     (void)context;
@@ -147,8 +147,8 @@ static void test_order_of_depth(void **context)
     soft_stage_close(&stages[1]);
 }
 
-/* A box about the eye shows its inside's far faces not, for they face away; one that reaches
- * through the near plane is cut there. */
+/* A box around the eye is invisible, since its inner faces look away. A box that crosses the near
+ * plane is clipped there. */
 static void test_near_plane(void **context)
 {
     struct soft_stage stage;
@@ -158,7 +158,7 @@ static void test_near_plane(void **context)
     draw(&stage);
     assert_int_equal(soft_stage_painted(&stage, STAGE_GROUND), 0);
     stage.list.body_count = 0;
-    add(&stage, 0.0f, -3.0f, 0.0f, 2.5f); /* a floor under the eye, from before to behind it */
+    add(&stage, 0.0f, -3.0f, 0.0f, 2.5f); /* a floor under the eye, which crosses the near plane */
     draw(&stage);
     assert_true(soft_stage_painted(&stage, STAGE_GROUND) > 1000);
     for (uint32_t y = 0; y < STAGE_HEIGHT; y++)
@@ -175,8 +175,8 @@ static void test_near_plane(void **context)
     soft_stage_close(&stage);
 }
 
-/* A quarter's turn about the vertical leaves a box what it is; an eighth makes it wider. */
-static void test_turns(void **context)
+/* A box that is turned by 45 degrees is wider. */
+static void test_turned_box_is_wider(void **context)
 {
     struct soft_stage stage;
     (void)context;
@@ -190,14 +190,14 @@ static void test_turns(void **context)
     for (uint32_t x = 0; x < STAGE_WIDTH; x++)
         wide += soft_stage_colour(&stage, x, y) != STAGE_GROUND;
     assert_in_range(wide, 26, 28);
-    /* The side that the sun is on is the lighter one. */
+    /* The side towards the sun is brighter. */
     uint32_t west = soft_stage_colour(&stage, STAGE_WIDTH / 2 - 6, y) & 255u;
     uint32_t east = soft_stage_colour(&stage, STAGE_WIDTH / 2 + 6, y) & 255u;
     assert_true(west > east + 20);
     soft_stage_close(&stage);
 }
 
-/* A dent moves the surface: less is covered, and what is there is further. */
+/* A dent moves the surface away. */
 static void test_dent(void **context)
 {
     struct soft_stage stage;
@@ -208,7 +208,7 @@ static void test_dent(void **context)
     draw(&stage);
     float whole = 1.0f / soft_stage_depth(&stage, STAGE_WIDTH / 2, STAGE_HEIGHT / 2);
     body->dents[1] = 1.0f;
-    /* Into its near side, which is its back. */
+    /* The dent is in the near side, which is the box's back. */
     stage.list.dents[0] = (struct draw_list_dent){.point = {-1.0f, 0.0f, 0.0f},
                                                   .depth_m = 0.6f,
                                                   .direction = {1.0f, 0.0f, 0.0f},
@@ -221,7 +221,7 @@ static void test_dent(void **context)
     soft_stage_close(&stage);
 }
 
-/* On ground alone, and only where its plane is. */
+/* The shadow falls only on ground, and only where its plane lies. */
 static void test_shadow_on_ground_alone(void **context)
 {
     struct soft_stage stage;
@@ -247,7 +247,8 @@ static void test_shadow_on_ground_alone(void **context)
             assert_true(y > STAGE_HEIGHT / 2 && x > STAGE_WIDTH / 2 - 8);
             dark++;
         }
-    /* A box of 8 m3 under a sun of 34 degrees: some 6 m2 beside it, seen at ten degrees. */
+    /* A box of 8 m3 under a sun 34 degrees high darkens some 6 m2 beside it, seen at ten
+     * degrees. */
     assert_in_range(dark, 30, 150);
 
     stage.list.instances[0].shadow = 0;
@@ -325,9 +326,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_covers_its_square),
-        cmocka_unit_test(test_order_of_depth),
+        cmocka_unit_test(test_nearest_wins),
         cmocka_unit_test(test_near_plane),
-        cmocka_unit_test(test_turns),
+        cmocka_unit_test(test_turned_box_is_wider),
         cmocka_unit_test(test_dent),
         cmocka_unit_test(test_shadow_on_ground_alone),
         cmocka_unit_test(test_same_everywhere),

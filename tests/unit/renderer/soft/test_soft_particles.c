@@ -1,4 +1,4 @@
-/* The software back end's puffs: what covers what, where, and how much. */
+/* The particles of the software back end: which pixels they cover, and how strongly. */
 #include "tests/support/fixture.h"
 #include "tests/support/soft_stage.h"
 #include "renderer/soft/soft_particles.h"
@@ -11,7 +11,7 @@
 
 #include <stdio.h>
 
-#define BLUE  0xff804020u /* what is behind: red 0x20, green 0x40, blue 0x80 */
+#define BLUE  0xff804020u /* the background: red 0x20, green 0x40, blue 0x80 */
 #define FAR_M 100.0f
 
 static struct soft_particles *particles;
@@ -64,7 +64,8 @@ static uint32_t byte_at(const struct soft_stage *stage, uint32_t x, uint32_t y, 
     return soft_stage_colour(stage, x, y) >> shift & 255u;
 }
 
-/* A puff of 2 m at 20 m is 40 pixels wide, in the middle of the picture and nowhere else. */
+/* A particle of 2 m radius at 20 m is 40 pixels wide, in the middle of the picture and nowhere
+ * else. */
 static void test_covers_its_circle(void **context)
 {
     struct soft_stage stage;
@@ -101,7 +102,7 @@ static void test_nothing_without_alpha(void **context)
     soft_stage_close(&stage);
 }
 
-/* It is a ball: it shows before what is nearer than its middle, up to its near side. */
+/* A particle is a ball: it is visible in front of surfaces up to its near side. */
 static void test_depth_of_a_ball(void **context)
 {
     struct soft_stage stage;
@@ -131,7 +132,7 @@ static void test_none_behind_the_eye(void **context)
     soft_stage_close(&stage);
 }
 
-/* The nearer puff comes later and covers: the last colour wins where both are thick. */
+/* The nearer particle is drawn later and covers the other where both are dense. */
 static void test_later_over_earlier(void **context)
 {
     struct soft_stage stage;
@@ -167,7 +168,7 @@ static void test_glow_adds(void **context)
     soft_stage_close(&stage);
 }
 
-/* A streak along x: long there, narrow across; one that comes from behind the eye is cut. */
+/* A streak along x is long along x and narrow across. One that starts behind the eye is clipped. */
 static void test_streak(void **context)
 {
     struct soft_stage stage;
@@ -249,5 +250,5 @@ int main(void)
         cmocka_unit_test(test_streak),
         cmocka_unit_test(test_same_everywhere),
     };
-    return cmocka_run_group_tests_name("soft_puffs", tests, open_particles, close_particles);
+    return cmocka_run_group_tests_name("soft_particles", tests, open_particles, close_particles);
 }

@@ -13,11 +13,11 @@
 
 #include <stdio.h>
 
-#define WALL 0xff000003u /* takes no shadow */
+#define WALL 0xff000003u /* not ground: takes no shadow */
 
 static struct soft_detail detail;
 static struct soft_plants *plants;
-static struct soft_bodies *bodies; /* none: shadows are drawn of both */
+static struct soft_bodies *bodies; /* empty; the shadow kernel takes both */
 
 static int open_plants(void **context)
 {
@@ -77,7 +77,7 @@ static uint32_t shadow_at(const struct soft_stage *stage, uint32_t x, uint32_t y
     return soft_stage_colour(stage, x, y) >> SOFT_SHADOW_BITS & 255u;
 }
 
-/* Ground 10 m below the eye, as its kernel would leave it. */
+/* Fills the picture as level ground that is low_m below the eye. */
 static void lay_ground(struct soft_stage *stage, float low_m)
 {
     soft_stage_clear(stage, 0, 0.0f);
@@ -90,7 +90,7 @@ static void lay_ground(struct soft_stage *stage, float low_m)
         }
 }
 
-/* An oak of 10 m at 50 m is 40 pixels wide and high, and stands where its foot is. */
+/* An oak of 10 m at 50 m is 40 pixels wide and high and stands on its foot. */
 static void test_stands_on_its_foot(void **context)
 {
     struct soft_stage stage;
@@ -115,7 +115,7 @@ static void test_stands_on_its_foot(void **context)
     soft_stage_close(&stage);
 }
 
-static void test_behind_and_before(void **context)
+static void test_hidden_behind_a_wall(void **context)
 {
     struct soft_stage stage;
     (void)context;
@@ -130,7 +130,7 @@ static void test_behind_and_before(void **context)
     soft_stage_close(&stage);
 }
 
-/* The same pixels, whichever of two comes first in the list. */
+/* The result does not depend on the order in the list. */
 static void test_nearer_wins_in_any_order(void **context)
 {
     struct soft_stage stages[2];
@@ -155,7 +155,7 @@ static void test_none_behind_the_eye(void **context)
     add(&stage, 0.0f, -1.0f, -5.0f, 10.0f);
     draw(&stage);
     assert_int_equal(soft_stage_painted(&stage, STAGE_GROUND), 0);
-    /* Beside the eye: half of its width lies ahead, most of that outside the picture. */
+    /* This plant is beside the eye: half of its width lies ahead, mostly outside the picture. */
     add(&stage, 3.0f, -5.0f, 1.5f, 10.0f);
     draw(&stage);
     for (uint32_t y = 0; y < STAGE_HEIGHT; y++)
@@ -164,7 +164,7 @@ static void test_none_behind_the_eye(void **context)
     soft_stage_close(&stage);
 }
 
-/* Its shadow lies on the ground beside it, away from the sun, and on nothing else. */
+/* The shadow lies only on the ground, on the side away from the sun. */
 static void test_shadow_on_ground_alone(void **context)
 {
     struct soft_stage stage;
@@ -186,7 +186,7 @@ static void test_shadow_on_ground_alone(void **context)
     assert_true(dark > 100);
     assert_true(east > dark * 9 / 10); /* the sun is in the west */
 
-    /* What is no ground takes none, nor ground that is nearer than the shadow's. */
+    /* Neither other surfaces nor ground in front of the shadow's plane take a shadow. */
     soft_stage_clear(&stage, WALL, 60.0f);
     stage.list.plants[0].tint[0] = stage.list.plants[0].tint[1] = 0.0f;
     assert_int_equal(soft_plants_prepare(plants, &stage.frame), 0);
@@ -241,9 +241,12 @@ static void test_same_everywhere(void **context)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_stands_on_its_foot),       cmocka_unit_test(test_behind_and_before),
-        cmocka_unit_test(test_nearer_wins_in_any_order), cmocka_unit_test(test_none_behind_the_eye),
-        cmocka_unit_test(test_shadow_on_ground_alone),   cmocka_unit_test(test_same_everywhere),
+        cmocka_unit_test(test_stands_on_its_foot),
+        cmocka_unit_test(test_hidden_behind_a_wall),
+        cmocka_unit_test(test_nearer_wins_in_any_order),
+        cmocka_unit_test(test_none_behind_the_eye),
+        cmocka_unit_test(test_shadow_on_ground_alone),
+        cmocka_unit_test(test_same_everywhere),
     };
     return cmocka_run_group_tests_name("soft_plants", tests, open_plants, close_plants);
 }
