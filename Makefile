@@ -350,7 +350,8 @@ check: $(UNIT_TESTS) $(PROPERTY_TESTS)
 	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property
 
 # Crash points are tried unsanitized: a sanitizer has its own handler for faults.
-# All that is tried, built: `make test` builds it too, and then runs it.
+# Builds what `make test` runs. The fuzz harnesses are compiled, but not linked: that takes clang.
+tests: $(call objects,$(FUZZ_SRC))
 tests: all $(BENCH) $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(PEER) $(LAG) $(FLOOD) $(FILM) $(EXAMPLES) $(if $(SAN),,crash)
 test: tests
 	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property golden system $(if $(SAN),,crash)

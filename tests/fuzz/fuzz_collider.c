@@ -100,7 +100,7 @@ static void put_body(const uint8_t *body)
     const struct entities *e = &view.w[0].entities;
     struct state_head *head = view.w[0].head;
     uint32_t row = head->used++;
-    const uint16_t kind = body[4] % view.world.counts.kinds;
+    const uint16_t kind = (uint16_t)(body[4] % view.world.counts.kinds);
     const struct kind *of = &view.world.kinds[kind];
     bool round = of->domain == DOMAIN_MUNITION;
     if (of->domain == DOMAIN_FIXED) {

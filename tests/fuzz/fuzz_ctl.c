@@ -49,12 +49,22 @@ static void run_line(const uint8_t *data, size_t size)
         check_order(&order);
 }
 
+/* A function of its own: ENDING_CATCH() is a setjmp(), after which changed variables are lost. */
+static void run_arguments(int count, char **arguments)
+{
+    struct ctl_request request;
+    if (ENDING_CATCH() == 0) {
+        ctl_parse(&request, count, arguments);
+        check(&request);
+    }
+    ending_done();
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static char text[4096];
     static char program[] = "jolon-ctl";
     char *arguments[ARGUMENTS_MAX + 2] = {program};
-    struct ctl_request request;
     int count = 1;
     if (size >= sizeof text)
         return 0;
@@ -66,11 +76,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         *at++ = '\0';
     }
     arguments[count] = NULL;
-    if (ENDING_CATCH() == 0) {
-        ctl_parse(&request, count, arguments);
-        check(&request);
-    }
-    ending_done();
+    run_arguments(count, arguments);
     run_line(data, size);
     return 0;
 }

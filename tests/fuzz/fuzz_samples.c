@@ -107,7 +107,7 @@ static void show(const struct world_mirror *mirror)
     sparkline_text(bars, &spark, 4, mirror->frame.hz > 0.0 ? 1000.0 / mirror->frame.hz : 0.0, true);
     if (mirror->has_world)
         show_map(mirror);
-    char *text = json_status(mirror, "", now_ns);
+    char *text = status_json(mirror, "", now_ns);
     cJSON *object = cJSON_Parse(text);
     CHECK(object);
     cJSON_Delete(object);
