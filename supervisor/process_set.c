@@ -282,10 +282,10 @@ int process_set_stop(struct process_set *set, enum role role)
     int status = 0;
     service->wanted = 0;
     /* The stand-by process ends first; otherwise it would take the role. */
-    for (int turn = 0; turn < 2; turn++) {
+    for (int pass = 0; pass < 2; pass++) {
         for (int j = 0; j < PROCESS_SET_CHILDREN; j++) {
             struct child *child = &service->child[j];
-            if (child->pid == 0 || (turn == 0 && process_set_holder(set, role) == child))
+            if (child->pid == 0 || (pass == 0 && process_set_holder(set, role) == child))
                 continue;
             int pid = child->pid;
             status = end(child, SIGTERM, until);

@@ -71,10 +71,11 @@ static bool same_world(const struct command_log *log, const struct view *view)
     char *first = journal_first(&log->journal);
     cJSON *object = first ? cJSON_Parse(first) : NULL;
     bool same = record_hex(object, "made", &made) && made == view->header->made;
-    bool ours = first && strncmp(first, COMMAND_LOG_BEGINS, sizeof COMMAND_LOG_BEGINS - 1) == 0;
+    bool is_command_log =
+        first && strncmp(first, COMMAND_LOG_BEGINS, sizeof COMMAND_LOG_BEGINS - 1) == 0;
     cJSON_Delete(object);
     free(first);
-    if (!ours)
+    if (!is_command_log)
         die_refused(OPTION " %s: is no log of commands; name another file", log->journal.path);
     return same;
 }

@@ -219,7 +219,7 @@ static void empty_rings(const struct view *view, const struct state_head *head)
         atomic_store(&view->commands[i]->head, head->command_cursor[i]);
 }
 
-static void feed(const struct view *view, const struct event_command *given)
+static void put_command(const struct view *view, const struct event_command *given)
 {
     struct command_ring_words *words = view->commands[given->ring];
     uint64_t at = atomic_load(&words->head);
@@ -238,16 +238,16 @@ static void feed(const struct view *view, const struct event_command *given)
 }
 
 /* Puts the frame's commands into the rings and returns their number. */
-static uint32_t feed_frame(struct log_replay *replay, const struct view *view, uint64_t frame)
+static uint32_t put_commands(struct log_replay *replay, const struct view *view, uint64_t frame)
 {
-    uint32_t fed = 0;
-    for (; replay->next < replay->count; replay->next++, fed++) {
+    uint32_t count = 0;
+    for (; replay->next < replay->count; replay->next++, count++) {
         const struct command_record *record = &replay->record[replay->next];
         if (record->type != RECORD_COMMAND || record->at.frame != frame)
             break;
-        feed(view, &record->command);
+        put_command(view, &record->command);
     }
-    return fed;
+    return count;
 }
 
 /* Compares the marks of the computed frame, and passes over the records before the next frame's
@@ -299,7 +299,7 @@ enum log_replay_step log_replay_step(struct log_replay *replay, struct frame_ste
         empty_rings(view, head);
         atomic_store(&view->moved_word->moved, frame);
     }
-    if (feed_frame(replay, view, frame + 1) == 0 && head->paused && head->steps_left == 0)
+    if (put_commands(replay, view, frame + 1) == 0 && head->paused && head->steps_left == 0)
         return LOG_REPLAY_OVER;
     frame_stepper_step(stepper, NULL);
     head = view->w[(frame + 1) & 1].head;

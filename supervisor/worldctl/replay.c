@@ -17,8 +17,8 @@
 struct replayed {
     uint64_t frame, commands;
     uint64_t digest, event_digest;
-    bool held;  /* compared with the log's end record */
-    bool equal; /* no difference found: of the end record or an earlier mark */
+    bool compared; /* with the log's end record */
+    bool equal;    /* no difference found: of the end record or an earlier mark */
 };
 
 static uint64_t last_frame(const struct arguments *arguments, const struct log_replay *replay)
@@ -66,7 +66,7 @@ static void print_result(const struct arguments *arguments, const struct log_rep
                                                  : "the log has no end to hold it against";
     if (!outcome->equal)
         verdict = "NOT equal to the run that was recorded";
-    else if (outcome->held)
+    else if (outcome->compared)
         verdict = "equal to the run that was recorded";
     if (!arguments->json) {
         printf("frame %" PRIu64 ", %" PRIu64 " commands: digest %016" PRIx64
@@ -81,13 +81,13 @@ static void print_result(const struct arguments *arguments, const struct log_rep
     json_hex(object, "event_digest", outcome->event_digest);
     json_whole(object, "commands", outcome->commands);
     json_bool(object, "gap", replay->gap);
-    json_bool(object, "held", outcome->held);
+    json_bool(object, "held", outcome->compared);
     json_bool(object, "equal", outcome->equal);
     json_print(object);
 }
 
 static struct replayed compare_end(const struct log_replay *replay,
-                                   const struct frame_stepper *stepper, bool met)
+                                   const struct frame_stepper *stepper, bool marks_met)
 {
     const struct view *view = stepper->view;
     const struct state *state = &view->w[frame_stepper_frame(stepper) & 1];
@@ -96,10 +96,10 @@ static struct replayed compare_end(const struct log_replay *replay,
                                .commands = state->head->tally.commands,
                                .digest = state_digest(&view->world, state),
                                .event_digest = state->head->event_digest,
-                               .equal = met};
-    outcome.held = end && end->at.frame == outcome.frame;
-    if (outcome.held && (outcome.event_digest != end->event_digest ||
-                         (end->digested && outcome.digest != end->digest)))
+                               .equal = marks_met};
+    outcome.compared = end && end->at.frame == outcome.frame;
+    if (outcome.compared && (outcome.event_digest != end->event_digest ||
+                             (end->digested && outcome.digest != end->digest)))
         outcome.equal = false;
     return outcome;
 }
@@ -120,13 +120,13 @@ int verb_replay(const struct arguments *arguments)
         die_refused("cannot start %u threads: %s", arguments->threads, strerror(errno));
     if (arguments->events)
         event_log_open(&events, &view, arguments->events);
-    bool met = play(&replay, &stepper, last, arguments->events ? &events : NULL);
+    bool marks_met = play(&replay, &stepper, last, arguments->events ? &events : NULL);
     if (arguments->events && event_log_close(&events, &view) != 0)
         die_refused("--events %s: cannot write all of it", arguments->events);
     if (replay.gap && frame_stepper_frame(&stepper) == replay.known_frame)
         log_warn("%s: commands are lost after frame %" PRIu64 ": replayed to there", replay.path,
                  replay.known_frame);
-    struct replayed outcome = compare_end(&replay, &stepper, met);
+    struct replayed outcome = compare_end(&replay, &stepper, marks_met);
     print_result(arguments, &replay, &outcome);
     frame_stepper_free(&stepper);
     segment_abandon(&view);
