@@ -1,5 +1,5 @@
 #!/bin/bash
-# Pictures for who asks, from a real renderer's own socket: any vehicle, view and size, several at
+# Requested pictures, from a real renderer's own socket: any vehicle, view and size, several at
 # once, what hostile and slow clients get, and that the simulation notices none of it.
 . "$(dirname "$0")/lib.sh"
 tool=$folder/asks.py
