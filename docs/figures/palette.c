@@ -8,11 +8,11 @@
 #define BITS           5
 #define LEVELS         (1 << BITS)
 #define CELLS          (LEVELS * LEVELS * LEVELS)
-#define DIFFUSED       3 /* quarters of an error that are handed on: all of it is noisier than needed */
+#define DIFFUSED       3 /* quarters of an error that are diffused; all of it gives more noise */
 #define UNKNOWN        UINT16_MAX
-#define LIGHT(r, g, b) (2 * (r) + 4 * (g) + (b)) /* how eyes weigh channels, about */
+#define LIGHT(r, g, b) (2 * (r) + 4 * (g) + (b)) /* weights of the channels for the eye, about */
 
-/* What a cell of the colour cube holds of the picture. */
+/* The picture's pixels in a cell of the colour cube. */
 struct cell {
     uint32_t count;
     uint64_t sum[3];
@@ -47,7 +47,7 @@ static void count_cells(struct work *work, const struct image *image)
     }
 }
 
-/* Shrinks a box to what it holds. */
+/* Shrinks a box to the cells with pixels, and counts those. */
 static void shrink(const struct work *work, struct cut *cut)
 {
     struct cut tight = {{LEVELS, LEVELS, LEVELS}, {-1, -1, -1}, 0};
@@ -78,7 +78,7 @@ static int32_t longest_side(const struct cut *cut, int32_t *length)
     return best;
 }
 
-/* Pixels of a box with this level of a channel. */
+/* Returns the pixels of a box with this level of a channel. */
 static uint64_t slice_count(const struct work *work, struct cut cut, int32_t channel, int32_t level)
 {
     cut.low[channel] = cut.high[channel] = level;
@@ -86,7 +86,7 @@ static uint64_t slice_count(const struct work *work, struct cut cut, int32_t cha
     return cut.count;
 }
 
-/* Halves a box by its pixels across its longest side. */
+/* Cuts a box across its longest side, with about half of its pixels on each side. */
 static void halve(const struct work *work, struct cut *cut, struct cut *other)
 {
     int32_t length, channel = longest_side(cut, &length), at = cut->low[channel];
@@ -100,7 +100,7 @@ static void halve(const struct work *work, struct cut *cut, struct cut *other)
     shrink(work, other);
 }
 
-/* The box that most wants to be cut: many pixels, far apart. -1 when none can be. */
+/* Returns the box to cut next: many pixels, far apart. -1 when none can be cut. */
 static int32_t next_cut(const struct work *work, uint32_t count)
 {
     int32_t best = -1;
@@ -164,7 +164,8 @@ static int32_t within_byte(int32_t v)
     return v < 0 ? 0 : v > 255 ? 255 : v;
 }
 
-/* errors: of this row and the next, three channels a pixel, with a pixel before and behind. */
+/* Fills indices by error diffusion. errors: of this row and the next, three channels a pixel, with
+ * room for a pixel before and behind each row. */
 static void diffuse(struct work *work, const struct palette *palette, uint8_t *indices,
                     const struct image *image, int32_t *errors)
 {

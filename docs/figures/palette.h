@@ -1,4 +1,4 @@
-/* Pictures in few colours, for documents: a palette of the picture's own, and error diffusion. */
+/* Reducing a picture for documents to few colours: a palette of its own, and error diffusion. */
 #ifndef JOLON_DOCS_FIGURES_PALETTE_H
 #define JOLON_DOCS_FIGURES_PALETTE_H
 
@@ -13,8 +13,8 @@ struct palette {
     uint32_t count;
 };
 
-/* Fills the palette, and indices [width * height] into it. The same picture gives the same. 0, or
- * -1 with errno ENOMEM. */
+/* Fills the palette and the pixels' indices[width * height]. Deterministic. Returns 0, or -1 with
+ * errno ENOMEM. */
 int palette_reduce(struct palette *palette, uint8_t *indices, const struct image *image);
 
 #endif

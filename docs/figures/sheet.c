@@ -54,7 +54,7 @@ static void write_picture(const struct image *image, const char *path)
     free(indices);
 }
 
-/* The mean of what of a picture a pixel of the sheet covers, one channel. */
+/* Returns the mean of one channel over the part of a picture that a pixel of the sheet covers. */
 static uint8_t covered_mean(const struct image *from, double x0, double y0, double x1, double y1,
                             uint32_t channel)
 {

@@ -1,4 +1,4 @@
-/* Pictures through outlets: order, what is dropped, what is waited for, and that none is lost. */
+/* Output queues: the order of pictures, dropping, waiting, and that no reference is lost. */
 #include "renderer/output/output_queue.h"
 
 #include "tests/support/fixture.h"
@@ -15,7 +15,7 @@
 
 #define TAKEN_MAX 4096u
 
-/* A taker that goes on only when it is let. */
+/* A worker that continues only when the test lets it. */
 struct taker {
     pthread_mutex_t lock;
     pthread_cond_t changed;
@@ -74,7 +74,7 @@ static void start(uint32_t depth, bool lossless)
                      0);
 }
 
-/* Every picture must be back. */
+/* Every picture must have been released. */
 static int end(void)
 {
     int result = output_queue_end(&queue, &error);
@@ -180,7 +180,7 @@ static void test_order_and_counts_hold_at_any_pace(void **state)
     }
 }
 
-/* Memory is bounded: who draws more than can be under way is told. */
+/* Memory is bounded: no more than PICTURE_POOL_MAX pictures can be made. */
 static void test_a_pool_has_an_end(void **state)
 {
     struct picture *made[PICTURE_POOL_MAX];

@@ -1,4 +1,4 @@
-/* Pictures' files: for their owner alone, and no link that somebody planted is followed. */
+/* The folder of pictures: files only their owner can read, and no symbolic link is followed. */
 #include "renderer/output/picture_folder.h"
 
 #include <errno.h>
@@ -130,7 +130,7 @@ static void test_half_pictures_of_dead_renderers_are_swept(void **state)
     assert_int_equal(faccessat(output.folder, alive, F_OK, 0), 0);
 }
 
-/* More than are kept, and again by the next renderer in the same folder. */
+/* More pictures than are kept, also by a second renderer in the same folder. */
 static void test_old_pictures_are_removed(void **state)
 {
     (void)state;

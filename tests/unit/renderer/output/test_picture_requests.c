@@ -1,4 +1,4 @@
-/* The table of pictures that are asked for: rows are shared, bounded, and given up. */
+/* The table of requested pictures: rows are shared, bounded and evicted. */
 #include "renderer/output/picture_requests.h"
 
 #include <setjmp.h>
@@ -48,7 +48,7 @@ static void test_the_same_picture_is_one_row(void **state)
     assert_int_equal(table.generations, 6);
 }
 
-/* Vehicles 0 to PICTURE_REQUESTS_MAX - 1, each asked for twice. */
+/* Requests vehicles 0 to PICTURE_REQUESTS_MAX - 1 twice each. */
 static void fill_with_watched(void)
 {
     for (uint32_t i = 0; i < 2 * PICTURE_REQUESTS_MAX; i++)
@@ -78,13 +78,13 @@ static void test_who_looks_once_keeps_nobody_out(void **state)
         ask(i, SECOND + i);
     table.row[0].unanswered = 1;
     ask(1, 2 * SECOND); /* now it is watched */
-    /* Who is waited for and who is watched stay; of the others the oldest goes. */
+    /* Rows with a waiting client and watched rows stay; of the others the oldest is evicted. */
     for (uint32_t i = 2; i < PICTURE_REQUESTS_MAX; i++)
         assert_int_equal(ask(100 + i, 2 * SECOND + i), i);
     assert_int_equal(table.row[0].key.vehicle, 0);
     assert_int_equal(table.row[1].key.vehicle, 1);
     assert_int_equal(ask(200, 2 * SECOND + PICTURE_REQUESTS_MAX), 2);
-    /* One that nobody has asked for lately goes before it. */
+    /* A row without a recent request is evicted first. */
     table.row[0].unanswered = 0;
     assert_int_equal(ask(201, 2 * SECOND + PICTURE_REQUESTS_KEEP_NS - 1), 0);
 }

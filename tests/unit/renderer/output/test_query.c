@@ -1,4 +1,4 @@
-/* Queries of the stream's clients: what they may say, and what hostile ones are told. */
+/* Queries of the stream's clients: valid ones, and the reasons for refusing others. */
 #include "renderer/output/query.h"
 
 #include "tests/support/fixture.h"
@@ -124,7 +124,7 @@ static size_t below(uint64_t *next, size_t count)
     return (size_t)(random_mix((*next)++) % count);
 }
 
-/* Whatever comes, the outcome is within bounds or a line of plain words. */
+/* A random query is refused with printable text, or its values are within bounds. */
 static void test_noise(void **state)
 {
     static const char *const keys[] = {"view", "vehicle", "size",   "after", "bar",

@@ -41,7 +41,7 @@ static int set_up(void **state)
                : -1;
 }
 
-/* Every picture must have come back. */
+/* Every picture must have been released. */
 static int tear_down(void **state)
 {
     (void)state;
@@ -61,7 +61,7 @@ static void show(const char *view, uint64_t frame)
     picture_release(picture);
 }
 
-/* A connection that has asked for a path. */
+/* Returns a connection that has requested a path. */
 static int ask(const char *path)
 {
     char request[128];
@@ -79,7 +79,7 @@ static int ask(const char *path)
     return fd;
 }
 
-/* All that comes until the other side closes. */
+/* Returns all that is received until the other side closes. */
 static const char *fetch(const char *path)
 {
     int fd = ask(path);
@@ -166,11 +166,11 @@ static void test_more_than_may_watch_are_told(void **state)
         close(fd[i]);
 }
 
-/* --- pictures that are asked for; the test is the drawing thread --- */
+/* --- requested pictures; the test is the drawing thread --- */
 
 static struct stream_request requests[PICTURE_REQUESTS_MAX];
 
-/* The row of a vehicle's picture that somebody waits for. */
+/* Returns the row of a vehicle's picture that a client waits for. */
 static uint32_t wait_for_wish(uint32_t vehicle)
 {
     for (int tries = 0; tries < 1000; tries++) {
@@ -206,7 +206,7 @@ static void test_a_picture_is_drawn_for_who_waits(void **state)
     grant(row, 5);
     wait_for(one, "X-Picture: 1\r\nX-Frame: 5\r\n");
     close(one);
-    /* The next is another; who asks for the same shares it. */
+    /* The next picture is new; clients that request the same one share it. */
     one = ask("/picture.jpg?view=inside&vehicle=17&size=100x80&bar=0&after=1");
     int two = ask("/picture.jpg?view=inside&vehicle=17&size=100x80&bar=0&after=1");
     assert_int_equal(wait_for_wish(17), row);
@@ -255,7 +255,7 @@ static void test_a_ninth_picture_is_refused(void **state)
     }
 }
 
-/* tear_down ends it in the midst of this. */
+/* tear_down() ends the stream meanwhile. */
 static void test_it_ends_with_clients_in_every_state(void **state)
 {
     (void)state;
