@@ -164,7 +164,7 @@ int view_pictures_camera(struct render_session *session, struct view_picture *pi
     struct image *drawn = canvas(session, target->image, level);
     picture->camera_options.width = drawn->width;
     picture->camera_options.height = drawn->height;
-    view_camera_camera(&picture->view_camera, &picture->camera_options, frame_view, picture->slot,
+    view_camera_update(&picture->view_camera, &picture->camera_options, frame_view, picture->slot,
                        &camera);
     scene_build(&session->draw_list, &camera, &session->static_scene, frame_view,
                 &session->effects);
@@ -206,7 +206,7 @@ static int draw_map(struct render_session *session, struct view_picture *picture
     picture->camera_options.view = VIEW_CHASE;
     picture->camera_options.width = session->image.width;
     picture->camera_options.height = session->image.height;
-    view_camera_camera(&picture->view_camera, &picture->camera_options, frame_view, picture->slot,
+    view_camera_update(&picture->view_camera, &picture->camera_options, frame_view, picture->slot,
                        &camera);
     struct annotated_picture_source source =
         source_of(session, picture, frame_view, &camera, session->rate);

@@ -1,4 +1,4 @@
-/* A back end: something that makes a picture of a scene. */
+/* The interface of a back end, which draws a draw list into an image. */
 #ifndef JOLON_RENDERER_SCENE_BACK_END_INTERFACE_H
 #define JOLON_RENDERER_SCENE_BACK_END_INTERFACE_H
 
@@ -13,7 +13,7 @@
 
 #define BACK_END_STAGES_MAX 12u
 
-/* What the last picture cost: processor time of all threads together. */
+/* Processor time of the last picture, summed over all threads. */
 struct back_end_stages {
     uint32_t count;
     struct back_end_stage {
@@ -23,13 +23,13 @@ struct back_end_stages {
 };
 
 struct back_end_interface {
-    void *self; /* the back end's own */
-    /* Draws the scene into an image no larger than it was opened for, in the image's size. craters:
-     * the moment's, for the ground. 0, or -1 with the reason; the back end is of no more use then.
-     */
+    void *self; /* passed to each function */
+    /* Draws the list into an image no larger than the back end was opened for. frame_view: the
+     * frame that the list was made from, for the ground. Returns 0, or -1 with the error set; the
+     * back end can then no longer be used. */
     int (*picture)(void *self, const struct draw_list *list, const struct frame_view *frame_view,
                    struct image *image, struct error_text *error);
-    /* NULL when the back end cannot tell. */
+    /* NULL if the back end does not measure stages. */
     const struct back_end_stages *(*stages)(void *self);
     void (*close)(void *self);
 };

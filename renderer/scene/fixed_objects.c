@@ -1,6 +1,6 @@
 /* Fixed objects made of polygons, whole and damaged (thesis rows 27, 32 and 33): poles lean and
- * break, towers lean and fall over, buildings and rocks fall in until they are a heap, trees lie.
- */
+ * break, towers lean and fall over, buildings and rocks collapse into a heap, felled trees lie on
+ * the ground. */
 #include "renderer/scene/fixed_objects.h"
 
 #include "renderer/scene/noise/value_noise.h"
@@ -12,32 +12,32 @@
 
 #define FIXED_RANGE_M   9000.0
 #define FELLED_AWAY_M   0.6   /* from the stump to the end of the trunk */
-#define FELLED_LIFT_M   0.5   /* above the ground: branches hold it up */
-#define POLE_BREAKS     0.24  /* of its height */
-#define LEGS_GIVE       0.22  /* of a tower's height: there they buckle */
-#define FALLS_IN_SLIGHT 0.35f /* see falls of struct draw_list_body; -1 to 1 from end to end */
-#define FALLS_IN_HALF   0.90f
-#define FALLS_IN_WHOLE  3.0f
+#define FELLED_LIFT_M   0.5   /* above the ground: the branches hold the trunk up */
+#define POLE_BREAKS     0.24  /* share of the height at which a pole breaks */
+#define LEGS_BUCKLE     0.22  /* share of the height at which a tower's legs buckle */
+#define COLLAPSE_SLIGHT 0.35f /* third number of collapse in struct draw_list_body */
+#define COLLAPSE_HALF   0.90f
+#define COLLAPSE_WHOLE  3.0f
 
-/* What no force paints is painted by whoever lives in it. */
-#define WASHES 4u
-static const float washes[WASHES][3] = {
+/* Wall colours of objects that belong to no force. */
+#define WALL_COLOURS 4u
+static const float wall_colours[WALL_COLOURS][3] = {
     {0.80f, 0.74f, 0.62f}, {0.93f, 0.91f, 0.86f}, {0.74f, 0.55f, 0.40f}, {0.70f, 0.66f, 0.50f}};
 
-/* What leans or falls does so to where its heading points. */
+/* How far a damaged pole leans towards its heading [rad]. */
 static double lean_of(enum object_class object_class, enum damage damage)
 {
     static const double pole_deg[] = {0.0, 3.0, 15.0};
-    if (object_class != OBJECT_POLE || damage >= DAMAGE_HIGH) /* it has fallen */
+    if (object_class != OBJECT_POLE || damage >= DAMAGE_HIGH) /* a badly damaged pole has fallen */
         return 0.0;
     return pole_deg[damage] * RAD_PER_DEG;
 }
 
-/* One end of it falls in first: which, its grain says. frame: of its model. */
-static void fall_in(struct draw_list_body *body, enum damage damage,
-                    const struct mesh_skeleton *skeleton)
+/* Collapses the body from one end. Its noise seed selects the direction. */
+static void collapse_body(struct draw_list_body *body, enum damage damage,
+                          const struct mesh_skeleton *skeleton)
 {
-    static const float more[] = {0.0f, FALLS_IN_SLIGHT, FALLS_IN_HALF, FALLS_IN_WHOLE};
+    static const float more[] = {0.0f, COLLAPSE_SLIGHT, COLLAPSE_HALF, COLLAPSE_WHOLE};
     double turn = (double)body->noise_seed * (TWO_PI / 64.0), along, across;
     maths_sincos(turn, &across, &along);
     double reach = fabs(along) * 0.5 * (double)(skeleton->high[0] - skeleton->low[0]) +
@@ -54,20 +54,21 @@ static void show_damage(struct draw_list_body *body, const struct kind *kind, en
     bool down = damage == DAMAGE_HIGH;
     body->burn = 0.1f * (float)damage;
     switch ((enum object_class)kind->object_class) {
-    case OBJECT_POLE: /* what is above the break hangs down until its top lies on the ground */
+    case OBJECT_POLE: /* the part above the break hangs down so that its top touches the ground */
         if (down) {
             double broken_m = POLE_BREAKS * kind->height_m, rest_m = kind->height_m - broken_m;
             body->broken[1] = (float)broken_m;
             body->broken[2] = (float)(HALF_PI + maths_atan2(broken_m, rest_m));
         }
         break;
-    case OBJECT_WATERTOWER: /* its legs give, and at last it goes over the edge of its feet */
+    case OBJECT_WATERTOWER: /* the legs buckle; at high damage the tower tips over the edge of its
+                               feet */
         body->broken[0] = down ? skeleton->high[0] : 0.0f;
-        body->broken[1] = down ? 0.0f : (float)(LEGS_GIVE * kind->height_m);
+        body->broken[1] = down ? 0.0f : (float)(LEGS_BUCKLE * kind->height_m);
         body->broken[2] = tower_rad[damage];
         break;
     default:
-        fall_in(body, damage, skeleton);
+        collapse_body(body, damage, skeleton);
         break;
     }
 }
@@ -93,14 +94,15 @@ static void add_fixed(struct draw_list *list, const struct static_scene *static_
     double lean = lean_of((enum object_class)kind->object_class, (enum damage)damage);
     struct body_axes axes = body_axes_of(fixed_heading(object), -lean, 0.0);
     draw_list_place_body(list, body, position, &axes, fixed_scale(object, kind));
-    memcpy(body->tint, washes[value_noise_hash((int32_t)index, 6, 9) % WASHES], sizeof body->tint);
+    memcpy(body->tint, wall_colours[value_noise_hash((int32_t)index, 6, 9) % WALL_COLOURS],
+           sizeof body->tint);
     body->noise_seed = (float)(value_noise_hash((int32_t)index, 4, 9) % 64u);
     if (damage != DAMAGE_NONE)
         show_damage(body, kind, (enum damage)damage, &static_scene->skeletons[kind->model]);
     draw_list_add_shadow(list, frame_view, position, pixels);
 }
 
-/* A tree that was felled lies beside its stump, on the slope, whichever way its grain says. */
+/* Adds a felled tree beside its stump. It lies along the slope, in a random direction. */
 static void add_felled(struct draw_list *list, const struct frame_view *frame_view, uint32_t index)
 {
     const struct fixed_object *object = &frame_view->world->fixed[index];

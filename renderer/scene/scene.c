@@ -18,12 +18,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define ROTOR_TURNS      4.6 /* a second */
+#define ROTOR_HZ         4.6 /* turns a second */
 #define BURN_LOW         0.12f
 #define BURN_MED         0.28f
 #define BURN_HIGH        0.5f
-#define DENT_MIN_REACH_M 0.55f /* sheet metal bends over this at least around a dent ... */
-#define DENT_REACH       2.2f  /* ... and over so many of its depths more */
+#define DENT_MIN_REACH_M 0.55f /* sheet metal bends at least this far around a dent ... */
+#define DENT_REACH       2.2f  /* ... plus this many times the dent's depth */
 
 static const float force_colours[FORCE_COUNT][3] = {
     [FORCE_NEUTRAL] = {0.54f, 0.53f, 0.44f},
@@ -67,13 +67,13 @@ void scene_free(struct draw_list *list)
 
 /* --- vehicles and munitions ------------------------------------------------------------------- */
 
-/* Where its turret points, how far it has come. */
-static void show_gear(const struct draw_list *list, const struct frame_view *frame_view,
-                      uint32_t slot, struct draw_list_body *body)
+/* Copies the positions of turret, gun, steering, rotor and wheels into the body. */
+static void set_articulation(const struct draw_list *list, const struct frame_view *frame_view,
+                             uint32_t slot, struct draw_list_body *body)
 {
     const struct entities *e = frame_view->entities;
     struct articulation_state state = articulation_of(frame_view->articulation, frame_view, slot);
-    double turns = e->state[slot] == ENTITY_WRECK ? 0.0 : ROTOR_TURNS * list->time_s;
+    double turns = e->state[slot] == ENTITY_WRECK ? 0.0 : ROTOR_HZ * list->time_s;
     body->turret_rad = state.turret_rad;
     body->gun_rad = state.gun_rad;
     body->steer_rad = state.steer_rad;
@@ -90,7 +90,7 @@ static float burn_of(const struct entities *e, uint32_t slot)
     return e->damage[slot] < DAMAGE_COUNT ? burn[e->damage[slot]] : 1.0f;
 }
 
-/* The body's dents into the scene's list. */
+/* Adds the body's dents to the draw list. */
 static void add_dents(struct draw_list *list, const struct frame_view *frame_view, uint32_t id,
                       struct draw_list_body *body)
 {
@@ -123,7 +123,7 @@ static void add_entity(struct draw_list *list, const struct frame_view *frame_vi
     struct vec3 position = entities_position(e, slot);
     double distance = vec3_length(vec3_sub(position, list->camera.eye));
     double pixels = camera_pixels(&list->camera, 2.0 * kind->radius_m, distance);
-    /* Its shadow may be in the picture when the body is not. */
+    /* The radius is enlarged because the shadow may be in view when the body is not. */
     if (pixels < BODY_MIN_PIXELS || !camera_sees(&list->camera, position, 3.0 * kind->radius_m))
         return;
     bool bent = pixels > BENT_MIN_PIXELS && dent_index_any(frame_view->dents, e->id[slot]);
@@ -135,7 +135,7 @@ static void add_entity(struct draw_list *list, const struct frame_view *frame_vi
     draw_list_place_body(list, body, position, &axes, 1.0);
     memcpy(body->tint, force_colours[e->force[slot] % FORCE_COUNT], sizeof body->tint);
     body->burn = burn_of(e, slot);
-    show_gear(list, frame_view, slot, body);
+    set_articulation(list, frame_view, slot, body);
     if (bent)
         add_dents(list, frame_view, e->id[slot], body);
     draw_list_add_shadow(list, frame_view, position, pixels);

@@ -100,7 +100,7 @@ void bench_scene_build(struct bench_scene *s, const struct frame_view *frame_vie
                                              .width = s->image.width,
                                              .height = s->image.height,
                                              .pose = s->wish.pose};
-    view_camera_camera(&s->view_camera, &wish, frame_view, s->slot, &camera);
+    view_camera_update(&s->view_camera, &wish, frame_view, s->slot, &camera);
     scene_build(&s->list, &camera, &s->static_scene, frame_view, &s->effects);
 }
 

@@ -1,16 +1,16 @@
-/* Cameras and their frustum. */
+/* Cameras and culling. */
 #include "renderer/scene/camera/camera.h"
 
 #include <stddef.h>
 
-#define LEVEL_MIN 1e-6 /* a direction with less of it level points straight up or down */
+#define LEVEL_MIN 1e-6 /* a direction with a smaller horizontal share is vertical */
 
 static struct vec3 unit(struct vec3 v)
 {
     return vec3_scale(v, 1.0 / vec3_length(v));
 }
 
-/* The perspective of OpenGL, for places relative to the eye. */
+/* The perspective projection of OpenGL, for positions relative to the eye. */
 static void fill_matrix(struct camera *camera)
 {
     double deep = camera->far_m - camera->near_m;
@@ -40,7 +40,7 @@ void camera_turn(struct camera *camera, struct vec3 eye, struct vec3 forward, st
     camera->up = vec3_cross(camera->right, camera->forward);
     camera->width = lens->width;
     camera->height = lens->height;
-    /* The field of view is that of a 16:9 picture; others see the same height of the world. */
+    /* The field of view is that of a 16:9 picture; other pictures have the same vertical field. */
     maths_sincos(0.5 * lens->field_rad, &sine, &cosine);
     camera->tan_y = sine / cosine * 9.0 / 16.0;
     camera->tan_x = camera->tan_y * (double)lens->width / (double)lens->height;
@@ -74,14 +74,14 @@ bool camera_sees(const struct camera *camera, struct vec3 centre, double radius_
     double depth = vec3_dot(to, camera->forward);
     if (depth < -radius_m || depth > camera->far_m + radius_m)
         return false;
-    /* Distance outside the side planes, whose normals are (1, tan) scaled to a unit. */
+    /* Distance outside the side planes. Their normals are (1, tan), scaled to unit length. */
     double x = fabs(vec3_dot(to, camera->right)), y = fabs(vec3_dot(to, camera->up));
     double over_x = (x - depth * camera->tan_x) / sqrt(1.0 + camera->tan_x * camera->tan_x);
     double over_y = (y - depth * camera->tan_y) / sqrt(1.0 + camera->tan_y * camera->tan_y);
     return over_x <= radius_m && over_y <= radius_m;
 }
 
-/* Does the box lie wholly on the outer side of a plane through the eye? */
+/* Returns true if the box lies wholly on the outer side of a plane through the eye. */
 static bool box_outside(struct vec3 low, struct vec3 high, struct vec3 outward)
 {
     struct vec3 innermost = {outward.x > 0.0 ? low.x : high.x, outward.y > 0.0 ? low.y : high.y,

@@ -1,4 +1,4 @@
-/* The crew's place, found on the model itself. */
+/* Finds the crew's eye on the polygons of the model. */
 #include "renderer/scene/camera/crew_eye.h"
 
 #include "world/entity/kind.h"
@@ -8,20 +8,18 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define REACH_M 0.45 /* of the ground plan around the place, that must all lie beneath the eye */
-#define SAMPLES 3    /* a side of that plan */
-#define CAB_SHARE                                                                                  \
-    0.45                 /* of the length, from the nose: a driver is a little ahead of the middle \
-                          */
-#define PILOT_SHARE 0.20 /* a pilot is farther ahead */
-#define BACK_SHARE  0.30 /* either may sit so much farther back, to have the nose in view ... */
+#define REACH_M     0.45 /* half side of the ground plan that must lie beneath the eye */
+#define SAMPLES     3    /* samples a side of that plan */
+#define CAB_SHARE   0.45 /* driver's seat from the nose, as a share of the length */
+#define PILOT_SHARE 0.20 /* a pilot sits farther ahead */
+#define BACK_SHARE  0.30 /* both may sit this much farther back, to have the nose in view ... */
 #define MAST_SHARE  0.10 /* ... but a pilot stays ahead of the rotor's mast */
 #define STEP_M      0.25
 #define STEPS_MAX   60
-#define ASIDE       0.5  /* over distance: what is still in view */
-#define DOWN_MIN    0.10 /* a crew looks a little down, at where it drives */
+#define ASIDE       0.5  /* corners farther aside, over their distance, are out of view */
+#define DOWN_MIN    0.10 /* a crew looks slightly down, at the ground ahead */
 #define DOWN_MAX    0.21
-#define REACH_DOWN  0.21 /* over distance, of a picture above its instruments, from its middle */
+#define REACH_DOWN  0.21 /* tangent of half the part of the picture above the instruments */
 
 static const struct model_vertex *corner(const struct world *world, const struct model *model,
                                          uint32_t triangle, uint32_t which)
@@ -30,13 +28,14 @@ static const struct model_vertex *corner(const struct world *world, const struct
     return &world->model_vertices[model->first_vertex + t->vertex[which]];
 }
 
-/* Twice the area of a triangle in the ground plan, counter-clockwise positive. */
+/* Returns twice the area of a triangle in the ground plan, positive if counter-clockwise. */
 static double turn(double ax, double az, double bx, double bz, double cx, double cz)
 {
     return (bx - ax) * (cz - az) - (bz - az) * (cx - ax);
 }
 
-/* Height of a triangle over a place of the ground plan; false where it is not over it. */
+/* Sets y to the height of a triangle at a place of the ground plan. Returns false if the triangle
+ * does not cover the place. */
 static bool height_over(const struct world *world, const struct model *model, uint32_t triangle,
                         double x, double z, double *y)
 {
@@ -65,7 +64,7 @@ static enum model_part part_of(const struct world *world, const struct model *mo
     return (enum model_part)world->model_triangles[model->first_triangle + triangle].part;
 }
 
-/* The highest polygon over a place; 0 where there is none. */
+/* Returns the height of the highest polygon at a place, or 0 if there is none. */
 static double top_over(const struct world *world, const struct model *model, double x, double z)
 {
     double top = 0.0, y = 0.0;
@@ -77,7 +76,8 @@ static double top_over(const struct world *world, const struct model *model, dou
     return top;
 }
 
-/* The mean of the turret's corners, which lies well inside its body; false without a turret. */
+/* Finds the mean of the turret's corners, which lies well inside its body. Returns false if there
+ * is no turret. */
 static bool turret_middle(const struct world *world, const struct model *model, double *x,
                           double *z)
 {
@@ -98,7 +98,7 @@ static bool turret_middle(const struct world *world, const struct model *model, 
     return true;
 }
 
-/* So high that all of the ground plan around the eye lies beneath it. */
+/* Returns a height at which all of the ground plan around the eye lies beneath it. */
 static double eye_height(const struct world *world, const struct model *model, double x, double z)
 {
     double top = 0.0;
@@ -109,8 +109,8 @@ static double eye_height(const struct world *world, const struct model *model, d
     return top + CREW_EYE_CLEARANCE_M;
 }
 
-/* The highest, from the eye, of the vehicle's own corners that are well ahead of it and not far
- * aside: rise over distance. */
+/* Returns the highest slope, rise over distance, from the eye to a corner of the vehicle that lies
+ * ahead of it and not far to the side. */
 static double highest_ahead(const struct world *world, const struct model *model, struct vec3 eye)
 {
     double highest = -INFINITY;
@@ -126,7 +126,7 @@ static double highest_ahead(const struct world *world, const struct model *model
     return highest;
 }
 
-/* From tail to nose: what is no rotor. */
+/* Finds both ends of the model without its rotor. */
 static void find_ends(const struct world *world, const struct model *model, double *tail,
                       double *nose)
 {

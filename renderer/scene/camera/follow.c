@@ -8,14 +8,14 @@
 #include <math.h>
 #include <string.h>
 
-#define CELL_M        250.0 /* company is counted in cells of this size */
-#define CELLS         200   /* a side */
-#define AHEAD_M       160.0 /* company counts where the camera looks */
-#define COMPANY_MAX   10
-#define ACTION_LIFE_S 20.0
-#define ACTION_NEAR_M 450.0
-#define ACTION_MAX    12.0
-#define SHADE_MAX     10 /* fixed objects around that make a view richer */
+#define CELL_M         250.0 /* neighbours are counted in cells of this size */
+#define CELLS          200   /* cells a side */
+#define AHEAD_M        160.0 /* neighbours count where the camera looks */
+#define NEIGHBOURS_MAX 10
+#define ACTION_LIFE_S  20.0
+#define ACTION_NEAR_M  450.0
+#define ACTION_MAX     12.0
+#define OBJECTS_MAX    10 /* most fixed objects nearby that count */
 
 static int32_t cell_axis(double metres)
 {
@@ -44,20 +44,21 @@ static double action_near(const struct effects *effects, struct vec3 position, d
 }
 
 static double liveliness(const struct frame_view *frame_view, const struct effects *effects,
-                         uint32_t slot, uint32_t company)
+                         uint32_t slot, uint32_t neighbours)
 {
     const struct entities *e = frame_view->entities;
     const struct kind *kind = &frame_view->world->kinds[e->kind[slot]];
     struct vec3 position = entities_position(e, slot);
     double speed = vec3_length(entities_velocity(e, slot));
-    double score = 0.8 * (company < COMPANY_MAX ? company : COMPANY_MAX);
+    double score = 0.8 * (neighbours < NEIGHBOURS_MAX ? neighbours : NEIGHBOURS_MAX);
     score += kind->domain == DOMAIN_LAND ? 5.0 : kind->domain == DOMAIN_AIR ? 0.5 : 0.0;
     score += speed > 3.0 ? 5.0 : 0.0;
     score += e->behaviour[slot] == BEHAVIOUR_ATTACK ? 2.0 : 0.0;
     score -= e->damage[slot];
     const uint32_t *around;
-    uint32_t shade = world_reach(frame_view->world, gridsquare_of(position.x, position.z), &around);
-    score += 0.25 * (shade < SHADE_MAX ? shade : SHADE_MAX);
+    uint32_t objects =
+        world_reach(frame_view->world, gridsquare_of(position.x, position.z), &around);
+    score += 0.25 * (objects < OBJECTS_MAX ? objects : OBJECTS_MAX);
     return score +
            action_near(effects, position, state_time_s(frame_view->world, frame_view->head));
 }
@@ -69,12 +70,12 @@ static uint16_t *cell_of(uint16_t *cells, double x, double z)
 
 static uint32_t liveliest(const struct frame_view *frame_view, const struct effects *effects)
 {
-    uint16_t company[CELLS * CELLS];
+    uint16_t neighbours[CELLS * CELLS];
     const struct entities *e = frame_view->entities;
-    memset(company, 0, sizeof company);
+    memset(neighbours, 0, sizeof neighbours);
     for (uint32_t i = 0; i < frame_view->head->used; i++)
         if (is_vehicle(frame_view, i)) {
-            uint16_t *here = cell_of(company, e->x[i], e->z[i]);
+            uint16_t *here = cell_of(neighbours, e->x[i], e->z[i]);
             *here = (uint16_t)(*here + (*here < UINT16_MAX));
         }
     uint32_t best = SLOT_NONE;
@@ -84,7 +85,7 @@ static uint32_t liveliest(const struct frame_view *frame_view, const struct effe
             continue;
         double ahead_x = e->x[i] + AHEAD_M * maths_sin(e->heading[i]);
         double ahead_z = e->z[i] - AHEAD_M * maths_cos(e->heading[i]);
-        double score = liveliness(frame_view, effects, i, *cell_of(company, ahead_x, ahead_z));
+        double score = liveliness(frame_view, effects, i, *cell_of(neighbours, ahead_x, ahead_z));
         if (score > most) {
             most = score;
             best = i;
@@ -93,7 +94,7 @@ static uint32_t liveliest(const struct frame_view *frame_view, const struct effe
     return best;
 }
 
-/* Does it live, or has it died only just? */
+/* Returns true if the vehicle is active, or was destroyed only recently. */
 static bool worth_following(const struct frame_view *frame_view, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;

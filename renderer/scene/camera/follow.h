@@ -1,4 +1,4 @@
-/* Which vehicle the camera follows. Pure. */
+/* Selects the vehicle that the camera follows. Pure. */
 #ifndef JOLON_RENDERER_SCENE_CAMERA_FOLLOW_H
 #define JOLON_RENDERER_SCENE_CAMERA_FOLLOW_H
 
@@ -8,19 +8,19 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define FOLLOW_KEEP_S  12.0 /* a vehicle that was picked is kept so long ... */
-#define FOLLOW_WRECK_S 5.0  /* ... and as a wreck so long, to see it burn */
+#define FOLLOW_KEEP_S  12.0 /* a selected vehicle is followed this long ... */
+#define FOLLOW_WRECK_S 5.0  /* ... and as a wreck this long, to see it burn */
 
 struct follow {
     uint32_t id;    /* 0: none yet */
     double since_s; /* of simulation */
 };
 
-/* Slot of the vehicle to follow: that of first_id (0: none) until it has been a wreck for
- * FOLLOW_WRECK_S, or as long as it exists if only is set; then the one being followed, while its
- * time is not over and it is no older wreck either; else the liveliest: on land, moving, in
- * company, near what just happened. The same moment and history give the same choice. SLOT_NONE
- * when there is no vehicle. */
+/* Returns the slot of the vehicle to follow, or SLOT_NONE if there is none. first_id (0: none) is
+ * preferred until it has been a wreck for FOLLOW_WRECK_S, or as long as it exists if only is set.
+ * Next comes the vehicle followed so far, until FOLLOW_KEEP_S have passed or it is an old wreck.
+ * Otherwise the liveliest is selected: on land, moving, among others, near recent effects. The same
+ * frames and history give the same selection. */
 uint32_t follow_choose(struct follow *follow, const struct frame_view *frame_view,
                        const struct effects *effects, uint32_t first_id, bool only);
 

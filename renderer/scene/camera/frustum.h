@@ -1,5 +1,5 @@
-/* What the camera can see, made ready for asking often: a ball relative to the eye, in float,
- * without a root or a division. Pure. */
+/* The camera's frustum, prepared for frequent tests of balls relative to the eye: in float, without
+ * a root or a division. Pure. */
 #ifndef JOLON_RENDERER_SCENE_CAMERA_FRUSTUM_H
 #define JOLON_RENDERER_SCENE_CAMERA_FRUSTUM_H
 
@@ -13,7 +13,7 @@ struct frustum {
     float cos_x, cos_y;
     float far_m;
     float near_m;
-    float focal_pixels; /* a metre at a metre's distance */
+    float focal_pixels; /* size of a metre at a distance of a metre [pixel] */
 };
 
 static inline struct frustum frustum_of(const struct camera *camera)
@@ -38,7 +38,8 @@ static inline float frustum_dot(const float a[3], const float b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Can any of this ball be in the picture? at: relative to the eye. Never false for one that is. */
+/* Returns true if any part of the ball may be in the picture. False is certain. at: relative to the
+ * eye. */
 static inline bool frustum_ball(const struct frustum *frustum, const float at[3], float radius_m)
 {
     float depth = frustum_dot(at, frustum->forward), far = frustum->far_m + radius_m;
@@ -48,7 +49,7 @@ static inline bool frustum_ball(const struct frustum *frustum, const float at[3]
            (y - depth * frustum->tan_y) * frustum->cos_y <= radius_m;
 }
 
-/* How large a length shows at a distance [pixel]. */
+/* Returns the size of a length at a distance [pixel]. */
 static inline float frustum_pixels(const struct frustum *frustum, float length_m, float distance_m)
 {
     return length_m * frustum->focal_pixels / fmaxf(distance_m, frustum->near_m);

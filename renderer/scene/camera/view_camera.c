@@ -1,4 +1,4 @@
-/* The views' cameras. */
+/* The cameras of the views. */
 #include "renderer/scene/camera/view_camera.h"
 
 #include "renderer/scene/camera/crew_eye.h"
@@ -9,39 +9,37 @@
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
-#define TANK_RADIUS_M 3.0 /* the body that the lengths below are for */
+#define TANK_RADIUS_M 3.0 /* body radius for which the lengths below hold */
 #define SCALE_MIN     0.75
 #define SCALE_MAX     12.0
 
-#define CHASE_BACK_M   25.0
-#define CHASE_UP_M     9.0
-#define CHASE_BEYOND_M 23.0 /* it looks at a point so far ahead of the subject */
-#define CHASE_ASIDE_RAD                                                                            \
-    0.24                      /* a little from the side: a body seen straight from behind is flat  \
-                               */
-#define CHASE_PITCH_SHARE 0.5 /* of the subject's pitch that the camera takes part in */
-#define EASE_TURN_S       0.5 /* a camera has made up two thirds of a turn after this */
+#define CHASE_BACK_M      25.0
+#define CHASE_UP_M        9.0
+#define CHASE_BEYOND_M    23.0 /* the camera looks at a point this far ahead of the vehicle */
+#define CHASE_ASIDE_RAD   0.24 /* slightly from the side: straight from behind a body looks flat */
+#define CHASE_PITCH_SHARE 0.5  /* share of the vehicle's pitch that the camera follows */
+#define EASE_TURN_S       0.5  /* time after which a third of a turn is left */
 #define EASE_LIFT_S       0.4
 
 #define ORBIT_AWAY_M  22.0
 #define ORBIT_UP_M    8.0
 #define OVERHEAD_UP_M 90.0
-#define STAND_AHEAD_M 38.0 /* of the free camera that nobody placed */
+#define STAND_AHEAD_M 38.0 /* of a free camera without a given pose */
 #define STAND_ASIDE_M 16.0
 #define STAND_UP_M    6.0
 #define INSIDE_NEAR_M 0.3
-#define INSIDE_MIN_M  0.5 /* above the ground: of who sits low, or has turned over */
+#define INSIDE_MIN_M  0.5 /* above the ground, for low seats and overturned vehicles */
 
 #define SIGHT_SAMPLES     12
 #define SIGHT_CLEARANCE_M 1.0
-#define LATE_S            1.5  /* without a picture for so long, or ... */
-#define JUMP_M            25.0 /* ... a vehicle that is so far from where it went: begun anew */
+#define LATE_S            1.5  /* after this long without a picture ... */
+#define JUMP_M            25.0 /* ... or this far off its path, the camera starts anew */
 #define OVERLOOK_M        60.0 /* above the middle of the world, when there is no vehicle */
 
 struct subject {
     struct vec3 position;
     double heading_rad, pitch_rad;
-    double scale; /* its size over a tank's */
+    double scale; /* size relative to a tank */
 };
 
 static struct subject subject_of(const struct frame_view *frame_view, uint32_t slot)
@@ -62,14 +60,14 @@ static struct subject subject_of(const struct frame_view *frame_view, uint32_t s
     };
 }
 
-/* The share of a difference that is left after a time, close to exp(-t / ease). */
+/* Returns the share of a difference that is left after a time, close to exp(-t / ease). */
 static double left_after(double t_s, double ease_s)
 {
     double x = t_s / ease_s;
     return 1.0 / (1.0 + x * (1.0 + x * (0.5 + x / 6.0)));
 }
 
-/* Time since the last picture [s of simulation]; INFINITY for a camera that begins anew. */
+/* Returns the simulation time since the last picture [s], or INFINITY if the camera starts anew. */
 static double since_last(const struct view_camera *state, const struct frame_view *frame_view,
                          uint32_t slot, const struct subject *subject)
 {
@@ -96,7 +94,7 @@ static double floor_at(const struct frame_view *frame_view, struct vec3 at, doub
            clearance_m;
 }
 
-/* How much higher the eye must be to see the subject over the ground between them. */
+/* Returns how far the eye must rise to see the subject over the ground between them. */
 static double lift_over(const struct frame_view *frame_view, struct vec3 eye, struct vec3 subject)
 {
     double before = eye.y;
@@ -111,7 +109,7 @@ static double lift_over(const struct frame_view *frame_view, struct vec3 eye, st
     return eye.y - before;
 }
 
-/* Lifts the eye softly, save where it would be under the ground. */
+/* Lifts the eye smoothly, but at once where it would be under the ground. */
 static void lift(struct view_camera *state, const struct frame_view *frame_view,
                  const struct subject *subject, double passed_s, struct vec3 *eye)
 {
@@ -142,7 +140,8 @@ static void chase(struct view_camera *state, const struct frame_view *frame_view
                             p.y + (1.0 + CHASE_BEYOND_M * rise) * scale,
                             p.z - cosine * CHASE_BEYOND_M * scale};
     lift(state, frame_view, subject, passed_s, eye);
-    /* From high above it looks at the subject itself, which would leave the picture else. */
+    /* From high above the camera looks at the vehicle itself, which would otherwise leave the
+     * picture. */
     double high = maths_max(state->lift_m, 0.0);
     *target = vec3_lerp(*target, p, high / (high + CHASE_UP_M * scale));
 }
@@ -161,7 +160,7 @@ static void orbit(struct view_camera *state, const struct frame_view *frame_view
     lift(state, frame_view, subject, passed_s, eye);
 }
 
-/* By the road, ahead of the vehicle, which will come past. */
+/* Places the camera beside the path ahead of the vehicle, which will pass it. */
 static void stand_beside(struct view_camera *state, const struct frame_view *frame_view,
                          const struct subject *subject)
 {
@@ -184,7 +183,7 @@ static void free_camera(struct view_camera *state, const struct view_camera_opti
         if (!state->placed)
             stand_beside(state, frame_view, subject);
         state->placed = true;
-        /* A crater may have come. */
+        /* A new crater may have changed the ground. */
         struct vec3 eye = state->eye;
         eye.y = maths_max(eye.y, floor_at(frame_view, eye, VIEW_CAMERA_EYE_M));
         camera_look_through(camera, eye, state->target, lens);
@@ -217,7 +216,7 @@ static void inside(const struct frame_view *frame_view, uint32_t slot,
     camera_turn(camera, eye, ahead, axes.up, lens);
 }
 
-void view_camera_camera(struct view_camera *state, const struct view_camera_options *options,
+void view_camera_update(struct view_camera *state, const struct view_camera_options *options,
                         const struct frame_view *frame_view, uint32_t slot, struct camera *camera)
 {
     struct camera_lens lens = {options->field_rad, CAMERA_NEAR_M, options->width, options->height};

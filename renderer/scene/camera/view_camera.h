@@ -1,6 +1,6 @@
-/* Where each view is taken from. A camera follows its vehicle softly: what it remembers from
- * picture to picture is here, and without a memory it is where it would come to rest. Pure: the
- * same moments in the same order give the same cameras. */
+/* The camera of each view. A camera follows its vehicle smoothly. Its state is kept from picture to
+ * picture; a new camera starts where it would come to rest. Pure: the same frames in the same order
+ * give the same cameras. */
 #ifndef JOLON_RENDERER_SCENE_CAMERA_VIEW_CAMERA_H
 #define JOLON_RENDERER_SCENE_CAMERA_VIEW_CAMERA_H
 
@@ -11,45 +11,45 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define VIEW_CAMERA_CLEARANCE_M 2.5  /* cameras are at least so high above the ground ... */
-#define VIEW_CAMERA_EYE_M       1.2  /* ... but those that stand or sit where people do */
-#define VIEW_CAMERA_ORBIT_S     45.0 /* of simulation, once around */
+#define VIEW_CAMERA_CLEARANCE_M 2.5  /* cameras are at least this high above the ground ... */
+#define VIEW_CAMERA_EYE_M       1.2  /* ... except those at the height of a person's eyes */
+#define VIEW_CAMERA_ORBIT_S     45.0 /* simulation time of one turn */
 
-/* A place for the free camera. */
+/* The pose of the free camera. */
 struct view_camera_pose {
     bool given;
     double x, z, above_m; /* [m, world; above the ground] */
     double heading_rad, pitch_rad;
 };
 
-/* What is asked for; the same for all pictures of a view. */
+/* The options of a view's camera, which are the same for all its pictures. */
 struct view_camera_options {
     enum view_mode view; /* not VIEW_MAP */
-    double field_rad;    /* of view, from left to right of a 16:9 picture */
+    double field_rad;    /* field of view, from left to right of a 16:9 picture */
     uint32_t width, height;
     struct view_camera_pose
-        pose; /* of VIEW_FREE; not given: beside where the vehicle is seen first */
+        pose; /* of VIEW_FREE; if not given, beside the place where the vehicle is first seen */
 };
 
-/* What a camera remembers; all zero to begin with. */
+/* The state of a camera; initially all zero. */
 struct view_camera {
-    uint32_t id;          /* of the vehicle that it hangs on; 0: it has seen none */
-    double time_s;        /* of simulation, of its last picture ... */
-    struct vec3 position; /* ... and where the vehicle was then */
+    uint32_t id;          /* vehicle that the camera follows; 0: none yet */
+    double time_s;        /* simulation time of the last picture ... */
+    struct vec3 position; /* ... and the vehicle's position then */
     double heading_rad, tilt_rad, lift_m;
-    bool placed; /* VIEW_FREE has found its place */
+    bool placed; /* eye and target of VIEW_FREE are set */
     struct vec3 eye, target;
 };
 
-/* The camera for a moment, and what to remember for the next. slot: the vehicle; SLOT_NONE: there
- * is none, and all views but a placed free one look over the middle of the world.
+/* Computes the camera for a frame and updates the state. slot: the vehicle; SLOT_NONE if there is
+ * none, and then all views except a free one with a given pose look at the middle of the world.
  *
- * VIEW_CHASE: behind and above, looking slightly beyond: 25 m back and 9 m up for a tank, more for
- * larger bodies, turning after the vehicle within about a second. VIEW_ORBIT: around it, once in
- * VIEW_CAMERA_ORBIT_S. VIEW_OVERHEAD: straight down, north up. VIEW_INSIDE: from crew_eye_seat(),
- * turned as the vehicle and its turret are. VIEW_FREE: a place that does not move. None is ever
- * under the ground. */
-void view_camera_camera(struct view_camera *state, const struct view_camera_options *options,
+ * VIEW_CHASE is behind and above and looks slightly ahead of the vehicle: 25 m back and 9 m up for
+ * a tank, more for larger bodies; it turns after the vehicle within about a second. VIEW_ORBIT goes
+ * around the vehicle once in VIEW_CAMERA_ORBIT_S. VIEW_OVERHEAD looks straight down, north up.
+ * VIEW_INSIDE looks from crew_eye_seat() and turns with vehicle and turret. VIEW_FREE does not
+ * move. No camera is under the ground. */
+void view_camera_update(struct view_camera *state, const struct view_camera_options *options,
                         const struct frame_view *frame_view, uint32_t slot, struct camera *camera);
 
 #endif

@@ -9,7 +9,7 @@
 
 #define SHADOW_MIN_PIXELS 6.0
 #define SHADOW_RANGE_M    2500.0
-#define SHADOW_LIFT_M     0.06 /* above the ground, so that it does not sink into it */
+#define SHADOW_LIFT_M     0.06 /* above the ground, so that it does not sink in */
 
 enum mesh_detail draw_list_detail(double pixels, bool bent)
 {
@@ -51,7 +51,7 @@ void draw_list_place_body(const struct draw_list *list, struct draw_list_body *b
     copy_axis(body->right, axes->right, scale);
 }
 
-/* The plane of the ground where the body's shadow falls, along the sun's light. */
+/* Finds the plane of the ground where the body's shadow falls, along the sun's light. */
 void draw_list_add_shadow(struct draw_list *list, const struct frame_view *frame_view,
                           struct vec3 position, double pixels)
 {
@@ -103,7 +103,7 @@ void draw_list_sort_bodies(struct draw_list *list)
     for (uint32_t i = 0; i < count; i++)
         list->order[i] = (struct body_order){list->instances[i], i};
     qsort(list->order, count, sizeof *list->order, by_model);
-    /* Along each cycle of the permutation, in place. */
+    /* The bodies are swapped in place, one cycle of the permutation after another. */
     for (uint32_t i = 0; i < count; i++) {
         uint32_t at = i;
         while (list->order[at].index != i) {

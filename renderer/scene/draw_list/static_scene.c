@@ -1,4 +1,4 @@
-/* The static side of a scene. */
+/* Computes the static scene of a world. */
 #include "renderer/scene/draw_list/static_scene.h"
 
 #include "renderer/scene/noise/value_noise.h"
@@ -11,11 +11,11 @@
 #include <string.h>
 
 struct choice {
-    const char *word; /* in a kind's name */
+    const char *word; /* in the name of a kind */
     uint8_t first, count;
 };
 
-/* By name where the name tells; the last line takes the rest. */
+/* Pictures by words in the name of the kind. The last row matches every name. */
 static const struct choice trees[] = {
     {"pine", PLANT_IMPOSTORS_PINE_A, 2},
     {"fir", PLANT_IMPOSTORS_FIR, 1},
@@ -39,7 +39,7 @@ static uint8_t look_of(const struct kind *kind, uint32_t index)
     return (uint8_t)(choice->first + draw % choice->count);
 }
 
-/* The objects lie in gridsquare order. */
+/* Finds the first object of each gridsquare. The objects are in gridsquare order. */
 static void find_starts(struct static_scene *static_scene)
 {
     const struct world *world = static_scene->world;
@@ -53,7 +53,7 @@ static void find_starts(struct static_scene *static_scene)
     static_scene->square_start[GRIDSQUARE_COUNT] = world->counts.fixed;
 }
 
-/* Width of a picture over its height: each fills its square differently. */
+/* Returns the width of a picture over its height: plants fill their squares differently. */
 static float breadth(uint8_t look)
 {
     switch (look) {
@@ -90,7 +90,8 @@ static void find_plant(struct static_scene *static_scene, uint32_t index)
     static_scene_slope(&static_scene->world->terrain, object->x, object->z, plant->slope);
 }
 
-/* The order in which the plants of a gridsquare are thinned out: by chance, the same always. */
+/* Finds the order in which the plants of a gridsquare are thinned out. It is random, but always the
+ * same. */
 static void find_ranks(struct static_scene *static_scene, uint32_t square)
 {
     uint32_t first = static_scene->square_start[square],
@@ -98,9 +99,9 @@ static void find_ranks(struct static_scene *static_scene, uint32_t square)
     uint32_t plants = 0;
     for (uint32_t i = first; i < end; i++)
         plants += static_scene->look[i] != LOOK_MODEL;
-    if (plants <= STATIC_SCENE_LONELY) {
+    if (plants <= STATIC_SCENE_KEPT) {
         for (uint32_t i = first; i < end; i++)
-            static_scene->plants[i].lone = 1.0f;
+            static_scene->plants[i].kept_share = 1.0f;
         return;
     }
     for (uint32_t i = first; i < end; i++) {
@@ -109,8 +110,8 @@ static void find_ranks(struct static_scene *static_scene, uint32_t square)
             before +=
                 static_scene->look[j] != LOOK_MODEL && value_noise_hash((int32_t)j, 5, 9) < own;
         static_scene->plants[i].rank =
-            before < STATIC_SCENE_LONELY ? 0.0f : ((float)before + 0.5f) / (float)plants;
-        static_scene->plants[i].lone = (float)STATIC_SCENE_LONELY / (float)plants;
+            before < STATIC_SCENE_KEPT ? 0.0f : ((float)before + 0.5f) / (float)plants;
+        static_scene->plants[i].kept_share = (float)STATIC_SCENE_KEPT / (float)plants;
     }
 }
 

@@ -1,5 +1,5 @@
-/* What the renderer works out once about a world that stands still: where its fixed objects are by
- * gridsquare, what each looks like, and the ground's quadtree. Pure. */
+/* What the renderer computes once about the fixed objects of a world: where they are by gridsquare,
+ * what each looks like, and the ground's quadtree. Pure. */
 #ifndef JOLON_RENDERER_SCENE_DRAW_LIST_STATIC_SCENE_H
 #define JOLON_RENDERER_SCENE_DRAW_LIST_STATIC_SCENE_H
 
@@ -14,22 +14,22 @@ struct terrain;
 struct world;
 
 /* How a fixed object is drawn. */
-#define LOOK_MODEL 255u /* by its kind's polygons; anything less is an enum plant_impostors */
+#define LOOK_MODEL 255u /* drawn by the polygons of its kind; lower: enum plant_impostors */
 
-#define STATIC_SCENE_BLOCK 8u /* gridsquares a side of a block, by which plants are culled */
+#define STATIC_SCENE_BLOCK 8u /* side of a block, by which plants are culled [gridsquares] */
 #define STATIC_SCENE_BLOCKS                                                                        \
     ((GRIDSQUARE_PER_SIDE + STATIC_SCENE_BLOCK - 1u) / STATIC_SCENE_BLOCK) /* a side */
-#define STATIC_SCENE_LONELY 4u /* so few plants of a gridsquare are never thinned out */
+#define STATIC_SCENE_KEPT 4u /* so few plants of a gridsquare are never thinned out */
 
-/* What never changes about a fixed object that is a plant. */
+/* The constant properties of a fixed object that is a plant. */
 struct static_scene_plant {
-    float width, height, sink; /* [m] sink: how deep its foot is in the ground */
+    float width, height, sink; /* [m] sink: depth of the foot in the ground */
     float slope[2], tint[3];   /* see struct draw_list_plant */
-    float rank;                /* 0..1: while less than this share of a wood is shown, it is not */
-    float lone;                /* share of its wood that is never thinned out */
+    float rank;       /* 0..1: the plant is left out while a smaller share of its wood is shown */
+    float kept_share; /* share of its wood that is never thinned out */
 };
 
-/* Lowest foot and highest top of the plants of a block; low above high: it has none. */
+/* Lowest foot and highest top of the plants of a block; low > high if it has none. */
 struct static_scene_block {
     float low, high;
 };
@@ -45,11 +45,11 @@ struct static_scene {
     struct mesh_skeleton *skeletons; /* [world->counts.models]; owned */
 };
 
-/* 0, or -1 with errno ENOMEM. The world must outlive it. */
+/* Returns 0, or -1 with errno ENOMEM. The world must outlive the static scene. */
 int static_scene_init(struct static_scene *static_scene, const struct world *world);
 void static_scene_free(struct static_scene *static_scene);
 
-/* Of the ground without craters: rise a metre to the east, to the south. */
+/* Sets slope to the ground's rise a metre to the east and to the south, without craters. */
 void static_scene_slope(const struct terrain *terrain, double x, double z, float slope[2]);
 
 #endif

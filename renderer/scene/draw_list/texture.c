@@ -1,4 +1,4 @@
-/* Computed textures. */
+/* Computes the textures. */
 #include "renderer/scene/draw_list/texture.h"
 
 #include "renderer/scene/noise/value_noise.h"
@@ -12,7 +12,7 @@
 
 _Static_assert(TEXTURE_CLOUD_SIDE <= SIDE_MAX && TEXTURE_PARTICLE_SIDE <= SIDE_MAX, "room of rows");
 
-/* Within 0 .. 1. */
+/* Clamps to 0..1. */
 static float unit(float v)
 {
     v = v > 0.0f ? v : 0.0f;
@@ -26,12 +26,12 @@ static uint8_t byte_of(float v)
 
 /* --- noise, row by row ------------------------------------------------------------------------ */
 
-/* Noise of `cells` cells over the unit square that meets itself at the edges. What all rows share
- * is kept, and the two rows of the lattice around the row at hand. */
+/* Value noise of `cells` cells over the unit square that repeats without a seam. Holds the values
+ * that all rows share and the two lattice rows around the current row. */
 struct noise {
     int32_t cells, row;
     uint32_t seed, count;
-    uint16_t cell[SIDE_MAX]; /* of each texel, and how far in it */
+    uint16_t cell[SIDE_MAX]; /* cell of each texel; along: position in the cell */
     float along[SIDE_MAX];
     float upper[CELLS_MAX + 1], lower[CELLS_MAX + 1];
 };
@@ -41,7 +41,7 @@ static float eased(float t)
     return t * t * (3.0f - 2.0f * t);
 }
 
-/* x: of each texel, 0 .. 1. */
+/* x: of each texel, 0..1. */
 static void noise_begin(struct noise *noise, const float *x, uint32_t count, int32_t cells,
                         uint32_t seed)
 {
@@ -75,7 +75,7 @@ static void noise_row(struct noise *noise, float y, float *to)
     }
 }
 
-/* Noises of ever finer cells. */
+/* Noises whose cells become smaller by half each. */
 struct octaves {
     uint32_t count;
     struct noise noise[OCTAVES_MAX];
@@ -106,7 +106,7 @@ static void octaves_row(struct octaves *octaves, float y, float *to)
         to[i] /= all;
 }
 
-/* Of texels that begin at 0. */
+/* Fills x with the positions of texels that begin at 0. */
 static void places(float *x, uint32_t side)
 {
     for (uint32_t i = 0; i < side; i++)
@@ -163,15 +163,15 @@ void texture_clouds(uint8_t *texels)
     }
 }
 
-/* --- puffs ------------------------------------------------------------------------------------ */
+/* --- particles -------------------------------------------------------------------------------- */
 
-/* above: the bulge a little higher. */
+/* above: the noise a little higher in the picture. */
 static float smoke(float x, float y, float bulge, float above, float *shade)
 {
     float out = sqrtf(x * x + y * y);
     float body = 1.0f - out + 0.95f * (bulge - 0.5f);
     float thick = unit(body * 1.7f);
-    /* As if it were a lumpy ball lit from above. */
+    /* The shade is that of a lumpy ball lit from above. */
     *shade = 0.50f + 0.17f * y + 1.3f * (bulge - above);
     return thick * thick * (3.0f - 2.0f * thick) * unit((1.0f - out) * 4.0f);
 }
@@ -187,7 +187,7 @@ static float flame(float x, float y, float noise, float *shade)
     return fade * fminf(1.0f, 6.0f * up) * unit(5.0f * (1.0f - up));
 }
 
-/* Clods or drops: dense at the foot, in streaks and specks towards the top. */
+/* Clods or drops: dense at the foot, streaks and specks towards the top. */
 static float spray(float x, float y, float streaks, float specks, float *shade)
 {
     float up = 0.5f + 0.5f * y, out = fabsf(x);
@@ -198,7 +198,7 @@ static float spray(float x, float y, float streaks, float specks, float *shade)
     return thick * unit(edge * 4.0f) * fminf(1.0f, 7.0f * up) * fminf(1.0f, 5.0f * (1.0f - up));
 }
 
-/* Blades cover more of the way around near their hub; their tips are painted. */
+/* Blades cover a larger share of the circle near the hub; their tips are coloured. */
 static float disc(float out)
 {
     float tips = out > 0.93f ? 0.35f : 0.0f;
@@ -211,41 +211,42 @@ static float glow(float out)
     return left * left * (0.45f + 0.55f * left * left);
 }
 
-/* The two noises that a picture is made of. */
-struct stuff {
+/* The two noises that a particle's picture is made of. */
+struct particle_noise {
     struct octaves first, second;
-    float spread; /* of the unit square, from its middle */
+    float spread; /* half the sampled width of the unit square */
 };
 
-static void stuff_begin(struct stuff *stuff, const float *x, enum particle_picture picture)
+static void particle_noise_begin(struct particle_noise *noise, const float *x,
+                                 enum particle_picture picture)
 {
     bool flames = picture == PARTICLE_FLAME_A || picture == PARTICLE_FLAME_B;
     uint32_t side = TEXTURE_PARTICLE_SIDE, which = (uint32_t)picture;
     float at[TEXTURE_PARTICLE_SIDE];
-    stuff->spread = picture == PARTICLE_SPRAY ? 0.5f : flames ? 0.4f : 0.45f;
+    noise->spread = picture == PARTICLE_SPRAY ? 0.5f : flames ? 0.4f : 0.45f;
     for (uint32_t i = 0; i < side; i++)
-        at[i] = 0.5f + stuff->spread * x[i];
+        at[i] = 0.5f + noise->spread * x[i];
     if (picture == PARTICLE_SPRAY) {
-        octaves_begin(&stuff->first, at, side, 16, 1, 801);
-        octaves_begin(&stuff->second, at, side, 16, 3, 811);
+        octaves_begin(&noise->first, at, side, 16, 1, 801);
+        octaves_begin(&noise->second, at, side, 16, 3, 811);
     } else if (flames) {
-        octaves_begin(&stuff->first, at, side, 4, 3, 701 + 13 * (which - PARTICLE_FLAME_A));
-        stuff->second.count = 0;
+        octaves_begin(&noise->first, at, side, 4, 3, 701 + 13 * (which - PARTICLE_FLAME_A));
+        noise->second.count = 0;
     } else {
-        octaves_begin(&stuff->first, at, side, 4, 4, 601 + 17 * which);
-        octaves_begin(&stuff->second, at, side, 4, 4, 601 + 17 * which);
+        octaves_begin(&noise->first, at, side, 4, 4, 601 + 17 * which);
+        octaves_begin(&noise->second, at, side, 4, 4, 601 + 17 * which);
     }
 }
 
-static void stuff_row(struct stuff *stuff, float y, enum particle_picture picture, float *first,
-                      float *second)
+static void particle_noise_row(struct particle_noise *noise, float y, enum particle_picture picture,
+                               float *first, float *second)
 {
     float up = 0.5f + 0.5f * y, higher = y + 0.09f;
-    octaves_row(&stuff->first, picture == PARTICLE_SPRAY ? 0.25f * up : 0.5f + stuff->spread * y,
+    octaves_row(&noise->first, picture == PARTICLE_SPRAY ? 0.25f * up : 0.5f + noise->spread * y,
                 first);
-    if (stuff->second.count > 0)
-        octaves_row(&stuff->second,
-                    picture == PARTICLE_SPRAY ? 0.5f * up : 0.5f + stuff->spread * higher, second);
+    if (noise->second.count > 0)
+        octaves_row(&noise->second,
+                    picture == PARTICLE_SPRAY ? 0.5f * up : 0.5f + noise->spread * higher, second);
 }
 
 void texture_particle(uint8_t (*texels)[2], enum particle_picture picture)
@@ -253,15 +254,15 @@ void texture_particle(uint8_t (*texels)[2], enum particle_picture picture)
     enum { SIDE = TEXTURE_PARTICLE_SIDE };
     float across[SIDE], first[SIDE], second[SIDE];
     bool plain = picture == PARTICLE_GLOW || picture == PARTICLE_DISC;
-    struct stuff stuff;
+    struct particle_noise noise;
     for (uint32_t i = 0; i < SIDE; i++)
         across[i] = 2.0f * ((float)i + 0.5f) / (float)SIDE - 1.0f;
     if (!plain)
-        stuff_begin(&stuff, across, picture);
+        particle_noise_begin(&noise, across, picture);
     for (uint32_t row = 0; row < SIDE; row++) {
         float y = 1.0f - 2.0f * ((float)row + 0.5f) / (float)SIDE;
         if (!plain)
-            stuff_row(&stuff, y, picture, first, second);
+            particle_noise_row(&noise, y, picture, first, second);
         for (uint32_t i = 0; i < SIDE; i++, texels++) {
             float x = across[i], shade = 0.5f, much;
             if (picture == PARTICLE_GLOW)

@@ -1,4 +1,4 @@
-/* Ways along the body's own axis, turret and gun as the world has them. */
+/* Integrates the movement of wheels and steering. Turrets and guns are copied from the world. */
 #include "renderer/scene/frame/articulation.h"
 
 #include "renderer/scene/frame/frame_view.h"
@@ -10,11 +10,11 @@
 #include <stdlib.h>
 
 #define GUN_HANGS_RAD  (-0.12f)
-#define GUN_SINKS_RADS 0.35 /* [rad/s] a wreck's gun, until it hangs */
-#define WHEELBASE      0.6  /* of the length */
-#define TRACK_APART    0.38 /* of the width, from the middle to each side */
-#define STEER_MIN_M    0.02 /* that it must have moved for its wheels to show which way */
-#define STEER_FOLLOWS  0.35 /* of the difference, a note */
+#define GUN_SINKS_RADS 0.35 /* [rad/s] a wreck's gun sinks until it hangs */
+#define WHEELBASE      0.6  /* share of the length */
+#define TRACK_APART    0.38 /* share of the width, from the middle to each side */
+#define STEER_MIN_M    0.02 /* smaller movements do not change the steering angle */
+#define STEER_FOLLOWS  0.35 /* share of the difference, each update */
 
 int articulation_init(struct articulation *articulation, uint32_t capacity)
 {
@@ -29,7 +29,7 @@ void articulation_free(struct articulation *articulation)
     *articulation = (struct articulation){NULL, 0};
 }
 
-static struct articulation_state first_sight(const struct frame_view *frame_view, uint32_t slot)
+static struct articulation_state initial_state(const struct frame_view *frame_view, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
     bool wreck = e->state[slot] == ENTITY_WRECK;
@@ -48,7 +48,7 @@ static double wrapped(double distance)
     return distance - ARTICULATION_WRAP_M * floor(distance / ARTICULATION_WRAP_M);
 }
 
-/* What it has rolled since: along its own axis; the outer side of a bend further. */
+/* Adds the distance rolled along the body's own axis. In a turn the outer side rolls farther. */
 static void roll(struct articulation_state *state, const struct frame_view *frame_view,
                  uint32_t slot)
 {
@@ -70,12 +70,12 @@ static void roll(struct articulation_state *state, const struct frame_view *fram
     }
 }
 
-static void go_on(struct articulation_state *state, const struct frame_view *frame_view,
-                  uint32_t slot, double dt_s)
+static void advance(struct articulation_state *state, const struct frame_view *frame_view,
+                    uint32_t slot, double dt_s)
 {
     const struct entities *e = frame_view->entities;
     state->turret_rad = e->turret[slot];
-    if (e->state[slot] == ENTITY_WRECK) { /* it stands as it was hit, and the gun sinks */
+    if (e->state[slot] == ENTITY_WRECK) { /* a wreck does not roll, and its gun sinks */
         float most = (float)(GUN_SINKS_RADS * dt_s);
         state->gun_rad = fmaxf(fminf(state->gun_rad, GUN_HANGS_RAD), state->gun_rad - most);
     } else {
@@ -100,9 +100,9 @@ void articulation_note(struct articulation *articulation, const struct frame_vie
             continue;
         double dt_s = now_s - state->time_s;
         if (state->id != e->id[i] || dt_s < 0.0 || dt_s > ARTICULATION_JUMP_S)
-            *state = first_sight(frame_view, i);
+            *state = initial_state(frame_view, i);
         else
-            go_on(state, frame_view, i, dt_s);
+            advance(state, frame_view, i, dt_s);
     }
 }
 
@@ -111,6 +111,6 @@ struct articulation_state articulation_of(const struct articulation *articulatio
 {
     if (articulation == NULL || slot >= articulation->slots ||
         articulation->state[slot].id != frame_view->entities->id[slot])
-        return first_sight(frame_view, slot);
+        return initial_state(frame_view, slot);
     return articulation->state[slot];
 }

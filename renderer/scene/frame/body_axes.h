@@ -1,4 +1,4 @@
-/* A body's axes in the world: x forward, y up, z right (world/world.h), from its three angles. */
+/* The axes of a body in the world: x forward, y up, z right (world/world.h). */
 #ifndef JOLON_RENDERER_SCENE_FRAME_BODY_AXES_H
 #define JOLON_RENDERER_SCENE_FRAME_BODY_AXES_H
 
@@ -8,7 +8,7 @@ struct body_axes {
     struct vec3 forward, up, right; /* unit, world */
 };
 
-/* Heading clockwise from north, pitch nose up, roll right side down [rad]. */
+/* heading clockwise from north, pitch nose up, roll right side down [rad]. */
 static inline struct body_axes body_axes_of(double heading, double pitch, double roll)
 {
     double sh, ch, sp, cp, sr, cr;

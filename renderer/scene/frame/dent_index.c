@@ -1,11 +1,11 @@
-/* The index over the list of dents: a chain for each body, newest first, found by hashing its id.
- */
+/* An index of the list of dents: a hash table by body id, with a chain of dents for each body, the
+ * newest first. */
 #include "renderer/scene/frame/dent_index.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-#define MIN_DEPTH_M 0.004f /* nobody sees less */
+#define MIN_DEPTH_M 0.004f /* shallower dents are not visible */
 
 int dent_index_init(struct dent_index *dents, const struct dent *list, uint32_t capacity)
 {
@@ -28,7 +28,7 @@ void dent_index_free(struct dent_index *dents)
     *dents = (struct dent_index){.dent = NULL};
 }
 
-/* Where the body's chain begins, or would. */
+/* Returns the table entry of the body, which is 0 if the body has no dents. */
 static uint32_t *chain(const struct dent_index *dents, uint32_t id)
 {
     uint32_t slot = id * 2654435769u >> 7 & dents->mask;
@@ -41,7 +41,7 @@ void dent_index_update(struct dent_index *dents, uint32_t count)
 {
     if (count > dents->capacity)
         count = dents->capacity;
-    if (count < dents->count) { /* another world's list */
+    if (count < dents->count) { /* the list of another world */
         memset(dents->newest, 0, (dents->mask + 1) * sizeof *dents->newest);
         dents->count = 0;
     }
@@ -57,7 +57,7 @@ bool dent_index_any(const struct dent_index *dents, uint32_t id)
     return *chain(dents, id) != 0;
 }
 
-/* Puts one where it belongs among the deepest; how many there are then. */
+/* Inserts a dent into the deepest ones. Returns their new number. */
 static uint32_t rank(struct dented of[DENT_INDEX_PER_BODY], uint32_t count,
                      const struct dented *dent)
 {

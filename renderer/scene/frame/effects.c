@@ -1,19 +1,19 @@
-/* Events turned into things to see. */
+/* Makes effects from events. */
 #include "renderer/scene/frame/effects.h"
 
 #include "world/entity/event.h"
 #include "world/entity/kind.h"
 #include "world/world.h"
 
-#define MUZZLE_SHARE     0.7 /* of the shooter's height: there its gun is (mover/weapon/fire.c) */
-#define FLASH_M          0.9 /* of a shot of a megajoule */
+#define MUZZLE_SHARE     0.7 /* height of the gun over the shooter's (mover/weapon/fire.c) */
+#define FLASH_M          0.9 /* flash of a shot of a megajoule */
 #define FLASH_MIN_M      0.35
 #define FLASH_MAX_M      4.0
 #define CRASH_IMPULSE_NS 2.0e4 /* of a collision whose dust is as large as the body */
-#define CRASH_HIGH_M     5.0   /* higher over the ground a collision raises no dust */
-#define SPARKS_MIN_MPS   2.5   /* slower bodies only rub */
-#define KICK_M           0.5   /* what a round without a charge throws up */
-#define WRECK_MIN_KG     3.0   /* every vehicle has something that burns */
+#define CRASH_HIGH_M     5.0   /* collisions higher above the ground raise no dust */
+#define SPARKS_MIN_MPS   2.5   /* slower collisions make no sparks */
+#define KICK_M           0.5   /* size of what a round without a charge throws up */
+#define WRECK_MIN_KG     3.0   /* every vehicle burns like at least this much explosive */
 
 double effects_life_s(enum effect_type type)
 {
@@ -29,8 +29,8 @@ static double end_of(const struct effect *effect)
     return effect->time_s + effects_life_s((enum effect_type)effect->type);
 }
 
-/* A place for one more: a free one, else that of the one that is over first. */
-static struct effect *place(struct effects *effects)
+/* Returns a free effect, or the one that ends first. */
+static struct effect *allocate(struct effects *effects)
 {
     if (effects->count < EFFECTS_MAX)
         return &effects->effect[effects->count++];
@@ -45,7 +45,7 @@ static struct effect *add(struct effects *effects, const struct frame_view *fram
                           const struct event *event, enum effect_type type, const double point[3],
                           double size_m)
 {
-    struct effect *effect = place(effects);
+    struct effect *effect = allocate(effects);
     *effect = (struct effect){
         .point = {point[0], point[1], point[2]},
         .time_s = (double)event->tick * world_dt_s(frame_view->world),
@@ -56,7 +56,7 @@ static struct effect *add(struct effects *effects, const struct frame_view *fram
     return effect;
 }
 
-/* Fireball radius [m] of a charge: cube-root scaling, as large as such things look on film. */
+/* Returns the radius [m] of the fireball of a charge: cube-root scaling, fitted to films. */
 static double fireball(double explosive_kg)
 {
     return 1.8 + 1.9 * maths_cbrt(explosive_kg);
@@ -67,7 +67,8 @@ static const struct kind *kind_of(const struct frame_view *frame_view, uint16_t 
     return kind < frame_view->world->counts.kinds ? &frame_view->world->kinds[kind] : NULL;
 }
 
-/* Where the shot went: as its round flies, or away from who fired it. */
+/* Returns the direction of a shot: along the velocity of its round, else from the shooter to the
+ * muzzle. */
 static struct vec3 direction_of(const struct frame_view *frame_view, const struct event_fire *fire)
 {
     const struct entities *e = frame_view->entities;
@@ -92,7 +93,7 @@ static void take_fire(struct effects *effects, const struct frame_view *frame_vi
     const struct event_fire *fire = &event->fire;
     const struct kind *round = kind_of(frame_view, fire->munition.kind);
     if (fire->shooter.id == 0 || round == NULL)
-        return; /* out of the sky: no muzzle */
+        return; /* a round from the sky has no muzzle */
     double joules = 0.5 * round->mass_kg * round->max_speed_mps * round->max_speed_mps;
     double size = FLASH_M * maths_cbrt(joules / 1.0e6);
     struct effect *flash = add(effects, frame_view, event, EFFECT_FLASH, fire->point,
@@ -124,8 +125,8 @@ static void take_detonation(struct effects *effects, const struct frame_view *fr
         add(effects, frame_view, event, EFFECT_HIT, blast->point, KICK_M);
 }
 
-/* Is it of metal or stone? */
-static bool hard(const struct frame_view *frame_view, const struct event_party *party)
+/* Returns true if the object is made of metal or stone. */
+static bool is_hard(const struct frame_view *frame_view, const struct event_party *party)
 {
     const struct kind *kind = kind_of(frame_view, party->kind);
     return kind != NULL && (kind->domain != DOMAIN_FIXED || (kind->object_class != OBJECT_TREE &&
@@ -145,12 +146,12 @@ static void take_collision(struct effects *effects, const struct frame_view *fra
     if (above < CRASH_HIGH_M)
         add(effects, frame_view, event, wet ? EFFECT_SPLASH : EFFECT_CRASH, at,
             wet ? 0.5 * size : size);
-    if (hard(frame_view, &hit->a) && hard(frame_view, &hit->b) &&
+    if (is_hard(frame_view, &hit->a) && is_hard(frame_view, &hit->b) &&
         (double)hit->closing_mps > SPARKS_MIN_MPS)
         add(effects, frame_view, event, EFFECT_HIT, at, 0.6 * size);
 }
 
-/* Vehicles that were destroyed since the moment before. */
+/* Adds the vehicles that were destroyed since the last call. */
 static void take_wrecks(struct effects *effects, const struct frame_view *frame_view)
 {
     const struct entities *e = frame_view->entities;
@@ -166,7 +167,7 @@ static void take_wrecks(struct effects *effects, const struct frame_view *frame_
         trail->wrecked = true;
         if (now_s - time_s > effects_life_s(EFFECT_WRECK))
             continue;
-        struct effect *wreck = place(effects);
+        struct effect *wreck = allocate(effects);
         *wreck = (struct effect){
             .point = entities_position(e, slot),
             .time_s = time_s,

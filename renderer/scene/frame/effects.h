@@ -1,6 +1,6 @@
-/* What happened lately and still shows: shots, explosions, splashes, wrecks and the dust of
- * collisions, and where things lately were. Taken from events and from moments; a bounded memory,
- * in which what is over first gives way. Pure. */
+/* Recent events that are still visible: shots, explosions, splashes, wrecks and the dust of
+ * collisions; and the trails of entities. They are taken from events and frames. The memory is
+ * bounded: the effect that ends first is replaced. Pure. */
 #ifndef JOLON_RENDERER_SCENE_FRAME_EFFECTS_H
 #define JOLON_RENDERER_SCENE_FRAME_EFFECTS_H
 
@@ -10,16 +10,16 @@
 #include <stdint.h>
 
 #define EFFECTS_MAX   1024u
-#define EFFECT_LIFE_S 40.0 /* the longest that any of them shows */
+#define EFFECT_LIFE_S 40.0 /* the longest life of any effect */
 
 enum effect_type {
     EFFECT_FLASH,     /* a shot leaves its muzzle */
     EFFECT_EXPLOSION, /* a charge on a body or in the air */
-    EFFECT_BURST,     /* ... in the ground, which it throws up */
-    EFFECT_SPLASH,    /* ... in water */
+    EFFECT_BURST,     /* a charge in the ground, which throws up soil */
+    EFFECT_SPLASH,    /* a charge in water */
     EFFECT_HIT,       /* metal on metal: sparks */
     EFFECT_CRASH,     /* dust of a collision */
-    EFFECT_WRECK,     /* a vehicle is destroyed: it bursts, and parts of it fly */
+    EFFECT_WRECK,     /* a vehicle is destroyed: it bursts, and parts of it fly off */
     EFFECT_TYPE_COUNT
 };
 
@@ -27,24 +27,24 @@ struct effect {
     struct vec3 point;  /* [m, world] */
     double time_s;      /* of simulation */
     float size_m;       /* radius of the flash, the fireball, the splash, the dust */
-    float direction[3]; /* unit: where the shot went; the wreck's velocity [m/s] */
+    float direction[3]; /* of a shot: unit; of a wreck: its velocity [m/s] */
     uint32_t type;      /* enum effect_type */
     uint32_t seed;
-    uint16_t kind; /* of the wreck */
+    uint16_t kind; /* of a wreck */
 };
 
 struct effects {
     struct effect effect[EFFECTS_MAX];
-    uint32_t count; /* of them */
+    uint32_t count; /* used entries */
     struct motion_trails trails;
 };
 
-/* Takes committed events in their order, and what can be seen of the moment itself. moment is a
- * frame at or after theirs. */
+/* Takes committed events in their order, and what the frame itself shows. The frame is that of the
+ * events or a later one. */
 void effects_take(struct effects *effects, const struct frame_view *frame_view,
                   const struct event *events, uint32_t count);
 
-/* How long it shows [s]. */
+/* Returns how long an effect is visible [s]. */
 double effects_life_s(enum effect_type type);
 
 #endif

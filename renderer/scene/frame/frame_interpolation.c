@@ -1,4 +1,4 @@
-/* Blending two frames. */
+/* Interpolates between two frames. */
 #include "renderer/scene/frame/frame_interpolation.h"
 
 #include "world/world.h"
@@ -6,11 +6,11 @@
 #include <stdlib.h>
 
 #define COLUMNS     6
-#define JUMP_SHARE  2.0  /* a body goes at most so many times as far as its speed says ... */
-#define JUMP_M      2.0  /* ... and this; farther it was put there */
-#define LATE_STEPS  4.0  /* a world so late goes on from there: the clock does not run after it */
-#define EARLY_DRIFT 0.1  /* what the clock takes up each time when a frame is seen early */
-#define LATE_DRIFT  0.05 /* what the clock takes up of a delay beyond one step, each time */
+#define JUMP_SHARE  2.0  /* a body moves at most this many times as far as its speed says ... */
+#define JUMP_M      2.0  /* ... plus this; otherwise it jumped */
+#define LATE_STEPS  4.0  /* after such a delay the clock starts anew */
+#define EARLY_DRIFT 0.1  /* share of the difference made up when a frame is early */
+#define LATE_DRIFT  0.05 /* share of the delay beyond one step made up */
 
 int frame_interpolation_init(struct frame_interpolation *interpolation, uint32_t capacity)
 {
@@ -26,7 +26,7 @@ void frame_interpolation_free(struct frame_interpolation *interpolation)
     interpolation->columns = NULL;
 }
 
-/* The earlier frame's table, with columns of our own for where bodies are. */
+/* Borrows the columns of the earlier frame, except those of positions and angles. */
 static void borrow(struct frame_interpolation *interpolation, const struct entities *earlier)
 {
     uint32_t capacity = interpolation->entities.capacity;
@@ -40,8 +40,9 @@ static void borrow(struct frame_interpolation *interpolation, const struct entit
     interpolation->entities.roll = interpolation->columns + 5 * (size_t)capacity;
 }
 
-/* Is it the same body in the same state, that has moved and not jumped? */
-static bool goes_on(const struct entities *a, const struct entities *b, uint32_t i, double passed_s)
+/* Returns true if both rows are the same body in the same state and it has not jumped. */
+static bool is_continuous(const struct entities *a, const struct entities *b, uint32_t i,
+                          double passed_s)
 {
     if (a->state[i] == ENTITY_FREE || a->id[i] != b->id[i] || a->state[i] != b->state[i])
         return false;
@@ -51,14 +52,14 @@ static bool goes_on(const struct entities *a, const struct entities *b, uint32_t
     return distance <= JUMP_SHARE * speed * passed_s + JUMP_M;
 }
 
-/* The short way round. */
+/* Interpolates an angle along the shorter arc. */
 static double turn_between(double a, double b, double share)
 {
     return a + maths_wrap_half(b - a) * share;
 }
 
-static void frame_interpolation_row(const struct entities *to, const struct entities *a,
-                                    const struct entities *b, uint32_t i, double share)
+static void interpolate_row(const struct entities *to, const struct entities *a,
+                            const struct entities *b, uint32_t i, double share)
 {
     entities_set_position(to, i,
                           vec3_lerp(entities_position(a, i), entities_position(b, i), share));
@@ -81,8 +82,8 @@ struct frame_view frame_interpolation_between(struct frame_interpolation *interp
     const struct entities *a = earlier->entities, *b = later->entities;
     borrow(interpolation, a);
     for (uint32_t i = 0; i < earlier->head->used; i++)
-        frame_interpolation_row(&interpolation->entities, a, goes_on(a, b, i, passed_s) ? b : a, i,
-                                share);
+        interpolate_row(&interpolation->entities, a, is_continuous(a, b, i, passed_s) ? b : a, i,
+                        share);
     struct frame_view between = *earlier;
     between.entities = &interpolation->entities;
     between.ahead_s += share * passed_s;
@@ -102,7 +103,7 @@ double frame_interpolation_time(struct frame_interpolation_clock *clock, double 
         *clock = (struct frame_interpolation_clock){.set = true, .rate = rate, .ahead_s = ahead_s};
     else if (late_s < 0.0)
         clock->ahead_s -= EARLY_DRIFT * late_s;
-    else if (late_s > step_s) /* up to a step it may only have been seen late */
+    else if (late_s > step_s) /* a delay of up to one step may be a late look at the frame */
         clock->ahead_s -= LATE_DRIFT * (late_s - step_s);
     return maths_min(newest_s, rate * now_s + clock->ahead_s - step_s);
 }

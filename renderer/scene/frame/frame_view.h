@@ -1,5 +1,5 @@
-/* A moment: one committed frame as the renderer sees it. Views of a private snapshot; nothing here
- * is shared with a writer but the append-only lists of craters and dents behind their indices. */
+/* One committed frame as the renderer sees it. It points into a private snapshot. Only the
+ * append-only lists of craters and dents behind their indices are shared with a writer. */
 #ifndef JOLON_RENDERER_SCENE_FRAME_FRAME_VIEW_H
 #define JOLON_RENDERER_SCENE_FRAME_FRAME_VIEW_H
 
@@ -20,12 +20,12 @@ struct frame_view {
     const uint8_t *fixed_damage;     /* [world->counts.fixed] enum damage */
     const struct crater_index *craters;
     const struct dent_index *dents;
-    const struct articulation *articulation; /* NULL: all is as in the first picture */
-    double ahead_s; /* the picture's time after the frame's [s of simulation]; bodies are where they
-                       are then (renderer/scene/frame/frame_interpolation.h) */
+    const struct articulation *articulation; /* NULL: every vehicle is in its initial state */
+    double ahead_s; /* simulation time of the picture after the frame's [s]; bodies are at their
+                       positions at that time (renderer/scene/frame/frame_interpolation.h) */
 };
 
-/* Time of simulation in the picture. */
+/* Returns the simulation time of the picture. */
 static inline double frame_view_time_s(const struct frame_view *frame_view)
 {
     return state_time_s(frame_view->world, frame_view->head) + frame_view->ahead_s;

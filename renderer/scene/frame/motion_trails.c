@@ -1,4 +1,4 @@
-/* Noting places, and the curve through them. */
+/* Keeps recent positions, and interpolates between them. */
 #include "renderer/scene/frame/motion_trails.h"
 
 #include "world/entity/kind.h"
@@ -6,12 +6,13 @@
 
 #include <math.h>
 
-#define SEA_INTERVAL_S      1.5 /* wakes are long */
+#define SEA_INTERVAL_S      1.5 /* long, because wakes are long */
 #define LAND_INTERVAL_S     0.4
 #define MUNITION_INTERVAL_S 0.35
-#define MIN_MPS             0.5 /* slower than this nothing is left behind */
+#define MIN_MPS             0.5 /* slower entities leave no trail */
 
-/* Seconds between two points of what moves in this domain; 12 of them outlast what it leaves. */
+/* Returns the seconds between two points in this domain. Twelve of them outlast what is left
+ * behind. */
 static double interval_s(uint8_t domain)
 {
     return domain == DOMAIN_SEA    ? SEA_INTERVAL_S
@@ -19,8 +20,8 @@ static double interval_s(uint8_t domain)
                                    : MUNITION_INTERVAL_S;
 }
 
-/* Do things of this kind leave something along their way? */
-static bool leaves(const struct kind *kind)
+/* Returns true if entities of this kind leave a trail. */
+static bool leaves_trail(const struct kind *kind)
 {
     return kind->domain == DOMAIN_LAND || kind->domain == DOMAIN_SEA ||
            (kind->domain == DOMAIN_MUNITION && kind->guidance == GUIDANCE_HOMING);
@@ -50,11 +51,11 @@ static void note(struct motion_trail *trail, const struct frame_view *frame_view
     const double at[3] = {e->x[slot], e->y[slot], e->z[slot]};
     const double velocity[3] = {e->vx[slot], e->vy[slot], e->vz[slot]};
     if (trail->count > 0 && newest(trail)->time_s > now_s)
-        trail->count = 0; /* time was turned back */
+        trail->count = 0; /* the time was set back */
     if (trail->count > 0 && now_s - newest(trail)->time_s < interval_s(kind->domain))
         return;
     if (trail->count == 0 && vec3_length(entities_velocity(e, slot)) < MIN_MPS)
-        return; /* a vehicle that stands leaves no trail */
+        return; /* a vehicle at rest leaves no trail */
     add_point(trail, at, velocity, now_s);
 }
 
@@ -67,7 +68,7 @@ void motion_trails_note(struct motion_trails *trails, const struct frame_view *f
     for (uint32_t slot = 0; slot < used; slot++) {
         struct motion_trail *trail = &trails->trail[slot];
         if (e->state[slot] == ENTITY_FREE || e->kind[slot] >= frame_view->world->counts.kinds)
-            continue; /* what it left still lies there */
+            continue; /* its trail is still visible */
         if (trail->id != e->id[slot]) {
             trail->id = e->id[slot];
             trail->kind = e->kind[slot];
@@ -78,7 +79,7 @@ void motion_trails_note(struct motion_trails *trails, const struct frame_view *f
         if (e->state[slot] == ENTITY_ACTIVE && e->damage[slot] >= DAMAGE_MED)
             trail->smokes_s = fmin(trail->smokes_s,
                                    (double)e->changed_tick[slot] * world_dt_s(frame_view->world));
-        if (e->state[slot] == ENTITY_ACTIVE && leaves(&frame_view->world->kinds[trail->kind]))
+        if (e->state[slot] == ENTITY_ACTIVE && leaves_trail(&frame_view->world->kinds[trail->kind]))
             note(trail, frame_view, slot, now_s);
     }
 }
@@ -116,7 +117,7 @@ static struct motion_trail_point straight(const struct motion_trail_point *from,
     return point;
 }
 
-/* Cubic Hermite. */
+/* Cubic Hermite interpolation. */
 static struct motion_trail_point between(const struct motion_trail_point *a,
                                          const struct motion_trail_point *b, double time_s)
 {
@@ -144,7 +145,7 @@ struct motion_trail_point motion_trail_at(const struct motion_trail *trail,
         const struct motion_trail_point *point =
             &trail->point[(trail->count - 1 - i) % MOTION_TRAIL_POINTS];
         if (point->time_s >= later->time_s)
-            continue; /* of a moment after this one */
+            continue; /* the point is later than the frame */
         if (point->time_s <= time_s)
             return between(point, later, time_s);
         later = point;
@@ -170,7 +171,7 @@ double motion_trail_fastest_mps(const struct motion_trail *trail,
             &trail->point[(trail->count - 1 - i) % MOTION_TRAIL_POINTS];
         fastest = maths_max(fastest, squared(point));
         if (point->time_s < since_s)
-            break; /* the way from this one on was still left behind */
+            break; /* the segment after this point is still visible */
     }
     return sqrt(fastest);
 }

@@ -1,4 +1,4 @@
-/* Statistics from the snapshot's columns. */
+/* Reads the statistics from the columns of the snapshot. */
 #include "renderer/scene/frame/statistics.h"
 
 #include "world/entity/kind.h"

@@ -1,5 +1,4 @@
-/* The followed vehicle in figures (thesis row 13): what the table holds, in people's units. Pure.
- */
+/* The followed vehicle in figures (thesis row 13), in common units. Pure. */
 #ifndef JOLON_RENDERER_SCENE_FRAME_STATISTICS_H
 #define JOLON_RENDERER_SCENE_FRAME_STATISTICS_H
 
@@ -9,15 +8,15 @@
 #include <stdint.h>
 
 struct statistics {
-    char name[64]; /* its own name, or the kind's and the id */
+    char name[64]; /* its own name, or the name of the kind and the id */
     const char *kind, *force, *state, *damage, *behaviour;
     uint32_t id;
     double speed_kmh, heading_deg, pitch_deg, roll_deg;
     double altitude_m;     /* above sea level */
-    double above_ground_m; /* of the position */
+    double above_ground_m; /* height of the position above the ground */
     double fuel_share;     /* 0..1 of the full tank; 1 for kinds without one */
     uint32_t rounds;
-    uint32_t rounds_full; /* a full load; 0 for kinds without any */
+    uint32_t rounds_full; /* a full load; 0 for kinds without rounds */
     uint64_t frame;
     double time_s; /* of simulation */
 };
@@ -25,7 +24,7 @@ struct statistics {
 void statistics_of(struct statistics *statistics, const struct frame_view *frame_view,
                    uint32_t slot);
 
-/* All of it in one line of words and figures, as it is stored with a picture. */
+/* Writes all of them in one line, as it is stored with a picture. */
 void statistics_line(const struct statistics *statistics, char *text, size_t bytes);
 
 #endif

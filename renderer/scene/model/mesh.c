@@ -1,4 +1,4 @@
-/* Meshes: coarser ones by thinning out, finer ones by halving long edges. */
+/* Makes meshes: coarser ones by simplification, finer ones by halving long edges. */
 #include "renderer/scene/model/mesh.h"
 
 #include "renderer/scene/model/track_outline.h"
@@ -11,13 +11,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The finest level halves edges longer than FINE_EDGE_M; of a model that would get many more than
- * FINE_TRIANGLES by it, longer ones: a triangle covers about FINE_SHARE of such an edge's square.
- */
+/* The finest level halves edges longer than FINE_EDGE_M. If a model would then have many more than
+ * FINE_TRIANGLES, only longer edges are halved: a triangle covers about FINE_SHARE of the square of
+ * such an edge. */
 #define FINE_EDGE_M    0.5f
 #define FINE_TRIANGLES 5000.0f
 #define FINE_SHARE     0.12f
-#define FOOT_M         0.02f /* corners this near to the lowest are at the foot too */
+#define FOOT_M         0.02f /* corners this near to the lowest are part of the foot */
 
 static float squared(const float a[3], const float b[3])
 {
@@ -25,7 +25,7 @@ static float squared(const float a[3], const float b[3])
     return x * x + y * y + z * z;
 }
 
-/* edge_m: as long as one may be. */
+/* Adds the facet. Halves it until no edge is longer than edge_m. */
 static int add_fine(struct mesh_facets *facets, const struct facet *facet, float edge_m)
 {
     uint32_t longest = 0;
@@ -44,7 +44,7 @@ static int add_fine(struct mesh_facets *facets, const struct facet *facet, float
     for (uint32_t axis = 0; axis < 3; axis++)
         first.corner[b][axis] = second.corner[a][axis] =
             0.5f * (facet->corner[a][axis] + facet->corner[b][axis]);
-    /* Each half is shorter; the depth is bounded by the logarithm of the size. */
+    /* Each half is smaller, so the depth grows with the logarithm of the size. */
     if (add_fine(facets, &first, edge_m) != 0)
         return -1;
     return add_fine(facets, &second, edge_m);
@@ -63,7 +63,7 @@ static struct facet facet_of(const struct world *world, const struct model *m, u
     return facet;
 }
 
-/* The n-th triangle that is seen. */
+/* Returns the n-th visible triangle. */
 static struct facet seen_facet(const struct world *world, const struct model *m, uint32_t n)
 {
     return facet_of(world, m, m->solid_triangles + n);
@@ -99,7 +99,7 @@ static void model_box(const struct world *world, const struct model *m, float lo
     }
 }
 
-/* What is seen of the model, at this level of detail. */
+/* Collects the visible triangles of the model at this level of detail. */
 static int collect(struct mesh_facets *facets, const struct world *world, const struct model *m,
                    enum mesh_detail detail)
 {
@@ -115,7 +115,7 @@ static int collect(struct mesh_facets *facets, const struct world *world, const 
     for (uint32_t t = solid ? 0 : m->solid_triangles; t < end; t++) {
         struct facet facet = facet_of(world, m, t);
         if (facet_across(&facet, across) < 1e-9f)
-            continue; /* it has no area */
+            continue; /* no area */
         if (detail == MESH_FINE ? add_fine(facets, &facet, edge_m)
                                 : mesh_facets_add(facets, &facet))
             return -1;
@@ -146,8 +146,9 @@ static void put_vertices(struct mesh *mesh, const struct mesh_facets *facets,
     }
 }
 
-/* Where on its track's outline each corner is: those of a triangle near each other. */
-static int lay_tracks(struct mesh *mesh, const struct world *world, uint32_t model)
+/* Sets the position of each corner on its track's outline. The corners of a triangle get positions
+ * near each other. */
+static int set_track_positions(struct mesh *mesh, const struct world *world, uint32_t model)
 {
     for (uint32_t joint = 1; joint < MODEL_JOINTS_MAX; joint++) {
         struct track_outline outline = {.corner = NULL};
@@ -178,7 +179,7 @@ int mesh_build(struct mesh *mesh, const struct world *world, uint32_t model,
     if (mesh->vertices == NULL || normals == NULL || mesh_facets_normals(&facets, normals) != 0)
         goto err;
     put_vertices(mesh, &facets, (const float(*)[3])normals);
-    if (lay_tracks(mesh, world, model) != 0)
+    if (set_track_positions(mesh, world, model) != 0)
         goto err;
     free(normals);
     mesh_facets_free(&facets);
@@ -199,13 +200,13 @@ void mesh_free(struct mesh *mesh)
 
 /* --- what turns about what -------------------------------------------------------------------- */
 
-/* The corners of one joint, the turret's being those of its part. */
+/* The box around the corners of a joint. */
 struct joint {
-    uint32_t part; /* enum model_part; PART_BODY: there is nothing */
+    uint32_t part; /* enum model_part; PART_BODY: the joint has no corners */
     float low[3], high[3];
 };
 
-/* Grows around the joint's corners whose coordinate along the axis is within FOOT_M of `from`. */
+/* Computes the box around the joint's corners whose coordinate along the axis is at most `from`. */
 static void grow(struct joint *box, const struct world *world, const struct model *m,
                  uint32_t joint, uint32_t axis, float from)
 {
@@ -226,7 +227,7 @@ static void grow(struct joint *box, const struct world *world, const struct mode
     }
 }
 
-/* How far the joint's corners reach from its axle, along which nothing is measured. */
+/* Returns the largest distance of the joint's corners from its axle. */
 static float reach(const struct world *world, const struct model *m, uint32_t joint,
                    const float pivot[3], uint32_t axle)
 {
@@ -242,8 +243,8 @@ static float reach(const struct world *world, const struct model *m, uint32_t jo
     return most;
 }
 
-/* A turret turns about the middle of its foot, which is round; a gun is held at its hind end;
- * rotors and wheels are even about their axes, a rotor's foot being its mast. */
+/* Finds the pivot of a joint. A turret turns about the middle of its round foot, a gun about its
+ * rear end. Rotors and wheels are symmetrical about their axes; the foot of a rotor is its mast. */
 static int find_pivot(struct mesh_skeleton *skeleton, const struct world *world, uint32_t model,
                       uint32_t joint)
 {

@@ -1,4 +1,4 @@
-/* Facets: the list, which corners are one, and normals. */
+/* The list of facets, their common vertices and their normals. */
 #include "renderer/scene/model/mesh_facets.h"
 
 #include "world/model.h"
@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define EDGE_COSINE 0.84f /* facets that meet at more than 33 degrees have an edge between them */
+#define EDGE_COSINE 0.84f /* facets at more than 33 degrees have a sharp edge between them */
 
 int mesh_facets_add(struct mesh_facets *facets, const struct facet *facet)
 {
@@ -43,10 +43,10 @@ float facet_across(const struct facet *facet, float across[3])
     return sqrtf(across[0] * across[0] + across[1] * across[1] + across[2] * across[2]);
 }
 
-/* A place in the table of those met. */
+/* An entry of the hash table of vertices. */
 struct slot {
     float at[3];
-    uint32_t part, place; /* 1 + its number; 0: free */
+    uint32_t part, vertex; /* 1 + number of the vertex; 0: free */
 };
 
 static uint32_t hash_of(const struct slot *slot)
@@ -60,7 +60,7 @@ static uint32_t hash_of(const struct slot *slot)
     return hash;
 }
 
-static bool same_place(const struct slot *a, const struct slot *b)
+static bool same_vertex(const struct slot *a, const struct slot *b)
 {
     return a->part == b->part && a->at[0] == b->at[0] && a->at[1] == b->at[1] &&
            a->at[2] == b->at[2];
@@ -69,22 +69,22 @@ static bool same_place(const struct slot *a, const struct slot *b)
 static struct slot *find_slot(struct slot *table, uint32_t mask, const struct slot *wanted)
 {
     uint32_t i = hash_of(wanted) & mask;
-    while (table[i].place != 0 && !same_place(&table[i], wanted))
+    while (table[i].vertex != 0 && !same_vertex(&table[i], wanted))
         i = (i + 1) & mask;
     return &table[i];
 }
 
-uint32_t *mesh_facets_places(const struct mesh_facets *facets, uint32_t *places)
+uint32_t *mesh_facets_weld(const struct mesh_facets *facets, uint32_t *vertices)
 {
     uint32_t corners = 3 * facets->count, size = 16;
     while (size < 2 * corners) /* at most half full */
         size *= 2;
     struct slot *table = calloc(size, sizeof *table);
-    uint32_t *place = malloc((corners + 1) * sizeof *place);
-    *places = 0;
-    if (table == NULL || place == NULL) {
+    uint32_t *vertex = malloc((corners + 1) * sizeof *vertex);
+    *vertices = 0;
+    if (table == NULL || vertex == NULL) {
         free(table);
-        free(place);
+        free(vertex);
         return NULL;
     }
     for (uint32_t i = 0; i < corners; i++) {
@@ -92,16 +92,16 @@ uint32_t *mesh_facets_places(const struct mesh_facets *facets, uint32_t *places)
         struct slot wanted = {.part =
                                   (uint32_t)facet->from->joint * PART_COUNT + facet->from->part};
         for (uint32_t axis = 0; axis < 3; axis++)
-            wanted.at[axis] = facet->corner[i % 3][axis] + 0.0f; /* there is no negative zero */
+            wanted.at[axis] = facet->corner[i % 3][axis] + 0.0f; /* no negative zero */
         struct slot *slot = find_slot(table, size - 1, &wanted);
-        if (slot->place == 0) {
+        if (slot->vertex == 0) {
             *slot = wanted;
-            slot->place = ++*places;
+            slot->vertex = ++*vertices;
         }
-        place[i] = slot->place - 1;
+        vertex[i] = slot->vertex - 1;
     }
     free(table);
-    return place;
+    return vertex;
 }
 
 static float dot(const float a[3], const float b[3])
@@ -109,38 +109,38 @@ static float dot(const float a[3], const float b[3])
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Corners of one place follow each other: a list of them for each place. */
-struct meeting {
-    uint32_t *first;  /* [places + 1] into corner */
+/* The corners at each vertex. */
+struct vertex_corners {
+    uint32_t *first;  /* [vertices + 1] into corner */
     uint32_t *corner; /* [3 * count] */
 };
 
-static int find_meetings(const struct mesh_facets *facets, struct meeting *meeting,
-                         uint32_t **place)
+static int find_vertex_corners(const struct mesh_facets *facets, struct vertex_corners *corners_at,
+                               uint32_t **vertex)
 {
-    uint32_t places, corners = 3 * facets->count;
-    *place = mesh_facets_places(facets, &places);
-    meeting->first = calloc((size_t)places + 2, sizeof *meeting->first);
-    meeting->corner = malloc((corners + 1) * sizeof *meeting->corner);
-    if (*place == NULL || meeting->first == NULL || meeting->corner == NULL)
+    uint32_t vertices, corners = 3 * facets->count;
+    *vertex = mesh_facets_weld(facets, &vertices);
+    corners_at->first = calloc((size_t)vertices + 2, sizeof *corners_at->first);
+    corners_at->corner = malloc((corners + 1) * sizeof *corners_at->corner);
+    if (*vertex == NULL || corners_at->first == NULL || corners_at->corner == NULL)
         return -1;
     for (uint32_t i = 0; i < corners; i++)
-        meeting->first[(*place)[i] + 2]++;
-    for (uint32_t i = 2; i < places + 2; i++)
-        meeting->first[i] += meeting->first[i - 1];
+        corners_at->first[(*vertex)[i] + 2]++;
+    for (uint32_t i = 2; i < vertices + 2; i++)
+        corners_at->first[i] += corners_at->first[i - 1];
     for (uint32_t i = 0; i < corners; i++)
-        meeting->corner[meeting->first[(*place)[i] + 1]++] = i;
+        corners_at->corner[corners_at->first[(*vertex)[i] + 1]++] = i;
     return 0;
 }
 
-static void corner_normal(const struct mesh_facets *facets, const struct meeting *meeting,
-                          uint32_t place, uint32_t facet, float normal[3])
+static void corner_normal(const struct mesh_facets *facets, const struct vertex_corners *corners_at,
+                          uint32_t vertex, uint32_t facet, float normal[3])
 {
     float own[3], sum[3] = {0.0f, 0.0f, 0.0f};
     float size = facet_across(&facets->facet[facet], own);
-    for (uint32_t i = meeting->first[place]; i < meeting->first[place + 1]; i++) {
+    for (uint32_t i = corners_at->first[vertex]; i < corners_at->first[vertex + 1]; i++) {
         float other[3];
-        float length = facet_across(&facets->facet[meeting->corner[i] / 3], other);
+        float length = facet_across(&facets->facet[corners_at->corner[i] / 3], other);
         if (dot(own, other) >= EDGE_COSINE * size * length)
             for (uint32_t axis = 0; axis < 3; axis++)
                 sum[axis] += other[axis];
@@ -152,13 +152,13 @@ static void corner_normal(const struct mesh_facets *facets, const struct meeting
 
 int mesh_facets_normals(const struct mesh_facets *facets, float (*normals)[3])
 {
-    struct meeting meeting;
-    uint32_t *place;
-    int result = find_meetings(facets, &meeting, &place);
+    struct vertex_corners corners_at;
+    uint32_t *vertex;
+    int result = find_vertex_corners(facets, &corners_at, &vertex);
     for (uint32_t i = 0; result == 0 && i < 3 * facets->count; i++)
-        corner_normal(facets, &meeting, place[i], i / 3, normals[i]);
-    free(place);
-    free(meeting.first);
-    free(meeting.corner);
+        corner_normal(facets, &corners_at, vertex[i], i / 3, normals[i]);
+    free(vertex);
+    free(corners_at.first);
+    free(corners_at.corner);
     return result;
 }

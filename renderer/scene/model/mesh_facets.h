@@ -1,5 +1,5 @@
-/* Facets: a mesh on its way. Triangles with what they are made of, to be divided, thinned out and
- * smoothed. Pure. */
+/* The triangles of a mesh while it is being made. They refer to the model's triangles, and can be
+ * divided, simplified and smoothed. Pure. */
 #ifndef JOLON_RENDERER_SCENE_MODEL_MESH_FACETS_H
 #define JOLON_RENDERER_SCENE_MODEL_MESH_FACETS_H
 
@@ -17,19 +17,20 @@ struct mesh_facets {
     uint32_t count, capacity;
 };
 
-/* 0, or -1 with errno ENOMEM. */
+/* Returns 0, or -1 with errno ENOMEM. */
 int mesh_facets_add(struct mesh_facets *facets, const struct facet *facet);
 void mesh_facets_free(struct mesh_facets *facets);
 
-/* Across its corners, as long as twice its area; the length. */
+/* Sets across to the facet's normal, whose length is twice the area. Returns the length. */
 float facet_across(const struct facet *facet, float across[3]);
 
-/* The number of each corner's place, [3 * count], owned by the caller: the same for corners of one
- * part at one place, in the order in which they are met. NULL with errno ENOMEM. */
-uint32_t *mesh_facets_places(const struct mesh_facets *facets, uint32_t *places);
+/* Returns the number of each corner's vertex, [3 * count], owned by the caller. Corners of one part
+ * at one position share a vertex. Numbers are given in the order of the corners; vertices: how
+ * many. Returns NULL with errno ENOMEM. */
+uint32_t *mesh_facets_weld(const struct mesh_facets *facets, uint32_t *vertices);
 
-/* Unit normals of all corners, [3 * count][3]: the mean of the facets that meet there at less than
- * an edge's angle. 0, or -1 with errno ENOMEM. */
+/* Computes the unit normals of all corners, [3 * count][3]: the mean of the facets at the vertex
+ * that do not have a sharp edge to the corner's own. Returns 0, or -1 with errno ENOMEM. */
 int mesh_facets_normals(const struct mesh_facets *facets, float (*normals)[3]);
 
 #endif

@@ -1,7 +1,7 @@
-/* Thinning out: edges are collapsed into one of their ends, the one that costs least first. The
- * cost is the sum of the squared distances from the planes of all facets that a place once
- * belonged to (M. Garland, P. Heckbert, Surface simplification using quadric error metrics, 1997);
- * where a colour or a sheet ends, a plane through that edge keeps it where it is. */
+/* Edges are collapsed into one of their ends, the cheapest first. The cost is the sum of the
+ * squared distances from the planes of all facets that met at the vertex (M. Garland, P. Heckbert,
+ * "Surface simplification using quadric error metrics", 1997). At the border of a colour or of a
+ * sheet, a plane through the edge keeps the edge in place. */
 #include "renderer/scene/model/mesh_simplify.h"
 #include "world/model.h"
 
@@ -10,33 +10,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SEAM_WEIGHT  0.5     /* of a colour's edge beside the surface */
-#define TURN_COSINE  0.25    /* a facet may not turn by more than 75 degrees */
-#define THIN_SHARE   0.45    /* of a piece's thickness that its surface may be off by */
-#define STEP_FIRST   0.125   /* of the bounds, to begin with; ... */
-#define STEP         1.25    /* ... so much coarser while there are too many facets ... */
-#define STEPS_MAX    36u     /* ... but not for ever */
-#define KNIFE_COSINE (-0.2f) /* facets that meet at less than 80 degrees have a knife's edge */
+#define SEAM_WEIGHT  0.5     /* weight of a colour's border relative to a facet */
+#define TURN_COSINE  0.25    /* a facet must not turn by more than 75 degrees */
+#define THIN_SHARE   0.45    /* allowed error as a share of a part's thickness */
+#define STEP_FIRST   0.125   /* first share of the limits; ... */
+#define STEP         1.25    /* ... factor while there are too many facets ... */
+#define STEPS_MAX    36u     /* ... and most such steps */
+#define KNIFE_COSINE (-0.2f) /* facets that meet at less than 80 degrees keep their edge */
 
-/* Squared distances from planes, each weighed: p' A p + 2 b p + c. */
+/* Weighted sum of squared distances from planes: p' A p + 2 b p + c. */
 struct quadric {
     double xx, xy, xz, yy, yz, zz, bx, by, bz, c;
 };
 
-struct thinning {
+struct simplification {
     struct mesh_facets *facets;
-    uint32_t *place; /* [3 * count] of each corner */
-    uint32_t places;
-    struct quadric *quadric; /* [places] */
-    float (*at)[3];          /* [places] */
-    double *bound;           /* [places] squared [m2] of how far the surface may move there */
-    double *cost;    /* [3 * count][2] of the corner's edge to the next, into its end and its start,
-                        over the bound */
-    double *breadth; /* [count] of each facet's piece [m] */
-    bool *gone;      /* [count] */
-    bool *touched;   /* [places] in this round */
-    uint32_t left;   /* facets */
-    uint32_t *first, *at_place; /* [places + 2], [3 * count]: the facets at a place */
+    uint32_t *vertex; /* [3 * count] vertex of each corner */
+    uint32_t vertices;
+    struct quadric *quadric; /* [vertices] */
+    float (*at)[3];          /* [vertices] */
+    double *bound;           /* [vertices] square of the allowed error at the vertex [m2] */
+    double *cost; /* [3 * count][2] cost of collapsing the edge from a corner to the next into its
+                     end and into its start, over the bound */
+    double *breadth;             /* [count] breadth of each facet's part [m] */
+    bool *removed;               /* [count] */
+    bool *touched;               /* [vertices] in this round */
+    uint32_t remaining;          /* facets */
+    uint32_t *first, *at_vertex; /* [vertices + 2], [3 * count]: the facets at each vertex */
 };
 
 static void add_plane(struct quadric *q, const double n[3], const float at[3], double weight)
@@ -90,10 +90,10 @@ static uint32_t next_corner(uint32_t corner)
 
 /* --- the pieces ------------------------------------------------------------------------------- */
 
-/* What hangs together. */
+/* A connected part of the mesh. */
 struct piece {
     float low[3], high[3];
-    double volume, area; /* six times, and twice */
+    double volume, area; /* six times the volume, twice the area */
 };
 
 static uint32_t root_of(uint32_t *parent, uint32_t i)
@@ -117,7 +117,7 @@ static void measure(struct piece *piece, const struct facet *facet)
     }
 }
 
-/* The side of a square that it covers, seen from where it is widest. */
+/* Returns the side of a square as large as the part's largest view. */
 static double breadth(const struct piece *piece)
 {
     double a = (double)piece->high[0] - (double)piece->low[0];
@@ -126,8 +126,8 @@ static double breadth(const struct piece *piece)
     return sqrt(fmax(a * b, fmax(b * c, c * a)));
 }
 
-/* What its surface may be off by, squared: a rod or a sheet keeps some of its thickness, which is
- * about twice its volume over its area. */
+/* Returns the square of the allowed error. Rods and sheets keep some of their thickness, which is
+ * about twice the volume over the area. */
 static double bound(const struct piece *piece, double error_m)
 {
     double thick_m = piece->area > 0.0 ? 2.0 / 3.0 * fabs(piece->volume) / piece->area : 0.0;
@@ -135,28 +135,28 @@ static double bound(const struct piece *piece, double error_m)
     return fmax(most_m * most_m, 1e-12);
 }
 
-/* Finds the bound of each place and the breadth of each facet's piece. */
-static int measure_pieces(struct thinning *t, double error_m)
+/* Computes the bound of each vertex and the breadth of each facet's part. */
+static int measure_pieces(struct simplification *t, double error_m)
 {
-    uint32_t *parent = malloc((t->places + 1) * sizeof *parent);
-    struct piece *piece = malloc((t->places + 1) * sizeof *piece);
+    uint32_t *parent = malloc((t->vertices + 1) * sizeof *parent);
+    struct piece *piece = malloc((t->vertices + 1) * sizeof *piece);
     if (parent == NULL || piece == NULL) {
         free(parent);
         free(piece);
         return -1;
     }
-    for (uint32_t i = 0; i < t->places; i++) {
+    for (uint32_t i = 0; i < t->vertices; i++) {
         parent[i] = i;
         piece[i] = (struct piece){.low = {INFINITY, INFINITY, INFINITY},
                                   .high = {-INFINITY, -INFINITY, -INFINITY}};
     }
     for (uint32_t c = 0; c < 3 * t->facets->count; c++)
-        parent[root_of(parent, t->place[c])] = root_of(parent, t->place[next_corner(c)]);
+        parent[root_of(parent, t->vertex[c])] = root_of(parent, t->vertex[next_corner(c)]);
     for (uint32_t f = 0; f < t->facets->count; f++)
-        measure(&piece[root_of(parent, t->place[3 * f])], &t->facets->facet[f]);
+        measure(&piece[root_of(parent, t->vertex[3 * f])], &t->facets->facet[f]);
     for (uint32_t f = 0; f < t->facets->count; f++)
-        t->breadth[f] = breadth(&piece[root_of(parent, t->place[3 * f])]);
-    for (uint32_t i = 0; i < t->places; i++)
+        t->breadth[f] = breadth(&piece[root_of(parent, t->vertex[3 * f])]);
+    for (uint32_t i = 0; i < t->vertices; i++)
         t->bound[i] = bound(&piece[root_of(parent, i)], error_m);
     free(parent);
     free(piece);
@@ -170,13 +170,13 @@ static int seam_order(const void *left, const void *right)
     return memcmp(left, right, 2 * sizeof(uint32_t));
 }
 
-/* An edge by its places, the lesser first. */
+/* An edge by its vertices, the lower number first. */
 struct seam {
     uint32_t from, to, corner;
 };
 
-/* The plane through the edge, upright on its facet. */
-static void add_seam(struct thinning *t, uint32_t corner)
+/* Adds the plane through the edge at a right angle to its facet. */
+static void add_seam(struct simplification *t, uint32_t corner)
 {
     const struct facet *facet = &t->facets->facet[corner / 3];
     const float *a = facet->corner[corner % 3], *b = facet->corner[next_corner(corner) % 3];
@@ -193,26 +193,26 @@ static void add_seam(struct thinning *t, uint32_t corner)
         return;
     for (uint32_t i = 0; i < 3; i++)
         n[i] /= size;
-    add_plane(&t->quadric[t->place[corner]], n, a, SEAM_WEIGHT);
-    add_plane(&t->quadric[t->place[next_corner(corner)]], n, a, SEAM_WEIGHT);
+    add_plane(&t->quadric[t->vertex[corner]], n, a, SEAM_WEIGHT);
+    add_plane(&t->quadric[t->vertex[next_corner(corner)]], n, a, SEAM_WEIGHT);
 }
 
-static bool is_knife(const struct thinning *t, uint32_t f, uint32_t g)
+static bool is_knife(const struct simplification *t, uint32_t f, uint32_t g)
 {
     float a[3], b[3];
     float length = facet_across(&t->facets->facet[f], a) * facet_across(&t->facets->facet[g], b);
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] < KNIFE_COSINE * length;
 }
 
-/* Where two colours meet, or nothing, or the sides of a sheet. */
-static int add_seams(struct thinning *t)
+/* Adds the edges between two colours, at a border, and between the two sides of a sheet. */
+static int add_seams(struct simplification *t)
 {
     uint32_t corners = 3 * t->facets->count;
     struct seam *seam = malloc((corners + 1) * sizeof *seam);
     if (seam == NULL)
         return -1;
     for (uint32_t c = 0; c < corners; c++) {
-        uint32_t a = t->place[c], b = t->place[next_corner(c)];
+        uint32_t a = t->vertex[c], b = t->vertex[next_corner(c)];
         seam[c] = (struct seam){a < b ? a : b, a < b ? b : a, c};
     }
     qsort(seam, corners, sizeof *seam, seam_order);
@@ -229,7 +229,7 @@ static int add_seams(struct thinning *t)
     return 0;
 }
 
-static void add_facets(struct thinning *t)
+static void add_facets(struct simplification *t)
 {
     for (uint32_t f = 0; f < t->facets->count; f++) {
         float across[3];
@@ -237,58 +237,58 @@ static void add_facets(struct thinning *t)
         for (uint32_t i = 0; i < 3; i++)
             n[i] = length > 0.0 ? (double)across[i] / length : 0.0;
         for (uint32_t i = 0; i < 3; i++)
-            add_plane(&t->quadric[t->place[3 * f + i]], n, t->facets->facet[f].corner[0], 1.0);
+            add_plane(&t->quadric[t->vertex[3 * f + i]], n, t->facets->facet[f].corner[0], 1.0);
     }
 }
 
 /* --- collapsing ------------------------------------------------------------------------------- */
 
-static double cost_into(const struct thinning *t, uint32_t from, uint32_t to)
+static double cost_into(const struct simplification *t, uint32_t from, uint32_t to)
 {
     struct quadric sum = t->quadric[from];
     add_quadric(&sum, &t->quadric[to]);
     return distance2(&sum, t->at[to]);
 }
 
-static void price(struct thinning *t, uint32_t corner)
+static void update_cost(struct simplification *t, uint32_t corner)
 {
-    uint32_t a = t->place[corner], b = t->place[next_corner(corner)];
+    uint32_t a = t->vertex[corner], b = t->vertex[next_corner(corner)];
     t->cost[2 * corner] = cost_into(t, a, b) / t->bound[a];
     t->cost[2 * corner + 1] = cost_into(t, b, a) / t->bound[a];
 }
 
-static bool has(const struct thinning *t, uint32_t facet, uint32_t place)
+static bool has(const struct simplification *t, uint32_t facet, uint32_t vertex)
 {
-    const uint32_t *corner = &t->place[3 * facet];
-    return corner[0] == place || corner[1] == place || corner[2] == place;
+    const uint32_t *corner = &t->vertex[3 * facet];
+    return corner[0] == vertex || corner[1] == vertex || corner[2] == vertex;
 }
 
-/* Lists the facets at every place anew. */
-static void find_neighbours(struct thinning *t)
+/* Lists the facets at each vertex. */
+static void find_neighbours(struct simplification *t)
 {
-    memset(t->first, 0, (t->places + 2) * sizeof *t->first);
+    memset(t->first, 0, (t->vertices + 2) * sizeof *t->first);
     for (uint32_t c = 0; c < 3 * t->facets->count; c++)
-        if (!t->gone[c / 3])
-            t->first[t->place[c] + 2]++;
-    for (uint32_t i = 2; i < t->places + 2; i++)
+        if (!t->removed[c / 3])
+            t->first[t->vertex[c] + 2]++;
+    for (uint32_t i = 2; i < t->vertices + 2; i++)
         t->first[i] += t->first[i - 1];
     for (uint32_t c = 0; c < 3 * t->facets->count; c++)
-        if (!t->gone[c / 3])
-            t->at_place[t->first[t->place[c] + 1]++] = c / 3;
+        if (!t->removed[c / 3])
+            t->at_vertex[t->first[t->vertex[c] + 1]++] = c / 3;
 }
 
-/* Would a facet turn over, or shrink to a line, when one place goes to another? */
-static bool turns_over(const struct thinning *t, uint32_t from, uint32_t to)
+/* Returns true if moving one vertex to another would turn a facet over or shrink it to a line. */
+static bool turns_over(const struct simplification *t, uint32_t from, uint32_t to)
 {
     for (uint32_t i = t->first[from]; i < t->first[from + 1]; i++) {
-        uint32_t f = t->at_place[i];
+        uint32_t f = t->at_vertex[i];
         if (has(t, f, to))
             continue;
         struct facet moved = t->facets->facet[f];
         float before[3], after[3];
         float was = facet_across(&moved, before);
         for (uint32_t c = 0; c < 3; c++)
-            if (t->place[3 * f + c] == from)
+            if (t->vertex[3 * f + c] == from)
                 memcpy(moved.corner[c], t->at[to], sizeof moved.corner[c]);
         float is = facet_across(&moved, after);
         double along = (double)(before[0] * after[0] + before[1] * after[1] + before[2] * after[2]);
@@ -298,44 +298,44 @@ static bool turns_over(const struct thinning *t, uint32_t from, uint32_t to)
     return false;
 }
 
-/* Neighbours are listed as they were when the round began: none of what is touched is moved again
- * in it. */
-static void collapse(struct thinning *t, uint32_t from, uint32_t to)
+/* Moves one vertex to the other. The lists of neighbours are those at the start of the round, so
+ * vertices touched are not moved again in the same round. */
+static void collapse(struct simplification *t, uint32_t from, uint32_t to)
 {
     add_quadric(&t->quadric[to], &t->quadric[from]);
     for (uint32_t i = t->first[from]; i < t->first[from + 1]; i++) {
-        uint32_t f = t->at_place[i];
+        uint32_t f = t->at_vertex[i];
         for (uint32_t c = 0; c < 3; c++)
-            t->touched[t->place[3 * f + c]] = true;
+            t->touched[t->vertex[3 * f + c]] = true;
         if (has(t, f, to)) {
-            t->left -= t->gone[f] ? 0 : 1;
-            t->gone[f] = true;
+            t->remaining -= t->removed[f] ? 0 : 1;
+            t->removed[f] = true;
             continue;
         }
         for (uint32_t c = 0; c < 3; c++)
-            if (t->place[3 * f + c] == from) {
-                t->place[3 * f + c] = to;
+            if (t->vertex[3 * f + c] == from) {
+                t->vertex[3 * f + c] = to;
                 memcpy(t->facets->facet[f].corner[c], t->at[to], sizeof t->at[to]);
             }
         for (uint32_t c = 0; c < 3; c++)
-            price(t, 3 * f + c);
+            update_cost(t, 3 * f + c);
     }
     for (uint32_t i = t->first[to]; i < t->first[to + 1]; i++)
         for (uint32_t c = 0; c < 3; c++)
-            price(t, 3 * t->at_place[i] + c);
+            update_cost(t, 3 * t->at_vertex[i] + c);
 }
 
-/* Collapses what costs no more than so much, no two edges beside each other, until only `most`
- * facets are left. How many it were. */
-static uint32_t go_round(struct thinning *t, double cost, uint32_t most)
+/* Collapses edges up to this cost, no two of them adjacent, until `most` facets remain. Returns the
+ * number of edges collapsed. */
+static uint32_t collapse_round(struct simplification *t, double cost, uint32_t most)
 {
     uint32_t collapsed = 0;
-    memset(t->touched, 0, t->places * sizeof *t->touched);
+    memset(t->touched, 0, t->vertices * sizeof *t->touched);
     find_neighbours(t);
-    for (uint32_t i = 0; t->left > most && i < 6 * t->facets->count; i++) {
-        if (t->gone[i / 6] || !(t->cost[i] <= cost))
+    for (uint32_t i = 0; t->remaining > most && i < 6 * t->facets->count; i++) {
+        if (t->removed[i / 6] || !(t->cost[i] <= cost))
             continue;
-        uint32_t start = t->place[i / 2], end = t->place[next_corner(i / 2)];
+        uint32_t start = t->vertex[i / 2], end = t->vertex[next_corner(i / 2)];
         uint32_t from = i % 2 == 0 ? start : end, to = i % 2 == 0 ? end : start;
         if (t->touched[from] || t->touched[to] || turns_over(t, from, to))
             continue;
@@ -345,74 +345,74 @@ static uint32_t go_round(struct thinning *t, double cost, uint32_t most)
     return collapsed;
 }
 
-static void drop_pieces(struct thinning *t, double drop_m)
+static void drop_pieces(struct simplification *t, double drop_m)
 {
     for (uint32_t f = 0; f < t->facets->count; f++)
-        if (!t->gone[f] && t->breadth[f] < drop_m) {
-            t->gone[f] = true;
-            t->left--;
+        if (!t->removed[f] && t->breadth[f] < drop_m) {
+            t->removed[f] = true;
+            t->remaining--;
         }
 }
 
-/* The cheapest first, by steps, coarser and coarser while there is too much. */
-static void collapse_all(struct thinning *t, double drop_m, uint32_t most)
+/* Collapses the cheapest edges first, with rising limits while there are too many facets. */
+static void collapse_all(struct simplification *t, double drop_m, uint32_t most)
 {
     double coarse = STEP_FIRST;
-    for (uint32_t step = 0; step < STEPS_MAX && t->left > most; step++) {
+    for (uint32_t step = 0; step < STEPS_MAX && t->remaining > most; step++) {
         drop_pieces(t, drop_m * coarse);
-        while (t->left > most && go_round(t, coarse * coarse, most) > 0)
+        while (t->remaining > most && collapse_round(t, coarse * coarse, most) > 0)
             ;
         coarse *= STEP;
     }
 }
 
-static void keep_what_is_left(struct thinning *t)
+static void remove_facets(struct simplification *t)
 {
     uint32_t kept = 0;
     for (uint32_t f = 0; f < t->facets->count; f++)
-        if (!t->gone[f])
+        if (!t->removed[f])
             t->facets->facet[kept++] = t->facets->facet[f];
     t->facets->count = kept;
 }
 
 int mesh_simplify(struct mesh_facets *facets, double drop_m, double error_m, uint32_t most)
 {
-    struct thinning t = {.facets = facets, .left = facets->count};
+    struct simplification t = {.facets = facets, .remaining = facets->count};
     int result = -1;
-    t.place = mesh_facets_places(facets, &t.places);
-    t.quadric = calloc((size_t)t.places + 1, sizeof *t.quadric);
-    t.at = malloc((t.places + 1) * sizeof *t.at);
-    t.bound = malloc((t.places + 1) * sizeof *t.bound);
+    t.vertex = mesh_facets_weld(facets, &t.vertices);
+    t.quadric = calloc((size_t)t.vertices + 1, sizeof *t.quadric);
+    t.at = malloc((t.vertices + 1) * sizeof *t.at);
+    t.bound = malloc((t.vertices + 1) * sizeof *t.bound);
     t.cost = malloc((6 * facets->count + 1) * sizeof *t.cost);
     t.breadth = malloc((facets->count + 1) * sizeof *t.breadth);
-    t.gone = calloc(facets->count + 1, sizeof *t.gone);
-    t.touched = calloc(t.places + 1, sizeof *t.touched);
-    t.first = malloc((t.places + 2) * sizeof *t.first);
-    t.at_place = malloc((3 * facets->count + 1) * sizeof *t.at_place);
-    if (t.place == NULL || t.quadric == NULL || t.at == NULL || t.bound == NULL || t.cost == NULL ||
-        t.breadth == NULL || t.gone == NULL || t.touched == NULL || t.first == NULL ||
-        t.at_place == NULL)
+    t.removed = calloc(facets->count + 1, sizeof *t.removed);
+    t.touched = calloc(t.vertices + 1, sizeof *t.touched);
+    t.first = malloc((t.vertices + 2) * sizeof *t.first);
+    t.at_vertex = malloc((3 * facets->count + 1) * sizeof *t.at_vertex);
+    if (t.vertex == NULL || t.quadric == NULL || t.at == NULL || t.bound == NULL ||
+        t.cost == NULL || t.breadth == NULL || t.removed == NULL || t.touched == NULL ||
+        t.first == NULL || t.at_vertex == NULL)
         goto out;
     for (uint32_t c = 0; c < 3 * facets->count; c++)
-        memcpy(t.at[t.place[c]], facets->facet[c / 3].corner[c % 3], sizeof t.at[0]);
+        memcpy(t.at[t.vertex[c]], facets->facet[c / 3].corner[c % 3], sizeof t.at[0]);
     add_facets(&t);
     if (add_seams(&t) != 0 || measure_pieces(&t, error_m) != 0)
         goto out;
     for (uint32_t c = 0; c < 3 * facets->count; c++)
-        price(&t, c);
+        update_cost(&t, c);
     collapse_all(&t, drop_m, most);
-    keep_what_is_left(&t);
+    remove_facets(&t);
     result = 0;
 out:
-    free(t.place);
+    free(t.vertex);
     free(t.quadric);
     free(t.at);
     free(t.bound);
     free(t.cost);
     free(t.breadth);
-    free(t.gone);
+    free(t.removed);
     free(t.touched);
     free(t.first);
-    free(t.at_place);
+    free(t.at_vertex);
     return result;
 }

@@ -6,8 +6,8 @@
 
 /* Reduces the mesh to at most `most` facets: drops the connected parts that cover least, and
  * collapses the edges that move the surface least. drop_m and error_m are the first limits of the
- * two; both are raised by the same factor until the mesh is small enough. 0, or -1 with errno
- * ENOMEM. */
+ * two; both are raised by the same factor until the mesh is small enough. Returns 0, or -1 with
+ * errno ENOMEM. */
 int mesh_simplify(struct mesh_facets *facets, double drop_m, double error_m, uint32_t most);
 
 #endif

@@ -1,4 +1,4 @@
-/* Painting foliage. Coordinates: x -0.5..0.5 to the right, y 0..1 up, z towards the eye. */
+/* Draws pictures of plants. Coordinates: x -0.5..0.5 to the right, y 0..1 up, z towards the eye. */
 #include "renderer/scene/model/plant_impostors.h"
 
 #include "renderer/scene/noise/value_noise.h"
@@ -17,8 +17,8 @@ struct tone {
 struct canvas {
     struct plant_impostors_picture *picture;
     float depth[PLANT_IMPOSTORS_SIDE][PLANT_IMPOSTORS_SIDE];
-    uint32_t seed, drawn; /* the next random number */
-    bool blades;          /* sticks are grass, which the light goes through: all face up */
+    uint32_t seed, drawn; /* drawn: number of random numbers used */
+    bool blades;          /* grass lets light through, so all its normals point up */
 };
 
 /* A lobe of a crown, covered with clumps of leaves. */
@@ -41,14 +41,14 @@ static const struct tone fresh_wood = {0.720f, 0.560f, 0.360f};
 static const struct tone straw_dark = {0.680f, 0.560f, 0.320f};
 static const struct tone straw_light = {0.900f, 0.790f, 0.510f};
 
-static float roll(struct canvas *c)
+static float random_unit(struct canvas *c)
 {
     return value_noise_unit((int32_t)c->drawn++, 0, c->seed);
 }
 
 static float between(struct canvas *c, float low, float high)
 {
-    return low + (high - low) * roll(c);
+    return low + (high - low) * random_unit(c);
 }
 
 static uint8_t byte_of(float v)
@@ -62,7 +62,7 @@ static struct tone tone_mix(struct tone a, struct tone b, float t)
     return (struct tone){a.r + (b.r - a.r) * t, a.g + (b.g - a.g) * t, a.b + (b.b - a.b) * t};
 }
 
-/* Would it be seen here? */
+/* Returns true if a point at this depth would be visible. */
 static bool shows(const struct canvas *c, int32_t px, int32_t py, float depth)
 {
     return px >= 0 && py >= 0 && px < (int32_t)PLANT_IMPOSTORS_SIDE &&
@@ -84,7 +84,7 @@ static void put(struct canvas *c, int32_t px, int32_t py, float depth, struct to
         facing[i] = (uint8_t)(128.0f + 127.0f * normal[i]);
 }
 
-/* A ball of leaves whose rim is ragged. lean: how the lobe that it sits on faces. */
+/* Draws a ball of leaves with a ragged rim. lean: normal of the lobe there. */
 static void clump(struct canvas *c, float x, float y, float z, float radius, struct tone tone,
                   const float lean[3])
 {
@@ -112,7 +112,7 @@ static void clump(struct canvas *c, float x, float y, float z, float radius, str
         }
 }
 
-/* Covers the front of a lobe with clumps; its under side and hollows are darker. */
+/* Covers the front of a lobe with clumps. The underside and the hollows are darker. */
 static void leafy(struct canvas *c, const struct lobe *lobe, uint32_t clumps, float size,
                   struct tone dark, struct tone light)
 {
@@ -125,13 +125,13 @@ static void leafy(struct canvas *c, const struct lobe *lobe, uint32_t clumps, fl
         float in = between(c, 0.78f, 1.02f);
         float x = lobe->x + n[0] * lobe->rx * in, y = lobe->y + n[1] * lobe->ry * in;
         float z = lobe->z + n[2] * lobe->rx * in;
-        float shade = 0.25f + 0.45f * (0.5f + 0.5f * high) + 0.3f * roll(c);
+        float shade = 0.25f + 0.45f * (0.5f + 0.5f * high) + 0.3f * random_unit(c);
         shade *= 0.55f + 0.45f * in * in;
         clump(c, x, y, z, size * between(c, 0.7f, 1.35f), tone_mix(dark, light, shade), n);
     }
 }
 
-/* A round stick from one point to another. */
+/* Draws a round stick from one point to another. */
 static void stick(struct canvas *c, float x0, float y0, float x1, float y1, float thick0,
                   float thick1, struct tone tone)
 {
@@ -182,7 +182,7 @@ static void pine(struct canvas *c)
     float sway = between(c, -0.06f, 0.06f);
     stick(c, 0.0f, 0.0f, sway, 0.95f, 0.045f, 0.012f, bark);
     for (uint32_t i = 0; i < 40; i++) {
-        float y = 0.27f + 0.69f * ((float)i + roll(c)) / 41.0f, top = (y - 0.27f) / 0.73f;
+        float y = 0.27f + 0.69f * ((float)i + random_unit(c)) / 41.0f, top = (y - 0.27f) / 0.73f;
         float reach = 0.05f + 0.24f * sqrtf(1.0f - top) * fminf(1.0f, 0.55f + 2.0f * top);
         float x = sway * y + between(c, -1.0f, 1.0f) * reach;
         stick(c, sway * y, y - 0.05f, x, y, 0.014f, 0.006f, bark);
@@ -237,13 +237,14 @@ static void grass(struct canvas *c)
         float fan = between(c, -1.0f, 1.0f), x = 0.10f * fan + between(c, -0.05f, 0.05f);
         float bend = 0.34f * fan * fabsf(fan) + between(c, -0.06f, 0.06f);
         float high = between(c, 0.45f, 0.97f) * (1.0f - 0.5f * fan * fan);
-        struct tone tone = tone_mix(straw_dark, straw_light, roll(c));
+        struct tone tone = tone_mix(straw_dark, straw_light, random_unit(c));
         stick(c, x, 0.0f, x + 0.3f * bend, 0.55f * high, 0.022f, 0.018f, tone);
         stick(c, x + 0.3f * bend, 0.55f * high, x + bend, high, 0.018f, 0.006f, tone);
     }
 }
 
-/* Transparent pixels take the colour of their neighbours, or minification draws dark rims. */
+/* Gives transparent pixels the mean colour of the others. Otherwise minification would draw dark
+ * rims. */
 static void bleed(struct plant_impostors_picture *picture)
 {
     uint32_t sum[3] = {0, 0, 0}, count = 0;

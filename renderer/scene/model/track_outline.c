@@ -1,4 +1,4 @@
-/* The convex line by Andrew's monotone chain. */
+/* Computes the convex hull by Andrew's monotone chain. */
 #include "renderer/scene/model/track_outline.h"
 
 #include "world/model.h"
@@ -26,7 +26,7 @@ static double turn(const struct point *a, const struct point *b, const struct po
            ((double)b->y - (double)a->y) * ((double)c->x - (double)a->x);
 }
 
-/* One side of the line onto the end of the other. */
+/* Adds a point to one side of the hull, which begins after `least` points. */
 static uint32_t chain(struct point *line, uint32_t least, uint32_t count, const struct point *next)
 {
     while (count >= least + 2 && turn(&line[count - 2], &line[count - 1], next) <= 0.0)
@@ -43,7 +43,7 @@ static uint32_t wrap(struct point *line, const struct point *points, uint32_t co
     uint32_t lower = n > 0 ? n - 1 : 0;
     for (uint32_t i = count; i-- > 1;)
         n = chain(line, lower, n, &points[i - 1]);
-    return n > 1 ? n - 1 : n; /* it ends where it began */
+    return n > 1 ? n - 1 : n; /* the last point is the first one */
 }
 
 static uint32_t collect(const struct world *world, uint32_t model, uint32_t joint,
@@ -74,8 +74,8 @@ static void measure(struct track_outline *outline, const struct point *line)
         sum += sqrt(dx * dx + dy * dy);
     }
     outline->along[outline->count] = (float)sum;
-    double links =
-        2.0 * floor(sum / (2.0 * TRACK_OUTLINE_LINK_M) + 0.5); /* light and dark by turns */
+    double links = 2.0 * floor(sum / (2.0 * TRACK_OUTLINE_LINK_M) +
+                               0.5); /* an even number: links are light and dark alternately */
     outline->link_m = links > 0.0 ? (float)(sum / links) : 0.0f;
 }
 

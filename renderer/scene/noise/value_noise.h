@@ -1,10 +1,10 @@
-/* Grain: value noise for looks alone, smooth, cheap, the same in every picture of every run. */
+/* Value noise: smooth, cheap and the same in every run. It affects pictures only. */
 #ifndef JOLON_RENDERER_SCENE_NOISE_VALUE_NOISE_H
 #define JOLON_RENDERER_SCENE_NOISE_VALUE_NOISE_H
 
 #include <stdint.h>
 
-/* A well-mixed number of a lattice point. */
+/* Returns a hash of a lattice point. */
 static inline uint32_t value_noise_hash(int32_t x, int32_t z, uint32_t seed)
 {
     uint32_t h = (uint32_t)x * 0x8da6b343u ^ (uint32_t)z * 0xd8163841u ^ seed * 0xcb1ab31fu;
@@ -13,20 +13,21 @@ static inline uint32_t value_noise_hash(int32_t x, int32_t z, uint32_t seed)
     return h ^ h >> 15;
 }
 
-/* Uniform in [0, 1). */
+/* Returns a hash of a lattice point as a number in [0, 1). */
 static inline float value_noise_unit(int32_t x, int32_t z, uint32_t seed)
 {
     return (float)(value_noise_hash(x, z, seed) >> 8) * 0x1.0p-24f;
 }
 
-/* floor() of what fits an int, without a call: painting spends its time here. */
+/* Returns floor(v) for a value that fits an int. Computing textures spends most of its time here,
+ * so no library function is called. */
 static inline int32_t value_noise_floor(double v)
 {
     int32_t whole = (int32_t)v;
     return whole - (v < (double)whole);
 }
 
-/* Smooth noise in -1..1 that varies over about one unit; |x| and |z| below 2^31. */
+/* Returns smooth noise in -1..1 that varies over about one unit. |x| and |z| must be below 2^31. */
 static inline float value_noise_value(double x, double z, uint32_t seed)
 {
     int32_t ix = value_noise_floor(x), iz = value_noise_floor(z);

@@ -1,4 +1,4 @@
-/* Noise row by row. */
+/* Value noise along rows of texels. */
 #include "renderer/scene/noise/value_noise_rows.h"
 
 #include "renderer/scene/noise/value_noise.h"

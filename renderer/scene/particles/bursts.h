@@ -5,7 +5,7 @@
 #include "renderer/scene/draw_list/draw_list.h"
 #include "renderer/scene/frame/effects.h"
 
-/* Adds the particles of an effect of this age. */
+/* Adds the particles of an effect at this age. */
 void bursts_effect(struct draw_list *list, const struct frame_view *frame_view,
                    const struct effect *effect, double age_s);
 

@@ -1,5 +1,5 @@
-/* Debris: parts that fly off a vehicle which is destroyed, fall on the ground and stay there for a
- * while. They are drawn with the vehicle's own model, squeezed into plates, bars and lumps. */
+/* Parts that fly off a destroyed vehicle, fall to the ground and stay there for a while. They are
+ * drawn with the vehicle's own model, scaled to plates, bars and lumps. */
 #include "renderer/scene/particles/debris.h"
 
 #include "renderer/scene/noise/value_noise.h"
@@ -9,14 +9,14 @@
 
 #define GRAVITY    9.81 /* [m/s^2] */
 #define PIECES_MAX 9u
-#define SETTLE_S   0.5  /* after it fell, it tips over and slides so long */
-#define SLIDE      0.12 /* of its speed times SETTLE_S that it slides */
-#define SHRINK_S   5.0  /* before the end of its life it goes into the ground */
-#define PIXELS_MIN 3.0  /* smaller parts are not shown; they grow into the picture */
-#define LANDINGS   4    /* steps towards the place where it meets the ground */
+#define SETTLE_S   0.5  /* time to tip over and slide after landing */
+#define SLIDE      0.12 /* distance of the slide over speed times SETTLE_S */
+#define SHRINK_S   5.0  /* time before the end of its life in which a part shrinks */
+#define PIXELS_MIN 3.0  /* smaller parts are left out; they grow into the picture */
+#define LANDINGS   4    /* iterations to find the place of landing */
 
 struct piece {
-    double size[3]; /* [m] long, high, wide */
+    double size[3]; /* [m] length, height, width */
 };
 
 static const struct piece shapes[] = {
@@ -28,19 +28,19 @@ static const struct piece shapes[] = {
 
 #define SHAPES (sizeof shapes / sizeof shapes[0])
 
-/* How one flies. */
+/* The path of a part. */
 struct flight {
     struct vec3 from, velocity; /* [m, world], [m/s] */
-    double lands_s;             /* after it was thrown */
-    struct vec3 rest;           /* where it lies at last */
+    double lands_s;             /* time after the explosion */
+    struct vec3 rest;           /* final position */
 };
 
-static double chance(uint32_t seed, uint32_t n, uint32_t purpose)
+static double debris_random(uint32_t seed, uint32_t n, uint32_t purpose)
 {
     return (double)value_noise_unit((int32_t)seed, (int32_t)n, 360u + purpose);
 }
 
-static struct vec3 flown(const struct flight *flight, double t)
+static struct vec3 ballistic_position(const struct flight *flight, double t)
 {
     struct vec3 at = vec3_add(flight->from, vec3_scale(flight->velocity, t));
     at.y -= 0.5 * GRAVITY * t * t;
@@ -52,14 +52,14 @@ static struct flight flight_of(const struct effect *effect, const struct frame_v
 {
     const struct terrain *terrain = &frame_view->world->terrain;
     double sine, cosine,
-        out = (4.0 + 5.0 * chance(effect->seed, n, 0)) * sqrt((double)effect->size_m) * 0.6;
-    maths_sincos(TWO_PI * chance(effect->seed, n, 1), &sine, &cosine);
+        out = (4.0 + 5.0 * debris_random(effect->seed, n, 0)) * sqrt((double)effect->size_m) * 0.6;
+    maths_sincos(TWO_PI * debris_random(effect->seed, n, 1), &sine, &cosine);
     struct flight flight = {
         .from = effect->point,
-        /* It keeps some of the way that the vehicle had. */
+        /* It keeps half the vehicle's velocity. */
         .velocity = {0.5 * (double)effect->direction[0] + cosine * out,
                      0.5 * (double)effect->direction[1] +
-                         out * (1.0 + 0.9 * chance(effect->seed, n, 2)),
+                         out * (1.0 + 0.9 * debris_random(effect->seed, n, 2)),
                      0.5 * (double)effect->direction[2] + sine * out},
     };
     flight.from.y += 1.0;
@@ -67,10 +67,10 @@ static struct flight flight_of(const struct effect *effect, const struct frame_v
     for (uint32_t i = 0; i < LANDINGS; i++) {
         double up = flight.velocity.y, high = flight.from.y - ground;
         flight.lands_s = (up + sqrt(maths_max(0.0, up * up + 2.0 * GRAVITY * high))) / GRAVITY;
-        struct vec3 at = flown(&flight, flight.lands_s);
+        struct vec3 at = ballistic_position(&flight, flight.lands_s);
         ground = terrain_height(terrain, frame_view->craters, at.x, at.z);
     }
-    flight.rest = flown(&flight, flight.lands_s);
+    flight.rest = ballistic_position(&flight, flight.lands_s);
     double slide = SLIDE * SETTLE_S;
     flight.rest.x += flight.velocity.x * slide;
     flight.rest.z += flight.velocity.z * slide;
@@ -78,25 +78,25 @@ static struct flight flight_of(const struct effect *effect, const struct frame_v
     return flight;
 }
 
-/* Where it is so long after it was thrown. */
+/* Returns the position at a time after the explosion. */
 static struct vec3 place_at(const struct flight *flight, double age)
 {
     if (age <= flight->lands_s)
-        return flown(flight, age);
+        return ballistic_position(flight, age);
     double t = maths_min(1.0, (age - flight->lands_s) / SETTLE_S);
-    struct vec3 landed = flown(flight, flight->lands_s);
+    struct vec3 landed = ballistic_position(flight, flight->lands_s);
     return vec3_lerp(landed, flight->rest, t * (2.0 - t));
 }
 
-/* Its axes: it tumbles in whole turns until it lies flat on the ground. */
+/* Returns the axes: the part tumbles in whole turns until it lies flat on the ground. */
 static struct body_axes pose_at(const struct effect *effect, const struct flight *flight,
                                 struct vec3 normal, double age, uint32_t n)
 {
     double t = maths_min(1.0, age / (flight->lands_s + SETTLE_S));
-    double turns = 1.0 + floor(3.0 * chance(effect->seed, n, 3));
-    double heading = TWO_PI * chance(effect->seed, n, 4);
+    double turns = 1.0 + floor(3.0 * debris_random(effect->seed, n, 3));
+    double heading = TWO_PI * debris_random(effect->seed, n, 4);
     struct body_axes axes = body_axes_of(heading + 4.0 * t, TWO_PI * turns * t, 0.0);
-    /* As it comes to rest, its up becomes the ground's. */
+    /* As it comes to rest, its up axis becomes the ground's normal. */
     double flat = maths_clamp(4.0 * t - 3.0, 0.0, 1.0);
     struct vec3 up = vec3_lerp(axes.up, normal, flat);
     struct vec3 right = vec3_cross(axes.forward, up);
@@ -117,8 +117,8 @@ static void add_piece(struct draw_list *list, const struct static_scene *static_
     const struct mesh_skeleton *skeleton = &static_scene->skeletons[kind->model];
     const struct piece *shape =
         &shapes[value_noise_hash((int32_t)effect->seed, (int32_t)n, 365) % SHAPES];
-    double life = EFFECT_LIFE_S * (0.6 + 0.4 * chance(effect->seed, n, 6));
-    double size = (0.7 + 0.6 * chance(effect->seed, n, 7)) * sqrt(kind->radius_m / 3.0);
+    double life = EFFECT_LIFE_S * (0.6 + 0.4 * debris_random(effect->seed, n, 6));
+    double size = (0.7 + 0.6 * debris_random(effect->seed, n, 7)) * sqrt(kind->radius_m / 3.0);
     size *= maths_clamp((life - age) / SHRINK_S, 0.0, 1.0);
     struct flight flight = flight_of(effect, frame_view, n);
     struct vec3 at = place_at(&flight, age);

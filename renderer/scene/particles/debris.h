@@ -1,4 +1,4 @@
-/* Parts that fly off a vehicle which is destroyed. */
+/* Parts that fly off a destroyed vehicle. */
 #ifndef JOLON_RENDERER_SCENE_PARTICLES_DEBRIS_H
 #define JOLON_RENDERER_SCENE_PARTICLES_DEBRIS_H
 

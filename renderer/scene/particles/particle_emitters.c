@@ -1,5 +1,5 @@
-/* Calls the emitters and sorts what they added. Everything is a function of the frame and of the
- * effects remembered: the same frame gives the same picture. */
+/* Calls the emitters and sorts the particles. Everything depends on the frame and the effects only:
+ * the same input gives the same picture. */
 #include "renderer/scene/particles/particle_emitters.h"
 
 #include "renderer/scene/particles/bursts.h"
@@ -12,8 +12,8 @@
 #include <string.h>
 
 #define KEY_BITS      11u
-#define BURST_REACH_M 12.0f /* so far a burst goes, with the wind ... */
-#define BURST_REACH   12.0f /* ... and for each metre of its size */
+#define BURST_REACH_M 12.0f /* reach of a burst, with the wind ... */
+#define BURST_REACH   12.0f /* ... plus this for each metre of its size */
 
 static void entity_particles(struct draw_list *list, const struct frame_view *frame_view,
                              const struct motion_trails *trails, uint32_t slot)
@@ -41,8 +41,8 @@ static void effect_particles(struct draw_list *list, const struct frame_view *fr
         bursts_effect(list, frame_view, effect, age);
 }
 
-/* By distance, farthest first, those as far in the order they came: digits of the squared
- * distance's bits, which are ordered as it is. */
+/* Sorts by distance, the farthest first; stable. It is a radix sort of the squared distances, whose
+ * bits as a number are in the same order. */
 static void sort_particles(struct draw_list *list)
 {
     const uint32_t digits = 1u << KEY_BITS, count = list->particle_count;
@@ -81,7 +81,7 @@ void particle_emitters_add(struct draw_list *list, const struct frame_view *fram
 {
     for (uint32_t slot = 0; slot < frame_view->head->used; slot++)
         entity_particles(list, frame_view, &effects->trails, slot);
-    trails_left(list, frame_view, &effects->trails);
+    trails_ended(list, frame_view, &effects->trails);
     for (uint32_t i = 0; i < effects->count; i++)
         effect_particles(list, frame_view, &effects->effect[i]);
     sort_particles(list);

@@ -1,4 +1,4 @@
-/* All particles of a picture but the discs of rotors. */
+/* All particles of a picture except the discs of rotors. */
 #ifndef JOLON_RENDERER_SCENE_PARTICLES_PARTICLE_EMITTERS_H
 #define JOLON_RENDERER_SCENE_PARTICLES_PARTICLE_EMITTERS_H
 

@@ -1,5 +1,5 @@
-/* Rotors that turn: a faint disc where the blades are too fast for the eye. It is a puff as wide
- * and as flat as the disc shows from where the eye is. */
+/* Turning rotors: a faint disc where the blades are too fast for the eye. A disc is one stretched
+ * particle with the width and height at which the disc is seen. */
 #include "renderer/scene/particles/rotors.h"
 
 #include "renderer/scene/particles/particles.h"
@@ -8,10 +8,10 @@
 #include "world/world.h"
 
 #define DISC_ALPHA 0.52f
-#define FLAT_SHARE 0.03 /* of its radius a disc is seen to be thick */
+#define FLAT_SHARE 0.03 /* apparent thickness over the radius */
 #define MIN_PIXELS 6.0  /* across */
 
-/* From body axes to the world's. */
+/* Converts from body axes to world axes. */
 static struct vec3 turned(const struct body_axes *axes, const float v[4])
 {
     return vec3_add(
@@ -26,11 +26,11 @@ static void add_disc(struct draw_list *list, struct vec3 hub, struct vec3 axle, 
     if (camera_pixels(&list->camera, 2.0 * radius_m, distance) < MIN_PIXELS || !(wide > 0.0))
         return;
     double open = fabs(vec3_dot(sight_line, axle)) / distance;
-    struct spot disc = {.at = hub,
-                        .along = vec3_scale(across, radius_m / wide),
-                        .size_m = radius_m * maths_max(open, FLAT_SHARE),
-                        .shade = {0.12f, 0.12f, 0.13f, DISC_ALPHA},
-                        .picture = PARTICLE_DISC};
+    struct particle disc = {.at = hub,
+                            .along = vec3_scale(across, radius_m / wide),
+                            .size_m = radius_m * maths_max(open, FLAT_SHARE),
+                            .shade = {0.12f, 0.12f, 0.13f, DISC_ALPHA},
+                            .picture = PARTICLE_DISC};
     particles_add(list, &disc);
 }
 

@@ -1,4 +1,4 @@
-/* What burns: flames and columns of smoke. */
+/* Flames and columns of smoke. */
 #include "renderer/scene/particles/smoke.h"
 
 #include "renderer/scene/particles/particles.h"
@@ -6,16 +6,16 @@
 
 #include <math.h>
 
-#define FIRE_LIFE_S      150.0 /* a wreck burns */
-#define SMOKE_LIFE_S     420.0 /* and smokes */
-#define COLUMN_PARTICLES 64    /* of a column where it is densest, over its whole life */
-#define COLUMN_RISE_S    26.0  /* a puff's life in the column */
-#define OVERLAP          0.9   /* half a puff's length over the distance to the next */
+#define FIRE_LIFE_S      150.0 /* how long a wreck burns */
+#define SMOKE_LIFE_S     420.0 /* how long a wreck smokes */
+#define COLUMN_PARTICLES 64    /* of a column over its whole life, at full density */
+#define COLUMN_RISE_S    26.0  /* life of a particle in the column */
+#define OVERLAP          0.9   /* half length of a particle over the distance to the next */
 #define FLAMES           9
-#define THIN_SMOKE       0.25f /* opacity, of a damaged vehicle */
-#define THICK_SMOKE      0.50f /* ... and of one badly damaged */
+#define THIN_SMOKE       0.25f /* opacity for a damaged vehicle */
+#define THICK_SMOKE      0.50f /* ... and for a badly damaged one */
 
-/* How a puff moves in a column. */
+/* The path of the particles of a column. */
 struct column {
     struct vec3 foot;
     double size_m, life_s, rise_m;
@@ -24,13 +24,13 @@ struct column {
 static struct vec3 column_at(const struct column *column, double t)
 {
     double age = t * column->life_s, drift = age * (0.4 + t);
-    /* It starts fast and hot, and slows as it cools and the wind takes it. */
+    /* They rise fast, and slow down as they cool and drift with the wind. */
     return (struct vec3){column->foot.x + WIND_X * drift,
                          column->foot.y + column->rise_m * (1.0 - (1.0 - t) * (1.0 - 0.45 * t)),
                          column->foot.z + WIND_Z * drift};
 }
 
-/* Metres that it moves while t goes from 0 to 1. */
+/* Returns the derivative of column_at() by t [m]. */
 static struct vec3 column_motion(const struct column *column, double t)
 {
     double drift = column->life_s * (0.4 + 2.0 * t);
@@ -41,27 +41,28 @@ static void column_particle(struct draw_list *list, const struct column *column,
                             double t, struct shade shade, uint32_t seed)
 {
     uint32_t n = (uint32_t)number;
-    /* Not quite in its turn: puffs in step look like beads on a string. */
-    double out_of_step = row_reach(number) / COLUMN_PARTICLES * ((double)luck(seed, n, 33) - 0.5);
+    /* Particles are shifted at random, because regular ones look like beads on a string. */
+    double out_of_step = particle_sequence_reach(number) / COLUMN_PARTICLES *
+                         ((double)particle_random(seed, n, 33) - 0.5);
     struct vec3 at = column_at(column, maths_max(0.0, t + 0.2 * out_of_step));
     struct vec3 motion = column_motion(column, t);
     double size = column->size_m * (0.85 + 3.4 * t), length = vec3_length(motion);
     double spacing = particles_spacing_m(list, size, particles_distance_m(list, at));
-    float weight = row_weight(number, length / (spacing * COLUMN_PARTICLES));
+    float weight = particle_sequence_weight(number, length / (spacing * COLUMN_PARTICLES));
     if (weight <= 0.0f)
         return;
     double sway = (0.45 + 1.6 * t) * column->size_m;
     spacing = maths_max(spacing, length / COLUMN_PARTICLES);
-    /* Each leans its own way: a row of balls alike would look like one. */
+    /* Each is tilted at random, because a row of equal balls looks artificial. */
     double stretch = maths_max(size, OVERLAP * spacing) / length;
-    double tilt_x = size * ((double)luck(seed, n, 31) - 0.5);
-    double tilt_z = size * ((double)luck(seed, n, 32) - 0.5);
-    struct spot particle = {
-        .at = {at.x + sway * ((double)luck(seed, n, 1) - 0.5), at.y,
-               at.z + sway * ((double)luck(seed, n, 2) - 0.5)},
+    double tilt_x = size * ((double)particle_random(seed, n, 31) - 0.5);
+    double tilt_z = size * ((double)particle_random(seed, n, 32) - 0.5);
+    struct particle particle = {
+        .at = {at.x + sway * ((double)particle_random(seed, n, 1) - 0.5), at.y,
+               at.z + sway * ((double)particle_random(seed, n, 2) - 0.5)},
         .along = {motion.x * stretch + 1.6 * tilt_x, motion.y * stretch,
                   motion.z * stretch + 1.6 * tilt_z},
-        .size_m = size * (0.85 + 0.3 * (double)luck(seed, n, 3)),
+        .size_m = size * (0.85 + 0.3 * (double)particle_random(seed, n, 3)),
         .picture = smoke_picture(seed, n),
     };
     particle.shade =
@@ -70,8 +71,8 @@ static void column_particle(struct draw_list *list, const struct column *column,
     particles_add(list, &particle);
 }
 
-/* A column of puffs that rise, spread, drift with the wind and fade, of what was given off between
- * two times. Its height follows its thickness, so that thin columns are low. */
+/* Draws a column of the smoke emitted between two times. Particles rise, spread, drift with the
+ * wind and fade. Thin columns are low. */
 static void smoke_column(struct draw_list *list, struct vec3 foot, double size_m, double from_s,
                          double to_s, struct shade shade, uint32_t seed)
 {
@@ -83,15 +84,17 @@ static void smoke_column(struct draw_list *list, struct vec3 foot, double size_m
     draw_list_relative(list, vec3_lerp(foot, top, 0.5), middle);
     if (!frustum_ball(&list->frustum, middle, reach))
         return;
-    /* The foot is where it is densest: puffs are smallest there, and fast. */
+    /* The foot is densest: particles are smallest and fastest there. */
     double spacing = particles_spacing_m(list, 0.85 * size_m, particles_distance_m(list, foot));
     double share = vec3_length(column_motion(&column, 0.0)) / (spacing * COLUMN_PARTICLES);
-    struct row row = row_of(seed, COLUMN_PARTICLES / column.life_s,
-                            maths_max(from_s, list->time_s - column.life_s),
-                            maths_min(to_s, list->time_s), 1.4 * share);
-    for (int64_t number = row.first; number <= row.last; number += row.step)
+    struct particle_sequence sequence = particle_sequence_of(
+        seed, COLUMN_PARTICLES / column.life_s, maths_max(from_s, list->time_s - column.life_s),
+        maths_min(to_s, list->time_s), 1.4 * share);
+    for (int64_t number = sequence.first; number <= sequence.last; number += sequence.step)
         column_particle(list, &column, number,
-                        (list->time_s - row_time_s(&row, number)) / column.life_s, shade, seed);
+                        (list->time_s - particle_sequence_time_s(&sequence, number)) /
+                            column.life_s,
+                        shade, seed);
 }
 
 static void flames(struct draw_list *list, struct vec3 foot, double size_m, double strength,
@@ -99,30 +102,33 @@ static void flames(struct draw_list *list, struct vec3 foot, double size_m, doub
 {
     double share = particles_share(list, size_m, foot);
     for (uint32_t i = 0; i < particles_shown(FLAMES, share); i++) {
-        double phase = list->time_s * 1.3 + (double)luck(seed, i, 5), t = phase - floor(phase);
+        double phase = list->time_s * 1.3 + (double)particle_random(seed, i, 5),
+               t = phase - floor(phase);
         uint32_t n = (uint32_t)floor(phase) * FLAMES + i;
         double tall = size_m * (0.95 - 0.3 * t) * strength;
-        struct spot flame = {
-            .at = {foot.x + size_m * 1.1 * ((double)luck(seed, n, 6) - 0.5) + 0.2 * WIND_X * t,
+        struct particle flame = {
+            .at = {foot.x + size_m * 1.1 * ((double)particle_random(seed, n, 6) - 0.5) +
+                       0.2 * WIND_X * t,
                    foot.y + size_m * (0.45 + 0.9 * t),
-                   foot.z + size_m * 1.1 * ((double)luck(seed, n, 7) - 0.5) + 0.2 * WIND_Z * t},
+                   foot.z + size_m * 1.1 * ((double)particle_random(seed, n, 7) - 0.5) +
+                       0.2 * WIND_Z * t},
             .along = {0.25 * WIND_X * t, tall, 0.25 * WIND_Z * t},
             .size_m = size_m * (0.68 - 0.36 * t) * strength,
             .picture = n & 1 ? PARTICLE_FLAME_A : PARTICLE_FLAME_B,
             .glow = 0.85f,
             .shade = {1.0f, 0.72f - 0.32f * (float)t, 0.28f - 0.2f * (float)t,
                       (float)(0.8 * strength) * particles_part(i, FLAMES, share) *
-                          come_and_go(t, 0.12, 1.0, 0.6)},
+                          fade_in_out(t, 0.12, 1.0, 0.6)},
         };
         particles_add(list, &flame);
     }
     float flicker =
         0.85f + 0.15f * value_noise_value(list->time_s * 7.0, (double)(seed % 4096u), 8);
-    struct spot glow = {.at = {foot.x, foot.y + 0.6 * size_m, foot.z},
-                        .size_m = 2.2 * size_m,
-                        .picture = PARTICLE_GLOW,
-                        .glow = 1.0f,
-                        .shade = {1.0f, 0.45f, 0.12f, 0.32f * (float)strength * flicker}};
+    struct particle glow = {.at = {foot.x, foot.y + 0.6 * size_m, foot.z},
+                            .size_m = 2.2 * size_m,
+                            .picture = PARTICLE_GLOW,
+                            .glow = 1.0f,
+                            .shade = {1.0f, 0.45f, 0.12f, 0.32f * (float)strength * flicker}};
     particles_add(list, &glow);
 }
 
@@ -155,7 +161,7 @@ void smoke_entity(struct draw_list *list, const struct frame_view *frame_view,
                  thick = {0.20f, 0.19f, 0.18f, THICK_SMOKE};
     struct vec3 top = {at.x, at.y + 0.5 * kind->height_m, at.z};
     double size = 0.3 * kind->radius_m;
-    /* What it gave off before its damage grew still hangs in the air, thinner. */
+    /* Smoke from before the damage grew is still in the air, and thinner. */
     smoke_column(list, top, size, began_s, changed_s, thin, e->id[slot]);
     if (dead)
         wreck(list, kind, at, changed_s, e->id[slot]);

@@ -1,6 +1,5 @@
-/* What moving things leave behind and stir up: dust by the ground's cover, wakes, missiles' smoke,
- * tracers, the wash of rotors. It lies along the way that they came, and stays where it was left.
- */
+/* Particles that moving entities leave behind: dust by cover, wakes, missile smoke, tracers, and
+ * the wash of rotors. They lie along the entity's trail. */
 #include "renderer/scene/particles/trails.h"
 
 #include "renderer/scene/particles/particles.h"
@@ -8,14 +7,14 @@
 
 #include <math.h>
 
-#define MIN_PIXELS     0.3  /* what never grows larger is not looked for */
-#define BEHIND_M       60.0 /* so far from where it is what it leaves may begin */
-#define MORE           1.25 /* of a row's share: between two points it may be faster than at them */
-#define OVERLAP        0.9  /* half a puff's length over the distance to the next */
+#define MIN_PIXELS     0.3  /* smaller trails are left out */
+#define BEHIND_M       60.0 /* largest offset of a trail's particles from the entity */
+#define MORE           1.25 /* margin: an entity may be faster between two points */
+#define OVERLAP        0.9  /* half length of a particle over the distance to the next */
 #define DUST_MIN_MPS   2.5
 #define DUST_LIFE_S    2.8
 #define DUST_HZ        9.0
-#define DUST_HIGH_M    1.5 /* wheels higher than this over the ground raise none */
+#define DUST_HIGH_M    1.5 /* wheels higher above the ground raise no dust */
 #define WAKE_MIN_MPS   1.0
 #define WAKE_LIFE_S    15.0
 #define WAKE_HZ        6.0
@@ -23,31 +22,31 @@
 #define BOW_HZ         7.0
 #define SMOKE_LIFE_S   3.6
 #define SMOKE_HZ       30.0
-#define TRACER_PIXELS  0.7f  /* a tracer is never thinner: light is seen from afar */
-#define TRACER_S       0.013 /* half of what it flies while the eye sees one streak */
+#define TRACER_PIXELS  0.7f  /* tracers are never thinner, because light is visible from afar */
+#define TRACER_S       0.013 /* half the time that the eye sees as one streak */
 #define TRACER_REACH_M 30.0f
-#define WASH_DISCS     1.6 /* a rotor stirs up what is within so many radii below it */
+#define WASH_DISCS     1.6 /* a rotor has an effect within this many radii below it */
 #define WASH_HZ        14.0
 #define RAISED_M       3.0
 #define WASH_LIFE_S    1.6
 
-/* What one thing gives off along its way. */
+/* The trail of one entity. */
 struct trail {
     const struct motion_trail *history;
     struct motion_trail_point now;
-    double born_s; /* nothing is older */
+    double born_s; /* emission starts then */
     double rate_hz, life_s;
-    double size_m, growth; /* radius at first, and how many times that more at the end */
-    double settle_mps;     /* how fast it goes along with the wind: a share of it */
+    double size_m, growth; /* radius at first; its relative growth over life_s */
+    double settle_mps;     /* speed with the wind, as a share of the wind's */
     uint32_t seed;
 };
 
-/* A puff of a trail, placed but not yet coloured. */
-struct left {
-    struct spot spot;
-    struct vec3 velocity; /* [m/s] of what left it */
-    double t;             /* 0..1 of its life */
-    double drift;         /* [s] so long with the wind */
+/* A particle of a trail without its colour. */
+struct trail_particle {
+    struct particle particle;
+    struct vec3 velocity; /* [m/s] of the emitter */
+    double t;             /* age over life, 0..1 */
+    double drift;         /* [s] time of drifting with the wind */
     uint32_t n;
     float weight;
 };
@@ -60,18 +59,19 @@ static struct motion_trail_point point_of(const struct entities *e, uint32_t slo
     return point;
 }
 
-/* Its numbers that may show; none when it was too slow to leave anything. */
-static struct row trail_row(const struct draw_list *list, const struct trail *trail,
-                            double least_mps)
+/* Returns the numbers that may be visible; none if the entity was too slow. */
+static struct particle_sequence trail_sequence(const struct draw_list *list,
+                                               const struct trail *trail, double least_mps)
 {
-    const struct row none = {.last = -1, .step = 1};
+    const struct particle_sequence none = {.last = -1, .step = 1};
     struct vec3 at = {(double)trail->now.at[0], (double)trail->now.at[1], (double)trail->now.at[2]};
     double from_s = maths_max(trail->born_s, list->time_s - trail->life_s);
     double speed = motion_trail_fastest_mps(trail->history, &trail->now, from_s);
     if (speed < least_mps)
         return none;
     double length = speed * (list->time_s - from_s);
-    /* Its nearest end may be anywhere: what is too dense for the one is sorted out by weight. */
+    /* The nearest end of the trail may be anywhere, so the share is that for the nearest possible
+     * distance. The opacity thins out the rest. */
     double nearest = maths_max(0.0, particles_distance_m(list, at) - length);
     double largest = trail->size_m * (1.0 + trail->growth);
     float place[3], reach = (float)(1.2 * length + 2.0 * largest + BEHIND_M);
@@ -80,40 +80,42 @@ static struct row trail_row(const struct draw_list *list, const struct trail *tr
         !frustum_ball(&list->frustum, place, reach))
         return none;
     double spacing = particles_spacing_m(list, trail->size_m, nearest);
-    return row_of(trail->seed, trail->rate_hz, from_s, maths_min(trail->now.time_s, list->time_s),
-                  MORE * speed / (spacing * trail->rate_hz));
+    return particle_sequence_of(trail->seed, trail->rate_hz, from_s,
+                                maths_min(trail->now.time_s, list->time_s),
+                                MORE * speed / (spacing * trail->rate_hz));
 }
 
-/* False when there is no such puff. */
-static bool trail_left(const struct draw_list *list, const struct trail *trail,
-                       const struct row *row, int64_t number, struct left *left)
+/* Places a particle. Returns false if it is not visible. */
+static bool place_particle(const struct draw_list *list, const struct trail *trail,
+                           const struct particle_sequence *sequence, int64_t number,
+                           struct trail_particle *placed)
 {
-    double time_s = row_time_s(row, number), age = list->time_s - time_s;
+    double time_s = particle_sequence_time_s(sequence, number), age = list->time_s - time_s;
     struct motion_trail_point was = motion_trail_at(trail->history, &trail->now, time_s);
     struct vec3 velocity = {(double)was.velocity[0], (double)was.velocity[1],
                             (double)was.velocity[2]};
     double speed = vec3_length(velocity), drift = age * trail->settle_mps;
-    *left = (struct left){
+    *placed = (struct trail_particle){
         .t = age / trail->life_s, .drift = drift, .n = (uint32_t)number, .velocity = velocity};
-    if (speed <= 0.0 || left->t < 0.0 || left->t > 1.0)
+    if (speed <= 0.0 || placed->t < 0.0 || placed->t > 1.0)
         return false;
-    double size = trail->size_m * (1.0 + trail->growth * left->t);
+    double size = trail->size_m * (1.0 + trail->growth * placed->t);
     struct vec3 at = {(double)was.at[0] + WIND_X * drift, (double)was.at[1],
                       (double)was.at[2] + WIND_Z * drift};
     double spacing = particles_spacing_m(list, size, particles_distance_m(list, at));
-    left->weight = row_weight(number, speed / (spacing * trail->rate_hz));
+    placed->weight = particle_sequence_weight(number, speed / (spacing * trail->rate_hz));
     spacing = maths_max(spacing, speed / trail->rate_hz);
-    /* Each leans its own way, or they would look like one again and again. */
-    double tilt = 1.6 * size * ((double)luck(trail->seed, left->n, 31) - 0.5);
+    /* Each is tilted at random, because equal particles look artificial. */
+    double tilt = 1.6 * size * ((double)particle_random(trail->seed, placed->n, 31) - 0.5);
     struct vec3 along = vec3_scale(velocity, maths_max(size, OVERLAP * spacing) / speed);
     along.y += tilt;
-    left->spot = (struct spot){
+    placed->particle = (struct particle){
         .at = at,
         .along = along,
-        .size_m = size * (0.85 + 0.3 * (double)luck(trail->seed, left->n, 10)),
-        .picture = smoke_picture(trail->seed, left->n),
+        .size_m = size * (0.85 + 0.3 * (double)particle_random(trail->seed, placed->n, 10)),
+        .picture = smoke_picture(trail->seed, placed->n),
     };
-    return left->weight > 0.0f;
+    return placed->weight > 0.0f;
 }
 
 /* --- on land ---------------------------------------------------------------------------------- */
@@ -132,37 +134,37 @@ static void dust(struct draw_list *list, const struct frame_view *frame_view,
                           .growth = 2.4,
                           .settle_mps = 0.6,
                           .seed = e->id[slot]};
-    struct row row = trail_row(list, &trail, DUST_MIN_MPS);
-    struct left left;
-    for (int64_t number = row.first; number <= row.last; number += row.step) {
-        if (!trail_left(list, &trail, &row, number, &left))
+    struct particle_sequence sequence = trail_sequence(list, &trail, DUST_MIN_MPS);
+    struct trail_particle placed;
+    for (int64_t number = sequence.first; number <= sequence.last; number += sequence.step) {
+        if (!place_particle(list, &trail, &sequence, number, &placed))
             continue;
-        double speed = vec3_length(left.velocity), wheels = left.spot.at.y;
-        struct spot *particle = &left.spot;
-        /* From either track in turn. */
-        double side =
-            0.36 * kind->width_m * ((double)luck(trail.seed, left.n, 9) < 0.5 ? -1.0 : 1.0);
+        double speed = vec3_length(placed.velocity), wheels = placed.particle.at.y;
+        struct particle *particle = &placed.particle;
+        /* Particles come from the left or the right track at random. */
+        double side = 0.36 * kind->width_m *
+                      ((double)particle_random(trail.seed, placed.n, 9) < 0.5 ? -1.0 : 1.0);
         particle->at.x +=
-            (-left.velocity.z * side - 0.42 * kind->length_m * left.velocity.x) / speed;
+            (-placed.velocity.z * side - 0.42 * kind->length_m * placed.velocity.x) / speed;
         particle->at.z +=
-            (left.velocity.x * side - 0.42 * kind->length_m * left.velocity.z) / speed;
+            (placed.velocity.x * side - 0.42 * kind->length_m * placed.velocity.z) / speed;
         double ground =
             terrain_height(terrain, frame_view->craters, particle->at.x, particle->at.z);
-        particle->shade = dust_of(terrain_cover(terrain, particle->at.x - left.drift * WIND_X,
-                                                particle->at.z - left.drift * WIND_Z));
-        particle->at.y = ground + (0.6 + 0.2 * left.t) * particle->size_m;
+        particle->shade = dust_shade(terrain_cover(terrain, particle->at.x - placed.drift * WIND_X,
+                                                   particle->at.z - placed.drift * WIND_Z));
+        particle->at.y = ground + (0.6 + 0.2 * placed.t) * particle->size_m;
         double thick = maths_clamp((speed - DUST_MIN_MPS) / 10.0, 0.0, 1.0) *
                        maths_clamp(DUST_HIGH_M + ground - wheels, 0.0, 1.0);
-        particle->shade.a *= 0.65f * left.weight *
-                             (float)(thick * (1.0 - left.t) * (1.0 - left.t)) *
-                             come_and_go(left.t, 0.05, 2.0, 1.0);
+        particle->shade.a *= 0.65f * placed.weight *
+                             (float)(thick * (1.0 - placed.t) * (1.0 - placed.t)) *
+                             fade_in_out(placed.t, 0.05, 2.0, 1.0);
         particles_add(list, particle);
     }
 }
 
 /* --- on water --------------------------------------------------------------------------------- */
 
-/* Foam on the water; side: -1, 1 a wave of the bow, which spreads, 0 what the screws leave. */
+/* Draws foam. side: -1, 1 for the bow waves, which spread; 0 for the wake of the screws. */
 static void foam(struct draw_list *list, const struct frame_view *frame_view,
                  const struct motion_trail *history, uint32_t slot, const struct kind *kind,
                  int32_t side)
@@ -176,24 +178,24 @@ static void foam(struct draw_list *list, const struct frame_view *frame_view,
                           .size_m = (side == 0 ? 0.26 : 0.12) * kind->width_m,
                           .growth = side == 0 ? 1.8 : 3.2,
                           .seed = e->id[slot] * 3u + (uint32_t)(side + 1)};
-    struct row row = trail_row(list, &trail, WAKE_MIN_MPS);
-    struct left left;
-    for (int64_t number = row.first; number <= row.last; number += row.step) {
-        if (!trail_left(list, &trail, &row, number, &left))
+    struct particle_sequence sequence = trail_sequence(list, &trail, WAKE_MIN_MPS);
+    struct trail_particle placed;
+    for (int64_t number = sequence.first; number <= sequence.last; number += sequence.step) {
+        if (!place_particle(list, &trail, &sequence, number, &placed))
             continue;
-        double speed = vec3_length(left.velocity), age = left.t * trail.life_s;
+        double speed = vec3_length(placed.velocity), age = placed.t * trail.life_s;
         double along = (side == 0 ? -0.46 : 0.34) * kind->length_m;
         double apart = side * (0.34 * kind->width_m + 0.16 * speed * age);
-        struct spot *particle = &left.spot;
-        particle->at.x += (along * left.velocity.x - apart * left.velocity.z) / speed;
-        particle->at.z += (along * left.velocity.z + apart * left.velocity.x) / speed;
+        struct particle *particle = &placed.particle;
+        particle->at.x += (along * placed.velocity.x - apart * placed.velocity.z) / speed;
+        particle->at.z += (along * placed.velocity.z + apart * placed.velocity.x) / speed;
         particles_lay(
             list, particle,
             terrain_base_height(&frame_view->world->terrain, particle->at.x, particle->at.z));
         particle->shade = (struct shade){0.88f, 0.93f, 0.95f, side == 0 ? 0.55f : 0.50f};
-        particle->shade.a *= left.weight * (float)((1.0 - left.t) * (1.0 - left.t)) *
+        particle->shade.a *= placed.weight * (float)((1.0 - placed.t) * (1.0 - placed.t)) *
                              (float)maths_clamp((speed - WAKE_MIN_MPS) / 4.0, 0.0, 1.0) *
-                             come_and_go(left.t, 0.06, 2.0, 1.0);
+                             fade_in_out(placed.t, 0.06, 2.0, 1.0);
         particles_add(list, particle);
     }
 }
@@ -202,18 +204,18 @@ static void foam(struct draw_list *list, const struct frame_view *frame_view,
 
 static void missile_smoke(struct draw_list *list, const struct trail *trail)
 {
-    struct row row = trail_row(list, trail, WAKE_MIN_MPS);
-    struct left left;
-    for (int64_t number = row.first; number <= row.last; number += row.step) {
-        if (!trail_left(list, trail, &row, number, &left))
+    struct particle_sequence sequence = trail_sequence(list, trail, WAKE_MIN_MPS);
+    struct trail_particle placed;
+    for (int64_t number = sequence.first; number <= sequence.last; number += sequence.step) {
+        if (!place_particle(list, trail, &sequence, number, &placed))
             continue;
-        double curl = 0.8 * left.spot.size_m * left.t;
-        left.spot.at.x += curl * ((double)luck(trail->seed, left.n, 20) - 0.5);
-        left.spot.at.y += curl * ((double)luck(trail->seed, left.n, 21) - 0.5);
-        left.spot.at.z += curl * ((double)luck(trail->seed, left.n, 22) - 0.5);
-        left.spot.shade = (struct shade){0.93f, 0.92f, 0.90f, 0.75f * left.weight};
-        left.spot.shade.a *= (float)((1.0 - left.t) * (1.0 - 0.5 * left.t));
-        particles_add(list, &left.spot);
+        double curl = 0.8 * placed.particle.size_m * placed.t;
+        placed.particle.at.x += curl * ((double)particle_random(trail->seed, placed.n, 20) - 0.5);
+        placed.particle.at.y += curl * ((double)particle_random(trail->seed, placed.n, 21) - 0.5);
+        placed.particle.at.z += curl * ((double)particle_random(trail->seed, placed.n, 22) - 0.5);
+        placed.particle.shade = (struct shade){0.93f, 0.92f, 0.90f, 0.75f * placed.weight};
+        placed.particle.shade.a *= (float)((1.0 - placed.t) * (1.0 - 0.5 * placed.t));
+        particles_add(list, &placed.particle);
     }
 }
 
@@ -242,7 +244,7 @@ static void missile(struct draw_list *list, const struct frame_view *frame_view,
     float flicker =
         0.85f + 0.15f * value_noise_value(list->time_s * 23.0, (double)(trail.seed % 4096u), 8);
     for (uint32_t core = 0; core < 2; core++) {
-        struct spot burner = {
+        struct particle burner = {
             .at = vec3_add(entities_position(e, slot), vec3_scale(velocity, -1.3 * half / speed)),
             .along = vec3_scale(velocity, (core ? 0.5 : 1.0) * half / speed),
             .size_m = core ? 0.35 : 1.1,
@@ -254,7 +256,7 @@ static void missile(struct draw_list *list, const struct frame_view *frame_view,
     }
 }
 
-/* A streak of light, with a white core in a halo. */
+/* Draws a streak of light with a white core and a halo. */
 static void tracer(struct draw_list *list, const struct entities *e, uint32_t slot,
                    const struct kind *kind)
 {
@@ -270,7 +272,7 @@ static void tracer(struct draw_list *list, const struct entities *e, uint32_t sl
     for (uint32_t core = 0; core < 2; core++) {
         double size = maths_max(width * (core ? 0.45 : 1.6),
                                 (double)TRACER_PIXELS * (core ? 1.0 : 2.0) * pixel_m);
-        struct spot streak = {
+        struct particle streak = {
             .at = at,
             .along = vec3_scale(velocity, half * (core ? 0.8 : 1.0) / speed),
             .size_m = size,
@@ -281,7 +283,7 @@ static void tracer(struct draw_list *list, const struct entities *e, uint32_t sl
     }
 }
 
-/* What wind raises around a place, spray on water; smoothly from one cover to the next. */
+/* Returns the colour of dust, or spray on water, around a place, as a mean of four points. */
 static struct shade raised_at(const struct terrain *terrain, double x, double z)
 {
     struct shade sum = {0.0f, 0.0f, 0.0f, 0.0f};
@@ -289,7 +291,7 @@ static struct shade raised_at(const struct terrain *terrain, double x, double z)
         enum cover cover = terrain_cover(terrain, x + (i & 1 ? RAISED_M : -RAISED_M),
                                          z + (i & 2 ? RAISED_M : -RAISED_M));
         struct shade one =
-            cover_is_water(cover) ? (struct shade){0.90f, 0.94f, 0.96f, 0.8f} : dust_of(cover);
+            cover_is_water(cover) ? (struct shade){0.90f, 0.94f, 0.96f, 0.8f} : dust_shade(cover);
         sum.r += 0.25f * one.r;
         sum.g += 0.25f * one.g;
         sum.b += 0.25f * one.b;
@@ -298,9 +300,9 @@ static struct shade raised_at(const struct terrain *terrain, double x, double z)
     return sum;
 }
 
-/* A ring of dust, or of spray, that a rotor near the ground drives outwards. */
-static void wash(struct draw_list *list, const struct frame_view *frame_view, uint32_t slot,
-                 const struct kind *kind)
+/* Draws a ring of dust or spray that a rotor near the ground drives outwards. */
+static void rotor_wash(struct draw_list *list, const struct frame_view *frame_view, uint32_t slot,
+                       const struct kind *kind)
 {
     const struct entities *e = frame_view->entities;
     const struct terrain *terrain = &frame_view->world->terrain;
@@ -309,28 +311,29 @@ static void wash(struct draw_list *list, const struct frame_view *frame_view, ui
     float place[3];
     draw_list_relative(list, at, place);
     if (kind->min_speed_mps > 0.0 || !frustum_ball(&list->frustum, place, (float)(4.0 * radius)))
-        return; /* it has wings, or is out of the picture */
+        return; /* fixed wings, or out of view */
     double above = at.y - terrain_height(terrain, frame_view->craters, at.x, at.z);
     double strength = maths_clamp(1.0 - above / (WASH_DISCS * radius), 0.0, 1.0);
     if (strength <= 0.0)
         return;
-    struct row row = row_of(e->id[slot], WASH_HZ, list->time_s - WASH_LIFE_S, list->time_s,
-                            particles_share(list, radius, at));
-    for (int64_t number = row.first; number <= row.last; number += row.step) {
+    struct particle_sequence sequence =
+        particle_sequence_of(e->id[slot], WASH_HZ, list->time_s - WASH_LIFE_S, list->time_s,
+                             particles_share(list, radius, at));
+    for (int64_t number = sequence.first; number <= sequence.last; number += sequence.step) {
         uint32_t n = (uint32_t)number, seed = e->id[slot];
-        double t = (list->time_s - row_time_s(&row, number)) / WASH_LIFE_S;
-        double turn = TWO_PI * (double)luck(seed, n, 23), sine, cosine;
+        double t = (list->time_s - particle_sequence_time_s(&sequence, number)) / WASH_LIFE_S;
+        double turn = TWO_PI * (double)particle_random(seed, n, 23), sine, cosine;
         maths_sincos(turn, &sine, &cosine);
         double out = radius * (0.35 + 1.7 * t * (1.4 - 0.4 * t));
-        struct spot particle = {.at = {at.x + out * cosine, 0.0, at.z + out * sine},
-                                .size_m = radius * (0.16 + 0.34 * t),
-                                .picture = smoke_picture(seed, n),
-                                .turn_rad = luck_turn(seed, n, 24)};
+        struct particle particle = {.at = {at.x + out * cosine, 0.0, at.z + out * sine},
+                                    .size_m = radius * (0.16 + 0.34 * t),
+                                    .picture = smoke_picture(seed, n),
+                                    .turn_rad = particle_random_angle(seed, n, 24)};
         particle.shade = raised_at(terrain, particle.at.x, particle.at.z);
         particle.at.y = terrain_height(terrain, frame_view->craters, particle.at.x, particle.at.z) +
                         (0.6 + 0.3 * t) * particle.size_m;
-        particle.shade.a *= 0.8f * (float)(strength * (1.0 - t)) * come_and_go(t, 0.15, 2.0, 1.0) *
-                            row_weight(number, particles_share(list, radius, at));
+        particle.shade.a *= 0.8f * (float)(strength * (1.0 - t)) * fade_in_out(t, 0.15, 2.0, 1.0) *
+                            particle_sequence_weight(number, particles_share(list, radius, at));
         particles_add(list, &particle);
     }
 }
@@ -347,7 +350,7 @@ void trails_entity(struct draw_list *list, const struct frame_view *frame_view,
             foam(list, frame_view, history, slot, kind, side);
         break;
     case DOMAIN_AIR:
-        wash(list, frame_view, slot, kind);
+        rotor_wash(list, frame_view, slot, kind);
         break;
     case DOMAIN_MUNITION:
         if (kind->guidance == GUIDANCE_HOMING)
@@ -360,8 +363,8 @@ void trails_entity(struct draw_list *list, const struct frame_view *frame_view,
     }
 }
 
-void trails_left(struct draw_list *list, const struct frame_view *frame_view,
-                 const struct motion_trails *histories)
+void trails_ended(struct draw_list *list, const struct frame_view *frame_view,
+                  const struct motion_trails *histories)
 {
     const struct entities *e = frame_view->entities;
     for (uint32_t slot = 0; slot < MOTION_TRAILS_SLOTS && slot < frame_view->head->used; slot++) {

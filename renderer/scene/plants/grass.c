@@ -1,4 +1,4 @@
-/* Blocks of tufts, kept in a table by their place. */
+/* Blocks of clumps, in a table by position. */
 #include "renderer/scene/plants/grass.h"
 
 #include "renderer/scene/draw_list/draw_list.h"
@@ -9,29 +9,29 @@
 #include <math.h>
 #include <stdlib.h>
 
-#define CELL_M        2.6 /* one tuft at most */
+#define CELL_M        2.6 /* one clump at most */
 #define BLOCK_CELLS   16  /* a side */
 #define BLOCK_M       (BLOCK_CELLS * CELL_M)
-#define TABLE_SIDE    16u   /* blocks; a power of two, more than the range is wide */
-#define FADE          0.35f /* share of the range over which tufts thin out */
-#define GROWN         8.0f  /* over this part of that each grows from nothing */
-#define ROADS_MAX     32u   /* pieces of road near a block */
-#define ROAD_CLEAR_M  6.0   /* no tufts within this of a road's middle */
-#define CRATER_MIN    -0.05 /* [m] dug deeper than this, nothing grows */
-#define CLUMP_REACH_M 2.0f  /* a ball of it holds any tuft */
+#define TABLE_SIDE    16u   /* blocks a side; a power of two, more than the range */
+#define FADE          0.35f /* share of the range over which clumps thin out */
+#define GROWN         8.0f  /* each grows from nothing over 1 / GROWN of that */
+#define ROADS_MAX     32u   /* road segments near a block */
+#define ROAD_CLEAR_M  6.0   /* no clumps within this of a road's middle */
+#define CRATER_MIN    -0.05 /* [m] nothing grows where the ground was dug deeper */
+#define CLUMP_REACH_M 2.0f  /* radius of a ball around any clump */
 
 struct grass_clump {
-    struct draw_list_plant plant; /* at: from the block's middle [m] */
-    float until;                  /* shown while less of the tufts than this are left out, 0..1 */
+    struct draw_list_plant plant; /* at: relative to the block's centre [m] */
+    float until;                  /* 0..1: shown while a smaller share of the clumps is left out */
 };
 
 struct block {
     bool made;
     int32_t column, row;
-    uint32_t craters; /* of the world, that it knows of */
+    uint32_t craters; /* number of craters considered */
     uint32_t count;
     struct vec3 middle; /* [m, world] */
-    float reach;        /* a ball about the middle holds all of it */
+    float reach;        /* radius of a ball around the block */
     struct grass_clump clump[BLOCK_CELLS * BLOCK_CELLS];
 };
 
@@ -83,7 +83,7 @@ static bool on_road(const struct road_pieces *pieces, double x, double z)
     return false;
 }
 
-/* Share of the places that bear a tuft, by cover. */
+/* Returns the share of the cells of a cover that bear a clump. */
 static float clump_share(enum cover cover, float luck)
 {
     switch (cover) {
@@ -99,8 +99,8 @@ static float clump_share(enum cover cover, float luck)
     }
 }
 
-static void describe(struct grass_clump *clump, enum cover cover, float luck, int32_t column,
-                     int32_t row)
+static void choose_look(struct grass_clump *clump, enum cover cover, float luck, int32_t column,
+                        int32_t row)
 {
     bool woody = cover == COVER_CHAPARRAL || cover == COVER_FOREST;
     bool brush = value_noise_unit(column, row, 25) < (woody ? 0.6f : 0.06f);
@@ -132,7 +132,7 @@ static void add_clump(struct block *block, const struct world *world,
     if (dug < CRATER_MIN)
         return;
     struct grass_clump *clump = &block->clump[block->count++];
-    describe(clump, cover, luck, column, row);
+    choose_look(clump, cover, luck, column, row);
     clump->until = draw / share;
     clump->plant.at[0] = (float)(x - block->middle.x);
     clump->plant.at[1] =
@@ -163,11 +163,11 @@ static void make_block(struct block *block, const struct world *world,
     block->reach += (float)BLOCK_M * 0.75f + CLUMP_REACH_M; /* half a diagonal is 0.71 sides */
 }
 
-/* Has a crater come into the block since it was made? */
+/* Returns true if a crater has reached into the block since it was made. */
 static bool dug_since(struct block *block, const struct crater_index *craters)
 {
     uint32_t count = craters != NULL ? craters->count : 0;
-    bool anew = count < block->craters; /* another world's list */
+    bool anew = count < block->craters; /* the list of another world */
     for (uint32_t i = block->craters; i < count && !anew; i++) {
         const struct crater *crater = &craters->craters[i];
         double near = CRATER_RIM * (double)crater->radius_m + 0.5 * BLOCK_M;

@@ -1,6 +1,6 @@
-/* Grass and brush near the eye that are looks alone: too low to stop anything, they are no objects
- * of the world. Made by blocks of ground and kept as long as the eye is near: what a block bears
- * depends on its place and on the craters in it, never on when it was made. Pure. */
+/* Grass and brush near the eye, for looks only: it is too low to stop anything and is not part of
+ * the world. It is made in blocks of ground, which are kept while the eye is near. The contents of
+ * a block depend only on its position and on the craters in it. Pure. */
 #ifndef JOLON_RENDERER_SCENE_PLANTS_GRASS_H
 #define JOLON_RENDERER_SCENE_PLANTS_GRASS_H
 
@@ -14,12 +14,12 @@ struct draw_list_plant;
 struct grass;
 struct world;
 
-/* NULL when there is no memory. */
+/* Returns NULL if there is no memory. */
 struct grass *grass_new(void);
 void grass_free(struct grass *grass);
 
-/* Writes those in view of the scene's camera to plants; how many, at most room. How far they reach
- * goes with the scene's detail. */
+/* Writes the clumps in the camera's view to plants and returns their number, at most room. The
+ * range depends on the draw list's detail. */
 uint32_t grass_show(struct grass *grass, const struct draw_list *list, const struct world *world,
                     const struct crater_index *craters, struct draw_list_plant *plants,
                     uint32_t room);

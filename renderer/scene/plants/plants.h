@@ -5,7 +5,7 @@
 #include "renderer/scene/draw_list/draw_list.h"
 #include "renderer/scene/draw_list/static_scene.h"
 
-/* Adds the plants in view to the scene. */
+/* Adds the plants in view to the draw list. */
 void plants_add(struct draw_list *list, const struct static_scene *static_scene,
                 const struct frame_view *frame_view);
 

@@ -33,8 +33,9 @@ static void near_segment(const struct block *block, double ax, double az, double
         }
 }
 
-bool nearby_roads_near(const struct world *world, double x, double z, double step_m,
-                       uint32_t columns, uint32_t rows, uint32_t stride, double reach_m, float *off)
+bool nearby_roads_distances(const struct world *world, double x, double z, double step_m,
+                            uint32_t columns, uint32_t rows, uint32_t stride, double reach_m,
+                            float *off)
 {
     struct block block = {x, z, step_m, reach_m, columns, rows, stride, off};
     double x0 = x - reach_m, x1 = x + step_m * columns + reach_m;

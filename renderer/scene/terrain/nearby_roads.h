@@ -7,11 +7,12 @@
 
 struct world;
 
-/* Fills off[row * stride + column] with how far [m] each texel is from the middle of the nearest
- * road, or with more than reach_m where none is so near. The first texel lies at (x, z), the others
- * are step_m apart. False, and off untouched, when no road is near any. */
-bool nearby_roads_near(const struct world *world, double x, double z, double step_m,
-                       uint32_t columns, uint32_t rows, uint32_t stride, double reach_m,
-                       float *off);
+/* Fills off[row * stride + column] with the distance [m] of each texel from the middle of the
+ * nearest road, or with more than reach_m if no road is that near. The first texel is at (x, z),
+ * the others are step_m apart. Returns false and leaves off untouched if no road is near any
+ * texel. */
+bool nearby_roads_distances(const struct world *world, double x, double z, double step_m,
+                            uint32_t columns, uint32_t rows, uint32_t stride, double reach_m,
+                            float *off);
 
 #endif

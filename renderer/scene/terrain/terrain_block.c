@@ -1,4 +1,4 @@
-/* Posts under a block. */
+/* Reads the posts under a block and interpolates them along rows. */
 #include "renderer/scene/terrain/terrain_block.h"
 
 #include "renderer/scene/noise/value_noise.h"
@@ -13,7 +13,8 @@ static float smooth_step(float low, float high, float v)
     return t * t * (3.0f - 2.0f * t);
 }
 
-/* The cover of a post; roads are painted by their own lines, so a post's COVER_ROAD is grass. */
+/* Returns the cover of a post. Roads are drawn along their lines, so a post's COVER_ROAD is
+ * grass. */
 static uint8_t cover_of(uint8_t cover)
 {
     return cover == COVER_ROAD || cover >= COVER_COUNT ? (uint8_t)COVER_GRASS : cover;
@@ -37,13 +38,13 @@ static void take_post(struct terrain_block *block, const struct terrain *terrain
     block->cover[row][column] = cover_of((uint8_t)terrain_cover(terrain, x, z));
 }
 
-/* A cell's corners and all the posts around them. */
-static void find_whole(struct terrain_block *block)
+/* Finds the cells whose corners and all posts around them have one cover. */
+static void find_uniform(struct terrain_block *block)
 {
     uint32_t last = block->posts - 2;
-    memset(block->whole, TERRAIN_BLOCK_MIXED, sizeof block->whole);
+    memset(block->uniform, TERRAIN_BLOCK_MIXED, sizeof block->uniform);
     for (uint32_t row = 1; row < last; row++) {
-        uint32_t same = 0; /* columns so far that are of one cover, each over four posts */
+        uint32_t same = 0; /* number of columns so far that have one cover over four posts */
         for (uint32_t column = 0; column < block->posts; column++) {
             uint8_t cover = block->cover[row][column];
             bool one = cover == block->cover[row - 1][column] &&
@@ -52,12 +53,12 @@ static void find_whole(struct terrain_block *block)
             bool goes_on = column > 0 && cover == block->cover[row][column - 1];
             same = !one ? 0 : goes_on ? same + 1 : 1;
             if (same >= 4)
-                block->whole[row][column - 2] = cover;
+                block->uniform[row][column - 2] = cover;
         }
     }
 }
 
-/* What water there is, and how high it stands: of a sea and a lake the sea, which has tides. */
+/* Finds the water and its level. If there are a sea and a lake, the level is that of the sea. */
 static void find_water(struct terrain_block *block)
 {
     block->sea = block->wet = false;
@@ -115,7 +116,7 @@ void terrain_block_open(struct terrain_block *block, const struct terrain *terra
     for (uint32_t row = 0; row < block->posts; row++)
         for (uint32_t column = 0; column < block->posts; column++)
             take_post(block, terrain, column, row);
-    find_whole(block);
+    find_uniform(block);
     count_water(block);
 }
 
@@ -141,7 +142,7 @@ static float between(float a, float b, float t)
     return a + (b - a) * t;
 }
 
-/* Along the row, on the two triangles of each cell. */
+/* Interpolates heights along the row, on the two triangles of each cell. */
 static void spread_heights(const struct terrain_block *block, float *height)
 {
     const float *north = block->height[block->row], *south = block->height[block->row + 1];
@@ -173,7 +174,7 @@ void terrain_block_ground(const struct terrain_block *block, float *height, floa
 void terrain_block_covers(const struct terrain_block *block, uint8_t *covers)
 {
     for (uint32_t i = 0; i < block->columns; i++)
-        covers[i] = block->whole[block->row][block->at[i]];
+        covers[i] = block->uniform[block->row][block->at[i]];
 }
 
 void terrain_block_water(const struct terrain_block *block, float *water)
@@ -190,7 +191,7 @@ void terrain_block_shares(const struct terrain_block *block, uint32_t column, fl
 {
     double x = block->column_x[column] + (double)move_x, z = block->row_z + (double)move_z;
     int32_t c = value_noise_floor(x), r = value_noise_floor(z);
-    /* Steeper than linear: a border is some metres wide, not a whole cell. */
+    /* The ramp is steeper than linear: a border is some metres wide, not a whole cell. */
     float u = smooth_step(0.25f, 0.75f, (float)(x - c));
     float v = smooth_step(0.25f, 0.75f, (float)(z - r));
     for (uint32_t i = 0; i < COVER_COUNT; i++)

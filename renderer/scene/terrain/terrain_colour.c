@@ -1,5 +1,5 @@
-/* Painting the ground, in blocks, row by row: what varies is laid out along a row first, so that
- * one loop does one thing to all of it. Colours are sRGB fractions; light multiplies them. */
+/* Computes ground textures in blocks, row by row. Each property is computed for a whole row at a
+ * time, in a simple loop. Colours are sRGB fractions; light multiplies them. */
 #include "renderer/scene/terrain/terrain_colour.h"
 
 #include "renderer/scene/terrain/terrain_block.h"
@@ -15,11 +15,11 @@
 #define BLOCK TERRAIN_BLOCK_TEXELS
 
 #define ROAD_HALF_M  4.0f /* half a road's width */
-#define ROAD_FADES_M 2.5f /* beyond it, into what lies beside */
-#define ROAD_RUT_M   1.7f /* ruts to each side of the middle */
+#define ROAD_FADES_M 2.5f /* width of the transition to the cover beside it */
+#define ROAD_RUT_M   1.7f /* distance of the ruts from the middle */
 #define ROAD_REACH_M (ROAD_HALF_M + ROAD_FADES_M)
 
-_Static_assert(BLOCK == VALUE_NOISE_COLUMNS_MAX, "a block's rows are rows of grain");
+_Static_assert(BLOCK == VALUE_NOISE_COLUMNS_MAX, "a row of a block fits a row of noise");
 
 struct colour {
     float r, g, b;
@@ -31,24 +31,24 @@ struct texel {
     float water; /* 0..1 */
 };
 
-/* Where a texel lies and how the ground is there. */
+/* The position of a texel and the ground there. */
 struct site {
     float height;
     float slope_x, slope_z;            /* rise a metre to the east, to the south */
-    float broad, middle, fine, finest; /* noise of some 400, 60, 9 and 4 m */
-    float open;                        /* water around, 0..1 */
+    float broad, middle, fine, finest; /* noise of about 400, 60, 9 and 4 m */
+    float open;                        /* share of water around, 0..1 */
     float far;                         /* 1 where texels are larger than trees */
 };
 
-/* A row of sites, and of what becomes of them. */
+/* A row of sites, and the results. */
 struct row {
     float height[BLOCK], slope_x[BLOCK], slope_z[BLOCK];
     float broad[BLOCK], middle[BLOCK], fine[BLOCK], finest[BLOCK], open[BLOCK];
-    float rough_x[BLOCK], rough_z[BLOCK]; /* unevenness that no post holds */
-    float move_x[BLOCK], move_z[BLOCK];   /* of the borders of covers, in cells */
+    float rough_x[BLOCK], rough_z[BLOCK]; /* unevenness between the posts */
+    float move_x[BLOCK], move_z[BLOCK];   /* shift of the borders between covers, in cells */
     float r[BLOCK], g[BLOCK], b[BLOCK], scrub[BLOCK], water[BLOCK], wave[BLOCK], sun[BLOCK];
-    float wash[BLOCK];     /* 1 at the water's very edge */
-    uint8_t covers[BLOCK]; /* or TERRAIN_BLOCK_MIXED */
+    float wash[BLOCK];     /* 1 at the edge of the water */
+    uint8_t covers[BLOCK]; /* enum cover or TERRAIN_BLOCK_MIXED */
 };
 
 enum {
@@ -133,7 +133,7 @@ static float between(float a, float b, float t)
 
 static inline struct texel grass_texel(const struct site *s)
 {
-    /* Slopes that face north keep their water: greener. South slopes and tops bleach. */
+    /* Slopes that face north stay moist and greener. South slopes and summits bleach. */
     float north = clamp01(0.5f + 1.8f * s->slope_z + 0.25f * s->broad);
     float low = clamp01(1.0f - s->height / 700.0f);
     struct colour c = mix(straw, dry, clamp01(0.5f + 0.6f * s->middle + 0.25f * s->fine));
@@ -156,7 +156,8 @@ static inline struct texel chaparral_texel(const struct site *s)
 
 static inline struct texel forest_texel(const struct site *s)
 {
-    /* Far away a wood is its crowns; near by they stand there, and the ground shows. */
+    /* From afar a wood consists of crowns. Near by trees are drawn as plants, and the ground is
+     * visible. */
     struct colour crowns = mix(canopy, canopy_light, clump(s));
     struct colour floor_near =
         mix(mix(litter, olive, 0.35f + 0.3f * s->middle), shrub, 0.60f * clump(s));
@@ -174,7 +175,8 @@ static inline struct texel sand_texel(const struct site *s)
     return (struct texel){mix(sand, dry, clamp01(0.25f + 0.3f * s->middle)), 0.0f, 0.0f};
 }
 
-/* How far the water there is from its shore: 0 at it, 1 where nothing of it shows any more. */
+/* Returns the distance of water from the shore: 0 at the shore, 1 where the bottom is no longer
+ * visible. */
 static inline float off_shore(const struct site *s)
 {
     return clamp01(2.2f * s->open - 1.2f + 0.08f * s->fine);
@@ -229,7 +231,7 @@ static inline void put_texel(struct row *row, uint32_t i, const struct texel *t)
     row->water[i] = t->water;
 }
 
-/* A loop for each cover, which holds nothing else. */
+/* A separate loop for each cover. */
 #define RUN_OF(name)                                                                               \
     static void run_of_##name(struct block *block, uint32_t first, uint32_t end)                   \
     {                                                                                              \
@@ -247,7 +249,7 @@ RUN_OF(sand)
 RUN_OF(sea)
 RUN_OF(lake)
 
-/* The land of mixed covers, from their shares. */
+/* Mixes the land covers by their shares. */
 static struct texel blend(const struct site *site, const float share[COVER_COUNT])
 {
     struct texel sum = {.scrub = 0.0f};
@@ -269,8 +271,8 @@ static struct texel blend(const struct site *site, const float share[COVER_COUNT
     return sum;
 }
 
-/* Where land meets water its height tells which is which: posts are far apart, and a cliff between
- * two of them must not be flooded. Low land is beach, or bare rock where it is steep. */
+/* Where land meets water, the height decides: posts are far apart, and a cliff between two of them
+ * must not be flooded. Low land is beach, or bare rock where it is steep. */
 static void put_shore(struct block *block, uint32_t i, const struct site *site, struct texel *t,
                       bool sea)
 {
@@ -279,7 +281,7 @@ static void put_shore(struct block *block, uint32_t i, const struct site *site, 
     struct colour low = mix(wet_sand, rock_dark, ramp(0.1f, 0.4f, steep));
     struct colour beach = mix(sand, rock, ramp(0.1f, 0.4f, steep));
     float bare = sea ? 1.0f - ramp(2.0f, 5.0f, above) : 0.6f - 0.6f * ramp(0.5f, 1.5f, above);
-    bare *= ramp(0.2f, 0.45f, site->open); /* nothing of it where no post of water is near */
+    bare *= ramp(0.2f, 0.45f, site->open); /* no beach if no post of water is near */
     t->colour = mix(t->colour, mix(low, beach, ramp(0.6f, 1.9f, above)), bare);
     t->scrub *= 1.0f - bare;
     float water = 1.0f - ramp(0.1f, 0.6f, above);
@@ -305,7 +307,7 @@ static void run_mixed(struct block *block, uint32_t first, uint32_t end)
     }
 }
 
-/* One run of one cover after the other. */
+/* Handles one run of equal covers after another. */
 static void colour_row(struct block *block)
 {
     static void (*const run[COVER_COUNT])(struct block *, uint32_t, uint32_t) = {
@@ -330,9 +332,9 @@ static void colour_row(struct block *block)
 
 /* --- roads ------------------------------------------------------------------------------------ */
 
-/* A road where the row meets one: ruts, a crown between them where grass comes through, gravel
- * along the edges. Where a texel is wider than the road it takes the road's share of it, but a road
- * never fades away altogether: people look for roads. */
+/* Draws a road into the row: ruts, grass on the crown between them, gravel along the edges. A texel
+ * wider than the road takes the road's share of it, but roads never fade out completely, because
+ * users look for them. */
 static void lay_roads(struct block *block, uint32_t number, double z)
 {
     struct row *row = &block->now;
@@ -366,7 +368,7 @@ static void lay_roads(struct block *block, uint32_t number, double z)
 
 /* --- light ------------------------------------------------------------------------------------ */
 
-/* Share of the sun's light on the sites, with the small unevenness that no post holds. */
+/* Computes the share of the sun's light, with the unevenness between the posts. */
 static void light_row(struct block *block)
 {
     struct row *row = &block->now;
@@ -418,7 +420,7 @@ static void put_row(const struct block *block, uint32_t number)
 
 /* --- craters ---------------------------------------------------------------------------------- */
 
-/* Lays a colour over a texel, lit as the ground under it is. */
+/* Blends a colour over a texel, lit like the ground there. */
 static void lay(uint8_t *texel, float light, struct colour colour, float share)
 {
     uint8_t lit[3];
@@ -429,8 +431,8 @@ static void lay(uint8_t *texel, float light, struct colour colour, float share)
         (uint8_t)(between((float)texel[3], (float)TERRAIN_COLOUR_GROUND_ALPHA, share) + 0.5f);
 }
 
-/* The part of the sun's light that a crater's own slopes take away or give, at so many radii from
- * its middle along the unit way (x, z). */
+/* Returns the change of the sun's light by a crater's own slopes, at `out` radii from its centre in
+ * the unit direction (x, z). */
 static float crater_light(const struct terrain_colour_tile *tile, const struct crater *crater,
                           float out, float x, float z)
 {
@@ -461,7 +463,7 @@ static void terrain_colour_crater(const struct terrain_colour_tile *tile,
             float dx = (float)(x - crater->x), dz = (float)(z - crater->z);
             float off = sqrtf(dx * dx + dz * dz), out = off / radius;
             float unit_x = off > 0.0f ? dx / off : 0.0f, unit_z = off > 0.0f ? dz / off : 0.0f;
-            /* Rays of thrown earth and of soot. */
+            /* Rays of ejected earth and soot. */
             float ray =
                 value_noise_value((double)unit_x * 3.0 + crater->x, (double)unit_z * 3.0, 81);
             float lump = value_noise_value(x / 0.7, z / 0.7, 82);
@@ -495,15 +497,15 @@ static void open_block(struct block *block, const struct world *world)
     terrain_block_open(&block->terrain, &world->terrain, block->x, block->z, tile->step_m,
                        block->columns, block->rows);
     for (uint32_t i = 0; i < NOISES; i++) {
-        /* Borders move by noise as long as a cell and shorter, by less than a cell in all: the grid
-         * of the posts must not show. */
+        /* Borders are shifted by noise with wavelengths of a cell and less, by less than one cell,
+         * so that the grid of posts does not show. */
         double unit = i >= MOVE_A_X ? block->terrain.cell_m : 1.0;
         value_noise_rows_begin(&block->noise[i], noises[i].wavelength_m * unit, noises[i].seed,
                                block->x, tile->step_m, block->columns);
     }
     block->has_roads =
-        nearby_roads_near(world, block->x, block->z, tile->step_m, block->columns, block->rows,
-                          BLOCK, (double)ROAD_REACH_M + 0.5 * tile->step_m, block->roads);
+        nearby_roads_distances(world, block->x, block->z, tile->step_m, block->columns, block->rows,
+                               BLOCK, (double)ROAD_REACH_M + 0.5 * tile->step_m, block->roads);
 }
 
 static void fill_noise(struct block *block, double z)

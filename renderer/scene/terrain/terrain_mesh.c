@@ -1,4 +1,4 @@
-/* Meshes of right triangles. */
+/* Makes meshes of right triangles. */
 #include "renderer/scene/terrain/terrain_mesh.h"
 
 #include <stdlib.h>
@@ -6,25 +6,25 @@
 
 #define POSTS_MAX (GROUND_CELLS_MAX + 1u)
 #define UNUSED    UINT16_MAX
-#define LEG_EXACT                                                                                  \
-    2 /* [cells] from legs of so many on a triangle's error is measured, not bounded */
+#define LEG_EXACT 2 /* [cells] for longer legs the error is measured */
 
-/* Craters are curved everywhere: a patch that shows them may be off this much of its side. At the
- * deepest level it is 16 mm. */
+/* Craters are curved everywhere, so a patch that shows them has this smaller tolerance, as a share
+ * of its side. At the deepest level it is 16 mm. */
 #define DUG_ERROR (1.0 / 2000.0)
 
-/* Heights of the patch's grid, and what follows from them. */
+/* Heights on the patch's grid, and values derived from them. */
 struct grid {
-    int32_t cells;                                     /* a side */
-    float post[POSTS_MAX * POSTS_MAX];                 /* heights */
-    float centre[GROUND_CELLS_MAX * GROUND_CELLS_MAX]; /* of the true ground amid the cells */
-    float error[POSTS_MAX * POSTS_MAX];     /* of the triangles that a post would divide */
-    uint16_t vertex[POSTS_MAX * POSTS_MAX]; /* of the mesh; UNUSED */
+    int32_t cells;                     /* a side */
+    float post[POSTS_MAX * POSTS_MAX]; /* [m] */
+    float centre[GROUND_CELLS_MAX *
+                 GROUND_CELLS_MAX];         /* [m] true ground in the middle of each cell */
+    float error[POSTS_MAX * POSTS_MAX];     /* [m] of the triangles that the post would divide */
+    uint16_t vertex[POSTS_MAX * POSTS_MAX]; /* index in the mesh; or UNUSED */
     float tolerance;
 };
 
-/* A right triangle between posts: the ends of its long side and its corner. */
-struct right {
+/* A right triangle between posts: the ends of its hypotenuse and its right angle. */
+struct right_triangle {
     int32_t ax, az, bx, bz, cx, cz;
 };
 
@@ -72,29 +72,29 @@ static void fill_heights(struct grid *grid, const struct terrain *terrain,
 
 /* --- errors ----------------------------------------------------------------------------------- */
 
-/* The triangle of a number: 1 is the root of all, 2 and 3 are the halves of the square, and the
- * halves of triangle n are 2n and 2n + 1. */
-static struct right right_of(uint32_t number, int32_t cells)
+/* Returns the triangle with this number: 1 is the root, 2 and 3 are the halves of the square, and
+ * the halves of triangle n are 2n and 2n + 1. */
+static struct right_triangle right_triangle_of(uint32_t number, int32_t cells)
 {
     uint32_t depth = 31 - (uint32_t)__builtin_clz(number);
-    struct right t = {0, 0, cells, cells, cells, 0};
+    struct right_triangle t = {0, 0, cells, cells, cells, 0};
     if (number >> (depth - 1) & 1)
-        t = (struct right){cells, cells, 0, 0, 0, cells};
+        t = (struct right_triangle){cells, cells, 0, 0, 0, cells};
     for (uint32_t bit = depth - 1; bit-- > 0;) {
         int32_t mx = (t.ax + t.bx) / 2, mz = (t.az + t.bz) / 2;
-        t = number >> bit & 1 ? (struct right){t.bx, t.bz, t.cx, t.cz, mx, mz}
-                              : (struct right){t.cx, t.cz, t.ax, t.az, mx, mz};
+        t = number >> bit & 1 ? (struct right_triangle){t.bx, t.bz, t.cx, t.cz, mx, mz}
+                              : (struct right_triangle){t.cx, t.cz, t.ax, t.az, mx, mz};
     }
     return t;
 }
 
-/* Where the triangle's sides are at a height z, in half cells. */
+/* Widens low..high to where the side is at row z, in half cells. */
 static void side_at(int32_t x0, int32_t z0, int32_t x1, int32_t z1, int32_t z, int32_t *low,
                     int32_t *high)
 {
     if ((z < z0 && z < z1) || (z > z0 && z > z1))
         return;
-    /* Sides are level, upright or diagonal. */
+    /* A side is horizontal, vertical or diagonal. */
     int32_t at = z0 == z1 ? x0 : x0 + (x1 - x0) * (z - z0) / (z1 - z0);
     int32_t other = z0 == z1 ? x1 : at;
     *low = at < *low ? at : *low;
@@ -113,8 +113,9 @@ static float worst_of(const float *heights, int32_t count, float flat, float ris
     return worst;
 }
 
-/* The furthest that the ground is off the triangle, at the posts and the middles of cells in it. */
-static float measured(const struct grid *grid, const struct right *t)
+/* Returns the largest distance of the ground from the triangle, at the posts and at the middles of
+ * cells within it. */
+static float measured_error(const struct grid *grid, const struct right_triangle *t)
 {
     float a = grid->post[post_at(grid, t->ax, t->az)], b = grid->post[post_at(grid, t->bx, t->bz)];
     float c = grid->post[post_at(grid, t->cx, t->cz)];
@@ -144,15 +145,15 @@ static float measured(const struct grid *grid, const struct right *t)
     return worst;
 }
 
-static float middle_off(const struct grid *grid, const struct right *t, uint32_t middle)
+static float middle_error(const struct grid *grid, const struct right_triangle *t, uint32_t middle)
 {
     float a = grid->post[post_at(grid, t->ax, t->az)], b = grid->post[post_at(grid, t->bx, t->bz)];
     return fabsf(0.5f * (a + b) - grid->post[middle]);
 }
 
-/* The worst error of half cells: of the middles of cells, which lie on the long sides. Of cells in
- * a row every second one is cut from the north-east to the south-west. */
-static float half_cells_off(const struct grid *grid)
+/* Returns the largest error of half cells, which is at the middles of cells, on the hypotenuses.
+ * Every second cell of a row is cut from the north-east to the south-west. */
+static float half_cells_error(const struct grid *grid)
 {
     float worst = 0.0f;
     for (int32_t z = 0; z < grid->cells; z++)
@@ -166,14 +167,14 @@ static float half_cells_off(const struct grid *grid)
     return worst;
 }
 
-/* Of every post, the worst error of the triangles that it divides and of all below them: so that a
- * triangle is divided whenever one is that shares its long side. */
+/* Finds for each post the largest error of the triangles that it divides and of all below them. So
+ * two triangles with a common hypotenuse are always divided together. */
 static void find_errors(struct grid *grid)
 {
     memset(grid->error, 0, sizeof grid->error);
     uint32_t halves = 2u * (uint32_t)(grid->cells * grid->cells);
     for (uint32_t number = halves; number-- > 2;) {
-        struct right t = right_of(number, grid->cells);
+        struct right_triangle t = right_triangle_of(number, grid->cells);
         int32_t mx = (t.ax + t.bx) / 2, mz = (t.az + t.bz) / 2;
         uint32_t middle = post_at(grid, mx, mz);
         float below = 0.0f;
@@ -183,7 +184,8 @@ static void find_errors(struct grid *grid)
             below = left > right ? left : right;
         }
         int32_t leg = abs(t.ax - t.cx) + abs(t.az - t.cz);
-        float own = leg > LEG_EXACT ? measured(grid, &t) : middle_off(grid, &t, middle) + below;
+        float own =
+            leg > LEG_EXACT ? measured_error(grid, &t) : middle_error(grid, &t, middle) + below;
         own = own > below ? own : below;
         grid->error[middle] = own > grid->error[middle] ? own : grid->error[middle];
     }
@@ -191,7 +193,7 @@ static void find_errors(struct grid *grid)
 
 /* --- triangles -------------------------------------------------------------------------------- */
 
-/* The mesh's vertex on a post. */
+/* Returns the mesh's vertex on a post. Adds it if necessary. */
 static uint16_t vertex_on(struct grid *grid, struct terrain_mesh *mesh, double step, int32_t x,
                           int32_t z)
 {
@@ -214,14 +216,17 @@ static void add_triangle(struct terrain_mesh *mesh, uint16_t a, uint16_t b, uint
     triangle[2] = c;
 }
 
-/* The triangle, or its halves, or theirs. */
-static void add_right(struct grid *grid, struct terrain_mesh *mesh, double step, struct right t)
+/* Adds the triangle or, if its error is too large, its halves. */
+static void add_right_triangle(struct grid *grid, struct terrain_mesh *mesh, double step,
+                               struct right_triangle t)
 {
     int32_t mx = (t.ax + t.bx) / 2, mz = (t.az + t.bz) / 2;
     bool half_cell = abs(t.ax - t.bx) + abs(t.az - t.bz) == 2 && t.ax != t.bx && t.az != t.bz;
     if (!half_cell && grid->error[post_at(grid, mx, mz)] > grid->tolerance) {
-        add_right(grid, mesh, step, (struct right){t.cx, t.cz, t.ax, t.az, mx, mz});
-        add_right(grid, mesh, step, (struct right){t.bx, t.bz, t.cx, t.cz, mx, mz});
+        add_right_triangle(grid, mesh, step,
+                           (struct right_triangle){t.cx, t.cz, t.ax, t.az, mx, mz});
+        add_right_triangle(grid, mesh, step,
+                           (struct right_triangle){t.bx, t.bz, t.cx, t.cz, mx, mz});
         return;
     }
     uint16_t a = vertex_on(grid, mesh, step, t.ax, t.az);
@@ -229,7 +234,7 @@ static void add_right(struct grid *grid, struct terrain_mesh *mesh, double step,
     add_triangle(mesh, a, b, vertex_on(grid, mesh, step, t.cx, t.cz));
 }
 
-/* Every cell in two, as the world's own ground is. */
+/* Divides every cell in two, like the world's own ground. */
 static void add_cells(struct grid *grid, struct terrain_mesh *mesh, double step)
 {
     for (int32_t z = 0; z < grid->cells; z++)
@@ -241,8 +246,8 @@ static void add_cells(struct grid *grid, struct terrain_mesh *mesh, double step)
         }
 }
 
-/* A curtain below the vertices along one edge, from one corner to the next with the outside on the
- * right hand. */
+/* Adds a skirt below the vertices of one edge, from one corner to the next with the outside on the
+ * right. */
 static void add_skirt(const struct grid *grid, struct terrain_mesh *mesh, float drop, int32_t x,
                       int32_t z, int32_t dx, int32_t dz)
 {
@@ -284,15 +289,15 @@ void terrain_mesh(const struct terrain *terrain, const struct crater_index *crat
 
     double step = side / grid.cells;
     int32_t last = grid.cells;
-    /* The deepest level may be right before the eye. */
+    /* The deepest level may be directly in front of the eye. */
     bool true_ground = patch->level == TERRAIN_QUADTREE_LEVEL_MAX && !dug;
     bool of_posts = step <= terrain->spacing_m && !dug;
-    if (true_ground || (of_posts && half_cells_off(&grid) > grid.tolerance)) {
+    if (true_ground || (of_posts && half_cells_error(&grid) > grid.tolerance)) {
         add_cells(&grid, mesh, step);
     } else {
         find_errors(&grid);
-        add_right(&grid, mesh, step, (struct right){0, 0, last, last, last, 0});
-        add_right(&grid, mesh, step, (struct right){last, last, 0, 0, 0, last});
+        add_right_triangle(&grid, mesh, step, (struct right_triangle){0, 0, last, last, last, 0});
+        add_right_triangle(&grid, mesh, step, (struct right_triangle){last, last, 0, 0, 0, last});
     }
     mesh->top_vertices = mesh->vertex_count;
     mesh->top_triangles = mesh->triangle_count;

@@ -1,16 +1,16 @@
-/* Quadtree selection. */
+/* Selects the patches of ground. */
 #include "renderer/scene/terrain/terrain_quadtree.h"
 
 #include "renderer/scene/noise/value_noise.h"
 
 #include <stdlib.h>
 
-#define RING               1 /* squares of 64 km on each side of the world's own */
+#define RING               1 /* squares of 64 km on each side of the world */
 #define BEYOND_ASIDE       0.6
 #define BEYOND_ASIDE_MAX_M 2600.0
 #define STACK              64 /* depth first: three siblings a level and the roots */
 
-/* Patches of all levels above this one: (4^level - 1) / 3. */
+/* Returns the number of patches of all levels above this one: (4^level - 1) / 3. */
 static size_t range_offset(int32_t level)
 {
     return (((size_t)1 << (2 * level)) - 1) / 3;
@@ -94,13 +94,13 @@ void terrain_quadtree_free(struct terrain_quadtree *ground)
     ground->range = NULL;
 }
 
-/* Outside the square anything of its ground may come up. */
+/* Outside the square the heights may be those of any ground in it. */
 static struct terrain_quadtree_range patch_range(const struct terrain_quadtree *ground,
                                                  const struct terrain_quadtree_patch *patch)
 {
     int32_t level = patch->level, column = patch->column, row = patch->row;
     if (level > TERRAIN_QUADTREE_RANGE_LEVEL) {
-        /* Arithmetic shift rounds down, which is what finds the parent of a negative index. */
+        /* An arithmetic shift rounds down, so it finds the parent of a negative index too. */
         column >>= level - TERRAIN_QUADTREE_RANGE_LEVEL;
         row >>= level - TERRAIN_QUADTREE_RANGE_LEVEL;
         level = TERRAIN_QUADTREE_RANGE_LEVEL;
@@ -117,7 +117,7 @@ static double outside(double value, double low, double high)
     return value < low ? low - value : value > high ? value - high : 0.0;
 }
 
-/* Sets the patch's distance; false when none of it can be seen. */
+/* Sets the patch's distance. Returns false if no part of the patch is in view. */
 static bool patch_seen(const struct terrain_quadtree *ground, const struct camera *camera,
                        struct terrain_quadtree_patch *patch)
 {
@@ -128,7 +128,7 @@ static bool patch_seen(const struct terrain_quadtree *ground, const struct camer
                        outside(camera->eye.y, range.low, range.high),
                        outside(camera->eye.z, z0, z0 + side)};
     patch->distance_m = vec3_length(off);
-    /* Skirts hang lower than the lowest post. */
+    /* Skirts hang below the lowest post. */
     struct vec3 low = {x0, (double)range.low - terrain_quadtree_skirt(patch->level), z0};
     struct vec3 high = {x0 + side, (double)range.high, z0 + side};
     return camera_sees_box(camera, low, high);
@@ -153,7 +153,7 @@ terrain_quadtree_select(const struct terrain_quadtree *ground, const struct came
         struct terrain_quadtree_patch patch = stack[--depth];
         if (!patch_seen(ground, camera, &patch))
             continue;
-        /* The last places are kept for the patches that wait: each yields one at least. */
+        /* Room is kept for the patches on the stack: each yields at least one. */
         bool room = count + depth + 4 <= TERRAIN_QUADTREE_PATCHES_MAX && depth + 4 <= STACK;
         bool near =
             patch.distance_m < TERRAIN_QUADTREE_SPLIT * terrain_quadtree_patch_side(patch.level);

@@ -9,7 +9,7 @@
 
 #define BUCKETS 1024u
 
-/* A stand-in is at most so many levels above its patch: its texels are eight times as wide. */
+/* most levels from a patch up to its stand-in, whose texels are then eight times as wide */
 #define COARSER 3
 
 _Static_assert(TILE_TEXTURE_BYTES == 4 * (((size_t)1 << 2 * TILE_MIPS) - 1) / 3,
@@ -81,7 +81,7 @@ static void unlink_tile(struct terrain_tiles *tiles, const struct tile *tile)
     *link = tile->next;
 }
 
-/* The place of the tile that was longest unseen, for another; NULL when this update wants all. */
+/* Replaces the tile that was unused longest. Returns NULL if the current update uses all. */
 static struct tile *claim(struct terrain_tiles *tiles, const struct tile_key *key)
 {
     struct tile *oldest = &tiles->tiles[0];
@@ -111,14 +111,14 @@ static struct tile *want(struct terrain_tiles *tiles, const struct tile_key *key
 
 /* --- making ----------------------------------------------------------------------------------- */
 
-/* Is there one among the craters from number `from` on that reaches into the tile? */
+/* Returns true if one of the craters from number `from` on reaches into the tile. */
 static bool dug_since(const struct tile *tile, const struct crater_index *craters, uint32_t from,
                       double radii)
 {
     double side = terrain_quadtree_patch_side(tile->key.level);
     double x0 = tile->key.column * side, z0 = tile->key.row * side;
     if (from > craters->count)
-        return true; /* those that it shows are gone */
+        return true; /* craters that it shows are gone */
     for (uint32_t i = from; i < craters->count; i++) {
         const struct crater *crater = &craters->craters[i];
         double reach = radii * (double)crater->radius_m;
@@ -144,7 +144,7 @@ static void make_mesh(struct terrain_tiles *tiles, struct tile *tile,
     tile->mesh_version = ++tiles->versions;
 }
 
-/* Keeps the shape up with the craters. */
+/* Makes the mesh, or makes it again after a new crater. */
 static void update_mesh(struct terrain_tiles *tiles, struct tile *tile,
                         const struct frame_view *frame_view)
 {
@@ -156,7 +156,7 @@ static void update_mesh(struct terrain_tiles *tiles, struct tile *tile,
     tile->mesh_craters = frame_view->craters->count;
 }
 
-/* Each mip's texel is the mean of four of the one before. */
+/* Each texel of a mip is the mean of four of the larger mip. */
 static void fill_mips(uint8_t *texture)
 {
     for (uint32_t mip = 1; mip < TILE_MIPS; mip++) {
@@ -184,7 +184,7 @@ static void make_texture(struct terrain_tiles *tiles, struct tile *tile,
                          const struct frame_view *frame_view)
 {
     double side = terrain_quadtree_patch_side(tile->key.level);
-    struct terrain_colour_tile painting = {
+    struct terrain_colour_tile request = {
         .x = tile->key.column * side,
         .z = tile->key.row * side,
         .step_m = side / (TILE_TEXELS - 1),
@@ -195,7 +195,7 @@ static void make_texture(struct terrain_tiles *tiles, struct tile *tile,
         .rgba = tile->texture,
         .light = tiles->light,
     };
-    tile->surf = terrain_colour_ground(frame_view->world, frame_view->craters, &painting);
+    tile->surf = terrain_colour_ground(frame_view->world, frame_view->craters, &request);
     fill_mips(tile->texture);
     tile->wet = has_water(tile->texture);
     tile->stale = false;
@@ -204,7 +204,7 @@ static void make_texture(struct terrain_tiles *tiles, struct tile *tile,
     tiles->textures_made++;
 }
 
-/* Notes whether craters have come into the painting. */
+/* Notes whether new craters reach into the texture. */
 static void look_at_craters(struct tile *tile, const struct frame_view *frame_view)
 {
     if (tile->texture_version == 0 || tile->texture_craters == frame_view->craters->count)
@@ -218,11 +218,11 @@ static void look_at_craters(struct tile *tile, const struct frame_view *frame_vi
 
 static struct tile_key ancestor(const struct tile_key *key, int32_t up)
 {
-    /* Arithmetic shift rounds down, which is what finds the parent of a negative index. */
+    /* An arithmetic shift rounds down, so it finds the parent of a negative index too. */
     return (struct tile_key){key->column >> up, key->row >> up, key->level - up};
 }
 
-/* The nearest tile with a painting that will do, its own or an ancestor's; NULL: none. */
+/* Returns the nearest tile with a texture, the tile itself or an ancestor, or NULL. */
 static struct tile *nearest_texture(const struct terrain_tiles *tiles, const struct tile_key *key)
 {
     for (int32_t up = 0; up <= COARSER && up <= key->level; up++) {
@@ -234,7 +234,8 @@ static struct tile *nearest_texture(const struct terrain_tiles *tiles, const str
     return NULL;
 }
 
-/* Paints it something to show: the coarsest stand-in that will do, or its own. */
+/* Makes a texture for a tile that has nothing to show: of the coarsest possible ancestor, or its
+ * own. */
 static struct tile *make_stand_in(struct terrain_tiles *tiles, struct tile *own,
                                   const struct frame_view *frame_view)
 {
@@ -265,7 +266,8 @@ static void make_view(struct terrain_tiles *tiles, struct tile_view *view, struc
     };
 }
 
-/* How badly a view wants its own painting: the most for one that shows ground before a crater. */
+/* Returns how urgently a view needs its own texture. Views that do not show a new crater yet are
+ * most urgent. */
 static int32_t need(const struct tile_view *view)
 {
     if (view->texture_tile != view->tile)
@@ -273,7 +275,7 @@ static int32_t need(const struct tile_view *view)
     return view->texture_tile->stale ? COARSER + 1 : 0;
 }
 
-/* The worst first, and of these the nearest. */
+/* The most urgent first, then the nearest. */
 static void make_textures(struct terrain_tiles *tiles, const struct frame_view *frame_view,
                           uint32_t budget)
 {
@@ -301,9 +303,9 @@ void terrain_tiles_update(struct terrain_tiles *tiles, const struct terrain_quad
         const struct terrain_quadtree_patch *patch = &patches[i];
         struct tile *own = want(tiles, &(struct tile_key){patch->column, patch->row, patch->level});
         if (own == NULL)
-            break; /* never: there is room for all patches of a picture */
+            break; /* cannot happen: there is room for all patches of a picture */
         update_mesh(tiles, own, frame_view);
-        /* With no bound everything is painted in any case, and needs no stand-in. */
+        /* Without a budget every texture is made at once, and no stand-in is needed. */
         if (budget == TERRAIN_TILES_ALL && own->texture_version == 0)
             make_texture(tiles, own, frame_view);
         tiles->views[tiles->view_count++].tile = own;

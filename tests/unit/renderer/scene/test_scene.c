@@ -1,6 +1,5 @@
-/* The renderer's pure part: cameras, culling, levels of detail, the lists of a scene, tracks
- * and statistics (rows 5, 12, 13 and 33 of what the thesis states). Nothing here draws with OpenGL.
- */
+/* The scene: cameras, culling, levels of detail, the draw list, tracks and statistics (thesis rows
+ * 5, 12, 13 and 33). Nothing here is drawn. */
 #include "renderer/scene/scene.h"
 
 #include "renderer/scene/camera/follow.h"
@@ -33,7 +32,7 @@
 enum { TANK, TREE, HOUSE, POLE, TOWER, SHRUB, KINDS };
 enum { BUSH, TANKS, MAST, OAK, COTTAGE, FIXED }; /* in gridsquare order */
 
-/* A world of hills with a few things on it, in memory of the test's own. */
+/* A world of hills with a few objects, in the test's own memory. */
 struct stage {
     struct params params;
     struct world world;
@@ -193,7 +192,7 @@ static int close_stage(void **context)
     return 0;
 }
 
-/* A tank on the ground at (x, z); its slot. */
+/* Adds a tank on the ground at (x, z). Returns its slot. */
 static uint32_t put_tank(struct stage *s, double x, double z, double heading)
 {
     uint32_t slot = s->head.used++;
@@ -219,7 +218,7 @@ static struct camera look_from(const struct stage *s, double x, double z, double
     return camera;
 }
 
-/* The place in clip space by the very matrix that the pictures are drawn with; true inside. */
+/* Returns true if a place is within the picture, by the matrix that pictures are drawn with. */
 static bool in_picture(const struct camera *camera, struct vec3 place)
 {
     struct vec3 p = vec3_sub(place, camera->eye);
@@ -247,7 +246,7 @@ static void test_pose_axes(void **context)
     assert_true(fabs(vec3_dot(any.up, any.right)) < 1e-12);
 }
 
-static void test_culling_keeps_what_is_in_view(void **context)
+static void test_no_body_in_view_is_culled(void **context)
 {
     struct stage *s = *context;
     uint32_t inside = 0, culled = 0;
@@ -332,14 +331,14 @@ static void test_body_detail_is_monotone(void **context)
     enum mesh_detail before = MESH_COARSEST;
     for (double pixels = 0.5; pixels < 500.0; pixels *= 1.1) {
         enum mesh_detail now = draw_list_detail(pixels, false);
-        assert_true(now <= before); /* finer or the same for the larger */
+        assert_true(now <= before); /* the finer level or the same for the larger body */
         assert_true(draw_list_detail(pixels, true) <= now);
         before = now;
     }
     assert_int_equal(before, MESH_FULL);
 }
 
-static void test_scene_has_what_is_before_the_camera(void **context)
+static void test_bodies_in_view_are_listed(void **context)
 {
     struct stage *s = *context;
     uint32_t ahead = put_tank(s, 25000.0, 24960.0, 0.4);
@@ -354,12 +353,12 @@ static void test_scene_has_what_is_before_the_camera(void **context)
             tanks++;
             assert_true(fabs((double)body->forward[0] - sin(s->entities.heading[ahead])) < 1e-6);
         }
-        assert_true(body->at[2] < 20.0f); /* nothing of what is behind */
+        assert_true(body->at[2] < 20.0f); /* nothing behind the camera */
     }
     assert_int_equal(tanks, 1);
 }
 
-static void test_damage_shows_in_steps(void **context)
+static void test_damage_is_visible_in_steps(void **context)
 {
     struct stage *s = *context;
     uint32_t slot = put_tank(s, 25010.0, 24940.0, 0.0);
@@ -405,7 +404,7 @@ static void test_a_near_body_is_drawn_with_its_dents(void **context)
     dent(s, s->entities.id[far], 0.3f);
     struct camera camera = look_from(s, 25010.0, 25000.0, 0.0);
     scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
-    assert_int_equal(s->list.dent_count, 2); /* nobody sees the far one's */
+    assert_int_equal(s->list.dent_count, 2); /* the dents of the far body are too small */
     assert_true(s->list.dents[0].depth_m == 0.2f && s->list.dents[1].depth_m == 0.1f);
     assert_true(s->list.dents[0].reach_m > s->list.dents[1].reach_m);
     assert_true(s->list.dents[0].direction[0] == -1.0f && s->list.dents[0].point[0] == 3.0f);
@@ -428,11 +427,11 @@ static void look_at(struct stage *s, uint32_t object)
     struct vec3 middle = {at->x, (double)at->y + 0.5 * (double)at->height_m, at->z};
     struct camera camera;
     camera_look(&camera, vec3_add(middle, (struct vec3){3.0, 5.0, 30.0}), middle, 960, 540);
-    s->params.renderer.texture = 0; /* no tufts: they are plants too */
+    s->params.renderer.texture = 0; /* without grass, whose clumps are plants too */
     scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
 }
 
-/* The body that stands where the object does. */
+/* Returns the body at the object's position. */
 static const struct draw_list_body *body_of(const struct stage *s, uint32_t object)
 {
     for (uint32_t i = 0; i < s->list.body_count; i++) {
@@ -455,7 +454,7 @@ static void test_a_tree_leans_and_then_is_a_stump(void **context)
         uint32_t stumps = 0;
         for (uint32_t i = 0; i < s->list.plant_count; i++)
             stumps += (enum plant_impostors)s->list.plants[i].picture == PLANT_IMPOSTORS_STUMP;
-        bool down = damage >= DAMAGE_HIGH; /* a stump, and the tree lying beside it */
+        bool down = damage >= DAMAGE_HIGH; /* a stump, and the tree beside it */
         assert_int_equal(s->list.plant_count, 1);
         assert_int_equal(stumps, down ? 1 : 0);
         assert_true((fabsf(s->list.plants[0].lean) > 0.2f) == (damage == DAMAGE_MED));
@@ -491,7 +490,8 @@ static void test_a_pole_leans_and_then_is_broken(void **context)
         look_at(s, MAST);
         const struct draw_list_body *body = body_of(s, MAST);
         if (damage >= DAMAGE_HIGH) {
-            /* The top hangs to the ground: what is above the break is as long as it must be. */
+            /* The top hangs down to the ground, so the part above the break has the right
+             * length. */
             assert_true(body->broken[1] > 1.0f && body->broken[1] < 4.0f);
             double top = (double)body->broken[1] +
                          (8.0 - (double)body->broken[1]) * cos((double)body->broken[2]);
@@ -519,7 +519,7 @@ static void test_a_tower_sags_and_then_lies(void **context)
     assert_true(fabs((double)bent - HALF_PI) < 1e-6);
 }
 
-/* Share of the model's box that fell in, without the raggedness. */
+/* Returns the share of the model's box that has collapsed, without the ragged edge. */
 static double fallen(const struct draw_list_body *body)
 {
     uint32_t down = 0;
@@ -531,7 +531,7 @@ static double fallen(const struct draw_list_body *body)
     return down / 441.0;
 }
 
-static void test_a_building_falls_in_by_steps_to_rubble(void **context)
+static void test_a_building_collapses_in_steps(void **context)
 {
     struct stage *s = *context;
     double share[DAMAGE_COUNT];
@@ -548,7 +548,7 @@ static void test_a_building_falls_in_by_steps_to_rubble(void **context)
     assert_true(share[DAMAGE_HIGH] == 1.0 && share[DAMAGE_DESTROYED] == 1.0);
 }
 
-static void test_fire_and_detonation_show(void **context)
+static void test_fire_and_detonation_are_visible(void **context)
 {
     struct stage *s = *context;
     struct camera camera = look_from(s, 25000.0, 25000.0, 0.0);
@@ -591,14 +591,14 @@ static void test_follow_keeps_its_choice(void **context)
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), moving);
     s->entities.vx[moving] = 0.0;
     s->entities.vx[0] = 10.0;
-    s->head.tick = 50; /* 5 s: kept, though another is livelier now */
+    s->head.tick = 50; /* after 5 s it is kept, though another is livelier */
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), moving);
     s->head.tick = 200;
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), 0);
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 2, false), 1);
     s->entities.state[1] = ENTITY_WRECK;
     s->entities.changed_tick[1] = 200;
-    struct follow nobody = {.id = 0}; /* a renderer that was started just now sees it burn too */
+    struct follow nobody = {.id = 0}; /* a renderer that has just started also sees it burn */
     assert_int_equal(follow_choose(&nobody, &s->frame_view, &s->effects, 2, false), 1);
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 2, false), 1);
     s->head.tick = 200 + 10 * (uint64_t)(FOLLOW_WRECK_S + 1.0);
@@ -647,7 +647,7 @@ static void test_tracks_remember_positions(void **context)
         s->entities.x[slot] = 1000.0 + i;
         s->head.tick = i * (uint64_t)(10.0 * TRACK_INTERVAL_S + 1.0);
         tracks_note(&tracks, &s->frame_view);
-        tracks_note(&tracks, &s->frame_view); /* too soon: nothing */
+        tracks_note(&tracks, &s->frame_view); /* too early */
     }
     const struct track *track = tracks_of(&tracks, slot, slot + 1);
     assert_non_null(track);
@@ -664,19 +664,19 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(test_pose_axes),
-        TEST(test_culling_keeps_what_is_in_view),
+        TEST(test_no_body_in_view_is_culled),
         TEST(test_ground_is_covered_once),
         TEST(test_ground_detail_falls_with_distance),
         TEST(test_body_detail_is_monotone),
-        TEST(test_scene_has_what_is_before_the_camera),
-        TEST(test_damage_shows_in_steps),
+        TEST(test_bodies_in_view_are_listed),
+        TEST(test_damage_is_visible_in_steps),
         TEST(test_a_near_body_is_drawn_with_its_dents),
         TEST(test_a_tree_leans_and_then_is_a_stump),
         TEST(test_a_bush_ends_low),
         TEST(test_a_pole_leans_and_then_is_broken),
         TEST(test_a_tower_sags_and_then_lies),
-        TEST(test_a_building_falls_in_by_steps_to_rubble),
-        TEST(test_fire_and_detonation_show),
+        TEST(test_a_building_collapses_in_steps),
+        TEST(test_fire_and_detonation_are_visible),
         TEST(test_follow_keeps_its_choice),
         TEST(test_statistics_equal_the_table),
         TEST(test_tracks_remember_positions),

@@ -1,4 +1,4 @@
-/* The views' cameras: over the ground, on their vehicle, and without a jerk. */
+/* The cameras of the views: above the ground, on their vehicle, without jerks. */
 #include "renderer/scene/camera/view_camera.h"
 
 #include "renderer/scene/camera/crew_eye.h"
@@ -115,7 +115,7 @@ static double ground_at(const struct stage *s, double x, double z)
     return terrain_height(&s->world.terrain, &s->index, x, z);
 }
 
-/* Puts the one vehicle somewhere, turned somehow. */
+/* Moves and turns the one vehicle. */
 static void put(struct stage *s, uint16_t kind, double x, double z)
 {
     const struct entities *e = &s->entities;
@@ -137,7 +137,7 @@ static struct view_camera_options wish_of(enum view_mode view)
         .view = view, .field_rad = CAMERA_FIELD_OF_VIEW_RAD, .width = 1280, .height = 720};
 }
 
-/* By the matrix that pictures are drawn with. */
+/* Returns true if a place is in the picture, by the matrix that pictures are drawn with. */
 static bool in_picture(const struct camera *camera, struct vec3 place)
 {
     struct vec3 p = vec3_sub(place, camera->eye);
@@ -174,7 +174,7 @@ static void test_cameras_are_above_the_ground_and_see_their_vehicle(void **conte
             continue;
         s->head.tick = i * 1000;
         put(s, i % 7 == 0 ? PLANE : TANK, draw(0.0, WORLD_SIDE_M), draw(0.0, WORLD_SIDE_M));
-        view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
+        view_camera_update(&aim, &wish, &s->frame_view, 0, &camera);
         check_axes(&camera);
         double least = view == VIEW_INSIDE ? 0.5
                        : view == VIEW_FREE ? VIEW_CAMERA_EYE_M
@@ -197,7 +197,7 @@ static void test_without_a_vehicle_they_look_over_the_middle(void **context)
         double middle = 0.5 * WORLD_SIDE_M;
         if (view == VIEW_MAP)
             continue;
-        view_camera_camera(&aim, &wish, &s->frame_view, SLOT_NONE, &camera);
+        view_camera_update(&aim, &wish, &s->frame_view, SLOT_NONE, &camera);
         check_axes(&camera);
         assert_true(
             in_picture(&camera, (struct vec3){middle, ground_at(s, middle, middle), middle}));
@@ -211,7 +211,7 @@ static void test_overhead_has_north_above_and_east_right(void **context)
     struct view_camera_options wish = wish_of(VIEW_OVERHEAD);
     struct camera camera;
     put(s, TANK, 20000.0, 30000.0);
-    view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
+    view_camera_update(&aim, &wish, &s->frame_view, 0, &camera);
     assert_true(camera.forward.y == -1.0);
     assert_true(camera.up.z == -1.0 && camera.right.x == 1.0);
     assert_true(camera.eye.x == 20000.0 && camera.eye.z == 30000.0);
@@ -225,7 +225,7 @@ static void test_field_of_view_is_as_wished(void **context)
     struct camera camera;
     wish.field_rad = HALF_PI;
     put(s, TANK, 20000.0, 30000.0);
-    view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
+    view_camera_update(&aim, &wish, &s->frame_view, 0, &camera);
     assert_true(fabs(camera.tan_x - 1.0) < 1e-12);
     assert_true(fabs(camera.tan_y - 9.0 / 16.0) < 1e-12);
 }
@@ -243,7 +243,7 @@ static void test_the_crew_looks_out_above_its_polygons(void **context)
     struct view_camera aim = {.id = 0};
     struct view_camera_options wish = wish_of(VIEW_INSIDE);
     struct camera camera;
-    view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
+    view_camera_update(&aim, &wish, &s->frame_view, 0, &camera);
     const struct entities *e = &s->entities;
     struct body_axes pose = body_axes_of(e->heading[0], e->pitch[0], e->roll[0]);
     assert_true(vec3_dot(camera.right, pose.right) > 1.0 - 1e-9); /* it rolls with its vehicle */
@@ -273,7 +273,7 @@ static double angle_between(struct vec3 a, struct vec3 b)
     return acos(maths_clamp(cosine, -1.0, 1.0));
 }
 
-/* A vehicle that turns on the spot from one frame to the next takes the camera along softly. */
+/* When a vehicle turns on the spot within a frame, the camera follows smoothly. */
 static void test_chase_eases_into_a_turn(void **context)
 {
     struct stage *s = *context;
@@ -283,27 +283,27 @@ static void test_chase_eases_into_a_turn(void **context)
     put(s, TANK, 20000.0, 30000.0);
     for (int i = 0; i < 120; i++) {
         go(s, 0.0, 10.0);
-        view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
+        view_camera_update(&aim, &wish, &s->frame_view, 0, &camera);
     }
     double most = 0.0, whole = 0.0;
     s->entities.heading[0] = maths_wrap_turn(s->entities.heading[0] + 1.5);
     for (int i = 0; i < 240; i++) {
         before = camera;
         go(s, 0.0, 0.0);
-        view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
+        view_camera_update(&aim, &wish, &s->frame_view, 0, &camera);
         double turned = angle_between(before.forward, camera.forward);
         most = maths_max(most, turned);
         whole += turned;
     }
-    assert_true(most < 0.06); /* 1.5 at once without a memory */
+    assert_true(most < 0.06); /* 1.5 at once for a new camera */
     assert_true(whole > 1.4);
     struct view_camera cold = {.id = 0};
-    view_camera_camera(&cold, &wish, &s->frame_view, 0, &before);
+    view_camera_update(&cold, &wish, &s->frame_view, 0, &before);
     assert_true(angle_between(before.forward, camera.forward) < 0.02);
     assert_true(vec3_length(vec3_sub(before.eye, camera.eye)) < 0.8);
 }
 
-/* However often it is drawn, the camera is nearly in the same place. */
+/* The picture rate hardly changes the camera's position. */
 static void test_easing_does_not_depend_on_the_rate(void **context)
 {
     struct stage *s = *context;
@@ -313,16 +313,16 @@ static void test_easing_does_not_depend_on_the_rate(void **context)
     put(s, TANK, 20000.0, 30000.0);
     for (int i = 0; i < 300; i++) {
         go(s, i % 100 < 50 ? 0.8 : -0.8, 10.0);
-        view_camera_camera(&aims[0], &wish, &s->frame_view, 0, &often);
+        view_camera_update(&aims[0], &wish, &s->frame_view, 0, &often);
         if (i % 6 != 5)
             continue;
-        view_camera_camera(&aims[1], &wish, &s->frame_view, 0, &seldom);
+        view_camera_update(&aims[1], &wish, &s->frame_view, 0, &seldom);
         assert_true(vec3_length(vec3_sub(often.eye, seldom.eye)) < 2.5);
     }
 }
 
-/* Another vehicle, a jump or a long pause: as without a memory, to the bit. */
-static void test_what_does_not_go_on_begins_anew(void **context)
+/* After a change of vehicle, a jump or a long pause the camera equals a new one exactly. */
+static void test_camera_restarts_after_a_break(void **context)
 {
     struct stage *s = *context;
     for (int what = 0; what < 3; what++) {
@@ -332,13 +332,13 @@ static void test_what_does_not_go_on_begins_anew(void **context)
         put(s, TANK, 20000.0, 30000.0);
         for (int i = 0; i < 30; i++) {
             go(s, 0.5, 10.0);
-            view_camera_camera(&aim, &wish, &s->frame_view, 0, &warm);
+            view_camera_update(&aim, &wish, &s->frame_view, 0, &warm);
         }
         s->head.tick += what == 0 ? 600 : 1;
         s->entities.x[0] += what == 1 ? 400.0 : 0.0;
         s->entities.id[0] += what == 2 ? 1 : 0;
-        view_camera_camera(&aim, &wish, &s->frame_view, 0, &warm);
-        view_camera_camera(&cold, &wish, &s->frame_view, 0, &fresh);
+        view_camera_update(&aim, &wish, &s->frame_view, 0, &warm);
+        view_camera_update(&cold, &wish, &s->frame_view, 0, &fresh);
         assert_memory_equal(&warm, &fresh, sizeof warm);
         assert_memory_equal(&aim, &cold, sizeof aim);
     }
@@ -352,10 +352,10 @@ static void test_orbit_goes_around_in_its_time(void **context)
     struct camera camera;
     put(s, TANK, 20000.0, 30000.0);
     s->head.tick = 0;
-    view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
+    view_camera_update(&aim, &wish, &s->frame_view, 0, &camera);
     struct vec3 first = vec3_sub(camera.eye, entities_position(&s->entities, 0));
     s->head.tick = (uint64_t)(60.0 * VIEW_CAMERA_ORBIT_S / 2.0 + 0.5);
-    view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
+    view_camera_update(&aim, &wish, &s->frame_view, 0, &camera);
     struct vec3 half = vec3_sub(camera.eye, entities_position(&s->entities, 0));
     assert_true(fabs(first.x + half.x) < 1e-6 && fabs(first.z + half.z) < 1e-6);
 }
@@ -367,14 +367,14 @@ static void test_free_camera_stays(void **context)
     struct view_camera_options wish = wish_of(VIEW_FREE);
     struct camera camera, later;
     put(s, TANK, 20000.0, 30000.0);
-    view_camera_camera(&aim, &wish, &s->frame_view, 0, &camera);
+    view_camera_update(&aim, &wish, &s->frame_view, 0, &camera);
     for (int i = 0; i < 100; i++)
         go(s, 0.1, 20.0);
-    view_camera_camera(&aim, &wish, &s->frame_view, 0, &later);
+    view_camera_update(&aim, &wish, &s->frame_view, 0, &later);
     assert_memory_equal(&camera, &later, sizeof camera);
 }
 
-static void test_free_camera_is_where_it_is_put(void **context)
+static void test_free_camera_has_the_given_pose(void **context)
 {
     struct stage *s = *context;
     static const double pitches[] = {-HALF_PI, -0.1, 0.7, HALF_PI};
@@ -383,7 +383,7 @@ static void test_free_camera_is_where_it_is_put(void **context)
         struct view_camera_options wish = wish_of(VIEW_FREE);
         struct camera camera;
         wish.pose = (struct view_camera_pose){true, 1000.0, 2000.0, 30.0, HALF_PI, pitches[i]};
-        view_camera_camera(&aim, &wish, &s->frame_view, SLOT_NONE, &camera);
+        view_camera_update(&aim, &wish, &s->frame_view, SLOT_NONE, &camera);
         check_axes(&camera);
         assert_true(camera.eye.x == 1000.0 && camera.eye.z == 2000.0);
         assert_true(fabs(camera.eye.y - ground_at(s, 1000.0, 2000.0) - 30.0) < 1e-9);
@@ -404,10 +404,10 @@ int main(void)
         TEST(test_the_crew_looks_out_above_its_polygons),
         TEST(test_chase_eases_into_a_turn),
         TEST(test_easing_does_not_depend_on_the_rate),
-        TEST(test_what_does_not_go_on_begins_anew),
+        TEST(test_camera_restarts_after_a_break),
         TEST(test_orbit_goes_around_in_its_time),
         TEST(test_free_camera_stays),
-        TEST(test_free_camera_is_where_it_is_put),
+        TEST(test_free_camera_has_the_given_pose),
     };
     return cmocka_run_group_tests_name("aim", tests, NULL, NULL);
 }

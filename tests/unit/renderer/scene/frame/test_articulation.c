@@ -1,4 +1,4 @@
-/* Gear: wheels turn with the way, turrets and guns are the world's, wrecks stand still. */
+/* Articulation: wheels roll, turrets and guns follow the world, wrecks do not move. */
 #include "renderer/scene/frame/articulation.h"
 
 #include "renderer/scene/frame/frame_view.h"
@@ -24,7 +24,7 @@ static const struct kind kinds[] = {
     {.name = "truck", .domain = DOMAIN_LAND, .length_m = 6.0, .width_m = 2.0},
 };
 
-/* A truck in slot 0 and what it may aim at in slot 1. */
+/* A truck in slot 0 and a target in slot 1. */
 struct stage {
     struct params params;
     struct world world;
@@ -70,7 +70,7 @@ static int close_stage(void **context)
     return 0;
 }
 
-/* Goes on by a step: so far ahead, so much to the right. */
+/* Advances a step: forward and to the right by these distances. */
 static struct articulation_state drive(struct stage *s, double travel_m, double turn_rad)
 {
     const struct entities *e = &s->e;
@@ -82,8 +82,8 @@ static struct articulation_state drive(struct stage *s, double travel_m, double 
     return articulation_of(&s->articulation, &s->frame_view, 0);
 }
 
-/* A wheel turns by way over radius: once around in its own circumference, without slip. */
-static void test_way_is_what_was_driven(void **context)
+/* A wheel rolls by distance over radius: one turn for its circumference. */
+static void test_travel_is_the_distance_driven(void **context)
 {
     struct stage *s = *context;
     double radius = 0.5, circumference = TWO_PI * radius;
@@ -100,21 +100,22 @@ static void test_way_is_what_was_driven(void **context)
     assert_true(fabs(state.travel_m[0] - from) < 1e-9);
 }
 
-static void test_what_stands_does_not_roll(void **context)
+static void test_a_parked_vehicle_does_not_roll(void **context)
 {
     struct stage *s = *context;
     struct articulation_state before = drive(s, 3.0, 0.0), after = before;
     for (int i = 0; i < 30; i++)
         after = drive(s, 0.0, 0.0);
     assert_true(after.travel_m[0] == before.travel_m[0] && after.travel_m[1] == before.travel_m[1]);
-    /* Pushed aside it does not roll either. */
+    /* A vehicle pushed sideways does not roll. */
     s->e.x[0] += 2.0; /* it heads north */
     after = drive(s, 0.0, 0.0);
     assert_true(fabs(after.travel_m[0] - before.travel_m[0]) < 1e-9);
 }
 
-/* To the right the left side goes further; on the spot the sides go against each other. */
-static void test_outer_side_goes_further(void **context)
+/* In a right turn the left side rolls farther; on the spot the sides roll in opposite
+ * directions. */
+static void test_outer_side_rolls_farther(void **context)
 {
     struct stage *s = *context;
     struct articulation_state before = drive(s, 5.0, 0.0), after = drive(s, 1.0, 0.1);
@@ -129,7 +130,7 @@ static void test_outer_side_goes_further(void **context)
     assert_true(left > 0.1 && fabs(left + right) < 1e-9);
 }
 
-static void test_way_wraps_without_a_jump_of_the_rest(void **context)
+static void test_travel_wraps_without_a_jump(void **context)
 {
     struct stage *s = *context;
     struct articulation_state state;
@@ -142,7 +143,7 @@ static void test_way_wraps_without_a_jump_of_the_rest(void **context)
     assert_true(fabs(state.travel_m[0] - fmod(sum, ARTICULATION_WRAP_M)) < 1e-6);
 }
 
-/* They are where the world has them, seen before or not. */
+/* They are those of the world, seen before or not. */
 static void test_turret_and_gun_are_the_worlds(void **context)
 {
     struct stage *s = *context;
@@ -156,7 +157,7 @@ static void test_turret_and_gun_are_the_worlds(void **context)
     }
 }
 
-/* A wreck keeps its turret where it was hit, its wheels stand, its gun hangs. */
+/* A wreck keeps its turret, its wheels do not roll, and its gun sinks. */
 static void test_wreck_stands_still(void **context)
 {
     struct stage *s = *context;
@@ -175,8 +176,8 @@ static void test_wreck_stands_still(void **context)
     assert_true(articulation_of(NULL, &s->frame_view, 0).gun_rad < -0.1f);
 }
 
-/* Another vehicle in the slot, time gone back, or long unseen: as on first sight. */
-static void test_begins_anew(void **context)
+/* Another vehicle in the slot, a time set back or a long gap: the state starts anew. */
+static void test_state_restarts(void **context)
 {
     struct stage *s = *context;
     assert_true(drive(s, 4.0, 0.0).travel_m[0] > 3.9);
@@ -196,13 +197,13 @@ static void test_begins_anew(void **context)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_way_is_what_was_driven),
-        TEST(test_what_stands_does_not_roll),
-        TEST(test_outer_side_goes_further),
-        TEST(test_way_wraps_without_a_jump_of_the_rest),
+        TEST(test_travel_is_the_distance_driven),
+        TEST(test_a_parked_vehicle_does_not_roll),
+        TEST(test_outer_side_rolls_farther),
+        TEST(test_travel_wraps_without_a_jump),
         TEST(test_turret_and_gun_are_the_worlds),
         TEST(test_wreck_stands_still),
-        TEST(test_begins_anew),
+        TEST(test_state_restarts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

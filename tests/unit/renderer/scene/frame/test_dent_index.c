@@ -1,5 +1,5 @@
-/* The renderer's index over the list of dents, and what of a dent is left (rows 33 and 47 of what
- * the thesis states: dents at the point of impact; an elastic part that comes back). */
+/* The index of the list of dents, and the part of a dent that is left (thesis rows 33 and 47: dents
+ * at the point of impact; an elastic part that recovers). */
 #include "renderer/scene/frame/dent_index.h"
 
 #include <setjmp.h>
@@ -42,12 +42,12 @@ static void dent(uint32_t id, uint32_t tick, float plastic_m, float elastic_m)
     dent_index_update(&dents, count);
 }
 
-static void test_row_33_dents_are_found_by_whose_they_are(void **context)
+static void test_row_33_dents_are_found_by_body(void **context)
 {
     struct dented of[DENT_INDEX_PER_BODY];
     (void)context;
     assert_false(dent_index_any(&dents, 1));
-    /* Three bodies in turns, whose places in the index are the same. */
+    /* Dents of three bodies with the same hash, alternately. */
     for (uint32_t i = 0; i < DENTS; i++)
         dent(1 + (i % 3 << 31 | i % 3 << 30), 0, 0.01f * (float)(1 + i), 0.0f);
     for (uint32_t body = 0; body < 3; body++) {
@@ -56,7 +56,8 @@ static void test_row_33_dents_are_found_by_whose_they_are(void **context)
         assert_int_equal(dent_index_of(&dents, id, 10, DT_S, of), DENT_INDEX_PER_BODY);
         while (deepest % 3 != body)
             deepest--;
-        for (uint32_t i = 0; i < DENT_INDEX_PER_BODY; i++) { /* the deepest of its own, in order */
+        for (uint32_t i = 0; i < DENT_INDEX_PER_BODY;
+             i++) { /* the deepest of its own dents, in order */
             float depth = 0.01f * (float)(1 + deepest - 3 * i);
             assert_true(of[i].depth_m == depth && of[i].point[2] == depth);
         }
@@ -65,7 +66,7 @@ static void test_row_33_dents_are_found_by_whose_they_are(void **context)
     assert_int_equal(dent_index_of(&dents, 2, 10, DT_S, of), 0);
 }
 
-static void test_what_is_not_committed_is_not_shown(void **context)
+static void test_uncommitted_dents_are_not_shown(void **context)
 {
     struct dented of[DENT_INDEX_PER_BODY];
     (void)context;
@@ -85,7 +86,7 @@ static void test_row_47_the_elastic_part_comes_back_and_the_plastic_stays(void *
     dent(6, 100, 0.0f, 0.3f);
     for (uint64_t tick = 100; tick < 110; tick++) {
         assert_int_equal(dent_index_of(&dents, 5, tick, DT_S, of), 1);
-        double left = exp(-(double)(tick - 100) * DT_S / DENT_RETURN_S); /* as good as */
+        double left = exp(-(double)(tick - 100) * DT_S / DENT_RETURN_S); /* nearly */
         assert_true(fabs((double)of[0].depth_m - (0.2 + 0.3 * left)) < 0.01);
         assert_true(of[0].depth_m < before);
         before = of[0].depth_m;
@@ -100,8 +101,8 @@ int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_index, close_index)
     const struct CMUnitTest tests[] = {
-        TEST(test_row_33_dents_are_found_by_whose_they_are),
-        TEST(test_what_is_not_committed_is_not_shown),
+        TEST(test_row_33_dents_are_found_by_body),
+        TEST(test_uncommitted_dents_are_not_shown),
         TEST(test_row_47_the_elastic_part_comes_back_and_the_plastic_stays),
     };
     return cmocka_run_group_tests_name("dents", tests, NULL, NULL);

@@ -1,5 +1,5 @@
-/* Effects: what each event shows and for how long, what is remembered of it, and that pictures do
- * not flicker: the same moment gives the same lists, and nothing comes or goes at once. */
+/* Effects: what each event shows and for how long, which of them are kept, and that pictures do not
+ * flicker: the same frame gives the same lists, and nothing appears or vanishes suddenly. */
 #include "renderer/scene/frame/effects.h"
 
 #include "renderer/scene/scene.h"
@@ -22,7 +22,7 @@
 #define POSTS    401u
 #define CAPACITY 512u
 #define HZ       60.0
-#define MIDDLE   25000.0 /* [m] where things happen */
+#define MIDDLE   25000.0 /* [m] position of the events */
 #define GROUND   100.0f  /* [m] */
 
 enum { TANK, CHOPPER, SHIP, SHELL, MISSILE, KINDS };
@@ -151,7 +151,7 @@ static int close_stage(void **context)
     return 0;
 }
 
-/* An entity over the ground at (x, z); its slot. */
+/* Adds an entity above the ground at (x, z). Returns its slot. */
 static uint32_t put(struct stage *s, uint16_t kind, double x, double above, double z)
 {
     uint32_t slot = s->head.used++;
@@ -165,7 +165,7 @@ static uint32_t put(struct stage *s, uint16_t kind, double x, double above, doub
     return slot;
 }
 
-/* Looks north at the middle from so far off. */
+/* Looks north at the middle from this distance. */
 static void look(struct stage *s, double away)
 {
     struct camera camera;
@@ -175,7 +175,7 @@ static void look(struct stage *s, double away)
     scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
 }
 
-/* A step of simulated time later. */
+/* Advances one step of simulation time. */
 static void step(struct stage *s)
 {
     s->head.frame++;
@@ -188,7 +188,7 @@ static void step(struct stage *s)
     effects_take(&s->effects, &s->frame_view, NULL, 0);
 }
 
-/* How much puffs show: opacity times the size on the picture. */
+/* Returns the sum over particles of opacity times size in the picture. */
 static double ink(const struct stage *s)
 {
     double sum = 0.0;
@@ -264,7 +264,7 @@ static void test_a_shot_out_of_the_sky_has_no_muzzle(void **context)
     assert_int_equal(s->effects.count, 0);
 }
 
-static void test_a_flash_goes_the_way_of_its_round(void **context)
+static void test_a_flash_points_along_its_round(void **context)
 {
     struct stage *s = *context;
     uint32_t round = put(s, SHELL, MIDDLE, 1.0, MIDDLE - 30.0);
@@ -273,7 +273,7 @@ static void test_a_flash_goes_the_way_of_its_round(void **context)
     event.fire.munition.id = s->entities.id[round];
     effects_take(&s->effects, &s->frame_view, &event, 1);
     assert_true(s->effects.effect[0].direction[2] < -0.999f);
-    /* When it is gone: away from who fired it. */
+    /* When the round is gone: away from the shooter. */
     s->entities.state[round] = ENTITY_FREE;
     uint32_t tank = put(s, TANK, MIDDLE - 5.0, 1.0 - 0.7 * 2.4, MIDDLE);
     event.fire.shooter.id = s->entities.id[tank];
@@ -282,8 +282,8 @@ static void test_a_flash_goes_the_way_of_its_round(void **context)
     assert_true(s->effects.effect[1].direction[0] > 0.999f);
 }
 
-/* Soil and water are thrown up, and come down again. */
-static void test_what_is_thrown_up_falls_back(void **context)
+/* Soil and water rise and fall back. */
+static void test_soil_and_water_fall_back(void **context)
 {
     struct stage *s = *context;
     static const enum effect_type thrown[] = {EFFECT_BURST, EFFECT_SPLASH};
@@ -301,7 +301,7 @@ static void test_what_is_thrown_up_falls_back(void **context)
                     highest = maths_max(highest,
                                         (double)s->list.particles[n].at[1] + s->list.camera.eye.y);
             most = maths_max(most, highest);
-            last = highest > 0.0 ? highest : last; /* of what can still be seen */
+            last = highest > 0.0 ? highest : last; /* of the effects still visible */
         }
         assert_true(most > (double)GROUND + 8.0);
         assert_true(last > 0.0 && last < most - 4.0);
@@ -310,7 +310,7 @@ static void test_what_is_thrown_up_falls_back(void **context)
     }
 }
 
-static void test_what_is_over_first_gives_way(void **context)
+static void test_the_first_effect_to_end_is_replaced(void **context)
 {
     struct stage *s = *context;
     struct event lasting = happening(s, EFFECT_BURST), brief = happening(s, EFFECT_FLASH);
@@ -322,7 +322,7 @@ static void test_what_is_over_first_gives_way(void **context)
     for (uint32_t i = 0; i < 3 * EFFECTS_MAX; i++)
         effects_take(&s->effects, &s->frame_view, &lasting, 1);
     s->head.tick += 5;
-    look(s, 40.0); /* more than the list of puffs has room for */
+    look(s, 40.0); /* more than the particle list can hold */
     assert_int_equal(s->list.particle_count, DRAW_LIST_PARTICLES_MAX);
     assert_true(s->list.omitted > 0);
 }
@@ -348,7 +348,7 @@ static void test_a_wreck_bursts_once(void **context)
     assert_int_equal(s->effects.count, 1);
     assert_int_equal(s->effects.effect[0].type, EFFECT_WRECK);
     assert_true(s->effects.effect[0].time_s == 6000.0 / HZ);
-    /* One that a renderer finds when it begins lies there already. */
+    /* Debris that is already there when a renderer starts is at rest. */
     uint32_t old = put(s, TANK, MIDDLE + 50.0, 0.0, MIDDLE);
     s->entities.state[old] = ENTITY_WRECK;
     s->entities.changed_tick[old] = (uint32_t)(s->head.tick - (uint64_t)(HZ * EFFECT_LIFE_S) - 60);
@@ -413,7 +413,7 @@ static void test_smoke_goes_on_when_damage_grows(void **context)
 
 /* --- what moving things leave ----------------------------------------------------------------- */
 
-/* Dust of a tank that drives past, when it has come to the middle. */
+/* Adds the dust of a tank that has driven to the middle. */
 static double dust_on(struct stage *s, enum cover cover, double speed)
 {
     lay(s, cover);
@@ -427,7 +427,7 @@ static double dust_on(struct stage *s, enum cover cover, double speed)
     return ink(s);
 }
 
-static void test_dust_goes_by_the_ground(void **context)
+static void test_dust_depends_on_the_cover(void **context)
 {
     struct stage *s = *context;
     double sand = dust_on(s, COVER_SAND, 14.0);
@@ -440,7 +440,7 @@ static void test_dust_goes_by_the_ground(void **context)
     assert_true(dust_on(s, COVER_SAND, 1.0) == 0.0);
 }
 
-/* What was left stays where it was left, whatever who left it does. */
+/* Dust stays in place whatever the vehicle does. */
 static void test_dust_stays_when_the_vehicle_stops(void **context)
 {
     struct stage *s = *context;
@@ -451,7 +451,7 @@ static void test_dust_stays_when_the_vehicle_stops(void **context)
     assert_true(fabs(ink(s) - before) < 0.1 * before);
 }
 
-static void test_wash_is_of_low_rotors_alone(void **context)
+static void test_only_low_rotors_raise_dust(void **context)
 {
     struct stage *s = *context;
     uint32_t slot = put(s, CHOPPER, MIDDLE, 40.0, MIDDLE);
@@ -485,7 +485,8 @@ static void test_a_ship_leaves_a_wake(void **context)
     assert_true(behind > 3);
 }
 
-/* A missile that flies a circle leaves its smoke on the circle; and it stays when it is gone. */
+/* The smoke of a missile that flies a circle lies on the circle, and stays when the missile is
+ * gone. */
 static void test_a_trail_is_where_the_missile_flew(void **context)
 {
     struct stage *s = *context;
@@ -522,7 +523,7 @@ static void test_a_trail_is_where_the_missile_flew(void **context)
                 continue;
             double x = (double)particle->at[0] + s->list.camera.eye.x - MIDDLE;
             double z = (double)particle->at[2] + s->list.camera.eye.z - MIDDLE;
-            /* The wind takes it along by 5 m at most. */
+            /* The wind moves it by 5 m at most. */
             assert_true(fabs(sqrt(x * x + z * z) - radius) < 6.0);
             smoke++;
         }
@@ -538,11 +539,11 @@ static void test_the_curve_is_smooth_and_ends_at_birth(void **context)
     (void)context;
     uint64_t random = fixture_seed(11);
     for (uint32_t round = 0; round < 200; round++) {
-        static struct motion_trail spoor;
+        static struct motion_trail trail;
         double turn = fixture_uniform(&random, -0.7, 0.7), speed = fixture_uniform(&random, 5, 400);
         double gap = fixture_uniform(&random, 0.1, 0.4);
         struct motion_trail_point now = {.time_s = 0.0};
-        spoor.count = 0;
+        trail.count = 0;
         for (uint32_t i = 0; i < 20; i++) {
             double t = gap * i, radius = speed / maths_max(fabs(turn), 1e-3);
             struct motion_trail_point point = {
@@ -552,12 +553,12 @@ static void test_the_curve_is_smooth_and_ends_at_birth(void **context)
                              (float)(radius * turn * maths_sin(t * turn))},
                 .time_s = t};
             now = point;
-            spoor.point[spoor.count++ % MOTION_TRAIL_POINTS] = point;
+            trail.point[trail.count++ % MOTION_TRAIL_POINTS] = point;
         }
         for (uint32_t i = 0; i < 50; i++) {
             double t = now.time_s - fixture_uniform(&random, 0.0, gap * (MOTION_TRAIL_POINTS - 1));
             double radius = speed / maths_max(fabs(turn), 1e-3);
-            struct motion_trail_point is = motion_trail_at(&spoor, &now, t);
+            struct motion_trail_point is = motion_trail_at(&trail, &now, t);
             double x = radius * maths_sin(t * turn), z = radius * (1.0 - maths_cos(t * turn));
             assert_true(fabs((double)is.at[0] - x) < 0.001 * speed + 0.05);
             assert_true(fabs((double)is.at[2] - z) < 0.001 * speed + 0.05);
@@ -586,7 +587,7 @@ static void furnish(struct stage *s)
     put_wreck(s, MIDDLE + 5.0, MIDDLE);
 }
 
-static void test_the_same_moment_gives_the_same_lists(void **context)
+static void test_the_same_frame_gives_the_same_lists(void **context)
 {
     struct stage *s = *context;
     furnish(s);
@@ -595,8 +596,7 @@ static void test_the_same_moment_gives_the_same_lists(void **context)
     look(s, 45.0);
     struct draw_list first = s->list;
     assert_true(first.particle_count > 100 && first.body_count > 8);
-    /* In another's memory, of which another camera was there before; and time stands, frames do
-     * not. */
+    /* With other memory, used for another camera before; frames advance and time does not. */
     assert_int_equal(scene_init(&s->list), 0);
     look(s, 3.0);
     s->head.frame += 1000;
@@ -612,13 +612,13 @@ static void test_the_same_moment_gives_the_same_lists(void **context)
     scene_free(&first);
 }
 
-static void test_nothing_comes_or_goes_at_once(void **context)
+static void test_nothing_appears_or_vanishes_suddenly(void **context)
 {
     struct stage *s = *context;
     put_wreck(s, MIDDLE, MIDDLE);
     for (uint32_t i = 0; i < 1500; i++)
         step(s);
-    /* By time; from where all of it is in the picture. */
+    /* Along time, from a distance at which all of it is in view. */
     look(s, 250.0);
     double before = ink(s);
     for (uint32_t i = 0; i < 120; i++) {
@@ -627,7 +627,7 @@ static void test_nothing_comes_or_goes_at_once(void **context)
         assert_true(fabs(ink(s) - before) < 0.02 * before);
         before = ink(s);
     }
-    /* As the camera goes away: on the picture it shrinks, and with it all levels of detail. */
+    /* As the camera moves away, sizes shrink and levels of detail change. */
     for (double away = 250.0; away < 4000.0; away *= 1.01) {
         look(s, away);
         before = ink(s);
@@ -636,7 +636,7 @@ static void test_nothing_comes_or_goes_at_once(void **context)
     }
 }
 
-static void test_fewer_puffs_far_away(void **context)
+static void test_fewer_particles_far_away(void **context)
 {
     struct stage *s = *context;
     put_wreck(s, MIDDLE, MIDDLE);
@@ -672,7 +672,7 @@ static void test_less_detail_is_less_to_draw(void **context)
     assert_true(particles < s->list.particle_count / 2);
 }
 
-static void test_no_puff_around_the_eye(void **context)
+static void test_no_particle_around_the_eye(void **context)
 {
     struct stage *s = *context;
     struct event event = happening(s, EFFECT_EXPLOSION);
@@ -688,7 +688,7 @@ static void test_no_puff_around_the_eye(void **context)
     }
 }
 
-static void test_puffs_come_farthest_first(void **context)
+static void test_particles_are_sorted_farthest_first(void **context)
 {
     struct stage *s = *context;
     furnish(s);
@@ -702,9 +702,9 @@ static void test_puffs_come_farthest_first(void **context)
     }
 }
 
-/* --- tufts ------------------------------------------------------------------------------------ */
+/* --- grass ------------------------------------------------------------------------------------ */
 
-static void test_tufts_do_not_grow_in_craters(void **context)
+static void test_grass_does_not_grow_in_craters(void **context)
 {
     struct stage *s = *context;
     lay(s, COVER_CHAPARRAL);
@@ -722,7 +722,7 @@ static void test_tufts_do_not_grow_in_craters(void **context)
     }
 }
 
-static void test_tufts_grow_into_the_picture(void **context)
+static void test_grass_grows_into_the_picture(void **context)
 {
     struct stage *s = *context;
     lay(s, COVER_CHAPARRAL);
@@ -747,26 +747,26 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_each_event_shows_for_its_time),
         TEST(test_a_shot_out_of_the_sky_has_no_muzzle),
-        TEST(test_a_flash_goes_the_way_of_its_round),
-        TEST(test_what_is_thrown_up_falls_back),
-        TEST(test_what_is_over_first_gives_way),
+        TEST(test_a_flash_points_along_its_round),
+        TEST(test_soil_and_water_fall_back),
+        TEST(test_the_first_effect_to_end_is_replaced),
         TEST(test_a_wreck_bursts_once),
         TEST(test_debris_flies_and_comes_to_rest),
         TEST(test_smoke_goes_on_when_damage_grows),
-        TEST(test_dust_goes_by_the_ground),
+        TEST(test_dust_depends_on_the_cover),
         TEST(test_dust_stays_when_the_vehicle_stops),
-        TEST(test_wash_is_of_low_rotors_alone),
+        TEST(test_only_low_rotors_raise_dust),
         TEST(test_a_ship_leaves_a_wake),
         TEST(test_a_trail_is_where_the_missile_flew),
         TEST(test_the_curve_is_smooth_and_ends_at_birth),
-        TEST(test_the_same_moment_gives_the_same_lists),
-        TEST(test_nothing_comes_or_goes_at_once),
-        TEST(test_fewer_puffs_far_away),
+        TEST(test_the_same_frame_gives_the_same_lists),
+        TEST(test_nothing_appears_or_vanishes_suddenly),
+        TEST(test_fewer_particles_far_away),
         TEST(test_less_detail_is_less_to_draw),
-        TEST(test_no_puff_around_the_eye),
-        TEST(test_puffs_come_farthest_first),
-        TEST(test_tufts_do_not_grow_in_craters),
-        TEST(test_tufts_grow_into_the_picture),
+        TEST(test_no_particle_around_the_eye),
+        TEST(test_particles_are_sorted_farthest_first),
+        TEST(test_grass_does_not_grow_in_craters),
+        TEST(test_grass_grows_into_the_picture),
     };
     return cmocka_run_group_tests_name("effects", tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Between two frames: bodies move evenly and turn the short way, and nothing else changes early. */
+/* Interpolation: bodies move evenly and turn by the shorter arc, and nothing else changes early. */
 #include "renderer/scene/frame/frame_interpolation.h"
 
 #include "tests/support/fixture.h"
@@ -49,7 +49,7 @@ static void open_frame(struct frame_of *frame, const struct world *world, uint64
         (struct frame_view){.world = world, .head = &frame->head, .entities = &frame->entities};
 }
 
-/* A table full of things that go somewhere, turning, and where they are a frame later. */
+/* A table of moving and turning bodies, and the same one frame later. */
 static int open_stage(void **context)
 {
     struct stage *s = calloc(1, sizeof *s);
@@ -115,7 +115,7 @@ static void test_ends_are_the_frames_themselves(void **context)
     }
 }
 
-static void test_bodies_go_evenly_and_turn_the_short_way(void **context)
+static void test_bodies_move_evenly_and_turn_by_the_shorter_arc(void **context)
 {
     struct stage *s = *context;
     const struct entities *a = &s->a.entities, *b = &s->b.entities;
@@ -143,7 +143,7 @@ static void test_bodies_go_evenly_and_turn_the_short_way(void **context)
     }
 }
 
-static void test_over_north_it_does_not_turn_around(void **context)
+static void test_turning_past_north_takes_the_shorter_arc(void **context)
 {
     struct stage *s = *context;
     s->a.entities.heading[0] = TWO_PI - 0.1;
@@ -152,7 +152,7 @@ static void test_over_north_it_does_not_turn_around(void **context)
     assert_true(turn(at(s, 0.25).entities->heading[0], -0.05) < 1e-9);
 }
 
-/* What else is in the table is the earlier frame's, every column. */
+/* All other columns of the table are the earlier frame's. */
 static void test_nothing_else_changes_early(void **context)
 {
     struct stage *s = *context;
@@ -180,7 +180,7 @@ static void check_stays(struct stage *s, uint32_t slot)
     assert_int_equal(frame_view.entities->id[slot], s->a.entities.id[slot]);
 }
 
-static void test_what_appears_goes_dies_or_jumps_is_not_smeared(void **context)
+static void test_rows_that_change_are_not_interpolated(void **context)
 {
     struct stage *s = *context;
     s->a.entities.state[0] = ENTITY_FREE; /* appears */
@@ -197,7 +197,7 @@ static void test_what_appears_goes_dies_or_jumps_is_not_smeared(void **context)
     assert_true(vec3_length(vec3_sub(still, moved)) > 0.0); /* the others do move */
 }
 
-static void test_frames_far_apart_or_backwards_are_the_later(void **context)
+static void test_frames_far_apart_give_the_later(void **context)
 {
     struct stage *s = *context;
     static const uint64_t ticks[] = {100, 99, 0, 100 + (uint64_t)FRAME_INTERPOLATION_STEPS_MAX + 1};
@@ -210,8 +210,8 @@ static void test_frames_far_apart_or_backwards_are_the_later(void **context)
 
 /* --- the clock -------------------------------------------------------------------------------- */
 
-/* A world of 60 frames a second that are seen up to a frame late; pictures at some rate. */
-static void test_time_goes_on_evenly(void **context)
+/* A world of 60 frames a second, seen up to a frame late, and pictures at some rate. */
+static void test_time_advances_evenly(void **context)
 {
     (void)context;
     static const double rates[] = {24.0, 30.0, 59.94, 60.0, 75.0, 120.0};
@@ -233,12 +233,12 @@ static void test_time_goes_on_evenly(void **context)
     }
 }
 
-static void test_a_late_world_is_not_run_ahead_of(void **context)
+static void test_the_clock_does_not_pass_a_late_world(void **context)
 {
     struct frame_interpolation_clock clock = {.set = false};
     double newest = 10.0, before = 0.0;
     (void)context;
-    for (int i = 0; i < 600; i++) { /* half as fast as it should go, and it stands for a while */
+    for (int i = 0; i < 600; i++) { /* at half the rate, then paused */
         if (i < 200 || i > 300)
             newest += 0.5 * DT_S;
         double shown = frame_interpolation_time(&clock, 50.0 + i * DT_S, newest, DT_S, 1.0);
@@ -248,14 +248,14 @@ static void test_a_late_world_is_not_run_ahead_of(void **context)
     }
 }
 
-static void test_a_world_that_stands_shows_its_frame(void **context)
+static void test_a_paused_world_shows_its_frame(void **context)
 {
     struct frame_interpolation_clock clock = {.set = false};
     (void)context;
     frame_interpolation_time(&clock, 1.0, 5.0, DT_S, 1.0);
     assert_true(frame_interpolation_time(&clock, 1.1, 5.1, DT_S, 0.0) == 5.1);
     assert_false(clock.set);
-    /* And goes on from there at another rate, without a leap. */
+    /* Continues at another rate without a jump. */
     double shown = frame_interpolation_time(&clock, 9.0, 5.2, DT_S, 0.25);
     assert_true(shown <= 5.2 && shown >= 5.2 - DT_S - 1e-9);
 }
@@ -266,14 +266,14 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(test_ends_are_the_frames_themselves),
-        TEST(test_bodies_go_evenly_and_turn_the_short_way),
-        TEST(test_over_north_it_does_not_turn_around),
+        TEST(test_bodies_move_evenly_and_turn_by_the_shorter_arc),
+        TEST(test_turning_past_north_takes_the_shorter_arc),
         TEST(test_nothing_else_changes_early),
-        TEST(test_what_appears_goes_dies_or_jumps_is_not_smeared),
-        TEST(test_frames_far_apart_or_backwards_are_the_later),
-        cmocka_unit_test(test_time_goes_on_evenly),
-        cmocka_unit_test(test_a_late_world_is_not_run_ahead_of),
-        cmocka_unit_test(test_a_world_that_stands_shows_its_frame),
+        TEST(test_rows_that_change_are_not_interpolated),
+        TEST(test_frames_far_apart_give_the_later),
+        cmocka_unit_test(test_time_advances_evenly),
+        cmocka_unit_test(test_the_clock_does_not_pass_a_late_world),
+        cmocka_unit_test(test_a_paused_world_shows_its_frame),
     };
     return cmocka_run_group_tests_name("blend", tests, NULL, NULL);
 }

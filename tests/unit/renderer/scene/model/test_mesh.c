@@ -1,5 +1,4 @@
-/* Meshes: that a body looks alike where one level of detail follows another, and that parts turn
- * about what they should. */
+/* Meshes: consecutive levels of detail look alike, and parts turn about the right pivots. */
 #include "renderer/scene/model/mesh.h"
 
 #include "config/loader.h"
@@ -19,12 +18,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SIDE_MAX   440u /* [sample] of a silhouette's square */
-#define SAMPLES    2.0  /* along a pixel's side */
+#define SIDE_MAX   440u /* [sample] side of a silhouette's square */
+#define SAMPLES    2.0  /* samples along a pixel's side */
 #define VIEWS      4u
-#define AREA_APART 0.15 /* of a silhouette's area between two levels ... */
-#define SKIN_APART 0.16 /* ... and what only one of them covers */
-#define FAR_SHARE  3.2  /* so many times that from the coarsest on: it is a few pixels */
+#define AREA_APART 0.15 /* most difference of the areas of silhouettes of two levels ... */
+#define SKIN_APART 0.16 /* ... and most area that only one of them covers */
+#define FAR_SHARE  3.2  /* factor from the coarsest level on, which has a few pixels */
 
 static struct scenario shipped;
 static struct world world;
@@ -59,7 +58,7 @@ static uint32_t model_of(const char *kind)
 /* --- silhouettes ------------------------------------------------------------------------------ */
 
 struct silhouette {
-    double right[3], up[3]; /* axes of the picture, a metre being so many samples */
+    double right[3], up[3]; /* axes of the picture, scaled to samples a metre */
     double middle[3];
     uint8_t covered[SIDE_MAX * SIDE_MAX];
 };
@@ -101,7 +100,7 @@ static void draw(struct silhouette *s, const struct mesh *mesh)
     }
 }
 
-/* Seen from around and a little above; samples: in a metre. */
+/* Draws the silhouette from the side and slightly above. samples: in a metre. */
 static void look(struct silhouette *s, const struct mesh_skeleton *skeleton, uint32_t view,
                  double samples)
 {
@@ -141,7 +140,7 @@ static void compare(const struct mesh *fine, const struct mesh *coarse,
     }
 }
 
-/* Where one level follows another, the picture is nearly the same. */
+/* Where one level follows another, the pictures are nearly equal. */
 static void test_levels_look_alike(void **state)
 {
     static const double pixels[MESH_DETAIL_COUNT] = {[MESH_MIDDLE] = MESH_FULL_PIXELS,
@@ -165,7 +164,7 @@ static void test_levels_look_alike(void **state)
     }
 }
 
-/* What is far off is cheap: many of it may be in view. */
+/* Coarse levels have few triangles, because many bodies may be far away. */
 static void test_coarse_levels_are_small(void **state)
 {
     static const uint32_t most[MESH_DETAIL_COUNT] = {[MESH_MIDDLE] = MESH_MIDDLE_MAX,
@@ -185,7 +184,7 @@ static void test_coarse_levels_are_small(void **state)
 
 /* --- parts ------------------------------------------------------------------------------------ */
 
-/* Corners of a joint lie around its pivot: a wheel's all within its radius, some at it. */
+/* The corners of a joint lie around its pivot: those of a wheel within its radius, some at it. */
 static void test_wheels_turn_about_their_axles(void **state)
 {
     static const char *const kinds[] = {"tank", "carrier", "truck", "jeep"};
@@ -231,7 +230,7 @@ static void test_turret_and_gun_pivots(void **state)
     assert_false(skeleton.turret);
 }
 
-/* A rotor's hub is over the fuselage, its disc as wide as its blades; the tail's is upright. */
+/* A rotor's hub is above the fuselage, its radius that of its blades; the tail rotor is upright. */
 static void test_rotors_reach_to_their_tips(void **state)
 {
     struct mesh_skeleton skeleton;
@@ -252,8 +251,8 @@ static void test_rotors_reach_to_their_tips(void **state)
     assert_true(rotors == 1 && tails == 1);
 }
 
-/* Links are about as long as meant, a whole even number goes around, and no triangle of a track
- * jumps along it. */
+/* Links have about the intended length, a whole even number goes around, and no triangle of a track
+ * spans a jump. */
 static void test_links_run_around_a_track(void **state)
 {
     uint32_t model = model_of("tank"), on_track = 0;
@@ -284,8 +283,8 @@ static void test_links_run_around_a_track(void **state)
     assert_true(on_track > 100);
 }
 
-/* Forward is the way in which the lower run goes back: along falls from the front to the rear. */
-static void test_links_count_with_the_way(void **state)
+/* The lower run moves backwards when driving forward, so along falls from front to rear. */
+static void test_links_count_backwards(void **state)
 {
     struct track_outline belt;
     struct mesh mesh;
@@ -304,7 +303,7 @@ static void test_links_count_with_the_way(void **state)
     track_outline_free(&belt);
 }
 
-/* Round things are smooth, and no normal is anything but a unit long. */
+/* Round bodies are smooth, and all normals are unit vectors. */
 static void test_normals(void **state)
 {
     struct mesh mesh;
@@ -331,7 +330,7 @@ int main(void)
         cmocka_unit_test(test_turret_and_gun_pivots),
         cmocka_unit_test(test_rotors_reach_to_their_tips),
         cmocka_unit_test(test_links_run_around_a_track),
-        cmocka_unit_test(test_links_count_with_the_way),
+        cmocka_unit_test(test_links_count_backwards),
         cmocka_unit_test(test_normals),
     };
     return cmocka_run_group_tests(tests, load_shipped, free_shipped);

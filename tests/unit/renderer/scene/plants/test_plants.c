@@ -1,5 +1,5 @@
-/* Plants of a picture: none that is in view is culled, far woods are thinned out without a jump,
- * and trees that stand alone stay. */
+/* Plants of a picture: none in view is culled, distant woods are thinned out without jumps, and
+ * single trees stay. */
 #include "renderer/scene/scene.h"
 
 #include "tests/support/fixture.h"
@@ -58,7 +58,7 @@ static int by_square(const void *a, const void *b)
     return (first > second) - (first < second);
 }
 
-/* One wood in the middle of the world, and lone trees around it, each in a square of its own. */
+/* A wood in the middle of the world, and single trees around it, each in its own gridsquare. */
 static void plant(struct stage *s)
 {
     uint64_t random = fixture_seed(3);
@@ -138,14 +138,14 @@ static void look(struct stage *s, struct vec3 eye, struct vec3 target)
     scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
 }
 
-/* At the wood from so far south. */
+/* Looks at the wood from this far south. */
 static void look_at_wood(struct stage *s, double away)
 {
     struct vec3 wood = {WOOD_X, terrain_base_height(&s->world.terrain, WOOD_X, WOOD_X), WOOD_X};
     look(s, vec3_add(wood, (struct vec3){0.0, 30.0 + 0.2 * away, away}), wood);
 }
 
-/* The plant of the picture that is this tree, NULL: none. */
+/* Returns the plant of the picture for this tree, or NULL. */
 static const struct draw_list_plant *shown(const struct stage *s, const struct fixed_object *tree)
 {
     float at[3];
@@ -161,7 +161,7 @@ static bool in_wood(const struct fixed_object *tree)
     return gridsquare_of(tree->x, tree->z) == gridsquare_of(WOOD_X, WOOD_X);
 }
 
-static void test_what_is_in_view_is_not_culled(void **context)
+static void test_no_plant_in_view_is_culled(void **context)
 {
     struct stage *s = *context;
     uint64_t random = fixture_seed(5);
@@ -207,11 +207,11 @@ static void test_far_woods_are_thinned_out(void **context)
     }
     assert_int_equal(trees[0], WOOD);
     assert_true(trees[1] < WOOD * 2 / 3 && trees[1] > WOOD / 5);
-    /* Those that stay hide as much of the hill as all did, crowns before crowns included. */
+    /* The remaining plants cover as much of the hill as all did, overlapping crowns included. */
     assert_true(width[1] > 0.45 * width[0] && width[1] < width[0]);
 }
 
-static void test_lone_trees_stay(void **context)
+static void test_single_trees_stay(void **context)
 {
     struct stage *s = *context;
     for (double away = 300.0; away < 2600.0; away *= 1.2) {
@@ -229,7 +229,7 @@ static void test_lone_trees_stay(void **context)
     }
 }
 
-static void test_no_plant_comes_or_goes_at_once(void **context)
+static void test_no_plant_appears_or_vanishes_suddenly(void **context)
 {
     struct stage *s = *context;
     for (double away = 300.0; away < 4500.0; away *= 1.02) {
@@ -270,10 +270,10 @@ static void test_less_detail_is_less_of_a_wood(void **context)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_what_is_in_view_is_not_culled),
+        TEST(test_no_plant_in_view_is_culled),
         TEST(test_far_woods_are_thinned_out),
-        TEST(test_lone_trees_stay),
-        TEST(test_no_plant_comes_or_goes_at_once),
+        TEST(test_single_trees_stay),
+        TEST(test_no_plant_appears_or_vanishes_suddenly),
         TEST(test_less_detail_is_less_of_a_wood),
     };
     return cmocka_run_group_tests_name("plants", tests, NULL, NULL);

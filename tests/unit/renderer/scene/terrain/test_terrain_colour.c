@@ -1,5 +1,5 @@
-/* Painting the ground: the same picture whatever block it is painted in, water where the ground is
- * low, roads and craters where they are. */
+/* Ground textures: independent of the block size; water in low ground; roads and craters in their
+ * places. */
 #include "renderer/scene/terrain/terrain_colour.h"
 
 #include "renderer/scene/noise/value_noise.h"
@@ -68,7 +68,8 @@ static int close_coast(void **context)
     return 0;
 }
 
-static bool paint(double x, double z, double step_m, uint32_t columns, uint32_t rows, uint8_t *rgba)
+static bool make_texture(double x, double z, double step_m, uint32_t columns, uint32_t rows,
+                         uint8_t *rgba)
 {
     struct terrain_colour_tile tile = {.x = x,
                                        .z = z,
@@ -84,7 +85,7 @@ static bool paint(double x, double z, double step_m, uint32_t columns, uint32_t 
 
 static const uint8_t *texel(double x, double z)
 {
-    paint(x, z, 0.25, 1, 1, coast->rgba);
+    make_texture(x, z, 0.25, 1, 1, coast->rgba);
     return coast->rgba;
 }
 
@@ -93,7 +94,7 @@ static double brightness(const uint8_t *rgb)
     return rgb[0] + rgb[1] + rgb[2];
 }
 
-static void test_rows_of_grain_are_grain(void **context)
+static void test_rows_of_noise_equal_the_noise(void **context)
 {
     (void)context;
     uint64_t state = fixture_seed(SEED);
@@ -115,7 +116,7 @@ static void test_rows_of_grain_are_grain(void **context)
     }
 }
 
-static void test_coarse_texels_have_no_fine_grain(void **context)
+static void test_coarse_texels_have_no_fine_noise(void **context)
 {
     (void)context;
     struct value_noise_rows rows;
@@ -126,14 +127,14 @@ static void test_coarse_texels_have_no_fine_grain(void **context)
         assert_true(values[c] == 0.0f);
 }
 
-/* A picture larger than a block is what smaller ones show of the same place. */
+/* A texture larger than a block equals smaller textures of the same place. */
 static void test_blocks_do_not_show(void **context)
 {
     (void)context;
     const uint32_t side = SIDE_MAX, cut = 77, part = 150;
     const double step = 4.0, x = 7200.0, z = 1900.0;
-    paint(x, z, step, side, side, coast->rgba);
-    paint(x + cut * step, z + cut * step, step, part, part, coast->other);
+    make_texture(x, z, step, side, side, coast->rgba);
+    make_texture(x + cut * step, z + cut * step, step, part, part, coast->other);
     for (uint32_t row = 0; row < part; row++)
         for (uint32_t i = 0; i < part * 4; i++)
             assert_true(abs(coast->other[row * part * 4 + i] -
@@ -155,11 +156,11 @@ static void test_the_sea_ends_where_the_ground_rises(void **context)
         assert_true(water || height > 0.0 || x > 7450.0);
     }
     assert_true(wet > 1000 && wet < 2500);
-    assert_true(paint(7500.0, 5000.0, 1.0, 8, 8, coast->rgba));
-    assert_false(paint(9500.0, 5000.0, 1.0, 8, 8, coast->rgba));
+    assert_true(make_texture(7500.0, 5000.0, 1.0, 8, 8, coast->rgba));
+    assert_false(make_texture(9500.0, 5000.0, 1.0, 8, 8, coast->rgba));
 }
 
-/* Nearer to its shore the sea says so, and grows lighter. */
+/* Towards its shore the sea's alpha rises and its colour becomes lighter. */
 static void test_the_sea_is_shallow_at_its_shore(void **context)
 {
     (void)context;
@@ -176,8 +177,8 @@ static void test_roads_show_at_every_size(void **context)
     (void)context;
     for (double step = 0.25; step < 70.0; step *= 2.0) {
         const uint32_t side = 65, middle = 32 * side + 32;
-        paint(9250.0 - 32.0 * step, 2250.0 - 32.0 * step, step, side, side, coast->rgba);
-        /* Against the mean of two places as far to both sides of it. */
+        make_texture(9250.0 - 32.0 * step, 2250.0 - 32.0 * step, step, side, side, coast->rgba);
+        /* Compared with the mean of two places at the same distance on both sides. */
         double aside = 0.0;
         uint32_t steps = (uint32_t)(step < 1.0 ? 10.0 / step : 10.0);
         steps = steps > 30 ? 30 : steps;
@@ -187,11 +188,11 @@ static void test_roads_show_at_every_size(void **context)
         if (step * steps > 8.0)
             assert_true(off > 8.0);
     }
-    /* Not between the end of one and the beginning of another. */
-    paint(9499.0, 5000.0, 0.5, 8, 8, coast->rgba);
+    /* Not between the end of one road and the beginning of another. */
+    make_texture(9499.0, 5000.0, 0.5, 8, 8, coast->rgba);
     struct road_point kept = coast->road[2];
     coast->road[2].x = 100.0f;
-    paint(9499.0, 5000.0, 0.5, 8, 8, coast->other);
+    make_texture(9499.0, 5000.0, 0.5, 8, 8, coast->other);
     coast->road[2] = kept;
     assert_memory_equal(coast->rgba, coast->other, sizeof(uint8_t) * 8 * 8 * 4);
 }
@@ -201,10 +202,10 @@ static void test_craters_are_scorched_and_lit(void **context)
     (void)context;
     const uint32_t side = 64;
     const double step = 0.25, x = 9800.0, z = 7000.0;
-    paint(x - 8.0, z - 8.0, step, side, side, coast->other);
+    make_texture(x - 8.0, z - 8.0, step, side, side, coast->other);
     coast->craters[0] = (struct crater){.x = x, .z = z, .radius_m = 4.0f, .depth_m = 1.6f};
     crater_index_update(&coast->index, 1);
-    paint(x - 8.0, z - 8.0, step, side, side, coast->rgba);
+    make_texture(x - 8.0, z - 8.0, step, side, side, coast->rgba);
     double inside = 0.0, before = 0.0, to_sun = 0.0, from_sun = 0.0;
     for (uint32_t row = 0; row < side; row++)
         for (uint32_t column = 0; column < side; column++) {
@@ -214,7 +215,7 @@ static void test_craters_are_scorched_and_lit(void **context)
                 continue;
             inside += brightness(now);
             before += brightness(coast->other + (row * side + column) * 4);
-            /* The slope on the far side from the sun faces it. */
+            /* The slope on the far side faces the sun. */
             if (off > 2.0 && dx * SUN_X + dz * SUN_Z < -0.7 * off)
                 to_sun += brightness(now);
             if (off > 2.0 && dx * SUN_X + dz * SUN_Z > 0.7 * off)
@@ -225,8 +226,8 @@ static void test_craters_are_scorched_and_lit(void **context)
     crater_index_update(&coast->index, 0);
 }
 
-/* Past the edges the country goes on without a step. */
-static void test_country_goes_on_past_the_square(void **context)
+/* Past the edges the ground continues without a step. */
+static void test_ground_continues_past_the_square(void **context)
 {
     (void)context;
     const struct terrain *terrain = &coast->world.terrain;
@@ -249,14 +250,14 @@ static void test_country_goes_on_past_the_square(void **context)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rows_of_grain_are_grain),
-        cmocka_unit_test(test_coarse_texels_have_no_fine_grain),
+        cmocka_unit_test(test_rows_of_noise_equal_the_noise),
+        cmocka_unit_test(test_coarse_texels_have_no_fine_noise),
         cmocka_unit_test(test_blocks_do_not_show),
         cmocka_unit_test(test_the_sea_ends_where_the_ground_rises),
         cmocka_unit_test(test_the_sea_is_shallow_at_its_shore),
         cmocka_unit_test(test_roads_show_at_every_size),
         cmocka_unit_test(test_craters_are_scorched_and_lit),
-        cmocka_unit_test(test_country_goes_on_past_the_square),
+        cmocka_unit_test(test_ground_continues_past_the_square),
     };
     return cmocka_run_group_tests(tests, open_coast, close_coast);
 }

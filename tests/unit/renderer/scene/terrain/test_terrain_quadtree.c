@@ -1,5 +1,5 @@
-/* The ground's meshes and levels of detail: true to the terrain within a pixel, no gaps between
- * neighbours, no jumps when a patch is divided. */
+/* Meshes and levels of detail of the ground: within a pixel of the terrain, without gaps between
+ * neighbours and jumps when a patch is divided. */
 #include "renderer/scene/terrain/terrain_mesh.h"
 
 #include "renderer/scene/noise/value_noise.h"
@@ -19,7 +19,7 @@
 #define SEED    11u
 #define CRATERS 12u
 
-/* A picture of 1280 pixels' width; what the goals of detail are for. */
+/* Width of the picture for which the tolerances hold [pixel]. */
 #define FOCAL_PIXELS 1108.5
 
 struct relief {
@@ -74,7 +74,7 @@ static int close_relief(void **context)
     return 0;
 }
 
-/* The patch of a level that holds a place. */
+/* Returns the patch of a level at a place. */
 static struct terrain_quadtree_patch patch_at(int32_t level, double x, double z)
 {
     double side = terrain_quadtree_patch_side(level);
@@ -88,14 +88,14 @@ static struct terrain_quadtree_patch some_patch(uint64_t *state, int32_t level)
     return patch_at(level, x, fixture_uniform(state, 0.0, 50000.0));
 }
 
-/* Twice the triangle's area seen from above; negative for one that faces down. */
+/* Returns twice the triangle's area seen from above; negative if it faces down. */
 static double area(const float *a, const float *b, const float *c)
 {
     return ((double)b[2] - (double)a[2]) * ((double)c[0] - (double)a[0]) -
            ((double)b[0] - (double)a[0]) * ((double)c[2] - (double)a[2]);
 }
 
-/* Height of the mesh at metres from its corner; NAN where it has no triangle. */
+/* Returns the mesh's height at a point in metres from its corner, or NAN outside its triangles. */
 static double mesh_height(const struct terrain_mesh *mesh, double x, double z)
 {
     const float p[3] = {(float)x, 0.0f, (float)z};
@@ -110,7 +110,8 @@ static double mesh_height(const struct terrain_mesh *mesh, double x, double z)
     return NAN;
 }
 
-/* A patch is drawn from this distance on, unless it is of the deepest level [pixel]. */
+/* Returns the size of a length where a patch of the level is drawn nearest [pixel]; the deepest
+ * level may be nearer. */
 static double pixels(double metres, int32_t level)
 {
     return metres * FOCAL_PIXELS / (TERRAIN_QUADTREE_SPLIT * terrain_quadtree_patch_side(level));
@@ -183,7 +184,7 @@ static void test_skirt_faces_outside(void **context)
     }
 }
 
-/* What stands on the true ground stands on the drawn ground, to a pixel. */
+/* The drawn ground is within a pixel of the true ground. */
 static void test_mesh_is_the_terrain_to_a_pixel(void **context)
 {
     (void)context;
@@ -205,7 +206,7 @@ static void test_mesh_is_the_terrain_to_a_pixel(void **context)
         print_message("level %d: off by %.2f m at most, %.2f pixels\n", level, worst,
                       pixels(worst, level));
         assert_true(pixels(worst, level) <= (level < TERRAIN_QUADTREE_HAZY_LEVEL ? 2.0 : 1.0));
-        /* Right before the eye it is the very ground. */
+        /* Near the eye it is exactly the true ground. */
         assert_true(level < TERRAIN_QUADTREE_LEVEL_MAX || worst < 1e-3);
     }
 }
@@ -239,7 +240,7 @@ static void test_ground_does_not_jump_when_a_patch_is_divided(void **context)
     }
 }
 
-/* The heights of a mesh's northern edge at steps along it. */
+/* Fills in the heights of a mesh's northern edge in steps. */
 static void edge_heights(const struct terrain_mesh *mesh, double side, uint32_t steps,
                          double *heights)
 {
@@ -247,8 +248,8 @@ static void edge_heights(const struct terrain_mesh *mesh, double side, uint32_t 
         heights[i] = mesh_height(mesh, side * i / steps, 0.0);
 }
 
-/* Where two patches meet, the higher one's skirt reaches below the lower one's edge. The detail of
- * neighbours is at most two levels apart. */
+/* Where two patches meet, the higher one's skirt reaches below the lower one's edge. Levels of
+ * neighbours differ by at most two. */
 static void test_skirts_close_every_gap(void **context)
 {
     (void)context;
@@ -260,7 +261,7 @@ static void test_skirts_close_every_gap(void **context)
         finer = finer > TERRAIN_QUADTREE_LEVEL_MAX ? TERRAIN_QUADTREE_LEVEL_MAX : finer;
         struct terrain_quadtree_patch patch = some_patch(&state, finer);
         double side = terrain_quadtree_patch_side(finer), wide = terrain_quadtree_patch_side(level);
-        /* Its northern edge on the southern edge of a coarser one. */
+        /* Its northern edge against the southern edge of a coarser one. */
         patch.row = patch.row >> (finer - level) << (finer - level);
         double x = patch.column * side, z = patch.row * side;
         dig_some(&state, x + 0.5 * side, z, maths_min(10.0, 0.5 * side));
@@ -300,7 +301,7 @@ static void test_near_meshes_have_craters(void **context)
         }
         print_message("level %d: craters off by %.2f m, %.2f pixels\n", level, worst,
                       pixels(worst, level));
-        /* A cell cannot hold all of a sharp rim, nor the step where a bowl cuts another's. */
+        /* Cells cannot follow a sharp rim or the step between two bowls exactly. */
         assert_true(worst < 0.4 * side / GROUND_CELLS_MAX + 0.2);
         forget_craters();
     }

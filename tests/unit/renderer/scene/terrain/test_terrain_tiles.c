@@ -1,5 +1,4 @@
-/* The cache of ground tiles: what is made when, what stands in for what is not, and what a crater
- * changes. */
+/* The cache of ground tiles: what is made when, stand-ins, and the effect of craters. */
 #include "renderer/scene/terrain/terrain_tiles.h"
 
 #include "renderer/scene/terrain/terrain_colour.h"
@@ -19,7 +18,7 @@
 #define SPACING 125.0
 
 /* Hills of grass and chaparral, sea in the west, a road across. */
-struct country {
+struct terrain_context {
     struct world world;
     struct frame_view frame_view;
     struct crater craters[8];
@@ -32,7 +31,7 @@ struct country {
 
 static int open_country(void **context)
 {
-    struct country *c = calloc(1, sizeof *c);
+    struct terrain_context *c = calloc(1, sizeof *c);
     assert_non_null(c);
     for (uint32_t row = 0; row < POSTS; row++)
         for (uint32_t column = 0; column < POSTS; column++) {
@@ -61,14 +60,14 @@ static int open_country(void **context)
 
 static int close_country(void **context)
 {
-    struct country *c = *context;
+    struct terrain_context *c = *context;
     terrain_tiles_free(&c->tiles);
     crater_index_free(&c->index);
     free(c);
     return 0;
 }
 
-/* So many patches of a level from a corner on, row by row. */
+/* Fills in patches of a level from a corner on, row by row. */
 static uint32_t block(struct terrain_quadtree_patch *patches, int32_t level, int32_t column,
                       int32_t row, int32_t wide)
 {
@@ -80,7 +79,7 @@ static uint32_t block(struct terrain_quadtree_patch *patches, int32_t level, int
     return n;
 }
 
-/* The patch of a level that holds a place. */
+/* Returns the patch of a level at a place. */
 static struct terrain_quadtree_patch at(int32_t level, double x, double z)
 {
     double side = terrain_quadtree_patch_side(level);
@@ -88,7 +87,7 @@ static struct terrain_quadtree_patch at(int32_t level, double x, double z)
         .column = (int32_t)floor(x / side), .row = (int32_t)floor(z / side), .level = level};
 }
 
-static void dig(struct country *c, double x, double z, float radius_m)
+static void dig(struct terrain_context *c, double x, double z, float radius_m)
 {
     c->craters[c->index.count] =
         (struct crater){.x = x, .z = z, .radius_m = radius_m, .depth_m = 0.3f * radius_m};
@@ -101,9 +100,9 @@ static void assert_own(const struct tile_view *view)
     assert_true(view->at_u == 0.0f && view->at_v == 0.0f && view->share == 1.0f);
 }
 
-static void test_makes_all_without_a_bound(void **context)
+static void test_makes_all_without_a_budget(void **context)
 {
-    struct country *c = *context;
+    struct terrain_context *c = *context;
     struct terrain_quadtree_patch patches[16];
     uint32_t count = block(patches, 8, 90, 95, 4);
     terrain_tiles_update(&c->tiles, patches, count, &c->frame_view, TERRAIN_TILES_ALL);
@@ -121,9 +120,9 @@ static void test_makes_all_without_a_bound(void **context)
     }
 }
 
-static void test_keeps_what_it_made(void **context)
+static void test_keeps_tiles(void **context)
 {
-    struct country *c = *context;
+    struct terrain_context *c = *context;
     struct terrain_quadtree_patch patches[16];
     struct tile before[16];
     uint32_t count = block(patches, 8, 90, 95, 4);
@@ -139,10 +138,10 @@ static void test_keeps_what_it_made(void **context)
     }
 }
 
-/* What a picture waited for, painted a few at a time, is what is painted at once. */
-static void test_a_bound_only_delays(void **context)
+/* Textures made a few at a time equal those made at once. */
+static void test_a_budget_only_delays(void **context)
 {
-    struct country *c = *context;
+    struct terrain_context *c = *context;
     static uint8_t whole[64][TILE_TEXTURE_BYTES];
     struct terrain_quadtree_patch patches[64];
     uint32_t count = block(patches, 10, 400, 405, 8), updates = 0;
@@ -153,7 +152,7 @@ static void test_a_bound_only_delays(void **context)
     assert_int_equal(terrain_tiles_init(&c->tiles), 0);
     do {
         terrain_tiles_update(&c->tiles, patches, count, &c->frame_view, 5);
-        /* Stand-ins come first; an 8 x 8 block has at most four of its own. */
+        /* Stand-ins are made first; an 8 x 8 block then has room for at most four of its own. */
         assert_true(c->tiles.textures_made <= (updates == 0 ? 5 + 4 : 5));
         assert_int_equal(c->tiles.view_count, count);
         for (uint32_t i = 0; i < count; i++)
@@ -169,7 +168,7 @@ static void test_a_bound_only_delays(void **context)
 
 static void test_an_ancestor_stands_in(void **context)
 {
-    struct country *c = *context;
+    struct terrain_context *c = *context;
     struct terrain_quadtree_patch above = at(8, 25000.0, 25000.0), below[16];
     terrain_tiles_update(&c->tiles, &above, 1, &c->frame_view, TERRAIN_TILES_ALL);
     uint32_t count = block(below, 10, above.column * 4, above.row * 4, 4);
@@ -189,7 +188,7 @@ static void test_an_ancestor_stands_in(void **context)
 /* Ground outside the square has negative numbers. */
 static void test_an_ancestor_stands_in_west_of_the_square(void **context)
 {
-    struct country *c = *context;
+    struct terrain_context *c = *context;
     struct terrain_quadtree_patch above = at(6, -700.0, 25000.0), below = at(8, -10.0, 25000.0);
     terrain_tiles_update(&c->tiles, &above, 1, &c->frame_view, TERRAIN_TILES_ALL);
     terrain_tiles_update(&c->tiles, &below, 1, &c->frame_view, 0);
@@ -200,17 +199,17 @@ static void test_an_ancestor_stands_in_west_of_the_square(void **context)
 
 static void test_the_coarsest_stand_in_is_made_when_there_is_none(void **context)
 {
-    struct country *c = *context;
+    struct terrain_context *c = *context;
     struct terrain_quadtree_patch patch = at(10, 25000.0, 25000.0), root = {.level = 0};
     terrain_tiles_update(&c->tiles, &root, 1, &c->frame_view, TERRAIN_TILES_ALL);
     terrain_tiles_update(&c->tiles, &patch, 1, &c->frame_view, 0);
-    assert_int_equal(c->tiles.textures_made, 1); /* the root's texels are 500 m: they will not do */
+    assert_int_equal(c->tiles.textures_made, 1); /* the root's texels of 500 m are too wide */
     assert_int_equal(c->tiles.views[0].texture_tile->key.level, 7);
 }
 
-static void test_a_crater_makes_its_tiles_anew(void **context)
+static void test_a_crater_updates_its_tiles(void **context)
 {
-    struct country *c = *context;
+    struct terrain_context *c = *context;
     struct terrain_quadtree_patch patches[9];
     uint64_t mesh_versions[9], texture_versions[9];
     uint32_t count = block(patches, 10, 399, 399, 3);
@@ -219,7 +218,7 @@ static void test_a_crater_makes_its_tiles_anew(void **context)
         mesh_versions[i] = c->tiles.views[i].tile->mesh_version;
         texture_versions[i] = c->tiles.views[i].texture_tile->texture_version;
     }
-    /* 16 m from the middle one's west edge: its soot reaches over it, its bowl does not. */
+    /* 16 m from the west edge of the middle tile: its soot reaches across, its bowl does not. */
     double side = terrain_quadtree_patch_side(10);
     dig(c, 400.0 * side + 16.0, 400.5 * side, 8.0f);
     terrain_tiles_update(&c->tiles, patches, count, &c->frame_view, 0);
@@ -238,10 +237,10 @@ static void test_a_crater_makes_its_tiles_anew(void **context)
     assert_int_equal(c->tiles.textures_made, 0);
 }
 
-/* A world that goes back has fewer craters: tiles that show those that are gone are made anew. */
-static void test_a_crater_that_is_gone_is_gone_from_the_tile(void **context)
+/* An earlier state of the world has fewer craters: tiles that show missing ones are made again. */
+static void test_a_removed_crater_vanishes_from_the_tile(void **context)
 {
-    struct country *c = *context;
+    struct terrain_context *c = *context;
     static uint8_t clean[TILE_TEXTURE_BYTES];
     struct terrain_quadtree_patch patch = at(10, 25030.0, 25030.0);
     terrain_tiles_update(&c->tiles, &patch, 1, &c->frame_view, TERRAIN_TILES_ALL);
@@ -256,7 +255,7 @@ static void test_a_crater_that_is_gone_is_gone_from_the_tile(void **context)
 
 static void test_mips_are_means(void **context)
 {
-    struct country *c = *context;
+    struct terrain_context *c = *context;
     struct terrain_quadtree_patch patch = at(9, 26000.0, 25100.0);
     terrain_tiles_update(&c->tiles, &patch, 1, &c->frame_view, TERRAIN_TILES_ALL);
     const uint8_t *texture = c->tiles.views[0].texture_tile->texture;
@@ -277,11 +276,11 @@ static void test_mips_are_means(void **context)
     }
 }
 
-/* Where a patch is divided it shows its largest mip; those that follow it show their next one,
- * which is as wide and nearly the same picture. */
-static void test_nothing_jumps_when_a_patch_is_divided(void **context)
+/* A patch that is divided shows its largest mip; its parts show their second mip, which has texels
+ * as wide and is nearly equal. */
+static void test_textures_do_not_jump_when_a_patch_is_divided(void **context)
 {
-    struct country *c = *context;
+    struct terrain_context *c = *context;
     for (int32_t level = 4; level < TERRAIN_QUADTREE_LEVEL_MAX; level++) {
         double side = terrain_quadtree_patch_side(level), far = TERRAIN_QUADTREE_SPLIT * side;
         float texel_m = (float)(side / (TILE_TEXELS - 1));
@@ -308,7 +307,7 @@ static void test_nothing_jumps_when_a_patch_is_divided(void **context)
 
 static void test_neighbours_meet_in_the_same_colour(void **context)
 {
-    struct country *c = *context;
+    struct terrain_context *c = *context;
     struct terrain_quadtree_patch pair[2];
     /* Grass with the road, and the shore. */
     const double places[][2] = {{26000.0, 25100.0}, {60 * SPACING, 21000.0}, {33000.0, 31000.0}};
@@ -326,9 +325,9 @@ static void test_neighbours_meet_in_the_same_colour(void **context)
         }
 }
 
-static void test_gives_up_the_longest_unseen(void **context)
+static void test_replaces_the_tile_unused_longest(void **context)
 {
-    struct country *c = *context;
+    struct terrain_context *c = *context;
     struct terrain_quadtree_patch here = at(10, 25000.0, 25000.0), many[256];
     terrain_tiles_update(&c->tiles, &here, 1, &c->frame_view, TERRAIN_TILES_ALL);
     uint64_t version = c->tiles.views[0].texture_tile->texture_version;
@@ -350,18 +349,18 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
 #define WITH_COUNTRY(test) cmocka_unit_test_setup_teardown(test, open_country, close_country)
-        WITH_COUNTRY(test_makes_all_without_a_bound),
-        WITH_COUNTRY(test_keeps_what_it_made),
-        WITH_COUNTRY(test_a_bound_only_delays),
+        WITH_COUNTRY(test_makes_all_without_a_budget),
+        WITH_COUNTRY(test_keeps_tiles),
+        WITH_COUNTRY(test_a_budget_only_delays),
         WITH_COUNTRY(test_an_ancestor_stands_in),
         WITH_COUNTRY(test_an_ancestor_stands_in_west_of_the_square),
         WITH_COUNTRY(test_the_coarsest_stand_in_is_made_when_there_is_none),
-        WITH_COUNTRY(test_a_crater_makes_its_tiles_anew),
-        WITH_COUNTRY(test_a_crater_that_is_gone_is_gone_from_the_tile),
+        WITH_COUNTRY(test_a_crater_updates_its_tiles),
+        WITH_COUNTRY(test_a_removed_crater_vanishes_from_the_tile),
         WITH_COUNTRY(test_mips_are_means),
-        WITH_COUNTRY(test_nothing_jumps_when_a_patch_is_divided),
+        WITH_COUNTRY(test_textures_do_not_jump_when_a_patch_is_divided),
         WITH_COUNTRY(test_neighbours_meet_in_the_same_colour),
-        WITH_COUNTRY(test_gives_up_the_longest_unseen),
+        WITH_COUNTRY(test_replaces_the_tile_unused_longest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
