@@ -1,5 +1,5 @@
 /* Requests to a console: libmicrohttpd's parser, names, rates, routes, keys of the address, bodies.
- * Commands end at the desk, where the harness answers them. */
+ * Commands end in the command queue, where the harness answers them. */
 #include "tests/fuzz/http_client.h"
 #include "tests/fuzz/support.h"
 
@@ -13,7 +13,7 @@
 static struct console console = {.lock = PTHREAD_MUTEX_INITIALIZER,
                                  .token = "0123456789abcdef0123456789abcdef"};
 
-static void answer_tickets(void)
+static void answer_pending(void)
 {
     pthread_mutex_lock(&console.lock);
     while (console.queue.pending) {
@@ -50,7 +50,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     console.write_rate = (struct rate){0};
     console.players = (struct players){.joined = 0};
     pthread_mutex_unlock(&console.lock);
-    http_client_send(data, size, answer_tickets);
-    http_client_get("/api/state?most=1", answer_tickets);
+    http_client_send(data, size, answer_pending);
+    http_client_get("/api/state?most=1", answer_pending);
     return 0;
 }

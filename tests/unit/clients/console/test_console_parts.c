@@ -1,5 +1,5 @@
-/* The console's small parts: JSON as it is written, secrets, rates, players, who may
- * ask by which name, and answers of a renderer. */
+/* The console's small parts: the JSON writer, keys, rates, players, allowed host names, and answers
+ * of a renderer. */
 #include "clients/console/renderer_client.h"
 #include "clients/console/players.h"
 #include "clients/console/session_key.h"
@@ -83,9 +83,9 @@ static void test_text_has_a_bound(void **state)
     json_writer_free(&json);
 }
 
-/* --- secrets -----------------------------------------------------------------------------------*/
+/* --- keys --------------------------------------------------------------------------------------*/
 
-static void test_secrets_are_equal_or_not(void **state)
+static void test_keys_are_equal_or_not(void **state)
 {
     (void)state;
     assert_true(session_key_equal("abcd", "abcd"));
@@ -265,7 +265,7 @@ int main(void)
         cmocka_unit_test(test_numbers_are_short_and_right),
         cmocka_unit_test(test_words_are_escaped_and_commas_put),
         cmocka_unit_test(test_text_has_a_bound),
-        cmocka_unit_test(test_secrets_are_equal_or_not),
+        cmocka_unit_test(test_keys_are_equal_or_not),
         cmocka_unit_test(test_a_token_file_is_made_kept_and_checked),
         cmocka_unit_test(test_a_rate_grants_a_burst_and_then_its_pace),
         cmocka_unit_test(test_players_are_known_by_their_keys),

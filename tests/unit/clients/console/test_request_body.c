@@ -1,4 +1,4 @@
-/* What a request's body may say: every wrong value of every member is refused with words. */
+/* Bodies of requests: every wrong value of every member is refused with a text. */
 #include "clients/console/request_body.h"
 
 #include <setjmp.h>

@@ -1,4 +1,4 @@
-/* The stick: dead zone and curve, keys by their time, the lever, gears. */
+/* Control shaping: dead zone and curve, the time of keys, the lever, gears. */
 #include "clients/drive/control_shaping.c" /* the unit tests are not linked with the processes */
 
 #include "tests/support/fixture.h"
@@ -16,7 +16,7 @@
 
 static struct control_shaping shaping;
 
-static int open_stick(void **state)
+static int reset_shaping(void **state)
 {
     (void)state;
     control_shaping_reset(&shaping, T0);
@@ -63,12 +63,12 @@ static void test_more_pressure_is_faster(void **state)
     (void)state;
     give(INTENT_RATE, AXIS_THROTTLE, 0.4, false, T0);
     double soft = (double)run_to(T0 + 200 * MS).throttle;
-    (void)open_stick(NULL);
+    (void)reset_shaping(NULL);
     give(INTENT_RATE, AXIS_THROTTLE, 0.8, false, T0);
     double hard = (double)run_to(T0 + 200 * MS).throttle;
     assert_true(soft > 0.0 && hard > 2.0 * soft);
 
-    (void)open_stick(NULL);
+    (void)reset_shaping(NULL);
     give(INTENT_DOWN, AXIS_THROTTLE, 1.0, true, T0);
     double first = (double)run_to(T0 + 200 * MS).throttle;
     double then = (double)run_to(T0 + 400 * MS).throttle - first;
@@ -192,16 +192,16 @@ static void test_ranges(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup(test_curve, open_stick),
-        cmocka_unit_test_setup(test_more_pressure_is_faster, open_stick),
-        cmocka_unit_test_setup(test_tap_counts_at_once, open_stick),
-        cmocka_unit_test_setup(test_pulses, open_stick),
-        cmocka_unit_test_setup(test_releases, open_stick),
-        cmocka_unit_test_setup(test_lever, open_stick),
-        cmocka_unit_test_setup(test_brake_ends_the_throttle, open_stick),
-        cmocka_unit_test_setup(test_gears, open_stick),
-        cmocka_unit_test_setup(test_aim_is_an_aircrafts_stick, open_stick),
-        cmocka_unit_test_setup(test_ranges, open_stick),
+        cmocka_unit_test_setup(test_curve, reset_shaping),
+        cmocka_unit_test_setup(test_more_pressure_is_faster, reset_shaping),
+        cmocka_unit_test_setup(test_tap_counts_at_once, reset_shaping),
+        cmocka_unit_test_setup(test_pulses, reset_shaping),
+        cmocka_unit_test_setup(test_releases, reset_shaping),
+        cmocka_unit_test_setup(test_lever, reset_shaping),
+        cmocka_unit_test_setup(test_brake_ends_the_throttle, reset_shaping),
+        cmocka_unit_test_setup(test_gears, reset_shaping),
+        cmocka_unit_test_setup(test_aim_is_an_aircrafts_stick, reset_shaping),
+        cmocka_unit_test_setup(test_ranges, reset_shaping),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -31,7 +31,7 @@ static void event(uint16_t type, uint16_t code, int32_t value)
     gamepad_decode(&pad, raw.type, raw.code, raw.value, &queue);
 }
 
-static void assert_stands(uint32_t which, enum input_axis axis, double value)
+static void assert_position(uint32_t which, enum input_axis axis, double value)
 {
     assert_true(which < queue.count);
     assert_int_equal(queue.intent[which].type, INTENT_SET);
@@ -48,10 +48,10 @@ static void test_sticks(void **state)
     event(EV_ABS, ABS_RX, 0);
     event(EV_ABS, ABS_RY, 128);
     assert_int_equal(queue.count, 4);
-    assert_stands(0, AXIS_STEER, 1.0);
-    assert_stands(1, AXIS_CLIMB, 1.0);
-    assert_stands(2, AXIS_AIM_X, -1.0);
-    assert_stands(3, AXIS_AIM_Y, 0.0);
+    assert_position(0, AXIS_STEER, 1.0);
+    assert_position(1, AXIS_CLIMB, 1.0);
+    assert_position(2, AXIS_AIM_X, -1.0);
+    assert_position(3, AXIS_AIM_Y, 0.0);
 }
 
 static void test_pedals(void **state)
@@ -60,9 +60,9 @@ static void test_pedals(void **state)
     event(EV_ABS, ABS_RZ, 0);
     event(EV_ABS, ABS_RZ, 1023);
     event(EV_ABS, ABS_Z, 512);
-    assert_stands(0, AXIS_THROTTLE, 0.0);
-    assert_stands(1, AXIS_THROTTLE, 1.0);
-    assert_stands(2, AXIS_BRAKE, 0.5);
+    assert_position(0, AXIS_THROTTLE, 0.0);
+    assert_position(1, AXIS_THROTTLE, 1.0);
+    assert_position(2, AXIS_BRAKE, 0.5);
 }
 
 static void test_buttons(void **state)

@@ -1,4 +1,4 @@
-/* SpaceMice: motions and buttons as the daemon sends them, and what a push comes to. */
+/* SpaceMouse: motions and buttons as the daemon sends them, and the controls that result. */
 #include "clients/drive/device_library.c" /* the unit tests are not linked with the processes */
 #include "clients/drive/spacemouse.c"
 #include "clients/drive/control_shaping.c"

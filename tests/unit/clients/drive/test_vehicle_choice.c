@@ -1,4 +1,4 @@
-/* Choices of vehicles and targets, and the map, from a mirror that is filled by hand. */
+/* Choices of vehicles and targets, and the map, from a mirror that the test fills. */
 #include "clients/drive/character_map.c" /* the unit tests are not linked with the processes */
 #include "clients/drive/vehicle_choice.c"
 

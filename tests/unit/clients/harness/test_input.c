@@ -1,5 +1,5 @@
-/* Lines of a program's standard input: in whatever pieces they come, none is lost, none is torn,
- * and one that is too long is told and left out. */
+/* Lines of standard input: in whatever pieces they come, none is lost or split, and a line that is
+ * too long is reported and dropped. */
 #include "clients/harness/input.c"
 
 #include "tests/support/fixture.h"

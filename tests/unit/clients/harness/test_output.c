@@ -1,5 +1,4 @@
-/* A reader that is slow: states are left out first, then events, which are counted; answers never.
- */
+/* A slow reader: states are dropped first, then events, which are counted, and answers never. */
 #include "clients/harness/output.c"
 
 #include <setjmp.h>
@@ -48,7 +47,7 @@ static void test_what_is_left_out(void **state)
     output_close(&output);
 }
 
-static void test_what_was_missed_is_told_before_the_next(void **state)
+static void test_missed_events_are_reported_before_the_next(void **state)
 {
     (void)state;
     output_missed(&output, 7);
@@ -73,7 +72,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_what_is_left_out),
-        cmocka_unit_test(test_what_was_missed_is_told_before_the_next),
+        cmocka_unit_test(test_missed_events_are_reported_before_the_next),
         cmocka_unit_test(test_no_memory_ends_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

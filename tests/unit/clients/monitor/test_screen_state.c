@@ -1,4 +1,4 @@
-/* The monitor's table and desk: who is shown, in which order, and what keys do. */
+/* The monitor's table and screen state: filtering, sorting, and the effect of keys. */
 #include "clients/monitor/screen_state.c" /* the unit tests are not linked with the processes */
 #include "clients/monitor/vehicle_table.c"
 
