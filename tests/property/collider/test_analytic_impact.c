@@ -97,7 +97,7 @@ static struct trial draw(enum sort sort, uint64_t *random)
                           vec3_scale(across(on, random), beside));
         t.b.along = vec3_sub(t.a.along, vec3_scale(on, fixture_uniform(random, 1.0, 600.0)));
     }
-    if (fixture_random(random) & 1) { /* b began its way later in the frame, and a before it */
+    if (fixture_random(random) & 1) { /* b's path began later in the frame, and a's before it */
         t.b.since = fixture_uniform(random, 0.0, 0.5);
         t.a.at = vec3_add(t.a.at, vec3_scale(t.a.along, t.b.since));
         t.a.since = t.b.since;
@@ -125,7 +125,7 @@ static double nearest_time(const struct trial *t)
     return 0.5 * (low + high);
 }
 
-/* First touch by bisection, -1 for none; nearest is the least distance. */
+/* Finds the first contact by bisection, -1 for none; nearest is the least distance. */
 static double oracle(const struct trial *t, double nearest_at)
 {
     double low = t->from, high = nearest_at;
@@ -143,13 +143,13 @@ static double oracle(const struct trial *t, double nearest_at)
 
 static bool agrees(const struct trial *t, bool hit, double toi)
 {
-    /* Rounding of coordinates up to 50 km; where a touch is a graze, time is as good as its root.
-     */
+    /* Rounding of coordinates up to 50 km. For a grazing contact the time is as accurate as the
+     * root. */
     const double slack = 1e-9;
     struct vec3 s = vec3_sub(path_at(&t->b, t->from), path_at(&t->a, t->from));
     struct vec3 w = vec3_sub(t->b.along, t->a.along);
     double nearest_at = nearest_time(t), nearest = distance(t, nearest_at);
-    if (vec3_dot(s, w) >= 0.0) /* parting: no touch, whatever the distance */
+    if (vec3_dot(s, w) >= 0.0) /* parting: no contact at any distance */
         return !hit;
     if (!hit)
         return nearest > t->reach - slack;
@@ -279,7 +279,7 @@ static void test_no_path_tunnels_through_ridges(void **state)
     assert_in_range(sweep_paths(&g, false, &random, 1e-6, 1e-6), PATHS / 10, PATHS * 9 / 10);
 }
 
-/* As a path goes on after a collision in mid-frame. A sweep that never ends is ended here. */
+/* Paths as they continue after a collision in mid-frame. A sweep that never ends is ended here. */
 static void test_no_path_that_began_late_tunnels(void **state)
 {
     static struct ground g;

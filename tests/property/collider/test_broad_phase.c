@@ -21,7 +21,7 @@
 #define WORLDS     1500
 #define ROWS_MAX   160
 #define FIXED_MAX  48
-#define LONG_M     64.0  /* from this extent of a way in x pairs may be dropped that never touch */
+#define LONG_M     64.0  /* pairs with a longer path in x may be dropped if they never touch */
 #define CROWD      10000 /* rows enough for several threads */
 #define CROWD_SIDE 9000.0
 
@@ -114,7 +114,7 @@ static void draw_row(struct small_world *w, uint32_t i, const struct spread *pla
     e->kind[i] = (uint16_t)kind;
     e->state[i] = (uint8_t)(fixture_random(random) % 10 == 0 ? ENTITY_FREE : ENTITY_ACTIVE);
     e->behaviour[i] = kind == KIND_ROUND ? BEHAVIOUR_FLIGHT : BEHAVIOUR_HOLD;
-    if (kind == KIND_ROUND && i > 0) { /* somebody's, or of somebody who is gone */
+    if (kind == KIND_ROUND && i > 0) { /* shot by another row, or by an entity that is gone */
         e->owner_slot[i] = (uint32_t)(fixture_random(random) % i);
         e->owner_id[i] = e->owner_slot[i] + 1 + (fixture_random(random) % 4 == 0 ? 1000u : 0u);
     }
@@ -159,7 +159,7 @@ static struct method_input input_of(const struct small_world *w)
 
 enum wanted { NEVER, MAYBE, ALWAYS };
 
-/* Do the spheres of two ways touch, or a sphere and one that stands? */
+/* Returns true if the spheres of two paths touch; one of them may be at rest. */
 static bool impact(const struct path *a, const struct path *b, double reach)
 {
     double from = maths_max(a->since, b->since);
@@ -300,7 +300,7 @@ static struct path_box draw_box(const struct spread *place, uint64_t *random)
     return pair_filter_path_box(&along, sizes[fixture_random(random) % 5]);
 }
 
-/* Rows that a query finds: all whose boxes meet, but for those on long ways, which may pass by. */
+/* A query finds all rows whose boxes meet, except those with long paths, which may pass by. */
 static void check_query(const struct small_world *w, const struct broad_phase *broad,
                         const struct path_box *box, struct pair_list *found)
 {

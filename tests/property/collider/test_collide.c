@@ -1,5 +1,5 @@
-/* Whole frames with impulses: momentum stays, energy never grows, bodies end apart, and who comes
- * first does not matter (thesis rows 39, 43, 46). SEED=n runs another set. */
+/* Whole frames with impulses: momentum is conserved, energy never grows, bodies end apart, and
+ * their order does not matter (thesis rows 39, 43, 46). SEED=n runs another set. */
 #include "tests/support/steps.h"
 #include "world/entity/mass_properties.h"
 
@@ -15,7 +15,7 @@
 
 #define IMPACTS 500
 
-/* Two kinds of random mass and restitution that take any blow. */
+/* Two kinds of random mass and restitution that no impact destroys. */
 static void draw_kinds(const struct fixture *f, uint64_t *random)
 {
     static const char *const names[] = {"helicopter", "jet"};
@@ -53,7 +53,7 @@ static struct impact_pair draw_impact(double dt_s, double reach, uint64_t *rando
     double parting = vec3_dot(apart, vec3_sub(vb, va));
     if (fabs(parting) < 0.02 * reach * vec3_length(vec3_sub(vb, va)))
         return draw_impact(dt_s, reach, random); /* a graze may be one or not */
-    if (parting > 0.0)                           /* they are nearing when they touch */
+    if (parting > 0.0)                           /* they approach when they touch */
         apart = vec3_scale(apart, -1.0);
     return (struct impact_pair){
         {.kind = "helicopter", .at = vec3_sub(meet, vec3_scale(va, time)), .velocity = va},
@@ -69,7 +69,7 @@ struct sums {
 
 static const struct vec3 middle = {25000.0, 3000.0, 25000.0};
 
-/* Angular momentum of a row's own turning, and its energy. */
+/* Angular momentum of a row's own rotation, and its energy. */
 static struct vec3 rotation_path_of(const struct fixture *f, uint32_t row, double *energy)
 {
     struct entities e = steps_rows(f);
@@ -130,7 +130,7 @@ static void test_rows_39_43_46_impulses_keep_momentum_and_never_add_energy(void 
         struct entities e = steps_rows(&f);
         assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
         assert_true(difference(before.momentum, after.momentum) <= 1e-12 * before.scale);
-        /* Rows 39, 43: about a point some 20 km from where they meet. */
+        /* Rows 39, 43: about a point some 20 km from the collision. */
         assert_true(difference(before.angular, after.angular) <= 1e-9 * 20000.0 * before.scale);
         turned += fabs(e.spin_x[0]) + fabs(e.spin_y[0]) + fabs(e.spin_z[0]) > 0.01;
         assert_true(after.energy <= before.energy * (1.0 + 1e-12));
@@ -141,7 +141,7 @@ static void test_rows_39_43_46_impulses_keep_momentum_and_never_add_energy(void 
     fixture_close(&f);
 }
 
-static void test_impulses_do_not_know_who_comes_first(void **state)
+static void test_impulses_do_not_depend_on_the_order_of_bodies(void **state)
 {
     uint64_t random = fixture_seed(44);
     struct fixture f;
@@ -177,7 +177,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rows_39_43_46_impulses_keep_momentum_and_never_add_energy),
-        cmocka_unit_test(test_impulses_do_not_know_who_comes_first),
+        cmocka_unit_test(test_impulses_do_not_depend_on_the_order_of_bodies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

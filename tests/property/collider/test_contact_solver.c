@@ -1,5 +1,5 @@
-/* What impulses must keep, over random islands of 2 to 8 bodies: momentum, angular momentum,
- * energy, the friction cone, and that nobody comes nearer (thesis rows 36, 39, 43). SEED=n runs
+/* What impulses must conserve, over random islands of 2 to 8 bodies: momentum, angular momentum,
+ * energy, the friction cone, and that no two bodies approach (thesis rows 36, 39, 43). SEED=n runs
  * another set. */
 #include "collider/response/contact_solver.h"
 
@@ -201,7 +201,7 @@ static double fastest(const struct cluster *cluster)
     return closing;
 }
 
-/* Nobody nears, and impulses push, within the cone. */
+/* No two bodies approach, and impulses push, within the cone. */
 static void check_contacts(const struct cluster *cluster)
 {
     double closing = fastest(cluster);

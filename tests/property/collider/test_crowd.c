@@ -1,6 +1,6 @@
 /* A crowd: vehicles of all sorts drive into one heap and press on each other (thesis rows 36, 39,
- * 46). Whatever happens there, the collider's step alone keeps momentum, adds no energy, loses
- * nobody, is the same on any number of threads and is done in time. SEED=n runs another crowd. */
+ * 46). The collider's step alone conserves momentum, adds no energy, loses no body, is the same on
+ * any number of threads and ends in time. SEED=n runs another crowd. */
 #include "tests/support/steps.h"
 #include "world/entity/mass_properties.h"
 #include "world/params.h"

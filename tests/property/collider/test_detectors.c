@@ -1,5 +1,5 @@
-/* Whole battles by four ways to find candidates: the exact contacts after them are the same, and so
- * is every frame's digest (thesis rows 44, 45). SEED=n runs another battle. */
+/* Whole battles by four methods of detection: the exact contacts are the same, and so is every
+ * frame's digest (thesis rows 44, 45). SEED=n runs another battle. */
 #include "tests/support/fixture.h"
 
 #include <stdarg.h>
@@ -12,8 +12,8 @@
 
 #define FRAMES 300
 
-/* 300 vehicles on 400 m x 400 m of trees, a third of which gives way to nobody: somebody always
- * meets somebody. */
+/* 300 vehicles on 400 m x 400 m of trees, a third of which never gives way, so that there are
+ * always collisions. */
 static const char battle[] =
     "world = { seed = %llu; hz = 20.0; capacity = 1024; };\n"
     "objects = ( { kind = \"building\"; at = [25000.0, 25000.0]; },\n"

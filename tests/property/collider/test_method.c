@@ -65,7 +65,7 @@ static void draw_row(struct small_world *w, const struct spread *place, uint64_t
     uint32_t row = small_world_row(w, kind, at, way);
     if (fixture_random(random) % 10 == 0)
         w->e.state[row] = ENTITY_FREE;
-    if (kind == SMALL_ROUND && row > 0) { /* somebody's, or of somebody who is gone */
+    if (kind == SMALL_ROUND && row > 0) { /* shot by another row, or by an entity that is gone */
         w->e.owner_slot[row] = (uint32_t)(fixture_random(random) % row);
         w->e.owner_id[row] =
             w->e.owner_slot[row] + 1 + (fixture_random(random) % 4 == 0 ? 1000u : 0u);
@@ -125,8 +125,8 @@ static void compare(const char *name, uint64_t world, const struct pair_list *wa
                  found->count, wanted->count);
 }
 
-/* The broad phase leaves out what a long way never comes near: no pair that is not wanted, none
- * twice. */
+/* The broad phase leaves out bodies that a long path never comes near: each pair is wanted, and
+ * none is found twice. */
 static void within(uint64_t world, const struct pair_list *wanted, const struct pair_list *found)
 {
     count_pairs(found);
@@ -144,7 +144,7 @@ static void within(uint64_t world, const struct pair_list *wanted, const struct 
     }
 }
 
-/* Every pair of spheres that touch is a candidate: the reason why all this is enough. */
+/* Every pair of spheres that touch is a candidate, so no contact is missed. */
 static uint64_t check_touching(const struct small_world *w, uint64_t world,
                                const struct pair_list *wanted)
 {

@@ -235,7 +235,7 @@ struct score {
     int hits, misses;
 };
 
-/* Bodies that were apart: touch where the gap is SKIN_M, and never after an oracle's time. */
+/* Bodies that were apart touch where the gap is SKIN_M, and never after an oracle's time. */
 static void check(const struct swept_body *a, const struct swept_body *b, bool rotates, int n,
                   struct score *score)
 {
@@ -282,7 +282,7 @@ static void draw(struct solid *solid_a, struct solid *solid_b, double most_turn,
     }
 }
 
-static void test_row_39_straight_ways_touch_when_bisection_says(void **state)
+static void test_row_39_straight_paths_touch_when_bisection_says(void **state)
 {
     static struct solid solid_a, solid_b;
     struct swept_body a, b;
@@ -307,7 +307,7 @@ static void test_row_39_straight_ways_touch_when_bisection_says(void **state)
     assert_in_range(score.misses, 500, 4000);
 }
 
-static void test_row_39_turning_bodies_touch_when_small_steps_say(void **state)
+static void test_row_39_rotating_bodies_touch_when_small_steps_say(void **state)
 {
     static struct solid solid_a, solid_b;
     const double most_turn[] = {0.01, 0.3, PI};
@@ -336,17 +336,17 @@ static void test_row_39_turning_bodies_touch_when_small_steps_say(void **state)
 enum meeting {
     HEAD_ON,
     GLANCING,      /* head on, sides overlapping by a millimetre to 5 cm */
-    PASSING,       /* sides 1 cm apart: no touch */
+    PASSING,       /* sides 1 cm apart: no contact */
     CROSSING,      /* at right angles, into the side */
     CUTTING,       /* at right angles, a corner cut by a millimetre to 5 cm */
-    CROSSING_PAST, /* at right angles, corners 1 cm apart: no touch */
+    CROSSING_PAST, /* at right angles, corners 1 cm apart: no contact */
     INTO_POLE,
-    PAST_POLE, /* 1 cm beside it: no touch */
+    PAST_POLE, /* 1 cm beside it: no contact */
     MEETINGS_SORTS
 };
 
-/* b's position from a's and its motion against a, in a's axes (forward and right), and when they
- * touch: -1 for never. */
+/* b's position relative to a and its motion relative to a, in a's axes (forward and right), and
+ * when they touch: -1 for never. */
 struct plan {
     double along, across, go_along, go_across, toi;
 };
@@ -377,7 +377,7 @@ static struct plan plan_meeting(enum meeting sort, double step, uint64_t *random
         plan.across = side * (corner * (1.98 * free - 0.99) - step * toi);
         if (sort == CUTTING)
             plan.across = side * (corner - cut - step * toi);
-        if (sort == CROSSING_PAST) { /* the gap at the corner is 1 cm across the way */
+        if (sort == CROSSING_PAST) { /* the gap at the corner is 1 cm across the path */
             plan.across = side * (corner + 0.01 * sqrt(2.0) - SKIN_M - step * toi);
             plan.toi = -1.0;
         }
@@ -512,7 +512,7 @@ static double across_edges(const struct swept_body *a, const struct swept_body *
                 &turn_b, vec3_sub(b->vertices[k / count_b], b->vertices[k % count_b]));
             struct vec3 n = vec3_cross(e, f);
             double length = vec3_length(n);
-            if (length > 1e-9) /* k runs both ways along b's edges: n on both sides */
+            if (length > 1e-9) /* k takes both signs along b's edges: n on both sides */
                 widest(a, b, time, vec3_scale(n, 1.0 / length), &apart, &way_out);
         }
     }
@@ -532,7 +532,7 @@ static void draw_touching(struct solid *solid_a, struct solid *solid_b, double d
     struct vec3 at = {fixture_uniform(random, 0, 50000), 100, fixture_uniform(random, 0, 50000)};
     double reach = solid_a->bound + solid_b->bound + 1.0;
     struct hull_contact impact;
-    for (bool met = false; !met;) { /* bring them together without turning; stones may miss */
+    for (bool met = false; !met;) { /* moves them together without rotation; stones may miss */
         struct vec3 to = direction(random), still = {0, 0, 0};
         *a = body(solid_a, at, still, from_a, from_a);
         *b = body(solid_b, vec3_add(at, vec3_scale(to, reach)), vec3_scale(to, -reach), from_b,
@@ -547,8 +547,8 @@ static void draw_touching(struct solid *solid_a, struct solid *solid_b, double d
     b->path.along = vec3_scale(direction(random), fixture_uniform(random, 0.0, 2.0));
 }
 
-/* Bodies that do not turn and part along the shallowest way out never come nearer again; those that
- * come nearer are told at once how deep they are. */
+/* Bodies that do not rotate and part along the direction of least overlap never approach again;
+ * bodies that approach are found at once, with their depth. */
 static void test_straight_bodies_in_each_other_touch_at_once_or_never(void **state)
 {
     static struct solid solid_a, solid_b;
@@ -576,7 +576,7 @@ static void test_straight_bodies_in_each_other_touch_at_once_or_never(void **sta
     assert_in_range(hits, 1000, 2500);
 }
 
-/* Turning ones may part and come nearer again: then they touch before they are half as far apart as
+/* Rotating bodies may part and approach again: then they touch before they are half as far apart as
  * at first. */
 static void test_turning_bodies_in_touch_come_nearer_by_no_more_than_the_skin(void **state)
 {
@@ -701,8 +701,8 @@ static void test_the_place_and_a_common_motion_change_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_row_39_straight_ways_touch_when_bisection_says),
-        cmocka_unit_test(test_row_39_turning_bodies_touch_when_small_steps_say),
+        cmocka_unit_test(test_row_39_straight_paths_touch_when_bisection_says),
+        cmocka_unit_test(test_row_39_rotating_bodies_touch_when_small_steps_say),
         cmocka_unit_test(test_row_23_tanks_meet_at_any_speed),
         cmocka_unit_test(test_straight_bodies_in_each_other_touch_at_once_or_never),
         cmocka_unit_test(test_turning_bodies_in_touch_come_nearer_by_no_more_than_the_skin),

@@ -12,11 +12,12 @@
 
 #include <cmocka.h>
 
-#define PAIRS    1000
-#define AISLE_M  45.0
-#define STOREY_M 60.0 /* between the heights of two pairs: their ways cross, they do not */
+#define PAIRS   1000
+#define AISLE_M 45.0
+#define STOREY_M                                                                                   \
+    60.0 /* between the heights of two pairs: their paths cross, the bodies do not meet */
 
-/* Between a hit and a miss that must be told apart [m]. */
+/* Between a hit and a miss that must be distinguished [m]. */
 #define MARGIN_M 0.01
 
 static const double speeds_mps[] = {10.0, 60.0, 277.0, 1000.0, 3000.0};
@@ -39,7 +40,7 @@ struct widths {
     double surely, never, bound;
 };
 
-/* One pair's lane: the first runs east along z from `way` before x = 25000; there the two are
+/* One pair's lane: the first runs east along z from `distance` before x = 25000; there the two are
  * nearest, `beside` apart. */
 struct lane {
     double z, beside, distance;
@@ -109,7 +110,7 @@ static struct widths widths_of(const struct fixture *f, const struct run *run)
         widths.surely = widths.never = a->radius_m + fixed;
         return widths;
     }
-    /* A tree's crown is over the tank: it is the trunk that they meet. */
+    /* A tree's crown is above the tank, which hits the trunk. */
     double top = run->tree ? a->high_m : INFINITY;
     widths.surely = core(world, a, top) + core(world, b, top);
     /* Across the relative motion: straight to the side, or along the diagonal. */
@@ -311,7 +312,7 @@ static void test_row_25_npsnet2_lets_fast_ones_through(void **state)
     for (size_t i = 2; i < sizeof speeds_mps / sizeof speeds_mps[0]; i++) {
         run.speed_mps = speeds_mps[i];
         uint32_t met = run_lanes(&run, &random);
-        /* The chord that they spend within each other's reach over the way of a frame. */
+        /* The chord within each other's reach over the length of a frame's path. */
         double share = maths_min(1.0, 24.0 / (2.0 * speeds_mps[i] / run.hz));
         print_message("npsnet2, head on at %.0f m/s and 10 Hz: %u of %d found\n", speeds_mps[i],
                       met, PAIRS);

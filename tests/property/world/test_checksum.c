@@ -11,8 +11,8 @@
 
 #include <cmocka.h>
 
-/* A few that fire, each group in a piece of its own among many that do not, so that a piece that
- * somebody forgets to hash again is not hashed for another's sake. */
+/* A few that fire, each group in a block of its own among many that do not. So a block whose mark
+ * is missing is not hashed because of another row. */
 static const char scenario[] =
 #define HERD                                                                                       \
     "{ kind = \"truck\"; count = 2100; behaviour = \"idle\";"                                      \
@@ -46,7 +46,7 @@ static struct command random_command(uint64_t *random, uint64_t number)
     command.type = types[fixture_random(random) % (sizeof types / sizeof types[0])];
     command.entity = (uint32_t)(fixture_random(random) % 6400);
     command.value[0] = command.value[1] = 25000.0;
-    if (command.type == COMMAND_FIRE) { /* a fighter at the next one, or whoever it is at nobody */
+    if (command.type == COMMAND_FIRE) { /* a fighter at the next one, others at none */
         bool fighter = fixture_random(random) % 4 != 0;
         command.entity = fighter ? FIRST_FIGHTER + command.entity % 11 : command.entity;
         command.target = fighter ? command.entity + 1 : 0;
@@ -78,7 +78,7 @@ static void check_frames(uint32_t threads, uint64_t seed)
     fixture_close(&f);
 }
 
-static void test_checksums_of_pieces_are_those_of_the_whole(void **state)
+static void test_checksums_of_blocks_are_those_of_the_whole(void **state)
 {
     uint64_t seed = fixture_seed(11);
     (void)state;
@@ -124,7 +124,7 @@ static void test_every_part_of_the_moved_table_is_covered(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_checksums_of_pieces_are_those_of_the_whole),
+        cmocka_unit_test(test_checksums_of_blocks_are_those_of_the_whole),
         cmocka_unit_test(test_every_part_of_the_moved_table_is_covered),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -40,7 +40,7 @@ static double random_coordinate(uint64_t *random)
 }
 
 /* row 1 */
-static void test_every_point_is_in_the_square_that_whole_numbers_say(void **state)
+static void test_every_point_is_in_the_square_of_exact_arithmetic(void **state)
 {
     uint64_t random = fixture_seed(1);
     (void)state;
@@ -86,7 +86,7 @@ static void test_box_holds_the_squares_of_its_points(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_point_is_in_the_square_that_whole_numbers_say),
+        cmocka_unit_test(test_every_point_is_in_the_square_of_exact_arithmetic),
         cmocka_unit_test(test_every_point_lies_within_its_square),
         cmocka_unit_test(test_box_holds_the_squares_of_its_points),
     };

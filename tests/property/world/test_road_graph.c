@@ -1,5 +1,5 @@
-/* Ways along roads: as long as an oracle finds them that tries every way over every node, on nets
- * by chance; and made of roads and meetings only. */
+/* Paths along roads: as short as those of an oracle that tries every path over every node, on
+ * random graphs; and made of roads and junctions only. */
 #include "world/making/road_graph.h"
 
 #include "tests/support/fixture.h"
@@ -67,7 +67,7 @@ static double off_roads(uint32_t count, double x, double z)
     return least;
 }
 
-/* Every node's way to every other, by trying each third node as one between. */
+/* Distance between every two nodes, by trying each third node between. */
 static void fill_table(const struct road_graph *net)
 {
     uint32_t n = net->node_count;
@@ -89,7 +89,7 @@ static void fill_table(const struct road_graph *net)
     }
 }
 
-/* From any place to any: over either end of its stretch, or along the one that both are on. */
+/* From any place to any other: over either end of its segment, or along the segment of both. */
 static double shortest(const struct road_graph *net, const struct road_place *a,
                        const struct road_place *b)
 {
@@ -210,7 +210,7 @@ static uint32_t put(uint32_t count, double x, double z, uint32_t road)
     return count + 1;
 }
 
-/* Way from (0, 0) to a point of a net of two roads; -1 for none. */
+/* Distance from (0, 0) to a point of a graph of two roads; -1 for none. */
 static double way_to(uint32_t count, double x, double z)
 {
     struct road_graph net;

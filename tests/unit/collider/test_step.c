@@ -55,7 +55,7 @@ static void test_row_36_three_at_once_are_all_found_in_order_of_time(void **stat
     fixture_run(&f, 1);
     static const uint32_t pairs[3][2] = {{1, 2}, {1, 3}, {2, 4}};
     double before = 0.0;
-    /* They go on with what they got, and may meet again. */
+    /* They continue with their new velocities, and may collide again. */
     assert_true(fixture_event_count(&f, EVENT_COLLISION) >= 3);
     for (uint32_t n = 0; n < 3; n++) {
         const struct event *event = fixture_event(&f, EVENT_COLLISION, n);
@@ -76,8 +76,8 @@ static void test_row_36_three_at_once_are_all_found_in_order_of_time(void **stat
 
 /* --- nothing missed ----------------------------------------------------------------------------*/
 
-/* Is a tank told of that passes a tree at this speed, `beside` its centre, when the touch falls at
- * this share of a frame? */
+/* Returns true if a collision is reported for a tank that passes a tree at this speed, `beside` its
+ * centre, when the contact is at this share of a frame. */
 static bool grazes(const char *response, double speed_mps, double beside, double share)
 {
     char text[200];
@@ -116,8 +116,8 @@ static void test_slow_first_touches_are_told_of(void **state)
         assert_true(grazes("figure8", 0.4, 0.0, share));
 }
 
-/* Pushing with the engine is no way through, however softly it begins. */
-static void test_nobody_is_pushed_through(void **state)
+/* Pushing with the engine never gets a vehicle through, however gently it begins. */
+static void test_no_body_is_pushed_through_another(void **state)
 {
     static const char *const responses[] = {"impulse", "figure8"};
     (void)state;
@@ -229,7 +229,7 @@ static void test_a_crash_has_the_normal_of_the_ground_where_it_is(void **state)
     fixture_close(&f);
 }
 
-static void test_an_aircraft_slowed_on_its_way_still_meets_the_ground(void **state)
+static void test_an_aircraft_slowed_on_its_path_still_meets_the_ground(void **state)
 {
     struct fixture f;
     (void)state;
@@ -401,12 +401,12 @@ int main(void)
         cmocka_unit_test(test_row_36_three_at_once_are_all_found_in_order_of_time),
         cmocka_unit_test(test_row_23_a_graze_is_told_of_whenever_in_the_frame_it_falls),
         cmocka_unit_test(test_slow_first_touches_are_told_of),
-        cmocka_unit_test(test_nobody_is_pushed_through),
+        cmocka_unit_test(test_no_body_is_pushed_through_another),
         cmocka_unit_test(test_what_is_pushed_moves_as_fast_as_it_says),
         cmocka_unit_test(test_a_wreck_is_still_in_the_way),
         cmocka_unit_test(test_an_aircraft_that_flies_into_the_ground_is_destroyed),
         cmocka_unit_test(test_a_crash_has_the_normal_of_the_ground_where_it_is),
-        cmocka_unit_test(test_an_aircraft_slowed_on_its_way_still_meets_the_ground),
+        cmocka_unit_test(test_an_aircraft_slowed_on_its_path_still_meets_the_ground),
         cmocka_unit_test(test_response_none_tells_and_changes_nothing),
         cmocka_unit_test(test_colliding_again_over_anything_gives_the_same_bytes_with_impulses),
         cmocka_unit_test(test_colliding_again_over_anything_gives_the_same_bytes_with_figure_8),

@@ -69,7 +69,7 @@ static void test_drive_takes_over_and_release_gives_back(void **state)
     assert_int_equal(DOES(.type = COMMAND_RELEASE, .entity = 2), COMMAND_CANNOT);
 }
 
-static void test_drive_refuses_what_is_out_of_range_and_who_is_not_there(void **state)
+static void test_drive_refuses_values_out_of_range_and_absent_vehicles(void **state)
 {
     const double nan = (double)NAN;
     (void)state;
@@ -139,7 +139,7 @@ static void test_a_lease_is_kept_while_paused_and_ends_only_with_simulated_time(
     assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_HOLD);
 }
 
-static void test_an_operator_releases_whoever_drives(void **state)
+static void test_an_operator_releases_any_driver(void **state)
 {
     (void)state;
     assert_int_equal(DOES(.type = COMMAND_DRIVE, .source = 7, .entity = 1, .amount = 600),
@@ -207,7 +207,7 @@ static void test_fire_answers(void **state)
     assert_int_equal(DOES(.type = COMMAND_FIRE, .kind = KIND_NONE), COMMAND_NO_SUCH_KIND);
 }
 
-static void test_nobody_fires_at_itself(void **state)
+static void test_no_vehicle_fires_at_itself(void **state)
 {
     (void)state;
     assert_int_not_equal(DOES(.type = COMMAND_FIRE, .entity = 1, .target = 1), COMMAND_DONE);
@@ -456,7 +456,7 @@ static void test_and_while_it_has_no_room_for_events(void **state)
 
 static void test_an_answer_carries_the_whole_command(void **state)
 {
-    const uint64_t odd = 0x7ff8dead0000beefu; /* a NaN that is told from others */
+    const uint64_t odd = 0x7ff8dead0000beefu; /* a NaN that can be distinguished from others */
     struct command command = {.source = UINT64_MAX,
                               .source_sequence = UINT64_MAX - 1,
                               .type = 65536 + COMMAND_PAUSE, /* no type in any width */
@@ -512,15 +512,15 @@ int main(void)
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
         TEST(test_drive_takes_over_and_release_gives_back),
-        TEST(test_drive_refuses_what_is_out_of_range_and_who_is_not_there),
+        TEST(test_drive_refuses_values_out_of_range_and_absent_vehicles),
         TEST(test_a_lease_keeps_others_out_and_ends),
         TEST(test_a_lease_is_kept_while_paused_and_ends_only_with_simulated_time),
-        TEST(test_an_operator_releases_whoever_drives),
+        TEST(test_an_operator_releases_any_driver),
         TEST(test_without_a_lease_anybody_drives_and_without_end),
         TEST(test_drive_sets_brake_gear_and_the_turrets_controls),
         TEST(test_a_round_in_flight_takes_no_commands),
         TEST(test_fire_answers),
-        TEST(test_nobody_fires_at_itself),
+        TEST(test_no_vehicle_fires_at_itself),
         TEST(test_a_full_table_is_said_to_be_full),
         TEST(test_spawn_makes_what_was_asked_for),
         TEST(test_spawn_refuses_what_is_out_of_range),

@@ -274,7 +274,7 @@ static void give(const struct fixture *f, enum news news)
     state_seal(&now, f->view.world.counts.fixed);
 }
 
-static void test_one_row_has_what_its_piece_lacked(void **state)
+static void test_one_row_has_values_that_its_block_lacked(void **state)
 {
     static const char *const behaviours[] = {"patrol", "hold"};
     (void)state;
@@ -296,7 +296,7 @@ static void test_one_row_has_what_its_piece_lacked(void **state)
     }
 }
 
-static void test_commands_reach_a_piece_that_lacked_what_they_change(void **state)
+static void test_commands_reach_a_block_of_zeros(void **state)
 {
     struct fixture f;
     (void)state;
@@ -352,8 +352,8 @@ int main(void)
         cmocka_unit_test(test_scenario_fires_come_at_their_tick_in_the_files_order),
         cmocka_unit_test(test_a_paused_world_holds_its_fires_back),
         cmocka_unit_test(test_the_dead_do_not_fire),
-        cmocka_unit_test(test_one_row_has_what_its_piece_lacked),
-        cmocka_unit_test(test_commands_reach_a_piece_that_lacked_what_they_change),
+        cmocka_unit_test(test_one_row_has_values_that_its_block_lacked),
+        cmocka_unit_test(test_commands_reach_a_block_of_zeros),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -69,7 +69,7 @@ static bool same(void)
            memcmp(a.hashes, b.hashes, sizeof a.hashes) == 0;
 }
 
-static void test_a_table_takes_what_differs(void **state)
+static void test_a_table_takes_differing_columns(void **state)
 {
     (void)state;
     a.rows.x[0] += 1.0;
@@ -207,7 +207,7 @@ static void test_a_blank_column_is_known_by_its_hash(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TABLES(test_a_table_takes_what_differs),
+        TABLES(test_a_table_takes_differing_columns),
         TABLES(test_what_is_known_to_be_the_same_is_not_copied),
         TABLES(test_only_the_columns_named_are_hashed),
         TABLES(test_the_hash_ends_with_the_rows_in_use),

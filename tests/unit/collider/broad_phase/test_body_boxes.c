@@ -1,5 +1,5 @@
-/* Rows into strips: from the columns the same as from ways that are drawn, and only of who needs it
- * a way is drawn. */
+/* Rows into strips: the same from columns as from computed paths, and paths are computed only for
+ * rows that need one. */
 #include "collider/broad_phase/body_boxes.h"
 
 #include "tests/support/steps.h"
@@ -43,8 +43,8 @@ static int close_world(void **state)
     return 0;
 }
 
-/* Where a row was, where it is now, and what else may be the case: it stands, it turns where it
- * stands, it is far away at once, somebody else is in its row, nobody is. */
+/* Where a row was, where it is now, and special cases: at rest, rotating at rest, far away at once,
+ * another entity in the row, an empty row. */
 static void draw_row(uint64_t *random, uint32_t row)
 {
     const struct entities *w = &f.view.w[0].entities, *n = &next->entities;
@@ -95,7 +95,7 @@ static bool ends(const struct pair_list *fliers, uint32_t row)
     return false;
 }
 
-/* Who flies and may end: rounds, and aircraft that may meet the ground. */
+/* Rows whose path may end: rounds, and aircraft that may reach the ground. */
 static uint32_t check_fliers(const struct method_input *input)
 {
     const struct entities *e = &next->entities;
@@ -117,7 +117,7 @@ static uint32_t check_fliers(const struct method_input *input)
     return left_out;
 }
 
-static void test_columns_give_what_drawn_ways_give(void **state)
+static void test_columns_give_the_same_as_computed_paths(void **state)
 {
     uint64_t random = fixture_seed(64);
     uint32_t pairs = 0, computed = 0, left_out = 0;
@@ -165,7 +165,7 @@ static void test_columns_give_what_drawn_ways_give(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_columns_give_what_drawn_ways_give, open_world,
+        cmocka_unit_test_setup_teardown(test_columns_give_the_same_as_computed_paths, open_world,
                                         close_world),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

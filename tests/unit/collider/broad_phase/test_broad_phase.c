@@ -101,7 +101,7 @@ static void test_rounds_of_the_sky_can_meet(void **state)
     uint32_t a = put("bomb", (struct vec3){25000, 200, 25000}, (struct vec3){0, -4, 0});
     uint32_t b = put("bomb", (struct vec3){25000, 198, 25000}, (struct vec3){0, -4, 0});
     (void)state;
-    assert_true(pairs(a, b)); /* owner 0 is nobody, not a common owner */
+    assert_true(pairs(a, b)); /* owner 0 is no entity, so not a common owner */
 }
 
 static void test_height_separates(void **state)
@@ -130,7 +130,7 @@ static void test_row_37_an_object_that_reaches_over_the_border_is_found_there(vo
 {
     (void)state;
     with_objects();
-    /* West of the border all the way: only the square that the building does not stand in. */
+    /* West of the border all the time: only in the square in which the building's centre is not. */
     uint32_t row = put("jeep", (struct vec3){24994, 100, 25055}, (struct vec3){0, 0, 4});
     assert_int_equal(gridsquare_axis(24994 + 1.6 + 0.01), gridsquare_axis(24994));
     assert_true(pairs(row, 0 | PAIR_FIXED));

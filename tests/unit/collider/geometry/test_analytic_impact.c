@@ -17,7 +17,7 @@ static struct path path(double x, double y, double z, double along_x, double alo
     return (struct path){.at = {x, y, z}, .along = {along_x, along_y, along_z}};
 }
 
-/* The time, or -1 when they do not touch. */
+/* The time, or -1 if they do not touch. */
 static double spheres(struct path a, struct path b, double reach, double from)
 {
     double toi = -2.0;
@@ -31,7 +31,7 @@ static void test_head_on_touches_when_the_gap_is_closed(void **state)
     assert_true(spheres(path(0, 0, 0, 5, 0, 0), path(10, 0, 0, -3, 0, 0), 6.0, 0.0) == 0.5);
 }
 
-static void test_a_touch_at_the_very_end_counts(void **state)
+static void test_a_contact_at_the_very_end_counts(void **state)
 {
     (void)state;
     assert_true(spheres(path(0, 0, 0, 4, 0, 0), path(10, 0, 0, 0, 0, 0), 6.0, 0.0) == 1.0);
@@ -53,7 +53,7 @@ static void test_grazing_counts_and_just_beside_does_not(void **state)
     assert_true(spheres(path(0, 0, 0, 40, 0, 0), path(20, 6.000001, 0, 0, 0, 0), 6.0, 0.0) == -1.0);
 }
 
-static void test_overlap_touches_at_once_only_while_nearing(void **state)
+static void test_an_overlap_touches_at_once_only_during_approach(void **state)
 {
     (void)state;
     assert_true(spheres(path(0, 0, 0, 1, 0, 0), path(2, 0, 0, 0, 0, 0), 6.0, 0.25) == 0.25);
@@ -166,10 +166,10 @@ int main(void)
 {
     const struct CMUnitTest sphere_tests[] = {
         cmocka_unit_test(test_head_on_touches_when_the_gap_is_closed),
-        cmocka_unit_test(test_a_touch_at_the_very_end_counts),
+        cmocka_unit_test(test_a_contact_at_the_very_end_counts),
         cmocka_unit_test(test_off_centre_touches_later),
         cmocka_unit_test(test_grazing_counts_and_just_beside_does_not),
-        cmocka_unit_test(test_overlap_touches_at_once_only_while_nearing),
+        cmocka_unit_test(test_an_overlap_touches_at_once_only_during_approach),
         cmocka_unit_test(test_touching_bodies_that_part_do_not_collide),
         cmocka_unit_test(test_no_relative_motion_never_touches),
         cmocka_unit_test(test_since_shifts_a_path_in_time),

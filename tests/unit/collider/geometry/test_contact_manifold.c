@@ -1,4 +1,4 @@
-/* Where bodies touch: the middle of faces on faces, and all that is less than a face. */
+/* Where bodies touch: the middle of two faces, and points and edges. */
 #include "collider/geometry/contact_manifold.h"
 
 #include <stdarg.h>
@@ -24,7 +24,7 @@ static bool near(struct vec3 a, double x, double y, double z)
     return vec3_length(vec3_sub(a, (struct vec3){x, y, z})) <= 2.0 * CONTACT_MANIFOLD_SLACK_M;
 }
 
-static void test_faces_touch_in_the_middle_of_what_they_share(void **state)
+static void test_faces_touch_in_the_middle_of_the_shared_area(void **state)
 {
     struct convex a = cube_at(100, 0, 0), b = cube_at(102.001, 1.5, -0.5);
     (void)state;
@@ -123,7 +123,7 @@ static void test_the_most_corners(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_faces_touch_in_the_middle_of_what_they_share),
+        cmocka_unit_test(test_faces_touch_in_the_middle_of_the_shared_area),
         cmocka_unit_test(test_a_face_turned_on_another),
         cmocka_unit_test(test_overlapping_bodies_touch_midway),
         cmocka_unit_test(test_an_edge_on_a_face),

@@ -125,7 +125,7 @@ static void test_row_21_of_several_it_is_the_nearest(void **state)
     assert_true(near(hit.normal, (struct vec3){1, 0, 0}));
 }
 
-/* Straight at points of edges, and of the diagonals in a face's middle: where two polygons meet. */
+/* Aimed at points of edges, and of the diagonals in a face's middle, where two polygons meet. */
 static void test_row_21_no_ray_slips_through_an_edge(void **state)
 {
     uint64_t random = fixture_seed(321);

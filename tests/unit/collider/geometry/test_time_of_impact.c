@@ -72,7 +72,7 @@ static bool near(struct vec3 a, double x, double y, double z, double slack)
 
 /* --- from apart --------------------------------------------------------------------------------*/
 
-static void test_cubes_meet_in_the_middle_of_what_they_share(void **state)
+static void test_cubes_meet_in_the_middle_of_the_shared_face(void **state)
 {
     struct swept_body a = put(CUBE, 1, (struct vec3){100, 0, 0}, (struct vec3){2, 0, 0});
     struct swept_body b = put(CUBE, 1, (struct vec3){104, 0.5, 0}, (struct vec3){-2, 0, 0});
@@ -94,7 +94,7 @@ static void test_they_do_not_reach_each_other_in_the_frame(void **state)
     assert_true(fabs(time_of_impact_gap(&a, &b, 1.0) - 0.01) < 1e-12);
 }
 
-static void test_a_way_that_began_in_mid_frame(void **state)
+static void test_a_path_that_began_in_mid_frame(void **state)
 {
     struct swept_body a = put(CUBE, 1, (struct vec3){0, 0, 0}, still);
     struct swept_body b = put(CUBE, 1, (struct vec3){3, 0, 0}, (struct vec3){-4, 0, 0});
@@ -120,7 +120,7 @@ static void test_scale_counts(void **state)
 }
 
 /* An edge comes round: the cube's diagonal is 1.414 from its axis. */
-static void test_a_cube_that_turns_on_the_spot_touches_with_its_edge(void **state)
+static void test_a_cube_rotating_on_the_spot_touches_with_its_edge(void **state)
 {
     struct swept_body a = put(CUBE, 1, (struct vec3){0, 0, 0}, still);
     struct swept_body b = put(CUBE, 1, (struct vec3){2.3, 0, 0}, still);
@@ -192,7 +192,7 @@ static void test_within_the_skin_only_what_comes_nearer_touches(void **state)
     assert_true(time_of_impact_find(&a, &b, 0.0, &impact) && impact.toi == 0.0);
 }
 
-static void test_an_overlap_tells_the_way_out_and_how_far_it_is(void **state)
+static void test_an_overlap_has_its_direction_and_depth(void **state)
 {
     struct swept_body a = put(CUBE, 1, (struct vec3){0, 0, 0}, still);
     struct swept_body b = put(CUBE, 1, (struct vec3){0.5, 1.7, 0.4}, (struct vec3){0, -1, 0});
@@ -201,7 +201,7 @@ static void test_an_overlap_tells_the_way_out_and_how_far_it_is(void **state)
     assert_true(impact.toi == 0.0 && fabs(impact.depth_m - 0.3) < 1e-12);
     assert_true(near(impact.normal, 0, 1, 0, 1e-12));
     assert_true(near(impact.point, 0.25, 0.85, 0.2, 0.003));
-    b.path.along = (struct vec3){-2, 0.001, 0}; /* deeper in, but not along the way out */
+    b.path.along = (struct vec3){-2, 0.001, 0}; /* deeper in, but not along the direction out */
     assert_false(time_of_impact_find(&a, &b, 0.0, &impact));
 }
 
@@ -274,15 +274,15 @@ static void test_edges_that_come_to_overlap_keep_their_normal(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_cubes_meet_in_the_middle_of_what_they_share),
+        cmocka_unit_test(test_cubes_meet_in_the_middle_of_the_shared_face),
         cmocka_unit_test(test_they_do_not_reach_each_other_in_the_frame),
-        cmocka_unit_test(test_a_way_that_began_in_mid_frame),
+        cmocka_unit_test(test_a_path_that_began_in_mid_frame),
         cmocka_unit_test(test_scale_counts),
-        cmocka_unit_test(test_a_cube_that_turns_on_the_spot_touches_with_its_edge),
+        cmocka_unit_test(test_a_cube_rotating_on_the_spot_touches_with_its_edge),
         cmocka_unit_test(test_an_arm_that_swings_round),
         cmocka_unit_test(test_an_arm_that_swings_down_on_a_plate),
         cmocka_unit_test(test_within_the_skin_only_what_comes_nearer_touches),
-        cmocka_unit_test(test_an_overlap_tells_the_way_out_and_how_far_it_is),
+        cmocka_unit_test(test_an_overlap_has_its_direction_and_depth),
         cmocka_unit_test(test_of_several_overlaps_the_deepest_is_told),
         cmocka_unit_test(test_where_the_middle_parts_the_side_that_digs_in_touches),
         cmocka_unit_test(test_what_parts_and_comes_back_touches_then),

@@ -19,7 +19,7 @@ static struct small_world w;
 static struct method_workspace *workspace;
 static struct pair_list pairs;
 
-/* Those that find candidates along the way. */
+/* Methods that find candidates along the path. */
 static method_pairs_function *const swept[] = {method_brute_pairs, method_occupancy_pairs,
                                                method_hopcroft_pairs};
 
@@ -84,7 +84,7 @@ static void test_every_method_has_its_function(void **state)
                     (method == METHOD_NPSNET2 || method == METHOD_MPS));
 }
 
-static void test_pairs_are_added_to_what_the_list_has(void **state)
+static void test_pairs_are_appended_to_the_list(void **state)
 {
     (void)state;
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, (struct vec3){1, 0, 0});
@@ -153,8 +153,8 @@ static void test_height_separates(void **state)
     assert_swept(1);
 }
 
-/* A way over the whole world, among grains of sand: it needs no cell of theirs. */
-static void test_row_44_a_long_way_among_grains_is_found_and_costs_little(void **state)
+/* A path over the whole world, among grains of sand: it needs no cell of theirs. */
+static void test_row_44_a_long_path_among_grains_is_found_and_costs_little(void **state)
 {
     (void)state;
     small_world_row(&w, SMALL_GIANT, (struct vec3){0, 0, 25000}, (struct vec3){50000, 0, 3000});
@@ -265,7 +265,7 @@ static void test_row_42_mps_checks_nothing_but_platforms(void **state)
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, still);
     assert_int_equal(run(method_mps_pairs), 1);
     assert_true(has(1, 2));
-    w.path[1].along.x = 0.0; /* nobody comes near who was not */
+    w.path[1].along.x = 0.0; /* no further body comes near */
     assert_int_equal(run(method_mps_pairs), 0);
     w.path[1].along.x = 1.0;
     w.e.state[2] = ENTITY_FREE;
@@ -277,13 +277,13 @@ int main(void)
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
         TEST(test_every_method_has_its_function),
-        TEST(test_pairs_are_added_to_what_the_list_has),
+        TEST(test_pairs_are_appended_to_the_list),
         TEST(test_an_empty_world_has_no_pairs),
         TEST(test_two_at_rest_are_no_pair_and_one_that_moves_makes_it_one),
         TEST(test_a_free_row_meets_nothing),
         TEST(test_a_round_and_its_shooter_are_apart),
         TEST(test_height_separates),
-        TEST(test_row_44_a_long_way_among_grains_is_found_and_costs_little),
+        TEST(test_row_44_a_long_path_among_grains_is_found_and_costs_little),
         TEST(test_row_45_boxes_that_only_touch_meet),
         TEST(test_what_is_down_or_rests_is_not_tested),
         TEST(test_row_17_above_the_threshold_only_munitions_are_tested),

@@ -81,7 +81,7 @@ static void test_row_17_above_the_threshold_no_fixed_object_is_tested(void **sta
     assert_true(has(0, 0 | PAIR_FIXED));
 }
 
-static void test_row_17_what_rests_is_not_checked_and_what_is_down_not_hit(void **state)
+static void test_row_17_resting_bodies_and_fallen_objects_are_not_tested(void **state)
 {
     (void)state;
     small_world_tree(&w, (struct vec3){25010, 0, 25010}, 2.0);
@@ -94,7 +94,7 @@ static void test_row_17_what_rests_is_not_checked_and_what_is_down_not_hit(void 
     assert_int_equal(run(method_npsnet2_pairs), 0);
 }
 
-static void test_row_18_who_hits_a_fixed_object_is_not_checked_against_the_moving(void **state)
+static void test_row_18_after_a_hit_on_a_fixed_object_no_moving_body_is_tested(void **state)
 {
     (void)state;
     small_world_tree(&w, (struct vec3){25010, 0, 25010}, 2.0);
@@ -105,7 +105,7 @@ static void test_row_18_who_hits_a_fixed_object_is_not_checked_against_the_movin
     small_world_row(&w, SMALL_TANK, (struct vec3){25004, 0, 25010}, eastward);
     assert_int_equal(run(method_npsnet2_pairs), 2);
     assert_true(has(0, 0 | PAIR_FIXED) && has(0, 1));
-    /* It has stopped: nobody looks. */
+    /* It has stopped: it is not tested. */
     small_world_move(&w, 1, (struct vec3){25004, 0, 25010}, still);
     assert_int_equal(run(method_npsnet2_pairs), 1);
     /* Both reach the tree: neither looks for the other. */
@@ -256,8 +256,8 @@ static void test_row_24_table_2(void **state)
     fixture_close(&f);
 }
 
-/* Two tanks pass each other this far apart (metres between their ways) at the same speed. Frames
- * fall at the same share of the way between two of them; 0.5: just as far before the meeting as
+/* Two tanks pass each other this far apart (metres between their paths) at the same speed. Frames
+ * fall at the same share of the distance between two of them; 0.5: as far before the meeting as
  * after. In how many frames is the pair found? */
 static uint32_t pass(method_pairs_function *method, double apart_m, double speed_mps, double share)
 {
@@ -397,7 +397,7 @@ static void test_row_21_an_object_is_hit_as_it_is_turned(void **state)
     assert_int_equal(run(method_npsnet2_pairs), 1);
 }
 
-static void test_row_21_what_touches_beside_the_line_of_centres_is_missed(void **state)
+static void test_row_21_a_contact_beside_the_line_of_centres_is_missed(void **state)
 {
     (void)state;
     make_cubes();
@@ -411,7 +411,7 @@ static void test_row_21_what_touches_beside_the_line_of_centres_is_missed(void *
     assert_int_equal(run(method_npsnet2_pairs), 1);
 }
 
-/* Vehicles stand on the ground with air below them: there is nothing to meet at their positions. */
+/* Vehicles stand on the ground with air below them: a ray at their positions would meet nothing. */
 static void test_row_21_rays_run_at_the_height_of_the_vehicle_and_not_along_the_ground(void **state)
 {
     struct model_vertex raised[8];
@@ -434,8 +434,8 @@ int main(void)
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
         TEST(test_row_17_above_the_threshold_no_fixed_object_is_tested),
-        TEST(test_row_17_what_rests_is_not_checked_and_what_is_down_not_hit),
-        TEST(test_row_18_who_hits_a_fixed_object_is_not_checked_against_the_moving),
+        TEST(test_row_17_resting_bodies_and_fallen_objects_are_not_tested),
+        TEST(test_row_18_after_a_hit_on_a_fixed_object_no_moving_body_is_tested),
         TEST(test_row_37_a_border_object_is_found_late),
         TEST(test_row_37_an_object_of_its_own_square_is_found_in_time),
         TEST(test_row_20_radii_are_slightly_smaller_than_the_extent),
@@ -448,7 +448,7 @@ int main(void)
         TEST(test_row_21_spheres_that_overlap_without_the_objects_are_no_collision),
         TEST(test_row_21_fixed_objects_have_their_polygons_and_their_size),
         TEST(test_row_21_an_object_is_hit_as_it_is_turned),
-        TEST(test_row_21_what_touches_beside_the_line_of_centres_is_missed),
+        TEST(test_row_21_a_contact_beside_the_line_of_centres_is_missed),
         TEST(test_row_21_rays_run_at_the_height_of_the_vehicle_and_not_along_the_ground),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

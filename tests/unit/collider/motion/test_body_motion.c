@@ -1,4 +1,4 @@
-/* Ways and turnings of a frame's rows. */
+/* Paths and rotations of a frame's rows. */
 #include "collider/motion/body_motion.h"
 
 #include "tests/support/steps.h"
@@ -35,8 +35,8 @@ static int close_world(void **state)
     return 0;
 }
 
-/* The next frame, in which row 0 has moved 6 m east and turned a tenth to the right, and the last
- * row is somebody new. */
+/* The next frame: row 0 has moved 6 m east and turned a tenth to the right, and the last row has a
+ * new entity. */
 static void begin(void)
 {
     struct response_context context;
@@ -80,7 +80,7 @@ static void test_who_is_new_has_not_moved(void **state)
     assert_true(motion->path[ROWS - 1].at.x == next->entities.x[ROWS - 1]);
 }
 
-static void test_changed_turnings_are_kept_for_the_frame_and_no_longer(void **state)
+static void test_changed_rotations_are_kept_for_the_frame_only(void **state)
 {
     (void)state;
     begin();
@@ -103,7 +103,7 @@ static void test_changed_turnings_are_kept_for_the_frame_and_no_longer(void **st
 }
 
 /* At the frame's very end there is no time left to turn in. */
-static void test_a_way_that_begins_at_the_end_is_turned_as_it_ends(void **state)
+static void test_a_path_that_begins_at_the_end_has_its_last_rotation(void **state)
 {
     (void)state;
     begin();
@@ -141,8 +141,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_a_row_goes_from_the_committed_pose_to_the_moved_one),
         TEST(test_who_is_new_has_not_moved),
-        TEST(test_changed_turnings_are_kept_for_the_frame_and_no_longer),
-        TEST(test_a_way_that_begins_at_the_end_is_turned_as_it_ends),
+        TEST(test_changed_rotations_are_kept_for_the_frame_only),
+        TEST(test_a_path_that_begins_at_the_end_has_its_last_rotation),
         TEST(test_bodies_have_their_kinds_hulls_at_their_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

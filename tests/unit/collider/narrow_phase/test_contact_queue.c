@@ -1,4 +1,4 @@
-/* Contacts of a frame: order of time, renewal when a way changes, each pair once. */
+/* Contacts of a frame: order of time, new contacts after a change of path, each pair once. */
 #include "collider/narrow_phase/contact_queue.h"
 
 #include "tests/support/steps.h"
@@ -118,7 +118,7 @@ static void test_ties_go_by_the_numbers_of_the_bodies(void **state)
 
 /* --- renewal -----------------------------------------------------------------------------------*/
 
-static void test_a_changed_way_voids_what_it_would_have_met(void **state)
+static void test_a_changed_path_voids_its_contacts(void **state)
 {
     struct contact contact;
     (void)state;
@@ -133,11 +133,11 @@ static void test_a_changed_way_voids_what_it_would_have_met(void **state)
     (void)c;
 }
 
-static void test_a_changed_way_is_swept_again_against_all_it_could_meet(void **state)
+static void test_a_changed_path_is_swept_against_all_it_could_meet(void **state)
 {
     struct contact contact;
     (void)state;
-    /* b runs into a, which stops in c's way. */
+    /* b runs into a, which stops in c's path. */
     uint32_t a = put(25000.0, 25000.0, 40.0), b = put(25030.0, 25000.0, 0.0);
     uint32_t c = put(24950.0, 25000.0, 100.0);
     find();
@@ -160,7 +160,7 @@ static void test_a_pair_meets_so_often_and_no_more(void **state)
     uint32_t a = put(25000.0, 25000.0, 100.0), b = put(25030.0, 25000.0, 0.0);
     find();
     assert_int_equal(context.input.meets, CONTACT_MEETS_MAX);
-    for (int n = 1; n <= CONTACT_MEETS_MAX; n++) { /* it presses on whatever it is told */
+    for (int n = 1; n <= CONTACT_MEETS_MAX; n++) { /* it moves on after each response */
         assert_true(contact_queue_next(contacts(), &context.input, &contact));
         assert_int_equal(contact.last, n == CONTACT_MEETS_MAX);
         contact_queue_change(contacts(), &context.input, &a, 1, contact.impact.toi);
@@ -169,9 +169,9 @@ static void test_a_pair_meets_so_often_and_no_more(void **state)
     assert_false(contact_queue_next(contacts(), &context.input, &contact));
 }
 
-/* A way that leads out of the box that the broad phase knows meets what stands there, and what has
- * strayed there itself. */
-static void test_row_36_another_way_meets_others(void **state)
+/* A path that leaves the box that the broad phase has meets the bodies there, and bodies that left
+ * their own boxes. */
+static void test_row_36_a_changed_path_meets_other_bodies(void **state)
 {
     struct contact contact;
     (void)state;
@@ -254,10 +254,10 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_row_36_contacts_come_in_the_order_of_time),
         TEST(test_ties_go_by_the_numbers_of_the_bodies),
-        TEST(test_a_changed_way_voids_what_it_would_have_met),
-        TEST(test_a_changed_way_is_swept_again_against_all_it_could_meet),
+        TEST(test_a_changed_path_voids_its_contacts),
+        TEST(test_a_changed_path_is_swept_against_all_it_could_meet),
         TEST(test_a_pair_meets_so_often_and_no_more),
-        TEST(test_row_36_another_way_meets_others),
+        TEST(test_row_36_a_changed_path_meets_other_bodies),
         TEST(test_a_dropped_row_has_no_contacts),
         TEST(test_a_frame_knows_nothing_of_the_one_before),
         TEST(test_through_fixed_only_entering_is_a_contact),

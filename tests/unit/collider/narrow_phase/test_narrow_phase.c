@@ -1,4 +1,4 @@
-/* When and where a pair touches: by spheres, by hulls, and what lets bodies in. */
+/* When and where a pair touches: by spheres, by hulls, and objects that bodies may be inside. */
 #include "collider/narrow_phase/narrow_phase.h"
 
 #include "tests/support/steps.h"
@@ -32,7 +32,7 @@ static uint32_t put(const char *kind, double x, double y, double z)
         &f, (struct fixture_entity){.kind = kind, .at = {x, y, z}, .heading_rad = HALF_PI});
 }
 
-/* Row 0 goes this far east; does it touch the other side? */
+/* Row 0 moves this far east. Returns true if it touches the other side. */
 static bool meets(double along, uint32_t other, bool through_fixed, double from)
 {
     const struct pair pair = {0, other};
@@ -48,7 +48,7 @@ static void test_spheres_touch_at_the_sum_of_their_radii(void **state)
     put("helicopter", 25000.0, 900.0, 25000.0);
     put("helicopter", 25030.0, 900.0, 25000.0);
     steps_respond(&f, &context);
-    assert_true(meets(36.0, 1, false, 0.0)); /* 12 m of 30 are left after half the way */
+    assert_true(meets(36.0, 1, false, 0.0)); /* 12 m of 30 are left after half the path */
     assert_true(fabs(impact.toi - 0.5) < 1e-12 && impact.normal.x == 1.0 && impact.depth_m < 1e-9);
     assert_true(fabs(impact.point.x - 25024.0) < 1e-9);
     assert_true(meets(36.0, 1, false, 0.75)); /* deep in it and going on */
@@ -98,16 +98,16 @@ static void test_hulls_touch_where_they_are(void **state)
     struct swept_body a = body_motion_body(context.motion, 0),
                       b = body_motion_body(context.motion, 1);
     assert_true(fabs(time_of_impact_gap(&a, &b, impact.toi) - SKIN_M) < 1e-8);
-    /* They touch now, and part: the hulls around them must not hide that they do not meet. */
+    /* They touch now, and part: the outer hulls must not hide that the pieces do not touch. */
     double toi = impact.toi;
     assert_false(meets(-20.0, 1, false, 0.0));
     assert_true(meets(20.0, 1, false, toi) && impact.toi == toi);
     close_world();
 }
 
-/* A bush lets bodies in, and whoever is in one leaves it; a tree lets in only where fixed objects
- * are passed through. */
-static void test_only_entering_what_lets_in_is_a_touch(void **state)
+/* Bodies may be inside a bush, and a body inside may leave it; inside a tree only if bodies pass
+ * through fixed objects. */
+static void test_only_entering_a_yielding_object_is_a_contact(void **state)
 {
     (void)state;
     for (int model = 0; model < 2; model++) {
@@ -138,7 +138,7 @@ int main(void)
         cmocka_unit_test(test_what_looks_at_the_end_only_finds_it_at_the_end),
         cmocka_unit_test(test_hulls_pass_where_spheres_touch),
         cmocka_unit_test(test_hulls_touch_where_they_are),
-        cmocka_unit_test(test_only_entering_what_lets_in_is_a_touch),
+        cmocka_unit_test(test_only_entering_a_yielding_object_is_a_contact),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

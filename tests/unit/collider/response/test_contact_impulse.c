@@ -60,7 +60,7 @@ static void ram(uint32_t *tank, uint32_t *jeep)
     fixture_run(&f, 1);
 }
 
-static void test_a_head_on_blow_follows_newton(void **state)
+static void test_a_head_on_impact_follows_newton(void **state)
 {
     uint32_t tank, jeep;
     (void)state;
@@ -105,7 +105,7 @@ static void test_the_softer_of_the_two_decides_the_bounce(void **state)
     assert_int_equal(collision()->response, RESPONSE_STOP);
 }
 
-static void test_bodies_go_on_from_where_they_touched(void **state)
+static void test_bodies_continue_from_where_they_touched(void **state)
 {
     uint32_t tank, jeep;
     (void)state;
@@ -199,7 +199,7 @@ static void test_what_breaks_costs_its_resistance(void **state)
     double from = 25000.0 - 3.0 - (double)1.8f;
     assert_true(fabs(steps_rows(&f).x[row] - from - 0.75 * speed * sqrt(0.75) / 60.0) < 1e-6);
     fixture_run(&f, 30);
-    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1); /* a stump stops nobody */
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1); /* a stump stops no vehicle */
 }
 
 static void test_what_withstands_by_a_hair_stops_it(void **state)
@@ -211,7 +211,7 @@ static void test_what_withstands_by_a_hair_stops_it(void **state)
     assert_true(steps_rows(&f).vx[row] <= 0.0);
 }
 
-static void test_row_32_a_bush_harms_nobody_and_is_not_harmed(void **state)
+static void test_row_32_a_bush_does_and_takes_no_damage(void **state)
 {
     uint32_t row = into(2, 10.0, (double)f.view.world.fixed[2].radius_m);
     (void)state;
@@ -251,16 +251,16 @@ int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
-        TEST(test_a_head_on_blow_follows_newton),
+        TEST(test_a_head_on_impact_follows_newton),
         TEST(test_the_event_says_where_and_which_way),
         TEST(test_the_softer_of_the_two_decides_the_bounce),
-        TEST(test_bodies_go_on_from_where_they_touched),
+        TEST(test_bodies_continue_from_where_they_touched),
         TEST(test_friction_drags_along_and_turns),
         TEST(test_without_friction_only_the_speed_along_the_normal_changes),
         TEST(test_a_wall_throws_it_back),
         TEST(test_what_breaks_costs_its_resistance),
         TEST(test_what_withstands_by_a_hair_stops_it),
-        TEST(test_row_32_a_bush_harms_nobody_and_is_not_harmed),
+        TEST(test_row_32_a_bush_does_and_takes_no_damage),
         TEST(test_no_extreme_of_mass_or_resistance_makes_a_nan),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -49,7 +49,7 @@ static struct solver_contact impact(const struct solver_body *bodies, uint32_t a
 
 /* --- one contact -------------------------------------------------------------------------------*/
 
-static void test_a_head_on_blow_follows_newton(void **state)
+static void test_a_head_on_impact_follows_newton(void **state)
 {
     (void)state;
     for (double e = 0.0; e <= 1.0; e += 0.25) {
@@ -159,7 +159,7 @@ static void test_a_glancing_hit_spins_a_body_the_right_way(void **state)
 static void test_what_is_held_stays(void **state)
 {
     (void)state;
-    /* Two land vehicles: they neither rise nor roll, whatever way the normal points. */
+    /* Two land vehicles: they neither rise nor roll, in whichever direction the normal points. */
     struct solver_body b[2];
     for (int n = 0; n < 2; n++) {
         b[n] = ball(1000.0, (struct vec3){4.0 * n, 0, 0}, (struct vec3){n ? -5.0 : 5.0, 0, 1.0});
@@ -282,8 +282,9 @@ static void test_a_parting_contact_is_pressed_by_the_island(void **state)
         NEAR(b[i].velocity.x, 91.0 / 12.0);
 }
 
-/* Between two walls that it touches it cannot bounce off both: it stops, and friction slows it. */
-static void test_what_has_no_room_to_bounce_stops(void **state)
+/* Between two walls that it touches a body cannot bounce off both: it stops, and friction slows
+ * it. */
+static void test_a_body_without_room_to_bounce_stops(void **state)
 {
     (void)state;
     for (int rough = 0; rough < 2; rough++) {
@@ -344,7 +345,7 @@ static void test_a_great_pile_ends_without_anybody_nearing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_a_head_on_blow_follows_newton),
+        cmocka_unit_test(test_a_head_on_impact_follows_newton),
         cmocka_unit_test(test_bodies_that_part_get_nothing),
         cmocka_unit_test(test_friction_that_grips_makes_a_ball_roll),
         cmocka_unit_test(test_friction_that_slides_ends_at_the_cone),
@@ -356,7 +357,7 @@ int main(void)
         cmocka_unit_test(test_a_cradle_struck_one_by_one_hands_all_of_it_on),
         cmocka_unit_test(test_row_36_a_symmetric_hit_has_a_symmetric_answer),
         cmocka_unit_test(test_a_parting_contact_is_pressed_by_the_island),
-        cmocka_unit_test(test_what_has_no_room_to_bounce_stops),
+        cmocka_unit_test(test_a_body_without_room_to_bounce_stops),
         cmocka_unit_test(test_a_great_pile_ends_without_anybody_nearing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -16,9 +16,9 @@ static bool near(double value, double right, double relative)
     return fabs(value - right) <= relative * fabs(right);
 }
 
-/* The same spring by small steps (velocity Verlet): stiff as told on the way in; on the way back
- * stiffer by the square of restitution, with what that leaves bent; over when it no longer pushes.
- */
+/* The same spring by small steps (velocity Verlet): the given stiffness in compression; in the
+ * rebound stiffer by the square of restitution, with the dent that this leaves; it ends when it no
+ * longer pushes. */
 static struct contact_spring_impact stepped(const struct contact_spring *s)
 {
     struct contact_spring_impact spring = {0};
@@ -40,7 +40,7 @@ static struct contact_spring_impact stepped(const struct contact_spring *s)
     return spring;
 }
 
-static void test_row_43_it_does_what_a_stepped_spring_does(void **state)
+static void test_row_43_it_agrees_with_a_stepped_spring(void **state)
 {
     static const double restitutions[] = {0.1, 0.4, 0.8, 1.0};
     (void)state;
@@ -78,7 +78,7 @@ static void test_half_a_period_when_all_comes_back(void **state)
     assert_true(near(spring.depth_m, 0.15, 1e-12) && spring.left_m == 0.0);
 }
 
-static void test_nothing_comes_back_of_a_dead_blow(void **state)
+static void test_nothing_is_returned_without_restitution(void **state)
 {
     const struct contact_spring s = {100.0, 3.0, 4e4, 0.0};
     struct contact_spring_impact spring = contact_spring_impact(&s);
@@ -115,10 +115,10 @@ static void test_two_skins_are_softer_than_either(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_row_43_it_does_what_a_stepped_spring_does),
+        cmocka_unit_test(test_row_43_it_agrees_with_a_stepped_spring),
         cmocka_unit_test(test_row_43_momentum_is_kept_and_restitution_comes_back),
         cmocka_unit_test(test_half_a_period_when_all_comes_back),
-        cmocka_unit_test(test_nothing_comes_back_of_a_dead_blow),
+        cmocka_unit_test(test_nothing_is_returned_without_restitution),
         cmocka_unit_test(test_row_26_the_stiffer_the_shorter_shallower_and_harder),
         cmocka_unit_test(test_two_skins_are_softer_than_either),
     };

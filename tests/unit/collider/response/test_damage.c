@@ -60,7 +60,7 @@ static void test_harm_adds_up_to_three_levels_and_destruction(void **state)
     assert_int_equal(rows()->damage[1], DAMAGE_NONE);
 }
 
-static void test_nothing_and_nonsense_harm_nobody(void **state)
+static void test_no_energy_and_nonsense_do_no_damage(void **state)
 {
     (void)state;
     damage_row(&context, 0, 0.0, 0.0);
@@ -88,7 +88,7 @@ static void test_one_is_destroyed_once(void **state)
     assert_int_equal(rows()->changed_tick[0], context.next->head->tick);
 }
 
-static void test_row_27_a_fixed_object_keeps_its_hardest_blow(void **state)
+static void test_row_27_a_fixed_object_keeps_its_hardest_impact(void **state)
 {
     double resistance = steps_kind(&f, "tree")->resistance_j;
     (void)state;
@@ -118,7 +118,7 @@ static void test_row_27_a_kinds_own_constants_go_before_the_scenarios(void **sta
     assert_int_equal(damage_fixed_object(&context, 0, 0.95 * resistance), DAMAGE_HIGH);
 }
 
-static void test_row_27_by_mass_an_object_keeps_its_hardest_blow(void **state)
+static void test_row_27_by_mass_an_object_keeps_its_hardest_impact(void **state)
 {
     struct collision_params *limits = &steps_params(&f)->collision;
     (void)state;
@@ -150,11 +150,11 @@ int main(void)
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
         TEST(test_harm_adds_up_to_three_levels_and_destruction),
-        TEST(test_nothing_and_nonsense_harm_nobody),
+        TEST(test_no_energy_and_nonsense_do_no_damage),
         TEST(test_one_is_destroyed_once),
-        TEST(test_row_27_a_fixed_object_keeps_its_hardest_blow),
+        TEST(test_row_27_a_fixed_object_keeps_its_hardest_impact),
         TEST(test_row_27_a_kinds_own_constants_go_before_the_scenarios),
-        TEST(test_row_27_by_mass_an_object_keeps_its_hardest_blow),
+        TEST(test_row_27_by_mass_an_object_keeps_its_hardest_impact),
         TEST(test_row_26_resistance_decides),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -30,7 +30,7 @@ static bool near(double value, double right)
 
 /* --- one blow ----------------------------------------------------------------------------------*/
 
-static void test_row_33_a_blow_harms_and_dents(void **state)
+static void test_row_33_an_impact_damages_and_dents(void **state)
 {
     struct deformation crush = deformation_of(&skin, 5e4);
     (void)state;
@@ -45,7 +45,7 @@ static void test_dents_do_not_get_deeper_than_the_skin(void **state)
     assert_true(near(deformation_of(&skin, 1e5).plastic_m, 0.75 * 0.2));
     assert_true(near(deformation_of(&skin, 1e9).plastic_m, 0.75 * 0.2));
     assert_true(near(deformation_of(&skin, 1e9).elastic_m, 0.25 * 0.2));
-    assert_true(near(deformation_of(&skin, 1e9).harm_j, 1e9 * 0.875)); /* but harm goes on */
+    assert_true(near(deformation_of(&skin, 1e9).harm_j, 1e9 * 0.875)); /* but damage still grows */
 }
 
 static void test_grazes_leave_no_dents(void **state)
@@ -63,7 +63,7 @@ static void test_grazes_leave_no_dents(void **state)
     }
 }
 
-static void test_row_47_what_keeps_no_shape_springs_back(void **state)
+static void test_row_47_an_elastic_skin_recovers(void **state)
 {
     struct kind kind = skin;
     (void)state;
@@ -85,7 +85,7 @@ static void test_row_47_what_keeps_no_shape_springs_back(void **state)
 
 struct blow {
     double speed_mps;
-    double angle_rad; /* of its way off the other's normal */
+    double angle_rad; /* of its path to the other's normal */
     struct kind kind, other;
 };
 
@@ -105,8 +105,8 @@ static struct solver_body body_of(const struct kind *kind, struct vec3 at)
                                 .centre = at};
 }
 
-/* The kind runs into the other, which stands; what becomes of the other, level by the energy that
- * it took. */
+/* The kind runs into the other, which stands; the damage of the other, level by the energy that it
+ * absorbed. */
 static struct aftermath strike(const struct blow *blow)
 {
     struct solver_body b[2] = {body_of(&blow->kind, (struct vec3){0, 0, 0}),
@@ -250,10 +250,10 @@ static void test_row_26_spring_stiffness(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_row_33_a_blow_harms_and_dents),
+        cmocka_unit_test(test_row_33_an_impact_damages_and_dents),
         cmocka_unit_test(test_dents_do_not_get_deeper_than_the_skin),
         cmocka_unit_test(test_grazes_leave_no_dents),
-        cmocka_unit_test(test_row_47_what_keeps_no_shape_springs_back),
+        cmocka_unit_test(test_row_47_an_elastic_skin_recovers),
         cmocka_unit_test(test_row_26_speed),
         cmocka_unit_test(test_row_26_angle),
         cmocka_unit_test(test_row_26_masses),

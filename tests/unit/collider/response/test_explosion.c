@@ -174,7 +174,7 @@ static void burst(const double *distance, uint32_t count, uint32_t *first)
     assert_int_equal(detonation(0)->struck, STRUCK_AIR);
 }
 
-static void test_blast_harms_all_within_its_radius_and_nobody_beyond(void **state)
+static void test_an_explosion_damages_all_bodies_within_its_radius_only(void **state)
 {
     double radius = REACH_M * cbrt(steps_kind(&f, "bomb")->explosive_kg), distance[60];
     uint32_t first;
@@ -248,7 +248,7 @@ static void test_blast_alarms_the_enemy_and_spares_no_friend(void **state)
     assert_int_equal(e.threat_id[friend], 0); /* a stray round of one's own is no attack */
 }
 
-static void test_a_chain_of_what_explodes_goes_on_to_its_end(void **state)
+static void test_a_chain_of_explosions_runs_to_its_end(void **state)
 {
     uint32_t row[12];
     (void)state;
@@ -296,11 +296,11 @@ int main(void)
         TEST(test_a_round_into_a_tree_fells_it_and_then_others_pass),
         TEST(test_a_charge_of_nothing_digs_nothing),
         TEST(test_a_full_list_of_craters_is_counted),
-        TEST(test_blast_harms_all_within_its_radius_and_nobody_beyond),
+        TEST(test_an_explosion_damages_all_bodies_within_its_radius_only),
         TEST(test_blast_falls_off_with_distance),
         TEST(test_a_body_in_several_squares_is_harmed_once),
         TEST(test_blast_alarms_the_enemy_and_spares_no_friend),
-        TEST(test_a_chain_of_what_explodes_goes_on_to_its_end),
+        TEST(test_a_chain_of_explosions_runs_to_its_end),
         TEST(test_the_shooter_is_not_hit_by_its_own_round_at_the_muzzle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,4 +1,4 @@
-/* One blow on one body: harm, and a dent where it was struck (thesis rows 33, 47). */
+/* One impact on one body: damage, and a dent where it was hit (thesis rows 33, 47). */
 #include "collider/response/impact_damage.h"
 #include "collider/response/deformation.h"
 #include "collider/response/contact_spring.h"
@@ -49,7 +49,7 @@ static const struct dent *dent(uint32_t n)
     return &context.next->dents[n];
 }
 
-static void test_rows_33_47_a_blow_harms_and_dents(void **state)
+static void test_rows_33_47_an_impact_damages_and_dents(void **state)
 {
     (void)state;
     struct deformation deformation = deformation_of(steps_kind(&f, "helicopter"), 4e5);
@@ -66,7 +66,7 @@ static void test_rows_33_47_a_blow_harms_and_dents(void **state)
     assert_true(dent(1)->direction[0] > 0.999f); /* struck as the second of the two */
 }
 
-static void test_a_spring_dents_each_skin_by_half_its_way(void **state)
+static void test_a_spring_dents_each_skin_by_half_its_compression(void **state)
 {
     (void)state;
     const struct contact_spring_impact spring = {.depth_m = 0.5, .left_m = 0.2};
@@ -101,8 +101,8 @@ int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
-        TEST(test_rows_33_47_a_blow_harms_and_dents),
-        TEST(test_a_spring_dents_each_skin_by_half_its_way),
+        TEST(test_rows_33_47_an_impact_damages_and_dents),
+        TEST(test_a_spring_dents_each_skin_by_half_its_compression),
         TEST(test_no_energy_does_nothing),
         TEST(test_a_wreck_is_dented_and_not_harmed),
     };

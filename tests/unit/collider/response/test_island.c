@@ -59,7 +59,7 @@ static const struct event_collision *collision(uint32_t n)
 
 /* --- three and more ----------------------------------------------------------------------------*/
 
-static void test_row_36_a_blow_goes_through_a_row_of_them(void **state)
+static void test_row_36_an_impact_passes_through_a_row_of_bodies(void **state)
 {
     (void)state;
     uint32_t first = put(20000.0 - 12.5, 20000.0, 60.0, 0.0);
@@ -76,10 +76,10 @@ static void test_row_36_a_blow_goes_through_a_row_of_them(void **state)
     assert_true(fabs(e.x[row[3]] - (20036.0 + 0.5)) < 1e-6); /* half the frame was left */
 }
 
-static void test_row_36_two_at_once_share_a_blow(void **state)
+static void test_row_36_two_at_once_share_an_impact(void **state)
 {
     (void)state;
-    /* The one in the middle meets both at the same moment, above and below its way. */
+    /* The one in the middle meets both at the same moment, above and below its path. */
     uint32_t one = put(20000.0 - 9.6 - 0.5, 20000.0, 60.0, 0.0);
     uint32_t north = put(20000.0, 20000.0 - 7.2, 0.0, 0.0);
     uint32_t south = put(20000.0, 20000.0 + 7.2, 0.0, 0.0);
@@ -96,7 +96,7 @@ static void test_row_36_two_at_once_share_a_blow(void **state)
     assert_true(fabs(energy - 3600.0) < 1e-6); /* all of it comes back */
 }
 
-static void test_row_36_who_is_struck_twice_in_a_frame_answers_twice(void **state)
+static void test_row_36_a_body_hit_twice_in_a_frame_responds_twice(void **state)
 {
     (void)state;
     steps_params(&f)->dt_s = 0.1;
@@ -111,9 +111,9 @@ static void test_row_36_who_is_struck_twice_in_a_frame_answers_twice(void **stat
     assert_true(fabs(e.x[three] - (20028.0 + 0.8 * 20.0)) < 1e-6);
 }
 
-/* A blow from the side parts two bodies at the moment in which they touch: nothing to answer. A
- * second one drives the first into the other after all, within the frame. */
-static void test_row_36_who_parts_untouched_may_meet_later(void **state)
+/* An impact from the side parts two bodies at the moment in which they touch: there is no
+ * collision. A second one drives the first into the other after all, within the frame. */
+static void test_row_36_bodies_that_part_may_meet_later(void **state)
 {
     (void)state;
     const double impact = 12.0 - 1e-10, x = 20000.0, z = 20000.0;
@@ -173,8 +173,8 @@ static void test_row_46_overlapping_bodies_part_exactly(void **state)
     assert_true(fabs(pushed - 0.6 - way) < 1e-6);
 }
 
-/* A truck that turns where it stands sweeps its corners into who stands beside it. */
-static void test_who_turns_in_place_meets_its_neighbour(void **state)
+/* A truck that turns on the spot sweeps its corners into the body beside it. */
+static void test_a_vehicle_turning_in_place_meets_its_neighbour(void **state)
 {
     (void)state;
     fixture_close(&f);
@@ -230,7 +230,7 @@ static void test_dents_beyond_the_list_are_counted(void **state)
     assert_int_equal(fixture_state(&f).head->tally.dents_refused, 1);
 }
 
-static void test_a_touch_leaves_no_dent(void **state)
+static void test_a_light_contact_leaves_no_dent(void **state)
 {
     (void)state;
     put(20000.0 - 12.001, 20000.0, 0.5, 0.0);
@@ -242,7 +242,7 @@ static void test_a_touch_leaves_no_dent(void **state)
 
 /* --- springs -----------------------------------------------------------------------------------*/
 
-static void test_row_43_a_spring_gives_back_what_restitution_says(void **state)
+static void test_row_43_a_spring_returns_speed_by_restitution(void **state)
 {
     (void)state;
     fixture_close(&f);
@@ -262,7 +262,7 @@ static void test_row_43_a_spring_gives_back_what_restitution_says(void **state)
     struct contact_spring_impact blow = contact_spring_impact(&spring);
     assert_true(fabs((double)collision(0)->impulse_ns / blow.impulse_ns - 1.0) < 1e-6);
     struct state now = fixture_state(&f);
-    assert_int_equal(now.head->dent_count, 2); /* each skin by half of the spring's way */
+    assert_int_equal(now.head->dent_count, 2); /* each skin by half of the spring's compression */
     assert_true(fabs((double)now.dents[0].plastic_m - 0.5 * blow.left_m) < 1e-6);
     assert_true(fabs((double)(now.dents[1].plastic_m + now.dents[1].elastic_m) -
                      0.5 * blow.depth_m) < 1e-6);
@@ -272,17 +272,17 @@ int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
-        TEST(test_row_36_a_blow_goes_through_a_row_of_them),
-        TEST(test_row_36_two_at_once_share_a_blow),
-        TEST(test_row_36_who_is_struck_twice_in_a_frame_answers_twice),
-        TEST(test_row_36_who_parts_untouched_may_meet_later),
+        TEST(test_row_36_an_impact_passes_through_a_row_of_bodies),
+        TEST(test_row_36_two_at_once_share_an_impact),
+        TEST(test_row_36_a_body_hit_twice_in_a_frame_responds_twice),
+        TEST(test_row_36_bodies_that_part_may_meet_later),
         TEST(test_row_36_a_bush_beside_makes_no_second_collision),
         TEST(test_row_46_overlapping_bodies_part_exactly),
-        TEST(test_who_turns_in_place_meets_its_neighbour),
+        TEST(test_a_vehicle_turning_in_place_meets_its_neighbour),
         TEST(test_rows_33_47_a_blow_leaves_a_dent_where_it_struck),
         TEST(test_dents_beyond_the_list_are_counted),
-        TEST(test_a_touch_leaves_no_dent),
-        TEST(test_row_43_a_spring_gives_back_what_restitution_says),
+        TEST(test_a_light_contact_leaves_no_dent),
+        TEST(test_row_43_a_spring_returns_speed_by_restitution),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

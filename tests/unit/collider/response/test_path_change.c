@@ -1,4 +1,4 @@
-/* What an answer makes of a body's way through the rest of the frame. */
+/* How a response changes a body's path in the rest of the frame. */
 #include "collider/response/path_change.h"
 #include "tests/support/steps.h"
 
@@ -82,7 +82,7 @@ static void test_who_leaves_takes_velocity_and_spin_along(void **state)
 }
 
 /* Row 17 and the mover know nothing outside: no answer may push a body there. */
-static void test_nobody_is_pushed_out_of_the_world(void **state)
+static void test_no_body_is_pushed_out_of_the_world(void **state)
 {
     (void)state;
     uint32_t row = put("helicopter", 1.0, 900.0);
@@ -116,8 +116,8 @@ static void test_what_the_ground_holds(void **state)
     assert_true(spin.x == 0.0 && spin.z == 0.0 && fabs(spin.y + 0.01 / DT_S) < 1e-9);
 }
 
-/* A driver who steers goes on steering after an answer, and it does not become a spin of the
- * vehicle's own. */
+/* A driver who steers continues to steer after a response, and the steering does not become the
+ * vehicle's spin. */
 static void test_an_answer_leaves_the_steering_to_the_driver(void **state)
 {
     (void)state;
@@ -140,7 +140,7 @@ int main(void)
         TEST(test_who_stays_ends_where_it_was_struck),
         TEST(test_who_is_slowed_goes_on_at_its_share),
         TEST(test_who_leaves_takes_velocity_and_spin_along),
-        TEST(test_nobody_is_pushed_out_of_the_world),
+        TEST(test_no_body_is_pushed_out_of_the_world),
         TEST(test_what_the_ground_holds),
         TEST(test_an_answer_leaves_the_steering_to_the_driver),
     };

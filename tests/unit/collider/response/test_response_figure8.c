@@ -43,7 +43,7 @@ static uint32_t put(const char *kind, double x, double z, struct vec3 velocity)
 
 /* --- two that move: row 29 ---------------------------------------------------------------------*/
 
-/* What two tanks do that meet at this angle, nose to nose along x, at these speeds. */
+/* The response of two tanks that meet at this angle, nose to nose along x, at these speeds. */
 static enum response meet(double angle_deg, double speed_a, double speed_b)
 {
     struct response_context context;
@@ -123,7 +123,7 @@ static void test_row_29_headings_give_the_angle(void **state)
     for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
         double angle = cases[n].angle_deg * RAD_PER_DEG, sine = maths_sin(angle);
         steps_empty(&f);
-        /* a drives north; b, in its way, slower, at the angle to the right of it. */
+        /* a drives north; b, in its path, slower, at the angle to the right of it. */
         put("tank", 20000.0, 20000.0, (struct vec3){0, 0, -7.0});
         put("tank", 20000.0 - 0.01 * sine, 19993.98,
             (struct vec3){2.0 * sine, 0, -2.0 * maths_cos(angle)});
@@ -170,7 +170,7 @@ static struct meeting mixed(double angle_deg, double speed_tank, double speed_je
     return met;
 }
 
-static void test_row_29_the_wider_of_the_two_kinds_decides_what_is_severe(void **state)
+static void test_row_29_the_wider_angle_of_the_two_kinds_is_severe(void **state)
 {
     (void)state;
     for (int swapped = 0; swapped < 2; swapped++) {
@@ -344,14 +344,14 @@ static void test_row_27_damage_by_mass_alone_as_printed(void **state)
                  {10000.0, DAMAGE_MED},  {9999.0, DAMAGE_LOW},   {2000.0, DAMAGE_LOW},
                  {1999.0, DAMAGE_NONE},  {1.0, DAMAGE_NONE}};
     for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
-        for (double speed = 0.5; speed < 40.0; speed *= 2.0) /* whatever the speed */
+        for (double speed = 0.5; speed < 40.0; speed *= 2.0) /* at any speed */
             assert_int_equal(strike(0, cases[n].mass_kg, speed).damage, cases[n].damage);
     }
 }
 
 /* Two of the same mass and resistance, one of them fixed, are struck by the same tank; the tree has
  * the levels of damage that bodies have. */
-static void test_row_30_fixed_suffers_more_than_what_can_spring_away(void **state)
+static void test_row_30_a_fixed_object_suffers_more_than_a_free_one(void **state)
 {
     struct kind *tree = steps_kind(&f, "tree"), *jeep = steps_kind(&f, "jeep");
     int more = 0;
@@ -414,7 +414,7 @@ static void test_row_32_a_vehicle_passes_through_the_tree_that_it_struck(void **
     (void)state;
     fixture_run(&f, 500);
     assert_true(steps_rows(&f).x[row] > 25010.0);
-    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1); /* told of once */
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1); /* reported once */
     assert_int_equal(fixture_event(&f, EVENT_COLLISION, 0)->collision.response, RESPONSE_SLOW);
     assert_int_equal(fixture_event(&f, EVENT_COLLISION, 0)->collision.b.fixed, 1);
 }
@@ -441,7 +441,7 @@ int main(void)
         TEST(test_row_29_within_five_degrees_of_a_quarter_turn_is_severe),
         TEST(test_row_29_fast_kills_both_and_slow_stops_both),
         TEST(test_row_29_headings_give_the_angle),
-        TEST(test_row_29_the_wider_of_the_two_kinds_decides_what_is_severe),
+        TEST(test_row_29_the_wider_angle_of_the_two_kinds_is_severe),
         TEST(test_row_29_fast_is_each_kinds_own_or_the_scenarios),
         TEST(test_row_29_a_bounce_leaves_each_kind_its_share),
         TEST(test_row_26_rigidity_and_moldability_decide_the_harm),
@@ -449,7 +449,7 @@ int main(void)
         TEST(test_row_27_damage_goes_by_energy_over_resistance),
         TEST(test_row_27_damage_is_monotone_in_mass_and_speed),
         TEST(test_row_27_damage_by_mass_alone_as_printed),
-        TEST(test_row_30_fixed_suffers_more_than_what_can_spring_away),
+        TEST(test_row_30_a_fixed_object_suffers_more_than_a_free_one),
         TEST(test_row_28_large_and_fast_kills_else_it_goes_on_slowed),
         TEST(test_row_28_the_heavier_the_vehicle_the_less_it_is_slowed),
         TEST(test_row_32_a_vehicle_passes_through_the_tree_that_it_struck),

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-/* Whatever the angle, the speeds and the masses: both are lost where they met. */
+/* At any angle, speeds and masses both are destroyed where they met. */
 static void test_row_42_platforms_that_meet_are_both_destroyed(void **state)
 {
     static const double speeds[] = {0.0, 0.1, 30.0}, angles_deg[] = {0.0, 45.0, 180.0};

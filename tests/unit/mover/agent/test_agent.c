@@ -61,7 +61,7 @@ static void attack(uint32_t row, uint32_t target, double seconds)
     e.reload_tick[row] = UINT32_MAX; /* it holds its fire */
 }
 
-/* The only agent event so far says this. */
+/* The only agent event so far is this one. */
 static void told(uint32_t row, enum behaviour from, enum behaviour to, enum agent_reason because)
 {
     const struct event *event = fixture_event(&f, EVENT_AGENT, 0);
@@ -134,7 +134,7 @@ static void test_row_9_some_of_the_half_brave_fight_and_some_flee(void **state)
     assert_in_range(fights, 10, 40);
 }
 
-static void test_row_9_who_cannot_shoot_flees_and_gets_away(void **state)
+static void test_row_9_an_unarmed_agent_flees_and_gets_away(void **state)
 {
     uint32_t enemy = put("tank", 25000.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
     uint32_t unarmed = put("truck", 25300.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
@@ -431,7 +431,7 @@ int main(void)
         TEST(test_row_9_a_shot_at_agent_reacts_within_two_frames),
         TEST(test_row_9_courage_says_whether_it_fights_or_flees),
         TEST(test_row_9_some_of_the_half_brave_fight_and_some_flee),
-        TEST(test_row_9_who_cannot_shoot_flees_and_gets_away),
+        TEST(test_row_9_an_unarmed_agent_flees_and_gets_away),
         TEST(test_a_threat_from_the_dead_is_not_heard),
         TEST(test_an_attack_ends_when_the_target_is_gone),
         TEST(test_an_attack_goes_on_with_the_next_enemy_in_sight),

@@ -136,7 +136,7 @@ static void test_crossing_traffic_does_not_meet(void **state)
     assert_true(collisions <= 1);
 }
 
-static void test_it_stops_for_what_it_cannot_pass(void **state)
+static void test_it_stops_before_obstacles_that_it_cannot_pass(void **state)
 {
     (void)state;
     steps_cover(&f, COVER_LAKE, 25125.0, 0.0, 50000.0, 50000.0); /* from x = 25062.5 on */
@@ -191,7 +191,7 @@ int main(void)
         TEST(test_a_wood_is_crossed),
         TEST(test_head_on_they_pass_each_other_on_the_right),
         TEST(test_crossing_traffic_does_not_meet),
-        TEST(test_it_stops_for_what_it_cannot_pass),
+        TEST(test_it_stops_before_obstacles_that_it_cannot_pass),
         TEST(test_a_driver_is_left_alone),
         TEST(test_the_same_on_any_number_of_threads),
     };

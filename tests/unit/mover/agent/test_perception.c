@@ -53,7 +53,7 @@ static enum behaviour behaviour_of(uint32_t row)
     return (enum behaviour)steps_rows(&f).behaviour[row];
 }
 
-/* The nth change of mind of a row says this. */
+/* The nth change of behaviour of a row is this one. */
 static void told(uint32_t row, uint32_t nth, enum behaviour to, enum agent_reason because)
 {
     const struct event *event;
@@ -97,14 +97,14 @@ static bool attacks_across(bool hill)
     return behaviour_of(row) == BEHAVIOUR_ATTACK;
 }
 
-static void test_row_9_nobody_sees_through_a_hill(void **state)
+static void test_row_9_no_agent_sees_through_a_hill(void **state)
 {
     (void)state;
     assert_true(attacks_across(false));
     assert_false(attacks_across(true));
 }
 
-static void test_row_9_who_is_shot_at_from_behind_a_hill_does_not_shoot_at_the_hill(void **state)
+static void test_row_9_an_agent_shot_at_from_behind_a_hill_does_not_shoot_at_it(void **state)
 {
     (void)state;
     steps_ground(&f, ridge, NULL);
@@ -200,7 +200,7 @@ static void test_row_9_odds_of_one_to_six_are_too_many_for_most(void **state)
     assert_true(fled >= 3);
 }
 
-static void test_row_9_who_flees_goes_where_it_is_not_seen(void **state)
+static void test_row_9_a_fleeing_agent_goes_where_it_is_not_seen(void **state)
 {
     (void)state;
     steps_ground(&f, ridge, NULL);
@@ -237,7 +237,7 @@ static void home_and_back(uint32_t row, enum agent_reason because)
     assert_int_equal(fixture_event_count(&f, EVENT_AGENT), 3);
 }
 
-static void test_row_9_who_is_out_of_rounds_goes_home_for_more_and_returns(void **state)
+static void test_row_9_an_agent_out_of_rounds_goes_to_its_base_and_returns(void **state)
 {
     (void)state;
     steps_params(&f)->base[FORCE_BLUE] = (struct force_base){MIDDLE, 24000.0};
@@ -246,7 +246,7 @@ static void test_row_9_who_is_out_of_rounds_goes_home_for_more_and_returns(void 
     home_and_back(row, REASON_OUT_OF_ROUNDS);
 }
 
-static void test_row_9_who_is_low_on_fuel_goes_home_for_more_and_returns(void **state)
+static void test_row_9_an_agent_low_on_fuel_goes_to_its_base_and_returns(void **state)
 {
     (void)state;
     steps_params(&f)->base[FORCE_BLUE] = (struct force_base){MIDDLE, 24000.0};
@@ -284,15 +284,15 @@ int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
-        TEST(test_row_9_nobody_sees_through_a_hill),
-        TEST(test_row_9_who_is_shot_at_from_behind_a_hill_does_not_shoot_at_the_hill),
+        TEST(test_row_9_no_agent_sees_through_a_hill),
+        TEST(test_row_9_an_agent_shot_at_from_behind_a_hill_does_not_shoot_at_it),
         TEST(test_row_9_the_field_of_view_goes_with_the_turret),
         TEST(test_row_9_one_behind_a_hill_does_not_hide_the_others),
         TEST(test_row_9_orders_to_stand_and_to_hold_fire),
         TEST(test_row_9_odds_of_one_to_six_are_too_many_for_most),
-        TEST(test_row_9_who_flees_goes_where_it_is_not_seen),
-        TEST(test_row_9_who_is_out_of_rounds_goes_home_for_more_and_returns),
-        TEST(test_row_9_who_is_low_on_fuel_goes_home_for_more_and_returns),
+        TEST(test_row_9_a_fleeing_agent_goes_where_it_is_not_seen),
+        TEST(test_row_9_an_agent_out_of_rounds_goes_to_its_base_and_returns),
+        TEST(test_row_9_an_agent_low_on_fuel_goes_to_its_base_and_returns),
         TEST(test_supplies_come_evenly),
         TEST(test_a_turn_is_a_second_or_longer_in_a_crowd),
     };

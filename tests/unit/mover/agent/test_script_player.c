@@ -68,7 +68,7 @@ static uint32_t said(enum agent_reason reason)
     return count;
 }
 
-/* There at its time, within the way of a frame, whatever the kind and wherever the point. */
+/* It is there at its time, within the path of a frame, for every kind and point. */
 static void test_it_arrives_at_its_time(void **state)
 {
     static const char *const kinds[] = {"tank", "jeep", "truck", "helicopter"};
@@ -155,8 +155,8 @@ static void test_a_wait_lasts_as_long_as_it_says(void **state)
     fixture_close(&f);
 }
 
-/* A step with a time begins then, whatever those before it have come to. */
-static void test_a_time_cuts_off_what_is_before(void **state)
+/* A step with a time begins at it, even if those before it have not ended. */
+static void test_a_time_cuts_off_the_steps_before_it(void **state)
 {
     (void)state;
     open_script("tank", "",
@@ -343,7 +343,7 @@ int main(void)
         cmocka_unit_test(test_it_arrives_at_its_time),
         cmocka_unit_test(test_one_step_follows_the_other),
         cmocka_unit_test(test_a_wait_lasts_as_long_as_it_says),
-        cmocka_unit_test(test_a_time_cuts_off_what_is_before),
+        cmocka_unit_test(test_a_time_cuts_off_the_steps_before_it),
         cmocka_unit_test(test_shots_are_fired_at_vehicles_and_points),
         cmocka_unit_test(test_who_aims_with_the_hull_turns_it),
         cmocka_unit_test(test_controls_are_held_for_their_time),

@@ -27,7 +27,7 @@ static int close_world(void **state)
     return 0;
 }
 
-/* Ridges across the way east, one each 2 km, 240 m high. */
+/* Ridges across the path east, one every 2 km, 240 m high. */
 static double ridges(double x, double z, const void *context)
 {
     (void)z, (void)context;

@@ -1,4 +1,4 @@
-/* Constant course: vehicles hold it whatever happens; wrecks slide and fall to rest. */
+/* Constant course: vehicles hold it in all events; wrecks slide and fall to rest. */
 #include "tests/support/steps.h"
 #include "world/terrain/gridsquare.h"
 
@@ -145,7 +145,7 @@ static void test_an_aircrafts_wreck_falls_and_comes_to_rest_on_the_ground(void *
     (void)state;
     wreck(row);
     fixture_run(&f, 60);
-    /* A second's fall, the step's own way of adding it up within half a step's gravity. */
+    /* A second's fall; the step's integration is within half a step's gravity. */
     assert_true(fabs(steps_rows(&f).y[row] - (150.0 - 0.5 * GRAVITY)) < 0.1);
     assert_true(steps_rows(&f).vx[row] == 30.0);
     for (int frame = 0; frame < 600; frame++) {

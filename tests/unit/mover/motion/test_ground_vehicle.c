@@ -211,7 +211,7 @@ static void test_it_gains_speed_at_its_acceleration_and_brakes_twice_as_hard(voi
     steps_pedals(&f, row, 1.0, 1.0, GEAR_AUTOMATIC); /* the brake outdoes the throttle */
     fixture_run(&f, (uint32_t)(stop_s * HZ) + 1);
     assert_true(steps_speed(&f, row) == 0.0);
-    /* v squared over 2 a, within a frame's way. */
+    /* v squared over 2 a, within a frame's distance. */
     assert_true(near(steps_rows(&f).x[row] - from, 0.5 * kind->max_speed_mps * stop_s,
                      kind->max_speed_mps / HZ));
 }
@@ -383,7 +383,7 @@ static void fell_tree(double keep)
     }
 }
 
-static void test_debris_slows_what_drives_over_it(void **state)
+static void test_debris_slows_vehicles(void **state)
 {
     const struct kind *kind = steps_kind(&f, "tank");
     double full = kind->max_speed_mps, brakes = 2.0 * kind->acceleration_mps2;
@@ -406,7 +406,7 @@ static void test_debris_slows_what_drives_over_it(void **state)
     assert_true(slowest < 0.9 * full && slowest > 0.5 * full);
     fixture_run(&f, (uint32_t)(8.0 * HZ));
     assert_true(near(steps_speed(&f, row), full, 1e-9));
-    /* Somebody who creeps is not slowed. */
+    /* A vehicle that creeps is not slowed. */
     uint32_t slow = put_tank(25090.0, 25010.0, 90.0, 0.4 * full);
     steps_drive(&f, slow, 0.4, 0.0, 0.0);
     fixture_run(&f, 60);
@@ -472,7 +472,7 @@ int main(void)
         TEST(test_it_turns_at_its_rate_when_it_rolls_and_slower_at_rest),
         TEST(test_a_sideways_slide_is_braked_by_its_tyres),
         TEST(test_fuel_burns_with_the_throttle_and_an_empty_tank_stops_it),
-        TEST(test_debris_slows_what_drives_over_it),
+        TEST(test_debris_slows_vehicles),
         TEST(test_debris_keeps_to_its_share),
         TEST(test_what_stands_and_what_lies_aside_slows_nobody),
     };

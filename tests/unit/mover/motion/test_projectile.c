@@ -142,8 +142,8 @@ static void test_what_leaves_the_seekers_cone_is_lost_for_good(void **state)
     }
 }
 
-/* Crossing jets that turn all the time, from all sides: the least distance on the way. */
-static void test_missiles_meet_what_turns_away(void **state)
+/* Crossing jets that turn all the time, from all sides: the least distance on the path. */
+static void test_missiles_meet_targets_that_turn_away(void **state)
 {
     uint64_t random = fixture_seed(5);
     int hits = 0, shots = 60;
@@ -235,7 +235,7 @@ int main(void)
         TEST(test_a_round_ends_in_the_air_when_its_life_is_over),
         TEST(test_a_missile_reaches_a_crossing_jet),
         TEST(test_what_leaves_the_seekers_cone_is_lost_for_good),
-        TEST(test_missiles_meet_what_turns_away),
+        TEST(test_missiles_meet_targets_that_turn_away),
         TEST(test_a_missile_turns_and_gains_speed_within_its_means),
         TEST(test_a_missile_without_a_target_flies_straight),
     };

@@ -1,5 +1,5 @@
 /* Spin, the angular velocity that a collision gives: tyres and water brake it, and in the air it
- * goes on about the centre of mass. */
+ * continues about the centre of mass. */
 #include "tests/support/steps.h"
 #include "world/entity/mass_properties.h"
 

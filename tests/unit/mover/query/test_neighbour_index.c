@@ -87,7 +87,7 @@ static void agrees(uint32_t count, uint32_t layers, double x, double z, double r
         assert_int_equal(met[i], belongs(i, layers, x, z, radius));
 }
 
-static void test_a_walk_meets_exactly_who_is_within_the_radius(void **state)
+static void test_a_query_finds_exactly_the_rows_within_the_radius(void **state)
 {
     uint64_t random = fixture_seed(9);
     (void)state;
@@ -163,7 +163,7 @@ static void test_those_are_due_whose_turn_it_is(void **state)
     }
 }
 
-static void test_an_empty_world_and_an_empty_layer_meet_nobody(void **state)
+static void test_an_empty_world_and_an_empty_layer_have_no_rows(void **state)
 {
     (void)state;
     neighbour_index_build(&neighbours, &rows, 0, 0, 1, NULL);
@@ -188,10 +188,10 @@ int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_table, close_table)
     const struct CMUnitTest tests[] = {
-        TEST(test_a_walk_meets_exactly_who_is_within_the_radius),
+        TEST(test_a_query_finds_exactly_the_rows_within_the_radius),
         TEST(test_rows_ascend_in_a_cell_on_any_number_of_threads),
         TEST(test_those_are_due_whose_turn_it_is),
-        TEST(test_an_empty_world_and_an_empty_layer_meet_nobody),
+        TEST(test_an_empty_world_and_an_empty_layer_have_no_rows),
         TEST(test_the_neutral_are_nobodys_enemies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -38,7 +38,7 @@ static uint32_t spawn(const char *kind)
     return spawn_entity(&context, fixture_kind(&f, kind), FORCE_BLUE);
 }
 
-static void test_a_new_row_is_clean_whatever_lay_there(void **state)
+static void test_a_new_row_keeps_nothing_of_the_old_one(void **state)
 {
     struct entities *m = &f.view.m.entities;
     (void)state;
@@ -94,7 +94,7 @@ static void test_freed_rows_rest_while_there_are_others(void **state)
     for (uint32_t n = 0; n < 4; n++)
         spawn("jeep");
     spawn_remove(&context, 1);
-    /* The search goes on from where it was: a row's late references die out meanwhile. */
+    /* The search continues from where it was: a row's late references expire meanwhile. */
     for (uint32_t n = 4; n < CAPACITY; n++)
         assert_int_equal(spawn("jeep"), n);
     assert_int_equal(spawn("jeep"), 1);
@@ -156,7 +156,7 @@ int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
-        TEST(test_a_new_row_is_clean_whatever_lay_there),
+        TEST(test_a_new_row_keeps_nothing_of_the_old_one),
         TEST(test_a_munition_flies_and_has_a_life),
         TEST(test_a_full_table_refuses_and_counts),
         TEST(test_freed_rows_rest_while_there_are_others),

@@ -116,7 +116,7 @@ static void test_find_looks_at_used_rows_that_are_not_free(void **state)
     assert_int_equal(entities_find(e, 11, 110), 10);
     assert_int_equal(entities_find(e, 16, 999), SLOT_NONE);
     e->id[4] = 0;
-    assert_int_equal(entities_find(e, 16, 0), SLOT_NONE); /* 0 is nobody */
+    assert_int_equal(entities_find(e, 16, 0), SLOT_NONE); /* 0 is no entity */
     free(t.memory);
 }
 

@@ -209,7 +209,7 @@ static void test_same_seed_same_places(void **state)
     free_place_free(&other);
 }
 
-static void test_nobody_starts_at_the_worlds_edge(void **state)
+static void test_no_vehicle_starts_at_the_worlds_edge(void **state)
 {
     const struct area corner = {49800.0, 0.0, WORLD_SIDE_M, 200.0};
     (void)state;
@@ -257,7 +257,7 @@ int main(void)
         TEST(test_hulls_keep_clear_of_each_other),
         TEST(test_no_place_is_said),
         TEST(test_same_seed_same_places),
-        TEST(test_nobody_starts_at_the_worlds_edge),
+        TEST(test_no_vehicle_starts_at_the_worlds_edge),
         TEST(test_area_along_the_edge_holds_its_vehicles),
         TEST(test_ships_are_for_water_and_what_drives_for_land),
     };

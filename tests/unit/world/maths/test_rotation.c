@@ -69,7 +69,7 @@ static void test_heading_is_clockwise_from_north(void **state)
                 1e-15); /* the right side is down */
 }
 
-static void test_it_turns_as_what_is_drawn(void **state)
+static void test_it_rotates_as_the_drawn_model(void **state)
 {
     uint64_t random = fixture_seed(301);
     (void)state;
@@ -145,7 +145,7 @@ static void test_the_turn_comes_back_even_straight_up(void **state)
 
 /* --- the way from one to another ---------------------------------------------------------------*/
 
-static void test_it_goes_the_shorter_way_from_one_to_the_other(void **state)
+static void test_it_takes_the_shorter_path_between_two_rotations(void **state)
 {
     uint64_t random = fixture_seed(304);
     (void)state;
@@ -161,7 +161,7 @@ static void test_it_goes_the_shorter_way_from_one_to_the_other(void **state)
 }
 
 /* The rate by differences: by how much the turn changes over a ten-thousandth of the way. */
-static void test_no_part_of_the_way_is_faster_than_its_rate(void **state)
+static void test_no_part_of_the_path_is_faster_than_its_rate(void **state)
 {
     uint64_t random = fixture_seed(305);
     double nearest = 0.0;
@@ -220,12 +220,12 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_heading_is_clockwise_from_north),
-        cmocka_unit_test(test_it_turns_as_what_is_drawn),
+        cmocka_unit_test(test_it_rotates_as_the_drawn_model),
         cmocka_unit_test(test_spin_is_right_handed_about_the_worlds_axes),
         cmocka_unit_test(test_angles_come_back),
         cmocka_unit_test(test_the_turn_comes_back_even_straight_up),
-        cmocka_unit_test(test_it_goes_the_shorter_way_from_one_to_the_other),
-        cmocka_unit_test(test_no_part_of_the_way_is_faster_than_its_rate),
+        cmocka_unit_test(test_it_takes_the_shorter_path_between_two_rotations),
+        cmocka_unit_test(test_no_part_of_the_path_is_faster_than_its_rate),
         cmocka_unit_test(test_the_speed_is_that_of_the_differences),
         cmocka_unit_test(test_standing_still_is_no_rate),
     };

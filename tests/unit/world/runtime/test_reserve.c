@@ -26,7 +26,7 @@ static uint64_t resident(void)
     return pages * 4096;
 }
 
-static void test_far_more_than_the_machine_has_costs_what_is_touched(void **state)
+static void test_far_more_than_the_machine_has_costs_only_written_pages(void **state)
 {
     uint64_t before = resident(), count = UINT64_C(1) << 38;
     (void)state;
@@ -61,7 +61,7 @@ static void test_a_few_items_cost_a_page(void **state)
     reserve_free(NULL);
 }
 
-static void test_a_larger_array_keeps_what_it_held(void **state)
+static void test_a_larger_array_keeps_its_items(void **state)
 {
     uint64_t before = resident();
     uint32_t *array = reserve_take(1000, sizeof *array);
@@ -111,9 +111,9 @@ static void test_a_limit_on_address_space_refuses_at_once(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_far_more_than_the_machine_has_costs_what_is_touched),
+        cmocka_unit_test(test_far_more_than_the_machine_has_costs_only_written_pages),
         cmocka_unit_test(test_a_few_items_cost_a_page),
-        cmocka_unit_test(test_a_larger_array_keeps_what_it_held),
+        cmocka_unit_test(test_a_larger_array_keeps_its_items),
         cmocka_unit_test(test_what_no_process_can_have_is_refused),
         cmocka_unit_test(test_a_limit_on_address_space_refuses_at_once),
     };

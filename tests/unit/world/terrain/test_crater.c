@@ -100,7 +100,7 @@ static void test_overlap_is_the_deepest_bowl_else_the_highest_rim(void **state)
     crater_index_free(&index);
 }
 
-static void test_index_gives_what_the_whole_list_gives(void **state)
+static void test_the_index_gives_the_same_as_the_whole_list(void **state)
 {
     struct crater craters[MANY];
     struct crater_index index;
@@ -225,7 +225,7 @@ int main(void)
         cmocka_unit_test(test_ground_is_continuous_across_the_crater),
         cmocka_unit_test(test_no_craters_no_change),
         cmocka_unit_test(test_overlap_is_the_deepest_bowl_else_the_highest_rim),
-        cmocka_unit_test(test_index_gives_what_the_whole_list_gives),
+        cmocka_unit_test(test_the_index_gives_the_same_as_the_whole_list),
         cmocka_unit_test(test_order_does_not_matter),
         cmocka_unit_test(test_craters_on_borders_are_found_from_every_side),
         cmocka_unit_test(test_index_grows_with_the_list_and_goes_back_with_it),
