@@ -3,6 +3,7 @@
 
 #include "ipc/process/log.h"
 #include "renderer/gl/gl.h"
+#include "renderer/gl/gl_context.h"
 #include "renderer/gl/gl_devices.h"
 #include "renderer/soft/soft.h"
 
@@ -66,6 +67,6 @@ int back_end_open(struct back_end_interface *draw, const struct options *options
 int back_end_list(void)
 {
     printf("soft  own rasteriser, %s; --backend soft\n", soft_vectors());
-    gl_list();
+    gl_context_list();
     return 0;
 }

@@ -211,11 +211,6 @@ static int open_programs(struct gl *gl, struct error_text *error)
     return 0;
 }
 
-void gl_list(void)
-{
-    gl_context_list();
-}
-
 int gl_open(struct back_end_interface *draw, const struct static_scene *static_scene,
             uint32_t width, uint32_t height, const struct gl_wish *wish,
             char name[BACK_END_NAME_BYTES], struct error_text *error)

@@ -13,7 +13,4 @@ int gl_open(struct back_end_interface *draw, const struct static_scene *static_s
             uint32_t width, uint32_t height, const struct gl_wish *wish,
             char name[BACK_END_NAME_BYTES], struct error_text *error);
 
-/* Prints every OpenGL device to standard output, one a line. */
-void gl_list(void);
-
 #endif

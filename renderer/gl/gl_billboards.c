@@ -146,7 +146,7 @@ static const char particle_fragment_text[] =
     "    o_colour = vec4(colour * much, much * (1.0 - v_glow));\n"
     "}\n";
 
-/* A vertex attribute of an instance: so many floats at an offset [byte]. */
+/* A vertex attribute of an instance: its number of floats and its offset [byte]. */
 struct attribute {
     GLint floats;
     size_t offset;

@@ -105,7 +105,7 @@ void gl_bodies_send(struct gl_bodies *bodies, const struct draw_list *list);
 void gl_bodies_draw_shadows(struct gl_bodies *bodies, const struct draw_list *list);
 void gl_bodies_draw(struct gl_bodies *bodies, const struct draw_list *list);
 
-/* --- plants, puffs (gl_billboards.c) --- */
+/* --- plants, particles (gl_billboards.c) --- */
 
 /* The plants or the particles of a picture: a vertex array and its buffer. */
 struct gl_instances {

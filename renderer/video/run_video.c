@@ -18,8 +18,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#define UPDATE_S 0.5 /* of simulation between two updates of the effects when no picture is drawn  \
-                      */
+#define UPDATE_S        0.5 /* [s of simulation] between updates of the effects without a picture */
 #define PROGRESS_NS     NS_PER_S
 #define FRAME_TOLERANCE 1e-6 /* of a frame: a smaller difference is ignored */
 
@@ -78,7 +77,7 @@ static void open_session(struct run_video *video)
                                             .stream_port = -1};
     drawn->snap = video->still ? video->options.file : NULL;
     if (!video->still && (output_set_open(&video->outputs, &wish, &error) != 0 ||
-                           output_set_start(&video->outputs, &error) != 0))
+                          output_set_start(&video->outputs, &error) != 0))
         fail(video, &error);
     if (render_session_open(&video->session, &video->view, &video->heartbeat,
                             video->still ? NULL : &video->outputs, drawn, &error) != 0)
@@ -176,8 +175,7 @@ static void complete(struct run_video *video)
         error_text_set(&error, "%s: the run ended before its first picture", video->options.file);
         fail(video, &error);
     }
-    if (!video->still &&
-        (close(video->fd) != 0 || rename(video->path, video->options.file) != 0)) {
+    if (!video->still && (close(video->fd) != 0 || rename(video->path, video->options.file) != 0)) {
         error_text_set(&error, "%s: cannot complete the file: %s", video->options.file,
                        strerror(errno));
         fail(video, &error);

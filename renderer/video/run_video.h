@@ -19,7 +19,7 @@ struct run_video {
     struct heartbeat heartbeat; /* no other process reads it */
     struct output_set outputs;
     struct render_session session;
-    bool still;         /* only the last picture, as a PNG file */
+    bool still;          /* only the last picture, as a PNG file */
     uint64_t first, end; /* frames first .. end - 1 */
     bool between;        /* pictures may lie between two frames */
     uint64_t pictures, begun_ns, reported_ns;
