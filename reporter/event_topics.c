@@ -30,7 +30,6 @@ _Static_assert((int)jolon_DAMAGE_DESTROYED == (int)DAMAGE_DESTROYED &&
                "damage in ipc/topics/status.idl");
 _Static_assert(TOPIC_AGENT - TOPIC_COLLISION + 1 == EVENT_TOPICS_COUNT,
                "event topics are in a row");
-_Static_assert(EVENT_AGENT - EVENT_COLLISION + 1 == EVENT_TOPICS_COUNT, "event types are in a row");
 
 int event_topics_open(struct event_topics *events, const struct view *view,
                       const struct dds_link *link, uint64_t run, struct error_text *error)
@@ -165,14 +164,12 @@ static void fill_agent(union event_sample *sample, const jolon_EventHeader *head
     };
 }
 
-/* The topics are in the order of the event types. */
-static fill_sample *const fill[EVENT_TOPICS_COUNT] = {
-    [EVENT_COLLISION - EVENT_COLLISION] = fill_collision,
-    [EVENT_FIRE - EVENT_COLLISION] = fill_fire,
-    [EVENT_DETONATION - EVENT_COLLISION] = fill_detonation,
-    [EVENT_CRATER - EVENT_COLLISION] = fill_crater,
-    [EVENT_AGENT - EVENT_COLLISION] = fill_agent,
+static fill_sample *const fill[] = {
+#define X(tag, word) fill_##word,
+    EVENT_TYPES_WITH_TOPIC(X)
+#undef X
 };
+_Static_assert(sizeof fill / sizeof *fill == EVENT_TOPICS_COUNT, "a topic for each of these types");
 
 /* Returns false when DDS had no room, and the event must be written again. */
 static bool publish_one(struct event_topics *events, const struct world *world,

@@ -5,6 +5,7 @@
 #include "world/entity/entity.h"
 #include "world/entity/event.h"
 #include "world/enum_names.h"
+#include "world/runtime/check.h"
 
 #include <stdio.h>
 
@@ -33,7 +34,6 @@ static void direction(cJSON *object, const char *key, const jolon_Direction *val
 
 static void add_collision(cJSON *object, const jolon_CollisionEvent *event)
 {
-    json_text(object, "type", "collision");
     party(object, "a", &event->a);
     party(object, "b", &event->b);
     point(object, &event->point);
@@ -50,7 +50,6 @@ static void add_collision(cJSON *object, const jolon_CollisionEvent *event)
 
 static void add_fire(cJSON *object, const jolon_FireEvent *event)
 {
-    json_text(object, "type", "fire");
     party(object, "shooter", &event->shooter);
     party(object, "target", &event->target);
     party(object, "munition", &event->munition);
@@ -59,7 +58,6 @@ static void add_fire(cJSON *object, const jolon_FireEvent *event)
 
 static void add_detonation(cJSON *object, const jolon_DetonationEvent *event)
 {
-    json_text(object, "type", "detonation");
     party(object, "munition", &event->munition);
     point(object, &event->point);
     json_text(object, "struck", struck_name((enum struck)event->struck));
@@ -71,7 +69,6 @@ static void add_detonation(cJSON *object, const jolon_DetonationEvent *event)
 
 static void add_crater(cJSON *object, const jolon_CraterEvent *event)
 {
-    json_text(object, "type", "crater");
     point(object, &event->point);
     json_single(object, "radius_m", event->radius_m);
     json_single(object, "depth_m", event->depth_m);
@@ -79,7 +76,6 @@ static void add_crater(cJSON *object, const jolon_CraterEvent *event)
 
 static void add_agent(cJSON *object, const jolon_AgentEvent *event)
 {
-    json_text(object, "type", "agent");
     json_whole(object, "id", event->agent.id);
     json_text(object, "kind", event->agent.kind);
     json_text(object, "from", behaviour_name((enum behaviour)event->before));
@@ -94,16 +90,17 @@ void event_json(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic, const voi
     json_whole(object, "frame", header->frame);
     json_whole(object, "index", header->index);
     json_number(object, "time_s", header->time_s);
-    if (topic == TOPIC_COLLISION)
-        add_collision(object, event);
-    else if (topic == TOPIC_FIRE)
-        add_fire(object, event);
-    else if (topic == TOPIC_DETONATION)
-        add_detonation(object, event);
-    else if (topic == TOPIC_CRATER)
-        add_crater(object, event);
-    else
-        add_agent(object, event);
+    switch (topic) {
+#define X(tag, word)                                                                               \
+    case TOPIC_##tag:                                                                              \
+        json_text(object, "type", #word);                                                          \
+        add_##word(object, event);                                                                 \
+        break;
+        EVENT_TYPES_WITH_TOPIC(X)
+#undef X
+    default:
+        CHECK(false);
+    }
     if (!cJSON_PrintPreallocated(object, line, (int)EVENT_MERGE_LINE_MAX, 0))
         (void)snprintf(line, EVENT_MERGE_LINE_MAX,
                        "{\"frame\":%llu,\"index\":%u,\"type\":\"unprintable\"}",

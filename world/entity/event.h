@@ -7,16 +7,17 @@
 #include <stdint.h>
 
 /* The registry of event types: X(TAG, word), a row each. The word is that of logs and filters, and
- * names the type's struct event_WORD and member of struct event. It also begins or ends the names
- * of the functions that write the type: WORD_text() in world/event_text.c, add_WORD() in
- * ipc/json/world_json.c, write_WORD() in reporter/event_topics.c. */
-#define EVENT_TYPES(X)                                                                             \
+ * names the type's struct event_WORD, its member of struct event, and the functions that write it:
+ * WORD_text() in world/event_text.c, add_WORD() in ipc/json/world_json.c and, for a type with a
+ * status topic, fill_WORD() in reporter/event_topics.c. The topics are in the order of their rows.
+ * An answer to a command has no topic here: the reporter publishes it as a CommandReply. */
+#define EVENT_TYPES_WITH_TOPIC(X)                                                                  \
     X(COLLISION, collision)                                                                        \
     X(FIRE, fire)                                                                                  \
     X(DETONATION, detonation)                                                                      \
     X(CRATER, crater)                                                                              \
-    X(AGENT, agent)                                                                                \
-    X(COMMAND, command)
+    X(AGENT, agent)
+#define EVENT_TYPES(X) EVENT_TYPES_WITH_TOPIC(X) X(COMMAND, command)
 
 enum event_type {
     EVENT_NONE,
