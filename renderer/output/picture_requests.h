@@ -13,11 +13,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define PICTURE_REQUESTS_MAX  8u
-#define PICTURE_REQUESTS_NONE UINT32_MAX
-#define PICTURE_REQUESTS_KEEP_NS                                                                   \
-    2000000000ull /* for which a row is kept after its last request                                \
-                   */
+#define PICTURE_REQUESTS_MAX     8u
+#define PICTURE_REQUESTS_NONE    UINT32_MAX
+#define PICTURE_REQUESTS_KEEP_NS 2000000000ull /* a row is kept so long after its last request */
 
 struct picture_requests_key {
     enum view_mode view; /* not VIEW_MAP, not VIEW_FREE */
