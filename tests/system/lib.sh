@@ -59,6 +59,16 @@ nothing_left() { ! ls /dev/shm "$JOLON_RUNTIME_DIR" | grep -q "^\(jolon\.$UID\.\
 # Where a world's name, lock or object is: path_of name|lock|object [WORLD]
 path_of() { "$bin/jolon-world" paths --world "${2-$name}" "$1"; }
 
+pid() { "$bin/jolon-world" pid --world "$name" "$1" 2>/dev/null; } # of the process that holds a role
+frame() { "$bin/jolon-world" frame --world "$name"; }
+summary() { "$bin/jolon-world" summary --json --world "$name" | json "$1"; } # one member of the summary
+
+# Sets source_dir to the folder with the Makefile above the programs.
+find_source_dir() {
+    source_dir=$(cd "$(dirname "$bin")/.." && pwd)
+    until [ -e "$source_dir/Makefile" ] || [ "$source_dir" = / ]; do source_dir=$(dirname "$source_dir"); done
+}
+
 # Copies the programs and their data into FOLDER, for users who may not read where they were built.
 copy_programs() {
     local config
@@ -76,13 +86,12 @@ copy_programs() {
 kept_waiting() {
     local role file waited total=0
     for role in mover collider; do
-        for file in /proc/"$("$bin/jolon-world" pid --world "$name" $role)"/task/*/schedstat; do
+        for file in /proc/"$(pid $role)"/task/*/schedstat; do
             [ ! -r "$file" ] || read -r _ waited _ <"$file" && total=$((total + ${waited:-0} / 1000000))
         done
     done 2>/dev/null
     echo $total
 }
-summary() { "$bin/jolon-world" summary --json --world "$name" | json "$1"; }
 time_begins() { # late frames are counted from here on
     late_before=$(summary late_frames) frame_before=$(summary frame) waited_before=$(kept_waiting)
 }
@@ -105,7 +114,7 @@ at_pace() { [ $(($(summary frame) - frame_before)) -ge $(($1 * 50 - $(waited) * 
 # priority. So it does not take the processor from the frame loop, which in_time could not see.
 behind_loop() {
     local niceness
-    niceness=$(($(niceness "$("$bin/jolon-world" pid --world "$name" mover)") + $2))
+    niceness=$(($(niceness "$(pid mover)") + $2))
     equal "$(niceness "$1")" $((niceness < 19 ? niceness : 19))
 }
 niceness() { cut -d' ' -f19 "/proc/$1/stat"; }

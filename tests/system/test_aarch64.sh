@@ -4,8 +4,7 @@
 # 16 and 64 KiB, on which the two roles then run a world that this machine has made.
 # Long: it compiles the steps for another machine and emulates it.
 . "$(dirname "$0")/lib.sh"
-source_dir=$(cd "$(dirname "$bin")/.." && pwd)
-until [ -e "$source_dir/Makefile" ] || [ "$source_dir" = / ]; do source_dir=$(dirname "$source_dir"); done
+find_source_dir
 export JOLON_DATA=$source_dir/config
 export JOLON_HANG_MS=20000
 tree=build/aarch64

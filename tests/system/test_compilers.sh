@@ -4,8 +4,7 @@
 # collides and makes worlds is built anew for each, below build/.
 # Long: it compiles the steps three times.
 . "$(dirname "$0")/lib.sh"
-source_dir=$(cd "$(dirname "$bin")/.." && pwd)
-until [ -e "$source_dir/Makefile" ] || [ "$source_dir" = / ]; do source_dir=$(dirname "$source_dir"); done
+find_source_dir
 export JOLON_DATA=$source_dir/config
 export JOLON_HANG_MS=20000 # without optimisation, on a busy machine
 

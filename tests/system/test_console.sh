@@ -57,13 +57,12 @@ if [ -z "${JOLON_SANITIZER-}" ]; then
     check "no datagram reaches it: it has no UDP socket" no_udp
 fi
 checks console.py "$(cat url)" "$name"
-renderer_pid() { "$bin/jolon-world" pid --world "$name" renderer; }
-renderer_before=$(renderer_pid)
+renderer_before=$(pid renderer)
 time_begins
 checks hostile.py "$(cat url)" "http://127.0.0.1:$port/" chase
 # Its clients load the machine too.
 check "no frames are late because of them" in_time "frames / 50 + 3"
-check "the renderer is the same process as before" equal "$(renderer_pid)" "$renderer_before"
+check "the renderer is the same process as before" equal "$(pid renderer)" "$renderer_before"
 check "the sandbox forbade nothing" bash -c "! grep -h 'the sandbox forbids' log out/jolon.log"
 
 # --- what dies, and comes back ----------------------------------------------------------------------

@@ -6,7 +6,6 @@ here=$(cd "$(dirname "$0")" && pwd)
 . "$(dirname "$0")/lib.sh"
 lag=$bin/../tests/lag/lag
 
-now() { "$bin/jolon-world" frame --world "$name"; }
 dump() { "$jolon" world dump --json -w "$name"; }
 of() { # id, key: of the table
     dump | python3 -c "import json,sys; print([e for e in map(json.loads, sys.stdin) if e['id'] == $1][0]['$2'])"

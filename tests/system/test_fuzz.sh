@@ -3,8 +3,7 @@
 # fixed seed. `make fuzz SECONDS=n` goes on for longer.
 # Long: it compiles the harnesses.
 . "$(dirname "$0")/lib.sh"
-source_dir=$(cd "$(dirname "$bin")/.." && pwd)
-until [ -e "$source_dir/Makefile" ] || [ "$source_dir" = / ]; do source_dir=$(dirname "$source_dir"); done
+find_source_dir
 
 if [ -n "${JOLON_SANITIZER-}" ]; then
     skip "hostile input" "the harnesses are sanitized in any build; the plain one runs them"

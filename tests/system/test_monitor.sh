@@ -4,7 +4,6 @@
 . "$(dirname "$0")/lib.sh"
 
 ctl() { "$jolon" ctl -w "$name" "$@"; }
-now() { "$bin/jolon-world" frame --world "$name"; }
 dump() { "$jolon" world dump --json -w "$name"; }
 speed_of() { dump | python3 -c "import json,sys; print([e for e in map(json.loads, sys.stdin) if e['id'] == $1][0]['speed_mps'])"; }
 
@@ -43,16 +42,16 @@ for _ in 1 2 3 4 5; do "$jolon" monitor -w "$name" >/dev/null 2>&1 & monitors+=(
 sleep 0.5
 kill -KILL "${monitors[@]}"
 { wait "${monitors[@]}"; } 2>/dev/null
-before=$(now)
+before=$(frame)
 check "the world moves on when five monitors are killed" bash -c "sleep 0.3; [ \$('$bin/jolon-world' frame --world $name) -gt $before ]"
 
 check "pause is answered with its frame" bash -c "'$jolon' ctl -w $name pause | grep -Eq 'frame [0-9]+'"
-at=$(now)
+at=$(frame)
 sleep 0.2
-check "a paused world stands" equal "$(now)" "$at"
+check "a paused world stands" equal "$(frame)" "$at"
 check "step 5" ctl step 5
 sleep 0.3
-check "makes five frames and the command's" [ "$(now)" -ge $((at + 5)) ] && [ "$(now)" -le $((at + 6)) ]
+check "makes five frames and the command's" [ "$(frame)" -ge $((at + 5)) ] && [ "$(frame)" -le $((at + 6)) ]
 check "resume" ctl resume
 check "scale" ctl scale 2
 check "drive" ctl drive 1 --throttle 1

@@ -36,7 +36,7 @@ used() { # PID...: hundredths of a second of processor time, of all
     for pid; do cut -d' ' -f14,15 "/proc/$pid/stat"; done 2>/dev/null | awk '{ s += $1 + $2 } END { print s }'
 }
 check "they run behind the frame loop" behind_loop "${pids[1]}" 10
-loop() { used "$("$bin/jolon-world" pid --world "$name" mover)" "$("$bin/jolon-world" pid --world "$name" collider)"; }
+loop() { used "$(pid mover)" "$(pid collider)"; }
 before=$(used "${pids[@]}") loop_before=$(loop)
 time_begins
 sleep $((frames / 60))

@@ -16,7 +16,6 @@ check "a set starts" "$jolon" start -w "$name" --without renderer --out "$folder
 vehicles=$("$jolon" status -w "$name" --json | json vehicles)
 
 # Who is stopped from outside is replaced however often, and not given up as one that crashes.
-pid() { "$bin/jolon-world" pid --world "$name" "$1"; }
 replaced() { local now; now=$(pid "$1") && [ "$now" != "$before" ]; }
 stop_often() {
     local _

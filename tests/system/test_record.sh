@@ -10,7 +10,6 @@ echo "# SEED=$SEED KILLS=$kills"
 ctl() { "$jolon" ctl -w "$name" "$@"; }
 replay() { "$bin/jolon-world" replay --json "$@"; }
 compare() { "$bin/jolon-world" diff "$@"; }
-frame() { "$bin/jolon-world" frame --world "$name"; }
 start() { "$jolon" start -w "$name" --without renderer --out out "$@"; }
 end_of() { tail -n 1 "$1" | json "$2"; }
 at_frame() { [ "$(frame)" -ge "$1" ]; }
@@ -26,7 +25,7 @@ check "a run starts" start --events events
 commands=$!
 sent=0
 while [ $sent -lt "$kills" ]; do
-    eventually "$bin/jolon-world" pid --world "$name" recorder
+    eventually pid recorder
     "$jolon" kill -w "$name" recorder >/dev/null 2>&1 && sent=$((sent + 1))
     sleep "0.$((RANDOM % 20 + 5))"
 done
@@ -62,20 +61,19 @@ cat >small.cfg <<'X'
 world = { capacity = 64; }; terrain = { source = "flat"; }; objects = { source = "none"; };
 vehicles = ( { kind = "tank"; name = "T"; at = [1000.0, 1000.0]; } );
 X
-recorder() { "$bin/jolon-world" pid --world "$name" recorder 2>/dev/null; }
 over() { [ "$(frame)" = 30 ]; }
 killed_at_the_end() { # KILLS after the run's end
     local run keeper n
     "$jolon" run -w "$name" --frames 30 --without renderer --without reporter --out ends small.cfg >told 2>&1 &
     run=$!
-    eventually recorder
+    eventually pid recorder
     keeper=$(cat "$(path_of lock)")
     eventually at_frame 1
     kill -STOP "$keeper"
-    kill -KILL "$(recorder)"
+    kill -KILL "$(pid recorder)"
     eventually over
     kill -CONT "$keeper"
-    for n in $(seq "$1"); do kill -KILL "$(recorder)" 2>/dev/null; done
+    for n in $(seq "$1"); do kill -KILL "$(pid recorder)" 2>/dev/null; done
     wait $run && [ "$(end_of ends/commands.log type) $(end_of ends/commands.log frame)" = "end 30" ]
 }
 for n in 0 0 1 2 5 10; do

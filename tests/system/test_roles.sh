@@ -5,8 +5,6 @@
 
 start() { "$jolon" start -w "$name" --out "$folder/out" --set renderer.width=320 --set renderer.height=180 "$@"; }
 status() { "$jolon" status -w "$name" --json; }
-pid() { "$bin/jolon-world" pid --world "$name" "$1" 2>/dev/null; }
-frame() { "$bin/jolon-world" frame --world "$name"; }
 moves_on() { local at; at=$(frame) && eventually later "$at"; }
 later() { [ "$(frame)" -gt "$1" ]; }
 replaced() { local now; now=$(pid "$1") && [ -n "$now" ] && [ "$now" != "$2" ]; }

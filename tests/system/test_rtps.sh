@@ -14,10 +14,9 @@ domain=$((100 + $$ % 100)) # of its own: nobody else's reporter is to hear what 
 [ -e "$peer" ] || { skip "hostile datagrams" "make test builds what they are captured from"; done_testing; }
 
 check "a set starts" "$jolon" start -w "$name" --remote-commands --domain $domain --without renderer --out out
-reporter() { "$bin/jolon-world" pid --world "$name" reporter; }
 answers() { timeout 20 "$bin/jolon-monitor" -w "$name" --domain $domain --once --json >told && [ "$(json world <told)" = "$name" ]; }
 check "the reporter answers" answers
-first=$(reporter)
+first=$(pid reporter)
 
 # --- one datagram -------------------------------------------------------------------------------------
 PYTHONPATH=$rtps python3 - "$bin" "$name" <<'P'
@@ -30,7 +29,7 @@ for port in reporter.ports:
         b"RTPS\x02\x01\x01\x10" + b"A" * 12 + b"\x15\x05\x2c\x01" + b"\0" * 8, ("127.0.0.1", port))
 P
 check "what it complains of is in the log" eventually grep -q 'reporter warning .*dds: malformed packet' out/jolon.log
-check "and it goes on" equal "$(reporter)" "$first"
+check "and it goes on" equal "$(pid reporter)" "$first"
 
 # --- type information ---------------------------------------------------------------------------------
 check "a peer's datagrams are captured" "$peer" -w "$name" --domain $domain capture captured
@@ -40,7 +39,7 @@ python3 "$rtps/deadly.py" --capture captured --pid $victim
 { wait $victim; } 2>/dev/null
 echo "# a participant that does not hide type information ends with $?"
 python3 "$rtps/deadly.py" --capture captured --pid "$first"
-check "type information that ends Cyclone DDS does not end the reporter" equal "$(reporter)" "$first"
+check "type information that ends Cyclone DDS does not end the reporter" equal "$(pid reporter)" "$first"
 
 # --- participants that have left ----------------------------------------------------------------------
 python3 "$rtps/leave.py" --bin "$bin" --world "$name" --capture captured --participants 40 >left

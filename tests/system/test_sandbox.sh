@@ -3,7 +3,6 @@
 # sandbox says so.
 . "$(dirname "$0")/lib.sh"
 
-pid() { "$bin/jolon-world" pid --world "$name" "$1"; }
 # A field of every thread of a process: fields PID NAME prints its distinct values.
 fields() { awk -v name="$2:" '$1 == name { print $2 }' /proc/"$1"/task/*/status | sort -u; }
 # Descriptors of a process and what they are.

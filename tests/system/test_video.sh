@@ -170,12 +170,12 @@ refuses_view() {
 }
 check "so is a video of a view that is not drawn" refuses_view
 sleep 1.5 # what comes later than a second before the kill may be lost
-before=$("$bin/jolon-world" pid --world "$name" renderer)
+before=$(pid renderer)
 "$jolon" kill -w "$name" renderer >/dev/null
 cp two.mkv killed.mkv
 check "killed -9, what there is can be played" between 20 "$(of killed.mkv pictures)" 100000
 check "without damage" equal "$(of killed.mkv damaged)" 0
-next_film() { [ -s two-2.mkv ] && [ "$("$bin/jolon-world" pid --world "$name" renderer)" != "$before" ]; }
+next_film() { [ -s two-2.mkv ] && [ "$(pid renderer)" != "$before" ]; }
 check "the next renderer begins another file" eventually next_film
 check "and streams at the same place" eventually python3 -c "
 import urllib.request
