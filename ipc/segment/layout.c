@@ -59,10 +59,8 @@ static const char *const region_names[REGION_COUNT] = {
     [REGION_EVENTS] = "events",
     [REGION_MOVED_WORD] = "moved word",
     [REGION_MOVED] = "moved table",
-    [REGION_COMMANDS] = "commands (reporter)",
-    [REGION_COMMANDS + 1] = "commands (gateway)",
-    [REGION_COMMANDS + 2] = "commands (console)",
-    [REGION_COMMANDS + 3] = "commands (recorder)",
+    [REGION_COMMANDS + RING_CLIENTS] = "commands (clients)",
+    [REGION_COMMANDS + RING_RECORDER] = "commands (recorder)",
     [REGION_DOORS] = "doorbells",
 };
 

@@ -80,7 +80,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct command ring[COMMANDS_MAX];
     struct command_source sources[COMMAND_RING_COUNT] = {
-        {ring, COMMANDS_MAX, 0}, {ring, COMMANDS_MAX, 0}, {ring, COMMANDS_MAX, 0}};
+        [RING_CLIENTS] = {ring, COMMANDS_MAX, 0}, [RING_RECORDER] = {ring, COMMANDS_MAX, 0}};
     if (!view.base) {
         support_world(&view);
         CHECK(mover_init(&mover, &view.world, view.w[0].craters, NULL) == 0);

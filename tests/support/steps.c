@@ -132,7 +132,7 @@ void steps_send(struct fixture *fixture, enum command_ring ring, struct command 
 struct event_command steps_command(struct fixture *fixture, struct command command)
 {
     uint32_t before = fixture_event_count(fixture, EVENT_COMMAND);
-    steps_send(fixture, RING_CONSOLE, command);
+    steps_send(fixture, RING_CLIENTS, command);
     fixture_run(fixture, 1);
     const struct event *event = fixture_event(fixture, EVENT_COMMAND, before);
     assert_non_null(event);

@@ -8,9 +8,7 @@
 
 /* The command rings, each with one writing process. */
 enum command_ring {
-    RING_CLIENTS, /* of all clients of the command socket */
-    RING_GATEWAY,
-    RING_CONSOLE,
+    RING_CLIENTS,  /* of all clients of the command socket */
     RING_RECORDER, /* pauses and resumes, as recorder.when_full requests */
     COMMAND_RING_COUNT
 };

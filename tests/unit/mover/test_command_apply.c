@@ -247,7 +247,7 @@ static void test_spawn_makes_what_was_asked_for(void **state)
     assert_int_equal(answer.result, COMMAND_DONE);
     assert_int_equal(answer.source, 7);
     assert_int_equal(answer.sequence, 42);
-    assert_int_equal(answer.ring, RING_CONSOLE);
+    assert_int_equal(answer.ring, RING_CLIENTS);
     uint32_t row = steps_find(&f, answer.entity);
     struct entities e = steps_rows(&f);
     assert_int_equal(row, 2);
@@ -338,8 +338,8 @@ static void test_step_advances_just_so_many_frames(void **state)
     fixture_run(&f, 10);
     assert_int_equal(tick(), before + 3);
     assert_int_equal(fixture_state(&f).head->steps_left, 0);
-    steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_STEP, .amount = 2});
-    steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_STEP, .amount = 2});
+    steps_send(&f, RING_CLIENTS, (struct command){.type = COMMAND_STEP, .amount = 2});
+    steps_send(&f, RING_CLIENTS, (struct command){.type = COMMAND_STEP, .amount = 2});
     fixture_run(&f, 10);
     assert_int_equal(tick(), before + 7); /* they add up */
 }
@@ -360,7 +360,7 @@ static void test_steps_do_not_overflow(void **state)
     (void)state;
     DOES(.type = COMMAND_PAUSE);
     for (int n = 0; n < 4300; n++) { /* 4,295 times 1,000,000 is past 32 bits */
-        steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_STEP, .amount = 1000000});
+        steps_send(&f, RING_CLIENTS, (struct command){.type = COMMAND_STEP, .amount = 1000000});
         if (n % A_FRAME == A_FRAME - 1)
             fixture_run(&f, 1);
     }
@@ -409,12 +409,12 @@ static void test_each_command_is_applied_exactly_once_in_its_rings_order(void **
         steps_send(&f, RING_CLIENTS,
                    (struct command){.type = COMMAND_NONE, .source = 1, .source_sequence = n + 1});
     for (uint32_t n = 0; n < 40; n++)
-        steps_send(&f, RING_GATEWAY,
+        steps_send(&f, RING_RECORDER,
                    (struct command){.type = COMMAND_NONE, .source = 2, .source_sequence = n + 1});
     fixture_run(&f, 1);
     struct state now = fixture_state(&f);
     assert_int_equal(now.head->command_cursor[RING_CLIENTS], A_FRAME);
-    assert_int_equal(now.head->command_cursor[RING_GATEWAY], 40);
+    assert_int_equal(now.head->command_cursor[RING_RECORDER], 40);
     assert_int_equal(now.head->tally.commands, A_FRAME + 40);
     fixture_run(&f, 5);
     assert_int_equal(fixture_state(&f).head->command_cursor[RING_CLIENTS], 700);
@@ -424,7 +424,7 @@ static void test_each_command_is_applied_exactly_once_in_its_rings_order(void **
         const struct event *event = fixture_event(&f, EVENT_COMMAND, n);
         assert_int_equal(event->command.sequence, next[event->command.source]++);
         assert_int_equal(event->command.ring,
-                         event->command.source == 1 ? RING_CLIENTS : RING_GATEWAY);
+                         event->command.source == 1 ? RING_CLIENTS : RING_RECORDER);
     }
 }
 
@@ -433,11 +433,11 @@ static void test_commands_wait_while_a_frame_has_no_room_for_answers(void **stat
     (void)state;
     steps_params(&f)->intents_per_frame = 11;
     for (int n = 0; n < 30; n++)
-        steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_NONE});
+        steps_send(&f, RING_CLIENTS, (struct command){.type = COMMAND_NONE});
     fixture_run(&f, 1);
-    assert_int_equal(fixture_state(&f).head->command_cursor[RING_CONSOLE], 10);
+    assert_int_equal(fixture_state(&f).head->command_cursor[RING_CLIENTS], 10);
     fixture_run(&f, 2);
-    assert_int_equal(fixture_state(&f).head->command_cursor[RING_CONSOLE], 30);
+    assert_int_equal(fixture_state(&f).head->command_cursor[RING_CLIENTS], 30);
     assert_int_equal(fixture_event_count(&f, EVENT_COMMAND), 30);
 }
 
@@ -446,7 +446,7 @@ static void test_and_while_it_has_no_room_for_events(void **state)
     (void)state;
     steps_params(&f)->events_per_frame = 5;
     for (int n = 0; n < 30; n++)
-        steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_NONE});
+        steps_send(&f, RING_CLIENTS, (struct command){.type = COMMAND_NONE});
     fixture_run(&f, 1);
     assert_int_equal(fixture_event_count(&f, EVENT_COMMAND), 4);
     fixture_run(&f, 7);
@@ -488,14 +488,14 @@ static void test_a_row_removed_and_used_again_in_one_frame_is_the_new_one(void *
 {
     (void)state;
     uint16_t kind = fixture_kind(&f, "jet");
-    steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_REMOVE, .entity = 2});
+    steps_send(&f, RING_CLIENTS, (struct command){.type = COMMAND_REMOVE, .entity = 2});
     for (int n = 0; n < 62; n++) /* the search goes round: the last one gets the freed row */
-        steps_send(&f, RING_CONSOLE,
+        steps_send(&f, RING_CLIENTS,
                    (struct command){.type = COMMAND_SPAWN,
                                     .kind = kind,
                                     .amount = BEHAVIOUR_HOLD,
                                     .value = {1000.0 + 100.0 * n, 1000.0, 500.0, 0.0, 100.0}});
-    steps_send(&f, RING_CONSOLE,
+    steps_send(&f, RING_CLIENTS,
                (struct command){.type = COMMAND_SPAWN,
                                 .kind = kind,
                                 .amount = BEHAVIOUR_HOLD,

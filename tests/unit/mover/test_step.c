@@ -43,7 +43,7 @@ static void test_moving_again_over_anything_gives_the_same_bytes(void **state)
     fixture_open(&f, battle);
     for (int frame = 0; frame < 120; frame++) {
         if (frame % 10 == 0)
-            steps_send(&f, RING_CONSOLE,
+            steps_send(&f, RING_CLIENTS,
                        (struct command){.type = COMMAND_SPAWN,
                                         .kind = fixture_kind(&f, "jeep"),
                                         .value = {24500.0 + frame, 25000.0}});
@@ -302,34 +302,34 @@ static void test_commands_reach_a_block_of_zeros(void **state)
     (void)state;
     open_crowd(&f, "patrol");
     uint32_t id = fixture_state(&f).entities.id[SECOND_BLOCK_ROW];
-    steps_send(&f, RING_CONSOLE,
+    steps_send(&f, RING_CLIENTS,
                (struct command){.type = COMMAND_DRIVE,
                                 .source = 7,
                                 .entity = id,
                                 .value = {0.5, 0.0, 0.0, 1.0, 1.0, 0.0}});
     go_on(&f);
     assert_true(steps_rows(&f).turret[SECOND_BLOCK_ROW] > 0.0f);
-    steps_send(&f, RING_CONSOLE,
+    steps_send(&f, RING_CLIENTS,
                (struct command){.type = COMMAND_RELEASE, .source = 7, .entity = id});
     go_on(&f);
     steps_lay(&f, 2099, SECOND_BLOCK_ROW);
     struct state now = fixture_state(&f);
     state_seal(&now, f.view.world.counts.fixed);
     steps_send(
-        &f, RING_CONSOLE,
+        &f, RING_CLIENTS,
         (struct command){.type = COMMAND_FIRE, .entity = now.entities.id[2099], .target = id});
     assert_sure_or_not_the_same(&f);
     assert_int_equal(f.view.m.head->tally.fires, 1);
     assert_int_equal(f.view.m.entities.threat_id[SECOND_BLOCK_ROW], 0); /* it has noticed */
     go_on(&f);
-    steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_REMOVE, .entity = id});
+    steps_send(&f, RING_CLIENTS, (struct command){.type = COMMAND_REMOVE, .entity = id});
     go_on(&f);
     now = fixture_state(&f);
     assert_int_equal(now.entities.state[SECOND_BLOCK_ROW], ENTITY_FREE);
     now.head->alloc_next = SECOND_BLOCK_ROW;
     state_seal(&now, f.view.world.counts.fixed);
     fixture_run(&f, 1);
-    steps_send(&f, RING_CONSOLE,
+    steps_send(&f, RING_CLIENTS,
                (struct command){.type = COMMAND_SPAWN,
                                 .kind = fixture_kind(&f, "jeep"),
                                 .amount = BEHAVIOUR_HOLD,

@@ -482,7 +482,7 @@ static int open_pausing(void **state)
 static void send_console(enum command_type type)
 {
     static uint64_t number;
-    steps_send(&f, RING_CONSOLE,
+    steps_send(&f, RING_CLIENTS,
                (struct command){.type = type, .source = 9, .source_sequence = ++number});
     fixture_run(&f, 1);
 }
@@ -493,7 +493,7 @@ static void step_until_paused(struct back_pressure *pressure)
 {
     while (atomic_load(&f.view.commands[RING_RECORDER]->head) == 0) {
         for (int i = 0; i < 4; i++)
-            steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_NONE});
+            steps_send(&f, RING_CLIENTS, (struct command){.type = COMMAND_NONE});
         fixture_run(&f, 1);
         back_pressure_update(pressure, &f.view, 0);
         assert_true(head()->event_end < SLOTS - SLOTS / 8);
@@ -554,7 +554,7 @@ static void test_no_back_pressure_with_gaps(void **state)
     back_pressure_open(&pressure, &f.view);
     for (int i = 0; i < 100; i++) {
         for (int n = 0; n < 4; n++)
-            steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_NONE});
+            steps_send(&f, RING_CLIENTS, (struct command){.type = COMMAND_NONE});
         fixture_run(&f, 1);
         back_pressure_update(&pressure, &f.view, 0);
     }

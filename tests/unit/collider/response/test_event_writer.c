@@ -119,7 +119,7 @@ static void test_the_key_is_frame_and_index_from_zero_in_every_frame(void **stat
                      "vehicles = ( { kind = \"jeep\"; count = 120;\n"
                      "  area = [25000.0, 25000.0, 25250.0, 25250.0]; } );\n");
     for (int n = 0; n < 40; n++)
-        steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_NONE});
+        steps_send(&f, RING_CLIENTS, (struct command){.type = COMMAND_NONE});
     fixture_run(&f, 400);
     const struct event *event;
     for (; (event = fixture_event(&f, EVENT_NONE, seen)); seen++) {

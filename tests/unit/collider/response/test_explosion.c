@@ -275,8 +275,8 @@ static void test_the_shooter_is_not_hit_by_its_own_round_at_the_muzzle(void **st
             put("jet", 25000.0, 900.0, 20000.0, (struct vec3){277.0 * sine, 0.0, -277.0 * cosine});
         uint32_t tank =
             put("tank", 26000.0, 100.0, 26000.0, (struct vec3){16.0 * sine, 0.0, -16.0 * cosine});
-        steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_FIRE, .entity = jet + 1});
-        steps_send(&f, RING_CONSOLE, (struct command){.type = COMMAND_FIRE, .entity = tank + 1});
+        steps_send(&f, RING_CLIENTS, (struct command){.type = COMMAND_FIRE, .entity = jet + 1});
+        steps_send(&f, RING_CLIENTS, (struct command){.type = COMMAND_FIRE, .entity = tank + 1});
         fixture_run(&f, 60);
         assert_int_equal(fixture_state(&f).head->tally.fires, 2);
         assert_true(steps_rows(&f).harm_j[jet] == 0.0 && steps_rows(&f).harm_j[tank] == 0.0);

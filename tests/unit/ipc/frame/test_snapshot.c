@@ -278,14 +278,14 @@ static void test_commands_keep_their_order_and_content(void **state)
 {
     (void)state;
     for (uint64_t i = 1; i <= 50; i++) {
-        assert_int_equal(put(RING_GATEWAY, 5, i), 0);
-        assert_int_equal(atomic_load(&view.commands[RING_GATEWAY]->head), i);
-        const struct command *slot = &view.commands[RING_GATEWAY]->slot[(i - 1) % COMMANDS];
+        assert_int_equal(put(RING_RECORDER, 5, i), 0);
+        assert_int_equal(atomic_load(&view.commands[RING_RECORDER]->head), i);
+        const struct command *slot = &view.commands[RING_RECORDER]->slot[(i - 1) % COMMANDS];
         assert_int_equal(slot->sequence, i - 1);
         assert_int_equal(slot->source, 5);
         assert_int_equal(slot->source_sequence, i);
         assert_int_equal(slot->amount, i * 7);
-        take(RING_GATEWAY, 1);
+        take(RING_RECORDER, 1);
     }
     assert_int_equal(atomic_load(&view.commands[RING_CLIENTS]->head), 0);
 }
@@ -297,7 +297,7 @@ static void test_full_ring_is_enobufs_until_a_commit_takes_some(void **state)
         assert_int_equal(put(RING_CLIENTS, 1, i), 0);
     assert_int_equal(put(RING_CLIENTS, 1, COMMANDS + 1), -1);
     assert_int_equal(errno, ENOBUFS);
-    assert_int_equal(put(RING_CONSOLE, 1, 1), 0); /* each ring has its own slots */
+    assert_int_equal(put(RING_RECORDER, 1, 1), 0); /* each ring has its own slots */
     take(RING_CLIENTS, 3);
     for (uint64_t i = 1; i <= 3; i++)
         assert_int_equal(put(RING_CLIENTS, 1, COMMANDS + i), 0);

@@ -45,6 +45,8 @@ static const struct state_head *head_of(const struct view *view)
     return view->w[atomic_load(&view->commit->commit) & 1].head;
 }
 
+#define ORDERS (750u * COMMAND_RING_COUNT) /* a ring of this world holds 1024 */
+
 /* Sends drive commands to the first rows, each different. */
 static void send_orders(struct fixture *f, uint32_t count)
 {
@@ -86,7 +88,7 @@ static void test_waiting_commands_are_applied_in_their_frames(void **state)
     struct view again;
     (void)state;
     fixture_open(&f, battle);
-    send_orders(&f, 2500); /* a frame takes 256 of each ring */
+    send_orders(&f, ORDERS); /* a frame takes 256 of each ring */
     fixture_run(&f, 2);
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
         assert_int_equal(head_of(&f.view)->command_cursor[i], 512);
@@ -97,7 +99,7 @@ static void test_waiting_commands_are_applied_in_their_frames(void **state)
         fixture_run(&f, 1);
         assert_int_equal(image_file_digest(&again), fixture_digest(&f));
     }
-    assert_int_equal(head_of(&again)->tally.commands, 2500);
+    assert_int_equal(head_of(&again)->tally.commands, ORDERS);
     segment_abandon(&again);
     fixture_close(&f);
 }
@@ -292,7 +294,7 @@ static void test_images_of_a_running_world(void **state)
     steps_params(&f)->frame_limit = LAST_FRAME;
     steps_params(&f)->pace = PACE_REAL; /* slow enough that images fall into its steps */
     steps_params(&f)->dt_s = 1.0 / (steps_params(&f)->hz = 400.0);
-    send_orders(&f, 3000);
+    send_orders(&f, ORDERS);
     for (int i = 0; i < IMAGES; i++)
         assert_int_equal(capture_init(&capture[i], &f.view), 0);
     pid_t collider = stage_start(&f.view, ROLE_COLLIDER, true);
@@ -308,7 +310,7 @@ static void test_images_of_a_running_world(void **state)
     }
     assert_int_equal(child_wait(mover), 0);
     assert_int_equal(child_wait(collider), 0);
-    assert_int_equal(head_of(&f.view)->tally.commands, 3000);
+    assert_int_equal(head_of(&f.view)->tally.commands, ORDERS);
     for (int i = 0; i < IMAGES; i++) {
         write_capture(&f.view, &capture[i], path);
         image_file_load(&again, path);

@@ -38,7 +38,7 @@ static int make_image(void **state)
         bare_view_end(&collider);
     }
     const struct command command = {.source = 1, .source_sequence = 1};
-    assert_int_equal(command_put(&view, RING_CONSOLE, &command), 0);
+    assert_int_equal(command_put(&view, RING_CLIENTS, &command), 0);
     image_file_path(good_path, "good.image");
     image_file_path(path, "bad.image");
     image_file_save(&view, good_path, false);
@@ -164,7 +164,7 @@ static void test_foreign_files_are_refused(void **state)
     (void)state;
     assert_refused("#!/bin/sh\n", 10, "too small");
     REFUSED(magic, SEGMENT_MAGIC, "magic");
-    REFUSED(version, IMAGE_VERSION + 1, "version 2; this program knows 1");
+    REFUSED(version, IMAGE_VERSION + 1, "version 3; this program knows 2");
     REFUSED(layout_hash, layout_hash() ^ 1, "another build");
     REFUSED(header_bytes, sizeof(struct image_header) + 8, "another build");
 }
@@ -183,7 +183,7 @@ static void test_sizes_beyond_bounds_are_refused(void **state)
     REFUSED(inputs, 2, "counts: out of range");
     REFUSED(intents, UINT32_MAX, "counts: out of range");
     REFUSED(ring_end[0], UINT64_MAX, "counts: out of range");
-    REFUSED(ring_first[0], 1, "counts: out of range");
+    REFUSED(ring_first[RING_RECORDER], 1, "counts: out of range");
     REFUSED(used, 4, "sizes");
     REFUSED(craters, 4, "sizes");
     REFUSED(segment.counts.fixed, 6, "sizes");

@@ -131,7 +131,7 @@ static void test_answers_of_other_rings_are_ignored(void **state)
     (void)state;
     put(1, 1);
     apply(1);
-    assert_int_equal(history_recover(&history, &view, RING_CONSOLE), 0);
+    assert_int_equal(history_recover(&history, &view, RING_RECORDER), 0);
     assert_null(command_history_find(&history, SOURCE, 1));
 }
 
