@@ -71,7 +71,8 @@ class Build:
         return found
 
     def mask(self, text):
-        return text.replace(self.work, "WORK").replace(self.tree, "TREE")
+        # The scenarios of this tool stand in one of the two trees, or in a third.
+        return text.replace(self.work, "WORK").replace(HERE, "SCENARIOS").replace(self.tree, "TREE")
 
     def start(self, program, *arguments, **options):
         """A process whose working folder is the tree; it ends with us at the latest."""
