@@ -20,20 +20,20 @@ struct times {
 
 static void run(struct view *view, const struct bench_options *options, struct times *times)
 {
-    struct frame_stepper player;
-    if (frame_stepper_init(&player, view, options->threads) != 0)
+    struct frame_stepper stepper;
+    if (frame_stepper_init(&stepper, view, options->threads) != 0)
         die_refused("cannot begin: %s", strerror(errno));
     for (uint32_t i = 0; i < options->frames; i++) {
         uint64_t t0 = clock_now_ns();
-        frame_stepper_move(&player, NULL);
+        frame_stepper_move(&stepper, NULL);
         uint64_t t1 = clock_now_ns();
-        frame_stepper_collide(&player);
+        frame_stepper_collide(&stepper);
         uint64_t t2 = clock_now_ns();
         times->mover_ms[i] = (double)(t1 - t0) / 1e6;
         times->collider_ms[i] = (double)(t2 - t1) / 1e6;
         times->frame_ms[i] = (double)(t2 - t0) / 1e6;
     }
-    frame_stepper_free(&player);
+    frame_stepper_free(&stepper);
 }
 
 int bench_frame(struct bench_options options)

@@ -151,17 +151,17 @@ static pid_t begin_beside(bool one_core)
     if (child > 0)
         return child;
     struct view view;
-    struct frame_stepper player;
+    struct frame_stepper stepper;
     process_die_with_parent(getppid());
     if (one_core)
         keep_to(0);
     bench_world_open(&view, NULL, BENCH_SCENARIO_VEHICLES);
-    if (frame_stepper_init(&player, &view, 1) != 0)
+    if (frame_stepper_init(&stepper, &view, 1) != 0)
         die_refused("cannot begin: %s", strerror(errno));
     uint64_t step_ns = (uint64_t)(world_dt_s(&view.world) * (double)NS_PER_S);
     for (uint64_t next = clock_now_ns();; next += step_ns) {
         clock_sleep_until_ns(next);
-        frame_stepper_step(&player, NULL);
+        frame_stepper_step(&stepper, NULL);
     }
 }
 

@@ -16,7 +16,7 @@
 
 struct frame_view bench_scene_moment(const struct bench_scene *s)
 {
-    const struct state *state = &s->view.w[frame_stepper_frame(&s->player) & 1];
+    const struct state *state = &s->view.w[frame_stepper_frame(&s->stepper) & 1];
     return (struct frame_view){.world = &s->view.world,
                                .head = state->head,
                                .entities = &state->entities,
@@ -30,7 +30,7 @@ void bench_scene_go_on(struct bench_scene *s)
 {
     struct event events[EVENTS];
     uint32_t count;
-    frame_stepper_step(&s->player, NULL);
+    frame_stepper_step(&s->stepper, NULL);
     struct frame_view frame_view = bench_scene_moment(s);
     crater_index_update(&s->craters, frame_view.head->crater_count);
     dent_index_update(&s->dents, frame_view.head->dent_count);
@@ -62,7 +62,7 @@ void bench_scene_open(struct bench_scene *s, const struct bench_scene_wish *wish
     s->wish = *wish;
     bench_world_open(&s->view, wish->scenario, BENCH_SCENARIO_VEHICLES);
     const struct world *world = &s->view.world;
-    if (frame_stepper_init(&s->player, &s->view, 1) != 0 ||
+    if (frame_stepper_init(&s->stepper, &s->view, 1) != 0 ||
         crater_index_init(&s->craters, s->view.w[0].craters) != 0 ||
         dent_index_init(&s->dents, s->view.w[0].dents, world->params->dent_slots) != 0 ||
         tracks_init(&s->tracks, world->params->capacity) != 0 ||
@@ -71,7 +71,7 @@ void bench_scene_open(struct bench_scene *s, const struct bench_scene_wish *wish
         image_init(&s->image, wish->width, wish->height) != 0)
         die_refused("cannot begin: %s", strerror(errno));
     open_back_end(s);
-    while (frame_stepper_frame(&s->player) < wish->frame)
+    while (frame_stepper_frame(&s->stepper) < wish->frame)
         bench_scene_go_on(s);
     struct follow follow = {.id = 0};
     struct frame_view frame_view = bench_scene_moment(s);
@@ -88,7 +88,7 @@ void bench_scene_close(struct bench_scene *s)
     tracks_free(&s->tracks);
     dent_index_free(&s->dents);
     crater_index_free(&s->craters);
-    frame_stepper_free(&s->player);
+    frame_stepper_free(&s->stepper);
     segment_abandon(&s->view);
 }
 

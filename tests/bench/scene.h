@@ -29,7 +29,7 @@ struct bench_scene_wish {
 struct bench_scene {
     struct bench_scene_wish wish;
     struct view view;
-    struct frame_stepper player;
+    struct frame_stepper stepper;
     struct crater_index craters;
     struct dent_index dents;
     struct tracks tracks;

@@ -61,18 +61,18 @@ static void take(const struct view *view, const struct state *state, uint64_t fr
 int bench_traffic(struct bench_options options)
 {
     struct view view;
-    struct frame_stepper player;
+    struct frame_stepper stepper;
     struct traffic traffic = {0, 0, 0, 0, 0.0};
     bench_world_open(&view, NULL, options.vehicles);
     disarm(&view);
-    if (frame_stepper_init(&player, &view, options.threads) != 0)
+    if (frame_stepper_init(&stepper, &view, options.threads) != 0)
         die_refused("cannot begin: %s", strerror(errno));
     for (uint32_t i = 0; i < options.frames; i++) {
         uint64_t from = view.w[i & 1].head->event_end;
-        frame_stepper_step(&player, NULL);
+        frame_stepper_step(&stepper, NULL);
         take(&view, &view.w[(i + 1) & 1], from, &traffic);
     }
-    frame_stepper_free(&player);
+    frame_stepper_free(&stepper);
     double all = (double)(traffic.fixed + traffic.vehicles + traffic.surface);
     printf(options.json ? "{\"vehicle_hours\":%.3f,\"fixed\":%llu,\"vehicles\":%llu,"
                           "\"surface\":%llu,\"an_hour\":%.4f,\"bushes\":%llu}\n"

@@ -171,13 +171,13 @@ void fixture_open(struct fixture *fixture, const char *text)
 
 void fixture_threads(struct fixture *fixture, uint32_t threads)
 {
-    frame_stepper_free(&fixture->player);
-    assert_int_equal(frame_stepper_init(&fixture->player, &fixture->view, threads), 0);
+    frame_stepper_free(&fixture->stepper);
+    assert_int_equal(frame_stepper_init(&fixture->stepper, &fixture->view, threads), 0);
 }
 
 void fixture_close(struct fixture *fixture)
 {
-    frame_stepper_free(&fixture->player);
+    frame_stepper_free(&fixture->stepper);
     segment_abandon(&fixture->view);
     world_build_free(fixture->built);
     scenario_free(fixture->scenario);
@@ -253,8 +253,8 @@ uint32_t fixture_put(struct fixture *fixture, struct fixture_entity entity)
 
 void fixture_written(struct fixture *fixture)
 {
-    struct frame_stepper *player = &fixture->player;
-    player->mover.left = player->collider.left[0] = player->collider.left[1] = 0;
+    struct frame_stepper *stepper = &fixture->stepper;
+    stepper->mover.left = stepper->collider.left[0] = stepper->collider.left[1] = 0;
 }
 
 /* What the steps put together of hashes that they kept is what the rows have. */
@@ -277,7 +277,7 @@ void fixture_run(struct fixture *fixture, uint32_t frames)
 void fixture_go_on(struct fixture *fixture, uint32_t frames)
 {
     for (uint32_t n = 0; n < frames; n++) {
-        frame_stepper_step(&fixture->player, NULL);
+        frame_stepper_step(&fixture->stepper, NULL);
         check_checksums(fixture);
     }
 }

@@ -24,7 +24,7 @@ struct fixture {
     struct scenario *scenario;
     struct world_build *built;
     struct view view; /* private; mapped shared, so that children of fork see it */
-    struct frame_stepper player;
+    struct frame_stepper stepper;
 };
 
 /* --- scenarios and worlds ----------------------------------------------------------------------*/

@@ -103,11 +103,11 @@ void image_file_put(const char *path, const void *bytes, size_t count)
 
 void image_file_play(struct view *view, uint64_t frame)
 {
-    struct frame_stepper player;
-    assert_int_equal(frame_stepper_init(&player, view, 1), 0);
-    while (frame_stepper_frame(&player) < frame)
-        frame_stepper_step(&player, NULL);
-    frame_stepper_free(&player);
+    struct frame_stepper stepper;
+    assert_int_equal(frame_stepper_init(&stepper, view, 1), 0);
+    while (frame_stepper_frame(&stepper) < frame)
+        frame_stepper_step(&stepper, NULL);
+    frame_stepper_free(&stepper);
 }
 
 uint64_t image_file_digest(const struct view *view)

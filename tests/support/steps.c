@@ -36,7 +36,7 @@ struct params *steps_params(const struct fixture *fixture)
 /* The mover remembers the ground that its rows stand on. */
 static void forget_ground(const struct fixture *fixture)
 {
-    const struct mover *mover = &fixture->player.mover;
+    const struct mover *mover = &fixture->stepper.mover;
     uint32_t capacity = mover->world->params->capacity;
     memset(mover->terrain_entries, 0, capacity * sizeof *mover->terrain_entries);
     memset(mover->terrain_entries_ahead, 0, capacity * sizeof *mover->terrain_entries_ahead);
@@ -86,7 +86,7 @@ void steps_cover(const struct fixture *fixture, enum cover cover, double x0, dou
 
 double steps_ground_at(const struct fixture *fixture, double x, double z)
 {
-    return terrain_height(&fixture->view.world.terrain, &fixture->player.mover.craters, x, z);
+    return terrain_height(&fixture->view.world.terrain, &fixture->stepper.mover.craters, x, z);
 }
 
 /* --- rows --------------------------------------------------------------------------------------*/
@@ -180,19 +180,19 @@ void steps_serial_context(struct fixture *fixture, struct step_context *step,
 {
     struct view *view = &fixture->view;
     const struct state *committed = &view->w[atomic_load(&view->commit->commit) & 1];
-    *step = mover_context(&fixture->player.mover, committed, &view->m);
+    *step = mover_context(&fixture->stepper.mover, committed, &view->m);
     *view->m.head = *committed->head;
     entities_copy(&view->m.entities, &committed->entities, 0, committed->head->used);
     *context =
         (struct serial_context){.step = step,
                                 .moved = &view->m,
-                                .writer = {&view->m.entities, fixture->player.mover.changed}};
+                                .writer = {&view->m.entities, fixture->stepper.mover.changed}};
 }
 
 void steps_respond(struct fixture *fixture, struct response_context *context)
 {
     struct view *view = &fixture->view;
-    struct collider *collider = &fixture->player.collider;
+    struct collider *collider = &fixture->stepper.collider;
     uint64_t commit = atomic_load(&view->commit->commit);
     const struct state *committed = &view->w[commit & 1];
     struct state *next = &view->w[(commit + 1) & 1];
@@ -260,6 +260,6 @@ void steps_move(struct fixture *fixture)
     struct view *view = &fixture->view;
     struct command_source sources[COMMAND_RING_COUNT];
     frame_stepper_sources(view, sources);
-    mover_step(&fixture->player.mover, &view->w[atomic_load(&view->commit->commit) & 1], &view->m,
+    mover_step(&fixture->stepper.mover, &view->w[atomic_load(&view->commit->commit) & 1], &view->m,
                sources);
 }

@@ -26,7 +26,7 @@ static uint8_t damage[64];
 static void look_at(const char *text)
 {
     fixture_open(&f, text);
-    assert_int_equal(line_of_sight_init(&sight, &f.view.world, &f.player.mover.craters), 0);
+    assert_int_equal(line_of_sight_init(&sight, &f.view.world, &f.stepper.mover.craters), 0);
     sight.fixed_damage = damage;
     memset(damage, 0, sizeof damage);
 }
@@ -131,7 +131,7 @@ static void test_over_rough_ground(void **state)
         look_at(text);
         steps_ground(&f, rough, &ground);
         line_of_sight_free(&sight);
-        assert_int_equal(line_of_sight_init(&sight, &f.view.world, &f.player.mover.craters), 0);
+        assert_int_equal(line_of_sight_init(&sight, &f.view.world, &f.stepper.mover.craters), 0);
         sight.fixed_damage = damage;
         agree(&random, 25000.0, 25000.0, 400.0, 12.0, 150, 8);
         agree(&random, 49800.0, 200.0, 199.0, 12.0, 60, 0);
@@ -149,7 +149,7 @@ static void test_over_the_lips_of_craters(void **state)
                                      .z = 24950.0 + 46.0 * (double)(n / 4),
                                      .radius_m = (float)fixture_uniform(&random, 2.0, 15.0),
                                      .depth_m = (float)fixture_uniform(&random, 1.0, 5.0)};
-    crater_index_update(&f.player.mover.craters, 12);
+    crater_index_update(&f.stepper.mover.craters, 12);
     f.view.w[0].head->crater_count = 12; /* for steps_ground_at */
     agree(&random, 25000.0, 25000.0, 60.0, 0.9, 300, 5);
 }

@@ -278,7 +278,7 @@ static struct desired_motion draw_wish(const struct entities *e, uint64_t *rando
 /* Craters all over the middle and objects that fell, or neither. */
 static void scar(uint64_t *random, bool cratered)
 {
-    struct mover *mover = &f.player.mover;
+    struct mover *mover = &f.stepper.mover;
     struct state now = fixture_state(&f);
     now.head->crater_count = cratered ? CRATERS : 0;
     for (uint32_t n = 0; n < now.head->crater_count; n++)

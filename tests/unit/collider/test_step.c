@@ -291,7 +291,7 @@ static void collide_again(struct fixture *f)
     struct view *view = &f->view;
     const struct event_ring ring = {view->events, view->header->event_slots};
     uint64_t commit = atomic_load(&view->commit->commit);
-    collider_step(&f->player.collider, &view->w[commit & 1], &view->m, &view->w[(commit + 1) & 1],
+    collider_step(&f->stepper.collider, &view->w[commit & 1], &view->m, &view->w[(commit + 1) & 1],
                   &ring);
 }
 

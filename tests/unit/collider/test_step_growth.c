@@ -128,7 +128,7 @@ static void run(uint32_t threads, bool shrunk, bool swept, uint64_t digest[FRAME
     fixture_open(&f, text);
     fixture_threads(&f, threads);
     if (shrunk)
-        shrink(&f.player.collider);
+        shrink(&f.stepper.collider);
     uint64_t before = reserve_growths();
     for (uint32_t i = 0; i < FRAMES; i++) {
         fixture_run(&f, 1);
@@ -136,7 +136,7 @@ static void run(uint32_t threads, bool shrunk, bool swept, uint64_t digest[FRAME
     }
     assert_true(fixture_state(&f).head->tally.collisions > 100);
     if (shrunk)
-        assert_grown(&f.player.collider, swept);
+        assert_grown(&f.stepper.collider, swept);
     else
         assert_int_equal(reserve_growths(), before);
     fixture_close(&f);

@@ -133,7 +133,7 @@ static int run_steps(void *context)
         return NO_FILTER;
     stepping = true;
     for (uint32_t i = 0; i < trial->frames; i++)
-        frame_stepper_step(&f.player, NULL);
+        frame_stepper_step(&f.stepper, NULL);
     leave(0); /* ending threads and world takes more */
     return NO_FILTER;
 }

@@ -307,9 +307,9 @@ static void test_run_is_replayed_from_its_log(void **state)
     assert_non_null(end);
     assert_int_equal(end->digest, fixture_digest(&f));
     begin_world(&again);
-    while (frame_stepper_frame(&again.player) < replay.known_frame) {
-        if (log_replay_step(&replay, &again.player, &error) != LOG_REPLAY_STEPPED)
-            fail_msg("frame %llu: %s", (unsigned long long)frame_stepper_frame(&again.player),
+    while (frame_stepper_frame(&again.stepper) < replay.known_frame) {
+        if (log_replay_step(&replay, &again.stepper, &error) != LOG_REPLAY_STEPPED)
+            fail_msg("frame %llu: %s", (unsigned long long)frame_stepper_frame(&again.stepper),
                      error.text);
     }
     assert_int_equal(fixture_digest(&again), fixture_digest(&f));
@@ -329,8 +329,8 @@ static void test_wrong_mark_is_reported(void **state)
     open_replay(&replay);
     begin_world(&other);
     steps_rows(&other).x[1] += 0.5; /* the log ends a little earlier */
-    while (step == LOG_REPLAY_STEPPED && frame_stepper_frame(&other.player) < replay.known_frame)
-        step = log_replay_step(&replay, &other.player, &error);
+    while (step == LOG_REPLAY_STEPPED && frame_stepper_frame(&other.stepper) < replay.known_frame)
+        step = log_replay_step(&replay, &other.stepper, &error);
     assert_int_equal(step, LOG_REPLAY_MISMATCH);
     assert_non_null(strstr(error.text, "digest"));
     log_replay_close(&replay);

@@ -31,8 +31,8 @@ static int open_world(void **state)
     fixture_open(&f, "world = { seed = 1; capacity = 1024; }; collision = { shape = \"model\"; };");
     for (uint32_t i = 0; i < ROWS; i++)
         fixture_put(&f, (struct fixture_entity){.kind = kinds[i % 5], .at = {25000.0, 100.0, 0}});
-    motion = &f.player.collider.motion;
-    broad = &f.player.collider.broad;
+    motion = &f.stepper.collider.motion;
+    broad = &f.stepper.collider.broad;
     return 0;
 }
 

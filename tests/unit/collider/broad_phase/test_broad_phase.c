@@ -46,14 +46,14 @@ static uint32_t found(uint32_t a, uint32_t b, uint32_t *all)
                                        .entities = &now.entities,
                                        .path = path,
                                        .fixed_damage = now.fixed_damage,
-                                       .craters = &f.player.collider.craters,
+                                       .craters = &f.stepper.collider.craters,
                                        .rows = now.head->used};
     uint32_t times = 0;
     *all = 0;
-    broad_phase_pairs(&f.player.collider.broad, &input);
+    broad_phase_pairs(&f.stepper.collider.broad, &input);
     for (int list = 0; list < THREAD_POOL_MAX; list++) {
-        for (uint32_t n = 0; n < f.player.collider.broad.list[list].count; n++) {
-            struct pair pair = f.player.collider.broad.list[list].pair[n];
+        for (uint32_t n = 0; n < f.stepper.collider.broad.list[list].count; n++) {
+            struct pair pair = f.stepper.collider.broad.list[list].pair[n];
             times += pair.a == a && pair.b == b;
             ++*all;
         }

@@ -103,7 +103,7 @@ static int close_world(void **state)
 static double ground(const struct fixture *fixture, struct path from)
 {
     double toi = -2.0;
-    return analytic_impact_ground(&fixture->view.world.terrain, &fixture->player.mover.craters,
+    return analytic_impact_ground(&fixture->view.world.terrain, &fixture->stepper.mover.craters,
                                   &from, &toi)
                ? toi
                : -1.0;
@@ -156,10 +156,10 @@ static void test_a_crater_lets_a_path_go_deeper(void **state)
     struct fixture *f = *state;
     struct crater *list = f->view.w[0].craters;
     list[0] = (struct crater){25050.0, 25060.0, 4.0f, 2.0f, 1};
-    crater_index_update(&f->player.mover.craters, 1);
+    crater_index_update(&f->stepper.mover.craters, 1);
     assert_true(fabs(ground(f, path(25050, 105, 25060, 0, -10, 0)) - 0.7) < 1e-6);
     assert_true(fabs(ground(f, path(25060, 105, 25060, 0, -10, 0)) - 0.5) < 1e-6);
-    crater_index_update(&f->player.mover.craters, 0);
+    crater_index_update(&f->stepper.mover.craters, 0);
 }
 
 int main(void)

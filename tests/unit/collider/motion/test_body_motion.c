@@ -24,7 +24,7 @@ static int open_world(void **state)
     for (uint32_t i = 0; i < ROWS; i++)
         fixture_put(
             &f, (struct fixture_entity){.kind = "jet", .at = {1000.0 + 20.0 * i, 900.0, 5000.0}});
-    motion = &f.player.collider.motion;
+    motion = &f.stepper.collider.motion;
     return 0;
 }
 

@@ -23,14 +23,14 @@ static int open_world(void **state)
 static int close_world(void **state)
 {
     (void)state;
-    contact_queue_end(&f.player.collider.contacts);
+    contact_queue_end(&f.stepper.collider.contacts);
     fixture_close(&f);
     return 0;
 }
 
 static struct contact_queue *contacts(void)
 {
-    return &f.player.collider.contacts;
+    return &f.stepper.collider.contacts;
 }
 
 /* A helicopter (radius 6) at x, going this far along x in the frame. */
@@ -38,7 +38,7 @@ static uint32_t put(double x, double z, double along)
 {
     uint32_t row =
         fixture_put(&f, (struct fixture_entity){.kind = "helicopter", .at = {x, 900.0, z}});
-    f.player.collider.motion.path[row] =
+    f.stepper.collider.motion.path[row] =
         (struct path){.at = {x, 900.0, z}, .along = {along, 0.0, 0.0}};
     return row;
 }
@@ -50,19 +50,19 @@ static void find(void)
     struct path kept[512];
     uint32_t used = now.head->used;
     for (uint32_t i = 0; i < used; i++)
-        kept[i] = f.player.collider.motion.path[i];
+        kept[i] = f.stepper.collider.motion.path[i];
     steps_respond(&f, &context);
     steps_respond_end(&context);
     for (uint32_t i = 0; i < used; i++)
-        f.player.collider.motion.path[i] = kept[i];
-    broad_phase_pairs(&f.player.collider.broad, &context.input.detect);
-    contact_queue_begin(contacts(), f.player.collider.broad.list, THREAD_POOL_MAX);
+        f.stepper.collider.motion.path[i] = kept[i];
+    broad_phase_pairs(&f.stepper.collider.broad, &context.input.detect);
+    contact_queue_begin(contacts(), f.stepper.collider.broad.list, THREAD_POOL_MAX);
     contact_queue_find(contacts(), &context.input);
 }
 
 static void stop(uint32_t row, double time)
 {
-    struct path *path = &f.player.collider.motion.path[row];
+    struct path *path = &f.stepper.collider.motion.path[row];
     *path = (struct path){.at = path_at(path, time), .since = time};
     contact_queue_change(contacts(), &context.input, &row, 1, time);
 }
@@ -179,13 +179,13 @@ static void test_row_36_a_changed_path_meets_other_bodies(void **state)
     uint32_t b = put(25000.0, 25300.0, 0.0), c = put(25300.0, 25300.0, 0.0);
     find();
     assert_false(contact_queue_next(contacts(), &context.input, &contact));
-    f.player.collider.motion.path[a].along = (struct vec3){0.0, 0.0, 400.0};
+    f.stepper.collider.motion.path[a].along = (struct vec3){0.0, 0.0, 400.0};
     contact_queue_change(contacts(), &context.input, &a, 1, 0.0);
     assert_true(contact_queue_next(contacts(), &context.input, &contact));
     assert_true(contact.a == a && contact.b == b &&
                 fabs(contact.impact.toi - 288.0 / 400.0) < 1e-12);
     stop(a, 0.5); /* at 25200 */
-    f.player.collider.motion.path[c].along = (struct vec3){-600.0, 0.0, -200.0};
+    f.stepper.collider.motion.path[c].along = (struct vec3){-600.0, 0.0, -200.0};
     contact_queue_change(contacts(), &context.input, &c, 1, 0.0);
     assert_true(contact_queue_next(contacts(), &context.input, &contact));
     assert_true(contact.a == a && contact.b == c);
@@ -216,7 +216,7 @@ static void test_a_frame_knows_nothing_of_the_one_before(void **state)
         assert_false(contact_queue_next(contacts(), &context.input, &contact));
         contact_queue_end(contacts());
     }
-    f.player.collider.motion.path[a].along.x = 0.0;
+    f.stepper.collider.motion.path[a].along.x = 0.0;
     find();
     assert_false(contact_queue_next(contacts(), &context.input, &contact));
 }
@@ -231,19 +231,19 @@ static void test_through_fixed_only_entering_is_a_contact(void **state)
     fixture_open(&f, "objects = ( { kind = \"tree\"; at = [25000.0, 25000.0]; } );");
     uint32_t row =
         fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {24990.0, 100.0, 25000.0}});
-    f.player.collider.motion.path[row] =
+    f.stepper.collider.motion.path[row] =
         (struct path){.at = {24990.0, 100.0, 25000.0}, .along = {8.0, 0, 0}};
     find();
     assert_true(contact_queue_next(contacts(), &context.input, &contact));
     assert_true(fabs(contact.impact.toi - (10.0 - 3.0 - (double)1.8f) / 8.0) < 1e-12);
     contact_queue_end(contacts());
-    f.player.collider.motion.path[row].at.x = 24996.0; /* it stands in it */
+    f.stepper.collider.motion.path[row].at.x = 24996.0; /* it stands in it */
     find();
     assert_true(contact_queue_next(contacts(), &context.input, &contact));
     assert_true(contact.impact.toi == 0.0);
     context.input.through_fixed = true;
     contact_queue_end(contacts());
-    contact_queue_begin(contacts(), f.player.collider.broad.list, THREAD_POOL_MAX);
+    contact_queue_begin(contacts(), f.stepper.collider.broad.list, THREAD_POOL_MAX);
     contact_queue_find(contacts(), &context.input);
     assert_false(contact_queue_next(contacts(), &context.input, &contact));
 }

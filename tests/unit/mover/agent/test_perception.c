@@ -215,7 +215,7 @@ static void test_row_9_a_fleeing_agent_goes_where_it_is_not_seen(void **state)
     struct vec3 eye = {e.x[enemy], e.y[enemy] + 2.0, e.z[enemy]};
     struct vec3 to = {e.goal_x[row], steps_ground_at(&f, e.goal_x[row], e.goal_z[row]) + 1.0,
                       e.goal_z[row]};
-    assert_false(line_of_sight_clear(&f.player.mover.line_of_sight, eye, to));
+    assert_false(line_of_sight_clear(&f.stepper.mover.line_of_sight, eye, to));
 }
 
 /* --- home and back -----------------------------------------------------------------------------*/

@@ -115,7 +115,7 @@ static void test_no_crater_is_missed(void **state)
     }
     fixture_state(&f).fixed_damage[0] = fixture_state(&f).fixed_damage[1] = DAMAGE_HIGH;
     struct state now = update();
-    crater_index_update(&f.player.mover.craters, now.head->crater_count);
+    crater_index_update(&f.stepper.mover.craters, now.head->crater_count);
     uint32_t found = 0;
     for (int i = 0; i < 200000; i++) {
         const struct crater *crater = &now.craters[i % 20];
@@ -123,7 +123,7 @@ static void test_no_crater_is_missed(void **state)
         double z = crater->z + fixture_uniform(&random, -80.0, 80.0);
         double turn = fixture_uniform(&random, 0.0, TWO_PI);
         double there =
-            crater_offset(&f.player.mover.craters, x + GROUND_MARKS_NEAR_M * maths_sin(turn),
+            crater_offset(&f.stepper.mover.craters, x + GROUND_MARKS_NEAR_M * maths_sin(turn),
                           z + GROUND_MARKS_NEAR_M * maths_cos(turn));
         if (there != 0.0) {
             assert_true(ground_marks_at(&marks, x, z) & GROUND_MARKS_CRATER);

@@ -162,7 +162,7 @@ static void test_inputs_of_the_frame_under_way_are_saved(void **state)
     segment_abandon(&again);
 
     send_orders(&f, 10);
-    frame_stepper_move(&f.player, NULL);
+    frame_stepper_move(&f.stepper, NULL);
     uint64_t moved = steps_moved_hash(&f);
     image_file_save(&f.view, path, true);
     image_file_load(&again, path);
@@ -186,7 +186,7 @@ static void test_branch_has_other_settings_and_no_inputs(void **state)
     (void)state;
     fixture_open(&f, battle);
     fixture_run(&f, 20);
-    frame_stepper_move(&f.player, NULL);
+    frame_stepper_move(&f.stepper, NULL);
     image_file_save(&f.view, path, true);
     assert_int_equal(image_open(&image, path, &error), 0);
     assert_false(image_branches(&image));
