@@ -388,7 +388,7 @@ OUT      ?= out
 run: all
 	@$(BIN)/jolon run --seconds $(SECONDS) --out $(OUT) $(SCENARIO)
 
-# Kills and stops at random, and an account: tests/storm/README.md. With more of everything:
+# Kills and stops processes at random and checks the consequences: tests/storm/README.md. A longer storm:
 # make storm KILLS=10000 SCENARIO=hunter-liggett STORMY='--renderer --commands 10000'
 KILLS    ?= 1000
 SEED     ?=
@@ -482,7 +482,7 @@ help:
 	@echo 'make CRASHPOINTS=1                      programs that die at a given store, into build/crash'
 	@echo 'make rtps [PACKETS=1000000] [SEED=n]       mutated datagrams against a reporter'
 	@echo 'make game [SECONDS=300] [SEED=n]          two players and a program at once, while everything is killed'
-	@echo 'make storm [KILLS=1000] [SEED=n]           kill everything at random, count what came of it'
+	@echo 'make storm [KILLS=1000] [SEED=n]           kill processes at random and check the consequences'
 	@echo 'make model [MODEL=short|usual|full]      check the frame protocol with spin'
 	@echo 'make bench                              build jolon-bench, measure; results in tests/bench/results/'
 	@echo 'make bench-render                       what pictures cost, alone'

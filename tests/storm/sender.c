@@ -1,4 +1,4 @@
-/* Commands over the command socket. */
+/* Sends random commands over the command socket. */
 #include "tests/storm/sender.h"
 
 #include "ipc/process/clock.h"
@@ -14,27 +14,27 @@
 #define LAST_NS    ((uint64_t)30 * NS_PER_S)
 #define WAIT_NS    (150 * (uint64_t)NS_PER_MS)
 #define PAUSE_NS   (20 * (uint64_t)NS_PER_MS)
-#define SPAWNS_MAX 200 /* the world's capacity is not what is tested */
+#define SPAWNS_MAX 200 /* keeps the world below its capacity */
 
 struct sender {
     const struct storm_options *options;
     struct command_socket socket;
-    struct command_client caller;
+    struct command_client client;
     pthread_t thread;
     _Atomic bool end;
-    _Atomic uint64_t end_ns; /* when to give up on the last */
-    struct chance chance;
+    _Atomic uint64_t give_up_ns; /* when to give up waiting for the last answer */
+    struct prng prng;
     uint64_t sent, answered, spawns;
-    uint32_t spawned; /* the last one's id, 0: none */
+    uint32_t spawned;
 };
 
 static jolon_Command draw(struct sender *sender)
 {
     jolon_Command command = {0};
-    uint64_t kind = chance_below(&sender->chance, 4);
-    command.x_m = 24900.0 + 200.0 * chance_unit(&sender->chance);
-    command.z_m = 24900.0 + 200.0 * chance_unit(&sender->chance);
-    command.entity = 1 + (uint32_t)chance_below(&sender->chance, 60);
+    uint64_t kind = prng_below(&sender->prng, 4);
+    command.x_m = 24900.0 + 200.0 * prng_unit(&sender->prng);
+    command.z_m = 24900.0 + 200.0 * prng_unit(&sender->prng);
+    command.entity = 1 + (uint32_t)prng_below(&sender->prng, 60);
     if (kind == 0 && sender->spawns < SPAWNS_MAX) {
         command.type = jolon_COMMAND_SPAWN;
         command.altitude_m = -1.0;
@@ -49,25 +49,26 @@ static jolon_Command draw(struct sender *sender)
         command.type = jolon_COMMAND_RELEASE;
     } else {
         command.type = jolon_COMMAND_DRIVE;
-        command.throttle = (float)chance_unit(&sender->chance);
-        command.steer = (float)(2.0 * chance_unit(&sender->chance) - 1.0);
+        command.throttle = (float)prng_unit(&sender->prng);
+        command.steer = (float)(2.0 * prng_unit(&sender->prng) - 1.0);
     }
     return command;
 }
 
-/* The caller repeats the command until its reply comes. */
+/* Sends a command and waits for its reply. The client repeats the command meanwhile. Returns false
+ * if the storm ends first. */
 static bool exchange(struct sender *sender, const jolon_Command *command)
 {
     jolon_CommandReply reply;
-    uint64_t sequence = command_client_send(&sender->caller, command);
+    uint64_t sequence = command_client_send(&sender->client, command);
     for (;;) {
-        command_client_poll(&sender->caller);
-        if (command_client_answered(&sender->caller, sequence, &reply))
+        command_client_poll(&sender->client);
+        if (command_client_answered(&sender->client, sequence, &reply))
             return true;
         uint64_t now_ns = clock_now_ns();
-        if (process_stopping() || (atomic_load(&sender->end) && now_ns > sender->end_ns))
+        if (process_stopping() || (atomic_load(&sender->end) && now_ns > sender->give_up_ns))
             return false;
-        command_client_wait(&sender->caller, now_ns + WAIT_NS);
+        command_client_wait(&sender->client, now_ns + WAIT_NS);
     }
 }
 
@@ -80,7 +81,7 @@ static void *send_all(void *argument)
         if (!exchange(sender, &command))
             break;
         sender->answered++;
-        clock_sleep_until_ns(clock_now_ns() + chance_below(&sender->chance, PAUSE_NS));
+        clock_sleep_until_ns(clock_now_ns() + prng_below(&sender->prng, PAUSE_NS));
     }
     return NULL;
 }
@@ -93,8 +94,8 @@ struct sender *sender_start(const struct storm_options *options, struct error_te
         return NULL;
     }
     sender->options = options;
-    sender->chance.state = options->seed ^ 0x5eed;
-    if (command_client_open(&sender->caller, command_socket_open(&sender->socket, options->world),
+    sender->prng.state = options->seed ^ 0x5eed;
+    if (command_client_open(&sender->client, command_socket_open(&sender->socket, options->world),
                             error) != 0 ||
         pthread_create(&sender->thread, NULL, send_all, sender) != 0) {
         sender_free(sender);
@@ -105,14 +106,14 @@ struct sender *sender_start(const struct storm_options *options, struct error_te
 
 void sender_stop(struct sender *sender)
 {
-    sender->end_ns = clock_now_ns() + LAST_NS;
+    sender->give_up_ns = clock_now_ns() + LAST_NS;
     atomic_store(&sender->end, true);
     pthread_join(sender->thread, NULL);
 }
 
 uint64_t sender_source(const struct sender *sender)
 {
-    return sender->caller.source;
+    return sender->client.source;
 }
 
 uint64_t sender_sent(const struct sender *sender)

@@ -1,4 +1,4 @@
-/* storm: kills and stops the processes of a real set at random, and counts what came of it. */
+/* storm: kills and stops the processes of a real set at random and checks the consequences. */
 #include "tests/storm/storm.h"
 
 #include "ipc/process/clock.h"
@@ -20,23 +20,23 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define CALM_NS    ((uint64_t)20 * NS_PER_S)
-#define REST_EVERY 250 /* strikes from one rest, at which descriptors are counted, to the next */
+#define RECOVERY_WAIT_NS ((uint64_t)20 * NS_PER_S)
+#define COUNT_EVERY      250 /* strikes between two counts of the descriptors */
 
-uint64_t chance_next(struct chance *chance)
+uint64_t prng_next(struct prng *prng)
 {
-    chance->state += 0x9e3779b97f4a7c15u;
-    return random_mix(chance->state);
+    prng->state += 0x9e3779b97f4a7c15u;
+    return random_mix(prng->state);
 }
 
-double chance_unit(struct chance *chance)
+double prng_unit(struct prng *prng)
 {
-    return (double)(chance_next(chance) >> 11) * 0x1.0p-53;
+    return (double)(prng_next(prng) >> 11) * 0x1.0p-53;
 }
 
-uint64_t chance_below(struct chance *chance, uint64_t end)
+uint64_t prng_below(struct prng *prng, uint64_t end)
 {
-    return chance_next(chance) % end;
+    return prng_next(prng) % end;
 }
 
 /* --- options -----------------------------------------------------------------------------------*/
@@ -44,8 +44,8 @@ uint64_t chance_below(struct chance *chance, uint64_t end)
 static const char usage[] =
     "[--kills N] [--seed N] [--gap-ms X] [--scenario FILE] [--commands N]\n"
     "             [--renderer] [--world NAME] [--out DIR] [--json]\n"
-    "  kills, stops and continues the processes of a set of its own at random; see\n"
-    "  tests/storm/README.md. JOLON_HANG_MS is the keeper's limit, as for jolon.";
+    "  Kills, stops and continues the processes of a set of its own at random; see\n"
+    "  tests/storm/README.md. JOLON_HANG_MS is the keeper's hang limit, as for jolon.";
 
 static void find_programs(char *path, size_t bytes)
 {
@@ -87,22 +87,22 @@ static void read_options(struct storm_options *options, int argc, char **argv)
     option_table_read(&table, argc, argv);
     given.keep = given.out != NULL;
     *options = given;
-    /* A file; else it is the name of one that comes with Jolon. */
+    /* A path that exists is a file. Any other text names a shipped scenario. */
     char *path = realpath(options->scenario, NULL);
     if (path)
-        options->scenario = path; /* for as long as we run */
+        options->scenario = path; /* never freed */
 }
 
 /* --- the storm ---------------------------------------------------------------------------------*/
 
 struct storm {
     struct storm_options options;
-    struct band band;
-    struct watcher watcher;
-    struct witness witness;
-    struct victims victims;
+    struct tested_set set;
+    struct recovery_monitor monitor;
+    struct invariant_monitor invariants;
+    struct fault_injector injector;
     struct sender *sender;
-    struct accounts accounts;
+    struct consistency consistency;
     struct outcome outcome;
 };
 
@@ -119,12 +119,12 @@ static void begin(struct storm *storm)
     if (!storm->options.out ||
         (storm->options.keep && mkdir(storm->options.out, 0700) != 0 && errno != EEXIST))
         die_refused("%s: cannot make the folder: %s", storm->options.out, strerror(errno));
-    if (band_start(&storm->band, &storm->options, &error) != 0)
+    if (tested_set_start(&storm->set, &storm->options, &error) != 0)
         die_refused("%s", error.text);
-    if (watcher_start(&storm->watcher, &storm->band.view) != 0 ||
-        witness_start(&storm->witness, &storm->band, storm->options.seed) != 0)
+    if (recovery_monitor_start(&storm->monitor, &storm->set.view) != 0 ||
+        invariant_monitor_start(&storm->invariants, &storm->set, storm->options.seed) != 0)
         die_refused("cannot start a thread: %s", strerror(errno));
-    victims_begin(&storm->victims, &storm->band, &storm->watcher, storm->options.seed);
+    fault_injector_begin(&storm->injector, &storm->set, &storm->monitor, storm->options.seed);
     if (storm->options.commands > 0) {
         storm->sender = sender_start(&storm->options, &error);
         if (!storm->sender)
@@ -132,34 +132,35 @@ static void begin(struct storm *storm)
     }
 }
 
-static bool count_at_rest(struct storm *storm)
+static bool count_when_ready(struct storm *storm)
 {
-    if (!band_rest(&storm->band) || !watcher_calm(&storm->watcher, clock_now_ns() + CALM_NS)) {
-        error_text_set(&storm->victims.error, "the set does not come to rest");
+    if (!tested_set_wait_ready(&storm->set) ||
+        !recovery_monitor_wait(&storm->monitor, clock_now_ns() + RECOVERY_WAIT_NS)) {
+        error_text_set(&storm->injector.error, "not every role is ready again within 20 s");
         return false;
     }
-    band_count_descriptors(&storm->band);
+    tested_set_count_descriptors(&storm->set);
     return true;
 }
 
-/* False when the set broke. */
-static bool rage(struct storm *storm)
+/* Returns false if the set broke. */
+static bool inject_faults(struct storm *storm)
 {
-    uint64_t rested = 0;
-    bool good = count_at_rest(storm);
-    while (good && storm->victims.done < storm->options.kills && !process_stopping()) {
-        good = victims_round(&storm->victims) == 0;
-        victims_gap(&storm->victims);
-        if (good && storm->victims.done - rested >= REST_EVERY) {
-            rested = storm->victims.done;
-            good = count_at_rest(storm);
+    uint64_t counted = 0;
+    bool good = count_when_ready(storm);
+    while (good && storm->injector.done < storm->options.kills && !process_stopping()) {
+        good = fault_injector_round(&storm->injector) == 0;
+        fault_injector_gap(&storm->injector);
+        if (good && storm->injector.done - counted >= COUNT_EVERY) {
+            counted = storm->injector.done;
+            good = count_when_ready(storm);
         }
     }
-    victims_end(&storm->victims);
-    return good && count_at_rest(storm);
+    fault_injector_end(&storm->injector);
+    return good && count_when_ready(storm);
 }
 
-/* Ends the set; what is to be found out afterwards is, as far as it goes. */
+/* Stops the set and collects the results as far as that is possible. */
 static void end(struct storm *storm)
 {
     struct outcome *outcome = &storm->outcome;
@@ -171,26 +172,27 @@ static void end(struct storm *storm)
         outcome->sent = sender_sent(storm->sender);
         outcome->answered = sender_answered(storm->sender);
     }
-    watcher_stop(&storm->watcher);
-    witness_stop(&storm->witness);
-    outcome->stop_code = band_stop(&storm->band);
-    outcome->processes_left = band_processes_left();
-    outcome->files_left = band_files_left(&storm->options);
-    if (accounts_world(&storm->accounts, &storm->band, &error) != 0 ||
-        accounts_log(&storm->accounts, &storm->options, source, outcome->sent, &error) != 0 ||
-        accounts_calm(&storm->accounts, &storm->options, &error) != 0) {
+    recovery_monitor_stop(&storm->monitor);
+    invariant_monitor_stop(&storm->invariants);
+    outcome->stop_code = tested_set_stop(&storm->set);
+    outcome->processes_left = tested_set_processes_left();
+    outcome->files_left = tested_set_files_left(&storm->options);
+    if (consistency_read_world(&storm->consistency, &storm->set, &error) != 0 ||
+        consistency_read_log(&storm->consistency, &storm->options, source, outcome->sent, &error) !=
+            0 ||
+        consistency_run_reference(&storm->consistency, &storm->options, &error) != 0) {
         fprintf(stderr, "storm: %s\n", error.text);
         outcome->broken = true;
     }
 }
 
-static void clean_up(struct storm *storm)
+static void remove_folder(struct storm *storm)
 {
     const char *arguments[] = {"/bin/rm", "-rf", storm->options.out, NULL};
-    watcher_free(&storm->watcher);
-    segment_detach(&storm->band.view);
+    recovery_monitor_free(&storm->monitor);
+    segment_detach(&storm->set.view);
     if (!storm->options.keep && report_good(&storm->outcome))
-        (void)band_run(arguments, NULL, 0, 60);
+        (void)tested_set_run(arguments, NULL, 0, 60);
     else
         fprintf(stderr, "storm: logs are in %s\n", storm->options.out);
 }
@@ -202,26 +204,26 @@ int main(int argc, char **argv)
     read_options(&storm.options, argc, argv);
     find_programs(storm.options.bin, sizeof storm.options.bin);
     process_signals();
-    prctl(PR_SET_CHILD_SUBREAPER, 1); /* who loses its parent becomes our child: see band.h */
+    prctl(PR_SET_CHILD_SUBREAPER, 1); /* orphans become our children: see tested_set.h */
     fprintf(stderr, "storm: SEED=%" PRIu64 " KILLS=%" PRIu64 "\n", storm.options.seed,
             storm.options.kills);
     uint64_t begun = clock_now_ns();
     begin(&storm);
     storm.outcome = (struct outcome){.options = &storm.options,
-                                     .victims = &storm.victims,
-                                     .watcher = &storm.watcher,
-                                     .witness = &storm.witness,
-                                     .band = &storm.band,
-                                     .accounts = &storm.accounts};
-    if (!rage(&storm)) {
-        fprintf(stderr, "storm: %s\n", storm.victims.error.text);
+                                     .injector = &storm.injector,
+                                     .monitor = &storm.monitor,
+                                     .invariants = &storm.invariants,
+                                     .set = &storm.set,
+                                     .consistency = &storm.consistency};
+    if (!inject_faults(&storm)) {
+        fprintf(stderr, "storm: %s\n", storm.injector.error.text);
         storm.outcome.broken = true;
     }
     storm.outcome.wall_s = (double)(clock_now_ns() - begun) / 1e9;
     end(&storm);
     (storm.options.json ? report_json : report_table)(&storm.outcome);
     int code = report_good(&storm.outcome) ? EXIT_OK : EXIT_REFUSED;
-    clean_up(&storm);
+    remove_folder(&storm);
     fflush(stdout);
     if (storm.sender)
         sender_free(storm.sender);

@@ -1,17 +1,17 @@
-/* The storm: a real set of processes, killed and stopped at random, and an account of it at the
- * end.
+/* The storm: kills and stops the processes of a real set at random, and checks that nothing is
+ * torn, lost, repeated or leaked. A strike is one signal to one process.
  *
- *   storm.c     options and the storm itself
- *   band.c      the set: its start, its supervisor, its processes, what it leaves behind
- *   victim.c    what is done to whom, and when
- *   watcher.c   the commits as they come, and how long each recovery took
- *   witness.c   snapshots taken all the time, and zombies
- *   sender.c    commands over the command socket, each repeated until it is answered
- *   accounts.c  the event log and the digest against the undisturbed run
- *   report.c    the table
+ *   storm.c              options and the storm itself
+ *   tested_set.c         starts and stops the set, finds its processes and what it leaves behind
+ *   fault_injector.c     draws the strikes and sends their signals
+ *   recovery_monitor.c   observes the commits and measures each recovery
+ *   invariant_monitor.c  takes snapshots and looks for zombies
+ *   sender.c             sends commands, each repeated until it is answered
+ *   consistency.c        compares the event log and the digest with the undisturbed run
+ *   report.c             prints the results
  *
- * Threads: main (strikes), the watcher of commits, the reader of snapshots, the housekeeper, the
- * sender. What a thread counts is its own until it has ended. */
+ * Threads: main (strikes), the recovery monitor, the reader of snapshots, the search for zombies,
+ * the sender. Only the thread that counts something uses the count until the thread has ended. */
 #ifndef JOLON_TESTS_STORM_STORM_H
 #define JOLON_TESTS_STORM_STORM_H
 
@@ -24,35 +24,35 @@
 #define STORM_PATH_MAX 512
 
 struct storm_options {
-    const char *world; /* name of the set */
+    const char *world; /* the set's world */
     const char *scenario;
-    const char *out; /* folder; made, and removed after a good end unless it was named */
+    const char *out; /* folder; made here, and removed after a good end unless the user named it */
     char bin[STORM_PATH_MAX - 64];
     uint64_t kills, seed;
-    uint64_t commands; /* sent during the storm, 0: none and no reporter */
-    double gap_ms;     /* longest between two strikes */
-    double hang_ms;    /* the keeper's limit */
+    uint64_t commands; /* sent during the storm; 0: the set has no reporter */
+    double gap_ms;     /* longest gap between two rounds */
+    double hang_ms;    /* the keeper's hang limit */
     bool renderer, json, keep;
 };
 
-/* What is done to a process. */
-enum deed {
-    DEED_KILL,
-    DEED_STOP,          /* left stopped: it must be replaced */
-    DEED_STOP_CONTINUE, /* continued at about the time when it is replaced */
-    DEED_COUNT
+/* What a strike does to a process. */
+enum fault_kind {
+    FAULT_KILL,
+    FAULT_STOP,          /* not continued: the process must be replaced */
+    FAULT_STOP_CONTINUE, /* continued at about the time of its replacement */
+    FAULT_COUNT
 };
 
 #define STRUCK_ROLES      (ROLE_RENDERER + 1)
-#define STRUCK_SUPERVISOR STRUCK_ROLES /* a row of its own in the tally */
+#define STRUCK_SUPERVISOR STRUCK_ROLES /* its row in the counts of strikes */
 
-/* splitmix64: the storm's only source of chance. */
-struct chance {
+/* splitmix64, the only source of randomness of the storm */
+struct prng {
     uint64_t state;
 };
 
-uint64_t chance_next(struct chance *chance);
-double chance_unit(struct chance *chance);                  /* [0, 1) */
-uint64_t chance_below(struct chance *chance, uint64_t end); /* 0 .. end - 1 */
+uint64_t prng_next(struct prng *prng);
+double prng_unit(struct prng *prng);                  /* [0, 1) */
+uint64_t prng_below(struct prng *prng, uint64_t end); /* 0 .. end - 1 */
 
 #endif

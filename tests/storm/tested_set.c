@@ -1,5 +1,5 @@
-/* Start, adoption and end of the set; whose process is whose. */
-#include "tests/storm/band.h"
+/* Starts, restarts and stops the set, and tells which processes belong to it. */
+#include "tests/storm/tested_set.h"
 
 #include "ipc/process/clock.h"
 #include "ipc/process/process.h"
@@ -19,13 +19,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#define START_LIMIT_S 60
-#define START_TRIES   20
-#define REST_NS       (20 * (uint64_t)NS_PER_S)
-#define BEAT_FRESH_NS (100 * (uint64_t)NS_PER_MS)
-#define LEFT_NS       (3 * (uint64_t)NS_PER_S)
-#define PARENTS_MAX   4
-#define CHILDREN_MAX  64
+#define START_LIMIT_S        60
+#define START_TRIES          20
+#define READY_WAIT_NS        (20 * (uint64_t)NS_PER_S)
+#define HEARTBEAT_AGE_MAX_NS (100 * (uint64_t)NS_PER_MS)
+#define EXIT_WAIT_NS         (3 * (uint64_t)NS_PER_S)
+#define PARENTS_MAX          4
+#define CHILDREN_MAX         64
 
 extern char **environ;
 
@@ -42,7 +42,7 @@ static int parent_of(int pid)
     size_t length = fread(line, 1, sizeof line - 1, file);
     fclose(file);
     line[length] = '\0';
-    const char *end = strrchr(line, ')'); /* pid (name) state parent */
+    const char *end = strrchr(line, ')'); /* line: pid (name) state parent */
     if (end && strlen(end) > 4)
         parent = (int)strtol(end + 4, NULL, 10);
     return parent;
@@ -58,9 +58,10 @@ static bool descends(int pid, int ancestor)
     return false;
 }
 
-/* A number may be given to another process between two looks at it; a pidfd is of one process for
- * ever. What is verified while the pidfd is open and found alive afterwards is that one. */
-static int pin(int pid, int ancestor)
+/* Returns a pidfd of the process, or -1 if it is dead or does not descend from the ancestor. The
+ * kernel may give a pid to another process, but a pidfd stays with one process. So the descent is
+ * verified while the pidfd is open, and the process must still be alive after that. */
+static int open_verified(int pid, int ancestor)
 {
     if (pid <= 1 || ancestor <= 0)
         return -1;
@@ -68,28 +69,28 @@ static int pin(int pid, int ancestor)
     if (pidfd < 0)
         return -1;
     char state = process_state(pid);
-    if (descends(pid, ancestor) && state != 'Z' && state != 'X' && band_signal(pidfd, 0))
+    if (descends(pid, ancestor) && state != 'Z' && state != 'X' && tested_set_signal(pidfd, 0))
         return pidfd;
     close(pidfd);
     return -1;
 }
 
-int band_pin(const struct band *band, int pid)
+int tested_set_pidfd(const struct tested_set *set, int pid)
 {
-    return pin(pid, band->supervisor);
+    return open_verified(pid, set->supervisor);
 }
 
-int band_pin_supervisor(const struct band *band)
+int tested_set_supervisor_pidfd(const struct tested_set *set)
 {
-    return pin(band->supervisor, (int)getpid());
+    return open_verified(set->supervisor, (int)getpid());
 }
 
-bool band_signal(int pidfd, int signal_number)
+bool tested_set_signal(int pidfd, int signal_number)
 {
     return syscall(SYS_pidfd_send_signal, pidfd, signal_number, NULL, 0) == 0;
 }
 
-int band_children(int pid, int *children, int max)
+int tested_set_children(int pid, int *children, int max)
 {
     char path[64];
     int count = 0;
@@ -112,7 +113,7 @@ int band_children(int pid, int *children, int max)
     return count;
 }
 
-void band_reap(void)
+void tested_set_reap(void)
 {
     while (waitpid(-1, NULL, WNOHANG) > 0)
         continue;
@@ -133,18 +134,19 @@ static int wait_for(pid_t pid, unsigned limit_s)
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/* The whole of what a file holds from its start, as text; what is beyond bytes is left out. */
+/* Reads a file from its start as text and drops what exceeds bytes. */
 static void read_back(int fd, char *text, size_t bytes)
 {
     ssize_t length = pread(fd, text, bytes - 1, 0);
     text[length > 0 ? length : 0] = '\0';
 }
 
-int band_run(const char *const *arguments, char *text, size_t bytes, unsigned limit_s)
+int tested_set_run(const char *const *arguments, char *text, size_t bytes, unsigned limit_s)
 {
     posix_spawn_file_actions_t actions;
     pid_t pid;
-    int fd = memfd_create("output", MFD_CLOEXEC); /* no pipe: nobody waits for its other end */
+    int fd = memfd_create("output",
+                          MFD_CLOEXEC); /* not a pipe, which a surviving child would keep open */
     if (fd < 0)
         return -1;
     posix_spawn_file_actions_init(&actions);
@@ -161,7 +163,7 @@ int band_run(const char *const *arguments, char *text, size_t bytes, unsigned li
 
 /* --- the set -----------------------------------------------------------------------------------*/
 
-/* Pid that the world's lock file holds, 0 when it holds none. */
+/* Returns the pid in the world's lock file, or 0 if it holds none. */
 static int supervisor_of(const char *world)
 {
     struct segment_paths paths;
@@ -178,9 +180,9 @@ static int supervisor_of(const char *world)
     return pid;
 }
 
-static int start_once(const struct band *band)
+static int start_once(const struct tested_set *set)
 {
-    const struct storm_options *options = band->options;
+    const struct storm_options *options = set->options;
     char program[STORM_PATH_MAX], events[STORM_PATH_MAX];
     const char *arguments[24];
     int n = 0;
@@ -204,77 +206,79 @@ static int start_once(const struct band *band)
     }
     arguments[n++] = options->scenario;
     arguments[n] = NULL;
-    char said[256];
-    return band_run(arguments, said, sizeof said, START_LIMIT_S);
+    char output[256];
+    return tested_set_run(arguments, output, sizeof output, START_LIMIT_S);
 }
 
-/* What the killed supervisor left may hold locks until the kernel is through with it. */
-static int start(struct band *band, struct error_text *error)
+/* Starts the set. A killed supervisor's processes may hold locks until the kernel has ended them,
+ * so a refused start is tried again. */
+static int start(struct tested_set *set, struct error_text *error)
 {
     int code = 1;
     for (int tries = 0; tries < START_TRIES && code != 0 && !process_stopping(); tries++) {
         if (tries > 0) {
-            band->starts_refused++;
+            set->starts_refused++;
             clock_sleep_until_ns(clock_now_ns() + 50 * (uint64_t)NS_PER_MS);
         }
-        code = start_once(band);
+        code = start_once(set);
     }
     if (code != 0)
         return error_text_set(error, "`jolon start` of world \"%s\" ended with %d, %d times",
-                              band->options->world, code, START_TRIES);
-    band->starts++;
-    band->supervisor = supervisor_of(band->options->world);
-    int pidfd = band_pin_supervisor(band);
+                              set->options->world, code, START_TRIES);
+    set->starts++;
+    set->supervisor = supervisor_of(set->options->world);
+    int pidfd = tested_set_supervisor_pidfd(set);
     if (pidfd < 0)
         return error_text_set(error,
                               "the supervisor of world \"%s\" (pid %d) is not alive or not ours",
-                              band->options->world, (int)band->supervisor);
+                              set->options->world, (int)set->supervisor);
     close(pidfd);
-    band->descriptors = 0;
+    set->descriptors = 0;
     return 0;
 }
 
-int band_start(struct band *band, const struct storm_options *options, struct error_text *error)
+int tested_set_start(struct tested_set *set, const struct storm_options *options,
+                     struct error_text *error)
 {
-    *band = (struct band){.options = options};
-    if (start(band, error) != 0)
+    *set = (struct tested_set){.options = options};
+    if (start(set, error) != 0)
         return -1;
-    return segment_attach(&band->view, options->world, ROLE_NONE, error);
+    return segment_attach(&set->view, options->world, ROLE_NONE, error);
 }
 
-int band_adopt(struct band *band, struct error_text *error)
+int tested_set_restart(struct tested_set *set, struct error_text *error)
 {
-    return start(band, error);
+    return start(set, error);
 }
 
-int band_stop(struct band *band)
+int tested_set_stop(struct tested_set *set)
 {
     char program[STORM_PATH_MAX];
-    snprintf(program, sizeof program, "%s/jolon", band->options->bin);
-    const char *arguments[] = {program, "stop", "-w", band->options->world, NULL};
-    char said[256];
-    int code = band_run(arguments, said, sizeof said, START_LIMIT_S);
-    band->supervisor = 0;
+    snprintf(program, sizeof program, "%s/jolon", set->options->bin);
+    const char *arguments[] = {program, "stop", "-w", set->options->world, NULL};
+    char output[256];
+    int code = tested_set_run(arguments, output, sizeof output, START_LIMIT_S);
+    set->supervisor = 0;
     return code;
 }
 
-static bool rests(const struct view *view, enum role role, uint64_t now)
+static bool is_ready(const struct view *view, enum role role, uint64_t now)
 {
     const struct role_slot *slot = view->slot[role];
     return atomic_load(&slot->state) == ROLE_READY &&
-           now - atomic_load(&slot->beat_ns) < BEAT_FRESH_NS;
+           now - atomic_load(&slot->beat_ns) < HEARTBEAT_AGE_MAX_NS;
 }
 
-bool band_rest(const struct band *band)
+bool tested_set_wait_ready(const struct tested_set *set)
 {
-    uint64_t until = clock_now_ns() + REST_NS;
+    uint64_t until = clock_now_ns() + READY_WAIT_NS;
     int roles = STRUCK_ROLES;
     for (;;) {
         uint64_t now = clock_now_ns();
         int resting = 0;
         for (int role = 0; role < roles; role++) {
-            bool there = atomic_load(&band->view.slot[role]->starts) > 0;
-            resting += !there || rests(&band->view, (enum role)role, now);
+            bool there = atomic_load(&set->view.slot[role]->starts) > 0;
+            resting += !there || is_ready(&set->view, (enum role)role, now);
         }
         if (resting == roles)
             return true;
@@ -284,39 +288,39 @@ bool band_rest(const struct band *band)
     }
 }
 
-void band_count_descriptors(struct band *band)
+void tested_set_count_descriptors(struct tested_set *set)
 {
     char path[64];
     int count = 0;
-    snprintf(path, sizeof path, "/proc/%d/fd", (int)band->supervisor);
+    snprintf(path, sizeof path, "/proc/%d/fd", (int)set->supervisor);
     DIR *directory = opendir(path);
     if (!directory)
         return;
     while (readdir(directory))
         count++;
     closedir(directory);
-    if (band->descriptors == 0)
-        band->descriptors = count;
-    else if (count - band->descriptors > band->descriptors_over)
-        band->descriptors_over = count - band->descriptors;
+    if (set->descriptors == 0)
+        set->descriptors = count;
+    else if (count - set->descriptors > set->descriptors_over)
+        set->descriptors_over = count - set->descriptors;
 }
 
 /* --- what is left ------------------------------------------------------------------------------*/
 
-int band_processes_left(void)
+int tested_set_processes_left(void)
 {
-    uint64_t until = clock_now_ns() + LEFT_NS;
+    uint64_t until = clock_now_ns() + EXIT_WAIT_NS;
     int children[CHILDREN_MAX];
     for (;;) {
-        band_reap();
-        int count = band_children((int)getpid(), children, CHILDREN_MAX);
+        tested_set_reap();
+        int count = tested_set_children((int)getpid(), children, CHILDREN_MAX);
         if (count == 0 || clock_now_ns() > until)
             return count;
         clock_sleep_until_ns(clock_now_ns() + 10 * (uint64_t)NS_PER_MS);
     }
 }
 
-/* Files of a folder that are called name, or name and more after a point. */
+/* Counts the files of a folder that are called name, or name with a dot and more. */
 static int files_of(const char *folder, const char *name)
 {
     size_t length = strlen(name);
@@ -331,7 +335,7 @@ static int files_of(const char *folder, const char *name)
     return count;
 }
 
-int band_files_left(const struct storm_options *options)
+int tested_set_files_left(const struct storm_options *options)
 {
     char folder[RUNTIME_FOLDER_MAX], object[64];
     struct error_text error;

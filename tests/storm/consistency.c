@@ -1,5 +1,5 @@
-/* The log of events and the digests. */
-#include "tests/storm/accounts.h"
+/* Reads the log of events and compares the digests. */
+#include "tests/storm/consistency.h"
 
 #include "ipc/frame/snapshot.h"
 
@@ -11,23 +11,24 @@
 #include <string.h>
 #include <unistd.h>
 
-#define CALM_LIMIT_S 1800
+#define REFERENCE_LIMIT_S 1800
 
-int accounts_world(struct accounts *accounts, const struct band *band, struct error_text *error)
+int consistency_read_world(struct consistency *consistency, const struct tested_set *set,
+                           struct error_text *error)
 {
     struct snapshot snapshot;
-    if (snapshot_init(&snapshot, &band->view) != 0)
+    if (snapshot_init(&snapshot, &set->view) != 0)
         return error_text_set(error, "no memory for the last frame");
-    if (snapshot_take(&snapshot, &band->view) != 0) {
+    if (snapshot_take(&snapshot, &set->view) != 0) {
         snapshot_free(&snapshot);
         return error_text_set(error, "the last frame cannot be read: %s", strerror(errno));
     }
-    struct state state = snapshot_state(&snapshot, &band->view);
-    accounts->frame = snapshot.head.frame;
-    accounts->events = snapshot.head.event_end;
-    accounts->collisions = snapshot.head.tally.collisions;
-    accounts->event_digest = snapshot.head.event_digest;
-    accounts->digest = state_digest(&band->view.world, &state);
+    struct state state = snapshot_state(&snapshot, &set->view);
+    consistency->frame = snapshot.head.frame;
+    consistency->events = snapshot.head.event_end;
+    consistency->collisions = snapshot.head.tally.collisions;
+    consistency->event_digest = snapshot.head.event_digest;
+    consistency->digest = state_digest(&set->view.world, &state);
     snapshot_free(&snapshot);
     return 0;
 }
@@ -41,7 +42,7 @@ static uint64_t whole_of(const cJSON *object, const char *key)
 }
 
 struct reading {
-    struct accounts *accounts;
+    struct consistency *consistency;
     uint8_t *seen;     /* [events] how often */
     uint8_t *answered; /* [sent + 1] how often */
     uint64_t source, sent;
@@ -65,36 +66,36 @@ static void read_event(struct reading *reading, const cJSON *event)
     uint64_t frame = whole_of(event, "frame"), index = whole_of(event, "index");
     const cJSON *type = cJSON_GetObjectItem(event, "type");
     bool later = frame > reading->frame || (frame == reading->frame && index > reading->index);
-    if (sequence >= reading->accounts->events || frame == UINT64_MAX || index == UINT64_MAX)
-        return; /* a gap, or nonsense: what is missing is counted at the end */
+    if (sequence >= reading->consistency->events || frame == UINT64_MAX || index == UINT64_MAX)
+        return; /* Missing sequences are counted at the end. */
     if (reading->seen[sequence] < UINT8_MAX)
         reading->seen[sequence]++;
     if (reading->frame != UINT64_MAX && !later)
-        reading->accounts->repeated++; /* by its key */
+        reading->consistency->repeated++; /* by (frame, index) */
     reading->frame = frame;
     reading->index = index;
     if (cJSON_IsString(type) && strcmp(type->valuestring, "command") == 0)
         read_answer(reading, event);
 }
 
-static void count_up(struct reading *reading)
+static void count_missing(struct reading *reading)
 {
-    struct accounts *accounts = reading->accounts;
+    struct consistency *consistency = reading->consistency;
     uint64_t twice = 0;
-    for (uint64_t i = 0; i < accounts->events; i++) {
-        accounts->lost += reading->seen[i] == 0;
+    for (uint64_t i = 0; i < consistency->events; i++) {
+        consistency->lost += reading->seen[i] == 0;
         twice += reading->seen[i] > 1;
     }
-    if (twice > accounts->repeated)
-        accounts->repeated = twice;
+    if (twice > consistency->repeated)
+        consistency->repeated = twice;
     for (uint64_t i = 1; i <= reading->sent; i++) {
-        accounts->commands_lost += reading->answered[i] == 0;
-        accounts->commands_repeated += reading->answered[i] > 1;
+        consistency->commands_lost += reading->answered[i] == 0;
+        consistency->commands_repeated += reading->answered[i] > 1;
     }
 }
 
-int accounts_log(struct accounts *accounts, const struct storm_options *options, uint64_t source,
-                 uint64_t sent, struct error_text *error)
+int consistency_read_log(struct consistency *consistency, const struct storm_options *options,
+                         uint64_t source, uint64_t sent, struct error_text *error)
 {
     char path[STORM_PATH_MAX], *line = NULL;
     size_t room = 0;
@@ -102,8 +103,8 @@ int accounts_log(struct accounts *accounts, const struct storm_options *options,
     FILE *file = fopen(path, "r");
     if (!file)
         return error_text_set(error, "%s: %s", path, strerror(errno));
-    struct reading reading = {.accounts = accounts,
-                              .seen = calloc(accounts->events + 1, 1),
+    struct reading reading = {.consistency = consistency,
+                              .seen = calloc(consistency->events + 1, 1),
                               .answered = calloc(sent + 1, 1),
                               .source = source,
                               .sent = sent,
@@ -114,7 +115,7 @@ int accounts_log(struct accounts *accounts, const struct storm_options *options,
         cJSON_Delete(event);
     }
     if (reading.seen && reading.answered)
-        count_up(&reading);
+        count_missing(&reading);
     int result = reading.seen && reading.answered ? 0 : error_text_set(error, "out of memory");
     free(reading.seen);
     free(reading.answered);
@@ -131,32 +132,32 @@ static uint64_t hex_of(const cJSON *object, const char *key)
     return cJSON_IsString(item) ? strtoull(item->valuestring, NULL, 16) : 0;
 }
 
-static int play_again(const char *const *arguments, struct accounts *accounts,
-                      struct error_text *error)
+static int run_reference(const char *const *arguments, struct consistency *consistency,
+                         struct error_text *error)
 {
     char text[4096];
-    int code = band_run(arguments, text, sizeof text, CALM_LIMIT_S);
+    int code = tested_set_run(arguments, text, sizeof text, REFERENCE_LIMIT_S);
     cJSON *summary = cJSON_Parse(text);
-    if (!summary || whole_of(summary, "frame") != accounts->frame) {
+    if (!summary || whole_of(summary, "frame") != consistency->frame) {
         cJSON_Delete(summary);
         return error_text_set(error, "the undisturbed run to frame %" PRIu64 " ended with %d",
-                              accounts->frame, code);
+                              consistency->frame, code);
     }
-    accounts->calm_digest = hex_of(summary, "digest");
-    accounts->calm_event_digest = hex_of(summary, "event_digest");
-    accounts->compared = true;
+    consistency->reference_digest = hex_of(summary, "digest");
+    consistency->reference_event_digest = hex_of(summary, "event_digest");
+    consistency->compared = true;
     cJSON_Delete(summary);
     return 0;
 }
 
-int accounts_calm(struct accounts *accounts, const struct storm_options *options,
-                  struct error_text *error)
+int consistency_run_reference(struct consistency *consistency, const struct storm_options *options,
+                              struct error_text *error)
 {
     char program[STORM_PATH_MAX], world[SEGMENT_NAME_MAX + 8], frames[24];
     char out[STORM_PATH_MAX], commands[STORM_PATH_MAX];
     snprintf(program, sizeof program, "%s/jolon", options->bin);
     snprintf(world, sizeof world, "%.24s-calm", options->world);
-    snprintf(frames, sizeof frames, "%" PRIu64, accounts->frame);
+    snprintf(frames, sizeof frames, "%" PRIu64, consistency->frame);
     snprintf(out, sizeof out, "%s/calm", options->out);
     snprintf(commands, sizeof commands, "%s/commands.log", options->out);
     const char *const run[] = {program,     "run",      "-w",        world,
@@ -165,5 +166,5 @@ int accounts_calm(struct accounts *accounts, const struct storm_options *options
                                "--json",    "--out",    out,         options->scenario,
                                NULL};
     const char *const replay[] = {program, "replay", commands, "--frames", frames, "--json", NULL};
-    return play_again(options->commands > 0 ? replay : run, accounts, error);
+    return run_reference(options->commands > 0 ? replay : run, consistency, error);
 }
