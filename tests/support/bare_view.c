@@ -40,7 +40,7 @@ void bare_view_make(struct view *view, const struct bare_sizes *sizes)
         head->time_scale = 1.0;
         head->checksum = state_checksum(&view->w[i], sizes->fixed);
     }
-    view->checked = true; /* nobody moves anything: the moved table never has a checksum */
+    view->checked = true; /* no mover runs, so the moved table never has a checksum */
 }
 
 struct view bare_view_as(const struct view *view, enum role role)
@@ -50,7 +50,7 @@ struct view bare_view_as(const struct view *view, enum role role)
     return copy;
 }
 
-static struct frame_protocol frame; /* a writing process has one */
+static struct frame_protocol frame; /* one is enough: each process writes one frame at a time */
 
 struct state *bare_view_begin(struct view *collider)
 {

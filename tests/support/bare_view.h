@@ -1,5 +1,5 @@
-/* A private view without a scenario: sizes of one's choice, everything else zero. For tests of the
- * protocol alone, whose writers make frames up. */
+/* A private view without a scenario. The test chooses the sizes, and everything else is zero. For
+ * tests of the frame protocol alone, whose writers fill the frames with made-up values. */
 #ifndef JOLON_TESTS_SUPPORT_BARE_VIEW_H
 #define JOLON_TESTS_SUPPORT_BARE_VIEW_H
 
@@ -12,14 +12,15 @@ struct bare_sizes {
     double hz;                              /* 0: PACE_MAX */
 };
 
-/* Frame 0 is committed, its checksum holds. segment_abandon() frees it. */
+/* Makes the view. Frame 0 is committed and its checksum is right. segment_abandon() frees the view.
+ */
 void bare_view_make(struct view *view, const struct bare_sizes *sizes);
 
-/* The same view as its holder in a role: what a process that attached would have. */
+/* Returns the same view as a process with this role would have it after attaching. */
 struct view bare_view_as(const struct view *view, enum role role);
 
-/* Makes the next frame in the collider's place: begin gives the back buffer with the head of the
- * frame before, of which frame is set; end computes the checksum and commits. */
+/* Write the next frame as the collider would. Begin returns the back buffer, whose head is a copy
+ * of the previous frame's head with the frame number set. End computes the checksum and commits. */
 struct state *bare_view_begin(struct view *collider);
 void bare_view_end(struct view *collider);
 

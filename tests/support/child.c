@@ -18,7 +18,7 @@
 
 pid_t child_start(int (*body)(void *context), void *context)
 {
-    fixture_data_dir(); /* made here: a child ends without its exit handlers, which remove it */
+    fixture_data_dir(); /* made in the parent: children skip the exit handlers that remove it */
     pid_t parent = getpid();
     pid_t pid = fork();
     assert_true(pid >= 0);
@@ -29,7 +29,7 @@ pid_t child_start(int (*body)(void *context), void *context)
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent)
         _exit(0);
-    /* Neither cmocka's handlers nor a sanitizer's. */
+    /* No handlers of cmocka or a sanitizer. */
     signal(SIGSEGV, SIG_DFL);
     signal(SIGBUS, SIG_DFL);
     signal(SIGABRT, SIG_DFL);

@@ -16,7 +16,7 @@
 
 #include <cmocka.h>
 
-char confined_said[512];
+char confined_output[512];
 char confined_folder[] = "/tmp/jolon-sandbox-XXXXXX";
 
 int confined_make_folder(void **state)
@@ -39,7 +39,7 @@ static int is_there(void *context)
     return sandbox_begin(&sandbox, ROLE_RECORDER, false, &error) == 0 && sandbox.on;
 }
 
-bool confined_there(void)
+bool confined_available(void)
 {
     return child_run(is_there, NULL) != 0;
 }
@@ -61,11 +61,11 @@ int confined_run(int (*body)(void *context), void *context)
     close(before);
     int status = child_wait(pid);
     rewind(file);
-    confined_said[fread(confined_said, 1, sizeof confined_said - 1, file)] = '\0';
+    confined_output[fread(confined_output, 1, sizeof confined_output - 1, file)] = '\0';
     fclose(file);
     int result = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
     if (result == NOT_ENTERED)
-        fail_msg("the sandbox is not entered: %s", confined_said);
+        fail_msg("the sandbox is not entered: %s", confined_output);
     return result;
 }
 

@@ -1,4 +1,4 @@
-/* The shared fixture: throw-away configuration, a private world, the steps on it. */
+/* The shared fixture: temporary configuration, a private world, the steps on it. */
 #include "tests/support/fixture.h"
 
 #include "config/loader.h"
@@ -57,7 +57,8 @@ const char *fixture_shipped_dir(void)
         if (holds_kinds(shipped_dir))
             return shipped_dir;
     }
-    fail_msg("no folder above the test's program has config/kinds; set JOLON_DATA to one");
+    fail_msg("no folder above the test's program contains config/kinds; set JOLON_DATA to the data "
+             "folder");
     return NULL;
 }
 
@@ -67,7 +68,7 @@ static int remove_entry(const char *path, const struct stat *status, int type, s
     return remove(path);
 }
 
-/* Children of fork inherit the exit handler, but not the folder. */
+/* Forked children inherit the exit handler, but only the test may remove the folder. */
 static void remove_data_dir(void)
 {
     if (getpid() == data_dir_owner)
@@ -192,7 +193,7 @@ uint16_t fixture_kind(const struct fixture *fixture, const char *name)
     const struct world *world = &fixture->view.world;
     uint16_t kind = kind_find(world->kinds, world->counts.kinds, name);
     if (kind == KIND_NONE)
-        fail_msg("no kind is called %s", name);
+        fail_msg("there is no kind %s", name);
     return kind;
 }
 
@@ -218,7 +219,7 @@ uint32_t fixture_put(struct fixture *fixture, struct fixture_entity entity)
     struct vec3 v = entity.velocity;
     uint32_t row = head->used;
     assert_true(row < e->capacity);
-    assert_int_equal(head->next_id, row + 1); /* slot i holds id i + 1 until the first is freed */
+    assert_int_equal(head->next_id, row + 1); /* row i has id i + 1 until the first row is freed */
     entities_clear(e, row);
     entities_set_position(e, row, entity.at);
     entities_set_velocity(e, row, v);
@@ -251,13 +252,14 @@ uint32_t fixture_put(struct fixture *fixture, struct fixture_entity entity)
 
 /* --- frames ------------------------------------------------------------------------------------*/
 
-void fixture_written(struct fixture *fixture)
+void fixture_forget_copies(struct fixture *fixture)
 {
     struct frame_stepper *stepper = &fixture->stepper;
     stepper->mover.left = stepper->collider.left[0] = stepper->collider.left[1] = 0;
 }
 
-/* What the steps put together of hashes that they kept is what the rows have. */
+/* The steps update checksums from kept hashes. They must equal the checksums computed from the
+ * rows. */
 static void check_checksums(const struct fixture *fixture)
 {
     const struct view *view = &fixture->view;
@@ -270,11 +272,11 @@ static void check_checksums(const struct fixture *fixture)
 
 void fixture_run(struct fixture *fixture, uint32_t frames)
 {
-    fixture_written(fixture);
-    fixture_go_on(fixture, frames);
+    fixture_forget_copies(fixture);
+    fixture_continue(fixture, frames);
 }
 
-void fixture_go_on(struct fixture *fixture, uint32_t frames)
+void fixture_continue(struct fixture *fixture, uint32_t frames)
 {
     for (uint32_t n = 0; n < frames; n++) {
         frame_stepper_step(&fixture->stepper, NULL);

@@ -1,5 +1,5 @@
-/* A small world in private memory, and the steps run on it: what tests of world/, ipc/, mover/ and
- * collider/ share.
+/* A small world in private memory and the steps that compute its frames. Tests of world/, ipc/,
+ * mover/ and collider/ share it.
  *
  *     struct fixture f;
  *     fixture_open(&f, "");
@@ -9,7 +9,7 @@
  *     assert_true(fixture_state(&f).entities.x[tank] > 25009.0);
  *     fixture_close(&f);
  *
- * Whatever fails in here fails the cmocka test that called it. */
+ * A failure in here fails the calling cmocka test. */
 #ifndef JOLON_TESTS_SUPPORT_FIXTURE_H
 #define JOLON_TESTS_SUPPORT_FIXTURE_H
 
@@ -23,84 +23,87 @@
 struct fixture {
     struct scenario *scenario;
     struct world_build *built;
-    struct view view; /* private; mapped shared, so that children of fork see it */
+    struct view view; /* private; mapped shared, so that forked children see it */
     struct frame_stepper stepper;
 };
 
 /* --- scenarios and worlds ----------------------------------------------------------------------*/
 
-/* A data folder with every shipped kind, all of one small shape, because reading every model takes
- * longer than all the rest. Made at the first call, removed at exit. */
+/* Returns a data folder with all shipped kinds. They share one small model, because reading all
+ * models takes longer than a test. The folder is made at the first call and removed at exit. */
 const char *fixture_data_dir(void);
 
-/* The shipped config/: JOLON_DATA, or in a folder above the test's program. */
+/* Returns the shipped config/: JOLON_DATA, or a folder above the test's program. */
 const char *fixture_shipped_dir(void);
 
-/* Reads a scenario from text. Groups that the text does not mention are, to be fast,
+/* Reads a scenario from text. Groups that the text does not mention are set so that tests are fast:
  *     world = { seed = 1; capacity = 64; };
  *     terrain = { source = "flat"; height_m = 100.0; spacing_m = 125.0; };   (so no objects)
  *     collision = { shape = "sphere"; };   (every kind has one small model: fixture_data_dir())
- * Where the text says shape = "model" the kinds are the shipped ones with their own models. */
+ * With shape = "model" in the text, the kinds are the shipped ones with their own models. */
 void fixture_scenario(struct scenario *scenario, const char *text);
 
-/* A scenario's world at frame 0 in a private view, with a mover and a collider on one thread. */
+/* Makes a scenario's world at frame 0 in a private view, with a mover and a collider on one thread.
+ */
 void fixture_open(struct fixture *fixture, const char *text);
 void fixture_close(struct fixture *fixture);
 
-/* Makes mover and collider anew, on this many threads: what a restart of both processes does. */
+/* Makes mover and collider again on this many threads, as a restart of both processes does. */
 void fixture_threads(struct fixture *fixture, uint32_t threads);
 
 /* --- entities ----------------------------------------------------------------------------------*/
 
 struct fixture_entity {
-    const char *kind;     /* needed */
+    const char *kind;     /* required */
     struct vec3 at;       /* [m, world] */
-    struct vec3 velocity; /* [m/s]; where it is not vertical it gives the heading too */
-    double heading_rad;   /* of one at rest */
+    struct vec3 velocity; /* [m/s]; gives the heading unless it is vertical */
+    double heading_rad;   /* heading of an entity without such a velocity */
     enum force force;
-    enum behaviour behaviour;      /* 0: BEHAVIOUR_HOLD, of munitions BEHAVIOUR_FLIGHT */
+    enum behaviour behaviour;      /* 0: BEHAVIOUR_HOLD; BEHAVIOUR_FLIGHT for munitions */
     uint32_t owner_slot, owner_id; /* munitions */
 };
 
-/* Adds a row to the committed frame and returns it; its id is row + 1. Fuel, rounds and a
- * munition's life come from the kind. */
+/* Adds a row to the committed frame and returns it. Its id is row + 1. Fuel, rounds and a
+ * munition's lifetime come from the kind. */
 uint32_t fixture_put(struct fixture *fixture, struct fixture_entity entity);
 
-/* Index of the kind called name. */
+/* Returns the index of the kind of this name. */
 uint16_t fixture_kind(const struct fixture *fixture, const char *name);
 
 /* --- frames ------------------------------------------------------------------------------------*/
 
-/* Runs mover_step and collider_step and commits, this many times. Each frame's checksums must be
- * those of its rows. The tables may have been written to by hand before. */
+/* Computes and commits this many frames with mover_step and collider_step, and checks each frame's
+ * checksums against its rows. The test may have written to the tables before. */
 void fixture_run(struct fixture *fixture, uint32_t frames);
 
-/* The same as the two processes go on: nobody else has written to the tables since the last frame.
- * Rows that do not differ are then not copied. */
-void fixture_go_on(struct fixture *fixture, uint32_t frames);
+/* Does the same as two running processes do: nothing else has written to the tables since the last
+ * frame, so that unchanged rows are not copied. */
+void fixture_continue(struct fixture *fixture, uint32_t frames);
 
-/* The tables were written to by hand: what the steps know of them is nothing. */
-void fixture_written(struct fixture *fixture);
+/* Tells mover and collider that the test has written to the tables, so that they rely on no earlier
+ * copy. */
+void fixture_forget_copies(struct fixture *fixture);
 
-/* The committed frame's buffer. */
+/* Returns the buffer of the committed frame. */
 struct state fixture_state(const struct fixture *fixture);
 
-/* state_digest() of the committed frame. */
+/* Returns the digest of the committed frame. */
 uint64_t fixture_digest(const struct fixture *fixture);
 
-/* Committed events of a type (EVENT_NONE: of any) that the ring still holds. */
+/* Returns how many committed events of a type the ring still holds. EVENT_NONE counts all types. */
 uint32_t fixture_event_count(const struct fixture *fixture, enum event_type type);
 
-/* The nth of them, from 0; NULL when there are fewer. */
+/* Returns the nth of these events, from 0, or NULL when there are fewer. */
 const struct event *fixture_event(const struct fixture *fixture, enum event_type type,
                                   uint32_t nth);
 
 /* --- random tests ------------------------------------------------------------------------------*/
 
-/* The seed of a property test: the environment's SEED, else fallback. Printed, to run it again. */
+/* Returns the seed of a property test: the environment's SEED, otherwise fallback. Prints it, so
+ * that the test can be repeated. */
 uint64_t fixture_seed(uint64_t fallback);
 
-/* A stream of numbers for tests: splitmix64 from the state on. */
+/* Random numbers for tests: splitmix64. */
 uint64_t fixture_random(uint64_t *state);
 double fixture_uniform(uint64_t *state, double low, double high);
 

@@ -1,4 +1,4 @@
-/* Images of tests. */
+/* Image files for tests. */
 #include "tests/support/image_file.h"
 
 #include <dirent.h>
@@ -96,12 +96,13 @@ void image_file_put(const char *path, const void *bytes, size_t count)
 {
     int fd = open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
     assert_true(fd >= 0);
-    assert_int_equal(ftruncate(fd, (off_t)count), 0); /* freeing its blocks each time is slow */
+    assert_int_equal(ftruncate(fd, (off_t)count),
+                     0); /* truncated afterwards, because freeing the blocks each time is slow */
     assert_int_equal(write(fd, bytes, count), count);
     close(fd);
 }
 
-void image_file_play(struct view *view, uint64_t frame)
+void image_file_run(struct view *view, uint64_t frame)
 {
     struct frame_stepper stepper;
     assert_int_equal(frame_stepper_init(&stepper, view, 1), 0);

@@ -1,6 +1,5 @@
-/* Images of a test's worlds, in a folder of its own that is gone at exit.
- *
- * Whatever fails in here fails the cmocka test that called it. */
+/* Image files of a test's worlds, in a folder of this test that is removed at exit. A failure in
+ * here fails the calling cmocka test. */
 #ifndef JOLON_TESTS_SUPPORT_IMAGE_FILE_H
 #define JOLON_TESTS_SUPPORT_IMAGE_FILE_H
 
@@ -12,10 +11,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* "FOLDER/name"; the folder is made at the first call. */
+/* Writes "FOLDER/name" to path and returns it. The folder is made at the first call. */
 const char *image_file_path(char path[PATH_MAX], const char *name);
 
-/* How many files are in the folder. */
+/* Returns the number of files in the folder. */
 int image_file_count(void);
 
 /* Writes the view's committed frame to path. */
@@ -24,12 +23,12 @@ void image_file_save(struct view *view, const char *path, bool inputs);
 /* Reads path into a private view. */
 void image_file_load(struct view *view, const char *path);
 
-/* The whole file in memory; the caller frees. Writing makes the file anew. */
+/* Read and write a whole file. The caller frees the returned bytes. */
 unsigned char *image_file_bytes(const char *path, size_t *bytes);
 void image_file_put(const char *path, const void *bytes, size_t count);
 
-/* Runs a private view alone up to a frame; state_digest() of its committed frame. */
-void image_file_play(struct view *view, uint64_t frame);
+/* Computes frames of a private view up to this frame. */
+void image_file_run(struct view *view, uint64_t frame);
 uint64_t image_file_digest(const struct view *view);
 
 #endif

@@ -1,4 +1,4 @@
-/* The world of the map's tests. */
+/* The world of the tests of maps. */
 #include "tests/support/map_stage.h"
 
 #include "world/terrain/gridsquare.h"
@@ -46,7 +46,8 @@ bool map_stage_shows(const struct map_stage *stage, const struct image *image,
     const struct entities *e = &stage->state.entities;
     struct rgba colour = symbol_colour((enum force)e->force[slot]);
     struct point at = map_point(view, e->x[slot], e->z[slot]);
-    /* A small symbol's middle may lie between pixels: the four around it. */
+    /* The centre of a small symbol may lie between pixels, so the four pixels around it are tried.
+     */
     for (int32_t i = 0; i < 4; i++) {
         int32_t x = (int32_t)(at.x - 0.5) + (i & 1), y = (int32_t)(at.y - 0.5) + (i >> 1);
         if (x < 0 || y < 0 || x >= (int32_t)image->width || y >= (int32_t)image->height)

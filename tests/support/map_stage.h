@@ -1,4 +1,5 @@
-/* A world full of vehicles as a map sees it, and whether a picture shows them where they are. */
+/* A world with many vehicles as a map shows it, and a test of whether a picture shows them at their
+ * positions. */
 #ifndef JOLON_TESTS_SUPPORT_MAP_STAGE_H
 #define JOLON_TESTS_SUPPORT_MAP_STAGE_H
 
@@ -14,12 +15,11 @@ struct map_stage {
     struct frame_view frame_view;
 };
 
-/* Level ground with vehicles of all forces and domains all over the square, headings at random. */
+/* Makes level ground with vehicles of all forces and domains at random positions and headings. */
 void map_stage_open(struct map_stage *stage, uint64_t seed);
 void map_stage_close(struct map_stage *stage);
 
-/* Is the force's colour where map_point says that the vehicle is? Within a pixel.
- */
+/* Returns true if the force's colour is within a pixel of the vehicle's position by map_point(). */
 bool map_stage_shows(const struct map_stage *stage, const struct image *image,
                      const struct map_view *view, uint32_t slot);
 

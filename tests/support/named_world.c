@@ -1,4 +1,4 @@
-/* Named worlds of tests. */
+/* Named worlds for tests. */
 #include "tests/support/named_world.h"
 
 #include "ipc/segment/segment_attach.h"
@@ -62,8 +62,8 @@ void named_world_remove(const char *name)
         fail_msg("%s", error.text);
 }
 
-/* Counts the files of a folder whose names begin so, and removes them. */
-static int go_through(const char *folder, const char *prefix, bool remove)
+/* Counts the files of a folder whose names begin with prefix, and removes them if told to. */
+static int count_files(const char *folder, const char *prefix, bool remove)
 {
     int count = 0;
     DIR *directory = opendir(folder);
@@ -86,9 +86,9 @@ static int go_through_both(bool remove)
     if (runtime_folder(folder, &error) != 0)
         fail_msg("%s", error.text);
     snprintf(prefix, sizeof prefix, "test-%d-", (int)getpid());
-    int count = go_through(folder, prefix, remove);
+    int count = count_files(folder, prefix, remove);
     snprintf(prefix, sizeof prefix, "jolon.%u.test-%d-", (unsigned)getuid(), (int)getpid());
-    return count + go_through("/dev/shm", prefix, remove);
+    return count + count_files("/dev/shm", prefix, remove);
 }
 
 int named_world_leftovers(void)

@@ -1,5 +1,5 @@
-/* Worlds with a name: for tests of creation, attachment and removal. Names hold the
- * test's pid, so that tests side by side do not meet. */
+/* Worlds with a name, for tests of creation, attachment and removal. The names contain the test's
+ * pid, so that concurrent tests do not share a world. */
 #ifndef JOLON_TESTS_SUPPORT_NAMED_WORLD_H
 #define JOLON_TESTS_SUPPORT_NAMED_WORLD_H
 
@@ -7,7 +7,7 @@
 
 struct scenario;
 
-/* A name that no other world has: "test-PID-N". */
+/* Writes a name that no other world has: "test-PID-N". */
 void named_world_name(char name[SEGMENT_NAME_MAX]);
 
 /* Creates and publishes a built world under a name. */
@@ -17,19 +17,20 @@ void named_world_publish(const char *name, const struct scenario *scenario,
 /* Creates and publishes a world of the scenario's text (see fixture.h) under a new name. */
 void named_world_make(char name[SEGMENT_NAME_MAX], const char *scenario_text);
 
-/* Where it is; fails the test when it is not there. */
+/* Finds the paths of the world's files. Fails the test when there is no such world. */
 void named_world_paths(struct segment_paths *paths, const char *name);
 
-/* Removes it and its lock file, whoever holds a role. */
+/* Removes the world and its lock file, even while a process holds a role. */
 void named_world_remove(const char *name);
 
-/* Files of this test's worlds: objects in /dev/shm; names, locks, sockets in the runtime folder. */
+/* Counts the files of this test's worlds: objects in /dev/shm, and names, locks and sockets in the
+ * runtime folder. */
 int named_world_leftovers(void);
 
-/* Removes them: what a failed part of a test left must not disturb the next. */
+/* Removes these files, so that a failed test does not disturb the next. */
 void named_world_clear(void);
 
-/* Group tear-down for cmocka: fails when something is left over. */
+/* Group tear-down for cmocka. Fails when such a file is left. */
 int named_world_check_left(void **state);
 
 #endif

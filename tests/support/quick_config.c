@@ -1,4 +1,4 @@
-/* The throw-away folder: copies of kinds, a link to the models. */
+/* The temporary folder: copies of the kinds and a link to the models. */
 #include "tests/support/quick_config.h"
 
 #include <dirent.h>
@@ -26,7 +26,7 @@ void quick_config_write(const char *path, const char *text)
     assert_int_equal(fclose(file), 0);
 }
 
-/* Copies a kind's file with "tank" for its model. */
+/* Copies a kind's file and replaces its model with "tank". */
 static void copy_kind(const char *kinds, const char *name)
 {
     char from[320], to[400], line[256];

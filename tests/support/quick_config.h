@@ -1,15 +1,15 @@
-/* A throw-away folder for tests of config/: a data folder "quick" with the shipped kinds, all of
- * one shape, because reading every model takes longer than all the rest. Tests run in the source
- * tree's top. */
+/* A temporary folder for tests of config/, with a data folder "quick". It holds the shipped kinds
+ * with one common model, because reading all models takes longer than a test. Tests run in the top
+ * folder of the sources. */
 #ifndef JOLON_TESTS_SUPPORT_QUICK_CONFIG_H
 #define JOLON_TESTS_SUPPORT_QUICK_CONFIG_H
 
 #define QUICK_CONFIG_SHIPPED "config"
 
 struct quick_config {
-    char folder[64];        /* for whatever the test writes */
+    char folder[64];        /* for files that the test writes */
     char data_dir[80];      /* folder/quick, for loader_scenario() */
-    char scenario_path[96]; /* folder/battle.cfg, not yet there */
+    char scenario_path[96]; /* folder/battle.cfg; the test writes it */
 };
 
 extern struct quick_config quick_config;
@@ -18,7 +18,7 @@ extern struct quick_config quick_config;
 int quick_config_make(void **state);
 int quick_config_remove(void **state);
 
-/* Writes a whole file; fails the test when it cannot. */
+/* Writes a whole file. Fails the test on an error. */
 void quick_config_write(const char *path, const char *text);
 
 #endif

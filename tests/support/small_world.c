@@ -1,4 +1,4 @@
-/* Small worlds for tests of detection. */
+/* Small worlds for tests of collision detection. */
 #include "tests/support/small_world.h"
 
 #include "world/params.h"
@@ -100,7 +100,7 @@ uint32_t small_world_tree(struct small_world *w, struct vec3 at, double radius_m
     return object;
 }
 
-void small_world_reach(struct small_world *w)
+void small_world_index(struct small_world *w)
 {
     free(w->reach_start);
     free(w->reach);

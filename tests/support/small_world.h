@@ -1,5 +1,6 @@
-/* A world as small as detection needs: kinds, level ground at 0 m, fixed objects and ways of bodies
- * as the test draws them. Nothing of it moves by itself. For tests that go through very many. */
+/* The smallest world that collision detection accepts: kinds, level ground at 0 m, and the fixed
+ * objects and paths of bodies that the test draws. Nothing moves by itself. For tests that try very
+ * many worlds. */
 #ifndef JOLON_TESTS_SUPPORT_SMALL_WORLD_H
 #define JOLON_TESTS_SUPPORT_SMALL_WORLD_H
 
@@ -9,7 +10,7 @@
 
 #include <stdint.h>
 
-/* Small to huge on land, an aircraft, a munition, and what stands. */
+/* Ground vehicles from small to huge, an aircraft, a munition, and a fixed object. */
 enum small_kind {
     SMALL_GRAIN,
     SMALL_CAR,
@@ -26,7 +27,7 @@ struct small_world {
     struct params *params; /* 60 Hz, spheres, threshold height 60 m */
     struct kind kinds[SMALL_KINDS];
     struct fixed_object *fixed;
-    uint8_t *damage; /* of the fixed */
+    uint8_t *damage; /* of the fixed objects */
     float posts[4];
     uint8_t cover[4];
     uint32_t *reach_start, *reach;
@@ -37,26 +38,27 @@ struct small_world {
     struct world world;
 };
 
-/* Room for rows and fixed objects, none there yet. */
+/* Allocates room for rows and fixed objects. The world is empty. */
 void small_world_begin(struct small_world *w, uint32_t rows, uint32_t fixed);
 void small_world_end(struct small_world *w);
 
-/* Takes away all rows and fixed objects. */
+/* Removes all rows and fixed objects. */
 void small_world_empty(struct small_world *w);
 
-/* Adds a row that goes from at along a whole frame; its columns have it at the end. Its id is row +
- * 1, it is active, a round in flight. */
+/* Adds an active row that moves from at by along during the frame. Its columns hold the position at
+ * the end of the frame. Its id is row + 1. A round is in flight. */
 uint32_t small_world_row(struct small_world *w, enum small_kind kind, struct vec3 at,
                          struct vec3 along);
 
-/* Moves a row. */
+/* Gives a row another path. */
 void small_world_move(struct small_world *w, uint32_t row, struct vec3 at, struct vec3 along);
 
-/* Adds a fixed object; its index. */
+/* Adds a fixed object and returns its index. */
 uint32_t small_world_tree(struct small_world *w, struct vec3 at, double radius_m);
 
-/* Builds the squares' reach, for those who ask for it. */
-void small_world_reach(struct small_world *w);
+/* Builds the index of the fixed objects that reach into each gridsquare, for the methods that use
+ * it. */
+void small_world_index(struct small_world *w);
 
 struct method_input small_world_input(const struct small_world *w);
 

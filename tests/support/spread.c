@@ -1,4 +1,4 @@
-/* Corners, borders, the world's edge, and anywhere. */
+/* Random places, often on the corners and borders of gridsquares. */
 #include "tests/support/spread.h"
 
 #include "tests/support/fixture.h"
@@ -15,10 +15,10 @@ struct spread spread_draw(uint64_t *random, double widest)
         place.x = GRIDSQUARE_SIDE_M * floor(place.x / GRIDSQUARE_SIDE_M);
         place.z = GRIDSQUARE_SIDE_M * floor(place.z / GRIDSQUARE_SIDE_M);
         break;
-    case 1: /* on a border */
+    case 1: /* on a border of two squares */
         place.x = GRIDSQUARE_SIDE_M * floor(place.x / GRIDSQUARE_SIDE_M);
         break;
-    case 2: /* at the world's corner, and past it */
+    case 2: /* at a corner of the world, and beyond it */
         place.x = place.z = fixture_random(random) & 1 ? 0.0 : WORLD_SIDE_M;
         break;
     default:

@@ -1,5 +1,5 @@
-/* Where the bodies of a random world are: heaped on a point or spread out, on the corners and
- * borders of gridsquares and past the world's edge more often than chance would have it. */
+/* Random positions of bodies: crowded at a point or spread out. Corners and borders of gridsquares
+ * and places beyond the world's edge are drawn more often than by chance. */
 #ifndef JOLON_TESTS_SUPPORT_SPREAD_H
 #define JOLON_TESTS_SUPPORT_SPREAD_H
 
@@ -7,12 +7,12 @@
 
 #include <stdint.h>
 
-/* Its middle and its size [m]. */
+/* Centre and extent [m]. */
 struct spread {
     double x, z, extent;
 };
 
-/* At most widest [m]; random: a state of fixture_random. */
+/* Draws a place with an extent of at most widest [m]. random: the state of fixture_random(). */
 struct spread spread_draw(uint64_t *random, double widest);
 struct vec3 spread_point(const struct spread *spread, uint64_t *random);
 

@@ -1,4 +1,4 @@
-/* Mover and collider as children of a test. */
+/* Runs mover and collider as children of a test. */
 #include "tests/support/stage.h"
 
 #include "collider/step.h"
@@ -60,7 +60,7 @@ static int run(void *context)
 
 pid_t stage_start(const struct view *view, enum role role, bool quiet)
 {
-    struct stage stage = {*view, quiet}; /* the child has its copy by fork */
+    struct stage stage = {*view, quiet}; /* fork() copies it to the child */
     stage.view.role = role;
     return child_start(run, &stage);
 }

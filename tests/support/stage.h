@@ -1,5 +1,5 @@
-/* The real loops of mover and collider as children on a private or named world: what main.c does,
- * without its options. */
+/* Runs the real loops of mover and collider as children, on a private or a named world, as their
+ * main.c does with options. */
 #ifndef JOLON_TESTS_SUPPORT_STAGE_H
 #define JOLON_TESTS_SUPPORT_STAGE_H
 
@@ -7,8 +7,8 @@
 
 #include <sys/types.h>
 
-/* Starts the role's loop on a private view (see segment_private). The loop's standard error goes to
- * /dev/null when quiet. It ends with 0 as the process would. */
+/* Starts the role's loop on a private view (see segment_private()). When quiet, its standard error
+ * goes to /dev/null. Returns the child's pid. The child exits with 0 where the process would. */
 pid_t stage_start(const struct view *view, enum role role, bool quiet);
 
 #endif

@@ -1,4 +1,4 @@
-/* Tests' hands on the inside of a frame. */
+/* Lets tests change a world and enter a frame in the middle. */
 #include "tests/support/steps.h"
 
 #include "mover/motion/kinematics.h"
@@ -17,7 +17,7 @@
 
 #include <cmocka.h>
 
-/* The fixture's memory is writable; only its types are const. */
+/* The fixture's memory is writable. Only its types are const. */
 static void *writable(const void *constant)
 {
     return (void *)(uintptr_t)constant;
@@ -33,8 +33,8 @@ struct params *steps_params(const struct fixture *fixture)
     return writable(fixture->view.world.params);
 }
 
-/* The mover remembers the ground that its rows stand on. */
-static void forget_ground(const struct fixture *fixture)
+/* Clears the mover's cache of the ground below its rows. */
+static void clear_terrain_cache(const struct fixture *fixture)
 {
     const struct mover *mover = &fixture->stepper.mover;
     uint32_t capacity = mover->world->params->capacity;
@@ -51,7 +51,7 @@ void steps_ground(const struct fixture *fixture, steps_height *height, const voi
             posts[(size_t)row * terrain->side + column] = (float)height(
                 (double)column * terrain->spacing_m, (double)row * terrain->spacing_m, context);
     }
-    forget_ground(fixture);
+    clear_terrain_cache(fixture);
 }
 
 struct plane {
@@ -81,7 +81,7 @@ void steps_cover(const struct fixture *fixture, enum cover cover, double x0, dou
                 posts[(size_t)row * terrain->side + column] = (uint8_t)cover;
         }
     }
-    forget_ground(fixture);
+    clear_terrain_cache(fixture);
 }
 
 double steps_ground_at(const struct fixture *fixture, double x, double z)
@@ -160,7 +160,7 @@ void steps_pedals(struct fixture *fixture, uint32_t row, double throttle, double
     assert_int_equal(answer.result, COMMAND_DONE);
 }
 
-void steps_lay(const struct fixture *fixture, uint32_t row, uint32_t target)
+void steps_aim(const struct fixture *fixture, uint32_t row, uint32_t target)
 {
     struct entities e = steps_rows(fixture);
     const struct kind *kinds = fixture->view.world.kinds;

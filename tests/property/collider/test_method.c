@@ -213,7 +213,7 @@ static void try_swept(struct lists *lists, struct small_world *w, uint64_t world
 {
     const struct method_input input = small_world_input(w);
     struct broad_phase broad;
-    small_world_reach(w);
+    small_world_index(w);
     assert_int_equal(broad_phase_init(&broad, &w->world, NULL), 0);
     broad_phase_pairs(&broad, &input);
     within(world, &lists->wanted, &broad.list[0]);

@@ -52,7 +52,7 @@ static void run(const char *text, uint32_t threads, uint32_t frames, uint64_t di
     fixture_open(&f, text);
     fixture_threads(&f, threads);
     for (uint32_t i = 0; i < frames; i++) {
-        (threads == 1 ? fixture_run : fixture_go_on)(&f, 1);
+        (threads == 1 ? fixture_run : fixture_continue)(&f, 1);
         digest[i] = fixture_digest(&f);
     }
     const struct state_head *head = fixture_state(&f).head;

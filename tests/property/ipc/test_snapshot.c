@@ -4,7 +4,7 @@
 
 #include "tests/support/bare_view.h"
 #include "tests/support/child.h"
-#include "tests/support/told_frame.h"
+#include "tests/support/numbered_frame.h"
 
 #include <errno.h>
 #include <setjmp.h>
@@ -27,7 +27,7 @@ static void fill(const struct state *next)
     struct entities entities = next->entities;
     uint64_t frame = next->head->frame;
     next->head->crater_count = (uint32_t)(frame % 16);
-    told_frame_fill(next->head, &entities, 1 + (uint32_t)(frame * 7 % CAPACITY));
+    numbered_frame_fill(next->head, &entities, 1 + (uint32_t)(frame * 7 % CAPACITY));
     memset(next->fixed_damage, (int)(frame & 0xff), FIXED);
 }
 
@@ -44,13 +44,13 @@ static int write_frames(void *context)
 
 static bool head_whole(const struct state_head *head)
 {
-    return told_frame_head(head) && head->crater_count == head->frame % 16;
+    return numbered_frame_head(head) && head->crater_count == head->frame % 16;
 }
 
 static bool whole(const struct snapshot *s)
 {
     uint64_t frame = s->head.frame;
-    if (!head_whole(&s->head) || !told_frame_rows(&s->head, &s->entities))
+    if (!head_whole(&s->head) || !numbered_frame_rows(&s->head, &s->entities))
         return false;
     for (uint32_t i = 0; i < FIXED; i++) {
         if (s->fixed_damage[i] != (frame & 0xff))

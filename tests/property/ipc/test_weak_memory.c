@@ -10,7 +10,7 @@
 #include "ipc/frame/snapshot.h"
 #include "tests/support/bare_view.h"
 #include "tests/support/child.h"
-#include "tests/support/told_frame.h"
+#include "tests/support/numbered_frame.h"
 #include "world/checksum.h"
 
 #include <errno.h>
@@ -89,12 +89,12 @@ static int move_frames(void *context)
     (void)context;
     while (frame_protocol_mover_begin(&frame, &mover) == 0) {
         const struct state *committed = &mover.w[(frame.number - 1) & 1];
-        if (!told_frame_head(committed->head) ||
-            !told_frame_rows(committed->head, &committed->entities))
+        if (!numbered_frame_head(committed->head) ||
+            !numbered_frame_rows(committed->head, &committed->entities))
             return TORN;
         *mover.m.head = *committed->head;
         mover.m.head->frame = frame.number;
-        told_frame_fill(mover.m.head, &mover.m.entities, rows_of(frame.number));
+        numbered_frame_fill(mover.m.head, &mover.m.entities, rows_of(frame.number));
         if (take_commands(&mover, &frame) != GOOD)
             return TORN_COMMAND;
         mover.m.head->quit = atomic_load(&shared->stop);
@@ -111,8 +111,8 @@ static int collide_frames(void *context)
     while (frame_protocol_collider_begin(&frame, &collider) == 0) {
         const struct moved *moved = &collider.m;
         struct state *next = &collider.w[frame.number & 1];
-        if (moved->head->frame != frame.number || !told_frame_head(moved->head) ||
-            !told_frame_rows(moved->head, &moved->entities))
+        if (moved->head->frame != frame.number || !numbered_frame_head(moved->head) ||
+            !numbered_frame_rows(moved->head, &moved->entities))
             return TORN;
         *next->head = *moved->head;
         entities_copy(&next->entities, &moved->entities, 0, moved->head->used);
@@ -163,8 +163,8 @@ static int read_frames(struct sight *sight)
         }
         if (snapshot.damaged > 0) /* torn, which only its checksum showed */
             return TORN;
-        if (!told_frame_head(&snapshot.head) ||
-            !told_frame_rows(&snapshot.head, &snapshot.entities))
+        if (!numbered_frame_head(&snapshot.head) ||
+            !numbered_frame_rows(&snapshot.head, &snapshot.entities))
             return TORN;
         if (snapshot.head.frame < last)
             return BACKWARDS;
@@ -200,8 +200,8 @@ static int read_without_look(struct sight *sight)
         uint32_t used = copy.head.used < CAPACITY ? copy.head.used : CAPACITY;
         entities_copy(&copy.entities, &from->entities, 0, used);
         sight->accepted++;
-        if (copy.head.frame != frame || !told_frame_head(&copy.head) ||
-            !told_frame_rows(&copy.head, &copy.entities))
+        if (copy.head.frame != frame || !numbered_frame_head(&copy.head) ||
+            !numbered_frame_rows(&copy.head, &copy.entities))
             sight->torn++;
     }
     snapshot_free(&copy);

@@ -69,7 +69,7 @@ static void check_frames(uint32_t threads, uint64_t seed)
     for (uint64_t i = 0; i < FRAMES; i++) {
         for (uint64_t n = fixture_random(&seed) % 8; n > 5; n--)
             steps_send(&f, RING_CLIENTS, random_command(&seed, i * 4 + n));
-        fixture_go_on(&f, 1); /* it looks */
+        fixture_continue(&f, 1); /* it looks */
         struct state now = fixture_state(&f);
         shots = (uint32_t)now.head->tally.fires;
         collisions = (uint32_t)now.head->tally.collisions;

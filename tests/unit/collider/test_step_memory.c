@@ -128,7 +128,7 @@ static int run_steps(void *context)
                                     .source_sequence = i + 1,
                                     .entity = 1 + i % 20,
                                     .value = {1.0, (double)(i % 7) / 7.0 - 0.5, 0.0}});
-    fixture_written(&f);
+    fixture_forget_copies(&f);
     if (forbid_all_but_futex() != 0)
         return NO_FILTER;
     stepping = true;

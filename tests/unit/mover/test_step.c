@@ -312,7 +312,7 @@ static void test_commands_reach_a_block_of_zeros(void **state)
     steps_send(&f, RING_CLIENTS,
                (struct command){.type = COMMAND_RELEASE, .source = 7, .entity = id});
     go_on(&f);
-    steps_lay(&f, 2099, SECOND_BLOCK_ROW);
+    steps_aim(&f, 2099, SECOND_BLOCK_ROW);
     struct state now = fixture_state(&f);
     state_seal(&now, f.view.world.counts.fixed);
     steps_send(

@@ -176,7 +176,7 @@ static void test_who_takes_over_copies_everything(void **state)
     uint8_t right = *moved;
     *moved = *next = (uint8_t)(right ^ 1);
     fixture_threads(&f, 1); /* other processes */
-    fixture_go_on(&f, 1);
+    fixture_continue(&f, 1);
     assert_int_equal(*moved, right);
     assert_int_equal(*next, right);
     fixture_close(&f);

@@ -73,7 +73,7 @@ static void test_row_17_above_the_threshold_no_fixed_object_is_tested(void **sta
     (void)state;
     w.posts[0] = w.posts[1] = w.posts[2] = w.posts[3] = 10.0f; /* the ground, not the sea, counts */
     small_world_tree(&w, (struct vec3){25010, 60, 25010}, 20.0);
-    small_world_reach(&w);
+    small_world_index(&w);
     small_world_row(&w, SMALL_JET, (struct vec3){25009, 70.01, 25010}, eastward);
     assert_int_equal(run(method_npsnet2_pairs), 0);
     small_world_move(&w, 0, (struct vec3){25009, 69.99, 25010}, eastward);
@@ -85,7 +85,7 @@ static void test_row_17_resting_bodies_and_fallen_objects_are_not_tested(void **
 {
     (void)state;
     small_world_tree(&w, (struct vec3){25010, 0, 25010}, 2.0);
-    small_world_reach(&w);
+    small_world_index(&w);
     small_world_row(&w, SMALL_TANK, (struct vec3){25010, 0, 25010}, still);
     assert_int_equal(run(method_npsnet2_pairs), 0);
     w.path[0].along = eastward;
@@ -98,7 +98,7 @@ static void test_row_18_after_a_hit_on_a_fixed_object_no_moving_body_is_tested(v
 {
     (void)state;
     small_world_tree(&w, (struct vec3){25010, 0, 25010}, 2.0);
-    small_world_reach(&w);
+    small_world_index(&w);
     /* Nose to tail at a tree: the one behind does not reach the tree, and finds the one in front,
      * which does not look for it. */
     small_world_row(&w, SMALL_TANK, (struct vec3){25008, 0, 25010}, eastward);
@@ -121,7 +121,7 @@ static void test_row_37_a_border_object_is_found_late(void **state)
     (void)state;
     w.kinds[SMALL_TREE].radius_m = 20.0;
     small_world_tree(&w, (struct vec3){BORDER_M + 5.0, 0, 25060}, 20.0);
-    small_world_reach(&w);
+    small_world_index(&w);
     small_world_row(&w, SMALL_TANK, (struct vec3){24950, 0, 25060}, (struct vec3){1.66, 0, 0});
     for (int frame = 0; frame < 60 && found == 0.0; frame++) {
         struct vec3 at = path_at(&w.path[0], 1.0);
@@ -141,7 +141,7 @@ static void test_row_37_an_object_of_its_own_square_is_found_in_time(void **stat
     (void)state;
     w.kinds[SMALL_TREE].radius_m = 20.0;
     small_world_tree(&w, (struct vec3){BORDER_M + 60.0, 0, 25060}, 20.0);
-    small_world_reach(&w);
+    small_world_index(&w);
     double reach = 3.0 + METHOD_NPSNET2_RADIUS_SHARE * 20.0;
     small_world_row(&w, SMALL_TANK, (struct vec3){BORDER_M + 60.0 - reach - 1.01, 0, 25060},
                     eastward);
@@ -375,7 +375,7 @@ static void test_row_21_fixed_objects_have_their_polygons_and_their_size(void **
     (void)state;
     make_cubes();
     small_world_tree(&w, (struct vec3){25010, 0, 25010}, 4.0); /* a cube of 4 m */
-    small_world_reach(&w);
+    small_world_index(&w);
     small_world_row(&w, SMALL_CAR, (struct vec3){25012.5, 0, 25010}, eastward);
     assert_int_equal(run(method_npsnet2_pairs), 0); /* half a metre between them */
     small_world_move(&w, 0, (struct vec3){25011.9, 0, 25010}, eastward);
@@ -403,7 +403,7 @@ static void test_row_21_a_contact_beside_the_line_of_centres_is_missed(void **st
     make_cubes();
     /* The car's corner is 0.11 m in the house; the line leaves the car 0.46 m before the house. */
     small_world_tree(&w, (struct vec3){25013.3, 0, 25011.9}, 4.0);
-    small_world_reach(&w);
+    small_world_index(&w);
     small_world_row(&w, SMALL_CAR, (struct vec3){25009, 0, 25010}, eastward);
     w.e.heading[0] = 0.25 * PI;
     assert_int_equal(run(method_npsnet2_pairs), 0);

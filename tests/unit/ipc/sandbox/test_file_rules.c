@@ -61,7 +61,7 @@ static void test_files_only_beneath_the_folder(void **state)
     for (size_t i = 0; i < 2; i++) {
         int result = confined_run(touch_files, &roles[i]);
         if (result != 0)
-            fail_msg("%s: %d: %s", role_name(roles[i]), result, confined_said);
+            fail_msg("%s: %d: %s", role_name(roles[i]), result, confined_output);
     }
 }
 
@@ -96,7 +96,7 @@ static void test_a_console_only_reads_worlds(void **state)
     int result = confined_run(look_at_worlds, paths.object);
     named_world_remove(name);
     if (result != 0)
-        fail_msg("%d: %s", result, confined_said);
+        fail_msg("%d: %s", result, confined_output);
 }
 
 /* --- the world's memory taken away --- */
@@ -131,8 +131,8 @@ static void test_shortened_object_is_reported_in_the_sandbox(void **state)
         named_world_paths(&loss.paths, loss.name);
         int result = confined_run(lose_memory, &loss);
         named_world_remove(loss.name);
-        if (result != EXIT_REFUSED || !strstr(confined_said, "memory went away"))
-            fail_msg("%s: %d: %s", role_name(loss.role), result, confined_said);
+        if (result != EXIT_REFUSED || !strstr(confined_output, "memory went away"))
+            fail_msg("%s: %d: %s", role_name(loss.role), result, confined_output);
     }
 }
 
@@ -143,7 +143,7 @@ int main(void)
         cmocka_unit_test(test_a_console_only_reads_worlds),
         cmocka_unit_test(test_shortened_object_is_reported_in_the_sandbox),
     };
-    if (!confined_there())
+    if (!confined_available())
         return confined_skip();
     return cmocka_run_group_tests(tests, confined_make_folder, confined_remove_folder);
 }

@@ -175,7 +175,7 @@ static void handle(int signal_number)
     X("dup2", NONE, syscall(SYS_dup2, 2, 9))                                                       \
     X("fcntl", NONE, fcntl(2, F_SETFL, 0))                                                         \
     X("openat", R | D | W | P, open("/", O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC))           \
-    X("readlink", W, readlink("/", confined_said, 1))                                              \
+    X("readlink", W, readlink("/", confined_output, 1))                                            \
     X("fcntl", R, fcntl(-1, F_DUPFD_CLOEXEC, 0))                                                   \
     X("socket", P, socket(AF_INET, SOCK_DGRAM, 0))                                                 \
     X("socket", P, socket(AF_INET6, SOCK_STREAM, 0))                                               \
@@ -195,7 +195,7 @@ static void handle(int signal_number)
     X("getsockopt", W | P | R | I, getsockopt(-1, SOL_SOCKET, SO_PEERCRED, NULL, NULL))            \
     X("getsockopt", P, getsockopt(-1, SOL_SOCKET, SO_ERROR, NULL, NULL))                           \
     X("setsockopt", P, setsockopt(-1, SOL_SOCKET, SO_BINDTODEVICE, NULL, 0))                       \
-    X("sysinfo", P | R, syscall(SYS_sysinfo, confined_said))                                       \
+    X("sysinfo", P | R, syscall(SYS_sysinfo, confined_output))                                     \
     X("execve", NONE, run_program())                                                               \
     X("execveat", NONE, run_descriptor())                                                          \
     X("fork", NONE, new_process_fork())                                                            \
@@ -214,8 +214,8 @@ static void handle(int signal_number)
     X("pidfd_send_signal", W, syscall(SYS_pidfd_send_signal, -1, SIGKILL, NULL, 0))                \
     X("pidfd_send_signal", NONE, syscall(SYS_pidfd_send_signal, -1, SIGSTOP, NULL, 0))             \
     X("mmap", R, map(PROT_READ | PROT_WRITE, MAP_SHARED, 2))                                       \
-    X("uname", P, syscall(SYS_uname, confined_said))                                               \
-    X("getrandom", W | P, syscall(SYS_getrandom, confined_said, 1, 0))                             \
+    X("uname", P, syscall(SYS_uname, confined_output))                                             \
+    X("getrandom", W | P, syscall(SYS_getrandom, confined_output, 1, 0))                           \
     X("rt_sigaction", NONE, handle(SIGSYS))                                                        \
     X("rt_sigaction", NONE, handle(SIGSEGV))                                                       \
     X("rt_sigaction", ALL, handle(SIGABRT))                                                        \
@@ -233,7 +233,7 @@ static void handle(int signal_number)
     X("personality", NONE, syscall(SYS_personality, 0x0400000))                                    \
     X("prctl", NONE, prctl(PR_SET_DUMPABLE, 1))                                                    \
     X("prctl", W | P | R, prctl(PR_SET_NAME, "name"))                                              \
-    X("prctl", W | P | R, prctl(PR_GET_NAME, confined_said))                                       \
+    X("prctl", W | P | R, prctl(PR_GET_NAME, confined_output))                                     \
     X("setuid", NONE, syscall(SYS_setuid, 0))                                                      \
     X("capset", NONE, syscall(SYS_capset, NULL, NULL))                                             \
     X("seccomp", NONE, syscall(SYS_seccomp, 1, 0, NULL))                                           \
@@ -312,16 +312,16 @@ static void check_trial(int role, int number)
     if (result != (allowed ? 0 : -SIGSYS))
         fail_msg("%s by the %s: %d, should be %s; it said: %s", attempts[number].action,
                  role_name((enum role)role), result, allowed ? "allowed" : "forbidden",
-                 confined_said);
+                 confined_output);
     if (allowed || attempts[number].call[0] == '\0')
         return;
     snprintf(wanted, sizeof wanted, "jolon-%s: the sandbox forbids system call ",
              role_name((enum role)role));
-    const char *name = strchr(confined_said, '(');
-    if (strncmp(confined_said, wanted, strlen(wanted)) != 0 || !name ||
+    const char *name = strchr(confined_output, '(');
+    if (strncmp(confined_output, wanted, strlen(wanted)) != 0 || !name ||
         strncmp(name + 1, attempts[number].call, strlen(attempts[number].call)) != 0)
         fail_msg("%s by the %s: said \"%s\", not (%s)", attempts[number].action,
-                 role_name((enum role)role), confined_said, attempts[number].call);
+                 role_name((enum role)role), confined_output, attempts[number].call);
 }
 
 static void test_each_role_may_do_what_it_needs_and_nothing_else(void **state)
@@ -387,8 +387,8 @@ static void test_blocking_the_signal_does_not_help(void **state)
     (void)state;
     for (int way = 0; way < 3; way++) {
         assert_int_equal(confined_run(block_and_open, &way), -SIGSYS);
-        if (!strstr(confined_said, "forbids system call") != (way == 2))
-            fail_msg("way %d to block all signals: it said \"%s\"", way, confined_said);
+        if (!strstr(confined_output, "forbids system call") != (way == 2))
+            fail_msg("way %d to block all signals: it said \"%s\"", way, confined_output);
     }
 }
 
@@ -419,8 +419,8 @@ static void test_a_thread_of_dds_reports_its_forbidden_call(void **state)
 {
     (void)state;
     assert_int_equal(confined_run(make_dds_thread, NULL), -SIGSYS);
-    if (!strstr(confined_said, "jolon-reporter: the sandbox forbids system call 2 (open)\n"))
-        fail_msg("it said \"%s\"", confined_said);
+    if (!strstr(confined_output, "jolon-reporter: the sandbox forbids system call 2 (open)\n"))
+        fail_msg("it said \"%s\"", confined_output);
 }
 
 static void allocate_row(void *context, uint32_t first, uint32_t end, uint32_t worker)
@@ -454,7 +454,7 @@ static void test_workers_allocate_and_end_inside(void **state)
 {
     (void)state;
     if (confined_run(work_inside, NULL) != 0)
-        fail_msg("%s", confined_said);
+        fail_msg("%s", confined_output);
 }
 
 /* --- ends that are not the sandbox's --- */
@@ -502,12 +502,12 @@ static void test_crashes_keep_their_signals(void **state)
 {
     (void)state;
     assert_int_equal(confined_run(fail_a_check, NULL), -SIGABRT);
-    assert_non_null(strstr(confined_said, "bug: context != NULL"));
+    assert_non_null(strstr(confined_output, "bug: context != NULL"));
     assert_int_equal(confined_run(free_twice, NULL), -SIGABRT);
-    assert_null(strstr(confined_said, "sandbox"));
+    assert_null(strstr(confined_output, "sandbox"));
     assert_int_equal(confined_run(fault, NULL), -SIGSEGV);
     assert_int_equal(confined_run(refuse, NULL), EXIT_REFUSED);
-    assert_non_null(strstr(confined_said, "out of patience"));
+    assert_non_null(strstr(confined_output, "out of patience"));
 }
 
 static int sleep_inside(void *context)
@@ -568,8 +568,8 @@ static void test_no_sandbox_is_logged(void **state)
 {
     (void)state;
     assert_int_equal(confined_run(go_without, NULL), 0);
-    assert_non_null(strstr(confined_said, "warning"));
-    assert_non_null(strstr(confined_said, "WITHOUT its sandbox"));
+    assert_non_null(strstr(confined_output, "warning"));
+    assert_non_null(strstr(confined_output, "WITHOUT its sandbox"));
 }
 
 /* A container that forbids filters. */
@@ -592,7 +592,7 @@ static void test_a_refusing_kernel_is_an_error(void **state)
 {
     (void)state;
     assert_int_equal(confined_run(forbid_filters, NULL), 0);
-    assert_non_null(strstr(confined_said, "--no-sandbox"));
+    assert_non_null(strstr(confined_output, "--no-sandbox"));
 }
 
 int main(void)
@@ -610,7 +610,7 @@ int main(void)
         cmocka_unit_test(test_no_sandbox_is_logged),
         cmocka_unit_test(test_a_refusing_kernel_is_an_error),
     };
-    if (!confined_there())
+    if (!confined_available())
         return cmocka_run_group_tests_name("without a sandbox", without, NULL, NULL);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

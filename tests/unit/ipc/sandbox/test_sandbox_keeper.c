@@ -114,7 +114,7 @@ static void test_the_keeper_and_its_children_are_confined(void **state)
     (void)state;
     int result = confined_run(keep, &status);
     if (result != 0)
-        fail_msg("%d: %s", result, confined_said);
+        fail_msg("%d: %s", result, confined_output);
 }
 
 static int touch_as_keeper(void *context)
@@ -144,7 +144,7 @@ static void test_the_keeper_writes_only_beneath_its_folders(void **state)
         skip(); /* this kernel has no Landlock; the keeper says so */
     int result = confined_run(touch_as_keeper, NULL);
     if (result != 0)
-        fail_msg("%d: %s", result, confined_said);
+        fail_msg("%d: %s", result, confined_output);
 }
 
 /* A role enters its own sandbox within the inherited one. */
@@ -167,8 +167,8 @@ static void test_every_role_enters_its_sandbox_beneath_the_keepers(void **state)
     for (int role = 0; role < ROLE_COUNT; role++) {
         enum role entered_role = (enum role)role;
         int result = confined_run(enter_beneath_keeper, &entered_role);
-        if (result != -SIGSYS || !strstr(confined_said, "forbids system call"))
-            fail_msg("%s: %d: %s", role_name(entered_role), result, confined_said);
+        if (result != -SIGSYS || !strstr(confined_output, "forbids system call"))
+            fail_msg("%s: %d: %s", role_name(entered_role), result, confined_output);
     }
 }
 
@@ -179,7 +179,7 @@ int main(void)
         cmocka_unit_test(test_the_keeper_writes_only_beneath_its_folders),
         cmocka_unit_test(test_every_role_enters_its_sandbox_beneath_the_keepers),
     };
-    if (!confined_there())
+    if (!confined_available())
         return confined_skip();
     return cmocka_run_group_tests(tests, confined_make_folder, confined_remove_folder);
 }

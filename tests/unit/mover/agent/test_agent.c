@@ -84,7 +84,7 @@ static void test_row_9_a_shot_at_agent_reacts_within_two_frames(void **state)
         uint32_t shooter = put("tank", 25000.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
         uint32_t target = put(targets[n], 25000.0, 26000.0, FORCE_BLUE, BEHAVIOUR_PATROL);
         uint32_t beside = put(targets[n], 25060.0, 26000.0, FORCE_BLUE, BEHAVIOUR_PATROL);
-        steps_lay(&f, shooter, target);
+        steps_aim(&f, shooter, target);
         struct event_command answer =
             steps_command(&f, (struct command){.type = COMMAND_FIRE,
                                                .entity = steps_rows(&f).id[shooter],

@@ -37,7 +37,7 @@ static enum command_result fire(uint32_t shooter, uint32_t target)
 {
     struct entities e = steps_rows(&f);
     if (target != SLOT_NONE)
-        steps_lay(&f, shooter, target);
+        steps_aim(&f, shooter, target);
     return (enum command_result)steps_command(
                &f, (struct command){.type = COMMAND_FIRE,
                                     .entity = e.id[shooter],

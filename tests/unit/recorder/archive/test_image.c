@@ -73,7 +73,7 @@ static void test_world_continues_like_an_uninterrupted_one(void **state)
     assert_int_equal(image_file_digest(&again), fixture_digest(&f));
     assert_memory_equal(head_of(&again), head_of(&f.view), sizeof(struct state_head));
     for (uint64_t frame = 100; frame <= 300; frame += 50) {
-        image_file_play(&again, frame);
+        image_file_run(&again, frame);
         fixture_run(&f, (uint32_t)(frame - head_of(&f.view)->frame));
         assert_int_equal(image_file_digest(&again), fixture_digest(&f));
     }
@@ -95,7 +95,7 @@ static void test_waiting_commands_are_applied_in_their_frames(void **state)
     image_file_save(&f.view, path, false);
     image_file_load(&again, path);
     for (uint64_t frame = 3; frame <= 8; frame++) {
-        image_file_play(&again, frame);
+        image_file_run(&again, frame);
         fixture_run(&f, 1);
         assert_int_equal(image_file_digest(&again), fixture_digest(&f));
     }
@@ -170,7 +170,7 @@ static void test_inputs_of_the_frame_under_way_are_saved(void **state)
     assert_int_equal(atomic_load(&again.moved_word->moved), 21);
     struct fixture other = {.view = again};
     assert_int_equal(steps_moved_hash(&other), moved);
-    image_file_play(&again, 40);
+    image_file_run(&again, 40);
     fixture_run(&f, 20);
     assert_int_equal(image_file_digest(&again), fixture_digest(&f));
     segment_abandon(&again);
@@ -199,7 +199,7 @@ static void test_branch_has_other_settings_and_no_inputs(void **state)
     assert_int_equal(image_load(&again, &image, &error), 0);
     assert_int_equal(atomic_load(&again.moved_word->moved), 20);
     assert_int_equal(again.world.params->seed, 6);
-    image_file_play(&again, 120);
+    image_file_run(&again, 120);
     fixture_run(&f, 100);
     assert_int_equal(head_of(&again)->frame, head_of(&f.view)->frame);
     assert_int_not_equal(image_file_digest(&again), fixture_digest(&f));
@@ -247,7 +247,7 @@ static void test_events_go_on_with_their_sequence(void **state)
     assert_int_equal(events_read(&again, &cursor, events, 4096), 0);
     assert_int_equal(cursor.gap, 0);
     assert_int_equal(cursor.next, end);
-    image_file_play(&again, 300);
+    image_file_run(&again, 300);
     uint32_t count = events_read(&again, &cursor, events, 4096);
     assert_true(count > 0);
     assert_int_equal(events[0].sequence, end);

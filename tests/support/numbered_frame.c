@@ -1,5 +1,5 @@
 /* Frames whose every value follows from their number. */
-#include "tests/support/told_frame.h"
+#include "tests/support/numbered_frame.h"
 
 #include "world/entity/entity.h"
 #include "world/state.h"
@@ -12,7 +12,7 @@ static uint64_t value_of(uint64_t frame, uint32_t row)
     return frame * 2654435761u + row;
 }
 
-void told_frame_fill(struct state_head *head, struct entities *entities, uint32_t rows)
+void numbered_frame_fill(struct state_head *head, struct entities *entities, uint32_t rows)
 {
     uint64_t frame = head->frame;
     head->used = rows;
@@ -26,7 +26,7 @@ void told_frame_fill(struct state_head *head, struct entities *entities, uint32_
     }
 }
 
-bool told_frame_head(const struct state_head *head)
+bool numbered_frame_head(const struct state_head *head)
 {
     uint64_t frame = head->frame;
     return frame == 0 ||
@@ -34,7 +34,7 @@ bool told_frame_head(const struct state_head *head)
             head->tally.spawns_refused == frame);
 }
 
-bool told_frame_rows(const struct state_head *head, const struct entities *entities)
+bool numbered_frame_rows(const struct state_head *head, const struct entities *entities)
 {
     if (head->frame == 0)
         return true;
