@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The same run to the bit on aarch64: runs of this machine are replayed by programs compiled for
-# aarch64, which an emulator of user programs executes. The emulator also plays kernels with pages of
-# 16 and 64 KiB, on which the two roles then run a world that this machine has made.
+# aarch64 gives the same run to the bit: programs compiled for aarch64 replay runs of this machine.
+# An emulator of user programs executes them. It also emulates kernels with pages of 16 and 64 KiB,
+# where mover and collider run a world that this machine has made.
 # Long: it compiles the steps for another machine and emulates it.
 . "$(dirname "$0")/lib.sh"
 find_source_dir
@@ -30,16 +30,16 @@ build() {
         CC="aarch64-linux-gnu-gcc -isystem $libraries/root/usr/include -L$lib -Wl,-rpath-link,$lib:$second" \
         $tree/bin/jolon-{world,mover,collider}
 }
-check "it builds for aarch64" build
+check "the programs build for aarch64" build
 fused_there() { OBJDUMP=aarch64-linux-gnu-objdump "$source_dir/tests/fused" "$source_dir/$tree/obj"; }
-check "no instruction there rounds once" fused_there
+check "the aarch64 build has no fused instruction" fused_there
 
 # emulate [-p PAGE_BYTES] PROGRAM ...
 emulate() { timeout 900 qemu-aarch64 -L /usr/aarch64-linux-gnu -E "LD_LIBRARY_PATH=$lib:$second" "$@"; }
 
 # --- runs of this machine, replayed there ---------------------------------------------------------
 
-# run AS FRAMES [options] SCENARIO: AS/commands.log
+# run AS FRAMES [options] SCENARIO: writes AS/commands.log
 run() {
     local as=$1 frames=$2
     shift 2
@@ -53,7 +53,7 @@ run image 450 --from half.image
 run war 90 hunter-liggett
 run script 600 rehearsal
 run thesis 200 --set collision.method=npsnet2 --set collision.response=spring --set collision.shape=sphere tanks-glancing
-check "the runs are busy ones" [ "$(($(json collisions <busy.json) + $(json detonations <busy.json)))" -gt 100 ]
+check "the runs have many collisions and detonations" [ "$(($(json collisions <busy.json) + $(json detonations <busy.json)))" -gt 100 ]
 logs=(busy figure8 image war script thesis)
 
 replay() { emulate "$arm/jolon-world" replay "$folder/$1/commands.log" >"$1.told" 2>&1; echo $? >"$1.status"; }
@@ -63,11 +63,11 @@ for log in "${logs[@]}"; do
 done
 wait
 equal_there() { cat "$1.told"; [ "$(cat "$1.status")" = 0 ] && grep -q 'equal to the run that was recorded' "$1.told"; }
-for log in "${logs[@]}"; do check "run $log: the same on aarch64" equal_there "$log"; done
+for log in "${logs[@]}"; do check "run $log: the digests are the same on aarch64" equal_there "$log"; done
 
 # --- larger pages ---------------------------------------------------------------------------------
 
-# on_pages BYTES: the digest of a world that roles with such pages have moved.
+# on_pages BYTES: prints the digest of a world that roles with pages of this size have run.
 on_pages() {
     local role
     "$bin/jolon-world" create --world "$name" --set world.frames=60 --set world.pace=max duel >/dev/null || return 1
@@ -80,7 +80,7 @@ on_pages() {
 }
 run pages 60 duel
 for bytes in 4096 16384 65536; do
-    check "pages of $bytes bytes: a world of this machine goes on" equal "$(on_pages $bytes)" "$(json digest <pages.json)"
+    check "pages of $bytes bytes: a world of this machine runs with the same digest" equal "$(on_pages $bytes)" "$(json digest <pages.json)"
 done
 check "it leaves no shared memory" nothing_left "$name"
 done_testing

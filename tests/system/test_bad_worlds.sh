@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Worlds that are not whole: flipped bits, wrong objects of the name, memory taken away. One line
-# each, and either the world goes on as if nothing had been or it is refused; nothing is left.
+# Damaged worlds: flipped bits, wrong objects under the world's name, memory that is taken away.
+# Each damage is either refused with one line, or the world goes on unharmed. Nothing is left
+# behind.
 . "$(dirname "$0")/lib.sh"
 
 cat >good.cfg <<'C'
@@ -13,7 +14,7 @@ vehicles = ( { kind = "tank"; count = 12; force = "blue"; fire_at_will = true; a
 fires = ( { at_s = 0.5; munition = "artillery"; point = [25100.0, 25100.0]; } );
 C
 world() { "$bin/jolon-world" "$@"; }
-create() { # leaves the object's path in $shm
+create() { # sets $shm to the object's path
     world create --world "$name" "$@" good.cfg || return
     shm=$(path_of object)
 }
@@ -29,13 +30,13 @@ roles() {
     wait $collider && return $status
 }
 
-# Like refuses of lib.sh, for a world that is there and stays.
+# Like refuses of lib.sh, for a world that exists and stays.
 refused() {
     local what=$1 pattern=$2 got
     shift 2
     "$@" >stdout 2>stderr </dev/null
     got=$?
-    # A role says first that it is there.
+    # A role's first line says that it has started.
     grep -v ' info frame 0: ' stderr >said
     mv said stderr
     if [ $got = 1 ] && [ "$(wc -l <stderr)" = 1 ] && grep -Eq -- "$pattern" stderr; then ok "$what"; else
@@ -45,7 +46,7 @@ refused() {
     fi
 }
 
-# flip OFFSET: one bit of the byte there.
+# flip OFFSET: flips one bit of the byte at the offset.
 flip() {
     python3 - "$shm" "$1" <<'P'
 import sys
@@ -57,13 +58,14 @@ with open(sys.argv[1], "r+b", buffering=0) as world:
 P
 }
 
-# Where the rows of the buffer of this frame are: searched for by its number, at a page's begin.
+# Prints where the rows of this frame's buffer begin. Its head begins a page and holds the frame's
+# number.
 buffer_of() {
     python3 - "$shm" "$1" <<'P'
 import struct, sys
 data = open(sys.argv[1], "rb").read()
 frame = int(sys.argv[2])
-for at in range(0, len(data), 4096): # a head: frame, tick, ..., and not the commit word's page
+for at in range(0, len(data), 4096): # a head begins: frame, tick, ...; the commit word's page does not
     words = struct.unpack_from("<4Q", data, at)
     if words[0] == frame and words[1] == frame and words[3] != 0:
         print(at + 512 + 64)
@@ -72,10 +74,10 @@ P
 }
 
 # --- the undisturbed run --------------------------------------------------------------------------
-check "a good world is made" create --set world.frames=300
-check "and runs" roles
+check "an undamaged world is made" create --set world.frames=300
+check "the world runs" roles
 right=$(world digest --world "$name")
-check "check finds it good" world check --world "$name"
+check "check finds the world good" world check --world "$name"
 remove
 
 # --- bits of the body -----------------------------------------------------------------------------
@@ -85,19 +87,19 @@ hash_at=$(buffer_of 150)
 check "the last frame's buffer is found" [ -n "$hash_at" ]
 flip "$hash_at"
 refused "check finds a flipped bit of the last frame" 'frame.* checksum.*repair' world check --world "$name"
-check "repair goes back a frame" world repair --world "$name"
+check "repair goes back one frame" world repair --world "$name"
 world repair --world "$name" >told 2>&1
-check "and then finds the world good" grep -q 'good at frame 149' told
+check "repair then finds the world good" grep -q 'good at frame 149' told
 roles
-check "the frame is made again" equal "$(world frame --world "$name")" 150
+check "the roles compute the frame again" equal "$(world frame --world "$name")" 150
 flip "$hash_at"
 flip "$(buffer_of 149)"
-refused "both buffers damaged: refused by their names" 'both buffers: .*world [AB].*world [AB]' world repair --world "$name"
-refused "adoption leaves such a world alone" 'both buffers.*jolon clean' create --set world.frames=150 --adopt
-check "it is still there" [ -e "$shm" ]
+refused "repair refuses two damaged buffers and names both" 'both buffers: .*world [AB].*world [AB]' world repair --world "$name"
+refused "adoption refuses a world with two damaged buffers" 'both buffers.*jolon clean' create --set world.frames=150 --adopt
+check "the refused world still exists" [ -e "$shm" ]
 remove
 
-# A set that died, a flipped bit, and the next start: the run ends as the undisturbed one did.
+# A set dies, a bit is flipped, and the next start ends the run as the undisturbed one did.
 "$jolon" run -w "$name" --frames 300 --set world.pace=real --without renderer --without reporter --out out good.cfg >/dev/null 2>&1 &
 run=$!
 far() { [ "$(world frame --world "$name")" -ge 60 ]; }
@@ -112,35 +114,35 @@ flip "$(buffer_of "$frame")"
 refused "a mover that takes over finds the flipped bit" "is damaged: frame $frame fails its checksum" "$bin/jolon-mover" --world "$name"
 "$jolon" run -w "$name" --frames 300 --set world.pace=real --without renderer --without reporter --out out good.cfg >stdout 2>told
 check "adoption says that it went back" grep -q "frame $frame fails its checksum.*goes on from frame $((frame - 1))" told
-check "and the run ends" grep -q 'digest' stdout
-check "with the digest of an undisturbed one" grep -q "digest ${right%% *}" stdout
+check "the adopted run ends" grep -q 'digest' stdout
+check "the digest is that of the undisturbed run" grep -q "digest ${right%% *}" stdout
 check "nothing is left" nothing_left "$name"
 
 # --- bits of the header and of what never changes -------------------------------------------------
 create >/dev/null
 flip 12
 refused "a flipped bit of the header is named" 'header is damaged' world check --world "$name"
-refused "adoption refuses it" 'header is damaged' create --adopt
+refused "adoption refuses a damaged header" 'header is damaged' create --adopt
 flip 12
 flip $((65536 + 48))
 refused "a flipped bit of the parameters is named" 'params are damaged' world status --world "$name"
 flip $((65536 + 48))
 flip $((65536 * 2 + 100))
 refused "a flipped bit of the kinds is named" 'kinds' world check --world "$name"
-refused "and not repaired" 'kinds' world repair --world "$name"
+refused "repair refuses damaged kinds" 'kinds' world repair --world "$name"
 flip $((65536 * 2 + 100))
-check "put back, it is good" world check --world "$name"
+check "check finds the world good when the bit is restored" world check --world "$name"
 
 # --- objects that are no world --------------------------------------------------------------------
 chmod 644 "$shm"
-refused "another mode" 'mode 644' create --adopt
+refused "an object with another mode" 'mode 644' create --adopt
 chmod 600 "$shm"
 if [ "$UID" = 0 ]; then
     chown 12345 "$shm"
-    refused "another owner" 'belongs to user 12345' create --adopt
+    refused "an object of another owner" 'belongs to user 12345' create --adopt
     chown 0 "$shm"
 else
-    skip "another owner" "only root can give a file away"
+    skip "an object of another owner" "only root can give a file away"
 fi
 truncate -s 4096 "$shm"
 refused "a shorter object" 'size 4096' create --adopt
@@ -159,26 +161,27 @@ mkfifo "$shm"
 refused "a pipe" 'no shared-memory object' create --adopt
 rm "$shm"
 remove
-# What no build of Jolon can go on with makes room: it was never finished, or is another build's.
+# An object that no build of Jolon can use is replaced: it was never finished, or belongs to another
+# build.
 head -c 100000 /dev/zero >"$shm"
 chmod 600 "$shm"
 ln -s "$shm" "$JOLON_RUNTIME_DIR/$name"
-check "an object without the magic makes room" create --adopt
+check "an object without the magic is replaced" create --adopt
 remove
 for kind in mkdir mkfifo 'ln -s /nonexistent'; do
     $kind "$(path_of lock)"
     refused "a lock that is no file ($kind)" '\.lock: (cannot open|is no plain file)' create
     [ "$kind" = mkdir ] && rmdir "$(path_of lock)" || rm "$(path_of lock)"
-    check "leaves nothing" nothing_left "$name"
+    check "the refusal leaves nothing behind" nothing_left "$name"
 done
 for kind in mkdir touch 'ln -s /etc/passwd'; do
     $kind "$JOLON_RUNTIME_DIR/$name"
     refused "a name that is no link to an object ($kind)" 'is no link to a world.s object.*remove it' create
     [ "$kind" = mkdir ] && rmdir "$JOLON_RUNTIME_DIR/$name" || rm "$JOLON_RUNTIME_DIR/$name"
-    check "leaves nothing" nothing_left "$name"
+    check "the refusal leaves nothing behind" nothing_left "$name"
 done
 ln -s "/dev/shm/jolon.$UID.$name.00000000000000000000000000000000" "$JOLON_RUNTIME_DIR/$name"
-check "a name that a killed creator left is taken" create
+check "a name that a killed creator left is reused" create
 remove
 check "nothing is left" nothing_left "$name"
 
@@ -190,6 +193,6 @@ truncate -s 0 "$(path_of object)"
 wait $run
 status=$?
 check "a set whose memory is taken away gives up" [ $status = 1 ] || [ $status = 3 ]
-check "and says so" grep -q 'memory went away' told out/jolon.log
+check "the set reports it" grep -q 'memory went away' told out/jolon.log
 check "nothing is left" nothing_left "$name"
 done_testing

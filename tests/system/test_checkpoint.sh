@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Going on from an image: the same digests as the undisturbed run; branches; what is refused; a frame
-# run again from a dump. RANDOM's seed is SEED.
+# Runs continued from an image have the digests of the undisturbed run. Tests branches, refusals,
+# and the repetition of a frame from a dump. SEED seeds RANDOM.
 . "$(dirname "$0")/lib.sh"
 world=$bin/jolon-world
 RANDOM=${SEED:=$((RANDOM))}
 echo "# SEED=$SEED"
 
-# Mover and collider until the run's last frame.
+# Runs mover and collider until the run's last frame.
 run_roles() {
     "$bin/jolon-collider" --world "$1" 2>>roles.log &
     local collider=$!
@@ -40,23 +40,23 @@ wait
 drop "$name" # only the file is left, as after a reboot
 made=$("$world" create --from mid.image --set world.pace=max --world "$name")
 went_on=$made
-check "a world of it goes on from there" grep -q 'frame [1-9][0-9]* of mid.image, goes on from there' <<<"$made"
+check "a world made from the image continues there" grep -q 'frame [1-9][0-9]* of mid.image, goes on from there' <<<"$made"
 echo "# $made"
-check "it checks as good" "$world" check --world "$name"
-check "its run ends well" run_roles "$name"
-check "with the digests of the undisturbed run" equal "$(digest "$name")" "$calm"
+check "check finds that world good" "$world" check --world "$name"
+check "its run ends with 0" run_roles "$name"
+check "its digests are those of the undisturbed run" equal "$(digest "$name")" "$calm"
 first=$("$world" events --json --world "$name" | head -1 | json frame)
-check "it tells of events after the image alone" [ "$first" -gt 100 ]
-check "and counts none as lost" bash -c "! '$world' events --world $name | grep -q lost"
+check "its first event is one after the image" [ "$first" -gt 100 ]
+check "no event is counted as lost" bash -c "! '$world' events --world $name | grep -q lost"
 
 # --- adoption ---------------------------------------------------------------------------------------
 made=$("$world" create --adopt --from mid.image --set world.pace=max --world "$name")
-check "a dead set's world of that image goes on where it is" \
+check "adoption continues a dead set's world where it is" \
     grep -q 'left it at frame 900; goes on' <<<"$made"
 "$world" save late.image --world "$name" >/dev/null
 made=$("$world" create --adopt --from late.image --set world.frames=1000 --world "$name")
-check "one that should now go further makes room" grep -q 'frame 900 of late.image, goes on' <<<"$made"
-check "a branch as well" grep -q 'branched off' <<<"$("$world" create --adopt --from late.image \
+check "a world with another last frame is made again from the image" grep -q 'frame 900 of late.image, goes on' <<<"$made"
+check "so is a world with another seed" grep -q 'branched off' <<<"$("$world" create --adopt --from late.image \
     --set world.frames=920 --set world.seed=7 --world "$name")"
 drop "$name"
 
@@ -70,8 +70,8 @@ branch() { # setting
     drop "$name-b"
 }
 straight=$(branch collision.method=swept)
-check "another seed is another run" [ "$(branch world.seed=7)" != "$straight" ]
-check "another way to find the same collisions finds the same" \
+check "another seed gives another run" [ "$(branch world.seed=7)" != "$straight" ]
+check "another method that finds the same collisions gives the same run" \
     equal "$(branch collision.method=occupancy)" "$straight"
 
 # --- refusals ---------------------------------------------------------------------------------------
@@ -81,9 +81,9 @@ refuses "another capacity" 1 'world.capacity = 9: cannot change.*world.seed' \
 refuses "other ground" 1 'terrain.source = flat: cannot change' \
     "${create[@]}" --from mid.image --set terrain.source=flat
 refuses "a run that is over" 1 'ends with frame 900.*world.frames=N' "${create[@]}" --from late.image
-refuses "an image and a scenario" 2 'leave one of them out' "${create[@]}" --from mid.image hunter-liggett
-refuses "no image" 1 'no.image: cannot open' "${create[@]}" --from no.image
-refuses "a scenario for an image" 1 'magic|too small' "${create[@]}" --from "$bin/jolon"
+refuses "both an image and a scenario" 2 'leave one of them out' "${create[@]}" --from mid.image hunter-liggett
+refuses "an image that does not exist" 1 'no.image: cannot open' "${create[@]}" --from no.image
+refuses "a program instead of an image" 1 'magic|too small' "${create[@]}" --from "$bin/jolon"
 ln -s mid.image link.image
 refuses "a symbolic link" 1 'link.image: is a symbolic link' "${create[@]}" --from link.image
 head -c 5000000 mid.image >cut.image
@@ -101,17 +101,17 @@ refuses "an image of no world" 1 'there is no world' "$world" save new.image --w
 "$world" create --world "$name" --set world.frames=1 --set world.pace=max >/dev/null
 "$world" save before.image --world "$name" >/dev/null
 (ulimit -f 100; "$world" save before.image --world "$name" 2>err)
-check "no room to save is refused in one line" equal "$? $(grep -c 'no room to write it' err) $(wc -l <err)" "1 1 1"
+check "save without room on the disk is refused with one line" equal "$? $(grep -c 'no room to write it' err) $(wc -l <err)" "1 1 1"
 "$bin/jolon-mover" --world "$name" 2>>roles.log & # alone: the frame is moved and not collided
 mover=$!
-check "a dump has the inputs of the frame under way" eventually moved
+check "the dump holds the inputs of the frame in progress" eventually moved
 "$bin/jolon-collider" --world "$name" 2>>roles.log
 wait $mover
 made=$(digest "$name")
 drop "$name"
-check "replay-frame collides them to the same frame" \
+check "replay-frame computes the same frame from them" \
     grep -q "frame 1: collided, digest ${made%% *}" <<<"$("$world" replay-frame moved.image 2>/dev/null)"
-check "and moves and collides without them" \
+check "replay-frame computes the frame without them" \
     grep -q "frame 1: moved and collided, digest ${made%% *}" \
     <<<"$("$world" replay-frame before.image 2>/dev/null)"
 
@@ -122,12 +122,12 @@ set=$!
 check "a set writes its checkpoints" eventually [ -s set.image ]
 kill -KILL $set
 { wait $set; } 2>/dev/null
-check "its world is gone, as after a reboot" eventually "$world" remove --world "$name"
+check "the set's world is removed, as by a reboot" eventually "$world" remove --world "$name"
 "$jolon" run "${options[@]}" --pace max --from set.image --checkpoint set.image --every 300 >set.json 2>err
-check "another goes on from the last one" grep -q 'frame [1-9][0-9]* of set.image, goes on from there' err
-check "to the digests of the undisturbed run" \
+check "another set continues from the last checkpoint" grep -q 'frame [1-9][0-9]* of set.image, goes on from there' err
+check "it ends with the digests of the undisturbed run" \
     equal "$(json digest <set.json) $(json event_digest <set.json) frame 900" "$calm"
-check "writing its own" grep -aq 'checkpoint set.image: frame' out/jolon.log
+check "it writes checkpoints of its own" grep -aq 'checkpoint set.image: frame' out/jolon.log
 
 # --- kills while it is written ----------------------------------------------------------------------
 "$world" create --from mid.image --world "$name" >/dev/null
@@ -141,9 +141,9 @@ for _ in 1 2 3 4; do
     { wait $saver; } 2>/dev/null
     "$world" replay-frame kept.image >/dev/null 2>&1 && whole=$((whole + 1))
 done
-check "killed savers leave a whole image" equal $whole 4
+check "the image is whole after each killed save" equal $whole 4
 "$world" save kept.image --world "$name" >/dev/null
-check "and what they left half made is swept" bash -c '! ls | grep -q new-'
+check "unfinished images are removed" bash -c '! ls | grep -q new-'
 drop "$name"
 check "nothing is left" nothing_left "$name"
 done_testing

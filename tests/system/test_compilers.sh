@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# The same run to the bit whoever compiled it: gcc without optimisation, gcc and clang with all that
-# this processor can do, beside the build that is tested; on one thread, two and four. What moves,
-# collides and makes worlds is built anew for each, below build/.
+# Every compiler gives the same run to the bit: gcc without optimisation, and gcc and clang with
+# everything that this processor supports, compared with the tested build on one, two and four
+# threads. Everything that moves, collides and makes worlds is built for each of them below build/.
 # Long: it compiles the steps three times.
 . "$(dirname "$0")/lib.sh"
 find_source_dir
@@ -23,22 +23,22 @@ run() {
         --out "$folder/$as" "$@" "$busy" >"$as.json" 2>"$as.err" || sed 's/^/# /' "$as.err"
 }
 
-# The digests of what is in AS.json: of the world, and of everything that happened.
+# Prints the digests in AS.json: of the world and of its events.
 digests() { json digest <"$1.json" 2>/dev/null && json event_digest <"$1.json"; }
 
 run first "$bin"
 first=$(digests first)
-check "the run is a busy one" [ "$(json collisions <first.json)" -gt 50 ]
-check "with shots" [ "$(json detonations <first.json)" -gt 50 ]
+check "the run has many collisions" [ "$(json collisions <first.json)" -gt 50 ]
+check "the run has many detonations" [ "$(json detonations <first.json)" -gt 50 ]
 run figure8 "$bin" --set collision.response=figure8
 for threads in 2 4; do
     run threads "$bin" --threads $threads
-    check "$threads threads: the same" equal "$(digests threads)" "$first"
+    check "$threads threads give the same digests" equal "$(digests threads)" "$first"
 done
 
 have() { command -v "$1" >/dev/null; }
 
-# fused_seen COMPILER: tests/fused names an instruction that rounds once in place of twice.
+# fused_seen COMPILER: tests/fused reports an instruction that rounds once instead of twice.
 fused_seen() {
     local machine=''
     [ "$(uname -m)" = x86_64 ] && machine=-mfma
@@ -49,12 +49,12 @@ fused_seen() {
     done
     ! "$source_dir/tests/fused" fused
 }
-check "an instruction that rounds once is seen" fused_seen gcc
-check "the build has none" "$source_dir/tests/fused" "$bin/../obj"
+check "a fused instruction is found" fused_seen gcc
+check "the build has no fused instruction" "$source_dir/tests/fused" "$bin/../obj"
 
 echo clang-14 >list
 have clang-14 || "$source_dir/supervisor/install-packages" list >install.log 2>&1 || sed 's/^/# /' install.log
-# build TREE COMPILER OPT PROGRAM...: into TREE, below the sources.
+# build TREE COMPILER OPT PROGRAM...: builds into TREE, below the sources.
 build() {
     local tree=$1 compiler=$2 level=$3 programs=()
     shift 3
@@ -65,10 +65,10 @@ build() {
 
 for compiler in gcc clang-14; do
     if ! have $compiler; then
-        skip "$compiler: the same" "there is no $compiler, and it cannot be installed"
+        skip "$compiler gives the same digests" "there is no $compiler, and it cannot be installed"
         continue
     fi
-    # A build for each, of the steps in one process: making the world, moving, colliding.
+    # Builds the steps in one process: making the world, moving, colliding.
     levels=("-O3 -march=native")
     [ $compiler != gcc ] || levels+=(-O0)
     for level in "${levels[@]}"; do
@@ -76,9 +76,9 @@ for compiler in gcc clang-14; do
         tree=build/compilers/$compiler${level//[ =]/-}
         check "$what builds" build "$tree" $compiler "$level" jolon-world
         for log in first figure8; do
-            check "$what, $log: the same" "$source_dir/$tree/bin/jolon-world" replay --threads 2 "$folder/$log/commands.log"
+            check "$what, $log: the digests are the same" "$source_dir/$tree/bin/jolon-world" replay --threads 2 "$folder/$log/commands.log"
         done
-        check "$what: nothing rounds once" "$source_dir/tests/fused" "$source_dir/$tree/obj"
+        check "$what: there is no fused instruction" "$source_dir/tests/fused" "$source_dir/$tree/obj"
     done
 done
 check "it leaves no shared memory" nothing_left "$name"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The console's page in a real browser (headless Chromium). Its pictures of the page stay in
-# build/tests/browser/ for people to look at.
+# The console's page in a real browser (headless Chromium). Screenshots of the page stay in
+# build/tests/browser/.
 . "$(dirname "$0")/lib.sh"
 root=$(dirname "$(dirname "$bin")")
 here=$root/tests/browser
@@ -27,9 +27,9 @@ whole() { # a module by its ending, also for a node that takes .js for a script
         [ "$(wc -l <"$file")" -lt 400 ] || { echo "$file is too long"; return 1; }
     done
 }
-check "every module is well-formed and short" whole
-check "the page takes nothing from outside" eval '! grep -nE "https?://" "$root"/clients/console/page/* | grep -v www.w3.org'
-check "and has nothing that the server's rules forbid" \
+check "every module is well-formed and within the size limit" whole
+check "the page loads nothing from other servers" eval '! grep -nE "https?://" "$root"/clients/console/page/* | grep -v www.w3.org'
+check "the page has nothing that the server's content rules forbid" \
     eval '! grep -nE "<script>|<style|style=|onclick=" "$root"/clients/console/page/index.html'
 
 # --- the page -----------------------------------------------------------------------------------------
@@ -60,8 +60,8 @@ while IFS= read -r line; do
     *) echo "$line" ;;
     esac
 done <tap
-check "the browser's tests come to their end" grep -q '^# the end' tap
+check "the browser's tests reach their end" grep -q '^# the end' tap
 grep -q '^# the end' tap || sed 's/^/# /' browser.err console.err | tail -n 30
 kill -TERM $console 2>/dev/null
-check "the console ends when it is told to" wait $console
+check "the console ends at its signal" wait $console
 done_testing

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# jolon ctl: every command is answered with its frame, vehicles by id or by name, leases, fire
-# missions, lines of standard input, and what is said of what is wrong.
+# jolon ctl: every command is answered with its frame. Tests vehicles by id and by name, leases,
+# fire missions, lines of standard input, and error messages.
 . "$(dirname "$0")/lib.sh"
 ctl="$bin/jolon-ctl -w $name --timeout 30"
 
@@ -18,33 +18,33 @@ denies() { # STATUS PATTERN COMMAND...: in one line of standard error
     [ $? = "$status" ] && [ ! -s told ] && [ "$(wc -l <err)" = 1 ] && grep -Eq -- "$pattern" err || { cat err; return 1; }
 }
 
-check "drive by name, with all controls" says '^driving 1 from frame [0-9]+$' drive West \
+check "drive takes a name and all controls" says '^driving 1 from frame [0-9]+$' drive West \
     --throttle 0.5 --steer 0.1 --climb 0 --traverse 0.5 --elevate -0.5 --brake 0 --gear low
-check "release" says '^released 1 at frame [0-9]+$' release West
-check "a lease" says '^driving 2 from frame [0-9]+ for 1200 frames$' drive East --lease 20 --brake 1
-check "another driver is refused, and told what to do" \
+check "release is answered with its frame" says '^released 1 at frame [0-9]+$' release West
+check "drive takes a lease" says '^driving 2 from frame [0-9]+ for 1200 frames$' drive East --lease 20 --brake 1
+check "another driver is refused and told what to do" \
     denies 1 'East \(2\): somebody else drives it .frame.*release anyway' drive East --throttle 1
-check "and cannot release it" denies 1 'somebody else drives it' release 2
-check "but anyway" says '^released 2 at frame' release 2 --anyway
+check "another driver cannot release the vehicle" denies 1 'somebody else drives it' release 2
+check "release --anyway releases it" says '^released 2 at frame' release 2 --anyway
 check "a lease ends by itself" eval '$ctl drive 2 --lease 0.2 >told && sleep 1 && $ctl drive 2 >told'
-check "fire at somebody by name, when the gun is laid" eventually says '^1 fires at frame' \
+check "fire takes a target's name once the gun is aimed" eventually says '^1 fires at frame' \
     fire West --target East
-check "a fire mission is a row of commands" eval \
+check "a fire mission sends several commands" eval \
     '$ctl fire --munition shell --at 24000,24000 --rounds 4 --every 0.1 --radius 60 >told &&
     [ "$(grep -c "shell falls near 24000,24000 from frame" told)" = 4 ] &&
     [ "$(sed "s/.*frame \([0-9]*\) .*/\1/" told | sort -un | wc -l)" = 4 ]'
-check "JSON says the frame too" eval \
+check "the JSON answer has the frame too" eval \
     '[ "$($ctl --json spawn jeep --at 100,100 | json frame)" -gt 0 ]'
 
 # --- what is wrong ------------------------------------------------------------------------------------
 check "a ship on dry land" denies 1 'value out of range .*a ship needs water' spawn ship --at 24000,24000
-check "a name that nobody has" denies 1 "no vehicle has that name; the nearest is West" drive Wset
-check "a verb that there is not" denies 2 "did you mean release" relase 1
-check "a number out of its range" denies 2 "--throttle '2': not a number from -1 to 1" drive 1 --throttle 2
-check "a gear that there is not" denies 2 'automatic, reverse, neutral, low' drive 1 --gear 5
+check "an unknown name" denies 1 "no vehicle has that name; the nearest is West" drive Wset
+check "an unknown verb" denies 2 "did you mean release" relase 1
+check "a number out of range" denies 2 "--throttle '2': not a number from -1 to 1" drive 1 --throttle 2
+check "an unknown gear" denies 2 'automatic, reverse, neutral, low' drive 1 --gear 5
 check "an option of another verb" denies 2 'drive: does not take --target' drive 1 --target 2
-check "who is not there" denies 1 'no such entity .*jolon monitor' drive 4711
-check "a step that needs a pause" denies 1 'pause first' step 1
+check "an unknown id" denies 1 'no such entity .*jolon monitor' drive 4711
+check "a step of a running world" denies 1 'pause first' step 1
 
 # --- lines ---------------------------------------------------------------------------------------------
 cat >lines <<'L'
@@ -59,13 +59,13 @@ release West
 resume
 L
 $ctl - <lines >told 2>err
-check "lines are carried out in their order, one driver all along" equal "$? $(awk '{ print $1 }' told | tr '\n' ' ')" \
+check "lines are carried out in order and by one driver" equal "$? $(awk '{ print $1 }' told | tr '\n' ' ')" \
     "1 paused driving stepping released resumed "
-check "and what is wrong is told by its line" eval \
+check "each error names its line" eval \
     'grep -q "line 6: .*did you mean drive" err && grep -q "line 7: drive: --throttle" err && [ "$(wc -l <err)" = 2 ]'
-check "frames of answers go up" eval 'sed "s/.*frame \([0-9]*\).*/\1/" told | sort -nc'
+check "the answers' frames ascend" eval 'sed "s/.*frame \([0-9]*\).*/\1/" told | sort -nc'
 check "a line without an end is refused" eval \
     '! { head -c 100000 /dev/zero | tr "\0" x; echo; echo pause; } | $ctl --json - >told 2>err && [ "$(json line <told)" = 2 ]'
-check "it stops" "$jolon" stop -w "$name"
+check "the set stops" "$jolon" stop -w "$name"
 check "nothing is left" nothing_left "$name"
 done_testing

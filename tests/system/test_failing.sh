@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# No memory, no descriptor, no room: whatever call fails, a program ends with one clear line and exit
-# 1, or does without and gives the same result. tests/faults/failing.c makes the nth call of a class
-# fail; long rows of calls are sampled. SEED=n chooses others, SAMPLES=n more, ONLY=dump programs.
+# Failing calls: no memory, no descriptor, no room on the disk. Whatever call fails, a program ends
+# with one clear line and exit code 1, or continues with the same result. tests/faults/failing.c
+# makes the nth call of a class fail. Where there are many calls, a sample of them is tried. SEED=n
+# chooses another sample, SAMPLES=n its size, ONLY=dump the programs.
 # Long: it runs each program hundreds of times.
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/lib.sh"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Hostile input: each harness of tests/fuzz over its corpus and a fixed number of inputs from a
-# fixed seed. `make fuzz SECONDS=n` goes on for longer.
+# Hostile input: runs each harness of tests/fuzz on its corpus and on a fixed number of inputs from
+# a fixed seed. `make fuzz SECONDS=n` runs longer.
 # Long: it compiles the harnesses.
 . "$(dirname "$0")/lib.sh"
 find_source_dir
@@ -25,7 +25,7 @@ for file in "$source_dir"/tests/fuzz/fuzz_*.c; do
         sed -n "/^$harness: /,/^[a-z]*: /{/^$harness: /p;/^    /p}" told | sed 's/^/# /'
     fi
 done
-check "nothing was found" equal $status 0
-check "it leaves no shared memory" nothing_left fuzz
+check "the harnesses found no fault" equal $status 0
+check "the harnesses leave no shared memory" nothing_left fuzz
 [ $status = 0 ] || sed 's/^/# /' err
 done_testing

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Row 16: outside programs drive vehicles, in C over the topics (docs/examples/escort.c) and in any
-# language through jolon harness (docs/examples/sentry.py), while the reporter and the mover are killed;
-# every line is answered once, whatever it says.
+# Outside programs drive vehicles (row 16): in C over the topics (docs/examples/escort.c), and in
+# any language through jolon harness (docs/examples/sentry.py), while the reporter and the mover are
+# killed. Every line is answered exactly once, whatever it contains.
 top=$(cd "$(dirname "$0")/../.." && pwd)
 . "$(dirname "$0")/lib.sh"
 harness="$bin/jolon-harness -w $name --timeout 60"
@@ -33,7 +33,7 @@ for role in intake mover reporter; do
     sleep 0.7
 done
 $bin/jolon-ctl -w "$name" --timeout 30 drive Raider --brake 1 >/dev/null
-check "the raider fires at who is escorted" eventually \
+check "the raider fires at the escorted vehicle" eventually \
     "$bin/jolon-ctl" -w "$name" --timeout 30 fire Raider --target Lead
 check "the escort fires back (row 16)" eventually grep -q 'shot at 4 in frame' escort.out
 $bin/jolon-monitor -w "$name" --once --json --filter "blue tank" >state
@@ -42,17 +42,17 @@ import json, sys
 for e in json.load(open("state"))["list"]:
     if e["id"] == int(sys.argv[1]): print(round(e["position"][0]), round(e["position"][2]))' "$1"; }
 read -r x z <<<"$(place 2)"
-check "the escort has come to its friend, by the topics (row 16)" [ "${x:-0}" -gt 24925 -a "${z:-0}" -lt 25080 ]
+check "the escort reaches its vehicle through the topics (row 16)" [ "${x:-0}" -gt 24925 -a "${z:-0}" -lt 25080 ]
 wait $watching
-check "the sentry ended well" equal $? 0
-check "it drove around corners, by the harness (row 16)" grep -q '^corner 2 at' sentry.out
-check "and shot at the intruder" grep -q '^fired in frame' sentry.out
-check "it held its vehicle through the kills" eval '! grep -q lost sentry.out'
+check "the sentry ends with 0" equal $? 0
+check "the sentry drives around corners through the harness (row 16)" grep -q '^corner 2 at' sentry.out
+check "the sentry shoots at the intruder" grep -q '^fired in frame' sentry.out
+check "the sentry keeps its vehicle through the kills" eval '! grep -q lost sentry.out'
 agents() { "$jolon" events -w "$name" --json | grep '"type":"agent"' | grep "\"id\":$1,"; }
-check "who ends well gives its vehicle back" eventually eval \
+check "a client that ends gives its vehicle back" eventually eval \
     'agents 3 | tail -n 1 | grep -q "\"to\":\"hold\",\"because\":\"command\""'
 { kill -KILL $escorting; wait $escorting; } 2>/dev/null
-check "who is killed loses its vehicle to its agent" eventually eval \
+check "a killed client's vehicle returns to its agent" eventually eval \
     'agents 2 | tail -n 1 | grep -q "\"because\":\"lease over\""'
 
 # --- exactly once -------------------------------------------------------------------------------------
@@ -69,7 +69,7 @@ for role in intake mover intake intake; do
     "$jolon" kill -w "$name" "$role" >/dev/null
 done
 wait $spawning
-check "every spawn is answered, through the kills of intake and mover" equal $? 0
+check "every spawn is answered while intake and mover are killed" equal $? 0
 cat >"$folder/once" <<'P'
 import json, sys
 lines = [json.loads(line) for line in open("spawned")]
@@ -78,8 +78,8 @@ assert sorted(a["answer"] for a in answers) == list(range(1, 41)), "not each onc
 assert all(a["result"] == "done" and a["frame"] > 0 for a in answers), answers
 assert len({a["entity"] for a in answers}) == 40, "two made the same"
 P
-check "each once, each its own" python3 "$folder/once"
-check "none was done twice" equal "$(vehicles)" "$((before + spawns))"
+check "each spawn is answered once, with an id of its own" python3 "$folder/once"
+check "no spawn was done twice" equal "$(vehicles)" "$((before + spawns))"
 
 # --- lines ---------------------------------------------------------------------------------------------
 cat >lines <<'L'
@@ -101,7 +101,7 @@ garbage
 L
 { cat lines; printf '{"id":"k","do":"pause"\0}\n{"id":"\xff","do":"pause"}\n'; head -c 70000 /dev/zero | tr '\0' '['
     echo; printf '%s' '{"id":"l","do":"release","vehicle":3}'; } | $harness >told
-check "garbage does not end it" equal $? 0
+check "the harness survives damaged lines" equal $? 0
 cat >"$folder/answers" <<'P'
 import json
 lines = [json.loads(line) for line in open("told")]
@@ -116,7 +116,7 @@ assert "did you mean drive" in error[7]["error"] and error[7]["answer"] == "d"
 assert "from -1 to 1" in error[8]["error"] and "nearest is Sentry" in error[9]["error"]
 assert "longer than" in error[18]["error"] and "UTF-8" in error[17]["error"]
 P
-check "each line is answered, or told what is wrong with it and what would be right" python3 "$folder/answers"
+check "each line is answered, or refused with the error and the correct form" python3 "$folder/answers"
 
 # --- a slow reader -------------------------------------------------------------------------------------
 { echo '{"id":0,"want":{"entities":"all","rate_hz":10,"frames":true,"events":"all"}}'
@@ -124,18 +124,18 @@ check "each line is answered, or told what is wrong with it and what would be ri
         echo "{\"id\":$i,\"do\":\"drive\",\"vehicle\":3,\"steer\":0}"
         [ $((i % 100)) != 0 ] || sleep 0.1
     done; } | $harness | { sleep 2; cat >slow; }
-check "a reader that is slow loses no answer" equal \
+check "a slow reader loses no answer" equal \
     "$(grep -c '^{"answer":[0-9]*,"result":"\(done\|replaced\)"' slow)" 1001
 
 # --- refusals ------------------------------------------------------------------------------------------
 "$bin/jolon-harness" -w "no-$name" --timeout 0.5 </dev/null >told 2>err
-check "a world that is not there is refused in a line" equal "$? $(wc -l <err) $(wc -c <told)" "1 1 0"
+check "a world that does not exist is refused with one line" equal "$? $(wc -l <err) $(wc -c <told)" "1 1 0"
 "$bin/jolon-harness" -w "$name" now </dev/null >told 2>err
-check "wrong usage is 2" equal "$? $(wc -l <err)" "2 1"
+check "wrong usage is refused with 2" equal "$? $(wc -l <err)" "2 1"
 echo '{"do":"pause"}' | $harness | true
-check "it ends when nobody reads" [ "${PIPESTATUS[1]}" -le 1 ]
+check "the harness ends when its reader has gone" [ "${PIPESTATUS[1]}" -le 1 ]
 
-check "it stops" "$jolon" stop -w "$name"
+check "the set stops" "$jolon" stop -w "$name"
 check "nothing is left" nothing_left "$name"
 [ $failures = 0 ] || sed 's/^/# /' sentry.out escort.out "$folder/out/jolon.log" | tail -n 30
 done_testing

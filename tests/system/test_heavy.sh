@@ -1,20 +1,21 @@
 #!/usr/bin/env bash
-# What is heaviest for the collider, with the sandbox on: the run ends as one without a sandbox does.
+# The heaviest scenarios for the collider, with the sandbox on: each run ends as the same run
+# without a sandbox.
 . "$(dirname "$0")/lib.sh"
 
-# run_both NAME FRAMES: the scenario in NAME.cfg, with the sandbox and without.
+# run_both NAME FRAMES: runs the scenario of NAME.cfg with the sandbox and without.
 run_both() {
     local way options
     for way in on off; do
         options=(--without renderer --without reporter --out "out-$way" --frames "$2" --json)
         [ $way = on ] || options+=(--no-sandbox)
         "$jolon" run -w "$name" "${options[@]}" "$1.cfg" >"$way.json" 2>"$way.err"
-        check "$1: ends with 0, the sandbox $way" equal $? 0
+        check "$1: the run ends with 0, sandbox $way" equal $? 0
     done
-    check "$1: the same digest" equal "$(json digest <on.json)" "$(json digest <off.json)"
-    check "$1: the same events" equal "$(json event_digest <on.json)" "$(json event_digest <off.json)"
-    check "$1: nobody died" equal "$(json restarts <on.json)" 0
-    check "$1: nothing was forbidden" bash -c "! grep -h 'sandbox forbids' on.err out-on/jolon.log"
+    check "$1: the digest is the same" equal "$(json digest <on.json)" "$(json digest <off.json)"
+    check "$1: the events are the same" equal "$(json event_digest <on.json)" "$(json event_digest <off.json)"
+    check "$1: no role was restarted" equal "$(json restarts <on.json)" 0
+    check "$1: the sandbox forbade nothing" bash -c "! grep -h 'sandbox forbids' on.err out-on/jolon.log"
 }
 
 world() {
@@ -22,7 +23,7 @@ world() {
     echo 'terrain = { source = "flat"; height_m = 100.0; };'
 }
 
-# grid KIND STEP SIDE: objects on a square, STEP metres apart.
+# grid KIND STEP SIDE: prints objects on a square, STEP metres apart.
 grid() {
     awk -v kind="$1" -v step="$2" -v side="$3" 'BEGIN {
         print "objects = ("
@@ -43,7 +44,7 @@ TEXT
 run_both bushes 90
 check "bushes: the bomb went off" equal "$(json detonations <on.json)" 1
 
-# Every tank turns and drives off, in all the others.
+# Every tank turns and drives off, and all overlap.
 { world; awk 'BEGIN {
     print "vehicles = ("
     for (i = 0; i < 100; i++)
@@ -51,20 +52,21 @@ check "bushes: the bomb went off" equal "$(json detonations <on.json)" 1
                i ? "," : "", i * 3.6
     print ");" }'; } >spot.cfg
 run_both spot 30
-check "spot: they collide" test "$(json collisions <on.json)" -gt 1000
+check "spot: the tanks collide" test "$(json collisions <on.json)" -gt 1000
 
-# Tanks that stand in each other are all pushed at once: a frame that takes many times as long as those before it. The
-# watchdog must leave alone who works on it.
+# Overlapping tanks are all pushed apart at once, in a frame that takes many times as long as those
+# before. The watchdog must not kill the collider that computes it.
 { world; awk 'BEGIN {
     print "vehicles = ( { kind = \"jeep\"; at = [24990.0, 25000.0]; heading_deg = 90.0; speed_mps = 20.0; behaviour = \"hold\"; }"
     for (i = 0; i < 60; i++) printf ", { kind = \"tank\"; at = [25000.0, 25000.0]; heading_deg = %.1f; }\n", i * 6
     print ");" }'; } >pushed.cfg
 "$jolon" run -w "$name" --without renderer --without reporter --out long --frames 20 --json pushed.cfg >long.json 2>long.err
-check "a long frame ends no run" equal $? 0
-check "and kills nobody" equal "$(json restarts <long.json)" 0
-check "though it takes far longer than silence may" test "$(json collider_ms.max <long.json | cut -d. -f1)" -gt 300
-# 4,000 jeeps side by side, 28 m a frame: each box reaches into a hundred others, and the frame has more pairs
-# than are set aside (collider/motion/pair_filter.h). The arrays grow within the step, under the sandbox.
+check "a long frame does not end the run" equal $? 0
+check "a long frame restarts no role" equal "$(json restarts <long.json)" 0
+check "the frame takes longer than the hang limit" test "$(json collider_ms.max <long.json | cut -d. -f1)" -gt 300
+# 4,000 jeeps stand side by side and move 28 m a frame. Each box overlaps a hundred others, so the
+# frame has more pairs than the arrays hold at first (collider/motion/pair_filter.h). The arrays
+# grow within the step, under the sandbox.
 { echo 'world = { name = "abreast"; seed = 7; capacity = 4096; pace = "max"; hz = 1.0; };'
     echo 'terrain = { source = "flat"; height_m = 100.0; };'
     echo 'collision = { shape = "sphere"; };'
@@ -75,12 +77,12 @@ check "though it takes far longer than silence may" test "$(json collider_ms.max
                i ? "," : "", 25000 + 3.5 * (i % 64), 25000 + 3.5 * int(i / 64)
     print ");" }'; } >abreast.cfg
 run_both abreast 3
-check "abreast: arrays grew" grep -q 'had to grow' out-on/jolon.log
+check "abreast: the arrays grew" grep -q 'had to grow' out-on/jolon.log
 
-# Whoever limits address space is no obstacle to the default world.
+# A limit of address space does not prevent the default world.
 (ulimit -v 8000000 && "$jolon" run -w "$name" --out limited --frames 60 --json >limited.json 2>limited.err)
-check "8 GB of address space a process are enough for the default world" equal $? 0
-check "and it comes to its end" equal "$(json frame <limited.json)" 60
-check "and nobody died" equal "$(json restarts <limited.json)" 0
+check "8 GB of address space for each process suffice for the default world" equal $? 0
+check "the limited run reaches its end" equal "$(json frame <limited.json)" 60
+check "the limited run restarts no role" equal "$(json restarts <limited.json)" 0
 check "nothing is left" nothing_left "$name"
 done_testing

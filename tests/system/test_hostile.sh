@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Somebody writes samples on a world's topics that no reporter would write: monitors say nothing but
-# well-formed lines meanwhile, and the truth afterwards. SEED=n chooses others.
+# A hostile peer writes samples on a world's topics that no reporter would write. Monitors print
+# only well-formed lines meanwhile, and the true state afterwards. SEED=n chooses other samples.
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/lib.sh"
 peer=$bin/../tests/rtps/peer
@@ -11,7 +11,7 @@ echo "# SEED=$seed"
 monitor=("$bin/jolon-monitor" -w "$name" --domain "$domain")
 
 check "a set starts" "$jolon" start -w "$name" --domain $domain --without renderer --out out
-check "it is heard" "${monitor[@]}" --once --json
+check "a monitor receives the status" "${monitor[@]}" --once --json
 "${monitor[@]}" --json --vehicles >json 2>json.err &
 readers=($!)
 "${monitor[@]}" --events >events 2>events.err &
@@ -21,13 +21,13 @@ readers+=($!)
 (export TERM=xterm; exec script -qec "stty rows 40 cols 120; exec ${monitor[*]}" /dev/null </dev/null >screen 2>&1) &
 readers+=($!)
 sleep 1
-# Two, one after the other: who comes later finds what the earlier one left.
+# Two hostile peers, one after the other: the later one finds what the earlier one left.
 "$peer" -w "$name" --domain $domain hostile "$seed"
 "$peer" -w "$name" --domain $domain hostile $((seed + 1))
 sleep 3
 "${monitor[@]}" --once --json >now
 for reader in "${readers[@]}"; do
-    check "a monitor goes on" kill -0 "$reader"
+    check "a monitor survives" kill -0 "$reader"
 done
 kill "${readers[@]}"
 { wait "${readers[@]}"; } 2>/dev/null
@@ -50,7 +50,7 @@ assert text and not bad, bad
 P
 }
 check "the status was well-formed JSON all the time" well_formed json
-check "so were the events" well_formed events
+check "the events were well-formed JSON all the time" well_formed events
 check "the lines were plain text" plain lines
 truth() { # what who listened through it all says, beside who begins to listen
     tail -n 1 json >last
@@ -59,8 +59,8 @@ truth() { # what who listened through it all says, beside who begins to listen
             "$(python3 -c 'import json; print(sorted({e["kind"] for e in json.load(open("fresh"))["list"]}))')"
 }
 "${monitor[@]}" --once --json --vehicles >fresh
-check "the truth is back" truth
-check "events are heard again" python3 - <<'P'
+check "the true status is received again" truth
+check "events are received again" python3 - <<'P'
 import json
 frames = [json.loads(line)["frame"] for line in open("events", encoding="utf-8")]
 last = json.load(open("now"))["commit"]

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Nothing is lost: random SIGKILLs of every role during a run, and it ends with the digests of an
-# undisturbed one. KILLS=n and SEED=n choose others.
+# Random SIGKILLs of every role during a run: it ends with the digests of an undisturbed run.
+# KILLS=n and SEED=n choose others.
 . "$(dirname "$0")/lib.sh"
 kills=${KILLS:-$([ -n "${JOLON_SANITIZER-}" ] && echo 10 || echo 60)}
 RANDOM=${SEED:=$((RANDOM))}
@@ -12,9 +12,9 @@ frames=$((kills * 20 + 200)) # 60 Hz: three kills a second, or more
 "$jolon" run -w "$name" --frames $frames --json --out "$folder/out" --events "$folder/events" \
     --set renderer.width=320 --set renderer.height=180 >stormy 2>err &
 run=$!
-# Until the mover moves.
+# Waits until the mover has moved a frame.
 eventually "$bin/jolon-world" pid --world "$name" mover
-# A monitor that comes back whenever it is killed.
+# Starts a monitor again whenever it is killed.
 (trap 'kill $! 2>/dev/null; exit' TERM; while :; do "$jolon" monitor -w "$name" >/dev/null 2>&1 & wait $!; done) 2>/dev/null &
 monitors=$!
 sent=0 watched=0
@@ -34,9 +34,9 @@ kill $monitors 2>/dev/null
 check "the run ends with 0 after $sent kills" equal $status 0
 [ $status = 0 ] || sed 's/^/# /' err
 check "all kills were sent" [ $sent -ge $((kills * 9 / 10)) ]
-check "they were seen as restarts" [ "$(json restarts <stormy)" -ge $((sent - watched - 2)) ]
+check "the kills were counted as restarts" [ "$(json restarts <stormy)" -ge $((sent - watched - 2)) ]
 check "the digest is that of the undisturbed run" equal "$(json digest <stormy)" "$(json digest <calm)"
-check "and so is the events'" equal "$(json event_digest <stormy)" "$(json event_digest <calm)"
+check "the event digest is that of the undisturbed run" equal "$(json event_digest <stormy)" "$(json event_digest <calm)"
 check "the log holds every event once" python3 - "$folder/events" "$(json events <stormy)" <<'P'
 import json, sys
 lines = [json.loads(line) for line in open(sys.argv[1])]

@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
-# The manual: every program has a page that mandoc finds nothing wrong with, with the options that the
-# program's own help names and no others; jolon help says more about each verb; completion offers what
-# there is.
+# The manual: every program has a page that mandoc accepts, with exactly the options of the
+# program's own help. jolon help explains each verb, and completion offers what exists.
 top=$(cd "$(dirname "$0")/../.." && pwd)
 . "$(dirname "$0")/lib.sh"
 pages=$top/docs/man
@@ -17,7 +16,7 @@ same() { # PAGE COMMAND...: the same options in both
     diff <("$@" 2>&1 | options) <(of_page "$page")
 }
 for page in "$pages"/*; do
-    check "$(basename "$page") is sound" sound "$page"
+    check "$(basename "$page") is accepted by mandoc" sound "$page"
 done
 for program in "$bin"/jolon-*; do
     of=$(basename "$program")
@@ -32,21 +31,21 @@ check "jolon: page and help name the same options" same "$pages/jolon.1" "$jolon
 
 # --- help -----------------------------------------------------------------------------------------------
 mapfile -t verbs < <("$jolon" help | sed -n 's/^  \([a-z][a-z]*\).*/\1/p')
-check "help lists the verbs" [ ${#verbs[@]} -ge 21 ]
+check "jolon help lists the verbs" [ ${#verbs[@]} -ge 21 ]
 more() { "$jolon" help "$1" >told && grep -Eq "^(usage:|  $1)" told; }
 for verb in "${verbs[@]}"; do
-    check "help $verb says more" more "$verb"
-    check "$verb is in the page" eval "mandoc -Tascii '$pages/jolon.1' | sed 's/.\x08//g' | grep -Eq '^ +$verb( |\$)'"
+    check "jolon help $verb explains the verb" more "$verb"
+    check "$verb is in the page of jolon" eval "mandoc -Tascii '$pages/jolon.1' | sed 's/.\x08//g' | grep -Eq '^ +$verb( |\$)'"
 done
 said() { ! "$jolon" "$@" >told 2>err && [ "$(wc -l <err)" = 1 ]; }
-check "the nearest verb is offered" eval 'said strat && grep -q "did you mean start?" err'
-check "not for what is near to nothing" eval 'said frobnicate && ! grep -q mean err'
-check "help of no verb" eval 'said help moniter && grep -q "did you mean monitor?" err'
+check "a misspelt verb is answered with the nearest verb" eval 'said strat && grep -q "did you mean start?" err'
+check "an unknown word is answered without a suggestion" eval 'said frobnicate && ! grep -q mean err'
+check "help for a misspelt verb offers the nearest verb" eval 'said help moniter && grep -q "did you mean monitor?" err'
 if command -v man >/dev/null && command -v script >/dev/null; then
-    check "on a terminal it is the page" eval \
+    check "help on a terminal shows the manual page" eval \
         'MANPAGER=cat PAGER=cat script -qec "$jolon help ctl" /dev/null </dev/null | grep -q "EXIT STATUS\|E.*X.*I.*T.*S.*T.*A.*T.*U.*S"'
 else
-    skip "on a terminal it is the page" "no man or no script here"
+    skip "help on a terminal shows the manual page" "no man or no script here"
 fi
 
 # --- completion -------------------------------------------------------------------------------------------
@@ -68,7 +67,7 @@ check "completion: commands of ctl" offers release jolon ctl rel
 check "completion: roles" offers collider jolon kill co
 check "completion: scenarios" offers duel jolon start du
 check "completion: kinds" offers helicopter jolon ctl spawn heli
-check "completion: what an option may be" offers reverse jolon ctl drive 1 --gear r
+check "completion: values of an option" offers reverse jolon ctl drive 1 --gear r
 "$bin/jolon-world" create --world "$name" duel >/dev/null
 check "completion: worlds" offers "$name" jolon stop -w "${name:0:3}"
 check "completion: verbs of world" offers repair jolon world rep

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Two companies meet (row 9): who fights and who flees, and every change of mind says why.
+# Two companies meet (row 9): the right vehicles fight and flee, and every change of behaviour has a
+# reason.
 . "$(dirname "$0")/lib.sh"
 
 cat >meeting.cfg <<'SCENARIO'
@@ -41,11 +42,11 @@ else:
     kind, came, because = sys.argv[1:]
     assert any(e["kind"] == kind and e["to"] == came and e["because"] == because for e in minds), minds[:20]
 P
-check "every change of mind follows the one before it" python3 minds.py chain
-check "who changes its mind when fired upon was fired upon just then" python3 minds.py shot
-check "tanks attack whom they see" python3 minds.py tank attack "enemy seen"
-check "helicopters too" python3 minds.py helicopter attack "enemy seen"
+check "every change of behaviour follows the one before it" python3 minds.py chain
+check "every change because of fire follows a shot at the vehicle" python3 minds.py shot
+check "tanks attack enemies that they see" python3 minds.py tank attack "enemy seen"
+check "helicopters attack enemies that they see" python3 minds.py helicopter attack "enemy seen"
 check "trucks flee when fired upon" python3 minds.py truck flee "fired upon"
-check "tanks go on when the target is gone" python3 minds.py tank route "target gone"
-check "who fled goes on when it is over" python3 minds.py jeep route "time over"
+check "tanks continue their route when the target is gone" python3 minds.py tank route "target gone"
+check "jeeps that fled continue their route afterwards" python3 minds.py jeep route "time over"
 done_testing

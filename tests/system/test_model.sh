@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The model of the frame protocol in small bounds, and its mutants, which must fail. No process of
-# Jolon takes part; `make model` looks further.
+# The model of the frame protocol with small bounds, and its mutants, which must fail. No process of
+# Jolon takes part. `make model` searches further.
 cd "$(dirname "$0")/../model" || exit 1
 if ! command -v spin >/dev/null; then
     echo "ok 1 - model # skip the package spin is not installed"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A hundred monitors at once, one of them stopped, and the simulation keeps its time: they make no frame
-# late, run behind the frame loop and take little of the processor. MONITORS=n and FRAMES=n choose others.
+# A hundred monitors at once, one of them stopped. They make no frame late, run behind the frame
+# loop and take little processor time. MONITORS=n and FRAMES=n choose others.
 . "$(dirname "$0")/lib.sh"
 monitors=${MONITORS:-100}
 frames=${FRAMES:-480}
@@ -35,7 +35,7 @@ kill -STOP "${pids[0]}"
 used() { # PID...: hundredths of a second of processor time, of all
     for pid; do cut -d' ' -f14,15 "/proc/$pid/stat"; done 2>/dev/null | awk '{ s += $1 + $2 } END { print s }'
 }
-check "they run behind the frame loop" behind_loop "${pids[1]}" 10
+check "the monitors run behind the frame loop" behind_loop "${pids[1]}" 10
 loop() { used "$(pid mover)" "$(pid collider)"; }
 before=$(used "${pids[@]}") loop_before=$(loop)
 time_begins
@@ -44,10 +44,10 @@ check "the simulation keeps its time: no more late frames than 1 in 100" in_time
 sed -n '/^#/p' check
 of_all=$(($(used "${pids[@]}") - before)) of_loop=$(($(loop) - loop_before))
 echo "# processor time of all: $of_all hundredths of a second in $((frames / 60)) s, of the frame loop $of_loop"
-check "ten of them take no more of the processor than the frame loop" [ $((of_all * 10)) -le $((of_loop * monitors)) ]
+check "ten monitors take no more processor time than the frame loop" [ $((of_all * 10)) -le $((of_loop * monitors)) ]
 # shellcheck disable=SC2046 # a file each
 awk '/^Pss:/ { pss += $2 } /^Private_/ { private += $2 } END { printf "# memory of a monitor: %.1f MB of its own, %.1f MB with its share\n", private / 1024 / n1, pss / 1024 / n1 }' \
     n1="$monitors" $(printf '/proc/%s/smaps_rollup ' "${pids[@]}") 2>/dev/null
 end_monitors
-check "the world goes on when all are killed" bash -c "a=\$('$bin/jolon-world' frame --world $name); sleep 0.5; [ \$('$bin/jolon-world' frame --world $name) -gt \$a ]"
+check "the world goes on when all monitors are killed" bash -c "a=\$('$bin/jolon-world' frame --world $name); sleep 0.5; [ \$('$bin/jolon-world' frame --world $name) -gt \$a ]"
 done_testing

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Exactly once: the reporter, the intake and a subscriber that keeps what it heard are killed again and
-# again, and in the end the subscriber has every event of the run once; commands sent meanwhile are
-# each done once. ROUNDS=n kills, SPAWNS=n commands and SEED=n choose others.
+# Exactly once: the reporter, the intake and a subscriber that stores its events are killed
+# repeatedly. In the end the subscriber has every event of the run once, and each command sent
+# meanwhile is done once. ROUNDS=n kills, SPAWNS=n commands and SEED=n choose others.
 scenario=$(cd "$(dirname "$0")/../storm" && pwd)/crowd.cfg
 . "$(dirname "$0")/lib.sh"
 listener=$bin/../tests/once/listener
@@ -15,7 +15,8 @@ check "a set starts" "$jolon" start -w "$name" --without renderer --out "$folder
     --events "$folder/events" "$scenario"
 vehicles=$("$jolon" status -w "$name" --json | json vehicles)
 
-# Who is stopped from outside is replaced however often, and not given up as one that crashes.
+# A process that is stopped from outside is replaced however often this happens. It is not given up
+# like one that crashes.
 replaced() { local now; now=$(pid "$1") && [ "$now" != "$before" ]; }
 stop_often() {
     local _
@@ -46,12 +47,13 @@ done
 echo "# killed: the reporter $reporters times, the intake $intakes, the subscriber $listeners times"
 wait $sender
 check "every command was answered" equal "$?" 0
-check "each spawned its own" equal "$(awk '{ print $3 }' replies | sort -u | wc -l)" "$spawns"
-check "the world stands" $ctl pause
-check "none was lost or done twice" \
+check "each command spawned a vehicle of its own" equal "$(awk '{ print $3 }' replies | sort -u | wc -l)" "$spawns"
+check "the world is paused" $ctl pause
+check "no command was lost or done twice" \
     equal "$("$jolon" status -w "$name" --json | json vehicles)" "$((vehicles + spawns))"
 
-# The log goes on from its last line, also when that is a command's, which has a number of its own.
+# The log continues after its last line, also when that line is a command's, which has a number of
+# its own.
 log_again() {
     before=$(pid recorder)
     eventually eval 'tail -n 1 "$folder/events" | grep -q "\"command\":\"pause\""' &&
@@ -63,9 +65,10 @@ import json, sys
 row = [json.loads(line)["sequence"] for line in open(sys.argv[1])]
 assert row == list(range(len(row))), "lost or repeated in the log"
 P
-check "and its log goes on" python3 "$folder/row" "$folder/events"
+check "its log continues after that line" python3 "$folder/row" "$folder/events"
 
-# Key by key: what was heard against the log of events, which has every one (test_kill.sh).
+# Compares the received events by their keys with the log of events, which has every event
+# (test_kill.sh).
 cat >"$folder/compare" <<'P'
 import json, sys
 topics = ["collision", "fire", "detonation", "crater", "agent"]
@@ -85,11 +88,11 @@ P
 compare() { python3 "$folder/compare" "$folder/events" "$folder/heard" "$1"; }
 eventually compare all
 check "the subscriber has every event" compare all
-check "and each of them once" compare once
-check "it missed none on the way" eval '! grep -q follows "$folder/said"'
+check "the subscriber has each event once" compare once
+check "the subscriber missed no event on the way" eval '! grep -q follows "$folder/said"'
 kill $listening
 wait $listening 2>/dev/null
-check "it stops" "$jolon" stop -w "$name"
+check "the set stops" "$jolon" stop -w "$name"
 check "nothing is left" nothing_left "$name"
 [ $failures = 0 ] || tail -n 5 "$folder/out/jolon.log" | sed 's/^/# /'
 done_testing
