@@ -1,11 +1,12 @@
-/* The frame words in a weak memory. Spin itself knows sequential consistency alone; so here stores
- * go into a buffer that the memory empties in any order, and loads may be made early. What a fence,
- * a release or an acquire forbids is forbidden; each switch takes one of them away.
+/* The frame words in a weak memory. Spin's own memory is sequentially consistent. So here stores
+ * go into a buffer that the memory empties in any order, and loads may be made early. Fences,
+ * releases and acquires forbid their reorderings, and each switch removes one of them.
  *
- * Release: waits until the buffer is empty (what is stored after it cannot be seen before what was
- * stored before it). A dead process's buffer is emptied before its successor starts: it was waited
- * for. There is one pending store a word, so two to the same word keep their order. Loads that an
- * acquire holds back are written in their order; without it, each may have been made before. */
+ * A release waits until the buffer is empty, so that no process sees a later store before an
+ * earlier one. The buffer of a dead process is emptied before its successor starts, because the
+ * successor waits for its death. Each word has one pending store, so two stores to one word keep
+ * their order. Loads after an acquire are made in their order; without it, each may have been made
+ * before. */
 
 #ifndef FRAMES
 #define FRAMES 4
@@ -14,7 +15,7 @@
 
 /* --- memory -------------------------------------------------------------------------------------*/
 
-/* The words, by their writers. */
+/* The words, grouped by their writers. */
 #define COMMIT  0
 #define WRITING 1
 #define WORLD   2 /* two buffers of two cells */
@@ -38,7 +39,7 @@ bit pending[WORDS];
 #define STORE(word, value)                                                                         \
     atomic { !pending[word] -> pending[word] = 1; buffer[word] = value }
 
-/* The memory takes a store of its choice. */
+/* The memory takes any pending store. */
 #define DRAIN(word)                                                                                \
     :: d_step { pending[word] -> memory[word] = buffer[word]; pending[word] = 0; buffer[word] = 0 }
 
@@ -187,8 +188,8 @@ active proctype reader()
 #endif
 
 #ifdef WALK
-/* events_read() along a ring of two slots, of which one frame's most, one, is left free: of the
- * events up to f only the last, f itself, may be read; and kept only while it still is the last. */
+/* events_read() on a ring of two slots. One slot is left free, as a frame has one event at most. So
+ * of the events up to f only event f may be read, and it is kept only if f is still committed. */
 active proctype consumer()
 {
     byte f = NONE, event, again;
@@ -218,8 +219,8 @@ active proctype consumer()
 
 /* --- a command ring -------------------------------------------------------------------------------*/
 
-/* command_put(): FRAMES commands through two slots of two cells. The world's cursor is COMMIT: each
- * frame takes one command. */
+/* command_put(): FRAMES commands through two slots of two cells. COMMIT is also the cursor, because
+ * each frame takes one command. */
 active proctype sender()
 {
     byte head;

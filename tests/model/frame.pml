@@ -1,4 +1,4 @@
-/* The frame protocol under kills. Switches say which parts take part; README.md lists them. */
+/* The frame protocol under kills. Switches select the parts; README.md lists these. */
 #include "words.pml"
 #include "stages.pml"
 #include "readers.pml"
@@ -34,6 +34,6 @@ init
 }
 
 #ifdef ENDS
-/* When kills end, the run does. */
+/* When kills end, the run comes to its end. */
 ltl ends { <> (commit == FRAMES) }
 #endif

@@ -1,6 +1,7 @@
-/* Who only reads: ipc/frame/snapshot.c, and the recorder with its log. */
+/* The processes that only read: ipc/frame/snapshot.c, and the recorder with its log. */
 
-/* A whole head: the frame and one word of it, or the copy is overtaken and taken again (rule 6). */
+/* Copies the frame and one word of a world's head. If the collider overtakes the copy, it is taken
+ * again (rule 6). */
 #define HEAD(frame, word, from)                                                                    \
     do                                                                                             \
     :: frame = commit;                                                                             \
@@ -12,8 +13,8 @@
     od
 
 #ifdef READERS
-/* A copy of each frame that it comes to see; frames may pass. A killed reader has left nothing, so
- * it need not be killed. */
+/* Copies each frame that it sees, and may miss frames. Readers are not killed here, because a
+ * killed reader leaves nothing behind. */
 proctype reader()
 {
     byte f = NONE, a, b, count;
@@ -47,7 +48,7 @@ proctype reader()
            b = 0
        };
 #ifdef CRATERS
-       /* The table itself is read when it is needed: what is counted never changes. */
+       /* The table itself is read last, because rows below the count never change. */
        do
        :: count > 0 -> atomic { assert(crater[count - 1] == count); count-- }
        :: else -> break
@@ -58,13 +59,13 @@ proctype reader()
 #endif
 
 #ifdef EVENTS
-/* The log on disk: whole records, and perhaps a piece of one at its end. */
-byte log_next;   /* the sequence after its last whole record's */
+/* The log on disk: complete records, and perhaps a torn one at its end. */
+byte log_next;   /* the sequence after that of its last complete record */
 byte log_events; /* records of events */
-byte log_lost;   /* events that its gap records tell of */
+byte log_lost;   /* events that its gap records count */
 bit log_torn;
 #ifdef LOG_CURSOR_APART
-byte log_cursor; /* how far it is, in a file of its own */
+byte log_cursor; /* the next sequence, in a file of its own */
 #endif
 
 #ifdef NO_FREE_FRAME
@@ -81,7 +82,7 @@ byte log_cursor; /* how far it is, in a file of its own */
 #define EVENTS_HEAD HEAD(f, end, event_end)
 #endif
 
-/* One record, whole or torn. */
+/* Appends a record; a kill in the middle leaves a torn one. */
 #define APPEND(record)                                                                             \
     atomic {                                                                                       \
         if                                                                                         \
@@ -114,7 +115,7 @@ born:
     };
     do
     :: MORTAL;
-       (log_next < EVENTS_UNTIL(commit) || commit == FRAMES); /* a new frame, or the last */
+       (log_next < EVENTS_UNTIL(commit) || commit == FRAMES); /* a new frame, or the last one */
        EVENTS_HEAD;
        atomic {
            if
@@ -135,7 +136,7 @@ born:
 #ifndef NO_SECOND_LOOK
        EVENTS_HEAD;
 #endif
-       /* What may have been overwritten while it was copied is lost, not wrong. */
+       /* Events that may have been overwritten during the copy are counted as lost. */
        atomic {
            do
            :: next < OLDEST(end) && count > 0 ->
@@ -153,7 +154,7 @@ born:
        fi;
        do
        :: i < count ->
-          assert(a[i] == next + 1 && b[i] == next + 1); /* whole, in order, none doubled */
+          assert(a[i] == next + 1 && b[i] == next + 1); /* untorn, in order, once each */
           APPEND(log_events++; log_next = next + 1);
 #ifdef LOG_CURSOR_APART
           STORE(log_cursor = next + 1);

@@ -1,16 +1,18 @@
-/* The writer of a command ring: command_put() of ipc/frame/command_ring.c, and of reporter/intake/command_intake.c what keeps
- * a command from being put twice.
+/* The writer of a command ring: command_put() of ipc/frame/command_ring.c, and the part of
+ * reporter/intake/command_intake.c that prevents a command from being put twice.
  *
- * Its clients send their commands in any order and repeat each until it is answered. An answer is an
- * event of the frame that applied the command, so the committed set stands here for the events. */
+ * Clients send their commands in any order and repeat each until it is answered. An answer is an
+ * event of the frame that applied the command. Here the committed set of applied commands stands
+ * for these events. The history is what the writer keeps of commands and answers. */
 
-byte answered; /* the commands whose answer came back to their clients */
+byte answered; /* the commands whose clients have the answer */
 
-/* Clients repeat what is not answered; to repeat what the book has waiting would change nothing. */
+/* A client repeats a command that is not answered. Repeats of a command that waits in the history
+ * are left out, because they change nothing. */
 #define REPEATED(key) (!(answered & BIT(key)) && (known & BIT(key) || !(waiting & BIT(key))))
-#ifdef NO_BOOK
-/* The ring's memory alone: enough for a client that waits for each answer (or has fewer commands
- * under way than the ring has slots). */
+#ifdef NO_HISTORY
+/* Repeats are known by the slots of the ring alone. This is enough for a client that waits for each
+ * answer, or has fewer unanswered commands than the ring has slots. */
 #define COMES_NOW(key) (REPEATED(key) && answered == BIT(key) - 1)
 #else
 #define COMES_NOW(key) REPEATED(key)
@@ -20,12 +22,12 @@ proctype sender()
 {
     byte role = SENDER;
     byte f, taken, key, i, set;
-    byte waiting, known; /* the book: commands that wait for their answer, and answers */
+    byte waiting, known; /* the history: unanswered commands, and answers */
     bit no_room, found;
 born:
-#ifndef NO_BOOK
-    /* recall(): nothing is taken before the book is as full as the predecessor's, with the answers
-     * up to a committed head and the commands that wait in the ring from that head's cursor on. */
+#ifndef NO_HISTORY
+    /* Recovery of the history: before the sender takes a command, it reads the answers up to a
+     * committed head and the commands of the ring from that head's cursor on. */
     do
     :: f = commit;
        known = applied[f & 1];
@@ -61,13 +63,13 @@ born:
           atomic {
               if
               :: answered = answered | set
-              :: skip /* the reply is lost, or the events were another sender's to tell of */
+              :: skip /* the reply is lost, or a dead sender read the events */
               fi;
               f = 0;
               set = 0
           };
           goto next
-       /* A client's command comes, for the first time or again. */
+       /* A client sends a command, for the first time or again. */
        :: COMES_NOW(1) -> key = 1
        :: COMES_NOW(2) -> key = 2
 #if COMMANDS > 2
@@ -79,13 +81,13 @@ born:
        fi;
        if
        :: known & BIT(key) ->
-          atomic { SEEN(COMMAND_BOOK); answered = answered | BIT(key); key = 0; goto next }
+          atomic { SEEN(COMMAND_ANSWERED); answered = answered | BIT(key); key = 0; goto next }
        :: else
        fi;
 put:
        HEAD(f, taken, cursor);
        no_room = (command_head - taken >= COMMAND_SLOTS);
-       /* While there is room, the slot that comes next is no memory. */
+       /* While there is room, the next slot does not count as a known command. */
 #ifdef NEXT_SLOT_REMEMBERED
        i = COMMAND_SLOTS;
 #else
@@ -107,7 +109,7 @@ put:
           atomic { SEEN(COMMAND_KNOWN); waiting = waiting | BIT(key) }
        :: !found && no_room ->
           atomic { SEEN(RING_FULL); f = 0; taken = 0; no_room = 0 };
-          (command_head - cursor[commit & 1] < COMMAND_SLOTS); /* held until there is room */
+          (command_head - cursor[commit & 1] < COMMAND_SLOTS); /* the command waits for room */
           goto put
        :: else ->
 #ifdef HEAD_BEFORE_SLOT

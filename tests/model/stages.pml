@@ -1,4 +1,5 @@
-/* The two stages: ipc/frame/frame_protocol.c, and of mover/ and collider/ what they read and write where. */
+/* The two stages: ipc/frame/frame_protocol.c, and the places that the steps of mover/ and collider/
+ * read and write. */
 
 /* --- doorbells (rule 7) ---------------------------------------------------------------------------*/
 
@@ -6,7 +7,7 @@
 byte bell[2];
 
 #ifdef TOKENS
-/* The semaphore as a token: taken before the work, given after it. */
+/* Mutant: the semaphore is a token, taken before the work and given after it. */
 #define RING(whose)  STORE(bell[whose]++)
 #define AWAIT(ready) bell[role] > 0; STORE(bell[role]--)
 #else
@@ -17,7 +18,7 @@ byte bell[2];
 #else
 #define TIMEOUT true
 #endif
-/* Looks, and waits for the bell or for the end of a bounded time; then looks again. */
+/* Tests the condition, and waits for the bell or the time-out before it tests again. */
 #define AWAIT(ready)                                                                               \
     do                                                                                             \
     :: ready -> break                                                                              \
@@ -30,7 +31,7 @@ byte bell[2];
 #endif
 
 #else
-/* Bounded waits that look again are a wait for the thing itself. */
+/* A bounded wait that tests its condition again is the same as a wait for the condition. */
 #define RING(whose)  skip
 #define AWAIT(ready) (ready)
 #endif
@@ -60,7 +61,7 @@ born:
        assert(moved == f || moved == f + 1);
        if
        :: FINISHED(f) -> break
-       :: !FINISHED(f) && moved == f + 1 -> /* rule 3: M is the collider's to read */
+       :: !FINISHED(f) && moved == f + 1 -> /* rule 3: the collider reads M */
           AWAIT(commit != f);
           goto again
        :: else
@@ -73,7 +74,7 @@ born:
        next = cursor[f & 1];
 #endif
        done = applied[f & 1];
-       AWAIT(command_head > next); /* rule 11: a paused world, one frame for what there is to apply */
+       AWAIT(command_head > next); /* rule 11: a paused world makes a frame for commands */
        end = command_head;
 #if CURSOR_OUTSIDE == 1
        STORE(cursor_word = end);
@@ -81,8 +82,8 @@ born:
        do
        :: next < end ->
           key = command_a[next % COMMAND_SLOTS];
-          assert(key == command_b[next % COMMAND_SLOTS]); /* whole */
-          assert(key >= 1 && key <= COMMANDS && !(done & BIT(key))); /* never a second time */
+          assert(key == command_b[next % COMMAND_SLOTS]); /* untorn */
+          assert(key >= 1 && key <= COMMANDS && !(done & BIT(key))); /* applied once */
           atomic { done = done | BIT(key); key = 0; next++ }
        :: else -> break
        od;
