@@ -81,7 +81,7 @@ born:
        fi;
        if
        :: known & BIT(key) ->
-          atomic { SEEN(COMMAND_ANSWERED); answered = answered | BIT(key); key = 0; goto next }
+          atomic { SEEN(ANSWER_KNOWN); answered = answered | BIT(key); key = 0; goto next }
        :: else
        fi;
 put:

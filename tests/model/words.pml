@@ -91,7 +91,7 @@ byte cursor_word;
 #define TAIL_CUT      7  /* the recorder found a torn record */
 #define COMMANDS_WRAP 8  /* the command ring has gone round */
 #define COMMAND_KNOWN 9  /* a repeated command was found in the ring */
-#define COMMAND_ANSWERED  10 /* the history had the answer to a repeated command */
+#define ANSWER_KNOWN  10 /* the history had the answer to a repeated command */
 #define RING_FULL     11
 #define ROLE_REFUSED  12 /* a second candidate found the role held */
 #define BELL_LOST     13 /* the condition of a wait holds, and the bell did not ring */
