@@ -1,5 +1,5 @@
-/* Escort: follows a vehicle and fires at whoever fires at it. Cyclone DDS and ipc/topics/status.idl
- * alone. usage: escort WORLD OWN-ID FRIEND-ID     (see docs/examples/README.md) */
+/* Follows a vehicle and fires at every vehicle that fires at it. It needs only Cyclone DDS and
+ * ipc/topics/status.idl. usage: escort WORLD OWN-ID FRIEND-ID     (see docs/examples/README.md) */
 #include "status.h"
 #include <dds/dds.h>
 #include <math.h>
@@ -10,7 +10,7 @@
 static dds_entity_t participant, subscriber, publisher;
 static jolon_Command drive = {.type = jolon_COMMAND_DRIVE}, fire = {.type = jolon_COMMAND_FIRE};
 
-static dds_entity_t make(const char *name, const dds_topic_descriptor_t *type, bool writer)
+static dds_entity_t make_endpoint(const char *name, const dds_topic_descriptor_t *type, bool writer)
 {
     dds_qos_t *qos = dds_create_qos();
     dds_entity_t topic = dds_create_topic(participant, type, name, NULL, NULL);
@@ -21,7 +21,7 @@ static dds_entity_t make(const char *name, const dds_topic_descriptor_t *type, b
                   : dds_create_reader(subscriber, topic, qos, NULL);
 }
 
-/* Towards the place 40 m behind the friend, the faster the farther it is. */
+/* Steers to the place 40 m behind the friend, the faster the farther it is. */
 static void steer(const jolon_EntityBatch *batch, uint32_t friend_id)
 {
     const jolon_Entity *own = NULL, *friend = NULL, *all = batch->entities._buffer;
@@ -39,14 +39,14 @@ static void steer(const jolon_EntityBatch *batch, uint32_t friend_id)
     drive.steer = away < 15.0 ? 0.0F : (float)fmax(-1.0, fmin(1.0, 2.0 * turn));
 }
 
-/* A command is done once however often it is sent under its number: until it is answered. */
+/* The command is sent again under its number until it is answered, and takes effect once. */
 static void order_fire(uint32_t at)
 {
     fire.target = at, fire.sequence = ++drive.sequence;
 }
 
-/* A reporter that was restarted sends events again: only what is new counts. */
-static void see(const jolon_FireEvent *shot, uint32_t friend_id)
+/* Orders a shot back. A restarted reporter sends events again, so known ones are skipped. */
+static void on_shot(const jolon_FireEvent *shot, uint32_t friend_id)
 {
     static uint64_t last;
     if (shot->header.sequence > last && shot->target.id == friend_id && !fire.target)
@@ -54,14 +54,14 @@ static void see(const jolon_FireEvent *shot, uint32_t friend_id)
     last = shot->header.sequence > last ? shot->header.sequence : last;
 }
 
-static void hear(const jolon_CommandReply *reply)
+static void on_reply(const jolon_CommandReply *reply)
 {
     if (!fire.target || reply->source != fire.source || reply->sequence != fire.sequence)
         return;
     if (reply->result == jolon_RESULT_DONE)
         printf("shot at %u in frame %llu\n", fire.target, (unsigned long long)reply->frame);
     if (reply->result == jolon_RESULT_CANNOT)
-        order_fire(fire.target); /* the gunner still lays his gun: once more */
+        order_fire(fire.target); /* the gun is not laid on the target yet: try again */
     else
         fire.target = 0;
 }
@@ -79,20 +79,20 @@ int main(int argc, char **argv)
     participant = dds_create_participant(0, NULL, NULL);
     subscriber = dds_create_subscriber(participant, qos, NULL);
     publisher = dds_create_publisher(participant, qos, NULL);
-    dds_entity_t batches = make("EntityBatch", &jolon_EntityBatch_desc, false);
-    dds_entity_t shots = make("FireEvent", &jolon_FireEvent_desc, false);
-    dds_entity_t replies = make("CommandReply", &jolon_CommandReply_desc, false);
-    dds_entity_t commands = make("Command", &jolon_Command_desc, true);
+    dds_entity_t batches = make_endpoint("EntityBatch", &jolon_EntityBatch_desc, false);
+    dds_entity_t shots = make_endpoint("FireEvent", &jolon_FireEvent_desc, false);
+    dds_entity_t replies = make_endpoint("CommandReply", &jolon_CommandReply_desc, false);
+    dds_entity_t commands = make_endpoint("Command", &jolon_Command_desc, true);
     drive.entity = fire.entity = (uint32_t)atoi(argv[2]);
     drive.source = fire.source = (uint64_t)dds_time() ^ (uint64_t)getpid() << 40;
-    drive.lease_frames = 90; /* 1.5 s, renewed below: if we die, its agent has it again */
+    drive.lease_frames = 90; /* 1.5 s, renewed below; after that its agent drives it */
     for (;; usleep(100000), drive.sequence++, dds_write(commands, &drive)) {
         for (; dds_take(batches, &sample, &info, 1, 1) > 0; dds_return_loan(batches, &sample, 1))
             steer(sample, friend_id);
         for (; dds_take(shots, &sample, &info, 1, 1) > 0; dds_return_loan(shots, &sample, 1))
-            see(sample, friend_id);
+            on_shot(sample, friend_id);
         for (; dds_take(replies, &sample, &info, 1, 1) > 0; dds_return_loan(replies, &sample, 1))
-            hear(sample);
+            on_reply(sample);
         if (fire.target)
             dds_write(commands, &fire);
     }

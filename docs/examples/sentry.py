@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Sentry: drives a vehicle around a square and fires at whoever comes near, by `jolon harness`.
+"""Drives a vehicle around a square and fires at enemies that come near, by `jolon harness`.
 
 usage: sentry.py [-w WORLD] [--jolon PATH] [--seconds N] [--side METRES] VEHICLE
-VEHICLE is an id or a name. Python's standard library only. See docs/examples/README.md.
+VEHICLE is an id or a name. Needs only Python's standard library. See docs/examples/README.md.
 """
 import argparse
 import json
@@ -14,14 +14,14 @@ import time
 
 
 class Harness:
-    """A world behind a pipe: say() sends a line, lines() gives what comes back."""
+    """A world behind a pipe: send() writes a line, lines() yields the lines that come back."""
 
     def __init__(self, jolon, world):
         self.process = subprocess.Popen([jolon, "harness", "-w", world], text=True, bufsize=1,
                                         stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.count = 0
 
-    def say(self, **line):
+    def send(self, **line):
         self.count += 1
         self.process.stdin.write(json.dumps({"id": self.count, **line}) + "\n")
         return self.count
@@ -31,12 +31,12 @@ class Harness:
             yield json.loads(line)
 
     def close(self):
-        """No more commands; the harness ends when all are answered, and gives the vehicle back."""
+        """Ends the commands. The harness answers all of them, releases the vehicle and ends."""
         self.process.stdin.close()
 
 
 def towards(entity, x, z):
-    """Steering and distance to a place; headings are clockwise from north, z is south."""
+    """Returns steering and distance to a place. Headings are clockwise from north; z is south."""
     dx, dz = x - entity["position"][0], z - entity["position"][2]
     turn = math.degrees(math.atan2(dx, -dz)) - entity["heading_deg"]
     turn = (turn + 180) % 360 - 180
@@ -54,8 +54,8 @@ def main():
     vehicle = int(options.vehicle) if options.vehicle.isdigit() else options.vehicle
 
     harness = Harness(options.jolon, options.world)
-    harness.say(want={"entities": {"near": vehicle, "within_m": 400}, "rate_hz": 10,
-                      "events": ["detonation"]})
+    harness.send(want={"entities": {"near": vehicle, "within_m": 400}, "rate_hz": 10,
+                       "events": ["detonation"]})
     threading.Timer(options.seconds, harness.close).start()
     corners, at, fire, reloaded, munitions = None, 0, None, 0.0, set()
     for line in harness.lines():
@@ -82,12 +82,12 @@ def main():
             if away < 15:
                 at = (at + 1) % 4
                 print(f"corner {at} at {x:.0f},{z:.0f}", flush=True)
-            harness.say(do="drive", vehicle=own["id"], throttle=0.3 if abs(steer) > 0.5 else 0.6,
-                        steer=steer)
+            harness.send(do="drive", vehicle=own["id"], throttle=0.3 if abs(steer) > 0.5 else 0.6,
+                         steer=steer)
             foes = [e for e in line["entities"] if e["state"] == "active" and
                     e["force"] not in (own["force"], "neutral") and e["kind"] not in munitions]
             if foes and fire is None and time.monotonic() > reloaded:
-                fire = harness.say(do="fire", vehicle=own["id"], target=foes[0]["id"])
+                fire = harness.send(do="fire", vehicle=own["id"], target=foes[0]["id"])
     sys.exit(harness.process.wait())
 
 
@@ -95,4 +95,4 @@ if __name__ == "__main__":
     try:
         main()
     except (BrokenPipeError, ValueError):
-        pass  # closed between two lines: the time is over
+        pass  # the pipe was closed between two lines, because the time is over
