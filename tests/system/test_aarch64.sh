@@ -37,7 +37,7 @@ check "the aarch64 build has no fused instruction" fused_there
 # emulate [-p PAGE_BYTES] PROGRAM ...
 emulate() { timeout 900 qemu-aarch64 -L /usr/aarch64-linux-gnu -E "LD_LIBRARY_PATH=$lib:$second" "$@"; }
 
-# --- runs of this machine, replayed there ---------------------------------------------------------
+# --- runs of this machine, replayed on aarch64 ----------------------------------------------------
 
 # run AS FRAMES [options] SCENARIO: writes AS/commands.log
 run() {

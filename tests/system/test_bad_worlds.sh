@@ -118,7 +118,7 @@ check "the adopted run ends" grep -q 'digest' stdout
 check "the digest is that of the undisturbed run" grep -q "digest ${right%% *}" stdout
 check "nothing is left" nothing_left "$name"
 
-# --- bits of the header and of what never changes -------------------------------------------------
+# --- bits of the header and of the constant regions -----------------------------------------------
 create >/dev/null
 flip 12
 refused "a flipped bit of the header is named" 'header is damaged' world check --world "$name"
@@ -133,7 +133,7 @@ refused "repair refuses damaged kinds" 'kinds' world repair --world "$name"
 flip $((65536 * 2 + 100))
 check "check finds the world good when the bit is restored" world check --world "$name"
 
-# --- objects that are no world --------------------------------------------------------------------
+# --- objects that are not worlds ------------------------------------------------------------------
 chmod 644 "$shm"
 refused "an object with another mode" 'mode 644' create --adopt
 chmod 600 "$shm"
@@ -185,7 +185,7 @@ check "a name that a killed creator left is reused" create
 remove
 check "nothing is left" nothing_left "$name"
 
-# --- memory that goes away ------------------------------------------------------------------------
+# --- memory that is taken away --------------------------------------------------------------------
 "$jolon" run -w "$name" --set world.pace=real --without renderer --without reporter --out out good.cfg >stdout 2>told &
 run=$!
 eventually far

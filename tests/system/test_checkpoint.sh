@@ -22,7 +22,7 @@ remove_both() {
 }
 trap 'remove_both; at_end' EXIT
 
-# --- going on ---------------------------------------------------------------------------------------
+# --- a world from an image --------------------------------------------------------------------------
 "$world" create --world "$name" --set world.frames=900 --set world.pace=max >/dev/null
 run_roles "$name"
 calm=$(digest "$name")
@@ -97,7 +97,7 @@ refuses "a flipped bit" 1 'flipped.image: packed hash' "${create[@]}" --from fli
 refuses "a flipped bit in a dump" 1 'packed hash' "$world" replay-frame flipped.image
 refuses "an image of no world" 1 'there is no world' "$world" save new.image --world "$name"
 
-# --- one frame once more ----------------------------------------------------------------------------
+# --- a frame repeated from a dump -------------------------------------------------------------------
 "$world" create --world "$name" --set world.frames=1 --set world.pace=max >/dev/null
 "$world" save before.image --world "$name" >/dev/null
 (ulimit -f 100; "$world" save before.image --world "$name" 2>err)
@@ -129,7 +129,7 @@ check "it ends with the digests of the undisturbed run" \
     equal "$(json digest <set.json) $(json event_digest <set.json) frame 900" "$calm"
 check "it writes checkpoints of its own" grep -aq 'checkpoint set.image: frame' out/jolon.log
 
-# --- kills while it is written ----------------------------------------------------------------------
+# --- kills while a checkpoint is written ------------------------------------------------------------
 "$world" create --from mid.image --world "$name" >/dev/null
 cp mid.image kept.image
 whole=0

@@ -39,7 +39,7 @@ refuses "a port in use" 1 'it is in use; name another' \
 refuses "an invalid address" 1 'must be an address' "$bin/jolon-console" --port 0 --address nowhere
 refuses "a port out of range" 2 'port' "$bin/jolon-console" --port 65536
 
-# --- with one ---------------------------------------------------------------------------------------
+# --- with a world -----------------------------------------------------------------------------------
 port=$(python3 -c '
 import socket
 s = socket.socket()
@@ -66,7 +66,7 @@ check "the clients make no frames late" in_time "frames / 50 + 3"
 check "the renderer was not replaced" equal "$(pid renderer)" "$renderer_before"
 check "the sandbox forbade nothing" bash -c "! grep -h 'the sandbox forbids' log out/jolon.log"
 
-# --- what dies, and comes back ----------------------------------------------------------------------
+# --- deaths and restarts ----------------------------------------------------------------------------
 check "the console is alive" kill -0 $console_pid
 check "the world ends" "$jolon" stop -w "$name"
 check "the console waits for a world" eventually is 503

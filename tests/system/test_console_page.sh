@@ -7,7 +7,7 @@ here=$root/tests/browser
 work=$root/build/tests/browser
 [ -z "${JOLON_SANITIZER-}" ] || { skip "the page" "the browser is tried with the plain build"; done_testing; }
 
-# --- what it needs ----------------------------------------------------------------------------------
+# --- required programs ------------------------------------------------------------------------------
 "$root/supervisor/install-packages" "$here/packages.txt" >install.log 2>&1 ||
     { skip "the page" "node, npm or chromium cannot be installed here"; done_testing; }
 mkdir -p "$work"

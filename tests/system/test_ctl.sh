@@ -36,7 +36,7 @@ check "a fire mission sends several commands" eval \
 check "the JSON answer has the frame too" eval \
     '[ "$($ctl --json spawn jeep --at 100,100 | json frame)" -gt 0 ]'
 
-# --- what is wrong ------------------------------------------------------------------------------------
+# --- errors -------------------------------------------------------------------------------------------
 check "a ship on dry land" denies 1 'value out of range .*a ship needs water' spawn ship --at 24000,24000
 check "an unknown name" denies 1 "no vehicle has that name; the nearest is West" drive Wset
 check "an unknown verb" denies 2 "did you mean release" relase 1

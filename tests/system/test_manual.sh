@@ -16,7 +16,7 @@ same() { # PAGE COMMAND...: the same options in both
     diff <("$@" 2>&1 | options) <(of_page "$page")
 }
 for page in "$pages"/*; do
-    check "$(basename "$page") is accepted by mandoc" sound "$page"
+    check "mandoc accepts $(basename "$page")" sound "$page"
 done
 for program in "$bin"/jolon-*; do
     of=$(basename "$program")

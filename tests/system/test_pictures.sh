@@ -1,6 +1,7 @@
 #!/bin/bash
-# Requested pictures, from a real renderer's own socket: any vehicle, view and size, several at
-# once, what hostile and slow clients get, and that the simulation notices none of it.
+# Requested pictures from a real renderer's socket: any vehicle, view and size, several at once.
+# Hostile and slow clients must not affect others, and none of the requests may affect the
+# simulation.
 . "$(dirname "$0")/lib.sh"
 tool=$folder/asks.py
 cat >"$tool" <<'EOF'
@@ -16,12 +17,12 @@ def connect():
         try:
             s.connect(SOCKET)
             return s
-        except BlockingIOError:  # many come at once
+        except BlockingIOError:  # the socket's queue is full
             time.sleep(0.01)
 
 
 class Client:
-    """One connection that is kept."""
+    """A connection that is kept open."""
 
     def __init__(self):
         self.file = None
@@ -93,28 +94,28 @@ run=$!
 eventually test -f out/chase.png
 time_begins
 
-check "each view of several vehicles, in its size" asks '
+check "each view of several vehicles has the requested size" asks '
 client = Client()
 for vehicle, view, size in ((1, "chase", (640, 360)), (40, "inside", (320, 200)), (101, "orbit", (64, 64)),
                             (200, "overhead", (801, 603)), (300, "chase", (1920, 1080))):
     status, head, body = client.get("/picture.jpg?view=%s&vehicle=%d&size=%dx%d" % (view, vehicle, *size))
     assert status == 200 and size_of(body) == size, (vehicle, status, body[:99])
     assert int(head["X-Picture"]) > 0 and int(head["X-Frame"]) > 0'
-check "with and without the bar" asks '
+check "pictures come with and without the statistics bar" asks '
 client = Client()
 bar = client.get("/picture.jpg?vehicle=1&size=640x360&bar=1")[2]
 bare = client.get("/picture.jpg?vehicle=1&size=640x360&bar=0")[2]
 assert size_of(bar) == size_of(bare) and len(bar) > len(bare) + 3000, (len(bar), len(bare))'
-check "after=N is another picture, of a later frame" asks '
+check "after=N gives another picture, of a later frame" asks '
 client, last = Client(), (0, 0)
 for i in range(5):
     head = client.get("/picture.jpg?vehicle=2&size=160x120&after=%d" % last[0])[1]
     now = int(head["X-Picture"]), int(head["X-Frame"])
     assert now[0] > last[0] and now[1] > last[1], (last, now)
     last = now'
-check "without a vehicle: the one that is followed" asks '
+check "a request without a vehicle shows the followed vehicle" asks '
 assert Client().get("/picture.jpg")[0] == 200'
-check "maps of the ground, kept" asks '
+check "maps of the ground are kept" asks '
 client = Client()
 path = "/map.jpg?x=20000&z=30000&metres=5000&size=500x400"
 status, _, first = client.get(path)
@@ -124,7 +125,7 @@ assert client.get(path)[2] == first and time.monotonic() - begun < 0.5
 assert client.get("/map.jpg?x=20500&z=30000&metres=5000&size=500x400")[2] != first
 for where in ("x=-100000&z=100000&metres=100", "x=0&z=0&metres=200000&size=1920x1080", "x=1e5&z=-1e5&metres=137.77"):
     assert client.get("/map.jpg?" + where)[0] == 200, where'
-check "what is wrong is said" asks '
+check "wrong requests are refused with the reason" asks '
 refused("/picture.jpg?vehicle=4000000000", 404, "there is no vehicle 4000000000, or no more")
 refused("/picture.jpg?view=map", 400, "view=map: is chase, inside, orbit or overhead")
 refused("/picture.jpg?size=10000x10000", 400, "from 64x64 to 1920x1080")
@@ -133,7 +134,7 @@ refused("/picture.jpg?" + "&".join("a%d=1" % i for i in range(50)), 400, "a0 is 
 refused("/map.jpg?metres=nan", 400, "metres across the map, from 100 to 200000")
 refused("/../../etc/passwd", 404, "there is /,")
 assert Client().get("/picture.jpg?vehicle=1", "POST")[0] == 405'
-check "a ninth different picture is refused, and not for long" asks '
+check "a ninth different picture is refused, but only for a short time" asks '
 time.sleep(2.1)
 eight = threading.Thread(target=lambda: watched.extend(
     watch_all(["vehicle=%d&size=64x64" % i for i in range(60, 68)], 3)))
@@ -146,7 +147,7 @@ eight.join()
 assert all(rate > 0 for rate, _ in watched), watched
 time.sleep(2.1)
 assert Client().get("/picture.jpg?vehicle=99")[0] == 200'
-check "noise and clients that do not read stop nobody" asks '
+check "noise and clients that do not read stop no other client" asks '
 import random
 random.seed(1)
 idle = []
@@ -160,13 +161,13 @@ for i in range(6):
     idle.append(s)
 rate, longest = watch_all(["vehicle=3&size=320x200"], 1.5)[0]
 assert rate > 0, (rate, longest)'
-check "one watches, then four" asks '
+check "one client watches, then four" asks '
 one = watch_all(["vehicle=5"], 1.5)
 four = watch_all(["vehicle=5", "vehicle=90&view=inside", "vehicle=150&view=orbit", "vehicle=250&view=overhead"], 1.5)
 print("pictures a second, longest wait [s]: one", one, "four", four)
 assert all(rate > 0 for rate, _ in one + four), (one, four)'
 grep pictures check | sed 's/^/# /'
-check "killed, it gives pictures again" asks '
+check "the renderer gives pictures again after a kill" asks '
 import subprocess
 subprocess.run(["'"$jolon"'", "kill", "-w", "'"$name"'", "renderer"], check=True, stdout=subprocess.DEVNULL)
 begun = time.monotonic()
@@ -180,10 +181,10 @@ while True:
     time.sleep(0.01)
 print("a picture %.2f s after the kill" % (time.monotonic() - begun))'
 grep "after the kill" check | sed 's/^/# /'
-check "nobody who looks makes the simulation late" in_time "frames / 20"
+check "clients make no frames late" in_time "frames / 20"
 "$jolon" stop -w "$name" >stopped 2>&1
 wait $run || sed 's/^/# /' err
 frames=$(json frame <watched.json)
 "$jolon" run -w "$name" --frames $frames --pace max --without renderer --out quiet --json hunter-liggett >quiet.json 2>err
-check "nor changes the digest" equal "$(json digest <watched.json)" "$(json digest <quiet.json)"
+check "clients do not change the digest" equal "$(json digest <watched.json)" "$(json digest <quiet.json)"
 done_testing

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A scenario as a rehearsed event (row 16): vehicles are where their scripts say at the times they
-# say, and the play ends with the same digest however often, on however many threads, and when the
-# mover is killed in the middle of it.
+# A scenario as a rehearsed event (row 16): vehicles are at the scripted places at the scripted
+# times. The run ends with the same digest every time, on any number of threads, and when the mover
+# is killed during it.
 . "$(dirname "$0")/lib.sh"
 
 frames=7200
@@ -16,21 +16,22 @@ digest() { json digest <"$folder/$1.json"; }
 play one --threads 1
 play three --threads 3
 play again --threads 1
-check "the play again ends with the same digest" equal "$(digest one)" "$(digest again)"
-check "one thread and three end with one digest" equal "$(digest one)" "$(digest three)"
+check "a second run ends with the same digest" equal "$(digest one)" "$(digest again)"
+check "one thread and three threads give the same digest" equal "$(digest one)" "$(digest three)"
 
-# Ten seconds by the clock, so that there is a middle to be killed in.
+# Runs ten seconds in real time, so that the mover can be killed during the run.
 play short --frames 600
 play killed --frames 600 --pace real &
 run=$!
 sleep 5
-check "the mover is killed in the middle" "$jolon" kill -w "$name" mover
+check "the mover is killed during the run" "$jolon" kill -w "$name" mover
 wait $run
-check "it came back" equal "$(json restarts <killed.json)" 1
-check "a play whose mover was killed ends with the same digest" equal "$(digest short)" "$(digest killed)"
+check "the mover was restarted once" equal "$(json restarts <killed.json)" 1
+check "the run whose mover was killed ends with the same digest" equal "$(digest short)" "$(digest killed)"
 
-# The shots of the play, by whom and on whom: two at trucks, one at the road, two at the tanks.
-check "tanks and helicopters fire their shots" python3 - "$folder/one.events" <<'P'
+# The shots of the run with their shooters and targets: two at trucks, one at the road, two at the
+# tanks.
+check "tanks and helicopters fire the scripted shots" python3 - "$folder/one.events" <<'P'
 import json, sys
 shots = [(e["shooter"]["kind"], e["target"]["kind"]) for e in map(json.loads, open(sys.argv[1]))
          if e["type"] == "fire" and e["shooter"]["id"]]
@@ -38,7 +39,7 @@ print(shots)
 sys.exit(shots != [("tank", "truck")] * 2 + [("tank", "none")] + [("helicopter", "tank")] * 2)
 P
 
-# Arrivals of the convoy's leader: by its file of waypoints, at 60 Hz.
+# Compares the arrivals of the convoy's leader with its file of waypoints, at 60 Hz.
 check "the convoy is at each waypoint at its time" python3 - "$folder/one.events" "$bin/../../config/scenarios/rehearsal-convoy.csv" <<'P'
 import json, sys
 arrived = [e for e in map(json.loads, open(sys.argv[1]))

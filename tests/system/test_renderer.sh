@@ -1,13 +1,14 @@
 #!/usr/bin/env bash
-# A renderer may die as often as it likes: the next picture is there within a second, and the run
-# ends with the digest of one without a renderer. One that lives does not grow.
-# KILLS=n kills; SECONDS_FLAT=s watches its memory for so long (600: what a release is held to).
+# A renderer may die any number of times: the next picture follows within a second, and the run ends
+# with the digest of a run without a renderer. The memory of a living renderer does not grow.
+# KILLS=n sets the number of kills, and SECONDS_FLAT=s how long the memory is observed (600 for a
+# release).
 . "$(dirname "$0")/lib.sh"
 kills=${KILLS:-$([ -n "${JOLON_SANITIZER-}" ] && echo 5 || echo 100)}
 flat_s=${SECONDS_FLAT:-12}
 small="--set renderer.width=320 --set renderer.height=180 --set renderer.fps=30 --set renderer.view=chase"
 
-# A run in the background, until its first picture is there; and its end, with its summary.
+# Starts a run in the background and waits for its first picture. Ends it and prints its summary.
 begin() {
     rm -rf "$folder/out"
     # shellcheck disable=SC2086 # words
@@ -39,10 +40,10 @@ print("%.3f %.3f %.3f" % (waits[len(waits) // 2], waits[len(waits) * 9 // 10], w
 P
 status=$?
 read -r median p90 worst <waits
-check "after each of $kills kills there is a next picture" equal $status 0
+check "a picture follows after each of $kills kills" equal $status 0
 [ $status = 0 ] || sed 's/^/# /' err
 echo "# figures: next picture after a kill [s]: median $median, 9 of 10 within $p90, worst $worst"
-check "nine times in ten within a second" python3 -c "import sys; sys.exit(not (float('$p90') < ${JOLON_SANITIZER:+10}1.0))"
+check "nine of ten pictures follow within a second" python3 -c "import sys; sys.exit(not (float('$p90') < ${JOLON_SANITIZER:+10}1.0))"
 end
 frames=$(json frame <summary)
 "$jolon" run -w "$name" --frames "$frames" --pace max --json --without renderer --without reporter \
@@ -50,16 +51,16 @@ frames=$(json frame <summary)
 check "the digest at frame $frames is that of a run without a renderer" \
     equal "$(json digest <summary)" "$(json digest <calm)"
 
-# --- and one that lives ---------------------------------------------------------------------------
-# For a short while it stands still, where its ground is painted soon; for a long one it drives, and
-# its ground comes and goes.
+# --- the memory of a living renderer ---------------------------------------------------------------------------
+# In a short test the camera stands still, where the ground is soon painted. In a long test it moves,
+# so that ground is loaded and freed.
 stand="--view free --eye 27000,21000,30 --look 90,0"
 [ "$flat_s" -lt 120 ] || stand="--view chase"
 begin
 # shellcheck disable=SC2086 # words
 "$bin/jolon-renderer" -w "$name" --role renderer-2 --out second --fps 60 --size 320x180 --stills 2 $stand 2>second.err &
 second=$!
-check "its memory is flat over $flat_s s" python3 - "$second" "$flat_s" <<'P'
+check "the renderer's memory does not grow within $flat_s s" python3 - "$second" "$flat_s" <<'P'
 import sys, time
 pid, seconds = int(sys.argv[1]), float(sys.argv[2])
 def resident():

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Datagrams from anybody against a sandboxed reporter: one that Cyclone DDS complains of, mutated
-# ones of captured discovery and data, participants that come and go.
-# PACKETS=n and SEED=n choose others, RATE=n more a second.
+# Datagrams from any sender against a sandboxed reporter: a datagram that Cyclone DDS complains
+# about, mutated datagrams of captured discovery and data, and participants that come and go.
+# PACKETS=n and SEED=n choose others, RATE=n sets how many are sent per second.
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/lib.sh"
 peer=$bin/../tests/rtps/peer
@@ -28,8 +28,8 @@ for port in reporter.ports:
     socket.socket(socket.AF_INET, socket.SOCK_DGRAM).sendto(
         b"RTPS\x02\x01\x01\x10" + b"A" * 12 + b"\x15\x05\x2c\x01" + b"\0" * 8, ("127.0.0.1", port))
 P
-check "what it complains of is in the log" eventually grep -q 'reporter warning .*dds: malformed packet' out/jolon.log
-check "and it goes on" equal "$(pid reporter)" "$first"
+check "the complaint about a malformed datagram is in the log" eventually grep -q 'reporter warning .*dds: malformed packet' out/jolon.log
+check "the reporter survives the malformed datagram" equal "$(pid reporter)" "$first"
 
 # --- type information ---------------------------------------------------------------------------------
 check "a peer's datagrams are captured" "$peer" -w "$name" --domain $domain capture captured
@@ -43,21 +43,21 @@ check "type information that ends Cyclone DDS does not end the reporter" equal "
 
 # --- participants that have left ----------------------------------------------------------------------
 python3 "$rtps/leave.py" --bin "$bin" --world "$name" --capture captured --participants 40 >left
-check "forty participants come and are answered" equal "$(json heard <left)" 40
-check "and are not told of anything once they have left" [ "$(json after <left)" -le 4 ]
+check "forty participants join and are answered" equal "$(json heard <left)" 40
+check "the reporter sends nothing to participants that have left" [ "$(json after <left)" -le 4 ]
 
 # --- mutated datagrams --------------------------------------------------------------------------------
 time_begins
 echo "# SEED=$seed"
 python3 "$rtps/fuzz.py" --bin "$bin" --world "$name" --capture captured --packets "$packets" --rate "$rate" \
     --seed "$seed" >fuzzed
-check "no frame was late because of them" in_time "frames / 100 + 1"
+check "the datagrams make no frame late" in_time "frames / 100 + 1"
 restarts=$(json restarts <fuzzed)
-check "$packets mutated datagrams are survived" [ "$(json packets <fuzzed)" = "$packets" ]
+check "all $packets mutated datagrams were sent" [ "$(json packets <fuzzed)" = "$packets" ]
 echo "# figures: $packets mutated datagrams (SEED=$seed), $(json dropped <fuzzed) not taken, $restarts deaths of the reporter"
-check "the reporter answers after them" answers
-check "its commands too" equal "$("$peer" -w "$name" --domain $domain command)" answered
-check "it did not die of them" equal "$restarts" 0
+check "the reporter answers afterwards" answers
+check "the reporter takes commands afterwards" equal "$("$peer" -w "$name" --domain $domain command)" answered
+check "the reporter was not restarted" equal "$restarts" 0
 check "the sandbox forbade nothing" bash -c "! grep 'the sandbox forbids' out/jolon.log"
 check "the set stops" "$jolon" stop -w "$name"
 check "nothing is left" nothing_left "$name"

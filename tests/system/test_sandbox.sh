@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Least privilege of a real set: what the kernel says of its processes, and that a set without its
-# sandbox says so.
+# Least privilege of a real set: the test reads what the kernel reports of its processes. A set
+# without its sandbox must report that.
 . "$(dirname "$0")/lib.sh"
 
-# A field of every thread of a process: fields PID NAME prints its distinct values.
+# fields PID NAME: prints the distinct values of a field over all threads of a process.
 fields() { awk -v name="$2:" '$1 == name { print $2 }' /proc/"$1"/task/*/status | sort -u; }
-# Descriptors of a process and what they are.
+# Prints the descriptors of a process and what they refer to.
 descriptors() { for fd in /proc/"$1"/fd/*; do echo "${fd##*/} $(readlink "$fd")"; done; }
 is_up() { [ "$("$jolon" status -w "$name" --json | json state)" = running ]; }
 
@@ -21,48 +21,49 @@ if [ -n "${JOLON_SANITIZER-}" ]; then
     done_testing
 fi
 
-# Something left open, as a careless parent would.
+# A descriptor left open, as by a careless parent.
 exec 7</etc/hostname
 start >started 2>&1
 exec 7<&-
-check "the set is up" is_up
+check "the set is ready" is_up
 for role in "${roles[@]}"; do
     of=$(pid $role)
     check "$role: every thread has its filter" equal "$(fields "$of" Seccomp)" 2
-    check "$role: no new privileges" equal "$(fields "$of" NoNewPrivs)" 1
+    check "$role: it can gain no privileges" equal "$(fields "$of" NoNewPrivs)" 1
     for set in CapEff CapPrm CapInh CapAmb; do
-        check "$role: no capabilities ($set)" equal "$(fields "$of" $set)" 0000000000000000
+        check "$role: it has no capabilities ($set)" equal "$(fields "$of" $set)" 0000000000000000
     done
-    check "$role: nothing inherited is open" bash -c "! readlink /proc/$of/fd/* | grep -q hostname"
+    check "$role: no inherited descriptor is open" bash -c "! readlink /proc/$of/fd/* | grep -q hostname"
 done
 of=$(cat "$(path_of lock)")
 check "keeper: it has its filter" equal "$(fields "$of" Seccomp)" 2
-check "keeper: no new privileges" equal "$(fields "$of" NoNewPrivs)" 1
-check "keeper: no capabilities" equal "$(fields "$of" CapEff)$(fields "$of" CapPrm)" 00000000000000000000000000000000
+check "keeper: it can gain no privileges" equal "$(fields "$of" NoNewPrivs)" 1
+check "keeper: it has no capabilities" equal "$(fields "$of" CapEff)$(fields "$of" CapPrm)" 00000000000000000000000000000000
 for role in mover collider; do
     check "$role holds its lock and nothing else" equal "$(descriptors "$(pid $role)" | grep -v '^[012] ')" \
         "3 $(path_of lock)"
 done
 if [ "$UID" = 0 ]; then
-    check "nor could a program that it became get any back" equal "$(fields "$(pid mover)" CapBnd)" 0000000000000000
+    check "the mover's bounding set of capabilities is empty" equal "$(fields "$(pid mover)" CapBnd)" 0000000000000000
 fi
 # The first takes seconds: the driver compiles its shaders.
-check "the pictures are their owner's alone" bash -c "
+check "only the owner can read the pictures" bash -c "
     for i in \$(seq 1200); do [ -e out/map.png ] && break; sleep 0.05; done
     [ \"\$(stat -c %a out/*.png | sort -u)\" = 600 ]"
 check "checkpoints are written" eventually [ -e checkpoint ]
 check "the set stops" "$jolon" stop -w "$name"
-check "and forbade nothing on the way" bash -c "! grep 'the sandbox forbids' out/jolon.log"
-check "nor went without" bash -c "! grep -i 'without its sandbox' out/jolon.log"
+check "the sandbox forbade nothing" bash -c "! grep 'the sandbox forbids' out/jolon.log"
+check "no role ran without its sandbox" bash -c "! grep -i 'without its sandbox' out/jolon.log"
 
-# Without: each says so, and the kernel confirms it; a container may have a filter of its own.
+# Without the sandbox each role says so and the kernel confirms it. A container may have a filter of
+# its own.
 check "a set without sandbox starts" start --no-sandbox
 for role in "${roles[@]}"; do
     check "$role: it has no filter" equal "$(fields "$(pid "$role")" Seccomp_filters)" "$(fields $$ Seccomp_filters)"
 done
-check "it stops" "$jolon" stop -w "$name"
+check "the set stops" "$jolon" stop -w "$name"
 for role in "${roles[@]}"; do
-    check "the $role says loudly that it has none" grep -q " $role warning.* WITHOUT its sandbox" out/jolon.log
+    check "the $role warns that it has no sandbox" grep -q " $role warning.* WITHOUT its sandbox" out/jolon.log
 done
 check "nothing is left" nothing_left "$name"
 done_testing

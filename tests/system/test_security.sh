@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# DDS Security in the real sandbox: who has a certificate that allows it reads or commands a world;
-# who has another's, or none, is not heard and hears nothing.
+# DDS Security in the real sandbox: a certificate with the permission allows reading or commanding a
+# world. A client with another authority's certificate, or with none, is not heard and hears
+# nothing.
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/lib.sh"
 peer=$bin/../tests/rtps/peer
@@ -11,11 +12,11 @@ domain=$((100 + $$ % 100))
 refuses_keys() { # pattern, arguments
     ! "$keys" "${@:2}" 2>err && grep -Eq "$1" err
 }
-check "certificates are made" "$keys" keys reporter:world operator:alice viewer:bob
-check "and those of somebody else" "$keys" others operator:alice
-check "keys are their owner's alone" equal "$(stat -c %a keys/*.key keys/world.xml | sort -u)" 600
-check "a kind that there is not is refused" refuses_keys 'reporter:NAME' keys king:carl
-check "and a name that would be a path" refuses_keys 'a name is of' keys viewer:../x
+check "jolon-keys makes certificates" "$keys" keys reporter:world operator:alice viewer:bob
+check "certificates of another authority are made" "$keys" others operator:alice
+check "only the owner can read the keys" equal "$(stat -c %a keys/*.key keys/world.xml | sort -u)" 600
+check "an unknown kind of certificate is refused" refuses_keys 'reporter:NAME' keys king:carl
+check "a name that would be a path is refused" refuses_keys 'a name is of' keys viewer:../x
 sed 's/viewer/operator/; s/topic>WorldInfo</topic>Command</' keys/bob-permissions.p7s >forged.p7s
 sed "s|bob-permissions.p7s|../forged.p7s|" keys/bob.xml >forged.xml
 
@@ -38,15 +39,15 @@ try read forged.xml . &
 wait
 said() { equal "$(tail -n 1 "$1")" "$2"; }
 check "an operator reads the status" said read.alice. heard
-check "and is answered" said command.alice. answered
+check "an operator's command is answered" said command.alice. answered
 check "a viewer reads the status" said read.bob. heard
-check "and may not command" grep -q 'Not Allowed By Security' command.bob.
-check "without a certificate nothing is heard" said read.none. unheard
-check "and no command" said command.none. unanswered
-check "with another authority's certificate nothing is heard" said read.alice.other unheard
-check "and no command" said command.alice.other unanswered
-check "permissions that somebody changed are not taken" grep -q 'DDS participant: ' read.forged.
-check "our monitor takes the configuration too" "$bin/jolon-monitor" -w "$name" --domain $domain --dds-config keys/bob.xml --once
+check "a viewer may not command" grep -q 'Not Allowed By Security' command.bob.
+check "a client without a certificate hears nothing" said read.none. unheard
+check "the client's command is not answered" said command.none. unanswered
+check "a client with another authority's certificate hears nothing" said read.alice.other unheard
+check "the client's command is not answered" said command.alice.other unanswered
+check "changed permissions are refused" grep -q 'DDS participant: ' read.forged.
+check "jolon monitor accepts the configuration" "$bin/jolon-monitor" -w "$name" --domain $domain --dds-config keys/bob.xml --once
 check "the sandbox forbade nothing" bash -c "! grep 'the sandbox forbids' out/jolon.log"
 check "the reporter was not restarted" equal "$("$jolon" status -w "$name" --json | python3 -c '
 import json, sys

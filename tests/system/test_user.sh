@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# A set that root starts for another user: all of it is that user's, and nothing of it runs as root.
+# A set that root starts for another user: all its files belong to that user, and no process of it
+# runs as root.
 . "$(dirname "$0")/lib.sh"
 unset JOLON_RUNTIME_DIR # each user has one of their own
 
@@ -40,14 +41,14 @@ for process in "$keeper" $(pgrep -P "$keeper"); do
     check "$what has none of root's capabilities" equal "$(field "$process" CapPrm)" " 0000000000000000"
 done
 check "the folder of --out and all in it are the user's" equal "$(owners)" "$other"
-check "root looks at it with --user" eval '"$theirs" status --user "$other" -w "$name" | grep -q "is running"'
+check "root sees the world with --user" eval '"$theirs" status --user "$other" -w "$name" | grep -q "is running"'
 "$theirs" status -w "$name" >told 2>&1
-check "and has no such world itself" equal $? 1
+check "root has no such world itself" equal $? 1
 before=$(pid reporter)
-check "kill a role" "$theirs" kill --user "$other" -w "$name" reporter
-check "it comes back" eventually replaced reporter "$before"
-check "as that user" equal "$(field "$(pid reporter)" Uid)" " $uid $uid $uid $uid"
-check "stop" "$theirs" stop --user "$other" -w "$name"
+check "jolon kill --user succeeds" "$theirs" kill --user "$other" -w "$name" reporter
+check "the reporter is replaced" eventually replaced reporter "$before"
+check "the new reporter runs as that user" equal "$(field "$(pid reporter)" Uid)" " $uid $uid $uid $uid"
+check "jolon stop --user succeeds" "$theirs" stop --user "$other" -w "$name"
 check "nothing is left" eval '! ls /dev/shm "/run/user/$uid/jolon" 2>/dev/null | grep -q "$name"'
 
 refused() { # NAME STATUS PATTERN COMMAND...: one line
@@ -56,13 +57,13 @@ refused() { # NAME STATUS PATTERN COMMAND...: one line
     "$@" >told 2>&1
     check "$what" eval "[ $? = $status ] && [ \$(wc -l <told) = 1 ] && grep -q -- '$pattern' told"
 }
-refused "a user who is not there" 1 'there is no such user' "$theirs" start --user nobody-$$ -w "$name"
-refused "no name" 2 '--user wants a name' "$theirs" start -w "$name" --user
-refused "only root may" 1 'only root can' setpriv --reuid "$uid" --regid "$uid" --clear-groups \
+refused "an unknown user is refused" 1 'there is no such user' "$theirs" start --user nobody-$$ -w "$name"
+refused "--user without a name is refused" 2 '--user wants a name' "$theirs" start -w "$name" --user
+refused "--user is refused for other users" 1 'only root can' setpriv --reuid "$uid" --regid "$uid" --clear-groups \
     "$theirs" status --user root -w "$name"
 chmod 700 "$tree/build"
-refused "programs that the user may not run" 1 'install Jolon where everybody may' "$theirs" start --user "$other" -w "$name"
+refused "programs that the user may not run are refused" 1 'install Jolon where everybody may' "$theirs" start --user "$other" -w "$name"
 chmod 755 "$tree/build"
 "$theirs" run -w "$name" --frames 5 --pace max --without renderer --out "$tree/roots" >told 2>&1
-check "root without --user is told what it does" grep -q 'runs as root: .*--user NAME' told
+check "root without --user gets a warning" grep -q 'runs as root: .*--user NAME' told
 done_testing

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Video and live stream of a real set: what a player and a browser get, when things die and clients
-# misbehave; and the run knows nothing of it.
+# Video and live stream of a real set: what a player and a browser receive when processes die and
+# clients misbehave. The run itself is not affected.
 . "$(dirname "$0")/lib.sh"
 film=$bin/../tests/film/film
 fps=20
@@ -11,7 +11,7 @@ s = socket.socket()
 s.bind(("127.0.0.1", 0))
 print(s.getsockname()[1])')
 
-# What a player finds in a file: of FILE KEY. The first look decodes it.
+# of FILE KEY: prints what a player finds in a video. The first call decodes the file.
 of() {
     [ -e "$1.json" ] || "$film" "$1" >"$1.json"
     json "$2" <"$1.json"
@@ -24,41 +24,41 @@ between() { python3 -c "import sys; sys.exit(not $1 <= $2 <= $3)" || { echo "$2 
 "$jolon" run -w "$name" --json --frames 150 --pace max --out none --without renderer --without reporter \
     "${small[@]}" duel >none.json 2>err || sed 's/^/# /' err
 check "neither video nor stream changes the digest" equal "$(json digest <one.json)" "$(json digest <none.json)"
-check "nor the events" equal "$(json event_digest <one.json)" "$(json event_digest <none.json)"
+check "neither video nor stream changes the events" equal "$(json event_digest <one.json)" "$(json event_digest <none.json)"
 check "the video can be played" "$film" live.mkv
-check "all of it" equal "$(of live.mkv damaged)" 0
-check "it has the size of the pictures" equal "$(of live.mkv width)x$(of live.mkv height)" 320x180
-# From its first picture on, at most so many; a loaded machine draws fewer.
-check "and as many pictures as there is time for" between 12 "$(of live.mkv pictures)" 51
-check "a second of it is one of simulation" between 1.0 "$(of live.mkv last_s)" 2.501
-check "it is complete: its length is known" between "$(of live.mkv last_s)" "$(of live.mkv duration_s)" 2.56
+check "every picture of the video can be decoded" equal "$(of live.mkv damaged)" 0
+check "the video has the size of the pictures" equal "$(of live.mkv width)x$(of live.mkv height)" 320x180
+# The upper limit counts from the first picture. A loaded machine draws fewer pictures.
+check "the video has the possible number of pictures" between 12 "$(of live.mkv pictures)" 51
+check "a second of the video is a second of simulation" between 1.0 "$(of live.mkv last_s)" 2.501
+check "the video is complete: its length is known" between "$(of live.mkv last_s)" "$(of live.mkv duration_s)" 2.56
 check "the sandbox forbade nothing" bash -c "! grep 'the sandbox forbids' one/jolon.log"
-check "it is its owner's alone" equal "$(stat -c %a live.mkv)" 600
+check "only the owner can read the video" equal "$(stat -c %a live.mkv)" 600
 
 # --- from a recording ---------------------------------------------------------------------------------
 record() { "$jolon" video --view map --size 321x181 "$@"; }
 check "a video is made of the log" record --frames 90 --from 30 --fps 30 one/commands.log some.mp4
-check "with a picture for every second frame" equal "$(of some.mp4 pictures)" 45
-check "evenly" between 0.0332 "$(of some.mp4 gap_s)" 0.0335
-check "of even sides" equal "$(of some.mp4 width)x$(of some.mp4 height)" 320x180
-check "of all of the run" record one/commands.log all.mkv
-check "with a picture for every frame" equal "$(of all.mkv pictures)" 151
-check "and for the web" record --frames 12 one/commands.log some.webm
-check "as VP8" equal "$(of some.webm codec) $(of some.webm pictures)" "vp8 12"
-check "its last picture alone" record one/commands.log last.png
-check "is of the last frame" grep -aq 'frame=150 ' last.png
-check "in the view asked for" grep -aq 'view=map' last.png
+check "the video has a picture for every second frame" equal "$(of some.mp4 pictures)" 45
+check "the pictures are evenly spaced" between 0.0332 "$(of some.mp4 gap_s)" 0.0335
+check "width and height are even" equal "$(of some.mp4 width)x$(of some.mp4 height)" 320x180
+check "a video is made of the whole run" record one/commands.log all.mkv
+check "that video has a picture for every frame" equal "$(of all.mkv pictures)" 151
+check "a video is made for the web" record --frames 12 one/commands.log some.webm
+check "it is encoded as VP8" equal "$(of some.webm codec) $(of some.webm pictures)" "vp8 12"
+check "a picture of the last frame is made" record one/commands.log last.png
+check "the picture is of the last frame" grep -aq 'frame=150 ' last.png
+check "the picture has the requested view" grep -aq 'view=map' last.png
 record one/commands.log again.png >again 2>&1
-check "and the same from the same log" cmp last.png again.png
+check "the same log gives the same picture" cmp last.png again.png
 check "nothing else is left" equal "$(ls ./*.tmp 2>/dev/null)" ""
-refuses "another ending" 1 'must end in .mkv, .mp4 or .webm' record one/commands.log all.avi
-refuses "a frame that is not there" 2 'known to frame 150' record --from 151 one/commands.log all.mkv
-refuses "no log" 1 'cannot open' record nothing.log all.mkv
-refuses "a folder that is not there" 1 'cannot make the file' record one/commands.log none/no/all.mkv
+refuses "an unknown file name extension" 1 'must end in .mkv, .mp4 or .webm' record one/commands.log all.avi
+refuses "a frame beyond the end" 2 'known to frame 150' record --from 151 one/commands.log all.mkv
+refuses "a log that does not exist" 1 'cannot open' record nothing.log all.mkv
+refuses "a folder that does not exist" 1 'cannot make the file' record one/commands.log none/no/all.mkv
 
-# --- killed, and watched --------------------------------------------------------------------------------
+# --- kills and clients ----------------------------------------------------------------------------------
 "$jolon" start -w "$name" --out two --fps $fps --video two.mkv --stream "$port" "${small[@]}" duel >started 2>&1
-check "where the stream is, is said" grep -q "stream http://127.0.0.1:$port/" started
+check "jolon start names the stream's address" grep -q "stream http://127.0.0.1:$port/" started
 eventually test -s two/map.png
 cat >watch.py <<'P'
 import http.client, json, socket, struct, sys, threading, time
@@ -103,7 +103,7 @@ class Watcher(threading.Thread):
         except Exception as error:
             self.error = error
 
-# One that never reads, and a crowd that says nothing.
+# One client never reads, and a crowd of clients sends nothing.
 sleeper = socket.create_connection(("127.0.0.1", port))
 sleeper.sendall(b"GET /map.mjpeg HTTP/1.1\r\nHost: localhost\r\n\r\n")
 watchers = [Watcher(), Watcher()]
@@ -158,31 +158,31 @@ for _ in range(100):
 else:
     sys.exit("it does not answer after a crowd")
 P
-check "two watch while one never reads, and what is malformed is refused" python3 watch.py "$port" 12
+check "two clients watch while one never reads, and malformed requests are refused" python3 watch.py "$port" 12
 refuses_port() {
     "$jolon" run -w "${name}b" --frames 10 --out other --stream "$port" "${small[@]}" duel >refused 2>&1
     grep "goes on without the renderer and keeps trying: renderer refused: --stream $port: cannot listen .* in use" refused
 }
-check "a port that is in use is refused in a clear line" refuses_port
+check "a port in use is refused with one line" refuses_port
 refuses_view() {
     "$jolon" run -w "${name}b" --frames 10 --out other --video no.mkv --video-view chase "${small[@]}" duel >refused 2>&1
     grep "goes on without the renderer and keeps trying: renderer refused: --video-view chase: is not drawn; there is map" refused
 }
-check "so is a video of a view that is not drawn" refuses_view
+check "a video of a view that is not drawn is refused with one line" refuses_view
 sleep 1.5 # what comes later than a second before the kill may be lost
 before=$(pid renderer)
 "$jolon" kill -w "$name" renderer >/dev/null
 cp two.mkv killed.mkv
-check "killed -9, what there is can be played" between 20 "$(of killed.mkv pictures)" 100000
-check "without damage" equal "$(of killed.mkv damaged)" 0
+check "the video of a killed renderer can be played" between 20 "$(of killed.mkv pictures)" 100000
+check "that video has no damaged pictures" equal "$(of killed.mkv damaged)" 0
 next_film() { [ -s two-2.mkv ] && [ "$(pid renderer)" != "$before" ]; }
 check "the next renderer begins another file" eventually next_film
-check "and streams at the same place" eventually python3 -c "
+check "the next renderer streams at the same address" eventually python3 -c "
 import urllib.request
 urllib.request.urlopen('http://127.0.0.1:$port/map.jpg', timeout=10)"
 check "the set stops" "$jolon" stop -w "$name"
-check "the first file is as it was" cmp killed.mkv two.mkv
-check "the other is complete" between 0 "$(of two-2.mkv duration_s)" 100000
-check "the sandbox forbade nothing there either" bash -c "! grep 'the sandbox forbids' two/jolon.log"
+check "the first file is unchanged" cmp killed.mkv two.mkv
+check "the second file is complete" between 0 "$(of two-2.mkv duration_s)" 100000
+check "the sandbox forbade nothing in that run" bash -c "! grep 'the sandbox forbids' two/jolon.log"
 check "nothing is left" nothing_left "$name"
 done_testing

@@ -1,13 +1,12 @@
 #!/usr/bin/env bash
-# Views, what can be switched in them, and pictures taken of a running world: none of it changes the
-# world, a picture shows the frame that it says, and what is asked for wrongly is refused with words
-# that help.
+# Views, their switches, and pictures of a running world: none of them changes the world, a picture
+# shows the frame that it names, and wrong requests are refused with a helpful message.
 . "$(dirname "$0")/lib.sh"
 
 renderer=$bin/jolon-renderer
 small="--set renderer.width=160 --set renderer.height=90"
 
-# run NAME [options]: a short run to its end; NAME.json is the summary.
+# run NAME [options]: runs a short scenario to its end. NAME.json is the summary.
 run() {
     local as=$1
     shift
@@ -17,7 +16,7 @@ run() {
 }
 digest() { json digest <"$1.json"; }
 
-# Width and height of a PNG; its comment.
+# Print width and height of a PNG file, and its comment.
 size() { python3 -c 'import struct, sys; print("%dx%d" % struct.unpack(">II", open(sys.argv[1], "rb").read(24)[16:]))' "$1"; }
 comment() { python3 - "$1" <<'P'; }
 import struct, sys
@@ -31,67 +30,67 @@ while at < len(data):
 P
 field() { comment "$1" | tr ' ' '\n' | sed -n "s/^$2=//p"; }
 
-# --- nothing of it is the world's -----------------------------------------------------------------
+# --- no view changes the world --------------------------------------------------------------------
 run none --without renderer
 run views --set renderer.view=chase,map,inside,orbit,free,overhead
 check "six views at once change nothing" equal "$(digest views)" "$(digest none)"
 for view in chase map inside orbit free overhead; do
-    check "$view has its file of the last frame" cmp views/$view.png views/$view-000600.png
-    check "which says so" equal "$(field views/$view.png frame) $(field views/$view.png view)" "600 $view"
+    check "$view has a file of the last frame" cmp views/$view.png views/$view-000600.png
+    check "the file of $view names its frame and view" equal "$(field views/$view.png frame) $(field views/$view.png view)" "600 $view"
 done
 run plain --set renderer.view=chase --set renderer.backend=soft --set renderer.fps=120 --set renderer.hold=false
 check "back end, rate and quality change nothing" equal "$(digest plain)" "$(digest none)"
 for switch in fog haze texture; do
     run $switch --set renderer.view=chase --set renderer.backend=soft --set renderer.$switch=false
-    check "no $switch changes nothing" equal "$(digest $switch)" "$(digest none)"
+    check "the switch $switch off changes nothing" equal "$(digest $switch)" "$(digest none)"
 done
 for switch in fog haze texture; do
-    check "but the picture ($switch)" bash -c "[ -s $switch/chase.png ] && ! cmp -s $switch/chase.png plain/chase.png"
+    check "the switch $switch off changes the picture" bash -c "[ -s $switch/chase.png ] && ! cmp -s $switch/chase.png plain/chase.png"
 done
 if "$renderer" --list-devices | grep -q OpenGL; then
     run gl --set renderer.view=chase --set renderer.backend=gl
     check "OpenGL changes nothing" equal "$(digest gl)" "$(digest none)"
-    check "its use is said in one line" equal "$(grep -c 'renderer info .*draws with .*OpenGL' gl/jolon.log)" 1
+    check "one line reports the use of OpenGL" equal "$(grep -c 'renderer info .*draws with .*OpenGL' gl/jolon.log)" 1
 else
     skip "OpenGL changes nothing" "there is no OpenGL here"
 fi
-check "the own rasteriser is said in one line, with why" \
+check "one line reports the software rasteriser and the reason" \
     equal "$(grep -cE 'draws with the own rasteriser, [0-9]+ threads?, [A-Z0-9]+: asked for' plain/jolon.log)" 1
 
 # --- pictures of a running world ------------------------------------------------------------------
 snap() { "$jolon" snap -w "$name" --backend soft "$@"; }
 # shellcheck disable=SC2086 # words
 "$jolon" start -w "$name" --out running --without renderer --without reporter --set world.frames=0 $small duel >/dev/null
-check "a snap of the running world" snap shot.png
-check "has the scenario's size" equal "$(size shot.png)" 160x90
-check "another has the size asked for" snap --view inside --vehicle 2 --size 320x200 inside.png
-check "namely" equal "$(size inside.png)" 320x200
-check "and shows the vehicle asked for" equal "$(field inside.png id)" 2
-check "in the view asked for" equal "$(field inside.png view)" inside
+check "a picture of the running world is taken" snap shot.png
+check "the picture has the scenario's size" equal "$(size shot.png)" 160x90
+check "a picture of another size is taken" snap --view inside --vehicle 2 --size 320x200 inside.png
+check "the picture has the requested size" equal "$(size inside.png)" 320x200
+check "the picture shows the requested vehicle" equal "$(field inside.png id)" 2
+check "the picture has the requested view" equal "$(field inside.png view)" inside
 if "$renderer" --list-devices | grep -q '^[0-9].*llvmpipe'; then
-    check "a device by part of its name" bash -c "'$jolon' snap -w $name --device llvmpipe gl.png 2>&1 | grep -q 'draws with llvmpipe.*asked for'"
+    check "part of a device's name selects the device" bash -c "'$jolon' snap -w $name --device llvmpipe gl.png 2>&1 | grep -q 'draws with llvmpipe.*asked for'"
 else
-    skip "a device by part of its name" "there is no llvmpipe here"
+    skip "part of a device's name selects the device" "there is no llvmpipe here"
 fi
-check "a device that is not there is refused" bash -c "'$jolon' snap -w $name --device voodoo gl.png 2>&1 |
+check "an unknown device is refused" bash -c "'$jolon' snap -w $name --device voodoo gl.png 2>&1 |
     grep -q -e 'device voodoo: .*--list-devices' -e 'no OpenGL'"
-check "a vehicle by its name" snap --vehicle East east.png
-check "which is that one" equal "$(field east.png name)" East
-check "a name that nobody has is refused" bash -c "'$jolon' snap -w $name --vehicle Nobody x.png 2>&1 |
+check "a vehicle is selected by its name" snap --vehicle East east.png
+check "the picture shows the named vehicle" equal "$(field east.png name)" East
+check "an unknown vehicle name is refused" bash -c "'$jolon' snap -w $name --vehicle Nobody x.png 2>&1 |
     grep -q 'vehicle \"Nobody\": world .* has none of that name'"
-check "a place is a view too" snap --eye 24950,25000,5 --look 90,-10 place.png
-check "the free one" equal "$(field place.png view)" free
-check "several views are several files" snap --view chase,overhead:2,map three.png
-check "by their names" [ -s three.png -a -s three-overhead.2.png -a -s three-map.png ]
-check "each of its vehicle" equal "$(field three.png id) $(field three-overhead.2.png id)" "1 2"
-check "a picture is its owner's alone" equal "$(stat -c %a shot.png)" 600
-check "nobody took a role for it" bash -c "! '$jolon' status -w $name | grep -q renderer"
+check "a picture is taken from a place" snap --eye 24950,25000,5 --look 90,-10 place.png
+check "its view is free" equal "$(field place.png view)" free
+check "several views are taken at once" snap --view chase,overhead:2,map three.png
+check "each view has a file of its name" [ -s three.png -a -s three-overhead.2.png -a -s three-map.png ]
+check "each file shows its vehicle" equal "$(field three.png id) $(field three-overhead.2.png id)" "1 2"
+check "only the owner can read a picture" equal "$(stat -c %a shot.png)" 600
+check "no process took the renderer's role" bash -c "! '$jolon' status -w $name | grep -q renderer"
 "$jolon" stop -w "$name" >/dev/null
-# A world that nobody runs can be looked at, and its table beside.
+# A world without a set can be pictured and compared with its table.
 "$bin/jolon-world" create --world "$name" --set renderer.width=160 --set renderer.height=90 duel >/dev/null
 "$bin/jolon-world" dump -w "$name" --json >dump.json
-check "a snap of a world that stands" snap --view chase --vehicle 1 still.png
-check "agrees with its table to what is written (row 13)" python3 - "$(comment still.png)" <<'P'
+check "a picture of a paused world is taken" snap --view chase --vehicle 1 still.png
+check "the picture's statistics agree with the table (row 13)" python3 - "$(comment still.png)" <<'P'
 import json, sys
 words = dict(word.split("=", 1) for word in sys.argv[1].split(" "))
 row = next(r for r in map(json.loads, open("dump.json")) if r["id"] == 1)
@@ -103,26 +102,26 @@ for key, mine, scale in (("speed_mps", "speed_kmh", 3.6), ("heading_deg", "headi
 assert abs(row["position"][1] - float(words["altitude_m"])) < 0.0051, (words, row)
 P
 snap --view chase --vehicle 1 once.png && snap --view chase --vehicle 1 twice.png
-check "the same picture twice, to the byte" cmp once.png twice.png
-check "on two threads too" snap --view chase --vehicle 1 --threads 2 threads.png
-check "to the byte" cmp once.png threads.png
+check "the same picture taken twice is equal to the byte" cmp once.png twice.png
+check "the picture is taken on two threads" snap --view chase --vehicle 1 --threads 2 threads.png
+check "that picture is equal to the byte" cmp once.png threads.png
 "$bin/jolon-world" remove -w "$name"
 
 # --- refusals -------------------------------------------------------------------------------------
 refuses "snap without a file" 2 'snap wants a FILE' snap
-refuses "snap of no world" 1 "there is no world \"$name\"; jolon worlds" snap x.png
-refuses "snap with what it does not know" 2 'snap --fps: no such option; there are --view' snap --fps 3 x.png
-refuses "a view that is none" 2 'bird is not one of chase, map, inside' "$renderer" --snap x.png --view chase,bird
+refuses "snap without a world" 1 "there is no world \"$name\"; jolon worlds" snap x.png
+refuses "snap with an unknown option" 2 'snap --fps: no such option; there are --view' snap --fps 3 x.png
+refuses "an unknown view" 2 'bird is not one of chase, map, inside' "$renderer" --snap x.png --view chase,bird
 refuses "a view twice" 2 'chase is there twice' "$renderer" --snap x.png --view both,chase
-refuses "no id after the colon" 2 "after the colon comes a vehicle's id" "$renderer" --snap x.png --view chase:x
-refuses "a size that is none" 2 'not WxH with each from' "$renderer" --snap x.png --size 10
+refuses "a view whose id is no number" 2 "after the colon comes a vehicle's id" "$renderer" --snap x.png --view chase:x
+refuses "an invalid size" 2 'not WxH with each from' "$renderer" --snap x.png --size 10
 refuses "a direction without a place" 2 'give --eye X,Z too' "$renderer" --snap x.png --look 0,0
 refuses "a place without its view" 2 'give --view free too' "$renderer" --snap x.png --eye 1,1 --view chase
-refuses "a place off the map" 2 'X is from 0 to 50000' "$renderer" --snap x.png --eye 60000,1
-refuses "a back end that is none" 2 'not one of auto, gl, soft' "$renderer" --snap x.png --backend d3d
-refuses "a device for the own rasteriser" 2 'needs none' "$renderer" --snap x.png --backend soft --device 0
-refuses "a quality that is none" 2 'not one of fixed, hold' "$renderer" --snap x.png --quality best
+refuses "a place outside the map" 2 'X is from 0 to 50000' "$renderer" --snap x.png --eye 60000,1
+refuses "an unknown back end" 2 'not one of auto, gl, soft' "$renderer" --snap x.png --backend d3d
+refuses "a device for the software rasteriser" 2 'needs none' "$renderer" --snap x.png --backend soft --device 0
+refuses "an unknown quality" 2 'not one of fixed, hold' "$renderer" --snap x.png --quality best
 refuses "a rate too high" 2 'fps' "$renderer" --out o --fps 121
-refuses "a view that is none, in a scenario" 1 'renderer.view = bird: unknown; allowed: chase, map' \
+refuses "an unknown view in a scenario" 1 'renderer.view = bird: unknown; allowed: chase, map' \
     "$jolon" run -w "$name" --set renderer.view=bird duel
 done_testing
