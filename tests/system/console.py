@@ -1,4 +1,4 @@
-"""A client of a console: console.py URL WORLD. A line "ok WHAT" or "not ok WHAT" for each check."""
+"""Tests a console as its client. usage: console.py URL WORLD. Prints "ok WHAT" or "not ok WHAT" for each check."""
 import http.client
 import json
 import sys
@@ -10,7 +10,7 @@ name, port = host.split(":")
 
 
 def ask(path, body=None, key=None, method=None, **headers):
-    """Status and what the JSON says."""
+    """Sends a request. Returns the status and the body, decoded if it is JSON."""
     link = http.client.HTTPConnection(name, int(port), timeout=10)
     if body is not None:
         headers = {"Content-Type": "application/json", "Authorization": "Bearer " + token, **headers}
@@ -62,23 +62,23 @@ def reading():
           now["left_out"] == now["vehicles"] + now["munitions"] - len(now["entities"]), now["left_out"])
     x, z = now["entities"][0][6:8]
     near = state(f"area={x - 50},{z - 50},{x + 50},{z + 50}")
-    check("an area holds what is in it",
+    check("an area contains the entities inside it",
           0 < len(near["entities"]) and all(abs(e[6] - x) < 51 and abs(e[7] - z) < 51 for e in near["entities"]))
     rows = ask("/api/list?kind=tank&force=blue&sort=name&most=500")[1]
     names = [row["name"] for row in rows["rows"]]
     check("the list is filtered and sorted", rows["total"] == len(names) > 5 and
           names == sorted(names, key=lambda n: (n == "", n)) and all(row["force"] == "blue" for row in rows["rows"]))
     page = ask("/api/list?kind=tank&force=blue&sort=name&from=3&most=2")[1]["rows"]
-    check("pages of it fit", [row["name"] for row in page] == names[3:5], page)
+    check("pages of the list are parts of it", [row["name"] for row in page] == names[3:5], page)
     found = ask("/api/list?search=" + names[2].upper())[1]["rows"]
-    check("a name is found in any letters", names[2] in [row["name"] for row in found], names[2])
+    check("a name is found regardless of case", names[2] in [row["name"] for row in found], names[2])
     wrong = ["/api/state?most=x", "/api/state?area=1,2,3", "/api/state?me=-1", "/api/list?sort=colour",
              "/api/list?force=green", "/api/list?kind=tnak", "/api/list?from=10001", "/api/events?types=birth",
              "/api/events?after=-1", "/api/picture?view=a/b"]
     answers = [ask(path) for path in wrong]
-    check("wrong questions are refused in words", all(status == 400 and text["error"] and text["next"]
+    check("wrong queries are refused with the reason", all(status == 400 and text["error"] and text["next"]
                                                       for status, text in answers), answers)
-    check("what is not there is 404", ask("/etc/passwd")[0] == 404 and ask("/../main.c")[0] == 404)
+    check("an unknown path is answered with 404", ask("/etc/passwd")[0] == 404 and ask("/../main.c")[0] == 404)
 
 
 def playing():
@@ -89,100 +89,100 @@ def playing():
     tank = tanks[0]
     before = state(f"most=0&me={tank}")["me"]
     status, taken = order(key, do="drive", vehicle=tank, throttle=1, steer=0.2)
-    check("takes a tank, and hears the frame", status == 200 and taken["frame"] > 0, taken)
-    check("drives it", eventually(lambda: abs((now := state(f"most=0&me={tank}", key)["me"])["x"] - before["x"]) +
+    check("a player takes a tank and receives the frame", status == 200 and taken["frame"] > 0, taken)
+    check("the player drives the tank", eventually(lambda: abs((now := state(f"most=0&me={tank}", key)["me"])["x"] - before["x"]) +
                                   abs(now["z"] - before["z"]) > 2 and now["driver"] == "you"))
     status, said = order(other, do="drive", vehicle=tank)
-    check("nobody else can, and hears who has it", status == 409 and "Ann" in said["error"], said)
-    check("nor fire it", order(other, do="fire", vehicle=tank)[0] == 409)
-    check("others see that somebody drives", state(f"most=0&me={tank}", other)["me"]["driver"] == "another")
+    check("another player cannot drive it and is told who does", status == 409 and "Ann" in said["error"], said)
+    check("another player cannot fire with it", order(other, do="fire", vehicle=tank)[0] == 409)
+    check("other players see that the tank is driven", state(f"most=0&me={tank}", other)["me"]["driver"] == "another")
     ask("/api/state?most=0", key=key)
     place = ask("/api/events?most=1&types=fire")[1]["next"]
     fired = []
 
-    def fire():  # its agent may have fired just now: it loads
+    def fire():  # refused while the gun loads: the agent may have fired just before
         fired[:] = order(key, do="fire")
         return fired[0] == 200
 
     eventually(fire, 15)
     fires = lambda: [e for e in ask(f"/api/events?after={place}&most=500&types=fire")[1]["events"] if tank in e["ids"]]
-    check("fires, and the event is seen in words",
+    check("the player fires, and the event is described in words",
           fired[0] == 200 and eventually(fires) and f"tank {tank} fired" in fires()[0]["text"], fired)
     ask("/api/state?most=0", key=key)
     status, said = order(key, do="drive", vehicle=tanks[1], throttle=1)
-    check("changes its vehicle", status == 200 and
+    check("the player changes the vehicle", status == 200 and
           eventually(lambda: state(f"most=0&me={tank}", key)["me"]["driver"] == ""), said)
     begun = time.time()
     gone = eventually(lambda: state(f"most=0&me={tanks[1]}")["me"]["driver"] == "", 5)
-    check("who goes away loses it within two seconds", gone and time.time() - begun < 2.5, time.time() - begun)
-    check("and is told", "heard" in state(key=key)["you"]["lost"])
-    check("who drives nothing cannot fire or release",
+    check("a player who goes away loses the vehicle within two seconds", gone and time.time() - begun < 2.5, time.time() - begun)
+    check("the player is told of the loss", "heard" in state(key=key)["you"]["lost"])
+    check("a player without a vehicle cannot fire or release",
           order(key, do="fire")[0] == 409 and order(key, do="release")[0] == 409)
     order(key, do="drive", vehicle=tank)
-    check("releases it", order(key, do="release")[0] == 200 and
+    check("the player releases the vehicle", order(key, do="release")[0] == 200 and
           eventually(lambda: state(f"most=0&me={tank}")["me"]["driver"] == ""))
     named = next(row for row in ask("/api/list?kind=tank&force=blue&sort=damage&most=9")[1]["rows"] if row["name"])
     status, taken = order(key, do="drive", vehicle=named["name"])
-    check("takes one by its name", status == 200 and taken["entity"] == named["id"], taken)
+    check("the player takes a vehicle by its name", status == 200 and taken["entity"] == named["id"], taken)
     order(key, do="release")
     status, said = order(key, do="drive", vehicle="Nobody")
-    check("and hears that nobody is called so", status == 409 and "the nearest is" in said["error"], said)
+    check("an unknown name is refused with the nearest name", status == 409 and "the nearest is" in said["error"], said)
 
 
 def ruling():
     status, paused = order(do="pause")
-    check("pauses", status == 200 and eventually(lambda: state()["paused"]))
+    check("the console pauses the world", status == 200 and eventually(lambda: state()["paused"]))
     frame = state()["frame"]
     order(do="step", frames=5)
-    check("steps", eventually(lambda: state()["frame"] >= frame + 5))
-    check("resumes", order(do="resume")[0] == 200 and order(do="step")[0] == 409)
-    check("scales time", order(do="scale", scale=2)[0] == 200 and
+    check("the console steps the world", eventually(lambda: state()["frame"] >= frame + 5))
+    check("the console resumes the world", order(do="resume")[0] == 200 and order(do="step")[0] == 409)
+    check("the console scales time", order(do="scale", scale=2)[0] == 200 and
           eventually(lambda: state()["scale"] == 2) and order(do="scale", scale=1)[0] == 200)
     status, made = order(do="spawn", kind="tank", force="red", x=25000, z=24000)
-    check("spawns", status == 200 and state(f"most=0&me={made['entity']}")["frame"] and
+    check("the console spawns a vehicle", status == 200 and state(f"most=0&me={made['entity']}")["frame"] and
           eventually(lambda: "me" in state(f"most=0&me={made['entity']}")), made)
-    check("removes, once", order(do="remove", vehicle=made["entity"])[0] == 200 and
+    check("the console removes a vehicle once", order(do="remove", vehicle=made["entity"])[0] == 200 and
           order(do="remove", vehicle=made["entity"])[0] == 409)
     status, said = order(do="spawn", kind="tnak", x=1, z=1)
-    check("names the kinds there are", status == 409 and "tank" in said["next"], said)
+    check("an unknown kind is refused with the list of kinds", status == 409 and "tank" in said["next"], said)
     place = ask("/api/events?most=1&types=fire")[1]["next"]
     status, mission = order(do="mission", munition="artillery", x=1000, z=1000, rounds=3, every_s=0.1, radius_m=50, seed=7)
     sky = lambda: [e for e in ask(f"/api/events?after={place}&most=500&types=fire")[1]["events"] if "the sky" in e["text"]]
-    check("a fire mission falls", status == 200 and mission["mission"] and mission["seed"] == 7 and eventually(lambda: len(sky()) >= 3), sky())
+    check("the rounds of a fire mission are fired", status == 200 and mission["mission"] and mission["seed"] == 7 and eventually(lambda: len(sky()) >= 3), sky())
     mission = order(do="mission", munition="artillery", x=1000, z=1000, rounds=900, every_s=1)[1]["mission"]
-    check("and is cancelled", order(do="cancel", mission=mission)[0] == 200 and not state()["missions"] and
+    check("a fire mission is cancelled", order(do="cancel", mission=mission)[0] == 200 and not state()["missions"] and
           order(do="cancel", mission=mission)[0] == 409)
 
 
 def killing():
     pid = renderer()["pid"]
     status, said = ask("/api/process", {"do": "kill", "role": "renderer"})
-    check("kills the renderer", status == 200 and said["pid"] == pid, said)
-    check("and sees it return", eventually(lambda: renderer()["pid"] not in (0, pid), 20), renderer())
+    check("the console kills the renderer", status == 200 and said["pid"] == pid, said)
+    check("the console shows the renderer's replacement", eventually(lambda: renderer()["pid"] not in (0, pid), 20), renderer())
     status, said = ask("/api/process", {"do": "restart", "role": "mover"})
     frame = state()["frame"]
-    check("restarts the mover, and the world goes on", status == 200 and eventually(lambda: state()["frame"] > frame + 10))
-    check("no other role", ask("/api/process", {"do": "kill", "role": "init"})[0] == 400)
+    check("the console restarts the mover, and the world goes on", status == 200 and eventually(lambda: state()["frame"] > frame + 10))
+    check("an unknown role cannot be killed", ask("/api/process", {"do": "kill", "role": "init"})[0] == 400)
 
 
 def pictures():
     picture = lambda: ask("/api/picture?view=chase&size=320x180")
     if not eventually(lambda: picture()[0] == 200, 15):
-        check("pictures are passed on", False, picture())
+        check("the console forwards pictures", False, picture())
         return
     status, data = picture()
-    check("pictures are passed on", data[:2] == b"\xff\xd8")
+    check("the console forwards pictures", data[:2] == b"\xff\xd8")
     pid = renderer()["pid"]
     ask("/api/process", {"do": "kill", "role": "renderer"})
     end = time.time() + 1
     seen = set()
-    while time.time() < end:  # the next renderer may listen before anybody missed the last
+    while time.time() < end:  # the next renderer may already listen
         seen.add(picture()[0])
         time.sleep(0.003)
-    check("while it is dead the answer says so, or waits for the next", seen <= {200, 503}, seen)
-    check("and when it is back there are pictures", eventually(lambda: picture()[0] == 200, 20) and
+    check("without a renderer a request is answered with 503 or waits for the next renderer", seen <= {200, 503}, seen)
+    check("the next renderer's pictures are forwarded", eventually(lambda: picture()[0] == 200, 20) and
           renderer()["pid"] != pid)
-    check("a map too", ask("/api/map?x=25000&z=25000&metres=4000&size=256x256")[0] == 200)
+    check("the console forwards a map", ask("/api/map?x=25000&z=25000&metres=4000&size=256x256")[0] == 200)
 
 
 def refusals():
@@ -195,28 +195,28 @@ def refusals():
         "no Bearer": (401, ask("/api/command", good, Authorization=token)),
         "another key": (401, ask("/api/command", good, key="0" * 32)),
         "another Host": (403, ask("/api/command", good, Host="evil.example")),
-        "another Host to read": (403, ask("/api/state", Host="evil.example:80")),
+        "another Host of a query": (403, ask("/api/state", Host="evil.example:80")),
         "another Origin": (403, ask("/api/command", good, Origin="http://evil.example")),
-        "no Origin's own": (403, ask("/api/command", good, Origin="null")),
+        "the Origin null": (403, ask("/api/command", good, Origin="null")),
         "another port's Origin": (403, ask("/api/command", good, Origin="http://127.0.0.1:1")),
         "a cross-site page": (403, ask("/api/command", good, Sec_Fetch_Site="cross-site")),
         "a form": (415, ask("/api/command", good, Content_Type="text/plain")),
         "a large body": (413, ask("/api/command", b'{"do":"pause"' + b" " * 5000 + b"}")),
         "no JSON": (400, ask("/api/command", b"do=pause")),
-        "no order": (400, ask("/api/command", {"do": "quit"})),
+        "an unknown command": (400, ask("/api/command", {"do": "quit"})),
         "a wrong value": (400, ask("/api/command", {"do": "scale", "scale": 1e9})),
-        "a drive of nobody's": (403, ask("/api/command", {"do": "drive", "vehicle": 1})),
-        "reading by POST": (405, ask("/api/state", {})),
-        "an order by GET": (405, ask("/api/command")),
+        "a drive without a player": (403, ask("/api/command", {"do": "drive", "vehicle": 1})),
+        "a query by POST": (405, ask("/api/state", {})),
+        "a command by GET": (405, ask("/api/command")),
         "another method": (405, ask("/api/command", good, method="PUT")),
     }
     for what, (status, answer) in wrong.items():
         check(f"refused: {what}", answer[0] == status and answer[1]["error"] and answer[1]["next"], answer)
-    check("joining wants the token too", ask("/api/join", {"name": "Eve"}, Authorization=None)[0] == 401)
-    check("and so does killing", ask("/api/process", {"do": "kill", "role": "mover"}, Authorization=None)[0] == 401)
+    check("joining requires the token", ask("/api/join", {"name": "Eve"}, Authorization=None)[0] == 401)
+    check("killing requires the token", ask("/api/process", {"do": "kill", "role": "mover"}, Authorization=None)[0] == 401)
     answers = [ask("/api/command", {"do": "cancel", "mission": 9})[0] for _ in range(120)]
-    check("a flood of orders is refused", 429 in answers, set(answers))
-    check("nothing of this reached the world", state()["tally"]["commands"] == before)
+    check("a flood of commands is refused", 429 in answers, set(answers))
+    check("no refused command reached the world", state()["tally"]["commands"] == before)
 
 
 for part in (reading, playing, ruling, killing, pictures, refusals):

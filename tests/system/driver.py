@@ -1,4 +1,4 @@
-"""A person at a terminal: jolon drive on a pty. usage: driver.py JOLON WORLD; exit 1 says what did not come."""
+"""Drives as a person at a terminal: jolon drive on a pty. usage: driver.py JOLON WORLD; exit code 1 with a message."""
 import fcntl
 import json
 import os
@@ -21,7 +21,7 @@ def tank():
 
 
 def wait(what, condition, keys=b""):
-    """Looks at the screen, pressing keys now and then, until the condition holds."""
+    """Reads the screen and presses keys repeatedly until the condition holds."""
     global shown
     until = time.monotonic() + 15
     while time.monotonic() < until:
@@ -31,15 +31,15 @@ def wait(what, condition, keys=b""):
             if select.select([terminal], [], [], 0.05)[0]:
                 try:
                     shown += os.read(terminal, 65536)
-                except OSError:  # it ended
+                except OSError:  # the program has ended
                     time.sleep(0.01)
         if condition():
             return
-    sys.exit(f"{what} did not come; the screen: {shown[-2000:]!r}")
+    sys.exit(f"{what} was not reached; the screen: {shown[-2000:]!r}")
 
 
-def sit(*arguments):
-    """Another terminal, with jolon drive on it."""
+def start(*arguments):
+    """Starts jolon drive on a new terminal."""
     global shown
     shown = b""
     child, terminal = pty.fork()
@@ -51,24 +51,24 @@ def sit(*arguments):
 
 
 def end(child):
-    """Reads the rest until it has ended, and looks whether the terminal was given back; its status."""
+    """Waits for the program's end and checks that the terminal was restored. Returns the status."""
     global shown
     until = time.monotonic() + 10
     while time.monotonic() < until:
         if select.select([terminal], [], [], 0.05)[0]:
             try:
                 shown += os.read(terminal, 65536)
-            except OSError:  # nobody has it open any more
+            except OSError:  # no process has the terminal open any more
                 pass
         pid, status = os.waitpid(child, os.WNOHANG)
         if pid:
             if b"\033[<u" not in shown or b"\033[?1049l" not in shown:
-                sys.exit(f"the terminal was not given back: {shown[-300:]!r}")
+                sys.exit(f"the terminal was not restored: {shown[-300:]!r}")
             return status
-    sys.exit("it does not end")
+    sys.exit("jolon drive does not end")
 
 
-child, terminal = sit("T1")
+child, terminal = start("T1")
 wait("the wheel", lambda: b"you drive T1 (tank 1)" in shown)
 if termios.tcgetattr(terminal)[3] & termios.ECHO:
     sys.exit("the terminal echoes keys")
@@ -81,10 +81,10 @@ wait("a shot", lambda: tank()["rounds"] < before["rounds"], b" ")
 wait("standing still", lambda: tank()["speed_mps"] < 0.5, b"b")
 os.write(terminal, b"q")
 if end(child) != 0:
-    sys.exit("q is no clean end")
+    sys.exit("q does not end with 0")
 
-child, terminal = sit("T1")
+child, terminal = start("T1")
 wait("the wheel again", lambda: b"you drive T1 (tank 1)" in shown)
 os.kill(child, signal.SIGABRT)
 if os.WTERMSIG(end(child)) != signal.SIGABRT:
-    sys.exit("a crash is hidden")
+    sys.exit("the status hides a crash")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs programs with their nth call failing, for test_failing.sh, in its folder. Prints TAP."""
+"""Runs programs whose nth call fails, for test_failing.sh and in its folder. Prints TAP."""
 import os
 import random
 import shutil
@@ -15,7 +15,7 @@ os.makedirs(names, 0o700, exist_ok=True)
 shm = f"/dev/shm/jolon.{os.getuid()}.{name}.{0:032x}"
 number = 0
 
-HANGS = 1000  # in place of an exit code
+HANGS = 1000  # instead of an exit code
 
 
 def program(what, *args):
@@ -26,7 +26,7 @@ world = lambda verb, *args: program("world", verb, "--world", name, *args)
 
 
 def leftovers():
-    """Files of the world: its object, its name, its lock."""
+    """Returns the world's files: object, name, lock."""
     prefix = shm[: shm.rindex(".")]
     objects = (f"/dev/shm/{entry}" for entry in os.listdir("/dev/shm"))
     return sorted(path for path in objects if path.startswith(prefix)) + sorted(
@@ -35,7 +35,7 @@ def leftovers():
 
 
 def said(stderr):
-    """What a program said last: roles say first that they are there."""
+    """Returns a program's messages without the line in which a role says that it has started."""
     return [line for line in stderr.decode(errors="replace").splitlines() if " info frame " not in line]
 
 
@@ -45,7 +45,7 @@ def remove():
 
 
 def restore():
-    """The world as it was made, for the next try."""
+    """Restores the world as it was made."""
     remove()
     shutil.copyfile("pristine", shm)
     os.chmod(shm, 0o600)
@@ -55,7 +55,7 @@ def restore():
 
 
 class Case:
-    """A program and what it needs: `before` each run, a `peer` beside it, `after` to look at what it did."""
+    """A program to test: `before` prepares each run, `peer` runs beside it, `finish` waits and stops it."""
 
     def __init__(self, command, before=restore, peer=None, same_output=True, keeps_world=True, finish=None):
         self.command, self.before, self.peer = command, before, peer
@@ -85,7 +85,7 @@ class Case:
 
 
 def judge(case, fail, right):
-    """None when all is well, else what is wrong; and whether the call was reached."""
+    """Runs once. Returns the fault, or None, and whether the failing call was reached."""
     code, out, lines = case.run(fail)
     with open("mark", "rb") as mark:
         where = mark.read().strip(b"\0").decode(errors="replace")
@@ -93,20 +93,20 @@ def judge(case, fail, right):
     wrong = None
     if code == 0:
         if case.same_output and out != right:
-            wrong = "ends with 0 and another output"
+            wrong = "ends with 0 but with other output"
     elif code != 1:
         wrong = "hangs" if code == HANGS else f"ends with {code}"
     elif len(lines) != 1:
-        wrong = f"says {len(lines)} lines"
+        wrong = f"writes {len(lines)} lines"
     elif not lines[0].startswith("jolon-"):
-        wrong = "says no line of its own"
+        wrong = "writes a line that does not begin with its name"
     if not wrong and code == 1 and not case.keeps_world and leftovers():
         wrong = f"leaves {leftovers()}"
     return (f"{fail} at {where or 'no call'}: {wrong}: {lines}" if wrong else None), reached
 
 
 def count_calls(case, kind):
-    """How many calls of the class there are, to a factor of two or so."""
+    """Estimates the number of calls of a class, to a factor of two."""
     high = 1
     while judge(case, f"{kind}:{high}", None)[1]:
         high *= 2
@@ -120,14 +120,14 @@ def check(what, case, kinds):
     problems, tries = [], 0
     code, right, lines = case.run("none:1")
     if code != 0:
-        problems.append(f"undisturbed, it ends with {code}: {lines}")
+        problems.append(f"without failing calls it ends with {code}: {lines}")
     for kind in kinds if not problems else []:
         end = count_calls(case, kind)
         numbers = list(range(1, min(end, samples) + 1))
         if end > samples:
             numbers += sorted(rng.randint(samples + 1, end) for _ in range(samples))
         for n in numbers:
-            more = rng.choice(("", "+"))  # that call alone, or all from it on
+            more = rng.choice(("", "+"))  # that call alone, or it and all later ones
             problem, reached = judge(case, f"{kind}:{n}{more}", right)
             tries += 1
             if problem:
@@ -141,7 +141,7 @@ def check(what, case, kinds):
 
 
 def until_logged(child):
-    """The recorder goes on for ever: it is asked to stop when it has everything, or gets no further."""
+    """The recorder never ends by itself. Stops it when its log is complete, or after 5 s."""
     until = time.monotonic() + 5
     while child.poll() is None and log_lines() < logged and time.monotonic() < until:
         time.sleep(0.01)

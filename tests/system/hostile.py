@@ -1,5 +1,5 @@
-"""Hostile clients of a console and of a live stream: hostile.py CONSOLE_URL STREAM_URL VIEW. A line "ok WHAT" or "not ok
-WHAT" for each check. SEED=n chooses other hostile bytes, FUZZ=n how many requests are damaged on each port (500)."""
+"""Hostile clients of a console and of a live stream. usage: hostile.py CONSOLE_URL STREAM_URL VIEW. Prints "ok WHAT" or
+"not ok WHAT" for each check. SEED=n chooses other hostile bytes, FUZZ=n how many requests are damaged on each port (500)."""
 import http.client
 import json
 import os
@@ -12,9 +12,9 @@ import threading
 import time
 
 CROWD = 500  # slow connections on each port
-SLOW_S = 4.0  # at least this long, and until each client has been served ENOUGH times
+SLOW_S = 4.0  # the shortest test; it lasts until each client was served ENOUGH times
 ENOUGH = 5
-BOUND_S = 15.0 if os.environ.get("JOLON_SANITIZER") else 5.0  # for four requests, one after the other
+BOUND_S = 15.0 if os.environ.get("JOLON_SANITIZER") else 5.0  # limit for four successive requests
 PATIENCE_S = 60.0
 page, token = sys.argv[1].split("#token=")
 console = page.rstrip("/").split("//")[1].split(":")
@@ -33,7 +33,7 @@ def link_to(server, timeout=10):
 
 
 def get(server, path, link=None):
-    """The body of what must be answered with 200."""
+    """Returns the body of a path that must be answered with 200."""
     fresh = link or link_to(server)
     fresh.request("GET", path)
     answer = fresh.getresponse()
@@ -46,20 +46,20 @@ def get(server, path, link=None):
 
 
 def given():
-    """Seconds that this process has had of the processor, and that it has waited for it."""
+    """Returns how long this process has run and how long it has waited for a processor [s]."""
     ran = waited = 0
     for thread in os.listdir("/proc/self/task"):
         try:
             with open(f"/proc/self/task/{thread}/schedstat", encoding="ascii") as file:
                 words = file.read().split()
             ran, waited = ran + int(words[0]), waited + int(words[1])
-        except OSError:  # it has ended, or the kernel does not count
+        except OSError:  # the thread has ended, or the kernel keeps no counts
             pass
     return ran / 1e9, waited / 1e9
 
 
 class Bound:
-    """BOUND_S, longer by as much as the machine is busy: as the threads that run now take longer for waiting for a processor."""
+    """BOUND_S, lengthened on a busy machine by the ratio in which waiting for a processor slows this process."""
 
     def __init__(self):
         self.begun = given()
@@ -70,7 +70,7 @@ class Bound:
 
 
 class Client(threading.Thread):
-    """Does something again and again; counts it, what went wrong, and the longest time that it took."""
+    """Repeats an action. Counts it and its failures, and keeps its longest duration."""
 
     def __init__(self, what, do, pause):
         super().__init__()
@@ -90,7 +90,7 @@ class Client(threading.Thread):
             time.sleep(self.pause)
 
     def going_on(self, times, bound_s):
-        """On a loaded machine a new client may be so slow to say what it wants that it is taken for one of the crowd."""
+        """Allows a few failures: on a loaded machine a new client may be slow enough to be taken for a hostile one."""
         return self.done >= times and len(self.failed) <= self.done // 20 and self.worst < bound_s
 
     def told(self):
@@ -98,7 +98,7 @@ class Client(threading.Thread):
 
 
 class Watcher:
-    """Reads the live stream, a picture a call."""
+    """Reads the live stream. Each call of picture() reads one picture."""
 
     def __init__(self):
         self.link = link_to(stream)
@@ -121,8 +121,8 @@ class Watcher:
 
 
 class Crowd(threading.Thread):
-    """Slow connections to a server: some send nothing, some a byte a second, the others ask and never read. One that
-    is closed comes again."""
+    """Slow connections to a server: some send nothing, some send a byte a second, the others send requests and never
+    read. Each connection that the server closes is opened again."""
     head = b"GET / HTTP/1.1\r\nHost: 127.0.0.1\r\nX: " + b"x" * 1000
 
     def __init__(self, server, large, endless):
@@ -148,7 +148,7 @@ class Crowd(threading.Thread):
         except OSError:
             pass
         self.came += 1
-        # Only of these is anything ever read: they are not answered, so it is an end.
+        # The first two kinds are never answered, so anything to read from them is their end.
         self.places.register(link, selectors.EVENT_READ if kind < 2 else selectors.EVENT_WRITE, (kind, [1]))
 
     def run(self):
@@ -163,7 +163,7 @@ class Crowd(threading.Thread):
                     if kind == 1 and time.time() % 1 < 0.25:
                         sent[0] += key.fileobj.send(self.head[sent[0]:sent[0] + 1])
                     if kind > 1 and key.fileobj.getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO, 1)[0] == 1:
-                        continue  # established: it goes on not reading
+                        continue  # established: still not read
                     if kind > 1 or key.fileobj.recv(1, socket.MSG_PEEK) != b"x":
                         raise OSError
                 except BlockingIOError:
@@ -177,7 +177,7 @@ class Crowd(threading.Thread):
 
 
 def new_watcher():
-    """Seconds until somebody who comes now sees a picture: it may have to ask again."""
+    """Returns how long a new client waits for its first picture, requests repeated if necessary [s]."""
     begun = time.time()
     while time.time() < begun + 20:
         try:
@@ -225,7 +225,7 @@ def slow():
               client.going_on(ENOUGH, limit_s), client.told())
         print("# " + client.told())
     check("a new client sees the stream", waited < 2 * limit_s, waited)
-    check("and when they are gone all is as before", after < limit_s, after)
+    check("requests are fast again when the slow connections are gone", after < limit_s, after)
     print(f"# {sum(crowd.came for crowd in crowds)} slow connections came; a new client saw the stream after {waited:.1f} s")
 
 
@@ -286,8 +286,8 @@ def damaged():
     limit_s = bound.seconds()
     client.ending = True
     client.join()
-    check("damaged requests keep nobody from being served", client.going_on(2, limit_s), client.told())
-    check("nor is any of them a command", json.loads(get(console, "/api/state?most=0"))["tally"]["commands"] == commands)
+    check("damaged requests do not stop other clients from being served", client.going_on(2, limit_s), client.told())
+    check("no damaged request is a command", json.loads(get(console, "/api/state?most=0"))["tally"]["commands"] == commands)
     print("# " + client.told())
 
 

@@ -1,12 +1,12 @@
-# Shared by the system tests: a folder and a world name of their own, checks in TAP, and an end that
-# leaves nothing. Source it; then call check NAME CONDITION..., and done_testing at the end.
+# Shared by the system tests: each has a folder and a world name of its own, prints checks in TAP, and
+# leaves nothing behind. Source it, call check NAME COMMAND... for each check, and end with done_testing.
 set -u
 bin=${JOLON_BIN:-$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)/build/bin}
 jolon=$bin/jolon
 name=t$$
 folder=$(mktemp -d)
 cd "$folder" || exit 1
-# Names, locks and sockets of this test alone.
+# This test has its own folder of names, locks and sockets.
 export JOLON_RUNTIME_DIR=$folder/runtime
 number=0
 failures=0
@@ -15,7 +15,7 @@ ok() { number=$((number + 1)); echo "ok $number - $1"; }
 not_ok() { number=$((number + 1)); failures=$((failures + 1)); echo "not ok $number - $1"; }
 skip() { number=$((number + 1)); echo "ok $number - $1 # skip $2"; }
 
-# check NAME COMMAND...: passes when the command does.
+# check NAME COMMAND...: passes when the command succeeds.
 check() {
     local what=$1
     shift
@@ -28,8 +28,8 @@ check() {
 
 equal() { [ "$1" = "$2" ] || { echo "\"$1\" is not \"$2\""; return 1; }; }
 
-# refuses NAME STATUS PATTERN COMMAND...: the command ends with STATUS, its last line matches, it
-# says nothing else, and it leaves no shared memory of this world.
+# refuses NAME STATUS PATTERN COMMAND...: passes when the command ends with STATUS, writes one line to
+# standard error, which matches PATTERN, and leaves no shared memory of this world.
 refuses() {
     local what=$1 status=$2 pattern=$3 got
     shift 3
@@ -45,7 +45,7 @@ refuses() {
     fi
 }
 
-# A value of a JSON object on one line: json KEY[.KEY] < FILE
+# json KEY[.KEY] < FILE: prints a value of a JSON object.
 json() { python3 -I -S -c '
 import json, sys
 value = json.load(sys.stdin)
@@ -53,15 +53,15 @@ for key in sys.argv[1].split("."):
     value = value[int(key)] if isinstance(value, list) else value[key]
 print(value)' "$1"; }
 
-# Nothing of worlds whose names begin so.
+# nothing_left PREFIX: no file is left of a world whose name begins with PREFIX.
 nothing_left() { ! ls /dev/shm "$JOLON_RUNTIME_DIR" | grep -q "^\(jolon\.$UID\.\)\?$1"; }
 
-# Where a world's name, lock or object is: path_of name|lock|object [WORLD]
+# path_of name|lock|object [WORLD]: prints the path of a world's name, lock or object.
 path_of() { "$bin/jolon-world" paths --world "${2-$name}" "$1"; }
 
-pid() { "$bin/jolon-world" pid --world "$name" "$1" 2>/dev/null; } # of the process that holds a role
+pid() { "$bin/jolon-world" pid --world "$name" "$1" 2>/dev/null; } # pid ROLE: the process that holds the role
 frame() { "$bin/jolon-world" frame --world "$name"; }
-summary() { "$bin/jolon-world" summary --json --world "$name" | json "$1"; } # one member of the summary
+summary() { "$bin/jolon-world" summary --json --world "$name" | json "$1"; } # summary MEMBER: prints a member of the summary
 
 # Sets source_dir to the folder with the Makefile above the programs.
 find_source_dir() {
@@ -69,7 +69,7 @@ find_source_dir() {
     until [ -e "$source_dir/Makefile" ] || [ "$source_dir" = / ]; do source_dir=$(dirname "$source_dir"); done
 }
 
-# Copies the programs and their data into FOLDER, for users who may not read where they were built.
+# copy_programs FOLDER: copies the programs and their data for users who cannot read the build folder.
 copy_programs() {
     local config
     mkdir -p "$1/build"
@@ -80,9 +80,9 @@ copy_programs() {
     chmod -R go+rX "$1"
 }
 
-# Late frames. A busy machine makes frames late too: a process of the frame loop is ready to run while
-# another program has the processor. The kernel counts that time, and in_time allows for it.
-# kept_waiting: prints how long mover and collider have waited for a processor since they began [ms].
+# A busy machine makes frames late too: a process of the frame loop is ready to run, but another
+# program has the processor. The kernel counts that time, and in_time allows for it.
+# kept_waiting: prints how long mover and collider have waited for a processor since they started [ms].
 kept_waiting() {
     local role file waited total=0
     for role in mover collider; do
@@ -92,12 +92,12 @@ kept_waiting() {
     done 2>/dev/null
     echo $total
 }
-time_begins() { # late frames are counted from here on
+time_begins() { # late frames are counted from here
     late_before=$(summary late_frames) frame_before=$(summary frame) waited_before=$(kept_waiting)
 }
 waited() { echo $(($(kept_waiting) - waited_before)); } # since time_begins [ms]
-# in_time LIMIT [SLACK_MS]: at most LIMIT frames were late since time_begins, besides one for every
-# SLACK_MS (12, what a frame has to spare) that the loop waited for a processor. LIMIT may use the
+# in_time LIMIT [SLACK_MS]: at most LIMIT frames were late since time_begins, and one more for every
+# SLACK_MS that the loop waited for a processor (12, the spare time of a frame). LIMIT may contain the
 # word "frames", the number of frames since then.
 in_time() {
     local late waited frames
@@ -107,11 +107,11 @@ in_time() {
     [ $frames -gt 0 ] && [ $late -le $(($1 + waited / ${2:-12})) ]
 }
 
-# at_pace SECONDS: the world ran at 50 of its 60 frames a second or more in the SECONDS since
-# time_begins, besides the time that the loop waited for a processor.
+# at_pace SECONDS: the world ran at least 50 of its 60 frames a second in the SECONDS since
+# time_begins. Time that the loop waited for a processor is left out.
 at_pace() { [ $(($(summary frame) - frame_before)) -ge $(($1 * 50 - $(waited) * 60 / 1000)) ]; }
-# behind_loop PID STEPS: the process runs this many steps of niceness below the mover, or at the lowest
-# priority. So it does not take the processor from the frame loop, which in_time could not see.
+# behind_loop PID STEPS: the niceness of the process is this many steps above the mover's, or the
+# highest. So it does not take the processor from the frame loop, which in_time would not notice.
 behind_loop() {
     local niceness
     niceness=$(($(niceness "$(pid mover)") + $2))
@@ -119,7 +119,7 @@ behind_loop() {
 }
 niceness() { cut -d' ' -f19 "/proc/$1/stat"; }
 
-# Waits up to 10 s for a condition.
+# eventually COMMAND...: waits up to 10 s until the command succeeds.
 eventually() {
     local tries
     for tries in $(seq 200); do

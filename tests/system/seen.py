@@ -1,4 +1,4 @@
-"""Are the statistics that a driver sees those of the table? usage: seen.py LINES TABLE ID, of a paused world."""
+"""Compares the statistics that a driver sees with the table of a paused world. usage: seen.py LINES TABLE ID"""
 import json
 import sys
 
@@ -16,5 +16,5 @@ for key in ("speed_mps", "heading_deg", "pitch_deg", "roll_deg", "altitude_m", "
     if abs(float(shown[key]) - float(row[key])) > 0.006:
         bad.append(f"{key}: {shown[key]} is not {row[key]}")
 if float(shown["fuel_l"]) == 0 or int(shown["rounds"]) == 0:
-    bad.append("nothing was used")
+    bad.append("fuel or rounds are zero")
 sys.exit("\n".join(bad) or 0)

@@ -1,11 +1,11 @@
-"""Types what a document says into a terminal, as a reader would. usage: typist.py DOCUMENT TRANSCRIPT
+"""Types a document's commands into a terminal, as a reader would. usage: typist.py DOCUMENT TRANSCRIPT
 
 Each line of the document's ```sh blocks is typed into an interactive bash, in order, in the current
-folder. It has to end with status 0. The comment behind a command says what else a reader does:
-"q leaves" and "Ctrl-C ends it" are typed after three seconds, and what "is refused" has to end with
+folder, and must end with status 0. The comment after a command names exceptions:
+"q leaves" and "Ctrl-C ends it" are typed after three seconds, and a command that "is refused" must end with
 status 1. A block after the words "Save this as `FILE`:" is saved as FILE.
 Prints a TAP line for each command, without a number: "ok COMMAND" or "not ok COMMAND".
-TRANSCRIPT becomes all that the terminal showed.
+TRANSCRIPT receives everything that the terminal showed.
 """
 import os
 import pty
@@ -17,8 +17,8 @@ import time
 
 PROMPT = re.compile(rb"<status (\d+)>$")
 CONTROL = re.compile(rb"\x1b[\[(][0-9;?]*[A-Za-z]|[\x00-\x09\x0b-\x1f]")
-LONGEST_S = 240  # of one command
-NOT_ENDED = "it did not end, so that nothing more could be typed"
+LONGEST_S = 240  # for one command
+NOT_ENDED = "the command did not end, so the next one could not be typed"
 
 
 class Terminal:
@@ -32,7 +32,7 @@ class Terminal:
         self.transcript = open(transcript, "wb")
 
     def read(self, seconds):
-        """What comes within that time; False at the end."""
+        """Reads the output of that time. Returns False when the shell has ended."""
         if select.select([self.descriptor], [], [], seconds)[0]:
             try:
                 came = os.read(self.descriptor, 65536)
@@ -43,7 +43,7 @@ class Terminal:
         return True
 
     def status(self, seconds):
-        """Of the command that was typed, when the shell asks for the next; None: not in time."""
+        """Waits for the next prompt. Returns the status of the typed command, or None if none came in time."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
             found = PROMPT.search(self.said)
@@ -65,7 +65,7 @@ class Terminal:
 
 
 def blocks(document):
-    """(language, text before it, lines) of every fenced block."""
+    """Yields (language, text before it, lines) for every fenced block."""
     with open(document, encoding="utf-8") as file:
         parts = re.split(r"^```(.*)$", file.read(), flags=re.MULTILINE)
     for before, language, inside in zip(parts[0::4], parts[1::4], parts[2::4]):
@@ -73,14 +73,14 @@ def blocks(document):
 
 
 def follow(terminal, command):
-    """Types a command and what its comment says; returns why it is wrong, or None."""
+    """Types a command and the keys that its comment names. Returns what is wrong, or None."""
     comment = command.partition(" # ")[2]
     terminal.type(command + "\n")
     keys = {"q leaves": "q", "Ctrl-C ends it": "\x03"}
     pressed = [keys[words] for words in keys if words in comment]
     if pressed:
         if terminal.status(3) is not None:
-            return "it ended before a key was pressed"
+            return "the command ended before a key was pressed"
         terminal.said = b""
         os.write(terminal.descriptor, pressed[0].encode())
     status = terminal.status(LONGEST_S)
