@@ -37,6 +37,7 @@ broken_links() {
 check "the links of the installed documents hold" equal "$(broken_links)" ""
 
 # Compiles and runs the examples with the installed files alone.
+# shellcheck disable=SC2046 # pkg-config gives words
 compiled() (
     mkdir compiled && cd compiled && idlc -l c "$share/jolon/status.idl" &&
         cc -D_GNU_SOURCE -o escort "$share"/doc/jolon/docs/examples/escort.c status.c -I. \
