@@ -214,7 +214,7 @@ LISTENER       := $(BUILD)/tests/once/listener
 PEER           := $(BUILD)/tests/rtps/peer
 LAG            := $(BUILD)/tests/lag/lag
 FLOOD          := $(BUILD)/tests/flood/flood
-FILM           := $(BUILD)/tests/film/film
+VIDEO_PROBE    := $(BUILD)/tests/video_probe/video_probe
 
 .PHONY: all run test tests check examples figures docs game rtps storm crash fuzz fuzzers model bench bench-render install uninstall format lint clean help
 all: $(if $(CRASHPOINTS),$(CRASH_PROGRAMS),$(PROGRAMS))
@@ -343,7 +343,7 @@ examples: $(EXAMPLES)
 $(BUILD)/examples/%: $(OBJ)/docs/examples/%.o $(STATUS)
 	$(call link,$(DDS_LIBS) -lm)
 
-$(FILM): $(OBJ)/tests/film/film.o
+$(VIDEO_PROBE): $(OBJ)/tests/video_probe/video_probe.o
 	$(call link,$(call pc,libs,libavformat libavcodec libavutil))
 
 check: $(UNIT_TESTS) $(PROPERTY_TESTS)
@@ -352,7 +352,7 @@ check: $(UNIT_TESTS) $(PROPERTY_TESTS)
 # Crash points are tried unsanitized: a sanitizer has its own handler for faults.
 # Builds what `make test` runs. The fuzz harnesses are compiled, but not linked: that takes clang.
 tests: $(call objects,$(FUZZ_SRC))
-tests: all $(BENCH) $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(PEER) $(LAG) $(FLOOD) $(FILM) $(EXAMPLES) $(if $(SAN),,crash)
+tests: all $(BENCH) $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(PEER) $(LAG) $(FLOOD) $(VIDEO_PROBE) $(EXAMPLES) $(if $(SAN),,crash)
 test: tests
 	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property golden system $(if $(SAN),,crash)
 

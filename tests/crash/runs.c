@@ -1,4 +1,5 @@
-/* Kinds of runs: the roles' own, and what is done to a world before they come or after. */
+/* Kinds of runs: of the roles themselves, and of programs that act on a world before or after its
+ * run. */
 #include "tests/crash/runs.h"
 
 #include "ipc/segment/local_socket.h"
@@ -32,40 +33,41 @@ void runs_open(const char *scenario_text)
     assert_int_equal(fclose(file), 0);
 }
 
-void run_roles(struct ending *ending, const struct plan *plan, const struct death *death,
+void run_roles(struct run_outcome *outcome, const struct plan *plan, const struct death *death,
                const char *count)
 {
     char name[SEGMENT_NAME_MAX];
     plan_publish(plan, name);
-    trial_run(ending, plan, name, death, count);
+    trial_run(outcome, plan, name, death, count);
 }
 
-/* Runs a program, again if it dies as told; it must end with the exit code, and there must be so
- * many files of worlds then: an object, its name and its lock are three. */
-static bool run_program(struct ending *ending, const char *const argv[], const struct death *death,
-                        const char *count, int code, int files)
+/* Runs a program, and runs it again if it dies as planned. It must end with the exit code and leave
+ * this many files of worlds: an object, its name and its lock are three. Returns false on a fault.
+ */
+static bool run_program(struct run_outcome *outcome, const char *const argv[],
+                        const struct death *death, const char *count, int code, int files)
 {
-    *ending = (struct ending){0};
+    *outcome = (struct run_outcome){0};
     int status = child_wait(trial_start(argv, death, count));
     if (death && WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL) {
-        ending->died = true;
+        outcome->died = true;
         status = child_wait(trial_start(argv, NULL, NULL));
     }
     int left = named_world_leftovers();
     if (!WIFEXITED(status) || WEXITSTATUS(status) != code)
-        snprintf(ending->refused, sizeof ending->refused, "jolon-world %s ends with status %d",
+        snprintf(outcome->refused, sizeof outcome->refused, "jolon-world %s ends with status %d",
                  argv[1], status);
     else if (left != files)
-        snprintf(ending->refused, sizeof ending->refused,
+        snprintf(outcome->refused, sizeof outcome->refused,
                  "after jolon-world %s there are %d files instead of %d", argv[1], left, files);
-    return ending->refused[0] == '\0';
+    return outcome->refused[0] == '\0';
 }
 
-static void go_on(struct ending *ending, const struct plan *plan, const char *world)
+static void finish_run(struct run_outcome *outcome, const struct plan *plan, const char *world)
 {
-    bool dead = ending->died;
-    trial_run(ending, plan, world, NULL, NULL);
-    ending->died = dead;
+    bool dead = outcome->died;
+    trial_run(outcome, plan, world, NULL, NULL);
+    outcome->died = dead;
 }
 
 static int nothing(void *context)
@@ -74,8 +76,8 @@ static int nothing(void *context)
     return 0;
 }
 
-/* What a writer of the image left that was killed; its process is no more. */
-static void plant_torn_image(void)
+/* Makes the file that a killed writer of the image leaves. Its process no longer exists. */
+static void make_torn_image(void)
 {
     char path[sizeof image_path + 32];
     pid_t pid = child_start(nothing, NULL);
@@ -86,8 +88,8 @@ static void plant_torn_image(void)
     close(fd);
 }
 
-/* What a creator left that was killed between the name and the object. */
-static void plant_name(const char *world)
+/* Makes the name that a creator leaves when it is killed before it makes the object. */
+static void make_dangling_name(const char *world)
 {
     struct segment_paths paths;
     struct error_text error;
@@ -97,29 +99,29 @@ static void plant_name(const char *world)
     assert_int_equal(symlink(object, paths.name), 0);
 }
 
-void run_created(struct ending *ending, const struct plan *plan, const struct death *death,
+void run_created(struct run_outcome *outcome, const struct plan *plan, const struct death *death,
                  const char *count)
 {
     char name[SEGMENT_NAME_MAX];
     named_world_name(name);
     const char *const argv[] = {"jolon-world", "create",      "--world", name,
                                 "--adopt",     scenario_path, NULL};
-    plant_name(name);
-    if (run_program(ending, argv, death, count, 0, 3))
-        go_on(ending, plan, name);
+    make_dangling_name(name);
+    if (run_program(outcome, argv, death, count, 0, 3))
+        finish_run(outcome, plan, name);
 }
 
-void run_refused(struct ending *ending, const struct plan *plan, const struct death *death,
+void run_refused(struct run_outcome *outcome, const struct plan *plan, const struct death *death,
                  const char *count)
 {
     char name[SEGMENT_NAME_MAX];
     plan_publish(plan, name);
     const char *const argv[] = {"jolon-world", "create", "--world", name, scenario_path, NULL};
-    if (run_program(ending, argv, death, count, 1, 3))
-        go_on(ending, plan, name);
+    if (run_program(outcome, argv, death, count, 1, 3))
+        finish_run(outcome, plan, name);
 }
 
-void run_removed(struct ending *ending, const struct plan *plan, const struct death *death,
+void run_removed(struct run_outcome *outcome, const struct plan *plan, const struct death *death,
                  const char *count)
 {
     char name[SEGMENT_NAME_MAX];
@@ -129,10 +131,10 @@ void run_removed(struct ending *ending, const struct plan *plan, const struct de
     int socket = local_socket_listen(name, "pictures", SOCK_STREAM, 1, &error);
     assert_true(socket >= 0);
     close(socket);
-    run_program(ending, argv, death, count, 0, 0);
+    run_program(outcome, argv, death, count, 0, 0);
 }
 
-/* Has a writer of the image that died left its own? */
+/* Returns true if a writer of the image that died has left its unfinished file. */
 static bool image_torn(void)
 {
     char pattern[sizeof image_path + 16];
@@ -143,7 +145,7 @@ static bool image_torn(void)
     return torn;
 }
 
-void run_saved(struct ending *ending, const struct plan *plan, const struct death *death,
+void run_saved(struct run_outcome *outcome, const struct plan *plan, const struct death *death,
                const char *count)
 {
     char name[SEGMENT_NAME_MAX];
@@ -153,33 +155,33 @@ void run_saved(struct ending *ending, const struct plan *plan, const struct deat
     const char *const create[] = {"jolon-world", "create",   "--world", name,
                                   "--from",      image_path, NULL};
     unlink(image_path);
-    plant_torn_image();
-    if (!run_program(ending, save, death, count, 0, 3))
+    make_torn_image();
+    if (!run_program(outcome, save, death, count, 0, 3))
         return;
-    bool dead = ending->died;
+    bool dead = outcome->died;
     if (image_torn()) {
-        snprintf(ending->refused, sizeof ending->refused, "a torn image is left");
+        snprintf(outcome->refused, sizeof outcome->refused, "a torn image is left");
         return;
     }
     assert_int_equal(segment_remove(name, false, &error), 0);
-    if (run_program(ending, create, NULL, NULL, 0, 3))
-        go_on(ending, plan, name);
-    ending->died = dead;
+    if (run_program(outcome, create, NULL, NULL, 0, 3))
+        finish_run(outcome, plan, name);
+    outcome->died = dead;
 }
 
-void run_from(struct ending *ending, const struct plan *plan, const struct death *death,
+void run_from(struct run_outcome *outcome, const struct plan *plan, const struct death *death,
               const char *count)
 {
     char name[SEGMENT_NAME_MAX];
     named_world_name(name);
     const char *const argv[] = {"jolon-world", "create", "--world",  name,
                                 "--adopt",     "--from", image_path, NULL};
-    if (run_program(ending, argv, death, count, 0, 3))
-        go_on(ending, plan, name);
+    if (run_program(outcome, argv, death, count, 0, 3))
+        finish_run(outcome, plan, name);
 }
 
-/* Spoils the first column of a table. */
-static void spoil(const char *world, enum region region)
+/* Damages the first column of a table. */
+static void damage_region(const char *world, enum region region)
 {
     struct segment_paths paths;
     struct view view;
@@ -196,18 +198,18 @@ static void spoil(const char *world, enum region region)
     close(fd);
 }
 
-/* The run's end and the table that it was made of are spoilt: it goes back a frame and ends again.
- */
-void run_repaired(struct ending *ending, const struct plan *plan, const struct death *death,
+/* Damages the last frame and the moved table that it was made from. Repair must go back one frame,
+ * and the run must end again. */
+void run_repaired(struct run_outcome *outcome, const struct plan *plan, const struct death *death,
                   const char *count)
 {
     char name[SEGMENT_NAME_MAX];
     const char *const argv[] = {"jolon-world", "repair", "--world", name, NULL};
     plan_publish(plan, name);
-    trial_play(ending, plan, name, NULL, NULL);
-    assert_string_equal(ending->refused, "");
-    spoil(name, ending->frame & 1 ? REGION_WORLD_B : REGION_WORLD_A);
-    spoil(name, REGION_MOVED);
-    if (run_program(ending, argv, death, count, 0, 3))
-        go_on(ending, plan, name);
+    trial_run_to_end(outcome, plan, name, NULL, NULL);
+    assert_string_equal(outcome->refused, "");
+    damage_region(name, outcome->frame & 1 ? REGION_WORLD_B : REGION_WORLD_A);
+    damage_region(name, REGION_MOVED);
+    if (run_program(outcome, argv, death, count, 0, 3))
+        finish_run(outcome, plan, name);
 }

@@ -1,10 +1,9 @@
-/* Every crash point, by every role: whoever dies there and is started anew, the run comes to the
- * same digests and the same event log as an undisturbed one, and leaves nothing behind.
- *
- * Of the stores within the steps and of the pages of a new world each so-many-th is tried, from
- * SEED on; JOLON_CRASH_ALL=1 tries them all. */
-#include "tests/crash/commander.h"
-#include "tests/crash/ledger.h"
+/* Every crash point of every role: a process dies there and is started again. The run must reach
+ * the digests and the event log of an undisturbed run, and leave nothing behind. Of the stores
+ * within the steps and of the pages of a new world only a part is tried, chosen by SEED;
+ * JOLON_CRASH_ALL=1 tries all of them. */
+#include "tests/crash/command_writer.h"
+#include "tests/crash/point_counts.h"
 #include "tests/crash/runs.h"
 #include "tests/support/fixture.h"
 #include "tests/support/named_world.h"
@@ -22,14 +21,14 @@
 
 #include <cmocka.h>
 
-#define FRAMES       3  /* of the free plan */
-#define TRIES        20 /* for a point that a run need not come to */
+#define FRAMES       3  /* of free_plan */
+#define TRIES        20 /* for a point that a run may not reach */
 #define FAILURES_MAX 10
 #define STORE_STRIDE 19
 #define PAGE_STRIDE  29
 
-/* Two shots, a crash into a tree, one of two tanks, detonations of both rounds, a crater: all
- * within three frames. */
+/* Within three frames: two shots, a collision with a tree, one of two tanks, detonations of both
+ * rounds, and a crater. */
 #define BATTLE                                                                                     \
     "terrain = { source = \"flat\"; height_m = 100.0; spacing_m = 125.0; };"                       \
     "collision = { shape = \"sphere\"; };"                                                         \
@@ -56,17 +55,18 @@ static const char commanded_text[] =
 static const char late_text[] =
     "world = { seed = 1; hz = 1.8; capacity = 64; frames = 6; pace = \"max\"; };" BATTLE BARRAGE;
 
-static struct plan free_plan;      /* as fast as it goes */
-static struct plan commanded_plan; /* by the clock, paused and stepped */
-static struct plan late_plan;      /* the ring goes round before the recorder comes */
-static struct ledger died;         /* of all that is done here */
-static uint64_t seed, points_driven, runs;
+static struct plan free_plan;      /* runs without pauses at the highest pace */
+static struct plan commanded_plan; /* runs in real time, paused and stepped by commands */
+static struct plan late_plan;      /* the event ring overflows before the recorder starts */
+static struct point_counts died;   /* deaths of all tests here */
+static uint64_t seed, points_tried, runs;
 
-/* --- driving through points --------------------------------------------------------------------*/
+/* --- trying points --------------------------------------------------------------------------*/
 
-/* How often a run comes to these depends on who is faster: the first few times are tried, and the
- * first must be a death. A recorder that comes late finds all there is to write at once. */
-static bool by_the_clock(const struct plan *plan, const char *point)
+/* Returns true if it depends on timing how often a run reaches the point. Only the first few times
+ * are then tried, and the first must be a death. A recorder that starts late finds everything to
+ * write at once. */
+static bool depends_on_timing(const struct plan *plan, const char *point)
 {
     static const char *const names[] = {
         "beat",          "doorbell waited for", "doorbell silenced", "first due time",
@@ -87,7 +87,7 @@ static uint64_t stride_of(const char *point)
     return strcmp(point, "page of a new world") == 0 ? PAGE_STRIDE : 1;
 }
 
-static void say_said(void)
+static void print_output(void)
 {
     char path[128], line[512];
     trial_path(path, sizeof path, "said");
@@ -98,145 +98,144 @@ static void say_said(void)
         fclose(file);
 }
 
-/* What is wrong after a death there, NULL when nothing is. */
-static const char *try_point(run_function *run, const struct plan *plan, const struct ending *calm,
-                             const struct death *death)
+/* Returns what is wrong after a death at the point, or NULL. */
+static const char *try_point(run_function *run, const struct plan *plan,
+                             const struct run_outcome *reference, const struct death *death)
 {
-    static struct ending ending;
+    static struct run_outcome outcome;
     char path[128];
-    bool clock = by_the_clock(plan, death->point);
+    bool clock = depends_on_timing(plan, death->point);
     for (int tries = 0; tries < (clock ? TRIES : 1); tries++) {
         trial_path(path, sizeof path, "said");
         unlink(path);
-        run(&ending, plan, death, NULL);
+        run(&outcome, plan, death, NULL);
         runs++;
-        const char *wrong = ending_differs(&ending, calm);
+        const char *wrong = run_outcome_differs(&outcome, reference);
         if (wrong) {
             named_world_clear();
             return wrong;
         }
-        if (ending.died) {
-            ledger_point(&died, death->role, death->point)->deaths++;
+        if (outcome.died) {
+            point_counts_find(&died, death->role, death->point)->deaths++;
             return NULL;
         }
         if (clock && death->crossing > 1)
             return NULL;
     }
-    return "it never came there";
+    return "the process never reached the point";
 }
 
-/* Drives a role through the points that the calm run came to; those that it has died at in another
- * kind of run only with again. */
-static void drive(run_function *run, const struct plan *plan, const char *role, bool again)
+/* Tries all points that the role reaches in an undisturbed run. Points at which it has died in
+ * another kind of run are repeated only if again is true. */
+static void try_points(run_function *run, const struct plan *plan, const char *role, bool again)
 {
-    static struct ending calm;
-    static struct ledger counted;
+    static struct run_outcome reference;
+    static struct point_counts counted;
     char path[128];
     int failures = 0;
-    uint64_t before = points_driven;
+    uint64_t before = points_tried;
     trial_path(path, sizeof path, "count");
     unlink(path);
-    run(&calm, plan, NULL, "count");
-    if (calm.refused[0] != '\0') {
+    run(&reference, plan, NULL, "count");
+    if (reference.refused[0] != '\0') {
         named_world_clear();
-        fail_msg("undisturbed: %s", calm.refused);
+        fail_msg("undisturbed: %s", reference.refused);
     }
-    ledger_read(&counted, path);
+    point_counts_read(&counted, path);
     for (int i = 0; i < counted.count; i++) {
-        const struct ledger_point *point = &counted.point[i];
-        struct ledger_point *dead = ledger_point(&died, point->role, point->name);
+        const struct point_count *point = &counted.point[i];
+        struct point_count *dead = point_counts_find(&died, point->role, point->name);
         if (strcmp(point->role, role) != 0 || (dead->deaths > 0 && !again))
             continue;
         uint64_t most = point->crossings, stride = stride_of(point->name);
-        if (by_the_clock(plan, point->name) && most > FRAMES)
+        if (depends_on_timing(plan, point->name) && most > FRAMES)
             most = FRAMES;
         for (uint64_t n = 1 + seed % stride; n <= most && failures < FAILURES_MAX; n += stride) {
             const struct death death = {role, point->name, n};
-            const char *wrong = try_point(run, plan, &calm, &death);
-            points_driven++;
+            const char *wrong = try_point(run, plan, &reference, &death);
+            points_tried++;
             if (!wrong)
                 continue;
             failures++;
             print_message("# the %s dies at \"%s\", time %" PRIu64 ": %s\n", role, point->name, n,
                           wrong);
-            say_said();
+            print_output();
         }
     }
     assert_int_equal(failures, 0);
-    assert_true(points_driven > before);
+    assert_true(points_tried > before);
 }
 
 /* --- the roles ---------------------------------------------------------------------------------*/
 
-static void test_the_mover(void **state)
+static void test_mover(void **state)
 {
     (void)state;
-    drive(run_roles, &free_plan, "mover", true);
-    drive(run_roles, &commanded_plan, "mover", false);
+    try_points(run_roles, &free_plan, "mover", true);
+    try_points(run_roles, &commanded_plan, "mover", false);
 }
 
-static void test_the_collider(void **state)
+static void test_collider(void **state)
 {
     (void)state;
-    drive(run_roles, &free_plan, "collider", true);
+    try_points(run_roles, &free_plan, "collider", true);
 }
 
-static void test_the_recorder(void **state)
+static void test_recorder(void **state)
 {
     struct plan late_commands = commanded_plan;
     (void)state;
     late_commands.late_recorder = true;
-    drive(run_roles, &free_plan, "recorder", true);
-    drive(run_roles, &late_plan, "recorder", true);
-    drive(run_roles, &late_commands, "recorder", true);
+    try_points(run_roles, &free_plan, "recorder", true);
+    try_points(run_roles, &late_plan, "recorder", true);
+    try_points(run_roles, &late_commands, "recorder", true);
 }
 
-static void test_the_writer_of_commands(void **state)
+static void test_command_writer(void **state)
 {
     (void)state;
-    drive(run_roles, &commanded_plan, "commander", true);
+    try_points(run_roles, &commanded_plan, "commander", true);
 }
 
-/* Who takes over from the dead dies too, before it has gone on from that very frame or on its way.
- */
-static void test_who_stands_by(void **state)
+/* The stand-by dies too: before it continues from that frame, or later. */
+static void test_stand_bys(void **state)
 {
     static const struct death firsts[] = {{"mover", "moved", 1}, {"collider", "commit", 1}};
     (void)state;
     for (int i = 0; i < 2; i++) {
         struct plan plan = free_plan;
         plan.first_death = &firsts[i];
-        drive(run_roles, &plan, firsts[i].role, true);
+        try_points(run_roles, &plan, firsts[i].role, true);
     }
 }
 
 static void test_creation(void **state)
 {
     (void)state;
-    drive(run_created, &free_plan, "world", true);
-    drive(run_refused, &free_plan, "world", true);
+    try_points(run_created, &free_plan, "world", true);
+    try_points(run_refused, &free_plan, "world", true);
 }
 
 static void test_images(void **state)
 {
     (void)state;
-    drive(run_saved, &free_plan, "world", false);
-    drive(run_from, &free_plan, "world", false);
+    try_points(run_saved, &free_plan, "world", false);
+    try_points(run_from, &free_plan, "world", false);
 }
 
 static void test_repair(void **state)
 {
     (void)state;
-    drive(run_repaired, &free_plan, "world", false);
+    try_points(run_repaired, &free_plan, "world", false);
 }
 
 static void test_removal(void **state)
 {
     (void)state;
-    drive(run_removed, &free_plan, "world", true);
+    try_points(run_removed, &free_plan, "world", true);
 }
 
-/* Of every point of every program, whether anybody came there or not. */
+/* Every point of every program must have killed a process, whether a run reached it or not. */
 static void test_all_points(void **state)
 {
     int points = 0, reached = 0;
@@ -249,14 +248,14 @@ static void test_all_points(void **state)
         if (!first)
             continue;
         points++;
-        if (ledger_deaths(&died, name) > 0)
+        if (point_counts_deaths(&died, name) > 0)
             reached++;
         else
-            print_message("# nobody died at \"%s\"\n", name);
+            print_message("# no process died at \"%s\"\n", name);
     }
     print_message("# figures: %d of %d named crash points (%.0f %%); %" PRIu64
                   " places to die at, %" PRIu64 " runs\n",
-                  reached, points, 100.0 * reached / points, points_driven, runs);
+                  reached, points, 100.0 * reached / points, points_tried, runs);
     assert_true(points > 0 && reached == points);
 }
 
@@ -289,13 +288,13 @@ static int close_all(void **state)
 int main(int argc, char **argv)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_the_mover),     cmocka_unit_test(test_the_collider),
-        cmocka_unit_test(test_the_recorder),  cmocka_unit_test(test_the_writer_of_commands),
-        cmocka_unit_test(test_who_stands_by), cmocka_unit_test(test_creation),
-        cmocka_unit_test(test_images),        cmocka_unit_test(test_repair),
-        cmocka_unit_test(test_removal),       cmocka_unit_test(test_all_points),
+        cmocka_unit_test(test_mover),     cmocka_unit_test(test_collider),
+        cmocka_unit_test(test_recorder),  cmocka_unit_test(test_command_writer),
+        cmocka_unit_test(test_stand_bys), cmocka_unit_test(test_creation),
+        cmocka_unit_test(test_images),    cmocka_unit_test(test_repair),
+        cmocka_unit_test(test_removal),   cmocka_unit_test(test_all_points),
     };
     if (argc == 3 && strcmp(argv[1], "commander") == 0)
-        return commander_main(argv[2]);
+        return command_writer_main(argv[2]);
     return cmocka_run_group_tests(tests, open_all, close_all);
 }

@@ -1,4 +1,4 @@
-/* One run: a world, its processes, their small parent. */
+/* Runs one world with its processes and their small parent. */
 #include "ipc/segment/segment_attach.h"
 #include "ipc/segment/segment_check.h"
 #include "world/making/scenario_settings.h"
@@ -127,23 +127,23 @@ pid_t trial_start(const char *const argv[], const struct death *death, const cha
 enum { COLLIDER, RECORDER, COMMANDER, MOVER, STAND_BY, PROCESSES };
 
 struct trial {
-    struct ending *ending;
+    struct run_outcome *outcome;
     const struct plan *plan;
     char name[SEGMENT_NAME_MAX], log[PATH_MAX], commands[PATH_MAX];
-    struct view view; /* a reader's */
+    struct view view; /* the recorder is a reader */
     struct process {
         const char *role;
         bool wanted, begun, done;
-        const struct death *order; /* for its next start */
-        bool ordered;              /* the one that runs is to die */
+        const struct death *order; /* death at its next start */
+        bool ordered;              /* the running process is to die */
         const char *count;
         pid_t pid;
-        pid_t told; /* to stop */
+        pid_t told; /* asked to stop */
     } process[PROCESSES];
 };
 
-/* Who is wanted, and who is to die. */
-static void cast(struct trial *trial, const struct death *death, const char *count)
+/* Sets which processes are needed and which of them is to die. */
+static void assign_roles(struct trial *trial, const struct death *death, const char *count)
 {
     const struct death *first = trial->plan->first_death;
     struct process *process = trial->process;
@@ -179,28 +179,29 @@ static void start(struct trial *trial, int which)
     process->order = NULL;
 }
 
-/* Who died as told is started anew, but for the first, for whom another stands by. */
+/* Starts a process again that died as planned. The first one of a pair with a stand-by stays dead.
+ */
 static void ended(struct trial *trial, int which, int status)
 {
     struct process *process = &trial->process[which];
-    struct ending *ending = trial->ending;
+    struct run_outcome *outcome = trial->outcome;
     bool first = trial->plan->first_death && which != STAND_BY;
     process->pid = 0;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
         process->done = true;
     } else if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL && process->ordered) {
         process->done = first;
-        ending->died |= !first;
+        outcome->died |= !first;
         if (!first)
             start(trial, which);
     } else {
-        snprintf(ending->refused, sizeof ending->refused, "the %s ends with %s %d", process->role,
+        snprintf(outcome->refused, sizeof outcome->refused, "the %s ends with %s %d", process->role,
                  WIFEXITED(status) ? "exit code" : "signal",
                  WIFEXITED(status) ? WEXITSTATUS(status) : WTERMSIG(status));
     }
 }
 
-/* Is the process up, in its role? */
+/* Returns true if the process runs and holds its role. */
 static bool is_ready(const struct trial *trial, int which)
 {
     const struct process *process = &trial->process[which];
@@ -214,8 +215,9 @@ static bool is_over(const struct trial *trial, int which)
     return trial->process[which].done || !trial->process[which].wanted;
 }
 
-/* The mover comes when there is something to command it, who stands by when there is somebody to
- * stand by for, the recorder's end when all is over. */
+/* Starts the processes whose turn has come: the mover when a command waits for it, the stand-by
+ * when the process that it replaces is ready or dead. When these have ended, starts the recorder if
+ * it does not run yet, and stops it. */
 static void advance(struct trial *trial)
 {
     struct process *process = trial->process;
@@ -263,11 +265,11 @@ static void parent(struct trial *trial)
         start(trial, RECORDER);
     if (trial->plan->commands)
         start(trial, COMMANDER);
-    while (!all_over(trial) && trial->ending->refused[0] == '\0') {
+    while (!all_over(trial) && trial->outcome->refused[0] == '\0') {
         advance(trial);
         reap(trial);
         if (clock_now_ns() > until)
-            snprintf(trial->ending->refused, sizeof trial->ending->refused,
+            snprintf(trial->outcome->refused, sizeof trial->outcome->refused,
                      "the run does not end: frame %llu",
                      (unsigned long long)atomic_load(&trial->view.commit->commit));
         clock_sleep_until_ns(clock_now_ns() + LOOK_NS);
@@ -280,61 +282,62 @@ static void parent(struct trial *trial)
 
 /* --- what a run comes to -----------------------------------------------------------------------*/
 
-static void read_log(struct ending *ending, const char *path)
+static void read_log(struct run_outcome *outcome, const char *path)
 {
     int fd = open(path, O_RDONLY);
-    ssize_t length = fd < 0 ? -1 : read(fd, ending->log, sizeof ending->log);
+    ssize_t length = fd < 0 ? -1 : read(fd, outcome->log, sizeof outcome->log);
     if (fd >= 0)
         close(fd);
-    if (length < 0 || length == (ssize_t)sizeof ending->log)
-        snprintf(ending->refused, sizeof ending->refused, "the event log: %s",
+    if (length < 0 || length == (ssize_t)sizeof outcome->log)
+        snprintf(outcome->refused, sizeof outcome->refused, "the event log: %s",
                  length < 0 ? strerror(errno) : "too long for this test");
     else
-        ending->log_bytes = (size_t)length;
+        outcome->log_bytes = (size_t)length;
 }
 
-/* What does not differ from run to run: commands, gaps, the last line, which is the run's end. */
-static void read_commands(struct ending *ending, const char *path)
+/* Keeps the lines that are the same in all runs: commands, gaps, and the last line, which is the
+ * end of the run. */
+static void read_commands(struct run_outcome *outcome, const char *path)
 {
     char line[4096] = "";
-    size_t bytes = 0, room = sizeof ending->log - ending->log_bytes;
+    size_t bytes = 0, room = sizeof outcome->log - outcome->log_bytes;
     FILE *file = fopen(path, "r");
     while (file && fgets(line, sizeof line, file) && bytes < room) {
         if (strstr(line, "\"type\":\"command\"") || strstr(line, "\"type\":\"gap\""))
-            bytes +=
-                (size_t)snprintf(ending->log + ending->log_bytes + bytes, room - bytes, "%s", line);
+            bytes += (size_t)snprintf(outcome->log + outcome->log_bytes + bytes, room - bytes, "%s",
+                                      line);
     }
     if (bytes < room)
         bytes +=
-            (size_t)snprintf(ending->log + ending->log_bytes + bytes, room - bytes, "%s", line);
+            (size_t)snprintf(outcome->log + outcome->log_bytes + bytes, room - bytes, "%s", line);
     if (!file || bytes >= room || !strstr(line, "\"type\":\"end\""))
-        snprintf(ending->refused, sizeof ending->refused, "the log of commands has no end");
+        snprintf(outcome->refused, sizeof outcome->refused, "the log of commands has no end");
     else
-        ending->log_bytes += bytes;
+        outcome->log_bytes += bytes;
     if (file)
         fclose(file);
 }
 
 static void take_result(struct trial *trial)
 {
-    struct ending *ending = trial->ending;
+    struct run_outcome *outcome = trial->outcome;
     struct snapshot snapshot;
     struct error_text error;
     assert_int_equal(snapshot_init(&snapshot, &trial->view), 0);
     if (snapshot_take(&snapshot, &trial->view) != 0) {
-        snprintf(ending->refused, sizeof ending->refused, "the last frame: %s", strerror(errno));
+        snprintf(outcome->refused, sizeof outcome->refused, "the last frame: %s", strerror(errno));
     } else {
         struct state state = snapshot_state(&snapshot, &trial->view);
-        ending->frame = snapshot.head.frame;
-        ending->digest = state_digest(&trial->view.world, &state);
-        ending->event_digest = snapshot.head.event_digest;
+        outcome->frame = snapshot.head.frame;
+        outcome->digest = state_digest(&trial->view.world, &state);
+        outcome->event_digest = snapshot.head.event_digest;
     }
     snapshot_free(&snapshot);
     if (segment_verify(&trial->view, &error) != 0)
-        snprintf(ending->refused, sizeof ending->refused, "%.*s", 200, error.text);
+        snprintf(outcome->refused, sizeof outcome->refused, "%.*s", 200, error.text);
 }
 
-/* What a recorder left that was killed in its first line. */
+/* Makes the log that a recorder leaves when it is killed in its first line. */
 static void tear_log(const char *path)
 {
     static const char torn[] = "{\"frame\":1,\"ind";
@@ -344,13 +347,13 @@ static void tear_log(const char *path)
     assert_int_equal(close(fd), 0);
 }
 
-void trial_play(struct ending *ending, const struct plan *plan, const char *world,
-                const struct death *death, const char *count)
+void trial_run_to_end(struct run_outcome *outcome, const struct plan *plan, const char *world,
+                      const struct death *death, const char *count)
 {
-    struct trial trial = {.ending = ending, .plan = plan};
+    struct trial trial = {.outcome = outcome, .plan = plan};
     struct error_text error;
-    *ending = (struct ending){0};
-    cast(&trial, death, count);
+    *outcome = (struct run_outcome){0};
+    assign_roles(&trial, death, count);
     snprintf(trial.name, sizeof trial.name, "%s", world);
     trial_path(trial.log, sizeof trial.log, "events");
     trial_path(trial.commands, sizeof trial.commands, "commands");
@@ -358,39 +361,40 @@ void trial_play(struct ending *ending, const struct plan *plan, const char *worl
     if (segment_attach(&trial.view, world, ROLE_NONE, &error) != 0)
         fail_msg("%s", error.text);
     parent(&trial);
-    if (ending->refused[0] == '\0')
+    if (outcome->refused[0] == '\0')
         take_result(&trial);
-    if (ending->refused[0] == '\0')
-        read_log(ending, trial.log);
-    if (ending->refused[0] == '\0')
-        read_commands(ending, trial.commands);
+    if (outcome->refused[0] == '\0')
+        read_log(outcome, trial.log);
+    if (outcome->refused[0] == '\0')
+        read_commands(outcome, trial.commands);
     segment_detach(&trial.view);
 }
 
-void trial_run(struct ending *ending, const struct plan *plan, const char *world,
+void trial_run(struct run_outcome *outcome, const struct plan *plan, const char *world,
                const struct death *death, const char *count)
 {
     struct error_text error;
-    trial_play(ending, plan, world, death, count);
+    trial_run_to_end(outcome, plan, world, death, count);
     if (segment_remove(world, false, &error) != 0)
-        snprintf(ending->refused, sizeof ending->refused, "%.*s", 200, error.text);
+        snprintf(outcome->refused, sizeof outcome->refused, "%.*s", 200, error.text);
     int left = named_world_leftovers();
     if (left != 0)
-        snprintf(ending->refused, sizeof ending->refused, "%d files of worlds are left", left);
+        snprintf(outcome->refused, sizeof outcome->refused, "%d files of worlds are left", left);
 }
 
-const char *ending_differs(const struct ending *ending, const struct ending *calm)
+const char *run_outcome_differs(const struct run_outcome *outcome,
+                                const struct run_outcome *reference)
 {
-    if (ending->refused[0] != '\0')
-        return ending->refused;
-    if (ending->frame != calm->frame)
-        return "it ends with another frame";
-    if (ending->digest != calm->digest)
-        return "its digest is another";
-    if (ending->event_digest != calm->event_digest)
-        return "its events' digest is another";
-    if (ending->log_bytes != calm->log_bytes ||
-        memcmp(ending->log, calm->log, calm->log_bytes) != 0)
-        return "its log of events or of commands is another";
+    if (outcome->refused[0] != '\0')
+        return outcome->refused;
+    if (outcome->frame != reference->frame)
+        return "the run ends with another frame";
+    if (outcome->digest != reference->digest)
+        return "the digest differs";
+    if (outcome->event_digest != reference->event_digest)
+        return "the event digest differs";
+    if (outcome->log_bytes != reference->log_bytes ||
+        memcmp(outcome->log, reference->log, reference->log_bytes) != 0)
+        return "the log of events or of commands differs";
     return NULL;
 }

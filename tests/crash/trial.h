@@ -1,5 +1,5 @@
-/* One run of a small world by real processes, of which one may be told to die at a crash point. A
- * small parent waits for deaths and starts anew whoever died, as a supervisor does. */
+/* Runs a small world with real processes, of which one may be told to die at a crash point. A small
+ * parent starts dead processes again, as a supervisor does. */
 #ifndef JOLON_TESTS_CRASH_TRIAL_H
 #define JOLON_TESTS_CRASH_TRIAL_H
 
@@ -14,60 +14,62 @@
 
 #define TRIAL_LOG_MAX 65536
 
-/* Who dies where; its first process only. */
+/* The role whose first process dies, the point, and at which crossing of it. */
 struct death {
     const char *role, *point;
     uint64_t crossing;
 };
 
-/* What is run. */
+/* A run: its world and its processes. */
 struct plan {
     struct scenario scenario;
     struct world_build built;
-    bool commands;      /* a commander steers it */
-    bool late_recorder; /* the recorder comes when all is over */
-    /* A mover and a collider stand by and take over from the first that dies. NULL: none. Else the
-     * first dies here, and death and count are of those that stand by. */
+    bool commands;      /* a command writer controls the world */
+    bool late_recorder; /* the recorder starts after the end of the run */
+    /* NULL: no stand-bys. Otherwise a mover and a collider stand by, the first process dies here,
+     * and death and count apply to the stand-by that takes over. */
     const struct death *first_death;
 };
 
-/* What a run comes to. */
-struct ending {
-    char refused[256]; /* "" when the run went to its end and left nothing wrong */
-    bool died;         /* somebody died as told */
+/* The result of a run. */
+struct run_outcome {
+    char refused[256]; /* "" when the run reached its end without a fault */
+    bool died;         /* a process died as planned */
     uint64_t frame, digest, event_digest;
     size_t log_bytes;
-    char log[TRIAL_LOG_MAX]; /* the event log, then the commands and the end of theirs */
+    char log[TRIAL_LOG_MAX]; /* the event log, then the commands and the end of their log */
 };
 
-/* The folder for what the test writes, made anew; removed by trial_close. */
+/* Make and remove the folder for the files of the test. */
 void trial_open(void);
 void trial_close(void);
 
-/* path = folder/name. */
+/* Writes folder/name to path. */
 void trial_path(char *path, size_t bytes, const char *name);
 
-/* Reads the scenario's text (see tests/support/fixture.h). Tables are made small, because a world
- * is made for every run; the ring has event_slots. */
+/* Reads a scenario from text (see tests/support/fixture.h). The tables are small, because each run
+ * makes a world. The ring has event_slots slots. */
 void plan_make(struct plan *plan, const char *text, uint32_t event_slots);
 void plan_free(struct plan *plan);
 
 /* Publishes a world of the plan under a new name. */
 void plan_publish(const struct plan *plan, char name[SEGMENT_NAME_MAX]);
 
-/* Starts a program of the crash build as a role's process: argv[0] is a name in its bin/, or the
- * test's own path. death may be NULL; count: append to this file of the folder, NULL for none. */
+/* Starts a program of the crash build as a role's process. argv[0] is a name in its bin/, or the
+ * test's own path. death may be NULL. The process appends its counts to the file count of the
+ * folder, unless count is NULL. */
 pid_t trial_start(const char *const argv[], const struct death *death, const char *count);
 
-/* Runs a plan's world to its end. death and count as above. */
-void trial_play(struct ending *ending, const struct plan *plan, const char *world,
-                const struct death *death, const char *count);
+/* Runs a plan's world to its end. death and count: as above. */
+void trial_run_to_end(struct run_outcome *outcome, const struct plan *plan, const char *world,
+                      const struct death *death, const char *count);
 
-/* The same, and removes it. */
-void trial_run(struct ending *ending, const struct plan *plan, const char *world,
+/* Runs the world to its end and removes it. */
+void trial_run(struct run_outcome *outcome, const struct plan *plan, const char *world,
                const struct death *death, const char *count);
 
-/* NULL when both runs came to the same, else what differs. */
-const char *ending_differs(const struct ending *ending, const struct ending *calm);
+/* Returns what differs between two runs, or NULL. */
+const char *run_outcome_differs(const struct run_outcome *outcome,
+                                const struct run_outcome *reference);
 
 #endif

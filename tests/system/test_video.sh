@@ -2,7 +2,7 @@
 # Video and live stream of a real set: what a player and a browser receive when processes die and
 # clients misbehave. The run itself is not affected.
 . "$(dirname "$0")/lib.sh"
-film=$bin/../tests/film/film
+video_probe=$bin/../tests/video_probe/video_probe
 fps=20
 small=(--set renderer.view=map --set renderer.width=320 --set renderer.height=180)
 port=$(python3 -c '
@@ -13,7 +13,7 @@ print(s.getsockname()[1])')
 
 # of FILE KEY: prints what a player finds in a video. The first call decodes the file.
 of() {
-    [ -e "$1.json" ] || "$film" "$1" >"$1.json"
+    [ -e "$1.json" ] || "$video_probe" "$1" >"$1.json"
     json "$2" <"$1.json"
 }
 between() { python3 -c "import sys; sys.exit(not $1 <= $2 <= $3)" || { echo "$2 is not from $1 to $3"; return 1; }; }
@@ -25,7 +25,7 @@ between() { python3 -c "import sys; sys.exit(not $1 <= $2 <= $3)" || { echo "$2 
     "${small[@]}" duel >none.json 2>err || sed 's/^/# /' err
 check "neither video nor stream changes the digest" equal "$(json digest <one.json)" "$(json digest <none.json)"
 check "neither video nor stream changes the events" equal "$(json event_digest <one.json)" "$(json event_digest <none.json)"
-check "the video can be played" "$film" live.mkv
+check "the video can be played" "$video_probe" live.mkv
 check "every picture of the video can be decoded" equal "$(of live.mkv damaged)" 0
 check "the video has the size of the pictures" equal "$(of live.mkv width)x$(of live.mkv height)" 320x180
 # The upper limit counts from the first picture. A loaded machine draws fewer pictures.
@@ -175,8 +175,8 @@ before=$(pid renderer)
 cp two.mkv killed.mkv
 check "the video of a killed renderer can be played" between 20 "$(of killed.mkv pictures)" 100000
 check "that video has no damaged pictures" equal "$(of killed.mkv damaged)" 0
-next_film() { [ -s two-2.mkv ] && [ "$(pid renderer)" != "$before" ]; }
-check "the next renderer begins another file" eventually next_film
+next_video() { [ -s two-2.mkv ] && [ "$(pid renderer)" != "$before" ]; }
+check "the next renderer begins another file" eventually next_video
 check "the next renderer streams at the same address" eventually python3 -c "
 import urllib.request
 urllib.request.urlopen('http://127.0.0.1:$port/map.jpg', timeout=10)"

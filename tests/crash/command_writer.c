@@ -1,5 +1,5 @@
-/* A writer of commands. */
-#include "tests/crash/commander.h"
+/* Writes a fixed list of commands into a ring. */
+#include "tests/crash/command_writer.h"
 
 #include "ipc/frame/command_ring.h"
 #include "ipc/process/clock.h"
@@ -15,7 +15,7 @@
 #define SOURCE  77
 #define LOOK_NS (NS_PER_MS / 5)
 
-/* The fast time scale makes each frame that follows late. */
+/* The fast time scale makes all following frames late. */
 static const struct command list[] = {
     {.type = COMMAND_PAUSE},
     {.type = COMMAND_FIRE, .entity = 2, .target = 3},
@@ -27,8 +27,8 @@ static const struct command list[] = {
 
 #define COMMANDS (sizeof list / sizeof list[0])
 
-/* Waits until the world has taken so many commands and stands. */
-static void settle(const struct view *view, uint64_t taken)
+/* Waits until the world has taken this many commands and is paused. */
+static void wait_paused(const struct view *view, uint64_t taken)
 {
     struct state_head head;
     while (!frame_protocol_finished(view)) {
@@ -39,7 +39,7 @@ static void settle(const struct view *view, uint64_t taken)
     }
 }
 
-int commander_main(const char *world)
+int command_writer_main(const char *world)
 {
     struct view view;
     struct error_text error;
@@ -53,7 +53,7 @@ int commander_main(const char *world)
         command.source_sequence = i + 1;
         if (command_put(&view, RING_CLIENTS, &command) != 0 && errno != EEXIST)
             die_refused("command %llu: %s", (unsigned long long)i, strerror(errno));
-        settle(&view, i + 1);
+        wait_paused(&view, i + 1);
     }
     segment_detach(&view);
     return EXIT_OK;
