@@ -1,4 +1,5 @@
-/* jolon-bench: one function a benchmark. Each prints a line a result; --json prints objects. */
+/* jolon-bench: one function for each benchmark. A benchmark prints one line for each result, or one
+ * object with --json. */
 #ifndef JOLON_TESTS_BENCH_BENCH_H
 #define JOLON_TESTS_BENCH_BENCH_H
 
@@ -12,10 +13,10 @@ struct bench_options {
     bool json, peers, agents, gl, beside, all;
     struct option_size size; /* of one picture */
     double seconds;
-    uint32_t follow;  /* entity id, 0: the liveliest */
+    uint32_t follow;  /* entity id, 0: the most active vehicle */
     const char *kind; /* NULL: all */
-    const char *out;  /* folder for one picture in so many, NULL: none */
-    const char *file; /* the argument that is no option, NULL: none */
+    const char *out;  /* folder for some of the pictures, NULL: none */
+    const char *file; /* the argument besides the options, NULL: none */
 };
 
 int bench_detect(struct bench_options options);   /* detect.c */
@@ -28,7 +29,7 @@ int bench_render(struct bench_options options);   /* render.c */
 int bench_shapes(struct bench_options options);   /* shapes.c */
 int bench_traffic(struct bench_options options);  /* traffic.c */
 
-/* The fraction (0..1) of the values that lie at or below the result; sorts them. */
+/* Returns the value at or below which this fraction (0..1) of the values lies. Sorts the values. */
 double bench_quantile(double *values, uint32_t count, double fraction);
 
 #endif

@@ -1,4 +1,4 @@
-/* What finding collisions costs, side by side with other engines on the same work. */
+/* Measures collision detection and that of other engines on the same work. */
 #include "tests/bench/bench.h"
 #include "tests/bench/workload.h"
 
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define LONGEST_NS (60ull * NS_PER_S) /* an engine's run ends here */
+#define LONGEST_NS (60ull * NS_PER_S) /* limit for one engine's run */
 #define STEPS_MOST 330
 
 static const struct engine *const engines[] = {&engine_jolon, &engine_ode, &engine_bullet};
@@ -22,10 +22,10 @@ struct result {
     uint32_t threads, steps;
     double ms, p99_ms, bytes_per_vehicle;
     uint64_t contacts, fixed_contacts;
-    bool ended; /* before its time */
+    bool ended; /* ended at the limit */
 };
 
-void engine_found(struct engine_touches *touches, uint32_t a, uint32_t b)
+void engine_touches_add(struct engine_touches *touches, uint32_t a, uint32_t b)
 {
     if (touches->count == touches->capacity) {
         touches->capacity = touches->capacity * 2 + 1024;
@@ -42,7 +42,7 @@ static size_t heap_bytes(void)
     return info.uordblks + info.hblkhd;
 }
 
-/* Runs the steps; bytes is what the engine holds at the end. */
+/* Runs the steps. bytes: what the engine holds at the end. */
 static void run_steps(struct result *result, struct workload *workload, double *ms, size_t *bytes)
 {
     const struct engine *engine = result->engine;
@@ -77,7 +77,7 @@ static struct result measure(const struct engine *engine, struct workload *workl
     size_t empty, full;
     if (!ms)
         die_refused("out of memory");
-    /* Without vehicles: what the fixed objects take. */
+    /* A run without vehicles tells the memory of the fixed objects. */
     workload->scene.bodies = 0;
     run_steps(&result, workload, ms, &empty);
     workload->scene.bodies = options.vehicles;
@@ -123,7 +123,7 @@ static uint32_t steps_for(uint32_t vehicles)
 int bench_detect(struct bench_options options)
 {
     struct workload workload;
-    /* One arena, so that mallinfo2 sees what every thread takes. */
+    /* One arena, so that mallinfo2() counts the memory of all threads. */
     mallopt(M_ARENA_MAX, 1);
     if (options.frames == 0)
         options.frames = steps_for(options.vehicles);

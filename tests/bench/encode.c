@@ -1,6 +1,5 @@
-/* What it costs to put a picture out of a renderer that draws live: PNG, JPEG, the colours of
- * video, video; one after the other in one thread, on pictures of the standard scene as it goes on.
- */
+/* Measures the encoding of pictures of a live renderer: PNG, JPEG, colour conversion, and video,
+ * one after the other in one thread, on moving pictures of the standard scene. */
 #include "tests/bench/bench.h"
 #include "tests/bench/scene.h"
 
@@ -20,9 +19,9 @@
 #include <unistd.h>
 
 #define ENCODED_MAX 10000u
-#define QUALITY     80 /* as the stream's */
+#define QUALITY     80 /* as for the stream */
 #define FPS         60.0
-#define FIRST_FRAME 1800u /* as jolon-bench render */
+#define FIRST_FRAME 1800u /* as for jolon-bench render */
 
 enum way { WAY_PNG, WAY_JPEG, WAY_COLOURS, WAY_VIDEO };
 
@@ -85,7 +84,7 @@ static void encode_colours(struct encoding *encoding, const struct image *image)
     yuv_of_image(&yuv, image);
 }
 
-/* Its bytes, where they are known at once. */
+/* bytes of the picture, if they are known at once */
 static size_t encode(struct encoding *encoding, size_t i, const struct picture *picture)
 {
     struct error_text error;
@@ -136,7 +135,7 @@ static void close_video(struct encoding *encoding, size_t i)
 
 static void tell(struct encoding *encoding, bool json)
 {
-    /* With its first picture an encoder sets itself up. */
+    /* An encoder allocates its memory with the first picture. */
     uint32_t skip = encoding->count > 1 ? 1 : 0;
     for (size_t i = 0; i < WAYS; i++) {
         if (ways[i].way == WAY_VIDEO)
@@ -157,18 +156,18 @@ int bench_encode(struct bench_options options)
     if (options.frames < 2 || options.frames > ENCODED_MAX)
         die_usage("--frames %u: must be from 2 to %u", options.frames, ENCODED_MAX);
     struct encoding *encoding = begin();
-    bench_scene_open(&scene, &(struct bench_scene_wish){.frame = FIRST_FRAME,
-                                                        .width = options.size.width,
-                                                        .height = options.size.height,
-                                                        .threads = 1,
-                                                        .soft = true,
-                                                        .view = VIEW_CHASE});
+    bench_scene_open(&scene, &(struct bench_scene_options){.frame = FIRST_FRAME,
+                                                           .width = options.size.width,
+                                                           .height = options.size.height,
+                                                           .threads = 1,
+                                                           .soft = true,
+                                                           .view = VIEW_CHASE});
     for (uint32_t i = 0; i < options.frames; i++) {
-        struct frame_view frame_view = bench_scene_moment(&scene);
+        struct frame_view frame_view = bench_scene_frame_view(&scene);
         bench_scene_build(&scene, &frame_view);
         bench_scene_draw(&scene, &frame_view);
         encode_all(encoding, &scene.image, frame_view_time_s(&frame_view));
-        bench_scene_go_on(&scene);
+        bench_scene_step(&scene);
     }
     tell(encoding, options.json);
     bench_scene_close(&scene);

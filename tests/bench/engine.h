@@ -1,4 +1,4 @@
-/* What a collision engine is to the benchmark; C and C++ alike. */
+/* The interface of a collision engine to the benchmark, for C and C++. */
 #ifndef JOLON_TESTS_BENCH_ENGINE_H
 #define JOLON_TESTS_BENCH_ENGINE_H
 
@@ -12,20 +12,20 @@ extern "C" {
 
 #define ENGINE_RADIUS_M 3.0 /* of every moving sphere */
 #define ENGINE_DT_S     (1.0 / 60.0)
-#define ENGINE_FIXED    0x80000000u /* flag of a touch's b: the rest is a fixed sphere */
+#define ENGINE_FIXED    0x80000000u /* flag of b in a touch: the other bits index a fixed sphere */
 
 struct engine_body {
     double x, z, vx, vz; /* [m, m/s], all at height 0 */
 };
 
-struct engine_ball {
+struct engine_sphere {
     double x, z, radius_m;
 };
 
 struct engine_scene {
     struct engine_body *body;
     uint32_t bodies;
-    struct engine_ball *fixed;
+    struct engine_sphere *fixed;
     uint32_t fixed_count;
 };
 
@@ -38,16 +38,16 @@ struct engine_touches {
     size_t count, capacity;
 };
 
-/* Adds one; ends the process when there is no memory. */
-void engine_found(struct engine_touches *touches, uint32_t a, uint32_t b);
+/* Adds a touch. Ends the process when memory is out. */
+void engine_touches_add(struct engine_touches *touches, uint32_t a, uint32_t b);
 
-/* Do these two bodies touch, or does this body touch that fixed sphere? */
+/* Returns true if body a touches body b, or the fixed sphere that b names. */
 static inline bool engine_touching(const struct engine_scene *scene, uint32_t a, uint32_t b)
 {
     const struct engine_body *p = &scene->body[a];
     double x, z, reach;
     if (b & ENGINE_FIXED) {
-        const struct engine_ball *ball = &scene->fixed[b & ~ENGINE_FIXED];
+        const struct engine_sphere *ball = &scene->fixed[b & ~ENGINE_FIXED];
         x = ball->x - p->x;
         z = ball->z - p->z;
         reach = ENGINE_RADIUS_M + ball->radius_m;
@@ -60,14 +60,14 @@ static inline bool engine_touching(const struct engine_scene *scene, uint32_t a,
 }
 
 struct engine {
-    const char *name, *variant; /* variant: which of an engine's structures, or "" */
-    uint32_t threads;           /* the most that it can use */
-    /* A new world with the scene's fixed spheres and bodies; the scene outlives it. */
+    const char *name, *variant; /* variant: which data structure of the engine, or "" */
+    uint32_t threads;           /* the most that the engine can use */
+    /* Makes a world with the scene's fixed spheres and bodies. The scene outlives it. */
     void *(*open)(const struct engine_scene *scene, uint32_t threads);
     void (*close)(void *self);
-    /* Tells the engine where the bodies are now: not measured. */
+    /* Gives the engine the positions of the bodies. Not measured. */
     void (*place)(void *self);
-    /* Everything that touches now, or within the coming step: what is measured. */
+    /* Finds all touches now or within the coming step. This is measured. */
     void (*detect)(void *self, struct engine_touches *touches);
 };
 

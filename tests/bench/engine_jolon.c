@@ -1,4 +1,4 @@
-/* Jolon as an engine: broad phase, then the exact swept sphere test of each candidate. */
+/* Jolon as an engine: the broad phase, then the exact swept sphere test of each candidate pair. */
 #include "tests/bench/engine.h"
 
 #include "collider/broad_phase/broad_phase.h"
@@ -18,7 +18,7 @@
 #define PAIRS_A_PIECE  4096
 #define PREFETCH_PAIRS 12
 
-/* A world of spheres: kind 0 is the moving ones'. */
+/* A world of spheres. The moving spheres are of kind 0. */
 struct jolon {
     const struct engine_scene *scene;
     struct params params;
@@ -36,7 +36,7 @@ struct jolon {
     struct thread_pool *workers;
     struct broad_phase broad;
     struct pair_list touching[THREAD_POOL_MAX];
-    const struct pair_list *list; /* the one that is tested now */
+    const struct pair_list *list; /* the list whose pairs are tested */
 };
 
 static void *reserve(size_t bytes)
@@ -65,7 +65,7 @@ static void make_world(struct jolon *self)
                                                .z = scene->fixed[i].z,
                                                .radius_m = (float)scene->fixed[i].radius_m,
                                                .kind = 1};
-    /* The table is the world's and not detection's: mapped, so that it is not counted. */
+    /* The table belongs to the world and not to detection, so it is mapped and not counted. */
     self->rows_bytes = entities_bytes(scene->bodies) + COLUMN_ALIGN;
     self->rows =
         mmap(NULL, self->rows_bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -168,7 +168,7 @@ static void jolon_detect(void *handle, struct engine_touches *touches)
     for (int i = 0; i < THREAD_POOL_MAX; i++) {
         struct pair_list *list = &self->touching[i];
         for (uint32_t n = 0; n < list->count; n++)
-            engine_found(touches, list->pair[n].a, list->pair[n].b);
+            engine_touches_add(touches, list->pair[n].a, list->pair[n].b);
         list->count = 0;
     }
 }

@@ -1,6 +1,6 @@
-/* What the steps of a frame cost: mover and collider one after the other in one process, on the
- * Hunter-Liggett world (500 vehicles), or on its ground with any number of vehicles on patrol, or
- * at war. */
+/* Measures the steps of a frame: mover and collider run one after the other in one process, on the
+ * Hunter-Liggett world (500 vehicles), or on its ground with any number of vehicles on patrol or at
+ * war. */
 #include "tests/bench/bench.h"
 #include "tests/bench/world.h"
 

@@ -1,6 +1,6 @@
-/* What a frame costs when its stages do nothing: mover and collider as two processes over the real
- * frame protocol, beside two processes that hand a futex word to and fro as often (two wake-ups).
- */
+/* Measures a frame whose stages do nothing: mover and collider are two processes with the real
+ * frame protocol. For comparison, two processes pass a futex word to each other as often (two
+ * wake-ups). */
 #include "tests/bench/bench.h"
 
 #include "ipc/process/clock.h"
@@ -82,7 +82,7 @@ static void frames_between(uint32_t frames, double *us)
     if (segment_private(&view, &header, &error) != 0)
         die_refused("%s", error.text);
     view.w[0].head->time_scale = 1.0;
-    view.checked = true; /* frames are made up: no checksums */
+    view.checked = true; /* frames have no content: no checksums */
     become(&view, ROLE_COLLIDER, frames);
     int parent = (int)getpid();
     pid_t child = fork();
@@ -104,7 +104,7 @@ static void futex(_Atomic uint32_t *word, int operation, uint32_t value)
     syscall(SYS_futex, (uintptr_t)word, operation, value, NULL, NULL, 0);
 }
 
-/* Waits until the word is odd (or even), then makes it the next number. */
+/* Waits until the word is odd (or even), then adds one. */
 static void pass_on(_Atomic uint32_t *word, uint32_t odd)
 {
     uint32_t value = atomic_load(word);

@@ -1,4 +1,4 @@
-/* jolon-bench: measures the parts of Jolon, each beside what bounds it. */
+/* jolon-bench: measures the parts of Jolon and, for comparison, their limits. */
 #include "tests/bench/bench.h"
 
 #include "ipc/process/log.h"
@@ -23,7 +23,7 @@ double bench_quantile(double *values, uint32_t count, double fraction)
 static const struct bench {
     const char *name;
     int (*run)(struct bench_options options);
-    const char *usage; /* the options that it names are those that the benchmark takes */
+    const char *usage; /* the options that the benchmark takes */
     struct bench_options defaults;
 } benches[] = {
     {"handover",

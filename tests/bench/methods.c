@@ -1,6 +1,6 @@
-/* What each way to detect collisions finds, misses and costs, side by side on the same bodies:
+/* Measures what each method of collision detection finds, misses and costs on the same bodies:
  * spheres of 3 m on level ground, in platoons all over the 50 km square, ten frames a second as in
- * the thesis, most at a ground vehicle's speed and one in ten at an aircraft's. */
+ * the thesis. Most have a ground vehicle's speed, one in ten an aircraft's. */
 #include "tests/bench/bench.h"
 
 #include "collider/broad_phase/broad_phase.h"
@@ -20,14 +20,14 @@
 #include <stdlib.h>
 
 #define FEWEST      1000u
-#define TIMES       10u /* as many bodies in the next row of the table */
+#define TIMES       10u /* factor of bodies between rows of the table */
 #define DT_S        0.1
 #define RADIUS_M    3.0
 #define PLATOON     10u
 #define PLATOON_M   200.0
 #define GROUND_MPS  16.6 /* Table 2 */
 #define AIR_MPS     277.7
-#define FAST        10u /* one in so many */
+#define FAST        10u /* one aircraft among this many bodies */
 #define MPS_NEAR_M  10.0
 #define REPEATS_MAX 9
 #define ENOUGH_MS   2000.0
@@ -38,7 +38,7 @@ struct field {
     struct kind kind;
     float posts[4];
     uint8_t cover[4];
-    uint32_t *reach_start; /* nothing stands anywhere */
+    uint32_t *reach_start; /* no fixed objects */
     void *memory;
     struct entities entities;
     struct path *path;
@@ -103,7 +103,7 @@ static void place_bodies(struct field *field)
     }
 }
 
-/* Do the spheres touch at any time of the frame? */
+/* Returns true if the spheres touch at any time of the frame. */
 static bool touch(const struct field *field, struct pair pair)
 {
     const struct path *a = &field->path[pair.a], *b = &field->path[pair.b];
@@ -125,10 +125,10 @@ static uint32_t count_touching(const struct field *field, const struct pair_list
 
 struct finder {
     enum method method;
-    struct broad_phase broad; /* swept's */
+    struct broad_phase broad; /* used by the swept method */
     struct method_workspace *workspace;
     struct pair_list pairs;
-    double last_ms, last_growth; /* at the size before; 0: there was none */
+    double last_ms, last_growth; /* at the previous size; 0: none */
 };
 
 static const struct pair_list *find(struct finder *finder, const struct field *field)
@@ -140,7 +140,7 @@ static const struct pair_list *find(struct finder *finder, const struct field *f
     return &finder->pairs;
 }
 
-/* The median of some runs; of one when it is long. */
+/* Returns the median of some runs, or the time of one long run. */
 static double time_ms(struct finder *finder, const struct field *field)
 {
     double ms[REPEATS_MAX], all_ms = 0.0;
@@ -154,7 +154,7 @@ static double time_ms(struct finder *finder, const struct field *field)
     return bench_quantile(ms, count, 0.5);
 }
 
-/* The next size is TIMES as large: at worst the work grows with its square. */
+/* The next size is TIMES as large. In the worst case the work grows with its square. */
 static bool too_long(const struct finder *finder)
 {
     double growth = finder->last_growth > 0.0 ? finder->last_growth : 2.0;

@@ -1,6 +1,6 @@
-/* What models look like: every kind close up, from before and behind, at each level of damage with
- * dents, as a wreck, and at each level of detail at the size from which on it is drawn. One row a
- * kind, three for one alone. For whoever makes a model. */
+/* Draws models for their makers: each kind close up, from the front and from behind, at each level
+ * of damage with dents, as a wreck, and at each level of detail at the size from which it is drawn.
+ * A kind has one row, or three when it is drawn alone. */
 #include "tests/bench/bench.h"
 #include "tests/bench/scene.h"
 
@@ -15,9 +15,9 @@
 #include <string.h>
 
 #define KINDS_MAX     64u
-#define AWAY          25500.0 /* [m] x and z of where nothing else is */
-#define ALONE_PER_ROW 3u      /* pictures of one kind alone */
-#define LEVELS_SEEN   3u      /* of detail, in one picture */
+#define AWAY          25500.0 /* [m] x and z of an empty place */
+#define ALONE_PER_ROW 3u      /* pictures when one kind is drawn alone */
+#define LEVELS_SEEN   3u      /* levels of detail in one picture */
 
 enum { BEFORE, BEHIND, LOW, MED, HIGH, WRECK, SMALL, COLUMNS };
 
@@ -26,7 +26,8 @@ static uint32_t per_row(const struct bench_options *options)
     return options->kind != NULL ? ALONE_PER_ROW : COLUMNS;
 }
 
-/* Two blows, the deeper the worse it is: on the front's right and on the left side. */
+/* Makes two dents on the right of the front and on the left side. They are deeper at higher damage.
+ */
 static void bend(struct bench_scene *s, const struct mesh_skeleton *skeleton, enum damage damage)
 {
     static const float depth_m[DAMAGE_COUNT] = {0.0f, 0.08f, 0.2f, 0.4f, 0.5f};
@@ -53,7 +54,7 @@ static uint32_t fixed_of(const struct world *world, uint32_t kind)
     return i;
 }
 
-/* Puts the kind up for the picture; where its middle is. */
+/* Places the kind for the picture and returns its centre. */
 static struct vec3 put(struct bench_scene *s, uint32_t kind_index, uint32_t column)
 {
     static const uint8_t damages[COLUMNS] = {
@@ -87,7 +88,7 @@ static struct vec3 put(struct bench_scene *s, uint32_t kind_index, uint32_t colu
               (stands ? 0.0 : 1.0 - (double)skeleton->low[1]);
     e->heading[0] = e->pitch[0] = e->roll[0] = 0.0;
     bend(s, skeleton, (enum damage)damages[column]);
-    struct frame_view frame_view = bench_scene_moment(s);
+    struct frame_view frame_view = bench_scene_frame_view(s);
     articulation_note(&s->articulation, &frame_view);
     return (struct vec3){AWAY, e->y[0] + middle, AWAY};
 }
@@ -122,10 +123,10 @@ static void draw(struct bench_scene *s, struct image *sheet, const struct bench_
         struct vec3 from = {sin(turn) * away, 0.33 * away, -cos(turn) * away};
         camera_look(&camera, vec3_add(middle, from), middle, options->size.width,
                     options->size.height);
-        struct frame_view frame_view = bench_scene_moment(s);
+        struct frame_view frame_view = bench_scene_frame_view(s);
         scene_build(&s->list, &camera, &s->static_scene, &frame_view, &s->effects);
         if (column == WRECK)
-            s->list.particle_count = 0; /* its smoke hides it */
+            s->list.particle_count = 0; /* its smoke would hide it */
         bench_scene_draw(s, &frame_view);
         struct image part = s->image;
         part.height /= small;
@@ -136,7 +137,7 @@ static void draw(struct bench_scene *s, struct image *sheet, const struct bench_
     }
 }
 
-/* The kinds to show; how many. */
+/* Fills in the kinds to draw and returns their number. */
 static uint32_t choose(const struct world *world, const char *name, uint32_t kinds[KINDS_MAX])
 {
     uint32_t count = 0;
@@ -155,12 +156,12 @@ int bench_models(struct bench_options options)
     uint32_t kinds[KINDS_MAX];
     if (!options.file)
         die_usage("models: needs one FILE; see jolon-bench models --help");
-    struct bench_scene_wish wish = {.scenario = "parade",
-                                    .width = options.size.width,
-                                    .height = options.size.height,
-                                    .threads = 1,
-                                    .soft = !options.gl};
-    bench_scene_open(&scene, &wish);
+    struct bench_scene_options scene_options = {.scenario = "parade",
+                                                .width = options.size.width,
+                                                .height = options.size.height,
+                                                .threads = 1,
+                                                .soft = !options.gl};
+    bench_scene_open(&scene, &scene_options);
     uint32_t count = choose(&scene.view.world, options.kind, kinds);
     uint32_t rows = options.kind != NULL ? COLUMNS / ALONE_PER_ROW + 1 : count;
     if (image_init(&sheet, per_row(&options) * options.size.width, rows * options.size.height) != 0)

@@ -41,7 +41,7 @@ void *bullet_open(const engine_scene *scene, uint32_t)
 {
     bullet *self = new bullet(scene);
     for (uint32_t i = 0; i < scene->fixed_count; i++) {
-        const engine_ball &ball = scene->fixed[i];
+        const engine_sphere &ball = scene->fixed[i];
         self->fixed.push_back(add(self, ball.x, ball.z, ball.radius_m, i | ENGINE_FIXED));
     }
     for (uint32_t i = 0; i < scene->bodies; i++)
@@ -83,7 +83,7 @@ void bullet_detect(void *handle, engine_touches *touches)
             b = swap;
         }
         if (engine_touching(self->scene, a, b))
-            engine_found(touches, a, b);
+            engine_touches_add(touches, a, b);
     }
 }
 

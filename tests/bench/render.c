@@ -1,6 +1,6 @@
-/* What a picture costs: the standard scene, which is Hunter-Liggett after half a minute of battle
- * seen from behind one of its vehicles, drawn again and again while it goes on; each stage timed.
- * With --beside another process runs a world of its own at its own pace meanwhile. */
+/* Measures a picture and its stages. The standard scene is Hunter-Liggett after half a minute of
+ * battle, seen from behind a vehicle, and is drawn while the simulation continues. With --beside
+ * another process runs a world of its own at its own pace meanwhile. */
 #include "tests/bench/bench.h"
 #include "tests/bench/scene.h"
 #include "tests/bench/world.h"
@@ -24,7 +24,7 @@
 #include <time.h>
 #include <unistd.h>
 
-#define FIRST_FRAME  1800u /* by then they are at each other */
+#define FIRST_FRAME  1800u /* the fighting has begun by then */
 #define PICTURES_MAX 100000u
 
 struct bench {
@@ -36,11 +36,11 @@ enum stage { STAGE_SCENE, STAGE_DRAW, STAGE_CHART, STAGE_TOTAL, STAGE_COUNT };
 
 static const char *const stage_names[STAGE_COUNT] = {"scene", "draw", "instruments", "total"};
 
-/* Of each picture: milliseconds of the clock, and of this process's processors. */
+/* For each picture: elapsed milliseconds, and milliseconds of this process's processors. */
 struct times {
     double *wall_ms[STAGE_COUNT], *cpu_ms[STAGE_COUNT];
     uint32_t count;
-    double *part_ms[BACK_END_STAGES_MAX]; /* of drawing, where the back end tells */
+    double *part_ms[BACK_END_STAGES_MAX]; /* of drawing, if the back end reports it */
     const char *part_names[BACK_END_STAGES_MAX];
     uint32_t parts;
 };
@@ -62,11 +62,11 @@ static void write_picture(const struct bench_scene *s, const char *folder, uint3
         die_refused("%s: %s", path, strerror(errno));
 }
 
-/* One picture; number: which, from 0. */
+/* Draws a picture. number: its index, from 0. */
 static void draw_one(struct bench *bench, struct times *times, uint32_t number)
 {
     struct bench_scene *s = &bench->scene;
-    struct frame_view frame_view = bench_scene_moment(s);
+    struct frame_view frame_view = bench_scene_frame_view(s);
     struct annotated_picture_source source = {.frame_view = &frame_view,
                                               .tracks = &s->tracks,
                                               .effects = &s->effects,
@@ -102,15 +102,15 @@ static void draw_one(struct bench *bench, struct times *times, uint32_t number)
 
 static void open_bench(struct bench *bench, const struct bench_options *options)
 {
-    const struct bench_scene_wish wish = {.frame = FIRST_FRAME,
-                                          .width = options->size.width,
-                                          .height = options->size.height,
-                                          .threads = options->threads,
-                                          .soft = !options->gl,
-                                          .follow = options->follow,
-                                          .view = VIEW_CHASE};
+    const struct bench_scene_options scene_options = {.frame = FIRST_FRAME,
+                                                      .width = options->size.width,
+                                                      .height = options->size.height,
+                                                      .threads = options->threads,
+                                                      .soft = !options->gl,
+                                                      .follow = options->follow,
+                                                      .view = VIEW_CHASE};
     struct error_text error;
-    bench_scene_open(&bench->scene, &wish);
+    bench_scene_open(&bench->scene, &scene_options);
     if (bench->scene.slot == SLOT_NONE)
         die_refused("there is no vehicle to follow");
     if (annotated_picture_open(&bench->chart, &bench->scene.view.world, options->size.width,
@@ -127,7 +127,7 @@ static void run(struct bench *bench, const struct bench_options *options, struct
             write_picture(&bench->scene, options->out, times->count);
         spent_ms += times->wall_ms[STAGE_TOTAL][times->count];
         times->count++;
-        bench_scene_go_on(&bench->scene);
+        bench_scene_step(&bench->scene);
     }
 }
 
@@ -142,7 +142,7 @@ static void keep_to(uint32_t cpu)
         die_refused("cannot keep to processor %u: %s", cpu, strerror(errno));
 }
 
-/* A process that runs a world at its pace until it is ended. */
+/* Starts a process that runs a world at its pace until it is killed. */
 static pid_t begin_beside(bool one_core)
 {
     pid_t child = fork();
@@ -175,7 +175,7 @@ static void end_beside(pid_t child)
 
 static void tell(const struct bench_options *options, struct times *times)
 {
-    /* The first picture fills caches. */
+    /* The first picture fills the caches and is not counted. */
     uint32_t skip = times->count > 1 ? 1 : 0, n = times->count - skip;
     double first_ms = times->wall_ms[STAGE_TOTAL][0];
     double total = bench_quantile(times->wall_ms[STAGE_TOTAL] + skip, n, 0.5);

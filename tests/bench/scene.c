@@ -1,4 +1,4 @@
-/* Drawing a world in one process. */
+/* Draws a world in one process. */
 #include "tests/bench/scene.h"
 
 #include "ipc/frame/event_cursor.h"
@@ -14,7 +14,7 @@
 
 #define EVENTS 256u
 
-struct frame_view bench_scene_moment(const struct bench_scene *s)
+struct frame_view bench_scene_frame_view(const struct bench_scene *s)
 {
     const struct state *state = &s->view.w[frame_stepper_frame(&s->stepper) & 1];
     return (struct frame_view){.world = &s->view.world,
@@ -26,12 +26,12 @@ struct frame_view bench_scene_moment(const struct bench_scene *s)
                                .articulation = &s->articulation};
 }
 
-void bench_scene_go_on(struct bench_scene *s)
+void bench_scene_step(struct bench_scene *s)
 {
     struct event events[EVENTS];
     uint32_t count;
     frame_stepper_step(&s->stepper, NULL);
-    struct frame_view frame_view = bench_scene_moment(s);
+    struct frame_view frame_view = bench_scene_frame_view(s);
     crater_index_update(&s->craters, frame_view.head->crater_count);
     dent_index_update(&s->dents, frame_view.head->dent_count);
     do {
@@ -44,23 +44,23 @@ void bench_scene_go_on(struct bench_scene *s)
 
 static void open_back_end(struct bench_scene *s)
 {
-    const struct bench_scene_wish *wish = &s->wish;
+    const struct bench_scene_options *options = &s->scene_options;
     const struct gl_wish any = {.device = NULL};
     char name[BACK_END_NAME_BYTES];
     struct error_text error;
-    int opened = wish->soft ? soft_open(&s->draw, &s->static_scene, wish->width, wish->height,
-                                        wish->threads, &error)
-                            : gl_open(&s->draw, &s->static_scene, wish->width, wish->height, &any,
-                                      name, &error);
+    int opened = options->soft ? soft_open(&s->draw, &s->static_scene, options->width,
+                                           options->height, options->threads, &error)
+                               : gl_open(&s->draw, &s->static_scene, options->width,
+                                         options->height, &any, name, &error);
     if (opened != 0)
         die_refused("%s", error.text);
 }
 
-void bench_scene_open(struct bench_scene *s, const struct bench_scene_wish *wish)
+void bench_scene_open(struct bench_scene *s, const struct bench_scene_options *options)
 {
     memset(s, 0, sizeof *s);
-    s->wish = *wish;
-    bench_world_open(&s->view, wish->scenario, BENCH_SCENARIO_VEHICLES);
+    s->scene_options = *options;
+    bench_world_open(&s->view, options->scenario, BENCH_SCENARIO_VEHICLES);
     const struct world *world = &s->view.world;
     if (frame_stepper_init(&s->stepper, &s->view, 1) != 0 ||
         crater_index_init(&s->craters, s->view.w[0].craters) != 0 ||
@@ -68,14 +68,14 @@ void bench_scene_open(struct bench_scene *s, const struct bench_scene_wish *wish
         tracks_init(&s->tracks, world->params->capacity) != 0 ||
         articulation_init(&s->articulation, world->params->capacity) != 0 ||
         static_scene_init(&s->static_scene, world) != 0 || scene_init(&s->list) != 0 ||
-        image_init(&s->image, wish->width, wish->height) != 0)
+        image_init(&s->image, options->width, options->height) != 0)
         die_refused("cannot begin: %s", strerror(errno));
     open_back_end(s);
-    while (frame_stepper_frame(&s->stepper) < wish->frame)
-        bench_scene_go_on(s);
+    while (frame_stepper_frame(&s->stepper) < options->frame)
+        bench_scene_step(s);
     struct follow follow = {.id = 0};
-    struct frame_view frame_view = bench_scene_moment(s);
-    s->slot = follow_choose(&follow, &frame_view, &s->effects, wish->follow, true);
+    struct frame_view frame_view = bench_scene_frame_view(s);
+    s->slot = follow_choose(&follow, &frame_view, &s->effects, options->follow, true);
 }
 
 void bench_scene_close(struct bench_scene *s)
@@ -95,12 +95,12 @@ void bench_scene_close(struct bench_scene *s)
 void bench_scene_build(struct bench_scene *s, const struct frame_view *frame_view)
 {
     struct camera camera;
-    const struct view_camera_options wish = {.view = s->wish.view,
-                                             .field_rad = CAMERA_FIELD_OF_VIEW_RAD,
-                                             .width = s->image.width,
-                                             .height = s->image.height,
-                                             .pose = s->wish.pose};
-    view_camera_update(&s->view_camera, &wish, frame_view, s->slot, &camera);
+    const struct view_camera_options options = {.view = s->scene_options.view,
+                                                .field_rad = CAMERA_FIELD_OF_VIEW_RAD,
+                                                .width = s->image.width,
+                                                .height = s->image.height,
+                                                .pose = s->scene_options.pose};
+    view_camera_update(&s->view_camera, &options, frame_view, s->slot, &camera);
     scene_build(&s->list, &camera, &s->static_scene, frame_view, &s->effects);
 }
 

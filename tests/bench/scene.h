@@ -1,6 +1,6 @@
-/* A world of this process's own and all that it takes to draw it, frame by frame: what pictures are
- * measured and compared on. Single-threaded but for the back end. Whatever fails ends the process
- * with the reason (exit 1). */
+/* A world in this process's memory and everything needed to draw it frame by frame, for measuring
+ * and comparing pictures. Single-threaded except for the back end. An error ends the process with a
+ * message (exit code 1). */
 #ifndef JOLON_TESTS_BENCH_SCENE_H
 #define JOLON_TESTS_BENCH_SCENE_H
 
@@ -15,19 +15,19 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-struct bench_scene_wish {
+struct bench_scene_options {
     const char *scenario;         /* as for jolon run; NULL: Hunter-Liggett */
-    uint64_t frame;               /* to begin with */
-    uint32_t width, height;       /* [pixel], the largest picture */
+    uint64_t frame;               /* first frame that is drawn */
+    uint32_t width, height;       /* [pixel] of the largest picture */
     uint32_t threads;             /* of the software back end */
-    bool soft;                    /* else OpenGL */
-    uint32_t follow;              /* entity id, 0: the liveliest */
+    bool soft;                    /* software back end, otherwise OpenGL */
+    uint32_t follow;              /* entity id, 0: the most active vehicle */
     enum view_mode view;          /* not VIEW_MAP */
-    struct view_camera_pose pose; /* of VIEW_FREE */
+    struct view_camera_pose pose; /* camera of VIEW_FREE */
 };
 
 struct bench_scene {
-    struct bench_scene_wish wish;
+    struct bench_scene_options scene_options;
     struct view view;
     struct frame_stepper stepper;
     struct crater_index craters;
@@ -41,19 +41,19 @@ struct bench_scene {
     struct draw_list list;
     struct back_end_interface draw;
     struct image image;
-    uint32_t slot; /* of the followed vehicle; SLOT_NONE: there is none */
+    uint32_t slot; /* of the followed vehicle, or SLOT_NONE */
 };
 
-void bench_scene_open(struct bench_scene *s, const struct bench_scene_wish *wish);
+void bench_scene_open(struct bench_scene *s, const struct bench_scene_options *scene_options);
 void bench_scene_close(struct bench_scene *s);
 
-/* One frame of simulation, and what a renderer remembers of it. */
-void bench_scene_go_on(struct bench_scene *s);
+/* Computes one frame and updates what a renderer keeps from earlier frames. */
+void bench_scene_step(struct bench_scene *s);
 
-/* The committed frame; lives until the next. */
-struct frame_view bench_scene_moment(const struct bench_scene *s);
+/* Returns the committed frame. It is valid until the next step. */
+struct frame_view bench_scene_frame_view(const struct bench_scene *s);
 
-/* The two halves of a picture of it, into s->list and s->image. */
+/* The two halves of drawing a frame, into s->list and s->image. */
 void bench_scene_build(struct bench_scene *s, const struct frame_view *frame_view);
 void bench_scene_draw(struct bench_scene *s, const struct frame_view *frame_view);
 

@@ -1,5 +1,5 @@
-/* What spheres get wrong (thesis row 38): how often the spheres of two bodies overlap though their
- * shapes do not touch, and how often the shapes touch outside the spheres. */
+/* Measures the errors of spheres (thesis row 38): how often the spheres of two bodies overlap
+ * although their shapes do not touch, and how often the shapes touch outside the spheres. */
 #include "tests/bench/bench.h"
 
 #include "collider/motion/body_motion.h"
@@ -51,10 +51,12 @@ static struct swept_body body_of(const struct scenario *scenario, const struct k
 }
 
 struct verdicts {
-    uint32_t both, spheres, shapes; /* overlap; only the spheres; only the shapes */
+    uint32_t both, spheres, shapes; /* pairs that touch: with spheres and shapes, with spheres
+                                       alone, with shapes alone */
 };
 
-/* Bodies at random places beside each other on level ground, turned anyhow. */
+/* Places pairs of bodies at random beside each other on level ground, with random headings, and
+ * counts touching spheres and shapes. */
 static struct verdicts compare(const struct scenario *scenario, const struct kind *a,
                                const struct kind *b, uint32_t samples)
 {

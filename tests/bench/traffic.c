@@ -1,6 +1,6 @@
-/* What agents run into that nobody fires at: the Hunter-Liggett world without ammunition, or its
- * ground with any number of vehicles on patrol. Those that hold their course are left out: they are
- * there to collide. */
+/* Counts what agents collide with when nobody fires at them: on the Hunter-Liggett world without
+ * ammunition, or on its ground with any number of vehicles on patrol. Agents that hold their course
+ * are left out, because their collisions are intended. */
 #include "tests/bench/bench.h"
 #include "tests/bench/world.h"
 
@@ -14,8 +14,8 @@
 #include <string.h>
 
 struct traffic {
-    uint64_t fixed, bushes, vehicles, surface; /* collisions of agents with each */
-    double hours;                              /* that agents were alive, all together */
+    uint64_t fixed, bushes, vehicles, surface; /* collisions of agents, by what they met */
+    double hours;                              /* total time that agents were alive */
 };
 
 static bool counts(const struct entities *e, uint32_t row)

@@ -1,4 +1,4 @@
-/* The workload: where everything is, how it moves and bounces. */
+/* The workload: positions, motion and bounces of the spheres. */
 #include "tests/bench/workload.h"
 
 #include "config/loader.h"
@@ -33,8 +33,8 @@ static void take_fixed(struct engine_scene *scene)
     if (!scene->fixed)
         die_refused("out of memory");
     for (uint32_t i = 0; i < built.counts.fixed; i++)
-        scene->fixed[i] = (struct engine_ball){built.fixed[i].x, built.fixed[i].z,
-                                               (double)built.fixed[i].radius_m};
+        scene->fixed[i] = (struct engine_sphere){built.fixed[i].x, built.fixed[i].z,
+                                                 (double)built.fixed[i].radius_m};
     world_build_free(&built);
     scenario_free(&scenario);
 }
@@ -78,14 +78,14 @@ void workload_rewind(struct workload *workload)
     workload->contacts = workload->fixed_contacts = 0;
 }
 
-/* Along the unit line from a to b. */
+/* Bounces a body along the line of centres from a to b. */
 static void bounce(struct workload *workload, struct engine_touch touch)
 {
     const struct engine_scene *scene = &workload->scene;
     struct engine_body *a = &scene->body[touch.a], *b = NULL;
     double x, z, vx = 0.0, vz = 0.0;
     if (touch.b & ENGINE_FIXED) {
-        const struct engine_ball *ball = &scene->fixed[touch.b & ~ENGINE_FIXED];
+        const struct engine_sphere *ball = &scene->fixed[touch.b & ~ENGINE_FIXED];
         x = ball->x;
         z = ball->z;
     } else {
@@ -129,8 +129,7 @@ static int by_bodies(const void *p, const void *q)
 
 void workload_step(struct workload *workload, struct engine_touches *touches)
 {
-    /* A body that touches two others ends up at a speed that depends on which of the two is
-     * answered first. */
+    /* The speed of a body that touches two others depends on which of them is answered first. */
     if (touches->count > 0)
         qsort(touches->touch, touches->count, sizeof *touches->touch, by_bodies);
     for (size_t i = 0; i < touches->count; i++)

@@ -1,4 +1,4 @@
-/* Making a world to measure on. */
+/* Makes worlds to measure on. */
 #include "tests/bench/world.h"
 
 #include "config/loader.h"
@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* What patrols when another number than the scenario's is asked for: parts of a hundred. */
+/* The kinds on patrol when another number of vehicles is requested, in percent. */
 struct share {
     const char *kind;
     uint32_t percent;
@@ -27,7 +27,7 @@ static const struct share mixture[KINDS] = {{"tank", 50, FORCE_NEUTRAL, 0},
                                             {"jeep", 20, FORCE_RED, 0},
                                             {"helicopter", 10, FORCE_NEUTRAL, 0}};
 
-/* Two forces that engage whom they see. */
+/* Two forces that attack the enemies that they see. */
 #define AT_WILL ENTITY_FLAG_FIRE_AT_WILL
 static const struct share agents[KINDS] = {
     {"tank", 25, FORCE_BLUE, AT_WILL},      {"tank", 25, FORCE_RED, AT_WILL},

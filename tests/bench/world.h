@@ -1,4 +1,4 @@
-/* Worlds to measure on, in this process's own memory. */
+/* Worlds to measure on, in this process's memory. */
 #ifndef JOLON_TESTS_BENCH_WORLD_H
 #define JOLON_TESTS_BENCH_WORLD_H
 
@@ -8,13 +8,14 @@
 
 #define BENCH_SCENARIO_VEHICLES 500u
 
-/* The scenario of a path, NULL for Hunter-Liggett, as it comes, or, with another number of vehicles
- * than Hunter-Liggett's own, its ground with so many on patrol. At frame 0; given up with
- * segment_abandon. Refused (exit 1) when the scenario cannot be read or memory is out. */
+/* Makes the world of a scenario at frame 0; NULL: Hunter-Liggett. With another number of vehicles
+ * than Hunter-Liggett's, the world is its ground with this many vehicles on patrol.
+ * segment_abandon() frees it. Ends the process (exit code 1) when the scenario cannot be read or
+ * memory is out. */
 void bench_world_open(struct view *view, const char *path, uint32_t vehicles);
 
-/* Hunter-Liggett's ground with so many armed vehicles of two forces all over it, on patrol and at
- * war: they engage whom they see. Otherwise the same. */
+/* Makes a world at war on Hunter-Liggett's ground: this many armed vehicles of two forces patrol
+ * and attack the enemies that they see. Otherwise the same. */
 void bench_world_agents(struct view *view, uint32_t vehicles);
 
 #endif

@@ -90,21 +90,21 @@ static int draw_all(void **state)
 {
     static struct bench_scene scene;
     const struct golden *golden = *state;
-    const struct bench_scene_wish wish = {.scenario = golden->scenario,
-                                          .frame = golden->frame,
-                                          .width = WIDTH,
-                                          .height = HEIGHT,
-                                          .threads = 1,
-                                          .soft = true,
-                                          .follow = golden->follow,
-                                          .view = golden->view,
-                                          .pose = golden->pose};
+    const struct bench_scene_options scene_options = {.scenario = golden->scenario,
+                                                      .frame = golden->frame,
+                                                      .width = WIDTH,
+                                                      .height = HEIGHT,
+                                                      .threads = 1,
+                                                      .soft = true,
+                                                      .follow = golden->follow,
+                                                      .view = golden->view,
+                                                      .pose = golden->pose};
     const struct gl_wish any = {.device = NULL};
     char name[BACK_END_NAME_BYTES];
     struct error_text error;
     struct back_end_interface other;
-    bench_scene_open(&scene, &wish);
-    struct frame_view frame_view = bench_scene_moment(&scene);
+    bench_scene_open(&scene, &scene_options);
+    struct frame_view frame_view = bench_scene_frame_view(&scene);
     bench_scene_build(&scene, &frame_view);
     bench_scene_draw(&scene, &frame_view);
     memcpy(one, scene.image.pixels, BYTES);
@@ -181,8 +181,8 @@ static void test_exact(void **state)
     assert_non_null(kept);
     if (different(one, three) != 0)
         fail_msg("%s: %u pixels differ on three threads", golden->name, different(one, three));
-    const char *wish = getenv("GOLDEN");
-    if (wish != NULL && strcmp(wish, "write") == 0)
+    const char *scene_options = getenv("GOLDEN");
+    if (scene_options != NULL && strcmp(scene_options, "write") == 0)
         keep(kept_folder, golden->name, one);
     read_kept(golden->name, kept);
     if (different(one, kept) != 0) {

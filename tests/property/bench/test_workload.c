@@ -25,7 +25,7 @@
 
 static const uint32_t threads[RUNS] = {1, 2, 3, 5};
 
-void engine_found(struct engine_touches *touches, uint32_t a, uint32_t b)
+void engine_touches_add(struct engine_touches *touches, uint32_t a, uint32_t b)
 {
     if (touches->count == touches->capacity) {
         touches->capacity = touches->capacity * 2 + 1024;
@@ -49,9 +49,9 @@ static void draw(struct engine_scene *scene, uint64_t seed)
                                               fixture_uniform(&random, -SPEED, SPEED),
                                               fixture_uniform(&random, -SPEED, SPEED)};
     for (uint32_t i = 0; i < FIXED; i++)
-        scene->fixed[i] = (struct engine_ball){FIRST_M + fixture_uniform(&random, 0.0, SIDE_M),
-                                               FIRST_M + fixture_uniform(&random, 0.0, SIDE_M),
-                                               fixture_uniform(&random, 0.5, 9.0)};
+        scene->fixed[i] = (struct engine_sphere){FIRST_M + fixture_uniform(&random, 0.0, SIDE_M),
+                                                 FIRST_M + fixture_uniform(&random, 0.0, SIDE_M),
+                                                 fixture_uniform(&random, 0.5, 9.0)};
 }
 
 static void drop(struct engine_scene *scene)
@@ -114,7 +114,7 @@ static void compare_with_all(const struct engine_scene *scene, const struct engi
                       2.0 * ENGINE_RADIUS_M);
         }
         for (uint32_t b = 0; b < FIXED; b++) {
-            const struct engine_ball *ball = &scene->fixed[b];
+            const struct engine_sphere *ball = &scene->fixed[b];
             check(touches, &next, a, b | ENGINE_FIXED,
                   nearest(ball->x - p->x, ball->z - p->z, -p->vx, -p->vz) - ENGINE_RADIUS_M -
                       (double)(float)ball->radius_m);
