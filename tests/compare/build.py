@@ -1,4 +1,4 @@
-"""One built tree of Jolon: its programs, and what they leave, made comparable."""
+"""One built tree of Jolon: its programs, and their results in a comparable form."""
 import ctypes
 import ctypes.util
 import json
@@ -9,7 +9,7 @@ import subprocess
 import time
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-# What a run takes from the clock, from chance or from the system, by its name in JSON.
+# JSON members whose values come from the clock, from chance or from the system.
 BY_CHANCE = {"made", "run", "source", "pid", "check", "restarts", "late_frames", "rate_hz", "wall_s",
              "token", "key", "roles", "layout", "gaps"}
 
@@ -19,13 +19,13 @@ xxhash.XXH3_64bits.argtypes = [ctypes.c_char_p, ctypes.c_size_t]
 
 
 def line_of_log(record):
-    """A record as a line of a log, with its checksum (docs/events.md)."""
+    """Returns a record as a line of a log with its checksum (docs/events.md)."""
     text = json.dumps(record, separators=(",", ":"))[:-1]
     return '%s,"check":"%016x"}\n' % (text, xxhash.XXH3_64bits(text.encode(), len(text)))
 
 
 def scrub(value, also=()):
-    """The same JSON value without what chance and the clock have put in."""
+    """Returns a JSON value without the values from chance and the clock."""
     if isinstance(value, dict):
         return {key: scrub(one, also) for key, one in value.items()
                 if key not in BY_CHANCE and key not in also and not key.endswith("_ms")}
@@ -33,7 +33,7 @@ def scrub(value, also=()):
 
 
 def scrub_lines(text, also=()):
-    """JSON lines, scrubbed; any other line stays."""
+    """Scrubs JSON lines and leaves other lines unchanged."""
     lines = []
     for line in text.splitlines():
         try:
@@ -58,12 +58,12 @@ class Build:
         self.scenarios = work + "/scenarios"
 
     def scenario(self, name):
-        """Its path, the same for both builds: the path goes into a world and so into its hash."""
+        """Returns a path that is the same for both builds, because a world's hash includes it."""
         own = "%s/%s.cfg" % (HERE, name)
         return own if os.path.exists(own) else "%s/%s.cfg" % (self.scenarios, name)
 
     def data(self):
-        """The files of config that programs read, by kind and name."""
+        """Returns the files of config/ that programs read, by kind and name."""
         found, root = {}, self.tree + "/config/"
         for folder, _, names in os.walk(root):
             for path in (folder + "/" + name for name in names if not name.endswith((".c", ".h"))):
@@ -71,18 +71,18 @@ class Build:
         return found
 
     def mask(self, text):
-        # The scenarios of this tool stand in one of the two trees, or in a third.
+        # The scenarios of this tool are in one of the two trees or in a third.
         return text.replace(self.work, "WORK").replace(HERE, "SCENARIOS").replace(self.tree, "TREE")
 
     def start(self, program, *arguments, **options):
-        """A process whose working folder is the tree; it ends with us at the latest."""
+        """Starts a process whose working folder is the tree. It dies with this process."""
         process = subprocess.Popen([self.bin + "/" + program, *map(str, arguments)], cwd=self.tree,
                                    env=self.environment, **options)
         self.started.append(process)
         return process
 
     def run(self, program, *arguments, timeout=120, given="", status=0):
-        """What a program prints on standard output. Any other exit status is an error, unless
+        """Runs a program and returns its standard output. Another exit status is an error, unless
         status is None."""
         process = self.start(program, *arguments, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                              stderr=subprocess.PIPE, text=True, errors="replace")
@@ -115,8 +115,8 @@ class Build:
             raise RuntimeError("%s: %s ended with %s" % (self.label, name, status))
 
     def begin(self, name, path, seen, *made_of):
-        """Makes a world and has the recorder write the beginning of its log of commands to path.
-        seen, if any, is called while the world is there. Returns the first line."""
+        """Makes a world and lets the recorder write the beginning of its log of commands to path.
+        Calls seen, if given, while the world exists. Returns the first line."""
         self.world("create", "--world", name, *made_of)
         recorder = self.start("jolon-recorder", "--world", name, "--commands", path)
         wait_for(lambda: os.path.exists(path) and b"\n" in read(path), "a log of commands")
@@ -127,13 +127,13 @@ class Build:
         return read(path).decode().splitlines(True)[0]
 
     def masked_log(self, path, also=()):
-        """A log of commands without what differs from run to run: checksums, the world's own number,
-        the senders' keys, the tree's path, and marks, which come by the clock."""
+        """Returns a log of commands without the parts that differ between runs: checksums, the world's
+        number, the senders' keys, the tree's path, and marks, whose times come from the clock."""
         lines = scrub_lines(self.mask(read(path).decode()), also).splitlines()
         return "\n".join(line for line in lines if '"type": "mark"' not in line)
 
     def clean(self):
-        """Ends and removes whatever is left."""
+        """Ends all processes that still run and removes all remaining worlds."""
         for process in self.started:
             process.kill()
             process.wait()

@@ -1,16 +1,16 @@
-"""What tests/compare-builds runs: scenarios, settings, commands, pictures. Each is fixed, so both
-builds get the same; together they use every kind, method, response, behaviour and command."""
+"""The cases of tests/compare-builds: scenarios, settings, commands, pictures. They are fixed, so both
+builds run the same. Together they use every kind, method, response, behaviour and command."""
 import random
 from dataclasses import dataclass, field
 
-# The numbers of commands in a log of commands (docs/replay.md).
+# The numbers of command types in a log of commands (docs/replay.md).
 CODES = {"pause": 1, "resume": 2, "step": 3, "scale": 4, "drive": 5, "release": 6, "fire": 7,
          "spawn": 8, "remove": 9, "quit": 10, "unheard-of": 77}
 
 
 @dataclass
 class Command:
-    """One command and the frame that takes it. A kind is a name; the log holds its number."""
+    """One command and the frame that applies it. A kind is given by name; the log holds its number."""
     frame: int
     name: str
     entity: int = 0
@@ -26,13 +26,13 @@ class Command:
 @dataclass
 class Case:
     name: str
-    scenario: str  # NAME.cfg beside this file, or else in config/scenarios
+    scenario: str  # NAME.cfg beside this file, otherwise in config/scenarios
     frames: int
     sets: tuple = ()
     threads: int = 1
     commands: list = field(default_factory=list)
     pictures: tuple = ()  # options of jolon-video, one string for each picture
-    dump: bool = False  # Are ground, fixed objects and vehicles of frame 0 compared too?
+    dump: bool = False  # compares ground, fixed objects and vehicles of frame 0 too
 
 
 
@@ -40,7 +40,7 @@ class Case:
 
 
 def driving():
-    """Every command once at least, done and refused, over the vehicles of proving-ground."""
+    """Returns every command at least once, accepted and refused, for the vehicles of proving-ground."""
     drive = [Command(10 + 20 * n, "drive", entity=5 + n % 9, amount=(0, 90, 30)[n % 3], force=n % 4,
                      source=1 + n % 2, value=(1 - 0.2 * n, 0.15 * n - 0.5, 0.3, 0.5, -0.4, n // 7))
              for n in range(9)]
@@ -68,7 +68,7 @@ def driving():
 
 
 def storm(seed, frames, entities, middle, kinds=("tank", "jeep", "truck", "helicopter")):
-    """Commands by chance, some of them senseless, about a place."""
+    """Returns random commands at a place, some of them invalid."""
     chance = random.Random(seed)
     given = []
     for frame in range(2, frames):

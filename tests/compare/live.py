@@ -1,4 +1,4 @@
-"""Sets of processes, started as a user starts them."""
+"""Experiments with sets of processes that are started as a user starts them."""
 import http.client
 import json
 import os
@@ -9,7 +9,7 @@ import threading
 from compare.build import line_of_log, read, scrub, scrub_lines, wait_for, write
 from compare.played import replay
 
-# Of a set's log: what the clock, chance and the order of the processes put in.
+# Parts of a set's log that depend on the clock, on chance and on the order of the processes.
 NUMBERS = re.compile(r"\b[0-9a-f]{16}\b|\d+(\.\d+)?")
 VIEWS = ("/picture.jpg?view=chase&size=320x180", "/picture.jpg?view=orbit&vehicle=6&size=320x180",
          "/picture.jpg?view=inside&vehicle=5&size=320x180&bar=0",
@@ -42,13 +42,13 @@ LINES = ({"id": 1, "do": "spawn", "kind": "jeep", "x": 25100, "z": 25200, "force
 
 
 def log_lines(build, path):
-    """The sorts of lines in the log of a set, each once."""
+    """Returns the different kinds of lines in the log of a set."""
     lines = build.mask(read(path).decode(errors="replace")).splitlines()
     return "\n".join(sorted({NUMBERS.sub("N", line) for line in lines}))
 
 
 def calm_set(name, scenario, frames, *options):
-    """A set without commands, as fast as it goes, with every role and an image of its end."""
+    """A set without commands at the highest pace, with every role and an image of its end."""
     def run(build):
         folder = "%s/%s" % (build.work, name)
         out = build.run("jolon", "run", "-w", name, "--json", "--pace", "max", "--frames", frames,
@@ -61,7 +61,7 @@ def calm_set(name, scenario, frames, *options):
                  ("commands", "log"): build.masked_log(folder + "/commands.log"),
                  ("events", "log"): read(folder + ".events"),
                  ("lines of jolon.log", name): log_lines(build, folder + "/jolon.log")}
-        # What burns and what left tracks depends on the frames that the renderer has looked at.
+        # Fires and tracks depend on the frames that the renderer has read.
         found["state", "files"] = "\n".join(sorted(os.listdir(folder)))
         return found
     return run
@@ -79,7 +79,7 @@ class UnixConnection(http.client.HTTPConnection):
 
 
 def ask(connection, path, posted=None, **headers):
-    """Status, kind and body of an answer; of JSON without what is chance's."""
+    """Returns status, content type and body of an answer. Random values are removed from JSON."""
     connection.request("POST" if posted else "GET", path, body=posted and json.dumps(posted),
                        headers=headers)
     answer = connection.getresponse()
@@ -91,8 +91,8 @@ def ask(connection, path, posted=None, **headers):
 
 
 def ask_picture(connection, path):
-    """A picture of a world that stands still. It is drawn at once as far as there is time, and with
-    everything when it is asked for again: so the same twice is the last one."""
+    """A picture of a paused world. The first answer may lack details for want of time, and later ones
+    have them. Two equal pictures in a row are therefore complete."""
     answers = [ask(connection, path) for _ in range(2)]
     while len(answers) < 20 and (len(answers) < 3 or answers[-1] != answers[-2]):
         answers.append(ask(connection, path))
@@ -100,7 +100,7 @@ def ask_picture(connection, path):
 
 
 def harness(build, name):
-    """The answers to lines that are sent one after the other, each when the last was answered."""
+    """Sends lines one after the other, each after the answer to the previous one. Returns the answers."""
     process = build.start("jolon-harness", "-w", name, "--domain", build.domain, stdin=-1, stdout=-1,
                           stderr=-1, text=True, bufsize=1)
     watchdog = threading.Timer(60, process.kill)
@@ -116,8 +116,8 @@ def harness(build, name):
 
 
 def monitor(build, name, status):
-    """What a monitor shows of a world that stands still. Topics run side by side, so its first lines
-    may hold entities of an earlier frame."""
+    """Returns what a monitor shows of a paused world. Topics are independent, so its first lines may
+    hold entities of an earlier frame."""
     process = build.start("jolon-monitor", "-w", name, "--domain", build.domain, "--json", "--rate", 10,
                           "--filter", "blue tank", stdout=-1, text=True)
     watchdog = threading.Timer(60, process.kill)
@@ -136,7 +136,7 @@ def monitor(build, name, status):
 
 
 def console(build, name, found):
-    """What the console answers while the world stands still, and what is posted to it."""
+    """Returns the console's answers to queries and posts while the world is paused."""
     token = build.work + "/token"
     process = build.start("jolon-console", "-w", name, "--port", 0, "--token-file", token, stdout=-1,
                           stderr=-2, text=True)
@@ -163,8 +163,8 @@ def console(build, name, found):
 
 
 def pause_first(build, name, made_of):
-    """Makes a world and puts `pause` into its ring of commands while nothing moves it: so its first
-    frame takes it, and each later command is a frame of its own."""
+    """Makes a world and puts `pause` into its command ring before the roles start. Its first frame
+    applies it, so each later command has a frame of its own."""
     build.world("create", "--world", name, *made_of)
     intake = build.start("jolon-intake", "--world", name)
     wait_for(lambda: build.world("pid", "--world", name, "intake", status=None).startswith("exit 0"),
@@ -174,8 +174,8 @@ def pause_first(build, name, made_of):
 
 
 def settled(build, name, least=0):
-    """Waits until a world that is paused stands still, at that frame or later; its frame. A command
-    that came while it still steps would be taken by one frame or by another."""
+    """Waits until a paused world has stopped stepping, at that frame or later. Returns its frame. The
+    frame of a command sent during a step would depend on timing."""
     seen = []
 
     def stands():
@@ -186,7 +186,7 @@ def settled(build, name, least=0):
 
 
 def with_own_keys(log):
-    """A copy of a log of commands in which senders' keys, which they draw by chance, are counted."""
+    """Copies a log of commands and replaces the senders' random keys by counters."""
     keys, lines = {}, []
     for line in read(log).decode().splitlines():
         record = json.loads(line)
@@ -200,8 +200,8 @@ def with_own_keys(log):
 
 
 def commanded_set(name, steps):
-    """A set that stands still but for commands and steps, seen through every program. Its own digests
-    hold the senders' keys; the digests of its log with other keys are compared."""
+    """A set that is paused except for commands and steps, observed through every program. Its digests
+    depend on the senders' keys, so the digests of its log with other keys are compared."""
     def run(build):
         folder, found = "%s/%s" % (build.work, name), {}
         made_of = ["--set", "renderer.backend=soft", "--set", "renderer.hold=false",

@@ -1,5 +1,5 @@
-"""Runs made by `jolon-world replay` in one process, from logs of commands that are written here; and
-their pictures and videos by jolon-video."""
+"""Runs of `jolon-world replay` in one process, from logs of commands that are written here, and their
+pictures and videos by jolon-video."""
 import json
 
 from compare.build import line_of_log, read, scrub, write
@@ -16,7 +16,7 @@ def record(build, command, number):
 
 
 def write_log(build, case, path, first):
-    """A log of the case's commands, without an end: it can be played as far as one likes."""
+    """Writes a log of the case's commands without an end, so that a replay may run any number of frames."""
     commands = sorted(case.commands, key=lambda command: command.frame)
     lines = [line_of_log(record(build, one, number + 1)) for number, one in enumerate(commands)]
     write(path, first + "".join(lines))
@@ -28,7 +28,7 @@ def replay(build, path, frames, threads=1, *options):
 
 
 def end_log(path, played, events):
-    """Says what was played, so that jolon-video knows how far the run goes and is held against it."""
+    """Adds the end of the replayed run to the log: jolon-video reads its length and compares its digests."""
     end = {"frame": played["frame"], "events": events, "commands": played["commands"], "type": "end",
            "digest": played["digest"], "event_digest": played["event_digest"]}
     with open(path, "a", encoding="utf-8") as log:
@@ -52,7 +52,7 @@ def draw(build, log, number, options, found):
 
 
 def play_case(case):
-    """What a case is on a build, by kind and name: {("digests", "frame 600"): ..., ...}."""
+    """Runs a case on a build. Returns its results by kind and name: {("digests", "frame 600"): ..., ...}."""
     def play(build):
         found, log = {}, "%s/%s.log" % (build.work, case.name)
         sets = [argument for one in case.sets for argument in ("--set", one)]
@@ -76,8 +76,8 @@ def play_case(case):
 
 
 def first_other_frame(builds, case):
-    """The first frame whose digest differs. The builds agree on all before some frame and, from
-    then on, on none: so it is found by halves."""
+    """Returns the first frame whose digest differs, by bisection: the builds agree on all frames before
+    it and on none after it."""
     def digests(frame):
         return [replay(build, build.work + "/halves.log", frame)["digest"] for build in builds]
     for build in builds:
@@ -92,7 +92,7 @@ def first_other_frame(builds, case):
 
 
 def videos(log_of):
-    """A short video of each sort, of a run that was played before."""
+    """Makes a short video of each format from a replayed run."""
     def make(build):
         found, log = {}, "%s/%s.log" % (build.work, log_of)
         for ending, frames in (("mkv", 40), ("mp4", 40), ("webm", 8)):
@@ -109,7 +109,7 @@ def videos(log_of):
 
 
 def resumed(image, name, frames):
-    """A run that goes on from an image that the old build has saved."""
+    """Continues a run from an image that the old build has saved."""
     def go_on(build):
         log = "%s/resumed-%s.log" % (build.work, name)
         made_of = ["--from", image, "--set", "world.frames=%d" % frames]

@@ -1,9 +1,9 @@
-"""What programs say: help, usage, refusals, exit statuses; and the strings in them."""
+"""The texts of programs: help, usage, refusals, exit statuses, and strings in the binaries."""
 import os
 import re
 import subprocess
 
-# Each is refused with one line: scenario texts by name.
+# Scenario texts by name. Each must be refused with one line.
 WRONG = {
     "no-syntax": "world = { seed = ; };", "no-key": "world = { sead = 1; };",
     "range": "world = { hz = 5000.0; };", "type": "world = { hz = \"fast\"; };",
@@ -27,7 +27,7 @@ WRONG = {
     "renderer": "renderer = { view = \"sideways\"; };",
 }
 PATHS = re.compile(r"(?:[\w.-]+/)*[\w-]+\.(?:c|h|cpp|idl)\b(?::\d+)?")
-# Programs that wait for a world which is not there, or do without one.
+# Programs that wait for a world that does not exist, or need none.
 WAITING = {"jolon-console", "jolon-harness", "jolon-keeper", "jolon-monitor", "jolon-bench", "jolon"}
 VERBS = ("run start stop status restart kill drive console harness monitor ctl snap events replay diff "
          "video world worlds clean help version").split()
@@ -77,7 +77,7 @@ def help_texts(build):
 
 
 def refusals(shared):
-    """Scenarios that are wrong, each in one line."""
+    """Returns an experiment: every wrong scenario is refused."""
     def refuse(build):
         found = {}
         for name, text in WRONG.items():
@@ -91,8 +91,8 @@ def refusals(shared):
 
 
 def strings(build, program):
-    """The strings of a program's data, with FILE in the place of each path of a source file. Code
-    and what debuggers read are left out."""
+    """Returns the strings of a program's data, with FILE instead of paths of source files. Code and
+    debug data are left out."""
     path = "%s/%s" % (build.bin, program)
     if not open(path, "rb").read(4) == b"\x7fELF":
         return set(open(path, encoding="utf-8").read().splitlines())
@@ -105,7 +105,7 @@ def strings(build, program):
 
 
 def strings_differ(old, new):
-    """Lines that say which strings are in the programs of one build alone."""
+    """Returns lines with the strings that only one build has."""
     lines = []
     for program in programs(old):
         if program not in programs(new):

@@ -1,5 +1,5 @@
-/* flood: sends as many commands as one connection takes, while another client drives a vehicle, and
- * tells how many frames the driver waited for each answer.
+/* flood: sends as many commands as one connection accepts, while another client drives a vehicle,
+ * and tells how many frames the driver waited for each answer.
  *
  *     flood --world NAME --seconds S --vehicle ID [--spawn] [--idle CONNECTIONS]
  *     flood --packet         prints how many bytes a command's packet has
@@ -28,9 +28,9 @@
 #include <unistd.h>
 
 #define ANSWERS_MAX  100000u
-#define PAUSE_NS     (20 * (uint64_t)NS_PER_MS) /* between two drives */
+#define PAUSE_NS     (20 * (uint64_t)NS_PER_MS) /* pause between two drives */
 #define ANSWER_NS    (3 * (uint64_t)NS_PER_S)
-#define TRIES        32 /* in which a flooder writes before it looks at the time */
+#define TRIES        32 /* batch that the flooder writes before it reads the clock */
 #define WANTED_PER_S 150000u
 
 struct flood {
@@ -78,7 +78,7 @@ static int connect_to(const struct flood *flood)
     return fd;
 }
 
-/* Writes without end and never reads an answer, at most WANTED_PER_S commands a second. */
+/* Sends at most WANTED_PER_S commands a second and never reads an answer. Thread of the flooder. */
 _Noreturn static void flood_it(const struct flood *flood)
 {
     struct command_packet packet = {
@@ -104,7 +104,7 @@ _Noreturn static void flood_it(const struct flood *flood)
     }
 }
 
-/* Drives the vehicle, one command at a time, and notes the frames until each answer. */
+/* Drives the vehicle, one command at a time, and records the frames until each answer. */
 static void drive(struct flood *flood, const struct view *view, struct command_client *caller,
                   uint64_t until_ns)
 {
@@ -113,7 +113,7 @@ static void drive(struct flood *flood, const struct view *view, struct command_c
             .type = jolon_COMMAND_DRIVE, .entity = flood->vehicle, .throttle = 0.5F};
         jolon_CommandReply reply;
         uint64_t before = segment_load(&view->commit->commit);
-        /* Whether it was done counts for nothing: the vehicle may be a wreck by now. */
+        /* The result does not matter: the vehicle may be a wreck by now. */
         if (command_client_call(caller, &command, clock_now_ns() + ANSWER_NS, &reply))
             flood->frames[flood->answers++] = (uint32_t)(reply.frame - before);
         else

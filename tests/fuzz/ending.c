@@ -1,4 +1,4 @@
-/* exit(), in the place of the C library's. */
+/* Replaces exit() of the C library. */
 #include "tests/fuzz/ending.h"
 
 #include "ipc/process/log.h"

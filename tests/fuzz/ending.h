@@ -1,5 +1,5 @@
-/* Code that ends the process with one line when it refuses something, run by a harness that goes
- * on. Linked with --wrap=exit (see the Makefile).
+/* Lets a harness survive code that exits with one line when it refuses something. Linked with
+ * --wrap=exit (see the Makefile).
  *
  *     if (ENDING_CATCH() == 0)
  *         may_call_exit();
@@ -12,7 +12,7 @@
 
 extern jmp_buf ending;
 
-/* From here to ending_done() exit() comes back here, with a value that is not 0. */
+/* Until ending_done() is called, exit() returns here with a value that is not 0. */
 #define ENDING_CATCH() (ending_begin(), setjmp(ending))
 
 void ending_begin(void);

@@ -1,7 +1,7 @@
-/* Frames of any bodies: the input says which method, response and shape, and what lies, drives and
- * flies where, among trees 4 m apart: heaps, bombs, rounds, wrecks, bodies at the world's edge.
- * Mover and collider then make a few frames. Each is collided twice, by two colliders, one of them
- * with helpers and without memory of the frame before: both must make the same. */
+/* Frames with arbitrary bodies. The input chooses method, response and shape, and which bodies lie,
+ * drive and fly where, among trees 4 m apart: heaps, bombs, rounds, wrecks, bodies at the world's
+ * edge. Mover and collider then compute a few frames. Two colliders compute each frame, one of them
+ * with worker threads and without data from the previous frame. Both must give the same result. */
 #include "tests/fuzz/support.h"
 
 #include "collider/step.h"
@@ -54,7 +54,7 @@ static void open_world(void)
     CHECK(collider_init(&second, &view.world, view.w[0].craters, thread_pool_create(2)) == 0);
 }
 
-/* Frame 0 with nobody in it; nobody remembers an earlier input. */
+/* Resets the world to frame 0 without bodies. No earlier input has an effect. */
 static void empty_world(uint8_t choice)
 {
     struct collision_params *collision =
@@ -76,13 +76,13 @@ static void empty_world(uint8_t choice)
 
 /* --- bodies ------------------------------------------------------------------------------------*/
 
-/* Bytes as a number in -1 .. 1. */
+/* Returns bytes as a number in -1 .. 1. */
 static double share(uint8_t byte)
 {
     return ((double)byte - 127.5) / 127.5;
 }
 
-/* Where a body of the input is: among the trees, in a heap, in a corner, or anywhere. */
+/* Chooses the place of a body: among the trees, in a heap, in a corner, or anywhere. */
 static struct vec3 place_of(const uint8_t *body)
 {
     static const double sizes[] = {24.0, 3.0, 150.0, 25000.0};

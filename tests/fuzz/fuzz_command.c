@@ -1,6 +1,6 @@
-/* Commands as they come over DDS: any bytes as jolon_Command, through the reporter's check, and
- * those that pass, some at a time, through the mover's step on a small world. And any bytes as they
- * lie in a ring, whoever wrote them there: a replayed log, a damaged page. */
+/* Commands as received over DDS: any bytes as a jolon_Command go through the reporter's check, and
+ * those that pass go, some at a time, through the mover's step of a small world. Also any bytes as
+ * a command in a ring, as a replayed log or a damaged page may hold. */
 #include "tests/fuzz/support.h"
 
 #include "ipc/segment/segment.h"
@@ -17,7 +17,7 @@
 static struct view view;
 static struct mover mover;
 
-/* What the mover and the renderer go by. */
+/* Checks the values that mover and renderer use. */
 static void check_checked(const struct command *command)
 {
     CHECK(command->type > COMMAND_NONE && command->type < COMMAND_TYPE_COUNT);
@@ -42,15 +42,15 @@ static void check_moved(void)
     }
 }
 
-/* Checks bytes as they come over DDS; true when they are a command. */
+/* Checks bytes as received over DDS. Returns true when they are a command. */
 static bool take_wire(struct command *command, const uint8_t *data)
 {
     jolon_Command wire;
     uint8_t bytes[sizeof wire];
     memcpy(bytes, data, sizeof wire);
-    bytes[offsetof(jolon_Command, anyway)] &= 1; /* the DDS library lets no other boolean in */
+    bytes[offsetof(jolon_Command, anyway)] &= 1; /* the DDS library rejects other booleans */
     memcpy(&wire, bytes, sizeof wire);
-    wire.kind[sizeof wire.kind - 1] = '\0'; /* as it leaves a bounded string */
+    wire.kind[sizeof wire.kind - 1] = '\0'; /* the DDS library terminates bounded strings */
     enum command_result result = command_check(command, &wire, &view.world);
     CHECK(result < COMMAND_RESULT_COUNT);
     if (result == COMMAND_DONE)
@@ -58,9 +58,9 @@ static bool take_wire(struct command *command, const uint8_t *data)
     return result == COMMAND_DONE;
 }
 
-/* The next command of the input: a struct command as it lies in a ring where its source is beyond
- * INT64_MAX, else a jolon_Command. How many bytes it is, 0 when no whole one is left; good says
- * whether it is to be moved. */
+/* Reads the next command: a struct command of a ring when its source is above INT64_MAX, otherwise
+ * a jolon_Command. Returns the number of bytes, 0 when no whole command is left. good: whether it
+ * is to be executed. */
 static size_t take_next(struct command *command, const uint8_t *data, size_t size, bool *good)
 {
     uint64_t source = 0;

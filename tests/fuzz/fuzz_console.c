@@ -1,5 +1,5 @@
-/* Requests to a console: libmicrohttpd's parser, names, rates, routes, keys of the address, bodies.
- * Commands end in the command queue, where the harness answers them. */
+/* Requests to a console: libmicrohttpd's parser, names, rates, routes, query keys, bodies. Commands
+ * reach the command queue, where the harness answers them. */
 #include "tests/fuzz/http_client.h"
 #include "tests/fuzz/support.h"
 
@@ -45,7 +45,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     if (!console.http)
         start();
-    /* Each input is the first of its second, and finds nobody. */
+    /* Each input is the first of its second, and there are no players. */
     pthread_mutex_lock(&console.lock);
     console.write_rate = (struct rate){0};
     console.players = (struct players){.joined = 0};

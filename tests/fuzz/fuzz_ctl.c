@@ -1,5 +1,5 @@
-/* The command line of jolon-ctl: one argument a line; and its lines from standard input, which are
- * the same bytes with blanks between the words. */
+/* The command line of jolon-ctl, one argument on each line, and its lines from standard input,
+ * which are the same bytes with blanks between the words. */
 #include "tests/fuzz/support.h"
 
 #include "clients/ctl/parse.h"
@@ -49,7 +49,7 @@ static void run_line(const uint8_t *data, size_t size)
         check_order(&order);
 }
 
-/* A function of its own: ENDING_CATCH() is a setjmp(), after which changed variables are lost. */
+/* A separate function: ENDING_CATCH() is a setjmp(), after which changed variables are lost. */
 static void run_arguments(int count, char **arguments)
 {
     struct ctl_request request;

@@ -1,4 +1,4 @@
-/* What is typed into the monitor's filter: which vehicles of a small world suit it. */
+/* Text typed into the monitor's filter, applied to the vehicles of a small world. */
 #include "tests/fuzz/support.h"
 
 #include "clients/monitor/vehicle_table.h"
@@ -12,7 +12,7 @@
 static struct world_mirror mirror;
 static jolon_Entity entities[VEHICLES];
 
-/* One of each state, at the ends of what a column may say. */
+/* One vehicle in each state, with the extreme values of the columns. */
 static void begin(void)
 {
     for (uint32_t i = 0; i < VEHICLES; i++)
@@ -29,7 +29,7 @@ static void begin(void)
     mirror.batch.count = VEHICLES;
 }
 
-/* A row that is shown suits each word of the filter alone. */
+/* A row that is shown must match each word of the filter alone. */
 static void check_words(const char *filter)
 {
     char word[VEHICLE_TABLE_FILTER_MAX];

@@ -1,5 +1,5 @@
-/* Hulls of any triangles at all: corners on a few planes, in a line, in one place, a micrometre or
- * a kilometre apart. What assimp could give us, without the file. */
+/* Hulls of arbitrary triangles: corners on a few planes, in a line, in one point, a micrometre or a
+ * kilometre apart. These are meshes that assimp could return, without the file. */
 #include "tests/fuzz/support.h"
 
 #include "config/mesh/hulls.h"
@@ -13,7 +13,7 @@
 
 #define VERTICES_MAX (3u + UINT8_MAX / 4u)
 
-/* Metres a step of a coordinate, -128..127 of them. */
+/* Metres for each step of a coordinate, which has -128..127 steps. */
 static const float scales[] = {1e-6f, 3e-5f, 0.001f, 0.02f, 0.3f, 1.0f, 7.8f};
 
 static uint8_t next(const uint8_t **data, size_t *size)
@@ -24,7 +24,8 @@ static uint8_t next(const uint8_t **data, size_t *size)
     return *(*data)++;
 }
 
-/* Vertices by three bytes each, the first byte of all saying how many; the rest are triangles. */
+/* The first byte is the number of vertices. Each vertex has three bytes, and the remaining bytes
+ * are triangles. */
 static void take_model(struct scenario *s, struct model *model, const uint8_t *data, size_t size)
 {
     float scale = scales[next(&data, &size) % (sizeof scales / sizeof scales[0])];

@@ -1,7 +1,7 @@
-/* Images: checkpoints and dumps, opened and loaded. A good image of a small world, of which the
- * input changes some bytes: its first byte says whether the hashes are set right again afterwards,
- * so that what is behind them is reached; then come changes of 4 bytes, each what is changed,
- * where (two bytes) and to what. */
+/* Images (checkpoints and dumps), opened and loaded: a good image of a small world with some
+ * changed bytes. The first byte of the input says whether the hashes are corrected afterwards, so
+ * that the code behind them is reached. Then come changes of 4 bytes: what is changed, where (two
+ * bytes), and the new value. */
 #include "tests/fuzz/support.h"
 
 #include "recorder/archive/image_read.h"
@@ -18,9 +18,10 @@
 #define FILE_MAX 65536u
 
 enum how {
-    HOW_CONTENT = 1, /* changes beyond the header are of what is packed, which is packed again */
-    HOW_HASHED = 2,  /* the hashes are those of the changed bytes */
-    HOW_CUT = 4      /* the last change says how many bytes are missing */
+    HOW_CONTENT =
+        1, /* changes beyond the header apply to the unpacked data, which is packed again */
+    HOW_HASHED = 2, /* the hashes are corrected */
+    HOW_CUT = 4     /* the last change gives the number of missing bytes */
 };
 
 static struct image_header good;
@@ -57,7 +58,7 @@ static void make_good(void)
     read_good(path);
 }
 
-/* The changed image, in the making. */
+/* The changed image while it is made. */
 struct changing {
     struct image_header header;
     unsigned char *content; /* [good.content_bytes] */

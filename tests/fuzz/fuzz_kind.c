@@ -1,4 +1,4 @@
-/* Kind files, beside the few that support.c has. */
+/* Kind files, in addition to those of support.c. */
 #include "tests/fuzz/support.h"
 #include "world/making/scenario.h"
 

@@ -1,6 +1,6 @@
-/* Logs of events and of commands that a recorder finds when it starts, and `jolon replay` reads:
- * any bytes as a file. The first byte says who reads it and whether each line gets the checksum
- * that a log's line has, so that what is behind it is reached. Refusals end the process. */
+/* Logs of events and of commands that a recorder finds at its start, or that `jolon replay` reads:
+ * any bytes as a file. The first byte chooses the reader and whether each line gets a correct
+ * checksum, so that the code behind the check is reached. Refusals end the process. */
 #include "tests/fuzz/support.h"
 
 #include "recorder/log/command_log.h"
@@ -21,9 +21,9 @@
 
 enum how {
     HOW_SEALED = 1,
-    HOW_EVENTS = 2, /* read as a log of events; else of commands */
-    HOW_TAPE = 4,   /* read by a replay; else by a recorder */
-    HOW_ORIGIN = 8  /* of a world that was made from an image */
+    HOW_EVENTS = 2, /* read as a log of events, otherwise of commands */
+    HOW_TAPE = 4,   /* read by a replay, otherwise by a recorder */
+    HOW_ORIGIN = 8  /* the world was made from an image */
 };
 
 static struct view view;
@@ -41,7 +41,7 @@ static void make_world(void)
     head->checksum = state_checksum(&view.w[0], view.world.counts.fixed);
 }
 
-/* Copies the lines, each with its checksum in the place of its closing brace. */
+/* Copies the lines and replaces the closing brace of each by its checksum. */
 static size_t seal(char *to, const char *from, size_t size)
 {
     size_t used = 0;
@@ -77,7 +77,7 @@ static void replay(const char *path)
     log_replay_close(&replay);
 }
 
-/* What it is after a recorder has begun and ended: a row of whole records. */
+/* After a recorder has started and ended, the log must be a series of whole records. */
 static void record(const char *path, bool events)
 {
     static struct event_log event_log;
@@ -119,7 +119,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         replay(path);
         return 0;
     }
-    __lsan_disable(); /* a process that ends frees nothing */
+    __lsan_disable(); /* the process does not free memory before its exit */
     if (ENDING_CATCH() == 0)
         record(path, how & HOW_EVENTS);
     ending_done();

@@ -1,4 +1,4 @@
-/* Orders as JSON, as jolon harness and jolon console take them from anybody. */
+/* Commands as JSON, as jolon harness and jolon console accept them from any client. */
 #include "tests/fuzz/support.h"
 
 #include "ipc/topics/command_json.h"

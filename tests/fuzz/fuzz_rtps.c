@@ -1,6 +1,6 @@
-/* Datagrams of any bytes through the filter in front of Cyclone DDS: it reads nothing beyond them,
- * leaves no type information in discovery, and what it lets pass once it lets pass again as it is.
- */
+/* Datagrams of arbitrary bytes through the filter in front of Cyclone DDS. It must read nothing
+ * beyond them and leave no type information in discovery. A datagram that it has passed must pass
+ * again unchanged. */
 #include "ipc/topics/rtps_filter.h"
 #include "world/runtime/check.h"
 

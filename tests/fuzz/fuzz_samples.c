@@ -1,4 +1,5 @@
-/* Samples of a world's status of any bytes: what samples_good() lets pass is shown in every way. */
+/* Status samples of arbitrary bytes. Samples that samples_good() accepts are displayed in every
+ * way. */
 #include "tests/fuzz/support.h"
 
 #include "ipc/process/clock.h"
@@ -33,7 +34,7 @@ static void fill(void *bytes, size_t count)
     input.left -= have;
 }
 
-/* What the decoder sees to: texts end, and a truth is one of two. */
+/* Does what the DDS decoder guarantees: strings are terminated, and booleans are 0 or 1. */
 #define END(text)    ((text)[sizeof(text) - 1] = '\0')
 #define TRUTH(value) (*(uint8_t *)&(value) &= 1)
 
@@ -114,7 +115,7 @@ static void show(const struct world_mirror *mirror)
     cJSON_free(text);
 }
 
-/* The ground is the same everywhere but for one cell: bytes are for the rest. */
+/* The ground is constant except for one cell, so that bytes are left for the other members. */
 static bool take_world(struct world_mirror *mirror)
 {
     jolon_WorldInfo *world = &mirror->world;

@@ -1,4 +1,4 @@
-/* Scenario files and --set: read, checked, and what passed made into a world when it is small. */
+/* Scenario files and --set: read and checked. A small accepted scenario is made into a world. */
 #include "tests/fuzz/support.h"
 
 #include "config/syntax/literals.h"
@@ -14,7 +14,7 @@
 #define OVERRIDES_MAX 8
 #define OVERRIDE_MARK "#--set "
 
-/* Lines at the beginning that the parser takes for comments are overrides: "#--set KEY=VALUE". */
+/* Comment lines at the beginning are overrides: "#--set KEY=VALUE". */
 static int take_overrides(char *text, const char *overrides[OVERRIDES_MAX], const char **rest)
 {
     int count = 0;
@@ -28,7 +28,7 @@ static int take_overrides(char *text, const char *overrides[OVERRIDES_MAX], cons
     return count;
 }
 
-/* The shipped sizes would take seconds. */
+/* Smaller than the shipped sizes, which would take seconds. */
 static bool is_small(const struct scenario *scenario)
 {
     return scenario->settings->terrain == TERRAIN_FLAT &&

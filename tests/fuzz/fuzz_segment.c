@@ -1,6 +1,6 @@
-/* Segments: a world's object found by a process that attaches. A good one's header, parameters and
- * heads, of which the input changes some words, or any bytes as the header. The first byte says
- * what else is done; then come changes of 6 bytes: what is changed, which word, to what. */
+/* Segments: a process attaches to the object of a world. The header, parameters and heads of a good
+ * object are changed in some words, or the header is arbitrary bytes. The first byte says what else
+ * is done. Then come changes of 6 bytes: the part, the word, and its new value. */
 #include "ipc/segment/frame_check.h"
 #include "ipc/segment/segment_attach.h"
 #include "tests/fuzz/support.h"
@@ -17,19 +17,19 @@
 #include <unistd.h>
 #include <xxhash.h>
 
-/* Larger ones are refused by the file system of a small machine, not by us. */
+/* The file system of a small machine would refuse larger objects. */
 #define OBJECT_BYTES_MAX (UINT64_C(1) << 32)
 
 enum how {
-    HOW_HASHED = 1, /* the header's own hash is set right, and the words that this build made */
-    HOW_SIZED = 2,  /* the object has the size that the header's counts make */
-    HOW_ROLE = 4,   /* attaches as the mover, which maps for writing, not as a reader */
-    HOW_BYTES = 8   /* what follows are a header's bytes, as many as there are */
+    HOW_HASHED = 1, /* the header's hash is corrected, and the words of this build */
+    HOW_SIZED = 2,  /* the object has the size of the header's counts */
+    HOW_ROLE = 4,   /* attaches as the mover, which writes, and not as a reader */
+    HOW_BYTES = 8   /* the other bytes are the header */
 };
 
 enum piece { PIECE_HEADER, PIECE_PARAMS, PIECE_WORLD, PIECE_MOVED, PIECES };
 
-/* What of an object is written; the rest of it is zeros. */
+/* The parts of an object that are written. The other bytes are zero. */
 struct object {
     struct segment_header header;
     struct params params;
@@ -72,7 +72,7 @@ static void open_files(void)
     close(fd);
 }
 
-/* As ipc/segment/segment.c: every word but the magic and the hash itself. */
+/* As in ipc/segment/segment.c: every word except the magic and the hash itself. */
 static void seal(struct segment_header *header)
 {
     header->magic = 0;
@@ -81,7 +81,7 @@ static void seal(struct segment_header *header)
     header->magic = SEGMENT_MAGIC;
 }
 
-/* Which word of which part, to which value. */
+/* A change: the part, the word, the new value. */
 static void change(struct object *object, const uint8_t bytes[6])
 {
     unsigned char *const part[PIECES] = {
@@ -116,7 +116,7 @@ static void write_object(const struct object *from, const struct layout *layout,
     close(fd);
 }
 
-/* Writes the object; returns its size. */
+/* Writes the object and returns its size. */
 static uint64_t put(enum how how, const uint8_t *data, size_t size)
 {
     struct object changed = good;
@@ -142,7 +142,7 @@ static uint64_t put(enum how how, const uint8_t *data, size_t size)
     return bytes;
 }
 
-/* Every region lies within the object, and its ends can be read. */
+/* Checks that every region lies within the object and that its ends can be read. */
 static void check(const struct view *view, uint64_t bytes)
 {
     const unsigned char *base = view->base;

@@ -1,5 +1,5 @@
-/* Requests to a live stream: libmicrohttpd's parser, names, routes, and the keys of pictures and
- * maps. The harness draws what is asked for. */
+/* Requests to a live stream: libmicrohttpd's parser, names, routes, and query keys of pictures and
+ * maps. The harness draws the requested pictures. */
 #include "tests/fuzz/http_client.h"
 #include "tests/fuzz/support.h"
 
@@ -30,7 +30,7 @@ static struct picture *draw(void)
     return picture;
 }
 
-/* Every other wish is for a vehicle that is gone. */
+/* Every second request is for a vehicle that no longer exists. */
 static void draw_wishes(void)
 {
     struct stream_request requests[PICTURE_REQUESTS_MAX];

@@ -1,4 +1,4 @@
-/* Waypoint files, as anybody writes them beside a scenario. */
+/* Files of waypoints beside a scenario. */
 #include "tests/fuzz/support.h"
 
 #include "config/waypoints.h"
@@ -36,7 +36,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     text[size] = '\0';
     struct source source = {.path = "w.csv", .text = text, .bytes = size};
     uint32_t lines = waypoints_lines(text);
-    /* No more than that: the sanitizer sees a step too many. */
+    /* Not one step more: the sanitizer detects a step beyond the end. */
     struct scenario_step *steps = malloc(lines * sizeof *steps);
     CHECK(steps || lines == 0);
     int count = waypoints_read(&source, steps, &error);

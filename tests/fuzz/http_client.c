@@ -1,4 +1,4 @@
-/* One connection an input. */
+/* One connection for each input. */
 #include "tests/fuzz/http_client.h"
 #include "world/runtime/check.h"
 
@@ -10,10 +10,10 @@
 #include <unistd.h>
 
 #define ANSWER_BYTES 65536
-/* Looks, a millisecond each, without a byte. */
-#define LATE       4     /* the server is told that no more of the input comes */
-#define QUIET      40    /* there is no answer to an input */
-#define QUIET_GOOD 20000 /* there is none to a good request */
+/* Polls of a millisecond without a byte. */
+#define LATE       4     /* tells the server that the input ends */
+#define QUIET      40    /* the server may leave an input without an answer */
+#define QUIET_GOOD 20000 /* a good request without an answer */
 
 static socklen_t own_address(struct sockaddr_un *address)
 {
@@ -32,7 +32,7 @@ struct http_listener http_client_listener(void)
     return (struct http_listener){.fd = fd, .local = true};
 }
 
-/* The server may have hung up: the rest is of no interest to it. */
+/* The server may have closed the connection and ignores the rest. */
 static void send_all(int fd, const uint8_t *data, size_t size)
 {
     while (size > 0) {

@@ -1,5 +1,5 @@
-/* A client of a server under test, for the harnesses of console and live stream: it sends an input
- * as it is, and looks at what comes back. */
+/* A client for the harnesses of console and live stream. It sends an input unchanged and checks the
+ * answer. */
 #ifndef JOLON_TESTS_FUZZ_HTTP_CLIENT_H
 #define JOLON_TESTS_FUZZ_HTTP_CLIENT_H
 
@@ -8,15 +8,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A Unix socket to listen on, whose server asks for names as on loopback. */
+/* Returns a Unix socket whose server expects the names of the loopback interface. */
 struct http_listener http_client_listener(void);
 
-/* Sends the bytes in two parts and reads until the server ends the connection, 64 kB came, or
- * nothing comes for 40 ms. meanwhile() does what other threads of the program would. Every answer
- * begins as one of HTTP. */
+/* Sends the bytes in two parts. Reads until the server closes the connection, 64 kB have come, or
+ * nothing comes for 40 ms. Calls meanwhile(), which does the work of the program's other threads.
+ * Every answer must begin as HTTP. */
 void http_client_send(const uint8_t *data, size_t size, void (*meanwhile)(void));
 
-/* Asks for a path, which must be answered with 200 within 20 s. */
+/* Requests a path, which must be answered with 200 within 20 s. */
 void http_client_get(const char *path, void (*meanwhile)(void));
 
 #endif

@@ -1,6 +1,5 @@
-/* assimp in the place of itself, for harnesses whose model never changes: it clears 16 MB for each
- * file that it reads, which takes longer than all the rest. Linked with --wrap (see the Makefile);
- * what models are made of is fuzz_model.c's. */
+/* Replaces assimp for harnesses whose model never changes, because assimp clears 16 MB for each
+ * file. Linked with --wrap (see the Makefile). fuzz_model.c tests models themselves. */
 
 #include "world/runtime/check.h"
 

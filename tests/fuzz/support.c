@@ -1,4 +1,4 @@
-/* The harnesses' folder, and what an accepted scenario must be. */
+/* The folder of the harnesses, and checks of accepted scenarios. */
 #include "tests/fuzz/support.h"
 
 #include "ipc/process/log.h"
@@ -21,7 +21,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* libconfig 1.5 does not free what its lexer has read last when it gives up on a text. */
+/* libconfig 1.5 does not free the last token when it rejects a text. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {
@@ -54,7 +54,7 @@ static const struct {
 
 static char folder[PATH_MAX];
 
-/* Also what a harness wrote. */
+/* Also removes the files of a harness. */
 static void remove_folder(void)
 {
     static const char *const others[] = {"kinds/k.cfg", "models/k.obj", "models/k.mtl",
@@ -154,7 +154,7 @@ void support_check_line(const struct error_text *message)
 void support_check_message(const struct error_text *message)
 {
     support_check_line(message);
-    /* The parser's own words when it tries to read another file. */
+    /* The parser's message when it tries to read another file. */
     const char *what = message->text + strcspn(message->text, ":");
     CHECK(*what == ':');
     what += 1 + strspn(what + 1, "0123456789");
@@ -167,7 +167,7 @@ static void check_on_map(double x, double z)
     CHECK(x >= 0.0 && x <= WORLD_SIDE_M && z >= 0.0 && z <= WORLD_SIDE_M);
 }
 
-/* Every vertex of the model is inside one of its hulls. */
+/* Checks that every vertex of the model is inside one of its hulls. */
 static void check_held(const struct scenario *s, const struct kind *kind,
                        const struct model_vertex *v)
 {
@@ -271,7 +271,7 @@ void support_check_scenario(const struct scenario *s)
 
 void support_check_model(struct scenario *scenario, uint16_t model, const struct hulls *hulls)
 {
-    /* As config/kinds.c takes it. */
+    /* The same limit as in config/kinds.c. */
     struct kind kind = {.model = model,
                         .munition = KIND_NONE,
                         .stiffness_npm = 1.0,

@@ -1,11 +1,11 @@
-/* lag: how long it takes from a key, or a push of a SpaceMouse, to the moved vehicle.
+/* lag: measures the time from a key, or a push of a SpaceMouse, to the moved vehicle.
  *
- * It runs jolon-drive on a terminal of its own (a pty) and stands in for its user: it waits until
- * nothing changes, and a random part of a frame; notes the last committed frame and the time;
- * writes the key's byte; and looks at every frame that is committed from then on until the
- * vehicle's throttle has changed in one. The difference of the two frames is the lag. A frame that
- * it misses counts as the later one that it saw. Of a SpaceMouse it is the daemon: a socket that
- * SPNAV_SOCKET names, where it writes motions; the column is the steering. */
+ * It runs jolon-drive on a terminal of its own (a pty) and acts as its user. For each press it
+ * waits until nothing changes, and then a random part of a frame. It notes the last committed frame
+ * and the time, writes the key's byte, and reads every committed frame until the vehicle's throttle
+ * has changed. The difference of the two frames is the lag. A missed frame counts as the later one
+ * that was read. For a SpaceMouse it acts as the daemon: it writes motions to the socket that
+ * SPNAV_SOCKET names, and reads the steering instead. */
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
@@ -27,10 +27,10 @@
 #include <unistd.h>
 
 #define PRESSES_MAX  10000
-#define FRAMES_MAX   64 /* a lag that is longer counts as this */
+#define FRAMES_MAX   64 /* a longer lag counts as this */
 #define LIMIT_NS     (2 * (uint64_t)NS_PER_S)
 #define START_NS     (10 * (uint64_t)NS_PER_S)
-#define STILL_FRAMES 8 /* without a change: nothing is under way any more */
+#define STILL_FRAMES 8 /* frames without a change after which nothing is pending */
 #define FULL_PUSH    300
 #define LOST_MAX     5
 
@@ -41,7 +41,7 @@ struct lag {
     struct view view;
     uint32_t row;
     pid_t pid;
-    int terminal; /* the pty's other side */
+    int terminal; /* the master side of the pty */
     int listener, device;
     char folder[32], path[64];
     uint64_t random;
@@ -117,7 +117,7 @@ static void start(struct lag *lag)
     }
 }
 
-/* What it shows is read, so that it never waits for us. */
+/* Reads what jolon-drive prints, so that it never blocks. */
 static void drain(const struct lag *lag)
 {
     char bytes[4096];
@@ -127,7 +127,7 @@ static void drain(const struct lag *lag)
     }
 }
 
-/* The column of a frame that is committed; *commit says which one it was. */
+/* Returns the column in the last committed frame. *commit: the frame's number. */
 static float look(const struct lag *lag, uint64_t *commit)
 {
     float value;
@@ -140,7 +140,7 @@ static float look(const struct lag *lag, uint64_t *commit)
     return value;
 }
 
-/* Until nothing changes for some frames; false when that does not come. */
+/* Waits until nothing changes for some frames. Returns false at the limit. */
 static bool settle(const struct lag *lag)
 {
     uint64_t commit, until_ns = clock_now_ns() + LIMIT_NS;
@@ -164,10 +164,10 @@ static void push(const struct lag *lag, bool out)
     ssize_t written = lag->spacemouse ? write(lag->device, motion, sizeof motion)
                                       : write(lag->terminal, out ? "w" : "x", 1);
     if (written <= 0)
-        die_refused("nobody is at the wheel: %s", strerror(errno));
+        die_refused("jolon-drive does not drive the vehicle: %s", strerror(errno));
 }
 
-/* One press; false when nothing came of it. */
+/* Makes one press. Returns false if it had no effect. */
 static bool press(struct lag *lag, uint32_t which)
 {
     uint64_t commit;
@@ -251,7 +251,7 @@ int main(int argc, char **argv)
         clock_sleep_until_ns(clock_now_ns() + 20 * (uint64_t)NS_PER_MS);
     }
     uint32_t count = 0;
-    uint32_t in_a_row = 0; /* without effect: it cannot be driven any more */
+    uint32_t in_a_row = 0; /* the vehicle can no longer be driven */
     for (uint32_t i = 0; i < lag.presses && in_a_row < LOST_MAX && !process_stopping(); i++) {
         in_a_row = press(&lag, count) ? 0 : in_a_row + 1;
         count += in_a_row == 0;
@@ -260,7 +260,7 @@ int main(int argc, char **argv)
     finish(&lag);
     segment_detach(&lag.view);
     if (count == 0 || in_a_row == LOST_MAX)
-        die_refused("the last of %u presses came to nothing: is the vehicle destroyed?", count);
+        die_refused("the last of %u presses had no effect: is the vehicle destroyed?", count);
     report(&lag, count);
     return EXIT_OK;
 }

@@ -1,8 +1,9 @@
-/* listener: a subscriber of every event topic that keeps what it has heard in a file, so that it
- * can be killed at any instant and go on. Each event once: a line "TOPIC RUN SEQUENCE FRAME INDEX".
+/* listener: a subscriber of all event topics that stores the received events in a file, so that it
+ * can be killed at any time and continue. It writes each event once, as a line "TOPIC RUN SEQUENCE
+ * FRAME INDEX".
  *
- * It does what docs/topics.md asks of a receiver: it drops what is not above the last sequence that
- * it has of the topic in that run, and says on standard error when one is missing. */
+ * It follows the rules for receivers in docs/topics.md: it drops events that are not above the last
+ * sequence of their topic in that run, and reports a missing sequence on standard error. */
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
 #include "ipc/topics/dds_topics.h"
@@ -32,7 +33,7 @@ struct listener {
     uint64_t repeated;
 };
 
-/* The last line of each topic tells where to go on; a last line that a kill tore is cut off. */
+/* Finds the last sequence of each topic in the file. Cuts off a last line that a kill has torn. */
 static void resume(struct listener *listener, const char *path)
 {
     struct stat status;
@@ -61,8 +62,9 @@ static void resume(struct listener *listener, const char *path)
     free(text);
 }
 
-/* A line is written by one call: a kill leaves all of it, none, or a torn last line. */
-static void keep(const struct listener *listener, unsigned topic, const jolon_EventHeader *header)
+/* Each line is one write, so a kill leaves the whole line, nothing, or a torn last line. */
+static void write_line(const struct listener *listener, unsigned topic,
+                       const jolon_EventHeader *header)
 {
     char line[160];
     int length = snprintf(line, sizeof line, "%u %" PRIu64 " %" PRIu64 " %" PRIu64 " %" PRIu32 "\n",
@@ -71,7 +73,7 @@ static void keep(const struct listener *listener, unsigned topic, const jolon_Ev
         die_refused("the log cannot be written: %s", strerror(errno));
 }
 
-static void hear(struct listener *listener, unsigned topic, const jolon_EventHeader *header)
+static void receive(struct listener *listener, unsigned topic, const jolon_EventHeader *header)
 {
     bool same_run = listener->last[topic].any && listener->last[topic].run == header->run;
     if (same_run && header->sequence <= listener->last[topic].sequence) {
@@ -80,22 +82,22 @@ static void hear(struct listener *listener, unsigned topic, const jolon_EventHea
     }
     if (same_run && header->previous != header->sequence &&
         header->previous != listener->last[topic].sequence)
-        log_warn("topic %u: %" PRIu64 " follows %" PRIu64 ", heard was %" PRIu64, topic,
+        log_warn("topic %u: %" PRIu64 " follows %" PRIu64 ", the last one was %" PRIu64, topic,
                  header->sequence, header->previous, listener->last[topic].sequence);
-    keep(listener, topic, header);
+    write_line(listener, topic, header);
     listener->last[topic].any = true;
     listener->last[topic].run = header->run;
     listener->last[topic].sequence = header->sequence;
 }
 
-static void hear_all(struct listener *listener)
+static void receive_all(struct listener *listener)
 {
     for (unsigned topic = 0; topic < TOPICS; topic++) {
         void *sample = NULL;
         dds_sample_info_t info;
         while (dds_take(listener->reader[topic], &sample, &info, 1, 1) > 0) {
             if (info.valid_data) /* every event begins with its header */
-                hear(listener, topic, sample);
+                receive(listener, topic, sample);
             (void)dds_return_loan(listener->reader[topic], &sample, 1);
             sample = NULL;
         }
@@ -125,7 +127,7 @@ int main(int argc, char **argv)
         die_refused("%s", error.text);
     while (!process_stopping()) {
         dds_topics_wait(listener.waitset, WAIT_NS);
-        hear_all(&listener);
+        receive_all(&listener);
     }
     log_info("%" PRIu64 " repeats dropped", listener.repeated);
     (void)close(listener.log);

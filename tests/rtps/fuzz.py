@@ -3,14 +3,14 @@
 
 usage: fuzz.py --bin DIR --world NAME --capture FILE --packets N [--rate R] [--seed S] [--keep DIR]
 
-FILE is what tests/rtps/peer sent while it discovered the world and talked to it. Each session takes
-the place of a participant that comes new: its captured datagrams, under a prefix of its own and with
-the reporter's present one, are sent in order, mutated but for some, to the ports that the reporter
-has open. What is sent follows from the seed alone, but for the reporter's prefix and ports.
+FILE holds the datagrams that tests/rtps/peer sent while it discovered the world and communicated with
+it. Each session acts as a new participant. It sends the captured datagrams in order to the open ports
+of the reporter, under a new prefix of its own and with the reporter's current prefix. Most of them are
+mutated. The seed alone determines the datagrams, except for the reporter's prefix and ports.
 
-Prints one JSON object: packets, seconds, restarts (deaths of the reporter that were seen), dropped
-(datagrams that found the last reporter's sockets full). --keep writes the last datagrams before each
-death there, a file a death, as FILE is made.
+Prints one JSON object: packets, seconds, restarts (observed deaths of the reporter), dropped (datagrams
+that the full sockets of the last reporter dropped). --keep writes the last datagrams before each death
+into this folder, one file for each death, in the format of FILE.
 """
 import argparse
 import collections
@@ -30,11 +30,11 @@ KINDS = (0x01, ACKNACK, HEARTBEAT, GAP, INFO_TS, 0x0C, 0x0D, INFO_DST, 0x0F, 0x1
 WORDS = (0, 1, 2, 3, 4, 7, 8, 0x7F, 0x80, 0xFF, 0x100, 0x7FFF, 0x8000, 0xFFFE, 0xFFFF, 0x10000, 0x7FFFFFFF,
          0x80000000, 0xFFFFFFFC, 0xFFFFFFFE, 0xFFFFFFFF)
 MULTICAST = "239.255.0.1"
-SESSION = 150  # datagrams of one participant
+SESSION = 150  # datagrams from one participant
 
 
 def fragments(data, rng):
-    """A submessage DATA as one DATA_FRAG out of it, with numbers that need not fit."""
+    """Turns a DATA submessage into one DATA_FRAG, with numbers that may be wrong."""
     flags = data[1]
     if data[0] != DATA or not flags & 1 or len(data) < 28:
         return data
@@ -48,7 +48,7 @@ def fragments(data, rng):
 
 
 def of_bytes(datagram, rng):
-    """Bytes of it changed: where, and to what, often what lengths and counts are."""
+    """Changes random bytes, often those of lengths and counts."""
     changed = bytearray(datagram)
     for _ in range(rng.choice((1, 1, 1, 2, 3, 8))):
         at = rng.randrange(min(4, len(changed) - 1), len(changed)) if rng.random() < 0.02 else \
@@ -68,7 +68,7 @@ def of_bytes(datagram, rng):
 
 
 def of_parts(datagram, other, rng):
-    """Submessages of it dropped, repeated, exchanged, made fragments, or another's put in."""
+    """Drops, repeats, exchanges or fragments submessages, or inserts one of another datagram."""
     parts, others = submessages(datagram), submessages(other)
     at = rng.randrange(1, len(parts)) if len(parts) > 1 else 1
     way = rng.randrange(7)
@@ -83,7 +83,7 @@ def of_parts(datagram, other, rng):
     elif way == 4 and len(parts) > 1 and len(parts[at]) >= 4:
         parts[at] = bytes((rng.choice(KINDS), parts[at][1] ^ (1 << rng.randrange(8)))) + parts[at][2:]
     elif way == 5 and len(parts) > 1 and len(parts[at]) >= 4:
-        # Of another length than it says, and what follows is where that is.
+        # Its length field is wrong, and the next submessage is where the field says.
         parts[at] = parts[at][:2] + struct.pack("<H", rng.choice(WORDS) & 0xFFFF) + parts[at][4:]
     else:
         return datagram[:rng.randrange(HEADER, len(datagram))]
@@ -91,7 +91,7 @@ def of_parts(datagram, other, rng):
 
 
 class Session:
-    """A participant that is not there."""
+    """A participant that does not exist."""
 
     def __init__(self, datagrams, old_target, number, rng):
         self.datagrams, self.old_target, self.rng = datagrams, old_target, rng
@@ -108,7 +108,7 @@ class Session:
                 if len(datagram) <= HEADER:
                     break
         datagram = datagram.replace(self.own, self.prefix).replace(self.old_target, target)
-        return from_port(datagram, port)[:DATAGRAM_MAX]  # nobody else is troubled
+        return from_port(datagram, port)[:DATAGRAM_MAX]  # no other process receives it
 
 
 def parse_arguments():
@@ -158,11 +158,11 @@ def main():
         datagram = session.next(sent % SESSION, port, target)
         last.append(datagram)
         to = rng.choice(reporter.ports)
-        group = to < reporter.ports[0] + 2 and rng.random() < 0.5  # its first two are the group's
+        group = to < reporter.ports[0] + 2 and rng.random() < 0.5  # the first two sockets are the group's
         try:
             out.sendto(datagram, (MULTICAST if group else "127.0.0.1", to))
         except OSError:
-            pass  # the reporter's socket is full, or gone
+            pass  # the reporter's socket is full or closed
     time.sleep(0.2)
     if not reporter.alive() and not reporter.find(30):
         print(json.dumps({"packets": options.packets, "gone": True}))

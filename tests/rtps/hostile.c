@@ -1,4 +1,4 @@
-/* Samples of every status topic: most of random members, some all but good. */
+/* Samples of every status topic: some with random members, some almost correct. */
 #include "tests/rtps/hostile.h"
 
 #include "ipc/process/clock.h"
@@ -18,7 +18,7 @@
 
 struct hostile {
     uint64_t state;
-    uint64_t run; /* of the world, so that it is not passed over as another's */
+    uint64_t run; /* the world's, so that the sample is not ignored as another world's */
     dds_entity_t writer[TOPIC_COUNT];
     dds_entity_t frames;
     jolon_Entity entity[ENTITIES];
@@ -196,7 +196,7 @@ static void write_events(struct hostile *hostile)
     (void)dds_write(hostile->writer[TOPIC_AGENT], &agent);
 }
 
-/* Which run the world is in: its own topics say it. */
+/* Reads the number of the world's run from its own topics. */
 static uint64_t learn_run(struct hostile *hostile, uint64_t until_ns)
 {
     uint64_t run = 0;

@@ -4,8 +4,8 @@
 
 #include "ipc/topics/dds_link.h"
 
-/* Writes such samples on every topic of a world's status for length_ns. What they hold follows from
- * seed: numbers that are none, counts that do not fit, frames that go back, names of any bytes. */
+/* Writes such samples on all status topics of a world for length_ns. The seed determines them:
+ * invalid numbers, wrong counts, decreasing frames, names of random bytes. */
 void hostile_write(const struct dds_link *link, uint64_t seed, uint64_t length_ns);
 
 #endif

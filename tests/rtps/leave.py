@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Participants that come to a world's reporter and leave it again, and what it sends them afterwards.
+"""Participants join a world's reporter and leave. Counts what the reporter sends them afterwards.
 
 usage: leave.py --bin DIR --world NAME --capture FILE --participants N
 
-FILE is what tests/rtps/peer sent (fuzz.py). Prints one JSON object: heard, the participants that got
-an answer while they were there; after, the datagrams that came in the three seconds from the second
-after the last of them had left.
+FILE holds the datagrams of tests/rtps/peer (see fuzz.py). Prints one JSON object: heard, the number of
+participants that received an answer while they were present; after, the datagrams received in the three
+seconds that begin one second after the last of them left.
 """
 import argparse
 import json
@@ -18,14 +18,14 @@ ANNOUNCER = bytes((0, 1, 0, 0xC2))
 
 
 def announcements(datagrams):
-    """The first that says a participant is there, and the last, with which it goes."""
+    """Returns the first datagram that announces a participant and the last, with which it leaves."""
     found = [d for d in datagrams
              if any(p[0] == DATA and p[12:16] == ANNOUNCER for p in submessages(d)[1:] if len(p) >= 16)]
     return found[0], found[-1]
 
 
 def drain(people):
-    """How many datagrams each got."""
+    """Returns how many datagrams each participant received."""
     counts = []
     for sock, _ in people:
         count = 0

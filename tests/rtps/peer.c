@@ -1,4 +1,4 @@
-/* peer: another participant of a world's DDS domain, for tests of what one can do to the others.
+/* peer: a foreign participant in a world's DDS domain, for tests of what it can do to the others.
  *
  *     peer -w WORLD [--dds-config FILE] [--domain N] capture FILE
  *         reads every topic and writes commands that change nothing, for two seconds; FILE has
@@ -31,7 +31,7 @@ struct peer {
     const char *world;
     dds_entity_t reader[TOPIC_COUNT], commands; /* 0: none */
     uint64_t source, sequence;
-    bool heard[TOPIC_COUNT]; /* a sample of the topic; of the replies, one to this peer */
+    bool heard[TOPIC_COUNT]; /* a sample of the topic; a reply only if it is for this peer */
 };
 
 static void open_reader(struct peer *peer, enum dds_topic topic)
@@ -51,7 +51,7 @@ static void open_writer(struct peer *peer)
         die_refused("%s", error.text);
 }
 
-/* To release a vehicle that there cannot be. */
+/* Makes a command that releases a vehicle that cannot exist. */
 static void send_command(struct peer *peer, uint64_t sequence)
 {
     jolon_Command command = {.source = peer->source,
@@ -81,8 +81,8 @@ static void take(struct peer *peer)
     }
 }
 
-/* Reads until the topic has been heard of, at most so long; further commands on the way, the same
- * one or another each time. */
+/* Reads until the topic has been received, or until the limit. Meanwhile repeats the same command
+ * or sends other ones. */
 static void run(struct peer *peer, uint64_t length_ns, int wanted, bool repeat)
 {
     uint64_t begun_ns = clock_now_ns(), due_ns = begun_ns;
@@ -133,7 +133,7 @@ int main(int argc, char **argv)
     if ((captures || hostile) != (value != NULL))
         die_usage("tests/rtps/peer.c says how to call it");
     if (hostile)
-        options.part = DDS_HOST; /* monitors find nobody else */
+        options.part = DDS_HOST; /* monitors must find no other writer */
     if (dds_link_open(&peer.link, &options, peer.world, &error) != 0)
         die_refused("%s", error.text);
     if (captures) {

@@ -1,4 +1,4 @@
-"""RTPS datagrams as tests take them apart, and where a world's reporter listens."""
+"""Parses RTPS datagrams, and finds where a world's reporter listens."""
 import os
 import re
 import socket
@@ -7,7 +7,7 @@ import subprocess
 import sys
 import time
 
-HEADER = 20  # of a message: "RTPS", version, vendor, prefix of who sends it
+HEADER = 20  # bytes of a message's header: "RTPS", version, vendor, sender's prefix
 INFO_TS, INFO_DST, DATA = 0x09, 0x0E, 0x15
 DATAGRAM_MAX = 60000
 
@@ -24,7 +24,7 @@ def captured(path):
 
 
 def submessages(datagram):
-    """The header's bytes, then each submessage's."""
+    """Splits a datagram into its header and its submessages."""
     parts, at = [datagram[:HEADER]], HEADER
     while at + 4 <= len(datagram):
         order = "<" if datagram[at + 1] & 1 else ">"
@@ -36,7 +36,7 @@ def submessages(datagram):
 
 
 def own_socket():
-    """A socket of loopback, from which the group of discovery can be told too."""
+    """Returns a loopback socket that can also send to the discovery group."""
     out = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
     out.bind(("127.0.0.1", 0))
     out.setblocking(False)
@@ -45,7 +45,7 @@ def own_socket():
 
 
 def heard_prefix(sock, prefix):
-    """Reads all that has come, and returns the prefix of its last sender, or the given one."""
+    """Reads all received datagrams. Returns the prefix of the last sender, or the given prefix."""
     try:
         while True:
             heard = sock.recv(65536)
@@ -56,26 +56,26 @@ def heard_prefix(sock, prefix):
 
 
 def own_of(datagrams):
-    """The prefix of who sent them."""
+    """Returns the sender's prefix."""
     return datagrams[0][8:20]
 
 
 def target_of(datagrams):
-    """The prefix of whom they were for."""
+    """Returns the receiver's prefix."""
     for datagram in datagrams:
         if datagram[HEADER] == INFO_DST and len(datagram) >= HEADER + 16:
             return datagram[HEADER + 4:HEADER + 16]
-    sys.exit("the captured datagrams were for nobody")
+    sys.exit("the captured datagrams name no receiver")
 
 
 def from_port(datagram, port):
-    """The unicast addresses that it tells of become this port of loopback."""
+    """Replaces the ports of the announced unicast addresses."""
     return re.sub(rb"([\x31\x32]\0\x18\0\x01\0\0\0)....", lambda found: found.group(1) + struct.pack("<I", port),
                   datagram, flags=re.DOTALL)
 
 
 class Reporter:
-    """Where it is: its process, ports and prefix."""
+    """A reporter's process, ports and prefix."""
 
     def __init__(self, bin_dir, world):
         self.command = [os.path.join(bin_dir, "jolon-world"), "pid", "--world", world, "reporter"]
@@ -85,7 +85,7 @@ class Reporter:
         return self.pid and os.path.exists(f"/proc/{self.pid}")
 
     def find(self, limit_s):
-        """False when there is none within limit_s."""
+        """Finds a new reporter process. Returns False when there is none within limit_s."""
         until = time.monotonic() + limit_s
         while time.monotonic() < until:
             told = subprocess.run(self.command, capture_output=True, text=True).stdout.strip()
@@ -98,14 +98,14 @@ class Reporter:
         return False
 
     def dropped(self):
-        """Datagrams that found its sockets full."""
+        """Returns the number of datagrams that its full sockets dropped."""
         with open("/proc/net/udp", encoding="ascii") as table:
             rows = [line.split() for line in table][1:]
         return sum(int(row[12]) for row in rows if int(row[1].split(":")[1], 16) in self.ports)
 
     @staticmethod
     def open_ports(pid):
-        """Of every address: the one that it sends from is bound to its interface."""
+        """Returns a process's ports that are open on all addresses. Its sending socket is bound to one."""
         inodes = set()
         try:
             for fd in os.listdir(f"/proc/{pid}/fd"):

@@ -1,5 +1,5 @@
-/* The sendmsg() of a peer, in the place of ipc/topics/dds_datagrams.c: a peer hears and says what
- * it likes. */
+/* The sendmsg() of a peer replaces ipc/topics/dds_datagrams.c: a peer may send and receive
+ * anything. */
 #include "tests/rtps/sent.h"
 
 #include "ipc/topics/dds_datagrams.h"
