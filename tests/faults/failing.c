@@ -1,7 +1,7 @@
-/* Preloaded into a program, makes one of its calls fail: FAIL_CALL=CLASS:N the Nth call of a class,
- * FAIL_CALL=CLASS:N+ that and all after it. Classes:
+/* Preloaded into a program, makes calls of a class fail. FAIL_CALL=CLASS:N: the Nth call fails.
+ * FAIL_CALL=CLASS:N+: the Nth and all later calls fail. Classes:
  *
- *     malloc     malloc and its kin (so operator new too): ENOMEM
+ *     malloc     malloc and related functions, operator new included: ENOMEM
  *     mmap       ENOMEM
  *     open       open, openat, fopen, opendir: EMFILE (FAIL_ERRNO=ENFILE: the system's own limit)
  *     fallocate  posix_fallocate: ENOSPC
@@ -12,8 +12,8 @@
  *     semaphore  sem_init: ENOSPC
  *     rename     renameat2: ENOMEM
  *
- * Calls are counted from main() on: before it there is no program yet that could say anything.
- * FAIL_MARK=FILE: the file holds where the failed call came from; zeros, when none failed. */
+ * Calls are counted from main() on, because before it the program cannot report anything.
+ * FAIL_MARK=FILE: the file receives the place of the failed call, or zeros when none failed. */
 #include <dirent.h>
 #include <dlfcn.h>
 #include <errno.h>
@@ -32,7 +32,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
-/* What glibc's malloc is under its own names: dlsym() may itself allocate. */
+/* glibc's own names of malloc, because dlsym() may itself allocate. */
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *memory, size_t size);
@@ -44,7 +44,7 @@ static _Atomic uint64_t calls;
 static bool begun;
 static int (*main_of_the_program)(int, char **, char **);
 
-/* The environment without getenv(): malloc is called before it is ready. */
+/* Reads the environment without getenv(), because malloc is called before getenv() is ready. */
 static const char *setting(const char *name)
 {
     size_t length = strlen(name);
@@ -55,8 +55,8 @@ static const char *setting(const char *name)
     return NULL;
 }
 
-/* Where a failed call is noted: the file of FAIL_MARK, mapped before the program closes itself in,
- * for then it can open none. */
+/* Where a failed call is recorded: the file of FAIL_MARK. It is mapped before the program enters
+ * its sandbox, which prevents opening files. */
 static char *noted;
 
 static void open_mark(void)

@@ -82,5 +82,5 @@ run pages 60 duel
 for bytes in 4096 16384 65536; do
     check "pages of $bytes bytes: a world of this machine runs with the same digest" equal "$(on_pages $bytes)" "$(json digest <pages.json)"
 done
-check "it leaves no shared memory" nothing_left "$name"
+check "the runs leave no shared memory" nothing_left "$name"
 done_testing

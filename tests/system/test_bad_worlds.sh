@@ -113,7 +113,7 @@ frame=$(world frame --world "$name")
 flip "$(buffer_of "$frame")"
 refused "a mover that takes over finds the flipped bit" "is damaged: frame $frame fails its checksum" "$bin/jolon-mover" --world "$name"
 "$jolon" run -w "$name" --frames 300 --set world.pace=real --without renderer --without reporter --out out good.cfg >stdout 2>told
-check "adoption says that it went back" grep -q "frame $frame fails its checksum.*goes on from frame $((frame - 1))" told
+check "adoption reports that it goes back one frame" grep -q "frame $frame fails its checksum.*goes on from frame $((frame - 1))" told
 check "the adopted run ends" grep -q 'digest' stdout
 check "the digest is that of the undisturbed run" grep -q "digest ${right%% *}" stdout
 check "nothing is left" nothing_left "$name"

@@ -125,9 +125,9 @@ kill -KILL $set
 check "the set's world is removed, as by a reboot" eventually "$world" remove --world "$name"
 "$jolon" run "${options[@]}" --pace max --from set.image --checkpoint set.image --every 300 >set.json 2>err
 check "another set continues from the last checkpoint" grep -q 'frame [1-9][0-9]* of set.image, goes on from there' err
-check "it ends with the digests of the undisturbed run" \
+check "that set ends with the digests of the undisturbed run" \
     equal "$(json digest <set.json) $(json event_digest <set.json) frame 900" "$calm"
-check "it writes checkpoints of its own" grep -aq 'checkpoint set.image: frame' out/jolon.log
+check "that set writes checkpoints of its own" grep -aq 'checkpoint set.image: frame' out/jolon.log
 
 # --- kills while a checkpoint is written ------------------------------------------------------------
 "$world" create --from mid.image --world "$name" >/dev/null

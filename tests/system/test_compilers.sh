@@ -81,5 +81,5 @@ for compiler in gcc clang-14; do
         check "$what: there is no fused instruction" "$source_dir/tests/fused" "$source_dir/$tree/obj"
     done
 done
-check "it leaves no shared memory" nothing_left "$name"
+check "the runs leave no shared memory" nothing_left "$name"
 done_testing

@@ -82,5 +82,5 @@ under_three() { [ "$(sed -E 's/.*frames median ([0-9]+) .*/\1/' figures)" -lt 3 
 check "a key moves the vehicle within three frames at the median" under_three
 "$lag" -w "$name" --input spacemouse --presses 12 "$bin/jolon-drive" 1 >figures 2>&1
 echo "# figures: $(cat figures)"
-check "a SpaceMouse moves it within three frames at the median" under_three
+check "a SpaceMouse moves the vehicle within three frames at the median" under_three
 done_testing

@@ -44,7 +44,7 @@ restart_quickly() { # ROLE: sooner than the longest pause of 5 s
 for i in $(seq 12); do
     before=$(pid reporter)
     check "reporter killed for the $i. time" crash reporter
-    check "jolon restart brings it back before its pause is over" restart_quickly reporter
+    check "jolon restart starts the reporter before its pause is over" restart_quickly reporter
 done
 before=$(pid reporter)
 check "the reporter is killed once more" crash reporter
@@ -144,7 +144,7 @@ before=$(pid console)
 kill -STOP "$before"
 check "a console that hangs is replaced" eventually replaced console "$before"
 "$jolon" console -w "$name" --port 0 >hand 2>&1 &
-check "a second console runs beside it" eventually eval 'joins "$(head -n 1 hand)"'
+check "a second console runs beside the first" eventually eval 'joins "$(head -n 1 hand)"'
 kill %+ && wait %+
 keeper=$(cat "$(path_of lock)")
 kill -KILL "$keeper"
@@ -165,7 +165,7 @@ eventually eval 'exec 9<>"/dev/tcp/127.0.0.1/$port"'
 check "a set whose port is in use starts" start --without renderer --console "$port"
 sleep 1 # five tries and more
 check "the console's refusal is in the log once" equal "$(grep -c '^jolon-console: .*in use' out/jolon.log)" 1
-check "the keeper reports it once" equal "$(grep -c 'goes on without the console and keeps trying: .*in use' out/jolon.log)" 1
+check "the keeper reports the refusal once" equal "$(grep -c 'goes on without the console and keeps trying: .*in use' out/jolon.log)" 1
 kill "$holder" && wait "$holder" 2>/dev/null
 check "the console starts when the port is free" eventually pid console
 check "the console's address is in the log" eventually grep -q 'console info.* serves' out/jolon.log

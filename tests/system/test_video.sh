@@ -44,7 +44,7 @@ check "width and height are even" equal "$(of some.mp4 width)x$(of some.mp4 heig
 check "a video is made of the whole run" record one/commands.log all.mkv
 check "that video has a picture for every frame" equal "$(of all.mkv pictures)" 151
 check "a video is made for the web" record --frames 12 one/commands.log some.webm
-check "it is encoded as VP8" equal "$(of some.webm codec) $(of some.webm pictures)" "vp8 12"
+check "that video is encoded as VP8" equal "$(of some.webm codec) $(of some.webm pictures)" "vp8 12"
 check "a picture of the last frame is made" record one/commands.log last.png
 check "the picture is of the last frame" grep -aq 'frame=150 ' last.png
 check "the picture has the requested view" grep -aq 'view=map' last.png
