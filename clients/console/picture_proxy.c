@@ -250,7 +250,6 @@ int picture_proxy_open(struct picture_proxy *proxy, const char *world, struct er
     pthread_mutex_init(&proxy->lock, NULL);
     pthread_cond_init(&proxy->work, NULL);
     sigfillset(&all); /* the main thread handles signals */
-    sigdelset(&all, SIGSYS);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     while (proxy->threads < PICTURE_PROXY_THREADS && cause == 0) {
         cause = pthread_create(&proxy->thread[proxy->threads], NULL, run, proxy);

@@ -369,7 +369,6 @@ static struct MHD_Daemon *start_daemon(struct http_server *server, int fd)
     sigset_t all, before;
     /* Signals are for the first thread. */
     sigfillset(&all);
-    sigdelset(&all, SIGSYS); /* so that a forbidden system call is reported */
     pthread_sigmask(SIG_SETMASK, &all, &before);
     struct MHD_Daemon *daemon = MHD_start_daemon(
         MHD_USE_POLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, NULL, NULL, on_request, server,
