@@ -17,10 +17,11 @@ static int open_gl(struct back_end_interface *draw, const struct options *option
                    const struct static_scene *static_scene, const char *because,
                    struct error_text *error)
 {
-    struct gl_wish wish = {.device = options->device,
-                           .hardware = options->back_end != BACK_END_GL && options->device == NULL};
+    struct gl_request request = {.device = options->device,
+                                 .hardware =
+                                     options->back_end != BACK_END_GL && options->device == NULL};
     char name[BACK_END_NAME_BYTES];
-    if (gl_open(draw, static_scene, options->width, options->height, &wish, name, error) != 0)
+    if (gl_open(draw, static_scene, options->width, options->height, &request, name, error) != 0)
         return -1;
     log_info("draws with %s: %s", name, because);
     return 0;

@@ -20,10 +20,9 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define RENDER_SESSION_SMOOTH_FPS                                                                  \
-    20.0                            /* from this rate on, pictures interpolate between frames      \
-                                     */
-#define RENDER_SESSION_PAINTINGS 4u /* terrain tiles that such a picture paints, 1 ms each */
+/* From this rate on, pictures interpolate between frames. */
+#define RENDER_SESSION_SMOOTH_FPS     20.0
+#define RENDER_SESSION_TEXTURE_BUDGET 4u /* textures that such a picture may make, 1 ms each */
 
 struct render_session {
     struct view *view;

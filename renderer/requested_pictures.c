@@ -8,10 +8,10 @@
 
 #include <string.h>
 
-#define INTERVAL_NS    ((uint64_t)((double)NS_PER_S / REQUESTED_PICTURES_FPS))
-#define PAINTINGS      8u       /* terrain tiles that one of these pictures paints, 1 ms each */
-#define PAINTINGS_MOST 32u      /* ... and the first picture of a request */
-#define RATE_PAUSE_NS  NS_PER_S /* after such a pause the rate is measured anew */
+#define INTERVAL_NS          ((uint64_t)((double)NS_PER_S / REQUESTED_PICTURES_FPS))
+#define TEXTURE_BUDGET       8u       /* textures that a picture may make, 1 ms each */
+#define TEXTURE_BUDGET_FIRST 32u      /* textures that the first picture of a request may make */
+#define RATE_PAUSE_NS        NS_PER_S /* after such a pause the rate is measured anew */
 
 void requested_pictures_open(struct render_session *session)
 {
@@ -107,8 +107,8 @@ static int draw_row(struct render_session *session, uint32_t i, struct error_tex
         &quality_control_levels[complete ? 0 : requested->quality.level];
     session->draw_list.detail = (float)level->detail;
     session->draw_list.texture_budget = complete ? TERRAIN_TILES_ALL
-                                        : first  ? PAINTINGS_MOST
-                                                 : PAINTINGS;
+                                        : first  ? TEXTURE_BUDGET_FIRST
+                                                 : TEXTURE_BUDGET;
     articulation_note(&session->articulation, &frame_view);
     const struct view_picture_target target = {
         .image = &row->image,

@@ -13,10 +13,10 @@
 #include <string.h>
 
 #define WARNING_INTERVAL_NS 10000000000ull
-#define PAINT_S             0.001 /* about what painting one terrain tile takes */
-#define PAINT_SHARE         0.25  /* share of a picture's time for painting */
-#define PAINT_LEAST         2u
-#define PAINT_FIRST         64u
+#define TEXTURE_S           0.001 /* about the time to make one terrain texture */
+#define TEXTURE_SHARE       0.25  /* share of a picture's time for terrain textures */
+#define TEXTURES_MIN        2u
+#define TEXTURES_FIRST      64u
 #define RATE_SHARE          0.1 /* weight of the latest interval in the average */
 #define SIDE_LEAST          16u /* [pixel] of a reduced picture */
 
@@ -130,16 +130,16 @@ static struct image *canvas(struct render_session *session, struct image *comple
     return &session->small;
 }
 
-/* Returns how many terrain tiles a picture may paint. At a high rate they are spread over several
- * pictures, so that none is late. The first picture paints few, so that it comes soon. */
-static uint32_t paintings_of(const struct render_session *session, bool complete)
+/* Returns how many terrain textures a picture may make. At a high rate the textures are spread over
+ * several pictures, so that no picture is late. The first makes few, so that it comes soon. */
+static uint32_t texture_budget(const struct render_session *session, bool complete)
 {
     if (complete || (!session->smooth && session->drawn != UINT64_MAX))
         return TERRAIN_TILES_ALL;
     if (!session->smooth)
-        return PAINT_FIRST;
-    double several = PAINT_SHARE / (session->options.fps * PAINT_S);
-    return several > PAINT_LEAST ? (uint32_t)several : PAINT_LEAST;
+        return TEXTURES_FIRST;
+    double several = TEXTURE_SHARE / (session->options.fps * TEXTURE_S);
+    return several > TEXTURES_MIN ? (uint32_t)several : TEXTURES_MIN;
 }
 
 static struct annotated_picture_source source_of(const struct render_session *session,
@@ -194,7 +194,7 @@ static int draw_camera(struct render_session *session, struct view_picture *pict
     if (view_pictures_camera(session, picture, frame_view, level, &target, error) != 0)
         return -1;
     if (session->smooth)
-        session->draw_list.texture_budget = RENDER_SESSION_PAINTINGS;
+        session->draw_list.texture_budget = RENDER_SESSION_TEXTURE_BUDGET;
     return 0;
 }
 
@@ -272,7 +272,7 @@ int view_pictures_draw(struct render_session *session, bool last, struct error_t
     const struct quality_control_level *level =
         &quality_control_levels[complete ? 0 : session->quality.level];
     session->draw_list.detail = (float)level->detail;
-    session->draw_list.texture_budget = paintings_of(session, complete);
+    session->draw_list.texture_budget = texture_budget(session, complete);
     choose_vehicles(session, &frame_view);
     articulation_note(&session->articulation, &frame_view);
     for (uint32_t i = 0; i < session->picture_count; i++) {

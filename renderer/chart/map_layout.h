@@ -11,7 +11,7 @@
 
 #define MAP_LAYOUT_FONT_MIN 9u /* [pixel] a smaller font cannot be read */
 #define MAP_LAYOUT_FIGURES  13 /* that a large panel has room for */
-#define MAP_LAYOUT_SYMBOLS  15 /* entries of the legend, likewise for a large panel */
+#define MAP_LAYOUT_SYMBOLS  15 /* entries of a large panel's legend */
 
 struct box {
     int32_t left, top, width, height; /* [pixel] width 0: there is none */

@@ -212,7 +212,7 @@ static int open_programs(struct gl *gl, struct error_text *error)
 }
 
 int gl_open(struct back_end_interface *draw, const struct static_scene *static_scene,
-            uint32_t width, uint32_t height, const struct gl_wish *wish,
+            uint32_t width, uint32_t height, const struct gl_request *request,
             char name[BACK_END_NAME_BYTES], struct error_text *error)
 {
     struct gl *gl = calloc(1, sizeof *gl);
@@ -225,7 +225,7 @@ int gl_open(struct back_end_interface *draw, const struct static_scene *static_s
         error_text_set(error, "no memory for a %ux%u picture", width, height);
         goto err_memory;
     }
-    if (gl_context_open(&gl->context, wish, error) != 0)
+    if (gl_context_open(&gl->context, request, error) != 0)
         goto err_memory;
     if (open_target(gl, error) != 0 || open_programs(gl, error) != 0)
         goto err_context;

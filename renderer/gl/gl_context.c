@@ -134,28 +134,29 @@ static void describe(struct gl_context *gl, const struct gl_candidate *candidate
              gl->software ? "software" : "hardware");
 }
 
-/* Opens a context on the candidate if it fulfils the wish. Returns NULL, or the reason. */
-static const char *try_if_wished(struct gl_context *gl, const struct gl_candidate *candidate,
-                                 const struct gl_wish *wish)
+/* Opens a context on the candidate if it fulfils the request. Returns NULL, or the reason. */
+static const char *try_if_requested(struct gl_context *gl, const struct gl_candidate *candidate,
+                                    const struct gl_request *request)
 {
-    if (!gl_may_be(candidate, wish))
+    if (!gl_may_be(candidate, request))
         return "not asked for";
-    if (wish->hardware && candidate->software)
+    if (request->hardware && candidate->software)
         return "draws in software";
     const char *detail = try_candidate(gl, candidate);
     if (detail != NULL)
         return detail;
     describe(gl, candidate);
-    if (wish->hardware && gl->software)
+    if (request->hardware && gl->software)
         detail = "draws in software";
-    else if (!gl_is_called(candidate, gl->name, wish))
+    else if (!gl_is_called(candidate, gl->name, request))
         detail = "has another name";
     if (detail != NULL)
         gl_context_close(gl);
     return detail;
 }
 
-int gl_context_open(struct gl_context *gl, const struct gl_wish *wish, struct error_text *error)
+int gl_context_open(struct gl_context *gl, const struct gl_request *request,
+                    struct error_text *error)
 {
     if (gl_library(error) != 0)
         return -1;
@@ -163,17 +164,17 @@ int gl_context_open(struct gl_context *gl, const struct gl_wish *wish, struct er
     uint32_t count = gl_find_candidates(candidates);
     struct error_text failures = {.text = ""};
     for (uint32_t i = 0; i < count; i++) {
-        const char *detail = try_if_wished(gl, &candidates[i], wish);
+        const char *detail = try_if_requested(gl, &candidates[i], request);
         if (detail == NULL)
             return 0;
         append_failure(&failures, candidates[i].name, detail);
     }
-    if (wish->device != NULL)
+    if (request->device != NULL)
         return error_text_set(error,
                               "--device %.40s: no OpenGL of that number or name; tried: %.300s; "
                               "jolon-renderer --list-devices shows what there is",
-                              wish->device, failures.text);
-    if (wish->hardware)
+                              request->device, failures.text);
+    if (request->hardware)
         return error_text_set(error, "no usable OpenGL 3.3 on it%s; tried: %.300s",
                               gl_hardware_hint(), failures.text);
     return error_text_set(error,

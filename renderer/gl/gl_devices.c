@@ -119,24 +119,24 @@ int gl_library(struct error_text *error)
     return 0;
 }
 
-/* Returns the device's number if the wish is a number, else -1. */
+/* Returns the device's number if the text is a number, else -1. */
 static int number_of(const char *device)
 {
     uint64_t number;
     return parse_whole(device, 0, GL_CANDIDATES_MAX - 1, &number) ? (int)number : -1;
 }
 
-bool gl_may_be(const struct gl_candidate *candidate, const struct gl_wish *wish)
+bool gl_may_be(const struct gl_candidate *candidate, const struct gl_request *request)
 {
-    return wish->device == NULL || number_of(wish->device) < 0 ||
-           number_of(wish->device) == candidate->number;
+    return request->device == NULL || number_of(request->device) < 0 ||
+           number_of(request->device) == candidate->number;
 }
 
 bool gl_is_called(const struct gl_candidate *candidate, const char *name,
-                  const struct gl_wish *wish)
+                  const struct gl_request *request)
 {
-    if (wish->device == NULL)
+    if (request->device == NULL)
         return true;
-    int number = number_of(wish->device);
-    return number >= 0 ? number == candidate->number : strcasestr(name, wish->device) != NULL;
+    int number = number_of(request->device);
+    return number >= 0 ? number == candidate->number : strcasestr(name, request->device) != NULL;
 }

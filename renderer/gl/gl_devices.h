@@ -19,8 +19,9 @@ struct gl_candidate {
     char name[96];
 };
 
-/* The OpenGL that the user wishes for. All zero: the first that draws, hardware before software. */
-struct gl_wish {
+/* The OpenGL device that the user asks for. All zero: the first that draws, hardware before
+ * software. */
+struct gl_request {
     const char *device; /* its number, or a part of its name; NULL: any */
     bool hardware;      /* software is refused */
 };
@@ -33,11 +34,11 @@ int gl_library(struct error_text *error);
 uint32_t gl_find_candidates(struct gl_candidate candidates[GL_CANDIDATES_MAX]);
 
 /* Returns false if the candidate's number excludes it. No context is needed. */
-bool gl_may_be(const struct gl_candidate *candidate, const struct gl_wish *wish);
+bool gl_may_be(const struct gl_candidate *candidate, const struct gl_request *request);
 
-/* Returns true if the candidate is the one wished for, by its number or the context's full name. */
+/* Returns true if the candidate is the requested device, by its number or the context's name. */
 bool gl_is_called(const struct gl_candidate *candidate, const char *name,
-                  const struct gl_wish *wish);
+                  const struct gl_request *request);
 
 /* Returns true if the word is in a list that is separated by blanks; NULL is an empty list. */
 bool gl_has_word(const char *list, const char *word);

@@ -78,7 +78,7 @@ static int open_stream(struct output_set *outputs, struct error_text *error)
         return -1;
     if (options->serves_requests &&
         stream_listen_here(outputs->stream, options->role, &socket_reason) != 0)
-        log_warn("%s; nobody can ask for pictures there", socket_reason.text);
+        log_warn("%s; clients cannot request pictures", socket_reason.text);
     if (options->stream_port < 0)
         return 0;
     if (stream_listen(outputs->stream, options->stream_address, (uint16_t)options->stream_port,

@@ -72,7 +72,7 @@ int output_set_start(struct output_set *outputs, struct error_text *error);
 int output_set_put(struct output_set *outputs, const char *view, struct image *image,
                    uint64_t frame, double time_s, const char *comment, struct error_text *error);
 
-/* Answers a wish of the stream's (stream_requests_read) with a picture, taking the image's pixels
+/* Answers a request of the stream (stream_requests_read) with a picture, taking the image's pixels
  * and giving it others; image NULL: there is no such vehicle. */
 void output_set_answer(struct output_set *outputs, uint32_t row, uint64_t generation,
                        struct image *image, uint64_t frame, double time_s);

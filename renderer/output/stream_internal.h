@@ -33,11 +33,11 @@ struct stream_jpeg {
 
 struct stream_view {
     char name[PICTURE_VIEW_BYTES];
-    struct picture *unencoded;  /* the newest picture, until its JPEG is made; else NULL */
-    struct stream_jpeg *jpeg;   /* the newest; NULL before the first */
-    uint64_t number;            /* of the JPEG, increasing */
-    uint64_t shown_ns;          /* CLOCK_MONOTONIC when it was made or sent again */
-    uint32_t watchers, waiters; /* clients of the stream; those who wait for one picture now */
+    struct picture *unencoded;        /* the newest picture, until its JPEG is made; else NULL */
+    struct stream_jpeg *jpeg;         /* the newest; NULL before the first */
+    uint64_t number;                  /* of the JPEG, increasing */
+    uint64_t shown_ns;                /* CLOCK_MONOTONIC when it was made or sent again */
+    uint32_t watchers, waiters;       /* clients of the stream; clients that wait for one picture */
     uint64_t drawn, encoded, skipped; /* pictures put; JPEGs made; those that clients passed over */
 };
 
@@ -62,7 +62,7 @@ struct stream_client {
     struct stream *stream; /* NULL before the request was read */
     struct stream_view *view;
     struct picture_requests *row; /* of the request, while it has no answer; NULL: none */
-    struct stream_map *map;       /* likewise */
+    struct stream_map *map;       /* of the request, while it has no answer; NULL: none */
     uint64_t until_ns;            /* end of the wait; 0: no limit */
     struct http_request *request;
     struct stream_client *next; /* in the list of waiting clients */
@@ -90,8 +90,8 @@ struct stream {
         request_count_seen; /* requests that wait for a picture; ... by the drawing thread */
     struct picture_requests_table requests;
     struct stream_view request_view[PICTURE_REQUESTS_MAX]; /* of those rows */
-    bool
-        again[PICTURE_REQUESTS_MAX]; /* somebody waits for a picture even if it would be the same */
+    /* A client waits for a picture, even for an unchanged one. */
+    bool again[PICTURE_REQUESTS_MAX];
     struct stream_map map[STREAM_MAPS];
     struct stream_view view[STREAM_VIEWS_MAX];
     uint32_t views;
@@ -99,9 +99,10 @@ struct stream {
     struct stream_client *waiting;
 };
 
-/* Starts and ends the server of every door. 0, or -1 with the reason. The second wants `ending`
- * set, so that nobody waits again. */
+/* Starts the servers of all listening sockets. Returns 0, or -1 with the reason. */
 int stream_http_start(struct stream *stream, struct error_text *error);
+
+/* Ends the servers. `ending` must be set, so that no client waits again. */
 void stream_http_end(struct stream *stream);
 
 /* Replies: a line of plain text; a picture, which they hold. */
@@ -114,10 +115,11 @@ void stream_reply_jpeg(struct http_reply *reply, struct stream_jpeg *jpeg);
 /* Gives up connections that are out of time. */
 void stream_http_sweep(struct stream *stream);
 
-/* Lets go on who waits for this view, NULL: for any. */
+/* Wakes the clients that wait for this view; NULL: for any view. */
 void stream_http_wake(struct stream *stream, const struct stream_view *view);
 
-/* Lets go on who has waited long enough; when the next will have [ns], UINT64_MAX for none. */
+/* Wakes the clients whose time is over. Returns when the next client's time is over [ns], or
+ * UINT64_MAX if no client waits. */
 uint64_t stream_http_expire(struct stream *stream, uint64_t now_ns);
 
 /* Keeps a request waiting for its view's next picture. False: there is no reply yet. */

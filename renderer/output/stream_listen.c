@@ -34,7 +34,7 @@ int stream_listen(struct stream *stream, const char *address, uint16_t port,
         return -1;
     snprintf(stream->url, sizeof stream->url, "%s", listener.url);
     if (!listener.local)
-        log_warn("the stream is open to whoever reaches %s: it has no password", address);
+        log_warn("the stream is open to every user who reaches %s: it has no password", address);
     add_endpoint(stream, &listener);
     return 0;
 }

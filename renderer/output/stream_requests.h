@@ -17,12 +17,12 @@ struct stream_request {
     bool again;          /* draw it even if the last picture is still up to date */
 };
 
-/* Fills wishes[PICTURE_REQUESTS_MAX] with the rows that somebody has asked for lately. How many
- * wait. */
+/* Fills requests[PICTURE_REQUESTS_MAX] with the rows that clients have requested lately. Returns
+ * the number of rows for which a client waits. */
 uint32_t stream_requests_read(struct stream *stream, struct stream_request *requests);
 
-/* Answers a row's wish: with a picture, which the caller goes on holding, or with NULL: there is no
- * such vehicle. A wish that is another by now is left alone. */
+/* Answers a row's request: with a picture, which the caller continues to hold, or with NULL: there
+ * is no such vehicle. A request that has changed since (another generation) gets no answer. */
 void stream_requests_answer(struct stream *stream, uint32_t row, uint64_t generation,
                             struct picture *picture);
 

@@ -69,14 +69,14 @@ static void open_session(struct run_video *video)
     double hz = 1.0 / world_dt_s(&video->view.world);
     if (drawn->fps <= 0.0)
         drawn->fps = hz < VIDEO_FPS_MAX ? hz : VIDEO_FPS_MAX;
-    const struct output_set_options wish = {.world = video->view.name,
-                                            .video = video->options.file,
-                                            .video_fps = drawn->fps,
-                                            .replay = true,
-                                            .video_fd = video->fd,
-                                            .stream_port = -1};
+    const struct output_set_options options = {.world = video->view.name,
+                                               .video = video->options.file,
+                                               .video_fps = drawn->fps,
+                                               .replay = true,
+                                               .video_fd = video->fd,
+                                               .stream_port = -1};
     drawn->snap = video->still ? video->options.file : NULL;
-    if (!video->still && (output_set_open(&video->outputs, &wish, &error) != 0 ||
+    if (!video->still && (output_set_open(&video->outputs, &options, &error) != 0 ||
                           output_set_start(&video->outputs, &error) != 0))
         fail(video, &error);
     if (render_session_open(&video->session, &video->view, &video->heartbeat,

@@ -45,7 +45,7 @@ void bench_scene_step(struct bench_scene *s)
 static void open_back_end(struct bench_scene *s)
 {
     const struct bench_scene_options *options = &s->scene_options;
-    const struct gl_wish any = {.device = NULL};
+    const struct gl_request any = {.device = NULL};
     char name[BACK_END_NAME_BYTES];
     struct error_text error;
     int opened = options->soft ? soft_open(&s->draw, &s->static_scene, options->width,

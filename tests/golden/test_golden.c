@@ -99,7 +99,7 @@ static int draw_all(void **state)
                                                       .follow = golden->follow,
                                                       .view = golden->view,
                                                       .pose = golden->pose};
-    const struct gl_wish any = {.device = NULL};
+    const struct gl_request any = {.device = NULL};
     char name[BACK_END_NAME_BYTES];
     struct error_text error;
     struct back_end_interface other;
@@ -181,8 +181,8 @@ static void test_exact(void **state)
     assert_non_null(kept);
     if (different(one, three) != 0)
         fail_msg("%s: %u pixels differ on three threads", golden->name, different(one, three));
-    const char *scene_options = getenv("GOLDEN");
-    if (scene_options != NULL && strcmp(scene_options, "write") == 0)
+    const char *mode = getenv("GOLDEN");
+    if (mode != NULL && strcmp(mode, "write") == 0)
         keep(kept_folder, golden->name, one);
     read_kept(golden->name, kept);
     if (different(one, kept) != 0) {
