@@ -25,7 +25,7 @@ export class Refusal extends Error {
 
 const TOKEN_PLACE = 'jolon-token';
 
-/** Reads the link's token and removes it from the address bar, so that nobody copies it. */
+/** Reads the link's token and removes it from the address bar, so that it is not copied with the address. */
 function takeToken() {
   const found = /^#token=(.+)$/.exec(location.hash);
   if (found) {
@@ -58,7 +58,7 @@ export class Api {
       response = await fetch(path, { cache: 'no-store', signal: AbortSignal.timeout(8000), ...options });
     } catch (error) {
       if (options.signal?.aborted) throw error;
-      throw new Refusal('The console does not answer.', 'It comes back by itself when the console runs again.', 0);
+      throw new Refusal('The console does not answer.', 'The page connects again as soon as the console runs.', 0);
     }
     if (response.ok) return response;
     const refusal = await response.json().catch(() => ({}));

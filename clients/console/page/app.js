@@ -44,8 +44,8 @@ byId('spectator').hidden = api.mayChange;
 /* --- the top bar ---------------------------------------------------------------------------- */
 
 function mapNote(state) {
-  if (state.left_out) return `${number(state.left_out)} more here; zoom in to see all`;
-  return map.ground.missing ? 'The ground is on its way.' : '';
+  if (state.left_out) return `${number(state.left_out)} more vehicles here; zoom in to see all`;
+  return map.ground.missing ? 'The ground is being loaded.' : '';
 }
 
 /** Selects a vehicle for a new visitor: the first tank, or else the first vehicle. */

@@ -62,7 +62,7 @@ export class Drive {
     document.getElementById('driving-levers').hidden = driven === 0;
     document.getElementById('driving-show').hidden = driven === 0 || driven === selected;
     setText(document.getElementById('driving-what'), driven ? 'you drive' :
-      'You drive nothing yet: press Take, or double click a vehicle.');
+      'You drive no vehicle. Press Take, or double click a vehicle.');
     setText(document.getElementById('driving-name'), driven ? this.world.name(driven) : '');
   }
 

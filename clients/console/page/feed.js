@@ -54,8 +54,8 @@ export class Feed {
 
   note() {
     byId('feed-empty').hidden = this.rows.children.length > 0;
-    setText(byId('feed-empty'), this.types.size ? 'Nothing of that kind has happened yet.' : 'Choose a kind of event above.');
-    setText(this.missed, this.events.missed ? `${number(this.events.missed)} went by too fast` : '');
+    setText(byId('feed-empty'), this.types.size ? 'No event of these kinds has happened yet.' : 'Choose a kind of event above.');
+    setText(this.missed, this.events.missed ? `${number(this.events.missed)} events missed` : '');
   }
 
   line(event) {

@@ -14,7 +14,7 @@ const COLUMNS = [
   ['id', 'number', 'id', true, (row) => String(row.id)],
   ['force', 'force', '', false, (row) => words(row.force)],
   ['kind', 'kind', 'kind', false, (row) => words(row.kind)],
-  ['behaviour', 'does', 'behaviour', false, (row) => (row.state === 'wreck' ? 'wreck' : words(row.behaviour))],
+  ['behaviour', 'behaviour', 'behaviour', false, (row) => (row.state === 'wreck' ? 'wreck' : words(row.behaviour))],
   ['speed', 'km/h', 'speed', true, (row) => number(row.speed_mps * 3.6, 1)],
   ['damage', 'damage', 'damage', false, (row) => words(row.damage)],
   ['rounds', 'rounds', 'rounds', true, (row) => number(row.rounds)],
@@ -131,7 +131,7 @@ export class List {
     rows.forEach((row, i) => this.fill(this.rows.children[i], row));
     this.mark();
     byId('list-empty').hidden = total > 0;
-    setText(byId('list-empty'), 'No vehicle is like that. Search for a part of its name or its number.');
+    setText(byId('list-empty'), 'No vehicle matches. Search for a part of a name or a number.');
     setText(byId('list-count'), total ? `${number(this.from + 1)}–${number(this.from + rows.length)} of ${number(total)}` : 'none');
     byId('list-before').disabled = this.from === 0;
     byId('list-after').disabled = this.from + rows.length >= total;

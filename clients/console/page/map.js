@@ -35,7 +35,7 @@ export class MapView {
     this.showTracks = true;
     /** @type {{x: number, z: number, at: number, large: boolean}[]} */
     this.blasts = [];
-    /** @type {{x: number, z: number} | null} an event's place that somebody looks at */
+    /** @type {{x: number, z: number} | null} the place of the event that is shown */
     this.pin = null;
     this.density = 1;
     this.dirty = true;

@@ -52,7 +52,7 @@ export class Orders {
   }
 
   show() {
-    setText(byId('pause'), this.paused ? 'Go on' : 'Pause');
+    setText(byId('pause'), this.paused ? 'Resume' : 'Pause');
     byId('step').disabled = !this.paused;
     const scale = String(this.world.state.scale ?? 1), choice = byId('scale');
     if (document.activeElement === choice || choice.value === scale) return;
@@ -72,7 +72,7 @@ export class Orders {
     byId('spawn-form').hidden = this.tool !== 'spawn';
     byId('mission-form').hidden = this.tool !== 'mission';
     byId('map').classList.toggle('aims', this.tool !== '');
-    setText(byId('map-note'), this.tool === 'target' ? 'Click the vehicle to fire at. Esc leaves it.' : '');
+    setText(byId('map-note'), this.tool === 'target' ? 'Click the vehicle to fire at. Esc cancels.' : '');
   }
 
   /**
@@ -98,7 +98,7 @@ export class Orders {
     });
     if (!answer) return;
     this.session.select(answer.entity);
-    this.session.notices.show(`A ${words(kind)}, number ${answer.entity}, is there since frame ${number(answer.frame)}.`);
+    this.session.notices.show(`A ${words(kind)}, number ${answer.entity}, was added in frame ${number(answer.frame)}.`);
   }
 
   async mission(x, z) {
@@ -107,6 +107,6 @@ export class Orders {
       do: 'mission', munition: byId('mission-munition').value, rounds, x, z,
       every_s: Number(byId('mission-every').value), radius_m: Number(byId('mission-radius').value),
     });
-    if (answer) this.session.notices.show(`${number(rounds)} rounds are on their way.`);
+    if (answer) this.session.notices.show(`${number(rounds)} rounds were ordered.`);
   }
 }

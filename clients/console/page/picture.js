@@ -102,7 +102,7 @@ export class Picture {
   async wait(refusal) {
     const away = refusal.status === 503 || refusal.status === 502 || refusal.status === 0;
     this.showText(away && !/different pictures/.test(refusal.message) ?
-      'The renderer is away; it comes back by itself.' : refusal.text);
+      'The renderer does not answer. The page tries again.' : refusal.text);
     this.newest = 0;
     await new Promise((resolve) => setTimeout(resolve, AGAIN_MS));
   }

@@ -72,8 +72,8 @@ export class Processes {
   }
 
   async act(role, action) {
-    const stands = CENTRAL.includes(role) ? ' The world stands for a moment; nothing is lost.' : '';
-    if (action === 'kill' && !(await ask(`Kill the ${role}? It comes back by itself.${stands}`, 'Kill it'))) return;
+    const stands = CENTRAL.includes(role) ? ' The world stops for a moment; no frame is lost.' : '';
+    if (action === 'kill' && !(await ask(`Kill the ${role}? The keeper starts it again.${stands}`, `Kill the ${role}`))) return;
     try {
       await this.api.post('process', { do: action, role });
       this.session.notices.show(action === 'kill' ? `The ${role} was killed.` : `The ${role} starts again.`);

@@ -21,7 +21,7 @@ export class Tally {
     for (const [name, value] of Object.entries(state.frame_ms ?? {})) this.set(`frame ${name} [ms]`, number(value, 2));
     if (state.munitions !== undefined) this.set('munitions in flight', number(state.munitions));
     document.getElementById('tally-empty').hidden = this.cells.size > 0;
-    setText(document.getElementById('tally-empty'), 'Nothing is counted yet.');
+    setText(document.getElementById('tally-empty'), 'No counter is known yet.');
   }
 
   set(name, text) {

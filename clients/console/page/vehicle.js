@@ -74,7 +74,7 @@ export class Vehicle {
   select() {
     const { selected, driven } = this.session;
     this.world.me = selected;
-    setText(byId('v-take'), driven && driven === selected ? 'Let go' : 'Take');
+    setText(byId('v-take'), driven && driven === selected ? 'Release' : 'Take');
     const me = this.world.state?.me;
     if (!me || me.id !== selected) {
       setText(byId('v-name'), selected ? this.world.name(selected) : 'No vehicle');
@@ -97,7 +97,7 @@ export class Vehicle {
       const gone = this.asked === selected;
       this.asked = selected;
       if (!gone) return;
-      setText(byId('v-empty'), 'It is not in the world any more. Choose another on the map or in the list.');
+      setText(byId('v-empty'), 'This vehicle is no longer in the world. Choose another on the map or in the list.');
       byId('v-empty').hidden = false;
       byId('v-gauges').hidden = byId('v-course').hidden = true;
       this.enable(false);
@@ -111,7 +111,7 @@ export class Vehicle {
     setText(byId('v-name'), me.name || this.world.name(selected));
     setText(byId('v-kind'), `${words(me.force)} ${words(me.kind)} ${selected}${me.state === 'wreck' ? ', a wreck' : ''}`);
     byId('v-driver').hidden = !me.driver;
-    setText(byId('v-driver'), !me.driver ? '' : me.driver === 'you' ? 'yours' : `${this.world.players.get(selected) ?? 'somebody'} drives it`);
+    setText(byId('v-driver'), !me.driver ? '' : me.driver === 'you' ? 'yours' : `${this.world.players.get(selected) ?? 'another client'} drives it`);
     FIGURES.forEach(([, text, left], i) => {
       setText(this.cells[i], text(me, this.world));
       const part = left ? left(me) : 1;
@@ -136,11 +136,11 @@ export class Vehicle {
   async remove() {
     const { selected } = this.session;
     const name = this.world.name(selected);
-    if (!(await ask(`Take ${name} out of the world? It does not come back.`, 'Remove it'))) return;
+    if (!(await ask(`Remove ${name} from the world? This cannot be undone.`, 'Remove'))) return;
     const answer = await this.session.command({ do: 'remove', vehicle: selected });
     if (!answer) return;
     if (this.session.driven === selected) this.session.lose();
     this.session.select(0);
-    this.session.notices.show(`${name} is gone, since frame ${number(answer.frame)}.`);
+    this.session.notices.show(`${name} was removed in frame ${number(answer.frame)}.`);
   }
 }
