@@ -89,7 +89,7 @@ check "no process was replaced for it" equal "$(restarts)" "$before"
 
 "$jolon" start -w "$name" >second 2>&1
 check "a second set is refused with 1" equal $? 1
-check "the refusal names the running set" grep -q "is run already by pid" second
+check "the refusal names the running set" grep -q "runs already, by pid" second
 check "jolon worlds lists the world" bash -c "'$jolon' worlds | grep -q '\"$name\" is running'"
 
 supervisor=$(cat "$(path_of lock)")

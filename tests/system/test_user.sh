@@ -58,11 +58,11 @@ refused() { # NAME STATUS PATTERN COMMAND...: one line
     check "$what" eval "[ $? = $status ] && [ \$(wc -l <told) = 1 ] && grep -q -- '$pattern' told"
 }
 refused "an unknown user is refused" 1 'there is no such user' "$theirs" start --user nobody-$$ -w "$name"
-refused "--user without a name is refused" 2 '--user wants a name' "$theirs" start -w "$name" --user
+refused "--user without a name is refused" 2 '--user needs a name' "$theirs" start -w "$name" --user
 refused "--user is refused for other users" 1 'only root can' setpriv --reuid "$uid" --regid "$uid" --clear-groups \
     "$theirs" status --user root -w "$name"
 chmod 700 "$tree/build"
-refused "programs that the user may not run are refused" 1 'install Jolon where everybody may' "$theirs" start --user "$other" -w "$name"
+refused "programs that the user may not run are refused" 1 'install Jolon for all users' "$theirs" start --user "$other" -w "$name"
 chmod 755 "$tree/build"
 "$theirs" run -w "$name" --frames 5 --pace max --without renderer --out "$tree/roots" >told 2>&1
 check "root without --user gets a warning" grep -q 'runs as root: .*--user NAME' told

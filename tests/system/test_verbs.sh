@@ -75,7 +75,7 @@ check "-w NAME before the verb names the world" meant -w "$name-a" status
 check "--world=NAME before the verb names the world" meant "--world=$name-a" status
 check "-w NAME before a verb of jolon world names the world" eval '"$jolon" -w "$name-a" world info | grep -q "$name-a"'
 check "-w NAME before a verb of jolon-world names the world" eval '"$bin/jolon-world" -w "$name-a" info | grep -q "$name-a"'
-check "-w NAME without a verb is refused" eval '! "$jolon" -w "$name-a" 2>err && grep -q "wants a name, and a verb" err'
+check "-w NAME without a verb is refused" eval '! "$jolon" -w "$name-a" 2>err && grep -q "needs a name, and a verb" err'
 check "worlds -w NAME lists that world alone" eval '[ "$("$jolon" worlds -w "$name-a" | cut -d\" -f2)" = "$name-a" ]'
 
 # --- clean --------------------------------------------------------------------------------------------

@@ -108,7 +108,7 @@ check "that picture is equal to the byte" cmp once.png threads.png
 "$bin/jolon-world" remove -w "$name"
 
 # --- refusals -------------------------------------------------------------------------------------
-refuses "snap without a file" 2 'snap wants a FILE' snap
+refuses "snap without a file" 2 'snap needs a FILE' snap
 refuses "snap without a world" 1 "there is no world \"$name\"; jolon worlds" snap x.png
 refuses "snap with an unknown option" 2 'snap --fps: no such option; there are --view' snap --fps 3 x.png
 refuses "an unknown view" 2 'bird is not one of chase, map, inside' "$renderer" --snap x.png --view chase,bird
