@@ -39,8 +39,8 @@ static int check_vehicle(const struct entry *entry, const struct vehicle_entry *
     return 0;
 }
 
-/* Sets whom the vehicles fire at. The key engage and the older key fire_at_will may both be given
- * if they agree. */
+/* Sets the vehicles' rule of engagement. The key engage and the older key fire_at_will may both be
+ * given if they agree. */
 static int choose_engagement(const struct entry *entry, const struct vehicle_entry *vehicle,
                              struct scenario_group *group)
 {

@@ -10,7 +10,7 @@ static const struct option_row rows[] = {
     DDS_LINK_OPTION_ROWS(given.link),
     {"remote-commands", NULL,
      "take commands over DDS too; without DDS Security, which only a configuration file turns on, "
-     "anybody who reaches the interface commands the world",
+     "every host that reaches the interface commands the world",
      .flag = &given.remote_commands},
     OPTION_ROWS_END};
 

@@ -101,8 +101,8 @@ void remote_commands_tell(struct view *view, bool unguarded)
     if (!unguarded)
         return;
     log_warn("************************************************************************");
-    log_warn("* --remote-commands WITHOUT DDS Security: everybody who reaches this   *");
+    log_warn("* --remote-commands WITHOUT DDS Security: every host that reaches this *");
     log_warn("* machine's DDS ports commands the world: pauses, fills and empties it. *");
-    log_warn("* docs/topics.md, \"Security\", says how to let in only whom you know.   *");
+    log_warn("* docs/topics.md, \"Security\", says how to let in only known clients.   *");
     log_warn("************************************************************************");
 }

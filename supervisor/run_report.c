@@ -24,7 +24,7 @@ void run_report_warn_unguarded(const struct process_set *set)
 {
     if (atomic_load(&set->view.slot[ROLE_REPORTER]->unguarded) != 0)
         process_set_log(
-            set, "WARNING: the reporter takes commands from everybody who reaches its network "
+            set, "WARNING: the reporter takes commands from every host that reaches its network "
                  "(--remote-commands without DDS Security; docs/topics.md, \"Security\")");
 }
 

@@ -45,8 +45,8 @@ static void print_address(const struct options *options)
                  options->world);
     }
     if (!console.listener.local)
-        log_warn("everybody who reaches %s can see the world, and the traffic, with the token, is "
-                 "not encrypted: use it in a private network",
+        log_warn("any user who reaches %s can see the world; the traffic and the token in it are "
+                 "not encrypted: use a private network",
                  options->address);
 }
 

@@ -64,7 +64,7 @@ static void explain(struct http_answer *answer, const struct command_text *order
     case COMMAND_TAKEN:
         http_answer_error(answer, HTTP_ANSWER_CONFLICT,
                           "wait until it is released, or take another one", "%s drives %u",
-                          driver ? driver->name : "somebody else", command->entity);
+                          driver ? driver->name : "another client", command->entity);
         break;
     case COMMAND_CANNOT:
         explain_cannot(answer, order);

@@ -71,7 +71,7 @@ int session_key_file(char token[SESSION_KEY_MAX], const char *path, struct error
     if (length < TOKEN_MIN || length >= SESSION_KEY_MAX ||
         line[length + strspn(line + length, "\r\n")])
         return error_text_set(error,
-                              "--token-file %s: wants one line of %u to %u letters, digits, - or _",
+                              "--token-file %s: needs one line of %u to %u letters, digits, - or _",
                               path, TOKEN_MIN, SESSION_KEY_MAX - 1);
     memcpy(token, line, length);
     token[length] = '\0';

@@ -25,7 +25,7 @@ bool world_query_attached(const struct world_query *asked, struct http_answer *a
  * whole frame to read. */
 bool world_query_copied(const struct world_query *asked, struct http_answer *answer);
 
-/* Who drives the vehicle of a row: 0 no client, 1 another client, 2 the player who asks. */
+/* Returns the driver of a row's vehicle: 0 no client, 1 another client, 2 the requesting player. */
 uint32_t world_query_driver(const struct world_query *asked, uint32_t row);
 
 #endif

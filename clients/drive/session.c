@@ -334,10 +334,11 @@ static void read_drive_reply(struct session *session, uint64_t now_ns)
     }
     session->state = SESSION_WATCHING;
     if (reply.result == jolon_RESULT_TAKEN)
-        session_notify(session, now_ns,
-                       "%s: somebody else drives it; n takes the next, o the nearest of its force, "
-                       "enter tries again",
-                       label);
+        session_notify(
+            session, now_ns,
+            "%s: another client drives it; n takes the next, o the nearest of its force, "
+            "enter tries again",
+            label);
     else if (reply.result == jolon_RESULT_CANNOT || reply.result == jolon_RESULT_NO_SUCH_ENTITY)
         session_notify(session, now_ns, "%s is destroyed or gone; n takes the next vehicle", label);
     else

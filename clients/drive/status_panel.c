@@ -211,5 +211,5 @@ void status_panel_others(char line[STATUS_PANEL_LINE], const struct session *ses
                              used ? ", " : "others drive: ", session_label(mirror, e->id, label));
     }
     if (used == 0)
-        (void)snprintf(line, STATUS_PANEL_LINE, "nobody else drives");
+        (void)snprintf(line, STATUS_PANEL_LINE, "no other drivers");
 }

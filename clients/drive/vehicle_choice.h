@@ -4,7 +4,7 @@
 
 #include "ipc/topics/world_mirror.h"
 
-/* The driver who chooses, and what the vehicle must be. */
+/* The client that chooses, and what the vehicle must be. */
 struct vehicle_choice {
     uint64_t source; /* of this client's commands: vehicles of other drivers are left out */
     uint32_t from;   /* id of the present vehicle, 0: none */

@@ -15,7 +15,7 @@
 
 #include <string.h>
 
-#define NOBODY UINT32_MAX
+#define NO_BODY UINT32_MAX
 
 enum { BLOCK_STARTS, BLOCK_ENDS, BLOCK_NODE };
 
@@ -69,9 +69,9 @@ static void refresh(const struct sort_and_sweep *sweep, uint32_t i)
 {
     struct node *node = &sweep->node[i];
     node->last_z = node->max_z;
-    if (node->left != NOBODY && sweep->node[node->left].last_z > node->last_z)
+    if (node->left != NO_BODY && sweep->node[node->left].last_z > node->last_z)
         node->last_z = sweep->node[node->left].last_z;
-    if (node->right != NOBODY && sweep->node[node->right].last_z > node->last_z)
+    if (node->right != NO_BODY && sweep->node[node->right].last_z > node->last_z)
         node->last_z = sweep->node[node->right].last_z;
 }
 
@@ -79,8 +79,8 @@ static void refresh(const struct sort_and_sweep *sweep, uint32_t i)
 static void split(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i, uint32_t *low,
                   uint32_t *high)
 {
-    if (root == NOBODY) {
-        *low = *high = NOBODY;
+    if (root == NO_BODY) {
+        *low = *high = NO_BODY;
         return;
     }
     struct node *node = &sweep->node[root];
@@ -97,9 +97,9 @@ static void split(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i,
 /* Joins two trees; all nodes of low come before those of high. */
 static uint32_t join(const struct sort_and_sweep *sweep, uint32_t low, uint32_t high)
 {
-    if (low == NOBODY)
+    if (low == NO_BODY)
         return high;
-    if (high == NOBODY)
+    if (high == NO_BODY)
         return low;
     uint32_t root = above(low, high) ? low : high;
     if (root == low)
@@ -112,7 +112,7 @@ static uint32_t join(const struct sort_and_sweep *sweep, uint32_t low, uint32_t 
 
 static uint32_t insert(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i)
 {
-    if (root == NOBODY || above(i, root)) {
+    if (root == NO_BODY || above(i, root)) {
         split(sweep, root, i, &sweep->node[i].left, &sweep->node[i].right);
         root = i;
     } else if (before(sweep, i, root)) {
@@ -140,7 +140,7 @@ static uint32_t extract(const struct sort_and_sweep *sweep, uint32_t root, uint3
 /* Tests node i against each node of the tree that overlaps it in z. */
 static void report_overlaps(const struct sort_and_sweep *sweep, uint32_t root, uint32_t i)
 {
-    if (root == NOBODY || sweep->node[root].last_z < sweep->node[i].min_z)
+    if (root == NO_BODY || sweep->node[root].last_z < sweep->node[i].min_z)
         return;
     const struct node *node = &sweep->node[i], *other = &sweep->node[root];
     report_overlaps(sweep, other->left, i);
@@ -195,8 +195,8 @@ static void put_in_order(struct sort_and_sweep *sweep, struct mark *starts, stru
         const struct path_box *box = &sweep->bodies.box[starts[i].what];
         sweep->node[i] = (struct node){.min_z = box->min_z,
                                        .max_z = box->max_z,
-                                       .left = NOBODY,
-                                       .right = NOBODY,
+                                       .left = NO_BODY,
+                                       .right = NO_BODY,
                                        .body = starts[i].what};
         ends[i] = (struct mark){ascending_bits(box->max_x), i};
     }
@@ -207,7 +207,7 @@ void method_hopcroft_pairs(const struct method_input *input, struct method_works
                            struct pair_list *pairs)
 {
     struct sort_and_sweep sweep = {
-        .input = input, .moving = NOBODY, .fixed = NOBODY, .pairs = pairs};
+        .input = input, .moving = NO_BODY, .fixed = NO_BODY, .pairs = pairs};
     method_bodies(input, workspace, &sweep.bodies);
     uint32_t count = sweep.bodies.count;
     struct mark *starts = method_block(workspace, BLOCK_STARTS, count, sizeof *starts);

@@ -21,7 +21,7 @@
 #define CLAIMS_MAX 64
 #define AXIS_BITS  19 /* bits of a cell's number along one axis: 65 km each way at level 0 */
 #define AXIS_HALF  262144
-#define NOBODY     UINT32_MAX
+#define NO_CLAIM   UINT32_MAX
 
 enum { BLOCK_LEVEL, BLOCK_ORDER, BLOCK_CLAIM, BLOCK_HEAD };
 
@@ -29,7 +29,7 @@ enum { BLOCK_LEVEL, BLOCK_ORDER, BLOCK_CLAIM, BLOCK_HEAD };
 struct claim {
     uint64_t cell;
     uint32_t body;
-    uint32_t next; /* next claim of the same hash; NOBODY: none */
+    uint32_t next; /* next claim of the same hash; NO_CLAIM: none */
 };
 
 struct space {
@@ -157,7 +157,7 @@ static void visit_cell(struct space *space, uint32_t body, uint64_t cell, uint32
                        struct pair_list *pairs)
 {
     uint32_t *head = &space->head[random_mix(cell) & space->mask];
-    for (uint32_t n = *head; n != NOBODY; n = space->claim[n].next) {
+    for (uint32_t n = *head; n != NO_CLAIM; n = space->claim[n].next) {
         const struct claim *claim = &space->claim[n];
         if (claim->cell == cell && first_shared(space, body, claim->body, cell, level))
             method_meet(space->input, &space->bodies, body, claim->body, pairs);

@@ -10,7 +10,7 @@ struct charge {
     struct vec3 point;
     double time; /* 0..1 */
     double explosive_kg;
-    uint32_t owner_slot, owner_id; /* its shooter; 0 for nobody */
+    uint32_t owner_slot, owner_id; /* its shooter; 0: none */
 };
 
 /* Charges that have not exploded yet. An explosion that destroys a body with explosive adds one.

@@ -90,8 +90,8 @@ static const struct key vehicle_keys[] = {
     [VEHICLE_ENGAGE] =
         CHOICE("engage", V, engage, STORE_U32, WORDS(engagements), NULL,
                .unset = "free with `fire_at_will`, else return",
-               .meaning = "Whom the vehicle fires at. `free`: every enemy that it sees. `return`: "
-                          "only enemies that fire at it. `hold`: nobody."),
+               .meaning = "The targets of the vehicle. `free`: every enemy that it sees. `return`: "
+                          "only enemies that fire at it. `hold`: none."),
     [VEHICLE_STAND] = BOOLEAN("stand", V, stand, STORE_U32, "false",
                               .meaning = "true: the vehicle never flees or withdraws."),
     [VEHICLE_FORMATION] =

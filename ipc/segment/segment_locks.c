@@ -106,7 +106,7 @@ int segment_first_held(const char *path, enum role last, struct error_text *erro
 
 int segment_wait_free(const char *name, enum role last, uint64_t until_ns, struct error_text *error)
 {
-    char who[32] = "a process";
+    char holder[32] = "a process";
     struct segment_paths paths;
     int role;
     if (segment_paths(&paths, name, error) != 0)
@@ -115,11 +115,11 @@ int segment_wait_free(const char *name, enum role last, uint64_t until_ns, struc
         if (clock_now_ns() >= until_ns) {
             int pid = segment_holder_alive(name, (enum role)role, until_ns);
             if (pid != 0)
-                snprintf(who, sizeof who, "pid %d", pid);
+                snprintf(holder, sizeof holder, "pid %d", pid);
             return error_text_set(
                 error,
                 "the %s of world \"%s\" is kept by %s, which is not of this set; end it first",
-                role_name((enum role)role), name, who);
+                role_name((enum role)role), name, holder);
         }
         clock_sleep_until_ns(clock_now_ns() + NS_PER_MS);
     }

@@ -433,7 +433,7 @@ const char *command_text_advice(const struct command_text *order, jolon_CommandR
 {
     switch (result) {
     case jolon_RESULT_NO_SUCH_ENTITY:
-        return "; it may have been removed: jolon monitor shows who is there";
+        return "; it may have been removed: jolon monitor shows the vehicles";
     case jolon_RESULT_TAKEN:
         return order->command.type == jolon_COMMAND_RELEASE
                    ? "; release it anyway, or wait until its driver lets go"
@@ -450,7 +450,7 @@ const char *command_text_advice(const struct command_text *order, jolon_CommandR
         case jolon_COMMAND_STEP:
             return "; pause first";
         case jolon_COMMAND_RELEASE:
-            return "; nobody drives it";
+            return "; no client drives it";
         case jolon_COMMAND_FIRE:
             return "; it still lays its gun on the target or reloads: say it again; or it has "
                    "no rounds, or is a wreck";

@@ -74,8 +74,8 @@ void neighbour_index_build(struct neighbour_index *index, const struct entities 
                            uint32_t used, uint32_t tick, uint32_t think_frames,
                            struct thread_pool *workers);
 
-/* Returns the layers of a force's enemies. Neutral vehicles have no enemies and are nobody's
- * enemy. */
+/* Returns the layers of a force's enemies. Neutral vehicles have no enemies and are no
+ * force's enemies. */
 static inline uint32_t neighbour_index_enemies(enum force force)
 {
     return force == FORCE_BLUE  ? NEIGHBOUR_INDEX_LAYER(FORCE_RED)

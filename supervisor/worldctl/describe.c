@@ -215,7 +215,7 @@ static void status_text(const struct view *view, const struct state_head *head)
             print_role(view, (enum role)role);
     }
     if (unguarded(view))
-        printf("WARNING: the reporter takes commands from everybody who reaches its network "
+        printf("WARNING: the reporter takes commands from every host that reaches its network "
                "(--remote-commands without DDS Security)\n");
 }
 

@@ -131,7 +131,7 @@ int verb_diff(const struct arguments *arguments)
     static struct frame_source a, b;
     if (!arguments->other)
         die_usage(
-            "diff: wants two logs of commands, images or worlds; try jolon-world diff --help");
+            "diff: needs two logs of commands, images or worlds; try jolon-world diff --help");
     process_signals();
     frame_source_open(&a, arguments->path, arguments->threads);
     frame_source_open(&b, arguments->other, arguments->threads);

@@ -111,7 +111,7 @@ int verb_replay(const struct arguments *arguments)
     struct frame_stepper stepper;
     struct event_log events;
     if (!arguments->path)
-        die_usage("replay: wants a log of commands; try jolon-world help");
+        die_usage("replay: needs a log of commands; try jolon-world help");
     process_signals();
     run_start_open(&replay, arguments->path);
     uint64_t last = last_frame(arguments, &replay);

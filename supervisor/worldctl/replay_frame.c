@@ -50,7 +50,7 @@ int verb_replay_frame(const struct arguments *arguments)
     struct view view;
     struct frame_stepper stepper;
     if (!arguments->path)
-        die_usage("replay-frame: wants the DUMP to run, as `save --inputs` or a set that gave up "
+        die_usage("replay-frame: needs the DUMP to run, as `save --inputs` or a set that gave up "
                   "wrote it");
     image_resume_private(&view, &image, arguments->path);
     if (frame_stepper_init(&stepper, &view, 1) != 0)

@@ -34,7 +34,7 @@ int verb_save(const struct arguments *arguments)
     struct view view;
     struct error_text error;
     if (!arguments->path)
-        die_usage("save: wants the FILE to write, for example save world.image");
+        die_usage("save: needs the FILE to write, for example save world.image");
     signal(SIGXFSZ, SIG_IGN); /* a write beyond the file size limit then fails with EFBIG */
     arguments_attach(arguments, &view);
     if (image_place_open(&place, arguments->path, &error) != 0)

@@ -66,7 +66,7 @@ static void parse(struct lag *lag, int argc, char **argv)
         .rows = rows,
         .plain = 2};
     if (option_table_read(&table, argc, argv) != 2)
-        die_usage("lag: wants the program jolon-drive and a vehicle's id");
+        die_usage("lag: needs the program jolon-drive and a vehicle's id");
     given.spacemouse = input == 1;
     given.program = argv[argc - 2];
     given.vehicle = argv[argc - 1];

@@ -41,7 +41,7 @@ holder=$!
 check "T3 is taken" eventually is 3 behaviour driven
 sleep 12 | "$jolon" drive 3 --plain -w "$name" >second 2>&1 &
 second=$!
-check "a second driver is refused with the next step" eventually grep -q 'T3 (tank 3): somebody else drives it; n takes the next' second
+check "a second driver is refused with the next step" eventually grep -q 'T3 (tank 3): another client drives it; n takes the next' second
 check "the first driver keeps the vehicle" is 3 behaviour driven
 kill $second
 { kill -KILL $holder && wait $holder; } 2>/dev/null

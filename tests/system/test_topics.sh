@@ -8,7 +8,7 @@ monitor="$bin/jolon-monitor -w $name"
 ctl="$bin/jolon-ctl -w $name"
 
 check "a set starts" eval '"$jolon" start -w "$name" --without renderer --remote-commands --out "$folder/out" 2>"$folder/warned"'
-check "the start warns of remote commands without security" grep -q "WARNING.*everybody who reaches" "$folder/warned"
+check "the start warns of remote commands without security" grep -q "WARNING.*every host that reaches" "$folder/warned"
 check "the log warns of remote commands" grep -q "WITHOUT DDS Security" "$folder/out/jolon.log"
 check "jolon status warns of remote commands" eval '"$jolon" status -w "$name" | grep -q "^WARNING: .*--remote-commands"'
 status() { $monitor --once --json; }

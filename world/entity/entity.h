@@ -121,7 +121,7 @@ enum entity_column {
 _Static_assert(ENTITY_COLUMN_COUNT <= 64, "a set of columns is one word");
 
 #define ENTITY_FLAG_FIRE_AT_WILL 1u /* engages all enemies that it sees */
-#define ENTITY_FLAG_HOLD_FIRE    2u /* fires at nobody, whatever happens to it */
+#define ENTITY_FLAG_HOLD_FIRE    2u /* never fires */
 #define ENTITY_FLAG_STAND        4u /* never flees or withdraws */
 
 /* How a driven vehicle's throttle acts on its wheels; a driver's choice, in flags. */
