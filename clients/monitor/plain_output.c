@@ -71,7 +71,7 @@ int plain_output_once(struct world_mirror *mirror, const struct options *options
     if (!world_mirror_whole(mirror)) {
         (void)fprintf(stderr,
                       "jolon-monitor: world '%s': %s within 3 s; is it running, with its "
-                      "reporter? `jolon worlds` lists those there are\n",
+                      "reporter? `jolon worlds` lists the worlds\n",
                       options->world,
                       mirror->frame_ns ? "only part of its status came" : "no status came");
         return EXIT_REFUSED;

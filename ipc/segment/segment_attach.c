@@ -86,11 +86,10 @@ static void *map_readable(int fd, size_t bytes)
 /* Refuses: there is no world of the view's name. */
 static int absent(const struct view *view, struct error_text *error)
 {
-    error_text_set(
-        error,
-        "there is no world \"%s\"; `jolon worlds` lists those there are, `jolon start` makes "
-        "one",
-        view->name);
+    error_text_set(error,
+                   "there is no world \"%s\"; `jolon worlds` lists the worlds, `jolon start` makes "
+                   "one",
+                   view->name);
     error->foreign = true;
     return -1;
 }

@@ -102,7 +102,7 @@ void event_lines_silence(char *line, size_t bytes, const struct world_mirror *mi
     line[0] = '\0';
     if (!mirror->frame_ns)
         (void)snprintf(line, bytes,
-                       "world '%s': waiting for its reporter; `jolon worlds` lists those there are",
+                       "world '%s': waiting for its reporter; `jolon worlds` lists the worlds",
                        mirror->name);
     else if (!world_mirror_live(mirror, now_ns))
         (void)snprintf(line, bytes,

@@ -172,7 +172,7 @@ int gl_context_open(struct gl_context *gl, const struct gl_request *request,
     if (request->device != NULL)
         return error_text_set(error,
                               "--device %.40s: no OpenGL of that number or name; tried: %.300s; "
-                              "jolon-renderer --list-devices shows what there is",
+                              "jolon-renderer --list-devices lists the devices",
                               request->device, failures.text);
     if (request->hardware)
         return error_text_set(error, "no usable OpenGL 3.3 on it%s; tried: %.300s",
