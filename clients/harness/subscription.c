@@ -110,7 +110,7 @@ static int read_member(struct subscription *subscription, const cJSON *member,
         return error_text_set(error, "not a number from %g to %g", SUBSCRIPTION_RATE_MIN_HZ,
                               SUBSCRIPTION_RATE_MAX_HZ);
     }
-    return error_text_set(error, "no such thing; there are frames, entities, rate_hz, events");
+    return error_text_set(error, "no such member; there are frames, entities, rate_hz, events");
 }
 
 int subscription_read(struct subscription *subscription, const cJSON *want,

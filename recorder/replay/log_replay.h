@@ -38,7 +38,7 @@ const struct command_record *log_replay_end(const struct log_replay *replay);
  * it. */
 uint64_t log_replay_commands(const struct log_replay *replay, uint64_t frame);
 
-/* Returns the value of the first text of the recipe with this key, or NULL. */
+/* Returns the value of the first text of the provenance with this key, or NULL. */
 const char *log_replay_provenance(const struct log_replay *replay, const char *key);
 
 enum log_replay_step {

@@ -25,7 +25,7 @@ void run_start_open(struct log_replay *replay, const char *path)
         log_warn("%s: its last line is torn: left out", path);
 }
 
-/* The arguments that correspond to the log's recipe. */
+/* Computes the arguments that correspond to the log's provenance. */
 static void arguments_of(struct arguments *arguments, const struct log_replay *replay)
 {
     const cJSON *text;
@@ -34,17 +34,17 @@ static void arguments_of(struct arguments *arguments, const struct log_replay *r
                                     .from = log_replay_provenance(replay, "image")};
     const char *seconds = log_replay_provenance(replay, "seconds");
     if (seconds && !parse_real(seconds, 0.001, 1e9, &arguments->seconds))
-        die_refused("%s:1: recipe: seconds=%s: must be a number from 0.001 to 1e9", replay->path,
-                    seconds);
+        die_refused("%s:1: provenance: seconds=%s: must be a number from 0.001 to 1e9",
+                    replay->path, seconds);
     cJSON_ArrayForEach(text, cJSON_GetObjectItemCaseSensitive(replay->begin, "recipe"))
     {
         const char *set = cJSON_IsString(text) ? provenance_value(text->valuestring, "set") : NULL;
         if (!set)
             continue;
         if (!strchr(set, '='))
-            die_refused("%s:1: recipe: set=%s: must be set=KEY=VALUE", replay->path, set);
+            die_refused("%s:1: provenance: set=%s: must be set=KEY=VALUE", replay->path, set);
         if (arguments->sets == ARGUMENT_SETS_MAX)
-            die_refused("%s:1: recipe: more than %d texts set=KEY=VALUE", replay->path,
+            die_refused("%s:1: provenance: more than %d texts set=KEY=VALUE", replay->path,
                         ARGUMENT_SETS_MAX);
         arguments_set(arguments, set);
     }
@@ -55,7 +55,7 @@ static const char *scenario_text(const struct log_replay *replay)
     return cJSON_GetObjectItemCaseSensitive(replay->begin, "scenario")->valuestring;
 }
 
-/* Overwrites the world's recipe with the log's, byte by byte. */
+/* Overwrites the world's provenance with the log's, byte by byte. */
 static void keep_provenance(const struct view *view, const struct log_replay *replay)
 {
     const cJSON *text;
@@ -66,7 +66,8 @@ static void keep_provenance(const struct view *view, const struct log_replay *re
     {
         size_t length = cJSON_IsString(text) ? strlen(text->valuestring) + 1 : room;
         if (length >= room - used)
-            die_refused("%s:1: its recipe does not fit the world that it makes", replay->path);
+            die_refused("%s:1: its provenance does not fit into the world that is made from it",
+                        replay->path);
         memcpy(to + used, text->valuestring, length);
         used += (uint32_t)length;
     }
@@ -131,7 +132,8 @@ void run_start_make(struct view *view, const struct log_replay *replay)
     else if (arguments.path)
         from_scenario(view, replay, &arguments);
     else
-        die_refused("%s:1: its recipe names neither a scenario nor an image", replay->path);
+        die_refused("%s:1: names neither a scenario nor an image that the world was made from",
+                    replay->path);
     keep_provenance(view, replay);
     segment_hash_static(view);
     if (segment_static_hash(view->header) != replay->static_hash)

@@ -19,7 +19,8 @@ void scenario_load_note_seconds(const struct arguments *arguments, struct proven
     char text[32];
     snprintf(text, sizeof text, "%.17g", arguments->seconds);
     if (arguments->seconds > 0.0 && provenance_add(recipe, "seconds", text) != 0)
-        die_refused("--seconds %s: no room in the recipe: %s", text, strerror(errno));
+        die_refused("--seconds %s: no room in the provenance of the world: %s", text,
+                    strerror(errno));
 }
 
 /* Progress of the placement, shown on a terminal ten times a second once it has taken a second. */

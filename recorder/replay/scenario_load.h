@@ -15,7 +15,7 @@ void scenario_load(const struct arguments *arguments, struct scenario *scenario)
  * reason (exit 1). */
 void scenario_load_generate(const struct scenario *scenario, struct world_build *built);
 
-/* Adds --seconds to a recipe, if the option is given. */
+/* Adds --seconds to the provenance, if the option is given. */
 void scenario_load_note_seconds(const struct arguments *arguments, struct provenance *recipe);
 
 #endif

@@ -62,8 +62,8 @@ static bool play(struct log_replay *replay, struct frame_stepper *stepper, uint6
 static void print_result(const struct arguments *arguments, const struct log_replay *replay,
                          const struct replayed *outcome)
 {
-    const char *verdict = log_replay_end(replay) ? "not yet at the log's end"
-                                                 : "the log has no end to hold it against";
+    const char *verdict =
+        log_replay_end(replay) ? "not yet at the log's end" : "the log has no end to compare with";
     if (!outcome->equal)
         verdict = "NOT equal to the run that was recorded";
     else if (outcome->compared)
