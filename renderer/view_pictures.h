@@ -31,7 +31,7 @@ struct view_picture_target {
     double rate;                         /* pictures a second, which the instruments show */
 };
 
-/* Returns what is to be drawn: the latest frame or, at a high rate, an interpolation between it and
+/* Returns the frame to draw: the latest frame or, at a high rate, an interpolation between it and
  * the one before. last: the latest frame in any case. Valid until the next call. */
 struct frame_view view_pictures_frame(struct render_session *session, bool last);
 

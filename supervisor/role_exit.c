@@ -139,7 +139,7 @@ static void handle_death(struct keeper *keeper, struct service *service, struct 
     switch (restart_policy_death(&service->history, &death, &delay_ns)) {
     case VERDICT_RESTART:
         if (keeper->starting && service->role == ROLE_RECORDER && restart_policy_refused(status)) {
-            /* The user has not asked for a run without a record. */
+            /* The user has not chosen a run without a record. */
             find_refusal(keeper, open_log_tail(keeper), service->role, text, sizeof text);
             keeper_give_up(keeper, EXIT_REFUSED, text);
             break;

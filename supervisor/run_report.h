@@ -1,4 +1,4 @@
-/* What the keeper tells the user at the start and the end of a run. */
+/* The keeper's messages to the user at the start and the end of a run. */
 #ifndef JOLON_SUPERVISOR_RUN_REPORT_H
 #define JOLON_SUPERVISOR_RUN_REPORT_H
 

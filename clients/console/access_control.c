@@ -45,7 +45,7 @@ bool access_control_open(struct request *request, const struct player *player, u
                           "a page of another site may not send requests");
         return false;
     }
-    /* Each player has a rate of its own, which spectators at the same address do not use up. */
+    /* Each player has a separate rate, which spectators at the same address do not use up. */
     return http_may_ask(request->http, player != NULL, now_ns) || refuse_rate(answer);
 }
 

@@ -15,7 +15,7 @@
 #define SCAN_MAX   8192u /* events looked at for one answer */
 
 /* Types of events are bits. Drives that were done have a bit of their own: each player makes
- * several a second, so they are written only when they are asked for. */
+ * several a second, so they are written only on request. */
 #define EVENT_WORD(tag, word) #word ", "
 
 #define DRIVE_BIT (1u << EVENT_TYPE_COUNT)

@@ -101,7 +101,7 @@ int main(int argc, char **argv)
         picture_proxy_open(&console.proxy, options.world, &error) != 0 ||
         server_start(&console, &error) != 0)
         die_refused("%s", error.text);
-    print_address(&options); /* before the sandbox: the first output asks for the terminal's type */
+    print_address(&options); /* before the sandbox: the first output reads the terminal's type */
     if (sandbox_enter(&sandbox, &error) != 0)
         die_refused("%s", error.text);
     if (options.role)

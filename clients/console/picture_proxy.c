@@ -15,7 +15,7 @@
 #define FETCHES    2u            /* a request waits for at most so many */
 #define VALUE_MAX  24u
 
-/* --- what is asked for -------------------------------------------------------------------------*/
+/* --- requested pictures ------------------------------------------------------------------------*/
 
 static bool put_value(const struct query *query, const char *key, char target[PICTURE_PROXY_TARGET],
                       struct http_answer *answer)
@@ -160,8 +160,8 @@ static struct channel *next_channel(struct picture_proxy *proxy)
     return NULL;
 }
 
-/* The number of the picture that all waiting pages have already, so that a newer one is needed. 0:
- * any picture will do. */
+/* Returns the number of the picture that all waiting pages have already, so that they need a newer
+ * picture, or 0 if they have no such picture in common. */
 static uint64_t common_picture(const struct channel *channel)
 {
     uint64_t after = channel->waiting->after;

@@ -1,4 +1,4 @@
-/* Writes the frame, its counters, the entities of an area and the vehicle that is asked for. */
+/* Writes the frame, its counters, the entities of an area and the requested vehicle. */
 #include "clients/console/state_json.h"
 
 #include "world/entity/kind.h"
@@ -104,7 +104,7 @@ static void put_entity(struct json_writer *json, const struct world_query *query
     json_writer_end(json, ']');
 }
 
-/* If the area has more entities than are asked for, only the multiples of an id stride are written,
+/* If the area has more entities than are requested, only the multiples of an id stride are written,
  * so that the next answer has the same ones. */
 static void put_entities(struct json_writer *json, const struct world_query *query,
                          const struct area_asked *area)

@@ -4,7 +4,7 @@
 
 #include "clients/console/world_query.h"
 
-/* Writes the frame, its counters, the entities of the area that is asked for, the players, the fire
+/* Writes the frame, its counters, the entities of the requested area, the players, the fire
  * missions and the vehicle of the query's "me". */
 void state_json(const struct world_query *asked, struct http_answer *answer);
 

@@ -51,7 +51,7 @@ enum intent_type {
     INTENT_RATE, /* the axis moves at a rate that grows with value, -1..1 */
     INTENT_DOWN, /* a key of the axis was pressed, or repeats; value is its direction, -1 or 1 */
     INTENT_UP,   /* that key was released */
-    INTENT_ACT   /* the action was asked for */
+    INTENT_ACT   /* the user has requested the action */
 };
 
 struct intent {

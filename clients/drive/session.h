@@ -21,7 +21,7 @@
 enum session_state {
     SESSION_WAITING,  /* for the world and its data */
     SESSION_WATCHING, /* shows a vehicle, drives none */
-    SESSION_TAKING,   /* has asked for the vehicle */
+    SESSION_TAKING,   /* has requested the vehicle */
     SESSION_DRIVING
 };
 

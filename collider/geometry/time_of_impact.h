@@ -14,8 +14,8 @@
 /* Hulls this near touch [m]. This skin keeps the normal well defined. */
 #define SKIN_M 0.001
 
-/* Slower than this is no approach [m a frame]: rounding leaves so much between two bodies that rest
- * on each other. */
+/* Slower than this is no approach [m a frame]: two bodies that rest on each other can approach at
+ * this speed by rounding errors. */
 #define NEARING_M 1e-7
 
 /* One body's hulls and its motion. */

@@ -144,7 +144,7 @@ static const char *base_name(const char *path)
     return slash != NULL ? slash + 1 : path;
 }
 
-/* assimp asks for a path. Only its last part counts, which obj_file_check() has accepted. */
+/* assimp passes a path. Only its last part counts, which obj_file_check() has accepted. */
 static struct aiFile *open_reader(struct aiFileIO *io, const char *path, const char *mode)
 {
     struct models *models = (struct models *)(void *)io->UserData;

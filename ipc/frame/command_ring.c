@@ -26,7 +26,7 @@ int command_put(struct view *view, enum command_ring ring, const struct command 
     uint64_t end = atomic_load_explicit(&words->head, memory_order_relaxed);
     bool full = snapshot_head(&head, view) != 0 || end - head.command_cursor[ring] >= slots;
     /* While there is room, the next slot is not searched. A writer that was killed before it stored
-     * the head may have left this very command there, and it does not count yet. */
+     * the head may have left the same command in that slot, and it does not count yet. */
     uint64_t remembered = full ? slots : slots - 1;
     if (command_known(words, command, slots, end > remembered ? end - remembered : 0, end)) {
         errno = EEXIST;

@@ -59,7 +59,7 @@ struct http_handler {
     /* Fills the reply to a request that the server itself refuses: what is wrong, and what to
      * do. */
     void (*refuse)(struct http_reply *reply, unsigned status, const char *what, const char *next);
-    /* Called once at the end of each request, also of one that was given up. */
+    /* Called once at the end of each request, also of an abandoned request. */
     void (*end)(void *context, struct http_request *request);
 };
 

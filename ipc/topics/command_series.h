@@ -1,4 +1,4 @@
-/* Orders in progress: sends each round of an order when it is due, and takes the answer to each.
+/* Orders in progress: sends each round of an order when it is due, and receives the answer to each.
  *
  * A fire mission is a series of commands, one every every_s; any other order is a series of one.
  * The sequences are those of the client that sends it. All times are of one clock of the caller's

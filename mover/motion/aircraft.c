@@ -82,7 +82,8 @@ static inline void find_highest(const struct step_context *context, struct aircr
 
 /* Comments describe one aircraft. Each function treats the four of vector h. */
 
-/* The speed and the climb that it wants and has fuel for. Without fuel it glides down. */
+/* Computes the desired speed and climb, and burns fuel for them. Without fuel an aircraft glides
+ * down. */
 static inline void want(struct aircraft *batch, int h, const f64x4 *ground, double dt_s,
                         f64x4 *wanted, f64x4 *climb)
 {

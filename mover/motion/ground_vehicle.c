@@ -118,7 +118,7 @@ bool ground_vehicle_take_held(const struct step_context *context, struct ground_
 
 /* Comments describe one vehicle. Each function treats the four of vector h. */
 
-/* agent_controls_motion(), for held lanes. */
+/* Computes the desired motion of held lanes as agent_controls_motion() does. */
 static inline void find_desired(struct ground_vehicle *batch, int h, double dt_s)
 {
     four_masks held = batch->held.f64x4[h];
@@ -129,7 +129,7 @@ static inline void find_desired(struct ground_vehicle *batch, int h, double dt_s
     batch->wanted_mps.f64x4[h] = SIMD_CHOOSE(held, speed, batch->wanted_mps.f64x4[h]);
 }
 
-/* kinematics_steer() */
+/* Steers as kinematics_steer() does. */
 static inline void steer(struct ground_vehicle *batch, int h, const f64x4 *forward, double dt_s)
 {
     f64x4 agility = STANDING_TURN + (1.0 - STANDING_TURN) * SIMD_ABS(*forward) / FULL_TURN_MPS;
@@ -140,7 +140,7 @@ static inline void steer(struct ground_vehicle *batch, int h, const f64x4 *forwa
     kinematics_simd_steer(&batch->heading.f64x4[h], &helm, &rate, dt_s);
 }
 
-/* The speed that it wants and has fuel for: kinematics_burn(). */
+/* Burns fuel for the desired speed as kinematics_burn() does. Without fuel the speed is 0. */
 static inline void burn(struct ground_vehicle *batch, int h, f64x4 *wanted, double dt_s)
 {
     const f64x4 none = SIMD_EVERY(0.0), least = SIMD_EVERY(1e-9);

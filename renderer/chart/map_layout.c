@@ -4,7 +4,7 @@
 #define PICTURE_LETTERS 48 /* font sizes in the shorter side of a picture */
 #define PANEL_LEAST     9  /* font sizes: no narrower panel is made */
 #define CLOSE_UP_LEAST  14 /* font sizes: no narrower close-up is made */
-#define SIDE_BY_SIDE    36 /* font sizes: a panel so wide has the close-up beside the figures */
+#define SIDE_BY_SIDE    36 /* font sizes: from this width on the close-up is beside the figures */
 #define FIGURE_WIDTH    13 /* font sizes */
 #define SYMBOL_WIDTH    8  /* font sizes */
 #define RULE            2  /* [pixel] between the maps */

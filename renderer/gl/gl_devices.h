@@ -47,7 +47,7 @@ bool gl_has_word(const char *list, const char *word);
  * loads nothing. detail: what is missing. */
 bool gl_hardware(char *detail, size_t bytes);
 
-/* Returns why graphics hardware may be unusable; "" when nothing is known. */
+/* Returns why graphics hardware may be unusable, or "" when no reason is known. */
 const char *gl_hardware_hint(void);
 
 #endif

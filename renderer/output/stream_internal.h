@@ -38,7 +38,7 @@ struct stream_view {
     uint64_t number;                  /* of the JPEG, increasing */
     uint64_t shown_ns;                /* CLOCK_MONOTONIC when it was made or sent again */
     uint32_t watchers, waiters;       /* clients of the stream; clients that wait for one picture */
-    uint64_t drawn, encoded, skipped; /* pictures put; JPEGs made; those that clients passed over */
+    uint64_t drawn, encoded, skipped; /* pictures put; JPEGs made; pictures that clients missed */
 };
 
 /* A listening socket and its server. */
@@ -105,8 +105,9 @@ int stream_http_start(struct stream *stream, struct error_text *error);
 /* Ends the servers. `ending` must be set, so that no client waits again. */
 void stream_http_end(struct stream *stream);
 
-/* Replies: a line of plain text; a picture, which they hold. */
+/* Replies with a line of plain text. */
 void stream_refuse(struct http_reply *reply, unsigned status, const char *text);
+/* Replies with a picture, which the reply holds until it is sent. */
 void stream_reply_jpeg(struct http_reply *reply, struct stream_jpeg *jpeg);
 
 /* --- under the lock ----------------------------------------------------------------------------
@@ -122,20 +123,21 @@ void stream_http_wake(struct stream *stream, const struct stream_view *view);
  * UINT64_MAX if no client waits. */
 uint64_t stream_http_expire(struct stream *stream, uint64_t now_ns);
 
-/* Keeps a request waiting for its view's next picture. False: there is no reply yet. */
+/* Keeps a request waiting for its view's next picture. Returns false, as there is no reply yet. */
 bool stream_wait_here(struct stream_client *client);
 
 struct stream_view *stream_find_view(struct stream *stream, const char *name, size_t length);
-/* Also without the lock; the second: NULL is nothing, else a struct stream_jpeg. */
+/* Add and remove a holder of a JPEG, with or without the lock. jpeg is a struct stream_jpeg;
+ * stream_release() ignores NULL. */
 struct stream_jpeg *stream_hold(struct stream_jpeg *jpeg);
 void stream_release(void *jpeg);
-/* NULL when there is no memory. Without the lock. */
+/* Returns the picture as a JPEG, or NULL when there is no memory. Called without the lock. */
 struct stream_jpeg *stream_encode(const struct image *image, uint64_t frame, double time_s);
 
-/* Answers to "/picture.jpg?..." and "/map.jpg?...", false: it waits; and what of them a request
- * still holds at its end. */
+/* Answer "/picture.jpg?..." and "/map.jpg?...". Return false if the request must wait. */
 bool stream_requests_picture(struct stream_client *client, struct http_reply *reply);
 bool stream_requests_map(struct stream_client *client, struct http_reply *reply);
+/* Releases what a request still holds at its end. */
 void stream_requests_end(struct stream_client *client);
 
 /* The thread that paints maps; argument: the stream. */

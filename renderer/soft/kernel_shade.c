@@ -150,8 +150,8 @@ SIMD8 struct texels8 ground_texture(const struct soft_patch *patch, const struct
     return tile;
 }
 
-/* Returns the foam on the sea near the shore, which the texture's alpha tells: two lines that come
- * and go, and the wash at the water's edge. */
+/* Returns the foam on the sea near the shore, whose distance is in the texture's alpha: two lines
+ * that come and go, and the wash at the water's edge. */
 SIMD8 v8f foam(const struct soft_frame *frame, v8f alpha, v8f ragged, v8f lumps)
 {
     float beat = frame->time_s * (1.0f / SURF_S);

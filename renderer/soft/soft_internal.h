@@ -1,4 +1,4 @@
-/* What the parts of the software back end share. Private to renderer/soft.
+/* The data that the parts of the software back end share. Private to renderer/soft.
  *
  * The picture is cut into bands of SOFT_BAND_ROWS rows, whose colours and depths fit a core's own
  * cache. A picture is made in two steps. Prepare: the ground, the bodies, the plants and the
@@ -41,7 +41,7 @@
 
 struct soft_kernels;
 
-/* What every part knows about the picture. Vectors are in the world's axes. */
+/* The data of the picture that every part reads. Vectors are in the world's axes. */
 struct soft_frame {
     const struct draw_list *list;
     const struct frame_view *frame_view;

@@ -21,7 +21,8 @@ enum command_type {
     COMMAND_SCALE,   /* value[0]: simulated seconds a second of the clock */
     COMMAND_DRIVE,   /* entity; value: throttle, steer, climb, traverse, elevate, each -1..1, and
                         brake, 0..1; force: enum gearing; amount: frames for which the source alone
-                        drives it, after which it goes back to its agent; 0: anybody, without end */
+                        drives it, after which it goes back to its agent; 0: any source, without a
+                        time limit */
     COMMAND_RELEASE, /* entity: back to its agent; amount 1: also from another source */
     COMMAND_FIRE,    /* entity shoots: at target if not 0, else ahead; entity 0: kind detonates a
                         munition falling on value[0], value[1] (x, z) */

@@ -16,7 +16,7 @@ static inline double fixed_index_of_kind(const struct kind *kind)
     return maths_max(kind->radius_m, kind->level_m);
 }
 
-/* The same for a fixed object, whose size varies about its kind's. */
+/* The same for a fixed object. Sizes of objects vary about the size of their kind. */
 static inline double fixed_index_of_fixed(const struct fixed_object *object,
                                           const struct kind *kinds)
 {

@@ -44,7 +44,7 @@ struct draw_list_plant {
     float width, height;
     float lean;     /* to the right, as a share of the height: a damaged tree */
     float picture;  /* enum plant_impostors */
-    float slope[2]; /* of the ground: rise a metre to the east, to the south */
+    float slope[2]; /* of the ground: rise per metre to the east, to the south */
     float tint[3];  /* multiplies the picture's colours */
 };
 

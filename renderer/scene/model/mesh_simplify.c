@@ -127,7 +127,7 @@ static double breadth(const struct piece *piece)
 }
 
 /* Returns the square of the allowed error. Rods and sheets keep some of their thickness, which is
- * about twice the volume over the area. */
+ * about twice the volume divided by the area. */
 static double bound(const struct piece *piece, double error_m)
 {
     double thick_m = piece->area > 0.0 ? 2.0 / 3.0 * fabs(piece->volume) / piece->area : 0.0;
