@@ -11,7 +11,7 @@ struct scenario_step;
 #define WAYPOINTS_BYTES_MAX (4u * 1024u * 1024u)
 #define WAYPOINTS_HEADER    "time_s,x,z[,altitude_m]"
 
-/* The number of lines that are not empty, which is an upper bound of the waypoints. */
+/* Returns the number of lines that are not empty, which is an upper bound of the waypoints. */
 uint32_t waypoints_lines(const char *text);
 
 /* Reads the header and the lines after it into steps, which have room for waypoints_lines(). Times

@@ -22,7 +22,7 @@ struct back_pressure {
 void back_pressure_open(struct back_pressure *pressure, const struct view *view);
 
 /* Pauses or resumes the world if that is due. written: the oldest event that is missing from a log.
- * Does not block. A pause that another ring has asked for is not ended. */
+ * Does not block. A pause that another ring has requested is not ended. */
 void back_pressure_update(struct back_pressure *pressure, struct view *view, uint64_t written);
 
 /* Returns true if the recorder holds the world paused. */

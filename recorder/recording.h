@@ -22,7 +22,7 @@ struct recorder {
  * reason (exit 1). */
 void recording_open(struct recorder *recorder);
 
-/* Writes what is new at this frame. Returns true if there is more to write at once. */
+/* Writes the new records of this frame. Returns true if there is more to write at once. */
 bool recording_step(struct recorder *recorder, uint64_t frame);
 
 /* Completes and closes the files. Logs each one that is incomplete. Returns EXIT_REFUSED if a log

@@ -9,9 +9,9 @@
  * pictures show the latest frame. Returns 0, or -1 with the reason. */
 int draw_schedule_wait(struct render_session *session, struct view *view, struct error_text *error);
 
-/* After the renderer's own pictures, draws at most as many requested pictures that are due. Without
- * this a renderer that cannot keep its rate would never draw them. Returns 0, or -1 with the
- * reason. */
+/* After the renderer's own pictures, draws requested pictures that are due, at most the same
+ * number. Without this a renderer that cannot keep its rate would never draw them. Returns 0, or -1
+ * with the reason. */
 int draw_schedule_share(struct render_session *session, struct error_text *error);
 
 #endif

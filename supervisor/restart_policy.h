@@ -1,5 +1,5 @@
-/* Decides what follows from a death: restart, end, or give up. Pure functions of a history and a
- * death.
+/* Decides after a death whether to restart, to end, or to give up. Pure functions of a history and
+ * a death.
  *
  * Only deaths of mover and collider can end a set. Every other role is restarted for ever. Its
  * pauses double up to RESTART_POLICY_PAUSE_MAX_NS while it dies before it gets work done. */

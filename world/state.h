@@ -1,5 +1,5 @@
-/* The state of a world: what a frame changes. The structs point into memory with another owner: the
- * shared segment, or a test's heap. */
+/* The state of a world: the parts that a frame changes. The structs point into memory with another
+ * owner: the shared segment, or a test's heap. */
 #ifndef JOLON_WORLD_STATE_H
 #define JOLON_WORLD_STATE_H
 

@@ -1,5 +1,5 @@
-/* The world: what never changes after creation. struct world points into memory with another owner:
- * the shared segment, or a test's heap. */
+/* The parts of a world that never change after its creation. struct world points into memory with
+ * another owner: the shared segment, or a test's heap. */
 #ifndef JOLON_WORLD_WORLD_H
 #define JOLON_WORLD_WORLD_H
 

@@ -54,7 +54,7 @@ struct command_queue {
 
 /* Returns 0, or -1 with the error. */
 int command_queue_open(struct command_queue *queue, const char *world, struct error_text *error);
-/* Also answers the pending commands, as without a reply. */
+/* Closes the queue. Pending commands are answered as if no reply had come. */
 void command_queue_close(struct command_queue *queue);
 
 /* Appends a command, which belongs to the queue until ready() is called. player NULL: the request

@@ -210,8 +210,8 @@ static bool constrain(struct face *face, const struct corner *corner, struct vec
     return ahead * ahead < 0.25 * face->edge_square[face->edges - 1];
 }
 
-/* What is known of a distance: the nearest simplex (upper bound) and the best separating plane
- * (lower bound). */
+/* The bounds of a distance found so far: the nearest simplex (upper bound) and the best separating
+ * plane (lower bound). */
 struct known {
     struct simplex simplex;
     double square; /* of the simplex's distance */

@@ -184,7 +184,7 @@ static struct solver_body solve_body_of(const struct response_context *context,
     solve.spin = path_change_spin(context, row);
     solve.velocity = vec3_add(entities_velocity(e, row), vec3_cross(solve.spin, body->arm));
     if (body->grounded)
-        solve.velocity.y = 0.0; /* it comes from the slope, and would lift the other body */
+        solve.velocity.y = 0.0; /* the slope causes it; it would lift the other body */
     return solve;
 }
 

@@ -130,7 +130,7 @@ int source_read_in(struct source *source, const char *folder, const char *name, 
     int dir = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
     if (dir < 0)
         return key_table_refuse(error, place, NULL, NULL, "cannot be opened: %s", strerror(errno));
-    /* A name of one part leads out of the folder only by a symbolic link. */
+    /* A name without a slash leads out of the folder only by a symbolic link. */
     int fd = open_checked(dir, name, AT_SYMLINK_NOFOLLOW, place, most, &status, error);
     close(dir);
     return take(source, fd, &status, error);

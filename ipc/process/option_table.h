@@ -15,11 +15,11 @@ struct option_size {
     uint32_t width, height;
 };
 
-/* An option. The pointer that is set tells which kind of value the option takes, and where the
- * value goes. When the option is repeated, its last value stays. */
+/* An option. The pointer that is set determines which kind of value the option takes, and where the
+ * value is stored. When the option is repeated, its last value stays. */
 struct option_row {
     const char *name;         /* without the two dashes */
-    const char *argument;     /* what the help calls its value; NULL: it takes none */
+    const char *argument;     /* name of its value in the help; NULL: it takes no value */
     const char *help;         /* without newlines, for the reader wraps it; NULL: unlisted */
     bool *flag;               /* true when the option is given */
     const char **text;        /* any text; of an option without a value: the option's name */

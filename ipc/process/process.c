@@ -126,7 +126,7 @@ static void note_niceness(void)
     started_niceness = getpriority(PRIO_PROCESS, 0);
 }
 
-/* The niceness at the start is noted once: a thread within a sandbox may not ask for it. */
+/* The niceness at the start is noted once: a thread within a sandbox may not read it. */
 int process_lower_priority(int steps)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;

@@ -391,7 +391,7 @@ static int add_own_signals(scmp_filter_ctx filter)
 static int set_attributes(scmp_filter_ctx filter)
 {
     int result = seccomp_attr_set(filter, SCMP_FLTATR_CTL_TSYNC, 1);
-    /* Calls of another architecture have other numbers, which the rules do not know. */
+    /* Calls of another architecture have other numbers, which the rules do not contain. */
     if (result == 0)
         result = seccomp_attr_set(filter, SCMP_FLTATR_ACT_BADARCH, SCMP_ACT_KILL_PROCESS);
     /* Kernels before 5.16 slow down every process with a filter, against speculation, unless told

@@ -3,7 +3,7 @@
  *
  * An event waits EVENT_MERGE_HOLD_NS for earlier events of other topics before it is printed. A
  * restarted reporter sends some events again; they are dropped by their number. Events that a topic
- * says went before and that never came are counted as missed. */
+ * names as earlier but that never came are counted as missed. */
 #ifndef JOLON_IPC_TOPICS_EVENT_MERGE_H
 #define JOLON_IPC_TOPICS_EVENT_MERGE_H
 
@@ -18,8 +18,8 @@
 #define EVENT_MERGE_FIRST_NS 700000000u /* at the start, when each topic sends its history */
 #define EVENT_MERGE_LINE_MAX 1024u
 
-/* Repeats are recognised among so many consecutive numbers. A restarted reporter sends the events
- * of its last second again, and at least 4096. */
+/* The range of consecutive numbers in which repeats are recognised. A restarted reporter sends the
+ * events of its last second again, and at least 4096. */
 #define EVENT_MERGE_SEEN 65536u
 
 /* Writes an event as one line, without its newline, into line. */

@@ -47,7 +47,7 @@ static inline bool step_context_thinks(const struct step_context *context, uint3
                                    (uint32_t)context->tick + context->m->id[i]);
 }
 
-/* The motion that an agent, a script or a driver wants of a vehicle in this frame. */
+/* The motion of a vehicle in this frame that an agent, a script or a driver has chosen. */
 struct desired_motion {
     double heading_rad;
     double speed_mps;  /* negative: backwards */
@@ -62,7 +62,7 @@ struct desired_motion {
 #define GRAVITY_MPS2 9.80665
 #define BRAKES       2.0 /* the hardest braking, in multiples of the kind's acceleration */
 
-/* The trigger column: what a row asks of the serial part of the step. */
+/* The trigger column: a row's requests to the serial part of the step. */
 #define TRIGGER_FIRE         1u
 #define TRIGGER_FIRE_AT      2u /* at its goal, a point on the ground */
 #define TRIGGER_REASON_SHIFT 2u /* above: enum agent_reason + 1 of a change of behaviour */

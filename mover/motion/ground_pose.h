@@ -6,8 +6,8 @@
 #include "mover/context/step_context.h"
 #include "world/terrain/terrain_cache.h"
 
-/* While a row takes a lane, the terrain entry of the row so far ahead is prefetched. So the table
- * of entries is so much longer than that of rows. */
+/* While a row takes a lane, the terrain entry of the row this many rows ahead is prefetched. The
+ * table of entries is longer than that of rows by this number. */
 #define GROUND_POSE_AHEAD 16u
 
 struct ground_pose {

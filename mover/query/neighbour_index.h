@@ -84,7 +84,7 @@ static inline uint32_t neighbour_index_enemies(enum force force)
 }
 
 /* A query for all vehicles of some layers within radius_m of (x, z), which is on the map. A vehicle
- * that asks also finds itself if its layer is asked for:
+ * that makes a query also finds itself if its layer is among them:
  *
  *     struct neighbour_query query = neighbour_query_begin(index, NEIGHBOUR_INDEX_ALL, x, z, 50.0);
  *     while ((entry = neighbour_query_next(&query)))

@@ -184,7 +184,7 @@ void turret_turn(const struct step_context *context, uint32_t i, struct turret_s
     if (m->behaviour[i] != BEHAVIOUR_DRIVEN) {
         by_agent(context, i, kind, solution);
     } else if (m->traverse[i] != 0.0f ||
-               m->elevate[i] != 0.0f) { /* a driver's hand cancels the target */
+               m->elevate[i] != 0.0f) { /* a driver who aims by hand cancels the target */
         m->target_slot[i] = m->target_id[i] = 0;
         lay_by_rates(context, i, kind);
     } else if (has_target(context, i)) {

@@ -24,7 +24,7 @@
 
 /* --- the file ----------------------------------------------------------------------------------*/
 
-/* Returns 0 if an image may take the place of what the path names. */
+/* Returns 0 if an image may replace the file at the path, if there is one. */
 static int check_target(const struct image_place *place, struct error_text *error)
 {
     struct stat status;

@@ -34,8 +34,8 @@ bool log_replay_is_command_log(const char *path);
 /* Returns the record that ends the log, or NULL if the recorder was killed. */
 const struct command_record *log_replay_end(const struct log_replay *replay);
 
-/* Returns the number of commands of the run up to the end of this frame, as far as the log knows
- * it. */
+/* Returns the number of commands of the run up to the end of this frame, from the log's last record
+ * up to then. */
 uint64_t log_replay_commands(const struct log_replay *replay, uint64_t frame);
 
 /* Returns the value of the first text of the provenance with this key, or NULL. */

@@ -126,7 +126,7 @@ static void scale_bar(struct annotated_picture *picture, struct image *image,
         image_rectangle(image, x + i * pixels / 4, y - thick, (i + 1) * pixels / 4 - i * pixels / 4,
                         thick, i & 1 ? ink : white);
     text_draw_rimmed(picture->text, image, x + pixels + em / 2, y, size, white, label);
-    /* The interval lies above the bar, and above its length where it reaches that far. */
+    /* The interval is drawn above the bar, and also above the length's text if it is so wide. */
     int32_t lift = over > pixels && thick + em / 3 < (int32_t)size ? (int32_t)size : thick + em / 3;
     text_draw_rimmed(picture->text, image, x, y - lift, fine, white, interval);
 }

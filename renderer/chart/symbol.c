@@ -21,7 +21,7 @@ struct polygon {
 };
 
 struct shape {
-    float style; /* of the length asked for */
+    float style; /* of the requested length */
     uint32_t count;
     struct polygon polygons[POLYGONS_MAX];
 };

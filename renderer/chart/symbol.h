@@ -12,7 +12,7 @@
 struct kind;
 struct world;
 
-#define SYMBOL_KINDS_PIXELS 8.5 /* smaller symbols tell only land, air and sea apart */
+#define SYMBOL_KINDS_PIXELS 8.5 /* smaller symbols distinguish only land, air and sea */
 
 enum symbol_shape {
     SYMBOL_LAND,

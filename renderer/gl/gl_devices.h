@@ -19,7 +19,7 @@ struct gl_candidate {
     char name[96];
 };
 
-/* The OpenGL device that the user asks for. All zero: the first that draws, hardware before
+/* The OpenGL device that the user has chosen. All zero: the first that draws, hardware before
  * software. */
 struct gl_request {
     const char *device; /* its number, or a part of its name; NULL: any */

@@ -22,7 +22,7 @@ enum gl_unit {
     UNIT_DENTS,
 };
 
-/* What all shaders know about the picture; the layout is std140. */
+/* The data of the picture that all shaders read; the layout is std140. */
 struct gl_frame {
     float matrix[16];
     float right[4], up[4], forward[4]; /* the camera's axes; w: tan_x, tan_y, time [s] */

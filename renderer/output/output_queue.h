@@ -39,7 +39,7 @@ struct output_queue {
  * with errno. */
 int output_queue_start(struct output_queue *queue, const struct output_queue_work *work);
 
-/* Queues a picture, with a reference of its own. When enough pictures of its view wait, it replaces
+/* Queues a picture, and adds a reference to it. When enough pictures of its view wait, it replaces
  * the newest of them, which counts as dropped. So the order is kept, and a view's last picture is
  * always processed. A lossless queue waits for room instead. */
 void output_queue_put(struct output_queue *queue, struct picture *picture);

@@ -53,7 +53,7 @@ struct output_set {
     bool video_over;                  /* it has failed, which was logged */
     struct stream *stream;            /* NULL: none */
     struct picture_pool request_pool; /* of requested pictures, which have many sizes */
-    uint64_t lost;                    /* pictures dropped for want of memory */
+    uint64_t lost;                    /* pictures dropped because memory was short */
     bool started;
 };
 

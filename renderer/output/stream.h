@@ -34,7 +34,7 @@ const char *stream_url(const struct stream *stream);
 /* Starts the threads. Returns 0, or -1 with the reason. */
 int stream_start(struct stream *stream, struct error_text *error);
 
-/* Shows a picture in its view, with a reference of its own. */
+/* Shows a picture in its view, and adds a reference to it. */
 void stream_put(struct stream *stream, struct picture *picture);
 
 /* Ends all connections and threads, and frees the stream. NULL is allowed. */

@@ -47,7 +47,7 @@ enum command_result {
 
 struct command {
     uint64_t sequence;        /* number of the command in its ring, from 0; set with the slot */
-    uint64_t source;          /* the sender: a number of its own choice */
+    uint64_t source;          /* the sender: a number that it chose */
     uint64_t source_sequence; /* counted by the sender, from 1 */
     uint32_t type;            /* enum command_type */
     uint32_t entity;

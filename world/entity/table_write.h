@@ -51,7 +51,7 @@ static inline void table_set_spin(const struct table_writer *writer, uint32_t ro
     table_set_spin_z(writer, row, spin_rps.z);
 }
 
-/* Sets what the row attacks. */
+/* Sets the target that the row attacks. */
 static inline void table_set_target(const struct table_writer *writer, uint32_t row, uint32_t slot,
                                     uint32_t id)
 {

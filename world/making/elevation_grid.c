@@ -89,7 +89,7 @@ static void lay_floor(struct builder *b, uint32_t node, double breadth)
     uint32_t drawn =
         row / ELEVATION_FIELDS_STEP * ELEVATION_FIELDS_SIDE + column / ELEVATION_FIELDS_STEP;
     struct geography_near near = geography_nearest(&geography_rivers[b->fields.river[drawn]], x, z);
-    /* At least so wide that the nodes of a river are neighbours on the grid. */
+    /* Wide enough for the nodes of a river to be neighbours on the grid. */
     double half_width = maths_max(near.half_width_m * breadth, 0.72 * ELEVATION_GRID_SPACING_M);
     if (near.distance_m > half_width)
         return;

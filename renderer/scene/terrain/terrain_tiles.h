@@ -82,7 +82,7 @@ void terrain_tiles_update(struct terrain_tiles *tiles, const struct terrain_quad
  * ground at a low angle would blur. Wanted width of a texel [m]: */
 #define TILE_WANTED                                                                                \
     0.003424f /* times the distance: 1 / (TERRAIN_QUADTREE_SPLIT * (TILE_TEXELS - 1)) */
-#define TILE_COVERED 0.55f /* times what a pixel covers */
+#define TILE_COVERED 0.55f /* times the length that a pixel covers */
 
 /* Returns the width of a texel of the wanted mip, in texels of the largest mip. */
 static inline float tile_texels(float distance_m, float covers_m, float texel_m)
