@@ -352,7 +352,7 @@ check: $(UNIT_TESTS) $(PROPERTY_TESTS)
 # Crash points are tried unsanitized: a sanitizer has its own handler for faults.
 # Builds what `make test` runs. The fuzz harnesses are compiled, but not linked: that takes clang.
 tests: $(call objects,$(FUZZ_SRC))
-tests: all $(BENCH) $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(PEER) $(LAG) $(FLOOD) $(VIDEO_PROBE) $(EXAMPLES) $(if $(SAN),,crash)
+tests: all $(BENCH) $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(PEER) $(LAG) $(FLOOD) $(VIDEO_PROBE) $(EXAMPLES) $(BUILD)/docs/keys $(if $(SAN),,crash)
 test: tests
 	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property golden system $(if $(SAN),,crash)
 
@@ -461,7 +461,7 @@ figures: all $(SHEET)
 # --- tables of the documents --------------------------------------------------------------------
 KEYS := $(BUILD)/docs/keys
 $(KEYS): $(call objects,$(call sources,docs/keys)) $(call libraries,config ipc world)
-	$(call link,$(CONFIG_LIBS) $(BASE_LIBS))
+	$(call link,-Wl$(comma)-u$(comma)__wrap_malloc $(CONFIG_LIBS) $(BASE_LIBS)) # libconfig comes after the archives
 docs: $(KEYS)
 	@$(KEYS) docs/scenario.md
 

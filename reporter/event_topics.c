@@ -28,16 +28,15 @@ _Static_assert((int)jolon_REASON_LEASE_OVER == (int)REASON_LEASE_OVER &&
 _Static_assert((int)jolon_DAMAGE_DESTROYED == (int)DAMAGE_DESTROYED &&
                    (int)DAMAGE_COUNT == (int)jolon_DAMAGE_DESTROYED + 1,
                "damage in ipc/topics/status.idl");
-_Static_assert(TOPIC_AGENT - TOPIC_COLLISION + 1 == EVENT_TOPICS_COUNT,
-               "event topics are in a row");
+_Static_assert(TOPIC_AGENT - TOPIC_EVENTS + 1 == EVENT_TOPIC_COUNT, "event topics are in a row");
 
 int event_topics_open(struct event_topics *events, const struct view *view,
                       const struct dds_link *link, uint64_t run, struct error_text *error)
 {
     struct state_head head;
     *events = (struct event_topics){.run = run};
-    for (uint32_t i = 0; i < EVENT_TOPICS_COUNT; i++) {
-        events->writer[i] = dds_topics_writer(link, (enum dds_topic)(TOPIC_COLLISION + i), error);
+    for (uint32_t i = 0; i < EVENT_TOPIC_COUNT; i++) {
+        events->writer[i] = dds_topics_writer(link, (enum dds_topic)(TOPIC_EVENTS + i), error);
         if (events->writer[i] < 0)
             return -1;
         events->previous[i] = UINT64_MAX;
@@ -169,13 +168,12 @@ static fill_sample *const fill[] = {
     EVENT_TYPES_WITH_TOPIC(X)
 #undef X
 };
-_Static_assert(sizeof fill / sizeof *fill == EVENT_TOPICS_COUNT, "a topic for each of these types");
 
 /* Returns false when DDS had no room, and the event must be written again. */
 static bool publish_one(struct event_topics *events, const struct world *world,
                         const struct event *event, bool publish)
 {
-    uint32_t topic = event->type - EVENT_COLLISION;
+    uint32_t topic = event->type - 1;
     dds_return_t code = DDS_RETCODE_OK;
     jolon_EventHeader header = {
         .run = events->run,
@@ -225,7 +223,7 @@ bool event_topics_publish(struct event_topics *events, const struct view *view, 
             const struct event *event = &events->event[i];
             bool publish = event->sequence >= events->publish_from ||
                            event->frame >= events->publish_from_frame;
-            if (event->type >= EVENT_COLLISION && event->type <= EVENT_AGENT &&
+            if (event->type > EVENT_NONE && event->type <= EVENT_TOPIC_COUNT &&
                 !publish_one(events, &view->world, event, publish)) {
                 events->cursor.next = event->sequence;
                 return false;
@@ -237,7 +235,7 @@ bool event_topics_publish(struct event_topics *events, const struct view *view, 
 
 void event_topics_flush(const struct event_topics *events, uint64_t until_ns)
 {
-    for (uint32_t i = 0; i < EVENT_TOPICS_COUNT; i++) {
+    for (uint32_t i = 0; i < EVENT_TOPIC_COUNT; i++) {
         uint64_t now_ns = clock_now_ns();
         if (now_ns < until_ns)
             (void)dds_wait_for_acks(events->writer[i], (dds_duration_t)(until_ns - now_ns));

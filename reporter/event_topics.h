@@ -13,11 +13,10 @@
 #define EVENT_TOPICS_AGAIN   4096u
 #define EVENT_TOPICS_AGAIN_S 1.0 /* [s of simulation] before the predecessor's last frame */
 #define EVENT_TOPICS_AT_ONCE 128u
-#define EVENT_TOPICS_COUNT   5u
 
 struct event_topics {
-    dds_entity_t writer[EVENT_TOPICS_COUNT];
-    uint64_t previous[EVENT_TOPICS_COUNT]; /* last sequence on the topic; UINT64_MAX: none */
+    dds_entity_t writer[EVENT_TOPIC_COUNT];
+    uint64_t previous[EVENT_TOPIC_COUNT]; /* last sequence on the topic; UINT64_MAX: none */
     struct event_cursor cursor;
     uint64_t publish_from;       /* earlier events only set previous, ... */
     uint64_t publish_from_frame; /* ... unless their frame is at least this */

@@ -98,18 +98,28 @@ void event_text_parties(const struct event *event,
                         const struct event_party *parties[EVENT_TEXT_PARTIES])
 {
     parties[EVENT_TEXT_FIRST] = parties[EVENT_TEXT_SECOND] = parties[EVENT_TEXT_MUNITION] = NULL;
-    if (event->type == EVENT_COLLISION) {
+    switch ((enum event_type)event->type) {
+    case EVENT_COLLISION:
         parties[EVENT_TEXT_FIRST] = &event->collision.a;
         parties[EVENT_TEXT_SECOND] = &event->collision.b;
-    } else if (event->type == EVENT_FIRE) {
+        break;
+    case EVENT_FIRE:
         parties[EVENT_TEXT_FIRST] = &event->fire.shooter;
         parties[EVENT_TEXT_SECOND] = &event->fire.target;
         parties[EVENT_TEXT_MUNITION] = &event->fire.munition;
-    } else if (event->type == EVENT_DETONATION) {
+        break;
+    case EVENT_DETONATION:
         parties[EVENT_TEXT_FIRST] = &event->detonation.struck_party;
         parties[EVENT_TEXT_MUNITION] = &event->detonation.munition;
-    } else if (event->type == EVENT_AGENT) {
+        break;
+    case EVENT_AGENT:
         parties[EVENT_TEXT_FIRST] = &event->agent.agent;
+        break;
+    case EVENT_NONE:
+    case EVENT_CRATER:
+    case EVENT_COMMAND:
+    case EVENT_TYPE_COUNT:
+        break;
     }
 }
 

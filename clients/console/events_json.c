@@ -75,9 +75,13 @@ static const double *point_of(const struct event *event)
         return event->detonation.point;
     case EVENT_CRATER:
         return event->crater.point;
-    default:
-        return NULL;
+    case EVENT_NONE:
+    case EVENT_AGENT:
+    case EVENT_COMMAND:
+    case EVENT_TYPE_COUNT:
+        break;
     }
+    return NULL;
 }
 
 static void put_event(struct json_writer *json, const struct world *world,

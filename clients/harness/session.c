@@ -125,7 +125,7 @@ static void open_events(struct session *session)
         return;
     session->has_merge = true;
     if (event_merge_open(&session->merge, &session->link, subscription_format, &error) != 0 ||
-        listen_to(session, session->merge.reader, EVENT_MERGE_TOPICS, &error) != 0)
+        listen_to(session, session->merge.reader, EVENT_TOPIC_COUNT, &error) != 0)
         json_line_error(session, NULL, error.text);
 }
 

@@ -60,9 +60,12 @@ static int read_entities(struct subscription *subscription, const cJSON *value,
     return 0;
 }
 
+#define LISTED(tag, word) ", " #word
+static const char types[] = EVENT_TYPES_WITH_TOPIC(LISTED); /* begins with a comma */
+
 static const char *topic_word(uint32_t topic)
 {
-    return event_type_name((enum event_type)(EVENT_COLLISION + topic));
+    return event_type_name((enum event_type)(EVENT_NONE + 1 + topic));
 }
 
 static int read_events(struct subscription *subscription, const cJSON *value,
@@ -70,7 +73,7 @@ static int read_events(struct subscription *subscription, const cJSON *value,
 {
     const char *text = cJSON_GetStringValue(value);
     if (text && strcmp(text, "all") == 0) {
-        subscription->events = (1u << EVENT_MERGE_TOPICS) - 1;
+        subscription->events = (1u << EVENT_TOPIC_COUNT) - 1;
         return 0;
     }
     if (!cJSON_IsArray(value))
@@ -78,13 +81,10 @@ static int read_events(struct subscription *subscription, const cJSON *value,
     for (const cJSON *item = value->child; item; item = item->next) {
         uint32_t topic = 0;
         const char *name = cJSON_GetStringValue(item);
-        while (name && topic < EVENT_MERGE_TOPICS && strcmp(topic_word(topic), name) != 0)
+        while (name && topic < EVENT_TOPIC_COUNT && strcmp(topic_word(topic), name) != 0)
             topic++;
-        if (!name || topic == EVENT_MERGE_TOPICS)
-            return error_text_set(error,
-                                  "'%.32s': not one of collision, fire, detonation, crater, "
-                                  "agent",
-                                  name ? name : "?");
+        if (!name || topic == EVENT_TOPIC_COUNT)
+            return error_text_set(error, "'%.32s': not one of %s", name ? name : "?", types + 2);
         subscription->events |= 1u << topic;
     }
     return 0;
@@ -227,7 +227,7 @@ void subscription_format(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic, 
     const jolon_EventHeader *header = event;
     event_json(json, topic, event);
     int used =
-        snprintf(line, EVENT_MERGE_LINE_MAX, "%c %llu %llu ", 'a' + (int)(topic - TOPIC_COLLISION),
+        snprintf(line, EVENT_MERGE_LINE_MAX, "%c %llu %llu ", 'a' + (int)(topic - TOPIC_EVENTS),
                  (unsigned long long)header->run, (unsigned long long)header->frame);
     size_t length = strlen(json);
     if (length >= EVENT_MERGE_LINE_MAX - (size_t)used)

@@ -22,7 +22,7 @@ struct subscription {
     uint32_t near; /* id, 0: not by distance */
     double within_m;
     double rate_hz;
-    uint32_t events; /* bits of TOPIC_COLLISION ... from 0 */
+    uint32_t events; /* bits of the event topics, from 0 */
     uint32_t count;
     uint32_t id[SUBSCRIPTION_ENTITIES_MAX]; /* [count] */
 

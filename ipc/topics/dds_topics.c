@@ -34,6 +34,8 @@ static const struct {
     [TOPIC_NAMES] = {"EntityNames", &jolon_EntityNames_desc, 1, 0},
 };
 
+_Static_assert(TOPIC_EVENTS + EVENT_TOPIC_COUNT == TOPIC_COMMAND, "event topics are in a row");
+
 static dds_qos_t *make_qos(enum dds_topic topic, bool writer)
 {
     int32_t depth = table[topic].depth;

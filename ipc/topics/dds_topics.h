@@ -6,21 +6,22 @@
 #define JOLON_IPC_TOPICS_DDS_TOPICS_H
 
 #include "ipc/topics/dds_link.h"
+#include "world/entity/event.h"
 
 enum dds_topic {
     TOPIC_WORLD,
     TOPIC_PROCESS,
     TOPIC_FRAME,
     TOPIC_ENTITIES,
-    TOPIC_COLLISION,
-    TOPIC_FIRE,
-    TOPIC_DETONATION,
-    TOPIC_CRATER,
-    TOPIC_AGENT,
-    TOPIC_COMMAND,
+#define X(tag, word) TOPIC_##tag,
+    EVENT_TYPES_WITH_TOPIC(X)
+#undef X
+        TOPIC_COMMAND,
     TOPIC_REPLY,
     TOPIC_NAMES,
-    TOPIC_COUNT
+    TOPIC_COUNT,
+    TOPIC_EVENTS =
+        TOPIC_ENTITIES + 1 /* the first of EVENT_TOPIC_COUNT, in the order of the types */
 };
 
 /* Makes a reader or writer of the topic in the link's partition, which ends with the link. Returns

@@ -3,8 +3,10 @@
 
 #include "ipc/process/clock.h"
 #include "world/event_text.h"
+#include "world/runtime/check.h"
 
 #include <stdio.h>
+#include <string.h>
 
 const char *event_lines_clock(char text[EVENT_LINES_CLOCK_MAX], double time_s)
 {
@@ -19,81 +21,98 @@ static struct event_party party(const jolon_Party *party)
     return (struct event_party){.id = party->id, .damage = (uint8_t)party->damage};
 }
 
-/* Writes the event without its time. */
-static void write_text(char text[EVENT_TEXT_MAX], enum dds_topic topic, const void *sample)
+/* What the text of an event needs, and the ids of the entities that it is about. */
+struct reading {
+    struct event event;
+    const char *kind[EVENT_TEXT_PARTIES];
+    uint32_t ids[EVENT_LINES_IDS];
+};
+
+static uint32_t entity_id(const jolon_Party *party)
 {
-    struct event event = {0};
-    const char *kind[EVENT_TEXT_PARTIES] = {NULL};
-    if (topic == TOPIC_COLLISION) {
-        const jolon_CollisionEvent *collision = sample;
-        event.type = EVENT_COLLISION;
-        event.collision = (struct event_collision){.a = party(&collision->a),
-                                                   .b = party(&collision->b),
-                                                   .closing_mps = collision->closing_mps,
-                                                   .response = collision->response};
-        kind[EVENT_TEXT_FIRST] = collision->a.kind;
-        kind[EVENT_TEXT_SECOND] = collision->b.kind;
-    } else if (topic == TOPIC_FIRE) {
-        const jolon_FireEvent *fire = sample;
-        event.type = EVENT_FIRE;
-        event.fire =
-            (struct event_fire){.shooter = party(&fire->shooter), .target = party(&fire->target)};
-        kind[EVENT_TEXT_FIRST] = fire->shooter.kind;
-        kind[EVENT_TEXT_SECOND] = fire->target.kind;
-        kind[EVENT_TEXT_MUNITION] = fire->munition.kind;
-    } else if (topic == TOPIC_DETONATION) {
-        const jolon_DetonationEvent *detonation = sample;
-        event.type = EVENT_DETONATION;
-        event.detonation = (struct event_detonation){.struck_party = party(&detonation->victim),
-                                                     .struck = detonation->struck};
-        kind[EVENT_TEXT_FIRST] = detonation->victim.kind;
-        kind[EVENT_TEXT_MUNITION] = detonation->munition.kind;
-    } else if (topic == TOPIC_CRATER) {
-        const jolon_CraterEvent *crater = sample;
-        event.type = EVENT_CRATER;
-        event.crater =
-            (struct event_crater){.radius_m = crater->radius_m, .depth_m = crater->depth_m};
-    } else {
-        const jolon_AgentEvent *agent = sample;
-        event.type = EVENT_AGENT;
-        event.agent = (struct event_agent){.agent = party(&agent->agent),
-                                           .from = agent->before,
-                                           .to = agent->after,
-                                           .because = agent->because};
-        kind[EVENT_TEXT_FIRST] = agent->agent.kind;
+    return party->fixed ? 0 : party->id;
+}
+
+static void read_collision(struct reading *reading, const jolon_CollisionEvent *collision)
+{
+    reading->event.collision = (struct event_collision){.a = party(&collision->a),
+                                                        .b = party(&collision->b),
+                                                        .closing_mps = collision->closing_mps,
+                                                        .response = collision->response};
+    reading->kind[EVENT_TEXT_FIRST] = collision->a.kind;
+    reading->kind[EVENT_TEXT_SECOND] = collision->b.kind;
+    reading->ids[0] = entity_id(&collision->a);
+    reading->ids[1] = entity_id(&collision->b);
+}
+
+static void read_fire(struct reading *reading, const jolon_FireEvent *fire)
+{
+    reading->event.fire =
+        (struct event_fire){.shooter = party(&fire->shooter), .target = party(&fire->target)};
+    reading->kind[EVENT_TEXT_FIRST] = fire->shooter.kind;
+    reading->kind[EVENT_TEXT_SECOND] = fire->target.kind;
+    reading->kind[EVENT_TEXT_MUNITION] = fire->munition.kind;
+    reading->ids[0] = fire->shooter.id;
+    reading->ids[1] = fire->target.id;
+    reading->ids[2] = fire->munition.id;
+}
+
+static void read_detonation(struct reading *reading, const jolon_DetonationEvent *detonation)
+{
+    reading->event.detonation = (struct event_detonation){
+        .struck_party = party(&detonation->victim), .struck = detonation->struck};
+    reading->kind[EVENT_TEXT_FIRST] = detonation->victim.kind;
+    reading->kind[EVENT_TEXT_MUNITION] = detonation->munition.kind;
+    reading->ids[0] = detonation->munition.id;
+    reading->ids[1] = entity_id(&detonation->victim);
+}
+
+static void read_crater(struct reading *reading, const jolon_CraterEvent *crater)
+{
+    reading->event.crater =
+        (struct event_crater){.radius_m = crater->radius_m, .depth_m = crater->depth_m};
+}
+
+static void read_agent(struct reading *reading, const jolon_AgentEvent *agent)
+{
+    reading->event.agent = (struct event_agent){.agent = party(&agent->agent),
+                                                .from = agent->before,
+                                                .to = agent->after,
+                                                .because = agent->because};
+    reading->kind[EVENT_TEXT_FIRST] = agent->agent.kind;
+    reading->ids[0] = agent->agent.id;
+}
+
+static struct reading read_event(enum dds_topic topic, const void *sample)
+{
+    struct reading reading = {.event.type = topic - TOPIC_EVENTS + 1u};
+    switch (topic) {
+#define X(tag, word)                                                                               \
+    case TOPIC_##tag:                                                                              \
+        read_##word(&reading, sample);                                                             \
+        break;
+        EVENT_TYPES_WITH_TOPIC(X)
+#undef X
+    default:
+        CHECK(false);
     }
-    event_text(text, &event, kind);
+    return reading;
 }
 
 void event_lines_event(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic, const void *event)
 {
     char time[EVENT_LINES_CLOCK_MAX], words[EVENT_TEXT_MAX];
     const jolon_EventHeader *header = event;
-    write_text(words, topic, event);
+    struct reading reading = read_event(topic, event);
+    event_text(words, &reading.event, reading.kind);
     (void)snprintf(line, EVENT_MERGE_LINE_MAX, "%s %s", event_lines_clock(time, header->time_s),
                    words);
 }
 
 void event_lines_ids(uint32_t ids[EVENT_LINES_IDS], enum dds_topic topic, const void *event)
 {
-    const jolon_CollisionEvent *collision = event;
-    const jolon_FireEvent *fire = event;
-    const jolon_DetonationEvent *detonation = event;
-    const jolon_AgentEvent *agent = event;
-    ids[0] = ids[1] = ids[2] = 0;
-    if (topic == TOPIC_COLLISION) {
-        ids[0] = collision->a.fixed ? 0 : collision->a.id;
-        ids[1] = collision->b.fixed ? 0 : collision->b.id;
-    } else if (topic == TOPIC_FIRE) {
-        ids[0] = fire->shooter.id;
-        ids[1] = fire->target.id;
-        ids[2] = fire->munition.id;
-    } else if (topic == TOPIC_DETONATION) {
-        ids[0] = detonation->munition.id;
-        ids[1] = detonation->victim.fixed ? 0 : detonation->victim.id;
-    } else if (topic == TOPIC_AGENT) {
-        ids[0] = agent->agent.id;
-    }
+    struct reading reading = read_event(topic, event);
+    memcpy(ids, reading.ids, sizeof reading.ids);
 }
 
 void event_lines_silence(char *line, size_t bytes, const struct world_mirror *mirror,

@@ -22,12 +22,12 @@ int event_merge_open(struct event_merge *merge, const struct dds_link *link,
     merge->seen = calloc(EVENT_MERGE_SEEN, sizeof *merge->seen);
     if (!merge->seen)
         return error_text_set(error, "out of memory for the numbers of events");
-    for (uint32_t i = 0; i < EVENT_MERGE_TOPICS; i++) {
-        merge->reader[i] = dds_topics_reader(link, (enum dds_topic)(TOPIC_COLLISION + i), error);
+    for (uint32_t i = 0; i < EVENT_TOPIC_COUNT; i++) {
+        merge->reader[i] = dds_topics_reader(link, (enum dds_topic)(TOPIC_EVENTS + i), error);
         if (merge->reader[i] < 0)
             return -1;
     }
-    merge->waitset = dds_topics_waitset(link, merge->reader, EVENT_MERGE_TOPICS, error);
+    merge->waitset = dds_topics_waitset(link, merge->reader, EVENT_TOPIC_COUNT, error);
     return merge->waitset < 0 ? -1 : 0;
 }
 
@@ -85,7 +85,7 @@ static bool keep(struct event_merge *merge, uint32_t topic, const void *event, u
         merge->entry = entry;
         merge->room = room;
     }
-    merge->format(line, (enum dds_topic)(TOPIC_COLLISION + topic), event);
+    merge->format(line, (enum dds_topic)(TOPIC_EVENTS + topic), event);
     char *copy = strdup(line);
     if (!copy)
         return false;
@@ -101,9 +101,9 @@ static bool keep(struct event_merge *merge, uint32_t topic, const void *event, u
 static bool take(struct event_merge *merge, uint64_t now_ns)
 {
     bool kept = true;
-    for (uint32_t i = 0; i < EVENT_MERGE_TOPICS; i++) {
+    for (uint32_t i = 0; i < EVENT_TOPIC_COUNT; i++) {
         struct samples from = {.reader = merge->reader[i],
-                               .topic = (enum dds_topic)(TOPIC_COLLISION + i)};
+                               .topic = (enum dds_topic)(TOPIC_EVENTS + i)};
         while (samples_next(&from))
             kept = kept && keep(merge, i, from.sample, now_ns);
     }

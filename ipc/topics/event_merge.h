@@ -1,5 +1,5 @@
-/* Merges the events of five topics, which deliver at least once, into one ordered sequence without
- * repeats.
+/* Merges the events of all event topics, which deliver at least once, into one ordered sequence
+ * without repeats.
  *
  * An event waits EVENT_MERGE_HOLD_NS for earlier events of other topics before it is printed. A
  * restarted reporter sends some events again; they are dropped by their number. Events that a topic
@@ -13,7 +13,6 @@
 
 #include <stdbool.h>
 
-#define EVENT_MERGE_TOPICS   5u
 #define EVENT_MERGE_HOLD_NS  100000000u
 #define EVENT_MERGE_FIRST_NS 700000000u /* at the start, when each topic sends its history */
 #define EVENT_MERGE_LINE_MAX 1024u
@@ -41,7 +40,7 @@ struct event_merge_seen {
 };
 
 struct event_merge {
-    dds_entity_t reader[EVENT_MERGE_TOPICS];
+    dds_entity_t reader[EVENT_TOPIC_COUNT];
     dds_entity_t waitset;
     event_merge_format *format;
     uint64_t settled_ns; /* nothing is printed before */
@@ -49,7 +48,7 @@ struct event_merge {
     struct {
         uint64_t run, sequence;
         bool any;
-    } last[EVENT_MERGE_TOPICS];
+    } last[EVENT_TOPIC_COUNT];
     struct event_merge_seen *seen;   /* [EVENT_MERGE_SEEN], by sequence */
     struct event_merge_entry *entry; /* [count], not yet printed */
     uint32_t count, room;

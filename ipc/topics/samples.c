@@ -134,10 +134,22 @@ static bool good_collision(jolon_CollisionEvent *event)
            number((double)event->impulse_ns) && event->response <= jolon_RESPONSE_DESTROYED;
 }
 
+static bool good_fire(jolon_FireEvent *event)
+{
+    return party(&event->shooter) && party(&event->target) && party(&event->munition) &&
+           point(&event->point);
+}
+
 static bool good_detonation(jolon_DetonationEvent *event)
 {
     return party(&event->munition) && party(&event->victim) && point(&event->point) &&
            number((double)event->explosive_kg) && event->struck <= jolon_STRUCK_AIR;
+}
+
+static bool good_crater(const jolon_CraterEvent *event)
+{
+    return point(&event->point) && amount((double)event->radius_m) &&
+           amount((double)event->depth_m);
 }
 
 static bool good_agent(jolon_AgentEvent *event)
@@ -146,24 +158,9 @@ static bool good_agent(jolon_AgentEvent *event)
            event->after <= jolon_BEHAVIOUR_RESUPPLY && event->because <= jolon_REASON_LEASE_OVER;
 }
 
-static bool good_event(enum dds_topic topic, void *sample)
+static bool good_event(const jolon_EventHeader *header)
 {
-    jolon_FireEvent *fire = sample;
-    const jolon_CraterEvent *crater = sample;
-    const jolon_EventHeader *header = sample;
-    if (!amount(header->time_s) || header->previous > header->sequence)
-        return false;
-    if (topic == TOPIC_COLLISION)
-        return good_collision(sample);
-    if (topic == TOPIC_FIRE)
-        return party(&fire->shooter) && party(&fire->target) && party(&fire->munition) &&
-               point(&fire->point);
-    if (topic == TOPIC_DETONATION)
-        return good_detonation(sample);
-    if (topic == TOPIC_CRATER)
-        return point(&crater->point) && amount((double)crater->radius_m) &&
-               amount((double)crater->depth_m);
-    return good_agent(sample);
+    return amount(header->time_s) && header->previous <= header->sequence;
 }
 
 bool samples_good(enum dds_topic topic, void *sample)
@@ -179,12 +176,11 @@ bool samples_good(enum dds_topic topic, void *sample)
         return good_frame(sample);
     case TOPIC_ENTITIES:
         return good_batch(sample);
-    case TOPIC_COLLISION:
-    case TOPIC_FIRE:
-    case TOPIC_DETONATION:
-    case TOPIC_CRATER:
-    case TOPIC_AGENT:
-        return good_event(topic, sample);
+#define X(tag, word)                                                                               \
+    case TOPIC_##tag:                                                                              \
+        return good_event(sample) && good_##word(sample);
+        EVENT_TYPES_WITH_TOPIC(X)
+#undef X
     case TOPIC_COMMAND:
     case TOPIC_REPLY:
     case TOPIC_COUNT:

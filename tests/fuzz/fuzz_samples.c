@@ -160,7 +160,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     input.left = size;
     fill(&what, sizeof what);
     if (what >= 128) {
-        show_event((enum dds_topic)(TOPIC_COLLISION + what % EVENT_MERGE_TOPICS));
+        show_event((enum dds_topic)(TOPIC_COLLISION + what % EVENT_TOPIC_COUNT));
         return 0;
     }
     fill(&mirror.frame, sizeof mirror.frame);

@@ -8,8 +8,10 @@
 
 /* The registry of event types: X(TAG, word), a row each. The word is that of logs and filters, and
  * names the type's struct event_WORD, its member of struct event, and the functions that write it:
- * WORD_text() in world/event_text.c, add_WORD() in ipc/json/world_json.c and, for a type with a
- * status topic, fill_WORD() in reporter/event_topics.c. The topics are in the order of their rows.
+ * WORD_text() in world/event_text.c and add_WORD() in ipc/json/world_json.c. A type with a status
+ * topic also has fill_WORD() in reporter/event_topics.c and, for clients, good_WORD() in
+ * ipc/topics/samples.c, read_WORD() in event_lines.c and add_WORD() in event_json.c. The topics are
+ * in the order of their rows.
  * An answer to a command has no topic here: the reporter publishes it as a CommandReply. */
 #define EVENT_TYPES_WITH_TOPIC(X)                                                                  \
     X(COLLISION, collision)                                                                        \
@@ -25,6 +27,12 @@ enum event_type {
     EVENT_TYPES(X)
 #undef X
         EVENT_TYPE_COUNT
+};
+
+enum {
+#define X(tag, word) +1
+    EVENT_TOPIC_COUNT = 0 EVENT_TYPES_WITH_TOPIC(X) /* types with a status topic, from 1 on */
+#undef X
 };
 
 enum response {
