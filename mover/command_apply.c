@@ -114,7 +114,8 @@ static enum command_result release(struct serial_context *context, const struct 
         return COMMAND_TAKEN;
     table_row_changes(&context->writer, row);
     driver_controls_release(m, row);
-    m->until_tick[row] = (uint32_t)context->step->tick; /* the driver's lease is over */
+    /* The driver's lease is over. */
+    table_set_until_tick(&context->writer, row, (uint32_t)context->step->tick);
     return set_behaviour(context, row, m->order[row]);
 }
 
@@ -182,7 +183,7 @@ static enum command_result spawn(struct serial_context *context, const struct co
                                  uint32_t *entity)
 {
     const struct world *world = context->step->world;
-    struct entities *m = &context->moved->entities;
+    const struct table_writer *writer = &context->writer;
     const double *v = command->value;
     if (command->kind >= world->counts.kinds || world->kinds[command->kind].domain > DOMAIN_AIR)
         return COMMAND_NO_SUCH_KIND;
@@ -204,13 +205,14 @@ static enum command_result spawn(struct serial_context *context, const struct co
         return COMMAND_TABLE_FULL;
     double sine, cosine;
     maths_sincos(v[3], &sine, &cosine);
-    entities_set_position(m, row, position);
-    entities_set_velocity(m, row, (struct vec3){v[4] * sine, 0.0, -v[4] * cosine});
-    m->heading[row] = maths_wrap_turn(v[3]);
-    m->behaviour[row] = m->order[row] = (uint8_t)command->amount;
-    m->goal_x[row] = v[0];
-    m->goal_z[row] = v[1];
-    *entity = m->id[row];
+    table_set_position(writer, row, position);
+    table_set_velocity(writer, row, (struct vec3){v[4] * sine, 0.0, -v[4] * cosine});
+    table_set_heading(writer, row, maths_wrap_turn(v[3]));
+    table_set_behaviour(writer, row, (uint8_t)command->amount);
+    table_set_order(writer, row, (uint8_t)command->amount);
+    table_set_goal_x(writer, row, v[0]);
+    table_set_goal_z(writer, row, v[1]);
+    *entity = context->moved->entities.id[row];
     return COMMAND_DONE;
 }
 

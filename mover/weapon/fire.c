@@ -54,12 +54,12 @@ static uint32_t new_munition(struct serial_context *context, uint16_t kind, uint
 static struct event_fire *send_munition(struct serial_context *context, uint32_t row,
                                         struct vec3 position, struct vec3 velocity)
 {
-    struct entities *m = &context->moved->entities;
+    const struct table_writer *writer = &context->writer;
     double level = sqrt(velocity.x * velocity.x + velocity.z * velocity.z);
-    entities_set_position(m, row, position);
-    entities_set_velocity(m, row, velocity);
-    m->heading[row] = maths_heading(velocity.x, velocity.z);
-    m->pitch[row] = maths_atan2(velocity.y, level);
+    table_set_position(writer, row, position);
+    table_set_velocity(writer, row, velocity);
+    table_set_heading(writer, row, maths_heading(velocity.x, velocity.z));
+    table_set_pitch(writer, row, maths_atan2(velocity.y, level));
     struct event_fire *event = &serial_context_intent(context, EVENT_FIRE)->fire;
     event->munition = serial_context_party(context, row);
     event->point[0] = position.x;
@@ -74,7 +74,8 @@ static struct event_fire *send_munition(struct serial_context *context, uint32_t
 static bool launch(struct serial_context *context, uint32_t shooter, uint32_t target,
                    const struct vec3 *point, uint16_t munition)
 {
-    struct entities *m = &context->moved->entities;
+    const struct entities *m = &context->moved->entities;
+    const struct table_writer *writer = &context->writer;
     const struct world *world = context->step->world;
     const struct kind *kind = &world->kinds[m->kind[shooter]];
     if (munition == KIND_NONE)
@@ -100,17 +101,16 @@ static bool launch(struct serial_context *context, uint32_t shooter, uint32_t ta
     }
     struct event_fire *event = send_munition(context, row, muzzle, vec3_scale(direction, speed));
     event->shooter = serial_context_party(context, shooter);
-    m->owner_slot[row] = shooter;
-    m->owner_id[row] = m->id[shooter];
-    table_set_rounds(&context->writer, shooter, m->rounds[shooter] - 1);
+    table_set_owner_slot(writer, row, shooter);
+    table_set_owner_id(writer, row, m->id[shooter]);
+    table_set_rounds(writer, shooter, m->rounds[shooter] - 1);
     table_set_reload_tick(
-        &context->writer, shooter,
+        writer, shooter,
         (uint32_t)(context->step->tick + (uint64_t)(kind->reload_s / context->step->dt_s)));
     if (target != SLOT_NONE) {
         event->target = serial_context_party(context, target);
-        m->target_slot[row] = target;
-        m->target_id[row] = m->id[target];
-        table_set_threat(&context->writer, target, shooter, m->id[shooter]);
+        table_set_target(writer, row, target, m->id[target]);
+        table_set_threat(writer, target, shooter, m->id[shooter]);
     }
     return true;
 }
