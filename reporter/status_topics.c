@@ -194,8 +194,8 @@ static void status_topics_process(struct status_topics *topics, const struct vie
 void status_topics_processes(struct status_topics *topics, const struct view *view, uint64_t now_ns)
 {
     for (int role = 0; role < ROLE_COUNT; role++) {
-        /* Optional roles are reported once they have been started. */
-        if (role <= ROLE_REPORTER || load(&view->slot[role]->starts))
+        /* The other roles are reported once they have been started. */
+        if (role_has((enum role)role, ROLE_NEEDED) || load(&view->slot[role]->starts))
             status_topics_process(topics, view, (enum role)role, now_ns);
     }
 }

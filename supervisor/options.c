@@ -36,7 +36,9 @@ static int leave_out(const char *name, struct error_text *error)
 {
     enum role role = role_find(name);
     if (!role_has(role, ROLE_OPTIONAL))
-        return error_text_set(error, "there are renderer, reporter, recorder");
+        return error_text_set(
+            error, "there are %s",
+            role_names(ROLE_OPTIONAL, (char[ROLE_NAMES_BYTES]){""}, ROLE_NAMES_BYTES));
     plan.left_out[role] = true;
     return 0;
 }

@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <signal.h>
+#include <stdio.h>
 #include <string.h>
 #include <sys/pidfd.h>
 #include <unistd.h>
@@ -64,10 +65,10 @@ void process_control_end(const struct world_reader *reader, const char *name, bo
 {
     enum role role = role_find(name);
     if (role == ROLE_NONE) {
-        http_answer_error(answer, HTTP_ANSWER_BAD,
-                          "there are mover, collider, intake, reporter, recorder, renderer, "
-                          "renderer-2 ..., console",
-                          "\"%.16s\" is no role", name);
+        char names[ROLE_NAMES_BYTES];
+        char next[ROLE_NAMES_BYTES + 16];
+        snprintf(next, sizeof next, "there are %s", role_names(0, names, sizeof names));
+        http_answer_error(answer, HTTP_ANSWER_BAD, next, "\"%.16s\" is no role", name);
         return;
     }
     int pid = segment_holder(reader->name, role);

@@ -1,6 +1,7 @@
 /* The table of roles. */
 #include "ipc/segment/role.h"
 
+#include <stdio.h>
 #include <string.h>
 
 static const struct {
@@ -30,6 +31,18 @@ enum role role_find(const char *name)
 bool role_has(enum role role, enum role_trait trait)
 {
     return role < ROLE_COUNT && (roles[role].traits & trait) != 0;
+}
+
+const char *role_names(enum role_trait trait, char *text, size_t size)
+{
+    size_t length = 0;
+    text[0] = '\0';
+    for (int i = 0; i < ROLE_COUNT && length < size; i++) {
+        if (trait == 0 || role_has((enum role)i, trait))
+            length += (size_t)snprintf(text + length, size - length, "%s%s", length ? ", " : "",
+                                       roles[i].name);
+    }
+    return text;
 }
 
 int role_order(enum role order[ROLE_COUNT], bool stopping)

@@ -10,6 +10,7 @@
 
 #include <stdatomic.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 /* The registry of roles: a row each, in the order of their slots.
@@ -26,11 +27,11 @@
  * Renderers 2 to 4 are started by hand, side by side with the set's own. The console is the set's
  * own as well: further consoles are readers. */
 #define ROLES(X)                                                                                   \
-    X(MOVER, "mover", frame, ROLE_MAKES_FRAMES | ROLE_RINGS, REGION_MOVED_WORD, REGION_MOVED, 7,   \
-      1)                                                                                           \
-    X(COLLIDER, "collider", frame, ROLE_MAKES_FRAMES | ROLE_RINGS, REGION_COMMIT, REGION_EVENTS,   \
-      1, 2)                                                                                        \
-    X(INTAKE, "intake", intake, ROLE_RINGS, REGION_COMMANDS + RING_CLIENTS,                        \
+    X(MOVER, "mover", frame, ROLE_NEEDED | ROLE_MAKES_FRAMES | ROLE_RINGS, REGION_MOVED_WORD,      \
+      REGION_MOVED, 7, 1)                                                                          \
+    X(COLLIDER, "collider", frame, ROLE_NEEDED | ROLE_MAKES_FRAMES | ROLE_RINGS, REGION_COMMIT,    \
+      REGION_EVENTS, 1, 2)                                                                         \
+    X(INTAKE, "intake", intake, ROLE_NEEDED | ROLE_RINGS, REGION_COMMANDS + RING_CLIENTS,          \
       REGION_COMMANDS + RING_CLIENTS, 3, 3)                                                        \
     X(REPORTER, "reporter", reporter, ROLE_OPTIONAL, REGION_COUNT, REGION_COUNT, 4, 7)             \
     X(RECORDER, "recorder", recorder, ROLE_OPTIONAL | ROLE_RINGS, REGION_COMMANDS + RING_RECORDER, \
@@ -58,7 +59,8 @@ enum role_trait {
                               set ends when the role fails too often */
     ROLE_RINGS = 2,        /* writes the doorbells */
     ROLE_DRAWS = 4,        /* a renderer: woken for each frame, and may open graphics drivers */
-    ROLE_OPTIONAL = 8      /* may be left out of a set */
+    ROLE_OPTIONAL = 8,     /* may be left out of a set */
+    ROLE_NEEDED = 16       /* part of every set */
 };
 
 /* Returns true if the role has the trait, false for ROLE_NONE. */
@@ -70,6 +72,12 @@ int role_order(enum role order[ROLE_COUNT], bool stopping);
 
 /* Returns "mover", ..., "renderer", "renderer-2", ..., "console", or "?" out of range. */
 const char *role_name(enum role role);
+
+/* Writes the names of the roles with the trait (0: of all roles) into text, with ", " between them.
+ * Returns text, which is cut off where the size ends. */
+const char *role_names(enum role_trait trait, char *text, size_t size);
+
+#define ROLE_NAMES_BYTES 128u /* room for the names of all roles */
 
 /* Returns the role of this name, ROLE_NONE when there is none. */
 enum role role_find(const char *name);

@@ -1,4 +1,4 @@
-/* What the segment_*.c files share. No other file includes this. */
+/* What the files of this folder share that no other folder needs. */
 #ifndef JOLON_IPC_SEGMENT_SEGMENT_INTERNAL_H
 #define JOLON_IPC_SEGMENT_SEGMENT_INTERNAL_H
 

@@ -1,5 +1,5 @@
-/* Children that enter sandboxes, for the tests of sandboxes. Only programs that link the sandbox
- * have this (CONFINED in the Makefile). */
+/* Children that enter sandboxes, for the tests of sandboxes. They call
+ * the sandbox's library, which the Makefile links with the tests in tests/unit/ipc/sandbox/. */
 #ifndef JOLON_TESTS_SUPPORT_CONFINED_H
 #define JOLON_TESTS_SUPPORT_CONFINED_H
 

@@ -162,7 +162,9 @@ def killing():
     status, said = ask("/api/process", {"do": "restart", "role": "mover"})
     frame = state()["frame"]
     check("the console restarts the mover, and the world goes on", status == 200 and eventually(lambda: state()["frame"] > frame + 10))
-    check("an unknown role cannot be killed", ask("/api/process", {"do": "kill", "role": "init"})[0] == 400)
+    status, said = ask("/api/process", {"do": "kill", "role": "init"})
+    check("an unknown role cannot be killed, and the roles are listed",
+          status == 400 and "mover, collider," in str(said) and "renderer-4, console" in str(said), said)
 
 
 def pictures():

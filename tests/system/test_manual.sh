@@ -65,6 +65,7 @@ check "completion: a verb's options" offers --checkpoint jolon run --che
 check "completion: a program's options" offers --lease jolon ctl drive 1 --le
 check "completion: commands of ctl" offers release jolon ctl rel
 check "completion: roles" offers collider jolon kill co
+check "completion: roles that may be left out" offers reporter jolon run --without rep
 check "completion: scenarios" offers duel jolon start du
 check "completion: kinds" offers helicopter jolon ctl spawn heli
 check "completion: values of an option" offers reverse jolon ctl drive 1 --gear r

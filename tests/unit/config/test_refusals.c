@@ -3,6 +3,7 @@
 
 #include "config/syntax/schema.h"
 #include "tests/support/quick_config.h"
+#include "world/collision_models.h"
 #include "world/making/scenario.h"
 
 #include <setjmp.h>
@@ -35,6 +36,15 @@ struct refusal {
     const char
         *says; /* the message after "file:line: "; with "..." at its end only its beginning */
 };
+
+/* The words that a refusal offers for a method or a response, from their registries. Each begins
+ * with ", ". */
+#define X(name, value, word, ...) ", " #word
+static const char method_words[] = METHODS(X);
+static const char response_words[] = RESPONSE_MODELS(X);
+#undef X
+#define METHOD_WORDS   "$methods"
+#define RESPONSE_WORDS "$responses"
 
 #define VEHICLE(entry) "vehicles = (\n{ kind = \"tank\"; " entry " } );"
 
@@ -168,12 +178,11 @@ static const struct refusal refusals[] = {
     {"terrain = { source = \"dem\"; };", 1,
      "terrain.source = \"dem\": not in this version; allowed: generated, flat"},
     {"collision = { method = \"best\"; };", 1,
-     "collision.method = \"best\": unknown; allowed: swept, npsnet2, mps, occupancy, hopcroft, "
-     "brute"},
+     "collision.method = \"best\": unknown; allowed: " METHOD_WORDS},
     {"collision = { shape = \"box\"; };", 1,
      "collision.shape = \"box\": unknown; allowed: model, sphere"},
     {"collision = { response = \"bounce\"; };", 1,
-     "collision.response = \"bounce\": unknown; allowed: impulse, figure8, spring, mps, none"},
+     "collision.response = \"bounce\": unknown; allowed: " RESPONSE_WORDS},
     {"collision = { npsnet2 = { nearness = \"xor\"; }; };", 1,
      "collision.npsnet2.nearness = \"xor\": unknown; allowed: and, or"},
     {"collision = { figure8 = { measure = \"speed\"; }; };", 1,
@@ -335,8 +344,17 @@ static const struct refusal refusals[] = {
      "@include is not supported; right would be: the included text itself"},
 };
 
+/* Fails unless the refusal is want, whose METHOD_WORDS or RESPONSE_WORDS at its end stands for the
+ * words of the registry. */
 static void check_message(const char *want)
 {
+    char whole[sizeof(error.text)];
+    const char *mark = strchr(want, '$');
+    if (mark) {
+        const char *words = strcmp(mark, METHOD_WORDS) == 0 ? method_words : response_words;
+        snprintf(whole, sizeof(whole), "%.*s%s", (int)(mark - want), want, words + strlen(", "));
+        want = whole;
+    }
     size_t length = strlen(want);
 
     if (length > 3 && strcmp(want + length - 3, "...") == 0 && want[length - 4] == ' ') {
@@ -385,8 +403,7 @@ static void test_override_refusals(void **state)
          "0..9007199254740991"},
         {"renderer.fog=yes", "--set: renderer.fog = yes: is not a boolean; allowed: true, false"},
         {"collision.response=bounce",
-         "--set: collision.response = bounce: unknown; allowed: impulse, figure8, spring, mps, "
-         "none"},
+         "--set: collision.response = bounce: unknown; allowed: " RESPONSE_WORDS},
         {"terrain.source=dem",
          "--set: terrain.source = dem: not in this version; allowed: generated, flat"},
         {"collision.figure8.mass_c3_kg=9000",

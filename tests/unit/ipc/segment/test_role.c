@@ -56,10 +56,24 @@ static void test_the_keeper_starts_the_mover_last_and_stops_it_first(void **stat
 static void test_a_reader_has_no_trait(void **state)
 {
     (void)state;
-    for (unsigned trait = 1; trait <= ROLE_OPTIONAL; trait <<= 1)
+    for (unsigned trait = 1; trait <= ROLE_NEEDED; trait <<= 1)
         assert_false(role_has(ROLE_NONE, (enum role_trait)trait));
     assert_true(role_has(ROLE_MOVER, ROLE_MAKES_FRAMES) && !role_has(ROLE_MOVER, ROLE_OPTIONAL));
     assert_true(role_has(ROLE_RENDERER_4, ROLE_DRAWS));
+}
+
+static void test_names_are_listed_by_trait(void **state)
+{
+    char text[ROLE_NAMES_BYTES];
+    (void)state;
+    assert_string_equal(role_names(ROLE_OPTIONAL, text, sizeof text),
+                        "reporter, recorder, renderer");
+    assert_string_equal(role_names(ROLE_NEEDED, text, sizeof text), "mover, collider, intake");
+    assert_string_equal(role_names(ROLE_NEEDED, text, 12), "mover, coll");
+    role_names((enum role_trait)0, text, sizeof text);
+    assert_true(strlen(text) + 1 < sizeof text);
+    for (int i = 0; i < ROLE_COUNT; i++)
+        assert_non_null(strstr(text, role_name((enum role)i)));
 }
 
 int main(void)
@@ -69,6 +83,7 @@ int main(void)
         cmocka_unit_test(test_unknown_names_are_role_none),
         cmocka_unit_test(test_the_keeper_starts_the_mover_last_and_stops_it_first),
         cmocka_unit_test(test_a_reader_has_no_trait),
+        cmocka_unit_test(test_names_are_listed_by_trait),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
