@@ -371,7 +371,7 @@ $(BIN)/fuzz_ctl: $(call libraries,ctl)
 $(BIN)/fuzz_command: $(call libraries,intake)
 $(BIN)/fuzz_console: $(call libraries,console)
 $(BIN)/fuzz_samples $(BIN)/fuzz_filter: $(call libraries,monitor)
-$(addprefix $(BIN)/fuzz_,order samples filter): $(call libraries,datagrams)
+$(addprefix $(BIN)/fuzz_,command_text samples filter): $(call libraries,datagrams)
 $(BIN)/fuzz_%: $(OBJ)/tests/fuzz/fuzz_%.o $(call libraries,fuzz $(filter-out support,$(COMMON)))
 	$(call link,-fsanitize=fuzzer $(FUZZ_LINK) $(TEST_LIBS))
 

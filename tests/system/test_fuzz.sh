@@ -22,7 +22,7 @@ for file in "$source_dir"/tests/fuzz/fuzz_*.c; do
         ok "$harness: $(sed -n "s/^$harness: //p" told)"
     else
         not_ok "$harness"
-        sed -n "/^$harness: /,/^[a-z]*: /{/^$harness: /p;/^    /p}" told | sed 's/^/# /'
+        sed -n "/^$harness: /,/^[a-z_]*: /{/^$harness: /p;/^    /p}" told | sed 's/^/# /'
     fi
 done
 check "the harnesses found no fault" equal $status 0
