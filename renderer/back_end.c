@@ -6,6 +6,7 @@
 #include "renderer/gl/gl_context.h"
 #include "renderer/gl/gl_devices.h"
 #include "renderer/soft/soft.h"
+#include "world/view_mode.h"
 
 #include <stdio.h>
 #include <unistd.h>

@@ -3,9 +3,8 @@
 
 #include "ipc/http/listen.h"
 #include "ipc/process/log.h"
-#include "world/enum_names.h"
 #include "world/maths/maths.h"
-#include "world/param_values.h"
+#include "world/view_mode.h"
 #include "world/runtime/parse_number.h"
 #include "world/terrain/gridsquare.h"
 

@@ -9,6 +9,7 @@
 #include "renderer/back_end.h"
 #include "world/entity/event.h"
 #include "world/params.h"
+#include "world/view_mode.h"
 
 #include <errno.h>
 #include <stdio.h>

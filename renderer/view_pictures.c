@@ -5,9 +5,9 @@
 #include "ipc/process/log.h"
 #include "renderer/image/upscale.h"
 #include "renderer/scene/terrain/terrain_tiles.h"
-#include "world/enum_names.h"
 #include "renderer/view_pictures.h"
 #include "renderer/chart/instruments.h"
+#include "world/view_mode.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,8 +1,6 @@
 /* Reading lists of views. */
 #include "renderer/views.h"
 
-#include "world/enum_names.h"
-
 #include <stdbool.h>
 #include <stdio.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #define JOLON_RENDERER_VIEWS_H
 
 #include "ipc/segment/segment.h"
-#include "world/param_values.h"
+#include "world/view_mode.h"
 
 #include <stdint.h>
 

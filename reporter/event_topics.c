@@ -10,7 +10,6 @@
 #include "status.h"
 #include "world/entity/event.h"
 #include "world/entity/kind.h"
-#include "world/enum_names.h"
 #include "world/event_text.h"
 #include "world/params.h"
 

@@ -1,16 +1,7 @@
 /* The words of the enumerations. */
 #include "world/enum_names.h"
 
-#include <stddef.h>
-
-/* Defines a function that returns the word of each of an enumeration's count values, from 0 on. */
-#define WORDS(function, type, count, ...)                                                          \
-    const char *function(enum type value)                                                          \
-    {                                                                                              \
-        static const char *const words[] = {__VA_ARGS__};                                          \
-        _Static_assert(sizeof words / sizeof words[0] == (count), "a word for each value");        \
-        return (size_t)value < (count) ? words[value] : "?";                                       \
-    }
+#include "world/enum_words.h"
 
 WORDS(cover_name, cover, COVER_COUNT, "grass", "chaparral", "forest", "rock", "sand", "road", "sea",
       "lake")
@@ -38,12 +29,3 @@ WORDS(command_type_name, command_type, COMMAND_TYPE_COUNT, "none", "pause", "res
 WORDS(command_result_name, command_result, COMMAND_RESULT_COUNT, "done", "no such entity",
       "no such kind", "value out of range", "table full", "cannot do that now", "unknown command",
       "somebody else drives it")
-#define X(name, value, word, test, text) [METHOD_##name] = #word,
-WORDS(method_name, method, METHOD_COUNT, METHODS(X))
-#undef X
-WORDS(shape_name, shape, SHAPE_COUNT, "sphere", "model")
-#define X(name, value, word, text) [MODEL_##name] = #word,
-WORDS(response_model_name, response_model, MODEL_COUNT, RESPONSE_MODELS(X))
-#undef X
-WORDS(view_mode_name, view_mode, VIEW_COUNT, "chase", "map", "inside", "orbit", "free", "overhead")
-WORDS(back_end_name, back_end, BACK_END_COUNT, "auto", "gl", "soft")

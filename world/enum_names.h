@@ -8,7 +8,6 @@
 #include "world/entity/event.h"
 #include "world/entity/formation.h"
 #include "world/entity/kind.h"
-#include "world/param_values.h"
 #include "world/terrain/terrain.h"
 
 const char *cover_name(enum cover cover);
@@ -27,10 +26,5 @@ const char *agent_reason_name(enum agent_reason reason);
 const char *command_ring_name(enum command_ring ring);
 const char *command_type_name(enum command_type type);
 const char *command_result_name(enum command_result result);
-const char *method_name(enum method method);
-const char *shape_name(enum shape shape);
-const char *response_model_name(enum response_model model);
-const char *view_mode_name(enum view_mode view);
-const char *back_end_name(enum back_end back_end);
 
 #endif

@@ -1,4 +1,5 @@
-/* The values of enumerated parameters in a scenario. Their words are in world/enum_names.h. */
+/* The values of enumerated parameters in a scenario, with their words. A value out of range has the
+ * word "?". */
 #ifndef JOLON_WORLD_PARAM_VALUES_H
 #define JOLON_WORLD_PARAM_VALUES_H
 
@@ -14,17 +15,8 @@ enum pace { PACE_REAL, PACE_MAX };
  * written. */
 enum when_full { WHEN_FULL_GAP, WHEN_FULL_PAUSE, WHEN_FULL_COUNT };
 
-enum view_mode {
-    VIEW_CHASE,    /* from behind */
-    VIEW_MAP,      /* the map */
-    VIEW_INSIDE,   /* from the crew's eye */
-    VIEW_ORBIT,    /* around it */
-    VIEW_FREE,     /* from a fixed place */
-    VIEW_OVERHEAD, /* straight down */
-    VIEW_COUNT
-};
-
-/* How to draw: OpenGL, the renderer's own rasteriser, or the one that suits the machine. */
-enum back_end { BACK_END_AUTO, BACK_END_GL, BACK_END_SOFT, BACK_END_COUNT };
+const char *method_name(enum method method);
+const char *shape_name(enum shape shape);
+const char *response_model_name(enum response_model model);
 
 #endif

@@ -4,7 +4,6 @@
 #include "ipc/frame/event_cursor.h"
 #include "ipc/frame/snapshot.h"
 #include "world/entity/kind.h"
-#include "world/enum_names.h"
 #include "world/event_text.h"
 
 #include <string.h>

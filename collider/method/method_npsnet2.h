@@ -4,6 +4,7 @@
 #define JOLON_COLLIDER_METHOD_METHOD_NPSNET2_H
 
 #include "collider/method/method.h"
+#include "world/param_values.h"
 
 #include <stdint.h>
 

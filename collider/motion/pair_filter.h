@@ -6,7 +6,6 @@
 #include "collider/geometry/analytic_impact.h"
 #include "world/entity/entity.h"
 #include "world/maths/maths.h"
-#include "world/param_values.h"
 #include "world/terrain/square_bounds.h"
 
 #include <stdbool.h>

@@ -1,9 +1,9 @@
 /* The schema of a scenario's groups. `make docs` writes these rows into docs/scenario.md. */
 #include "config/syntax/schema_internal.h"
 #include "world/entity/entity.h"
-#include "world/enum_names.h"
 #include "world/making/scenario_settings.h"
 #include "world/param_values.h"
+#include "world/view_mode.h"
 
 _Static_assert(sizeof(enum terrain_source) == sizeof(uint32_t), "choices store 32-bit words");
 _Static_assert(sizeof(enum object_source) == sizeof(uint32_t), "choices store 32-bit words");

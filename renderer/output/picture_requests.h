@@ -8,7 +8,7 @@
 #ifndef JOLON_RENDERER_OUTPUT_PICTURE_REQUESTS_H
 #define JOLON_RENDERER_OUTPUT_PICTURE_REQUESTS_H
 
-#include "world/param_values.h"
+#include "world/view_mode.h"
 
 #include <stdbool.h>
 #include <stdint.h>

@@ -1,8 +1,8 @@
 /* Reading queries of clients that are not trusted. */
 #include "renderer/output/query.h"
 
-#include "world/enum_names.h"
 #include "world/terrain/gridsquare.h"
+#include "world/view_mode.h"
 
 #include <errno.h>
 #include <math.h>

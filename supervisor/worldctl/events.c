@@ -10,7 +10,6 @@
 #include "recorder/replay/arguments.h"
 #include "ipc/json/world_json.h"
 #include "world/entity/event.h"
-#include "world/enum_names.h"
 #include "world/event_text.h"
 #include "world/runtime/parse_number.h"
 

@@ -9,7 +9,6 @@
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
 #include "world/entity/kind.h"
-#include "world/enum_names.h"
 #include "world/maths/random.h"
 #include "world/params.h"
 #include "world/terrain/gridsquare.h"

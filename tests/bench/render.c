@@ -11,6 +11,7 @@
 #include "renderer/chart/annotated_picture.h"
 #include "renderer/image/png.h"
 #include "renderer/chart/instruments.h"
+#include "world/view_mode.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -5,7 +5,7 @@
 #include "renderer/scene/frame/articulation.h"
 #include "renderer/scene/frame/body_axes.h"
 #include "world/entity/kind.h"
-#include "world/param_values.h"
+#include "world/view_mode.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 

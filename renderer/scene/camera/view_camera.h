@@ -6,7 +6,7 @@
 
 #include "renderer/scene/camera/camera.h"
 #include "renderer/scene/frame/frame_view.h"
-#include "world/param_values.h"
+#include "world/view_mode.h"
 
 #include <stdbool.h>
 #include <stdint.h>

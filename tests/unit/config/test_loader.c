@@ -5,11 +5,11 @@
 #include "tests/support/quick_config.h"
 #include "world/entity/entity.h"
 #include "world/entity/kind.h"
-#include "world/enum_names.h"
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
 #include "world/maths/maths.h"
 #include "world/param_values.h"
+#include "world/view_mode.h"
 #include "world/world.h"
 
 #include <math.h>

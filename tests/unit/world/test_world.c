@@ -12,6 +12,7 @@
 #include "world/terrain/crater.h"
 #include "world/terrain/fixed.h"
 #include "world/terrain/terrain.h"
+#include "world/view_mode.h"
 #include "world/world.h"
 
 #include "tests/support/fixture.h"

@@ -3,7 +3,6 @@
 #include "docs/keys/key_tables.h"
 #include "world/entity/entity.h"
 #include "world/entity/kind.h"
-#include "world/enum_names.h"
 #include "world/param_values.h"
 #include <setjmp.h>
 #include <stdarg.h>

@@ -4,10 +4,10 @@
 #include "renderer/scene/camera/crew_eye.h"
 #include "renderer/scene/frame/body_axes.h"
 #include "tests/support/fixture.h"
-#include "world/enum_names.h"
 #include "world/model.h"
 #include "world/params.h"
 #include "world/terrain/gridsquare.h"
+#include "world/view_mode.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
