@@ -2,9 +2,7 @@
  * outline clipped by the other (Sutherland and Hodgman 1974), which is widened by the slack. */
 #include "collider/geometry/contact_manifold.h"
 
-#define MERGE_M                                                                                    \
-    1e-6 /* nearer vertices are merged: an edge between them would have no direction               \
-          */
+#define MERGE_M   1e-6 /* nearer vertices are merged: an edge between them has no direction */
 #define LINES_MAX (CONTACT_MANIFOLD_POINTS_MAX + 4)
 
 struct uv {
@@ -74,7 +72,7 @@ static double left_of(struct uv a, struct uv b, struct uv p)
     return (b.u - a.u) * (p.v - a.v) - (p.u - a.u) * (b.v - a.v);
 }
 
-/* finer noise moves the shore by up to half of this */
+/* Sorts by u, then v: few points. */
 static void sort(struct outline *outline)
 {
     for (uint32_t i = 1; i < outline->count; i++) {

@@ -49,8 +49,7 @@ void island_free(struct island *island)
     *island = (struct island){0};
 }
 
-/* --- the contacts of one moment
- * ---------------------------------------------------------------------*/
+/* --- the contacts of one moment ----------------------------------------------------------------*/
 
 static uint32_t body_for(struct island *island, uint32_t row)
 {

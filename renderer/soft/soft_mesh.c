@@ -95,8 +95,7 @@ static int fill_columns(struct soft_mesh *mesh, const struct source_vertex *sort
     return 0;
 }
 
-/* --- closed meshes
- * ------------------------------------------------------------------------------- */
+/* --- closed meshes -----------------------------------------------------------------------------*/
 
 struct edge {
     float from[3], to[3];

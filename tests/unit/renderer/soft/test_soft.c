@@ -24,8 +24,7 @@
 #define POSTS   401u
 #define SPACING 125.0
 
-/* --- triangles
- * ---------------------------------------------------------------------------------- */
+/* --- triangles ---------------------------------------------------------------------------------*/
 
 /* How often each pixel was drawn, and the last value it was given. */
 struct sheet {
