@@ -186,6 +186,12 @@ void fixture_close(struct fixture *fixture)
     free(fixture->scenario);
 }
 
+int fixture_teardown(void **state)
+{
+    fixture_close(*state);
+    return 0;
+}
+
 /* --- entities ----------------------------------------------------------------------------------*/
 
 uint16_t fixture_kind(const struct fixture *fixture, const char *name)
@@ -340,4 +346,23 @@ uint64_t fixture_random(uint64_t *state)
 double fixture_uniform(uint64_t *state, double low, double high)
 {
     return low + (high - low) * ((double)(fixture_random(state) >> 11) * 0x1.0p-53);
+}
+
+struct vec3 fixture_direction(uint64_t *state)
+{
+    for (;;) {
+        struct vec3 v = {fixture_uniform(state, -1, 1), fixture_uniform(state, -1, 1),
+                         fixture_uniform(state, -1, 1)};
+        double length = vec3_length(v);
+        if (length > 0.1 && length < 1.0)
+            return vec3_scale(v, 1.0 / length);
+    }
+}
+
+void fixture_roughen(float *posts, uint8_t *cover, uint32_t count, uint64_t *state)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        posts[i] = (float)fixture_uniform(state, -50.0, 1500.0);
+        cover[i] = (uint8_t)(fixture_random(state) % COVER_COUNT);
+    }
 }

@@ -48,6 +48,10 @@ void fixture_scenario(struct scenario *scenario, const char *text);
 void fixture_open(struct fixture *fixture, const char *text);
 void fixture_close(struct fixture *fixture);
 
+/* Tear-down for cmocka: closes the fixture that *state points to, which is the last argument of
+ * cmocka_unit_test_prestate_setup_teardown(). */
+int fixture_teardown(void **state);
+
 /* Makes mover and collider again on this many threads, as a restart of both processes does. */
 void fixture_threads(struct fixture *fixture, uint32_t threads);
 
@@ -106,5 +110,11 @@ uint64_t fixture_seed(uint64_t fallback);
 /* Random numbers for tests: splitmix64. */
 uint64_t fixture_random(uint64_t *state);
 double fixture_uniform(uint64_t *state, double low, double high);
+
+/* Returns a unit vector. All directions are equally likely. */
+struct vec3 fixture_direction(uint64_t *state);
+
+/* Draws heights from -50 m to 1500 m and covers of all kinds for count posts. */
+void fixture_roughen(float *posts, uint8_t *cover, uint32_t count, uint64_t *state);
 
 #endif

@@ -33,20 +33,9 @@ struct trial {
     double reach, from;
 };
 
-static struct vec3 direction(uint64_t *random)
-{
-    for (;;) {
-        struct vec3 v = {fixture_uniform(random, -1, 1), fixture_uniform(random, -1, 1),
-                         fixture_uniform(random, -1, 1)};
-        double length = vec3_length(v);
-        if (length > 0.1 && length < 1.0)
-            return vec3_scale(v, 1.0 / length);
-    }
-}
-
 static struct vec3 across(struct vec3 along, uint64_t *random)
 {
-    struct vec3 v = direction(random);
+    struct vec3 v = fixture_direction(random);
     v = vec3_sub(v, vec3_scale(along, vec3_dot(v, along)));
     double length = vec3_length(v);
     return length > 1e-3 ? vec3_scale(v, 1.0 / length) : across(along, random);
@@ -55,15 +44,15 @@ static struct vec3 across(struct vec3 along, uint64_t *random)
 /* Two paths of which b is at `gap` from a along a random direction, at time 0. */
 static struct trial draw(enum sort sort, uint64_t *random)
 {
-    struct vec3 to = direction(random);
+    struct vec3 to = fixture_direction(random);
     double reach = fixture_uniform(random, 0.2, 40.0);
     double speed = fixture_uniform(random, 0.0, 300.0);
     double gap = fixture_uniform(random, 0.0, 300.0);
     struct trial t = {.reach = reach};
     t.a.at = (struct vec3){fixture_uniform(random, 0, 50000), fixture_uniform(random, 0, 2000),
                            fixture_uniform(random, 0, 50000)};
-    t.a.along = vec3_scale(direction(random), fixture_uniform(random, 0.0, 300.0));
-    t.b.along = vec3_scale(direction(random), speed);
+    t.a.along = vec3_scale(fixture_direction(random), fixture_uniform(random, 0.0, 300.0));
+    t.b.along = vec3_scale(fixture_direction(random), speed);
     switch (sort) {
     case OVERLAPPING:
         gap = reach * fixture_uniform(random, 0.0, 1.0);
@@ -89,7 +78,7 @@ static struct trial draw(enum sort sort, uint64_t *random)
     }
     t.b.at = vec3_add(t.a.at, vec3_scale(to, gap));
     if (sort == GRAZING || sort == TINY_REACH || sort == GENERIC) { /* aimed to pass by near */
-        struct vec3 on = direction(random);
+        struct vec3 on = fixture_direction(random);
         double beside = sort == GRAZING ? t.reach * (1.0 + fixture_uniform(random, -1e-6, 1e-6))
                                         : t.reach * fixture_uniform(random, 0.0, 1.3);
         double before = fixture_uniform(random, 0.0, 300.0);
@@ -226,7 +215,7 @@ static double clearance(const struct ground *g, const struct path *path, double 
 
 static struct path draw_path(bool late, uint64_t *random)
 {
-    struct vec3 along = vec3_scale(direction(random), fixture_uniform(random, 1.0, 300.0));
+    struct vec3 along = vec3_scale(fixture_direction(random), fixture_uniform(random, 1.0, 300.0));
     int sort = (int)(fixture_random(random) % 4);
     double reach = (SIDE - 1) * SPACING;
     struct path path = {.at = {fixture_uniform(random, 0, reach), fixture_uniform(random, 10, 130),

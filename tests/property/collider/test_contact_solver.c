@@ -47,16 +47,6 @@ static struct vec3 within(double size, uint64_t *random)
                          fixture_uniform(random, -size, size)};
 }
 
-static struct vec3 direction(uint64_t *random)
-{
-    for (;;) {
-        struct vec3 v = within(1.0, random);
-        double length = vec3_length(v);
-        if (length > 0.1 && length < 1.0)
-            return vec3_scale(v, 1.0 / length);
-    }
-}
-
 /* --- islands -----------------------------------------------------------------------------------*/
 
 /* turn * diagonal * turn's transpose. */
@@ -90,8 +80,8 @@ static void draw_body(struct cluster *cluster, uint32_t i, uint64_t *random)
     const double moment[3] = {mass / 12.0 * (y * y + z * z), mass / 12.0 * (x * x + z * z),
                               mass / 12.0 * (x * x + y * y)};
     const double inverse[3] = {1.0 / moment[0], 1.0 / moment[1], 1.0 / moment[2]};
-    struct vec3 axis[3] = {direction(random)};
-    axis[1] = vec3_cross(axis[0], direction(random));
+    struct vec3 axis[3] = {fixture_direction(random)};
+    axis[1] = vec3_cross(axis[0], fixture_direction(random));
     axis[1] = vec3_scale(axis[1], 1.0 / maths_max(vec3_length(axis[1]), 1e-6));
     axis[2] = vec3_cross(axis[0], axis[1]);
     cluster->moment[i] = turned(axis, moment);

@@ -17,20 +17,9 @@
 #define POINTS_MAX  256
 #define SLACK_M     1e-9
 
-static struct vec3 direction(uint64_t *random)
-{
-    for (;;) {
-        struct vec3 v = {fixture_uniform(random, -1, 1), fixture_uniform(random, -1, 1),
-                         fixture_uniform(random, -1, 1)};
-        double length = vec3_length(v);
-        if (length > 0.1 && length < 1.0)
-            return vec3_scale(v, 1.0 / length);
-    }
-}
-
 static struct mat3 any_turn(uint64_t *random)
 {
-    return rotation_matrix(rotation_spun(rotation_of(0.0, 0.0, 0.0), direction(random),
+    return rotation_matrix(rotation_spun(rotation_of(0.0, 0.0, 0.0), fixture_direction(random),
                                          fixture_uniform(random, 0.0, PI)));
 }
 
@@ -197,7 +186,7 @@ static void draw(struct solid *solid, enum sort sort, uint64_t *random)
 /* Puts b beside a: apart, touching, parallel, or overlapping. */
 static void put_beside(const struct solid *a, struct solid *b, int how, uint64_t *random)
 {
-    struct vec3 n = direction(random), on_a, on_b;
+    struct vec3 n = fixture_direction(random), on_a, on_b;
     double gap = fixture_uniform(random, 0.0, how == 0 ? 20.0 : 0.01);
     if (how == 1) { /* parallel, so that faces and edges are */
         b->convex.turn = a->convex.turn;
@@ -271,7 +260,7 @@ static void form(struct solid *solid, enum form shape, double size, uint64_t *ra
         double sine, cosine;
         maths_sincos(TWO_PI * floor(0.5 * i) / 128.0, &sine, &cosine);
         solid->vertex[i] =
-            shape == BALL ? vec3_scale(direction(random), size)
+            shape == BALL ? vec3_scale(fixture_direction(random), size)
             : shape == DRUM
                 ? (struct vec3){half.z * cosine, i & 1 ? half.y : -half.y, half.z * sine}
                 : (struct vec3){i & 1 ? half.x : -half.x, i & 2 ? half.y : -half.y,
@@ -291,7 +280,7 @@ static void test_big_small_and_thin_bodies_are_as_far_apart_as_they_were_put(voi
         fixture_seed(13); /* has pairs that need ties, and ones that need a second look */
     (void)state;
     for (int n = 0; n < KNOWN_PAIRS; n++) {
-        struct vec3 slab = direction(&random), on_a, on_b;
+        struct vec3 slab = fixture_direction(&random), on_a, on_b;
         double want = gap[n % 6];
         form(&a, (enum form)(n / 6 % FORMS), size[fixture_random(&random) % 4], &random);
         form(&b, (enum form)(n / 36 % FORMS), size[fixture_random(&random) % 4], &random);

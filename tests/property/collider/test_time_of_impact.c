@@ -89,22 +89,11 @@ static void add_box(struct solid *s, struct vec3 centre, struct vec3 half)
     add_hull(s, first);
 }
 
-static struct vec3 direction(uint64_t *random)
-{
-    for (;;) {
-        struct vec3 v = {fixture_uniform(random, -1, 1), fixture_uniform(random, -1, 1),
-                         fixture_uniform(random, -1, 1)};
-        double length = vec3_length(v);
-        if (length > 0.1 && length < 1.0)
-            return vec3_scale(v, 1.0 / length);
-    }
-}
-
 static void add_stone(struct solid *s, struct vec3 centre, double size, uint64_t *random)
 {
     uint32_t first = s->points, count = 5 + (uint32_t)(fixture_random(random) % 4);
     for (uint32_t i = 0; i < count; i++)
-        s->point[s->points++] = vec3_add(centre, vec3_scale(direction(random), size));
+        s->point[s->points++] = vec3_add(centre, vec3_scale(fixture_direction(random), size));
     add_hull(s, first);
 }
 
@@ -175,7 +164,7 @@ static struct quat any_turn(uint64_t *random)
 
 static struct quat turned(struct quat from, double most, uint64_t *random)
 {
-    return rotation_spun(from, direction(random), fixture_uniform(random, 0.0, most));
+    return rotation_spun(from, fixture_direction(random), fixture_uniform(random, 0.0, most));
 }
 
 /* --- oracles -----------------------------------------------------------------------------------*/
@@ -267,11 +256,11 @@ static void draw(struct solid *solid_a, struct solid *solid_b, double most_turn,
     struct vec3 at = {fixture_uniform(random, 0, 50000), fixture_uniform(random, 0, 2000),
                       fixture_uniform(random, 0, 50000)};
     double fast = fixture_random(random) % 4 ? 30.0 : 300.0;
-    struct vec3 along_a = vec3_scale(direction(random), fixture_uniform(random, 0.0, fast));
-    struct vec3 along_b = vec3_scale(direction(random), fixture_uniform(random, 0.0, fast));
+    struct vec3 along_a = vec3_scale(fixture_direction(random), fixture_uniform(random, 0.0, fast));
+    struct vec3 along_b = vec3_scale(fixture_direction(random), fixture_uniform(random, 0.0, fast));
     double meet = fixture_uniform(random, 0.0, 1.2);
     double reach = solid_a->bound + solid_b->bound;
-    struct vec3 beside = vec3_scale(direction(random), fixture_uniform(random, 0.0, reach));
+    struct vec3 beside = vec3_scale(fixture_direction(random), fixture_uniform(random, 0.0, reach));
     *a = body(solid_a, at, along_a, from_a, turned(from_a, most_turn, random));
     *b = body(solid_b, vec3_add(vec3_add(at, beside), vec3_scale(vec3_sub(along_a, along_b), meet)),
               along_b, from_b, turned(from_b, most_turn, random));
@@ -533,7 +522,7 @@ static void draw_touching(struct solid *solid_a, struct solid *solid_b, double d
     double reach = solid_a->bound + solid_b->bound + 1.0;
     struct hull_contact impact;
     for (bool met = false; !met;) { /* moves them together without rotation; stones may miss */
-        struct vec3 to = direction(random), still = {0, 0, 0};
+        struct vec3 to = fixture_direction(random), still = {0, 0, 0};
         *a = body(solid_a, at, still, from_a, from_a);
         *b = body(solid_b, vec3_add(at, vec3_scale(to, reach)), vec3_scale(to, -reach), from_b,
                   from_b);
@@ -544,7 +533,7 @@ static void draw_touching(struct solid *solid_a, struct solid *solid_b, double d
     double nearer = fixture_random(random) & 1 ? fixture_uniform(random, 0.0, 0.9 * SKIN_M)
                                                : fixture_uniform(random, 0.0, deepest);
     b->path.at = vec3_add(path_at(&b->path, impact.toi), vec3_scale(impact.normal, -nearer));
-    b->path.along = vec3_scale(direction(random), fixture_uniform(random, 0.0, 2.0));
+    b->path.along = vec3_scale(fixture_direction(random), fixture_uniform(random, 0.0, 2.0));
 }
 
 /* Bodies that do not rotate and part along the direction of least overlap never approach again;
@@ -677,7 +666,7 @@ static void test_the_place_and_a_common_motion_change_nothing(void **state)
         struct swept_body c = a, d = b;
         struct vec3 aside = {fixture_uniform(&random, -9e3, 9e3), 50.0,
                              fixture_uniform(&random, -9e3, 9e3)};
-        struct vec3 common = vec3_scale(direction(&random), 20.0);
+        struct vec3 common = vec3_scale(fixture_direction(&random), 20.0);
         c.path.at = vec3_add(a.path.at, aside);
         d.path.at = vec3_add(b.path.at, aside);
         c.path.along = vec3_add(a.path.along, common);

@@ -29,13 +29,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static enum command_result does(struct command command)
 {
     return (enum command_result)steps_command(&f, command).result;
@@ -509,7 +502,8 @@ static void test_a_row_removed_and_used_again_in_one_frame_is_the_new_one(void *
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_drive_takes_over_and_release_gives_back),
         TEST(test_drive_refuses_values_out_of_range_and_absent_vehicles),

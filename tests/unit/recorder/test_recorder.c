@@ -71,13 +71,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 /* Opens a world with a small ring. Its memory is larger, which does no harm. */
 static int open_small_ring(void **state)
 {
@@ -564,9 +557,12 @@ static void test_no_back_pressure_with_gaps(void **state)
 
 int main(void)
 {
-#define TEST(function)  cmocka_unit_test_setup_teardown(function, open_world, close_world)
-#define SMALL(function) cmocka_unit_test_setup_teardown(function, open_small_ring, close_world)
-#define BRAKE(function) cmocka_unit_test_setup_teardown(function, open_pausing, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
+#define SMALL(function)                                                                            \
+    cmocka_unit_test_prestate_setup_teardown(function, open_small_ring, fixture_teardown, &f)
+#define BRAKE(function)                                                                            \
+    cmocka_unit_test_prestate_setup_teardown(function, open_pausing, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_events_are_logged_once_over_several_recorders),
         SMALL(test_overwritten_events_are_a_gap),

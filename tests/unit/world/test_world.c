@@ -48,13 +48,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint64_t digest(void)
 {
     return state_digest(&f.view.world, &now);
@@ -374,7 +367,8 @@ static void test_every_value_has_a_word_of_its_own(void **state)
     check_words(word_back_end_name, BACK_END_COUNT);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
 
 int main(void)
 {

@@ -36,13 +36,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 /* Where a row was, where it is now, and special cases: at rest, rotating at rest, far away at once,
  * another entity in the row, an empty row. */
 static void draw_row(uint64_t *random, uint32_t row)
@@ -165,8 +158,8 @@ static void test_columns_give_the_same_as_computed_paths(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test_setup_teardown(test_columns_give_the_same_as_computed_paths, open_world,
-                                        close_world),
+        cmocka_unit_test_prestate_setup_teardown(test_columns_give_the_same_as_computed_paths,
+                                                 open_world, fixture_teardown, &f),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -24,13 +24,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put(const char *kind, struct vec3 at, struct vec3 along)
 {
     uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kind, .at = at});
@@ -212,7 +205,8 @@ static void test_row_17_munitions_are_tested_at_any_height(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_two_at_rest_are_no_pair_and_one_that_moves_makes_it_one),
         TEST(test_a_round_and_its_shooter_are_apart),

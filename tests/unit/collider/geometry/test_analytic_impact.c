@@ -94,12 +94,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    fixture_close(*state);
-    return 0;
-}
-
 static double ground(const struct fixture *fixture, struct path from)
 {
     double toi = -2.0;
@@ -183,5 +177,5 @@ int main(void)
         cmocka_unit_test(test_a_crater_lets_a_path_go_deeper),
     };
     int failed = cmocka_run_group_tests(sphere_tests, NULL, NULL);
-    return failed + cmocka_run_group_tests(ground_tests, open_world, close_world);
+    return failed + cmocka_run_group_tests(ground_tests, open_world, fixture_teardown);
 }

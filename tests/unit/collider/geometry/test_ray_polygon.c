@@ -65,17 +65,6 @@ static bool near(struct vec3 a, struct vec3 b)
     return vec3_length(vec3_sub(a, b)) < 1e-12;
 }
 
-static struct vec3 direction(uint64_t *random)
-{
-    for (;;) {
-        struct vec3 v = {fixture_uniform(random, -1, 1), fixture_uniform(random, -1, 1),
-                         fixture_uniform(random, -1, 1)};
-        double length = vec3_length(v);
-        if (length > 0.1 && length < 1.0)
-            return vec3_scale(v, 1.0 / length);
-    }
-}
-
 /* --- one ray -----------------------------------------------------------------------------------*/
 
 static void test_row_21_a_ray_meets_the_face_before_it(void **state)
@@ -145,7 +134,7 @@ static void test_row_21_no_ray_slips_through_an_edge(void **state)
         double t = n & 4 ? 0.5 : n & 8 ? 0.0 : fixture_uniform(&random, 0.0, 1.0);
         struct vec3 in = {0.0, 0.0, 0.0};
         if (n & 16)
-            in = vec3_scale(direction(&random), 0.3);
+            in = vec3_scale(fixture_direction(&random), 0.3);
         struct vec3 out =
             rotation_apply(&model.turn, vec3_sub(vec3_lerp(corner[0], corner[1], t), in));
         out = vec3_scale(out, 1.0 / vec3_length(out));
@@ -163,9 +152,9 @@ static void test_row_21_a_hit_lies_on_its_polygons_plane(void **state)
     for (int n = 0; n < RAYS; n++) {
         struct ray_polygon_model cube = put(CUBE, (struct vec3){40000, 100, 40000}, 1.0 + n);
         cube.scale = fixture_uniform(&random, 0.5, 3.0);
-        struct vec3 along = direction(&random);
-        struct vec3 from = vec3_add(
-            cube.at, vec3_add(vec3_scale(direction(&random), 1.5), vec3_scale(along, -10.0)));
+        struct vec3 along = fixture_direction(&random);
+        struct vec3 from = vec3_add(cube.at, vec3_add(vec3_scale(fixture_direction(&random), 1.5),
+                                                      vec3_scale(along, -10.0)));
         if (!ray_polygon_nearest(&cube, from, along, 100.0, &hit))
             continue;
         hits++;

@@ -28,13 +28,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 /* The next frame: row 0 has moved 6 m east and turned a tenth to the right, and the last row has a
  * new entity. */
 static void begin(void)
@@ -137,7 +130,8 @@ static void test_bodies_have_their_kinds_hulls_at_their_size(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_a_row_goes_from_the_committed_pose_to_the_moved_one),
         TEST(test_who_is_new_has_not_moved),

@@ -30,13 +30,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put(const char *kind, double x, double z, double speed_mps)
 {
     return fixture_put(&f, (struct fixture_entity){.kind = kind,
@@ -249,7 +242,8 @@ static void test_no_extreme_of_mass_or_resistance_makes_a_nan(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_a_head_on_impact_follows_newton),
         TEST(test_the_event_says_where_and_which_way),

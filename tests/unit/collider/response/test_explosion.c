@@ -23,13 +23,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put(const char *kind, double x, double y, double z, struct vec3 velocity)
 {
     return fixture_put(
@@ -286,7 +279,8 @@ static void test_the_shooter_is_not_hit_by_its_own_round_at_the_muzzle(void **st
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_row_31_artillery_on_ground_leaves_a_crater),
         TEST(test_row_31_artillery_on_a_tank_destroys_it_and_leaves_no_crater),

@@ -36,13 +36,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put(double x, double z, double vx, double vz)
 {
     return fixture_put(&f, (struct fixture_entity){.kind = "helicopter",
@@ -270,7 +263,8 @@ static void test_row_43_a_spring_returns_speed_by_restitution(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_row_36_an_impact_passes_through_a_row_of_bodies),
         TEST(test_row_36_two_at_once_share_an_impact),

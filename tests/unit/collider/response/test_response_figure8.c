@@ -28,13 +28,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put(const char *kind, double x, double z, struct vec3 velocity)
 {
     return fixture_put(
@@ -436,7 +429,8 @@ static void test_one_passing_of_a_tree_is_told_once(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_row_29_within_five_degrees_of_a_quarter_turn_is_severe),
         TEST(test_row_29_fast_kills_both_and_slow_stops_both),

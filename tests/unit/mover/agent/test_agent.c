@@ -19,13 +19,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put(const char *kind, double x, double z, enum force force,
                     enum behaviour behaviour)
 {
@@ -426,7 +419,8 @@ static void test_an_interrupted_route_goes_on_to_the_point_it_was_heading_for(vo
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_row_9_a_shot_at_agent_reacts_within_two_frames),
         TEST(test_row_9_courage_says_whether_it_fights_or_flees),

@@ -24,13 +24,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 /* A patrol that goes to a point and no other. */
 static uint32_t send(const char *kind, double x, double z, double goal_x, double goal_z)
 {
@@ -186,7 +179,8 @@ static void test_the_same_on_any_number_of_threads(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_a_wood_is_crossed),
         TEST(test_head_on_they_pass_each_other_on_the_right),

@@ -29,13 +29,6 @@ static void open_with(const char *kind, const char *shape, const char *orders)
     fixture_open(&f, text);
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 /* How far row is from its place [m]. */
 static double error_of(uint32_t row)
 {
@@ -136,7 +129,8 @@ static void test_two_columns_meet_on_one_road_and_pass(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_teardown(function, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, NULL, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_everybody_keeps_his_place_on_a_winding_route),
         TEST(test_a_gap_is_closed_and_a_lost_leader_replaced),

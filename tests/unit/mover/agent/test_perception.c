@@ -22,13 +22,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put(const char *kind, double x, double z, enum force force,
                     enum behaviour behaviour, uint8_t flags)
 {
@@ -85,7 +78,7 @@ static double ridge(double x, double z, const void *context)
 /* Does a tank that fires at will attack one on the other side of the middle within two seconds? */
 static bool attacks_across(bool hill)
 {
-    close_world(NULL);
+    fixture_close(&f);
     open_world(NULL);
     if (hill)
         steps_ground(&f, ridge, NULL);
@@ -282,7 +275,8 @@ static void test_a_turn_is_a_second_or_longer_in_a_crowd(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_row_9_no_agent_sees_through_a_hill),
         TEST(test_row_9_an_agent_shot_at_from_behind_a_hill_does_not_shoot_at_it),

@@ -20,13 +20,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 /* Ridges across the path east, one every 2 km, 240 m high. */
 static double ridges(double x, double z, const void *context)
 {
@@ -215,7 +208,8 @@ static void test_nothing_is_nan_with_a_kind_that_cannot_fly(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_a_helicopter_keeps_its_height_over_ridges),
         TEST(test_a_helicopter_hovers),

@@ -21,13 +21,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put(const char *kind, double x, double z, double y, struct vec3 velocity)
 {
     return fixture_put(
@@ -181,7 +174,8 @@ static void test_a_wreck_sinks_into_a_crater_that_opens_under_it(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_hold_keeps_heading_and_speed_to_the_bit),
         TEST(test_hold_reacts_to_nothing),

@@ -23,13 +23,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put_tank(double x, double z, double heading_deg, double speed_mps)
 {
     double heading = heading_deg * RAD_PER_DEG;
@@ -452,7 +445,8 @@ static void test_what_stands_and_what_lies_aside_slows_nobody(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_row_15_a_plane_gives_pitch_and_roll),
         TEST(test_row_15_height_is_the_grounds_in_every_frame),

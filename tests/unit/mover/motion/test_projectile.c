@@ -19,13 +19,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put_round(const char *kind, struct vec3 at, struct vec3 velocity)
 {
     return fixture_put(&f, (struct fixture_entity){.kind = kind, .at = at, .velocity = velocity});
@@ -228,7 +221,8 @@ static void test_a_missile_without_a_target_flies_straight(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_a_ballistic_round_follows_the_parabola),
         TEST(test_the_parabola_does_not_depend_on_the_frame_rate),

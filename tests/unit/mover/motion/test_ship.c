@@ -21,13 +21,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static bool on_water(uint32_t row)
 {
     struct entities e = steps_rows(&f);
@@ -121,7 +114,8 @@ static void test_a_ship_drifts_long_and_goes_astern(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_patrolling_ships_never_leave_the_water),
         TEST(test_the_shore_stops_a_ship_by_its_bow),

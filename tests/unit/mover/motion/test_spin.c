@@ -23,13 +23,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put(const char *kind, double y, enum behaviour behaviour, struct vec3 velocity)
 {
     return fixture_put(&f, (struct fixture_entity){.kind = kind,
@@ -246,7 +239,8 @@ static void test_a_pilot_gets_his_aircraft_out_of_a_spin(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_a_positive_spin_lowers_the_heading_and_the_tyres_end_it),
         TEST(test_the_ground_ends_tumbling_at_once),

@@ -20,13 +20,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put(const char *kind, double x, double z, struct vec3 velocity)
 {
     return fixture_put(&f, (struct fixture_entity){
@@ -229,7 +222,8 @@ static void test_a_drop_falls_straight_onto_its_point(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_aim_leads_a_moving_target_on_level_ground),
         TEST(test_dispersion_is_the_kinds_standard_error),

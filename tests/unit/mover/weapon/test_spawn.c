@@ -26,13 +26,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t spawn(const char *kind)
 {
     return spawn_entity(&context, fixture_kind(&f, kind), FORCE_BLUE);
@@ -154,7 +147,8 @@ static void test_intents_end_when_the_frame_is_full(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_a_new_row_keeps_nothing_of_the_old_one),
         TEST(test_a_munition_flies_and_has_a_life),

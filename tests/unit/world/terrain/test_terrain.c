@@ -33,14 +33,6 @@ static void level(float height_m)
     }
 }
 
-static void roughen(uint64_t *random)
-{
-    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
-        posts[i] = (float)fixture_uniform(random, -50.0, 1500.0);
-        cover[i] = (uint8_t)(fixture_random(random) % COVER_COUNT);
-    }
-}
-
 static double height(double x, double z)
 {
     return terrain_base_height(&terrain, x, z);
@@ -50,7 +42,7 @@ static void test_height_at_every_post_is_the_posts(void **state)
 {
     uint64_t random = fixture_seed(1);
     (void)state;
-    roughen(&random);
+    fixture_roughen(posts, cover, SIDE * SIDE, &random);
     for (uint32_t row = 0; row < SIDE; row++) {
         for (uint32_t column = 0; column < SIDE; column++)
             assert_true(height(column * SPACING, row * SPACING) == (double)*post(column, row));
@@ -71,7 +63,7 @@ static void test_two_flat_triangles_a_cell_split_from_north_west_to_south_east(v
 {
     uint64_t random = fixture_seed(2);
     (void)state;
-    roughen(&random);
+    fixture_roughen(posts, cover, SIDE * SIDE, &random);
     for (int i = 0; i < 100000; i++) {
         double x = fixture_uniform(&random, 0.0, WORLD_SIDE_M);
         double z = fixture_uniform(&random, 0.0, WORLD_SIDE_M);
@@ -92,7 +84,7 @@ static void test_continuous_across_edges_and_diagonals(void **state)
     const double steepest = 2 * 1550.0 / SPACING; /* rise a metre that the posts allow */
     uint64_t random = fixture_seed(3);
     (void)state;
-    roughen(&random);
+    fixture_roughen(posts, cover, SIDE * SIDE, &random);
     for (int i = 0; i < 100000; i++) {
         double border = SPACING * (double)(1 + fixture_random(&random) % (SIDE - 2));
         double along = fixture_uniform(&random, 0.0, WORLD_SIDE_M);
@@ -108,7 +100,7 @@ static void test_outside_the_edges_height_goes_on(void **state)
 {
     uint64_t random = fixture_seed(4);
     (void)state;
-    roughen(&random);
+    fixture_roughen(posts, cover, SIDE * SIDE, &random);
     for (int i = 0; i < 10000; i++) {
         double along = fixture_uniform(&random, 0.0, WORLD_SIDE_M);
         double beyond = fixture_uniform(&random, 0.0, 1e6);
@@ -144,7 +136,7 @@ static void test_normal_is_a_unit_vector_upwards_everywhere(void **state)
 {
     uint64_t random = fixture_seed(5);
     (void)state;
-    roughen(&random);
+    fixture_roughen(posts, cover, SIDE * SIDE, &random);
     for (int i = 0; i < 20000; i++) {
         struct vec3 n = terrain_normal(&terrain, NULL, fixture_uniform(&random, -100.0, 50100.0),
                                        fixture_uniform(&random, -100.0, 50100.0));
@@ -157,7 +149,7 @@ static void test_cover_is_the_nearest_posts(void **state)
 {
     uint64_t random = fixture_seed(6);
     (void)state;
-    roughen(&random);
+    fixture_roughen(posts, cover, SIDE * SIDE, &random);
     for (int i = 0; i < 100000; i++) {
         double x = fixture_uniform(&random, -200.0, 50200.0);
         double z = fixture_uniform(&random, -200.0, 50200.0);

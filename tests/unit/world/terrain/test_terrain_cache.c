@@ -21,14 +21,6 @@ static uint8_t cover[SIDE * SIDE];
 static const struct terrain terrain = {posts, cover, SIDE, SPACING};
 static struct terrain_cache_entry patches[LANE_COUNT];
 
-static void roughen(uint64_t *random)
-{
-    for (uint32_t i = 0; i < SIDE * SIDE; i++) {
-        posts[i] = (float)fixture_uniform(random, -50.0, 1500.0);
-        cover[i] = (uint8_t)(fixture_random(random) % COVER_COUNT);
-    }
-}
-
 /* Anywhere, on posts and edges, outside the world. */
 static double place(uint64_t *random)
 {
@@ -64,7 +56,7 @@ static void test_lanes_are_one_point_at_a_time(void **state)
     uint64_t random = fixture_seed(1);
     struct terrain_cache footing = {.patch = {NULL}};
     (void)state;
-    roughen(&random);
+    fixture_roughen(posts, cover, SIDE * SIDE, &random);
     memset(patches, 0, sizeof patches);
     for (int l = 0; l < LANE_COUNT; l++)
         footing.patch[l] = &patches[l];
@@ -91,7 +83,7 @@ static void test_a_body_near_its_place_needs_its_patch_alone(void **state)
     struct terrain_cache footing = {.patch = {NULL}};
     union simd_lanes x, z, height, before;
     (void)state;
-    roughen(&random);
+    fixture_roughen(posts, cover, SIDE * SIDE, &random);
     memset(patches, 0, sizeof patches);
     for (int l = 0; l < LANE_COUNT; l++) {
         footing.patch[l] = &patches[l];
