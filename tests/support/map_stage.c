@@ -40,6 +40,21 @@ void map_stage_close(struct map_stage *stage)
     fixture_close(&stage->fixture);
 }
 
+struct map_stage *map_stage_new(uint64_t seed)
+{
+    struct map_stage *stage = calloc(1, sizeof *stage);
+    assert_non_null(stage);
+    map_stage_open(stage, seed);
+    return stage;
+}
+
+int map_stage_teardown(void **context)
+{
+    map_stage_close(*context);
+    free(*context);
+    return 0;
+}
+
 bool map_stage_shows(const struct map_stage *stage, const struct image *image,
                      const struct map_view *view, uint32_t slot)
 {

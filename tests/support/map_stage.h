@@ -19,6 +19,10 @@ struct map_stage {
 void map_stage_open(struct map_stage *stage, uint64_t seed);
 void map_stage_close(struct map_stage *stage);
 
+/* Returns such a stage in memory of its own. The tear-down for cmocka closes and frees it. */
+struct map_stage *map_stage_new(uint64_t seed);
+int map_stage_teardown(void **context);
+
 /* Returns true if the force's colour is within a pixel of the vehicle's position by map_point(). */
 bool map_stage_shows(const struct map_stage *stage, const struct image *image,
                      const struct map_view *view, uint32_t slot);

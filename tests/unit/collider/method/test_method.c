@@ -2,6 +2,7 @@
  * worlds are in tests/property/collider/test_method.c, npsnet2 in test_method_npsnet2.c. */
 #include "collider/method/method.h"
 
+#include "tests/support/pair_search.h"
 #include "tests/support/small_world.h"
 #include "world/params.h"
 
@@ -16,8 +17,6 @@
 #define ROWS 4096
 
 static struct small_world w;
-static struct method_workspace *workspace;
-static struct pair_list pairs;
 
 /* Methods that find candidates along the path. */
 static method_pairs_function *const swept[] = {method_brute_pairs, method_occupancy_pairs,
@@ -29,43 +28,16 @@ static int open_world(void **state)
 {
     (void)state;
     small_world_begin(&w, ROWS, 64);
-    workspace = method_workspace_create(&w.world, NULL);
-    return workspace ? pair_list_init(&pairs, ROWS * ROWS) : -1;
-}
-
-static int close_world(void **state)
-{
-    (void)state;
-    small_world_end(&w);
-    pair_list_free(&pairs);
-    method_workspace_free(workspace);
-    return 0;
+    return pair_search_open(&w, ROWS * ROWS);
 }
 
 static const struct vec3 still = {0, 0, 0};
-
-static uint32_t run(method_pairs_function *method)
-{
-    const struct method_input input = small_world_input(&w);
-    pairs.count = 0;
-    method(&input, workspace, &pairs);
-    return pairs.count;
-}
 
 /* All three find this many pairs. */
 static void assert_swept(uint32_t count)
 {
     for (size_t i = 0; i < SWEPT_COUNT; i++)
-        assert_int_equal(run(swept[i]), count);
-}
-
-static bool has(uint32_t a, uint32_t b)
-{
-    for (uint32_t n = 0; n < pairs.count; n++) {
-        if (pairs.pair[n].a == a && pairs.pair[n].b == b)
-            return true;
-    }
-    return false;
+        assert_int_equal(pair_search_run(swept[i]), count);
 }
 
 /* --- choosing ----------------------------------------------------------------------------------*/
@@ -90,12 +62,12 @@ static void test_pairs_are_appended_to_the_list(void **state)
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, (struct vec3){1, 0, 0});
     small_world_row(&w, SMALL_TANK, (struct vec3){25001, 0, 25000}, still);
     const struct method_input input = small_world_input(&w);
-    pair_list_add(&pairs, 7, 8);
+    pair_list_add(&pair_search.pairs, 7, 8);
     for (size_t i = 0; i < SWEPT_COUNT; i++) {
-        swept[i](&input, workspace, &pairs);
-        assert_int_equal(pairs.count, i + 2);
+        swept[i](&input, pair_search.workspace, &pair_search.pairs);
+        assert_int_equal(pair_search.pairs.count, i + 2);
     }
-    assert_true(has(7, 8));
+    assert_true(pair_search_has(7, 8));
 }
 
 /* --- moving bodies -----------------------------------------------------------------------------*/
@@ -106,7 +78,7 @@ static void test_an_empty_world_has_no_pairs(void **state)
     assert_swept(0);
     small_world_tree(&w, (struct vec3){25000, 0, 25000}, 2.0);
     assert_swept(0);
-    assert_int_equal(run(method_mps_pairs), 0);
+    assert_int_equal(pair_search_run(method_mps_pairs), 0);
 }
 
 static void test_two_at_rest_are_no_pair_and_one_that_moves_makes_it_one(void **state)
@@ -127,8 +99,9 @@ static void test_a_free_row_meets_nothing(void **state)
     w.e.state[0] = ENTITY_FREE;
     small_world_tree(&w, (struct vec3){25000, 0, 25000}, 2.0);
     assert_swept(3); /* the two with each other, and each with the tree */
-    run(method_hopcroft_pairs);
-    assert_true(has(1, 2) && has(1, 0 | PAIR_FIXED) && has(2, 0 | PAIR_FIXED));
+    pair_search_run(method_hopcroft_pairs);
+    assert_true(pair_search_has(1, 2) && pair_search_has(1, 0 | PAIR_FIXED) &&
+                pair_search_has(2, 0 | PAIR_FIXED));
 }
 
 static void test_a_round_and_its_shooter_are_apart(void **state)
@@ -236,13 +209,13 @@ static void test_row_42_mps_finds_platforms_near_on_the_map_where_the_frame_ends
     w.params->collision.mps_near_m = 10.0;
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, (struct vec3){6, 0, 0});
     small_world_row(&w, SMALL_CAR, (struct vec3){25006, 0, 25010}, still);
-    assert_int_equal(run(method_mps_pairs), 1); /* at the end 10 m, at the start more */
-    assert_true(has(0, 1));
+    assert_int_equal(pair_search_run(method_mps_pairs), 1); /* at the end 10 m, at the start more */
+    assert_true(pair_search_has(0, 1));
     small_world_move(&w, 0, (struct vec3){25000, 0, 25000}, (struct vec3){5.99, 0, 0});
-    assert_int_equal(run(method_mps_pairs), 0);
+    assert_int_equal(pair_search_run(method_mps_pairs), 0);
     /* It drives through the other, and is past it when the frame ends. */
     small_world_move(&w, 0, (struct vec3){24990, 0, 25010}, (struct vec3){30, 0, 0});
-    assert_int_equal(run(method_mps_pairs), 0);
+    assert_int_equal(pair_search_run(method_mps_pairs), 0);
 }
 
 static void test_row_42_mps_looks_at_no_height(void **state)
@@ -251,7 +224,7 @@ static void test_row_42_mps_looks_at_no_height(void **state)
     w.params->collision.mps_near_m = 10.0;
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, still);
     small_world_row(&w, SMALL_JET, (struct vec3){24900, 5000, 25000}, (struct vec3){100, 0, 0});
-    assert_int_equal(run(method_mps_pairs), 1);
+    assert_int_equal(pair_search_run(method_mps_pairs), 1);
 }
 
 static void test_row_42_mps_checks_nothing_but_platforms(void **state)
@@ -261,20 +234,20 @@ static void test_row_42_mps_checks_nothing_but_platforms(void **state)
     small_world_tree(&w, (struct vec3){25000, 0, 25000}, 2.0);
     small_world_row(&w, SMALL_ROUND, (struct vec3){25000, 0, 25000}, (struct vec3){1, 0, 0});
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, (struct vec3){1, 0, 0});
-    assert_int_equal(run(method_mps_pairs), 0);
+    assert_int_equal(pair_search_run(method_mps_pairs), 0);
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, still);
-    assert_int_equal(run(method_mps_pairs), 1);
-    assert_true(has(1, 2));
+    assert_int_equal(pair_search_run(method_mps_pairs), 1);
+    assert_true(pair_search_has(1, 2));
     w.path[1].along.x = 0.0; /* no further body comes near */
-    assert_int_equal(run(method_mps_pairs), 0);
+    assert_int_equal(pair_search_run(method_mps_pairs), 0);
     w.path[1].along.x = 1.0;
     w.e.state[2] = ENTITY_FREE;
-    assert_int_equal(run(method_mps_pairs), 0);
+    assert_int_equal(pair_search_run(method_mps_pairs), 0);
 }
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, pair_search_teardown)
     const struct CMUnitTest tests[] = {
         TEST(test_every_method_has_its_function),
         TEST(test_pairs_are_appended_to_the_list),

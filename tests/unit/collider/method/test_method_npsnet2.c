@@ -1,6 +1,7 @@
 /* NPSNET-2's detection as published (thesis rows 17-21), and what it misses (rows 24, 25, 37). */
 #include "collider/method/method_npsnet2.h"
 
+#include "tests/support/pair_search.h"
 #include "tests/support/small_world.h"
 #include "tests/support/steps.h"
 #include "world/model.h"
@@ -22,8 +23,6 @@
 static const char ten_frames_a_second[] = "world = { seed = 1; capacity = 64; hz = 10.0; };";
 
 static struct small_world w;
-static struct method_workspace *workspace;
-static struct pair_list pairs;
 
 /* Tanks are checked with a radius of 3 m, as the thesis's are. */
 static int open_world(void **state)
@@ -34,37 +33,10 @@ static int open_world(void **state)
     w.params->dt_s = DT_S;
     w.params->collision.nearness = NEARNESS_AND;
     w.kinds[SMALL_TANK].radius_m = 3.0 / METHOD_NPSNET2_RADIUS_SHARE;
-    workspace = method_workspace_create(&w.world, NULL);
-    return workspace ? pair_list_init(&pairs, 512 * 512) : -1;
-}
-
-static int close_world(void **state)
-{
-    (void)state;
-    small_world_end(&w);
-    pair_list_free(&pairs);
-    method_workspace_free(workspace);
-    return 0;
+    return pair_search_open(&w, 512 * 512);
 }
 
 static const struct vec3 still = {0, 0, 0}, eastward = {1, 0, 0};
-
-static uint32_t run(method_pairs_function *method)
-{
-    const struct method_input input = small_world_input(&w);
-    pairs.count = 0;
-    method(&input, workspace, &pairs);
-    return pairs.count;
-}
-
-static bool has(uint32_t a, uint32_t b)
-{
-    for (uint32_t n = 0; n < pairs.count; n++) {
-        if (pairs.pair[n].a == a && pairs.pair[n].b == b)
-            return true;
-    }
-    return false;
-}
 
 /* --- fixed objects -----------------------------------------------------------------------------*/
 
@@ -75,10 +47,10 @@ static void test_row_17_above_the_threshold_no_fixed_object_is_tested(void **sta
     small_world_tree(&w, (struct vec3){25010, 60, 25010}, 20.0);
     small_world_index(&w);
     small_world_row(&w, SMALL_JET, (struct vec3){25009, 70.01, 25010}, eastward);
-    assert_int_equal(run(method_npsnet2_pairs), 0);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 0);
     small_world_move(&w, 0, (struct vec3){25009, 69.99, 25010}, eastward);
-    assert_int_equal(run(method_npsnet2_pairs), 1);
-    assert_true(has(0, 0 | PAIR_FIXED));
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 1);
+    assert_true(pair_search_has(0, 0 | PAIR_FIXED));
 }
 
 static void test_row_17_resting_bodies_and_fallen_objects_are_not_tested(void **state)
@@ -87,11 +59,11 @@ static void test_row_17_resting_bodies_and_fallen_objects_are_not_tested(void **
     small_world_tree(&w, (struct vec3){25010, 0, 25010}, 2.0);
     small_world_index(&w);
     small_world_row(&w, SMALL_TANK, (struct vec3){25010, 0, 25010}, still);
-    assert_int_equal(run(method_npsnet2_pairs), 0);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 0);
     w.path[0].along = eastward;
-    assert_int_equal(run(method_npsnet2_pairs), 1);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 1);
     w.damage[0] = DAMAGE_HIGH;
-    assert_int_equal(run(method_npsnet2_pairs), 0);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 0);
 }
 
 static void test_row_18_after_a_hit_on_a_fixed_object_no_moving_body_is_tested(void **state)
@@ -103,15 +75,15 @@ static void test_row_18_after_a_hit_on_a_fixed_object_no_moving_body_is_tested(v
      * which does not look for it. */
     small_world_row(&w, SMALL_TANK, (struct vec3){25008, 0, 25010}, eastward);
     small_world_row(&w, SMALL_TANK, (struct vec3){25004, 0, 25010}, eastward);
-    assert_int_equal(run(method_npsnet2_pairs), 2);
-    assert_true(has(0, 0 | PAIR_FIXED) && has(0, 1));
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 2);
+    assert_true(pair_search_has(0, 0 | PAIR_FIXED) && pair_search_has(0, 1));
     /* It has stopped: it is not tested. */
     small_world_move(&w, 1, (struct vec3){25004, 0, 25010}, still);
-    assert_int_equal(run(method_npsnet2_pairs), 1);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 1);
     /* Both reach the tree: neither looks for the other. */
     small_world_move(&w, 1, (struct vec3){25006, 0, 25010}, eastward);
-    assert_int_equal(run(method_npsnet2_pairs), 2);
-    assert_true(has(0, 0 | PAIR_FIXED) && has(1, 0 | PAIR_FIXED));
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 2);
+    assert_true(pair_search_has(0, 0 | PAIR_FIXED) && pair_search_has(1, 0 | PAIR_FIXED));
 }
 
 /* Fig. 9: a house just east of a border, and a tank that comes from the west. */
@@ -126,9 +98,9 @@ static void test_row_37_a_border_object_is_found_late(void **state)
     for (int frame = 0; frame < 60 && found == 0.0; frame++) {
         struct vec3 at = path_at(&w.path[0], 1.0);
         small_world_move(&w, 0, at, w.path[0].along);
-        if (touched == 0.0 && run(method_brute_pairs) == 1)
+        if (touched == 0.0 && pair_search_run(method_brute_pairs) == 1)
             touched = w.e.x[0];
-        if (run(method_npsnet2_pairs) == 1)
+        if (pair_search_run(method_npsnet2_pairs) == 1)
             found = w.e.x[0];
     }
     /* 18 m late: when its centre is over the border. */
@@ -145,9 +117,9 @@ static void test_row_37_an_object_of_its_own_square_is_found_in_time(void **stat
     double reach = 3.0 + METHOD_NPSNET2_RADIUS_SHARE * 20.0;
     small_world_row(&w, SMALL_TANK, (struct vec3){BORDER_M + 60.0 - reach - 1.01, 0, 25060},
                     eastward);
-    assert_int_equal(run(method_npsnet2_pairs), 0);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 0);
     small_world_move(&w, 0, (struct vec3){BORDER_M + 60.0 - reach - 0.99, 0, 25060}, eastward);
-    assert_int_equal(run(method_npsnet2_pairs), 1);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 1);
 }
 
 /* --- moving bodies -----------------------------------------------------------------------------*/
@@ -160,12 +132,12 @@ static void test_row_20_radii_are_slightly_smaller_than_the_extent(void **state)
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, still);
     small_world_row(&w, SMALL_TANK, (struct vec3){25001, 0, 25000 + extent + extent - 0.01},
                     (struct vec3){-1, 0, 0});
-    assert_int_equal(run(method_npsnet2_pairs), 0);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 0);
     small_world_move(&w, 1, (struct vec3){25001, 0, 25006.001}, (struct vec3){-1, 0, 0});
-    assert_int_equal(run(method_npsnet2_pairs), 0);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 0);
     small_world_move(&w, 1, (struct vec3){25001, 0, 25005.999}, (struct vec3){-1, 0, 0});
-    assert_int_equal(run(method_npsnet2_pairs), 1);
-    assert_int_equal(run(method_npsnet2_pairs), 1); /* as long as they overlap */
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 1);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 1); /* as long as they overlap */
 }
 
 static void test_a_munition_is_a_moving_object_and_apart_from_its_shooter(void **state)
@@ -174,13 +146,13 @@ static void test_a_munition_is_a_moving_object_and_apart_from_its_shooter(void *
     uint32_t tank = small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, still);
     uint32_t round =
         small_world_row(&w, SMALL_ROUND, (struct vec3){24999, 0, 25000}, (struct vec3){2, 0, 0});
-    assert_int_equal(run(method_npsnet2_pairs), 1);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 1);
     w.e.owner_slot[round] = tank;
     w.e.owner_id[round] = w.e.id[tank];
-    assert_int_equal(run(method_npsnet2_pairs), 0);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 0);
     w.e.owner_id[round] = 0;
     w.e.state[tank] = ENTITY_FREE;
-    assert_int_equal(run(method_npsnet2_pairs), 0);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 0);
 }
 
 /* A cross of the map: 100 share the middle one's X, 40 its Z, 5 are in the middle. */
@@ -222,9 +194,9 @@ static void test_row_19_level_1_is_100_m_in_x_or_z(void **state)
         small_world_move(&w, 1, (struct vec3){25000.0 + cases[i].dx, -8, 25000.0 + cases[i].dz},
                          (struct vec3){0, 8, 0});
         w.params->collision.nearness = NEARNESS_OR;
-        assert_int_equal(run(method_npsnet2_pairs), cases[i].by_or);
+        assert_int_equal(pair_search_run(method_npsnet2_pairs), cases[i].by_or);
         w.params->collision.nearness = NEARNESS_AND;
-        assert_int_equal(run(method_npsnet2_pairs), cases[i].by_and);
+        assert_int_equal(pair_search_run(method_npsnet2_pairs), cases[i].by_and);
     }
 }
 
@@ -270,7 +242,7 @@ static uint32_t pass(method_pairs_function *method, double apart_m, double speed
                          (struct vec3){step, 0, 0});
         small_world_move(&w, 1, (struct vec3){25000.0 - along + step, 0, 25000 + apart_m},
                          (struct vec3){-step, 0, 0});
-        found += run(method);
+        found += pair_search_run(method);
     }
     return found;
 }
@@ -362,12 +334,13 @@ static void test_row_21_spheres_that_overlap_without_the_objects_are_no_collisio
     make_cubes();
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, still);
     small_world_row(&w, SMALL_CAR, (struct vec3){25001.5, 0, 25000}, eastward);
-    assert_int_equal(run(method_npsnet2_pairs), 0); /* 2.5 m: half a metre between them */
+    /* 2.5 m: half a metre between them */
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 0);
     w.params->collision.shape = SHAPE_SPHERE;
-    assert_int_equal(run(method_npsnet2_pairs), 1);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 1);
     w.params->collision.shape = SHAPE_MODEL;
     small_world_move(&w, 1, (struct vec3){25000.9, 0, 25000}, eastward);
-    assert_int_equal(run(method_npsnet2_pairs), 1); /* 1.9 m */
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 1); /* 1.9 m */
 }
 
 static void test_row_21_fixed_objects_have_their_polygons_and_their_size(void **state)
@@ -377,13 +350,13 @@ static void test_row_21_fixed_objects_have_their_polygons_and_their_size(void **
     small_world_tree(&w, (struct vec3){25010, 0, 25010}, 4.0); /* a cube of 4 m */
     small_world_index(&w);
     small_world_row(&w, SMALL_CAR, (struct vec3){25012.5, 0, 25010}, eastward);
-    assert_int_equal(run(method_npsnet2_pairs), 0); /* half a metre between them */
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 0); /* half a metre between them */
     small_world_move(&w, 0, (struct vec3){25011.9, 0, 25010}, eastward);
-    assert_int_equal(run(method_npsnet2_pairs), 1);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 1);
     small_world_move(&w, 0, (struct vec3){25012.7, 0, 25010}, eastward);
-    assert_int_equal(run(method_npsnet2_pairs), 0);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 0);
     w.fixed[0].turn = 65536 / 8; /* a corner to the car: 2.83 m */
-    assert_int_equal(run(method_npsnet2_pairs), 1);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 1);
 }
 
 static void test_row_21_an_object_is_hit_as_it_is_turned(void **state)
@@ -392,9 +365,9 @@ static void test_row_21_an_object_is_hit_as_it_is_turned(void **state)
     make_cubes();
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, still);
     small_world_row(&w, SMALL_CAR, (struct vec3){25001.25, 0, 25000}, eastward);
-    assert_int_equal(run(method_npsnet2_pairs), 0); /* 2.25 m */
-    w.e.heading[0] = w.e.heading[1] = 0.25 * PI;    /* corner to corner: 2.83 m reach */
-    assert_int_equal(run(method_npsnet2_pairs), 1);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 0); /* 2.25 m */
+    w.e.heading[0] = w.e.heading[1] = 0.25 * PI;                /* corner to corner: 2.83 m reach */
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 1);
 }
 
 static void test_row_21_a_contact_beside_the_line_of_centres_is_missed(void **state)
@@ -406,9 +379,9 @@ static void test_row_21_a_contact_beside_the_line_of_centres_is_missed(void **st
     small_world_index(&w);
     small_world_row(&w, SMALL_CAR, (struct vec3){25009, 0, 25010}, eastward);
     w.e.heading[0] = 0.25 * PI;
-    assert_int_equal(run(method_npsnet2_pairs), 0);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 0);
     w.fixed[0].z = 25010.0; /* the corner is on the line now */
-    assert_int_equal(run(method_npsnet2_pairs), 1);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 1);
 }
 
 /* Vehicles stand on the ground with air below them: a ray at their positions would meet nothing. */
@@ -424,14 +397,14 @@ static void test_row_21_rays_run_at_the_height_of_the_vehicle_and_not_along_the_
     w.kinds[SMALL_TANK].height_m = w.kinds[SMALL_CAR].height_m = 2.5;
     small_world_row(&w, SMALL_TANK, (struct vec3){25000, 0, 25000}, still);
     small_world_row(&w, SMALL_CAR, (struct vec3){25000.9, 0, 25000}, eastward); /* ends 1.9 m off */
-    assert_int_equal(run(method_npsnet2_pairs), 1);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 1);
     w.kinds[SMALL_TANK].height_m = w.kinds[SMALL_CAR].height_m = 0.9; /* below both */
-    assert_int_equal(run(method_npsnet2_pairs), 0);
+    assert_int_equal(pair_search_run(method_npsnet2_pairs), 0);
 }
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, pair_search_teardown)
     const struct CMUnitTest tests[] = {
         TEST(test_row_17_above_the_threshold_no_fixed_object_is_tested),
         TEST(test_row_17_resting_bodies_and_fallen_objects_are_not_tested),

@@ -46,17 +46,7 @@ static void canvas_close(struct canvas *canvas)
 
 static int open_stage(void **context)
 {
-    struct map_stage *stage = calloc(1, sizeof *stage);
-    assert_non_null(stage);
-    map_stage_open(stage, fixture_seed(21));
-    *context = stage;
-    return 0;
-}
-
-static int close_stage(void **context)
-{
-    map_stage_close(*context);
-    free(*context);
+    *context = map_stage_new(fixture_seed(21));
     return 0;
 }
 
@@ -193,7 +183,7 @@ static void test_glyphs_are_kept_and_made_again(void **context)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, close_stage)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, map_stage_teardown)
     const struct CMUnitTest tests[] = {
         TEST(test_the_whole_map_shows_every_vehicle),
         TEST(test_instruments_keep_to_their_places),

@@ -19,17 +19,7 @@
 
 static int open_stage(void **context)
 {
-    struct map_stage *stage = calloc(1, sizeof *stage);
-    assert_non_null(stage);
-    map_stage_open(stage, fixture_seed(12));
-    *context = stage;
-    return 0;
-}
-
-static int close_stage(void **context)
-{
-    map_stage_close(*context);
-    free(*context);
+    *context = map_stage_new(fixture_seed(12));
     return 0;
 }
 
@@ -308,7 +298,7 @@ static void test_a_map_that_follows_paints_strips(void **context)
 
 int main(void)
 {
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, close_stage)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, map_stage_teardown)
     const struct CMUnitTest tests[] = {
         TEST(test_points_of_the_map),
         TEST(test_vehicles_are_where_the_table_says),
