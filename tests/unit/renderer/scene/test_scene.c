@@ -6,6 +6,7 @@
 #include "renderer/scene/frame/body_axes.h"
 #include "renderer/scene/frame/statistics.h"
 #include "renderer/chart/track.h"
+#include "tests/support/scene_stage.h"
 #include "world/entity/event.h"
 #include "world/enum_names.h"
 #include "world/maths/random.h"
@@ -25,34 +26,10 @@
 #include <string.h>
 
 #define SEED     7u
-#define POSTS    401u
 #define CAPACITY 16u
-#define DENTS    64u
 
 enum { TANK, TREE, HOUSE, POLE, TOWER, SHRUB, KINDS };
 enum { BUSH, TANKS, MAST, OAK, COTTAGE, FIXED }; /* in gridsquare order */
-
-/* A world of hills with a few objects, in the test's own memory. */
-struct stage {
-    struct params params;
-    struct world world;
-    struct state_head head;
-    struct entities entities;
-    void *columns;
-    float *posts;
-    uint8_t *cover;
-    uint32_t *reach_start;
-    struct fixed_object fixed[FIXED];
-    uint8_t fixed_damage[FIXED];
-    struct crater craters[4];
-    struct crater_index index;
-    struct effects effects;
-    struct dent dent[DENTS];
-    struct dent_index dents;
-    struct static_scene static_scene;
-    struct draw_list list;
-    struct frame_view frame_view;
-};
 
 static const struct kind kinds[KINDS] = {
     [TANK] = {.name = "tank",
@@ -121,79 +98,42 @@ static double draw(uint64_t number, double low, double high)
     return random_between(SEED, number, 0, RANDOM_NOISE, low, high);
 }
 
-static void build_ground(struct stage *s)
+static void build_ground(struct scene_stage *s)
 {
-    s->posts = malloc(POSTS * POSTS * sizeof *s->posts);
-    s->cover = calloc(POSTS, POSTS);
-    assert_non_null(s->posts);
-    assert_non_null(s->cover);
-    for (uint32_t row = 0; row < POSTS; row++)
-        for (uint32_t column = 0; column < POSTS; column++)
-            s->posts[row * POSTS + column] =
+    for (uint32_t row = 0; row < SCENE_STAGE_POSTS; row++)
+        for (uint32_t column = 0; column < SCENE_STAGE_POSTS; column++)
+            s->posts[row * SCENE_STAGE_POSTS + column] =
                 (float)(300.0 + 200.0 * sin(column * 0.11) * cos(row * 0.07) +
                         25.0 * sin(column * 0.9 + row));
-    s->world.terrain = (struct terrain){s->posts, s->cover, POSTS, 125.0};
 }
 
 static int open_stage(void **context)
 {
-    struct stage *s = calloc(1, sizeof *s);
-    assert_non_null(s);
-    s->params.dt_s = 0.1;
+    struct scene_stage *s = scene_stage_new(CAPACITY, FIXED);
     s->params.hz = 10.0;
-    s->params.capacity = CAPACITY;
+    s->params.dt_s = 0.1;
     s->params.renderer = (struct renderer_params){.fog = 1, .haze = 1, .texture = 1};
-    s->world.params = &s->params;
     build_ground(s);
-    s->reach_start = calloc(GRIDSQUARE_COUNT + 1, sizeof *s->reach_start);
-    s->columns = aligned_alloc(COLUMN_ALIGN, entities_bytes(CAPACITY));
-    assert_non_null(s->reach_start);
-    assert_non_null(s->columns);
-    memset(s->columns, 0, entities_bytes(CAPACITY));
-    entities_bind(&s->entities, CAPACITY, s->columns);
-    s->world.counts = (struct counts){.kinds = KINDS,
-                                      .models = 1,
-                                      .model_vertices = 8,
-                                      .model_triangles = 6,
-                                      .posts_side = POSTS,
-                                      .fixed = FIXED};
     s->world.kinds = kinds;
     s->world.models = models;
     s->world.model_vertices = box_vertices;
     s->world.model_triangles = box_triangles;
+    s->world.counts.kinds = KINDS;
+    s->world.counts.models = 1;
+    s->world.counts.model_vertices = 8;
+    s->world.counts.model_triangles = 6;
+    s->world.counts.fixed = FIXED;
     for (uint32_t i = 0; i < FIXED; i++) {
         s->fixed[i] = objects[i];
         s->fixed[i].y = (float)terrain_base_height(&s->world.terrain, objects[i].x, objects[i].z);
     }
-    s->world.fixed = s->fixed;
-    s->world.reach_start = s->reach_start;
-    assert_int_equal(crater_index_init(&s->index, s->craters), 0);
-    assert_int_equal(static_scene_init(&s->static_scene, &s->world), 0);
-    assert_int_equal(scene_init(&s->list), 0);
-    assert_int_equal(dent_index_init(&s->dents, s->dent, DENTS), 0);
-    s->frame_view = (struct frame_view){&s->world, &s->head,  &s->entities, s->fixed_damage,
-                                        &s->index, &s->dents, NULL,         0.0};
+    scene_stage_ready(s);
     *context = s;
     return 0;
 }
 
-static int close_stage(void **context)
-{
-    struct stage *s = *context;
-    scene_free(&s->list);
-    static_scene_free(&s->static_scene);
-    crater_index_free(&s->index);
-    dent_index_free(&s->dents);
-    free(s->columns);
-    free(s->reach_start);
-    free(s->posts);
-    free(s->cover);
-    free(s);
-    return 0;
-}
-
 /* Adds a tank on the ground at (x, z). Returns its slot. */
-static uint32_t put_tank(struct stage *s, double x, double z, double heading)
+static uint32_t put_tank(struct scene_stage *s, double x, double z, double heading)
 {
     uint32_t slot = s->head.used++;
     const struct entities *e = &s->entities;
@@ -208,7 +148,7 @@ static uint32_t put_tank(struct stage *s, double x, double z, double heading)
     return slot;
 }
 
-static struct camera look_from(const struct stage *s, double x, double z, double heading)
+static struct camera look_from(const struct scene_stage *s, double x, double z, double heading)
 {
     struct camera camera;
     double y = terrain_base_height(&s->world.terrain, x, z) + 20.0;
@@ -216,18 +156,6 @@ static struct camera look_from(const struct stage *s, double x, double z, double
                 (struct vec3){x + sin(heading) * 100.0, y - 15.0, z - cos(heading) * 100.0}, 1280,
                 720);
     return camera;
-}
-
-/* Returns true if a place is within the picture, by the matrix that pictures are drawn with. */
-static bool in_picture(const struct camera *camera, struct vec3 place)
-{
-    struct vec3 p = vec3_sub(place, camera->eye);
-    double clip[4];
-    for (int i = 0; i < 4; i++)
-        clip[i] = (double)camera->matrix[i] * p.x + (double)camera->matrix[4 + i] * p.y +
-                  (double)camera->matrix[8 + i] * p.z + (double)camera->matrix[12 + i];
-    return clip[3] > 0.0 && fabs(clip[0]) <= clip[3] && fabs(clip[1]) <= clip[3] &&
-           fabs(clip[2]) <= clip[3];
 }
 
 /* --- cameras ---------------------------------------------------------------------------------- */
@@ -248,7 +176,7 @@ static void test_pose_axes(void **context)
 
 static void test_no_body_in_view_is_culled(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     uint32_t inside = 0, culled = 0;
     for (uint64_t i = 0; i < 20000; i++) {
         struct camera camera = look_from(s, 25000.0, 25000.0, draw(5 * i, 0.0, TWO_PI));
@@ -257,7 +185,7 @@ static void test_no_body_in_view_is_culled(void **context)
         bool sees = camera_sees(&camera, place, 0.01);
         struct vec3 margin = {0.01, 0.01, 0.01};
         bool sees_box = camera_sees_box(&camera, vec3_sub(place, margin), vec3_add(place, margin));
-        if (in_picture(&camera, place)) {
+        if (scene_stage_in_picture(&camera, place)) {
             inside++;
             assert_true(sees);
             assert_true(sees_box);
@@ -280,7 +208,7 @@ static bool patch_holds(const struct terrain_quadtree_patch *patch, double x, do
 
 static void test_ground_is_covered_once(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     static struct terrain_quadtree_patch patches[TERRAIN_QUADTREE_PATCHES_MAX];
     uint32_t seen = 0;
     for (uint64_t i = 0; i < 20; i++) {
@@ -297,7 +225,7 @@ static void test_ground_is_covered_once(void **context)
             for (uint32_t k = 0; k < count; k++)
                 holders += patch_holds(&patches[k], x, z);
             assert_true(holders <= 1);
-            if (in_picture(&camera, on)) {
+            if (scene_stage_in_picture(&camera, on)) {
                 assert_int_equal(holders, 1);
                 seen++;
             }
@@ -308,7 +236,7 @@ static void test_ground_is_covered_once(void **context)
 
 static void test_ground_detail_falls_with_distance(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     static struct terrain_quadtree_patch patches[TERRAIN_QUADTREE_PATCHES_MAX];
     struct camera camera = look_from(s, 24000.0, 26000.0, 0.7);
     uint32_t count = terrain_quadtree_select(&s->static_scene.ground, &camera, patches);
@@ -340,7 +268,7 @@ static void test_body_detail_is_monotone(void **context)
 
 static void test_bodies_in_view_are_listed(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     uint32_t ahead = put_tank(s, 25000.0, 24960.0, 0.4);
     put_tank(s, 25000.0, 25090.0, 0.0); /* behind */
     struct camera camera = look_from(s, 25000.0, 25000.0, 0.0);
@@ -360,7 +288,7 @@ static void test_bodies_in_view_are_listed(void **context)
 
 static void test_damage_is_visible_in_steps(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     uint32_t slot = put_tank(s, 25010.0, 24940.0, 0.0);
     struct camera camera = look_from(s, 25010.0, 25000.0, 0.0);
     float before = -1.0f;
@@ -385,7 +313,7 @@ static void test_damage_is_visible_in_steps(void **context)
 
 /* --- dents (row 33) --------------------------------------------------------------------------- */
 
-static void dent(struct stage *s, uint32_t id, float plastic_m)
+static void dent(struct scene_stage *s, uint32_t id, float plastic_m)
 {
     s->dent[s->head.dent_count++] = (struct dent){.id = id,
                                                   .point = {3.0f, 1.0f, 0.0f},
@@ -396,7 +324,7 @@ static void dent(struct stage *s, uint32_t id, float plastic_m)
 
 static void test_a_near_body_is_drawn_with_its_dents(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     uint32_t bent = put_tank(s, 25010.0, 24985.0, 0.0);
     uint32_t far = put_tank(s, 25010.0, 24300.0, 0.0);
     dent(s, s->entities.id[bent], 0.2f);
@@ -421,7 +349,7 @@ static void test_a_near_body_is_drawn_with_its_dents(void **context)
 
 /* --- what is left of fixed objects (rows 27, 32, 33) ------------------------------------------ */
 
-static void look_at(struct stage *s, uint32_t object)
+static void look_at(struct scene_stage *s, uint32_t object)
 {
     const struct fixed_object *at = &s->fixed[object];
     struct vec3 middle = {at->x, (double)at->y + 0.5 * (double)at->height_m, at->z};
@@ -432,7 +360,7 @@ static void look_at(struct stage *s, uint32_t object)
 }
 
 /* Returns the body at the object's position. */
-static const struct draw_list_body *body_of(const struct stage *s, uint32_t object)
+static const struct draw_list_body *body_of(const struct scene_stage *s, uint32_t object)
 {
     for (uint32_t i = 0; i < s->list.body_count; i++) {
         const struct draw_list_body *body = &s->list.bodies[i];
@@ -447,7 +375,7 @@ static const struct draw_list_body *body_of(const struct stage *s, uint32_t obje
 
 static void test_a_tree_leans_and_then_is_a_stump(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     for (uint32_t damage = DAMAGE_NONE; damage <= DAMAGE_DESTROYED; damage++) {
         s->fixed_damage[OAK] = (uint8_t)damage;
         look_at(s, OAK);
@@ -468,7 +396,7 @@ static void test_a_tree_leans_and_then_is_a_stump(void **context)
 
 static void test_a_bush_ends_low(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     float before = 2.0f;
     for (uint32_t damage = DAMAGE_LOW; damage <= DAMAGE_HIGH; damage++) {
         s->fixed_damage[BUSH] = (uint8_t)damage;
@@ -483,7 +411,7 @@ static void test_a_bush_ends_low(void **context)
 
 static void test_a_pole_leans_and_then_is_broken(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     float upright = 2.0f;
     for (uint32_t damage = DAMAGE_NONE; damage <= DAMAGE_DESTROYED; damage++) {
         s->fixed_damage[MAST] = (uint8_t)damage;
@@ -506,7 +434,7 @@ static void test_a_pole_leans_and_then_is_broken(void **context)
 
 static void test_a_tower_sags_and_then_lies(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     float bent = -1.0f;
     for (uint32_t damage = DAMAGE_NONE; damage <= DAMAGE_HIGH; damage++) {
         s->fixed_damage[TANKS] = (uint8_t)damage;
@@ -533,7 +461,7 @@ static double fallen(const struct draw_list_body *body)
 
 static void test_a_building_collapses_in_steps(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     double share[DAMAGE_COUNT];
     for (uint32_t damage = DAMAGE_NONE; damage < DAMAGE_COUNT; damage++) {
         s->fixed_damage[COTTAGE] = (uint8_t)damage;
@@ -550,7 +478,7 @@ static void test_a_building_collapses_in_steps(void **context)
 
 static void test_fire_and_detonation_are_visible(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     struct camera camera = look_from(s, 25000.0, 25000.0, 0.0);
     s->head.frame = s->head.tick = 100;
     struct event events[2] = {
@@ -583,7 +511,7 @@ static void test_fire_and_detonation_are_visible(void **context)
 
 static void test_follow_keeps_its_choice(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     struct follow follow = {.id = 0};
     put_tank(s, 10000.0, 10000.0, 0.0);
     uint32_t moving = put_tank(s, 20000.0, 20000.0, 0.0);
@@ -608,7 +536,7 @@ static void test_follow_keeps_its_choice(void **context)
 
 static void test_statistics_equal_the_table(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     uint32_t slot = put_tank(s, 30000.0, 20000.0, HALF_PI);
     const struct entities *e = &s->entities;
     e->vx[slot] = 12.5;
@@ -639,7 +567,7 @@ static void test_statistics_equal_the_table(void **context)
 
 static void test_tracks_remember_positions(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     struct tracks tracks;
     uint32_t slot = put_tank(s, 1000.0, 2000.0, 0.0);
     assert_int_equal(tracks_init(&tracks, CAPACITY), 0);
@@ -658,7 +586,7 @@ static void test_tracks_remember_positions(void **context)
     tracks_free(&tracks);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, close_stage)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, scene_stage_teardown)
 
 int main(void)
 {

@@ -4,6 +4,7 @@
 #include "renderer/scene/camera/crew_eye.h"
 #include "renderer/scene/frame/body_axes.h"
 #include "tests/support/fixture.h"
+#include "tests/support/scene_stage.h"
 #include "world/model.h"
 #include "world/params.h"
 #include "world/terrain/gridsquare.h"
@@ -137,18 +138,6 @@ static struct view_camera_options wish_of(enum view_mode view)
         .view = view, .field_rad = CAMERA_FIELD_OF_VIEW_RAD, .width = 1280, .height = 720};
 }
 
-/* Returns true if a place is in the picture, by the matrix that pictures are drawn with. */
-static bool in_picture(const struct camera *camera, struct vec3 place)
-{
-    struct vec3 p = vec3_sub(place, camera->eye);
-    double clip[4];
-    for (int i = 0; i < 4; i++)
-        clip[i] = (double)camera->matrix[i] * p.x + (double)camera->matrix[4 + i] * p.y +
-                  (double)camera->matrix[8 + i] * p.z + (double)camera->matrix[12 + i];
-    return clip[3] > 0.0 && fabs(clip[0]) <= clip[3] && fabs(clip[1]) <= clip[3] &&
-           fabs(clip[2]) <= clip[3];
-}
-
 static void check_axes(const struct camera *c)
 {
     assert_true(isfinite(c->eye.x + c->eye.y + c->eye.z));
@@ -182,7 +171,8 @@ static void test_cameras_are_above_the_ground_and_see_their_vehicle(void **conte
         double ground = ground_at(s, camera.eye.x, camera.eye.z);
         if (camera.eye.y < ground + least - 1e-9)
             fail_msg("%s: %.3f m above the ground", view_mode_name(view), camera.eye.y - ground);
-        if (view != VIEW_INSIDE && !in_picture(&camera, entities_position(&s->entities, 0)))
+        if (view != VIEW_INSIDE &&
+            !scene_stage_in_picture(&camera, entities_position(&s->entities, 0)))
             fail_msg("%s does not see its vehicle (%u)", view_mode_name(view), i);
     }
 }
@@ -199,8 +189,8 @@ static void test_without_a_vehicle_they_look_over_the_middle(void **context)
             continue;
         view_camera_update(&aim, &wish, &s->frame_view, SLOT_NONE, &camera);
         check_axes(&camera);
-        assert_true(
-            in_picture(&camera, (struct vec3){middle, ground_at(s, middle, middle), middle}));
+        assert_true(scene_stage_in_picture(
+            &camera, (struct vec3){middle, ground_at(s, middle, middle), middle}));
     }
 }
 
@@ -248,7 +238,7 @@ static void test_the_crew_looks_out_above_its_polygons(void **context)
     struct body_axes pose = body_axes_of(e->heading[0], e->pitch[0], e->roll[0]);
     assert_true(vec3_dot(camera.right, pose.right) > 1.0 - 1e-9); /* it rolls with its vehicle */
     struct vec3 muzzle = vec3_add(entities_position(e, 0), vec3_scale(pose.forward, 5.0));
-    assert_true(in_picture(&camera, vec3_add(muzzle, vec3_scale(pose.up, 1.8))));
+    assert_true(scene_stage_in_picture(&camera, vec3_add(muzzle, vec3_scale(pose.up, 1.8))));
 }
 
 /* --- from picture to picture ------------------------------------------------------------------ */

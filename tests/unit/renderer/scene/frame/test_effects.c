@@ -5,6 +5,7 @@
 #include "renderer/scene/scene.h"
 #include "renderer/scene/plants/grass.h"
 #include "tests/support/fixture.h"
+#include "tests/support/scene_stage.h"
 #include "world/params.h"
 #include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
@@ -19,34 +20,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define POSTS    401u
 #define CAPACITY 512u
 #define HZ       60.0
 #define MIDDLE   25000.0 /* [m] position of the events */
 #define GROUND   100.0f  /* [m] */
 
 enum { TANK, CHOPPER, SHIP, SHELL, MISSILE, KINDS };
-
-struct stage {
-    struct params params;
-    struct world world;
-    struct state_head head;
-    struct entities entities;
-    void *columns;
-    float *posts;
-    uint8_t *cover;
-    uint32_t *reach_start;
-    struct fixed_object fixed[1];
-    uint8_t fixed_damage[1];
-    struct crater craters[4];
-    struct crater_index index;
-    struct dent dent[4];
-    struct dent_index dents;
-    struct effects effects;
-    struct static_scene static_scene;
-    struct draw_list list;
-    struct frame_view frame_view;
-};
 
 static const struct kind kinds[KINDS] = {
     [TANK] = {.domain = DOMAIN_LAND,
@@ -85,9 +64,9 @@ static const struct model_triangle box_triangles[] = {
 static const struct model models[] = {{.name = "box", .triangle_count = 6, .vertex_count = 8}};
 
 /* Level ground of one cover. */
-static void lay(struct stage *s, enum cover cover)
+static void lay(struct scene_stage *s, enum cover cover)
 {
-    for (uint32_t i = 0; i < POSTS * POSTS; i++) {
+    for (uint32_t i = 0; i < SCENE_STAGE_POSTS * SCENE_STAGE_POSTS; i++) {
         s->posts[i] = GROUND;
         s->cover[i] = (uint8_t)cover;
     }
@@ -95,64 +74,27 @@ static void lay(struct stage *s, enum cover cover)
 
 static int open_stage(void **context)
 {
-    struct stage *s = calloc(1, sizeof *s);
-    assert_non_null(s);
-    s->params = (struct params){.dt_s = 1.0 / HZ, .hz = HZ, .capacity = CAPACITY};
+    struct scene_stage *s = scene_stage_new(CAPACITY, 1);
+    s->params.hz = HZ;
+    s->params.dt_s = 1.0 / HZ;
     s->params.renderer = (struct renderer_params){.fog = 1, .haze = 1};
-    s->posts = malloc(POSTS * POSTS * sizeof *s->posts);
-    s->cover = malloc(POSTS * POSTS);
-    s->reach_start = calloc(GRIDSQUARE_COUNT + 1, sizeof *s->reach_start);
-    s->columns = aligned_alloc(COLUMN_ALIGN, entities_bytes(CAPACITY));
-    assert_true(s->posts != NULL && s->cover != NULL && s->reach_start != NULL &&
-                s->columns != NULL);
     lay(s, COVER_SAND);
-    memset(s->columns, 0, entities_bytes(CAPACITY));
-    entities_bind(&s->entities, CAPACITY, s->columns);
-    s->world = (struct world){.params = &s->params,
-                              .terrain = {s->posts, s->cover, POSTS, 125.0},
-                              .kinds = kinds,
-                              .models = models,
-                              .model_vertices = box_vertices,
-                              .model_triangles = box_triangles,
-                              .fixed = s->fixed,
-                              .reach_start = s->reach_start};
-    s->world.counts = (struct counts){.kinds = KINDS,
-                                      .models = 1,
-                                      .model_vertices = 8,
-                                      .model_triangles = 6,
-                                      .posts_side = POSTS};
-    assert_int_equal(crater_index_init(&s->index, s->craters), 0);
-    assert_int_equal(dent_index_init(&s->dents, s->dent, 4), 0);
-    assert_int_equal(static_scene_init(&s->static_scene, &s->world), 0);
-    assert_int_equal(scene_init(&s->list), 0);
-    s->frame_view = (struct frame_view){.world = &s->world,
-                                        .head = &s->head,
-                                        .entities = &s->entities,
-                                        .fixed_damage = s->fixed_damage,
-                                        .craters = &s->index,
-                                        .dents = &s->dents};
+    s->world.kinds = kinds;
+    s->world.models = models;
+    s->world.model_vertices = box_vertices;
+    s->world.model_triangles = box_triangles;
+    s->world.counts.kinds = KINDS;
+    s->world.counts.models = 1;
+    s->world.counts.model_vertices = 8;
+    s->world.counts.model_triangles = 6;
+    scene_stage_ready(s);
     s->head.frame = s->head.tick = 6000;
     *context = s;
     return 0;
 }
 
-static int close_stage(void **context)
-{
-    struct stage *s = *context;
-    scene_free(&s->list);
-    static_scene_free(&s->static_scene);
-    crater_index_free(&s->index);
-    dent_index_free(&s->dents);
-    free(s->columns);
-    free(s->reach_start);
-    free(s->posts);
-    free(s->cover);
-    free(s);
-    return 0;
-}
-
 /* Adds an entity above the ground at (x, z). Returns its slot. */
-static uint32_t put(struct stage *s, uint16_t kind, double x, double above, double z)
+static uint32_t put(struct scene_stage *s, uint16_t kind, double x, double above, double z)
 {
     uint32_t slot = s->head.used++;
     const struct entities *e = &s->entities;
@@ -166,7 +108,7 @@ static uint32_t put(struct stage *s, uint16_t kind, double x, double above, doub
 }
 
 /* Looks north at the middle from this distance. */
-static void look(struct stage *s, double away)
+static void look(struct scene_stage *s, double away)
 {
     struct camera camera;
     struct vec3 middle = {MIDDLE, (double)GROUND + 3.0, MIDDLE};
@@ -176,7 +118,7 @@ static void look(struct stage *s, double away)
 }
 
 /* Advances one step of simulation time. */
-static void step(struct stage *s)
+static void step(struct scene_stage *s)
 {
     s->head.frame++;
     s->head.tick++;
@@ -189,7 +131,7 @@ static void step(struct stage *s)
 }
 
 /* Returns the sum over particles of opacity times size in the picture. */
-static double ink(const struct stage *s)
+static double ink(const struct scene_stage *s)
 {
     double sum = 0.0;
     for (uint32_t i = 0; i < s->list.particle_count; i++) {
@@ -202,7 +144,7 @@ static double ink(const struct stage *s)
     return sum;
 }
 
-static struct event happening(const struct stage *s, enum effect_type type)
+static struct event happening(const struct scene_stage *s, enum effect_type type)
 {
     struct event event = {.frame = s->head.frame, .tick = s->head.tick, .index = 3};
     double point[3] = {MIDDLE, (double)GROUND + 1.0, MIDDLE};
@@ -228,7 +170,7 @@ static struct event happening(const struct stage *s, enum effect_type type)
 
 static void test_each_event_shows_for_its_time(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     for (uint32_t type = 0; type < EFFECT_WRECK; type++) {
         struct event event = happening(s, (enum effect_type)type);
         uint64_t began = s->head.tick;
@@ -257,7 +199,7 @@ static void test_each_event_shows_for_its_time(void **context)
 
 static void test_a_shot_out_of_the_sky_has_no_muzzle(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     struct event event = happening(s, EFFECT_FLASH);
     event.fire.shooter.id = 0;
     effects_take(&s->effects, &s->frame_view, &event, 1);
@@ -266,7 +208,7 @@ static void test_a_shot_out_of_the_sky_has_no_muzzle(void **context)
 
 static void test_a_flash_points_along_its_round(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     uint32_t round = put(s, SHELL, MIDDLE, 1.0, MIDDLE - 30.0);
     s->entities.vz[round] = -1500.0;
     struct event event = happening(s, EFFECT_FLASH);
@@ -285,7 +227,7 @@ static void test_a_flash_points_along_its_round(void **context)
 /* Soil and water rise and fall back. */
 static void test_soil_and_water_fall_back(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     static const enum effect_type thrown[] = {EFFECT_BURST, EFFECT_SPLASH};
     for (uint32_t i = 0; i < 2; i++) {
         struct event event = happening(s, thrown[i]);
@@ -312,7 +254,7 @@ static void test_soil_and_water_fall_back(void **context)
 
 static void test_the_first_effect_to_end_is_replaced(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     struct event lasting = happening(s, EFFECT_BURST), brief = happening(s, EFFECT_FLASH);
     effects_take(&s->effects, &s->frame_view, &lasting, 1);
     for (uint32_t i = 0; i < 3 * EFFECTS_MAX; i++)
@@ -329,7 +271,7 @@ static void test_the_first_effect_to_end_is_replaced(void **context)
 
 /* --- wrecks ----------------------------------------------------------------------------------- */
 
-static uint32_t put_wreck(struct stage *s, double x, double z)
+static uint32_t put_wreck(struct scene_stage *s, double x, double z)
 {
     uint32_t slot = put(s, TANK, x, 0.0, z);
     s->entities.state[slot] = ENTITY_WRECK;
@@ -341,7 +283,7 @@ static uint32_t put_wreck(struct stage *s, double x, double z)
 
 static void test_a_wreck_bursts_once(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     put_wreck(s, MIDDLE, MIDDLE);
     for (uint32_t i = 0; i < 10; i++)
         step(s);
@@ -358,7 +300,7 @@ static void test_a_wreck_bursts_once(void **context)
 
 static void test_debris_flies_and_comes_to_rest(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     put_wreck(s, MIDDLE, MIDDLE);
     uint64_t began = s->head.tick;
     double most = 0.0;
@@ -397,7 +339,7 @@ static void test_debris_flies_and_comes_to_rest(void **context)
 
 static void test_smoke_goes_on_when_damage_grows(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     uint32_t slot = put(s, TANK, MIDDLE, 0.0, MIDDLE);
     s->entities.damage[slot] = DAMAGE_MED;
     s->entities.changed_tick[slot] = (uint32_t)s->head.tick;
@@ -414,7 +356,7 @@ static void test_smoke_goes_on_when_damage_grows(void **context)
 /* --- what moving things leave ----------------------------------------------------------------- */
 
 /* Adds the dust of a tank that has driven to the middle. */
-static double dust_on(struct stage *s, enum cover cover, double speed)
+static double dust_on(struct scene_stage *s, enum cover cover, double speed)
 {
     lay(s, cover);
     s->head.used = 0;
@@ -429,7 +371,7 @@ static double dust_on(struct stage *s, enum cover cover, double speed)
 
 static void test_dust_depends_on_the_cover(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     double sand = dust_on(s, COVER_SAND, 14.0);
     assert_true(sand > 0.0);
     double grass = dust_on(s, COVER_GRASS, 14.0);
@@ -443,7 +385,7 @@ static void test_dust_depends_on_the_cover(void **context)
 /* Dust stays in place whatever the vehicle does. */
 static void test_dust_stays_when_the_vehicle_stops(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     double before = dust_on(s, COVER_SAND, 14.0);
     s->entities.vx[0] = 0.0;
     step(s);
@@ -453,7 +395,7 @@ static void test_dust_stays_when_the_vehicle_stops(void **context)
 
 static void test_only_low_rotors_raise_dust(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     uint32_t slot = put(s, CHOPPER, MIDDLE, 40.0, MIDDLE);
     look(s, 60.0);
     assert_int_equal(s->list.particle_count, 0);
@@ -470,7 +412,7 @@ static void test_only_low_rotors_raise_dust(void **context)
 
 static void test_a_ship_leaves_a_wake(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     lay(s, COVER_SEA);
     uint32_t slot = put(s, SHIP, MIDDLE - 130.0, 0.0, MIDDLE - 60.0);
     s->entities.vx[slot] = 13.0;
@@ -489,7 +431,7 @@ static void test_a_ship_leaves_a_wake(void **context)
  * gone. */
 static void test_a_trail_is_where_the_missile_flew(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     const double radius = 90.0, turn = 1.1; /* [m], [rad/s] */
     uint32_t slot = put(s, MISSILE, MIDDLE, 30.0, MIDDLE);
     s->entities.born_tick[slot] = (uint32_t)s->head.tick;
@@ -568,7 +510,7 @@ static void test_the_curve_is_smooth_and_ends_at_birth(void **context)
 
 /* --- pictures that hold still ----------------------------------------------------------------- */
 
-static void furnish(struct stage *s)
+static void furnish(struct scene_stage *s)
 {
     static const enum effect_type types[] = {EFFECT_FLASH, EFFECT_EXPLOSION, EFFECT_BURST,
                                              EFFECT_SPLASH, EFFECT_HIT};
@@ -589,7 +531,7 @@ static void furnish(struct stage *s)
 
 static void test_the_same_frame_gives_the_same_lists(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     furnish(s);
     for (uint32_t i = 0; i < 45; i++)
         step(s);
@@ -614,7 +556,7 @@ static void test_the_same_frame_gives_the_same_lists(void **context)
 
 static void test_nothing_appears_or_vanishes_suddenly(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     put_wreck(s, MIDDLE, MIDDLE);
     for (uint32_t i = 0; i < 1500; i++)
         step(s);
@@ -638,7 +580,7 @@ static void test_nothing_appears_or_vanishes_suddenly(void **context)
 
 static void test_fewer_particles_far_away(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     put_wreck(s, MIDDLE, MIDDLE);
     for (uint32_t i = 0; i < 1800; i++)
         step(s);
@@ -653,7 +595,7 @@ static void test_fewer_particles_far_away(void **context)
 
 static void test_less_detail_is_less_to_draw(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     furnish(s);
     lay(s, COVER_CHAPARRAL);
     s->params.renderer.texture = 1;
@@ -674,7 +616,7 @@ static void test_less_detail_is_less_to_draw(void **context)
 
 static void test_no_particle_around_the_eye(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     struct event event = happening(s, EFFECT_EXPLOSION);
     effects_take(&s->effects, &s->frame_view, &event, 1);
     s->head.tick += 60;
@@ -690,7 +632,7 @@ static void test_no_particle_around_the_eye(void **context)
 
 static void test_particles_are_sorted_farthest_first(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     furnish(s);
     for (uint32_t i = 0; i < 30; i++)
         step(s);
@@ -706,7 +648,7 @@ static void test_particles_are_sorted_farthest_first(void **context)
 
 static void test_grass_does_not_grow_in_craters(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     lay(s, COVER_CHAPARRAL);
     s->params.renderer.texture = 1;
     look(s, 30.0);
@@ -724,7 +666,7 @@ static void test_grass_does_not_grow_in_craters(void **context)
 
 static void test_grass_grows_into_the_picture(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     lay(s, COVER_CHAPARRAL);
     s->params.renderer.texture = 1;
     look(s, 30.0);
@@ -740,7 +682,7 @@ static void test_grass_grows_into_the_picture(void **context)
     assert_true(small > 0);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, close_stage)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, scene_stage_teardown)
 
 int main(void)
 {

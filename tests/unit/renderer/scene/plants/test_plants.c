@@ -3,6 +3,7 @@
 #include "renderer/scene/scene.h"
 
 #include "tests/support/fixture.h"
+#include "tests/support/scene_stage.h"
 #include "world/params.h"
 #include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
@@ -17,33 +18,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define POSTS    401u
 #define CAPACITY 16u
 #define WOOD     40u  /* trees in one gridsquare */
 #define LONE     300u /* trees that stand alone */
 #define TREES    (WOOD + LONE)
 #define WOOD_X   (200.5 * 125.0) /* [m] the gridsquare's middle */
-
-struct stage {
-    struct params params;
-    struct world world;
-    struct state_head head;
-    struct entities entities;
-    void *columns;
-    float *posts;
-    uint8_t *cover;
-    uint32_t *reach_start;
-    struct fixed_object trees[TREES];
-    uint8_t fixed_damage[TREES];
-    struct crater craters[1];
-    struct crater_index index;
-    struct dent dent[1];
-    struct dent_index dents;
-    struct effects effects;
-    struct static_scene static_scene;
-    struct draw_list list;
-    struct frame_view frame_view;
-};
 
 static const struct kind kinds[] = {{.name = "oak",
                                      .domain = DOMAIN_FIXED,
@@ -59,11 +38,11 @@ static int by_square(const void *a, const void *b)
 }
 
 /* A wood in the middle of the world, and single trees around it, each in its own gridsquare. */
-static void plant(struct stage *s)
+static void plant(struct scene_stage *s)
 {
     uint64_t random = fixture_seed(3);
     for (uint32_t i = 0; i < TREES; i++) {
-        struct fixed_object *tree = &s->trees[i];
+        struct fixed_object *tree = &s->fixed[i];
         tree->x = WOOD_X + fixture_uniform(&random, -60.0, 60.0);
         tree->z = WOOD_X + fixture_uniform(&random, -60.0, 60.0);
         if (i >= WOOD) {
@@ -75,63 +54,28 @@ static void plant(struct stage *s)
         tree->radius_m = 4.0f;
         tree->height_m = (float)fixture_uniform(&random, 6.0, 14.0);
     }
-    qsort(s->trees, TREES, sizeof *s->trees, by_square);
+    qsort(s->fixed, TREES, sizeof *s->fixed, by_square);
 }
 
 static int open_stage(void **context)
 {
-    struct stage *s = calloc(1, sizeof *s);
-    assert_non_null(s);
-    s->params = (struct params){.dt_s = 0.1, .hz = 10.0, .capacity = CAPACITY};
-    s->posts = malloc(POSTS * POSTS * sizeof *s->posts);
-    s->cover = calloc(POSTS, POSTS);
-    s->reach_start = calloc(GRIDSQUARE_COUNT + 1, sizeof *s->reach_start);
-    s->columns = aligned_alloc(COLUMN_ALIGN, entities_bytes(CAPACITY));
-    assert_true(s->posts != NULL && s->cover != NULL && s->reach_start != NULL &&
-                s->columns != NULL);
-    memset(s->columns, 0, entities_bytes(CAPACITY));
-    entities_bind(&s->entities, CAPACITY, s->columns);
-    for (uint32_t row = 0; row < POSTS; row++)
-        for (uint32_t column = 0; column < POSTS; column++)
-            s->posts[row * POSTS + column] =
+    struct scene_stage *s = scene_stage_new(CAPACITY, TREES);
+    s->params.hz = 10.0;
+    s->params.dt_s = 0.1;
+    for (uint32_t row = 0; row < SCENE_STAGE_POSTS; row++)
+        for (uint32_t column = 0; column < SCENE_STAGE_POSTS; column++)
+            s->posts[row * SCENE_STAGE_POSTS + column] =
                 (float)(300.0 + 60.0 * maths_sin(column * 0.11) * maths_cos(row * 0.07));
-    s->world = (struct world){.params = &s->params,
-                              .terrain = {s->posts, s->cover, POSTS, 125.0},
-                              .kinds = kinds,
-                              .fixed = s->trees,
-                              .reach_start = s->reach_start};
-    s->world.counts = (struct counts){.kinds = 1, .posts_side = POSTS, .fixed = TREES};
+    s->world.kinds = kinds;
+    s->world.counts.kinds = 1;
+    s->world.counts.fixed = TREES;
     plant(s);
-    assert_int_equal(crater_index_init(&s->index, s->craters), 0);
-    assert_int_equal(dent_index_init(&s->dents, s->dent, 1), 0);
-    assert_int_equal(static_scene_init(&s->static_scene, &s->world), 0);
-    assert_int_equal(scene_init(&s->list), 0);
-    s->frame_view = (struct frame_view){.world = &s->world,
-                                        .head = &s->head,
-                                        .entities = &s->entities,
-                                        .fixed_damage = s->fixed_damage,
-                                        .craters = &s->index,
-                                        .dents = &s->dents};
+    scene_stage_ready(s);
     *context = s;
     return 0;
 }
 
-static int close_stage(void **context)
-{
-    struct stage *s = *context;
-    scene_free(&s->list);
-    static_scene_free(&s->static_scene);
-    crater_index_free(&s->index);
-    dent_index_free(&s->dents);
-    free(s->columns);
-    free(s->reach_start);
-    free(s->posts);
-    free(s->cover);
-    free(s);
-    return 0;
-}
-
-static void look(struct stage *s, struct vec3 eye, struct vec3 target)
+static void look(struct scene_stage *s, struct vec3 eye, struct vec3 target)
 {
     struct camera camera;
     camera_look(&camera, eye, target, 1280, 720);
@@ -139,14 +83,15 @@ static void look(struct stage *s, struct vec3 eye, struct vec3 target)
 }
 
 /* Looks at the wood from this far south. */
-static void look_at_wood(struct stage *s, double away)
+static void look_at_wood(struct scene_stage *s, double away)
 {
     struct vec3 wood = {WOOD_X, terrain_base_height(&s->world.terrain, WOOD_X, WOOD_X), WOOD_X};
     look(s, vec3_add(wood, (struct vec3){0.0, 30.0 + 0.2 * away, away}), wood);
 }
 
 /* Returns the plant of the picture for this tree, or NULL. */
-static const struct draw_list_plant *shown(const struct stage *s, const struct fixed_object *tree)
+static const struct draw_list_plant *shown(const struct scene_stage *s,
+                                           const struct fixed_object *tree)
 {
     float at[3];
     draw_list_relative(&s->list, fixed_position(tree), at);
@@ -163,7 +108,7 @@ static bool in_wood(const struct fixed_object *tree)
 
 static void test_no_plant_in_view_is_culled(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     uint64_t random = fixture_seed(5);
     uint32_t inside = 0, left_out = 0;
     for (uint32_t round = 0; round < 60; round++) {
@@ -175,7 +120,7 @@ static void test_no_plant_in_view_is_culled(void **context)
              (struct vec3){x + 100.0 * maths_cos(turn), y + fixture_uniform(&random, -60.0, 10.0),
                            z + 100.0 * maths_sin(turn)});
         for (uint32_t i = 0; i < TREES; i++) {
-            const struct fixed_object *tree = &s->trees[i];
+            const struct fixed_object *tree = &s->fixed[i];
             struct vec3 foot = fixed_position(tree);
             double far = vec3_length(vec3_sub(foot, s->list.camera.eye));
             double pixels = camera_pixels(&s->list.camera, (double)tree->height_m, far);
@@ -192,14 +137,14 @@ static void test_no_plant_in_view_is_culled(void **context)
 
 static void test_far_woods_are_thinned_out(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     double width[2] = {0.0, 0.0};
     uint32_t trees[2] = {0, 0};
     for (uint32_t far = 0; far < 2; far++) {
         look_at_wood(s, far ? 2500.0 : 300.0);
         for (uint32_t i = 0; i < TREES; i++) {
-            const struct draw_list_plant *plant = shown(s, &s->trees[i]);
-            if (!in_wood(&s->trees[i]) || plant == NULL)
+            const struct draw_list_plant *plant = shown(s, &s->fixed[i]);
+            if (!in_wood(&s->fixed[i]) || plant == NULL)
                 continue;
             trees[far]++;
             width[far] += (double)plant->width;
@@ -213,11 +158,11 @@ static void test_far_woods_are_thinned_out(void **context)
 
 static void test_single_trees_stay(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     for (double away = 300.0; away < 2600.0; away *= 1.2) {
         look_at_wood(s, away);
         for (uint32_t i = 0; i < TREES; i++) {
-            const struct fixed_object *tree = &s->trees[i];
+            const struct fixed_object *tree = &s->fixed[i];
             double far = vec3_length(vec3_sub(fixed_position(tree), s->list.camera.eye));
             double pixels = camera_pixels(&s->list.camera, (double)tree->height_m, far);
             if (in_wood(tree) || pixels < 3.1 ||
@@ -231,28 +176,28 @@ static void test_single_trees_stay(void **context)
 
 static void test_no_plant_appears_or_vanishes_suddenly(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     for (double away = 300.0; away < 4500.0; away *= 1.02) {
         float before[TREES];
         look_at_wood(s, away);
         for (uint32_t i = 0; i < TREES; i++) {
-            const struct draw_list_plant *plant = shown(s, &s->trees[i]);
+            const struct draw_list_plant *plant = shown(s, &s->fixed[i]);
             before[i] = plant == NULL ? 0.0f : plant->height;
         }
         look_at_wood(s, 1.001 * away);
         for (uint32_t i = 0; i < TREES; i++) {
-            const struct draw_list_plant *plant = shown(s, &s->trees[i]);
+            const struct draw_list_plant *plant = shown(s, &s->fixed[i]);
             float now = plant == NULL ? 0.0f : plant->height;
-            if (!in_wood(&s->trees[i]))
+            if (!in_wood(&s->fixed[i]))
                 continue; /* others may leave the picture */
-            assert_true(fabsf(now - before[i]) < 0.02f * s->trees[i].height_m);
+            assert_true(fabsf(now - before[i]) < 0.02f * s->fixed[i].height_m);
         }
     }
 }
 
 static void test_less_detail_is_less_of_a_wood(void **context)
 {
-    struct stage *s = *context;
+    struct scene_stage *s = *context;
     uint32_t before = UINT32_MAX;
     for (float detail = 1.0f; detail > 0.2f; detail -= 0.1f) {
         s->list.detail = detail;
@@ -265,7 +210,7 @@ static void test_less_detail_is_less_of_a_wood(void **context)
     assert_true(before < s->list.plant_count - 10);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, close_stage)
+#define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, scene_stage_teardown)
 
 int main(void)
 {
