@@ -2,6 +2,7 @@
  */
 #include "clients/drive/screen.h"
 
+#include "clients/curses_text.h"
 #include "clients/drive/character_map.h"
 #include "clients/drive/terminal_keys.h"
 #include "clients/drive/status_panel.h"
@@ -16,10 +17,6 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-/* Blue and yellow, which colour-blind people tell apart. The map's letters show the force as well.
- */
-enum pair { PAIR_PLAIN, PAIR_BLUE, PAIR_RED, PAIR_WATER, PAIR_WARN };
-
 #define ROWS_MIN       20
 #define COLUMNS_MIN    60
 #define NOTICE_NS      (8 * (uint64_t)NS_PER_S)
@@ -33,6 +30,8 @@ int screen_open(struct error_text *error)
                               getenv("TERM") ? getenv("TERM") : "");
     (void)curs_set(0);
     if (process_colours() && has_colors() && start_color() == OK) {
+        /* Blue and yellow, which colour-blind people tell apart. The map's letters show the force
+         * as well. */
         (void)use_default_colors();
         (void)init_pair(PAIR_BLUE, COLOR_CYAN, -1);
         (void)init_pair(PAIR_RED, COLOR_YELLOW, -1);
@@ -47,15 +46,6 @@ void screen_close(void)
     (void)endwin();
 }
 
-static void put(int row, int column, const char *text, attr_t attributes, enum pair pair)
-{
-    if (row < 0 || row >= LINES || column >= COLS)
-        return;
-    (void)attr_set(attributes, (short)pair, NULL);
-    (void)mvaddnstr(row, column, text, COLS - column);
-    (void)attr_set(A_NORMAL, PAIR_PLAIN, NULL);
-}
-
 static void put_bar(int row, const char *text)
 {
     char line[STATUS_PANEL_LINE];
@@ -64,14 +54,14 @@ static void put_bar(int row, const char *text)
     while (length < (size_t)COLS && length < sizeof line - 1)
         line[length++] = ' ';
     line[length] = '\0';
-    put(row, 0, line, A_REVERSE, PAIR_PLAIN);
+    curses_text_put(row, 0, line, A_REVERSE, PAIR_PLAIN);
 }
 
 static void draw_cell(int row, int column, const struct character_map_cell *cell)
 {
     static const struct {
         attr_t attributes;
-        enum pair pair;
+        enum curses_text_pair pair;
     } looks[] = {
         [CHARACTER_MAP_GROUND] = {A_DIM, PAIR_PLAIN},
         [CHARACTER_MAP_WATER] = {A_NORMAL, PAIR_WATER},
@@ -83,7 +73,7 @@ static void draw_cell(int row, int column, const struct character_map_cell *cell
         [CHARACTER_MAP_TARGET] = {A_REVERSE, PAIR_RED},
         [CHARACTER_MAP_SELF] = {A_REVERSE, PAIR_PLAIN},
     };
-    put(row, column, cell->text, looks[cell->mark].attributes, looks[cell->mark].pair);
+    curses_text_put(row, column, cell->text, looks[cell->mark].attributes, looks[cell->mark].pair);
 }
 
 static void draw_map(const struct session *session, int top, int rows, int left)
@@ -97,7 +87,7 @@ static void draw_map(const struct session *session, int top, int rows, int left)
             draw_cell(top + row, left + 2 * column, &map.cell[row][column]);
     }
     (void)snprintf(scale, sizeof scale, "a cell %g m; blue RED Neutral xx wreck", map.cell_m);
-    put(top + rows - 1, left, scale, A_DIM, PAIR_PLAIN);
+    curses_text_put(top + rows - 1, left, scale, A_DIM, PAIR_PLAIN);
 }
 
 static void draw_statistics(const struct session *session, int top, int rows)
@@ -107,7 +97,7 @@ static void draw_statistics(const struct session *session, int top, int rows)
     status_panel_statistics(row, session);
     for (int i = 0; i < STATUS_PANEL_ROWS && at < top + rows; i++) {
         if (row[i][0])
-            put(at++, 0, row[i], A_NORMAL, PAIR_PLAIN);
+            curses_text_put(at++, 0, row[i], A_NORMAL, PAIR_PLAIN);
     }
 }
 
@@ -116,8 +106,9 @@ static void draw_events(const struct recent_events *events, int top, int rows)
     uint64_t kept = events->count < RECENT_EVENTS_KEPT ? events->count : RECENT_EVENTS_KEPT;
     uint64_t shown = kept < (uint64_t)rows ? kept : (uint64_t)rows;
     for (uint64_t i = 0; i < shown; i++)
-        put(top + (int)i, 0, events->line[(events->count - shown + i) % RECENT_EVENTS_KEPT],
-            A_NORMAL, PAIR_PLAIN);
+        curses_text_put(top + (int)i, 0,
+                        events->line[(events->count - shown + i) % RECENT_EVENTS_KEPT], A_NORMAL,
+                        PAIR_PLAIN);
 }
 
 static void draw_help(const char *inputs)
@@ -125,10 +116,10 @@ static void draw_help(const char *inputs)
     const char *keys, *meaning;
     size_t length = strlen(inputs), width = COLS > 2 ? (size_t)COLS - 2 : 1;
     for (size_t row = 0; row < 2 && row * width < length; row++)
-        put(2 + (int)row, 2, inputs + row * width, A_DIM, PAIR_PLAIN);
+        curses_text_put(2 + (int)row, 2, inputs + row * width, A_DIM, PAIR_PLAIN);
     for (uint32_t i = 0; terminal_keys_help(i, &keys, &meaning); i++) {
-        put(5 + (int)i, 2, keys, A_BOLD, PAIR_PLAIN);
-        put(5 + (int)i, 14, meaning, A_NORMAL, PAIR_PLAIN);
+        curses_text_put(5 + (int)i, 2, keys, A_BOLD, PAIR_PLAIN);
+        curses_text_put(5 + (int)i, 14, meaning, A_NORMAL, PAIR_PLAIN);
     }
 }
 
@@ -136,16 +127,17 @@ static void draw_foot(const struct session *session, uint64_t now_ns)
 {
     char line[STATUS_PANEL_LINE];
     status_panel_look(line, session);
-    put(LINES - 4, 0, line, A_NORMAL, PAIR_PLAIN);
+    curses_text_put(LINES - 4, 0, line, A_NORMAL, PAIR_PLAIN);
     status_panel_others(line, session);
-    put(LINES - 3, 0, line, A_DIM, PAIR_PLAIN);
+    curses_text_put(LINES - 3, 0, line, A_DIM, PAIR_PLAIN);
     event_lines_silence(line, sizeof line, session->mirror, now_ns);
     if (line[0])
-        put(LINES - 2, 0, line, A_BOLD, PAIR_WARN);
+        curses_text_put(LINES - 2, 0, line, A_BOLD, PAIR_WARN);
     else if (session->notices &&
              (now_ns - session->notice_ns < NOTICE_NS || session->state != SESSION_DRIVING))
-        put(LINES - 2, 0, session->notice, A_BOLD, PAIR_PLAIN);
-    put(LINES - 1, 0,
+        curses_text_put(LINES - 2, 0, session->notice, A_BOLD, PAIR_PLAIN);
+    curses_text_put(
+        LINES - 1, 0,
         "w s throttle  a d steer  b brake  arrows aim  t lock  space fire  h help  q quit", A_DIM,
         PAIR_PLAIN);
 }
@@ -170,8 +162,8 @@ void screen_draw(const struct session *session, const struct recent_events *even
     if (rows > STATUS_PANEL_ROWS && LINES < 40)
         rows = STATUS_PANEL_ROWS;
     if (LINES < ROWS_MIN || COLS < COLUMNS_MIN) {
-        put(1, 0, "this terminal is small: 60 x 20 is the least, 80 x 24 is good", A_NORMAL,
-            PAIR_PLAIN);
+        curses_text_put(1, 0, "this terminal is small: 60 x 20 is the least, 80 x 24 is good",
+                        A_NORMAL, PAIR_PLAIN);
         draw_foot(session, now_ns);
     } else if (session->help) {
         draw_help(inputs);

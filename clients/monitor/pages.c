@@ -1,6 +1,7 @@
 /* The contents of the pages. */
 #include "clients/monitor/pages.h"
 
+#include "clients/curses_text.h"
 #include "clients/monitor/status_lines.h"
 
 #include <curses.h>
@@ -10,15 +11,6 @@
 
 /* Columns reserved for the events beside the map. */
 #define EVENT_COLUMNS_MIN 40
-
-void pages_put(int row, int column, const char *text, unsigned attributes, enum pages_pair pair)
-{
-    if (row < 0 || row >= LINES || column >= COLS)
-        return;
-    (void)attr_set(attributes, (short)pair, NULL);
-    (void)mvaddnstr(row, column, text, COLS - column);
-    (void)attr_set(A_NORMAL, PAIR_PLAIN, NULL);
-}
 
 /* --- the map -----------------------------------------------------------------------------------*/
 
@@ -39,7 +31,7 @@ static char mark_of(const jolon_Entity *entity, const struct world_mirror *mirro
 
 static void draw_cell(int row, int column, char cell)
 {
-    enum pages_pair pair = PAIR_PLAIN;
+    enum curses_text_pair pair = PAIR_PLAIN;
     unsigned attributes = A_DIM;
     if (cell == CHARACTER_MAP_BLUE || cell == CHARACTER_MAP_RED) {
         pair = cell == CHARACTER_MAP_BLUE ? PAIR_BLUE : PAIR_RED;
@@ -53,7 +45,7 @@ static void draw_cell(int row, int column, char cell)
         attributes = A_BOLD | A_REVERSE;
     }
     const char text[2] = {cell, '\0'};
-    pages_put(row, column, text, attributes, pair);
+    curses_text_put(row, column, text, attributes, pair);
 }
 
 static void draw_map(struct screen *screen, const struct world_mirror *mirror, int top, int rows,
@@ -89,7 +81,7 @@ void pages_map(struct screen *screen, const struct world_mirror *mirror, int top
     if (screen->state.selected)
         (void)snprintf(line + used, sizeof line - (size_t)used, "   @ is %u%s",
                        screen->state.selected, screen->state.follow ? ", followed" : "");
-    pages_put(top + rows - 1, 0, line, A_NORMAL, PAIR_PLAIN);
+    curses_text_put(top + rows - 1, 0, line, A_NORMAL, PAIR_PLAIN);
 }
 
 /* --- events ------------------------------------------------------------------------------------*/
@@ -133,7 +125,7 @@ static uint64_t draw_events(const struct screen *screen, const char *filter, uin
             line[shown++] = text;
     }
     for (uint64_t i = 0; i < shown; i++)
-        pages_put(top + (int)i, column, line[shown - 1 - i], A_NORMAL, PAIR_PLAIN);
+        curses_text_put(top + (int)i, column, line[shown - 1 - i], A_NORMAL, PAIR_PLAIN);
     return matching > limit ? matching - limit : 0;
 }
 
@@ -146,7 +138,7 @@ static void draw_filter(const struct screen *screen, int row, const char *what)
                        what);
     else
         (void)snprintf(line, sizeof line, "%s", what);
-    pages_put(row, 0, line, screen->state.typing ? A_REVERSE : A_UNDERLINE, PAIR_PLAIN);
+    curses_text_put(row, 0, line, screen->state.typing ? A_REVERSE : A_UNDERLINE, PAIR_PLAIN);
 }
 
 void pages_events(struct screen *screen, int top, int rows)
@@ -167,7 +159,7 @@ void pages_events(struct screen *screen, int top, int rows)
 
 /* --- vehicles ----------------------------------------------------------------------------------*/
 
-static enum pages_pair pair_of(const jolon_Entity *entity)
+static enum curses_text_pair pair_of(const jolon_Entity *entity)
 {
     return entity->force == jolon_FORCE_BLUE  ? PAIR_BLUE
            : entity->force == jolon_FORCE_RED ? PAIR_RED
@@ -181,7 +173,7 @@ void pages_vehicles(struct screen *screen, const struct world_mirror *mirror, in
     const struct vehicle_table *table = &screen->table;
     if (!vehicle_table_build(&screen->table, mirror, state->filter[SCREEN_STATE_VEHICLES],
                              state->sort, state->descending)) {
-        pages_put(top, 0, "no memory for the table", A_BOLD, PAIR_WARN);
+        curses_text_put(top, 0, "no memory for the table", A_BOLD, PAIR_WARN);
         return;
     }
     screen_state_table(state, table, mirror, rows > 2 ? (uint32_t)rows - 2 : 1);
@@ -189,16 +181,16 @@ void pages_vehicles(struct screen *screen, const struct world_mirror *mirror, in
                    vehicle_table_column_name(state->sort), state->descending ? ", descending" : "");
     draw_filter(screen, top, what);
     vehicle_table_head(line, state->sort, state->descending);
-    pages_put(top + 1, 0, line, A_BOLD, PAIR_PLAIN);
+    curses_text_put(top + 1, 0, line, A_BOLD, PAIR_PLAIN);
     for (uint32_t i = 0; i < state->page_rows && state->first + i < table->count; i++) {
         const jolon_Entity *entity = &mirror->batch.entity[table->row[state->first + i]];
         bool wreck = entity->state == jolon_ENTITY_WRECK;
         vehicle_table_line(line, mirror, entity);
-        pages_put(top + 2 + (int)i, 0, line,
-                  entity->id == state->selected ? A_REVERSE
-                  : wreck                       ? A_DIM
-                                                : A_NORMAL,
-                  pair_of(entity));
+        curses_text_put(top + 2 + (int)i, 0, line,
+                        entity->id == state->selected ? A_REVERSE
+                        : wreck                       ? A_DIM
+                                                      : A_NORMAL,
+                        pair_of(entity));
     }
 }
 
@@ -218,11 +210,11 @@ static void draw_spark(const struct screen *screen, const struct world_mirror *m
     double full_ms = mirror->frame.hz > 0.0 ? 1000.0 / mirror->frame.hz : 0.0;
     size_t columns = COLS > 48 ? (size_t)COLS - 48 : 0;
     sparkline_text(bars, &screen->sparkline, columns, full_ms, screen->utf8);
-    pages_put(row, 0, "frame time", A_NORMAL, PAIR_PLAIN);
-    pages_put(row, 11, bars, A_NORMAL, PAIR_PLAIN);
+    curses_text_put(row, 0, "frame time", A_NORMAL, PAIR_PLAIN);
+    curses_text_put(row, 11, bars, A_NORMAL, PAIR_PLAIN);
     (void)snprintf(line, sizeof line, "%.2f ms, most %.2f of %.1f", mirror->frame.recent.max_ms,
                    sparkline_max(&screen->sparkline, columns), full_ms);
-    pages_put(row, 12 + (int)columns, line, A_NORMAL, PAIR_PLAIN);
+    curses_text_put(row, 12 + (int)columns, line, A_NORMAL, PAIR_PLAIN);
 }
 
 void pages_all(struct screen *screen, const struct world_mirror *mirror, int top, int rows)
@@ -230,17 +222,17 @@ void pages_all(struct screen *screen, const struct world_mirror *mirror, int top
     char line[STATUS_LINES_MAX];
     int row = top;
     status_lines_frame(line, mirror);
-    pages_put(row++, 0, line, A_NORMAL, PAIR_PLAIN);
+    curses_text_put(row++, 0, line, A_NORMAL, PAIR_PLAIN);
     status_lines_counts(line, mirror);
-    pages_put(row++, 0, line, A_NORMAL, PAIR_PLAIN);
+    curses_text_put(row++, 0, line, A_NORMAL, PAIR_PLAIN);
     draw_spark(screen, mirror, row++);
     status_lines_process_head(line);
-    pages_put(row++, 0, line, A_UNDERLINE, PAIR_PLAIN);
+    curses_text_put(row++, 0, line, A_UNDERLINE, PAIR_PLAIN);
     for (uint32_t i = 0; i < mirror->role_count; i++) {
         bool attention = needs_attention(&mirror->role[i]);
         status_lines_process(line, &mirror->role[i]);
-        pages_put(row++, 0, line, attention ? A_BOLD : A_NORMAL,
-                  attention ? PAIR_WARN : PAIR_PLAIN);
+        curses_text_put(row++, 0, line, attention ? A_BOLD : A_NORMAL,
+                        attention ? PAIR_WARN : PAIR_PLAIN);
     }
     int left = rows - (row - top);
     int columns = left * CHARACTER_MAP_COLUMNS_A_ROW;
@@ -270,5 +262,5 @@ void pages_help(int top, int rows)
         "The monitor changes nothing: use jolon ctl, jolon drive or jolon console.",
     };
     for (int i = 0; i < (int)(sizeof text / sizeof text[0]) && i < rows; i++)
-        pages_put(top + i, 0, text[i], A_NORMAL, PAIR_PLAIN);
+        curses_text_put(top + i, 0, text[i], A_NORMAL, PAIR_PLAIN);
 }

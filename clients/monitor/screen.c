@@ -1,6 +1,7 @@
 /* Curses, its keys, and the title and footer around the pages. */
 #include "clients/monitor/screen.h"
 
+#include "clients/curses_text.h"
 #include "ipc/process/process.h"
 #include "ipc/segment/segment.h"
 #include "clients/monitor/status_lines.h"
@@ -110,9 +111,9 @@ static void draw_title(const struct screen *screen, const struct world_mirror *m
     while (length < (size_t)COLS && length < sizeof line - 1)
         line[length++] = ' ';
     line[length] = '\0';
-    pages_put(0, 0, line, A_REVERSE, PAIR_PLAIN);
+    curses_text_put(0, 0, line, A_REVERSE, PAIR_PLAIN);
     const char *page = pages[screen->state.page];
-    pages_put(0, COLS - (int)strlen(page) - 1, page, A_REVERSE | A_BOLD, PAIR_PLAIN);
+    curses_text_put(0, COLS - (int)strlen(page) - 1, page, A_REVERSE | A_BOLD, PAIR_PLAIN);
 }
 
 static const char *key_hint(const struct screen_state *state)
@@ -156,8 +157,8 @@ void screen_draw(struct screen *screen, const struct world_mirror *mirror, uint6
     }
     event_lines_silence(notice, sizeof notice, mirror, now_ns);
     if (notice[0])
-        pages_put(LINES - 1, 0, notice, A_BOLD, PAIR_WARN);
+        curses_text_put(LINES - 1, 0, notice, A_BOLD, PAIR_WARN);
     else
-        pages_put(LINES - 1, 0, key_hint(&screen->state), A_DIM, PAIR_PLAIN);
+        curses_text_put(LINES - 1, 0, key_hint(&screen->state), A_DIM, PAIR_PLAIN);
     (void)refresh();
 }
