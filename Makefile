@@ -315,7 +315,7 @@ $(foreach test,$(UNIT_SRC) $(PROPERTY_SRC),$(eval $(call test_of,$(test))))
 $(BUILD)/tests/unit/supervisor/%: $(call libraries,sandbox)
 $(addprefix $(BUILD)/tests/unit/ipc/topics/test_,dds_datagrams samples command_text): $(call libraries,datagrams)
 $(BUILD)/tests/unit/config/syntax/test_schema: $(OBJ)/docs/keys/key_tables.o
-$(BUILD)/tests/unit/docs/test_palette: $(OBJ)/docs/figures/palette.o
+$(BUILD)/tests/unit/docs/figures/test_palette: $(OBJ)/docs/figures/palette.o
 $(BUILD)/tests/crash/test_crash: $(call objects,$(call sources,tests/crash))
 $(GOLDEN_TESTS): $(call libraries,bench)
 $(BUILD)/tests/%: $(OBJ)/tests/%.o $(call libraries,$(COMMON))

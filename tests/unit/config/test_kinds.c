@@ -1,5 +1,5 @@
 /* Kinds: defaults, derived values, and the shipped kinds (rows 26, 27, 49). Refusals are in
- * test_refusals.c. */
+ * test_loader_refusals.c. */
 #include "config/kinds.h"
 
 #include "config/loader.h"

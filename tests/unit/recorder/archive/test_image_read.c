@@ -1,7 +1,7 @@
 /* Damaged and forged images: each is refused in one line that says why, without another effect. */
-#include "ipc/frame/command_ring.h"
 #include "recorder/archive/image_read.h"
 
+#include "ipc/frame/command_ring.h"
 #include "tests/support/bare_view.h"
 #include "tests/support/image_file.h"
 

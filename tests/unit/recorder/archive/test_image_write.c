@@ -1,7 +1,7 @@
 /* The file of an image: what it may replace, and that it is whole at any time. */
-#include "recorder/archive/image_read.h"
 #include "recorder/archive/image_write.h"
 
+#include "recorder/archive/image_read.h"
 #include "tests/support/bare_view.h"
 #include "tests/support/child.h"
 #include "tests/support/image_file.h"

@@ -1,9 +1,8 @@
 /* Flips every bit of the data from which sizes, offsets and waits are computed. Attaching refuses
  * each and names the region. segment_verify() finds flipped bits of regions that never change. */
-#include "ipc/segment/segment.h"
+#include "ipc/segment/segment_check.h"
 
 #include "ipc/segment/segment_attach.h"
-#include "ipc/segment/segment_check.h"
 #include "tests/support/fixture.h"
 #include "tests/support/named_world.h"
 #include "world/params.h"
