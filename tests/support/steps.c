@@ -33,6 +33,15 @@ struct params *steps_params(const struct fixture *fixture)
     return writable(fixture->view.world.params);
 }
 
+void steps_small_ring(const struct fixture *fixture, uint32_t slots)
+{
+    struct params *params = steps_params(fixture);
+    ((struct segment_header *)fixture->view.base)->event_slots = slots;
+    params->event_slots = slots;
+    params->events_per_frame = slots / 8;
+    params->intents_per_frame = slots / 16;
+}
+
 /* Clears the mover's cache of the ground below its rows. */
 static void clear_terrain_cache(const struct fixture *fixture)
 {

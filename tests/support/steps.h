@@ -14,6 +14,10 @@
 struct kind *steps_kind(const struct fixture *fixture, const char *name);
 struct params *steps_params(const struct fixture *fixture);
 
+/* Gives the world a ring of so many events, a power of two, before its first frame. Its memory is
+ * larger, which does no harm. */
+void steps_small_ring(const struct fixture *fixture, uint32_t slots);
+
 /* Sets the height of every post [m]. context is passed to the function. */
 typedef double steps_height(double x, double z, const void *context);
 void steps_ground(const struct fixture *fixture, steps_height *height, const void *context);
