@@ -2,6 +2,7 @@
 #include "collider/step.h"
 
 #include "collider/response/response.h"
+#include "world/entity/persistent_contact.h"
 #include "world/params.h"
 #include "world/runtime/work_done.h"
 #include "world/state.h"
@@ -144,6 +145,14 @@ static void begin_head(struct state_head *head, const struct state_head *moved)
     head->checksum = 0;
 }
 
+/* The lists of the two buffers are independent, so a list that has not changed is copied. */
+static void copy_contacts(const struct state *committed, struct state *next)
+{
+    uint32_t count = committed->head->contact_count;
+    next->head->contact_count = count;
+    memcpy(next->contacts, committed->contacts, count * sizeof *next->contacts);
+}
+
 /* Fixed objects are rarely damaged, so their hash is kept from frame to frame until one is. */
 static uint64_t fixed_hash(struct collider *collider, const struct state *committed,
                            const struct state *next)
@@ -209,6 +218,7 @@ void collider_step(struct collider *collider, const struct state *committed,
     crater_index_update(&collider->craters, committed->head->crater_count);
     begin_head(next->head, moved->head);
     memcpy(next->fixed_damage, committed->fixed_damage, world->counts.fixed);
+    copy_contacts(committed, next);
     body_motion_begin(&collider->motion, committed, next);
 
     struct response_context context = collider_response_context(collider, next);

@@ -8,6 +8,7 @@
 #include "config/syntax/schema.h"
 #include "config/syntax/source.h"
 #include "config/vehicles.h"
+#include "world/entity/persistent_contact.h"
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
 
@@ -207,6 +208,12 @@ static uint32_t event_slots_for(uint32_t capacity)
     return slots;
 }
 
+static uint32_t contact_slots_for(uint32_t capacity)
+{
+    uint32_t slots = PERSISTENT_CONTACTS_AN_ENTITY * capacity;
+    return slots > PERSISTENT_CONTACT_SLOTS_MIN ? slots : PERSISTENT_CONTACT_SLOTS_MIN;
+}
+
 static void derive(struct load *load)
 {
     struct params *params = &load->scenario->settings->params;
@@ -222,6 +229,8 @@ static void derive(struct load *load)
     params->command_slots = COMMAND_SLOTS;
     params->crater_slots = CRATER_SLOTS;
     params->dent_slots = DENT_SLOTS;
+    if (params->contact_slots == 0)
+        params->contact_slots = contact_slots_for(params->capacity);
     params->scenario_hash = XXH3_64bits_digest(load->hash);
     /* The end of a path that is too long is kept, as it says more than the beginning. */
     if (length < PATH_TEXT_MAX)
@@ -299,7 +308,8 @@ static bool changeable(const struct key *key)
 {
     _Static_assert(offsetof(struct scenario_settings, params) == 0, "keys of params come first");
     return key->offset < sizeof(struct params) &&
-           key->offset != offsetof(struct scenario_settings, params.capacity);
+           key->offset != offsetof(struct scenario_settings, params.capacity) &&
+           key->offset != offsetof(struct scenario_settings, params.contact_slots);
 }
 
 int loader_branch(struct params *params, const char *const *overrides, int override_count,

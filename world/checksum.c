@@ -3,6 +3,7 @@
 
 #include "world/entity/dent.h"
 #include "world/entity/event.h"
+#include "world/entity/persistent_contact.h"
 #include "world/maths/hash.h"
 #include "world/state.h"
 #include "world/terrain/crater.h"
@@ -200,8 +201,11 @@ uint64_t state_fixed_hash(const struct state *state, uint32_t fixed_count)
 uint64_t state_checksum_of(const struct state *state, uint64_t rows, uint64_t fixed_hash,
                            const struct list_hashes *lists)
 {
-    const uint64_t rest[] = {rows, fixed_hash, lists->crater_hash, lists->dent_hash};
     struct state_head head = *state->head;
+    const uint64_t rest[] = {
+        rows, fixed_hash,
+        XXH3_64bits(state->contacts, head.contact_count * sizeof *state->contacts),
+        lists->crater_hash, lists->dent_hash};
     head.checksum = 0;
     return XXH3_64bits_withSeed(&head, sizeof head, XXH3_64bits(rest, sizeof rest));
 }

@@ -81,13 +81,14 @@ void list_hashes_extend(struct list_hashes *hashes, const struct state *state);
 uint64_t rows_hash(const struct block_hashes *hashes, uint32_t used);
 uint64_t rows_hash_again(const struct entities *entities, uint32_t used);
 
-/* The state's own checksum: head (its checksum as 0), rows, damage of the fixed objects, craters
- * and dents up to their counts, which must be within their lists. The rows
- * are hashed again. */
+/* The state's own checksum: head (its checksum as 0), rows, damage of the fixed objects, contacts,
+ * craters and dents up to their counts, which must be within their lists. The rows are hashed
+ * again. */
 uint64_t state_checksum(const struct state *state, uint32_t fixed_count);
 
 /* The same from parts that the caller has already: the hash of the rows, the fixed damage as
- * state_fixed_hash() has it, and the lists up to the state's counts. */
+ * state_fixed_hash() has it, and the lists up to the state's counts. The contacts change from frame
+ * to frame, so their whole list is hashed. */
 uint64_t state_fixed_hash(const struct state *state, uint32_t fixed_count);
 uint64_t state_checksum_of(const struct state *state, uint64_t rows, uint64_t fixed_hash,
                            const struct list_hashes *lists);

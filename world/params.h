@@ -63,6 +63,8 @@ struct params {
     uint32_t command_slots;     /* power of two, of each ring */
     uint32_t crater_slots;
     uint32_t dent_slots;
+    uint32_t contact_slots; /* persistent contacts at most, in each world buffer */
+    uint32_t reserved;
     uint32_t when_full; /* enum when_full */
     uint32_t initial_entities;
     struct collision_params collision;

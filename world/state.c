@@ -2,6 +2,7 @@
 #include "world/state.h"
 
 #include "world/entity/dent.h"
+#include "world/entity/persistent_contact.h"
 #include "world/maths/hash.h"
 #include "world/params.h"
 #include "world/terrain/crater.h"
@@ -32,6 +33,8 @@ uint64_t state_digest(const struct world *world, const struct state *state)
     hash = XXH3_64bits_withSeed(&world->params->seed, sizeof world->params->seed, hash);
     hash = hash_columns(hash, &state->entities, head.used);
     hash = XXH3_64bits_withSeed(state->fixed_damage, world->counts.fixed, hash);
+    hash = XXH3_64bits_withSeed(state->contacts,
+                                head.contact_count * sizeof(struct persistent_contact), hash);
     hash = XXH3_64bits_withSeed(state->craters, head.crater_count * sizeof(struct crater), hash);
     return XXH3_64bits_withSeed(state->dents, head.dent_count * sizeof(struct dent), hash);
 }

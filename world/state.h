@@ -12,15 +12,17 @@ struct crater;
 struct dent;
 struct event;
 struct block_hashes;
+struct persistent_contact;
 struct world;
 
 /* Counters since the world began; part of the digest. */
 struct counters {
     uint64_t collisions, fires, detonations, destroyed, fixed_damaged, agent_changes, commands;
-    uint64_t events_dropped;  /* more in a frame than events_per_frame: counted, never silent */
-    uint64_t craters_refused; /* no room in the list of craters */
-    uint64_t spawns_refused;  /* no free slot */
-    uint64_t dents_refused;   /* no room in the list of dents */
+    uint64_t events_dropped;   /* more in a frame than events_per_frame: counted, never silent */
+    uint64_t craters_refused;  /* no room in the list of craters */
+    uint64_t spawns_refused;   /* no free slot */
+    uint64_t dents_refused;    /* no room in the list of dents */
+    uint64_t contacts_refused; /* no room in the list of contacts */
 };
 
 /* The head of a world buffer and, as the mover stages it, of the moved table. */
@@ -40,7 +42,7 @@ struct state_head {
     uint32_t vehicles, munitions; /* active or wrecks; in flight */
     uint32_t crater_count;
     uint32_t dent_count;
-    uint32_t reserved;
+    uint32_t contact_count;
     uint32_t fire_cursor;  /* fire orders of the scenario carried out */
     uint32_t intent_count; /* M only: events the mover hands to the collider */
     uint32_t advanced;     /* 1: simulated time moved in this frame */
@@ -49,12 +51,14 @@ struct state_head {
     uint64_t checksum; /* state_checksum(), moved_checksum() */
 };
 
-/* One buffer of the world. fixed_damage and the crater list belong to W only. */
+/* One buffer of the world. fixed_damage, contacts, craters and dents belong to W only. */
 struct state {
     struct state_head *head;
     struct entities entities;
     struct block_hashes *hashes; /* of the rows (checksum.h); a reader's copy has none: NULL */
     uint8_t *fixed_damage;       /* [counts.fixed] enum damage */
+    struct persistent_contact
+        *contacts;          /* [contact_count] sorted by ids; written by the collider */
     struct crater *craters; /* shared by both buffers, append-only: committed by crater_count */
     struct dent *dents;     /* the same, committed by dent_count */
 };

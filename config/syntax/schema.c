@@ -1,6 +1,7 @@
 /* The schema of a scenario's groups. `make docs` writes these rows into docs/scenario.md. */
 #include "config/syntax/schema_internal.h"
 #include "world/entity/entity.h"
+#include "world/entity/persistent_contact.h"
 #include "world/making/scenario_settings.h"
 #include "world/param_values.h"
 #include "world/view_mode.h"
@@ -51,6 +52,10 @@ static const struct key scenario_keys[] = {
            .meaning = "Frames per second of simulated time. A frame lasts 1/hz seconds."),
     WHOLE32("world.capacity", S, params.capacity, CAPACITY_MIN, CAPACITY_MAX, "4096",
             .meaning = "How many vehicles and munitions the world can hold at one time."),
+    WHOLE32("world.contacts", S, params.contact_slots, 1, PERSISTENT_CONTACT_SLOTS_MAX, NULL,
+            .unset = "4 times `world.capacity`, at least 256",
+            .meaning = "How many pairs of bodies can press on each other at one time. The world "
+                       "counts the contacts for which there is no room, as `contacts_refused`."),
     WHOLE64("world.frames", S, params.frame_limit, 0, SCHEMA_WHOLE_MAX, "0",
             .meaning = "The run ends with this frame. 0: the run has no last frame."),
     CHOICE("world.pace", S, params.pace, STORE_U32, WORDS(paces), "real",

@@ -2,6 +2,7 @@
 #include "ipc/frame/snapshot.h"
 
 #include "ipc/segment/frame_check.h"
+#include "world/entity/persistent_contact.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -23,7 +24,8 @@ int snapshot_init(struct snapshot *snapshot, const struct view *view)
     *snapshot = (struct snapshot){0};
     snapshot->memory = aligned_alloc(COLUMN_ALIGN, columns);
     snapshot->fixed_damage = calloc(view->header->counts.fixed + 1, 1);
-    if (!snapshot->memory || !snapshot->fixed_damage) {
+    snapshot->contacts = calloc(view->header->contact_slots + 1u, sizeof *snapshot->contacts);
+    if (!snapshot->memory || !snapshot->fixed_damage || !snapshot->contacts) {
         snapshot_free(snapshot);
         errno = ENOMEM;
         return -1;
@@ -36,6 +38,7 @@ void snapshot_free(struct snapshot *snapshot)
 {
     free(snapshot->memory);
     free(snapshot->fixed_damage);
+    free(snapshot->contacts);
     *snapshot = (struct snapshot){0};
 }
 
@@ -59,11 +62,12 @@ int snapshot_take(struct snapshot *snapshot, const struct view *view)
         uint64_t frame = segment_load(&view->commit->commit);
         const struct state *from = &view->w[frame & 1];
         snapshot->head = *from->head;
-        uint32_t used = snapshot->head.used;
-        if (used > view->header->capacity)
-            used = 0; /* torn or damaged, which the checks below find */
+        uint32_t used = snapshot->head.used, contacts = snapshot->head.contact_count;
+        if (used > view->header->capacity || contacts > view->header->contact_slots)
+            used = contacts = 0; /* torn or damaged, which the checks below find */
         entities_copy(&snapshot->entities, &from->entities, 0, used);
         memcpy(snapshot->fixed_damage, from->fixed_damage, view->header->counts.fixed);
+        memcpy(snapshot->contacts, from->contacts, contacts * sizeof *from->contacts);
         if (!still_whole(view, frame)) {
             snapshot->overtaken++;
             continue;
@@ -103,6 +107,7 @@ struct state snapshot_state(const struct snapshot *snapshot, const struct view *
     return (struct state){.head = (struct state_head *)(uintptr_t)&snapshot->head,
                           .entities = snapshot->entities,
                           .fixed_damage = snapshot->fixed_damage,
+                          .contacts = snapshot->contacts,
                           .craters = view->w[0].craters,
                           .dents = view->w[0].dents};
 }

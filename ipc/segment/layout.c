@@ -9,6 +9,7 @@
 #include "world/entity/formation.h"
 #include "world/entity/hull.h"
 #include "world/entity/kind.h"
+#include "world/entity/persistent_contact.h"
 #include "world/entity/script.h"
 #include "world/model.h"
 #include "world/param_values.h"
@@ -76,6 +77,12 @@ size_t layout_table_bytes(uint32_t capacity)
     return LAYOUT_HEAD_BYTES + entities_bytes(capacity) + block_hashes_bytes(capacity);
 }
 
+size_t layout_contacts_offset(uint32_t capacity, uint32_t fixed)
+{
+    size_t bytes = layout_table_bytes(capacity) + fixed;
+    return (bytes + COLUMN_ALIGN - 1) / COLUMN_ALIGN * COLUMN_ALIGN;
+}
+
 static bool power_of_two(uint32_t value)
 {
     return value != 0 && (value & (value - 1)) == 0;
@@ -97,7 +104,7 @@ static bool plausible(const struct segment_header *h)
     return h->capacity >= 1 && h->capacity <= CAPACITY_MAX && n->posts_side >= 2 &&
            n->posts_side <= POSTS_SIDE_MAX && power_of_two(h->event_slots) &&
            power_of_two(h->command_slots) && h->command_slots <= (1u << 20) &&
-           h->crater_slots <= CRATER_SLOTS_MAX;
+           h->crater_slots <= CRATER_SLOTS_MAX && h->contact_slots <= PERSISTENT_CONTACT_SLOTS_MAX;
 }
 
 int layout_compute(struct layout *layout, const struct segment_header *h)
@@ -134,7 +141,8 @@ int layout_compute(struct layout *layout, const struct segment_header *h)
     b[REGION_NAMES] = n->names * sizeof(struct entity_name);
     b[REGION_RECIPE] = n->recipe;
     b[REGION_COMMIT] = sizeof(struct commit_words);
-    b[REGION_WORLD_A] = b[REGION_WORLD_B] = layout_table_bytes(h->capacity) + h->counts.fixed;
+    b[REGION_WORLD_A] = b[REGION_WORLD_B] = layout_contacts_offset(h->capacity, n->fixed) +
+                                            h->contact_slots * sizeof(struct persistent_contact);
     b[REGION_CRATERS] = h->crater_slots * sizeof(struct crater);
     b[REGION_DENTS] = h->dent_slots * sizeof(struct dent);
     b[REGION_EVENTS] = h->event_slots * sizeof(struct event);
@@ -169,6 +177,7 @@ uint64_t layout_hash(void)
         sizeof(struct state_head),
         sizeof(struct crater),
         sizeof(struct dent),
+        sizeof(struct persistent_contact),
         sizeof(struct hull),
         sizeof(struct hull_plane),
         sizeof(struct event),

@@ -15,7 +15,7 @@
 #include <stdint.h>
 
 #define SEGMENT_MAGIC   0x314e4f4c4f4a0a1au /* "\x1a\nJOLON1": also no text file's first bytes */
-#define SEGMENT_VERSION 6u
+#define SEGMENT_VERSION 7u
 
 /* Every region begins at a multiple of this [byte]. A mapping begins on a page border, and pages
  * are 4, 16 or 64 KiB, depending on the kernel (aarch64 has all three). */
@@ -50,7 +50,7 @@ enum region {
     REGION_NAMES,
     REGION_RECIPE,
     REGION_COMMIT,  /* struct commit_words: collider */
-    REGION_WORLD_A, /* head, columns, their hashes, fixed damage: collider */
+    REGION_WORLD_A, /* head, columns, their hashes, fixed damage, contacts: collider */
     REGION_WORLD_B,
     REGION_CRATERS,    /* collider */
     REGION_DENTS,      /* collider */
@@ -74,7 +74,8 @@ struct segment_header {
     uint64_t static_hash[REGION_COMMIT]; /* XXH3 of each region that never changes; [0] is 0 */
     struct counts counts;
     uint32_t capacity, event_slots, intents_per_frame, command_slots, crater_slots;
-    uint32_t dent_slots;
+    uint32_t dent_slots, contact_slots;
+    uint32_t reserved;
     uint64_t made;        /* random number of this creation, also in its images */
     uint64_t origin;      /* hash of the image it was made from (image_segment()); 0: none */
     uint64_t first_event; /* the first event of the ring: 0, or the image's next event */
@@ -89,6 +90,9 @@ struct layout {
 
 /* Returns the bytes of a table: head, columns and the columns' hashes (world/checksum.h). */
 size_t layout_table_bytes(uint32_t capacity);
+
+/* Returns the place of the contacts in a world buffer [byte], a multiple of COLUMN_ALIGN. */
+size_t layout_contacts_offset(uint32_t capacity, uint32_t fixed);
 
 /* Computes layout from the header's counts and sizes. Returns 0, or -1 with errno EOVERFLOW when a
  * size exceeds its bound, as a forged header's may. */

@@ -37,6 +37,7 @@ static void bind_state(const struct view *view, struct state *state, int region)
     entities_bind(&state->entities, capacity, base + LAYOUT_HEAD_BYTES);
     state->hashes = hashes_at(base, capacity);
     state->fixed_damage = base + layout_table_bytes(capacity);
+    state->contacts = (void *)(base + layout_contacts_offset(capacity, view->header->counts.fixed));
     state->craters = segment_part(view, REGION_CRATERS);
     state->dents = segment_part(view, REGION_DENTS);
 }
@@ -97,7 +98,8 @@ struct segment_header segment_header_for(const struct params *params, const stru
                                    .intents_per_frame = params->intents_per_frame,
                                    .command_slots = params->command_slots,
                                    .crater_slots = params->crater_slots,
-                                   .dent_slots = params->dent_slots};
+                                   .dent_slots = params->dent_slots,
+                                   .contact_slots = params->contact_slots};
 }
 
 static int reserve(int fd, size_t bytes, struct error_text *error)

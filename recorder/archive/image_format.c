@@ -3,6 +3,7 @@
 #include "ipc/process/log.h"
 #include "world/entity/dent.h"
 #include "world/entity/event.h"
+#include "world/entity/persistent_contact.h"
 #include "world/runtime/check.h"
 
 #include <xxhash.h>
@@ -54,6 +55,7 @@ uint32_t image_parts(const struct image_header *header, const struct image_table
     add(&list, tables->state.head, sizeof *tables->state.head);
     add_columns(&list, &tables->state.entities, header->used);
     add(&list, tables->state.fixed_damage, segment->counts.fixed);
+    add(&list, tables->state.contacts, header->contacts * sizeof(struct persistent_contact));
     add(&list, view->w[0].craters, header->craters * sizeof(struct crater));
     add(&list, view->w[0].dents, header->dents * sizeof(struct dent));
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
@@ -71,7 +73,8 @@ uint64_t image_content_bytes(const struct image_header *header, const struct lay
 {
     uint64_t bytes = sizeof(struct state_head) + header->used * entities_row_bytes() +
                      header->segment.counts.fixed + header->craters * sizeof(struct crater) +
-                     header->dents * sizeof(struct dent);
+                     header->dents * sizeof(struct dent) +
+                     header->contacts * sizeof(struct persistent_contact);
     for (int i = FIRST_STATIC; i <= LAST_STATIC; i++)
         bytes += layout->bytes[i];
     for (int i = 0; i < COMMAND_RING_COUNT; i++)

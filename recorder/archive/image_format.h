@@ -17,7 +17,7 @@
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "images are little-endian");
 
 #define IMAGE_MAGIC   0x314d494c4f4a0a1au /* "\x1a\nJOLIM1" */
-#define IMAGE_VERSION 2u
+#define IMAGE_VERSION 3u
 
 struct image_header {
     uint64_t magic;
@@ -30,7 +30,8 @@ struct image_header {
     uint64_t event_end;                      /* number of events of the run up to that frame */
     uint64_t ring_first[COMMAND_RING_COUNT]; /* commands first .. end - 1 are in the image */
     uint64_t ring_end[COMMAND_RING_COUNT];
-    uint32_t used, craters, dents;
+    uint32_t used, craters, dents, contacts;
+    uint32_t reserved;
     uint32_t inputs; /* 1: the image holds the moved table of frame + 1 */
     uint32_t moved_used, intents;
     struct segment_header segment;

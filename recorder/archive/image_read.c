@@ -46,8 +46,8 @@ static bool counts_fit(const struct image_header *header, struct layout *layout)
     const struct segment_header *segment = &header->segment;
     if (layout_compute(layout, segment) != 0 || header->used > segment->capacity ||
         header->craters > segment->crater_slots || header->dents > segment->dent_slots ||
-        header->inputs > 1 || header->moved_used > segment->capacity ||
-        header->intents > segment->intents_per_frame)
+        header->contacts > segment->contact_slots || header->inputs > 1 ||
+        header->moved_used > segment->capacity || header->intents > segment->intents_per_frame)
         return false;
     for (int i = 0; i < COMMAND_RING_COUNT; i++) {
         if (header->ring_first[i] > header->ring_end[i] ||
@@ -245,7 +245,8 @@ static int check_state(const struct view *view, const struct image *image, struc
     const struct state_head *head = view->w[header->frame & 1].head, *moved = view->m.head;
     struct error_text what;
     if (head->event_end != header->event_end || head->used != header->used ||
-        head->crater_count != header->craters || head->dent_count != header->dents)
+        head->crater_count != header->craters || head->dent_count != header->dents ||
+        head->contact_count != header->contacts)
         return error_text_set(error, "%s: its frame does not fit its header", image->path);
     table_hash(state_table(&view->w[header->frame & 1]), head->used, NULL, NULL);
     if (segment_check_state(view, header->frame, &what) != 0)

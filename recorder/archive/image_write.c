@@ -173,6 +173,7 @@ static struct image_header header_of(const struct view *view, const struct captu
     header.used = head->used;
     header.craters = head->crater_count;
     header.dents = head->dent_count;
+    header.contacts = head->contact_count;
     header.inputs = capture->inputs;
     header.moved_used = capture->inputs ? capture->moved_head.used : 0;
     header.intents = capture->inputs ? capture->moved_head.intent_count : 0;

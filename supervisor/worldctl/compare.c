@@ -2,6 +2,7 @@
 #include "supervisor/worldctl/compare.h"
 
 #include "world/entity/dent.h"
+#include "world/entity/persistent_contact.h"
 #include "world/enum_names.h"
 #include "world/params.h"
 #include "world/terrain/crater.h"
@@ -113,7 +114,8 @@ static bool compare_entities(const struct compared *a, const struct compared *b,
     return difference->columns > 0;
 }
 
-/* --- fixed objects, craters, dents, head -------------------------------------------------------*/
+/* --- fixed objects, contacts, craters, dents, head
+ * -------------------------------------------------------*/
 
 static bool compare_fixed(const struct compared *a, const struct compared *b,
                           struct difference *difference)
@@ -163,6 +165,57 @@ static void name_member(struct difference *difference, const struct member *memb
     snprintf(difference->column, sizeof difference->column, "%s", member->name);
     set_values(difference, member->type, (const char *)a + member->offset,
                (const char *)b + member->offset);
+}
+
+/* Names the member ("contact" itself if NULL) and both parties. */
+static void name_contact(struct difference *difference, const struct member *member,
+                         const struct persistent_contact *contact, uint32_t index)
+{
+    bool fixed = (contact->b_id & PERSISTENT_CONTACT_FIXED) != 0;
+    uint32_t other = fixed ? (contact->b_id & ~PERSISTENT_CONTACT_FIXED) + 1 : contact->b_id;
+    difference->row = index;
+    snprintf(difference->field, sizeof difference->field, "%s%s of entity %u with %s %u",
+             member ? member->name : "", member ? " of the contact" : "contact", contact->a_id,
+             fixed ? "fixed object" : "entity", other);
+}
+
+/* The contact is in one frame only: in a, else in b. */
+static void tell_one_sided(struct difference *difference, const struct persistent_contact *contact,
+                           uint32_t index, bool in_a)
+{
+    snprintf(difference->column, sizeof difference->column, "contact");
+    snprintf(difference->a, sizeof difference->a, "%s", in_a ? "present" : "none");
+    snprintf(difference->b, sizeof difference->b, "%s", in_a ? "none" : "present");
+    name_contact(difference, NULL, contact, index);
+}
+
+/* Both lists rise by their keys, so at the first difference the smaller key is in one of them
+ * only. */
+static bool compare_contacts(const struct compared *a, const struct compared *b,
+                             struct difference *difference)
+{
+#define CONTACT(name) MEMBER(uint32_t, persistent_contact, name)
+    static const struct member members[] = {CONTACT(a_row),      CONTACT(b_row),
+                                            CONTACT(begin_tick), CONTACT(pressed_tick),
+                                            CONTACT(flags),      CONTACT(reserved)};
+#undef CONTACT
+    uint32_t count_a = a->state.head->contact_count, count_b = b->state.head->contact_count;
+    for (uint32_t i = 0; i < count_a || i < count_b; i++) {
+        const struct persistent_contact *p = &a->state.contacts[i], *q = &b->state.contacts[i];
+        uint64_t key_a = i < count_a ? persistent_contact_key(p) : UINT64_MAX;
+        uint64_t key_b = i < count_b ? persistent_contact_key(q) : UINT64_MAX;
+        if (key_a != key_b) {
+            tell_one_sided(difference, key_a < key_b ? p : q, i, key_a < key_b);
+            return true;
+        }
+        const struct member *member = first_member(members, COUNT(members), p, q);
+        if (!member)
+            continue;
+        name_member(difference, member, p, q);
+        name_contact(difference, member, p, i);
+        return true;
+    }
+    return false;
 }
 
 static bool compare_craters(const struct compared *a, const struct compared *b,
@@ -231,6 +284,7 @@ static bool compare_heads(const struct compared *a, const struct compared *b,
         HEAD(uint32_t, munitions),
         HEAD(uint32_t, crater_count),
         HEAD(uint32_t, dent_count),
+        HEAD(uint32_t, contact_count),
         HEAD(uint32_t, fire_cursor),
         HEAD(uint32_t, advanced),
         HEAD(uint64_t, command_cursor[RING_CLIENTS]),
@@ -246,6 +300,7 @@ static bool compare_heads(const struct compared *a, const struct compared *b,
         HEAD(uint64_t, tally.craters_refused),
         HEAD(uint64_t, tally.spawns_refused),
         HEAD(uint64_t, tally.dents_refused),
+        HEAD(uint64_t, tally.contacts_refused),
         HEAD(uint64_t, event_end),
         HEAD(uint64_t, event_digest),
     };
@@ -264,8 +319,8 @@ bool compare_states(const struct compared *a, const struct compared *b,
 {
     *difference = (struct difference){0};
     return compare_entities(a, b, difference) || compare_fixed(a, b, difference) ||
-           compare_craters(a, b, difference) || compare_dents(a, b, difference) ||
-           compare_heads(a, b, difference);
+           compare_contacts(a, b, difference) || compare_craters(a, b, difference) ||
+           compare_dents(a, b, difference) || compare_heads(a, b, difference);
 }
 
 bool compare_worlds(const struct world *a, const struct world *b, struct difference *difference)

@@ -18,14 +18,14 @@ struct compared {
 struct difference {
     char field[96];  /* "x of entity 41 \"alpha-1\" (row 40)" */
     char column[32]; /* "x" */
-    uint64_t row;    /* or the number of the object, crater or dent */
+    uint64_t row;    /* or the number of the object, contact, crater or dent */
     char a[32], b[32];
     uint32_t columns; /* number of entity columns that differ */
 };
 
 /* Finds the first field that differs: first of the entities, column by column, then of the fixed
- * objects, the craters, the dents and the head. Covers everything that state_digest() covers,
- * except the seed. Returns false if all is equal. */
+ * objects, the contacts, the craters, the dents and the head. Contacts are compared by their keys.
+ * Covers everything that state_digest() covers, except the seed. Returns false if all is equal. */
 bool compare_states(const struct compared *a, const struct compared *b,
                     struct difference *difference);
 

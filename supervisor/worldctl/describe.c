@@ -55,8 +55,9 @@ static void info_text(const struct view *view, const struct dispersion *d)
     printf("world        %s (%s, seed %" PRIu64 ")\n", view->name, params->name, params->seed);
     printf("scenario     %s\n", params->scenario);
     printf("step         %g Hz, pace %s\n", params->hz, params->pace == PACE_MAX ? "max" : "real");
-    printf("memory       %.1f MB, room for %u entities of %zu bytes a table\n",
-           (double)view->layout.total / 1e6, params->capacity, entities_row_bytes());
+    printf("memory       %.1f MB, room for %u entities of %zu bytes a table, and %u contacts\n",
+           (double)view->layout.total / 1e6, params->capacity, entities_row_bytes(),
+           params->contact_slots);
     printf("terrain      %u x %u posts, %g m apart\n", counts->posts_side, counts->posts_side,
            world->terrain.spacing_m);
     printf("shapes       %u models of %u triangles, in %u hulls of %u vertices\n", counts->models,
@@ -80,6 +81,7 @@ static void info_json(const struct view *view, const struct dispersion *d)
     json_whole(object, "seed", params->seed);
     json_number(object, "hz", params->hz);
     json_whole(object, "capacity", params->capacity);
+    json_whole(object, "contact_slots", params->contact_slots);
     json_whole(object, "bytes", view->layout.total);
     json_whole(object, "bytes_per_entity", entities_row_bytes());
     json_whole(object, "vehicles", params->initial_entities);
@@ -300,6 +302,8 @@ static void summary_json(const struct view *view, const struct state_head *head,
     json_whole(object, "events_dropped", tally->events_dropped);
     json_whole(object, "craters_refused", tally->craters_refused);
     json_whole(object, "spawns_refused", tally->spawns_refused);
+    json_whole(object, "contacts", head->contact_count);
+    json_whole(object, "contacts_refused", tally->contacts_refused);
     json_whole(object, "restarts", restarts_of(view));
     json_whole(object, "late_frames", atomic_load(&view->slot[ROLE_MOVER]->late_frames));
     add_times(object, "frame_ms", &view->slot[ROLE_COLLIDER]->whole);

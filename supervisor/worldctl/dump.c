@@ -1,5 +1,6 @@
 /* Verb dump: prints every entity, every fixed object, or the heights of a piece of terrain. */
 #include "ipc/segment/segment_attach.h"
+#include "supervisor/worldctl/contact_chains.h"
 #include "supervisor/worldctl/verbs.h"
 
 #include "ipc/process/log.h"
@@ -47,17 +48,33 @@ static cJSON *entity_json(const struct world *world, const struct state_head *he
     return object;
 }
 
+static void dump_entities_json(const struct view *view, const struct snapshot *snapshot)
+{
+    const struct entities *e = &snapshot->entities;
+    struct contact_chains chains;
+    if (contact_chains_make(&chains, snapshot) != 0)
+        die_refused("out of memory for the contacts");
+    for (uint32_t i = 0; i < snapshot->head.used; i++) {
+        if (e->state[i] == ENTITY_FREE)
+            continue;
+        cJSON *object = entity_json(&view->world, &snapshot->head, e, i);
+        contact_chains_json(object, &chains, i);
+        json_print(object);
+    }
+    contact_chains_free(&chains);
+}
+
 static void dump_entities(const struct arguments *arguments, const struct view *view,
                           const struct snapshot *snapshot)
 {
     const struct entities *e = &snapshot->entities;
+    if (arguments->json) {
+        dump_entities_json(view, snapshot);
+        return;
+    }
     for (uint32_t i = 0; i < snapshot->head.used; i++) {
         if (e->state[i] == ENTITY_FREE)
             continue;
-        if (arguments->json) {
-            json_print(entity_json(&view->world, &snapshot->head, e, i));
-            continue;
-        }
         printf("%6u %-14s %-7s x %10.2f y %8.2f z %10.2f heading %5.1f %6.1f m/s %-6s %-9s %s\n",
                e->id[i], view->world.kinds[e->kind[i]].name, force_name((enum force)e->force[i]),
                e->x[i], e->y[i], e->z[i], e->heading[i] * DEG_PER_RAD,

@@ -68,6 +68,7 @@ void plan_make(struct plan *plan, const char *text, uint32_t event_slots)
     params->events_per_frame = event_slots / 2;
     params->intents_per_frame = event_slots / 4;
     params->crater_slots = params->dent_slots = params->command_slots = 64;
+    params->contact_slots = 64;
     if (world_build_make(&plan->built, &plan->scenario, &error) != 0)
         fail_msg("the test's world is refused: %s", error.text);
 }

@@ -6,6 +6,7 @@
 #include "tests/fuzz/support.h"
 
 #include "ipc/segment/segment.h"
+#include "world/entity/persistent_contact.h"
 #include "world/params.h"
 #include "world/runtime/check.h"
 
@@ -156,7 +157,8 @@ static void check(const struct view *view, uint64_t bytes)
         }
     }
     for (int i = 0; i < 2; i++)
-        CHECK(view->w[i].fixed_damage + view->world.counts.fixed <= base + bytes);
+        CHECK((const unsigned char *)(view->w[i].contacts + view->header->contact_slots) <=
+              base + bytes);
     CHECK(view->world.params->capacity <= CAPACITY_MAX);
     CHECK(view->world.terrain.spacing_m > 0.0);
     struct error_text error;

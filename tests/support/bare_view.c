@@ -27,6 +27,7 @@ void bare_view_make(struct view *view, const struct bare_sizes *sizes)
         .command_slots = sizes->command_slots,
         .crater_slots = 16,
         .dent_slots = 16,
+        .contact_slots = 16,
     };
     const struct counts counts = {.posts_side = 2, .fixed = sizes->fixed};
     struct segment_header header = segment_header_for(&params, &counts);

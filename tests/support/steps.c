@@ -3,6 +3,7 @@
 
 #include "mover/motion/kinematics.h"
 #include "mover/weapon/turret.h"
+#include "world/entity/persistent_contact.h"
 #include "world/params.h"
 #include "world/terrain/terrain_cache.h"
 #include "world/maths/rotation.h"
@@ -259,6 +260,8 @@ uint64_t steps_state_hash(const struct fixture *fixture, const struct state *sta
     hash = XXH3_64bits_withSeed(state->fixed_damage, view->world.counts.fixed, hash);
     hash = XXH3_64bits_withSeed(state->craters, state->head->crater_count * sizeof(struct crater),
                                 hash);
+    hash = XXH3_64bits_withSeed(state->contacts,
+                                state->head->contact_count * sizeof *state->contacts, hash);
     for (uint64_t i = end > slots ? end - slots : 0; i < end; i++)
         hash = XXH3_64bits_withSeed(&view->events[i & (slots - 1)], sizeof(struct event), hash);
     return hash;

@@ -1,6 +1,7 @@
 /* The collider's step as a whole: pure, repeatable, nothing missed, everything in order of time. */
 #include "tests/support/steps.h"
 #include "world/checksum.h"
+#include "world/entity/persistent_contact.h"
 #include "world/params.h"
 
 #include <stdarg.h>
@@ -295,6 +296,15 @@ static void collide_again(struct fixture *f)
                   &ring);
 }
 
+/* A contact that every frame must have, whatever its buffer held. */
+static void put_contact(struct fixture *f)
+{
+    struct state now = fixture_state(f);
+    now.contacts[0] = (struct persistent_contact){1, 2, 0, 1, 0, 0, 0, 0};
+    now.head->contact_count = 1;
+    state_seal(&now, f->view.world.counts.fixed);
+}
+
 /* What a collider that died in mid-frame left: half a buffer, half a frame's events and craters. */
 static void soil(struct fixture *f)
 {
@@ -303,6 +313,7 @@ static void soil(struct fixture *f)
     struct state *now = &view->w[commit & 1], *next = &view->w[(commit + 1) & 1];
     memset(next->head, 0x5a, sizeof *next->head);
     memset(next->fixed_damage, 0x5a, view->world.counts.fixed);
+    memset(next->contacts, 0x5a, view->header->contact_slots * sizeof *next->contacts);
 #define X(type, name) memset(next->entities.name, 0x5a, next->entities.capacity * sizeof(type));
     ENTITY_COLUMNS(X)
 #undef X
@@ -319,6 +330,7 @@ static void run_and_repeat(const char *response)
     struct fixture f;
     snprintf(text, sizeof text, battle, response);
     fixture_open(&f, text);
+    put_contact(&f);
     for (int frame = 0; frame < 150; frame++) {
         const struct state *now = &f.view.w[frame & 1], *next = &f.view.w[(frame + 1) & 1];
         steps_move(&f);

@@ -68,6 +68,7 @@ static void test_empty_file_has_defaults(void **state)
     assert_int_equal(s.settings->params.intents_per_frame, 4096);
     assert_int_equal(s.settings->params.command_slots, 1024);
     assert_int_equal(s.settings->params.crater_slots, 65536);
+    assert_int_equal(s.settings->params.contact_slots, 16384);
     assert_int_equal(s.settings->params.initial_entities, 0);
     assert_int_equal(s.settings->terrain, TERRAIN_GENERATED);
     assert_true(s.settings->spacing_m == 31.25);
@@ -103,12 +104,14 @@ static void test_sizes_follow_capacity(void **state)
 {
     static const struct {
         const char *override;
-        uint32_t event_slots, intents;
+        uint32_t event_slots, intents, contacts;
     } rows[] = {
-        {"world.capacity=16", 65536, 1056},
-        {"world.capacity=4097", 131072, 8192},
-        {"world.capacity=65536", 1048576, 65536},
-        {"world.capacity=1048576", 1048576, 65536},
+        {"world.capacity=16", 65536, 1056, 256},
+        {"world.capacity=65", 65536, 1154, 260},
+        {"world.capacity=4097", 131072, 8192, 16388},
+        {"world.capacity=65536", 1048576, 65536, 262144},
+        {"world.capacity=1048576", 1048576, 65536, 4194304},
+        {"world.contacts=1", 65536, 4096, 1},
     };
 
     (void)state;
@@ -119,6 +122,7 @@ static void test_sizes_follow_capacity(void **state)
         assert_int_equal(s.settings->params.event_slots, rows[i].event_slots);
         assert_int_equal(s.settings->params.events_per_frame, rows[i].event_slots / 8);
         assert_int_equal(s.settings->params.intents_per_frame, rows[i].intents);
+        assert_int_equal(s.settings->params.contact_slots, rows[i].contacts);
         scenario_free(&s);
     }
 }
@@ -212,6 +216,7 @@ static void test_override_equals_file(void **state)
         {"world.hz=10", "world = { hz = 10; };"},
         {"world.hz=12.5", "world = { hz = 12.5; };"},
         {"world.capacity=64", "world = { capacity = 64; };"},
+        {"world.contacts=300", "world = { contacts = 300; };"},
         {"world.frames=9007199254740991", "world = { frames = 9007199254740991; };"},
         {"world.pace=max", "world = { pace = \"max\"; };"},
         {"terrain.source=flat", "terrain = { source = \"flat\"; };"},

@@ -53,7 +53,7 @@ static const char response_words[] = RESPONSE_MODELS(X);
 static const struct refusal refusals[] = {
     /* Unknown keys. */
     {"world = {\n sede = 7; };", 2,
-     "world.sede = 7: unknown key; allowed here: name, seed, hz, capacity, frames, pace"},
+     "world.sede = 7: unknown key; allowed here: name, seed, hz, capacity, contacts, frames, pace"},
     {"\nwrold = { seed = 7; };", 2,
      "wrold = {...}: unknown key; allowed here: world, terrain, objects, collision, recorder, "
      "renderer"},
@@ -113,6 +113,9 @@ static const struct refusal refusals[] = {
     {"world = { capacity = 15; };", 1, "world.capacity = 15: out of range; allowed: 16..1048576"},
     {"world = { capacity = 1048577; };", 1,
      "world.capacity = 1048577: out of range; allowed: 16..1048576"},
+    {"world = { contacts = 0; };", 1, "world.contacts = 0: out of range; allowed: 1..4194304"},
+    {"world = { contacts = 4194305; };", 1,
+     "world.contacts = 4194305: out of range; allowed: 1..4194304"},
     {"world = { name = \"012345678901234567890123456789012345678901234567\"; };", 1,
      "world.name = \"012345678901234567890123456789012345678901234567\": too long; allowed: up to "
      "47 characters"},

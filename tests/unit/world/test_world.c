@@ -4,6 +4,7 @@
 #include "world/entity/entity.h"
 #include "world/entity/event.h"
 #include "world/entity/kind.h"
+#include "world/entity/persistent_contact.h"
 #include "world/enum_names.h"
 #include "world/event_text.h"
 #include "world/param_values.h"
@@ -45,6 +46,9 @@ static int open_world(void **state)
     now.craters[0] = (struct crater){1.0, 2.0, 3.0f, 4.0f, 5};
     now.craters[1] = now.craters[0];
     now.head->crater_count = 1;
+    now.contacts[0] = (struct persistent_contact){1, 2, 0, 1, 3, 4, 0, 0};
+    now.contacts[1] = now.contacts[0];
+    now.head->contact_count = 1;
     return 0;
 }
 
@@ -158,6 +162,8 @@ static void test_digest_covers_the_head(void **state)
     COUNTS(tally.events_dropped)
     COUNTS(tally.craters_refused)
     COUNTS(tally.spawns_refused)
+    COUNTS(tally.dents_refused)
+    COUNTS(tally.contacts_refused)
 #undef COUNTS
     uint64_t before = digest();
     h->used--;
@@ -166,6 +172,10 @@ static void test_digest_covers_the_head(void **state)
     h->crater_count = 0;
     assert_int_not_equal(digest(), before);
     h->crater_count = 1;
+    assert_int_equal(digest(), before);
+    h->contact_count = 0;
+    assert_int_not_equal(digest(), before);
+    h->contact_count = 1;
     assert_int_equal(digest(), before);
 }
 
@@ -179,12 +189,14 @@ static void test_pacing_and_times_do_not_count(void **state)
     assert_true(no_bit_counts(&h->checksum, sizeof h->checksum));
 }
 
-static void test_digest_covers_damage_craters_and_seed(void **state)
+static void test_digest_covers_damage_contacts_craters_and_seed(void **state)
 {
     unsigned char *params = (unsigned char *)f.view.base + f.view.layout.offset[REGION_PARAMS];
     (void)state;
     for (uint32_t i = 0; i < f.view.world.counts.fixed; i++)
         assert_true(every_bit_counts(&now.fixed_damage[i], 1));
+    assert_true(every_bit_counts(&now.contacts[0], sizeof now.contacts[0]));
+    assert_true(no_bit_counts(&now.contacts[1], sizeof now.contacts[1])); /* past contact_count */
     assert_true(every_bit_counts(&now.craters[0], sizeof now.craters[0]));
     assert_true(no_bit_counts(&now.craters[1], sizeof now.craters[1])); /* past crater_count */
     assert_true(every_bit_counts(params + offsetof(struct params, seed), sizeof(uint64_t)));
@@ -206,6 +218,7 @@ static void test_same_bytes_elsewhere_have_the_same_digest(void **state)
     (void)state;
     *other.head = *now.head;
     entities_copy(&other.entities, &now.entities, 0, now.head->used);
+    other.contacts[0] = now.contacts[0];
     assert_int_equal(state_digest(&f.view.world, &other), digest());
     assert_int_equal(state_checksum(&other, f.view.world.counts.fixed), checksum());
 }
@@ -224,7 +237,8 @@ static void test_checksum_covers_all_of_head_and_rows_but_itself(void **state)
         bool own = within(i, offsetof(struct state_head, checksum), sizeof now.head->checksum);
         if (within(i, offsetof(struct state_head, used), sizeof now.head->used) ||
             within(i, offsetof(struct state_head, crater_count), sizeof now.head->crater_count) ||
-            within(i, offsetof(struct state_head, dent_count), sizeof now.head->dent_count))
+            within(i, offsetof(struct state_head, dent_count), sizeof now.head->dent_count) ||
+            within(i, offsetof(struct state_head, contact_count), sizeof now.head->contact_count))
             continue; /* say how much is read */
         head[i] ^= 0x10;
         if ((checksum() == before) != own)
@@ -260,6 +274,26 @@ static void test_checksum_covers_craters_and_dents_up_to_their_counts(void **sta
         assert_int_equal(checksum() == before, i >= 3 * sizeof *now.dents);
         *byte ^= 0x20;
     }
+}
+
+/* Each buffer has its own contacts, and the whole list is hashed. */
+static void test_checksum_covers_contacts_up_to_their_count(void **state)
+{
+    (void)state;
+    now.head->contact_count = 3;
+    uint64_t before = checksum();
+    for (size_t i = 0; i < 4 * sizeof *now.contacts; i++) {
+        unsigned char *byte = (unsigned char *)now.contacts + i;
+        *byte ^= 0x20;
+        assert_int_equal(checksum() == before, i >= 3 * sizeof *now.contacts);
+        *byte ^= 0x20;
+    }
+    f.view.w[1].contacts[0].begin_tick++; /* the other buffer's */
+    assert_int_equal(checksum(), before);
+    state_seal(&now, f.view.world.counts.fixed);
+    assert_true(state_whole(&now, f.view.world.counts.fixed));
+    now.contacts[2].pressed_tick++;
+    assert_false(state_whole(&now, f.view.world.counts.fixed));
 }
 
 /* What is hashed as it grows is what is hashed at once, also after a step back. */
@@ -378,11 +412,12 @@ int main(void)
         TEST(test_rows_past_used_do_not_count),
         TEST(test_digest_covers_the_head),
         TEST(test_pacing_and_times_do_not_count),
-        TEST(test_digest_covers_damage_craters_and_seed),
+        TEST(test_digest_covers_damage_contacts_craters_and_seed),
         TEST(test_settings_of_the_picture_do_not_count),
         TEST(test_same_bytes_elsewhere_have_the_same_digest),
         TEST(test_checksum_covers_all_of_head_and_rows_but_itself),
         TEST(test_checksum_covers_craters_and_dents_up_to_their_counts),
+        TEST(test_checksum_covers_contacts_up_to_their_count),
         TEST(test_running_hashes_of_lists),
         TEST(test_time_is_ticks_times_the_step),
         TEST(test_names_are_found_by_id),

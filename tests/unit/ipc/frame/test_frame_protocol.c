@@ -456,12 +456,14 @@ static void test_damaged_buffer_is_refused(void **state)
     (void)state;
     fixture_open(&f, "");
     struct state_head *head = f.view.w[0].head;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         struct state_head good = *head;
         if (i == 0)
             head->frame = 1;
         else if (i == 1)
             head->used = f.view.header->capacity + 1;
+        else if (i == 2)
+            head->contact_count = f.view.header->contact_slots + 1;
         else
             head->crater_count = f.view.header->crater_slots + 1;
         check_refused(&f, ROLE_MOVER);

@@ -5,6 +5,7 @@
 
 #include "tests/support/bare_view.h"
 #include "tests/support/fixture.h"
+#include "world/entity/persistent_contact.h"
 
 #include <errno.h>
 #include <setjmp.h>
@@ -82,6 +83,25 @@ static void test_snapshot_is_the_committed_frame(void **state)
     }
     snapshot_free(&snapshot);
     fixture_close(&f);
+}
+
+static void test_snapshot_has_the_contacts(void **state)
+{
+    struct snapshot snapshot;
+    (void)state;
+    struct state *next = bare_view_begin(&collider);
+    next->contacts[1] = (struct persistent_contact){.a_id = 2, .b_id = 7, .begin_tick = 11};
+    next->head->contact_count = 2;
+    bare_view_end(&collider);
+    assert_int_equal(snapshot_init(&snapshot, &view), 0);
+    assert_int_equal(snapshot_take(&snapshot, &view), 0);
+    assert_int_equal(snapshot.head.contact_count, 2);
+    assert_int_equal(snapshot.contacts[1].begin_tick, 11);
+    next->contacts[1].begin_tick = 12; /* damage: the copy fails its checksum */
+    assert_int_equal(snapshot.contacts[1].begin_tick, 11);
+    assert_int_equal(snapshot_take(&snapshot, &view), -1);
+    assert_int_equal(errno, EBADMSG);
+    snapshot_free(&snapshot);
 }
 
 static void test_frame_being_made_does_not_hinder_a_snapshot(void **state)
@@ -361,6 +381,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_snapshot_is_the_committed_frame),
+        TEST(test_snapshot_has_the_contacts),
         TEST(test_frame_being_made_does_not_hinder_a_snapshot),
         TEST(test_constant_writing_is_eagain),
         TEST(test_damaged_column_or_head_is_ebadmsg),

@@ -10,7 +10,9 @@
 #include "ipc/segment/segment_repair.h"
 #include "tests/support/fixture.h"
 #include "tests/support/named_world.h"
+#include "world/checksum.h"
 #include "world/entity/dent.h"
+#include "world/entity/persistent_contact.h"
 
 #include <fcntl.h>
 #include <setjmp.h>
@@ -33,6 +35,8 @@
     "[25060.0, 25170.0]; } );"                                                                     \
     "fires = ( { at_s = 0.1; munition = \"artillery\"; point = [25100.0, 25100.0]; }, { at_s = "   \
     "0.3; munition = \"bomb\"; point = [25110.0, 25110.0]; } );"
+
+#define CONTACTS 7u
 
 static char name[SEGMENT_NAME_MAX];
 static struct error_text error;
@@ -122,6 +126,25 @@ static void move_one(void)
 static struct view look;      /* a reader's */
 static unsigned char *memory; /* the whole object, mapped writable */
 
+/* Returns the writable address of the data that a reader sees at address. */
+static unsigned char *place(const void *address)
+{
+    return memory + ((const unsigned char *)address - (const unsigned char *)look.base);
+}
+
+/* Gives frame 0 contacts of neighbouring ids, which the frames after it keep. */
+static void put_contacts(void)
+{
+    struct state first = look.w[0];
+    first.head = (void *)place(first.head);
+    first.hashes = (void *)place(first.hashes);
+    first.contacts = (void *)place(first.contacts);
+    for (uint32_t i = 0; i < CONTACTS; i++)
+        first.contacts[i] = (struct persistent_contact){i + 1, i + 2, i, i + 1, 1, 2, 0, 0};
+    first.head->contact_count = CONTACTS;
+    state_seal(&first, look.header->counts.fixed);
+}
+
 static int make_world(void **state)
 {
     struct segment_paths paths;
@@ -133,7 +156,10 @@ static int make_world(void **state)
     int fd = open(paths.object, O_RDWR | O_CLOEXEC);
     memory = mmap(NULL, look.layout.total, PROT_READ | PROT_WRITE, MAP_SHARED, fd, 0);
     close(fd);
-    return memory == MAP_FAILED ? -1 : 0;
+    if (memory == MAP_FAILED)
+        return -1;
+    put_contacts();
+    return 0;
 }
 
 static int remove_world(void **state)
@@ -143,12 +169,6 @@ static int remove_world(void **state)
     segment_detach(&look);
     named_world_remove(name);
     return 0;
-}
-
-/* Returns the writable address of the data that a reader sees at address. */
-static unsigned char *place(const void *address)
-{
-    return memory + ((const unsigned char *)address - (const unsigned char *)look.base);
 }
 
 struct ending {
@@ -233,7 +253,8 @@ static unsigned char *random_cell(const struct entities *entities, uint32_t used
     return cells[column] + fixture_random(random) % sizes[column];
 }
 
-/* Returns a byte of the last frame: its head, a row of a column, damage, its own craters. */
+/* Returns a byte of the last frame: its head, a row of a column, damage, contacts, its own
+ * craters. */
 static unsigned char *random_byte(const struct state *last, const struct state *before,
                                   uint64_t *random)
 {
@@ -246,6 +267,8 @@ static unsigned char *random_byte(const struct state *last, const struct state *
         return place(&last->craters[before->head->crater_count]) + at % sizeof *last->craters;
     if (where == 3 && last->head->dent_count > before->head->dent_count)
         return place(&last->dents[before->head->dent_count]) + at % sizeof *last->dents;
+    if (where == 4)
+        return place(last->contacts) + at % (CONTACTS * sizeof *last->contacts);
     return random_cell(&last->entities, last->head->used, random);
 }
 

@@ -12,6 +12,8 @@
 #include "tests/support/image_file.h"
 #include "tests/support/stage.h"
 #include "tests/support/steps.h"
+#include "world/checksum.h"
+#include "world/entity/persistent_contact.h"
 #include "world/params.h"
 
 #include <errno.h>
@@ -78,6 +80,31 @@ static void test_world_continues_like_an_uninterrupted_one(void **state)
         assert_int_equal(image_file_digest(&again), fixture_digest(&f));
     }
     assert_true(head_of(&f.view)->tally.collisions > 0);
+    segment_abandon(&again);
+    fixture_close(&f);
+}
+
+static void test_contacts_are_in_the_image(void **state)
+{
+    struct fixture f;
+    struct view again;
+    (void)state;
+    fixture_open(&f, battle);
+    fixture_run(&f, 3);
+    struct state now = fixture_state(&f);
+    const struct persistent_contact contacts[] = {
+        {1, 2, 0, 1, 1, 2, 0, 0}, {3, PERSISTENT_CONTACT_FIXED | 1, 2, SLOT_NONE, 2, 2, 0, 0}};
+    memcpy(now.contacts, contacts, sizeof contacts);
+    now.head->contact_count = 2;
+    state_seal(&now, f.view.world.counts.fixed);
+    image_file_save(&f.view, path, false);
+    image_file_load(&again, path);
+    assert_int_equal(image_file_digest(&again), fixture_digest(&f));
+    assert_memory_equal(again.w[1].contacts, contacts, sizeof contacts);
+    assert_int_equal(head_of(&again)->contact_count, 2);
+    image_file_run(&again, 20);
+    fixture_run(&f, 17);
+    assert_int_equal(image_file_digest(&again), fixture_digest(&f));
     segment_abandon(&again);
     fixture_close(&f);
 }
@@ -218,9 +245,13 @@ static void test_capacities_cannot_be_changed(void **state)
     fixture_open(&f, battle);
     image_file_save(&f.view, path, false);
     assert_int_equal(image_open(&image, path, &error), 0);
-    image.params.capacity++;
     struct segment_header header = image_segment(&image);
     assert_int_equal(segment_private(&again, &header, &error), 0);
+    image.params.capacity++;
+    assert_int_equal(image_load(&again, &image, &error), -1);
+    assert_non_null(strstr(error.text, "params"));
+    image.params.capacity--;
+    image.params.contact_slots++;
     assert_int_equal(image_load(&again, &image, &error), -1);
     assert_non_null(strstr(error.text, "params"));
     image_close(&image);
@@ -333,6 +364,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_world_continues_like_an_uninterrupted_one),
+        cmocka_unit_test(test_contacts_are_in_the_image),
         cmocka_unit_test(test_waiting_commands_are_applied_in_their_frames),
         cmocka_unit_test(test_keys_of_commands_are_remembered),
         cmocka_unit_test(test_wrapped_ring_keeps_its_order),

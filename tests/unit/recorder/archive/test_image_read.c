@@ -5,6 +5,8 @@
 #include "tests/support/bare_view.h"
 #include "tests/support/image_file.h"
 
+#include "world/entity/persistent_contact.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -34,6 +36,8 @@ static int make_image(void **state)
         next->head->event_end += 2;
         next->head->crater_count++;
         next->entities.x[i] = 3.25 * i;
+        next->contacts[0] = (struct persistent_contact){1, 2, 0, 1, 1, 2, 0, 0};
+        next->head->contact_count = 1;
         next->fixed_damage[i] = 2;
         bare_view_end(&collider);
     }
@@ -164,7 +168,7 @@ static void test_foreign_files_are_refused(void **state)
     (void)state;
     assert_refused("#!/bin/sh\n", 10, "too small");
     REFUSED(magic, SEGMENT_MAGIC, "magic");
-    REFUSED(version, IMAGE_VERSION + 1, "version 3; this program knows 2");
+    REFUSED(version, IMAGE_VERSION + 1, "version 4; this program knows 3");
     REFUSED(layout_hash, layout_hash() ^ 1, "another build");
     REFUSED(header_bytes, sizeof(struct image_header) + 8, "another build");
 }
@@ -180,12 +184,15 @@ static void test_sizes_beyond_bounds_are_refused(void **state)
     REFUSED(used, 9, "counts: out of range");
     REFUSED(craters, 17, "counts: out of range");
     REFUSED(dents, 17, "counts: out of range");
+    REFUSED(contacts, 17, "counts: out of range");
+    REFUSED(segment.contact_slots, UINT32_MAX, "counts: out of range");
     REFUSED(inputs, 2, "counts: out of range");
     REFUSED(intents, UINT32_MAX, "counts: out of range");
     REFUSED(ring_end[0], UINT64_MAX, "counts: out of range");
     REFUSED(ring_first[RING_RECORDER], 1, "counts: out of range");
     REFUSED(used, 4, "sizes");
     REFUSED(craters, 4, "sizes");
+    REFUSED(contacts, 2, "sizes");
     REFUSED(segment.counts.fixed, 6, "sizes");
     REFUSED(content_bytes, 0, "sizes");
     REFUSED(content_bytes, UINT64_MAX, "sizes");

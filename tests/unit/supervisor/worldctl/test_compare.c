@@ -3,6 +3,7 @@
 
 #include "tests/support/steps.h"
 #include "world/entity/dent.h"
+#include "world/entity/persistent_contact.h"
 #include "world/params.h"
 
 #include <setjmp.h>
@@ -113,6 +114,47 @@ static void test_craters_dents_and_the_head_are_compared(void **state)
     differs_in("radius_m of crater 0");
 }
 
+static void put_contacts(const struct fixture *fixture)
+{
+    struct state now = fixture_state(fixture);
+    now.contacts[0] = (struct persistent_contact){1, 2, 0, 1, 5, 9, 0, 0};
+    now.contacts[1] = (struct persistent_contact){2, 4, 1, 3, 6, 9, 0, 0};
+    now.contacts[2] =
+        (struct persistent_contact){2, PERSISTENT_CONTACT_FIXED | 6, 1, SLOT_NONE, 7, 9, 0, 0};
+    now.head->contact_count = 3;
+}
+
+static void test_contacts_are_compared_by_their_keys(void **state)
+{
+    struct state p = fixture_state(&f), q = fixture_state(&g);
+    struct difference difference;
+    (void)state;
+    put_contacts(&f);
+    put_contacts(&g);
+    assert_false(differ(&difference));
+    q.contacts[0].begin_tick = 4;
+    differs_in("begin_tick of the contact of entity 1 with entity 2");
+    q.contacts[0].begin_tick = 5;
+    q.contacts[2].pressed_tick = 8;
+    differs_in("pressed_tick of the contact of entity 2 with fixed object 7");
+    q.contacts[0] = q.contacts[1];
+    q.contacts[1] = q.contacts[2];
+    q.head->contact_count = 2;
+    assert_true(differ(&difference));
+    assert_string_equal(difference.field, "contact of entity 1 with entity 2");
+    assert_string_equal(difference.a, "present");
+    assert_string_equal(difference.b, "none");
+    put_contacts(&g);
+    p.head->contact_count = 2;
+    assert_true(differ(&difference));
+    assert_string_equal(difference.field, "contact of entity 2 with fixed object 7");
+    assert_string_equal(difference.a, "none");
+    assert_string_equal(difference.b, "present");
+    p.head->contact_count = 3;
+    q.head->tally.contacts_refused = 1;
+    differs_in("tally.contacts_refused of the head");
+}
+
 static void test_parameters_are_compared(void **state)
 {
     struct difference difference;
@@ -133,6 +175,7 @@ int main(void)
         TEST(test_every_column_is_compared),
         TEST(test_the_smallest_difference_is_named_with_both_values),
         TEST(test_craters_dents_and_the_head_are_compared),
+        TEST(test_contacts_are_compared_by_their_keys),
         TEST(test_parameters_are_compared),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

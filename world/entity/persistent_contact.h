@@ -1,0 +1,36 @@
+/* Persistent contacts: pairs of bodies that bear a load on each other from frame to frame. Each
+ * world buffer has its own list of them, sorted by the pair, because an entry changes and ends
+ * (docs/decisions/030-table-of-contacts.md). */
+#ifndef JOLON_WORLD_ENTITY_PERSISTENT_CONTACT_H
+#define JOLON_WORLD_ENTITY_PERSISTENT_CONTACT_H
+
+#include <stdint.h>
+
+/* Set in b_id: the other bits are the index of a fixed object. Ids of entities never have it. */
+#define PERSISTENT_CONTACT_FIXED 0x80000000u
+
+/* The default length of the list: for each slot of the world's capacity, but at least. */
+#define PERSISTENT_CONTACTS_AN_ENTITY 4u
+#define PERSISTENT_CONTACT_SLOTS_MIN  256u
+#define PERSISTENT_CONTACT_SLOTS_MAX  (1u << 22) /* 4 for each slot of the largest capacity */
+
+struct persistent_contact {
+    uint32_t a_id;         /* an entity; less than b_id unless b is a fixed object */
+    uint32_t b_id;         /* an entity, or PERSISTENT_CONTACT_FIXED | a fixed object's index */
+    uint32_t a_row, b_row; /* of these entities; b_row of a fixed object: SLOT_NONE */
+    uint32_t begin_tick;   /* of simulated time: when it first bore a load */
+    uint32_t pressed_tick; /* when it last bore a load */
+    uint32_t flags;        /* 0 until a flag is defined */
+    uint32_t reserved;     /* 0 */
+};
+
+_Static_assert(sizeof(struct persistent_contact) == 32, "shared layout");
+
+/* Returns the key of a contact. The list rises strictly by it: by a_id, then b_id, fixed objects
+ * last. */
+static inline uint64_t persistent_contact_key(const struct persistent_contact *contact)
+{
+    return (uint64_t)contact->a_id << 32 | contact->b_id;
+}
+
+#endif
