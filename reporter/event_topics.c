@@ -27,7 +27,8 @@ _Static_assert((int)jolon_REASON_LEASE_OVER == (int)REASON_LEASE_OVER &&
 _Static_assert((int)jolon_DAMAGE_DESTROYED == (int)DAMAGE_DESTROYED &&
                    (int)DAMAGE_COUNT == (int)jolon_DAMAGE_DESTROYED + 1,
                "damage in ipc/topics/status.idl");
-_Static_assert(TOPIC_AGENT - TOPIC_EVENTS + 1 == EVENT_TOPIC_COUNT, "event topics are in a row");
+_Static_assert(TOPIC_CONTACT_END - TOPIC_EVENTS + 1 == EVENT_TOPIC_COUNT,
+               "event topics are in a row");
 
 int event_topics_open(struct event_topics *events, const struct view *view,
                       const struct dds_link *link, uint64_t run, struct error_text *error)
@@ -85,6 +86,7 @@ union event_sample {
     jolon_DetonationEvent detonation;
     jolon_CraterEvent crater;
     jolon_AgentEvent agent;
+    jolon_ContactEndEvent contact_end;
 };
 
 typedef void fill_sample(union event_sample *sample, const jolon_EventHeader *header,
@@ -159,6 +161,18 @@ static void fill_agent(union event_sample *sample, const jolon_EventHeader *head
         .before = (jolon_Behaviour)from->from,
         .after = (jolon_Behaviour)from->to,
         .because = (jolon_AgentReason)from->because,
+    };
+}
+
+static void fill_contact_end(union event_sample *sample, const jolon_EventHeader *header,
+                             const struct world *world, const struct event *event)
+{
+    const struct event_contact_end *from = &event->contact_end;
+    sample->contact_end = (jolon_ContactEndEvent){
+        .header = *header,
+        .a = party_of(world, &from->a),
+        .b = party_of(world, &from->b),
+        .lasted_s = from->lasted_s,
     };
 }
 

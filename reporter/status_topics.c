@@ -280,6 +280,8 @@ void status_topics_frame(struct status_topics *topics, const struct view *view, 
         .mover_time = times_of(&mover->stage),
         .collider_time = times_of(&collider->stage),
         .recent = recent_times(topics, &collider->whole),
+        .contacts = head.contact_count,
+        .contacts_refused = tally->contacts_refused,
     };
     (void)dds_write(topics->frame, &status); /* the next sample replaces a lost one */
 }

@@ -73,6 +73,15 @@ static void agent_text(char *text, const struct event *event, const char *const 
                    agent_reason_name((enum agent_reason)agent->because));
 }
 
+static void contact_end_text(char *text, const struct event *event, const char *const *kind)
+{
+    const struct event_contact_end *end = &event->contact_end;
+    char a[PARTY_MAX], b[PARTY_MAX];
+    (void)snprintf(text, EVENT_TEXT_MAX, "%s and %s parted after %.1f s",
+                   party_text(a, kind[EVENT_TEXT_FIRST], end->a),
+                   party_text(b, kind[EVENT_TEXT_SECOND], end->b), end->lasted_s);
+}
+
 static void command_text(char *text, const struct event *event, const char *const *kind)
 {
     const struct event_command *command = &event->command;
@@ -114,6 +123,10 @@ void event_text_parties(const struct event *event,
         break;
     case EVENT_AGENT:
         parties[EVENT_TEXT_FIRST] = &event->agent.agent;
+        break;
+    case EVENT_CONTACT_END:
+        parties[EVENT_TEXT_FIRST] = &event->contact_end.a;
+        parties[EVENT_TEXT_SECOND] = &event->contact_end.b;
         break;
     case EVENT_NONE:
     case EVENT_CRATER:

@@ -76,6 +76,7 @@ static const double *point_of(const struct event *event)
         return event->crater.point;
     case EVENT_NONE:
     case EVENT_AGENT:
+    case EVENT_CONTACT_END:
     case EVENT_COMMAND:
     case EVENT_TYPE_COUNT:
         break;

@@ -36,6 +36,8 @@ static void put_tally(struct json_writer *json, const struct state_head *head)
     json_writer_key_whole(json, "agent_changes", tally->agent_changes);
     json_writer_key_whole(json, "commands", tally->commands);
     json_writer_key_whole(json, "events_dropped", tally->events_dropped);
+    json_writer_key_whole(json, "contacts", head->contact_count);
+    json_writer_key_whole(json, "contacts_refused", tally->contacts_refused);
     json_writer_end(json, '}');
 }
 

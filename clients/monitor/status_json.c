@@ -42,6 +42,8 @@ static void add_counters(cJSON *object, const jolon_FrameStatus *frame)
     json_whole(object, "agent_changes", frame->tally.agent_changes);
     json_whole(object, "commands", frame->tally.commands);
     json_whole(object, "events_dropped", frame->tally.events_dropped);
+    json_whole(object, "contacts", frame->contacts);
+    json_whole(object, "contacts_refused", frame->contacts_refused);
 }
 
 /* Returns false if there is no memory for the table. */

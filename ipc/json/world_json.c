@@ -180,6 +180,14 @@ static void add_agent(cJSON *object, const struct world *world, const struct eve
     json_text(object, "because", agent_reason_name((enum agent_reason)agent->because));
 }
 
+static void add_contact_end(cJSON *object, const struct world *world,
+                            const struct event_contact_end *end)
+{
+    add_party(object, "a", world, &end->a);
+    add_party(object, "b", world, &end->b);
+    json_number(object, "lasted_s", end->lasted_s);
+}
+
 static void add_command(cJSON *object, const struct world *world,
                         const struct event_command *command)
 {

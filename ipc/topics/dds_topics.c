@@ -29,6 +29,7 @@ static const struct {
     [TOPIC_DETONATION] = {"DetonationEvent", &jolon_DetonationEvent_desc, 4096, 0},
     [TOPIC_CRATER] = {"CraterEvent", &jolon_CraterEvent_desc, 4096, 0},
     [TOPIC_AGENT] = {"AgentEvent", &jolon_AgentEvent_desc, 4096, 0},
+    [TOPIC_CONTACT_END] = {"ContactEndEvent", &jolon_ContactEndEvent_desc, 4096, 0},
     [TOPIC_COMMAND] = {"Command", &jolon_Command_desc, 256, 0},
     [TOPIC_REPLY] = {"CommandReply", &jolon_CommandReply_desc, 256, 0},
     [TOPIC_NAMES] = {"EntityNames", &jolon_EntityNames_desc, 1, 0},

@@ -83,6 +83,13 @@ static void add_agent(cJSON *object, const jolon_AgentEvent *event)
     json_text(object, "because", agent_reason_name((enum agent_reason)event->because));
 }
 
+static void add_contact_end(cJSON *object, const jolon_ContactEndEvent *event)
+{
+    party(object, "a", &event->a);
+    party(object, "b", &event->b);
+    json_number(object, "lasted_s", event->lasted_s);
+}
+
 void event_json(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic, const void *event)
 {
     const jolon_EventHeader *header = event;

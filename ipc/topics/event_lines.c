@@ -83,6 +83,16 @@ static void read_agent(struct reading *reading, const jolon_AgentEvent *agent)
     reading->ids[0] = agent->agent.id;
 }
 
+static void read_contact_end(struct reading *reading, const jolon_ContactEndEvent *end)
+{
+    reading->event.contact_end = (struct event_contact_end){
+        .a = party(&end->a), .b = party(&end->b), .lasted_s = end->lasted_s};
+    reading->kind[EVENT_TEXT_FIRST] = end->a.kind;
+    reading->kind[EVENT_TEXT_SECOND] = end->b.kind;
+    reading->ids[0] = entity_id(&end->a);
+    reading->ids[1] = entity_id(&end->b);
+}
+
 static struct reading read_event(enum dds_topic topic, const void *sample)
 {
     struct reading reading = {.event.type = topic - TOPIC_EVENTS + 1u};

@@ -13,6 +13,7 @@ _Static_assert(offsetof(jolon_FireEvent, header) == 0, "header first");
 _Static_assert(offsetof(jolon_DetonationEvent, header) == 0, "header first");
 _Static_assert(offsetof(jolon_CraterEvent, header) == 0, "header first");
 _Static_assert(offsetof(jolon_AgentEvent, header) == 0, "header first");
+_Static_assert(offsetof(jolon_ContactEndEvent, header) == 0, "header first");
 
 int event_merge_open(struct event_merge *merge, const struct dds_link *link,
                      event_merge_format *format, struct error_text *error)

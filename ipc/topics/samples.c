@@ -158,6 +158,11 @@ static bool good_agent(jolon_AgentEvent *event)
            event->after <= jolon_BEHAVIOUR_RESUPPLY && event->because <= jolon_REASON_LEASE_OVER;
 }
 
+static bool good_contact_end(jolon_ContactEndEvent *event)
+{
+    return party(&event->a) && party(&event->b) && amount(event->lasted_s);
+}
+
 static bool good_event(const jolon_EventHeader *header)
 {
     return amount(header->time_s) && header->previous <= header->sequence;

@@ -52,6 +52,7 @@ static void show_event(enum dds_topic topic)
         jolon_DetonationEvent detonation;
         jolon_AgentEvent agent;
         jolon_CraterEvent crater;
+        jolon_ContactEndEvent contact_end;
     } event;
     char line[EVENT_MERGE_LINE_MAX];
     fill(&event, sizeof event);
@@ -67,6 +68,9 @@ static void show_event(enum dds_topic topic)
         end_party(&event.detonation.victim);
     } else if (topic == TOPIC_AGENT) {
         end_party(&event.agent.agent);
+    } else if (topic == TOPIC_CONTACT_END) {
+        end_party(&event.contact_end.a);
+        end_party(&event.contact_end.b);
     }
     if (!samples_good(topic, &event))
         return;

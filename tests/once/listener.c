@@ -19,7 +19,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define TOPICS  (TOPIC_AGENT - TOPIC_COLLISION + 1)
+#define TOPICS  (TOPIC_CONTACT_END - TOPIC_COLLISION + 1)
 #define WAIT_NS ((uint64_t)20000000)
 
 struct listener {

@@ -189,11 +189,14 @@ static void write_events(struct hostile *hostile)
                                         .explosive_kg = (float)number(hostile)};
     jolon_CraterEvent crater = {.header = header(hostile), .radius_m = (float)number(hostile)};
     jolon_AgentEvent agent = {.header = header(hostile), .agent = party(hostile)};
+    jolon_ContactEndEvent contact_end = {
+        .header = header(hostile), .a = party(hostile), .lasted_s = number(hostile)};
     (void)dds_write(hostile->writer[TOPIC_COLLISION], &collision);
     (void)dds_write(hostile->writer[TOPIC_FIRE], &fire);
     (void)dds_write(hostile->writer[TOPIC_DETONATION], &detonation);
     (void)dds_write(hostile->writer[TOPIC_CRATER], &crater);
     (void)dds_write(hostile->writer[TOPIC_AGENT], &agent);
+    (void)dds_write(hostile->writer[TOPIC_CONTACT_END], &contact_end);
 }
 
 /* Reads the number of the world's run from its own topics. */

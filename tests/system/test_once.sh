@@ -71,7 +71,7 @@ check "its log continues after that line" python3 "$folder/row" "$folder/events"
 # (test_kill.sh).
 cat >"$folder/compare" <<'P'
 import json, sys
-topics = ["collision", "fire", "detonation", "crater", "agent"]
+topics = ["collision", "fire", "detonation", "crater", "agent", "contact_end"]
 happened = [(topics.index(e["type"]), e["frame"], e["index"])
             for e in map(json.loads, open(sys.argv[1])) if e["type"] in topics]
 heard = [tuple(map(int, line.split())) for line in open(sys.argv[2])]

@@ -18,7 +18,8 @@
     X(FIRE, fire)                                                                                  \
     X(DETONATION, detonation)                                                                      \
     X(CRATER, crater)                                                                              \
-    X(AGENT, agent)
+    X(AGENT, agent)                                                                                \
+    X(CONTACT_END, contact_end)
 #define EVENT_TYPES(X) EVENT_TYPES_WITH_TOPIC(X) X(COMMAND, command)
 
 enum event_type {
@@ -111,6 +112,12 @@ struct event_agent {
     uint32_t because;  /* enum agent_reason */
 };
 
+/* A contact that lasted has ended (world/entity/persistent_contact.h). */
+struct event_contact_end {
+    struct event_party a, b; /* b may be a fixed object */
+    double lasted_s;         /* simulated time from its first load to its last */
+};
+
 /* The whole command as it was taken, so that a run's commands can be sent again from its events. */
 struct event_command {
     uint64_t source, sequence; /* the sender's own key */
@@ -141,6 +148,7 @@ struct event {
 };
 
 _Static_assert(sizeof(struct event_collision) == 88, "shared layout");
+_Static_assert(sizeof(struct event_contact_end) == 24, "shared layout");
 _Static_assert(sizeof(struct event_command) == 96, "shared layout");
 _Static_assert(sizeof(struct event) == 128, "two cache lines a slot");
 

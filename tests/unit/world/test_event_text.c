@@ -49,6 +49,12 @@ static void test_each_type_has_its_text(void **state)
                                    .to = BEHAVIOUR_FLEE,
                                    .because = REASON_HURT}},
           "jeep", NULL, NULL, "jeep 3: patrol to flee, hurt");
+    check((struct event){.type = EVENT_CONTACT_END,
+                         .contact_end = {.a.id = 12, .b.id = 14, .lasted_s = 3.25}},
+          "tank", "jeep", NULL, "tank 12 and jeep 14 parted after 3.2 s");
+    check((struct event){.type = EVENT_CONTACT_END,
+                         .contact_end = {.a.id = 12, .b = {.id = 40211, .fixed = 1}}},
+          "tank", "tree", NULL, "tank 12 and tree 40211 parted after 0.0 s");
     check((struct event){.type = EVENT_COMMAND,
                          .command = {.type = COMMAND_SPAWN, .entity = 7, .result = COMMAND_DONE}},
           NULL, NULL, NULL, "command spawn 7: done");
@@ -59,12 +65,17 @@ static void test_each_type_has_its_text(void **state)
 static void test_parties_are_those_of_the_type(void **state)
 {
     const struct event fire = {.type = EVENT_FIRE}, crater = {.type = EVENT_CRATER};
+    const struct event end = {.type = EVENT_CONTACT_END};
     const struct event_party *parties[EVENT_TEXT_PARTIES];
     (void)state;
     event_text_parties(&fire, parties);
     assert_ptr_equal(parties[EVENT_TEXT_FIRST], &fire.fire.shooter);
     assert_ptr_equal(parties[EVENT_TEXT_SECOND], &fire.fire.target);
     assert_ptr_equal(parties[EVENT_TEXT_MUNITION], &fire.fire.munition);
+    event_text_parties(&end, parties);
+    assert_ptr_equal(parties[EVENT_TEXT_FIRST], &end.contact_end.a);
+    assert_ptr_equal(parties[EVENT_TEXT_SECOND], &end.contact_end.b);
+    assert_null(parties[EVENT_TEXT_MUNITION]);
     event_text_parties(&crater, parties);
     for (int i = 0; i < EVENT_TEXT_PARTIES; i++)
         assert_null(parties[i]);

@@ -130,6 +130,13 @@ static void test_events(void **state)
     assert_false(samples_good(TOPIC_COLLISION, &collision));
     jolon_AgentEvent agent = {.because = (jolon_AgentReason)(jolon_REASON_LEASE_OVER + 1)};
     assert_false(samples_good(TOPIC_AGENT, &agent));
+    jolon_ContactEndEvent end = {.lasted_s = 2.5};
+    assert_true(samples_good(TOPIC_CONTACT_END, &end));
+    end.lasted_s = -0.5;
+    assert_false(samples_good(TOPIC_CONTACT_END, &end));
+    end.lasted_s = 0.0;
+    end.b.damage = (jolon_Damage)9;
+    assert_false(samples_good(TOPIC_CONTACT_END, &end));
     jolon_CraterEvent crater = {.radius_m = -1.0F};
     assert_false(samples_good(TOPIC_CRATER, &crater));
     jolon_DetonationEvent detonation = {.victim = {.damage = (jolon_Damage)9}};
