@@ -165,6 +165,7 @@ $(eval $(call library,video,$(call sources,renderer/video)))
 $(eval $(call library,intake,$(call sources,reporter/intake)))
 $(eval $(call library,reporter,$(call sources,reporter)))
 $(eval $(call library,supervisor,$(KEEPER_SRC)))
+$(eval $(call library,physics,$(call sources,supervisor/physics)))
 $(eval $(call library,worldctl,$(call sources,supervisor/worldctl)))
 $(foreach client,$(CLIENTS),$(eval $(call library,$(client),$(call sources,clients/$(client)),$(if $(filter console,$(client)),$(PAGE)))))
 $(eval $(call library,screens,$(call sources,clients)))
@@ -225,7 +226,7 @@ link = @mkdir -p $(@D); $(call say,LD $@); $(CC) $(LDFLAGS_ALL) -o $@ $(filter %
         -Wl,--start-group $(filter %.a,$^) -Wl,--end-group $(1)
 STEPS := runs mover collider
 
-$(BIN)/jolon-world: $(OBJ)/supervisor/worldctl/main.o $(call libraries,worldctl $(STEPS) config ipc world)
+$(BIN)/jolon-world: $(OBJ)/supervisor/worldctl/main.o $(call libraries,worldctl physics $(STEPS) config ipc world)
 	$(call link,$(CONFIG_LIBS) $(JSON_LIBS) $(ARCHIVE_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-mover: $(OBJ)/mover/main.o $(call libraries,mover sandbox ipc world)
 	$(call link,$(SANDBOX_LIBS) $(BASE_LIBS))
@@ -307,7 +308,7 @@ FORCE:
 # --- tests --------------------------------------------------------------------------------------
 # tests/unit/FOLDER/test_NAME.c may use that folder's library beside those that every test may use.
 COMMON := support renderer $(STEPS) config topics http ipc world
-own_library = $(or $(filter $(CLIENTS) intake worldctl sandbox,$(word 4,$(subst /, ,$(1)))),$(filter recorder reporter supervisor bench,$(word 3,$(subst /, ,$(1)))))
+own_library = $(or $(filter $(CLIENTS) intake physics worldctl sandbox,$(word 4,$(subst /, ,$(1)))),$(filter recorder reporter supervisor physics bench,$(word 3,$(subst /, ,$(1)))))
 define test_of
 $(BUILD)/$(1:%.c=%): $(call libraries,$(call own_library,$(1)))
 endef

@@ -47,6 +47,7 @@ static const struct option_row rows[] = {
     {"force", NULL, NULL, .flag = &given.force},
     {"adopt", NULL, NULL, .flag = &given.adopt},
     {"inputs", NULL, NULL, .flag = &given.inputs},
+    {"physics", NULL, NULL, .flag = &given.physics},
     OPTION_ROWS_END};
 
 int arguments_verb(int argc, char **argv)

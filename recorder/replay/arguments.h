@@ -12,7 +12,7 @@
 
 struct arguments {
     const char *world; /* "default" when not given */
-    bool json, follow, fixed, force, adopt, inputs;
+    bool json, follow, fixed, force, adopt, inputs, physics;
     const char *terrain, *events, *path; /* NULL when not given; path is the first plain argument */
     const char *other;                   /* the second plain argument */
     const char *from;       /* a frame or an image's file, by verb; NULL when not given */

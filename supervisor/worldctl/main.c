@@ -33,7 +33,8 @@ static const struct verb verbs[] = {
     {"events", verb_events, 0,
      "[--world NAME] [--follow] [--from FRAME] [--json]     print the events in order"},
     {"replay", verb_replay, 1,
-     "[--frames N] [--json] [--events FILE] [--threads N] LOG     replay a log of commands"},
+     "[--frames N] [--json] [--events FILE] [--physics] [--threads N] LOG     replay a log of "
+     "commands; --physics: judge every frame"},
     {"diff", verb_diff, 2,
      "[--json] [--threads N] A B     find the first difference of two logs of commands, images, "
      "worlds"},

@@ -1,0 +1,176 @@
+/* Copies of rows, and what explains their changes. */
+#include "supervisor/physics/body_look.h"
+
+#include "world/entity/entity.h"
+#include "world/entity/event.h"
+#include "world/entity/kind.h"
+#include "world/state.h"
+#include "world/world.h"
+
+#include <stdlib.h>
+
+/* An explosion of a kilogram may push bodies within this distance [m]. It grows with the cube root
+ * of the charge. */
+#define BLAST_REACH_M 20.0
+
+int body_looks_make(struct body_looks *looks, uint32_t capacity)
+{
+    *looks = (struct body_looks){.body = calloc(capacity, sizeof *looks->body),
+                                 .of_row = calloc(capacity, sizeof *looks->of_row),
+                                 .memory = calloc(capacity, sizeof *looks->memory)};
+    if (looks->body && looks->of_row && looks->memory)
+        return 0;
+    body_looks_free(looks);
+    return -1;
+}
+
+void body_looks_free(struct body_looks *looks)
+{
+    free(looks->body);
+    free(looks->of_row);
+    free(looks->memory);
+    *looks = (struct body_looks){0};
+}
+
+static bool all_finite(const struct motion_look *look)
+{
+    const struct vec3 *at = &look->pose.at, *v = &look->velocity, *w = &look->spin;
+    /* The sum of finite numbers of this size is finite, and NaN and infinity stay in it. */
+    double sum = at->x + at->y + at->z + v->x + v->y + v->z + w->x + w->y + w->z;
+    return isfinite(sum + look->heading + look->pitch + look->roll);
+}
+
+static bool same_place(const struct motion_look *a, const struct motion_look *b)
+{
+    return a->pose.at.x == b->pose.at.x && a->pose.at.y == b->pose.at.y &&
+           a->pose.at.z == b->pose.at.z;
+}
+
+static bool same_angles(const struct motion_look *a, const struct motion_look *b)
+{
+    return a->heading == b->heading && a->pitch == b->pitch && a->roll == b->roll;
+}
+
+static void read_motion(struct motion_look *look, const struct entities *e, uint32_t row)
+{
+    *look = (struct motion_look){.pose = {.at = entities_position(e, row)},
+                                 .heading = e->heading[row],
+                                 .pitch = e->pitch[row],
+                                 .roll = e->roll[row],
+                                 .velocity = entities_velocity(e, row),
+                                 .spin = {e->spin_x[row], e->spin_y[row], e->spin_z[row]},
+                                 .wreck = e->state[row] == ENTITY_WRECK};
+}
+
+static void read_body(struct body_looks *looks, const struct world *world, const struct entities *e,
+                      uint32_t row)
+{
+    struct body_look *body = &looks->body[looks->count];
+    const struct row_memory *memory = &looks->memory[row];
+    *body = (struct body_look){.row = row, .kind = &world->kinds[e->kind[row]]};
+    read_motion(&body->now, e, row);
+    body->named = (struct measured_body){e->id[row], false, e->kind[row], body->now.pose.at};
+    body->finite = all_finite(&body->now);
+    body->known = memory->id == e->id[row] && body->finite;
+    if (body->known) {
+        body->was = &memory->look;
+        body->touched = memory->touched;
+    }
+    if (body->known && same_angles(&body->now, body->was)) {
+        body->now.pose = body->was->pose;
+        body->now.pose.at = body->named.at;
+        body->still = same_place(&body->now, body->was);
+    } else if (body->finite) {
+        body->now.pose =
+            rigid_pose_of(body->named.at, body->now.heading, body->now.pitch, body->now.roll);
+    }
+    looks->of_row[row] = looks->count++;
+}
+
+void body_looks_begin(struct body_looks *looks, const struct world *world,
+                      const struct state *state)
+{
+    const struct entities *e = &state->entities;
+    looks->count = 0;
+    looks->rows = state->head->used;
+    for (uint32_t row = 0; row < state->head->used; row++) {
+        looks->of_row[row] = NO_LOOK;
+        if (e->state[row] == ENTITY_FREE || world->kinds[e->kind[row]].domain == DOMAIN_MUNITION)
+            looks->memory[row].id = 0;
+        else
+            read_body(looks, world, e, row);
+    }
+}
+
+void body_looks_end(struct body_looks *looks)
+{
+    for (uint32_t i = 0; i < looks->count; i++) {
+        const struct body_look *body = &looks->body[i];
+        struct row_memory *memory = &looks->memory[body->row];
+        memory->id = body->finite ? body->named.id : 0;
+        memory->touched = body->touches;
+        memory->look = body->now;
+    }
+}
+
+uint32_t body_looks_find(const struct body_looks *looks, uint32_t id)
+{
+    /* The bodies of the scenario have their row's number + 1. */
+    uint32_t first = id > 0 && id <= looks->rows ? looks->of_row[id - 1] : NO_LOOK;
+    if (first != NO_LOOK && looks->body[first].named.id == id)
+        return first;
+    for (uint32_t i = 0; i < looks->count && id != 0; i++) {
+        if (looks->body[i].named.id == id)
+            return i;
+    }
+    return NO_LOOK;
+}
+
+static struct body_look *party(struct body_looks *looks, const struct event_party *party)
+{
+    uint32_t index = party->fixed ? NO_LOOK : body_looks_find(looks, party->id);
+    return index == NO_LOOK ? NULL : &looks->body[index];
+}
+
+static void blast(struct body_looks *looks, struct vec3 point, double explosive_kg)
+{
+    double reach = BLAST_REACH_M * maths_cbrt(explosive_kg);
+    for (uint32_t i = 0; i < looks->count; i++) {
+        struct body_look *body = &looks->body[i];
+        struct vec3 apart = vec3_sub(body->named.at, point);
+        body->blasted |= vec3_length(apart) <= reach + body->kind->bound_m;
+    }
+}
+
+void body_looks_wrecked(struct body_looks *looks)
+{
+    for (uint32_t i = 0; i < looks->count; i++) {
+        const struct body_look *body = &looks->body[i];
+        if (body->known && body->now.wreck && !body->was->wreck && body->kind->explosive_kg > 0.0)
+            blast(looks, body->named.at, body->kind->explosive_kg);
+    }
+}
+
+void body_looks_explain(struct body_looks *looks, const struct event *event)
+{
+    struct body_look *a = NULL, *b = NULL;
+    if (event->type == EVENT_COLLISION) {
+        a = party(looks, &event->collision.a);
+        b = party(looks, &event->collision.b);
+        if (a)
+            a->struck = true;
+        if (b)
+            b->struck = true;
+    } else if (event->type == EVENT_DETONATION) {
+        const double *point = event->detonation.point;
+        a = party(looks, &event->detonation.struck_party);
+        if (a)
+            a->blasted = true;
+        blast(looks, (struct vec3){point[0], point[1], point[2]},
+              (double)event->detonation.explosive_kg);
+    } else if (event->type == EVENT_COMMAND) {
+        uint32_t index = body_looks_find(looks, event->command.entity);
+        if (index != NO_LOOK)
+            looks->body[index].commanded = true;
+    }
+}

@@ -1,0 +1,80 @@
+/* What the physics check sees of a vehicle or a wreck in a frame and in the frame before. One
+ * thread. */
+#ifndef JOLON_SUPERVISOR_PHYSICS_BODY_LOOK_H
+#define JOLON_SUPERVISOR_PHYSICS_BODY_LOOK_H
+
+#include "supervisor/physics/measure.h"
+#include "supervisor/physics/rigid_pose.h"
+#include "world/maths/maths.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+struct event;
+struct kind;
+struct state;
+struct world;
+
+#define NO_LOOK UINT32_MAX
+
+/* A frame in a body's life. */
+struct motion_look {
+    struct rigid_pose pose;
+    double heading, pitch, roll; /* [rad] */
+    struct vec3 velocity;        /* [m/s] */
+    struct vec3 spin;            /* [rad/s, world axes] */
+    double height_m;             /* over the ground */
+    bool wreck;
+};
+
+struct body_look {
+    uint32_t row;
+    struct measured_body named;
+    const struct kind *kind;
+    struct motion_look now;
+    const struct motion_look *was; /* in the frame before, if known; until body_looks_end() */
+    bool known;                    /* it was there in the frame before */
+    bool still;                    /* known, and its pose is the same to the bit */
+    bool finite;                   /* all its numbers are */
+    /* What may explain a change of its velocity. */
+    bool commanded; /* a command named it */
+    bool blasted;   /* an explosion is near */
+    bool struck;    /* it has a collision in this frame */
+    bool touches;   /* it touches a body or a wall */
+    bool touched;   /* the same in the frame before */
+};
+
+/* What is kept of a row from frame to frame. */
+struct row_memory {
+    uint32_t id;  /* 0: nothing */
+    bool touched; /* a body or a wall */
+    struct motion_look look;
+};
+
+struct body_looks {
+    struct body_look *body; /* in the order of their rows */
+    uint32_t count, rows;
+    uint32_t *of_row;          /* [capacity] index into body, or NO_LOOK */
+    struct row_memory *memory; /* [capacity] */
+};
+
+/* Takes memory for the rows of a world. Returns 0, or -1 with errno ENOMEM. */
+int body_looks_make(struct body_looks *looks, uint32_t capacity);
+void body_looks_free(struct body_looks *looks);
+
+/* Begins and ends the look at a frame: the bodies of its rows with what is kept of the frame
+ * before. Heights are the caller's. */
+void body_looks_begin(struct body_looks *looks, const struct world *world,
+                      const struct state *state);
+void body_looks_end(struct body_looks *looks);
+
+/* Returns the index of the body with this id, or NO_LOOK. */
+uint32_t body_looks_find(const struct body_looks *looks, uint32_t id);
+
+/* Marks what an event explains. Explosions explain changes within their reach. */
+void body_looks_explain(struct body_looks *looks, const struct event *event);
+
+/* Marks the bodies near charges that exploded with their vehicles. */
+void body_looks_wrecked(struct body_looks *looks);
+
+#endif

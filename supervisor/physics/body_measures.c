@@ -1,0 +1,162 @@
+/* One body's numbers against the ground, its kind and its last frame. */
+#include "supervisor/physics/body_measures.h"
+
+#include "supervisor/physics/hull_shape.h"
+#include "world/entity/kind.h"
+
+#include <stddef.h>
+
+#define WORLD_EDGE_M  50000.0
+#define HELD_M        1e-3 /* a body that is no farther off the ground is on it */
+#define LEAST_DEPTH_M 0.05 /* a corner that is no higher over the ground touches it */
+#define LEANING_RPS   3.0  /* an aircraft banks and pitches so fast */
+#define LEAST_TOP     10.0 /* [m/s] top speed of kinds that hardly move by themselves */
+
+static int unfinished(struct vec3 v)
+{
+    return !isfinite(v.x) + !isfinite(v.y) + !isfinite(v.z);
+}
+
+static double beyond(double metres)
+{
+    return maths_max(0.0, maths_max(-metres, metres - WORLD_EDGE_M));
+}
+
+void body_measures_numbers(struct measures *measures, const struct body_look *body)
+{
+    const struct motion_look *now = &body->now;
+    const struct vec3 angles = {now->heading, now->pitch, now->roll};
+    int count = body->finite ? 0
+                             : unfinished(body->named.at) + unfinished(now->velocity) +
+                                   unfinished(now->spin) + unfinished(angles);
+    measure_take(measures, MEASURE_OF_NOT_FINITE, count, &body->named, NULL);
+    measure_take(measures, MEASURE_OF_OUTSIDE,
+                 maths_max(beyond(body->named.at.x), beyond(body->named.at.z)), &body->named, NULL);
+}
+
+/* --- the ground --------------------------------------------------------------------------------*/
+
+/* Returns how deep the deepest corner of a hull is under a ground that is not one plane, at least
+ * deepest. */
+static double deepest_corner(const struct surface *surface, const struct hull_shape *shape,
+                             const struct surface_part *part, const struct body_look *body,
+                             double deepest)
+{
+    const struct vec3 centre = rigid_pose_out(&body->now.pose, shape->centre);
+    double wide = shape->radius_m, low = body->named.at.y + centre.y - wide;
+    if (surface_part_most(part, fabs(centre.x) + wide, fabs(centre.z) + wide) - low <= deepest)
+        return deepest;
+    for (uint32_t i = 0; i < shape->vertices; i++) {
+        const struct vec3 to = rigid_pose_out(&body->now.pose, shape->vertex[i]);
+        const struct vec3 corner = vec3_add(body->named.at, to);
+        if (surface_part_most(part, to.x, to.z) - corner.y > deepest)
+            deepest = maths_max(deepest, surface_height(surface, corner.x, corner.z) - corner.y);
+    }
+    return deepest;
+}
+
+static double depth_of(const struct surface *surface, const struct hull_shape *shape,
+                       const struct surface_part *part, const struct body_look *body)
+{
+    const struct kind *kind = body->kind;
+    if (part->flat) {
+        const struct vec3 down = {part->east_m, -1.0, part->south_m};
+        return part->at_m - body->named.at.y +
+               hull_shape_reach(&shape[kind->outer_hull], rigid_pose_in(&body->now.pose, down));
+    }
+    double deepest = -LEAST_DEPTH_M;
+    for (uint32_t i = 0; i < kind->hull_count; i++)
+        deepest = deepest_corner(surface, &shape[kind->first_hull + i], part, body, deepest);
+    return deepest;
+}
+
+/* Measures the deepest corner. A body that comes down touches the ground with it. */
+static void measure_corners(struct measures *measures, const struct surface *surface,
+                            const struct hull_shape *shape, const struct surface_part *part,
+                            struct body_look *body)
+{
+    const struct kind *kind = body->kind;
+    const struct vec3 at = body->named.at;
+    double bound = kind->bound_m;
+    if (kind->domain == DOMAIN_SEA || kind->hull_count == 0 ||
+        at.y - bound > surface_part_most(part, bound, bound) + LEAST_DEPTH_M)
+        return;
+    double depth = depth_of(surface, shape, part, body);
+    body->touches |= kind->domain == DOMAIN_AIR && depth > -LEAST_DEPTH_M;
+    if (!surface_is_water(surface, at.x, at.z))
+        measure_take(measures, MEASURE_OF_UNDERGROUND, maths_max(0.0, depth), &body->named, NULL);
+}
+
+void body_measures_ground(struct measures *measures, const struct surface *surface,
+                          const struct hull_shape *shape, bool fresh, struct body_look *body)
+{
+    const struct vec3 at = body->named.at;
+    uint8_t domain = body->kind->domain;
+    if (body->still && !fresh) {
+        body->now.height_m = body->was->height_m;
+        return;
+    }
+    const struct surface_part part = surface_around(surface, at.x, at.z, body->kind->bound_m);
+    body->now.height_m = at.y - (part.flat ? part.at_m : surface_height(surface, at.x, at.z));
+    if (domain == DOMAIN_SEA || (domain == DOMAIN_LAND && !body->now.wreck))
+        measure_take(measures, MEASURE_OF_HEIGHT, fabs(body->now.height_m), &body->named, NULL);
+    else if (domain == DOMAIN_LAND)
+        measure_take(measures, MEASURE_OF_WRECK_HEIGHT, fabs(body->now.height_m), &body->named,
+                     NULL);
+    measure_corners(measures, surface, shape, &part, body);
+}
+
+/* --- motion ------------------------------------------------------------------------------------*/
+
+bool body_measures_held(const struct body_look *body)
+{
+    bool lies = body->kind->domain != DOMAIN_AIR || (body->now.wreck && body->was->wreck);
+    return lies && fabs(body->now.height_m) <= HELD_M && fabs(body->was->height_m) <= HELD_M;
+}
+
+static struct vec3 level(struct vec3 v, bool held)
+{
+    return (struct vec3){v.x, held ? 0.0 : v.y, v.z};
+}
+
+static void measure_jump(struct measures *measures, double dt_s, const struct body_look *body)
+{
+    bool held = body_measures_held(body);
+    struct vec3 way = level(vec3_sub(body->named.at, body->was->pose.at), held);
+    double speed = maths_max(vec3_length(level(body->now.velocity, held)),
+                             vec3_length(level(body->was->velocity, held)));
+    measure_take(measures, MEASURE_OF_JUMP, maths_max(0.0, vec3_length(way) - speed * dt_s),
+                 &body->named, NULL);
+    if (body->kind->domain != DOMAIN_AIR && !body->now.wreck)
+        return;
+    double spin = maths_max(vec3_length(body->now.spin), vec3_length(body->was->spin));
+    double angle = rigid_pose_angle(&body->was->pose, &body->now.pose);
+    if (!body->now.wreck)
+        spin += body->kind->turn_rate_rps + LEANING_RPS;
+    measure_take(measures, MEASURE_OF_SNAP, maths_max(0.0, angle - spin * dt_s), &body->named,
+                 NULL);
+}
+
+static void measure_acceleration(struct measures *measures, double dt_s,
+                                 const struct body_look *body)
+{
+    bool held = body_measures_held(body);
+    struct vec3 before = level(body->was->velocity, held);
+    struct vec3 change = vec3_sub(level(body->now.velocity, held), before);
+    double steered = body->now.wreck ? 0.0 : vec3_length(before) * body->kind->turn_rate_rps;
+    measure_take(measures, MEASURE_OF_ACCELERATION,
+                 maths_max(0.0, vec3_length(change) / dt_s - steered), &body->named, NULL);
+}
+
+void body_measures_motion(struct measures *measures, double dt_s, const struct body_look *body)
+{
+    double top = maths_max(body->kind->max_speed_mps, LEAST_TOP);
+    measure_take(measures, MEASURE_OF_SPEED, vec3_length(level(body->now.velocity, true)) / top,
+                 &body->named, NULL);
+    measure_take(measures, MEASURE_OF_SPIN, vec3_length(body->now.spin), &body->named, NULL);
+    if (!body->known || body->commanded)
+        return;
+    measure_jump(measures, dt_s, body);
+    if (!body->blasted && !body->struck && !body->touches && !body->touched)
+        measure_acceleration(measures, dt_s, body);
+}

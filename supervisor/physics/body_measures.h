@@ -1,0 +1,26 @@
+/* The measures of one body at a time: numbers, heights, speeds and jumps. One thread. */
+#ifndef JOLON_SUPERVISOR_PHYSICS_BODY_MEASURES_H
+#define JOLON_SUPERVISOR_PHYSICS_BODY_MEASURES_H
+
+#include "supervisor/physics/body_look.h"
+#include "supervisor/physics/measure.h"
+#include "supervisor/physics/surface.h"
+
+struct hull_shape;
+
+/* Measures numbers and place. Must be called before the other two; they want finite numbers. */
+void body_measures_numbers(struct measures *measures, const struct body_look *body);
+
+/* Measures height and corners under the ground, and sets the body's height. shape: of all the
+ * world's hulls. fresh: the ground may have changed since the last frame. */
+void body_measures_ground(struct measures *measures, const struct surface *surface,
+                          const struct hull_shape *shape, bool fresh, struct body_look *body);
+
+/* Measures speeds, jumps and accelerations. The body's explanations must be complete. */
+void body_measures_motion(struct measures *measures, double dt_s, const struct body_look *body);
+
+/* Returns true if the ground or the water holds the body in this frame and held it before: its
+ * vertical speed then only follows the ground. */
+bool body_measures_held(const struct body_look *body);
+
+#endif

@@ -1,0 +1,119 @@
+/* A gain of kinetic energy that nothing explains. Bodies are boxes of uniform density. */
+#include "supervisor/physics/energy.h"
+
+#include "supervisor/physics/body_measures.h"
+#include "world/entity/kind.h"
+
+#include <stdlib.h>
+
+#define GRAVITY_MPS2 9.80665
+#define ROUNDING     1e-9 /* of the energy of a body */
+
+int energy_make(struct energy *energy, uint32_t capacity)
+{
+    energy->share = calloc(capacity, sizeof *energy->share);
+    return energy->share ? 0 : -1;
+}
+
+void energy_free(struct energy *energy)
+{
+    free(energy->share);
+    energy->share = NULL;
+}
+
+static double square(double value)
+{
+    return value * value;
+}
+
+/* Moments about the forward, up and right axes [kg m2]. */
+static struct vec3 moments(const struct kind *kind)
+{
+    double twelfth = kind->mass_kg / 12.0, length = square(kind->length_m);
+    double width = square(kind->width_m), height = square(kind->height_m);
+    return (struct vec3){twelfth * (height + width), twelfth * (length + width),
+                         twelfth * (length + height)};
+}
+
+/* Returns the kinetic energy [J]. Of a held body the vertical speed only follows the ground. */
+static double kinetic_j(const struct kind *kind, const struct motion_look *look, bool held)
+{
+    struct vec3 moment = moments(kind), v = look->velocity;
+    if (held)
+        return 0.5 * kind->mass_kg * (square(v.x) + square(v.z)) +
+               0.5 * moment.y * square(look->spin.y);
+    struct vec3 spin = rigid_pose_in(&look->pose, look->spin);
+    if (kind->domain == DOMAIN_LAND) { /* its mass is half its height above its position */
+        struct vec3 arm = vec3_scale(look->pose.up, 0.5 * kind->height_m);
+        v = vec3_add(v, vec3_cross(look->spin, arm));
+    }
+    return 0.5 * kind->mass_kg * vec3_dot(v, v) +
+           0.5 *
+               (moment.x * square(spin.x) + moment.y * square(spin.y) + moment.z * square(spin.z));
+}
+
+/* Returns the work that engine and weight may have done on a body in a frame [J]. */
+static double work_j(const struct body_look *body, bool held, double dt_s)
+{
+    const struct kind *kind = body->kind;
+    double speed = vec3_length(body->was->velocity), push = 0.0, weight = 0.0, steering = 0.0;
+    if (!body->now.wreck) {
+        /* Aircraft speed up along their nose and upwards, each at most twice as hard. */
+        push = kind->acceleration_mps2 * (kind->domain == DOMAIN_AIR ? 3.0 : 1.0);
+        if (kind->domain == DOMAIN_LAND) /* out of gear it rolls down the slope */
+            push += GRAVITY_MPS2 *
+                    maths_max(fabs(body->now.pose.forward.y), fabs(body->was->pose.forward.y));
+    }
+    if (!held)
+        weight = GRAVITY_MPS2 * maths_max(0.0, body->was->pose.at.y - body->now.pose.at.y);
+    if (!body->now.wreck && (body->struck || body->touches))
+        steering = 0.5 * moments(kind).y * square(kind->turn_rate_rps);
+    return kind->mass_kg * (speed * push * dt_s + 0.5 * square(push * dt_s) + weight) + steering;
+}
+
+static void begin_share(struct energy_share *share, uint32_t index, const struct body_look *body,
+                        double dt_s)
+{
+    *share = (struct energy_share){.parent = index, .mass_kg = body->kind->mass_kg};
+    share->unexplained = body->known && body->finite && !body->commanded && !body->blasted;
+    if (!share->unexplained)
+        return;
+    bool held = body_measures_held(body);
+    double now = kinetic_j(body->kind, &body->now, held);
+    double before = kinetic_j(body->kind, body->was, held);
+    share->gain_j = now - before - work_j(body, held, dt_s) - ROUNDING * (now + before);
+}
+
+static uint32_t root_of(struct energy_share *share, uint32_t index)
+{
+    while (share[index].parent != index)
+        index = share[index].parent = share[share[index].parent].parent;
+    return index;
+}
+
+static void join(struct energy_share *share, const struct neighbour_pair *pair)
+{
+    uint32_t a = root_of(share, pair->a), b = root_of(share, pair->b);
+    if (a == b)
+        return;
+    share[b].parent = a;
+    share[a].gain_j += share[b].gain_j;
+    share[a].mass_kg += share[b].mass_kg;
+    share[a].unexplained &= share[b].unexplained;
+}
+
+void energy_look(struct energy *energy, struct measures *measures, const struct body_looks *looks,
+                 const struct neighbour_pairs *touching, double dt_s)
+{
+    struct energy_share *share = energy->share;
+    for (uint32_t i = 0; i < looks->count; i++)
+        begin_share(&share[i], i, &looks->body[i], dt_s);
+    for (uint32_t i = 0; i < touching->count; i++)
+        join(share, &touching->pair[i]);
+    for (uint32_t i = 0; i < looks->count; i++) {
+        if (share[i].parent == i && share[i].unexplained && share[i].mass_kg > 0.0)
+            measure_take(measures, MEASURE_OF_ENERGY,
+                         maths_max(0.0, share[i].gain_j / share[i].mass_kg), &looks->body[i].named,
+                         NULL);
+    }
+}

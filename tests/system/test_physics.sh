@@ -1,0 +1,82 @@
+#!/usr/bin/env bash
+# jolon replay LOG --physics: two tanks on level ground are good; a heap is looked at; output, JSON
+# and exit codes.
+. "$(dirname "$0")/lib.sh"
+
+run() { # OUT SCENARIO FRAMES: records a run of so many frames
+    "$jolon" run -w "$name" --out "$1" --pace max --frames "$3" --without renderer --without reporter "$2" >/dev/null 2>&1
+}
+replay() { "$jolon" replay "$@"; }
+
+# --- a world that is good ---------------------------------------------------------------------------
+run duel-run duel 600
+check "600 frames of the duel are good" replay duel-run/commands.log --physics
+replay duel-run/commands.log --physics >text
+check "the table has a line for each measure" eval '[ "$(sed "1,/^measure/d" text | wc -l)" = 16 ]'
+check "the first lines have the digest, the verdict and the frames" eval \
+    'sed -n 1p text | grep -q "equal to the run" && sed -n 2p text | grep -q "^physics: good: looked at 600 frames, 1200 times"'
+check "--frames N looks at N frames" eval \
+    'replay duel-run/commands.log --physics --frames 60 | grep -q "looked at 60 frames, 120 times"'
+check "without --physics there is no table" eval '! replay duel-run/commands.log | grep -q physics'
+
+replay duel-run/commands.log --physics --json >json
+shape() {
+    python3 -I -S - json <<'P'
+import json, sys
+told = json.load(open(sys.argv[1]))
+physics = told["physics"]
+assert told["equal"] and physics["good"] is True
+assert physics["frames"] == 600 and physics["bodies"] == 1200 and physics["bodies_at_once"] == 2
+assert len(physics["measures"]) == 16
+for name, measure in physics["measures"].items():
+    assert set(measure) == {"unit", "meaning", "worst", "bound", "good", "taken", "beyond", "frame", "time_s", "bodies"}, name
+    assert measure["good"] and measure["beyond"] == 0, name
+    assert measure["bound"] is None or measure["worst"] is None or measure["worst"] <= measure["bound"], name
+height = physics["measures"]["height"]
+assert height["bound"] == 1e-6 and height["taken"] > 600
+assert height["bodies"][0]["kind"] == "tank" and len(height["bodies"][0]["position"]) == 3
+P
+}
+check "the JSON has the shape of docs/replay.md" shape
+
+# --- a heap: vehicles that drive into each other ------------------------------------------------------
+cat >heap.cfg <<'C'
+world = { name = "heap"; seed = 2; capacity = 64; frames = 120; };
+terrain = { source = "flat"; height_m = 100.0; };
+vehicles = (
+    { kind = "tank"; behaviour = "hold"; at = [25000.0, 25000.0]; heading_deg = 90.0; speed_mps = 10.0; },
+    { kind = "tank"; behaviour = "hold"; at = [25012.0, 25003.0]; heading_deg = 250.0; speed_mps = 10.0; },
+    { kind = "tank"; behaviour = "hold"; at = [25006.0, 24990.0]; heading_deg = 180.0; speed_mps = 10.0; },
+    { kind = "truck"; behaviour = "hold"; at = [25004.0, 25012.0]; heading_deg = 0.0; speed_mps = 10.0; },
+    { kind = "jeep"; behaviour = "hold"; at = [24990.0, 25008.0]; heading_deg = 120.0; speed_mps = 10.0; }
+);
+C
+run heap heap.cfg 120
+replay heap/commands.log --physics --json >heap.json
+code=$?
+agree() { # the exit code is the verdict
+    local good
+    good=$(json physics.good <heap.json)
+    [ "$good $code" = "True 0" ] || [ "$good $code" = "False 1" ] || { echo "$good, exit $code"; return 1; }
+}
+check "in a heap the exit code is the verdict" agree
+check "the heap is looked at whole" eval 'equal "$(json physics.bodies <heap.json)" 600'
+check "the heap's tanks never leave the ground" eval 'equal "$(json physics.measures.height.good <heap.json)" True'
+check "two replays say the same" eval 'replay heap/commands.log --physics --json --threads 2 | cmp - heap.json'
+
+# --- a bound that is passed: a jeep that the scenario makes three times too fast ---------------------
+cat >fast.cfg <<'C'
+world = { name = "fast"; seed = 2; capacity = 64; };
+terrain = { source = "flat"; height_m = 100.0; };
+vehicles = ( { kind = "jeep"; behaviour = "hold"; at = [25000.0, 25000.0]; speed_mps = 90.0; } );
+C
+run fast fast.cfg 30
+replay fast/commands.log --physics >text
+check "a bound that is passed gives exit code 1" equal $? 1
+check "the table says which, where and when" eval 'grep -q "^physics: BAD" text && grep -Eq "^speed .* BAD .* frame 0 .*; jeep 1 at \(25000" text'
+check "the other measures are good" eval '[ "$(grep -c BAD text)" = 2 ]'
+
+# --- wrong usage -------------------------------------------------------------------------------------
+refuses "--physics takes no value" 2 'physics' "$bin/jolon-world" replay --physics=yes duel-run/commands.log
+refuses "--physics is no option of diff" 2 'physics' "$bin/jolon-world" diff --physics duel-run/commands.log duel-run/commands.log
+done_testing

@@ -1,0 +1,443 @@
+/* Each measure of the physics check, violated by hand by a known amount. */
+#include "supervisor/physics/physics_check.h"
+
+#include "tests/support/steps.h"
+#include "world/entity/event.h"
+#include "world/entity/hull.h"
+#include "world/params.h"
+#include "world/terrain/crater.h"
+#include "world/terrain/fixed.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define DT     (1.0 / 60.0)
+#define MIDDLE 25000.0
+
+static struct fixture f;
+static struct physics_check check;
+static struct state now; /* the frame that the test writes by hand */
+
+static void *writable(const void *memory)
+{
+    return (void *)(uintptr_t)memory;
+}
+
+/* Gives a kind one hull: a box 6 m long, 3 m wide, and 2 m high on its position. */
+static void make_box(const char *name)
+{
+    struct kind *kind = steps_kind(&f, name);
+    struct hull *hull = writable(&f.view.world.hulls[kind->outer_hull]);
+    struct vec3 *corner = writable(&f.view.world.hull_vertices[hull->first_vertex]);
+    assert_true(hull->vertex_count >= 8);
+    hull->vertex_count = 8;
+    for (int i = 0; i < 8; i++)
+        corner[i] = (struct vec3){i & 1 ? 3.0 : -3.0, i & 2 ? 2.0 : 0.0, i & 4 ? 1.5 : -1.5};
+    hull->centre = (struct vec3){0.0, 1.0, 0.0};
+    hull->radius_m = 3.5;
+    kind->hull_count = 1;
+    kind->first_hull = kind->outer_hull;
+    kind->bound_m = 3.91;
+}
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "collision = { shape = \"model\"; };\n"
+                     "objects = ( { kind = \"building\"; at = [30000.0, 30000.0]; } );");
+    make_box("tank");
+    make_box("building");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static int empty_world(void **state)
+{
+    (void)state;
+    steps_empty(&f);
+    return 0;
+}
+
+static int end_check(void **state)
+{
+    (void)state;
+    physics_check_free(&check);
+    return 0;
+}
+
+/* --- frames by hand ----------------------------------------------------------------------------*/
+
+/* A vehicle that faces east. */
+static uint32_t put(const char *kind, double x, double y)
+{
+    return fixture_put(
+        &f, (struct fixture_entity){.kind = kind, .at = {x, y, MIDDLE}, .heading_rad = HALF_PI});
+}
+
+static void begin(void)
+{
+    now = fixture_state(&f);
+    assert_int_equal(physics_check_begin(&check, &f.view.world, &now), 0);
+}
+
+static void next(void)
+{
+    const struct physics_events events = {f.view.events, f.view.world.params->event_slots};
+    now.head->frame++;
+    now.head->tick++;
+    assert_int_equal(physics_check_frame(&check, &now, &events), 0);
+}
+
+static struct event *add_event(enum event_type type)
+{
+    uint64_t sequence = now.head->event_end++;
+    struct event *event = &f.view.events[sequence & (f.view.world.params->event_slots - 1)];
+    *event = (struct event){.sequence = sequence, .type = type};
+    return event;
+}
+
+/* The measure's worst value is this, and it is the only one beyond its bound, unless also says. */
+static void is_bad(enum measure_kind kind, double value)
+{
+    const struct measure *measure = &check.measures.of[kind];
+    if (fabs(measure->worst - value) > 1e-9 * maths_max(1.0, fabs(value)))
+        fail_msg("%s: %.15g instead of %.15g", measure_word(kind), measure->worst, value);
+    assert_false(measure_good(&check.measures, kind));
+    assert_int_equal(measure->frame, now.head->frame);
+    assert_false(measures_good(&check.measures));
+}
+
+static void no_other_is_bad(enum measure_kind kind)
+{
+    for (int i = 0; i < MEASURE_KINDS; i++) {
+        if (i != (int)kind && !measure_good(&check.measures, (enum measure_kind)i))
+            fail_msg("%s is bad, too: %g", measure_word((enum measure_kind)i),
+                     check.measures.of[i].worst);
+    }
+}
+
+static void is_good(void)
+{
+    no_other_is_bad(MEASURE_KINDS);
+    assert_true(measures_good(&check.measures));
+}
+
+/* --- tests -------------------------------------------------------------------------------------*/
+
+static void test_a_world_at_rest_is_good(void **state)
+{
+    (void)state;
+    put("tank", MIDDLE, 100.0);
+    put("tank", MIDDLE + 10.0, 100.0);
+    begin();
+    next();
+    next();
+    is_good();
+    assert_int_equal(check.frames, 2);
+    assert_int_equal(check.bodies, 4);
+    assert_int_equal(check.most, 2);
+    assert_true(check.measures.of[MEASURE_OF_HEIGHT].taken > 0);
+}
+
+static void test_a_moving_world_is_good(void **state)
+{
+    (void)state;
+    fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                            .at = {MIDDLE, 100.0, MIDDLE},
+                                            .velocity = {10.0, 0.0, 0.0}});
+    begin();
+    for (int i = 0; i < 60; i++) {
+        now.entities.x[0] += 10.0 * DT;
+        next();
+    }
+    is_good();
+    assert_true(check.measures.of[MEASURE_OF_ACCELERATION].taken == 60);
+}
+
+static void test_a_tank_in_the_air(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 102.0);
+    (void)state;
+    begin();
+    is_bad(MEASURE_OF_HEIGHT, 2.0);
+    no_other_is_bad(MEASURE_OF_HEIGHT);
+    assert_int_equal(check.measures.of[MEASURE_OF_HEIGHT].body[0].id, tank + 1);
+    assert_true(check.measures.of[MEASURE_OF_HEIGHT].body[0].at.y == 102.0);
+    next();
+    assert_int_equal(check.measures.of[MEASURE_OF_HEIGHT].beyond, 1); /* it has not moved */
+}
+
+static void test_a_wreck_in_the_air(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 100.5);
+    (void)state;
+    steps_rows(&f).state[tank] = ENTITY_WRECK;
+    begin();
+    is_bad(MEASURE_OF_WRECK_HEIGHT, 0.5);
+    no_other_is_bad(MEASURE_OF_WRECK_HEIGHT);
+}
+
+static void test_a_wreck_under_the_ground(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 99.0);
+    (void)state;
+    steps_rows(&f).pitch[tank] = 0.1;
+    begin();
+    is_bad(MEASURE_OF_UNDERGROUND, 1.0 + 3.0 * maths_sin(0.1));
+}
+
+static void test_a_corner_in_a_crater(void **state)
+{
+    (void)state;
+    put("tank", MIDDLE, 100.0);
+    begin();
+    is_good();
+    now.craters[0] = (struct crater){MIDDLE + 13.0, MIDDLE + 1.5, 10.0f, 10.0f, 1};
+    now.head->crater_count = 1;
+    next();
+    /* The rim of 2 m stands on the front corner, 10 m from the middle of the crater. */
+    is_bad(MEASURE_OF_UNDERGROUND, 2.0);
+}
+
+static void test_two_boxes_overlap(void **state)
+{
+    uint32_t a = put("tank", MIDDLE, 100.0), b = put("tank", MIDDLE + 6.001, 100.0);
+    (void)state;
+    begin();
+    is_good();
+    now.entities.x[b] -= 0.301;
+    now.entities.vx[b] = -0.301 / DT;
+    next();
+    is_bad(MEASURE_OF_OVERLAP, 0.3);
+    is_bad(MEASURE_OF_OVERLAP_GROWTH, 0.3);
+    assert_true(check.measures.of[MEASURE_OF_OVERLAPPING].worst == 1.0);
+    assert_int_equal(check.measures.of[MEASURE_OF_OVERLAP].body[0].id, a + 1);
+    assert_int_equal(check.measures.of[MEASURE_OF_OVERLAP].body[1].id, b + 1);
+    now.entities.x[b] -= 0.05;
+    next();
+    is_bad(MEASURE_OF_OVERLAP, 0.35);
+    assert_true(fabs(check.measures.of[MEASURE_OF_OVERLAP_GROWTH].worst - 0.3) < 1e-9);
+}
+
+static void test_an_overlap_at_the_start_may_stay_but_not_grow(void **state)
+{
+    uint32_t b;
+    (void)state;
+    put("tank", MIDDLE, 100.0);
+    b = put("tank", MIDDLE + 5.5, 100.0);
+    begin();
+    assert_true(fabs(check.measures.of[MEASURE_OF_START_OVERLAP].worst - 0.5) < 1e-9);
+    next();
+    is_good();
+    now.entities.x[b] -= 0.001;
+    next();
+    is_bad(MEASURE_OF_OVERLAP_GROWTH, 0.001);
+    no_other_is_bad(MEASURE_OF_OVERLAP_GROWTH);
+}
+
+static void test_spheres_overlap(void **state)
+{
+    double radius = steps_kind(&f, "tank")->radius_m;
+    uint32_t b;
+    (void)state;
+    steps_params(&f)->collision.shape = SHAPE_SPHERE;
+    put("tank", MIDDLE, 100.0);
+    b = put("tank", MIDDLE + 2.0 * radius + 0.01, 100.0);
+    begin();
+    now.entities.x[b] -= 0.11;
+    next();
+    steps_params(&f)->collision.shape = SHAPE_MODEL;
+    is_bad(MEASURE_OF_OVERLAP, 0.1);
+}
+
+static void test_no_bound_where_the_response_promises_none(void **state)
+{
+    uint32_t b;
+    (void)state;
+    steps_params(&f)->collision.response = MODEL_NONE;
+    put("tank", MIDDLE, 100.0);
+    b = put("tank", MIDDLE + 6.005, 100.0);
+    begin();
+    now.entities.x[b] -= 0.009;
+    next();
+    steps_params(&f)->collision.response = MODEL_IMPULSE;
+    assert_true(fabs(check.measures.of[MEASURE_OF_OVERLAP].worst - 0.004) < 1e-9);
+    is_good();
+}
+
+static void test_a_wall(void **state)
+{
+    const struct fixed_object *wall = &f.view.world.fixed[0];
+    struct vec3 at = {wall->x, 0.0, wall->z};
+    double long_half = 3.0 * (double)wall->radius_m / steps_kind(&f, "building")->radius_m;
+    (void)state;
+    /* The building's heading is the world's own: its front is along the heading. */
+    double sine, cosine;
+    maths_sincos(fixed_heading(wall), &sine, &cosine);
+    double far = long_half + 3.0 + 0.005;
+    uint32_t tank =
+        fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                                .at = {at.x + far * sine, 0.0, at.z - far * cosine},
+                                                .heading_rad = fixed_heading(wall)});
+    struct entities e = steps_rows(&f);
+    e.y[tank] = (double)wall->y;
+    begin();
+    is_good();
+    now.entities.x[tank] -= 0.01 * sine;
+    now.entities.z[tank] += 0.01 * cosine;
+    next();
+    is_bad(MEASURE_OF_WALL_OVERLAP, 0.005);
+    assert_true(check.measures.of[MEASURE_OF_WALL_OVERLAP].body[1].fixed);
+    now.fixed_damage[0] = DAMAGE_HIGH;
+    now.entities.x[tank] -= 0.01 * sine;
+    next();
+    assert_true(fabs(check.measures.of[MEASURE_OF_WALL_OVERLAP].worst - 0.005) < 1e-9);
+}
+
+static void test_speed_from_nowhere(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 100.0);
+    double engine = steps_kind(&f, "tank")->acceleration_mps2;
+    (void)state;
+    begin();
+    now.entities.vx[tank] = 5.0;
+    next();
+    is_bad(MEASURE_OF_ACCELERATION, 300.0);
+    assert_true(fabs(check.measures.of[MEASURE_OF_ENERGY].worst -
+                     (12.5 - 0.5 * engine * engine * DT * DT)) < 1e-6);
+    assert_false(measure_good(&check.measures, MEASURE_OF_ENERGY));
+}
+
+static void test_a_command_an_explosion_and_a_collision_explain_it(void **state)
+{
+    uint32_t a = put("tank", MIDDLE, 100.0), b = put("tank", MIDDLE + 20.0, 100.0);
+    (void)state;
+    begin();
+    now.entities.vx[a] = 5.0;
+    add_event(EVENT_COMMAND)->command.entity = a + 1;
+    next();
+    is_good();
+    struct event *event = add_event(EVENT_DETONATION);
+    event->detonation.point[0] = MIDDLE + 30.0;
+    event->detonation.point[1] = 100.0;
+    event->detonation.point[2] = MIDDLE;
+    event->detonation.explosive_kg = 1.0f;
+    now.entities.vx[b] = -5.0;
+    next();
+    is_good();
+    /* Their speeds change places: the energy of both together stays. */
+    event = add_event(EVENT_COLLISION);
+    event->collision.a.id = a + 1;
+    event->collision.b.id = b + 1;
+    now.entities.vx[a] = -3.0;
+    now.entities.vx[b] = sqrt(50.0 - 9.0);
+    next();
+    is_good();
+    event = add_event(EVENT_COLLISION);
+    event->collision.a.id = a + 1;
+    event->collision.b.id = b + 1;
+    now.entities.vx[a] = -5.0;
+    next();
+    assert_true(measure_good(&check.measures, MEASURE_OF_ACCELERATION));
+    assert_false(measure_good(&check.measures, MEASURE_OF_ENERGY));
+}
+
+static void test_speed_and_spin(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 100.0);
+    (void)state;
+    begin();
+    add_event(EVENT_COMMAND)->command.entity = tank + 1;
+    now.entities.vx[tank] = 3.0 * steps_kind(&f, "tank")->max_speed_mps;
+    now.entities.spin_y[tank] = -30.0;
+    next();
+    is_bad(MEASURE_OF_SPEED, 3.0);
+    is_bad(MEASURE_OF_SPIN, 30.0);
+}
+
+static void test_a_jump(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 100.0);
+    (void)state;
+    begin();
+    now.entities.z[tank] += 0.25;
+    next();
+    is_bad(MEASURE_OF_JUMP, 0.25);
+    no_other_is_bad(MEASURE_OF_JUMP);
+}
+
+static void test_a_wreck_that_snaps(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 100.0);
+    (void)state;
+    steps_rows(&f).state[tank] = ENTITY_WRECK;
+    steps_rows(&f).spin_y[tank] = -6.0;
+    begin();
+    now.entities.heading[tank] += 0.6;
+    next();
+    is_bad(MEASURE_OF_SNAP, 0.5);
+    no_other_is_bad(MEASURE_OF_SNAP);
+}
+
+static void test_no_numbers_and_no_world(void **state)
+{
+    uint32_t a = put("tank", MIDDLE, 100.0), b = put("jeep", 49999.0, 100.0);
+    (void)state;
+    begin();
+    now.entities.vy[a] = NAN;
+    now.entities.pitch[a] = HUGE_VAL;
+    next();
+    is_bad(MEASURE_OF_NOT_FINITE, 2.0);
+    no_other_is_bad(MEASURE_OF_NOT_FINITE);
+    now.entities.x[b] = 50000.5;
+    next();
+    is_bad(MEASURE_OF_OUTSIDE, 0.5);
+}
+
+static void test_another_body_in_the_row_does_not_jump(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 100.0);
+    (void)state;
+    begin();
+    now.entities.x[tank] += 500.0;
+    now.entities.id[tank] = 77;
+    next();
+    is_good();
+}
+
+#define TEST(name) cmocka_unit_test_setup_teardown(name, empty_world, end_check)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(test_a_world_at_rest_is_good),
+        TEST(test_a_moving_world_is_good),
+        TEST(test_a_tank_in_the_air),
+        TEST(test_a_wreck_in_the_air),
+        TEST(test_a_wreck_under_the_ground),
+        TEST(test_a_corner_in_a_crater),
+        TEST(test_two_boxes_overlap),
+        TEST(test_an_overlap_at_the_start_may_stay_but_not_grow),
+        TEST(test_spheres_overlap),
+        TEST(test_no_bound_where_the_response_promises_none),
+        TEST(test_a_wall),
+        TEST(test_speed_from_nowhere),
+        TEST(test_a_command_an_explosion_and_a_collision_explain_it),
+        TEST(test_speed_and_spin),
+        TEST(test_a_jump),
+        TEST(test_a_wreck_that_snaps),
+        TEST(test_no_numbers_and_no_world),
+        TEST(test_another_body_in_the_row_does_not_jump),
+    };
+    return cmocka_run_group_tests(tests, open_world, close_world);
+}
