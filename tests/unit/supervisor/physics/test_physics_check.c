@@ -275,22 +275,26 @@ static void test_no_bound_where_the_response_promises_none(void **state)
     is_good();
 }
 
-static void test_a_wall(void **state)
+/* Puts a tank in front of the building, with the same heading and a gap between the boxes. */
+static uint32_t put_before_wall(double gap, double *sine, double *cosine)
 {
     const struct fixed_object *wall = &f.view.world.fixed[0];
-    struct vec3 at = {wall->x, 0.0, wall->z};
-    double long_half = 3.0 * (double)wall->radius_m / steps_kind(&f, "building")->radius_m;
-    (void)state;
-    /* The building's heading is the world's own: its front is along the heading. */
-    double sine, cosine;
-    maths_sincos(fixed_heading(wall), &sine, &cosine);
-    double far = long_half + 3.0 + 0.005;
+    double scale = (double)wall->radius_m / steps_kind(&f, "building")->radius_m;
+    double far = 3.0 * scale + 3.0 + gap;
+    maths_sincos(fixed_heading(wall), sine, cosine);
     uint32_t tank =
-        fixture_put(&f, (struct fixture_entity){.kind = "tank",
-                                                .at = {at.x + far * sine, 0.0, at.z - far * cosine},
-                                                .heading_rad = fixed_heading(wall)});
-    struct entities e = steps_rows(&f);
-    e.y[tank] = (double)wall->y;
+        fixture_put(&f, (struct fixture_entity){
+                            .kind = "tank",
+                            .at = {wall->x + far * *sine, (double)wall->y, wall->z - far * *cosine},
+                            .heading_rad = fixed_heading(wall)});
+    return tank;
+}
+
+static void test_a_wall(void **state)
+{
+    double sine, cosine;
+    uint32_t tank = put_before_wall(0.005, &sine, &cosine);
+    (void)state;
     begin();
     is_good();
     now.entities.x[tank] -= 0.01 * sine;
@@ -298,10 +302,29 @@ static void test_a_wall(void **state)
     next();
     is_bad(MEASURE_OF_WALL_OVERLAP, 0.005);
     assert_true(check.measures.of[MEASURE_OF_WALL_OVERLAP].body[1].fixed);
-    now.fixed_damage[0] = DAMAGE_HIGH;
+    now.fixed_damage[0] = DAMAGE_HIGH; /* it has fallen and is no obstacle */
     now.entities.x[tank] -= 0.01 * sine;
+    now.entities.z[tank] += 0.01 * cosine;
     next();
     assert_true(fabs(check.measures.of[MEASURE_OF_WALL_OVERLAP].worst - 0.005) < 1e-9);
+}
+
+/* What is known of a wall stays while the body rests. */
+static void test_a_wall_overlapped_from_the_start(void **state)
+{
+    double sine, cosine;
+    uint32_t tank = put_before_wall(-0.5, &sine, &cosine);
+    (void)state;
+    begin();
+    assert_true(fabs(check.measures.of[MEASURE_OF_START_OVERLAP].worst - 0.5) < 1e-9);
+    next();
+    next();
+    assert_true(check.measures.of[MEASURE_OF_OVERLAPPING].worst == 1.0);
+    now.entities.x[tank] -= 0.001 * sine;
+    now.entities.z[tank] += 0.001 * cosine;
+    next();
+    is_bad(MEASURE_OF_OVERLAP_GROWTH, 0.001);
+    no_other_is_bad(MEASURE_OF_OVERLAP_GROWTH);
 }
 
 static void test_speed_from_nowhere(void **state)
@@ -335,18 +358,18 @@ static void test_a_command_an_explosion_and_a_collision_explain_it(void **state)
     now.entities.vx[b] = -5.0;
     next();
     is_good();
-    /* Their speeds change places: the energy of both together stays. */
+    /* One gives energy to the other: that of both together stays. */
     event = add_event(EVENT_COLLISION);
     event->collision.a.id = a + 1;
     event->collision.b.id = b + 1;
-    now.entities.vx[a] = -3.0;
-    now.entities.vx[b] = sqrt(50.0 - 9.0);
+    now.entities.vx[a] = -sqrt(50.0 - 9.0);
+    now.entities.vx[b] = 3.0;
     next();
     is_good();
     event = add_event(EVENT_COLLISION);
     event->collision.a.id = a + 1;
     event->collision.b.id = b + 1;
-    now.entities.vx[a] = -5.0;
+    now.entities.vx[b] = 5.0;
     next();
     assert_true(measure_good(&check.measures, MEASURE_OF_ACCELERATION));
     assert_false(measure_good(&check.measures, MEASURE_OF_ENERGY));
@@ -431,6 +454,7 @@ int main(void)
         TEST(test_spheres_overlap),
         TEST(test_no_bound_where_the_response_promises_none),
         TEST(test_a_wall),
+        TEST(test_a_wall_overlapped_from_the_start),
         TEST(test_speed_from_nowhere),
         TEST(test_a_command_an_explosion_and_a_collision_explain_it),
         TEST(test_speed_and_spin),
