@@ -2,6 +2,7 @@
 #include "mover/motion/spin.h"
 
 #include "mover/motion/kinematics.h"
+#include "world/entity/free_rotation.h"
 #include "world/entity/mass_properties.h"
 #include "world/world.h"
 
@@ -24,11 +25,9 @@ static void turn_flying(const struct step_context *context, uint32_t i, const st
     struct entities *m = context->m;
     const struct mass_properties inertia = mass_properties_of(kind);
     struct vec3 spin = {m->spin_x[i], m->spin_y[i], m->spin_z[i]};
-    struct quat from = rotation_of(m->heading[i], m->pitch[i], m->roll[i]);
-    struct quat to = rotation_spun(from, spin, context->dt_s);
-    struct mat3 before = rotation_matrix(from), after = rotation_matrix(to);
-    rotation_angles(to, &m->heading[i], &m->pitch[i], &m->roll[i]);
-    spin = mass_properties_carried(&inertia, &before, spin, &after);
+    struct quat turned = rotation_of(m->heading[i], m->pitch[i], m->roll[i]);
+    free_rotation_turn(inertia.moment, &turned, &spin, context->dt_s);
+    rotation_angles(turned, &m->heading[i], &m->pitch[i], &m->roll[i]);
     if (m->state[i] == ENTITY_ACTIVE && m->behaviour[i] != BEHAVIOUR_HOLD) { /* a pilot */
         double rate = vec3_length(spin);
         spin = vec3_scale(spin, maths_max(0.0, rate - PILOT_RPS2 * context->dt_s) / rate);

@@ -6,7 +6,7 @@
  * or down. */
 #define STRAIGHT 1e-15
 
-static struct quat multiply(struct quat a, struct quat b)
+struct quat rotation_product(struct quat a, struct quat b)
 {
     return (struct quat){a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
                          a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
@@ -43,7 +43,7 @@ struct quat rotation_of(double heading_rad, double pitch_rad, double roll_rad)
     maths_sincos(0.5 * (HALF_PI - heading_rad), &yaw.y, &yaw.w);
     maths_sincos(0.5 * pitch_rad, &pitch.z, &pitch.w);
     maths_sincos(0.5 * roll_rad, &roll.x, &roll.w);
-    return multiply(yaw, multiply(pitch, roll));
+    return rotation_product(yaw, rotation_product(pitch, roll));
 }
 
 void rotation_angles(struct quat q, double *heading_rad, double *pitch_rad, double *roll_rad)
@@ -92,7 +92,7 @@ struct vec3 rotation_speed(struct quat a, struct quat b, double t)
      * |q|^2, whose vector part is that of 2 (b - a) a* / |q|^2: always along one axis. */
     struct quat to = nearer(a, b), back = {a.w, -a.x, -a.y, -a.z};
     struct quat q = sum(scaled(a, 1.0 - t), scaled(to, t));
-    struct quat way = multiply(sum(to, scaled(a, -1.0)), back);
+    struct quat way = rotation_product(sum(to, scaled(a, -1.0)), back);
     return vec3_scale((struct vec3){way.x, way.y, way.z}, 2.0 / dot(q, q));
 }
 
@@ -103,6 +103,6 @@ struct quat rotation_spun(struct quat q, struct vec3 spin_rps, double dt_s)
         return q;
     maths_sincos(0.5 * rate * dt_s, &sine, &cosine);
     struct vec3 axis = vec3_scale(spin_rps, sine / rate);
-    struct quat turned = multiply((struct quat){cosine, axis.x, axis.y, axis.z}, q);
+    struct quat turned = rotation_product((struct quat){cosine, axis.x, axis.y, axis.z}, q);
     return scaled(turned, 1.0 / sqrt(dot(turned, turned)));
 }

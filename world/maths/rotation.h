@@ -25,6 +25,15 @@ void rotation_angles(struct quat q, double *heading_rad, double *pitch_rad, doub
 
 struct mat3 rotation_matrix(struct quat q);
 
+/* Returns the rotation by b and then, about the world's axes, by a. */
+struct quat rotation_product(struct quat a, struct quat b);
+
+/* Returns the rotation back. */
+static inline struct quat rotation_inverse(struct quat q)
+{
+    return (struct quat){q.w, -q.x, -q.y, -q.z};
+}
+
 /* Body to world. */
 static inline struct vec3 rotation_apply(const struct mat3 *turn, struct vec3 body)
 {

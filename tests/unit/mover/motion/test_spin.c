@@ -168,19 +168,22 @@ static struct vec3 momentum_of(uint32_t row)
                                                inertia.moment.z * spin.z});
 }
 
-static void test_a_body_on_hold_turns_about_its_middle_and_keeps_its_momentum(void **state)
+static void test_a_body_on_hold_keeps_its_momentum_and_energy(void **state)
 {
     (void)state;
     uint32_t row = put("jet", 900.0, BEHAVIOUR_HOLD, (struct vec3){120.0, 2.0, -40.0});
     struct entities e = steps_rows(&f);
     struct vec3 from = entities_position(&e, row);
     set_spin(row, 1.7, -0.4, 0.9);
-    struct vec3 momentum = momentum_of(row);
+    struct vec3 momentum = momentum_of(row), spin = {1.7, -0.4, 0.9};
+    double energy = vec3_dot(momentum, spin);
     for (int frame = 1; frame <= 300; frame++) {
         fixture_run(&f, 1);
         e = steps_rows(&f);
         struct vec3 off = vec3_sub(momentum_of(row), momentum);
         assert_true(vec3_length(off) < 1e-9 * vec3_length(momentum));
+        spin = (struct vec3){e.spin_x[row], e.spin_y[row], e.spin_z[row]};
+        assert_true(fabs(vec3_dot(momentum_of(row), spin) - energy) < 1e-9 * energy);
         assert_true(e.vx[row] == 120.0 && e.vy[row] == 2.0 && e.vz[row] == -40.0);
         struct vec3 way = vec3_scale((struct vec3){120.0, 2.0, -40.0}, frame / HZ);
         off = vec3_sub(entities_position(&e, row), vec3_add(from, way));
@@ -247,7 +250,7 @@ int main(void)
         TEST(test_water_brakes_a_turn_more_softly),
         TEST(test_steering_comes_on_top),
         TEST(test_a_wreck_on_a_slope_turns_and_stays_on_it),
-        TEST(test_a_body_on_hold_turns_about_its_middle_and_keeps_its_momentum),
+        TEST(test_a_body_on_hold_keeps_its_momentum_and_energy),
         TEST(test_spin_in_the_air_turns_by_its_rate),
         TEST(test_a_falling_wreck_spins_until_it_lies_on_the_ground),
         TEST(test_a_pilot_gets_his_aircraft_out_of_a_spin),
