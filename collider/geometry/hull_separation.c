@@ -1,7 +1,8 @@
 /* Let z be the vector from a vertex of a to one of b, with velocity z' per frame, and n the normal
  * of a plane that swings by m a frame. At time h from now z is z + h z', to within K h^2 / 2, as no
  * point at r from an axis is accelerated by more than rate^2 r (world/maths/rotation.h). So along n
- * + h m the separation of the two is
+ * + h m the separation of the two is (for a body that spins freely rate^2 stands for the bound that
+ * free_turn.h gives)
  *
  *     n.z + h (n.z' + m.z)     linear in h; the least over all vertices is concave
  *     + h^2 m.z'               the translation's part is known, the rotation's part is bounded
@@ -31,7 +32,14 @@ struct rotation_path rotation_path_of(const struct swept_body *body)
     struct rotation_path rotation = {.body = body, .turn = rotation_matrix(body->from)};
     double left = 1.0 - body->path.since;
     rotation.share = left > 0.0 ? 1.0 / left : 0.0;
+    if (body->turn.rotation.steps > 0) {
+        rotation.free = true;
+        rotation.rate = free_turn_rate(&body->turn, &rotation.bend) * rotation.share;
+        rotation.bend *= rotation.share * rotation.share;
+        return rotation;
+    }
     rotation.rate = rotation_rate(body->from, body->to) * rotation.share;
+    rotation.bend = rotation.rate * rotation.rate;
     struct vec3 spin = rotation_speed(body->from, body->to, 0.0);
     double speed = vec3_length(spin);
     if (speed > 0.0)
@@ -39,14 +47,19 @@ struct rotation_path rotation_path_of(const struct swept_body *body)
     return rotation;
 }
 
+/* Returns how far the centre of the hull's sphere is from the axis at most [m]. */
+static double arm_of(const struct rotation_path *rotation, const struct hull *hull)
+{
+    struct vec3 arm = rotation->free ? hull->centre : vec3_cross(rotation->axis, hull->centre);
+    return vec3_length(arm) * rotation->body->scale;
+}
+
 struct hull_pair hull_pair_of(const struct rotation_path *a, const struct rotation_path *b,
                               const struct hull *hull_a, const struct hull *hull_b)
 {
     double scale_a = a->body->scale, scale_b = b->body->scale;
-    double arm_a = vec3_length(vec3_cross(a->axis, hull_a->centre)) * scale_a;
-    double arm_b = vec3_length(vec3_cross(b->axis, hull_b->centre)) * scale_b;
+    double arm_a = arm_of(a, hull_a), arm_b = arm_of(b, hull_b);
     double radius_a = hull_a->radius_m * scale_a, radius_b = hull_b->radius_m * scale_b;
-    double turn_a = a->rate * a->rate, turn_b = b->rate * b->rate;
     return (struct hull_pair){
         .a = a,
         .b = b,
@@ -55,8 +68,8 @@ struct hull_pair hull_pair_of(const struct rotation_path *a, const struct rotati
         .velocity = vec3_sub(b->body->path.along, a->body->path.along),
         .radii_m = radius_a + radius_b,
         .speed = a->rate * (arm_a + radius_a) + b->rate * (arm_b + radius_b),
-        .bend = turn_a * (arm_a + radius_a) + turn_b * (arm_b + radius_b),
-        .bend_spheres = turn_a * arm_a + turn_b * arm_b,
+        .bend = a->bend * (arm_a + radius_a) + b->bend * (arm_b + radius_b),
+        .bend_spheres = a->bend * arm_a + b->bend * arm_b,
     };
 }
 
@@ -71,8 +84,15 @@ static void pose(const struct rotation_path *rotation, const struct hull *hull, 
     *spin = (struct vec3){0.0, 0.0, 0.0};
     if (rotation->rate > 0.0) {
         double t = maths_clamp((time - body->path.since) * rotation->share, 0.0, 1.0);
-        convex->turn = rotation_matrix(rotation_between(body->from, body->to, t));
-        *spin = vec3_scale(rotation_speed(body->from, body->to, t), rotation->share);
+        struct quat turned;
+        if (rotation->free) {
+            free_turn_at(&body->turn, t, &turned, spin);
+        } else {
+            turned = rotation_between(body->from, body->to, t);
+            *spin = rotation_speed(body->from, body->to, t);
+        }
+        convex->turn = rotation_matrix(turned);
+        *spin = vec3_scale(*spin, rotation->share);
     }
     *centre = rotation_apply(&convex->turn, vec3_scale(hull->centre, body->scale));
 }

@@ -13,7 +13,9 @@ struct rotation_path {
     const struct swept_body *body;
     double share;     /* share of the rotation from its start to its end, a frame */
     double rate;      /* [rad a frame] at most */
-    struct vec3 axis; /* unit, body axes: the fixed axis; 0 without rotation */
+    double bend;      /* acceleration of a point 1 m from the axis [m a frame^2] at most */
+    struct vec3 axis; /* unit, body axes: the fixed axis; 0 without rotation and in a free one */
+    bool free;        /* a free rotation has no fixed axis */
     struct mat3 turn; /* at path.since */
 };
 

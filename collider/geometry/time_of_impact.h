@@ -5,6 +5,7 @@
 #define JOLON_COLLIDER_GEOMETRY_TIME_OF_IMPACT_H
 
 #include "collider/geometry/analytic_impact.h"
+#include "collider/geometry/free_turn.h"
 #include "world/entity/hull.h"
 #include "world/maths/rotation.h"
 
@@ -28,6 +29,7 @@ struct swept_body {
     double bound_m;                  /* scaled: no point of a hull is farther from the position */
     struct path path;                /* of the position */
     struct quat from, to;            /* rotation at path.since and at 1 */
+    struct free_turn turn;           /* how it turns; without steps the shorter way */
 };
 
 /* Where and how two bodies touch. */
@@ -54,6 +56,9 @@ struct hull_contact {
  * between their centres; axes across two edges are left out. Where two edges overlap, that is
  * deeper than necessary by at most the edges' length. As a rule the contact was found before any
  * overlap, with its exact normal.
+ *
+ * A body that spins freely takes its real path, by however many turns. Its gap is SKIN_M to within
+ * 1e-6 m at one turn a frame, and to within 1e-5 m at several.
  *
  * Swapping a and b gives the same bits and the opposite normal. At most 1,024 distances for each
  * pair of hulls: 3 to 7 are usual, and 340 was the most in 200,000 pairs of up to 90 m that turn by

@@ -3,6 +3,7 @@
 
 #include "collider/motion/pair_filter.h"
 #include "world/entity/kind.h"
+#include "world/entity/mass_properties.h"
 #include "world/maths/maths.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
@@ -68,9 +69,41 @@ void body_motion_compute(struct body_motion *motion, uint32_t row)
     motion->computed[row] = 1;
 }
 
+static const struct quat no_turn = {1.0, 0.0, 0.0, 0.0};
+
 static struct quat pose(const struct entities *e, uint32_t row)
 {
     return rotation_of(e->heading[row], e->pitch[row], e->roll[row]);
+}
+
+/* Returns the spin by which the mover turns the row: freely in the air, about the vertical on the
+ * ground and on the water. Most rows have none, so few columns are read. */
+static struct vec3 committed_spin(const struct body_motion *motion, uint32_t row, bool flies)
+{
+    const struct entities *w = &motion->committed->entities;
+    if (!flies)
+        return (struct vec3){0.0, w->spin_y[row], 0.0};
+    return (struct vec3){w->spin_x[row], w->spin_y[row], w->spin_z[row]};
+}
+
+/* Finds how the mover turned the row, if not the shorter way: an aircraft by any spin, another body
+ * by one of more than a quarter turn a frame. */
+static void find_turn(const struct body_motion *motion, uint32_t row,
+                      struct rotation_path *rotation)
+{
+    const struct kind *kind = &motion->world->kinds[motion->next->entities.kind[row]];
+    bool flies = kind->domain == DOMAIN_AIR;
+    double dt_s = world_dt_s(motion->world), least = flies ? 0.0 : HALF_PI;
+    struct vec3 spin = committed_spin(motion, row, flies);
+    if (!(vec3_dot(spin, spin) * dt_s * dt_s > least * least))
+        return;
+    struct vec3 moment = flies ? mass_properties_of(kind).moment : (struct vec3){1.0, 1.0, 1.0};
+    struct free_rotation freely = free_rotation_of(moment, rotation->from, spin, dt_s);
+    struct free_turn turn = free_turn_to(&freely, rotation->to);
+    /* Where something else turned the body, its spin may explain less than the shorter way. */
+    if (!turn.steers ||
+        rotation_rate(turn.steered, no_turn) < rotation_rate(rotation->from, rotation->to))
+        rotation->turn = turn;
 }
 
 struct rotation_path body_motion_rotation(const struct body_motion *motion, uint32_t row)
@@ -81,7 +114,9 @@ struct rotation_path body_motion_rotation(const struct body_motion *motion, uint
     struct quat to = pose(n, row);
     if (!body_motion_rotated(motion, row))
         return (struct rotation_path){.from = to, .to = to};
-    return (struct rotation_path){.from = pose(w, row), .to = to};
+    struct rotation_path rotation = {.from = pose(w, row), .to = to};
+    find_turn(motion, row, &rotation);
+    return rotation;
 }
 
 struct quat body_motion_orientation(const struct body_motion *motion, uint32_t row, double time)
@@ -89,8 +124,29 @@ struct quat body_motion_orientation(const struct body_motion *motion, uint32_t r
     struct rotation_path rotation = body_motion_rotation(motion, row);
     double since = motion->path[row].since;
     double left = 1.0 - since;
-    return left > 0.0 ? rotation_between(rotation.from, rotation.to, (time - since) / left)
-                      : rotation.to;
+    if (!(left > 0.0))
+        return rotation.to;
+    if (rotation.turn.rotation.steps == 0)
+        return rotation_between(rotation.from, rotation.to, (time - since) / left);
+    struct quat turned;
+    struct vec3 spin;
+    free_turn_at(&rotation.turn, (time - since) / left, &turned, &spin);
+    return turned;
+}
+
+struct rotation_path body_motion_rotation_from(const struct body_motion *motion, uint32_t row,
+                                               double time)
+{
+    struct rotation_path rotation = body_motion_rotation(motion, row);
+    const struct free_rotation before = rotation.turn.rotation;
+    rotation.from = body_motion_orientation(motion, row, time);
+    if (before.steps == 0)
+        return rotation;
+    struct vec3 spin = free_rotation_spin(before.moment, rotation.from, before.momentum);
+    struct free_rotation left = free_rotation_of(before.moment, rotation.from, spin,
+                                                 (1.0 - time) * world_dt_s(motion->world));
+    rotation.turn = free_turn_to(&left, rotation.to);
+    return rotation;
 }
 
 void body_motion_change(struct body_motion *motion, uint32_t row, const struct path *path,
@@ -124,6 +180,7 @@ struct swept_body body_motion_body(const struct body_motion *motion, uint32_t ro
     body.path = motion->path[row];
     body.from = rotation.from;
     body.to = rotation.to;
+    body.turn = rotation.turn;
     return body;
 }
 

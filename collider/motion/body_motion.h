@@ -1,5 +1,6 @@
 /* How the bodies move within the frame: each row's path and its rotation along it. Rows rotate from
- * the committed pose to the mover's until the response to a contact changes it. The collider's own
+ * the committed pose to the mover's until the response to a contact changes it: freely, by the
+ * committed spin, if that is what the mover did, else the shorter way. The collider's own
  * memory; one thread changes it, any number may read between changes. */
 #ifndef JOLON_COLLIDER_MOTION_BODY_MOTION_H
 #define JOLON_COLLIDER_MOTION_BODY_MOTION_H
@@ -16,8 +17,9 @@ struct world;
 /* Rotations at path.since and at 1. */
 struct rotation_path {
     struct quat from, to;
-    double driven_rps; /* about the vertical, added to the row's own spin: by its driver and its
-                          tyres */
+    struct free_turn turn; /* how the body gets there; without steps the shorter way */
+    double driven_rps;     /* about the vertical, added to the row's own spin: by its driver and its
+                              tyres */
 };
 
 struct body_motion {
@@ -79,6 +81,10 @@ static inline bool body_motion_rotates(const struct body_motion *motion, uint32_
 }
 
 struct rotation_path body_motion_rotation(const struct body_motion *motion, uint32_t row);
+
+/* Returns what is left of the row's rotation at a time in [path.since, 1]. */
+struct rotation_path body_motion_rotation_from(const struct body_motion *motion, uint32_t row,
+                                               double time);
 
 /* Returns the row's rotation at a time in [path.since, 1]. */
 struct quat body_motion_orientation(const struct body_motion *motion, uint32_t row, double time);

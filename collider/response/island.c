@@ -180,7 +180,7 @@ static struct solver_body solve_body_of(const struct response_context *context,
         solve.inverse_mass = (struct vec3){light, light, light};
         solve.inverse_inertia = mass_properties_inverse_world(&inertia, &turn);
     }
-    solve.spin = path_change_spin(context, row);
+    solve.spin = path_change_spin(context, row, time);
     solve.velocity = vec3_add(entities_velocity(e, row), vec3_cross(solve.spin, body->arm));
     if (body->grounded)
         solve.velocity.y = 0.0; /* the slope causes it; it would lift the other body */

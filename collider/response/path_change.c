@@ -1,6 +1,7 @@
 /* How the response to a contact changes a body's path in the rest of the frame. */
 #include "collider/response/path_change.h"
 
+#include "world/entity/free_rotation.h"
 #include "world/entity/mass_properties.h"
 #include "world/state.h"
 #include "world/terrain/gridsquare.h"
@@ -21,24 +22,54 @@ bool path_change_grounded(const struct response_context *context, uint32_t row)
                                                 e->x[row], e->z[row]);
 }
 
-struct vec3 path_change_spin(const struct response_context *context, uint32_t row)
+static struct vec3 own_spin(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    return (struct vec3){e->spin_x[row], e->spin_y[row], e->spin_z[row]};
+}
+
+static struct vec3 moment_of(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    return mass_properties_of(&context->world->kinds[e->kind[row]]).moment;
+}
+
+/* Returns the rotation about the vertical of a row on the ground [rad/s]. The mover turned it by
+ * its spin, and then by less than half a turn. */
+static double yaw_of(const struct response_context *context, uint32_t row)
 {
     const struct body_motion *motion = context->motion;
     const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
-    if (!path_change_grounded(context, row))
-        return (struct vec3){n->spin_x[row], n->spin_y[row], n->spin_z[row]};
-    double yaw = n->spin_y[row];
+    double dt_s = world_dt_s(context->world);
     if (motion->change[row] != 0)
-        yaw += body_motion_rotation(motion, row).driven_rps;
-    else if (body_motion_old(motion, row))
-        yaw = -maths_wrap_half(n->heading[row] - w->heading[row]) / world_dt_s(context->world);
-    return (struct vec3){0.0, yaw, 0.0};
+        return n->spin_y[row] + body_motion_rotation(motion, row).driven_rps;
+    if (!body_motion_old(motion, row))
+        return n->spin_y[row];
+    double by_spin = -w->spin_y[row] * dt_s;
+    if (fabs(by_spin) <= HALF_PI)
+        by_spin = 0.0;
+    return -(by_spin + maths_wrap_half(n->heading[row] - w->heading[row] - by_spin)) / dt_s;
+}
+
+struct vec3 path_change_spin(const struct response_context *context, uint32_t row, double time)
+{
+    if (path_change_grounded(context, row))
+        return (struct vec3){0.0, yaw_of(context, row), 0.0};
+    struct vec3 end = own_spin(context, row);
+    if (vec3_dot(end, end) == 0.0)
+        return end;
+    struct vec3 moment = moment_of(context, row);
+    struct quat to = body_motion_rotation(context->motion, row).to;
+    return free_rotation_spin(moment, body_motion_orientation(context->motion, row, time),
+                              free_rotation_momentum(moment, to, end));
 }
 
 /* Returns the rotation by the driver, in addition to the row's spin [rad/s]. */
 static double driven(const struct response_context *context, uint32_t row)
 {
-    return path_change_spin(context, row).y - context->next->entities.spin_y[row];
+    return path_change_grounded(context, row)
+               ? yaw_of(context, row) - context->next->entities.spin_y[row]
+               : 0.0;
 }
 
 /* Ends the path at the world's edge. It may begin beyond it, if the body was pushed out of
@@ -87,6 +118,9 @@ void path_change_stay(struct response_context *context, uint32_t row, double tim
     struct quat turned = body_motion_orientation(context->motion, row, time);
     const struct rotation_path rotation = {.from = turned, .to = turned};
     const struct path path = {.at = path_at(&context->path[row], time), .since = time};
+    struct vec3 spin = own_spin(context, row);
+    if (!path_change_grounded(context, row) && vec3_dot(spin, spin) > 0.0)
+        table_set_spin(&context->writer, row, path_change_spin(context, row, time));
     take_path(context, row, &path, &rotation, velocity);
     path_change_swept(context, &row, 1, time);
 }
@@ -95,13 +129,27 @@ void path_change_slow(struct response_context *context, uint32_t row, double tim
 {
     const struct entities *e = &context->next->entities;
     const struct path *before = &context->path[row];
-    const struct rotation_path rotation = {.from =
-                                               body_motion_orientation(context->motion, row, time),
-                                           .to = body_motion_rotation(context->motion, row).to,
-                                           .driven_rps = driven(context, row)};
+    struct rotation_path rotation = body_motion_rotation_from(context->motion, row, time);
     const struct path path = {
         .at = path_at(before, time), .along = vec3_scale(before->along, share), .since = time};
+    rotation.driven_rps = driven(context, row);
     take_path(context, row, &path, &rotation, vec3_scale(entities_velocity(e, row), share));
+}
+
+/* Rotates a row by its spin until the frame's end, and replaces the spin by that at the end. */
+static void spin_on(const struct response_context *context, uint32_t row, double left_s,
+                    struct rotation_path *rotation, struct vec3 *spin_rps)
+{
+    bool grounded = path_change_grounded(context, row);
+    if (grounded && vec3_length(*spin_rps) * left_s <= HALF_PI) {
+        rotation->to = rotation_spun(rotation->from, *spin_rps, left_s);
+        return;
+    }
+    struct vec3 moment = grounded ? (struct vec3){1.0, 1.0, 1.0} : moment_of(context, row);
+    struct free_rotation freely = free_rotation_of(moment, rotation->from, *spin_rps, left_s);
+    rotation->turn.rotation = freely;
+    rotation->to = free_rotation_at(&freely, 1.0);
+    *spin_rps = free_rotation_spin(moment, rotation->to, freely.momentum);
 }
 
 void path_change_leave(struct response_context *context, uint32_t row, double time, struct vec3 at,
@@ -109,19 +157,15 @@ void path_change_leave(struct response_context *context, uint32_t row, double ti
 {
     double dt_s = world_dt_s(context->world);
     struct quat turned = body_motion_orientation(context->motion, row, time);
-    const struct rotation_path rotation = {
-        .from = turned,
-        .to = stays ? turned : rotation_spun(turned, spin_rps, (1.0 - time) * dt_s),
-        .driven_rps = driven(context, row)};
-    const struct path path = {
-        .at = at, .along = vec3_scale(velocity, stays ? 0.0 : dt_s), .since = time};
-    if (!path_change_grounded(context, row)) {
-        /* The inertia rotates with the body; angular momentum is conserved. */
-        const struct mass_properties inertia =
-            mass_properties_of(&context->world->kinds[context->next->entities.kind[row]]);
-        struct mat3 before = rotation_matrix(turned), after = rotation_matrix(rotation.to);
-        spin_rps = mass_properties_carried(&inertia, &before, spin_rps, &after);
-    }
+    struct rotation_path rotation = {
+        .from = turned, .to = turned, .driven_rps = driven(context, row)};
+    const struct path path = {.at = at,
+                              .along = vec3_scale(velocity, stays ? 0.0 : dt_s),
+                              .since = time,
+                              .rotates = context->motion->models && !stays &&
+                                         vec3_dot(spin_rps, spin_rps) > 0.0};
+    if (!stays)
+        spin_on(context, row, (1.0 - time) * dt_s, &rotation, &spin_rps);
     spin_rps.y -= rotation.driven_rps;
     table_set_spin(&context->writer, row, spin_rps);
     take_path(context, row, &path, &rotation, velocity);

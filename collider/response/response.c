@@ -63,7 +63,7 @@ static struct vec3 level_normal(const struct response_context *context,
 static struct vec3 velocity_at(const struct response_context *context, uint32_t row,
                                const struct hull_contact *impact)
 {
-    struct vec3 w = path_change_spin(context, row);
+    struct vec3 w = path_change_spin(context, row, impact->toi);
     struct vec3 r = vec3_sub(impact->point, path_at(&context->path[row], impact->toi));
     return vec3_add(entities_velocity(&context->next->entities, row), vec3_cross(w, r));
 }
@@ -214,7 +214,7 @@ static void end_approach(struct response_context *context, const struct impact *
     for (int i = 0; i < (fixed ? 1 : 2); i++) {
         uint32_t row = side[i].row;
         struct vec3 push = vec3_scale(impact->normal, side[i].push * impact->closing_mps);
-        const struct vec3 spin = path_change_spin(context, row);
+        const struct vec3 spin = path_change_spin(context, row, impact->time);
         path_change_leave(context, row, impact->time, path_at(&context->path[row], impact->time),
                           vec3_add(entities_velocity(e, row), push), spin, false);
     }

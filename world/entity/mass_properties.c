@@ -37,17 +37,3 @@ struct mat3 mass_properties_inverse_world(const struct mass_properties *properti
     }
     return world;
 }
-
-struct vec3 mass_properties_carried(const struct mass_properties *properties,
-                                    const struct mat3 *before, struct vec3 spin_rps,
-                                    const struct mat3 *after)
-{
-    struct vec3 body = rotation_back(before, spin_rps);
-    const struct vec3 momentum = rotation_apply(
-        before, (struct vec3){properties->moment.x * body.x, properties->moment.y * body.y,
-                              properties->moment.z * body.z});
-    body = rotation_back(after, momentum);
-    return rotation_apply(after, (struct vec3){body.x / properties->moment.x,
-                                               body.y / properties->moment.y,
-                                               body.z / properties->moment.z});
-}

@@ -23,10 +23,4 @@ struct mass_properties mass_properties_of(const struct kind *kind);
 struct mat3 mass_properties_inverse_world(const struct mass_properties *properties,
                                           const struct mat3 *turn);
 
-/* Returns the spin that conserves angular momentum when a free body with this spin [rad/s, world
- * axes] has rotated from before to after. */
-struct vec3 mass_properties_carried(const struct mass_properties *properties,
-                                    const struct mat3 *before, struct vec3 spin_rps,
-                                    const struct mat3 *after);
-
 #endif

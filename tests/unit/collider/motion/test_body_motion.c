@@ -2,7 +2,9 @@
 #include "collider/motion/body_motion.h"
 
 #include "tests/support/steps.h"
+#include "world/entity/mass_properties.h"
 #include "world/terrain/fixed.h"
+#include "world/world.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -107,6 +109,65 @@ static void test_a_path_that_begins_at_the_end_has_its_last_rotation(void **stat
     assert_true(fabs(heading_of(body_motion_orientation(motion, 3, 1.0)) - 0.4) < 1e-12);
 }
 
+static void set_spin(uint32_t row, struct vec3 spin)
+{
+    struct entities *w = &f.view.w[0].entities;
+    w->spin_x[row] = spin.x;
+    w->spin_y[row] = spin.y;
+    w->spin_z[row] = spin.z;
+}
+
+static void set_pose(const struct entities *e, uint32_t row, struct quat turned)
+{
+    rotation_angles(turned, &e->heading[row], &e->pitch[row], &e->roll[row]);
+}
+
+/* An aircraft that the mover turned by its spin takes its real path, however often it turns. */
+static void test_who_spins_freely_takes_its_real_path(void **state)
+{
+    (void)state;
+    const struct vec3 spins[] = {{3.0, -2.0, 4.0}, {300.0, 200.0, -400.0}};
+    double dt_s = world_dt_s(&f.view.world);
+    struct vec3 moment = mass_properties_of(steps_kind(&f, "jet")).moment;
+    for (int n = 0; n < 2; n++) {
+        begin();
+        struct quat from = rotation_of(next->entities.heading[5], 0.0, 0.0), to = from;
+        struct vec3 spin = spins[n];
+        set_spin(5, spins[n]);
+        free_rotation_turn(moment, &to, &spin, dt_s);
+        set_pose(&next->entities, 5, to);
+        struct free_rotation freely = free_rotation_of(moment, from, spins[n], dt_s);
+        for (double time = 0.0; time <= 1.0; time += 0.125) {
+            struct mat3 there = rotation_matrix(free_rotation_at(&freely, time));
+            struct mat3 path = rotation_matrix(body_motion_orientation(motion, 5, time));
+            for (int i = 0; i < 9; i++)
+                assert_true(fabs(there.m[i / 3][i % 3] - path.m[i / 3][i % 3]) < 1e-12);
+        }
+        struct rotation_path rest = body_motion_rotation_from(motion, 5, 0.25);
+        assert_true(rest.turn.rotation.steps > 0);
+        assert_true(fabs(rest.turn.rotation.duration_s - 0.75 * dt_s) < 1e-15);
+        set_spin(5, (struct vec3){0.0, 0.0, 0.0});
+    }
+}
+
+/* A body on the ground that its spin turns by more than a quarter turn. */
+static void test_a_yaw_of_one_and_a_half_turns_is_swept(void **state)
+{
+    (void)state;
+    double dt_s = world_dt_s(&f.view.world);
+    uint32_t row =
+        fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25000, 100, 9000}});
+    begin();
+    double heading = next->entities.heading[row];
+    set_spin(row, (struct vec3){0.0, -1.5 * TWO_PI / dt_s, 0.0});
+    next->entities.heading[row] = maths_wrap_turn(heading + 0.01 + 1.5 * TWO_PI);
+    double seen = heading_of(body_motion_orientation(motion, row, 1.0 / 3.0));
+    assert_true(fabs(maths_wrap_half(seen - heading - PI)) < 0.01);
+    seen = heading_of(body_motion_orientation(motion, row, 1.0));
+    assert_true(fabs(maths_wrap_half(seen - next->entities.heading[row])) < 1e-9);
+    set_spin(row, (struct vec3){0.0, 0.0, 0.0});
+}
+
 static void test_bodies_have_their_kinds_hulls_at_their_size(void **state)
 {
     (void)state;
@@ -137,6 +198,8 @@ int main(void)
         TEST(test_who_is_new_has_not_moved),
         TEST(test_changed_rotations_are_kept_for_the_frame_only),
         TEST(test_a_path_that_begins_at_the_end_has_its_last_rotation),
+        TEST(test_who_spins_freely_takes_its_real_path),
+        TEST(test_a_yaw_of_one_and_a_half_turns_is_swept),
         TEST(test_bodies_have_their_kinds_hulls_at_their_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

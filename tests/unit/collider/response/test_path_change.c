@@ -1,6 +1,8 @@
 /* How a response changes a body's path in the rest of the frame. */
 #include "collider/response/path_change.h"
 #include "tests/support/steps.h"
+#include "world/entity/free_rotation.h"
+#include "world/entity/mass_properties.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -112,7 +114,7 @@ static void test_what_the_ground_holds(void **state)
     /* Its driver's steering counts until an answer has turned it otherwise. */
     e->spin_x[tank] = e->spin_z[tank] = 1.0;
     e->heading[tank] += 0.01;
-    struct vec3 spin = path_change_spin(&context, tank);
+    struct vec3 spin = path_change_spin(&context, tank, 0.5);
     assert_true(spin.x == 0.0 && spin.z == 0.0 && fabs(spin.y + 0.01 / DT_S) < 1e-9);
 }
 
@@ -125,12 +127,40 @@ static void test_an_answer_leaves_the_steering_to_the_driver(void **state)
     struct entities *e = &context.next->entities;
     struct vec3 at = {25003.0, FIXTURE_GROUND_M, 25000.0};
     e->heading[tank] += 0.01;
-    struct vec3 spin = path_change_spin(&context, tank);
+    struct vec3 spin = path_change_spin(&context, tank, 0.5);
     spin.y -= 0.3; /* what an impulse adds, to the right as he steers */
     path_change_leave(&context, tank, 0.5, at, none, spin, false);
     assert_true(fabs(e->spin_y[tank] + 0.3) < 1e-9);
     assert_true(fabs(maths_wrap_half(e->heading[tank] - HALF_PI) - 0.01 - 0.15 * DT_S) < 1e-9);
-    assert_true(fabs(path_change_spin(&context, tank).y - spin.y) < 1e-9);
+    assert_true(fabs(path_change_spin(&context, tank, 0.5).y - spin.y) < 1e-9);
+}
+
+/* The spin at a time in the frame is that of the orientation then: momentum and energy are those of
+ * the frame's end. */
+static void test_a_body_in_the_air_has_its_momentum_at_every_time(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 25000.0, 900.0);
+    struct vec3 at = {25003.0, 900.0, 25000.0}, spin = {20.0, -14.0, 11.0};
+    const struct entities *e = &context.next->entities;
+    struct vec3 moment = mass_properties_of(steps_kind(&f, "helicopter")).moment;
+    struct quat turned = rotation_of(e->heading[row], e->pitch[row], e->roll[row]);
+    struct vec3 momentum = free_rotation_momentum(moment, turned, spin);
+    double energy = vec3_dot(momentum, spin);
+    path_change_leave(&context, row, 0.0, at, none, spin, false);
+    for (double time = 0.0; time <= 1.0; time += 0.25) {
+        spin = path_change_spin(&context, row, time);
+        turned = body_motion_orientation(context.motion, row, time);
+        struct vec3 now = free_rotation_momentum(moment, turned, spin);
+        assert_true(vec3_length(vec3_sub(now, momentum)) < 1e-12 * vec3_length(momentum));
+        assert_true(fabs(vec3_dot(now, spin) - energy) < 1e-12 * energy);
+    }
+    struct vec3 end = {e->spin_x[row], e->spin_y[row], e->spin_z[row]};
+    assert_true(vec3_length(vec3_sub(end, spin)) < 1e-12 * vec3_length(spin));
+    spin = path_change_spin(&context, row, 0.5);
+    path_change_stay(&context, row, 0.5, none);
+    end = (struct vec3){e->spin_x[row], e->spin_y[row], e->spin_z[row]};
+    assert_true(vec3_length(vec3_sub(end, spin)) < 1e-12 * vec3_length(spin));
 }
 
 int main(void)
@@ -143,6 +173,7 @@ int main(void)
         TEST(test_no_body_is_pushed_out_of_the_world),
         TEST(test_what_the_ground_holds),
         TEST(test_an_answer_leaves_the_steering_to_the_driver),
+        TEST(test_a_body_in_the_air_has_its_momentum_at_every_time),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
