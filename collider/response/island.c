@@ -3,6 +3,7 @@
 #include "collider/response/island.h"
 
 #include "collider/response/contact_impulse.h"
+#include "collider/response/overlap_shift.h"
 #include "collider/response/path_change.h"
 #include "collider/response/response.h"
 #include "world/entity/mass_properties.h"
@@ -29,8 +30,9 @@ int island_init(struct island *island, const struct world *world)
     island->solve = reserve_take(solved, sizeof *island->solve);
     island->solve_of = reserve_take(solved, sizeof *island->solve_of);
     island->contact = reserve_take(most, sizeof *island->contact);
+    island->shift = reserve_take(rows, sizeof *island->shift);
     if (island->met && island->body && island->row && island->body_of && island->solve &&
-        island->solve_of && island->contact)
+        island->solve_of && island->contact && island->shift)
         return 0;
     island_free(island);
     errno = ENOMEM;
@@ -46,6 +48,7 @@ void island_free(struct island *island)
     reserve_free(island->solve);
     reserve_free(island->solve_of);
     reserve_free(island->contact);
+    reserve_free(island->shift);
     *island = (struct island){0};
 }
 
@@ -231,6 +234,22 @@ static void move_apart(const struct response_context *context, const struct isla
     body_b->shift = vec3_add(body_b->shift, vec3_scale(n, distance * lb / (la + lb)));
 }
 
+/* Gives bodies in free space the momentum back that the shift took. */
+static void keep_momentum(struct island *island, uint32_t bodies)
+{
+    bool shifts = false;
+    for (uint32_t i = 0; i < bodies; i++) {
+        if (island->solve_of[i] == BODY_FIXED || island->body[island->solve_of[i]].grounded)
+            return;
+        island->shift[i] = island->body[island->solve_of[i]].shift;
+        shifts |= vec3_dot(island->shift[i], island->shift[i]) > 0.0;
+    }
+    if (!shifts || overlap_shift_free(island->solve, island->shift, bodies))
+        return;
+    for (uint32_t i = 0; i < bodies; i++)
+        island->body[island->solve_of[i]].shift = (struct vec3){0.0, 0.0, 0.0};
+}
+
 static void leave(struct response_context *context, const struct solver_body *solve,
                   const struct island_body *body, double time)
 {
@@ -265,6 +284,7 @@ static void solve_group(struct response_context *context, uint32_t first, double
         if (vec3_dot(contact->impulse, contact->impulse) == 0.0)
             contact_queue_skip_pair(context->contacts, &met->contact); /* it would be found again */
     }
+    keep_momentum(island, bodies);
     for (uint32_t i = 0; i < bodies; i++) {
         if (island->solve_of[i] != BODY_FIXED)
             leave(context, &island->solve[i], &island->body[island->solve_of[i]], time);

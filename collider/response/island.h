@@ -44,6 +44,7 @@ struct island {
     struct solver_body *solve;      /* [capacity of the world + met_capacity] */
     uint32_t *solve_of;             /* body of each */
     struct solver_contact *contact; /* [met_capacity] */
+    struct vec3 *shift;             /* [capacity of the world] of each body of solve */
     uint32_t rows;                  /* capacity of the world */
 };
 

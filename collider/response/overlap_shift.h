@@ -1,0 +1,17 @@
+/* What a shift of bodies out of each other changes: a body that is moved while it flies past
+ * another takes angular momentum from nowhere. Pure; any thread. */
+#ifndef JOLON_COLLIDER_RESPONSE_OVERLAP_SHIFT_H
+#define JOLON_COLLIDER_RESPONSE_OVERLAP_SHIFT_H
+
+#include "collider/response/contact_solver.h"
+
+#include <stdbool.h>
+
+/* Moves the centres of free bodies by shifts [m, world] that leave their common centre of mass
+ * where it is, and changes velocities and spins by the little that conserves linear and angular
+ * momentum to rounding. Kinetic energy does not grow. Returns false if that is not possible,
+ * because the bodies hardly move relative to each other; they have then not moved. Every inverse
+ * mass and inertia is > 0. */
+bool overlap_shift_free(struct solver_body *bodies, const struct vec3 *shift, uint32_t count);
+
+#endif
