@@ -32,9 +32,9 @@ struct rotation_path rotation_path_of(const struct swept_body *body)
     struct rotation_path rotation = {.body = body, .turn = rotation_matrix(body->from)};
     double left = 1.0 - body->path.since;
     rotation.share = left > 0.0 ? 1.0 / left : 0.0;
-    if (body->turn.rotation.steps > 0) {
+    if (body->turn) {
         rotation.free = true;
-        rotation.rate = free_turn_rate(&body->turn, &rotation.bend) * rotation.share;
+        rotation.rate = free_turn_rate(body->turn, &rotation.bend) * rotation.share;
         rotation.bend *= rotation.share * rotation.share;
         return rotation;
     }
@@ -86,7 +86,7 @@ static void pose(const struct rotation_path *rotation, const struct hull *hull, 
         double t = maths_clamp((time - body->path.since) * rotation->share, 0.0, 1.0);
         struct quat turned;
         if (rotation->free) {
-            free_turn_at(&body->turn, t, &turned, spin);
+            free_turn_at(body->turn, t, &turned, spin);
         } else {
             turned = rotation_between(body->from, body->to, t);
             *spin = rotation_speed(body->from, body->to, t);

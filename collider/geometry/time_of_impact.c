@@ -229,7 +229,7 @@ static int order_of_bodies(const struct swept_body *a, const struct swept_body *
         order = order_of_turns(a->from, b->from);
     if (order == 0)
         order = order_of_turns(a->to, b->to);
-    return order != 0 ? order : free_turn_order(&a->turn, &b->turn);
+    return order != 0 || !a->turn || !b->turn ? order : free_turn_order(a->turn, b->turn);
 }
 
 bool time_of_impact_find(const struct swept_body *a, const struct swept_body *b, double from,

@@ -29,7 +29,7 @@ struct swept_body {
     double bound_m;                  /* scaled: no point of a hull is farther from the position */
     struct path path;                /* of the position */
     struct quat from, to;            /* rotation at path.since and at 1 */
-    struct free_turn turn;           /* how it turns; without steps the shorter way */
+    const struct free_turn *turn;    /* how it turns; NULL: the shorter way */
 };
 
 /* Where and how two bodies touch. */

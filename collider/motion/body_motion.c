@@ -173,14 +173,18 @@ static struct swept_body shape_of(const struct world *world, uint16_t kind, doub
     };
 }
 
-struct swept_body body_motion_body(const struct body_motion *motion, uint32_t row)
+struct swept_body body_motion_body(const struct body_motion *motion, uint32_t row,
+                                   struct free_turn *turn)
 {
     struct swept_body body = shape_of(motion->world, motion->next->entities.kind[row], 1.0);
     struct rotation_path rotation = body_motion_rotation(motion, row);
     body.path = motion->path[row];
     body.from = rotation.from;
     body.to = rotation.to;
-    body.turn = rotation.turn;
+    if (rotation.turn.rotation.steps > 0) {
+        *turn = rotation.turn;
+        body.turn = turn;
+    }
     return body;
 }
 

@@ -93,8 +93,10 @@ struct quat body_motion_orientation(const struct body_motion *motion, uint32_t r
 void body_motion_change(struct body_motion *motion, uint32_t row, const struct path *path,
                         const struct rotation_path *rotation);
 
-/* Return the row, and a fixed object, as bodies for the narrow phase. */
-struct swept_body body_motion_body(const struct body_motion *motion, uint32_t row);
+/* Return the row, and a fixed object, as bodies for the narrow phase. A row that spins freely
+ * points to *turn, which holds how. */
+struct swept_body body_motion_body(const struct body_motion *motion, uint32_t row,
+                                   struct free_turn *turn);
 struct swept_body body_motion_fixed(const struct world *world, uint32_t object);
 
 #endif

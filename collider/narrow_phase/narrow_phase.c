@@ -82,9 +82,10 @@ static bool touch_hulls(const struct body_motion *motion, const struct pair *pai
     const uint16_t *kind = motion->next->entities.kind;
     bool fixed = pair->b & PAIR_FIXED;
     uint32_t object = pair->b & ~PAIR_FIXED;
-    struct swept_body a = body_motion_body(motion, pair->a);
+    struct free_turn turn_a, turn_b;
+    struct swept_body a = body_motion_body(motion, pair->a, &turn_a);
     struct swept_body b =
-        fixed ? body_motion_fixed(world, object) : body_motion_body(motion, pair->b);
+        fixed ? body_motion_fixed(world, object) : body_motion_body(motion, pair->b, &turn_b);
     return outer_impact(world, &a, kind[pair->a], &b,
                         fixed ? world->fixed[object].kind : kind[pair->b], &from) &&
            time_of_impact_find(&a, &b, from, impact);

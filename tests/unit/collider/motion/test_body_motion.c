@@ -173,7 +173,9 @@ static void test_bodies_have_their_kinds_hulls_at_their_size(void **state)
     (void)state;
     begin();
     const struct kind *kind = steps_kind(&f, "jet");
-    struct swept_body body = body_motion_body(motion, 0);
+    struct free_turn turn;
+    struct swept_body body = body_motion_body(motion, 0, &turn);
+    assert_null(body.turn);
     assert_int_equal(body.hull_count, kind->hull_count);
     assert_ptr_equal(body.hull, f.view.world.hulls + kind->first_hull);
     assert_true(body.scale == 1.0 && body.bound_m == kind->bound_m);

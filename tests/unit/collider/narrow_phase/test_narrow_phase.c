@@ -95,8 +95,9 @@ static void test_hulls_touch_where_they_are(void **state)
     steps_respond(&f, &context);
     assert_true(meets(20.0, 1, false, 0.0));
     assert_true(impact.toi > 0.0 && impact.normal.x > 0.999 && impact.depth_m == 0.0);
-    struct swept_body a = body_motion_body(context.motion, 0),
-                      b = body_motion_body(context.motion, 1);
+    struct free_turn turn;
+    struct swept_body a = body_motion_body(context.motion, 0, &turn),
+                      b = body_motion_body(context.motion, 1, &turn);
     assert_true(fabs(time_of_impact_gap(&a, &b, impact.toi) - SKIN_M) < 1e-8);
     /* They touch now, and part: the outer hulls must not hide that the pieces do not touch. */
     double toi = impact.toi;
