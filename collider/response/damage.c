@@ -33,23 +33,37 @@ static void set_damage(struct response_context *context, uint32_t row, enum dama
     table_set_changed_tick(&context->writer, row, (uint32_t)context->next->head->tick);
 }
 
-void damage_destroy(struct response_context *context, uint32_t row, double time)
+/* Returns true if the row was no wreck before. */
+static bool wreck(struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
     const struct kind *kind = &context->world->kinds[e->kind[row]];
     if (e->state[row] != ENTITY_ACTIVE)
-        return;
+        return false;
     table_set_state(&context->writer, row, ENTITY_WRECK);
     table_set_behaviour(&context->writer, row, BEHAVIOUR_IDLE);
     table_set_order(&context->writer, row, BEHAVIOUR_IDLE);
     table_set_harm_j(&context->writer, row, maths_max(e->harm_j[row], kind->resistance_j));
     set_damage(context, row, DAMAGE_DESTROYED);
     context->next->head->tally.destroyed++;
-    struct charge charge = {.point = path_at(&context->path[row], time),
-                            .time = time,
-                            .explosive_kg = kind->explosive_kg};
-    if (kind->explosive_kg > 0.0)
-        explosion_charge(context, &charge);
+    return true;
+}
+
+void damage_destroy(struct response_context *context, uint32_t row, double time)
+{
+    const struct kind *kind = &context->world->kinds[context->next->entities.kind[row]];
+    if (!wreck(context, row) || !(kind->explosive_kg > 0.0))
+        return;
+    const struct charge charge = {.point = path_at(&context->path[row], time),
+                                  .time = time,
+                                  .explosive_kg = kind->explosive_kg,
+                                  .row = row};
+    explosion_charge(context, &charge);
+}
+
+void damage_overturn(struct response_context *context, uint32_t row)
+{
+    wreck(context, row);
 }
 
 void damage_row(struct response_context *context, uint32_t row, double joules, double time)

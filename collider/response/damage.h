@@ -9,6 +9,10 @@
 void damage_row(struct response_context *context, uint32_t row, double joules, double time);
 void damage_destroy(struct response_context *context, uint32_t row, double time);
 
+/* Makes an overturned vehicle a wreck: it neither drives nor fights again. What it carries does not
+ * explode. */
+void damage_overturn(struct response_context *context, uint32_t row);
+
 /* Both damage a fixed object and return its damage. It is never repaired: the hardest impact
  * counts.
  *

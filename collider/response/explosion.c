@@ -1,8 +1,12 @@
-/* Detonations: their effect on bodies nearby, craters in the ground, and the chain of further
- * explosions. */
+/* Detonations: their damage to bodies nearby and the push that they give them, craters in the
+ * ground, and the chain of further explosions. */
 #include "collider/response/explosion.h"
 
+#include "collider/response/body_push.h"
 #include "collider/response/damage.h"
+#include "collider/response/explosion_impulse.h"
+#include "collider/response/path_change.h"
+#include "collider/response/response.h"
 #include "world/entity/kind.h"
 #include "world/params.h"
 #include "world/runtime/check.h"
@@ -21,12 +25,17 @@
 #define CRATER_RADIUS_M    1.1  /* crater of one kilogram on soil; grows with the cube root */
 #define CRATER_DEPTH       0.4  /* over the radius */
 
+/* Tyres and tracks stop a slower push on the ground within a millimetre [m/s]. */
+#define PUSH_LEAST_MPS 0.05
+
 int charges_init(struct charges *charges, const struct world *world)
 {
     /* Each row explodes at most once in a frame: as a round, or destroyed by an explosion. */
     *charges = (struct charges){.capacity = world->params->capacity};
     charges->charge = reserve_take(charges->capacity, sizeof *charges->charge);
-    if (charges->charge && pair_list_init(&charges->near, broad_phase_found_most(world)) == 0)
+    charges->pushed = reserve_take(charges->capacity, sizeof *charges->pushed);
+    if (charges->charge && charges->pushed &&
+        pair_list_init(&charges->near, broad_phase_found_most(world)) == 0)
         return 0;
     charges_free(charges);
     errno = ENOMEM;
@@ -36,6 +45,7 @@ int charges_init(struct charges *charges, const struct world *world)
 void charges_free(struct charges *charges)
 {
     reserve_free(charges->charge);
+    reserve_free(charges->pushed);
     pair_list_free(&charges->near);
     *charges = (struct charges){0};
 }
@@ -63,16 +73,44 @@ static double distance_to(struct vec3 from, struct vec3 centre, double radius_m)
     return maths_max(0.0, vec3_length(vec3_sub(centre, from)) - radius_m);
 }
 
-static void explosion_row(struct response_context *context, const struct charge *charge,
-                          double radius, uint32_t row)
+/* Returns true if the impulse throws the land vehicle over. impulse_ns: at its centre of mass. */
+static bool overturns(const struct response_context *context, uint32_t row, const struct mat3 *turn,
+                      struct vec3 impulse_ns)
 {
     const struct entities *e = &context->next->entities;
-    const struct path *path = &context->path[row];
-    if (e->state[row] != ENTITY_ACTIVE || e->behaviour[row] == BEHAVIOUR_FLIGHT)
+    struct vec3 own = rotation_back(turn, (struct vec3){impulse_ns.x, 0.0, impulse_ns.z});
+    return e->state[row] == ENTITY_ACTIVE &&
+           explosion_impulse_overturns(&context->world->kinds[e->kind[row]], own.x, own.z);
+}
+
+/* Pushes the row at this time, under the responses that know momentum. */
+static void push(struct response_context *context, const struct charge *charge, uint32_t row,
+                 double time)
+{
+    struct charges *charges = context->charges;
+    const struct kind *kind = &context->world->kinds[context->next->entities.kind[row]];
+    struct explosion_impulse_target target = {.kind = kind};
+    if (!context->functions->joint || row == charge->row)
         return;
-    body_motion_require(context->motion, row);
-    struct vec3 at = path_at(path, maths_max(charge->time, path->since));
-    double distance = distance_to(charge->point, at, context->world->kinds[e->kind[row]].radius_m);
+    target.centre = body_push_centre(context, row, time, &target.turn);
+    const struct explosion_impulse on_body =
+        explosion_impulse_on(&target, charge->point, charge->explosive_kg);
+    double speed = vec3_length(on_body.impulse_ns) / kind->mass_kg;
+    if (!(speed > (path_change_grounded(context, row) ? PUSH_LEAST_MPS : 0.0)))
+        return;
+    if (overturns(context, row, &target.turn, on_body.impulse_ns))
+        damage_overturn(context, row);
+    body_push(context, row, time, on_body.point, on_body.impulse_ns);
+    charges->pushed[charges->pushed_count++] = row;
+}
+
+/* Damages the row, if it is no wreck. */
+static void hurt(struct response_context *context, const struct charge *charge, double radius,
+                 uint32_t row, double distance)
+{
+    const struct entities *e = &context->next->entities;
+    if (e->state[row] != ENTITY_ACTIVE)
+        return;
     /* The effect of a direct hit has been applied already; here that body is treated like any
      * other. */
     double joules = explosion_energy(charge->explosive_kg, radius, maths_max(distance, 1e-3));
@@ -83,6 +121,22 @@ static void explosion_row(struct response_context *context, const struct charge 
     if (joules > 0.0 && known && owner != row && !friend)
         table_set_threat(&context->writer, row, owner, charge->owner_id);
     damage_row(context, row, joules, charge->time);
+}
+
+static void explosion_row(struct response_context *context, const struct charge *charge,
+                          double radius, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    const struct path *path = &context->path[row];
+    if (e->state[row] == ENTITY_FREE || e->behaviour[row] == BEHAVIOUR_FLIGHT)
+        return;
+    body_motion_require(context->motion, row);
+    double time = maths_max(charge->time, path->since);
+    double distance = distance_to(charge->point, path_at(path, time),
+                                  context->world->kinds[e->kind[row]].radius_m);
+    hurt(context, charge, radius, row, distance);
+    if (distance < radius)
+        push(context, charge, row, time);
 }
 
 static void explosion_fixed(struct response_context *context, const struct charge *charge,
@@ -122,11 +176,14 @@ static void explosion_one(struct response_context *context, const struct charge 
     double radius = EXPLOSION_RADIUS_M * maths_cbrt(charge->explosive_kg);
     const struct path still = {.at = charge->point};
     struct path_box box = pair_filter_path_box(&still, radius + BOX_SLACK_M);
-    struct pair_list *near = &context->charges->near;
-    near->count = 0;
+    struct charges *charges = context->charges;
+    struct pair_list *near = &charges->near;
+    near->count = charges->pushed_count = 0;
     find_rows(context, &box);
     for (uint32_t i = 0; i < near->count; i++)
         explosion_row(context, charge, radius, near->pair[i].a);
+    if (charges->pushed_count > 0)
+        path_change_swept(context, charges->pushed, charges->pushed_count, charge->time);
     near->count = 0;
     broad_phase_query_fixed(context->broad, &context->input.detect, &box, near);
     for (uint32_t i = 0; i < near->count; i++)
@@ -221,7 +278,8 @@ void explosion_munition(struct response_context *context, uint32_t row, uint32_t
                             .time = time,
                             .explosive_kg = kind->explosive_kg,
                             .owner_slot = e->owner_slot[row],
-                            .owner_id = e->owner_id[row]};
+                            .owner_id = e->owner_id[row],
+                            .row = SLOT_NONE};
     struct event *event = event_writer_event(&context->events, EVENT_DETONATION);
     struct event_party munition = {e->id[row], e->kind[row], 0, DAMAGE_DESTROYED};
 

@@ -11,6 +11,7 @@ struct charge {
     double time; /* 0..1 */
     double explosive_kg;
     uint32_t owner_slot, owner_id; /* its shooter; 0: none */
+    uint32_t row;                  /* that explodes and does not push itself; SLOT_NONE: a round */
 };
 
 /* Charges that have not exploded yet. An explosion that destroys a body with explosive adds one.
@@ -19,6 +20,8 @@ struct charges {
     struct charge *charge;
     uint32_t count, capacity;
     struct pair_list near; /* the bodies within a radius */
+    uint32_t *pushed;      /* [capacity] the rows that one explosion pushes */
+    uint32_t pushed_count;
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */

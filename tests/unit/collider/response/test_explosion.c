@@ -148,12 +148,13 @@ static void test_a_full_list_of_craters_is_counted(void **state)
 
 /* --- blast -------------------------------------------------------------------------------------*/
 
-/* A bomb bursts in the air over (26000, 26000); harm of jeeps at these distances from it. */
+/* A bomb bursts at (26000, 26000); harm of jeeps at these distances from it. */
 static void burst(const double *distance, uint32_t count, uint32_t *first)
 {
     struct kind *jeep = steps_kind(&f, "jeep");
     uint32_t bomb;
     jeep->resistance_j = 1e12;
+    jeep->mass_kg = 1e9; /* it stays where it is */
     *first = fixture_state(&f).head->used;
     for (uint32_t n = 0; n < count; n++) { /* all around, so that squares' borders matter */
         double angle = 2.399963 * n, way = distance[n] + jeep->radius_m;
@@ -241,6 +242,151 @@ static void test_blast_alarms_the_enemy_and_spares_no_friend(void **state)
     assert_int_equal(e.threat_id[friend], 0); /* a stray round of one's own is no attack */
 }
 
+/* --- push --------------------------------------------------------------------------------------*/
+
+/* A charge like artillery's explodes at the end of the next frame; no ground and nothing else is
+ * struck. */
+static void burst_at(double x, double y, double z)
+{
+    steps_kind(&f, "artillery")->guidance = GUIDANCE_HOMING; /* it does not fall */
+    uint32_t round = put("artillery", x, y, z, (struct vec3){0.0, 0.0, 0.0});
+    steps_rows(&f).until_tick[round] = 0;
+    fixture_run(&f, 1);
+    assert_int_equal(fixture_state(&f).head->tally.detonations, 1);
+}
+
+static uint32_t put_east(const char *kind, double x, double y, double z)
+{
+    return fixture_put(
+        &f, (struct fixture_entity){.kind = kind, .at = {x, y, z}, .heading_rad = HALF_PI});
+}
+
+static void test_a_blast_throws_light_bodies_and_nudges_heavy_ones(void **state)
+{
+    static const char *const kinds[] = {"jeep", "truck", "tank"};
+    double before = 1e9;
+    (void)state;
+    for (size_t n = 0; n < 3; n++) {
+        steps_empty(&f);
+        steps_kind(&f, kinds[n])->resistance_j = 1e12;
+        uint32_t row = put_east(kinds[n], 26006.0, 100.0, 26000.0); /* it turns its rear to it */
+        burst_at(26000.0, 100.5, 26000.0);
+        struct entities e = steps_rows(&f);
+        assert_true(e.vx[row] > 0.0 && e.vx[row] < before);
+        assert_true(fabs(e.vz[row]) < 1e-9 * e.vx[row] && e.vy[row] == 0.0);
+        assert_true(fabs(e.spin_x[row]) + fabs(e.spin_y[row]) + fabs(e.spin_z[row]) < 1e-9);
+        before = e.vx[row];
+    }
+    assert_true(before < 0.2); /* the tank */
+}
+
+static void test_a_blast_throws_further_from_near_by(void **state)
+{
+    double before = 1e9;
+    (void)state;
+    steps_kind(&f, "jeep")->resistance_j = 1e12;
+    for (double distance = 4.0; distance < 15.0; distance += 1.0) {
+        steps_empty(&f);
+        uint32_t row = put_east("jeep", 26000.0 + distance, 100.0, 26000.0);
+        burst_at(26000.0, 100.5, 26000.0);
+        assert_true(steps_rows(&f).vx[row] > 0.0 && steps_rows(&f).vx[row] < before);
+        before = steps_rows(&f).vx[row];
+    }
+}
+
+static void test_an_aircraft_takes_all_of_a_blast(void **state)
+{
+    (void)state;
+    steps_kind(&f, "helicopter")->resistance_j = 1e12;
+    for (int n = 0; n < 2; n++) {
+        steps_empty(&f);
+        uint32_t row = put_east("helicopter", 26000.0, 900.0, 26000.0);
+        uint32_t far = put_east("helicopter", 26000.0, 900.0, 20000.0);
+        burst_at(26000.0 + 6.0 * n, 895.0, 26000.0); /* below it; below its nose */
+        struct entities e = steps_rows(&f);
+        assert_true(e.vy[row] > e.vy[far] + 0.1);
+        assert_true(n == 0 ? fabs(e.vx[row]) < 1e-6 : e.vx[row] < 0.0);
+        assert_true(n == 0 ? fabs(e.spin_z[row]) < 1e-9 : e.spin_z[row] > 1e-4); /* nose up */
+    }
+}
+
+static void test_a_blast_beside_the_front_turns_it_away(void **state)
+{
+    (void)state;
+    steps_kind(&f, "truck")->resistance_j = 1e12;
+    uint32_t row = put_east("truck", 26000.0, 100.0, 26000.0);
+    burst_at(26003.0, 100.5, 26008.0); /* to the south of its front, which turns north: left */
+    struct entities e = steps_rows(&f);
+    assert_true(e.vz[row] < 0.0 && e.spin_y[row] > 0.0);
+    assert_true(e.spin_x[row] == 0.0 && e.spin_z[row] == 0.0);
+}
+
+static void test_what_a_blast_pushes_collides(void **state)
+{
+    (void)state;
+    steps_kind(&f, "jeep")->resistance_j = 1e12;
+    uint32_t jeep = put_east("jeep", 26005.0, 100.0, 26000.0);
+    uint32_t other = put_east("jeep", 26005.0 + 3.3, 100.0, 26000.0); /* 10 cm ahead */
+    burst_at(26000.0, 100.5, 26000.0);
+    assert_true(steps_rows(&f).vx[jeep] > steps_rows(&f).vx[other] + 0.3);
+    fixture_run(&f, 30);
+    assert_true(fixture_event_count(&f, EVENT_COLLISION) > 0);
+    assert_true(steps_rows(&f).x[other] - steps_rows(&f).x[jeep] > 3.2 - 1e-3);
+}
+
+static void test_an_overturned_jeep_is_a_wreck(void **state)
+{
+    (void)state;
+    steps_kind(&f, "jeep")->resistance_j = 1e12; /* the energy alone does not destroy it */
+    steps_kind(&f, "tank")->resistance_j = 1e12;
+    uint32_t beside =
+        fixture_put(&f, (struct fixture_entity){.kind = "jeep", .at = {26003.0, 100.0, 26000.0}});
+    uint32_t behind = put_east("jeep", 25992.0, 100.0, 26000.0);
+    uint32_t tank = put("tank", 26000.0, 100.0, 26005.0, (struct vec3){0.0, 0.0, 0.0});
+    burst_at(26000.0, 100.5, 26000.0);
+    assert_int_equal(steps_rows(&f).state[beside], ENTITY_WRECK); /* it shows its side */
+    assert_int_equal(steps_rows(&f).damage[beside], DAMAGE_DESTROYED);
+    assert_int_equal(steps_rows(&f).state[behind], ENTITY_ACTIVE); /* too far */
+    assert_int_equal(steps_rows(&f).state[tank], ENTITY_ACTIVE);
+    assert_true(steps_rows(&f).vx[beside] > 1.0);
+    assert_int_equal(fixture_state(&f).head->tally.destroyed, 1);
+}
+
+static void test_no_blast_pushes_under_figure_8(void **state)
+{
+    static const enum response_model models[] = {MODEL_FIGURE8, MODEL_MPS, MODEL_NONE};
+    (void)state;
+    steps_kind(&f, "jeep")->resistance_j = 1e12;
+    for (size_t n = 0; n < 3; n++) {
+        steps_empty(&f);
+        steps_params(&f)->collision.response = models[n];
+        uint32_t row = put_east("jeep", 26004.0, 100.0, 26000.0);
+        burst_at(26000.0, 100.5, 26000.0);
+        assert_true(steps_rows(&f).vx[row] == 0.0 && steps_rows(&f).harm_j[row] > 0.0);
+    }
+}
+
+/* Thesis p. 8, "direct and indirect hits by ordnance". */
+static void test_an_indirect_hit_hurts_by_distance(void **state)
+{
+    static const double distances[] = {3.0, 5.0, 8.0, 12.0, 30.0};
+    double before = 1e300;
+    (void)state;
+    for (size_t n = 0; n < 5; n++) {
+        steps_empty(&f);
+        uint32_t tank = put("tank", 26000.0, 100.0, 26000.0, (struct vec3){0.0, 0.0, 0.0});
+        put("artillery", 26000.0 + 3.0 + distances[n], 104.0, 26000.0,
+            (struct vec3){0.0, -300.0, 0.0});
+        fixture_run(&f, 2);
+        assert_int_equal(fixture_state(&f).head->tally.detonations, 1);
+        double harm = steps_rows(&f).harm_j[tank];
+        assert_true(n == 4 ? harm == 0.0 : harm > 0.0 && harm < before);
+        before = harm;
+    }
+}
+
+/* --- chains ------------------------------------------------------------------------------------*/
+
 static void test_a_chain_of_explosions_runs_to_its_end(void **state)
 {
     uint32_t row[12];
@@ -294,6 +440,14 @@ int main(void)
         TEST(test_blast_falls_off_with_distance),
         TEST(test_a_body_in_several_squares_is_harmed_once),
         TEST(test_blast_alarms_the_enemy_and_spares_no_friend),
+        TEST(test_a_blast_throws_light_bodies_and_nudges_heavy_ones),
+        TEST(test_a_blast_throws_further_from_near_by),
+        TEST(test_an_aircraft_takes_all_of_a_blast),
+        TEST(test_a_blast_beside_the_front_turns_it_away),
+        TEST(test_what_a_blast_pushes_collides),
+        TEST(test_an_overturned_jeep_is_a_wreck),
+        TEST(test_no_blast_pushes_under_figure_8),
+        TEST(test_an_indirect_hit_hurts_by_distance),
         TEST(test_a_chain_of_explosions_runs_to_its_end),
         TEST(test_the_shooter_is_not_hit_by_its_own_round_at_the_muzzle),
     };
