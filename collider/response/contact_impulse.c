@@ -2,9 +2,11 @@
  * damage by the lost energy. */
 #include "collider/response/contact_impulse.h"
 
+#include "collider/response/body_push.h"
+#include "collider/response/breaking.h"
 #include "collider/response/damage.h"
 #include "collider/response/impact_damage.h"
-#include "collider/response/path_change.h"
+#include "collider/response/joined_walls.h"
 #include "collider/response/response.h"
 #include "world/entity/kind.h"
 #include "world/params.h"
@@ -32,49 +34,53 @@ const struct kind *contact_impulse_kind(const struct response_context *context, 
 
 /* --- objects that give way ---------------------------------------------------------------------*/
 
-/* A bush bends: it takes up its share of the momentum. */
-static void bend(struct response_context *context, struct island_contact *met,
-                 const struct kind *fixed)
+/* The row goes on without what the object took: the speed along the normal changes, and the row
+ * turns about the contact. The object's rigidity is the share of the lost energy that the row
+ * takes. */
+static void go_on(struct response_context *context, struct island_contact *met,
+                  const struct breaking *breaking, double harm_share)
 {
     const struct impact *impact = &met->impact;
-    double mass_kg = kind_of(context, impact->a)->mass_kg;
-    double keeps = mass_kg / (mass_kg + fixed->mass_kg);
     met->outcome.response = RESPONSE_SLOW;
-    met->outcome.impulse_ns = mass_kg * impact->closing_mps * (1.0 - keeps);
-    path_change_slow(context, impact->a, impact->time, keeps);
+    met->outcome.impulse_ns = breaking->impulse_ns;
+    body_push(context, impact->a, impact->time, impact->point,
+              vec3_scale(impact->normal, -breaking->impulse_ns));
+    impact_damage_row(context, impact->a, impact, -1.0, breaking->lost_j * harm_share, NULL);
 }
 
-/* The object breaks: that costs its resistance, and the body keeps the rest of the energy. */
-static void break_through(struct response_context *context, struct island_contact *met,
-                          const struct kind *fixed, double yields_j)
+/* Damages the object and the walls joined to it by the energy of the impact [J]. Returns true if
+ * the object breaks, with what that costs, joined walls included. */
+static bool breaks(struct response_context *context, uint32_t object, double energy_j,
+                   double *strength_j)
 {
-    const struct impact *impact = &met->impact;
-    double mass_kg = kind_of(context, impact->a)->mass_kg;
-    double speed = vec3_length(entities_velocity(&context->next->entities, impact->a));
-    double whole = 0.5 * mass_kg * speed * speed;
-    double share = sqrt(maths_max(0.0, 1.0 - yields_j / whole));
-    met->outcome.response = RESPONSE_SLOW;
-    met->outcome.impulse_ns = mass_kg * speed * (1.0 - share);
-    path_change_slow(context, impact->a, impact->time, share);
-    impact_damage_row(context, impact->a, impact, -1.0, yields_j * fixed->rigidity, NULL);
+    const struct kind *fixed = fixed_kind_of(context, object | PAIR_FIXED);
+    double own_j = fixed->resistance_j * damage_high_share(context, fixed);
+    double kept = joined_walls_find(context, object) > 0 ? 1.0 - JOINED_WALLS_SHARE : 1.0;
+    *strength_j = own_j / kept;
+    enum damage damage = damage_fixed_object(context, object, energy_j * kept);
+    joined_walls_damage(context, maths_min(energy_j, *strength_j) * (1.0 - kept));
+    return damage == DAMAGE_HIGH && energy_j >= *strength_j;
 }
 
 bool contact_impulse_gives_way(struct response_context *context, struct island_contact *met)
 {
     const struct impact *impact = &met->impact;
+    uint32_t object = impact->b & ~PAIR_FIXED;
     const struct kind *fixed = fixed_kind_of(context, impact->b);
-    double mass_kg = kind_of(context, impact->a)->mass_kg;
-    double energy = 0.5 * mass_kg * impact->closing_mps * impact->closing_mps;
-    if (fixed->rigidity < YIELDING_RIGIDITY) {
-        bend(context, met, fixed);
-    } else {
-        double yields_j = fixed->resistance_j * damage_high_share(context, fixed);
-        if (met->leans ||
-            damage_fixed_object(context, impact->b & ~PAIR_FIXED, energy) < DAMAGE_HIGH ||
-            energy < yields_j)
-            return false;
-        break_through(context, met, fixed, yields_j);
-    }
+    bool bends = fixed->rigidity < YIELDING_RIGIDITY;
+    double height = impact->point.y - (double)context->world->fixed[object].y;
+    struct breaking_input input = {
+        .striker_kg = 1.0 / body_push_mobility(context, impact->a, impact->time, impact->point,
+                                               impact->normal),
+        .closing_mps = impact->closing_mps,
+        .debris_kg = breaking_debris_kg(fixed, kind_of(context, impact->a), height)};
+    double energy = 0.5 * input.striker_kg * impact->closing_mps * impact->closing_mps;
+    if (!bends && (met->leans || !breaks(context, object, energy, &input.strength_j)))
+        return false;
+    const struct breaking breaking = breaking_of(&input);
+    if (!breaking.breaks)
+        return false;
+    go_on(context, met, &breaking, bends ? 0.0 : fixed->rigidity);
     if (!met->leans)
         write_collision_event(context, &met->report, impact, &met->outcome);
     return true;
@@ -125,9 +131,9 @@ void contact_impulse_damage(struct response_context *context, struct island_cont
     } else { /* the larger mass damages the smaller one more (row 30) */
         const struct kind *kb = kind_of(context, impact->b);
         double share_a = kb->mass_kg / (ka->mass_kg + kb->mass_kg);
-        impact_damage_row(context, impact->a, impact, -1.0, contact->lost_j * share_a, spring);
-        impact_damage_row(context, impact->b, impact, 1.0, contact->lost_j * (1.0 - share_a),
-                          spring);
+        double harm_j = contact->lost_j * CONTACT_IMPULSE_HARM;
+        impact_damage_row(context, impact->a, impact, -1.0, harm_j * share_a, spring);
+        impact_damage_row(context, impact->b, impact, 1.0, harm_j * (1.0 - share_a), spring);
     }
     write_collision_event(context, &met->report, impact, &met->outcome);
 }

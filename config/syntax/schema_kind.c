@@ -92,8 +92,11 @@ static const struct key kind_keys[] = {
     NUMBER("damage_low", K, kind.damage_low, 0, 1000, "0",
            .meaning = "Fixed objects: the ratio from which damage is low, below `damage_med`."),
     NUMBER("debris_keep", K, kind.debris_keep, 0, 1, "1",
-           .meaning = "Fixed objects: the share of its top speed that a land vehicle may go over "
-                      "one that has fallen. The lowest share counts where several lie."),
+           .meaning =
+               "Fixed objects: the share of the debris that lies firm after the fall. A land "
+               "vehicle pushes the rest of what is under it, and goes at most at the share "
+               "of its top speed that its mass is of both masses. The lowest share counts "
+               "where several lie."),
     NUMBER("explosive_kg", K, kind.explosive_kg, 0, 100000, "0", .unit = "kg of TNT",
            .meaning = "Munitions: the charge. Vehicles: what explodes when they are destroyed."),
     NUMBER("range_m", K, kind.range_m, 0, 50000, "0", .unit = "m",

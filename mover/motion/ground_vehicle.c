@@ -20,8 +20,20 @@
 #define ENGINE_DRAG   0.5  /* share of the acceleration: braking when the throttle is released */
 #define ROLLING       0.03 /* share of the weight: braking in neutral */
 
-/* The share of full speed that the debris of fallen objects allows here; 1: there is none. */
-static double debris_share(const struct step_context *context, double x, double z)
+/* The share of full speed that the debris of an object leaves a vehicle which pushes it along: the
+ * vehicle shares its momentum with the loose part, 1 - debris_keep, of the debris in its way. The
+ * debris lies evenly over the object's rectangle. */
+static double debris_speed(const struct kind *vehicle, const struct kind *object)
+{
+    double loose_kg = object->mass_kg * (1.0 - object->debris_keep);
+    double covered = vehicle->length_m * vehicle->width_m / (object->length_m * object->width_m);
+    return vehicle->mass_kg / (vehicle->mass_kg + loose_kg * maths_min(1.0, covered));
+}
+
+/* The share of full speed that the debris of fallen objects allows the vehicle here; 1: there is
+ * none. */
+static double debris_share(const struct step_context *context, const struct kind *vehicle, double x,
+                           double z)
 {
     const struct world *world = context->world;
     const struct state *committed = context->committed;
@@ -34,7 +46,7 @@ static double debris_share(const struct step_context *context, double x, double 
         const struct fixed_object *object = &world->fixed[objects[n]];
         double dx = x - object->x, dz = z - object->z, radius = (double)object->radius_m;
         if (dx * dx + dz * dz < radius * radius)
-            share = maths_min(share, world->kinds[object->kind].debris_keep);
+            share = maths_min(share, debris_speed(vehicle, &world->kinds[object->kind]));
     }
     return share;
 }
@@ -50,9 +62,13 @@ static void find_scars(const struct step_context *context, struct ground_vehicle
     const struct ground_pose *pose = &batch->pose;
     union lane_masks debris;
     ground_marks_find(context->ground_marks, &pose->x, &pose->z, &batch->pose.cratered, &debris);
-    for (int l = 0; l < LANE_COUNT; l++)
-        batch->debris.lane[l] =
-            debris.lane[l] ? debris_share(context, pose->x.lane[l], pose->z.lane[l]) : 1.0;
+    for (int l = 0; l < LANE_COUNT; l++) {
+        batch->debris.lane[l] = 1.0;
+        if (!debris.lane[l])
+            continue;
+        const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
+        batch->debris.lane[l] = debris_share(context, kind, pose->x.lane[l], pose->z.lane[l]);
+    }
 }
 
 static void take_kind(struct ground_vehicle *batch, int l, const struct kind *kind)

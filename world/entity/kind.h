@@ -68,7 +68,7 @@ struct kind {
     double damage_high;       /* fixed objects, Fig. 8 c1 > c2 > c3: impact energy over its */
     double damage_med;        /* resistance_j from which damage is high, medium, low; 0: the */
     double damage_low;        /* scenario's */
-    double debris_keep;  /* fixed objects: 0..1 of its speed that a vehicle keeps on the debris */
+    double debris_keep;  /* fixed objects: 0..1 of the debris that lies firm; the rest is pushed */
     double explosive_kg; /* TNT; of a vehicle: explodes when it is destroyed */
     double range_m;      /* vehicles: of their guns */
     double sight_m;      /* vehicles: at which they see enemies */

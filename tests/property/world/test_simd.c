@@ -43,8 +43,16 @@ static double slope_speed(const struct kind *kind, double climb_rad, enum gearin
     return kind->max_speed_mps * (1.0 - (1.0 - 0.1) * climb_rad / kind->max_slope_rad);
 }
 
+static double debris_speed(const struct kind *vehicle, const struct kind *object)
+{
+    double covered = vehicle->length_m * vehicle->width_m / (object->length_m * object->width_m);
+    double pushed = object->mass_kg * (1.0 - object->debris_keep) * (covered < 1.0 ? covered : 1.0);
+    return vehicle->mass_kg / (vehicle->mass_kg + pushed);
+}
+
 /* Of every object that fell. */
-static double debris_share(const struct step_context *context, double x, double z)
+static double debris_share(const struct step_context *context, const struct kind *vehicle, double x,
+                           double z)
 {
     const struct world *world = context->world;
     double share = 1.0;
@@ -53,7 +61,7 @@ static double debris_share(const struct step_context *context, double x, double 
         double dx = x - object->x, dz = z - object->z, radius = (double)object->radius_m;
         if (context->committed->fixed_damage[n] >= DAMAGE_HIGH &&
             dx * dx + dz * dz < radius * radius)
-            share = maths_min(share, world->kinds[object->kind].debris_keep);
+            share = maths_min(share, debris_speed(vehicle, &world->kinds[object->kind]));
     }
     return share;
 }
@@ -131,7 +139,7 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     double limit = slope_speed(kind, wanted < 0.0 ? -m->pitch[i] : m->pitch[i], desired->gear);
     if (fabs(wanted) > 0.0 && limit <= 0.0)
         blocked = true;
-    limit = maths_min(limit, debris_share(context, m->x[i], m->z[i]) * kind->max_speed_mps);
+    limit = maths_min(limit, debris_share(context, kind, m->x[i], m->z[i]) * kind->max_speed_mps);
     wanted = maths_clamp(wanted, -limit, limit);
     forward = desired->gear == GEAR_NEUTRAL ? rolling(context, i, kind, desired, forward)
                                             : powered(context, kind, desired, forward, wanted);

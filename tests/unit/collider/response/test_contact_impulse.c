@@ -67,9 +67,10 @@ static void test_a_head_on_impact_follows_newton(void **state)
     assert_true(fabs(collision()->toi - 0.5) < 1e-9);
     assert_int_equal(collision()->response, RESPONSE_BOUNCE);
     /* Lost: half the reduced mass of 750 times 64 times 1 - e^2, the jeep three quarters of it. */
-    assert_true(fabs(e.harm_j[jeep] - deformation_of(steps_kind(&f, "jeep"), 13500.0).harm_j) <
+    const double jeep_j = 13500.0 * CONTACT_IMPULSE_HARM, tank_j = 4500.0 * CONTACT_IMPULSE_HARM;
+    assert_true(fabs(e.harm_j[jeep] - deformation_of(steps_kind(&f, "jeep"), jeep_j).harm_j) <
                 1e-6);
-    assert_true(fabs(e.harm_j[tank] - deformation_of(steps_kind(&f, "tank"), 4500.0).harm_j) <
+    assert_true(fabs(e.harm_j[tank] - deformation_of(steps_kind(&f, "tank"), tank_j).harm_j) <
                 1e-6);
 }
 
@@ -178,21 +179,52 @@ static void test_a_wall_throws_it_back(void **state)
                      deformation_of(steps_kind(&f, "tank"), lost).harm_j) < 1e-3);
 }
 
-static void test_what_breaks_costs_its_resistance(void **state)
+/* The speed after breaking the tree, which is struck at its foot and there resists like a quarter
+ * of its mass, by a tank of 3 t. */
+static double through_tree(double speed)
+{
+    double debris = steps_kind(&f, "tree")->mass_kg / 4.0;
+    double left = speed * speed - 2.0 * steps_kind(&f, "tree")->resistance_j / 3000.0;
+    return sqrt(left) * 3000.0 / (3000.0 + debris);
+}
+
+static void test_what_breaks_costs_its_resistance_and_takes_momentum(void **state)
 {
     double resistance = steps_kind(&f, "tree")->resistance_j;
     double speed = sqrt(2.0 * 4.0 * resistance / 3000.0); /* four times what it withstands */
+    double after = through_tree(speed);
     uint32_t row = into(0, speed, (double)1.8f);
     (void)state;
     assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_HIGH);
     assert_int_equal(collision()->response, RESPONSE_SLOW);
     assert_int_equal(collision()->b.damage, DAMAGE_HIGH);
-    assert_true(fabs(steps_rows(&f).vx[row] - speed * sqrt(0.75)) < 1e-6);
+    assert_true(fabs(steps_rows(&f).vx[row] - after) < 1e-6);
+    assert_true(fabs((double)collision()->impulse_ns - 3000.0 * (speed - after)) < 1e-2);
     /* A quarter of the frame before, the rest after, at its new speed. */
     double from = 25000.0 - 3.0 - (double)1.8f;
-    assert_true(fabs(steps_rows(&f).x[row] - from - 0.75 * speed * sqrt(0.75) / 60.0) < 1e-6);
+    assert_true(fabs(steps_rows(&f).x[row] - from - 0.75 * after / 60.0) < 1e-6);
+    /* The tank takes the tree's rigidity of what is lost. */
+    double debris = steps_kind(&f, "tree")->mass_kg / 4.0;
+    double lost = 0.5 * 3000.0 * speed * speed - 0.5 * (3000.0 + debris) * after * after;
+    double taken = lost * steps_kind(&f, "tree")->rigidity;
+    double harm = deformation_of(steps_kind(&f, "tank"), taken).harm_j;
+    assert_true(fabs(steps_rows(&f).harm_j[row] - harm) < 1e-6 * harm);
     fixture_run(&f, 30);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1); /* a stump stops no vehicle */
+}
+
+static void test_what_breaks_changes_the_speed_along_the_normal_only(void **state)
+{
+    double speed = 60.0, reach = 3.0 + (double)1.8f;
+    (void)state;
+    /* The tank touches the tree at 3-4-5: the normal is (0.8, 0.6). */
+    uint32_t row = put("tank", 25000.0 - 0.8 * reach, 25000.0 - 0.6 * reach, speed);
+    fixture_run(&f, 1);
+    struct entities e = steps_rows(&f);
+    assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_HIGH);
+    double along = e.vx[row] * 0.8 + e.vz[row] * 0.6, across = e.vz[row] * 0.8 - e.vx[row] * 0.6;
+    assert_true(fabs(across + 0.6 * speed) < 1e-4);
+    assert_true(fabs(along - through_tree(0.8 * speed)) < 1e-4);
 }
 
 static void test_what_withstands_by_a_hair_stops_it(void **state)
@@ -252,7 +284,8 @@ int main(void)
         TEST(test_friction_drags_along_and_turns),
         TEST(test_without_friction_only_the_speed_along_the_normal_changes),
         TEST(test_a_wall_throws_it_back),
-        TEST(test_what_breaks_costs_its_resistance),
+        TEST(test_what_breaks_costs_its_resistance_and_takes_momentum),
+        TEST(test_what_breaks_changes_the_speed_along_the_normal_only),
         TEST(test_what_withstands_by_a_hair_stops_it),
         TEST(test_row_32_a_bush_does_and_takes_no_damage),
         TEST(test_no_extreme_of_mass_or_resistance_makes_a_nan),

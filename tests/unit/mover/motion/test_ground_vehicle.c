@@ -369,7 +369,11 @@ static void fell_tree(double keep)
     fixture_open(&f, "objects = ( { kind = \"tree\"; at = [25100.0, 25010.0]; } );");
     struct fixed_object *tree = (struct fixed_object *)(uintptr_t)f.view.world.fixed;
     tree->radius_m = 6.0f;
-    steps_kind(&f, "tree")->debris_keep = keep;
+    /* All of it is loose and in the way, so heavy that a tank keeps this share of its speed. */
+    struct kind *kind = steps_kind(&f, "tree");
+    kind->debris_keep = 0.0;
+    kind->length_m = kind->width_m = 1.0;
+    kind->mass_kg = steps_kind(&f, "tank")->mass_kg * (1.0 / keep - 1.0);
     for (int buffer = 0; buffer < 2; buffer++) {
         f.view.w[buffer].fixed_damage[0] = DAMAGE_HIGH;
         f.view.w[buffer].head->tally.fixed_damaged = 1;
@@ -420,6 +424,42 @@ static void test_debris_keeps_to_its_share(void **state)
     }
 }
 
+/* Returns the speed of a vehicle after two seconds at full throttle over the debris. */
+static double speed_over_debris(const char *kind)
+{
+    uint32_t row =
+        fixture_put(&f, (struct fixture_entity){
+                            .kind = kind, .at = {25100.0, 100.0, 25010.0}, .heading_rad = HALF_PI});
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(2.0 * HZ));
+    double speed = steps_speed(&f, row);
+    steps_empty(&f);
+    for (int buffer = 0; buffer < 2; buffer++)
+        f.view.w[buffer].fixed_damage[0] = DAMAGE_HIGH;
+    return speed / steps_kind(&f, kind)->max_speed_mps;
+}
+
+static void test_debris_slows_by_the_masses_of_both(void **state)
+{
+    (void)state;
+    fell_tree(0.5);
+    struct kind *jeep = steps_kind(&f, "jeep"), *tree = steps_kind(&f, "tree");
+    tree->mass_kg = 9.0 * jeep->mass_kg;
+    assert_true(near(speed_over_debris("jeep"), 0.1, 1e-6));
+    tree->debris_keep = 0.5; /* half of it lies firm */
+    assert_true(near(speed_over_debris("jeep"), 1.0 / 5.5, 1e-6));
+    jeep->mass_kg *= 9.0; /* a heavier vehicle pushes it more easily */
+    assert_true(speed_over_debris("jeep") > 0.2);
+    jeep->mass_kg /= 9.0;
+    tree->length_m = 3.0 * jeep->length_m; /* it lies over six times the vehicle's rectangle */
+    tree->width_m = 2.0 * jeep->width_m;
+    double wide = speed_over_debris("jeep"), full = 0.0;
+    assert_true(wide > 1.0 / 5.5); /* still gaining speed */
+    tree->debris_keep = 1.0;
+    full = speed_over_debris("jeep");
+    assert_true(full >= wide);
+}
+
 static void test_what_stands_and_what_lies_aside_slows_nobody(void **state)
 {
     double full = steps_kind(&f, "tank")->max_speed_mps;
@@ -468,6 +508,7 @@ int main(void)
         TEST(test_fuel_burns_with_the_throttle_and_an_empty_tank_stops_it),
         TEST(test_debris_slows_vehicles),
         TEST(test_debris_keeps_to_its_share),
+        TEST(test_debris_slows_by_the_masses_of_both),
         TEST(test_what_stands_and_what_lies_aside_slows_nobody),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,130 @@
+/* The response "impulse" with the shipped kinds and models: the damage that the thesis names on
+ * p. 14. */
+#include "tests/support/steps.h"
+#include "world/params.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define MPS_PER_MPH 0.44704
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "collision = { shape = \"model\"; };");
+    assert_int_equal(steps_params(&f)->collision.response, MODEL_IMPULSE);
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t put(const char *kind, double x, double z, double heading_deg, double mph)
+{
+    double heading = heading_deg * RAD_PER_DEG, mps = mph * MPS_PER_MPH;
+    return fixture_put(&f, (struct fixture_entity){.kind = kind,
+                                                   .at = {25000.0 + x, 100.0, 25000.0 + z},
+                                                   .velocity = {mps * maths_sin(heading), 0.0,
+                                                                -mps * maths_cos(heading)},
+                                                   .heading_rad = heading});
+}
+
+static enum damage damage_of(uint32_t row)
+{
+    return (enum damage)steps_rows(&f).damage[row];
+}
+
+/* Two tanks whose paths cross at this angle; off_m: how much later the second is there. */
+static void cross(double mph, double angle_deg, double off_m, uint32_t row[2])
+{
+    double heading = angle_deg * RAD_PER_DEG;
+    steps_empty(&f);
+    row[0] = put("tank", -12.0, 0.0, 90.0, mph);
+    row[1] = put("tank", -(12.0 + off_m) * maths_sin(heading + HALF_PI),
+                 (12.0 + off_m) * maths_cos(heading + HALF_PI), 90.0 + angle_deg, mph);
+    fixture_run(&f, (uint32_t)(3000.0 / mph)); /* 22 m */
+    assert_true(fixture_event_count(&f, EVENT_COLLISION) > 0);
+}
+
+/* "If the angle of impact was severe, then both tanks would sustain a large amount of damage." */
+static void test_two_tanks_that_cross_at_20_mph_are_highly_damaged(void **state)
+{
+    (void)state;
+    for (double off = -3.0; off <= 3.0; off += 0.5) {
+        uint32_t row[2];
+        cross(20.0, 90.0, off, row);
+        for (int n = 0; n < 2; n++)
+            assert_in_range(damage_of(row[n]), DAMAGE_HIGH, DAMAGE_DESTROYED);
+    }
+}
+
+static void test_two_tanks_head_on_at_20_mph_are_highly_damaged(void **state)
+{
+    uint32_t row[2];
+    (void)state;
+    cross(20.0, 180.0, 0.0, row);
+    assert_in_range(damage_of(row[0]), DAMAGE_HIGH, DAMAGE_DESTROYED);
+    assert_in_range(damage_of(row[1]), DAMAGE_HIGH, DAMAGE_DESTROYED);
+}
+
+/* "Two tanks colliding, each going five miles per hour, would have a much smaller impact than a
+ * tank going 40 miles per hour hitting a stopped jeep." */
+static void test_two_tanks_at_5_mph_are_hardly_damaged(void **state)
+{
+    uint32_t row[2];
+    (void)state;
+    cross(5.0, 90.0, 0.0, row);
+    assert_in_range(damage_of(row[0]), DAMAGE_NONE, DAMAGE_LOW);
+    assert_in_range(damage_of(row[1]), DAMAGE_NONE, DAMAGE_LOW);
+}
+
+static void test_a_tank_at_40_mph_destroys_a_stopped_jeep(void **state)
+{
+    (void)state;
+    for (double heading = 0.0; heading < 360.0; heading += 45.0) {
+        steps_empty(&f);
+        uint32_t tank = put("tank", -12.0, 0.0, 90.0, 40.0);
+        uint32_t jeep = put("jeep", 0.0, 0.0, heading, 0.0);
+        fixture_run(&f, 60);
+        assert_int_equal(steps_rows(&f).state[jeep], ENTITY_WRECK);
+        assert_int_equal(steps_rows(&f).state[tank], ENTITY_ACTIVE);
+        assert_in_range(damage_of(tank), DAMAGE_NONE, DAMAGE_LOW);
+    }
+}
+
+/* "If a tank runs directly over a tree quickly, there should only be a stump remaining." */
+static void test_a_fast_tank_leaves_a_stump_and_goes_on(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, "collision = { shape = \"model\"; };\n"
+                     "objects = ( { kind = \"tree\"; at = [25000.0, 25000.0]; } );\n");
+    uint32_t tank = put("tank", -12.0, 0.0, 90.0, 35.0);
+    fixture_run(&f, 120);
+    assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_HIGH);
+    assert_true(steps_rows(&f).vx[tank] > 10.0);
+    assert_in_range(damage_of(tank), DAMAGE_NONE, DAMAGE_LOW);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_two_tanks_that_cross_at_20_mph_are_highly_damaged),
+        TEST(test_two_tanks_head_on_at_20_mph_are_highly_damaged),
+        TEST(test_two_tanks_at_5_mph_are_hardly_damaged),
+        TEST(test_a_tank_at_40_mph_destroys_a_stopped_jeep),
+        TEST(test_a_fast_tank_leaves_a_stump_and_goes_on),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
