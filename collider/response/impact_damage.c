@@ -30,15 +30,23 @@ static void dent(struct response_context *context, uint32_t row, const struct im
     vec3_to_floats(entry->direction, rotation_back(&turn, inwards));
 }
 
+/* Half of the spring's compression is this skin's. The skin gives way as far as it is not rigid,
+ * and keeps of the compression that remains what it can be moulded to; all else comes back. */
+static void dent_of_spring(const struct kind *kind, const struct contact_spring_impact *spring,
+                           struct deformation *deformation)
+{
+    double gives = 0.5 * (1.0 - kind->rigidity);
+    deformation->plastic_m = gives * spring->left_m * kind->moldability;
+    deformation->elastic_m = gives * spring->depth_m - deformation->plastic_m;
+}
+
 void impact_damage_row(struct response_context *context, uint32_t row, const struct impact *impact,
                        double side, double joules, const struct contact_spring_impact *spring)
 {
     const struct kind *kind = &context->world->kinds[context->next->entities.kind[row]];
     struct deformation deformation = deformation_of(kind, joules);
-    if (spring) { /* each skin is compressed by half */
-        deformation.plastic_m = 0.5 * spring->left_m;
-        deformation.elastic_m = 0.5 * (spring->depth_m - spring->left_m);
-    }
+    if (spring)
+        dent_of_spring(kind, spring, &deformation);
     if (deformation.plastic_m + deformation.elastic_m >= DEFORMATION_DENT_LEAST_M)
         dent(context, row, impact, vec3_scale(impact->normal, side), &deformation);
     damage_row(context, row, deformation.harm_j, impact->time);

@@ -68,11 +68,29 @@ static void test_rows_33_47_an_impact_damages_and_dents(void **state)
 
 static void test_a_spring_dents_each_skin_by_half_its_compression(void **state)
 {
+    struct kind *kind = steps_kind(&f, "helicopter");
     (void)state;
     const struct contact_spring_impact spring = {.depth_m = 0.5, .left_m = 0.2};
+    kind->rigidity = 0.0;
+    kind->moldability = 1.0;
     impact_damage_row(&context, row, &impact, -1.0, 1.0, &spring);
     assert_true(fabsf(dent(0)->plastic_m - 0.1f) < 1e-6f);
     assert_true(fabsf(dent(0)->elastic_m - 0.15f) < 1e-6f);
+}
+
+static void test_row_26_a_rigid_skin_takes_less_of_the_spring(void **state)
+{
+    struct kind *kind = steps_kind(&f, "helicopter");
+    (void)state;
+    const struct contact_spring_impact spring = {.depth_m = 0.5, .left_m = 0.2};
+    kind->rigidity = 0.6;
+    kind->moldability = 0.5;
+    impact_damage_row(&context, row, &impact, -1.0, 1.0, &spring);
+    assert_true(fabsf(dent(0)->plastic_m - 0.02f) < 1e-6f);
+    assert_true(fabsf(dent(0)->elastic_m - 0.08f) < 1e-6f);
+    kind->rigidity = 1.0; /* gives way nowhere */
+    impact_damage_row(&context, row, &impact, -1.0, 1.0, &spring);
+    assert_int_equal(context.next->head->dent_count, 1);
 }
 
 static void test_no_energy_does_nothing(void **state)
@@ -103,6 +121,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_rows_33_47_an_impact_damages_and_dents),
         TEST(test_a_spring_dents_each_skin_by_half_its_compression),
+        TEST(test_row_26_a_rigid_skin_takes_less_of_the_spring),
         TEST(test_no_energy_does_nothing),
         TEST(test_a_wreck_is_dented_and_not_harmed),
     };
