@@ -334,6 +334,19 @@ static void test_what_a_blast_pushes_collides(void **state)
     assert_true(steps_rows(&f).x[other] - steps_rows(&f).x[jeep] > 3.2 - 1e-3);
 }
 
+static void test_a_pushed_body_is_swept_in_the_same_frame(void **state)
+{
+    (void)state;
+    steps_kind(&f, "jeep")->resistance_j = steps_kind(&f, "tank")->resistance_j = 1e12;
+    uint32_t jeep = put_east("jeep", 26004.0, 100.0, 26000.0);
+    uint32_t tank = put_east("tank", 26004.0 + 4.6 + 0.01, 100.0, 26000.0); /* 1 cm ahead */
+    put("artillery", 26000.0, 101.0, 26000.0, (struct vec3){0.0, -300.0, 0.0});
+    fixture_run(&f, 1);
+    assert_int_equal(detonation(0)->struck, STRUCK_GROUND);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
+    assert_true(steps_rows(&f).x[tank] - steps_rows(&f).x[jeep] > 4.6 - 1e-6);
+}
+
 static void test_an_overturned_jeep_is_a_wreck(void **state)
 {
     (void)state;
@@ -445,6 +458,7 @@ int main(void)
         TEST(test_an_aircraft_takes_all_of_a_blast),
         TEST(test_a_blast_beside_the_front_turns_it_away),
         TEST(test_what_a_blast_pushes_collides),
+        TEST(test_a_pushed_body_is_swept_in_the_same_frame),
         TEST(test_an_overturned_jeep_is_a_wreck),
         TEST(test_no_blast_pushes_under_figure_8),
         TEST(test_an_indirect_hit_hurts_by_distance),
