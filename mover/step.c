@@ -76,7 +76,6 @@ struct batches {
     struct ground_vehicle land;
     struct aircraft air;
     struct constant_course course;
-    struct wrecks wrecks;
 };
 
 /* After a vehicle has moved: its agent reacts to a blocked path, and its gun turns. */
@@ -119,23 +118,10 @@ static void move_course(const struct step_context *context, struct batches *batc
     const bool guns = !row_block_lacks(batches->block, GUN_COLUMNS);
     constant_course_set_down(context, course);
     for (int l = 0; l < course->count; l++) {
-        if (guns && context->m->state[course->row[l]] != ENTITY_WRECK)
+        if (guns)
             turret_turn(context, course->row[l], &(struct turret_solution){0});
     }
     course->count = 0;
-}
-
-static void move_wrecks(const struct step_context *context, struct batches *batches)
-{
-    struct wrecks *wrecks = &batches->wrecks;
-    wrecks_find_ground(context, wrecks);
-    for (int l = 0; l < wrecks->count; l++) {
-        uint32_t i = wrecks->row[l];
-        if (wreck_row(context, i, wrecks->y.lane[l]) &&
-            constant_course_take(context, &batches->course, i))
-            move_course(context, batches);
-    }
-    wrecks->count = 0;
 }
 
 static void move_as_desired(const struct step_context *context, uint32_t i,
@@ -175,8 +161,7 @@ static void move_row(const struct step_context *context, uint32_t i, struct batc
     case MOTION_NONE:
         break;
     case MOTION_WRECK:
-        if (wrecks_take(context, &batches->wrecks, i))
-            move_wrecks(context, batches);
+        wreck_row(context, i);
         break;
     case MOTION_FLIGHT:
         projectile_move(context, i);
@@ -204,8 +189,6 @@ static void move_rest(const struct step_context *context, struct batches *batche
         move_land(context, batches);
     if (batches->air.count > 0)
         move_air(context, batches);
-    if (batches->wrecks.count > 0)
-        move_wrecks(context, batches);
     if (batches->course.count > 0)
         move_course(context, batches);
 }
@@ -229,10 +212,12 @@ static void move_rest(const struct step_context *context, struct batches *batche
 static uint64_t still_blank(const struct rows *rows, const struct batches *batches)
 {
     const struct row_block *block = batches->block;
-    uint64_t columns = block->blank & ~STILL_COLUMNS & ~MOTION_COLUMNS & ~SPIN_COLUMNS;
-    /* No row begins to spin in a step. A row that spins may change its axis. */
-    uint64_t spins = row_block_lacks(block, SPIN_COLUMNS) ? SPIN_COLUMNS : 0;
+    uint64_t columns = block->blank & ~STILL_COLUMNS & ~MOTION_COLUMNS;
     uint32_t row[CHECKSUM_ROWS], count = 0;
+    /* Of the rows that only move no row begins to spin in a step. A row that spins may change its
+     * axis. */
+    if (!row_block_lacks(block, SPIN_COLUMNS))
+        columns &= ~SPIN_COLUMNS;
     if (!row_block_lacks(block, GUN_COLUMNS))
         columns &= ~LAID_COLUMNS;
     for (uint32_t i = block->first; i < block->end; i++) {
@@ -240,7 +225,7 @@ static uint64_t still_blank(const struct rows *rows, const struct batches *batch
         if (how != MOTION_NONE && how != MOTION_HOLD && how != MOTION_COURSE)
             row[count++] = i;
     }
-    return spins | table_zero(rows->moved, columns, row, count);
+    return table_zero(rows->moved, columns, row, count);
 }
 
 /* Returns the columns that have not changed. */
@@ -253,7 +238,6 @@ static uint64_t move_block(const struct rows *rows, const struct row_block *bloc
     ground_vehicle_begin(&batches.land);
     aircraft_begin(&batches.air);
     constant_course_begin(&batches.course);
-    wrecks_begin(&batches.wrecks);
     for (uint32_t i = block->first; i < block->end; i++)
         move_row(context, i, &batches);
     move_rest(context, &batches);

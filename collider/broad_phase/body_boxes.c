@@ -3,6 +3,7 @@
  * of strip_bins.h. */
 #include "collider/broad_phase/body_boxes.h"
 
+#include "collider/motion/ground_impact.h"
 #include "world/maths/cpu_dispatch.h"
 #include "world/entity/entity.h"
 #include "world/state.h"
@@ -241,6 +242,11 @@ static void add_flier(const struct body_boxes *rows, struct sweep_worker *sweepe
     uint32_t row = tag & BIN_ROW;
     struct vec3 at = {ends->at[0][k], ends->at[1][k], ends->at[2][k]};
     struct vec3 to = {ends->to[0][k], ends->to[1][k], ends->to[2][k]};
+    if (!(tag & BIN_ROUND) && rows->motion && rows->motion->models) {
+        double lower = ground_impact_lower(rows->margin[input->entities->kind[row]]);
+        at.y -= lower;
+        to.y -= lower;
+    }
     if (input->entities->state[row] != ENTITY_ACTIVE ||
         (!(tag & BIN_ROUND) && input->heights &&
          square_bounds_clear(input->heights, input->craters, at, to)))

@@ -2,6 +2,7 @@
 #include "collider/narrow_phase/contact_queue.h"
 
 #include "collider/method/method.h"
+#include "collider/motion/ground_impact.h"
 #include "world/entity/kind.h"
 #include "world/params.h"
 #include "world/runtime/check.h"
@@ -300,7 +301,7 @@ void contact_queue_ground(struct contact_queue *contacts, const struct contact_i
     bool flies = e->behaviour[row] == BEHAVIOUR_FLIGHT ||
                  input->detect.world->kinds[e->kind[row]].domain == DOMAIN_AIR;
     if (flies && e->state[row] == ENTITY_ACTIVE &&
-        pair_filter_ground(&input->detect, &input->detect.path[row], &toi))
+        ground_impact_row(&input->detect, input->motion, row, &toi))
         contact_queue_add_end(contacts, row, CONTACT_GROUND, toi);
 }
 
@@ -309,8 +310,7 @@ static void find_end(struct job *job, uint32_t row)
     const struct entities *e = job->input->detect.entities;
     struct contact contact;
     double toi;
-    const struct method_input *detect = &job->input->detect;
-    if (pair_filter_ground(detect, &detect->path[row], &toi)) {
+    if (ground_impact_row(&job->input->detect, job->input->motion, row, &toi)) {
         contact = end_of(job->contacts, row, CONTACT_GROUND, toi);
         note(job, &contact);
     }

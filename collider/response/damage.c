@@ -43,6 +43,7 @@ static bool wreck(struct response_context *context, uint32_t row)
     table_set_state(&context->writer, row, ENTITY_WRECK);
     table_set_behaviour(&context->writer, row, BEHAVIOUR_IDLE);
     table_set_order(&context->writer, row, BEHAVIOUR_IDLE);
+    table_set_until_tick(&context->writer, row, 0); /* it is not at rest (mover/motion/wreck.h) */
     table_set_harm_j(&context->writer, row, maths_max(e->harm_j[row], kind->resistance_j));
     set_damage(context, row, DAMAGE_DESTROYED);
     context->next->head->tally.destroyed++;

@@ -202,6 +202,24 @@ void explosion_all(struct response_context *context)
     charges->count = 0;
 }
 
+/* Wakes the wrecks over a new crater: the ground that bears them may be gone. */
+static void undermine(struct response_context *context, const struct crater *crater)
+{
+    const struct entities *e = &context->next->entities;
+    const struct path centre = {.at = {crater->x, 0.0, crater->z}};
+    double reach = (double)crater->radius_m * CRATER_RIM + BOX_SLACK_M;
+    struct path_box box = pair_filter_path_box(&centre, reach);
+    struct pair_list *near = &context->charges->near;
+    box.min_y = -INFINITY;
+    box.max_y = INFINITY;
+    near->count = 0;
+    find_rows(context, &box);
+    for (uint32_t i = 0; i < near->count; i++) {
+        if (e->state[near->pair[i].a] == ENTITY_WRECK)
+            table_set_until_tick(&context->writer, near->pair[i].a, 0);
+    }
+}
+
 static void dig(struct response_context *context, struct vec3 point, double explosive_kg)
 {
     struct state_head *head = context->next->head;
@@ -213,6 +231,7 @@ static void dig(struct response_context *context, struct vec3 point, double expl
     struct crater *crater = &context->next->craters[head->crater_count++];
     *crater = (struct crater){point.x, point.z, (float)radius, (float)(radius * CRATER_DEPTH),
                               head->frame};
+    undermine(context, crater);
     struct event *event = event_writer_event(&context->events, EVENT_CRATER);
     if (event) {
         event->crater.point[0] = point.x;

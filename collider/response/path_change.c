@@ -1,25 +1,43 @@
 /* How the response to a contact changes a body's path in the rest of the frame. */
 #include "collider/response/path_change.h"
 
+#include "world/body_points.h"
 #include "world/entity/free_rotation.h"
 #include "world/entity/mass_properties.h"
 #include "world/state.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
-/* A wreck this near to the ground lies on it [m]. */
-#define LIES_M 0.05
+/* A wreck lies on the ground or slides over it if its lowest point is this near to the ground, it
+ * neither leaves nor meets the ground faster, and it does not roll over faster. Any other wreck is
+ * pushed as a free body, and the mover's contacts with the ground do the rest. */
+#define LIES_M   0.05
+#define LIES_MPS 2.0
+#define LIES_RPS 1.0
+
+static bool lies(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    const struct crater_index *craters = context->input.detect.craters;
+    const struct vec3 at = entities_position(e, row);
+    struct vec3 normal = terrain_normal(&context->world->terrain, craters, at.x, at.z);
+    struct body_points points;
+    if (fabs(vec3_dot(entities_velocity(e, row), normal)) > LIES_MPS ||
+        vec3_length((struct vec3){e->spin_x[row], 0.0, e->spin_z[row]}) > LIES_RPS)
+        return false;
+    body_points_of(context->world, e->kind[row], &points);
+    return body_points_clearance(context->world, craters, &points, at,
+                                 rotation_of(e->heading[row], e->pitch[row], e->roll[row])) <=
+           LIES_M;
+}
 
 bool path_change_grounded(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    const struct world *world = context->world;
-    enum domain domain = (enum domain)world->kinds[e->kind[row]].domain;
-    if (domain == DOMAIN_LAND || domain == DOMAIN_SEA)
+    enum domain domain = (enum domain)context->world->kinds[e->kind[row]].domain;
+    if (domain == DOMAIN_SEA)
         return true;
-    return e->state[row] == ENTITY_WRECK &&
-           e->y[row] <= LIES_M + terrain_height(&world->terrain, context->input.detect.craters,
-                                                e->x[row], e->z[row]);
+    return e->state[row] == ENTITY_WRECK ? lies(context, row) : domain == DOMAIN_LAND;
 }
 
 static struct vec3 own_spin(const struct response_context *context, uint32_t row)
@@ -41,6 +59,8 @@ static double yaw_of(const struct response_context *context, uint32_t row)
     const struct body_motion *motion = context->motion;
     const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
     double dt_s = world_dt_s(context->world);
+    if (n->state[row] == ENTITY_WRECK)
+        return n->spin_y[row]; /* nobody steers it */
     if (motion->change[row] != 0)
         return n->spin_y[row] + body_motion_rotation(motion, row).driven_rps;
     if (!body_motion_old(motion, row))
@@ -90,6 +110,16 @@ static struct path within_world(struct path path)
     return path;
 }
 
+/* Wakes a wreck that is displaced (mover/motion/wreck.h). Velocity and spin wake it by themselves.
+ */
+static void wake(struct response_context *context, uint32_t row, struct vec3 to)
+{
+    const struct entities *e = &context->next->entities;
+    struct vec3 off = vec3_sub(to, entities_position(e, row));
+    if (e->state[row] == ENTITY_WRECK && vec3_dot(off, off) > 0.0)
+        table_set_until_tick(&context->writer, row, 0);
+}
+
 /* Gives the row this path, and writes the pose and velocity at the frame's end that follow from
  * it. */
 static void take_path(struct response_context *context, uint32_t row, const struct path *path,
@@ -97,6 +127,7 @@ static void take_path(struct response_context *context, uint32_t row, const stru
 {
     double heading, pitch, roll;
     struct path within = within_world(*path);
+    wake(context, row, path_at(&within, 1.0));
     body_motion_change(context->motion, row, &within, rotation);
     rotation_angles(rotation->to, &heading, &pitch, &roll);
     table_set_position(&context->writer, row, path_at(&within, 1.0));

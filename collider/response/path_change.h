@@ -28,8 +28,8 @@ void path_change_swept(struct response_context *context, const uint32_t *rows, u
  * time that has the angular momentum of the row, which is constant until the frame's end. */
 struct vec3 path_change_spin(const struct response_context *context, uint32_t row, double time);
 
-/* Returns true for a row that the ground supports: a land vehicle, a ship, a wreck on the
- * ground. */
+/* Returns true for a row that the ground supports: a land vehicle, a ship, a wreck that lies on the
+ * ground in whatever pose. */
 bool path_change_grounded(const struct response_context *context, uint32_t row);
 
 #endif

@@ -253,10 +253,10 @@ static void crash(struct response_context *context, const struct contact *contac
     struct vec3 normal =
         terrain_normal(&context->world->terrain, context->input.detect.craters, at.x, at.z);
     context->next->head->tally.collisions++;
-    struct vec3 slide = vec3_sub(velocity, vec3_scale(normal, vec3_dot(velocity, normal)));
-    /* Make it a wreck first: an aircraft that stays there would meet the ground again. */
+    /* Make it a wreck first: an aircraft that stays there would meet the ground again. The mover
+     * gives the wreck the impulse of the ground, in the next frame. */
     damage_destroy(context, row, time);
-    path_change_stay(context, row, time, vec3_scale(slide, 0.3));
+    path_change_stay(context, row, time, velocity);
     if (event) {
         event->collision.a = party_of(context, row);
         event->collision.b = (struct event_party){0, KIND_NONE, 1, DAMAGE_NONE};

@@ -54,7 +54,7 @@ void constant_course_set_down(const struct step_context *context, struct constan
     for (int l = 0; l < batch->count; l++) {
         uint32_t i = batch->row[l];
         double y = pose->y.lane[l];
-        m->vy[i] = m->state[i] == ENTITY_WRECK ? 0.0 : (y - m->y[i]) / context->dt_s;
+        m->vy[i] = (y - m->y[i]) / context->dt_s;
         m->y[i] = y;
         m->pitch[i] = pose->pitch.lane[l];
         m->roll[i] = pose->roll.lane[l];

@@ -1,5 +1,5 @@
-/* Motion of rows without an agent: vehicles with BEHAVIOUR_HOLD, and wrecks. Rows on the ground are
- * then set down on it in batches of eight. */
+/* Motion of vehicles with BEHAVIOUR_HOLD. Those on the ground are then set down on it in batches of
+ * eight. */
 #ifndef JOLON_MOVER_MOTION_CONSTANT_COURSE_H
 #define JOLON_MOVER_MOTION_CONSTANT_COURSE_H
 

@@ -1,61 +1,134 @@
-/* Moves wrecks that slide or fall. */
+/* Moves wrecks: rigid bodies over the ground, and hulls that drift on the water. */
 #include "mover/motion/wreck.h"
 
+#include "mover/motion/ground_contacts.h"
 #include "mover/motion/kinematics.h"
 #include "mover/motion/spin.h"
 #include "world/world.h"
 
-#define WRECK_FRICTION 0.6 /* share of the weight */
+#define AFLOAT_FRICTION 0.6 /* of a ship's wreck: share of the weight */
 
-bool wreck_row(const struct step_context *context, uint32_t i, double ground)
+/* A frame is cut into sub-steps of at most this length, in which no point moves further than this.
+ * The number of sub-steps is bounded. */
+#define STEP_MAX_S (1.0 / 120.0)
+#define STEP_MAX_M 0.5
+#define STEPS_MAX  48.0
+
+/* A wreck that is slower than this for so long comes to rest, if no point is deeper. */
+#define REST_MPS     0.05
+#define REST_RPS     0.05
+#define REST_S       0.5
+#define REST_DEPTH_M 0.02
+
+static bool is_still(const struct entities *m, uint32_t i)
+{
+    return m->vx[i] == 0.0 && m->vy[i] == 0.0 && m->vz[i] == 0.0 && m->spin_x[i] == 0.0 &&
+           m->spin_y[i] == 0.0 && m->spin_z[i] == 0.0;
+}
+
+static bool is_due(const struct step_context *context, uint32_t i)
+{
+    uint32_t until = context->m->until_tick[i];
+    return until != 0 && until <= (uint32_t)context->tick;
+}
+
+/* --- ships
+ * ---------------------------------------------------------------------------------------*/
+
+static void drift(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    bool falls = kind->domain == DOMAIN_AIR && m->y[i] > ground;
     bool turned = spin_row(context, i);
-    if (!falls && !turned && m->vx[i] == 0.0 && m->vy[i] == 0.0 && m->vz[i] == 0.0 &&
-        m->y[i] == ground)
-        return false; /* at rest: the common case */
-    if (!falls) {
-        double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
-        double left = maths_max(0.0, speed - WRECK_FRICTION * GRAVITY_MPS2 * context->dt_s);
-        double share = speed > 0.0 ? left / speed : 0.0;
-        m->vx[i] *= share;
-        m->vz[i] *= share;
-    }
+    double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
+    double left = maths_max(0.0, speed - AFLOAT_FRICTION * GRAVITY_MPS2 * context->dt_s);
+    double share = speed > 0.0 ? left / speed : 0.0;
+    m->vx[i] *= share;
+    m->vz[i] *= share;
+    m->vy[i] = 0.0;
     kinematics_advance(&m->x[i], &m->vx[i], context->dt_s);
     kinematics_advance(&m->z[i], &m->vz[i], context->dt_s);
-    if (!falls && kind->domain != DOMAIN_SEA)
-        return true;
-    ground = kinematics_ground(context, m->x[i], m->z[i]);
-    if (falls) {
-        m->vy[i] -= GRAVITY_MPS2 * context->dt_s;
-        m->y[i] = maths_max(ground, m->y[i] + m->vy[i] * context->dt_s);
-        return false;
+    m->y[i] = kinematics_ground(context, m->x[i], m->z[i]);
+    if (!turned && is_still(m, i))
+        m->until_tick[i] = (uint32_t)context->tick;
+}
+
+/* --- rigid bodies
+ * --------------------------------------------------------------------------------*/
+
+static double sub_steps(const struct rigid_body *body, const struct body_points *points,
+                        double dt_s)
+{
+    double speed = vec3_length(body->velocity) + vec3_length(body->spin) * points->reach_m;
+    double steps = ceil(maths_max(dt_s / STEP_MAX_S, speed * dt_s / STEP_MAX_M) - 1e-9);
+    return maths_clamp(steps, 1.0, STEPS_MAX);
+}
+
+/* Moves the body for a sub-step. Free motion is exact in the height; with contacts the velocity at
+ * the end counts, which never adds energy. */
+static void sub_step(struct ground_contacts *contacts, struct rigid_body *body, double dt_s)
+{
+    const double fall = GRAVITY_MPS2 * dt_s, energy = rigid_body_energy(body);
+    const struct rigid_body before = *body;
+    struct vec3 push = {0.0, 0.0, 0.0}, twist = {0.0, 0.0, 0.0};
+    body->velocity.y -= fall;
+    double impulse = ground_contacts_solve(contacts, body, dt_s);
+    if (impulse > 0.0) {
+        ground_contacts_plough(contacts, body, impulse);
+        ground_contacts_roll(contacts, body);
+        ground_contacts_push(contacts, body, dt_s, &push, &twist);
+    } else {
+        push.y = 0.5 * fall;
     }
-    m->y[i] = ground;
-    m->vy[i] = 0.0;
-    return false;
+    body->centre = vec3_add(body->centre, vec3_scale(vec3_add(body->velocity, push), dt_s));
+    rigid_body_turn(body, twist, dt_s);
+    if (impulse > 0.0 && !rigid_body_limit_energy(body, energy) &&
+        ground_contacts_depth(contacts) <= GROUND_CONTACTS_SLOP_M) {
+        body->centre = before.centre; /* rounding alone has lifted it */
+        body->turn = before.turn;
+    }
 }
 
-void wrecks_begin(struct wrecks *wrecks)
+/* Notes that the row is slow, or that it is not, and brings it to rest when it has been slow for
+ * long enough. */
+static void settle(const struct step_context *context, uint32_t i, double depth_m)
 {
-    *wrecks = (struct wrecks){.count = 0};
-    for (int l = 0; l < LANE_COUNT; l++)
-        wrecks->ground.patch[l] = &wrecks->idle;
+    struct entities *m = context->m;
+    struct vec3 spin = {m->spin_x[i], m->spin_y[i], m->spin_z[i]};
+    bool slow = vec3_length(entities_velocity(m, i)) < REST_MPS && vec3_length(spin) < REST_RPS &&
+                depth_m < REST_DEPTH_M;
+    if (!slow) {
+        m->until_tick[i] = 0;
+    } else if (m->until_tick[i] == 0) {
+        m->until_tick[i] = (uint32_t)context->tick + (uint32_t)ceil(REST_S / context->dt_s);
+    } else if (is_due(context, i)) {
+        entities_set_velocity(m, i, (struct vec3){0.0, 0.0, 0.0});
+        m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
+    }
 }
 
-bool wrecks_take(const struct step_context *context, struct wrecks *wrecks, uint32_t i)
+static void tumble(const struct step_context *context, uint32_t i)
 {
-    int l = wrecks->count++;
-    wrecks->row[l] = i;
-    wrecks->x.lane[l] = context->m->x[i];
-    wrecks->z.lane[l] = context->m->z[i];
-    wrecks->ground.patch[l] = &context->terrain_entries[i];
-    return wrecks->count == LANE_COUNT;
+    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    struct body_points points;
+    struct ground_contacts contacts;
+    body_points_of(context->world, context->m->kind[i], &points);
+    ground_contacts_begin(&contacts, kind);
+    struct rigid_body body = rigid_body_take(context, i);
+    double steps = sub_steps(&body, &points, context->dt_s), dt_s = context->dt_s / steps;
+    for (int n = 0; n < (int)steps; n++) {
+        ground_contacts_find(&contacts, context, &points, &body, dt_s);
+        sub_step(&contacts, &body, dt_s);
+    }
+    rigid_body_put(context, i, &body);
+    settle(context, i, ground_contacts_depth(&contacts));
 }
 
-void wrecks_find_ground(const struct step_context *context, struct wrecks *wrecks)
+void wreck_row(const struct step_context *context, uint32_t i)
 {
-    kinematics_ground_lanes(context, &wrecks->ground, &wrecks->x, &wrecks->z, &wrecks->y);
+    if (is_due(context, i) && is_still(context->m, i))
+        return; /* at rest: the common case */
+    if (context->world->kinds[context->m->kind[i]].domain == DOMAIN_SEA)
+        drift(context, i);
+    else
+        tumble(context, i);
 }

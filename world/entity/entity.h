@@ -21,7 +21,7 @@
 enum entity_state {
     ENTITY_FREE,   /* the slot is empty; its other columns mean nothing */
     ENTITY_ACTIVE, /* moves by its behaviour */
-    ENTITY_WRECK,  /* destroyed; slides to rest and stays, an obstacle */
+    ENTITY_WRECK,  /* destroyed; tumbles to rest and stays, an obstacle */
     ENTITY_STATE_COUNT
 };
 
@@ -86,7 +86,7 @@ enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED
     X(uint32_t, owner_id)                                                                          \
     X(uint32_t, threat_slot) /* fired at it since its agent last decided */                        \
     X(uint32_t, threat_id)                                                                         \
-    X(uint32_t, until_tick)  /* when the present behaviour, or a munition's life, ends */          \
+    X(uint32_t, until_tick)  /* when the behaviour, or a munition's life, ends; a wreck rests */   \
     X(uint32_t, reload_tick) /* when it may fire again */                                          \
     X(uint32_t, seen_tick)   /* when it last saw its target */                                     \
     X(uint32_t, touch_body)  /* last contact: an id, or a fixed object with the top bit */         \

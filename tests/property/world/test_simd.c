@@ -7,7 +7,6 @@
 #include "mover/motion/ground_vehicle.h"
 #include "mover/motion/kinematics.h"
 #include "mover/query/ground_marks.h"
-#include "mover/motion/wreck.h"
 #include "tests/support/steps.h"
 #include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
@@ -167,7 +166,7 @@ static void hold_one(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
     double y = kinematics_ground(context, m->x[i], m->z[i]);
-    m->vy[i] = m->state[i] == ENTITY_WRECK ? 0.0 : (y - m->y[i]) / context->dt_s;
+    m->vy[i] = (y - m->y[i]) / context->dt_s;
     m->y[i] = y;
     stand_on_ground(context, i);
 }
@@ -253,7 +252,7 @@ static void draw_row(const struct entities *e, uint64_t *random, uint32_t i, boo
     entities_clear(e, i);
     e->kind[i] = kind;
     e->id[i] = i + 1;
-    e->state[i] = fixture_random(random) % 4 ? ENTITY_ACTIVE : ENTITY_WRECK;
+    e->state[i] = ENTITY_ACTIVE;
     e->x[i] = place(random);
     e->z[i] = place(random);
     e->y[i] = fixture_uniform(random, 90.0, 110.0);
@@ -361,22 +360,16 @@ static void drive(struct both *both, uint64_t *random, struct ground_vehicle *la
     land->count = 0;
 }
 
-static void pose(struct both *both, struct constant_course *hold, struct wrecks *wrecks,
-                 uint32_t used)
+static void pose(struct both *both, struct constant_course *hold, uint32_t used)
 {
-    for (uint32_t i = 0; i < used; i++) {
+    for (uint32_t i = 0; i < used; i++)
         assert_int_equal(constant_course_take(both->context, hold, i), i + 1 == LANE_COUNT);
-        wrecks_take(both->context, wrecks, i);
-    }
     constant_course_set_down(both->context, hold);
-    wrecks_find_ground(both->context, wrecks);
     for (uint32_t i = 0; i < used; i++) {
         hold_one(&both->alone, i);
         compare(both, i);
-        assert_true(wrecks->y.lane[i] ==
-                    kinematics_ground(&both->alone, both->rows.x[i], both->rows.z[i]));
     }
-    hold->count = wrecks->count = 0;
+    hold->count = 0;
 }
 
 static void fly(struct both *both, uint64_t *random, struct aircraft *air, uint32_t used,
@@ -401,16 +394,14 @@ static void move_some(struct both *both, uint64_t *random, struct drawn *drawn)
 {
     struct ground_vehicle land;
     struct constant_course hold;
-    struct wrecks wrecks;
     struct aircraft air;
     ground_vehicle_begin(&land);
     constant_course_begin(&hold);
-    wrecks_begin(&wrecks);
     aircraft_begin(&air);
     for (int again = 0; again < 3; again++) {
         uint32_t used = 1 + (uint32_t)fixture_random(random) % LANE_COUNT;
         drive(both, random, &land, used, drawn);
-        pose(both, &hold, &wrecks, used);
+        pose(both, &hold, used);
         fly(both, random, &air, used, drawn);
     }
 }

@@ -107,15 +107,50 @@ static void test_what_the_ground_holds(void **state)
     struct entities *e = &context.next->entities;
     assert_true(path_change_grounded(&context, tank));
     assert_false(path_change_grounded(&context, jet));
+    /* A wreck in any pose whose lowest point is on the ground, and that is slow. */
+    double half = 0.5 * steps_kind(&f, "jet")->width_m;
     e->state[jet] = ENTITY_WRECK;
+    e->roll[jet] = HALF_PI;
+    e->vx[jet] = 0.0;
     assert_false(path_change_grounded(&context, jet)); /* it still falls */
-    e->y[jet] = FIXTURE_GROUND_M;
+    e->y[jet] = FIXTURE_GROUND_M + half + 0.04;
     assert_true(path_change_grounded(&context, jet));
+    e->y[jet] = FIXTURE_GROUND_M + half + 0.06;
+    assert_false(path_change_grounded(&context, jet));
+    e->y[jet] = FIXTURE_GROUND_M + half;
+    e->vx[jet] = 30.0;
+    assert_true(path_change_grounded(&context, jet)); /* it slides */
+    e->vy[jet] = -3.0;
+    assert_false(path_change_grounded(&context, jet)); /* it falls */
+    e->vx[jet] = e->vy[jet] = 0.0;
+    e->spin_z[jet] = 1.5;
+    assert_false(path_change_grounded(&context, jet)); /* it rolls over */
+    e->spin_z[jet] = 0.0;
+    e->spin_y[jet] = 0.5;
+    e->heading[jet] += 1.0; /* no driver has turned it so */
+    assert_true(path_change_spin(&context, jet).y == 0.5);
     /* Its driver's steering counts until an answer has turned it otherwise. */
     e->spin_x[tank] = e->spin_z[tank] = 1.0;
     e->heading[tank] += 0.01;
     struct vec3 spin = path_change_spin(&context, tank, 0.5);
     assert_true(spin.x == 0.0 && spin.z == 0.0 && fabs(spin.y + 0.01 / DT_S) < 1e-9);
+}
+
+/* A wreck at rest that is displaced has to find its rest anew. */
+static void test_a_displaced_wreck_is_awake(void **state)
+{
+    (void)state;
+    uint32_t row = put("tank", 25000.0, FIXTURE_GROUND_M);
+    struct entities *e = &context.next->entities;
+    struct vec3 at = entities_position(e, row);
+    context.path[row] = (struct path){.at = at};
+    e->state[row] = ENTITY_WRECK;
+    e->until_tick[row] = 7;
+    path_change_leave(&context, row, 0.5, at, none, none, false);
+    assert_int_equal(e->until_tick[row], 7);
+    at.x += 0.01;
+    path_change_leave(&context, row, 0.5, at, none, none, false);
+    assert_int_equal(e->until_tick[row], 0);
 }
 
 /* A driver who steers continues to steer after a response, and the steering does not become the
@@ -172,6 +207,7 @@ int main(void)
         TEST(test_who_leaves_takes_velocity_and_spin_along),
         TEST(test_no_body_is_pushed_out_of_the_world),
         TEST(test_what_the_ground_holds),
+        TEST(test_a_displaced_wreck_is_awake),
         TEST(test_an_answer_leaves_the_steering_to_the_driver),
         TEST(test_a_body_in_the_air_has_its_momentum_at_every_time),
     };

@@ -1,4 +1,4 @@
-/* Constant course: vehicles hold it in all events; wrecks slide and fall to rest. */
+/* Constant course: vehicles hold it in all events. */
 #include "tests/support/steps.h"
 #include "world/terrain/gridsquare.h"
 
@@ -8,9 +8,6 @@
 #include <stdint.h>
 
 #include <cmocka.h>
-
-#define GRAVITY  GRAVITY_MPS2
-#define FRICTION 0.6 /* of a wreck's weight */
 
 static struct fixture f;
 
@@ -26,8 +23,6 @@ static uint32_t put(const char *kind, double x, double z, double y, struct vec3 
     return fixture_put(
         &f, (struct fixture_entity){.kind = kind, .at = {x, y, z}, .velocity = velocity});
 }
-
-/* --- hold --------------------------------------------------------------------------------------*/
 
 static void test_hold_keeps_heading_and_speed_to_the_bit(void **state)
 {
@@ -94,84 +89,6 @@ static void test_hold_ends_at_the_worlds_edge(void **state)
     assert_true(steps_rows(&f).x[row] == 0.0 && steps_rows(&f).vx[row] == 0.0);
 }
 
-/* --- wrecks ------------------------------------------------------------------------------------*/
-
-static void wreck(uint32_t row)
-{
-    struct entities e = steps_rows(&f);
-    e.state[row] = ENTITY_WRECK;
-    e.behaviour[row] = e.order[row] = BEHAVIOUR_IDLE;
-}
-
-static void test_a_wreck_slides_to_rest(void **state)
-{
-    uint32_t row = put("tank", 25000.0, 25000.0, 100.0, (struct vec3){12.0, 0.0, 9.0});
-    double way = 15.0 * 15.0 / (2.0 * FRICTION * GRAVITY);
-    (void)state;
-    wreck(row);
-    fixture_run(&f, 240);
-    struct entities e = steps_rows(&f);
-    assert_true(steps_speed(&f, row) == 0.0);
-    double slid = hypot(e.x[row] - 25000.0, e.z[row] - 25000.0);
-    assert_true(fabs(slid - way) < 15.0 / 60.0 + 1e-9);
-    assert_true(fabs((e.x[row] - 25000.0) * 9.0 - (e.z[row] - 25000.0) * 12.0) <
-                1e-6); /* straight */
-}
-
-static void test_a_wreck_at_rest_stays_to_the_bit(void **state)
-{
-    uint32_t row = put("tank", 25000.3, 25000.7, 100.0, (struct vec3){0.0, 0.0, 0.0});
-    (void)state;
-    wreck(row);
-    fixture_run(&f, 1);
-    struct entities e = steps_rows(&f);
-    struct vec3 at = entities_position(&e, row);
-    double pitch = e.pitch[row];
-    fixture_run(&f, 300);
-    e = steps_rows(&f);
-    assert_true(e.x[row] == at.x && e.y[row] == at.y && e.z[row] == at.z && e.pitch[row] == pitch);
-}
-
-static void test_an_aircrafts_wreck_falls_and_comes_to_rest_on_the_ground(void **state)
-{
-    uint32_t row = put("helicopter", 25000.0, 25000.0, 150.0, (struct vec3){30.0, 0.0, 0.0});
-    (void)state;
-    wreck(row);
-    fixture_run(&f, 60);
-    /* A second's fall; the step's integration is within half a step's gravity. */
-    assert_true(fabs(steps_rows(&f).y[row] - (150.0 - 0.5 * GRAVITY)) < 0.1);
-    assert_true(steps_rows(&f).vx[row] == 30.0);
-    for (int frame = 0; frame < 600; frame++) {
-        fixture_run(&f, 1);
-        struct entities e = steps_rows(&f);
-        assert_true(e.y[row] >= steps_ground_at(&f, e.x[row], e.z[row]));
-    }
-    assert_true(steps_speed(&f, row) == 0.0 && steps_rows(&f).y[row] == 100.0);
-}
-
-static void test_a_wreck_that_falls_straight_down_lies_at_rest_as_the_ground_does(void **state)
-{
-    uint32_t row = put("helicopter", 25000.0, 25000.0, 130.0, (struct vec3){0.0, 0.0, 0.0});
-    (void)state;
-    wreck(row);
-    steps_rows(&f).pitch[row] = 0.4;
-    fixture_run(&f, 240);
-    struct entities e = steps_rows(&f);
-    assert_true(e.y[row] == 100.0 && e.vy[row] == 0.0 && e.pitch[row] == 0.0);
-}
-
-static void test_a_wreck_sinks_into_a_crater_that_opens_under_it(void **state)
-{
-    uint32_t row = put("tank", 25000.0, 25000.0, 100.0, (struct vec3){0.0, 0.0, 0.0});
-    struct state now = fixture_state(&f);
-    (void)state;
-    wreck(row);
-    now.craters[0] = (struct crater){25000.0, 25000.0, 6.0f, 2.0f, 0};
-    now.head->crater_count = 1;
-    fixture_run(&f, 2);
-    assert_true(fabs(steps_rows(&f).y[row] - 98.0) < 1e-9);
-}
-
 int main(void)
 {
 #define TEST(function)                                                                             \
@@ -181,11 +98,6 @@ int main(void)
         TEST(test_hold_reacts_to_nothing),
         TEST(test_hold_follows_the_ground_and_asks_nothing_of_it),
         TEST(test_hold_ends_at_the_worlds_edge),
-        TEST(test_a_wreck_slides_to_rest),
-        TEST(test_a_wreck_at_rest_stays_to_the_bit),
-        TEST(test_an_aircrafts_wreck_falls_and_comes_to_rest_on_the_ground),
-        TEST(test_a_wreck_that_falls_straight_down_lies_at_rest_as_the_ground_does),
-        TEST(test_a_wreck_sinks_into_a_crater_that_opens_under_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

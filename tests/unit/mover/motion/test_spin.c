@@ -40,13 +40,6 @@ static void set_spin(uint32_t row, double x, double y, double z)
     e.spin_z[row] = z;
 }
 
-static void wreck(uint32_t row)
-{
-    struct entities e = steps_rows(&f);
-    e.state[row] = ENTITY_WRECK;
-    e.behaviour[row] = e.order[row] = BEHAVIOUR_IDLE;
-}
-
 static double spin_of(uint32_t row)
 {
     struct entities e = steps_rows(&f);
@@ -90,14 +83,11 @@ static void test_the_ground_ends_tumbling_at_once(void **state)
     (void)state;
     uint32_t tank = put("tank", 100.0, BEHAVIOUR_HOLD, (struct vec3){0.0, 0.0, 0.0});
     uint32_t driven = put("jeep", 100.0, BEHAVIOUR_DRIVEN, (struct vec3){0.0, 0.0, 0.0});
-    uint32_t dead = put("truck", 100.0, BEHAVIOUR_HOLD, (struct vec3){0.0, 0.0, 0.0});
     steps_rows(&f).x[driven] += 100.0;
-    steps_rows(&f).x[dead] += 200.0;
-    wreck(dead);
-    for (uint32_t row = tank; row <= dead; row++)
+    for (uint32_t row = tank; row <= driven; row++)
         set_spin(row, 3.0, 0.0, -2.0);
     fixture_run(&f, 1);
-    for (uint32_t row = tank; row <= dead; row++) {
+    for (uint32_t row = tank; row <= driven; row++) {
         struct entities e = steps_rows(&f);
         assert_true(spin_of(row) == 0.0 && e.heading[row] == 1.0);
         assert_true(e.pitch[row] == 0.0 && e.roll[row] == 0.0 && e.y[row] == 100.0);
@@ -137,21 +127,6 @@ static void test_steering_comes_on_top(void **state)
     double turned = steps_rows(&f).heading[hit] - (1.0 + 0.5 / HZ);
     double spun = (0.5 - tyre_brake("tank") / HZ) / HZ;
     assert_true(fabs(turned - (steered + spun)) < 1e-12);
-}
-
-static void test_a_wreck_on_a_slope_turns_and_stays_on_it(void **state)
-{
-    (void)state;
-    steps_plane(&f, 0.2, 0.0); /* rises to the east */
-    uint32_t row = put("tank", 100.0, BEHAVIOUR_HOLD, (struct vec3){0.0, 0.0, 0.0});
-    wreck(row);
-    set_spin(row, 0.0, 1.5, 0.0);
-    fixture_run(&f, 120);
-    struct entities e = steps_rows(&f);
-    assert_true(spin_of(row) == 0.0 && e.heading[row] < 0.8);
-    double rise = 0.2 * maths_sin(e.heading[row]); /* over one, where its nose points */
-    assert_true(fabs(e.pitch[row] - maths_atan2(rise, 1.0)) < 1e-4);
-    assert_true(e.x[row] == 25000.0 && e.z[row] == 25000.0);
 }
 
 /* --- in the air --------------------------------------------------------------------------------*/
@@ -206,23 +181,6 @@ static void test_spin_in_the_air_turns_by_its_rate(void **state)
     assert_true(fabs(steps_rows(&f).heading[row] - 1.8) < 1e-9);
 }
 
-static void test_a_falling_wreck_spins_until_it_lies_on_the_ground(void **state)
-{
-    (void)state;
-    uint32_t row = put("helicopter", 160.0, BEHAVIOUR_HOLD, (struct vec3){0.0, 0.0, 0.0});
-    wreck(row);
-    set_spin(row, 2.0, 1.0, 0.5);
-    fixture_run(&f, 60);
-    struct entities e = steps_rows(&f);
-    assert_true(spin_of(row) > 0.5);
-    assert_true(fabs(e.pitch[row]) + fabs(e.roll[row]) > 0.5);
-    fixture_run(&f, 600);
-    e = steps_rows(&f);
-    assert_true(spin_of(row) == 0.0 && e.y[row] == 100.0);
-    assert_true(e.vx[row] == 0.0 && e.vy[row] == 0.0 && e.vz[row] == 0.0);
-    assert_true(e.pitch[row] == 0.0 && e.roll[row] == 0.0); /* as the level ground is */
-}
-
 static void test_a_pilot_gets_his_aircraft_out_of_a_spin(void **state)
 {
     (void)state;
@@ -249,10 +207,8 @@ int main(void)
         TEST(test_the_ground_ends_tumbling_at_once),
         TEST(test_water_brakes_a_turn_more_softly),
         TEST(test_steering_comes_on_top),
-        TEST(test_a_wreck_on_a_slope_turns_and_stays_on_it),
         TEST(test_a_body_on_hold_keeps_its_momentum_and_energy),
         TEST(test_spin_in_the_air_turns_by_its_rate),
-        TEST(test_a_falling_wreck_spins_until_it_lies_on_the_ground),
         TEST(test_a_pilot_gets_his_aircraft_out_of_a_spin),
     };
     return cmocka_run_group_tests_name("spin", tests, NULL, NULL);

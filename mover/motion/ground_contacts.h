@@ -1,0 +1,66 @@
+/* Contacts between the points of a rigid body and the ground, for one sub-step of its motion. Pure;
+ * any thread. */
+#ifndef JOLON_MOVER_MOTION_GROUND_CONTACTS_H
+#define JOLON_MOVER_MOTION_GROUND_CONTACTS_H
+
+#include "mover/motion/rigid_body.h"
+#include "world/body_points.h"
+
+/* Most contacts of a body. Of more points near the ground the nearest ones count. */
+#define GROUND_CONTACTS_MAX 64u
+
+/* A depth that stays, so that a body at rest keeps its contacts [m]. */
+#define GROUND_CONTACTS_SLOP_M 0.002
+
+enum { CONTACT_NORMAL, CONTACT_ALONG, CONTACT_ACROSS, CONTACT_AXES };
+
+struct ground_contact {
+    double gap_m;                    /* along the normal; negative: a depth */
+    struct vec3 arm;                 /* [m, world axes] from the centre of mass */
+    struct vec3 axis[CONTACT_AXES];  /* unit: the normal of the ground and two tangents */
+    struct vec3 lever[CONTACT_AXES]; /* [m] arm x axis */
+    struct vec3 twist[CONTACT_AXES]; /* [1/(kg m)] change of spin by a unit impulse */
+    double mass_kg[CONTACT_AXES];    /* impulse for a unit change of speed at the point */
+    double impulse_ns[CONTACT_AXES]; /* so far */
+    double closing_mps;              /* before the contacts act */
+    double least_mps;                /* speed along the normal that it must leave with */
+    double push_kgmps;               /* impulse of the pseudo-velocity so far [N s] */
+};
+
+struct ground_contacts {
+    uint32_t count;
+    double friction;    /* Coulomb's coefficient of the kind on the ground */
+    double restitution; /* of a slow impact */
+    struct ground_contact contact[GROUND_CONTACTS_MAX];
+};
+
+/* Sets the friction and the restitution of a kind on the ground; no contacts. */
+void ground_contacts_begin(struct ground_contacts *contacts, const struct kind *kind);
+
+/* Finds the points that can reach the ground within dt_s at the body's velocity and spin. */
+void ground_contacts_find(struct ground_contacts *contacts, const struct step_context *context,
+                          const struct body_points *points, const struct rigid_body *body,
+                          double dt_s);
+
+/* Changes velocity and spin so that no point goes through the ground within dt_s: impulses along
+ * the normals, friction, restitution. Returns the sum of the impulses along the normals [N s]; 0:
+ * the body does not touch the ground. */
+double ground_contacts_solve(struct ground_contacts *contacts, struct rigid_body *body,
+                             double dt_s);
+
+/* Slows a body that ploughs through the soil under this sum of impulses. */
+void ground_contacts_plough(const struct ground_contacts *contacts, struct rigid_body *body,
+                            double impulse_ns);
+
+/* Slows the spin by the resistance of soil against rolling. */
+void ground_contacts_roll(const struct ground_contacts *contacts, struct rigid_body *body);
+
+/* Finds the pseudo-velocity and pseudo-spin that bring points out of the ground. They displace the
+ * body and do not become its velocity and spin. */
+void ground_contacts_push(struct ground_contacts *contacts, const struct rigid_body *body,
+                          double dt_s, struct vec3 *velocity_mps, struct vec3 *spin_rps);
+
+/* Returns the greatest depth of a point that was found [m]. */
+double ground_contacts_depth(const struct ground_contacts *contacts);
+
+#endif

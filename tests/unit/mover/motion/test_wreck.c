@@ -1,0 +1,246 @@
+/* Wrecks fall, tumble, slide and come to rest in the pose that the ground gives them. */
+#include "tests/support/steps.h"
+#include "world/body_points.h"
+#include "world/params.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define SOIL 0.7 /* friction of the ground; with a kind's the geometric mean counts */
+#define HZ   60u
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t put(const char *kind, double y, struct vec3 velocity)
+{
+    uint32_t row = fixture_put(
+        &f,
+        (struct fixture_entity){.kind = kind, .at = {25000.0, y, 25000.0}, .velocity = velocity});
+    struct entities e = steps_rows(&f);
+    e.state[row] = ENTITY_WRECK;
+    e.behaviour[row] = e.order[row] = BEHAVIOUR_IDLE;
+    return row;
+}
+
+static double friction_of(const char *kind)
+{
+    return sqrt(SOIL * steps_kind(&f, kind)->friction);
+}
+
+static double spin_of(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    return vec3_length((struct vec3){e.spin_x[row], e.spin_y[row], e.spin_z[row]});
+}
+
+static double clearance_of(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    struct body_points points;
+    body_points_of(&f.view.world, e.kind[row], &points);
+    return body_points_clearance(&f.view.world, &f.stepper.mover.craters, &points,
+                                 entities_position(&e, row),
+                                 rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
+}
+
+static bool rests(uint32_t row)
+{
+    return steps_speed(&f, row) == 0.0 && spin_of(row) == 0.0 && steps_rows(&f).vy[row] == 0.0;
+}
+
+/* How far its up axis is from the vertical. */
+static double tilt_of(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    struct mat3 turn = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
+    return maths_atan2(sqrt(1.0 - turn.m[1][1] * turn.m[1][1]), turn.m[1][1]);
+}
+
+static void test_a_wreck_slides_to_rest_by_friction(void **state)
+{
+    (void)state;
+    uint32_t row = put("tank", 100.0, (struct vec3){12.0, 0.0, 9.0});
+    double way = 15.0 * 15.0 / (2.0 * friction_of("tank") * GRAVITY_MPS2);
+    fixture_run(&f, 5 * HZ);
+    struct entities e = steps_rows(&f);
+    double slid = sqrt((e.x[row] - 25000.0) * (e.x[row] - 25000.0) +
+                       (e.z[row] - 25000.0) * (e.z[row] - 25000.0));
+    assert_true(rests(row) && tilt_of(row) < 0.01);
+    assert_true(slid > 0.85 * way && slid < 1.02 * way); /* ploughing takes a little */
+    assert_true(fabs((e.x[row] - 25000.0) * 9.0 - (e.z[row] - 25000.0) * 12.0) < 0.2 * slid);
+}
+
+static void test_a_vehicle_that_is_destroyed_in_place_keeps_its_pose(void **state)
+{
+    (void)state;
+    uint32_t row = put("tank", 100.0, (struct vec3){0.0, 0.0, 0.0});
+    steps_plane(&f, 0.3, 0.0);
+    steps_rows(&f).heading[row] = HALF_PI;
+    steps_rows(&f).pitch[row] = maths_atan2(0.3, 1.0);
+    fixture_run(&f, HZ);
+    struct entities e = steps_rows(&f);
+    assert_true(rests(row));
+    assert_true(fabs(e.x[row] - 25000.0) < 0.005 && fabs(e.y[row] - 100.0) < 0.005);
+    assert_true(fabs(e.pitch[row] - maths_atan2(0.3, 1.0)) < 0.001 && fabs(e.roll[row]) < 0.001);
+}
+
+static void test_a_wreck_at_rest_stays_to_the_bit(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 130.0, (struct vec3){20.0, 0.0, 0.0});
+    steps_rows(&f).spin_x[row] = 2.0;
+    fixture_run(&f, 20 * HZ);
+    struct entities e = steps_rows(&f);
+    struct vec3 at = entities_position(&e, row);
+    double heading = e.heading[row], pitch = e.pitch[row], roll = e.roll[row];
+    uint32_t until = e.until_tick[row];
+    assert_true(rests(row) && until != 0);
+    fixture_run(&f, 5 * HZ);
+    e = steps_rows(&f);
+    assert_true(e.x[row] == at.x && e.y[row] == at.y && e.z[row] == at.z);
+    assert_true(e.heading[row] == heading && e.pitch[row] == pitch && e.roll[row] == roll);
+    assert_int_equal(e.until_tick[row], until);
+}
+
+static void test_a_wreck_falls_as_a_stone_does(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 400.0, (struct vec3){30.0, 5.0, 0.0});
+    fixture_run(&f, 3 * HZ);
+    assert_true(fabs(steps_rows(&f).y[row] - (400.0 + 15.0 - 0.5 * GRAVITY_MPS2 * 9.0)) < 1e-6);
+    assert_true(steps_rows(&f).vx[row] == 30.0);
+}
+
+static void test_a_wreck_does_not_snap_into_the_slope_of_the_ground(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 110.0, (struct vec3){0.0, 0.0, 0.0});
+    steps_rows(&f).pitch[row] = -0.98;
+    steps_rows(&f).roll[row] = 2.36;
+    for (uint32_t frame = 0; frame < 20 * HZ && !rests(row); frame++) {
+        struct entities e = steps_rows(&f);
+        struct quat before = rotation_of(e.heading[row], e.pitch[row], e.roll[row]);
+        double spin = spin_of(row);
+        fixture_run(&f, 1);
+        e = steps_rows(&f);
+        struct quat after = rotation_of(e.heading[row], e.pitch[row], e.roll[row]);
+        assert_true(rotation_rate(before, after) < maths_max(spin, spin_of(row)) / HZ + 0.2);
+        assert_true(clearance_of(row) > -0.05);
+    }
+    assert_true(rests(row));
+}
+
+static void test_overturned_is_overturned(void **state)
+{
+    static const double rolls[] = {PI, HALF_PI, -HALF_PI};
+    (void)state;
+    for (int n = 0; n < 3; n++) {
+        steps_empty(&f);
+        const struct kind *kind = steps_kind(&f, "truck");
+        uint32_t row = put("truck", 0.0, (struct vec3){0.0, 0.0, 0.0});
+        steps_rows(&f).roll[row] = rolls[n];
+        steps_rows(&f).y[row] = 0.2 - clearance_of(row);
+        fixture_run(&f, 5 * HZ);
+        assert_true(rests(row) && fabs(tilt_of(row) - fabs(rolls[n])) < 0.05);
+        double height = n == 0 ? kind->height_m : 0.5 * kind->width_m;
+        assert_true(fabs(steps_rows(&f).y[row] - 100.0 - height) < 0.05);
+    }
+}
+
+static void test_a_jet_ploughs_to_a_halt_within_a_kilometre(void **state)
+{
+    (void)state;
+    uint32_t row = put("jet", 105.0, (struct vec3){200.0, -10.0, 0.0});
+    for (uint32_t frame = 0; frame < 60 * HZ && !rests(row); frame++) {
+        fixture_run(&f, 1);
+        assert_true(clearance_of(row) > -0.6);
+    }
+    double slid = steps_rows(&f).x[row] - 25000.0;
+    assert_true(rests(row) && slid > 150.0 && slid < 1000.0);
+}
+
+static void test_friction_holds_a_wreck_on_a_slope_or_lets_it_go(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 2; n++) {
+        double slope = friction_of("tank") * (n == 0 ? 0.93 : 1.1);
+        steps_empty(&f);
+        steps_plane(&f, slope, 0.0);
+        uint32_t row = put("tank", 100.0, (struct vec3){0.0, 0.0, 0.0});
+        steps_rows(&f).heading[row] = HALF_PI;
+        steps_rows(&f).pitch[row] = maths_atan2(slope, 1.0);
+        fixture_run(&f, 2 * HZ);
+        double from = steps_rows(&f).x[row];
+        assert_true(fabs(from - 25000.0) < 0.01 || n == 1);
+        fixture_run(&f, 8 * HZ);
+        double moved = from - steps_rows(&f).x[row];
+        assert_true(n == 0 ? moved == 0.0 && rests(row) : moved > 5.0);
+    }
+}
+
+static void test_a_crater_and_a_push_wake_a_wreck(void **state)
+{
+    (void)state;
+    uint32_t row = put("tank", 100.0, (struct vec3){0.0, 0.0, 0.0});
+    fixture_run(&f, 2 * HZ);
+    assert_true(rests(row));
+    fixture_put(&f, (struct fixture_entity){.kind = "bomb",
+                                            .at = {25006.0, 120.0, 25000.0},
+                                            .velocity = {0.0, -400.0, 0.0}});
+    fixture_run(&f, 5 * HZ);
+    assert_int_equal(fixture_state(&f).head->crater_count, 1);
+    assert_true(rests(row) && clearance_of(row) > -0.02 && tilt_of(row) > 0.03);
+    struct vec3 at = {steps_rows(&f).x[row], 0.0, steps_rows(&f).z[row]};
+    steps_rows(&f).vz[row] = 8.0;
+    fixture_run(&f, 5 * HZ);
+    assert_true(rests(row) && steps_rows(&f).z[row] > at.z + 1.0);
+}
+
+static void test_a_ship_drifts_on_the_water(void **state)
+{
+    (void)state;
+    steps_cover(&f, COVER_LAKE, 0.0, 0.0, 50000.0, 50000.0);
+    uint32_t row = put("ship", 100.0, (struct vec3){6.0, 0.0, 0.0});
+    steps_rows(&f).spin_y[row] = 0.2;
+    fixture_run(&f, 5 * HZ);
+    struct entities e = steps_rows(&f);
+    assert_true(rests(row) && e.y[row] == 100.0 && e.pitch[row] == 0.0 && e.roll[row] == 0.0);
+    assert_true(fabs(e.x[row] - 25000.0 - 36.0 / (2.0 * 0.6 * GRAVITY_MPS2)) < 0.2);
+    assert_true(e.until_tick[row] != 0);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_a_wreck_slides_to_rest_by_friction),
+        TEST(test_a_vehicle_that_is_destroyed_in_place_keeps_its_pose),
+        TEST(test_a_wreck_at_rest_stays_to_the_bit),
+        TEST(test_a_wreck_falls_as_a_stone_does),
+        TEST(test_a_wreck_does_not_snap_into_the_slope_of_the_ground),
+        TEST(test_overturned_is_overturned),
+        TEST(test_a_jet_ploughs_to_a_halt_within_a_kilometre),
+        TEST(test_friction_holds_a_wreck_on_a_slope_or_lets_it_go),
+        TEST(test_a_crater_and_a_push_wake_a_wreck),
+        TEST(test_a_ship_drifts_on_the_water),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
