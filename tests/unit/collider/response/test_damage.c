@@ -141,8 +141,10 @@ static void test_row_26_resistance_decides(void **state)
     damage_row(&context, 0, 999.0, 0.0);
     assert_int_equal(rows()->state[0], ENTITY_ACTIVE);
     steps_kind(&f, "jeep")->resistance_j = 998.0;
+    rows()->until_tick[1] = 5;
     damage_row(&context, 1, 999.0, 0.0);
     assert_int_equal(rows()->state[1], ENTITY_WRECK);
+    assert_int_equal(rows()->until_tick[1], 0); /* the wreck is not at rest yet */
 }
 
 int main(void)
