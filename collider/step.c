@@ -24,6 +24,9 @@ int collider_init(struct collider *collider, const struct world *world,
         broad_phase_init(&collider->broad, world, workers) != 0 ||
         contact_queue_init(&collider->contacts, world, workers) != 0 ||
         island_init(&collider->island, world) != 0 ||
+        contact_table_init(&collider->table, world) != 0 ||
+        resting_init(&collider->resting, world) != 0 ||
+        end_guard_init(&collider->guard, world) != 0 ||
         charges_init(&collider->charges, world) != 0 ||
         pair_list_init(&collider->pairs, pair_filter_pairs_first(world)) != 0 ||
         !(collider->workspace = method_workspace_create(world, &collider->broad))) {
@@ -42,6 +45,9 @@ void collider_free(struct collider *collider)
     broad_phase_free(&collider->broad);
     contact_queue_free(&collider->contacts);
     island_free(&collider->island);
+    contact_table_free(&collider->table);
+    resting_free(&collider->resting);
+    end_guard_free(&collider->guard);
     charges_free(&collider->charges);
     method_workspace_free(collider->workspace);
     pair_list_free(&collider->pairs);
@@ -128,13 +134,20 @@ static void collide_all(struct step *step, struct response_context *context)
 {
     struct collider *collider = step->collider;
     struct contact contact;
+    /* Spheres that touch are solved by impacts alone. */
+    bool rest = context->functions->joint && collider->motion.models;
     find_pairs(step, &context->input.detect);
+    if (rest)
+        resting_solve(&collider->resting, context);
     contact_queue_find(&collider->contacts, &context->input);
     contact_queue_find_ends(&collider->contacts, &context->input, context->next->head->tick);
     while (contact_queue_next(&collider->contacts, &context->input, &contact)) {
         response_contact(context, &contact);
         work_done();
     }
+    if (rest)
+        end_guard_run(&collider->guard, &collider->resting, context);
+    contact_table_finish(&collider->table, context);
 }
 
 static void begin_head(struct state_head *head, const struct state_head *moved)
@@ -145,7 +158,7 @@ static void begin_head(struct state_head *head, const struct state_head *moved)
     head->checksum = 0;
 }
 
-/* The lists of the two buffers are independent, so a list that has not changed is copied. */
+/* Copies the contacts into a frame in which time does not advance. */
 static void copy_contacts(const struct state *committed, struct state *next)
 {
     uint32_t count = committed->head->contact_count;
@@ -218,7 +231,6 @@ void collider_step(struct collider *collider, const struct state *committed,
     crater_index_update(&collider->craters, committed->head->crater_count);
     begin_head(next->head, moved->head);
     memcpy(next->fixed_damage, committed->fixed_damage, world->counts.fixed);
-    copy_contacts(committed, next);
     body_motion_begin(&collider->motion, committed, next);
 
     struct response_context context = collider_response_context(collider, next);
@@ -235,6 +247,7 @@ void collider_step(struct collider *collider, const struct state *committed,
         contact_queue_end(&collider->contacts);
     } else {
         take_all(&step);
+        copy_contacts(committed, next);
     }
     next->head->event_end = context.events.first + context.events.count;
     next->head->event_digest = event_writer_digest(&context.events, committed->head->event_digest);

@@ -1,15 +1,20 @@
 /* The collider's step: from committed world k and the moved table to world k + 1 and its events.
  * Pure: no IPC, no clock, no I/O; the same bytes with any number of threads.
  *
- * Every contact of the frame is found with its time of impact and resolved in the order of time. If
- * the response changes a body's path, the new path is swept again from that time on. */
+ * Contacts that last are solved first, all together. Every other contact of the frame is found with
+ * its time of impact and resolved in the order of time. If the response changes a body's path, the
+ * new path is swept again from that time on. At the end no body is left deeper in another than it
+ * was. */
 #ifndef JOLON_COLLIDER_STEP_H
 #define JOLON_COLLIDER_STEP_H
 
 #include "collider/broad_phase/broad_phase.h"
 #include "collider/narrow_phase/contact_queue.h"
 #include "collider/method/method.h"
+#include "collider/response/contact_table.h"
 #include "collider/response/island.h"
+#include "collider/resting/end_guard.h"
+#include "collider/resting/resting.h"
 #include "collider/motion/body_motion.h"
 #include "collider/response/explosion.h"
 #include "world/checksum.h"
@@ -31,6 +36,9 @@ struct collider {
     struct contact_queue contacts;
     struct body_motion motion;
     struct island island;
+    struct contact_table table;
+    struct resting resting;
+    struct end_guard guard;
     struct charges charges;
     struct method_workspace *workspace;
     struct pair_list pairs; /* what the method found */

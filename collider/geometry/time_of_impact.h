@@ -23,6 +23,7 @@
 struct swept_body {
     const struct hull *hull; /* [hull_count] */
     uint32_t hull_count;
+    const struct hull *outer;    /* one around all of them */
     const struct vec3 *vertices; /* the world's; each hull's first_vertex is an index into this */
     const struct hull_plane *planes; /* the world's */
     double scale;                    /* of the hulls */

@@ -166,6 +166,7 @@ static struct swept_body shape_of(const struct world *world, uint16_t kind, doub
     return (struct swept_body){
         .hull = world->hulls + k->first_hull,
         .hull_count = k->hull_count,
+        .outer = world->hulls + k->outer_hull,
         .vertices = world->hull_vertices,
         .planes = world->hull_planes,
         .scale = scale,

@@ -40,14 +40,16 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
     contacts->pair = reserve_take(pairs, sizeof *contacts->pair);
     contacts->met = reserve_take(pairs, sizeof *contacts->met);
     contacts->swept = reserve_take(pairs, sizeof *contacts->swept);
+    contacts->marks = reserve_take(pairs, sizeof *contacts->marks);
     contacts->link = reserve_take(2 * (uint64_t)pairs, sizeof *contacts->link);
     contacts->head = calloc(rows, sizeof *contacts->head);
     contacts->version = calloc(rows, sizeof *contacts->version);
     contacts->strayed = reserve_take(rows, sizeof *contacts->strayed);
     contacts->strays = calloc(rows, sizeof *contacts->strays);
     if (contacts->heap.contact && contacts->pair && contacts->met && contacts->swept &&
-        contacts->link && contacts->head && contacts->version && contacts->strayed &&
-        contacts->strays && pair_list_init(&contacts->near, broad_phase_found_most(world)) == 0)
+        contacts->marks && contacts->link && contacts->head && contacts->version &&
+        contacts->strayed && contacts->strays &&
+        pair_list_init(&contacts->near, broad_phase_found_most(world)) == 0)
         return 0;
     contact_queue_free(contacts);
     errno = ENOMEM;
@@ -60,6 +62,7 @@ void contact_queue_free(struct contact_queue *contacts)
     reserve_free(contacts->pair);
     reserve_free(contacts->met);
     reserve_free(contacts->swept);
+    reserve_free(contacts->marks);
     reserve_free(contacts->link);
     free(contacts->head);
     free(contacts->version);
@@ -84,12 +87,13 @@ static void more_pairs(struct contact_queue *contacts)
     contacts->pair = reserve_grow(contacts->pair, held, more, sizeof *contacts->pair);
     contacts->met = reserve_grow(contacts->met, held, more, sizeof *contacts->met);
     contacts->swept = reserve_grow(contacts->swept, held, more, sizeof *contacts->swept);
+    contacts->marks = reserve_grow(contacts->marks, held, more, sizeof *contacts->marks);
     contacts->link = reserve_grow(contacts->link, contacts->link_count, 2 * (uint64_t)more,
                                   sizeof *contacts->link);
     contacts->pair_capacity = more;
 }
 
-static void add_pair(struct contact_queue *contacts, struct pair pair)
+static uint32_t add_pair(struct contact_queue *contacts, struct pair pair)
 {
     if (contacts->pair_count == contacts->pair_capacity)
         more_pairs(contacts);
@@ -97,9 +101,11 @@ static void add_pair(struct contact_queue *contacts, struct pair pair)
     contacts->pair[index] = pair;
     contacts->met[index] = 0;
     contacts->swept[index] = 0;
+    contacts->marks[index] = 0;
     link_row(contacts, pair.a, index);
     if (!(pair.b & PAIR_FIXED))
         link_row(contacts, pair.b, index);
+    return index;
 }
 
 void contact_queue_begin(struct contact_queue *contacts, const struct pair_list *lists,
@@ -214,6 +220,29 @@ static void pop(struct contact_queue *contacts)
 
 /* --- finding -----------------------------------------------------------------------------------*/
 
+/* Returns the velocity of a row's skin at a contact [m/s]. */
+static struct vec3 skin_velocity(const struct contact_input *input, uint32_t row,
+                                 const struct hull_contact *impact)
+{
+    const struct path *path = &input->detect.path[row];
+    double hz = 1.0 / world_dt_s(input->detect.world), left = 1.0 - path->since;
+    struct rotation_path rotation = body_motion_rotation(input->motion, row);
+    struct vec3 spin = left > 0.0
+                           ? vec3_scale(rotation_speed(rotation.from, rotation.to, 0.0), hz / left)
+                           : (struct vec3){0.0, 0.0, 0.0};
+    struct vec3 arm = vec3_sub(impact->point, path_at(path, impact->toi));
+    return vec3_add(vec3_scale(path->along, hz), vec3_cross(spin, arm));
+}
+
+/* Returns true if the bodies of a contact close too slowly for an impact. */
+static bool rests_on(const struct contact_input *input, const struct contact *contact)
+{
+    struct vec3 velocity = skin_velocity(input, contact->a, &contact->impact);
+    if (!(contact->b & PAIR_FIXED))
+        velocity = vec3_sub(velocity, skin_velocity(input, contact->b, &contact->impact));
+    return vec3_dot(velocity, contact->impact.normal) < CONTACT_IMPACT_MPS;
+}
+
 /* Sweeps one pair from a time on. Returns true, with the contact, if there is one. */
 static bool sweep_pair(const struct contact_queue *contacts, const struct contact_input *input,
                        uint32_t index, double from, struct contact *contact)
@@ -231,7 +260,8 @@ static bool sweep_pair(const struct contact_queue *contacts, const struct contac
                                 .version_a = contacts->version[pair->a],
                                 .version_b = fixed ? 0 : contacts->version[pair->b]};
     return narrow_phase_find(&input->detect, input->motion, input->through_fixed, pair, from,
-                             &contact->impact);
+                             &contact->impact) &&
+           !(contacts->marks[index] & CONTACT_RESTS && rests_on(input, contact));
 }
 
 struct job {
@@ -255,7 +285,8 @@ static void find_some(void *context, uint32_t first, uint32_t end, uint32_t work
     struct contact contact;
     (void)worker;
     for (uint32_t i = first; i < end; i++) {
-        if (sweep_pair(job->contacts, job->input, i, 0.0, &contact))
+        if (!(job->contacts->marks[i] & CONTACT_RESTS) &&
+            sweep_pair(job->contacts, job->input, i, 0.0, &contact))
             note(job, &contact);
         if (i % PAIRS_A_PIECE == 0)
             work_done();
@@ -376,18 +407,27 @@ void contact_queue_skip_pair(struct contact_queue *contacts, const struct contac
 
 /* --- another way -------------------------------------------------------------------------------*/
 
-static bool paired(const struct contact_queue *contacts, const struct pair *pair)
+/* Returns the index + 1 of a pair, or 0. */
+static uint32_t paired(const struct contact_queue *contacts, const struct pair *pair)
 {
     for (uint32_t link = contacts->head[pair->a]; link != 0; link = contacts->link[link - 1].next) {
-        const struct pair *known = &contacts->pair[contacts->link[link - 1].pair];
+        uint32_t index = contacts->link[link - 1].pair;
+        const struct pair *known = &contacts->pair[index];
         if (known->a == pair->a && known->b == pair->b)
-            return true;
+            return index + 1;
     }
-    return false;
+    return 0;
 }
 
+uint32_t contact_queue_pair(struct contact_queue *contacts, const struct pair *pair)
+{
+    uint32_t known = paired(contacts, pair);
+    return known != 0 ? known - 1 : add_pair(contacts, *pair);
+}
+
+/* resting: two bodies that rest are a pair, too. */
 static void meet(struct contact_queue *contacts, const struct contact_input *input, uint32_t row,
-                 uint32_t other)
+                 uint32_t other, bool resting)
 {
     bool fixed = other & PAIR_FIXED;
     struct pair pair = {fixed || row < other ? row : other, fixed || row < other ? other : row};
@@ -395,7 +435,8 @@ static void meet(struct contact_queue *contacts, const struct contact_input *inp
         return;
     if (!fixed)
         body_motion_require(input->motion, other);
-    if (fixed || !pair_excluded(&input->detect, pair.a, pair.b))
+    if (fixed || (resting ? !pair_same_shooter(input->detect.entities, pair.a, pair.b)
+                          : !pair_excluded(&input->detect, pair.a, pair.b)))
         add_pair(contacts, pair);
 }
 
@@ -418,7 +459,7 @@ static struct path_box box_union(const struct path_box *a, const struct path_box
 /* Pairs the row with the bodies near its new path: those that the broad phase finds, and the rows
  * that have left their boxes. */
 static void look_around(struct contact_queue *contacts, const struct contact_input *input,
-                        uint32_t row)
+                        uint32_t row, bool resting)
 {
     struct path_box *known = &input->broad->box[row];
     struct path_box box = pair_filter_box(&input->detect, row);
@@ -429,11 +470,11 @@ static void look_around(struct contact_queue *contacts, const struct contact_inp
     broad_phase_query_fixed(input->broad, &input->detect, &box, &contacts->near);
     for (uint32_t i = 0; i < contacts->near.count; i++) {
         const struct pair *near = &contacts->near.pair[i];
-        meet(contacts, input, row, i < rows ? near->a : near->b);
+        meet(contacts, input, row, i < rows ? near->a : near->b, resting);
     }
     for (uint32_t i = 0; i < contacts->stray_count; i++) {
         if (pair_filter_boxes_meet(&box, &input->broad->box[contacts->strayed[i]]))
-            meet(contacts, input, row, contacts->strayed[i]);
+            meet(contacts, input, row, contacts->strayed[i], resting);
     }
     if (!strays)
         return;
@@ -441,6 +482,13 @@ static void look_around(struct contact_queue *contacts, const struct contact_inp
         contacts->strayed[contacts->stray_count++] = row;
     contacts->strays[row] = 1;
     *known = box_union(known, &box);
+}
+
+void contact_queue_look(struct contact_queue *contacts, const struct contact_input *input,
+                        uint32_t row, bool resting)
+{
+    if (!method_discrete((enum method)input->detect.world->params->collision.method))
+        look_around(contacts, input, row, resting);
 }
 
 /* Sweeps the row's pairs, except those that this change has already swept from the other row. */
@@ -468,7 +516,7 @@ void contact_queue_change(struct contact_queue *contacts, const struct contact_i
         contacts->version[rows[i]]++;
     for (uint32_t i = 0; i < count; i++) {
         if (!method_discrete(method))
-            look_around(contacts, input, rows[i]);
+            look_around(contacts, input, rows[i], false);
         sweep_row(contacts, input, rows[i], time);
         work_done();
     }

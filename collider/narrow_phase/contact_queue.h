@@ -19,6 +19,16 @@
  * value finds more of the rebounds between bodies that a third one closes in on. */
 #define CONTACT_MEETS_MAX 8
 
+/* Bodies in a contact that lasts, and that close more slowly than this, rest on each other: such a
+ * contact is no impact [m/s]. */
+#define CONTACT_IMPACT_MPS 1.0
+
+/* Marks of a pair. */
+#define CONTACT_RESTS    1u /* its contact lasts: collider/resting/ has solved it in this frame */
+#define CONTACT_PRESSED  2u /* its bodies touched in this frame */
+#define CONTACT_OVERLAPS 4u /* they overlap, and have to part in the next frame */
+#define CONTACT_GATHERED 8u /* it belongs to the island that is being solved */
+
 struct contact {
     struct hull_contact impact;
     uint32_t a;                    /* row */
@@ -45,6 +55,7 @@ struct contact_queue {
     struct pair *pair;        /* every pair of the frame */
     uint8_t *met;             /* [pair] contacts of this pair in this frame */
     uint32_t *swept;          /* [pair] the last change that swept it, 0: none */
+    uint8_t *marks;           /* [pair] of CONTACT_RESTS to CONTACT_GATHERED */
     uint32_t change;          /* changes so far in this frame */
     uint32_t pair_count, pair_capacity;
     struct contact_link *link; /* of the rows' lists of pairs; two for each of pair_capacity */
@@ -78,6 +89,14 @@ void contact_queue_begin(struct contact_queue *contacts, const struct pair_list 
 
 /* Resets the marks that contact_queue_begin() set. */
 void contact_queue_end(struct contact_queue *contacts);
+
+/* Returns the index of a pair in contacts->pair, and adds it if it is missing. */
+uint32_t contact_queue_pair(struct contact_queue *contacts, const struct pair *pair);
+
+/* Adds the pairs of a row with all bodies near its path, which may have left the box that the broad
+ * phase has. resting: also those of two bodies that rest. Nothing is swept. */
+void contact_queue_look(struct contact_queue *contacts, const struct contact_input *input,
+                        uint32_t row, bool resting);
 
 /* Finds the first contact of each of the frame's pairs, on all workers. */
 void contact_queue_find(struct contact_queue *contacts, const struct contact_input *input);

@@ -2,11 +2,13 @@
  * paths. */
 #include "collider/response/island.h"
 
+#include "collider/geometry/level_gap.h"
 #include "collider/response/contact_impulse.h"
 #include "collider/response/overlap_shift.h"
 #include "collider/response/path_change.h"
 #include "collider/response/response.h"
 #include "world/entity/mass_properties.h"
+#include "world/maths/sort.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
 #include "world/state.h"
@@ -14,6 +16,13 @@
 
 #include <errno.h>
 #include <stdlib.h>
+
+/* Of the contacts that last, an island takes those of bodies so many contacts away from an impact,
+ * and at most so many. */
+#define HOPS           2
+#define RESTING_MOST   64u
+#define RESTING_LISTED 1024u /* pairs, at first */
+#define TOUCHING_M     (2.0 * SKIN_M)
 
 /* Smaller overlaps are rounding, 50 km from the origin [m]. */
 #define ROUNDING_M 1e-9
@@ -31,8 +40,9 @@ int island_init(struct island *island, const struct world *world)
     island->solve_of = reserve_take(solved, sizeof *island->solve_of);
     island->contact = reserve_take(most, sizeof *island->contact);
     island->shift = reserve_take(rows, sizeof *island->shift);
-    if (island->met && island->body && island->row && island->body_of && island->solve &&
-        island->solve_of && island->contact && island->shift)
+    if (pair_list_init(&island->near, RESTING_LISTED) == 0 && island->met && island->body &&
+        island->row && island->body_of && island->solve && island->solve_of && island->contact &&
+        island->shift)
         return 0;
     island_free(island);
     errno = ENOMEM;
@@ -48,6 +58,7 @@ void island_free(struct island *island)
     reserve_free(island->solve);
     reserve_free(island->solve_of);
     reserve_free(island->contact);
+    pair_list_free(&island->near);
     reserve_free(island->shift);
     *island = (struct island){0};
 }
@@ -146,6 +157,84 @@ static void gather(struct response_context *context, const struct contact *first
             !pair_filter_stands(&context->input.detect, contact.b & ~PAIR_FIXED))
             continue;
         take(context, &contact);
+    }
+}
+
+/* --- contacts that last ------------------------------------------------------------------------*/
+
+/* Takes the contact between two bodies that rest on each other, if they touch at this time. */
+static void take_resting(struct response_context *context, const struct pair *pair, double time)
+{
+    struct island *island = context->island;
+    struct contact_queue *contacts = context->contacts;
+    uint32_t index = contact_queue_pair(contacts, pair);
+    bool fixed = pair->b & PAIR_FIXED;
+    struct free_turn turn_a, turn_b;
+    struct swept_body a = body_motion_body(context->motion, pair->a, &turn_a);
+    struct swept_body b = fixed ? body_motion_fixed(context->world, pair->b & ~PAIR_FIXED)
+                                : body_motion_body(context->motion, pair->b, &turn_b);
+    struct level_gap gap[LEVEL_GAPS_MAX];
+    uint32_t gaps = level_gap_find(&a, &b, time, TOUCHING_M, gap);
+    if (gaps == 0 || contacts->marks[index] & CONTACT_GATHERED)
+        return;
+    contacts->marks[index] |= CONTACT_GATHERED | CONTACT_PRESSED;
+    for (uint32_t i = 0; i < gap[0].points; i++) {
+        struct contact contact = {
+            .a = pair->a,
+            .b = pair->b,
+            .pair = index + 1,
+            .impact = {.toi = time, .point = gap[0].point[i], .normal = gap[0].normal}};
+        if (island->met_count == island->met_capacity)
+            grow_contacts(island);
+        struct island_contact *met = &island->met[island->met_count++];
+        *met = (struct island_contact){.contact = contact,
+                                       .impact = response_impact(context, &contact),
+                                       .leans = true,
+                                       .body_b = BODY_FIXED};
+        met->body_a = body_for(island, pair->a);
+        if (!fixed) {
+            met->body_b = body_for(island, pair->b);
+            join(island, met->body_a, met->body_b);
+        }
+    }
+}
+
+/* Lists the row's contacts that last and are not in the island. The order of the list is that of
+ * the search for pairs. */
+static void add_resting(struct island *island, const struct contact_queue *contacts, uint32_t row)
+{
+    const uint8_t either = CONTACT_RESTS | CONTACT_GATHERED;
+    for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
+        uint32_t index = contacts->link[link - 1].pair;
+        if ((contacts->marks[index] & either) == CONTACT_RESTS)
+            pair_list_add(&island->near, contacts->pair[index].a, contacts->pair[index].b);
+    }
+}
+
+/* An impact is passed on at once by bodies that rest on the struck ones: takes their contacts, and
+ * those of the bodies behind them. */
+static void gather_resting(struct response_context *context, double time)
+{
+    struct island *island = context->island;
+    const struct contact_queue *contacts = context->contacts;
+    uint32_t first = 0, impacts = island->met_count;
+    for (uint32_t i = 0; i < impacts; i++) {
+        if (island->met[i].contact.pair != 0)
+            contacts->marks[island->met[i].contact.pair - 1] |= CONTACT_GATHERED;
+    }
+    for (int hop = 0; hop < HOPS; hop++) {
+        island->near.count = 0;
+        for (uint32_t end = island->bodies; first < end; first++)
+            add_resting(island, contacts, island->row[first]);
+        sort_words(island->near.pair, island->near.count);
+        for (uint32_t i = 0; i < island->near.count; i++) {
+            if (island->met_count < impacts + RESTING_MOST)
+                take_resting(context, &island->near.pair[i], time);
+        }
+    }
+    for (uint32_t i = 0; i < island->met_count; i++) {
+        if (island->met[i].contact.pair != 0)
+            contacts->marks[island->met[i].contact.pair - 1] &= (uint8_t)~CONTACT_GATHERED;
     }
 }
 
@@ -261,6 +350,18 @@ static void leave(struct response_context *context, const struct solver_body *so
     path_change_leave(context, row, time, at, velocity, solve->spin, body->stays);
 }
 
+static bool same(struct vec3 a, struct vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+static bool is_unmoved(const struct solver_body *solve, const struct island_body *body)
+{
+    const struct vec3 none = {0.0, 0.0, 0.0};
+    return !body->stays && same(body->shift, none) &&
+           same(solve->velocity, solve->velocity_before) && same(solve->spin, solve->spin_before);
+}
+
 static void solve_group(struct response_context *context, uint32_t first, double time)
 {
     struct island *island = context->island;
@@ -286,8 +387,12 @@ static void solve_group(struct response_context *context, uint32_t first, double
     }
     keep_momentum(island, bodies);
     for (uint32_t i = 0; i < bodies; i++) {
-        if (island->solve_of[i] != BODY_FIXED)
-            leave(context, &island->solve[i], &island->body[island->solve_of[i]], time);
+        if (island->solve_of[i] == BODY_FIXED)
+            continue;
+        struct island_body *body = &island->body[island->solve_of[i]];
+        body->unmoved = is_unmoved(&island->solve[i], body);
+        if (!body->unmoved)
+            leave(context, &island->solve[i], body, time);
     }
     contacts = 0;
     for (uint32_t i = first; i != 0; i = island->met[i - 1].next)
@@ -300,12 +405,17 @@ void island_answer(struct response_context *context, const struct contact *conta
     double time = contact->impact.toi;
     island->met_count = island->bodies = 0;
     gather(context, contact);
+    gather_resting(context, time);
     chain(island);
     for (uint32_t i = 0; i < island->bodies; i++) {
         if (island->body[i].first != 0)
             solve_group(context, island->body[i].first, time);
     }
-    path_change_swept(context, island->row, island->bodies, time);
-    for (uint32_t i = 0; i < island->bodies; i++)
-        island->body_of[island->row[i]] = 0;
+    uint32_t moved = 0;
+    for (uint32_t i = 0; i < island->bodies; i++) {
+        island->body_of[island->body[i].row] = 0;
+        if (!island->body[i].unmoved)
+            island->row[moved++] = island->body[i].row;
+    }
+    path_change_swept(context, island->row, moved, time);
 }

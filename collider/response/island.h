@@ -27,6 +27,7 @@ struct island_body {
     uint32_t first, last; /* of a root: the group's contacts, index into met + 1 */
     uint32_t local;       /* index among the bodies being solved, UINT32_MAX: none yet */
     bool stays;           /* its pair may not meet again in this frame: it stays where it is */
+    bool unmoved;         /* the contacts have not changed its motion */
     bool grounded;
     struct vec3 arm;   /* [m, world] from the position to the centre of mass */
     struct vec3 shift; /* [m] out of the bodies that it overlaps */
@@ -35,9 +36,9 @@ struct island_body {
 /* The collider's own memory, kept from frame to frame. */
 struct island {
     struct island_contact *met;
-    uint32_t met_count, met_capacity; /* each pair has at most one contact in a moment */
+    uint32_t met_count, met_capacity; /* one for a pair, two for a contact that lasts */
     struct island_body *body;
-    uint32_t *row; /* [bodies] of each body */
+    uint32_t *row; /* [bodies] of each body; while paths change, of those that have changed */
     uint32_t bodies;
     uint32_t *body_of; /* [capacity of the world] body + 1 for a row in this moment, else 0 */
     /* A fixed object is a new body in each of its contacts. */
@@ -45,6 +46,7 @@ struct island {
     uint32_t *solve_of;             /* body of each */
     struct solver_contact *contact; /* [met_capacity] */
     struct vec3 *shift;             /* [capacity of the world] of each body of solve */
+    struct pair_list near;          /* contacts that last, of the island's bodies */
     uint32_t rows;                  /* capacity of the world */
 };
 

@@ -2,6 +2,7 @@
  * the event. */
 #include "collider/response/response.h"
 
+#include "collider/response/contact_table.h"
 #include "collider/response/damage.h"
 #include "collider/response/explosion.h"
 #include "collider/response/island.h"
@@ -13,11 +14,8 @@
 #include "world/terrain/fixed.h"
 #include "world/world.h"
 
-/* If two bodies touched within this time and close no faster than this, they lean on each other or
- * scrape along: that is one persistent contact, reported when it began. An engine adds far less
- * speed within the time. With a shorter time a vehicle that scrapes along another would be reported
- * again and again. */
-#define PERSISTS_S   0.25
+/* Bodies in contact that close no faster than this lean on each other or scrape along: that is one
+ * persistent contact, reported when it began. */
 #define PERSISTS_MPS 2.0
 
 /* With a smaller horizontal part a normal is too steep for bodies on the ground. */
@@ -73,6 +71,7 @@ struct impact response_impact(const struct response_context *context, const stru
     const struct entities *e = &context->next->entities;
     struct impact impact = {.a = contact->a,
                             .b = contact->b,
+                            .pair = contact->pair,
                             .time = contact->impact.toi,
                             .point = contact->impact.point,
                             .normal = contact->impact.normal,
@@ -118,15 +117,10 @@ static uint32_t body_mark(const struct response_context *context, uint32_t body)
     return body & PAIR_FIXED ? body : context->next->entities.id[body];
 }
 
-static bool touched(const struct response_context *context, uint32_t row, uint32_t mark)
-{
-    const struct entities *e = &context->next->entities;
-    uint64_t age = context->next->head->tick - e->touch_tick[row];
-    return e->touch_body[row] == mark && (double)age * context->world->params->dt_s <= PERSISTS_S;
-}
-
 static void remember(struct response_context *context, const struct impact *impact)
 {
+    if (impact->pair != 0)
+        context->contacts->marks[impact->pair - 1] |= CONTACT_PRESSED;
     uint32_t tick = (uint32_t)context->next->head->tick;
     table_set_touch_body(&context->writer, impact->a, body_mark(context, impact->b));
     table_set_touch_tick(&context->writer, impact->a, tick);
@@ -154,14 +148,17 @@ bool passes_through(struct response_context *context, const struct impact *impac
     return true;
 }
 
+/* Returns true if vehicles pass through each other under this response. */
+static bool passes(const struct response_functions *functions)
+{
+    return !functions->joint && !functions->moving;
+}
+
 bool contact_persists(struct response_context *context, const struct impact *impact)
 {
-    bool persists =
-        impact->closing_mps < PERSISTS_MPS &&
-        (touched(context, impact->a, body_mark(context, impact->b)) ||
-         (!(impact->b & PAIR_FIXED) && touched(context, impact->b, body_mark(context, impact->a))));
+    bool known = contact_table_knows(context, impact->a, impact->b, impact->pair);
     remember(context, impact);
-    return persists;
+    return known && (impact->closing_mps < PERSISTS_MPS || passes(context->functions));
 }
 
 struct report response_report(struct response_context *context, const struct impact *impact)

@@ -30,6 +30,7 @@ struct response_context {
 /* A collision to resolve. */
 struct impact {
     uint32_t a, b;      /* rows; b has PAIR_FIXED for a fixed object */
+    uint32_t pair;      /* index + 1 in the queue */
     double time;        /* 0..1 */
     struct vec3 point;  /* [m, world] where the bodies touch */
     struct vec3 normal; /* unit, from a towards b; horizontal between bodies on the ground */

@@ -7,6 +7,7 @@
 #include "mover/query/line_of_sight.h"
 #include "mover/query/neighbour_index.h"
 #include "world/entity/entity.h"
+#include "world/entity/mass_properties.h"
 
 struct avoidance;
 struct crater_index;
@@ -59,8 +60,7 @@ struct desired_motion {
     double brake;      /* 0..1 of the hardest braking */
 };
 
-#define GRAVITY_MPS2 9.80665
-#define BRAKES       2.0 /* the hardest braking, in multiples of the kind's acceleration */
+#define BRAKES 2.0 /* the hardest braking, in multiples of the kind's acceleration */
 
 /* The trigger column: a row's requests to the serial part of the step. */
 #define TRIGGER_FIRE         1u

@@ -12,7 +12,6 @@
 
 #include <string.h>
 
-#define TYRE_FRICTION 0.7  /* share of the weight: brakes a sideways slide */
 #define CRAWL_SHARE   0.1  /* share of full speed that is left on the steepest slope */
 #define STANDING_TURN 0.35 /* share of the turn rate at rest */
 #define FULL_TURN_MPS 4.0  /* from this speed on the turn rate is full */
@@ -191,7 +190,7 @@ static inline void limit(struct ground_vehicle *batch, int h, f64x4 *wanted)
 static inline void power(const struct ground_vehicle *batch, int h, const f64x4 *wanted,
                          f64x4 *forward, double dt_s)
 {
-    const f64x4 none = SIMD_EVERY(0.0), grip = SIMD_EVERY(TYRE_FRICTION * GRAVITY_MPS2);
+    const f64x4 none = SIMD_EVERY(0.0), grip = SIMD_EVERY(GROUND_GRIP * GRAVITY_MPS2);
     f64x4 desired = batch->wanted_mps.f64x4[h], rate = batch->acceleration.f64x4[h];
     four_masks braking = (SIMD_ABS(*wanted) < SIMD_ABS(*forward)) | (*wanted * *forward < none);
     four_masks held = SIMD_ABS(*wanted) < SIMD_ABS(desired); /* the ground slows it as well */
@@ -228,7 +227,7 @@ static inline void find_ahead(const struct step_context *context, struct ground_
                               struct ahead *ahead)
 {
     const f64x4 none = SIMD_EVERY(0.0);
-    const f64x4 grip = SIMD_EVERY(TYRE_FRICTION * GRAVITY_MPS2 * context->dt_s);
+    const f64x4 grip = SIMD_EVERY(GROUND_GRIP * GRAVITY_MPS2 * context->dt_s);
     for (int h = 0; h < LANE_FOURS; h++) {
         f64x4 sine = batch->pose.sine.f64x4[h], cosine = batch->pose.cosine.f64x4[h];
         f64x4 speed = forward->f64x4[h], half = batch->half_length.f64x4[h];

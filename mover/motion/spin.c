@@ -6,14 +6,13 @@
 #include "world/entity/mass_properties.h"
 #include "world/world.h"
 
-#define TYRE_SCRUB      0.7 /* share of the weight, acting at a quarter of the length */
 #define WATER_DRAG_MPS2 2.0 /* the same for a hull in the water */
 #define PILOT_RPS2      1.5 /* how fast a pilot stops the spin of an aircraft */
 
 static void turn_standing(const struct step_context *context, uint32_t i, const struct kind *kind)
 {
     struct entities *m = context->m;
-    double drag = kind->domain == DOMAIN_SEA ? WATER_DRAG_MPS2 : TYRE_SCRUB * GRAVITY_MPS2;
+    double drag = kind->domain == DOMAIN_SEA ? WATER_DRAG_MPS2 : GROUND_GRIP * GRAVITY_MPS2;
     double brake = drag / (0.25 * maths_max(kind->length_m, 1.0));
     m->heading[i] = maths_wrap_turn(m->heading[i] - m->spin_y[i] * context->dt_s);
     m->spin_x[i] = m->spin_z[i] = 0.0;

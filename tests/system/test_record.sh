@@ -170,12 +170,12 @@ P
     check "the run is replayed" replay out/commands.log
     umount disk
 
-    # A swarm of jets makes two hundred events a frame, which fill the ring in six seconds.
+    # A swarm of jets comes near and parts two hundred times a frame, which fills the ring in six seconds.
     cat >swarm.cfg <<'CFG'
-world = { capacity = 64; };
+world = { capacity = 1024; };
 terrain = { source = "flat"; };
-collision = { method = "mps"; response = "none"; mps = { near_m = 1000.0; }; };
-vehicles = ( { kind = "jet"; count = 20; behaviour = "patrol"; area = [25000.0, 25000.0, 25900.0, 25900.0]; } );
+collision = { method = "mps"; response = "none"; mps = { near_m = 100.0; }; };
+vehicles = ( { kind = "jet"; count = 700; behaviour = "patrol"; area = [25000.0, 25000.0, 25900.0, 25900.0]; } );
 CFG
     happened() { "$jolon" status -w "$name" --json | json events; }
     has_events() { [ "$(happened)" -gt "$1" ]; }

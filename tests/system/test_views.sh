@@ -80,7 +80,7 @@ check "an unknown vehicle name is refused" bash -c "'$jolon' snap -w $name --veh
     grep -q 'vehicle \"Nobody\": world .* has none of that name'"
 check "a picture is taken from a place" snap --eye 24950,25000,5 --look 90,-10 place.png
 check "its view is free" equal "$(field place.png view)" free
-check "several views are taken at once" snap --view chase,overhead:2,map three.png
+check "several views are taken at once" snap --view chase:1,overhead:2,map three.png
 check "each view has a file of its name" [ -s three.png -a -s three-overhead.2.png -a -s three-map.png ]
 check "each file shows its vehicle" equal "$(field three.png id) $(field three-overhead.2.png id)" "1 2"
 check "only the owner can read a picture" equal "$(stat -c %a shot.png)" 600

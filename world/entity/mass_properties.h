@@ -6,6 +6,11 @@
 #include "world/entity/kind.h"
 #include "world/maths/rotation.h"
 
+#define GRAVITY_MPS2 9.80665
+
+/* Share of its weight that a vehicle's tyres or tracks can bear along the ground. */
+#define GROUND_GRIP 0.7
+
 struct mass_properties {
     double mass_kg;
     struct vec3 moment; /* [kg m2] about body axes through the centre: x forward, y up, z right */

@@ -9,6 +9,9 @@
 /* Set in b_id: the other bits are the index of a fixed object. Ids of entities never have it. */
 #define PERSISTENT_CONTACT_FIXED 0x80000000u
 
+/* A flag: the bodies overlap and have to part, even if nothing moves them. */
+#define PERSISTENT_CONTACT_OVERLAPS 1u
+
 /* The default length of the list: for each slot of the world's capacity, but at least. */
 #define PERSISTENT_CONTACTS_AN_ENTITY 4u
 #define PERSISTENT_CONTACT_SLOTS_MIN  256u
@@ -20,7 +23,7 @@ struct persistent_contact {
     uint32_t a_row, b_row; /* of these entities; b_row of a fixed object: SLOT_NONE */
     uint32_t begin_tick;   /* of simulated time: when it first bore a load */
     uint32_t pressed_tick; /* when it last bore a load */
-    uint32_t flags;        /* 0 until a flag is defined */
+    uint32_t flags;        /* PERSISTENT_CONTACT_OVERLAPS */
     uint32_t reserved;     /* 0 */
 };
 

@@ -36,8 +36,10 @@ static void open_crowd(const char *shape, uint32_t threads, uint64_t random)
              shape);
     fixture_open(&f, text);
     fixture_threads(&f, threads);
-    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
-        steps_kind(&f, kinds[i])->explosive_kg = 0.0; /* explosions add momentum */
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        steps_kind(&f, kinds[i])->explosive_kg = 0.0;  /* explosions add momentum */
+        steps_kind(&f, kinds[i])->resistance_j = 1e12; /* the ground slows wrecks */
+    }
     for (uint32_t i = 0; i < VEHICLES; i++) {
         uint32_t ring = i / 20;
         double angle = TWO_PI * ((i % 20) + 0.5 * (ring % 2)) / 20.0, sine, cosine;

@@ -2,6 +2,7 @@
 #include "collider/narrow_phase/contact_queue.h"
 
 #include "tests/support/steps.h"
+#include "world/params.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -221,6 +222,93 @@ static void test_a_frame_knows_nothing_of_the_one_before(void **state)
     assert_false(contact_queue_next(contacts(), &context.input, &contact));
 }
 
+/* --- pairs of other parts ----------------------------------------------------------------------*/
+
+static void test_a_pair_is_added_once(void **state)
+{
+    (void)state;
+    uint32_t a = put(25000.0, 25000.0, 100.0), b = put(25030.0, 25000.0, 0.0);
+    uint32_t c = put(25000.0, 26000.0, 0.0);
+    find();
+    assert_int_equal(contacts()->pair_count, 1);
+    assert_int_equal(contact_queue_pair(contacts(), &(struct pair){a, b}), 0);
+    contacts()->marks[0] = CONTACT_PRESSED;
+    assert_int_equal(contact_queue_pair(contacts(), &(struct pair){a, c}), 1);
+    assert_int_equal(contact_queue_pair(contacts(), &(struct pair){a, PAIR_FIXED}), 2);
+    assert_int_equal(contact_queue_pair(contacts(), &(struct pair){a, c}), 1);
+    assert_int_equal(contacts()->pair_count, 3);
+    assert_int_equal(contacts()->marks[0], CONTACT_PRESSED);
+    assert_int_equal(contacts()->marks[1], 0);
+}
+
+/* Two bodies at rest are a pair only for those who ask for it. */
+static void test_looking_around_finds_bodies_at_rest(void **state)
+{
+    struct contact contact;
+    (void)state;
+    uint32_t a = put(25000.0, 25000.0, 0.0), b = put(25010.0, 25000.0, 0.0);
+    put(25100.0, 25000.0, 0.0);
+    find();
+    assert_int_equal(contacts()->pair_count, 0);
+    contact_queue_look(contacts(), &context.input, b, false);
+    assert_int_equal(contacts()->pair_count, 0);
+    contact_queue_look(contacts(), &context.input, b, true);
+    contact_queue_look(contacts(), &context.input, a, true);
+    assert_int_equal(contacts()->pair_count, 1);
+    assert_true(contacts()->pair[0].a == a && contacts()->pair[0].b == b);
+    assert_false(contact_queue_next(contacts(), &context.input, &contact)); /* nothing is swept */
+}
+
+static void test_a_row_that_left_its_box_is_found_by_the_next(void **state)
+{
+    (void)state;
+    uint32_t a = put(25000.0, 25000.0, 10.0), b = put(25300.0, 25000.0, 10.0);
+    find();
+    f.stepper.collider.motion.path[a].at.x = 25150.0;
+    contact_queue_look(contacts(), &context.input, a, false);
+    assert_int_equal(contacts()->pair_count, 0);
+    f.stepper.collider.motion.path[b].at.x = 25155.0;
+    contact_queue_look(contacts(), &context.input, b, false);
+    assert_int_equal(contacts()->pair_count, 1);
+}
+
+/* --- contacts that last ------------------------------------------------------------------------*/
+
+/* A pair whose contact lasts has no first contact. After a change of path it has one if its bodies
+ * close as fast as in an impact. */
+static void test_resting_bodies_meet_only_in_an_impact(void **state)
+{
+    struct contact contact;
+    double impact_m = CONTACT_IMPACT_MPS * world_dt_s(&f.view.world);
+    (void)state;
+    uint32_t a = put(25000.0, 25000.0, 1.0);
+    put(25012.0, 25000.0, 0.0);
+    find();
+    assert_true(contact_queue_next(contacts(), &context.input, &contact));
+    contacts()->marks[0] = CONTACT_RESTS;
+    contact_queue_find(contacts(), &context.input);
+    assert_false(contact_queue_next(contacts(), &context.input, &contact));
+    f.stepper.collider.motion.path[a].along.x = 0.9 * impact_m;
+    contact_queue_change(contacts(), &context.input, &a, 1, 0.0);
+    assert_false(contact_queue_next(contacts(), &context.input, &contact));
+    f.stepper.collider.motion.path[a].along.x = 1.1 * impact_m;
+    contact_queue_change(contacts(), &context.input, &a, 1, 0.0);
+    assert_true(contact_queue_next(contacts(), &context.input, &contact));
+    assert_int_equal(contact.pair, 1);
+}
+
+static void test_marks_last_for_a_frame(void **state)
+{
+    (void)state;
+    put(25000.0, 25000.0, 100.0);
+    put(25030.0, 25000.0, 0.0);
+    find();
+    contacts()->marks[0] = CONTACT_RESTS | CONTACT_PRESSED | CONTACT_OVERLAPS | CONTACT_GATHERED;
+    contact_queue_end(contacts());
+    find();
+    assert_int_equal(contacts()->marks[0], 0);
+}
+
 /* --- fixed objects -----------------------------------------------------------------------------*/
 
 static void test_through_fixed_only_entering_is_a_contact(void **state)
@@ -260,6 +348,11 @@ int main(void)
         TEST(test_row_36_a_changed_path_meets_other_bodies),
         TEST(test_a_dropped_row_has_no_contacts),
         TEST(test_a_frame_knows_nothing_of_the_one_before),
+        TEST(test_a_pair_is_added_once),
+        TEST(test_looking_around_finds_bodies_at_rest),
+        TEST(test_a_row_that_left_its_box_is_found_by_the_next),
+        TEST(test_resting_bodies_meet_only_in_an_impact),
+        TEST(test_marks_last_for_a_frame),
         TEST(test_through_fixed_only_entering_is_a_contact),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

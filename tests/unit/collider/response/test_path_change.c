@@ -128,7 +128,7 @@ static void test_what_the_ground_holds(void **state)
     e->spin_z[jet] = 0.0;
     e->spin_y[jet] = 0.5;
     e->heading[jet] += 1.0; /* no driver has turned it so */
-    assert_true(path_change_spin(&context, jet).y == 0.5);
+    assert_true(path_change_spin(&context, jet, 0.5).y == 0.5);
     /* Its driver's steering counts until an answer has turned it otherwise. */
     e->spin_x[tank] = e->spin_z[tank] = 1.0;
     e->heading[tank] += 0.01;

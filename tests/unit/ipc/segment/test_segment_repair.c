@@ -267,8 +267,8 @@ static unsigned char *random_byte(const struct state *last, const struct state *
         return place(&last->craters[before->head->crater_count]) + at % sizeof *last->craters;
     if (where == 3 && last->head->dent_count > before->head->dent_count)
         return place(&last->dents[before->head->dent_count]) + at % sizeof *last->dents;
-    if (where == 4)
-        return place(last->contacts) + at % (CONTACTS * sizeof *last->contacts);
+    if (where == 4 && last->head->contact_count > 0)
+        return place(last->contacts) + at % (last->head->contact_count * sizeof *last->contacts);
     return random_cell(&last->entities, last->head->used, random);
 }
 

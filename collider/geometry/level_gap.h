@@ -1,0 +1,36 @@
+/* The gap between two bodies that the ground holds: they can part only horizontally, so normals are
+ * horizontal and depths are measured along them. Pure; any thread. */
+#ifndef JOLON_COLLIDER_GEOMETRY_LEVEL_GAP_H
+#define JOLON_COLLIDER_GEOMETRY_LEVEL_GAP_H
+
+#include "collider/geometry/time_of_impact.h"
+
+#include <stdint.h>
+
+/* Pairs of hulls of two bodies that are considered, the nearest first. */
+#define LEVEL_GAPS_MAX 4u
+
+/* A normal with a smaller horizontal part is too steep for bodies that the ground holds. */
+#define LEVEL_MIN 0.2
+
+/* Two hulls that touch or nearly do. */
+struct level_gap {
+    struct vec3 normal;   /* unit, horizontal, from a to b */
+    double gap_m;         /* along the normal; below 0 the depth of the overlap */
+    struct vec3 point[2]; /* [m, world] the ends of the contact, across the normal */
+    uint32_t points;      /* 1 or 2 */
+};
+
+/* Finds the gaps of the pairs of hulls that are within margin_m [m, >= 0] of each other at a time
+ * in [max(since), 1], smallest first. Returns how many there are; gap holds LEVEL_GAPS_MAX. The gap
+ * along the normal is greater than the distance of hulls whose nearest points are not level, and so
+ * may be above margin_m. Hulls that overlap part along the shallowest of the horizontal normals of
+ * their faces, or of the line between the bodies' positions. */
+uint32_t level_gap_find(const struct swept_body *a, const struct swept_body *b, double time,
+                        double margin_m, struct level_gap *gap);
+
+/* Returns the smallest of those gaps [m], or margin_m if all are larger. */
+double level_gap_least(const struct swept_body *a, const struct swept_body *b, double time,
+                       double margin_m);
+
+#endif

@@ -1,0 +1,20 @@
+/* How a body stands on the ground: its height, pitch and roll follow from where it is and where it
+ * heads. Pure; any thread. */
+#ifndef JOLON_COLLIDER_MOTION_REST_POSE_H
+#define JOLON_COLLIDER_MOTION_REST_POSE_H
+
+#include "world/entity/kind.h"
+#include "world/terrain/terrain.h"
+
+struct rest_pose {
+    double y_m;
+    double pitch_rad, roll_rad;
+};
+
+/* Returns how a land vehicle stands on the ground as the mover has it (mover/motion/ground_pose.h):
+ * the height under its middle, and the slopes between the heights under front and back and under
+ * its sides. heading clockwise from north [rad]. */
+struct rest_pose rest_pose_of(const struct terrain *terrain, const struct crater_index *craters,
+                              const struct kind *kind, double x, double z, double heading_rad);
+
+#endif

@@ -1,0 +1,209 @@
+/* Union-find over the rows of the contact table. */
+#include "collider/resting/contact_groups.h"
+
+#include "collider/response/path_change.h"
+#include "world/checksum.h"
+#include "world/entity/persistent_contact.h"
+#include "world/maths/sort.h"
+#include "world/params.h"
+#include "world/runtime/reserve.h"
+#include "world/world.h"
+
+#include <errno.h>
+#include <stdlib.h>
+
+int contact_groups_init(struct contact_groups *groups, const struct world *world)
+{
+    uint32_t rows = world->params->capacity;
+    *groups = (struct contact_groups){.capacity = world->params->contact_slots};
+    groups->pair = reserve_take(groups->capacity, sizeof *groups->pair);
+    groups->parent = calloc(rows, sizeof *groups->parent);
+    groups->awake = calloc(rows, sizeof *groups->awake);
+    if (groups->pair && groups->parent && groups->awake)
+        return 0;
+    contact_groups_free(groups);
+    errno = ENOMEM;
+    return -1;
+}
+
+void contact_groups_free(struct contact_groups *groups)
+{
+    reserve_free(groups->pair);
+    free(groups->parent);
+    free(groups->awake);
+    *groups = (struct contact_groups){0};
+}
+
+static bool is_new(const struct response_context *context, uint32_t row)
+{
+    return context->next->head->tick == 1 || !body_motion_old(context->motion, row);
+}
+
+/* --- pairs of the table ------------------------------------------------------------------------*/
+
+static bool held(const struct response_context *context, uint32_t row, uint32_t id)
+{
+    const struct entities *e = &context->next->entities;
+    return entities_alive(e, row, id) && path_change_grounded(context, row);
+}
+
+/* Returns true if both sides still exist and the ground holds them. */
+static bool still_there(const struct response_context *context,
+                        const struct persistent_contact *contact)
+{
+    uint32_t object = contact->b_id & ~PERSISTENT_CONTACT_FIXED;
+    if (!held(context, contact->a_row, contact->a_id))
+        return false;
+    return contact->b_id & PERSISTENT_CONTACT_FIXED
+               ? pair_filter_stands(&context->input.detect, object)
+               : held(context, contact->b_row, contact->b_id);
+}
+
+static struct pair pair_of(const struct persistent_contact *contact)
+{
+    if (contact->b_id & PERSISTENT_CONTACT_FIXED)
+        return (struct pair){contact->a_row, contact->b_id};
+    return contact->a_row < contact->b_row ? (struct pair){contact->a_row, contact->b_row}
+                                           : (struct pair){contact->b_row, contact->a_row};
+}
+
+/* --- groups ------------------------------------------------------------------------------------*/
+
+static uint32_t root_of(struct contact_groups *groups, uint32_t row)
+{
+    uint32_t *parent = groups->parent;
+    while (parent[row] != row + 1) {
+        parent[row] = parent[parent[row] - 1];
+        row = parent[row] - 1;
+    }
+    return row;
+}
+
+/* The lower root becomes that of both. */
+static void join(struct contact_groups *groups, uint32_t p, uint32_t q)
+{
+    uint32_t a = root_of(groups, p), b = root_of(groups, q);
+    groups->parent[a > b ? a : b] = (a > b ? b : a) + 1;
+}
+
+static void add(struct contact_groups *groups, struct pair pair)
+{
+    groups->pair[groups->count++] = pair;
+    if (groups->parent[pair.a] == 0)
+        groups->parent[pair.a] = pair.a + 1;
+    if (pair.b & PAIR_FIXED)
+        return;
+    if (groups->parent[pair.b] == 0)
+        groups->parent[pair.b] = pair.b + 1;
+    join(groups, pair.a, pair.b);
+}
+
+static bool moves(struct response_context *context, uint32_t row)
+{
+    body_motion_require(context->motion, row);
+    return !pair_filter_rests(&context->path[row]);
+}
+
+/* Wakes the groups in which a row moves, or is awake because its contact has to part. */
+static void wake(struct contact_groups *groups, struct response_context *context)
+{
+    for (uint32_t i = 0; i < groups->count; i++) {
+        const struct pair *pair = &groups->pair[i];
+        if (groups->awake[pair->a] || moves(context, pair->a) ||
+            (!(pair->b & PAIR_FIXED) && moves(context, pair->b)))
+            groups->awake[root_of(groups, pair->a)] = 1;
+    }
+}
+
+static void clear(struct contact_groups *groups, const struct pair *pair)
+{
+    groups->parent[pair->a] = 0;
+    groups->awake[pair->a] = 0;
+    if (pair->b & PAIR_FIXED)
+        return;
+    groups->parent[pair->b] = 0;
+    groups->awake[pair->b] = 0;
+}
+
+/* Keeps the pairs that are awake, and marks no row any more. */
+static void keep_awake(struct contact_groups *groups)
+{
+    uint32_t all = groups->count;
+    struct pair *pair = groups->pair;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < all; i++) {
+        struct pair one = pair[i];
+        bool awake = groups->awake[root_of(groups, one.a)] != 0;
+        pair[i] = pair[kept];
+        pair[kept] = one;
+        kept += awake;
+    }
+    for (uint32_t i = 0; i < all; i++)
+        clear(groups, &pair[i]);
+    groups->count = kept;
+}
+
+/* --- bodies that are new -----------------------------------------------------------------------*/
+
+static void add_pairs_of(struct contact_groups *groups, struct response_context *context,
+                         uint32_t row)
+{
+    const struct contact_queue *contacts = context->contacts;
+    contact_queue_look(context->contacts, &context->input, row, true);
+    for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
+        const struct pair *pair = &contacts->pair[contacts->link[link - 1].pair];
+        bool fixed = pair->b & PAIR_FIXED;
+        uint32_t other = pair->a == row ? pair->b : pair->a;
+        if (groups->count < groups->capacity && !fixed &&
+            (other > row || !is_new(context, other)) && path_change_grounded(context, other) &&
+            context->next->entities.behaviour[other] != BEHAVIOUR_FLIGHT)
+            groups->pair[groups->count++] = *pair;
+    }
+}
+
+/* Adds the pairs of the block's bodies that were not there in the committed frame. */
+static void add_new(struct contact_groups *groups, struct response_context *context, uint32_t block)
+{
+    const struct entities *e = &context->next->entities;
+    uint32_t first = block * CHECKSUM_ROWS, used = context->next->head->used;
+    uint32_t end = used - first < CHECKSUM_ROWS ? used : first + CHECKSUM_ROWS;
+    for (uint32_t row = first; row < end; row++) {
+        if (e->state[row] == ENTITY_FREE || e->behaviour[row] == BEHAVIOUR_FLIGHT ||
+            !is_new(context, row) || !path_change_grounded(context, row))
+            continue;
+        body_motion_require(context->motion, row);
+        add_pairs_of(groups, context, row);
+    }
+}
+
+/* Blocks with the same ids as in the committed frame have no new body. In the first frame all are
+ * new. */
+static void find_new(struct contact_groups *groups, struct response_context *context)
+{
+    const struct state *committed = context->motion->committed, *next = context->next;
+    for (uint32_t block = 0; block < block_count(next->head->used); block++) {
+        if (next->head->tick == 1 || block >= block_count(committed->head->used) ||
+            committed->hashes[block].column[COLUMN_id] != next->hashes[block].column[COLUMN_id])
+            add_new(groups, context, block);
+    }
+}
+
+void contact_groups_find(struct contact_groups *groups, struct response_context *context)
+{
+    const struct state *committed = context->motion->committed;
+    groups->count = 0;
+    for (uint32_t i = 0; i < committed->head->contact_count; i++) {
+        const struct persistent_contact *contact = &committed->contacts[i];
+        if (!still_there(context, contact))
+            continue;
+        struct pair pair = pair_of(contact);
+        add(groups, pair);
+        if (contact->flags & PERSISTENT_CONTACT_OVERLAPS)
+            groups->awake[pair.a] = 1;
+    }
+    wake(groups, context);
+    keep_awake(groups);
+    groups->known = groups->count;
+    find_new(groups, context);
+    sort_words(&groups->pair[groups->known], groups->count - groups->known);
+}

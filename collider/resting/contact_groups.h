@@ -1,0 +1,28 @@
+/* Which contacts of the committed table bear loads in this frame. Bodies that touch each other form
+ * a group. A group in which nothing moves sleeps: it costs a look at its contacts, and nothing is
+ * written. One motion wakes all of the group. Pure; one thread. */
+#ifndef JOLON_COLLIDER_RESTING_CONTACT_GROUPS_H
+#define JOLON_COLLIDER_RESTING_CONTACT_GROUPS_H
+
+#include "collider/response/response_context.h"
+
+#include <stdint.h>
+
+struct contact_groups {
+    struct pair *pair; /* of the table's contacts that are left, in the table's order */
+    uint32_t count, capacity;
+    uint32_t known;   /* the first so many are in the table; the others may begin overlapped */
+    uint32_t *parent; /* [capacity of the world] union-find: row + 1, 0 for a row in no pair */
+    uint8_t *awake;   /* [capacity of the world] of roots */
+};
+
+/* Returns 0, or -1 with errno ENOMEM. */
+int contact_groups_init(struct contact_groups *groups, const struct world *world);
+void contact_groups_free(struct contact_groups *groups);
+
+/* Finds the pairs of the groups that are awake: the table's contacts between bodies that the ground
+ * holds, and of those with objects that stand. Adds the pairs of bodies that are new in this frame,
+ * because they may begin overlapped. Computes the paths of their rows. */
+void contact_groups_find(struct contact_groups *groups, struct response_context *context);
+
+#endif

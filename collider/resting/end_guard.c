@@ -1,0 +1,205 @@
+/* Rounds over lists of rows. A row that goes back is looked at again, in its new place. */
+#include "collider/resting/end_guard.h"
+
+#include "collider/geometry/level_gap.h"
+#include "collider/resting/ground_placement.h"
+#include "collider/response/path_change.h"
+#include "world/params.h"
+#include "world/runtime/reserve.h"
+#include "world/runtime/work_done.h"
+#include "world/world.h"
+
+#include <errno.h>
+#include <stdlib.h>
+
+#define ROUNDING_M     1e-5 /* less is no deepening */
+#define SENT_BACK_MOST 4u   /* the last time all the way; this bounds the work of a frame */
+
+int end_guard_init(struct end_guard *guard, const struct world *world)
+{
+    uint32_t rows = world->params->capacity;
+    *guard = (struct end_guard){.count = 0};
+    guard->row = reserve_take(rows, sizeof *guard->row);
+    guard->back = reserve_take(rows, sizeof *guard->back);
+    guard->touched = reserve_take(rows, sizeof *guard->touched);
+    guard->listed = calloc(rows, sizeof *guard->listed);
+    guard->marked = calloc(rows, sizeof *guard->marked);
+    guard->sent_back = calloc(rows, sizeof *guard->sent_back);
+    if (guard->row && guard->back && guard->touched && guard->listed && guard->marked &&
+        guard->sent_back)
+        return 0;
+    end_guard_free(guard);
+    errno = ENOMEM;
+    return -1;
+}
+
+void end_guard_free(struct end_guard *guard)
+{
+    reserve_free(guard->row);
+    reserve_free(guard->back);
+    reserve_free(guard->touched);
+    free(guard->listed);
+    free(guard->marked);
+    free(guard->sent_back);
+    *guard = (struct end_guard){.count = 0};
+}
+
+/* --- poses -------------------------------------------------------------------------------------*/
+
+/* Returns a body that stands as in a table's row. */
+static struct swept_body standing(const struct response_context *context, const struct entities *e,
+                                  uint32_t body)
+{
+    if (body & PAIR_FIXED)
+        return body_motion_fixed(context->world, body & ~PAIR_FIXED);
+    struct free_turn turn;
+    struct swept_body at = body_motion_body(context->motion, body, &turn);
+    at.path = (struct path){.at = entities_position(e, body)};
+    at.turn = NULL;
+    at.from = at.to = rotation_of(e->heading[body], e->pitch[body], e->roll[body]);
+    return at;
+}
+
+/* Returns the gap of a pair in a table: below 0 for bodies that overlap, else 0 [m]. */
+static double gap_in(const struct response_context *context, const struct entities *e,
+                     const struct pair *pair)
+{
+    struct swept_body a = standing(context, e, pair->a), b = standing(context, e, pair->b);
+    struct vec3 between = vec3_sub(b.path.at, a.path.at);
+    double reach = a.bound_m + b.bound_m;
+    if (vec3_dot(between, between) > reach * reach)
+        return 0.0;
+    return level_gap_least(&a, &b, 0.0, 0.0);
+}
+
+/* Returns true if the pair ends the frame deeper in each other than it began it. */
+static bool deeper(const struct response_context *context, const struct pair *pair)
+{
+    double after = gap_in(context, &context->next->entities, pair);
+    if (after >= -ROUNDING_M)
+        return false;
+    double before = gap_in(context, &context->motion->committed->entities, pair);
+    return before > -END_GUARD_LEFT_OUT_M && after < before - ROUNDING_M;
+}
+
+/* --- rows --------------------------------------------------------------------------------------*/
+
+static bool guarded(const struct response_context *context, uint32_t row)
+{
+    return body_motion_old(context->motion, row) &&
+           context->next->entities.state[row] != ENTITY_FREE &&
+           context->next->entities.behaviour[row] != BEHAVIOUR_FLIGHT &&
+           path_change_grounded(context, row);
+}
+
+/* Lists a row to be looked at. */
+static void look_at(struct end_guard *guard, uint32_t row)
+{
+    if (!guard->listed[row])
+        guard->row[guard->count++] = row;
+    guard->listed[row] = 1;
+}
+
+/* A body that tyres, tracks or its weight hold to the ground keeps only the speed of the motion
+ * that it kept. One that rolls freely keeps its momentum. */
+static void slow_down(struct response_context *context, uint32_t row, double keep)
+{
+    const struct entities *e = &context->next->entities;
+    if (e->state[row] == ENTITY_ACTIVE && e->behaviour[row] == BEHAVIOUR_HOLD)
+        return;
+    table_set_vx(&context->writer, row, e->vx[row] * keep);
+    table_set_vz(&context->writer, row, e->vz[row] * keep);
+    table_set_spin_y(&context->writer, row, e->spin_y[row] * keep);
+}
+
+/* Sends a row back on its way from where it began the frame. */
+static void send_back(struct end_guard *guard, struct response_context *context, uint32_t row)
+{
+    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    double keep = ++guard->sent_back[row] < SENT_BACK_MOST ? 0.5 : 0.0;
+    struct vec3 from = entities_position(w, row), to = entities_position(e, row);
+    double turn = maths_wrap_half(e->heading[row] - w->heading[row]);
+    ground_placement_put(context, row, vec3_lerp(from, to, keep),
+                         maths_wrap_turn(w->heading[row] + turn * keep));
+    slow_down(context, row, keep);
+}
+
+static bool is_wall(const struct response_context *context, uint32_t object)
+{
+    return pair_filter_stands(&context->input.detect, object) &&
+           !narrow_phase_lets_in(context->world, context->input.through_fixed, object);
+}
+
+/* Adds a row to those that have to go back, unless it is back already. */
+static void mark(struct end_guard *guard, const struct response_context *context, uint32_t row)
+{
+    if (guard->marked[row] || guard->sent_back[row] == SENT_BACK_MOST || !guarded(context, row))
+        return;
+    guard->marked[row] = 1;
+    guard->back[guard->back_count++] = row;
+}
+
+/* Marks the bodies of the row's pairs that end the frame deeper in each other. A pair of two rows
+ * that are looked at is looked at once. */
+static void check_row(struct end_guard *guard, struct response_context *context, uint32_t row)
+{
+    const struct contact_queue *contacts = context->contacts;
+    for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
+        const struct pair *pair = &contacts->pair[contacts->link[link - 1].pair];
+        uint32_t other = pair->a == row ? pair->b : pair->a;
+        bool fixed = other & PAIR_FIXED;
+        if (fixed ? !is_wall(context, other & ~PAIR_FIXED)
+                  : (guard->listed[other] && other < row) || !guarded(context, other))
+            continue;
+        if (!deeper(context, pair))
+            continue;
+        mark(guard, context, row);
+        if (!fixed)
+            mark(guard, context, other);
+    }
+}
+
+/* One round: all pairs of the listed rows are tested before any row goes back, so that the result
+ * does not depend on the order of the rows and their pairs. The rows that went back are listed
+ * next. */
+static void run_round(struct end_guard *guard, struct response_context *context)
+{
+    guard->back_count = 0;
+    for (uint32_t i = 0; i < guard->count; i++) {
+        if (guarded(context, guard->row[i]))
+            check_row(guard, context, guard->row[i]);
+        work_done();
+    }
+    for (uint32_t i = 0; i < guard->count; i++)
+        guard->listed[guard->row[i]] = 0;
+    guard->count = 0;
+    for (uint32_t i = 0; i < guard->back_count; i++) {
+        uint32_t row = guard->back[i];
+        guard->marked[row] = 0;
+        if (guard->sent_back[row] == 0)
+            guard->touched[guard->touched_count++] = row;
+        send_back(guard, context, row);
+        look_at(guard, row);
+    }
+}
+
+void end_guard_run(struct end_guard *guard, const struct resting *resting,
+                   struct response_context *context)
+{
+    const struct body_motion *motion = context->motion;
+    const struct entities *e = &context->next->entities;
+    guard->count = guard->touched_count = 0;
+    for (uint32_t i = 0; i < resting->moved_count; i++)
+        look_at(guard, resting->moved[i]);
+    for (uint32_t i = 0; i < motion->changes; i++)
+        look_at(guard, motion->row[i]);
+    for (uint32_t i = 0; i < guard->count; i++) {
+        uint32_t row = guard->row[i];
+        if (guarded(context, row))
+            ground_placement_put(context, row, entities_position(e, row), e->heading[row]);
+    }
+    while (guard->count > 0)
+        run_round(guard, context);
+    for (uint32_t i = 0; i < guard->touched_count; i++)
+        guard->sent_back[guard->touched[i]] = 0;
+}

@@ -1,0 +1,34 @@
+/* The guard at the end of a frame: no two bodies that the ground holds end it deeper in each other
+ * than they began it. Bodies that would are sent back by half of their motion, three times, and
+ * at last to where they stood when the frame began. Pure; one thread. */
+#ifndef JOLON_COLLIDER_RESTING_END_GUARD_H
+#define JOLON_COLLIDER_RESTING_END_GUARD_H
+
+#include "collider/resting/resting.h"
+
+/* Bodies that began the frame deeper in each other than this have to part first [m]. */
+#define END_GUARD_LEFT_OUT_M 0.02
+
+/* The collider's own memory. */
+struct end_guard {
+    uint32_t *row; /* rows to look at in this round */
+    uint32_t count;
+    uint32_t *back; /* rows that go back in this round */
+    uint32_t back_count;
+    uint32_t *touched; /* rows that have gone back in this frame */
+    uint32_t touched_count;
+    uint8_t *listed;    /* [capacity of the world] 1: in row */
+    uint8_t *marked;    /* [capacity of the world] 1: in back */
+    uint8_t *sent_back; /* [capacity of the world] how often a row has gone back in this frame */
+};
+
+/* Returns 0, or -1 with errno ENOMEM. */
+int end_guard_init(struct end_guard *guard, const struct world *world);
+void end_guard_free(struct end_guard *guard);
+
+/* Sets the bodies whose motion collisions have changed on the ground, and sends back those that
+ * ended in others. Afterwards nothing of the frame moves any more. */
+void end_guard_run(struct end_guard *guard, const struct resting *resting,
+                   struct response_context *context);
+
+#endif

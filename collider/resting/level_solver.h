@@ -1,0 +1,62 @@
+/* Sequential impulses for contacts that last, among bodies that the ground holds: they move
+ * horizontally and turn about the vertical.
+ *
+ * Each contact point keeps its gap open to the end of the frame: the speed along the normal is at
+ * least -(gap - skin) / dt (a speculative contact). Friction acts across the normal, within the
+ * friction cone. The ground resists what would move a body away from its mover's motion, within
+ * its grip. The impulses of a frame begin at 0 (cold start), and the points are swept a fixed
+ * number of times, in turn forwards and backwards: E. Catto, "Iterative Dynamics with Temporal
+ * Coherence", GDC 2005.
+ *
+ * Overlaps are recovered by a second set of velocities that moves bodies and leaves their momentum
+ * alone (split impulses). So recovery adds no energy. Pure; any thread. */
+#ifndef JOLON_COLLIDER_RESTING_LEVEL_SOLVER_H
+#define JOLON_COLLIDER_RESTING_LEVEL_SOLVER_H
+
+#include <stdint.h>
+
+#define LEVEL_SOLVER_SWEEPS 30
+
+/* Motion in the plane: velocities [m/s], and the spin about the vertical [rad/s], upwards by the
+ * right hand. */
+struct level_motion {
+    double x, z, spin;
+};
+
+struct level_body {
+    double inverse_mass;         /* [1/kg]; 0: fixed */
+    double inverse_moment;       /* [1/(kg m2)] about the vertical; above 0 unless fixed */
+    struct level_motion moved;   /* in: by the mover; out: after the contacts */
+    struct level_motion pushed;  /* out: what moves overlapping bodies apart, in addition */
+    double forward_x, forward_z; /* unit: the heading */
+    /* Most impulses by which the ground keeps the body at its motion in this frame: along the
+     * heading and across it [N s], and about the vertical [N m s]. */
+    double grip_along, grip_across, grip_turn;
+    struct level_motion wanted; /* the solver's own: moved as it was given */
+    double along, across, turn; /* the solver's own: impulses of the ground so far */
+};
+
+struct level_contact {
+    uint32_t a, b;             /* bodies; they differ */
+    double normal_x, normal_z; /* unit, from a towards b */
+    double a_x, a_z, b_x, b_z; /* [m] from the bodies' centres to the point */
+    double least_mps;          /* speed along the normal afterwards, at least; below 0: may close */
+    double apart_mps;          /* speed at which an overlap is recovered, > 0; 0: no overlap */
+    double friction;           /* Coulomb's coefficient */
+    double normal_ns;          /* out [N s]: impulse along the normal, >= 0 */
+    double friction_ns;        /* out [N s]: impulse across it */
+    double apart_ns;           /* the solver's own */
+    double normal_kg, across_kg; /* the solver's own: effective masses */
+};
+
+/* Solves the contacts. Linear and angular momentum change only by the ground's grip. The result
+ * depends on the order of the contacts, which must be the caller's fixed one. A contact between two
+ * fixed bodies bears nothing. */
+void level_solver_run(struct level_body *body, uint32_t bodies, struct level_contact *contact,
+                      uint32_t contacts);
+
+/* Returns the speed at which the bodies of a contact close at its point [m/s], below 0 if they
+ * part. */
+double level_solver_closing(const struct level_body *body, const struct level_contact *contact);
+
+#endif

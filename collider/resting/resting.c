@@ -1,0 +1,327 @@
+/* Makes the points of the contacts that last, solves them, and moves the bodies. */
+#include "collider/resting/resting.h"
+
+#include "collider/geometry/level_gap.h"
+#include "collider/response/contact_impulse.h"
+#include "collider/response/response.h"
+#include "collider/resting/ground_placement.h"
+#include "world/entity/mass_properties.h"
+#include "world/params.h"
+#include "world/runtime/reserve.h"
+#include "world/runtime/work_done.h"
+#include "world/terrain/gridsquare.h"
+#include "world/world.h"
+
+#include <errno.h>
+#include <stdlib.h>
+
+/* Bodies that are farther apart at the frame's beginning, and do not come as near within it, bear
+ * no load on each other [m]. */
+#define NEAR_M 0.02
+
+/* Of an overlap this share is recovered in a frame, and never faster than this. */
+#define RECOVERED 0.5
+#define PART_MPS  3.0
+
+#define ROUNDING_M 1e-6 /* smaller overlaps of the skins are rounding */
+
+#define TOUCHING_M (2.0 * SKIN_M)
+
+#define POINTS_A_PAIR (2u * LEVEL_GAPS_MAX)
+
+int resting_init(struct resting *resting, const struct world *world)
+{
+    uint32_t rows = world->params->capacity;
+    uint64_t pairs = world->params->contact_slots;
+    *resting = (struct resting){0};
+    resting->pair = reserve_take(pairs, sizeof *resting->pair);
+    resting->point = reserve_take(pairs * POINTS_A_PAIR, sizeof *resting->point);
+    resting->body = reserve_take(rows + pairs, sizeof *resting->body);
+    resting->row = reserve_take(rows + pairs, sizeof *resting->row);
+    resting->body_of = calloc(rows, sizeof *resting->body_of);
+    resting->moved = reserve_take(rows, sizeof *resting->moved);
+    if (contact_groups_init(&resting->groups, world) == 0 && resting->pair && resting->point &&
+        resting->body && resting->row && resting->body_of && resting->moved)
+        return 0;
+    resting_free(resting);
+    errno = ENOMEM;
+    return -1;
+}
+
+void resting_free(struct resting *resting)
+{
+    contact_groups_free(&resting->groups);
+    reserve_free(resting->pair);
+    reserve_free(resting->point);
+    reserve_free(resting->body);
+    reserve_free(resting->row);
+    free(resting->body_of);
+    reserve_free(resting->moved);
+    *resting = (struct resting){0};
+}
+
+/* --- bodies ------------------------------------------------------------------------------------*/
+
+/* Returns the table in which the row begins the frame: a body that is new in this frame has no
+ * committed row. */
+static const struct entities *rows_before(const struct response_context *context, uint32_t row)
+{
+    return body_motion_old(context->motion, row) ? &context->motion->committed->entities
+                                                 : &context->next->entities;
+}
+
+/* Sets what tyres, tracks or the weight can hold in this frame, less what the mover has used of it.
+ * An engine that drives is no brake. A vehicle that only holds its course has no brakes. */
+static void set_grip(const struct response_context *context, uint32_t row, struct level_body *body)
+{
+    const struct entities *w = rows_before(context, row), *e = &context->next->entities;
+    const struct kind *kind = &context->world->kinds[e->kind[row]];
+    bool active = e->state[row] == ENTITY_ACTIVE;
+    if (kind->domain != DOMAIN_LAND || (active && e->behaviour[row] == BEHAVIOUR_HOLD))
+        return;
+    double before = w->vx[row] * body->forward_x + w->vz[row] * body->forward_z;
+    double now = e->vx[row] * body->forward_x + e->vz[row] * body->forward_z;
+    double dx = e->vx[row] - w->vx[row], dz = e->vz[row] - w->vz[row];
+    double grip = GROUND_GRIP * GRAVITY_MPS2 * world_dt_s(context->world);
+    double left = kind->mass_kg * maths_max(0.0, grip - sqrt(dx * dx + dz * dz));
+    body->grip_along = active && fabs(now) > fabs(before) ? 0.0 : left;
+    body->grip_across = left;
+    body->grip_turn = left * 0.25 * kind->length_m;
+}
+
+static uint32_t body_for(struct resting *resting, const struct response_context *context,
+                         uint32_t row)
+{
+    const struct entities *w = rows_before(context, row), *e = &context->next->entities;
+    if (resting->body_of[row] != 0)
+        return resting->body_of[row] - 1;
+    uint32_t index = resting->bodies++;
+    struct level_body *body = &resting->body[index];
+    const struct mass_properties mass = mass_properties_of(&context->world->kinds[e->kind[row]]);
+    double hz = 1.0 / world_dt_s(context->world);
+    struct vec3 along = context->path[row].along;
+    *body = (struct level_body){.inverse_mass = 1.0 / mass.mass_kg,
+                                .inverse_moment = 1.0 / mass.moment.y,
+                                .moved = {along.x * hz, along.z * hz, 0.0}};
+    body->moved.spin = -maths_wrap_half(e->heading[row] - w->heading[row]) * hz;
+    maths_sincos(e->heading[row], &body->forward_x, &body->forward_z);
+    body->forward_z = -body->forward_z;
+    set_grip(context, row, body);
+    resting->row[index] = row;
+    resting->body_of[row] = index + 1;
+    return index;
+}
+
+static uint32_t fixed_body(struct resting *resting)
+{
+    uint32_t index = resting->bodies++;
+    resting->body[index] = (struct level_body){.forward_x = 1.0};
+    resting->row[index] = SLOT_NONE;
+    return index;
+}
+
+/* --- points ------------------------------------------------------------------------------------*/
+
+static struct swept_body swept(const struct response_context *context, uint32_t body,
+                               struct free_turn *turn)
+{
+    return body & PAIR_FIXED ? body_motion_fixed(context->world, body & ~PAIR_FIXED)
+                             : body_motion_body(context->motion, body, turn);
+}
+
+/* Returns how much nearer two bodies can come within the frame, at most [m]. */
+static double nearing(const struct swept_body *a, const struct swept_body *b)
+{
+    return vec3_length(vec3_sub(a->path.along, b->path.along)) +
+           rotation_rate(a->from, a->to) * a->bound_m + rotation_rate(b->from, b->to) * b->bound_m;
+}
+
+static struct level_contact point_of(const struct response_context *context,
+                                     const struct pair *pair, const struct level_gap *gap,
+                                     struct vec3 at)
+{
+    const struct kind *ka = contact_impulse_kind(context, pair->a);
+    const struct kind *kb = contact_impulse_kind(context, pair->b);
+    double dt_s = world_dt_s(context->world), room = gap->gap_m - SKIN_M;
+    struct vec3 a = context->path[pair->a].at;
+    struct vec3 b = pair->b & PAIR_FIXED ? at : context->path[pair->b].at;
+    return (struct level_contact){
+        .normal_x = gap->normal.x,
+        .normal_z = gap->normal.z,
+        .a_x = at.x - a.x,
+        .a_z = at.z - a.z,
+        .b_x = at.x - b.x,
+        .b_z = at.z - b.z,
+        .least_mps = room > 0.0 ? -room / dt_s : 0.0,
+        .apart_mps = room < -ROUNDING_M ? maths_min(-RECOVERED * room / dt_s, PART_MPS) : 0.0,
+        .friction = sqrt(ka->friction * kb->friction)};
+}
+
+/* Returns how fast the bodies of the pair close at most, at its points [m/s]. */
+static double closing(const struct resting *resting, const struct resting_pair *pair)
+{
+    double most = 0.0;
+    for (uint32_t i = pair->first; i < pair->first + pair->count; i++)
+        most = maths_max(most, level_solver_closing(resting->body, &resting->point[i]));
+    return most;
+}
+
+static void forget_bodies(struct resting *resting, uint32_t first)
+{
+    while (resting->bodies > first) {
+        uint32_t row = resting->row[--resting->bodies];
+        if (row != SLOT_NONE)
+            resting->body_of[row] = 0;
+    }
+}
+
+/* Reports a contact that begins with an overlap: no impact will do it. */
+static void report(struct response_context *context, const struct pair *pair, uint32_t index,
+                   const struct level_gap *gap)
+{
+    const struct contact contact = {
+        .a = pair->a,
+        .b = pair->b,
+        .pair = index + 1,
+        .impact = {.point = gap->point[0], .normal = gap->normal, .depth_m = -gap->gap_m}};
+    const struct impact impact = response_impact(context, &contact);
+    const struct outcome outcome = {RESPONSE_NONE, 0.0};
+    const struct report report = response_report(context, &impact);
+    write_collision_event(context, &report, &impact, &outcome);
+}
+
+/* Takes a pair whose bodies are near and do not close as fast as in an impact. One that is not in
+ * the table is taken only if it overlaps. */
+static void take(struct resting *resting, struct response_context *context, const struct pair *pair,
+                 bool known)
+{
+    struct free_turn turn_a, turn_b;
+    struct swept_body a = swept(context, pair->a, &turn_a), b = swept(context, pair->b, &turn_b);
+    struct level_gap gap[LEVEL_GAPS_MAX];
+    double margin = known ? NEAR_M + nearing(&a, &b) : 0.0;
+    uint32_t gaps = level_gap_find(&a, &b, 0.0, margin, gap);
+    uint32_t bodies = resting->bodies;
+    if (gaps == 0)
+        return;
+    struct resting_pair taken = {.first = resting->points, .gap_m = gap[0].gap_m};
+    uint32_t body_a = body_for(resting, context, pair->a);
+    uint32_t body_b =
+        pair->b & PAIR_FIXED ? fixed_body(resting) : body_for(resting, context, pair->b);
+    for (uint32_t g = 0; g < gaps; g++) {
+        for (uint32_t p = 0; p < gap[g].points; p++) {
+            struct level_contact *point = &resting->point[taken.first + taken.count++];
+            *point = point_of(context, pair, &gap[g], gap[g].point[p]);
+            point->a = body_a, point->b = body_b;
+        }
+    }
+    if (closing(resting, &taken) >= CONTACT_IMPACT_MPS) {
+        forget_bodies(resting, bodies);
+        return;
+    }
+    taken.pair = contact_queue_pair(context->contacts, pair);
+    if (!known)
+        report(context, pair, taken.pair, &gap[0]);
+    resting->points += taken.count;
+    resting->pair[resting->pairs++] = taken;
+    work_done();
+}
+
+/* --- motion ------------------------------------------------------------------------------------*/
+
+/* The rotation that the contacts take from a row is taken from its steering first: a driver who
+ * steers against a wall turns the wheels, and the body has no spin by that. */
+static double spin_after(const struct level_body *body, double own_rps)
+{
+    double steering = body->wanted.spin - own_rps, change = body->moved.spin - body->wanted.spin;
+    double stopped = 0.0;
+    if (steering * change < 0.0)
+        stopped = fabs(change) < fabs(steering) ? -change : steering;
+    return own_rps + change + stopped;
+}
+
+static bool changed(const struct level_body *body)
+{
+    return body->moved.x != body->wanted.x || body->moved.z != body->wanted.z ||
+           body->moved.spin != body->wanted.spin || body->pushed.x != 0.0 ||
+           body->pushed.z != 0.0 || body->pushed.spin != 0.0;
+}
+
+/* Gives a row the motion of its body. */
+static void move(struct response_context *context, uint32_t row, const struct level_body *body)
+{
+    const struct entities *w = rows_before(context, row), *e = &context->next->entities;
+    double dt_s = world_dt_s(context->world);
+    struct vec3 at = context->path[row].at;
+    at.x = maths_clamp(at.x + (body->moved.x + body->pushed.x) * dt_s, 0.0, WORLD_SIDE_M);
+    at.z = maths_clamp(at.z + (body->moved.z + body->pushed.z) * dt_s, 0.0, WORLD_SIDE_M);
+    double turn = (body->moved.spin + body->pushed.spin) * dt_s;
+    ground_placement_put(context, row, at, maths_wrap_turn(w->heading[row] - turn));
+    table_set_vx(&context->writer, row, e->vx[row] + body->moved.x - body->wanted.x);
+    table_set_vz(&context->writer, row, e->vz[row] + body->moved.z - body->wanted.z);
+    table_set_spin_y(&context->writer, row, spin_after(body, e->spin_y[row]));
+    body_motion_compute(context->motion, row);
+}
+
+static void move_bodies(struct resting *resting, struct response_context *context)
+{
+    resting->moved_count = 0;
+    for (uint32_t i = 0; i < resting->bodies; i++) {
+        uint32_t row = resting->row[i];
+        if (row == SLOT_NONE)
+            continue;
+        resting->body_of[row] = 0;
+        if (!changed(&resting->body[i]))
+            continue;
+        move(context, row, &resting->body[i]);
+        resting->moved[resting->moved_count++] = row;
+    }
+    for (uint32_t i = 0; i < resting->moved_count; i++)
+        contact_queue_look(context->contacts, &context->input, resting->moved[i], false);
+}
+
+/* --- all ---------------------------------------------------------------------------------------*/
+
+/* Returns true if the bodies touch: they bear a load, or their skins meet. */
+static bool touches(const struct resting *resting, const struct resting_pair *pair)
+{
+    for (uint32_t i = pair->first; i < pair->first + pair->count; i++) {
+        if (resting->point[i].normal_ns > 0.0)
+            return true;
+    }
+    return pair->gap_m < TOUCHING_M;
+}
+
+static bool overlaps(const struct resting *resting, const struct resting_pair *pair)
+{
+    for (uint32_t i = pair->first; i < pair->first + pair->count; i++) {
+        if (resting->point[i].apart_mps > 0.0)
+            return true;
+    }
+    return false;
+}
+
+/* A pair that the sweeps have not brought to rest is left to the search for impacts. */
+static void mark(struct resting *resting, struct response_context *context)
+{
+    for (uint32_t i = 0; i < resting->pairs; i++) {
+        const struct resting_pair *pair = &resting->pair[i];
+        uint8_t *marks = &context->contacts->marks[pair->pair];
+        if (closing(resting, pair) < CONTACT_IMPACT_MPS)
+            *marks |= CONTACT_RESTS;
+        if (touches(resting, pair))
+            *marks |= CONTACT_PRESSED;
+        if (overlaps(resting, pair))
+            *marks |= CONTACT_OVERLAPS;
+    }
+}
+
+void resting_solve(struct resting *resting, struct response_context *context)
+{
+    resting->pairs = resting->points = resting->bodies = 0;
+    contact_groups_find(&resting->groups, context);
+    for (uint32_t i = 0; i < resting->groups.count; i++)
+        take(resting, context, &resting->groups.pair[i], i < resting->groups.known);
+    level_solver_run(resting->body, resting->bodies, resting->point, resting->points);
+    mark(resting, context);
+    move_bodies(resting, context);
+}

@@ -1,0 +1,45 @@
+/* Resting contacts: contacts that last from frame to frame, among bodies that the ground holds and
+ * the objects that stand. They are solved before the frame's impacts are searched, all together, so
+ * that a heap of vehicles presses and pushes without a collision in each frame. Pure; one thread.
+ */
+#ifndef JOLON_COLLIDER_RESTING_RESTING_H
+#define JOLON_COLLIDER_RESTING_RESTING_H
+
+#include "collider/resting/contact_groups.h"
+#include "collider/resting/level_solver.h"
+
+#include <stdint.h>
+
+/* Two bodies in a contact that lasts. */
+struct resting_pair {
+    uint32_t pair;         /* index into contacts->pair */
+    uint32_t first, count; /* its points */
+    double gap_m;          /* the smallest, at the frame's beginning; below 0: overlap */
+};
+
+/* The collider's own memory, kept from frame to frame. */
+struct resting {
+    struct contact_groups groups;
+    struct resting_pair *pair;
+    uint32_t pairs;
+    struct level_contact *point;
+    uint32_t points;
+    struct level_body *body;
+    uint32_t *row; /* [bodies] SLOT_NONE for a fixed object */
+    uint32_t bodies;
+    uint32_t *body_of; /* [capacity of the world] body + 1, else 0 */
+    uint32_t *moved;   /* rows whose motion the contacts changed */
+    uint32_t moved_count;
+};
+
+/* Returns 0, or -1 with errno ENOMEM. */
+int resting_init(struct resting *resting, const struct world *world);
+void resting_free(struct resting *resting);
+
+/* Solves the contacts of the committed table whose bodies are still near each other and do not
+ * close as fast as in an impact, and gives the bodies their motion. Marks their pairs as
+ * CONTACT_RESTS, and those that bore a load as CONTACT_PRESSED. The frame's pairs must be in the
+ * queue, and nothing swept yet. */
+void resting_solve(struct resting *resting, struct response_context *context);
+
+#endif

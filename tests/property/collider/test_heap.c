@@ -1,0 +1,203 @@
+/* Heaps of vehicles that press on each other: they do not interpenetrate, they stay on the ground,
+ * and a contact is reported when it begins and when it ends (thesis rows 36, 39, 46). SEED=n turns
+ * the rings. */
+#include "tests/support/steps.h"
+#include "collider/geometry/level_gap.h"
+#include "world/params.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#define SPACING_M    9.0
+#define OVERLAP_M    0.001 /* at most, at a frame's end */
+#define HELD_M       1e-6  /* off the ground at most */
+#define BEGINS_MOST  4.0   /* collisions told a pair, impacts included */
+#define FRAMES_APART 60    /* in which bodies that start overlapped part */
+
+static struct fixture f;
+
+static void open_world(double hz)
+{
+    char text[128];
+    snprintf(text, sizeof text,
+             "world = { seed = 1; hz = %g; capacity = 1024; };\n"
+             "collision = { shape = \"model\"; };\n",
+             hz);
+    fixture_open(&f, text);
+}
+
+/* --- what is measured --------------------------------------------------------------------------*/
+
+static struct swept_body body_of(const struct entities *e, uint32_t row)
+{
+    const struct world *world = &f.view.world;
+    const struct kind *kind = &world->kinds[e->kind[row]];
+    struct quat turn = rotation_of(e->heading[row], e->pitch[row], e->roll[row]);
+    return (struct swept_body){.hull = world->hulls + kind->first_hull,
+                               .hull_count = kind->hull_count,
+                               .outer = world->hulls + kind->outer_hull,
+                               .vertices = world->hull_vertices,
+                               .planes = world->hull_planes,
+                               .scale = 1.0,
+                               .bound_m = kind->bound_m,
+                               .path = {.at = entities_position(e, row)},
+                               .from = turn,
+                               .to = turn};
+}
+
+/* Returns the deepest overlap of any two of the first rows [m]. */
+static double deepest(uint32_t count)
+{
+    struct state now = fixture_state(&f);
+    const struct entities *e = &now.entities;
+    double least = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        for (uint32_t j = i + 1; j < count; j++) {
+            struct swept_body a = body_of(e, i), b = body_of(e, j);
+            struct vec3 between = vec3_sub(a.path.at, b.path.at);
+            if (vec3_length(between) < a.bound_m + b.bound_m)
+                least = maths_min(least, level_gap_least(&a, &b, 0.0, 0.0));
+        }
+    }
+    return -least;
+}
+
+static double off_the_ground(uint32_t count)
+{
+    struct state now = fixture_state(&f);
+    const struct entities *e = &now.entities;
+    double worst = 0.0;
+    for (uint32_t i = 0; i < count; i++)
+        worst = maths_max(worst, fabs(e->y[i] - steps_ground_at(&f, e->x[i], e->z[i])));
+    return worst;
+}
+
+/* --- rings -------------------------------------------------------------------------------------*/
+
+/* Puts tanks in rings around a place, all driving inwards. */
+static void put_rings(uint32_t count, double turned)
+{
+    uint32_t placed = 0;
+    for (uint32_t ring = 1; placed < count; ring++) {
+        uint32_t here = (uint32_t)(TWO_PI * ring);
+        for (uint32_t i = 0; i < here && placed < count; i++, placed++) {
+            double sine, cosine, radius = SPACING_M * ring;
+            maths_sincos(turned + TWO_PI * i / here, &sine, &cosine);
+            fixture_put(&f,
+                        (struct fixture_entity){.kind = "tank",
+                                                .at = {25000.0 + radius * sine, FIXTURE_GROUND_M,
+                                                       25000.0 - radius * cosine},
+                                                .velocity = {-10.0 * sine, 0.0, 10.0 * cosine}});
+        }
+    }
+}
+
+/* Lets their engines push at full throttle. They cannot be destroyed. */
+static void let_push(uint32_t count)
+{
+    struct entities e = steps_rows(&f);
+    steps_kind(&f, "tank")->resistance_j = 1e12;
+    for (uint32_t i = 0; i < count; i++) {
+        e.behaviour[i] = BEHAVIOUR_DRIVEN;
+        e.until_tick[i] = UINT32_MAX;
+        e.throttle[i] = 1.0f;
+    }
+    fixture_forget_copies(&f);
+}
+
+static void push_rings(uint32_t count, double hz, double seconds, uint64_t seed)
+{
+    open_world(hz);
+    put_rings(count, fixture_uniform(&seed, 0.0, 1.0));
+    let_push(count);
+    double overlap = 0.0, height = 0.0;
+    for (uint32_t frame = 0; frame < (uint32_t)(seconds * hz); frame++) {
+        fixture_continue(&f, 1);
+        overlap = maths_max(overlap, deepest(count));
+        height = maths_max(height, off_the_ground(count));
+    }
+    struct state now = fixture_state(&f);
+    double begins = (double)now.head->tally.collisions / now.head->contact_count;
+    print_message("%u tanks at %g Hz: overlap %.3f mm, off the ground %.1e m, %u in contact, "
+                  "%.1f collisions a pair\n",
+                  count, hz, 1e3 * overlap, height, now.head->contact_count, begins);
+    assert_true(overlap <= OVERLAP_M);
+    assert_true(height <= HELD_M);
+    assert_true(now.head->contact_count >= count / 2);
+    assert_true(begins <= BEGINS_MOST);
+    fixture_close(&f);
+}
+
+static void test_rows_36_46_rings_press_without_overlap(void **state)
+{
+    (void)state;
+    uint64_t seed = fixture_seed(36);
+    push_rings(24, 60.0, 6.0, seed);
+    push_rings(24, 10.0, 6.0, seed);
+    push_rings(90, 60.0, 4.0, seed);
+}
+
+/* --- overlapping starts ------------------------------------------------------------------------*/
+
+/* Two tanks that stand half a metre in each other part, gain no speed by it, and are told. */
+static void test_row_46_bodies_that_start_overlapped_part(void **state)
+{
+    (void)state;
+    open_world(60.0);
+    fixture_put(
+        &f, (struct fixture_entity){.kind = "tank", .at = {25000.0, FIXTURE_GROUND_M, 25000.0}});
+    fixture_put(
+        &f, (struct fixture_entity){.kind = "tank", .at = {25003.0, FIXTURE_GROUND_M, 25000.0}});
+    double before = deepest(2);
+    fixture_continue(&f, FRAMES_APART);
+    double after = deepest(2);
+    print_message("overlap %.3f m at the start, %.4f m after %d frames\n", before, after,
+                  FRAMES_APART);
+    assert_true(before > 0.3);
+    assert_true(after < 0.01);
+    assert_true(steps_speed(&f, 0) < 1e-6 && steps_speed(&f, 1) < 1e-6);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
+    fixture_close(&f);
+}
+
+/* --- ends --------------------------------------------------------------------------------------*/
+
+/* A tank runs into another, pushes it and drives back: one contact ends. */
+static void test_the_end_of_a_contact_is_told(void **state)
+{
+    (void)state;
+    open_world(60.0);
+    fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                            .at = {25000.0, FIXTURE_GROUND_M, 25000.0},
+                                            .velocity = {0.0, 0.0, -3.0}});
+    fixture_put(
+        &f, (struct fixture_entity){.kind = "tank", .at = {25000.0, FIXTURE_GROUND_M, 24990.0}});
+    let_push(1);
+    fixture_continue(&f, 180);
+    struct state now = fixture_state(&f);
+    uint32_t ended = fixture_event_count(&f, EVENT_CONTACT_END); /* after a bounce */
+    assert_int_equal(now.head->contact_count, 1);
+    steps_rows(&f).throttle[0] = -1.0f;
+    fixture_forget_copies(&f);
+    fixture_continue(&f, 180);
+    now = fixture_state(&f);
+    assert_int_equal(now.head->contact_count, 0);
+    assert_int_equal(fixture_event_count(&f, EVENT_CONTACT_END), ended + 1);
+    assert_true(fixture_event(&f, EVENT_CONTACT_END, ended)->contact_end.lasted_s > 1.0);
+    fixture_close(&f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_rows_36_46_rings_press_without_overlap),
+        cmocka_unit_test(test_row_46_bodies_that_start_overlapped_part),
+        cmocka_unit_test(test_the_end_of_a_contact_is_told),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,237 @@
+/* Which contacts of the table are looked at: those of groups in which something moves. */
+#include "collider/resting/contact_groups.h"
+
+#include "tests/support/steps.h"
+#include "world/entity/persistent_contact.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define ROWS 8u
+
+static struct fixture f;
+static struct response_context context;
+static struct contact_groups *groups;
+
+/* A row of tanks 20 m apart, and a tree before the last. */
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "objects = ( { kind = \"tree\"; at = [25140.0, 25010.0]; } );");
+    for (uint32_t i = 0; i < ROWS; i++)
+        fixture_put(&f,
+                    (struct fixture_entity){.kind = "tank", .at = {25000.0 + 20 * i, 100, 25000}});
+    fixture_state(&f).head->tick = 10; /* nothing is new */
+    groups = &f.stepper.collider.resting.groups;
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    steps_respond_end(&context);
+    fixture_close(&f);
+    return 0;
+}
+
+/* Adds a contact of two rows to the committed table. b may be a fixed object. */
+static struct persistent_contact *press(uint32_t a, uint32_t b)
+{
+    struct state now = fixture_state(&f);
+    const uint32_t *id = now.entities.id;
+    bool fixed = b & PERSISTENT_CONTACT_FIXED, swap = !fixed && id[b] < id[a];
+    struct persistent_contact *contact = &now.contacts[now.head->contact_count++];
+    *contact = (struct persistent_contact){.a_row = swap ? b : a,
+                                           .b_row = fixed  ? SLOT_NONE
+                                                    : swap ? a
+                                                           : b,
+                                           .begin_tick = 5,
+                                           .pressed_tick = 9};
+    contact->a_id = id[contact->a_row];
+    contact->b_id = fixed ? b : id[contact->b_row];
+    return contact;
+}
+
+/* Two chains: 0 - 1 - 2 and 4 - 5. */
+static void press_chains(void)
+{
+    press(0, 1);
+    press(1, 2);
+    press(4, 5);
+}
+
+static void move(uint32_t row)
+{
+    context.next->entities.x[row] += 0.25;
+    body_motion_compute(context.motion, row);
+}
+
+static bool is_pair(uint32_t index, uint32_t a, uint32_t b)
+{
+    return groups->pair[index].a == a && groups->pair[index].b == b;
+}
+
+/* --- groups ------------------------------------------------------------------------------------*/
+
+static void test_a_group_in_which_nothing_moves_is_left_out(void **state)
+{
+    (void)state;
+    press_chains();
+    steps_respond(&f, &context);
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->count, 0);
+}
+
+static void test_one_mover_wakes_all_of_its_group(void **state)
+{
+    (void)state;
+    press_chains();
+    for (uint32_t mover = 0; mover < 3; mover++) {
+        steps_respond(&f, &context);
+        move(mover);
+        contact_groups_find(groups, &context);
+        assert_int_equal(groups->count, 2);
+        assert_int_equal(groups->known, 2);
+        assert_true(is_pair(0, 0, 1) && is_pair(1, 1, 2));
+        steps_respond_end(&context);
+    }
+    steps_respond(&f, &context); /* the frame before leaves no trace */
+    move(7);
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->count, 0);
+}
+
+static void test_two_movers_wake_two_groups(void **state)
+{
+    (void)state;
+    press_chains();
+    steps_respond(&f, &context);
+    move(2);
+    move(4);
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->count, 3);
+    assert_true(is_pair(0, 0, 1) && is_pair(1, 1, 2) && is_pair(2, 4, 5));
+}
+
+/* A fixed object joins nothing: a body that leans on it does not wake another one there. */
+static void test_a_fixed_object_joins_no_groups(void **state)
+{
+    (void)state;
+    press(6, PERSISTENT_CONTACT_FIXED);
+    press(7, PERSISTENT_CONTACT_FIXED);
+    steps_respond(&f, &context);
+    move(7);
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->count, 1);
+    assert_true(is_pair(0, 7, PAIR_FIXED));
+}
+
+static void test_an_overlap_wakes_its_group(void **state)
+{
+    (void)state;
+    press_chains();
+    fixture_state(&f).contacts[1].flags = PERSISTENT_CONTACT_OVERLAPS;
+    steps_respond(&f, &context);
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->count, 2);
+}
+
+/* The lower id is in the higher row, because that row is older. */
+static void test_an_overlap_wakes_a_group_in_reused_rows(void **state)
+{
+    (void)state;
+    steps_rows(&f).id[0] = 50;
+    press(0, 1)->flags = PERSISTENT_CONTACT_OVERLAPS;
+    steps_respond(&f, &context);
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->count, 1);
+    assert_true(is_pair(0, 0, 1));
+}
+
+/* --- what is no resting contact ----------------------------------------------------------------*/
+
+static void test_bodies_that_are_gone_are_left_out(void **state)
+{
+    (void)state;
+    press_chains();
+    press(6, PERSISTENT_CONTACT_FIXED);
+    steps_respond(&f, &context);
+    move(0);
+    move(2);
+    move(6);
+    context.next->entities.state[1] = ENTITY_FREE;
+    context.next->fixed_damage[0] = DAMAGE_HIGH;
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->count, 0);
+    context.next->entities.state[1] = ENTITY_ACTIVE;
+    context.next->fixed_damage[0] = DAMAGE_NONE;
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->count, 3);
+}
+
+static void test_bodies_in_the_air_are_left_out(void **state)
+{
+    (void)state;
+    press_chains();
+    steps_rows(&f).kind[2] = fixture_kind(&f, "helicopter");
+    steps_respond(&f, &context);
+    move(2);
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->count, 0);
+}
+
+/* --- bodies that are new -----------------------------------------------------------------------*/
+
+/* Row 3 stands in row 2, and another entity had the row in the frame before. */
+static void test_a_new_body_that_overlaps_is_found(void **state)
+{
+    (void)state;
+    steps_rows(&f).x[3] = 25041.0;
+    steps_respond(&f, &context);
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->count, 0); /* an old one is not */
+    steps_respond_end(&context);
+    steps_respond(&f, &context);
+    context.next->entities.id[3] = 90;
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->known, 0);
+    assert_int_equal(groups->count, 1);
+    assert_true(is_pair(0, 2, 3));
+}
+
+static void test_two_new_bodies_are_one_pair(void **state)
+{
+    (void)state;
+    steps_rows(&f).x[3] = 25041.0;
+    press(0, 1);
+    steps_respond(&f, &context);
+    move(0);
+    context.next->entities.id[2] = 91;
+    context.next->entities.id[3] = 90;
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->known, 1);
+    assert_int_equal(groups->count, 2);
+    assert_true(is_pair(0, 0, 1) && is_pair(1, 2, 3));
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_a_group_in_which_nothing_moves_is_left_out),
+        TEST(test_one_mover_wakes_all_of_its_group),
+        TEST(test_two_movers_wake_two_groups),
+        TEST(test_a_fixed_object_joins_no_groups),
+        TEST(test_an_overlap_wakes_its_group),
+        TEST(test_an_overlap_wakes_a_group_in_reused_rows),
+        TEST(test_bodies_that_are_gone_are_left_out),
+        TEST(test_bodies_in_the_air_are_left_out),
+        TEST(test_a_new_body_that_overlaps_is_found),
+        TEST(test_two_new_bodies_are_one_pair),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,244 @@
+/* The guard at the end of a frame: which bodies it sends back, and how far. */
+#include "collider/resting/end_guard.h"
+
+#include "collider/geometry/level_gap.h"
+#include "tests/support/steps.h"
+
+#include <string.h>
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define ROWS    4u
+#define WEST_M  25000.0
+#define SLACK_M 1.1e-5
+
+static struct fixture f;
+static struct response_context context;
+static double side_by_side; /* [m] between the positions of tanks that touch */
+
+/* Returns the gap of two rows in a table [m], 1 if it is larger. */
+static double gap(const struct entities *e, uint32_t a, uint32_t b)
+{
+    struct swept_body body[2];
+    const uint32_t row[2] = {a, b};
+    for (int i = 0; i < 2; i++) {
+        struct free_turn turn;
+        body[i] = body_motion_body(context.motion, row[i], &turn);
+        body[i].path = (struct path){.at = entities_position(e, row[i])};
+        body[i].from = body[i].to = rotation_of(e->heading[row[i]], 0.0, 0.0);
+        body[i].turn = NULL;
+    }
+    return level_gap_least(&body[0], &body[1], 0.0, 1.0);
+}
+
+/* Tanks that head north in a row from west to east, with 5 cm between their tracks. */
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "collision = { shape = \"model\"; };");
+    for (uint32_t i = 0; i < ROWS; i++)
+        fixture_put(&f, (struct fixture_entity){
+                            .kind = "tank", .at = {WEST_M + 4.5 * i, FIXTURE_GROUND_M, 25000.0}});
+    for (uint32_t i = 0; i < ROWS; i++)
+        steps_rows(&f).behaviour[i] = BEHAVIOUR_IDLE;
+    steps_respond(&f, &context);
+    side_by_side = 4.5 - gap(&context.next->entities, 0, 1);
+    steps_respond_end(&context);
+    for (uint32_t i = 0; i < ROWS; i++)
+        steps_rows(&f).x[i] = WEST_M + (side_by_side + 0.05) * i;
+    fixture_state(&f).head->tick = 10;
+    steps_respond(&f, &context);
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    steps_respond_end(&context);
+    fixture_close(&f);
+    return 0;
+}
+
+static struct entities *next(void)
+{
+    return &context.next->entities;
+}
+
+static const struct entities *committed(void)
+{
+    return &context.motion->committed->entities;
+}
+
+static void move(uint32_t row, double east_m)
+{
+    next()->x[row] += east_m;
+    next()->vx[row] = 60.0 * east_m;
+    body_motion_compute(context.motion, row);
+}
+
+static void pair(uint32_t a, uint32_t b)
+{
+    contact_queue_pair(context.contacts, &(struct pair){a, b});
+}
+
+/* Runs the guard after the resting contacts have moved these rows. */
+static void run(uint32_t count, const uint32_t *rows)
+{
+    uint32_t moved[ROWS];
+    memcpy(moved, rows, count * sizeof *rows);
+    end_guard_run(&f.stepper.collider.guard,
+                  &(struct resting){.moved = moved, .moved_count = count}, &context);
+}
+
+/* --- what goes back ----------------------------------------------------------------------------*/
+
+static void test_bodies_that_do_not_meet_are_left_alone(void **state)
+{
+    (void)state;
+    pair(0, 1);
+    pair(1, 2);
+    move(0, 0.04);
+    run(1, (uint32_t[]){0});
+    assert_true(next()->x[0] == WEST_M + 0.04 && next()->vx[0] == 60.0 * 0.04);
+    assert_true(next()->x[1] == committed()->x[1]);
+}
+
+static void test_a_body_that_ends_in_another_goes_back_by_half(void **state)
+{
+    (void)state;
+    pair(0, 1);
+    pair(1, 2);
+    move(0, 0.08);
+    run(1, (uint32_t[]){0});
+    assert_true(fabs(next()->x[0] - WEST_M - 0.04) < 1e-9); /* both went back once */
+    assert_true(fabs(next()->vx[0] - 30.0 * 0.08) < 1e-9);
+    assert_true(next()->x[1] == committed()->x[1] && next()->x[2] == committed()->x[2]);
+    assert_true(gap(next(), 0, 1) > 0.0);
+}
+
+static void test_at_last_it_goes_back_all_the_way(void **state)
+{
+    (void)state;
+    pair(0, 1);
+    move(0, 1.5); /* an eighth of it is still too far */
+    run(1, (uint32_t[]){0});
+    assert_true(next()->x[0] == WEST_M && next()->vx[0] == 0.0);
+}
+
+/* The third tank follows the second, which has to go back; the fourth is out of it. */
+static void test_a_body_that_went_back_can_send_back_the_next(void **state)
+{
+    (void)state;
+    pair(0, 1);
+    pair(1, 2);
+    pair(2, 3);
+    move(0, 1.5);
+    move(2, -0.04);
+    move(1, -0.04);
+    run(3, (uint32_t[]){0, 1, 2});
+    for (uint32_t i = 0; i + 1 < ROWS; i++)
+        assert_true(gap(next(), i, i + 1) >= -SLACK_M);
+    assert_true(next()->x[0] == WEST_M && next()->x[3] == committed()->x[3]);
+}
+
+static void test_a_driver_who_holds_the_course_keeps_its_speed(void **state)
+{
+    (void)state;
+    next()->behaviour[0] = BEHAVIOUR_HOLD;
+    pair(0, 1);
+    move(0, 1.5);
+    run(1, (uint32_t[]){0});
+    assert_true(next()->x[0] == WEST_M && next()->vx[0] == 90.0);
+}
+
+/* --- what stays --------------------------------------------------------------------------------*/
+
+static void overlap(double depth_m)
+{
+    struct entities w = steps_rows(&f);
+    w.x[1] = next()->x[1] = WEST_M + side_by_side - depth_m;
+    body_motion_compute(context.motion, 1);
+    pair(0, 1);
+}
+
+static void test_an_overlap_may_last_but_not_grow(void **state)
+{
+    (void)state;
+    overlap(0.01);
+    run(1, (uint32_t[]){0});
+    assert_true(next()->x[0] == WEST_M);
+    move(0, 0.005);
+    run(1, (uint32_t[]){0});
+    assert_true(next()->x[0] == WEST_M); /* no half of it is allowed */
+    move(0, -0.005);
+    run(1, (uint32_t[]){0});
+    assert_true(next()->x[0] == WEST_M - 0.005);
+}
+
+static void test_deep_overlaps_have_to_part_first(void **state)
+{
+    (void)state;
+    overlap(2.0 * END_GUARD_LEFT_OUT_M);
+    move(0, 0.005);
+    run(1, (uint32_t[]){0});
+    assert_true(next()->x[0] == WEST_M + 0.005);
+}
+
+static void test_a_new_body_is_not_sent_back(void **state)
+{
+    (void)state;
+    pair(0, 1);
+    next()->id[0] = 80;
+    move(0, 0.2);
+    run(1, (uint32_t[]){0});
+    assert_true(next()->x[0] == WEST_M + 0.2);
+}
+
+/* --- order -------------------------------------------------------------------------------------*/
+
+static void test_the_order_of_rows_and_pairs_does_not_matter(void **state)
+{
+    static const uint32_t rows[3][ROWS] = {{0, 1, 2, 3}, {3, 2, 1, 0}, {2, 0, 3, 1}};
+    static const uint32_t pairs[3][3] = {{0, 1, 2}, {2, 1, 0}, {1, 2, 0}};
+    double x[3][ROWS], vx[3][ROWS];
+    (void)state;
+    for (int order = 0; order < 3; order++) {
+        steps_respond_end(&context);
+        steps_respond(&f, &context);
+        for (int i = 0; i < 3; i++)
+            pair(pairs[order][i], pairs[order][i] + 1);
+        move(0, 0.3);
+        move(1, -0.2);
+        move(2, 0.11);
+        move(3, -0.4);
+        run(ROWS, rows[order]);
+        memcpy(x[order], next()->x, sizeof x[order]);
+        memcpy(vx[order], next()->vx, sizeof vx[order]);
+        assert_memory_equal(x[order], x[0], sizeof x[0]);
+        assert_memory_equal(vx[order], vx[0], sizeof vx[0]);
+        for (uint32_t i = 0; i + 1 < ROWS; i++)
+            assert_true(gap(next(), i, i + 1) >= -SLACK_M);
+    }
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_bodies_that_do_not_meet_are_left_alone),
+        TEST(test_a_body_that_ends_in_another_goes_back_by_half),
+        TEST(test_at_last_it_goes_back_all_the_way),
+        TEST(test_a_body_that_went_back_can_send_back_the_next),
+        TEST(test_a_driver_who_holds_the_course_keeps_its_speed),
+        TEST(test_an_overlap_may_last_but_not_grow),
+        TEST(test_deep_overlaps_have_to_part_first),
+        TEST(test_a_new_body_is_not_sent_back),
+        TEST(test_the_order_of_rows_and_pairs_does_not_matter),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,208 @@
+/* Contacts that last are solved before impacts: what presses, what parts, and what stays. */
+#include "collider/resting/resting.h"
+
+#include "collider/geometry/level_gap.h"
+#include "tests/support/steps.h"
+#include "world/entity/persistent_contact.h"
+#include "world/params.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define ROWS   3u
+#define WEST_M 25000.0
+
+static struct fixture f;
+static struct response_context context;
+static struct resting *resting;
+static double nose_to_tail; /* [m] between the positions of trucks that touch */
+
+/* Returns the gap of two rows in a table [m], at most 9. */
+static double gap(const struct entities *e, uint32_t a, uint32_t b)
+{
+    struct swept_body body[2];
+    const uint32_t row[2] = {a, b};
+    for (int i = 0; i < 2; i++) {
+        struct free_turn turn;
+        body[i] = body_motion_body(context.motion, row[i], &turn);
+        body[i].path = (struct path){.at = entities_position(e, row[i])};
+        body[i].from = body[i].to = rotation_of(e->heading[row[i]], 0.0, 0.0);
+        body[i].turn = NULL;
+    }
+    return level_gap_least(&body[0], &body[1], 0.0, 9.0);
+}
+
+static void begin(void)
+{
+    steps_respond(&f, &context);
+}
+
+/* Trucks that roll freely, heading east, in a row from west to east, with a skin between them. */
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "collision = { shape = \"model\"; };");
+    for (uint32_t i = 0; i < ROWS; i++)
+        fixture_put(&f,
+                    (struct fixture_entity){.kind = "truck",
+                                            .at = {WEST_M + 12.0 * i, FIXTURE_GROUND_M, 25000.0},
+                                            .heading_rad = HALF_PI});
+    begin();
+    for (int n = 0; n < 60; n++)
+        context.next->entities.x[1] -= 0.5 * gap(&context.next->entities, 0, 1);
+    nose_to_tail = context.next->entities.x[1] - WEST_M;
+    steps_respond_end(&context);
+    for (uint32_t i = 0; i < ROWS; i++)
+        steps_rows(&f).x[i] = WEST_M + (nose_to_tail + SKIN_M) * i;
+    fixture_state(&f).head->tick = 10;
+    resting = &f.stepper.collider.resting;
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    steps_respond_end(&context);
+    fixture_close(&f);
+    return 0;
+}
+
+/* Adds the rows' contact with the next row to the committed table. */
+static struct persistent_contact *know(uint32_t a)
+{
+    struct state now = fixture_state(&f);
+    struct persistent_contact *contact = &now.contacts[now.head->contact_count++];
+    *contact =
+        (struct persistent_contact){.a_id = a + 1, .b_id = a + 2, .a_row = a, .b_row = a + 1};
+    return contact;
+}
+
+/* The mover has moved the row east at this speed. */
+static void drive(uint32_t row, double speed_mps)
+{
+    struct entities *e = &context.next->entities;
+    steps_rows(&f).vx[row] = e->vx[row] = speed_mps;
+    e->x[row] += speed_mps * world_dt_s(&f.view.world);
+    body_motion_compute(context.motion, row);
+}
+
+static uint8_t marks(uint32_t a, uint32_t b)
+{
+    return context.contacts->marks[contact_queue_pair(context.contacts, &(struct pair){a, b})];
+}
+
+/* --- pushing -----------------------------------------------------------------------------------*/
+
+static void test_a_truck_pushes_two_others_on(void **state)
+{
+    (void)state;
+    know(0);
+    know(1);
+    begin();
+    drive(0, 0.9);
+    resting_solve(resting, &context);
+    const struct entities *e = &context.next->entities;
+    assert_true(fabs(e->vx[0] + e->vx[1] + e->vx[2] - 0.9) < 1e-9); /* momentum */
+    assert_true(e->vx[2] > 0.2 && e->vx[0] - e->vx[1] < 0.01 && e->vx[1] - e->vx[2] < 0.01);
+    assert_true(gap(e, 0, 1) > 0.0 && gap(e, 1, 2) > 0.0);
+    assert_int_equal(marks(0, 1), CONTACT_RESTS | CONTACT_PRESSED);
+    assert_int_equal(resting->moved_count, 3);
+    assert_true(fabs(context.path[2].along.x - e->vx[2] * world_dt_s(&f.view.world)) < 1e-9);
+}
+
+static void test_an_impact_is_left_to_the_search(void **state)
+{
+    (void)state;
+    know(0);
+    begin();
+    drive(0, 1.5 * CONTACT_IMPACT_MPS);
+    resting_solve(resting, &context);
+    assert_int_equal(resting->pairs, 0);
+    assert_int_equal(resting->moved_count, 0);
+    assert_int_equal(marks(0, 1), 0);
+    assert_true(context.next->entities.vx[1] == 0.0);
+}
+
+static void test_brakes_hold_against_a_push(void **state)
+{
+    (void)state;
+    know(0);
+    steps_rows(&f).behaviour[1] = BEHAVIOUR_IDLE; /* its driver brakes */
+    begin();
+    drive(0, 0.05);
+    resting_solve(resting, &context);
+    assert_true(fabs(context.next->entities.vx[1]) < 1e-3);
+    assert_true(fabs(context.next->entities.vx[0]) < 1e-3);
+}
+
+static void test_bodies_that_are_far_do_not_press(void **state)
+{
+    (void)state;
+    know(0);
+    steps_rows(&f).x[0] -= 0.5;
+    begin();
+    drive(0, 0.9);
+    resting_solve(resting, &context);
+    assert_int_equal(resting->pairs, 0);
+    assert_true(context.next->entities.vx[0] == 0.9);
+}
+
+/* --- overlaps ----------------------------------------------------------------------------------*/
+
+static void test_an_overlap_parts_without_a_speed(void **state)
+{
+    double before = 0.0;
+    (void)state;
+    steps_rows(&f).x[1] -= 0.02;
+    know(0)->flags = PERSISTENT_CONTACT_OVERLAPS;
+    begin();
+    before = gap(&context.next->entities, 0, 1);
+    resting_solve(resting, &context);
+    const struct entities *e = &context.next->entities;
+    double after = gap(e, 0, 1);
+    assert_true(fabs(after - before - 0.5 * (SKIN_M - before)) < 1e-4); /* half of it */
+    assert_true(e->vx[0] == 0.0 && e->vx[1] == 0.0 && e->spin_y[0] == 0.0);
+    assert_int_equal(marks(0, 1), CONTACT_RESTS | CONTACT_PRESSED | CONTACT_OVERLAPS);
+    assert_int_equal(context.events.count, 0); /* no news */
+}
+
+/* Another body had the row in the frame before, elsewhere, faster and with another heading. */
+static void test_a_new_body_takes_nothing_from_its_row(void **state)
+{
+    struct entities w = steps_rows(&f);
+    (void)state;
+    w.x[1] -= 0.02;
+    begin();
+    const struct entities *e = &context.next->entities;
+    e->id[1] = 90;
+    w.heading[1] = 2.0;
+    w.vx[1] = 8.0;
+    e->behaviour[1] = BEHAVIOUR_IDLE;
+    body_motion_compute(context.motion, 1);
+    resting_solve(resting, &context);
+    assert_int_equal(resting->pairs, 1);
+    assert_int_equal(marks(0, 1), CONTACT_RESTS | CONTACT_PRESSED | CONTACT_OVERLAPS);
+    assert_true(fabs(e->heading[1] - HALF_PI) < 0.01);
+    assert_true(fabs(e->vx[1]) < 1e-12 && gap(e, 0, 1) > -0.012);
+    assert_true(resting->body[1].grip_along > 0.0);
+    assert_int_equal(context.events.count, 1); /* no impact will report it */
+    assert_int_equal(f.view.events[context.events.first].type, EVENT_COLLISION);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_a_truck_pushes_two_others_on),
+        TEST(test_an_impact_is_left_to_the_search),
+        TEST(test_brakes_hold_against_a_push),
+        TEST(test_bodies_that_are_far_do_not_press),
+        TEST(test_an_overlap_parts_without_a_speed),
+        TEST(test_a_new_body_takes_nothing_from_its_row),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
