@@ -183,6 +183,22 @@ static void spin_on(const struct response_context *context, uint32_t row, double
     *spin_rps = free_rotation_spin(moment, rotation->to, freely.momentum);
 }
 
+/* A push on a body on the ground leaves it no spin but that about the vertical. Returns the
+ * velocity that the position of a wreck gets by losing the rest of its spin [m/s]: that of its
+ * centre of mass stays, so that no energy is gained. */
+static struct vec3 rolling_velocity(const struct response_context *context, uint32_t row,
+                                    struct quat turned)
+{
+    const struct entities *e = &context->next->entities;
+    if (!path_change_grounded(context, row))
+        return (struct vec3){0.0, 0.0, 0.0};
+    const struct kind *kind = &context->world->kinds[e->kind[row]];
+    struct vec3 up = {0.0, mass_properties_of(kind).centre_m, 0.0};
+    struct mat3 axes = rotation_matrix(turned);
+    return vec3_cross((struct vec3){e->spin_x[row], 0.0, e->spin_z[row]},
+                      rotation_apply(&axes, up));
+}
+
 void path_change_leave(struct response_context *context, uint32_t row, double time, struct vec3 at,
                        struct vec3 velocity, struct vec3 spin_rps, bool stays)
 {
@@ -198,6 +214,7 @@ void path_change_leave(struct response_context *context, uint32_t row, double ti
     if (!stays)
         spin_on(context, row, (1.0 - time) * dt_s, &rotation, &spin_rps);
     spin_rps.y -= rotation.driven_rps;
+    struct vec3 rolling = rolling_velocity(context, row, turned);
     table_set_spin(&context->writer, row, spin_rps);
-    take_path(context, row, &path, &rotation, velocity);
+    take_path(context, row, &path, &rotation, vec3_add(velocity, rolling));
 }

@@ -153,6 +153,35 @@ static void test_a_displaced_wreck_is_awake(void **state)
     assert_int_equal(e->until_tick[row], 0);
 }
 
+/* Returns the velocity of a tank's centre of mass. */
+static struct vec3 centre_velocity(uint32_t row)
+{
+    const struct entities *e = &context.next->entities;
+    struct mat3 axes = rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+    struct vec3 up = {0.0, mass_properties_of(steps_kind(&f, "tank")).centre_m, 0.0};
+    struct vec3 spin = {e->spin_x[row], e->spin_y[row], e->spin_z[row]};
+    return vec3_add(entities_velocity(e, row), vec3_cross(spin, rotation_apply(&axes, up)));
+}
+
+/* A wreck on the ground loses its rolling by a push. Its centre of mass gains no speed by that. */
+static void test_a_pushed_wreck_gains_no_speed(void **state)
+{
+    (void)state;
+    uint32_t row = put("tank", 25000.0, FIXTURE_GROUND_M);
+    struct entities *e = &context.next->entities;
+    e->state[row] = ENTITY_WRECK;
+    e->vx[row] = 10.0;
+    e->spin_x[row] = 0.3;
+    e->spin_y[row] = 0.2;
+    e->spin_z[row] = -0.4;
+    assert_true(path_change_grounded(&context, row));
+    struct vec3 before = centre_velocity(row);
+    path_change_leave(&context, row, 1.0, entities_position(e, row), entities_velocity(e, row),
+                      path_change_spin(&context, row, 1.0), false);
+    assert_true(e->spin_x[row] == 0.0 && e->spin_y[row] == 0.2 && e->spin_z[row] == 0.0);
+    assert_true(vec3_length(vec3_sub(centre_velocity(row), before)) < 1e-12);
+}
+
 /* A driver who steers continues to steer after a response, and the steering does not become the
  * vehicle's spin. */
 static void test_an_answer_leaves_the_steering_to_the_driver(void **state)
@@ -208,6 +237,7 @@ int main(void)
         TEST(test_no_body_is_pushed_out_of_the_world),
         TEST(test_what_the_ground_holds),
         TEST(test_a_displaced_wreck_is_awake),
+        TEST(test_a_pushed_wreck_gains_no_speed),
         TEST(test_an_answer_leaves_the_steering_to_the_driver),
         TEST(test_a_body_in_the_air_has_its_momentum_at_every_time),
     };
