@@ -51,8 +51,17 @@ static bool same_angles(const struct motion_look *a, const struct motion_look *b
     return a->heading == b->heading && a->pitch == b->pitch && a->roll == b->roll;
 }
 
-static void read_motion(struct motion_look *look, const struct entities *e, uint32_t row)
+/* A wreck rests from the tick that until_tick says (docs/decisions/031-wrecks-on-the-ground.md). */
+static bool is_at_rest(const struct motion_look *look, uint32_t until_tick, uint64_t tick)
 {
+    return look->wreck && until_tick != 0 && until_tick <= tick &&
+           vec3_dot(look->velocity, look->velocity) == 0.0 &&
+           vec3_dot(look->spin, look->spin) == 0.0;
+}
+
+static void read_motion(struct motion_look *look, const struct state *state, uint32_t row)
+{
+    const struct entities *e = &state->entities;
     *look = (struct motion_look){.pose = {.at = entities_position(e, row)},
                                  .heading = e->heading[row],
                                  .pitch = e->pitch[row],
@@ -60,15 +69,17 @@ static void read_motion(struct motion_look *look, const struct entities *e, uint
                                  .velocity = entities_velocity(e, row),
                                  .spin = {e->spin_x[row], e->spin_y[row], e->spin_z[row]},
                                  .wreck = e->state[row] == ENTITY_WRECK};
+    look->at_rest = is_at_rest(look, e->until_tick[row], state->head->tick);
 }
 
-static void read_body(struct body_looks *looks, const struct world *world, const struct entities *e,
-                      uint32_t row)
+static void read_body(struct body_looks *looks, const struct world *world,
+                      const struct state *state, uint32_t row)
 {
+    const struct entities *e = &state->entities;
     struct body_look *body = &looks->body[looks->count];
     const struct row_memory *memory = &looks->memory[row];
     *body = (struct body_look){.row = row, .kind = &world->kinds[e->kind[row]]};
-    read_motion(&body->now, e, row);
+    read_motion(&body->now, state, row);
     body->named = (struct measured_body){e->id[row], false, e->kind[row], body->now.pose.at};
     body->finite = all_finite(&body->now);
     body->known = memory->id == e->id[row] && body->finite;
@@ -98,7 +109,7 @@ void body_looks_begin(struct body_looks *looks, const struct world *world,
         if (e->state[row] == ENTITY_FREE || world->kinds[e->kind[row]].domain == DOMAIN_MUNITION)
             looks->memory[row].id = 0;
         else
-            read_body(looks, world, e, row);
+            read_body(looks, world, state, row);
     }
 }
 
@@ -132,13 +143,15 @@ static struct body_look *party(struct body_looks *looks, const struct event_part
     return index == NO_LOOK ? NULL : &looks->body[index];
 }
 
-static void blast(struct body_looks *looks, struct vec3 point, double explosive_kg)
+/* struck: the body that a round has hit, or NULL. */
+static void blast(struct body_looks *looks, const struct body_look *struck, struct vec3 point,
+                  double explosive_kg)
 {
     double reach = BLAST_REACH_M * maths_cbrt(explosive_kg);
     for (uint32_t i = 0; i < looks->count; i++) {
         struct body_look *body = &looks->body[i];
         struct vec3 apart = vec3_sub(body->named.at, point);
-        body->blasted |= vec3_length(apart) <= reach + body->kind->bound_m;
+        body->blasts += body == struck || vec3_length(apart) <= reach + body->kind->bound_m;
     }
 }
 
@@ -147,7 +160,7 @@ void body_looks_wrecked(struct body_looks *looks)
     for (uint32_t i = 0; i < looks->count; i++) {
         const struct body_look *body = &looks->body[i];
         if (body->known && body->now.wreck && !body->was->wreck && body->kind->explosive_kg > 0.0)
-            blast(looks, body->named.at, body->kind->explosive_kg);
+            blast(looks, NULL, body->named.at, body->kind->explosive_kg);
     }
 }
 
@@ -164,9 +177,7 @@ void body_looks_explain(struct body_looks *looks, const struct event *event)
     } else if (event->type == EVENT_DETONATION) {
         const double *point = event->detonation.point;
         a = party(looks, &event->detonation.struck_party);
-        if (a)
-            a->blasted = true;
-        blast(looks, (struct vec3){point[0], point[1], point[2]},
+        blast(looks, a, (struct vec3){point[0], point[1], point[2]},
               (double)event->detonation.explosive_kg);
     } else if (event->type == EVENT_COMMAND) {
         uint32_t index = body_looks_find(looks, event->command.entity);

@@ -24,7 +24,11 @@ struct motion_look {
     struct vec3 velocity;        /* [m/s] */
     struct vec3 spin;            /* [rad/s, world axes] */
     double height_m;             /* over the ground */
+    double lowest_m;             /* of a wreck: its lowest corner over the ground there, or if it is
+                                    high over all ground near: height_m */
     bool wreck;
+    bool grounded; /* an aircraft or a wreck that may touch the ground */
+    bool at_rest;  /* a wreck that the mover leaves as it is, or that has not moved */
 };
 
 struct body_look {
@@ -37,11 +41,11 @@ struct body_look {
     bool still;                    /* known, and its pose is the same to the bit */
     bool finite;                   /* all its numbers are */
     /* What may explain a change of its velocity. */
-    bool commanded; /* a command named it */
-    bool blasted;   /* an explosion is near */
-    bool struck;    /* it has a collision in this frame */
-    bool touches;   /* it touches a body or a wall */
-    bool touched;   /* the same in the frame before */
+    bool commanded;  /* a command named it */
+    uint32_t blasts; /* explosions near */
+    bool struck;     /* it has a collision in this frame */
+    bool touches;    /* it touches a body or a wall */
+    bool touched;    /* the same in the frame before */
 };
 
 /* What is kept of a row from frame to frame. */
@@ -63,7 +67,7 @@ int body_looks_make(struct body_looks *looks, uint32_t capacity);
 void body_looks_free(struct body_looks *looks);
 
 /* Begins and ends the look at a frame: the bodies of its rows with what is kept of the frame
- * before. Heights are the caller's. */
+ * before. Heights, and what follows from them, are the caller's. */
 void body_looks_begin(struct body_looks *looks, const struct world *world,
                       const struct state *state);
 void body_looks_end(struct body_looks *looks);

@@ -10,6 +10,7 @@
 #define HELD_M        1e-3 /* a body that is no farther off the ground is on it */
 #define LEAST_DEPTH_M 0.05 /* a corner that is no higher over the ground touches it */
 #define LEANING_RPS   3.0  /* an aircraft banks and pitches so fast */
+#define BOX_CORNERS   8u
 #define LEAST_TOP     10.0 /* [m/s] top speed of kinds that hardly move by themselves */
 
 static int unfinished(struct vec3 v)
@@ -70,48 +71,106 @@ static double depth_of(const struct surface *surface, const struct hull_shape *s
     return deepest;
 }
 
+/* Returns corner i of the kind's box, in body axes. Land vehicles stand on their position. */
+static struct vec3 box_corner(const struct kind *kind, uint32_t i)
+{
+    double middle = kind->domain == DOMAIN_LAND ? 0.5 * kind->height_m : 0.0;
+    return (struct vec3){(i & 1 ? 0.5 : -0.5) * kind->length_m,
+                         middle + (i & 2 ? 0.5 : -0.5) * kind->height_m,
+                         (i & 4 ? 0.5 : -0.5) * kind->width_m};
+}
+
+/* Returns how high a wreck's lowest corner is over the ground below that corner. */
+static double lowest_corner(const struct ground_look *ground, const struct body_look *body)
+{
+    const struct hull_shape *hull = &ground->shape[body->kind->outer_hull];
+    uint32_t corners = ground->boxes ? BOX_CORNERS : hull->vertices;
+    double lowest = HUGE_VAL;
+    for (uint32_t i = 0; i < corners; i++) {
+        struct vec3 own = ground->boxes ? box_corner(body->kind, i) : hull->vertex[i];
+        struct vec3 corner = vec3_add(body->named.at, rigid_pose_out(&body->now.pose, own));
+        lowest = maths_min(lowest, corner.y - surface_height(ground->surface, corner.x, corner.z));
+    }
+    return lowest;
+}
+
+/* Returns how far a point of the body may move in the frame. */
+static double way_of(const struct body_look *body, double dt_s)
+{
+    const struct motion_look *now = &body->now;
+    return dt_s * (vec3_length(now->velocity) + vec3_length(now->spin) * body->kind->bound_m);
+}
+
+/* Measures a wreck's depth in the ground if it has grown. One that a vehicle had may stay. */
+static void measure_sinking(struct measures *measures, const struct body_look *body)
+{
+    bool sinks = body->now.lowest_m < body->was->lowest_m;
+    measure_take(measures, MEASURE_OF_WRECK_UNDERGROUND,
+                 sinks ? maths_max(0.0, -body->now.lowest_m) : 0.0, &body->named, NULL);
+}
+
 /* Measures the deepest corner. A body that comes down touches the ground with it. */
-static void measure_corners(struct measures *measures, const struct surface *surface,
-                            const struct hull_shape *shape, const struct surface_part *part,
-                            struct body_look *body)
+static void measure_corners(struct measures *measures, const struct ground_look *ground,
+                            const struct surface_part *part, struct body_look *body)
 {
     const struct kind *kind = body->kind;
     const struct vec3 at = body->named.at;
     double bound = kind->bound_m;
+    double near = LEAST_DEPTH_M + (body->now.wreck ? way_of(body, ground->dt_s) : 0.0);
+    body->now.lowest_m = body->now.height_m;
     if (kind->domain == DOMAIN_SEA || kind->hull_count == 0 ||
-        at.y - bound > surface_part_most(part, bound, bound) + LEAST_DEPTH_M)
+        at.y - bound > surface_part_most(part, bound, bound) + near)
         return;
-    double depth = depth_of(surface, shape, part, body);
-    body->touches |= kind->domain == DOMAIN_AIR && depth > -LEAST_DEPTH_M;
-    if (!surface_is_water(surface, at.x, at.z))
+    double depth = depth_of(ground->surface, ground->shape, part, body);
+    if (body->now.wreck)
+        body->now.lowest_m = lowest_corner(ground, body);
+    body->now.grounded =
+        body->now.wreck ? body->now.lowest_m < near : kind->domain == DOMAIN_AIR && depth > -near;
+    /* A vehicle is placed level, and takes the ground's slope in its first frame. */
+    bool placed = !body->known && kind->domain == DOMAIN_LAND && !body->now.wreck;
+    if (!placed && !surface_is_water(ground->surface, at.x, at.z))
         measure_take(measures, MEASURE_OF_UNDERGROUND, maths_max(0.0, depth), &body->named, NULL);
+    if (body->known && body->now.wreck && body->was->wreck && !ground->fresh)
+        measure_sinking(measures, body);
 }
 
-void body_measures_ground(struct measures *measures, const struct surface *surface,
-                          const struct hull_shape *shape, bool fresh, struct body_look *body)
+void body_measures_ground(struct measures *measures, const struct ground_look *ground,
+                          struct body_look *body)
 {
+    const struct surface *surface = ground->surface;
     const struct vec3 at = body->named.at;
     uint8_t domain = body->kind->domain;
-    if (body->still && !fresh) {
+    if (body->still && !ground->fresh && body->now.wreck == body->was->wreck) {
         body->now.height_m = body->was->height_m;
+        body->now.lowest_m = body->was->lowest_m;
+        body->now.grounded = body->was->grounded;
+        body->now.at_rest |= body->now.wreck;
         return;
     }
     const struct surface_part part = surface_around(surface, at.x, at.z, body->kind->bound_m);
     body->now.height_m = at.y - (part.flat ? part.at_m : surface_height(surface, at.x, at.z));
     if (domain == DOMAIN_SEA || (domain == DOMAIN_LAND && !body->now.wreck))
         measure_take(measures, MEASURE_OF_HEIGHT, fabs(body->now.height_m), &body->named, NULL);
-    else if (domain == DOMAIN_LAND)
-        measure_take(measures, MEASURE_OF_WRECK_HEIGHT, fabs(body->now.height_m), &body->named,
-                     NULL);
-    measure_corners(measures, surface, shape, &part, body);
+    measure_corners(measures, ground, &part, body);
+}
+
+void body_measures_rest(struct measures *measures, const struct ground_look *ground,
+                        const struct body_look *body)
+{
+    const struct motion_look *now = &body->now;
+    bool lies = now->at_rest && body->kind->domain != DOMAIN_SEA && !body->touches;
+    bool looked = body->known && body->was->at_rest && body->still && !ground->fresh;
+    if (lies && !looked && body->kind->hull_count > 0)
+        measure_take(measures, MEASURE_OF_WRECK_HEIGHT, fabs(now->lowest_m), &body->named, NULL);
 }
 
 /* --- motion ------------------------------------------------------------------------------------*/
 
 bool body_measures_held(const struct body_look *body)
 {
-    bool lies = body->kind->domain != DOMAIN_AIR || (body->now.wreck && body->was->wreck);
-    return lies && fabs(body->now.height_m) <= HELD_M && fabs(body->was->height_m) <= HELD_M;
+    uint8_t domain = body->kind->domain;
+    bool follows = domain == DOMAIN_SEA || (domain == DOMAIN_LAND && !body->was->wreck);
+    return follows && fabs(body->now.height_m) <= HELD_M && fabs(body->was->height_m) <= HELD_M;
 }
 
 static struct vec3 level(struct vec3 v, bool held)
@@ -125,13 +184,14 @@ static void measure_jump(struct measures *measures, double dt_s, const struct bo
     struct vec3 way = level(vec3_sub(body->named.at, body->was->pose.at), held);
     double speed = maths_max(vec3_length(level(body->now.velocity, held)),
                              vec3_length(level(body->was->velocity, held)));
-    measure_take(measures, MEASURE_OF_JUMP, maths_max(0.0, vec3_length(way) - speed * dt_s),
+    double out = body->was->wreck ? maths_max(0.0, -body->was->lowest_m) : 0.0;
+    measure_take(measures, MEASURE_OF_JUMP, maths_max(0.0, vec3_length(way) - speed * dt_s - out),
                  &body->named, NULL);
-    if (body->kind->domain != DOMAIN_AIR && !body->now.wreck)
+    if (body->kind->domain != DOMAIN_AIR && !body->was->wreck)
         return;
     double spin = maths_max(vec3_length(body->now.spin), vec3_length(body->was->spin));
     double angle = rigid_pose_angle(&body->was->pose, &body->now.pose);
-    if (!body->now.wreck)
+    if (!body->was->wreck)
         spin += body->kind->turn_rate_rps + LEANING_RPS;
     measure_take(measures, MEASURE_OF_SNAP, maths_max(0.0, angle - spin * dt_s), &body->named,
                  NULL);
@@ -156,7 +216,9 @@ void body_measures_motion(struct measures *measures, double dt_s, const struct b
     measure_take(measures, MEASURE_OF_SPIN, vec3_length(body->now.spin), &body->named, NULL);
     if (!body->known || body->commanded)
         return;
-    measure_jump(measures, dt_s, body);
-    if (!body->blasted && !body->struck && !body->touches && !body->touched)
+    if (body->blasts < 2) /* between two explosions it may be faster than before and after */
+        measure_jump(measures, dt_s, body);
+    bool touches = body->touches || body->touched || body->now.grounded || body->was->grounded;
+    if (body->blasts == 0 && !body->struck && !touches)
         measure_acceleration(measures, dt_s, body);
 }

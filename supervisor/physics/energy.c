@@ -1,4 +1,4 @@
-/* A gain of kinetic energy that nothing explains. Bodies are boxes of uniform density. */
+/* A gain of energy that nothing explains. Bodies are boxes of uniform density. */
 #include "supervisor/physics/energy.h"
 
 #include "supervisor/physics/body_measures.h"
@@ -35,6 +35,12 @@ static struct vec3 moments(const struct kind *kind)
                          twelfth * (length + height)};
 }
 
+/* Returns the centre of mass, from the position. That of a land vehicle is half its height up. */
+static struct vec3 centre_of(const struct kind *kind, const struct motion_look *look)
+{
+    return vec3_scale(look->pose.up, kind->domain == DOMAIN_LAND ? 0.5 * kind->height_m : 0.0);
+}
+
 /* Returns the kinetic energy [J]. Of a held body the vertical speed only follows the ground. */
 static double kinetic_j(const struct kind *kind, const struct motion_look *look, bool held)
 {
@@ -43,20 +49,36 @@ static double kinetic_j(const struct kind *kind, const struct motion_look *look,
         return 0.5 * kind->mass_kg * (square(v.x) + square(v.z)) +
                0.5 * moment.y * square(look->spin.y);
     struct vec3 spin = rigid_pose_in(&look->pose, look->spin);
-    if (kind->domain == DOMAIN_LAND) { /* its mass is half its height above its position */
-        struct vec3 arm = vec3_scale(look->pose.up, 0.5 * kind->height_m);
-        v = vec3_add(v, vec3_cross(look->spin, arm));
-    }
+    v = vec3_add(v, vec3_cross(look->spin, centre_of(kind, look)));
     return 0.5 * kind->mass_kg * vec3_dot(v, v) +
            0.5 *
                (moment.x * square(spin.x) + moment.y * square(spin.y) + moment.z * square(spin.z));
+}
+
+/* Returns how far the centre of mass has come down in a frame [m]. */
+static double fall_m(const struct body_look *body)
+{
+    double arms = centre_of(body->kind, body->was).y - centre_of(body->kind, &body->now).y;
+    return body->was->pose.at.y - body->now.pose.at.y + arms;
+}
+
+/* Returns the work that weight may have done on a body in a frame [J]. Of a wreck it counts in
+ * full, whether it falls or rises: kinetic and potential energy together do not grow. Of another
+ * body in the air only a fall counts, because its engine lifts it. */
+static double weight_j(const struct body_look *body, bool held)
+{
+    double fall = fall_m(body);
+    if (held)
+        return 0.0;
+    return body->kind->mass_kg * GRAVITY_MPS2 *
+           (body->now.wreck && body->was->wreck ? fall : maths_max(0.0, fall));
 }
 
 /* Returns the work that engine and weight may have done on a body in a frame [J]. */
 static double work_j(const struct body_look *body, bool held, double dt_s)
 {
     const struct kind *kind = body->kind;
-    double speed = vec3_length(body->was->velocity), push = 0.0, weight = 0.0, steering = 0.0;
+    double speed = vec3_length(body->was->velocity), push = 0.0, steering = 0.0;
     if (!body->now.wreck) {
         /* Aircraft speed up along their nose and upwards, each at most twice as hard. */
         push = kind->acceleration_mps2 * (kind->domain == DOMAIN_AIR ? 3.0 : 1.0);
@@ -64,24 +86,36 @@ static double work_j(const struct body_look *body, bool held, double dt_s)
             push += GRAVITY_MPS2 *
                     maths_max(fabs(body->now.pose.forward.y), fabs(body->was->pose.forward.y));
     }
-    if (!held)
-        weight = GRAVITY_MPS2 * maths_max(0.0, body->was->pose.at.y - body->now.pose.at.y);
-    if (!body->now.wreck && (body->struck || body->touches))
+    if (!body->now.wreck && (body->struck || body->touches || body->now.grounded))
         steering = 0.5 * moments(kind).y * square(kind->turn_rate_rps);
-    return kind->mass_kg * (speed * push * dt_s + 0.5 * square(push * dt_s) + weight) + steering;
+    return kind->mass_kg * (speed * push * dt_s + 0.5 * square(push * dt_s)) +
+           weight_j(body, held) + steering;
+}
+
+/* Returns the work by which a wreck may have been pushed out of the ground [J]. It is what the rise
+ * of its centre of mass took beyond its kinetic energy, at most a rise by the depth of its lowest
+ * corner. */
+static double pushed_j(const struct body_look *body, double kinetic_before_j)
+{
+    double weight_n = body->kind->mass_kg * GRAVITY_MPS2;
+    if (!body->now.wreck || !body->was->wreck)
+        return 0.0;
+    return maths_clamp(-weight_n * fall_m(body) - kinetic_before_j, 0.0,
+                       weight_n * maths_max(0.0, -body->was->lowest_m));
 }
 
 static void begin_share(struct energy_share *share, uint32_t index, const struct body_look *body,
                         double dt_s)
 {
     *share = (struct energy_share){.parent = index, .mass_kg = body->kind->mass_kg};
-    share->unexplained = body->known && body->finite && !body->commanded && !body->blasted;
+    share->unexplained = body->known && body->finite && !body->commanded && body->blasts == 0;
     if (!share->unexplained)
         return;
     bool held = body_measures_held(body);
     double now = kinetic_j(body->kind, &body->now, held);
     double before = kinetic_j(body->kind, body->was, held);
-    share->gain_j = now - before - work_j(body, held, dt_s) - ROUNDING * (now + before);
+    double work = work_j(body, held, dt_s) + pushed_j(body, before);
+    share->gain_j = now - before - work - ROUNDING * (now + before);
 }
 
 static uint32_t root_of(struct energy_share *share, uint32_t index)

@@ -69,45 +69,52 @@ static int join_struck(struct physics_check *check, uint64_t end,
     return 0;
 }
 
-static void look_at_bodies(struct physics_check *check, bool fresh)
+static void look_at_bodies(struct physics_check *check, const struct ground_look *ground)
 {
     struct body_looks *looks = &check->looks;
     for (uint32_t i = 0; i < looks->count; i++) {
         struct body_look *body = &looks->body[i];
         body_measures_numbers(&check->measures, body);
         if (body->finite)
-            body_measures_ground(&check->measures, &check->surface, check->shape, fresh, body);
+            body_measures_ground(&check->measures, ground, body);
     }
 }
 
-static void look_at_motion(struct physics_check *check, double dt_s)
+static void look_at_motion(struct physics_check *check, const struct ground_look *ground)
 {
     const struct body_looks *looks = &check->looks;
     for (uint32_t i = 0; i < looks->count; i++) {
-        if (looks->body[i].finite)
-            body_measures_motion(&check->measures, dt_s, &looks->body[i]);
+        if (!looks->body[i].finite)
+            continue;
+        body_measures_rest(&check->measures, ground, &looks->body[i]);
+        body_measures_motion(&check->measures, ground->dt_s, &looks->body[i]);
     }
-    energy_look(&check->energy, &check->measures, looks, &check->overlaps.touching, dt_s);
+    energy_look(&check->energy, &check->measures, looks, &check->overlaps.touching, ground->dt_s);
 }
 
 static int look_at(struct physics_check *check, const struct state *state,
                    const struct physics_events *events)
 {
     double dt_s = check->world->params->dt_s;
-    bool fresh = state->head->crater_count != check->surface.count;
+    const struct ground_look ground = {.surface = &check->surface,
+                                       .shape = check->shape,
+                                       .dt_s = dt_s,
+                                       .boxes =
+                                           check->world->params->collision.shape == SHAPE_SPHERE,
+                                       .fresh = state->head->crater_count != check->surface.count};
     check->measures.frame = state->head->frame;
     check->measures.time_s = (double)state->head->tick * dt_s;
     if (surface_update(&check->surface, state->craters, state->head->crater_count) != 0)
         return -1;
     body_looks_begin(&check->looks, check->world, state);
-    look_at_bodies(check, fresh);
+    look_at_bodies(check, &ground);
     if (events)
         explain(check, state->head->event_end, events);
     if (overlaps_look(&check->overlaps, &check->measures, &check->looks, state->fixed_damage,
                       dt_s) != 0 ||
         (events && join_struck(check, state->head->event_end, events) != 0))
         return -1;
-    look_at_motion(check, dt_s);
+    look_at_motion(check, &ground);
     body_looks_end(&check->looks);
     check->event_end = state->head->event_end;
     return 0;

@@ -177,23 +177,188 @@ static void test_a_tank_in_the_air(void **state)
     assert_int_equal(check.measures.of[MEASURE_OF_HEIGHT].beyond, 1); /* it has not moved */
 }
 
-static void test_a_wreck_in_the_air(void **state)
+/* --- wrecks ------------------------------------------------------------------------------------*/
+
+/* Puts a wreck of a tank whose lowest corner is so high over the level ground, on its right side.
+ */
+static uint32_t put_wreck(double clearance)
 {
-    uint32_t tank = put("tank", MIDDLE, 100.5);
-    (void)state;
+    uint32_t tank = put("tank", MIDDLE, 101.5 + clearance);
     steps_rows(&f).state[tank] = ENTITY_WRECK;
+    steps_rows(&f).roll[tank] = HALF_PI;
+    return tank;
+}
+
+/* Tells that the wreck rests from this frame on. */
+static void rest(uint32_t tank)
+{
+    now.entities.until_tick[tank] = (uint32_t)now.head->tick + 1;
+    next();
+}
+
+static void test_a_wreck_at_rest_on_its_side(void **state)
+{
+    uint32_t tank = put_wreck(-0.002);
+    (void)state;
     begin();
-    is_bad(MEASURE_OF_WRECK_HEIGHT, 0.5);
+    rest(tank);
+    next();
+    is_good();
+    assert_int_equal(check.measures.of[MEASURE_OF_WRECK_HEIGHT].taken, 1);
+    assert_true(fabs(check.measures.of[MEASURE_OF_WRECK_HEIGHT].worst - 0.002) < 1e-9);
+}
+
+static void test_a_wreck_at_rest_in_the_air(void **state)
+{
+    uint32_t tank = put_wreck(0.3);
+    (void)state;
+    begin();
+    rest(tank);
+    is_bad(MEASURE_OF_WRECK_HEIGHT, 0.3);
     no_other_is_bad(MEASURE_OF_WRECK_HEIGHT);
+    next();
+    assert_int_equal(check.measures.of[MEASURE_OF_WRECK_HEIGHT].beyond, 1); /* it has not moved */
+}
+
+/* It does not say that it rests, but it does not move. */
+static void test_a_wreck_that_hangs_in_the_air(void **state)
+{
+    (void)state;
+    put_wreck(20.0);
+    begin();
+    next();
+    assert_true(check.measures.of[MEASURE_OF_WRECK_HEIGHT].worst > 20.0);
+    assert_false(measure_good(&check.measures, MEASURE_OF_WRECK_HEIGHT));
+}
+
+static void test_a_wreck_that_moves_has_no_clearance(void **state)
+{
+    uint32_t tank = put_wreck(0.3);
+    (void)state;
+    steps_rows(&f).vx[tank] = 6.0;
+    begin();
+    now.entities.x[tank] += 6.0 * DT;
+    rest(tank);
+    now.entities.until_tick[tank] = 0;
+    now.entities.x[tank] += 6.0 * DT;
+    next();
+    is_good();
+    assert_int_equal(check.measures.of[MEASURE_OF_WRECK_HEIGHT].taken, 0);
 }
 
 static void test_a_wreck_under_the_ground(void **state)
 {
-    uint32_t tank = put("tank", MIDDLE, 99.0);
+    uint32_t tank = put("tank", MIDDLE, 98.5);
     (void)state;
+    steps_rows(&f).state[tank] = ENTITY_WRECK;
     steps_rows(&f).pitch[tank] = 0.1;
     begin();
-    is_bad(MEASURE_OF_UNDERGROUND, 1.0 + 3.0 * maths_sin(0.1));
+    is_bad(MEASURE_OF_UNDERGROUND, 1.5 + 3.0 * maths_sin(0.1));
+}
+
+/* A vehicle takes the ground's slope in the first frame after it was placed. */
+static void test_a_vehicle_is_placed_level(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 100.0);
+    (void)state;
+    steps_rows(&f).pitch[tank] = 0.7;
+    begin();
+    is_good();
+    now.entities.pitch[tank] = 0.71;
+    next();
+    is_bad(MEASURE_OF_UNDERGROUND, 3.0 * maths_sin(0.71));
+    no_other_is_bad(MEASURE_OF_UNDERGROUND);
+}
+
+/* The depth that it had as a vehicle may stay and shrink, and not grow. */
+static void test_a_wreck_that_sinks(void **state)
+{
+    uint32_t tank = put_wreck(-0.7);
+    (void)state;
+    begin();
+    now.entities.y[tank] += 0.04;
+    next();
+    is_good();
+    now.entities.y[tank] -= 0.05;
+    now.entities.vy[tank] = -0.05 / DT;
+    next();
+    is_bad(MEASURE_OF_WRECK_UNDERGROUND, 0.71);
+}
+
+/* A blow of the ground explains any change of speed, but no gain of energy. */
+static void test_a_wreck_that_bounces(void **state)
+{
+    uint32_t tank = put_wreck(0.01);
+    (void)state;
+    steps_rows(&f).vy[tank] = -4.0;
+    begin();
+    now.entities.vy[tank] = 3.9;
+    next();
+    is_good();
+    assert_int_equal(check.measures.of[MEASURE_OF_ACCELERATION].taken, 0);
+    now.entities.vy[tank] = 4.0;
+    next();
+    is_bad(MEASURE_OF_ENERGY, 0.5 * (4.0 * 4.0 - 3.9 * 3.9) - 1e-9 * 0.5 * (16.0 + 3.9 * 3.9));
+    no_other_is_bad(MEASURE_OF_ENERGY);
+}
+
+/* Kinetic and potential energy of the centre of mass together, up and down. The centre comes down
+ * by half the height when the wreck falls on its side, although its position rises. */
+static void test_the_energy_of_a_wreck_that_rolls(void **state)
+{
+    double half = 0.5 * steps_kind(&f, "tank")->height_m, rolled = 0.2;
+    uint32_t tank = put("tank", MIDDLE, 130.0);
+    double fall = half * (1.0 - maths_cos(rolled)) - 0.01;
+    (void)state;
+    steps_rows(&f).state[tank] = ENTITY_WRECK;
+    begin();
+    now.entities.y[tank] += 0.01;
+    now.entities.roll[tank] = rolled;
+    now.entities.vx[tank] = sqrt(2.0 * 9.80665 * fall);
+    next();
+    assert_true(check.measures.of[MEASURE_OF_ENERGY].worst < 1e-9);
+    now.entities.y[tank] += 0.01;
+    next();
+    assert_true(fabs(check.measures.of[MEASURE_OF_ENERGY].worst - 0.0980665) < 1e-6);
+}
+
+/* What lifts a wreck that began in the ground is no gain, as far as it was in the ground. */
+static void test_a_wreck_that_is_pushed_out(void **state)
+{
+    uint32_t tank = put_wreck(-0.04);
+    (void)state;
+    begin();
+    now.entities.y[tank] += 0.03;
+    next();
+    is_good();
+    now.entities.y[tank] += 0.015;
+    next();
+    is_bad(MEASURE_OF_ENERGY, 9.80665 * 0.005);
+    no_other_is_bad(MEASURE_OF_ENERGY);
+}
+
+static void hit(uint32_t row)
+{
+    struct event *event = add_event(EVENT_DETONATION);
+    event->detonation.struck_party.id = row + 1;
+    event->detonation.explosive_kg = 1.0f;
+}
+
+/* Between two explosions a body may be faster than before and after them. */
+static void test_two_explosions_explain_a_way(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 100.0);
+    (void)state;
+    begin();
+    hit(tank);
+    hit(tank);
+    now.entities.z[tank] += 0.03;
+    next();
+    is_good();
+    hit(tank);
+    now.entities.z[tank] += 0.03;
+    next();
+    is_bad(MEASURE_OF_JUMP, 0.03);
 }
 
 static void test_a_corner_in_a_crater(void **state)
@@ -446,8 +611,17 @@ int main(void)
         TEST(test_a_world_at_rest_is_good),
         TEST(test_a_moving_world_is_good),
         TEST(test_a_tank_in_the_air),
-        TEST(test_a_wreck_in_the_air),
+        TEST(test_a_wreck_at_rest_on_its_side),
+        TEST(test_a_wreck_at_rest_in_the_air),
+        TEST(test_a_wreck_that_hangs_in_the_air),
+        TEST(test_a_wreck_that_moves_has_no_clearance),
         TEST(test_a_wreck_under_the_ground),
+        TEST(test_a_vehicle_is_placed_level),
+        TEST(test_a_wreck_that_sinks),
+        TEST(test_a_wreck_that_bounces),
+        TEST(test_the_energy_of_a_wreck_that_rolls),
+        TEST(test_a_wreck_that_is_pushed_out),
+        TEST(test_two_explosions_explain_a_way),
         TEST(test_a_corner_in_a_crater),
         TEST(test_two_boxes_overlap),
         TEST(test_an_overlap_at_the_start_may_stay_but_not_grow),
