@@ -194,7 +194,7 @@ ARCHIVE_LIBS  = $(call pc,libs,libzstd)
 SANDBOX_LIBS  = -Wl,-Bstatic $(call pc,libs,libseccomp) -Wl,-Bdynamic
 # The engines that jolon-bench measures us beside; their headers are not held to our warnings.
 PEER_CFLAGS   = $(patsubst -I%,-isystem %,$(call pc,cflags,bullet))
-PEER_LIBS     = $(call pc,libs,ode) $(filter-out -lBulletSoftBody -lBulletDynamics,$(call pc,libs,bullet)) -lstdc++
+PEER_LIBS     = $(call pc,libs,ode) $(filter-out -lBulletSoftBody,$(call pc,libs,bullet)) -lstdc++
 BASE_LIBS     = $(call pc,libs,libxxhash) -lm
 # For tests, which use what they happen to test.
 TEST_LIBS     = -Wl,--as-needed $(call pc,libs,cmocka libpng) $(RENDER_LIBS) $(HTTP_LIBS) $(DDS_LIBS) $(SANDBOX_LIBS) \
@@ -252,7 +252,7 @@ $(BIN)/jolon-harness: $(OBJ)/clients/harness/main.o $(call libraries,harness top
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-monitor: $(OBJ)/clients/monitor/main.o $(call libraries,monitor screens topics datagrams ipc world)
 	$(call link,$(DDS_LIBS) $(CURSES_LIBS) $(JSON_LIBS) $(BASE_LIBS))
-$(BENCH): $(OBJ)/tests/bench/main.o $(ENGINES) $(call libraries,bench renderer $(STEPS) config http ipc world)
+$(BENCH): $(OBJ)/tests/bench/main.o $(ENGINES) $(call libraries,bench physics renderer $(STEPS) config http ipc world)
 	$(call link,$(RENDER_LIBS) $(HTTP_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(PEER_LIBS) $(BASE_LIBS))
 $(ENGINES): | $(BENCH_STAMP)
 $(BIN)/jolon-keeper: $(OBJ)/supervisor/main.o $(call libraries,supervisor sandbox ipc world)
@@ -319,6 +319,7 @@ $(BUILD)/tests/unit/config/syntax/test_schema: $(OBJ)/docs/keys/key_tables.o
 $(BUILD)/tests/unit/docs/figures/test_palette: $(OBJ)/docs/figures/palette.o
 $(BUILD)/tests/crash/test_crash: $(call objects,$(call sources,tests/crash))
 $(GOLDEN_TESTS): $(call libraries,bench)
+$(BUILD)/tests/property/bench/test_heap_run: $(call libraries,physics)
 $(BUILD)/tests/%: $(OBJ)/tests/%.o $(call libraries,$(COMMON))
 	$(call link,$(TEST_LIBS))
 

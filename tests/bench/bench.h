@@ -23,6 +23,7 @@ int bench_detect(struct bench_options options);   /* detect.c */
 int bench_handover(struct bench_options options); /* handover.c */
 int bench_encode(struct bench_options options);   /* encode.c */
 int bench_frame(struct bench_options options);    /* frame.c */
+int bench_heap(struct bench_options options);     /* heap.c */
 int bench_methods(struct bench_options options);  /* methods.c */
 int bench_models(struct bench_options options);   /* models.c */
 int bench_render(struct bench_options options);   /* render.c */

@@ -5,20 +5,7 @@
 #include "tests/bench/world.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
-
-static int ascending(const void *a, const void *b)
-{
-    double p = *(const double *)a, q = *(const double *)b;
-    return p < q ? -1 : p > q;
-}
-
-double bench_quantile(double *values, uint32_t count, double fraction)
-{
-    qsort(values, count, sizeof *values, ascending);
-    return count ? values[(uint32_t)(fraction * (double)(count - 1) + 0.5)] : 0.0;
-}
 
 static const struct bench {
     const char *name;
@@ -44,6 +31,11 @@ static const struct bench {
      "[--vehicles N [--agents]] [--threads T] [--frames F] [--json]     the steps of a frame; "
      "--agents: of two forces at war",
      {.vehicles = BENCH_SCENARIO_VEHICLES, .threads = 1, .frames = 1200}},
+    {"heap",
+     bench_heap,
+     "[--vehicles N] [--threads T] [--frames F] [--peers] [--json]     tanks that press on each "
+     "other, beside Bullet, ODE",
+     {.vehicles = 90, .threads = 1, .frames = 900}},
     {"methods",
      bench_methods,
      "[--vehicles N] [--json]     the ways to detect, for a thousand bodies up to N",

@@ -8,6 +8,7 @@
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
+#include "world/maths/maths.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -20,7 +21,8 @@ struct share {
     uint8_t flags; /* ENTITY_FLAG_* */
 };
 
-#define KINDS 8
+#define KINDS   8
+#define NEVER_J 1e12 /* no impact has so much energy */
 
 static const struct share mixture[KINDS] = {{"tank", 50, FORCE_NEUTRAL, 0},
                                             {"truck", 20, FORCE_BLUE, 0},
@@ -68,31 +70,48 @@ static void replace_groups(struct scenario *scenario, uint32_t vehicles, const s
     scenario->fire_count = 0;
 }
 
-static void open_world(struct view *view, const char *path, uint32_t vehicles,
-                       const struct share *shares)
+#define OVERRIDES_MAX 8
+
+/* overrides: room for OVERRIDES_MAX, of which count are set. */
+static void read_scenario(struct scenario *scenario, const char *path, uint32_t vehicles,
+                          const char **overrides, int count)
 {
     char data_dir[512], capacity[64];
     struct error_text error;
-    const char *const overrides[] = {capacity};
-    struct scenario scenario;
-    struct world_build built;
     uint32_t room = vehicles + vehicles / 4 + 4096;
     snprintf(capacity, sizeof capacity, "world.capacity=%u",
              room < CAPACITY_MAX ? room : CAPACITY_MAX);
+    overrides[count] = capacity;
     if (process_data_dir(data_dir, sizeof data_dir) != 0)
         die_refused("cannot find the data; set JOLON_DATA");
-    if (loader_scenario(&scenario, data_dir, path, overrides, 1, &error) != 0)
+    if (loader_scenario(scenario, data_dir, path, overrides, count + 1, &error) != 0)
         die_refused("%s", error.text);
-    if (shares)
-        replace_groups(&scenario, vehicles, shares);
-    if (world_build_make(&built, &scenario, &error) != 0)
+}
+
+/* Frees the scenario. */
+static void build(struct view *view, struct scenario *scenario)
+{
+    struct error_text error;
+    struct world_build built;
+    if (world_build_make(&built, scenario, &error) != 0)
         die_refused("%s", error.text);
-    struct segment_header header = segment_header_for(&scenario.settings->params, &built.counts);
+    struct segment_header header = segment_header_for(&scenario->settings->params, &built.counts);
     if (segment_private(view, &header, &error) != 0)
         die_refused("%s", error.text);
     segment_fill(view, &built);
     world_build_free(&built);
-    scenario_free(&scenario);
+    scenario_free(scenario);
+}
+
+static void open_world(struct view *view, const char *path, uint32_t vehicles,
+                       const struct share *shares)
+{
+    const char *overrides[OVERRIDES_MAX];
+    struct scenario scenario;
+    read_scenario(&scenario, path, vehicles, overrides, 0);
+    if (shares)
+        replace_groups(&scenario, vehicles, shares);
+    build(view, &scenario);
 }
 
 void bench_world_open(struct view *view, const char *path, uint32_t vehicles)
@@ -103,4 +122,37 @@ void bench_world_open(struct view *view, const char *path, uint32_t vehicles)
 void bench_world_agents(struct view *view, uint32_t vehicles)
 {
     open_world(view, NULL, vehicles, agents);
+}
+
+void bench_world_tanks(struct view *view, const struct heap_tanks *tanks)
+{
+    const char *overrides[OVERRIDES_MAX] = {"terrain.source=flat", "collision.shape=model"};
+    struct scenario scenario;
+    struct scenario_group *groups = calloc(tanks->count, sizeof *groups);
+    read_scenario(&scenario, NULL, tanks->count, overrides, 2);
+    uint16_t kind = kind_find(scenario.kinds, scenario.kind_count, "tank");
+    if (!groups || kind == KIND_NONE)
+        die_refused(groups ? "kind tank is missing" : "out of memory");
+    scenario.kinds[kind].resistance_j = NEVER_J;
+    for (uint32_t i = 0; i < tanks->count; i++) {
+        const struct heap_place *place = &tanks->place[i];
+        groups[i] = (struct scenario_group){.kind = kind,
+                                            .behaviour = BEHAVIOUR_HOLD,
+                                            .placed = 1,
+                                            .turned = 1,
+                                            .moving = 1,
+                                            .count = 1,
+                                            .route = UINT32_MAX,
+                                            .script = UINT32_MAX,
+                                            .x = BENCH_MIDDLE_M + place->x,
+                                            .z = BENCH_MIDDLE_M + place->z,
+                                            .heading_rad =
+                                                maths_heading(place->forward_x, place->forward_z),
+                                            .speed_mps = HEAP_SPEED_MPS};
+    }
+    free(scenario.groups);
+    scenario.groups = groups;
+    scenario.group_count = tanks->count;
+    scenario.fire_count = 0;
+    build(view, &scenario);
 }

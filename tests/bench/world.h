@@ -3,10 +3,12 @@
 #define JOLON_TESTS_BENCH_WORLD_H
 
 #include "ipc/segment/segment.h"
+#include "tests/bench/heap_engine.h"
 
 #include <stdint.h>
 
 #define BENCH_SCENARIO_VEHICLES 500u
+#define BENCH_MIDDLE_M          25000.0 /* x and z of the middle of the world */
 
 /* Makes the world of a scenario at frame 0; NULL: Hunter-Liggett. With another number of vehicles
  * than Hunter-Liggett's, the world is its ground with this many vehicles on patrol.
@@ -17,5 +19,9 @@ void bench_world_open(struct view *view, const char *path, uint32_t vehicles);
 /* Makes a world at war on Hunter-Liggett's ground: this many armed vehicles of two forces patrol
  * and attack the enemies that they see. Otherwise the same. */
 void bench_world_agents(struct view *view, uint32_t vehicles);
+
+/* Makes a world of level ground with tanks at places relative to its middle, which cannot be
+ * destroyed and move forward at HEAP_SPEED_MPS. Row i holds tank i. Otherwise the same. */
+void bench_world_tanks(struct view *view, const struct heap_tanks *tanks);
 
 #endif
