@@ -115,6 +115,7 @@ static void wake(struct contact_groups *groups, struct response_context *context
     }
 }
 
+/* A root is the lowest row of its group, so the higher row of a pair is never marked as awake. */
 static void clear(struct contact_groups *groups, const struct pair *pair)
 {
     groups->parent[pair->a] = 0;
@@ -122,7 +123,6 @@ static void clear(struct contact_groups *groups, const struct pair *pair)
     if (pair->b & PAIR_FIXED)
         return;
     groups->parent[pair->b] = 0;
-    groups->awake[pair->b] = 0;
 }
 
 /* Keeps the pairs that are awake, and marks no row any more. */

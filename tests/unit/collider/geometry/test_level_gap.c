@@ -30,16 +30,31 @@
     .first_vertex = 8 * (n), .vertex_count = 8, .first_plane = 6 * (n), .plane_count = 6,          \
     .centre = {x, 0, 0}, .radius_m = 2.4494897427831781
 
-static const struct vec3 vertices[] = {CORNERS(0), CORNERS(3), CORNERS(-2), CORNERS(5)};
-static const struct hull_plane planes[] = {FACES(0), FACES(3)};
-/* A box; two boxes, the nearer of which comes second; the ends of one around both. */
+static const struct vec3 vertices[] = {CORNERS(0),   CORNERS(3),  CORNERS(-2), CORNERS(5),
+                                       {-2, -1, -2}, {2, -1, -2}, {-2, -1, 2}, {-2, 1, -2},
+                                       {2, 1, -2},   {-2, 1, 2}};
+static const struct hull_plane planes[] = {FACES(0),
+                                           FACES(3),
+                                           {{-1, 0, 0}, 2},
+                                           {{0, 0, -1}, 2},
+                                           {{0, 1, 0}, 1},
+                                           {{0, -1, 0}, 1},
+                                           {{0.70710678118654757, 0, 0.70710678118654757}, 0}};
+/* A box; the same 3 m further along its nose; the ends of one around both; a wedge whose slanting
+ * side goes through its position. */
 static const struct hull hulls[] = {
     {HULL(0, 0)},
     {HULL(1, 3)},
     {.vertex_count = 32, .centre = {1.5, 0, 0}, .radius_m = 6.0},
+    {.first_vertex = 32,
+     .vertex_count = 6,
+     .first_plane = 12,
+     .plane_count = 5,
+     .centre = {0, 0, 0},
+     .radius_m = 3.0},
 };
 
-enum { BOX, FAR_BOX, OUTER };
+enum { BOX, FAR_BOX, OUTER, WEDGE };
 
 static struct swept_body put(uint32_t first, uint32_t count, struct vec3 at, double heading_rad)
 {
@@ -177,6 +192,22 @@ static void test_faces_touch_along_their_shared_edge(void **state)
     assert_int_equal(gap[0].points, 1);
 }
 
+/* A corner of the box is 0.1 m deep in the slanting side of the wedge, the second body. */
+static void test_a_corner_leaves_a_slanting_side_along_its_normal(void **state)
+{
+    struct level_gap gap[LEVEL_GAPS_MAX];
+    double half = 0.70710678118654757, off = 0.1 * half;
+    struct swept_body a = put(BOX, 1, (struct vec3){2.0 - off, 0, 1.0 - off}, HALF_PI);
+    struct swept_body b = put(WEDGE, 1, (struct vec3){0, 0, 0}, HALF_PI);
+    (void)state;
+    assert_int_equal(level_gap_find(&a, &b, 0.0, 1.0, gap), 1);
+    assert_true(fabs(gap[0].gap_m + 0.1) < 1e-9);
+    assert_true(vec3_length(vec3_sub(gap[0].normal, (struct vec3){-half, 0, -half})) < 1e-9);
+    assert_int_equal(level_gap_find(&b, &a, 0.0, 1.0, gap), 1);
+    assert_true(fabs(gap[0].gap_m + 0.1) < 1e-9);
+    assert_true(vec3_length(vec3_sub(gap[0].normal, (struct vec3){half, 0, half})) < 1e-9);
+}
+
 /* A body that lies over another is no nearer on the map than the steepest normal allows. */
 static void test_bodies_above_each_other_are_no_neighbours(void **state)
 {
@@ -227,6 +258,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_random_boxes_agree_with_their_rectangles),
         cmocka_unit_test(test_faces_touch_along_their_shared_edge),
+        cmocka_unit_test(test_a_corner_leaves_a_slanting_side_along_its_normal),
         cmocka_unit_test(test_bodies_above_each_other_are_no_neighbours),
         cmocka_unit_test(test_the_gap_is_that_of_the_time),
         cmocka_unit_test(test_the_least_gap_is_that_of_the_deepest_hulls),

@@ -184,7 +184,7 @@ static void test_a_body_that_moves_away_ends_the_contact_after_a_time(void **sta
     know(2, 3, 70, TICK - lasts - 1);
     begin();
     move(1);
-    move(3);
+    move(2);
     const struct persistent_contact *contacts = finish(1, 1);
     assert_int_equal(contacts[0].a_id, 1);
     const struct event *event = event_of(0);

@@ -99,10 +99,26 @@ static void test_one_mover_wakes_all_of_its_group(void **state)
         assert_true(is_pair(0, 0, 1) && is_pair(1, 1, 2));
         steps_respond_end(&context);
     }
-    steps_respond(&f, &context); /* the frame before leaves no trace */
-    move(7);
+}
+
+static void test_the_frame_before_leaves_no_trace(void **state)
+{
+    (void)state;
+    press_chains();
+    steps_respond(&f, &context);
+    move(0);
+    move(4);
     contact_groups_find(groups, &context);
-    assert_int_equal(groups->count, 0);
+    assert_int_equal(groups->count, 3);
+    steps_respond_end(&context);
+    fixture_state(&f).head->contact_count = 0;
+    press(2, 3);
+    press(5, 6);
+    steps_respond(&f, &context);
+    move(3);
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->count, 1);
+    assert_true(is_pair(0, 2, 3));
 }
 
 static void test_two_movers_wake_two_groups(void **state)
@@ -224,6 +240,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_a_group_in_which_nothing_moves_is_left_out),
         TEST(test_one_mover_wakes_all_of_its_group),
+        TEST(test_the_frame_before_leaves_no_trace),
         TEST(test_two_movers_wake_two_groups),
         TEST(test_a_fixed_object_joins_no_groups),
         TEST(test_an_overlap_wakes_its_group),

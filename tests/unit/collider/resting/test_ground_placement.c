@@ -18,7 +18,7 @@ static struct entities *begin(const char *kind, uint8_t entity_state)
 {
     fixture_open(&f, "");
     steps_plane(&f, 0.2, 0.1);
-    fixture_put(&f, (struct fixture_entity){.kind = kind, .at = {25000.0, 100.5, 25000.0}});
+    fixture_put(&f, (struct fixture_entity){.kind = kind, .at = {25005.0, 101.5, 25000.0}});
     steps_rows(&f).state[0] = entity_state;
     steps_rows(&f).pitch[0] = 0.7;
     steps_rows(&f).roll[0] = -0.4;
