@@ -170,6 +170,24 @@ static void test_an_overlap_parts_without_a_speed(void **state)
     assert_int_equal(context.events.count, 0); /* no news */
 }
 
+/* The recovery takes the second truck 2.5 cm out of the box that the broad phase has, up to that of
+ * the third. */
+static void test_bodies_that_moved_find_their_new_neighbours(void **state)
+{
+    struct entities w = steps_rows(&f);
+    bool found = false;
+    (void)state;
+    w.x[1] -= 0.2;
+    w.x[2] = w.x[1] + 2.0 * f.view.world.kinds[w.kind[1]].bound_m + 2.0 * BOX_SLACK_M + 0.015;
+    know(0)->flags = PERSISTENT_CONTACT_OVERLAPS;
+    begin();
+    resting_solve(resting, &context);
+    for (uint32_t i = 0; i < context.contacts->pair_count; i++)
+        found |= context.contacts->pair[i].a == 1 && context.contacts->pair[i].b == 2;
+    assert_true(found);
+    assert_true(context.next->entities.x[1] < w.x[1] + 0.03);
+}
+
 /* Another body had the row in the frame before, elsewhere, faster and with another heading. */
 static void test_a_new_body_takes_nothing_from_its_row(void **state)
 {
@@ -202,6 +220,7 @@ int main(void)
         TEST(test_brakes_hold_against_a_push),
         TEST(test_bodies_that_are_far_do_not_press),
         TEST(test_an_overlap_parts_without_a_speed),
+        TEST(test_bodies_that_moved_find_their_new_neighbours),
         TEST(test_a_new_body_takes_nothing_from_its_row),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
