@@ -104,7 +104,7 @@ static bool moves(struct response_context *context, uint32_t row)
     return !pair_filter_rests(&context->path[row]);
 }
 
-/* Wakes the groups in which a row moves, or is awake because its contact has to part. */
+/* Wakes the groups in which a row moves, or of which a pair overlaps and has to part. */
 static void wake(struct contact_groups *groups, struct response_context *context)
 {
     for (uint32_t i = 0; i < groups->count; i++) {

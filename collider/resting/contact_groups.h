@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 struct contact_groups {
-    struct pair *pair; /* of the table's contacts that are left, in the table's order */
+    struct pair *pair; /* found: those of the table in its order, then those of new bodies */
     uint32_t count, capacity;
     uint32_t known;   /* the first so many are in the table; the others may begin overlapped */
     uint32_t *parent; /* [capacity of the world] union-find: row + 1, 0 for a row in no pair */

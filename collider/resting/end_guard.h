@@ -6,7 +6,8 @@
 
 #include "collider/resting/resting.h"
 
-/* Bodies that began the frame deeper in each other than this have to part first [m]. */
+/* The guard leaves out pairs that began the frame deeper in each other than this [m]. The
+ * recovery of overlaps parts them. */
 #define END_GUARD_LEFT_OUT_M 0.02
 
 /* The collider's own memory. */

@@ -1,7 +1,7 @@
 /* Sequential impulses for contacts that last, among bodies that the ground holds: they move
  * horizontally and turn about the vertical.
  *
- * Each contact point keeps its gap open to the end of the frame: the speed along the normal is at
+ * No contact point closes by more than its gap within the frame: the speed along the normal is at
  * least -(gap - skin) / dt (a speculative contact). Friction acts across the normal, within the
  * friction cone. The ground resists what would move a body away from its mover's motion, within
  * its grip. The impulses of a frame begin at 0 (cold start), and the points are swept a fixed
