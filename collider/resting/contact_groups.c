@@ -109,8 +109,10 @@ static void wake(struct contact_groups *groups, struct response_context *context
 {
     for (uint32_t i = 0; i < groups->count; i++) {
         const struct pair *pair = &groups->pair[i];
-        if (groups->awake[pair->a] || moves(context, pair->a) ||
-            (!(pair->b & PAIR_FIXED) && moves(context, pair->b)))
+        /* Both are asked in any case, because that computes their paths. */
+        bool a_moves = moves(context, pair->a);
+        bool b_moves = !(pair->b & PAIR_FIXED) && moves(context, pair->b);
+        if (groups->awake[pair->a] || a_moves || b_moves)
             groups->awake[root_of(groups, pair->a)] = 1;
     }
 }
