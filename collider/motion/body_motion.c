@@ -198,3 +198,21 @@ struct swept_body body_motion_fixed(const struct world *world, uint32_t object)
     body.from = body.to = rotation_of(fixed_heading(fixed), 0.0, 0.0);
     return body;
 }
+
+struct swept_body body_motion_side(const struct body_motion *motion, uint32_t side,
+                                   struct free_turn *turn)
+{
+    return side & PAIR_FIXED ? body_motion_fixed(motion->world, side & ~PAIR_FIXED)
+                             : body_motion_body(motion, side, turn);
+}
+
+struct swept_body body_motion_standing(const struct body_motion *motion,
+                                       const struct entities *entities, uint32_t side)
+{
+    if (side & PAIR_FIXED)
+        return body_motion_fixed(motion->world, side & ~PAIR_FIXED);
+    struct swept_body body = shape_of(motion->world, entities->kind[side], 1.0);
+    body.path.at = entities_position(entities, side);
+    body.from = body.to = pose(entities, side);
+    return body;
+}

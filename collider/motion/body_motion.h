@@ -99,4 +99,12 @@ struct swept_body body_motion_body(const struct body_motion *motion, uint32_t ro
                                    struct free_turn *turn);
 struct swept_body body_motion_fixed(const struct world *world, uint32_t object);
 
+/* Returns one side of a pair: a row, or a fixed object with PAIR_FIXED. */
+struct swept_body body_motion_side(const struct body_motion *motion, uint32_t side,
+                                   struct free_turn *turn);
+
+/* Returns one side of a pair as it stands in a table, at rest. */
+struct swept_body body_motion_standing(const struct body_motion *motion,
+                                       const struct entities *entities, uint32_t side);
+
 #endif

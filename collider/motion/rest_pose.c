@@ -3,14 +3,12 @@
 
 #include "world/maths/maths.h"
 
-#define LEAST_HALF_M 0.5 /* over a shorter distance rounding dominates the slope */
-
 struct rest_pose rest_pose_of(const struct terrain *terrain, const struct crater_index *craters,
                               const struct kind *kind, double x, double z, double heading_rad)
 {
     double sine, cosine;
-    double length = maths_max(kind->length_m * 0.5, LEAST_HALF_M);
-    double width = maths_max(kind->width_m * 0.5, LEAST_HALF_M);
+    double length = maths_max(kind->length_m * 0.5, KIND_STANCE_LEAST_M);
+    double width = maths_max(kind->width_m * 0.5, KIND_STANCE_LEAST_M);
     maths_sincos(heading_rad, &sine, &cosine);
     double front = terrain_height(terrain, craters, x + sine * length, z - cosine * length);
     double back = terrain_height(terrain, craters, x - sine * length, z + cosine * length);

@@ -23,6 +23,9 @@
  * contact is no impact [m/s]. */
 #define CONTACT_IMPACT_MPS 1.0
 
+/* Bodies in a contact that lasts touch if they are this near, even if they bear no load [m]. */
+#define CONTACT_TOUCHING_M (2.0 * SKIN_M)
+
 /* Marks of a pair. */
 #define CONTACT_RESTS    1u /* its contact lasts: collider/resting/ has solved it in this frame */
 #define CONTACT_PRESSED  2u /* its bodies touched in this frame */

@@ -80,14 +80,12 @@ static bool touch_hulls(const struct body_motion *motion, const struct pair *pai
 {
     const struct world *world = motion->world;
     const uint16_t *kind = motion->next->entities.kind;
-    bool fixed = pair->b & PAIR_FIXED;
-    uint32_t object = pair->b & ~PAIR_FIXED;
+    uint16_t kind_b =
+        pair->b & PAIR_FIXED ? world->fixed[pair->b & ~PAIR_FIXED].kind : kind[pair->b];
     struct free_turn turn_a, turn_b;
     struct swept_body a = body_motion_body(motion, pair->a, &turn_a);
-    struct swept_body b =
-        fixed ? body_motion_fixed(world, object) : body_motion_body(motion, pair->b, &turn_b);
-    return outer_impact(world, &a, kind[pair->a], &b,
-                        fixed ? world->fixed[object].kind : kind[pair->b], &from) &&
+    struct swept_body b = body_motion_side(motion, pair->b, &turn_b);
+    return outer_impact(world, &a, kind[pair->a], &b, kind_b, &from) &&
            time_of_impact_find(&a, &b, from, impact);
 }
 

@@ -3,10 +3,9 @@
 
 #include "world/entity/mass_properties.h"
 
-#define FAR_PAS      570.0   /* [Pa s m/kg^(2/3)] of the term that falls with the distance */
-#define NEAR_PAS     305.0   /* [Pa s m2/kg] of the term that falls with its square */
-#define GRAVITY_MPS2 9.80665 /* as in the mover */
-#define GAUSS_POINT  0.28867513459481287 /* 1 / sqrt(12): of a side, from its middle */
+#define FAR_PAS     570.0 /* [Pa s m/kg^(2/3)] of the term that falls with the distance */
+#define NEAR_PAS    305.0 /* [Pa s m2/kg] of the term that falls with its square */
+#define GAUSS_POINT 0.28867513459481287 /* 1 / sqrt(12): of a side, from its middle */
 
 double explosion_impulse_pas(double explosive_kg, double distance_m)
 {

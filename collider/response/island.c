@@ -22,7 +22,6 @@
 #define HOPS           2
 #define RESTING_MOST   64u
 #define RESTING_LISTED 1024u /* pairs, at first */
-#define TOUCHING_M     (2.0 * SKIN_M)
 
 /* Smaller overlaps are rounding, 50 km from the origin [m]. */
 #define ROUNDING_M 1e-9
@@ -106,14 +105,30 @@ static void grow_contacts(struct island *island)
     island->met_capacity = more;
 }
 
+/* Returns the place of the next contact. The caller counts it. */
+static struct island_contact *next_contact(struct island *island)
+{
+    if (island->met_count == island->met_capacity)
+        grow_contacts(island);
+    return &island->met[island->met_count];
+}
+
+/* Finds the bodies of a contact, and joins those of two rows to a group. */
+static void add_bodies(struct island *island, struct island_contact *met)
+{
+    met->body_a = body_for(island, met->contact.a);
+    if (met->contact.b & PAIR_FIXED)
+        return;
+    met->body_b = body_for(island, met->contact.b);
+    join(island, met->body_a, met->body_b);
+}
+
 /* Gathers one contact: a persistent contact, a fixed object that gives way, or a contact for the
  * solver. */
 static void take(struct response_context *context, const struct contact *contact)
 {
     struct island *island = context->island;
-    if (island->met_count == island->met_capacity)
-        grow_contacts(island);
-    struct island_contact *met = &island->met[island->met_count];
+    struct island_contact *met = next_contact(island);
     *met = (struct island_contact){
         .contact = *contact, .impact = response_impact(context, contact), .body_b = BODY_FIXED};
     if (passes_through(context, &met->impact))
@@ -121,17 +136,15 @@ static void take(struct response_context *context, const struct contact *contact
     met->leans = contact_persists(context, &met->impact);
     if (!met->leans)
         met->report = response_report(context, &met->impact);
-    met->body_a = body_for(island, contact->a); /* its path is swept with the others in any case */
     if (contact->b & PAIR_FIXED && contact_impulse_gives_way(context, met)) {
+        body_for(island, contact->a); /* its path is swept with the others */
         contact_queue_skip_pair(context->contacts, contact);
         return;
     }
+    add_bodies(island, met);
     island->body[met->body_a].stays |= contact->last;
-    if (!(contact->b & PAIR_FIXED)) {
-        met->body_b = body_for(island, contact->b);
+    if (met->body_b != BODY_FIXED)
         island->body[met->body_b].stays |= contact->last;
-        join(island, met->body_a, met->body_b);
-    }
     island->met_count++;
 }
 
@@ -162,40 +175,40 @@ static void gather(struct response_context *context, const struct contact *first
 
 /* --- contacts that last ------------------------------------------------------------------------*/
 
+/* Takes one point of a contact between two bodies that rest on each other. */
+static void take_point(struct response_context *context, const struct contact *contact)
+{
+    struct island *island = context->island;
+    struct island_contact *met = next_contact(island);
+    *met = (struct island_contact){.contact = *contact,
+                                   .impact = response_impact(context, contact),
+                                   .leans = true,
+                                   .body_b = BODY_FIXED};
+    add_bodies(island, met);
+    island->met_count++;
+}
+
 /* Takes the contact between two bodies that rest on each other, if they touch at this time. */
 static void take_resting(struct response_context *context, const struct pair *pair, double time)
 {
-    struct island *island = context->island;
     struct contact_queue *contacts = context->contacts;
     uint32_t index = contact_queue_pair(contacts, pair);
-    bool fixed = pair->b & PAIR_FIXED;
     struct free_turn turn_a, turn_b;
-    struct swept_body a = body_motion_body(context->motion, pair->a, &turn_a);
-    struct swept_body b = fixed ? body_motion_fixed(context->world, pair->b & ~PAIR_FIXED)
-                                : body_motion_body(context->motion, pair->b, &turn_b);
     struct level_gap gap[LEVEL_GAPS_MAX];
-    uint32_t gaps = level_gap_find(&a, &b, time, TOUCHING_M, gap);
-    if (gaps == 0 || contacts->marks[index] & CONTACT_GATHERED)
+    if (contacts->marks[index] & CONTACT_GATHERED)
+        return;
+    struct swept_body a = body_motion_body(context->motion, pair->a, &turn_a);
+    struct swept_body b = body_motion_side(context->motion, pair->b, &turn_b);
+    if (level_gap_find(&a, &b, time, CONTACT_TOUCHING_M, gap) == 0)
         return;
     contacts->marks[index] |= CONTACT_GATHERED | CONTACT_PRESSED;
     for (uint32_t i = 0; i < gap[0].points; i++) {
-        struct contact contact = {
+        const struct contact contact = {
             .a = pair->a,
             .b = pair->b,
             .pair = index + 1,
             .impact = {.toi = time, .point = gap[0].point[i], .normal = gap[0].normal}};
-        if (island->met_count == island->met_capacity)
-            grow_contacts(island);
-        struct island_contact *met = &island->met[island->met_count++];
-        *met = (struct island_contact){.contact = contact,
-                                       .impact = response_impact(context, &contact),
-                                       .leans = true,
-                                       .body_b = BODY_FIXED};
-        met->body_a = body_for(island, pair->a);
-        if (!fixed) {
-            met->body_b = body_for(island, pair->b);
-            join(island, met->body_a, met->body_b);
-        }
+        take_point(context, &contact);
     }
 }
 
@@ -218,10 +231,8 @@ static void gather_resting(struct response_context *context, double time)
     struct island *island = context->island;
     const struct contact_queue *contacts = context->contacts;
     uint32_t first = 0, impacts = island->met_count;
-    for (uint32_t i = 0; i < impacts; i++) {
-        if (island->met[i].contact.pair != 0)
-            contacts->marks[island->met[i].contact.pair - 1] |= CONTACT_GATHERED;
-    }
+    for (uint32_t i = 0; i < impacts; i++)
+        contacts->marks[island->met[i].contact.pair - 1] |= CONTACT_GATHERED;
     for (int hop = 0; hop < HOPS; hop++) {
         island->near.count = 0;
         for (uint32_t end = island->bodies; first < end; first++)
@@ -232,10 +243,8 @@ static void gather_resting(struct response_context *context, double time)
                 take_resting(context, &island->near.pair[i], time);
         }
     }
-    for (uint32_t i = 0; i < island->met_count; i++) {
-        if (island->met[i].contact.pair != 0)
-            contacts->marks[island->met[i].contact.pair - 1] &= (uint8_t)~CONTACT_GATHERED;
-    }
+    for (uint32_t i = 0; i < island->met_count; i++)
+        contacts->marks[island->met[i].contact.pair - 1] &= (uint8_t)~CONTACT_GATHERED;
 }
 
 static void chain(struct island *island)

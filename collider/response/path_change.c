@@ -85,11 +85,9 @@ struct vec3 path_change_spin(const struct response_context *context, uint32_t ro
 }
 
 /* Returns the rotation by the driver, in addition to the row's spin [rad/s]. */
-static double driven(const struct response_context *context, uint32_t row)
+static double driven(const struct response_context *context, uint32_t row, bool grounded)
 {
-    return path_change_grounded(context, row)
-               ? yaw_of(context, row) - context->next->entities.spin_y[row]
-               : 0.0;
+    return grounded ? yaw_of(context, row) - context->next->entities.spin_y[row] : 0.0;
 }
 
 /* Ends the path at the world's edge. It may begin beyond it, if the body was pushed out of
@@ -127,10 +125,11 @@ static void take_path(struct response_context *context, uint32_t row, const stru
 {
     double heading, pitch, roll;
     struct path within = within_world(*path);
-    wake(context, row, path_at(&within, 1.0));
+    struct vec3 to = path_at(&within, 1.0);
+    wake(context, row, to);
     body_motion_change(context->motion, row, &within, rotation);
     rotation_angles(rotation->to, &heading, &pitch, &roll);
-    table_set_position(&context->writer, row, path_at(&within, 1.0));
+    table_set_position(&context->writer, row, to);
     table_set_velocity(&context->writer, row, velocity);
     table_set_heading(&context->writer, row, heading);
     table_set_pitch(&context->writer, row, pitch);
@@ -163,15 +162,14 @@ void path_change_slow(struct response_context *context, uint32_t row, double tim
     struct rotation_path rotation = body_motion_rotation_from(context->motion, row, time);
     const struct path path = {
         .at = path_at(before, time), .along = vec3_scale(before->along, share), .since = time};
-    rotation.driven_rps = driven(context, row);
+    rotation.driven_rps = driven(context, row, path_change_grounded(context, row));
     take_path(context, row, &path, &rotation, vec3_scale(entities_velocity(e, row), share));
 }
 
 /* Rotates a row by its spin until the frame's end, and replaces the spin by that at the end. */
-static void spin_on(const struct response_context *context, uint32_t row, double left_s,
-                    struct rotation_path *rotation, struct vec3 *spin_rps)
+static void spin_on(const struct response_context *context, uint32_t row, bool grounded,
+                    double left_s, struct rotation_path *rotation, struct vec3 *spin_rps)
 {
-    bool grounded = path_change_grounded(context, row);
     if (grounded && vec3_length(*spin_rps) * left_s <= HALF_PI) {
         rotation->to = rotation_spun(rotation->from, *spin_rps, left_s);
         return;
@@ -184,14 +182,12 @@ static void spin_on(const struct response_context *context, uint32_t row, double
 }
 
 /* A push on a body on the ground leaves it no spin but that about the vertical. Returns the
- * velocity that the position of a wreck gets by losing the rest of its spin [m/s]: that of its
- * centre of mass stays, so that no energy is gained. */
+ * velocity that the position of a wreck on the ground gets by losing the rest of its spin [m/s]:
+ * that of its centre of mass stays, so that no energy is gained. */
 static struct vec3 rolling_velocity(const struct response_context *context, uint32_t row,
                                     struct quat turned)
 {
     const struct entities *e = &context->next->entities;
-    if (!path_change_grounded(context, row))
-        return (struct vec3){0.0, 0.0, 0.0};
     const struct kind *kind = &context->world->kinds[e->kind[row]];
     struct vec3 up = {0.0, mass_properties_of(kind).centre_m, 0.0};
     struct mat3 axes = rotation_matrix(turned);
@@ -203,18 +199,20 @@ void path_change_leave(struct response_context *context, uint32_t row, double ti
                        struct vec3 velocity, struct vec3 spin_rps, bool stays)
 {
     double dt_s = world_dt_s(context->world);
+    bool grounded = path_change_grounded(context, row);
     struct quat turned = body_motion_orientation(context->motion, row, time);
     struct rotation_path rotation = {
-        .from = turned, .to = turned, .driven_rps = driven(context, row)};
+        .from = turned, .to = turned, .driven_rps = driven(context, row, grounded)};
     const struct path path = {.at = at,
                               .along = vec3_scale(velocity, stays ? 0.0 : dt_s),
                               .since = time,
                               .rotates = context->motion->models && !stays &&
                                          vec3_dot(spin_rps, spin_rps) > 0.0};
     if (!stays)
-        spin_on(context, row, (1.0 - time) * dt_s, &rotation, &spin_rps);
+        spin_on(context, row, grounded, (1.0 - time) * dt_s, &rotation, &spin_rps);
     spin_rps.y -= rotation.driven_rps;
-    struct vec3 rolling = rolling_velocity(context, row, turned);
+    if (grounded)
+        velocity = vec3_add(velocity, rolling_velocity(context, row, turned));
     table_set_spin(&context->writer, row, spin_rps);
-    take_path(context, row, &path, &rotation, vec3_add(velocity, rolling));
+    take_path(context, row, &path, &rotation, velocity);
 }

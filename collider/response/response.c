@@ -2,6 +2,7 @@
  * the event. */
 #include "collider/response/response.h"
 
+#include "collider/geometry/level_gap.h"
 #include "collider/response/contact_table.h"
 #include "collider/response/damage.h"
 #include "collider/response/explosion.h"
@@ -17,9 +18,6 @@
 /* Bodies in contact that close no faster than this lean on each other or scrape along: that is one
  * persistent contact, reported when it began. */
 #define PERSISTS_MPS 2.0
-
-/* With a smaller horizontal part a normal is too steep for bodies on the ground. */
-#define LEVEL_MIN 0.2
 
 const struct response_functions *response_of(enum response_model model)
 {

@@ -46,25 +46,12 @@ void end_guard_free(struct end_guard *guard)
 
 /* --- poses -------------------------------------------------------------------------------------*/
 
-/* Returns a body that stands as in a table's row. */
-static struct swept_body standing(const struct response_context *context, const struct entities *e,
-                                  uint32_t body)
-{
-    if (body & PAIR_FIXED)
-        return body_motion_fixed(context->world, body & ~PAIR_FIXED);
-    struct free_turn turn;
-    struct swept_body at = body_motion_body(context->motion, body, &turn);
-    at.path = (struct path){.at = entities_position(e, body)};
-    at.turn = NULL;
-    at.from = at.to = rotation_of(e->heading[body], e->pitch[body], e->roll[body]);
-    return at;
-}
-
 /* Returns the gap of a pair in a table: below 0 for bodies that overlap, else 0 [m]. */
 static double gap_in(const struct response_context *context, const struct entities *e,
                      const struct pair *pair)
 {
-    struct swept_body a = standing(context, e, pair->a), b = standing(context, e, pair->b);
+    struct swept_body a = body_motion_standing(context->motion, e, pair->a);
+    struct swept_body b = body_motion_standing(context->motion, e, pair->b);
     struct vec3 between = vec3_sub(b.path.at, a.path.at);
     double reach = a.bound_m + b.bound_m;
     if (vec3_dot(between, between) > reach * reach)

@@ -25,8 +25,6 @@
 
 #define ROUNDING_M 1e-6 /* smaller overlaps of the skins are rounding */
 
-#define TOUCHING_M (2.0 * SKIN_M)
-
 #define POINTS_A_PAIR (2u * LEVEL_GAPS_MAX)
 
 int resting_init(struct resting *resting, const struct world *world)
@@ -122,13 +120,6 @@ static uint32_t fixed_body(struct resting *resting)
 
 /* --- points ------------------------------------------------------------------------------------*/
 
-static struct swept_body swept(const struct response_context *context, uint32_t body,
-                               struct free_turn *turn)
-{
-    return body & PAIR_FIXED ? body_motion_fixed(context->world, body & ~PAIR_FIXED)
-                             : body_motion_body(context->motion, body, turn);
-}
-
 /* Returns how much nearer two bodies can come within the frame, at most [m]. */
 static double nearing(const struct swept_body *a, const struct swept_body *b)
 {
@@ -196,7 +187,8 @@ static void take(struct resting *resting, struct response_context *context, cons
                  bool known)
 {
     struct free_turn turn_a, turn_b;
-    struct swept_body a = swept(context, pair->a, &turn_a), b = swept(context, pair->b, &turn_b);
+    struct swept_body a = body_motion_body(context->motion, pair->a, &turn_a);
+    struct swept_body b = body_motion_side(context->motion, pair->b, &turn_b);
     struct level_gap gap[LEVEL_GAPS_MAX];
     double margin = known ? NEAR_M + nearing(&a, &b) : 0.0;
     uint32_t gaps = level_gap_find(&a, &b, 0.0, margin, gap);
@@ -288,7 +280,7 @@ static bool touches(const struct resting *resting, const struct resting_pair *pa
         if (resting->point[i].normal_ns > 0.0)
             return true;
     }
-    return pair->gap_m < TOUCHING_M;
+    return pair->gap_m < CONTACT_TOUCHING_M;
 }
 
 static bool overlaps(const struct resting *resting, const struct resting_pair *pair)

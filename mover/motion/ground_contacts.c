@@ -38,8 +38,7 @@ void ground_contacts_begin(struct ground_contacts *contacts, const struct kind *
     contacts->restitution = maths_min(kind->restitution, GROUND_RESTITUTION);
 }
 
-/* --- the points near the ground
- * ------------------------------------------------------------------*/
+/* --- the points near the ground ----------------------------------------------------------------*/
 
 static void set_axis(struct ground_contact *contact, int k, struct vec3 axis,
                      const struct rigid_body *body, const struct mat3 *inverse)
@@ -107,8 +106,7 @@ void ground_contacts_find(struct ground_contacts *contacts, const struct step_co
     }
 }
 
-/* --- impulses
- * ------------------------------------------------------------------------------------*/
+/* --- impulses ----------------------------------------------------------------------------------*/
 
 static double speed_along(const struct ground_contact *contact, int k, struct vec3 velocity,
                           struct vec3 spin)
@@ -202,8 +200,7 @@ double ground_contacts_solve(struct ground_contacts *contacts, struct rigid_body
     return sum;
 }
 
-/* --- ploughing
- * -----------------------------------------------------------------------------------*/
+/* --- ploughing ---------------------------------------------------------------------------------*/
 
 void ground_contacts_plough(const struct ground_contacts *contacts, struct rigid_body *body,
                             double impulse_ns)
@@ -238,8 +235,7 @@ void ground_contacts_roll(const struct ground_contacts *contacts, struct rigid_b
     body->spin = vec3_scale(axis, maths_max(0.0, rate - slower));
 }
 
-/* --- out of the ground
- * ---------------------------------------------------------------------------*/
+/* --- out of the ground -------------------------------------------------------------------------*/
 
 /* Returns the pseudo-speed that the point needs along its normal [m/s]; negative: what it can give
  * up. */

@@ -6,8 +6,6 @@
 
 #include <string.h>
 
-#define LEAST_HALF_M 0.5 /* over a shorter distance rounding dominates the slope */
-
 enum { MIDDLE, FRONT, BACK, RIGHT, LEFT, POINTS };
 
 void ground_pose_begin(struct ground_pose *pose)
@@ -29,8 +27,8 @@ bool ground_pose_take(const struct step_context *context, struct ground_pose *po
         return false;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     pose->kind[l] = m->kind[i];
-    pose->half_length.lane[l] = maths_max(kind->length_m * 0.5, LEAST_HALF_M);
-    pose->half_width.lane[l] = maths_max(kind->width_m * 0.5, LEAST_HALF_M);
+    pose->half_length.lane[l] = maths_max(kind->length_m * 0.5, KIND_STANCE_LEAST_M);
+    pose->half_width.lane[l] = maths_max(kind->width_m * 0.5, KIND_STANCE_LEAST_M);
     return true;
 }
 

@@ -32,8 +32,7 @@ static bool is_due(const struct step_context *context, uint32_t i)
     return until != 0 && until <= (uint32_t)context->tick;
 }
 
-/* --- ships
- * ---------------------------------------------------------------------------------------*/
+/* --- ships -------------------------------------------------------------------------------------*/
 
 static void drift(const struct step_context *context, uint32_t i)
 {
@@ -52,8 +51,7 @@ static void drift(const struct step_context *context, uint32_t i)
         m->until_tick[i] = (uint32_t)context->tick;
 }
 
-/* --- rigid bodies
- * --------------------------------------------------------------------------------*/
+/* --- rigid bodies ------------------------------------------------------------------------------*/
 
 static double sub_steps(const struct rigid_body *body, const struct body_points *points,
                         double dt_s)

@@ -114,8 +114,7 @@ static bool compare_entities(const struct compared *a, const struct compared *b,
     return difference->columns > 0;
 }
 
-/* --- fixed objects, contacts, craters, dents, head
- * -------------------------------------------------------*/
+/* --- fixed objects, contacts, craters, dents, head ---------------------------------------------*/
 
 static bool compare_fixed(const struct compared *a, const struct compared *b,
                           struct difference *difference)

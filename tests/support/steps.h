@@ -8,8 +8,7 @@
 #include "mover/context/serial_context.h"
 #include "tests/support/fixture.h"
 
-/* --- constants of a world
- * ------------------------------------------------------------------------*/
+/* --- constants of a world ----------------------------------------------------------------------*/
 
 struct kind *steps_kind(const struct fixture *fixture, const char *name);
 struct params *steps_params(const struct fixture *fixture);

@@ -9,6 +9,10 @@
 #define KIND_COUNT_MAX 64
 #define KIND_NONE      UINT16_MAX
 
+/* The ground's slope under a body is taken between points at least this far from its middle [m]:
+ * over a shorter distance rounding dominates it. */
+#define KIND_STANCE_LEAST_M 0.5
+
 enum domain { DOMAIN_LAND, DOMAIN_SEA, DOMAIN_AIR, DOMAIN_MUNITION, DOMAIN_FIXED, DOMAIN_COUNT };
 
 /* How a munition flies. */
