@@ -14,6 +14,7 @@
 #include "mover/motion/ship.h"
 #include "mover/motion/wreck.h"
 #include "mover/weapon/fire.h"
+#include "mover/weapon/firing_table.h"
 #include "mover/weapon/turret.h"
 #include "world/entity/event.h"
 #include "world/params.h"
@@ -26,6 +27,16 @@
 #define BLOCKS_A_WORKER 2u
 #define ROWS_A_WORKER   (BLOCKS_A_WORKER * CHECKSUM_ROWS)
 
+/* Returns the tables of all kinds, or NULL with errno ENOMEM. */
+static struct firing_table *make_firing_tables(const struct world *world)
+{
+    uint32_t count = world->counts.kinds;
+    struct firing_table *tables = calloc(count, sizeof *tables);
+    for (uint32_t i = 0; tables && i < count; i++)
+        firing_table_make(&tables[i], &world->kinds[i]);
+    return tables;
+}
+
 int mover_init(struct mover *mover, const struct world *world, const struct crater *craters,
                struct thread_pool *workers)
 {
@@ -36,7 +47,8 @@ int mover_init(struct mover *mover, const struct world *world, const struct crat
         calloc(world->params->capacity + GROUND_POSE_AHEAD, sizeof *mover->terrain_entries);
     mover->terrain_entries_ahead =
         calloc(world->params->capacity, sizeof *mover->terrain_entries_ahead);
-    if (mover->terrain_entries && mover->terrain_entries_ahead &&
+    mover->firing_tables = make_firing_tables(world);
+    if (mover->terrain_entries && mover->terrain_entries_ahead && mover->firing_tables &&
         ground_marks_init(&mover->ground_marks, world) == 0 &&
         square_bounds_init(&mover->slopes, square_bounds_slope, &world->terrain) == 0 &&
         crater_index_init(&mover->craters, craters) == 0 &&
@@ -56,6 +68,7 @@ void mover_free(struct mover *mover)
     line_of_sight_free(&mover->line_of_sight);
     ground_marks_free(&mover->ground_marks);
     square_bounds_free(&mover->slopes);
+    free(mover->firing_tables);
     free(mover->terrain_entries);
     free(mover->terrain_entries_ahead);
 }
@@ -385,6 +398,7 @@ struct step_context mover_context(const struct mover *mover, const struct state 
         .ground_marks = &mover->ground_marks,
         .slopes = &mover->slopes,
         .avoidance = &mover->avoidance,
+        .firing_tables = mover->firing_tables,
         .terrain_entries = mover->terrain_entries,
         .terrain_entries_ahead = mover->terrain_entries_ahead,
         .tick = committed->head->tick + 1,

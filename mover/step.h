@@ -13,6 +13,7 @@
 #include "world/terrain/crater.h"
 #include "world/terrain/square_bounds.h"
 
+struct firing_table;
 struct moved;
 struct state;
 struct terrain_cache_entry;
@@ -24,6 +25,7 @@ struct mover {
     /* What follows from the static world. */
     struct avoidance avoidance;
     struct square_bounds slopes;
+    struct firing_table *firing_tables; /* [kind_count] */
     /* Of the committed world, built in each frame. */
     struct neighbour_index neighbours;
     struct neighbour_lists neighbour_lists;

@@ -7,6 +7,9 @@
 static const struct key_choice guidances[] = {{"ballistic", GUIDANCE_BALLISTIC, NULL},
                                               {"homing", GUIDANCE_HOMING, NULL}};
 
+static const struct key_choice drags[] = {
+    {"none", DRAG_NONE, NULL}, {"g1", DRAG_G1, NULL}, {"g7", DRAG_G7, NULL}};
+
 #define K struct kind_entry
 static const struct key kind_keys[] = {
     TEXT("name", K, kind.name, NULL, .required = true,
@@ -24,6 +27,14 @@ static const struct key kind_keys[] = {
     CHOICE("guidance", K, kind.guidance, STORE_U8, WORDS(guidances), "ballistic",
            .meaning = "Munitions. `ballistic`: the munition falls freely. `homing`: it follows its "
                       "target."),
+    CHOICE("drag", K, kind.drag, STORE_U8, WORDS(drags), "none",
+           .meaning = "Ballistic munitions: the standard projectile whose drag they have. `g1` "
+                      "has a flat base, `g7` a boat tail; both need `ballistic_kgpm2`. `none`: "
+                      "they keep their speed."),
+    NUMBER("ballistic_kgpm2", K, kind.ballistic_kgpm2, 0, 100000, "0", .unit = "kg/m^2",
+           .meaning = "Munitions with `drag`, above 0: the ballistic coefficient, which is the "
+                      "mass over the form factor and the square of the calibre. 1 lb/in^2 is "
+                      "703 kg/m^2."),
     BOOLEAN("craters", K, kind.craters, STORE_U8, "false",
             .meaning = "Munitions. true: a munition that strikes the ground digs a crater."),
     NUMBER("mass_kg", K, kind.mass_kg, 0.001, 1e9, NULL, .required = true, .unit = "kg",
@@ -130,7 +141,13 @@ static const struct key kind_keys[] = {
                       "of flight in which they see their target. A target that leaves the cone is "
                       "lost for good."),
     SCALED("dispersion_mrad", K, kind.dispersion_rad, 0, 500, 0.001, "0", .unit = "mrad",
-           .meaning = "Munitions: the standard error of the aim. 1 mrad is 1 m at 1 km."),
+           .meaning = "Munitions: the standard error of the aim from a vehicle that stands. 1 "
+                      "mrad is 1 m at 1 km."),
+    SCALED("dispersion_moving_mrad", K, kind.dispersion_moving_rad, 0, 500, 0.001, "0",
+           .unit = "mrad",
+           .meaning = "Munitions: the standard error from a vehicle at half of its top speed or "
+                      "faster, not below `dispersion_mrad`; below that speed it is in between. "
+                      "0: as from one that stands."),
     NUMBER("life_s", K, kind.life_s, 0, 600, "0", .unit = "s",
            .meaning = "Munitions, above 0: the flight ends after this time."),
     NUMBER("courage", K, kind.courage, 0, 1, "0.5",

@@ -11,6 +11,7 @@
 
 struct avoidance;
 struct crater_index;
+struct firing_table;
 struct ground_marks;
 struct neighbour_lists;
 struct square_bounds;
@@ -30,6 +31,7 @@ struct step_context {
     const struct ground_marks *ground_marks;
     const struct square_bounds *slopes;
     const struct avoidance *avoidance;
+    const struct firing_table *firing_tables; /* [kind_count] */
     /* [capacity] Caches of the ground: about row i's position, and where an aircraft soon will be.
      * Written with row i. */
     struct terrain_cache_entry *terrain_entries, *terrain_entries_ahead;

@@ -15,6 +15,7 @@
 
 #define LAUNCH_SHARE  0.3   /* share of full speed with which a missile starts */
 #define DROP_HEIGHT_M 300.0 /* height above the point from which bombs fall */
+#define MOVING_SHARE  0.5   /* of its top speed, at which a shooter aims as badly as it can */
 
 /* A random number with standard deviation 1: the sum of four uniforms is nearly normal. */
 static double spread(const struct serial_context *context, uint32_t row,
@@ -40,6 +41,15 @@ static struct vec3 dispersed(const struct serial_context *context, uint32_t row,
     maths_sincos(heading, &sine, &cosine);
     maths_sincos(pitch, &sine_pitch, &cosine_pitch);
     return (struct vec3){sine * cosine_pitch, sine_pitch, -cosine * cosine_pitch};
+}
+
+/* Returns the standard error of a shooter's aim [rad]: it grows with its speed. */
+static double standard_error(const struct kind *round, const struct kind *shooter,
+                             struct vec3 velocity)
+{
+    double extra = maths_max(0.0, round->dispersion_moving_rad - round->dispersion_rad);
+    double share = vec3_length(velocity) / maths_max(MOVING_SHARE * shooter->max_speed_mps, 1e-9);
+    return round->dispersion_rad + extra * maths_min(share, 1.0);
 }
 
 /* A row for a munition. SLOT_NONE: the frame has no room for the row or its event. */
@@ -87,11 +97,12 @@ static bool launch(struct serial_context *context, uint32_t shooter, uint32_t ta
         return false;
     const struct kind *round = &world->kinds[munition];
     struct vec3 position = turret_muzzle(context->step, m, shooter);
-    struct vec3 direction = point ? turret_lead_point(position, round, *point)
+    struct vec3 direction = point ? turret_lead_point(context->step, position, munition, *point)
                             : target != SLOT_NONE
-                                ? turret_lead(context->step, position, round, m, target)
+                                ? turret_lead(context->step, position, munition, m, target)
                                 : turret_barrel(m, shooter);
-    direction = dispersed(context, row, direction, round->dispersion_rad);
+    direction = dispersed(context, row, direction,
+                          standard_error(round, kind, entities_velocity(m, shooter)));
     double clear = kind->radius_m + round->radius_m + 0.5;
     struct vec3 muzzle = vec3_add(position, vec3_scale(direction, clear));
     double speed = round->max_speed_mps;

@@ -2,6 +2,7 @@
 #include "mover/weapon/turret.h"
 
 #include "mover/motion/kinematics.h"
+#include "mover/weapon/firing_table.h"
 #include "world/maths/rotation.h"
 #include "world/state.h"
 #include "world/world.h"
@@ -22,32 +23,33 @@ struct vec3 turret_muzzle(const struct step_context *context, const struct entit
 }
 
 /* The direction for a target that is at `to`, relative to the muzzle, and moves at velocity. */
-static struct vec3 lead_on(const struct kind *munition, struct vec3 to, struct vec3 velocity)
+static struct vec3 lead_on(const struct firing_table *table, double muzzle_height_m, struct vec3 to,
+                           struct vec3 velocity)
 {
-    double speed = maths_max(munition->max_speed_mps, 1.0);
-    double drop = munition->guidance == GUIDANCE_BALLISTIC ? 0.5 * GRAVITY_MPS2 : 0.0;
+    double distance = vec3_length(to), height = muzzle_height_m + 0.5 * to.y;
     struct vec3 lead = to;
-    double flight_s = vec3_length(to) / speed, distance = 0.0;
     for (int step = 0; step < LEAD_STEPS; step++) {
-        lead = vec3_add(to, vec3_scale(velocity, flight_s));
-        lead.y += drop * flight_s * flight_s;
+        struct firing_data data = firing_table_at(table, distance, height);
+        lead = vec3_add(to, vec3_scale(velocity, data.flight_s));
+        lead.y += data.drop_m;
         distance = vec3_length(lead);
-        flight_s = maths_min(distance / speed, munition->life_s);
     }
     return distance > 0.0 ? vec3_scale(lead, 1.0 / distance) : (struct vec3){0.0, 1.0, 0.0};
 }
 
-struct vec3 turret_lead(const struct step_context *context, struct vec3 muzzle,
-                        const struct kind *munition, const struct entities *e, uint32_t target)
+struct vec3 turret_lead(const struct step_context *context, struct vec3 muzzle, uint16_t munition,
+                        const struct entities *e, uint32_t target)
 {
     struct vec3 to = vec3_sub(entities_position(e, target), muzzle);
     to.y += kinematics_aim_height(context, e->kind[target]);
-    return lead_on(munition, to, entities_velocity(e, target));
+    return lead_on(&context->firing_tables[munition], muzzle.y, to, entities_velocity(e, target));
 }
 
-struct vec3 turret_lead_point(struct vec3 muzzle, const struct kind *munition, struct vec3 point)
+struct vec3 turret_lead_point(const struct step_context *context, struct vec3 muzzle,
+                              uint16_t munition, struct vec3 point)
 {
-    return lead_on(munition, vec3_sub(point, muzzle), (struct vec3){0.0, 0.0, 0.0});
+    return lead_on(&context->firing_tables[munition], muzzle.y, vec3_sub(point, muzzle),
+                   (struct vec3){0.0, 0.0, 0.0});
 }
 
 static struct mat3 pose_matrix(const struct entities *e, uint32_t i)
@@ -90,13 +92,12 @@ static bool has_target(const struct step_context *context, uint32_t i)
 }
 
 /* The direction for its goal, a point on the ground. */
-static struct vec3 lead_goal(const struct step_context *context, uint32_t i,
-                             const struct kind *munition)
+static struct vec3 lead_goal(const struct step_context *context, uint32_t i, uint16_t munition)
 {
     const struct entities *m = context->m;
     struct vec3 goal = {m->goal_x[i], kinematics_ground(context, m->goal_x[i], m->goal_z[i]),
                         m->goal_z[i]};
-    return turret_lead_point(turret_muzzle(context, m, i), munition, goal);
+    return turret_lead_point(context, turret_muzzle(context, m, i), munition, goal);
 }
 
 /* Finds the solution for its target, or for its goal with TRIGGER_FIRE_AT. turret, gun: the angles
@@ -105,12 +106,11 @@ static void solve(const struct step_context *context, uint32_t i, const struct k
                   struct turret_solution *solution, double *turret, double *gun)
 {
     const struct entities *m = context->m, *w = &context->committed->entities;
-    const struct kind *munition = &context->world->kinds[kind->munition];
     solution->body = pose_matrix(m, i);
-    solution->lead =
-        m->trigger[i] & TRIGGER_FIRE_AT
-            ? lead_goal(context, i, munition)
-            : turret_lead(context, turret_muzzle(context, m, i), munition, w, m->target_slot[i]);
+    solution->lead = m->trigger[i] & TRIGGER_FIRE_AT
+                         ? lead_goal(context, i, kind->munition)
+                         : turret_lead(context, turret_muzzle(context, m, i), kind->munition, w,
+                                       m->target_slot[i]);
     solution->found = true;
     struct vec3 lead = rotation_back(&solution->body, solution->lead);
     double level = sqrt(lead.x * lead.x + lead.z * lead.z);
@@ -216,9 +216,9 @@ static bool bears(const struct step_context *context, const struct entities *row
         most = munition->seeker_rad;
         to = vec3_sub(entities_position(&context->committed->entities, target), muzzle);
     } else {
-        to = solution
-                 ? solution->lead
-                 : turret_lead(context, muzzle, munition, &context->committed->entities, target);
+        to = solution ? solution->lead
+                      : turret_lead(context, muzzle, kind->munition, &context->committed->entities,
+                                    target);
     }
     return angle_between(barrel, to) <= most;
 }
@@ -264,9 +264,7 @@ void turret_hold_fire(const struct step_context *context, uint32_t i,
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     bool at_target = solution->found && !(m->trigger[i] & TRIGGER_FIRE_AT);
     if (m->trigger[i] & TRIGGER_FIRE_AT && kind->munition != KIND_NONE &&
-        angle_between(turret_barrel(m, i),
-                      lead_goal(context, i, &context->world->kinds[kind->munition])) >
-            laid_rad(kind))
+        angle_between(turret_barrel(m, i), lead_goal(context, i, kind->munition)) > laid_rad(kind))
         m->trigger[i] &= (uint8_t)~TRIGGER_FIRE_AT;
     if (!(m->trigger[i] & TRIGGER_FIRE))
         return;

@@ -29,13 +29,14 @@ void turret_hold_fire(const struct step_context *context, uint32_t i,
 struct vec3 turret_muzzle(const struct step_context *context, const struct entities *e, uint32_t i);
 struct vec3 turret_barrel(const struct entities *e, uint32_t i);
 
-/* The direction (unit) in which a round meets row target if that keeps its velocity. Flight time
- * and drop are included. */
-struct vec3 turret_lead(const struct step_context *context, struct vec3 muzzle,
-                        const struct kind *munition, const struct entities *e, uint32_t target);
+/* The direction (unit) in which a round of the kind `munition` meets row target if that keeps its
+ * velocity. Flight time and drop are those of the firing table. */
+struct vec3 turret_lead(const struct step_context *context, struct vec3 muzzle, uint16_t munition,
+                        const struct entities *e, uint32_t target);
 
 /* The same for a point [m, world]. */
-struct vec3 turret_lead_point(struct vec3 muzzle, const struct kind *munition, struct vec3 point);
+struct vec3 turret_lead_point(const struct step_context *context, struct vec3 muzzle,
+                              uint16_t munition, struct vec3 point);
 
 /* Returns true if a shot of row i would hit the committed row target. For missiles: if the seeker
  * sees it. */

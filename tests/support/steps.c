@@ -174,10 +174,11 @@ void steps_aim(const struct fixture *fixture, uint32_t row, uint32_t target)
 {
     struct entities e = steps_rows(fixture);
     const struct kind *kinds = fixture->view.world.kinds;
-    struct step_context context = {.world = &fixture->view.world};
+    const struct step_context context = {.world = &fixture->view.world,
+                                         .firing_tables = fixture->stepper.mover.firing_tables};
     struct mat3 body = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
     struct vec3 lead = turret_lead(&context, turret_muzzle(&context, &e, row),
-                                   &kinds[kinds[e.kind[row]].munition], &e, target);
+                                   kinds[e.kind[row]].munition, &e, target);
     lead = rotation_back(&body, lead);
     e.turret[row] = (float)maths_atan2(lead.z, lead.x);
     e.gun[row] = (float)maths_atan2(lead.y, sqrt(lead.x * lead.x + lead.z * lead.z));

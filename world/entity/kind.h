@@ -18,6 +18,9 @@ enum domain { DOMAIN_LAND, DOMAIN_SEA, DOMAIN_AIR, DOMAIN_MUNITION, DOMAIN_FIXED
 /* How a munition flies. */
 enum guidance { GUIDANCE_BALLISTIC, GUIDANCE_HOMING };
 
+/* The standard projectile by which the drag of a munition follows from its speed. */
+enum drag_function { DRAG_NONE, DRAG_G1, DRAG_G7, DRAG_COUNT };
+
 /* The table by which an agent reacts: mover/agent/behaviour_table.c. */
 enum doctrine {
     DOCTRINE_ARMOUR,
@@ -47,6 +50,7 @@ struct kind {
     uint8_t domain;       /* enum domain */
     uint8_t guidance;     /* enum guidance; munitions */
     uint8_t object_class; /* enum object_class; fixed objects */
+    uint8_t drag;         /* enum drag_function; munitions */
     uint8_t craters;      /* munitions: makes a crater when it hits the ground */
     uint16_t model;       /* index into the world's models */
     uint16_t munition;    /* kind it fires, KIND_NONE for none */
@@ -83,7 +87,9 @@ struct kind {
     double gun_rate_rps;              /* up and down; 0: the gun does not move */
     double gun_low_rad, gun_high_rad; /* limits, relative to the hull's own plane */
     double seeker_rad;                /* homing munitions: half angle of the seeker's cone */
-    double dispersion_rad;            /* munitions: standard error */
+    double ballistic_kgpm2;           /* munitions with drag: mass / (form factor x calibre^2) */
+    double dispersion_rad;            /* munitions: standard error from a shooter that stands */
+    double dispersion_moving_rad;     /* and from one at half of its top speed or above */
     double life_s;                    /* munitions: end of flight */
     double courage;                   /* 0..1: probability of returning fire rather than fleeing */
     double fuel_l, fuel_lps;          /* tank, and burnt at full throttle a second */

@@ -118,8 +118,9 @@ static void test_a_round_moves_from_the_frame_after_its_shot(void **state)
     assert_true(event->fire.point[0] == muzzle.x && event->fire.point[2] == muzzle.z);
     fixture_run(&f, 1);
     e = steps_rows(&f);
-    assert_true(fabs(e.x[1] - (muzzle.x + v.x / 60.0)) < 1e-9);
-    assert_true(fabs(e.z[1] - (muzzle.z + v.z / 60.0)) < 1e-9);
+    double least = 1.0 - 0.001, z = e.z[1] - muzzle.z; /* drag takes 0.2 % of its speed */
+    assert_true(fabs(e.x[1] - (muzzle.x + v.x / 60.0)) < 1e-3);
+    assert_true(z / (v.z / 60.0) < 1.0 && z / (v.z / 60.0) > least);
     fixture_close(&f);
 }
 

@@ -69,21 +69,21 @@ static void test_aim_leads_a_moving_target_on_level_ground(void **state)
         assert_true(strikes("jeep", "bullet", distance, HALF_PI));
 }
 
-static void test_dispersion_is_the_kinds_standard_error(void **state)
+static void check_dispersion(double speed_mps, double error_rad)
 {
-    const double error_rad = 0.02;
     double sum[2] = {0.0, 0.0}, square[2] = {0.0, 0.0};
     int shots = 400;
-    (void)state;
     fixture_close(&f);
     fixture_open(&f, "world = { seed = 1; capacity = 2048; };");
     struct kind *kind = steps_kind(&f, "shell"), *tank = steps_kind(&f, "tank");
-    kind->dispersion_rad = error_rad;
+    kind->dispersion_rad = 0.02;
+    kind->dispersion_moving_rad = 0.05;
     kind->life_s = 600.0;
     tank->reload_s = 0.0;
     tank->rounds = 1000;
-    uint32_t shooter =
-        fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25000.0, 5000.0, 25000.0}});
+    uint32_t shooter = fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                                               .at = {25000.0, 5000.0, 25000.0},
+                                                               .velocity = {0.0, 0.0, -speed_mps}});
     struct step_context step;
     struct serial_context context;
     steps_serial_context(&f, &step, &context);
@@ -102,6 +102,16 @@ static void test_dispersion_is_the_kinds_standard_error(void **state)
         assert_true(fabs(mean) < 4.0 * error_rad / sqrt(shots));
         assert_true(fabs(deviation - error_rad) < 0.15 * error_rad);
     }
+}
+
+static void test_dispersion_is_the_kinds_standard_error(void **state)
+{
+    double top = steps_kind(&f, "tank")->max_speed_mps;
+    (void)state;
+    check_dispersion(0.0, 0.02);
+    check_dispersion(0.25 * top, 0.035);
+    check_dispersion(0.5 * top, 0.05);
+    check_dispersion(top, 0.05);
 }
 
 static void test_a_round_starts_clear_of_its_shooter(void **state)
