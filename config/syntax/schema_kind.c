@@ -10,6 +10,10 @@ static const struct key_choice guidances[] = {{"ballistic", GUIDANCE_BALLISTIC, 
 static const struct key_choice drags[] = {
     {"none", DRAG_NONE, NULL}, {"g1", DRAG_G1, NULL}, {"g7", DRAG_G7, NULL}};
 
+static const struct key_choice air_targets[] = {{"all", AIR_TARGETS_ALL, NULL},
+                                                {"slow", AIR_TARGETS_SLOW, NULL},
+                                                {"none", AIR_TARGETS_NONE, NULL}};
+
 #define K struct kind_entry
 static const struct key kind_keys[] = {
     TEXT("name", K, kind.name, NULL, .required = true,
@@ -35,6 +39,9 @@ static const struct key kind_keys[] = {
            .meaning = "Munitions with `drag`, above 0: the ballistic coefficient, which is the "
                       "mass over the form factor and the square of the calibre. 1 lb/in^2 is "
                       "703 kg/m^2."),
+    CHOICE("air_targets", K, kind.air_targets, STORE_U8, WORDS(air_targets), "all",
+           .meaning = "Munitions: the aircraft at which an agent fires them. `slow`: only those "
+                      "that can hover. Commands and drivers fire at anything."),
     BOOLEAN("craters", K, kind.craters, STORE_U8, "false",
             .meaning = "Munitions. true: a munition that strikes the ground digs a crater."),
     NUMBER("mass_kg", K, kind.mass_kg, 0.001, 1e9, NULL, .required = true, .unit = "kg",
@@ -126,6 +133,9 @@ static const struct key kind_keys[] = {
                       "`warship`; an aircraft is `helicopter`, or `jet` with a `min_speed_mps`."),
     NUMBER("reload_s", K, kind.reload_s, 0, 3600, "0", .unit = "s",
            .meaning = "Armed vehicles, above 0: the time from one shot to the next."),
+    NUMBER("reaction_s", K, kind.reaction_s, 0, 600, "4", .unit = "s",
+           .meaning = "Armed vehicles: the median time from an agent's first sight of a target to "
+                      "its shot. None is below 0.7 s."),
     SCALED("turret_rate_dps", K, kind.turret_rate_rps, 0, 360, RAD_PER_DEG, "0",
            .unit = "degrees/s",
            .meaning = "How fast the turret turns, only with `munition`. 0: there is no turret, and "

@@ -3,6 +3,7 @@
 
 #include "mover/agent/attack.h"
 #include "mover/agent/avoidance.h"
+#include "mover/agent/fire_control.h"
 #include "mover/agent/formation_keeping.h"
 #include "mover/agent/goal.h"
 #include "mover/agent/perception.h"
@@ -39,7 +40,8 @@ static void begin_attack(const struct step_context *context, uint32_t i,
     struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
     uint32_t target = notice->threat != SLOT_NONE ? notice->threat : notice->enemy;
-    if (target == SLOT_NONE || (before == BEHAVIOUR_ATTACK && perception_in_sight(context, i)))
+    if (target == SLOT_NONE || !fire_control_suits(context, i, target) ||
+        (before == BEHAVIOUR_ATTACK && perception_in_sight(context, i)))
         return; /* it keeps its target */
     goal_target(context, i, target, w->id[target]);
     bool seen = target == notice->enemy || perception_sees(context, i, target);

@@ -1,6 +1,7 @@
 /* Chooses goals. */
 #include "mover/agent/goal.h"
 
+#include "mover/agent/fire_control.h"
 #include "mover/agent/perception.h"
 #include "mover/agent/script_player.h"
 #include "mover/motion/kinematics.h"
@@ -117,6 +118,8 @@ void goal_target(const struct step_context *context, uint32_t i, uint32_t row, u
 {
     struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
+    if (m->target_id[i] != id)
+        fire_control_acquire(context, i);
     m->target_slot[i] = row;
     m->target_id[i] = id;
     m->goal_x[i] = w->x[row];

@@ -15,7 +15,8 @@ void goal_away(const struct step_context *context, uint32_t i, double heading, d
 /* A goal away from an enemy's row: a near place that the enemy cannot see, else a far one. */
 void goal_cover(const struct step_context *context, uint32_t i, uint32_t enemy);
 
-/* Makes that row its target, and the place of the target its goal. */
+/* Makes that row its target, and the place of the target its goal. The crew needs a time of
+ * reaction before it fires at a new target. */
 void goal_target(const struct step_context *context, uint32_t i, uint32_t row, uint32_t id);
 
 /* Makes the base of its force its goal. Returns true if it is there; a ship has arrived where the

@@ -2,6 +2,7 @@
  * and are less frequent (mover/README.md). */
 #include "mover/agent/perception.h"
 
+#include "mover/agent/fire_control.h"
 #include "mover/agent/goal.h"
 #include "mover/motion/kinematics.h"
 #include "world/maths/random.h"
@@ -145,7 +146,7 @@ static void gather(const struct step_context *context, uint32_t i, const struct 
     c->count = 0;
     while ((entry = neighbour_query_next(&query))) {
         double dx = (double)entry->x - query.x, dz = (double)entry->z - query.z;
-        if (in_view(view, dx, dz))
+        if (in_view(view, dx, dz) && fire_control_suits(context, i, entry->row))
             consider(c, entry->row, dx * dx + dz * dz);
     }
 }
@@ -390,6 +391,8 @@ struct notice perception_notice(const struct step_context *context, uint32_t i)
         next_target(context, i, &notice);
     if (looks_now(context, i))
         notice_look(context, i, &notice);
+    if (notice.threat != SLOT_NONE && !fire_control_suits(context, i, notice.threat))
+        return notice; /* it cannot fire back */
     if ((notice.percepts & TESTS) && matters(context, i, notice.percepts, PERCEPTION_BIT(BRAVE)) &&
         ((notice.percepts & PERCEPTION_BIT(STAND)) || brave(context, i)))
         notice.percepts |= PERCEPTION_BIT(BRAVE);

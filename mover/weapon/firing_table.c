@@ -13,11 +13,11 @@
 
 /* Speed, time, slope below the line of departure and drop, by the range s:
  * dv/ds = -rate, dt/ds = 1 / v, d(slope)/ds = g / v^2, d(drop)/ds = slope. */
-struct flight {
+struct trajectory {
     double speed_mps, time_s, slope, drop_m;
 };
 
-static void fly(struct flight *flight, const struct kind *munition, double step_m)
+static void fly(struct trajectory *flight, const struct kind *munition, double step_m)
 {
     double start = flight->speed_mps;
     double half = start - 0.5 * step_m * drag_rate(munition, start, 0.0);
@@ -32,7 +32,7 @@ static void fly(struct flight *flight, const struct kind *munition, double step_
 
 void firing_table_make(struct firing_table *table, const struct kind *munition)
 {
-    struct flight flight = {.speed_mps = maths_max(munition->max_speed_mps, SLOWEST_MPS)};
+    struct trajectory flight = {.speed_mps = maths_max(munition->max_speed_mps, SLOWEST_MPS)};
     table->munition = munition;
     for (unsigned row = 0; row < FIRING_TABLE_ROWS; row++) {
         table->flight_s[row] = flight.time_s;

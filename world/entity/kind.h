@@ -21,6 +21,9 @@ enum guidance { GUIDANCE_BALLISTIC, GUIDANCE_HOMING };
 /* The standard projectile by which the drag of a munition follows from its speed. */
 enum drag_function { DRAG_NONE, DRAG_G1, DRAG_G7, DRAG_COUNT };
 
+/* The aircraft at which a crew fires a munition. Slow are those that can hover. */
+enum aircraft_targets { AIR_TARGETS_ALL, AIR_TARGETS_SLOW, AIR_TARGETS_NONE };
+
 /* The table by which an agent reacts: mover/agent/behaviour_table.c. */
 enum doctrine {
     DOCTRINE_ARMOUR,
@@ -51,6 +54,7 @@ struct kind {
     uint8_t guidance;     /* enum guidance; munitions */
     uint8_t object_class; /* enum object_class; fixed objects */
     uint8_t drag;         /* enum drag_function; munitions */
+    uint8_t air_targets;  /* enum aircraft_targets; munitions */
     uint8_t craters;      /* munitions: makes a crater when it hits the ground */
     uint16_t model;       /* index into the world's models */
     uint16_t munition;    /* kind it fires, KIND_NONE for none */
@@ -83,6 +87,7 @@ struct kind {
     double view_rad;     /* vehicles: width of view, about the turret's direction */
     uint32_t doctrine;   /* enum doctrine; vehicles */
     double reload_s;     /* vehicles: between two rounds */
+    double reaction_s;   /* vehicles: median time from the sight of a target to the shot */
     double turret_rate_rps;           /* vehicles: 0: no turret, it aims with the hull */
     double gun_rate_rps;              /* up and down; 0: the gun does not move */
     double gun_low_rad, gun_high_rad; /* limits, relative to the hull's own plane */

@@ -24,6 +24,7 @@ enum random_purpose {
     RANDOM_SQUARE_SIZE,   /* creation: how many objects an occupied square holds */
     RANDOM_MISSION_RANGE, /* where a round of a fire mission falls */
     RANDOM_MISSION_AZIMUTH,
+    RANDOM_REACTION, /* mover: how soon a crew fires at a new target */
 };
 
 /* splitmix64's finaliser (Steele, Lea & Flood 2014). */

@@ -41,7 +41,7 @@ static void test_moving_again_over_anything_gives_the_same_bytes(void **state)
     uint32_t shots = 0;
     (void)state;
     fixture_open(&f, battle);
-    for (int frame = 0; frame < 120; frame++) {
+    for (int frame = 0; frame < 300; frame++) {
         if (frame % 10 == 0)
             steps_send(&f, RING_CLIENTS,
                        (struct command){.type = COMMAND_SPAWN,

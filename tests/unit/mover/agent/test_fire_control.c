@@ -1,0 +1,171 @@
+/* Fire control: what suits a gun, and how long crews need before their first shot. */
+#include "mover/agent/fire_control.h"
+
+#include "mover/step.h"
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#define HZ    60.0
+#define CREWS 60u
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 256; };");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t put(const char *kind, struct vec3 at, enum force force, enum behaviour behaviour)
+{
+    uint32_t row =
+        fixture_put(&f, (struct fixture_entity){
+                            .kind = kind, .at = at, .force = force, .behaviour = BEHAVIOUR_HOLD});
+    struct entities e = steps_rows(&f);
+    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
+    return row;
+}
+
+/* --- targets -----------------------------------------------------------------------------------*/
+
+static bool suits(const char *shooter, const char *target)
+{
+    uint32_t a = put(shooter, (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t b = put(target, (struct vec3){25000.0, 400.0, 26000.0}, FORCE_RED, BEHAVIOUR_IDLE);
+    struct step_context step;
+    struct serial_context context;
+    steps_serial_context(&f, &step, &context);
+    bool does = fire_control_suits(&step, a, b);
+    steps_empty(&f);
+    return does;
+}
+
+static void test_no_tank_gun_suits_a_jet(void **state)
+{
+    (void)state;
+    assert_false(suits("tank", "jet"));
+    assert_true(suits("tank", "helicopter"));
+    assert_true(suits("tank", "jeep"));
+    assert_false(suits("helicopter", "jet"));
+    assert_true(suits("jeep", "jet"));
+    assert_true(suits("jet", "jet"));
+    assert_true(suits("truck", "jet")); /* unarmed: it still sees the jet */
+    steps_kind(&f, "shell")->air_targets = AIR_TARGETS_NONE;
+    assert_false(suits("tank", "helicopter"));
+}
+
+/* A jet circles over a tank that fires at will, and even fires at it. */
+static void test_a_tank_fires_no_round_at_a_jet(void **state)
+{
+    uint32_t tank = put("tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t jet = put("jet", (struct vec3){25000.0, 300.0, 26000.0}, FORCE_RED, BEHAVIOUR_PATROL);
+    struct entities e = steps_rows(&f);
+    (void)state;
+    e.flags[tank] |= ENTITY_FLAG_FIRE_AT_WILL | ENTITY_FLAG_STAND;
+    e.flags[jet] |= ENTITY_FLAG_HOLD_FIRE;
+    for (int second = 0; second < 30; second++) {
+        e = steps_rows(&f);
+        e.threat_slot[tank] = jet, e.threat_id[tank] = e.id[jet];
+        fixture_run(&f, 60);
+        assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_IDLE);
+    }
+    assert_int_equal(steps_rows(&f).rounds[tank], steps_kind(&f, "tank")->rounds);
+}
+
+/* --- reactions ---------------------------------------------------------------------------------*/
+
+static int ascending(const void *p, const void *q)
+{
+    double a = *(const double *)p, b = *(const double *)q;
+    return a < b ? -1 : a > b;
+}
+
+static void test_the_reaction_has_a_least_time_and_the_kinds_median(void **state)
+{
+    enum { DRAWS = 4000 };
+    static double time_s[DRAWS];
+    uint32_t row = put("tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    struct step_context step;
+    struct serial_context context;
+    (void)state;
+    steps_serial_context(&f, &step, &context);
+    for (int n = 0; n < DRAWS; n++) {
+        step.tick = 100 + (uint64_t)n;
+        step.m->reload_tick[row] = 0;
+        fire_control_acquire(&step, row);
+        time_s[n] = (double)(step.m->reload_tick[row] - step.tick) / HZ;
+    }
+    qsort(time_s, DRAWS, sizeof time_s[0], ascending);
+    assert_true(time_s[0] >= FIRE_CONTROL_LEAST_S);
+    assert_true(fabs(time_s[DRAWS / 2] - steps_kind(&f, "tank")->reaction_s) < 0.2);
+    assert_true(time_s[DRAWS * 9 / 10] > 6.0 && time_s[DRAWS - 1] < 25.0);
+}
+
+static void test_a_gun_that_loads_for_longer_is_not_loaded_sooner(void **state)
+{
+    uint32_t row = put("tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    struct step_context step;
+    struct serial_context context;
+    (void)state;
+    steps_serial_context(&f, &step, &context);
+    step.m->reload_tick[row] = 1000000;
+    fire_control_acquire(&step, row);
+    assert_int_equal(step.m->reload_tick[row], 1000000);
+}
+
+/* Many pairs far apart: a red tank is hit at by a blue one at frame 0. Returns when it replied. */
+static void test_crews_reply_after_a_human_time(void **state)
+{
+    double reply_s[CREWS];
+    uint32_t count = 0;
+    (void)state;
+    steps_kind(&f, "tank")->courage = 1.0;
+    steps_kind(&f, "tank")->reload_s = 1000.0; /* each crew fires once */
+    for (uint32_t n = 0; n < CREWS; n++) {
+        double x = 4000.0 + 6000.0 * (n % 8), z = 4000.0 + 6000.0 * (double)(n / 8);
+        uint32_t red = put("tank", (struct vec3){x, 100.0, z}, FORCE_RED, BEHAVIOUR_IDLE);
+        uint32_t blue =
+            put("tank", (struct vec3){x + 900.0, 100.0, z + 300.0}, FORCE_BLUE, BEHAVIOUR_HOLD);
+        struct entities e = steps_rows(&f);
+        e.threat_slot[red] = blue, e.threat_id[red] = e.id[blue];
+    }
+    for (int frame = 0; frame < 30 * 60; frame++) {
+        fixture_run(&f, 1);
+        for (const struct event *event; (event = fixture_event(&f, EVENT_FIRE, count)) != NULL;)
+            reply_s[count++] = frame / HZ;
+        if (count == CREWS)
+            break;
+    }
+    assert_int_equal(count, CREWS);
+    assert_true(reply_s[0] >= FIRE_CONTROL_LEAST_S);
+    if (reply_s[CREWS / 2] < 3.0 || reply_s[CREWS / 2] > 8.0)
+        fail_msg("half of the crews need more than %g s", reply_s[CREWS / 2]);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_no_tank_gun_suits_a_jet),
+        TEST(test_a_tank_fires_no_round_at_a_jet),
+        TEST(test_the_reaction_has_a_least_time_and_the_kinds_median),
+        TEST(test_a_gun_that_loads_for_longer_is_not_loaded_sooner),
+        TEST(test_crews_reply_after_a_human_time),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
