@@ -24,6 +24,9 @@ _Static_assert((int)jolon_STRUCK_AIR == (int)STRUCK_AIR &&
 _Static_assert((int)jolon_REASON_LEASE_OVER == (int)REASON_LEASE_OVER &&
                    (int)REASON_COUNT == (int)jolon_REASON_LEASE_OVER + 1,
                "agents' reasons in ipc/topics/status.idl");
+_Static_assert((int)jolon_CONTACT_END_NO_ROOM == (int)CONTACT_END_NO_ROOM &&
+                   (int)CONTACT_END_REASON_COUNT == (int)jolon_CONTACT_END_NO_ROOM + 1,
+               "reasons of ends in ipc/topics/status.idl");
 _Static_assert((int)jolon_DAMAGE_DESTROYED == (int)DAMAGE_DESTROYED &&
                    (int)DAMAGE_COUNT == (int)jolon_DAMAGE_DESTROYED + 1,
                "damage in ipc/topics/status.idl");
@@ -108,6 +111,7 @@ static void fill_collision(union event_sample *sample, const jolon_EventHeader *
         .impulse_ns = from->impulse_ns,
         .direction = direction_of(from->direction_a),
         .response = (jolon_Response)from->response,
+        .begins = from->begins != 0,
     };
 }
 
@@ -173,6 +177,9 @@ static void fill_contact_end(union event_sample *sample, const jolon_EventHeader
         .a = party_of(world, &from->a),
         .b = party_of(world, &from->b),
         .lasted_s = from->lasted_s,
+        .impacts = from->impacts,
+        .impulse_ns = from->impulse_ns,
+        .because = (jolon_ContactEndReason)from->because,
     };
 }
 

@@ -23,6 +23,8 @@ WORDS(struck_name, struck, STRUCK_COUNT, "vehicle", "fixed", "ground", "water", 
 WORDS(agent_reason_name, agent_reason, REASON_COUNT, "fired upon", "target gone", "out of rounds",
       "time over", "collision", "enemy seen", "command", "out of fuel", "lost sight", "hurt",
       "outnumbered", "low fuel", "supplied", "arrived", "leader lost", "script", "lease over")
+WORDS(contact_end_reason_name, contact_end_reason, CONTACT_END_REASON_COUNT, "parted", "gone",
+      "no room")
 WORDS(command_ring_name, command_ring, COMMAND_RING_COUNT, "clients", "recorder")
 WORDS(command_type_name, command_type, COMMAND_TYPE_COUNT, "none", "pause", "resume", "step",
       "scale", "drive", "release", "fire", "spawn", "remove", "quit")

@@ -23,6 +23,7 @@ const char *force_name(enum force force);
 const char *response_name(enum response response);
 const char *struck_name(enum struck struck);
 const char *agent_reason_name(enum agent_reason reason);
+const char *contact_end_reason_name(enum contact_end_reason reason);
 const char *command_ring_name(enum command_ring ring);
 const char *command_type_name(enum command_type type);
 const char *command_result_name(enum command_result result);

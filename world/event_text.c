@@ -77,9 +77,13 @@ static void contact_end_text(char *text, const struct event *event, const char *
 {
     const struct event_contact_end *end = &event->contact_end;
     char a[PARTY_MAX], b[PARTY_MAX];
-    (void)snprintf(text, EVENT_TEXT_MAX, "%s and %s parted after %.1f s",
-                   party_text(a, kind[EVENT_TEXT_FIRST], end->a),
-                   party_text(b, kind[EVENT_TEXT_SECOND], end->b), end->lasted_s);
+    const char *first = party_text(a, kind[EVENT_TEXT_FIRST], end->a);
+    const char *second = party_text(b, kind[EVENT_TEXT_SECOND], end->b);
+    if (end->because == CONTACT_END_NO_ROOM)
+        (void)snprintf(text, EVENT_TEXT_MAX, "%s and %s: no room for their contact", first, second);
+    else
+        (void)snprintf(text, EVENT_TEXT_MAX, "%s and %s parted after %.1f s", first, second,
+                       end->lasted_s);
 }
 
 static void command_text(char *text, const struct event *event, const char *const *kind)

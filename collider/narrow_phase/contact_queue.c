@@ -41,14 +41,15 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
     contacts->met = reserve_take(pairs, sizeof *contacts->met);
     contacts->swept = reserve_take(pairs, sizeof *contacts->swept);
     contacts->marks = reserve_take(pairs, sizeof *contacts->marks);
+    contacts->impacts = reserve_take(pairs, sizeof *contacts->impacts);
     contacts->link = reserve_take(2 * (uint64_t)pairs, sizeof *contacts->link);
     contacts->head = calloc(rows, sizeof *contacts->head);
     contacts->version = calloc(rows, sizeof *contacts->version);
     contacts->strayed = reserve_take(rows, sizeof *contacts->strayed);
     contacts->strays = calloc(rows, sizeof *contacts->strays);
     if (contacts->heap.contact && contacts->pair && contacts->met && contacts->swept &&
-        contacts->marks && contacts->link && contacts->head && contacts->version &&
-        contacts->strayed && contacts->strays &&
+        contacts->marks && contacts->impacts && contacts->link && contacts->head &&
+        contacts->version && contacts->strayed && contacts->strays &&
         pair_list_init(&contacts->near, broad_phase_found_most(world)) == 0)
         return 0;
     contact_queue_free(contacts);
@@ -63,6 +64,7 @@ void contact_queue_free(struct contact_queue *contacts)
     reserve_free(contacts->met);
     reserve_free(contacts->swept);
     reserve_free(contacts->marks);
+    reserve_free(contacts->impacts);
     reserve_free(contacts->link);
     free(contacts->head);
     free(contacts->version);
@@ -88,6 +90,7 @@ static void more_pairs(struct contact_queue *contacts)
     contacts->met = reserve_grow(contacts->met, held, more, sizeof *contacts->met);
     contacts->swept = reserve_grow(contacts->swept, held, more, sizeof *contacts->swept);
     contacts->marks = reserve_grow(contacts->marks, held, more, sizeof *contacts->marks);
+    contacts->impacts = reserve_grow(contacts->impacts, held, more, sizeof *contacts->impacts);
     contacts->link = reserve_grow(contacts->link, contacts->link_count, 2 * (uint64_t)more,
                                   sizeof *contacts->link);
     contacts->pair_capacity = more;
@@ -102,6 +105,7 @@ static uint32_t add_pair(struct contact_queue *contacts, struct pair pair)
     contacts->met[index] = 0;
     contacts->swept[index] = 0;
     contacts->marks[index] = 0;
+    contacts->impacts[index] = (struct pair_impacts){0};
     link_row(contacts, pair.a, index);
     if (!(pair.b & PAIR_FIXED))
         link_row(contacts, pair.b, index);

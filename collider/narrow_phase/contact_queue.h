@@ -41,6 +41,12 @@ struct contact {
     uint32_t last;                 /* 1: the pair cannot meet again in this frame */
 };
 
+/* The impacts of a pair in a frame. */
+struct pair_impacts {
+    uint32_t count;
+    float impulse_ns; /* of all together */
+};
+
 struct contact_link {
     uint32_t pair; /* index */
     uint32_t next; /* link + 1 */
@@ -59,7 +65,8 @@ struct contact_queue {
     uint8_t *met;             /* [pair] contacts of this pair in this frame */
     uint32_t *swept;          /* [pair] the last change that swept it, 0: none */
     uint8_t *marks;           /* [pair] of CONTACT_RESTS to CONTACT_GATHERED */
-    uint32_t change;          /* changes so far in this frame */
+    struct pair_impacts *impacts; /* [pair] */
+    uint32_t change;              /* changes so far in this frame */
     uint32_t pair_count, pair_capacity;
     struct contact_link *link; /* of the rows' lists of pairs; two for each of pair_capacity */
     uint32_t link_count;

@@ -4,6 +4,7 @@
 #include "collider/response/response.h"
 #include "world/entity/event.h"
 #include "world/entity/persistent_contact.h"
+#include "world/maths/sort.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
 #include "world/terrain/fixed.h"
@@ -12,49 +13,42 @@
 int contact_table_init(struct contact_table *table, const struct world *world)
 {
     *table = (struct contact_table){.capacity = world->params->contact_slots};
+    table->key = reserve_take(table->capacity, sizeof *table->key);
     table->touched = reserve_take(table->capacity, sizeof *table->touched);
-    return table->touched ? 0 : -1;
+    if (table->key && table->touched)
+        return 0;
+    contact_table_free(table);
+    return -1;
 }
 
 void contact_table_free(struct contact_table *table)
 {
+    reserve_free(table->key);
     reserve_free(table->touched);
     *table = (struct contact_table){0};
 }
 
-static struct persistent_contact contact_of(const struct response_context *context,
-                                            const struct pair *pair, uint8_t marks)
-{
-    const struct entities *e = &context->next->entities;
-    uint32_t tick = (uint32_t)context->next->head->tick, id = e->id[pair->a];
-    struct persistent_contact contact = {.a_row = pair->a,
-                                         .a_id = id,
-                                         .b_row = SLOT_NONE,
-                                         .b_id = pair->b,
-                                         .begin_tick = tick,
-                                         .pressed_tick = tick};
-    contact.flags = marks & CONTACT_OVERLAPS ? PERSISTENT_CONTACT_OVERLAPS : 0;
-    if (pair->b & PAIR_FIXED)
-        return contact;
-    bool swap = e->id[pair->b] < id;
-    contact.a_row = swap ? pair->b : pair->a;
-    contact.b_row = swap ? pair->a : pair->b;
-    contact.a_id = e->id[contact.a_row];
-    contact.b_id = e->id[contact.b_row];
-    return contact;
-}
-
 /* --- what is known -----------------------------------------------------------------------------*/
 
-bool contact_table_knows(const struct response_context *context, uint32_t a, uint32_t b,
-                         uint32_t pair)
+static struct persistent_contact contact_of(const struct response_context *context, uint32_t a,
+                                            uint32_t b)
+{
+    const uint32_t *id = context->next->entities.id;
+    if (b & PAIR_FIXED)
+        return (struct persistent_contact){
+            .a_row = a, .a_id = id[a], .b_row = SLOT_NONE, .b_id = b};
+    uint32_t low = id[b] < id[a] ? b : a, high = low == a ? b : a;
+    return (struct persistent_contact){
+        .a_row = low, .a_id = id[low], .b_row = high, .b_id = id[high]};
+}
+
+const struct persistent_contact *contact_table_find(const struct response_context *context,
+                                                    uint32_t a, uint32_t b)
 {
     const struct state *committed = context->motion->committed;
-    const struct persistent_contact contact = contact_of(context, &(struct pair){a, b}, 0);
+    const struct persistent_contact contact = contact_of(context, a, b);
     uint64_t key = persistent_contact_key(&contact);
     uint32_t low = 0, high = committed->head->contact_count;
-    if (pair != 0 && context->contacts->marks[pair - 1] & CONTACT_PRESSED)
-        return true;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
         if (persistent_contact_key(&committed->contacts[middle]) < key)
@@ -62,58 +56,93 @@ bool contact_table_knows(const struct response_context *context, uint32_t a, uin
         else
             high = middle;
     }
-    return low < committed->head->contact_count &&
-           persistent_contact_key(&committed->contacts[low]) == key;
+    bool found = low < committed->head->contact_count &&
+                 persistent_contact_key(&committed->contacts[low]) == key;
+    return found ? &committed->contacts[low] : NULL;
+}
+
+bool contact_table_lets_through(const struct response_context *context, uint32_t b)
+{
+    const struct response_functions *functions = context->functions;
+    if (b & PAIR_FIXED)
+        return narrow_phase_lets_in(context->world, context->input.through_fixed, b & ~PAIR_FIXED);
+    return !functions->joint && !functions->moving;
+}
+
+/* --- what touched ------------------------------------------------------------------------------*/
+
+/* Returns true if the pair touched, and both sides are still there. */
+static bool has_touched(const struct response_context *context, uint32_t index)
+{
+    const struct pair *pair = &context->contacts->pair[index];
+    const uint8_t *state = context->next->entities.state;
+    return context->contacts->marks[index] & CONTACT_PRESSED && state[pair->a] != ENTITY_FREE &&
+           (pair->b & PAIR_FIXED || state[pair->b] != ENTITY_FREE);
+}
+
+/* The table's own lists are larger than the world's, if more pairs touch than it has room for. */
+static void make_room(struct contact_table *table)
+{
+    if (table->count < table->capacity)
+        return;
+    uint32_t more = 2 * table->capacity + 1;
+    table->key = reserve_grow(table->key, table->count, more, sizeof *table->key);
+    table->touched = reserve_grow(table->touched, 0, more, sizeof *table->touched);
+    table->capacity = more;
+}
+
+static void list_keys(struct contact_table *table, const struct response_context *context)
+{
+    table->count = 0;
+    for (uint32_t i = 0; i < context->contacts->pair_count; i++) {
+        const struct pair *pair = &context->contacts->pair[i];
+        if (!has_touched(context, i))
+            continue;
+        const struct persistent_contact contact = contact_of(context, pair->a, pair->b);
+        make_room(table);
+        table->key[table->count++] = (struct contact_key){contact.a_id, contact.b_id};
+    }
+    sort_words(table->key, table->count);
+}
+
+/* Returns the place of a key that is in the list. */
+static uint32_t place_of(const struct contact_table *table,
+                         const struct persistent_contact *contact)
+{
+    uint32_t low = 0, high = table->count;
+    while (high - low > 1) {
+        uint32_t middle = low + (high - low) / 2;
+        const struct contact_key *key = &table->key[middle];
+        if (((uint64_t)key->a_id << 32 | key->b_id) <= persistent_contact_key(contact))
+            low = middle;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+static void collect(struct contact_table *table, const struct response_context *context)
+{
+    const struct contact_queue *contacts = context->contacts;
+    uint32_t tick = (uint32_t)context->next->head->tick;
+    list_keys(table, context);
+    for (uint32_t i = 0; i < contacts->pair_count; i++) {
+        if (!has_touched(context, i))
+            continue;
+        struct persistent_contact contact =
+            contact_of(context, contacts->pair[i].a, contacts->pair[i].b);
+        const struct pair_impacts *impacts = &contacts->impacts[i];
+        contact.begin_tick = contact.pressed_tick = tick;
+        contact.flags = contacts->marks[i] & CONTACT_OVERLAPS ? PERSISTENT_CONTACT_OVERLAPS : 0;
+        contact.impacts = (uint16_t)impacts->count;
+        contact.impulse_ns = impacts->impulse_ns;
+        table->touched[place_of(table, &contact)] = contact;
+    }
 }
 
 /* --- the next table ----------------------------------------------------------------------------*/
 
-/* Moves the contact at the place down the heap, whose root has the greatest key. */
-static void sift_down(struct persistent_contact *heap, uint32_t count, uint32_t place)
-{
-    struct persistent_contact contact = heap[place];
-    uint64_t key = persistent_contact_key(&contact);
-    for (uint32_t child = 2 * place + 1; child < count; child = 2 * place + 1) {
-        if (child + 1 < count &&
-            persistent_contact_key(&heap[child + 1]) > persistent_contact_key(&heap[child]))
-            child++;
-        if (persistent_contact_key(&heap[child]) <= key)
-            break;
-        heap[place] = heap[child];
-        place = child;
-    }
-    heap[place] = contact;
-}
-
-static void sort(struct persistent_contact *contact, uint32_t count)
-{
-    for (uint32_t i = count / 2; i > 0; i--)
-        sift_down(contact, count, i - 1);
-    for (uint32_t last = count; last > 1; last--) {
-        struct persistent_contact greatest = contact[0];
-        contact[0] = contact[last - 1];
-        contact[last - 1] = greatest;
-        sift_down(contact, last - 1, 0);
-    }
-}
-
-static void collect(struct contact_table *table, struct response_context *context)
-{
-    const struct contact_queue *contacts = context->contacts;
-    const uint8_t *state = context->next->entities.state;
-    table->count = 0;
-    for (uint32_t i = 0; i < contacts->pair_count; i++) {
-        const struct pair *pair = &contacts->pair[i];
-        if (!(contacts->marks[i] & CONTACT_PRESSED) || state[pair->a] == ENTITY_FREE ||
-            (!(pair->b & PAIR_FIXED) && state[pair->b] == ENTITY_FREE))
-            continue;
-        if (table->count == table->capacity)
-            context->next->head->tally.contacts_refused++;
-        else
-            table->touched[table->count++] = contact_of(context, pair, contacts->marks[i]);
-    }
-    sort(table->touched, table->count);
-}
+/* --- what did not touch ------------------------------------------------------------------------*/
 
 /* A row whose path nobody has needed yet is as the mover left it. */
 static bool moves(const struct response_context *context, uint32_t row)
@@ -122,20 +151,57 @@ static bool moves(const struct response_context *context, uint32_t row)
     return context->motion->change[row] != 0 || !pair_filter_rests(&context->path[row]);
 }
 
-/* Returns true if the bodies of a contact that did not touch in this frame have parted. Those that
- * lie still beside each other are not looked at and stay in contact. */
-static bool parted(const struct response_context *context, const struct persistent_contact *contact)
+static bool gone(const struct response_context *context, const struct persistent_contact *contact)
 {
     const struct entities *e = &context->next->entities;
-    bool fixed = contact->b_id & PERSISTENT_CONTACT_FIXED;
-    uint32_t age = (uint32_t)context->next->head->tick - contact->pressed_tick;
-    if (!entities_alive(e, contact->a_row, contact->a_id) ||
-        (!fixed && !entities_alive(e, contact->b_row, contact->b_id)) ||
-        (fixed &&
-         !pair_filter_stands(&context->input.detect, contact->b_id & ~PERSISTENT_CONTACT_FIXED)))
+    if (!entities_alive(e, contact->a_row, contact->a_id))
         return true;
-    return (double)age * context->world->params->dt_s > CONTACT_TABLE_LASTS_S &&
-           (moves(context, contact->a_row) || (!fixed && moves(context, contact->b_row)));
+    return contact->b_id & PERSISTENT_CONTACT_FIXED
+               ? !pair_filter_stands(&context->input.detect,
+                                     contact->b_id & ~PERSISTENT_CONTACT_FIXED)
+               : !entities_alive(e, contact->b_row, contact->b_id);
+}
+
+static uint32_t side_b(const struct persistent_contact *contact)
+{
+    return contact->b_id & PERSISTENT_CONTACT_FIXED ? contact->b_id : contact->b_row;
+}
+
+static bool one_moves(const struct response_context *context,
+                      const struct persistent_contact *contact)
+{
+    bool fixed = contact->b_id & PERSISTENT_CONTACT_FIXED;
+    return moves(context, contact->a_row) || (!fixed && moves(context, contact->b_row));
+}
+
+/* Returns true if the bodies have not touched for so long that their contact ends. */
+static bool is_old(const struct response_context *context, const struct persistent_contact *contact)
+{
+    uint32_t age = (uint32_t)context->next->head->tick - contact->pressed_tick;
+    return (double)age * context->world->params->dt_s > CONTACT_TABLE_LASTS_S;
+}
+
+static double reach_of(const struct response_context *context, uint32_t side)
+{
+    return side & PAIR_FIXED
+               ? pair_filter_fixed_reach(context->world, &context->world->fixed[side & ~PAIR_FIXED])
+               : pair_filter_row_reach(&context->input.detect, side);
+}
+
+/* Returns true if the bodies touch or overlap at the end of the frame. */
+static bool touch_at_end(const struct response_context *context,
+                         const struct persistent_contact *contact)
+{
+    const struct body_motion *motion = context->motion;
+    const struct entities *e = &context->next->entities;
+    uint32_t a = contact->a_row, b = side_b(contact);
+    struct swept_body body_a = body_motion_standing(motion, e, a);
+    struct swept_body body_b = body_motion_standing(motion, e, b);
+    struct vec3 between = vec3_sub(body_b.path.at, body_a.path.at);
+    double gap = motion->models
+                     ? time_of_impact_gap(&body_a, &body_b, 0.0)
+                     : vec3_length(between) - reach_of(context, a) - reach_of(context, b);
+    return gap <= CONTACT_TOUCHING_M;
 }
 
 /* The bodies were there in the committed frame, perhaps not any more. */
@@ -150,7 +216,8 @@ static struct event_party party_of(const struct response_context *context, uint3
                                 context->next->fixed_damage[object]};
 }
 
-static void end(struct response_context *context, const struct persistent_contact *contact)
+static void end(struct response_context *context, const struct persistent_contact *contact,
+                enum contact_end_reason because)
 {
     struct event *event = event_writer_event(&context->events, EVENT_CONTACT_END);
     uint32_t ticks = contact->pressed_tick - contact->begin_tick;
@@ -159,38 +226,81 @@ static void end(struct response_context *context, const struct persistent_contac
     event->contact_end =
         (struct event_contact_end){.a = party_of(context, contact->a_row, contact->a_id),
                                    .b = party_of(context, contact->b_row, contact->b_id),
-                                   .lasted_s = (double)ticks * context->world->params->dt_s};
+                                   .lasted_s = (double)ticks * context->world->params->dt_s,
+                                   .impacts = contact->impacts,
+                                   .impulse_ns = contact->impulse_ns,
+                                   .because = because};
 }
+
+/* --- the next table ----------------------------------------------------------------------------*/
 
 static void put(struct response_context *context, const struct persistent_contact *contact)
 {
     struct state *next = context->next;
-    if (next->head->contact_count == context->world->params->contact_slots)
-        next->head->tally.contacts_refused++;
+    next->contacts[next->head->contact_count++] = *contact;
+}
+
+/* Puts a known contact that touched: it goes on. */
+static void renew(struct response_context *context, const struct persistent_contact *known,
+                  const struct persistent_contact *touched)
+{
+    struct persistent_contact contact = *touched;
+    uint32_t impacts = (uint32_t)known->impacts + touched->impacts;
+    contact.begin_tick = known->begin_tick;
+    contact.impacts = impacts < PERSISTENT_CONTACT_IMPACTS_MAX ? (uint16_t)impacts
+                                                               : PERSISTENT_CONTACT_IMPACTS_MAX;
+    contact.impulse_ns += known->impulse_ns;
+    put(context, &contact);
+}
+
+/* Puts a known contact without an impact or a load in this frame, or ends it. Bodies that lie still
+ * beside each other are not looked at and stay in contact. */
+static void keep(struct response_context *context, const struct persistent_contact *known)
+{
+    struct persistent_contact contact = *known;
+    bool asks = is_old(context, known) || contact_table_lets_through(context, side_b(known));
+    if (gone(context, known)) {
+        end(context, known, CONTACT_END_GONE);
+        return;
+    }
+    if (asks && one_moves(context, known) && touch_at_end(context, known))
+        contact.pressed_tick = (uint32_t)context->next->head->tick;
+    if (is_old(context, &contact) && one_moves(context, known))
+        end(context, known, CONTACT_END_PARTED);
     else
-        next->contacts[next->head->contact_count++] = *contact;
+        put(context, &contact);
+}
+
+/* Puts a new contact, unless the table would then have no room for the known ones that are not in
+ * it yet. */
+static void begin(struct response_context *context, const struct persistent_contact *contact,
+                  uint32_t known)
+{
+    if (context->next->head->contact_count + known < context->world->params->contact_slots) {
+        put(context, contact);
+        return;
+    }
+    context->next->head->tally.contacts_refused++;
+    end(context, contact, CONTACT_END_NO_ROOM);
 }
 
 void contact_table_finish(struct contact_table *table, struct response_context *context)
 {
     const struct state *committed = context->motion->committed;
-    uint32_t old = 0, new = 0;
+    uint32_t old = 0, new = 0, count = committed->head->contact_count;
     collect(table, context);
     context->next->head->contact_count = 0;
-    while (old < committed->head->contact_count || new < table->count) {
+    while (old < count || new < table->count) {
         const struct persistent_contact *known = &committed->contacts[old];
-        struct persistent_contact *touched = &table->touched[new];
-        uint64_t known_key =
-            old < committed->head->contact_count ? persistent_contact_key(known) : UINT64_MAX;
+        const struct persistent_contact *touched = &table->touched[new];
+        uint64_t known_key = old < count ? persistent_contact_key(known) : UINT64_MAX;
         uint64_t key = new < table->count ? persistent_contact_key(touched) : UINT64_MAX;
         if (key == known_key)
-            touched->begin_tick = known->begin_tick;
-        if (key <= known_key)
-            put(context, touched);
-        else if (parted(context, known))
-            end(context, known);
+            renew(context, known, touched);
+        else if (key < known_key)
+            begin(context, touched, count - old);
         else
-            put(context, known);
+            keep(context, known);
         new += key <= known_key;
         old += known_key <= key;
     }

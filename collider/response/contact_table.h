@@ -12,8 +12,14 @@
  * another touches it more often. */
 #define CONTACT_TABLE_LASTS_S 0.25
 
-/* The pairs that touched in this frame; the collider's own memory. */
+/* The key of a contact as two words, in the order of the table. */
+struct contact_key {
+    uint32_t a_id, b_id;
+};
+
+/* The pairs that touched in this frame, by their keys; the collider's own memory. */
 struct contact_table {
+    struct contact_key *key;
     struct persistent_contact *touched;
     uint32_t count, capacity;
 };
@@ -22,13 +28,19 @@ struct contact_table {
 int contact_table_init(struct contact_table *table, const struct world *world);
 void contact_table_free(struct contact_table *table);
 
-/* Returns true if the pair is in contact: it touched in this frame before, or is in the committed
- * table. pair: its index + 1 in the queue, 0 for none. */
-bool contact_table_knows(const struct response_context *context, uint32_t a, uint32_t b,
-                         uint32_t pair);
+/* Returns the pair's row in the committed table, or NULL. b: a row, or a fixed object with
+ * PAIR_FIXED. */
+const struct persistent_contact *contact_table_find(const struct response_context *context,
+                                                    uint32_t a, uint32_t b);
+
+/* Returns true if this side of a contact lets others pass through it under the scenario's response:
+ * b is a row, or a fixed object with PAIR_FIXED. */
+bool contact_table_lets_through(const struct response_context *context, uint32_t b);
 
 /* Makes the next frame's table from the committed one and the pairs that are marked as
- * CONTACT_PRESSED. Writes an event for each contact that has ended. */
+ * CONTACT_PRESSED. Bodies that pass through each other are in contact for as long as they overlap.
+ * Writes an event for each contact that has ended, and for each new one for which the table has no
+ * room, which ends at once. */
 void contact_table_finish(struct contact_table *table, struct response_context *context);
 
 #endif

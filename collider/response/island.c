@@ -133,9 +133,10 @@ static void take(struct response_context *context, const struct contact *contact
         .contact = *contact, .impact = response_impact(context, contact), .body_b = BODY_FIXED};
     if (passes_through(context, &met->impact))
         return;
-    met->leans = contact_persists(context, &met->impact);
+    enum impact_role role = response_role(context, &met->impact);
+    met->leans = role == IMPACT_LEANS;
     if (!met->leans)
-        met->report = response_report(context, &met->impact);
+        met->report = response_report(context, &met->impact, role);
     if (contact->b & PAIR_FIXED && contact_impulse_gives_way(context, met)) {
         body_for(island, contact->a); /* its path is swept with the others */
         contact_queue_skip_pair(context->contacts, contact);

@@ -9,15 +9,19 @@
 #include "collider/response/island.h"
 #include "collider/response/path_change.h"
 #include "world/entity/kind.h"
+#include "world/entity/persistent_contact.h"
 #include "world/maths/maths.h"
 #include "world/params.h"
 #include "world/state.h"
 #include "world/terrain/fixed.h"
 #include "world/world.h"
 
-/* Bodies in contact that close no faster than this lean on each other or scrape along: that is one
- * persistent contact, reported when it began. */
-#define PERSISTS_MPS 2.0
+/* Bodies in contact that close no faster than this lean on each other or scrape along. */
+#define LEANS_MPS 2.0
+
+/* Bodies in contact that have not touched for this time have parted, and may strike each other
+ * again [s]. */
+#define PARTED_S 0.1
 
 const struct response_functions *response_of(enum response_model model)
 {
@@ -108,65 +112,83 @@ static void put(double to[3], struct vec3 from)
     to[2] = from.z;
 }
 
-/* Returns the number by which the other side of a contact is remembered: for an entity its id,
- * which another entity in the slot does not have. */
-static uint32_t body_mark(const struct response_context *context, uint32_t body)
+/* Returns true if the pair has touched in this frame before. */
+static bool has_touched(const struct response_context *context, const struct impact *impact)
 {
-    return body & PAIR_FIXED ? body : context->next->entities.id[body];
+    return impact->pair != 0 && context->contacts->marks[impact->pair - 1] & CONTACT_PRESSED;
 }
 
 static void remember(struct response_context *context, const struct impact *impact)
 {
     if (impact->pair != 0)
         context->contacts->marks[impact->pair - 1] |= CONTACT_PRESSED;
-    uint32_t tick = (uint32_t)context->next->head->tick;
-    table_set_touch_body(&context->writer, impact->a, body_mark(context, impact->b));
-    table_set_touch_tick(&context->writer, impact->a, tick);
-    if (!(impact->b & PAIR_FIXED)) {
-        table_set_touch_body(&context->writer, impact->b, body_mark(context, impact->a));
-        table_set_touch_tick(&context->writer, impact->b, tick);
-    }
 }
 
 bool passes_through(struct response_context *context, const struct impact *impact)
 {
-    const struct entities *e = &context->next->entities;
-    const struct world *world = context->world;
-    uint32_t row = impact->a, object = impact->b & ~PAIR_FIXED;
-    if (!(impact->b & PAIR_FIXED) ||
-        !narrow_phase_lets_in(world, context->input.through_fixed, object) ||
-        e->touch_body[row] != impact->b)
+    if (!(impact->b & PAIR_FIXED) || !contact_table_lets_through(context, impact->b))
         return false;
-    double age_s = (double)(context->next->head->tick - e->touch_tick[row]) * world->params->dt_s;
-    double across = 2.0 * (pair_filter_row_reach(&context->input.detect, row) +
-                           pair_filter_fixed_reach(world, &world->fixed[object]));
-    if (age_s * vec3_length(entities_velocity(e, row)) > across)
+    if (!has_touched(context, impact) && !contact_table_find(context, impact->a, impact->b))
         return false;
     remember(context, impact);
     return true;
 }
 
-/* Returns true if vehicles pass through each other under this response. */
-static bool passes(const struct response_functions *functions)
+enum impact_role response_role(struct response_context *context, const struct impact *impact)
 {
-    return !functions->joint && !functions->moving;
-}
-
-bool contact_persists(struct response_context *context, const struct impact *impact)
-{
-    bool known = contact_table_knows(context, impact->a, impact->b, impact->pair);
+    const struct persistent_contact *known = contact_table_find(context, impact->a, impact->b);
+    bool before = has_touched(context, impact);
     remember(context, impact);
-    return known && (impact->closing_mps < PERSISTS_MPS || passes(context->functions));
+    if (!known && !before)
+        return IMPACT_BEGINS;
+    if (impact->closing_mps < LEANS_MPS || contact_table_lets_through(context, impact->b))
+        return IMPACT_LEANS;
+    if (before)
+        return IMPACT_WITHIN;
+    uint32_t frames = (uint32_t)context->next->head->tick - known->pressed_tick - 1;
+    return frames * context->world->params->dt_s < PARTED_S ? IMPACT_WITHIN : IMPACT_RENEWS;
 }
 
-struct report response_report(struct response_context *context, const struct impact *impact)
+static uint8_t damage_of(const struct response_context *context, uint32_t body)
+{
+    return party_of(context, body).damage;
+}
+
+static struct event *tell(struct response_context *context)
+{
+    context->next->head->tally.collisions++;
+    return event_writer_event(&context->events, EVENT_COLLISION);
+}
+
+struct report response_report(struct response_context *context, const struct impact *impact,
+                              enum impact_role role)
 {
     struct vec3 direction = entities_velocity(&context->next->entities, impact->a);
     double speed = vec3_length(direction);
-    context->next->head->tally.collisions++;
-    return (struct report){.event = event_writer_event(&context->events, EVENT_COLLISION),
+    bool told = role == IMPACT_BEGINS || role == IMPACT_RENEWS;
+    return (struct report){.role = role,
+                           .event = told ? tell(context) : NULL,
+                           .damage = {damage_of(context, impact->a), damage_of(context, impact->b)},
                            .direction_a = speed > 0.0 ? vec3_scale(direction, 1.0 / speed)
                                                       : (struct vec3){0, 0, 0}};
+}
+
+static bool is_worse(const struct response_context *context, const struct report *report,
+                     const struct impact *impact)
+{
+    return damage_of(context, impact->a) > report->damage[0] ||
+           damage_of(context, impact->b) > report->damage[1];
+}
+
+/* Adds an impact to what its pair had in this frame. An overlap without an impact has no pair. */
+static void add_impact(struct response_context *context, const struct impact *impact,
+                       const struct outcome *outcome)
+{
+    if (impact->pair == 0)
+        return;
+    struct pair_impacts *impacts = &context->contacts->impacts[impact->pair - 1];
+    impacts->count++;
+    impacts->impulse_ns += (float)outcome->impulse_ns;
 }
 
 void write_collision_event(struct response_context *context, const struct report *report,
@@ -177,9 +199,13 @@ void write_collision_event(struct response_context *context, const struct report
         if (!(impact->b & PAIR_FIXED))
             set_bumped(context, impact->b, impact->normal.x, impact->normal.z);
     }
-    if (!report->event)
+    struct event *event = report->event;
+    add_impact(context, impact, outcome);
+    if (report->role == IMPACT_WITHIN && is_worse(context, report, impact))
+        event = tell(context);
+    if (!event)
         return;
-    struct event_collision *collision = &report->event->collision;
+    struct event_collision *collision = &event->collision;
     collision->a = party_of(context, impact->a);
     collision->b = party_of(context, impact->b);
     put(collision->point, impact->point);
@@ -190,6 +216,7 @@ void write_collision_event(struct response_context *context, const struct report
     collision->angle_deg = (float)(impact->angle_rad * DEG_PER_RAD);
     collision->impulse_ns = (float)outcome->impulse_ns;
     collision->response = outcome->response;
+    collision->begins = report->role == IMPACT_BEGINS;
 }
 
 /* Ends the approach of bodies in a persistent contact: takes out their closing speed and conserves
@@ -225,12 +252,13 @@ static void collide(struct response_context *context, const struct contact *cont
     struct outcome outcome = {RESPONSE_NONE, 0.0};
     if (passes_through(context, &impact))
         return;
-    if (contact_persists(context, &impact)) {
+    enum impact_role role = response_role(context, &impact);
+    if (role == IMPACT_LEANS) {
         if (answer)
             end_approach(context, &impact);
         return;
     }
-    struct report report = response_report(context, &impact);
+    struct report report = response_report(context, &impact, role);
     if (answer)
         answer(context, &impact, &outcome);
     write_collision_event(context, &report, &impact, &outcome);

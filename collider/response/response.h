@@ -38,17 +38,29 @@ struct impact response_impact(const struct response_context *context,
  * the same body enters the object later, no second collision is reported. Remembers the contact. */
 bool passes_through(struct response_context *context, const struct impact *impact);
 
-/* Returns true if the two bodies were already in contact, so that this contact is not a new
- * collision. Remembers the contact in any case. */
-bool contact_persists(struct response_context *context, const struct impact *impact);
+/* What an impact is to the contact of its two bodies. */
+enum impact_role {
+    IMPACT_BEGINS, /* the contact begins with it: an event */
+    IMPACT_RENEWS, /* the bodies had parted for a while, and the contact had not ended: an event */
+    IMPACT_WITHIN, /* they have just touched: an event only if the damage of one becomes worse */
+    IMPACT_LEANS   /* it is too slow: no bounce, no damage, no event */
+};
+
+/* Returns the role of an impact, and remembers that its bodies touched. */
+enum impact_role response_role(struct response_context *context, const struct impact *impact);
 
 /* The place of a collision's event. It is taken before the response, so that the events that follow
  * from the response come after it. */
 struct report {
-    struct event *event; /* NULL: the frame has no room for events */
+    enum impact_role role;
+    struct event *event; /* NULL: no event so far, or the frame has no room for events */
+    uint8_t damage[2];   /* enum damage of both sides before the response */
     struct vec3 direction_a;
 };
-struct report response_report(struct response_context *context, const struct impact *impact);
+struct report response_report(struct response_context *context, const struct impact *impact,
+                              enum impact_role role);
+
+/* Completes the event, and adds the impact to its contact. */
 void write_collision_event(struct response_context *context, const struct report *report,
                            const struct impact *impact, const struct outcome *outcome);
 

@@ -47,7 +47,7 @@ static bool held(const struct response_context *context, uint32_t row, uint32_t 
     return entities_alive(e, row, id) && path_change_grounded(context, row);
 }
 
-/* Returns true if both sides still exist and the ground holds them. */
+/* Returns true if both sides still exist, the ground holds them, and neither lets the other in. */
 static bool still_there(const struct response_context *context,
                         const struct persistent_contact *contact)
 {
@@ -55,7 +55,8 @@ static bool still_there(const struct response_context *context,
     if (!held(context, contact->a_row, contact->a_id))
         return false;
     return contact->b_id & PERSISTENT_CONTACT_FIXED
-               ? pair_filter_stands(&context->input.detect, object)
+               ? pair_filter_stands(&context->input.detect, object) &&
+                     !narrow_phase_lets_in(context->world, context->input.through_fixed, object)
                : held(context, contact->b_row, contact->b_id);
 }
 
@@ -147,6 +148,15 @@ static void keep_awake(struct contact_groups *groups)
 
 /* --- bodies that are new -----------------------------------------------------------------------*/
 
+static void make_room(struct contact_groups *groups)
+{
+    if (groups->count < groups->capacity)
+        return;
+    uint32_t more = 2 * groups->capacity + 1;
+    groups->pair = reserve_grow(groups->pair, groups->count, more, sizeof *groups->pair);
+    groups->capacity = more;
+}
+
 static void add_pairs_of(struct contact_groups *groups, struct response_context *context,
                          uint32_t row)
 {
@@ -156,10 +166,12 @@ static void add_pairs_of(struct contact_groups *groups, struct response_context 
         const struct pair *pair = &contacts->pair[contacts->link[link - 1].pair];
         bool fixed = pair->b & PAIR_FIXED;
         uint32_t other = pair->a == row ? pair->b : pair->a;
-        if (groups->count < groups->capacity && !fixed &&
-            (other > row || !is_new(context, other)) && path_change_grounded(context, other) &&
-            context->next->entities.behaviour[other] != BEHAVIOUR_FLIGHT)
-            groups->pair[groups->count++] = *pair;
+        if (fixed || (other < row && is_new(context, other)) ||
+            !path_change_grounded(context, other) ||
+            context->next->entities.behaviour[other] == BEHAVIOUR_FLIGHT)
+            continue;
+        make_room(groups);
+        groups->pair[groups->count++] = *pair;
     }
 }
 

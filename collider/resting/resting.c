@@ -167,17 +167,16 @@ static void forget_bodies(struct resting *resting, uint32_t first)
 }
 
 /* Reports a contact that begins with an overlap: no impact will do it. */
-static void report(struct response_context *context, const struct pair *pair, uint32_t index,
+static void report(struct response_context *context, const struct pair *pair,
                    const struct level_gap *gap)
 {
     const struct contact contact = {
         .a = pair->a,
         .b = pair->b,
-        .pair = index + 1,
         .impact = {.point = gap->point[0], .normal = gap->normal, .depth_m = -gap->gap_m}};
     const struct impact impact = response_impact(context, &contact);
     const struct outcome outcome = {RESPONSE_NONE, 0.0};
-    const struct report report = response_report(context, &impact);
+    const struct report report = response_report(context, &impact, IMPACT_BEGINS);
     write_collision_event(context, &report, &impact, &outcome);
 }
 
@@ -212,7 +211,7 @@ static void take(struct resting *resting, struct response_context *context, cons
     }
     taken.pair = contact_queue_pair(context->contacts, pair);
     if (!known)
-        report(context, pair, taken.pair, &gap[0]);
+        report(context, pair, &gap[0]);
     resting->points += taken.count;
     resting->pair[resting->pairs++] = taken;
     work_done();

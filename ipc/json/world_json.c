@@ -141,6 +141,7 @@ static void add_collision(cJSON *object, const struct world *world,
     json_text(object, "response", response_name((enum response)collision->response));
     json_text(object, "damage_a", damage_name((enum damage)collision->a.damage));
     json_text(object, "damage_b", damage_name((enum damage)collision->b.damage));
+    json_bool(object, "begins", collision->begins != 0);
 }
 
 static void add_fire(cJSON *object, const struct world *world, const struct event_fire *fire)
@@ -186,6 +187,9 @@ static void add_contact_end(cJSON *object, const struct world *world,
     add_party(object, "a", world, &end->a);
     add_party(object, "b", world, &end->b);
     json_number(object, "lasted_s", end->lasted_s);
+    json_whole(object, "impacts", end->impacts);
+    json_single(object, "impulse_ns", end->impulse_ns);
+    json_text(object, "because", contact_end_reason_name((enum contact_end_reason)end->because));
 }
 
 static void add_command(cJSON *object, const struct world *world,

@@ -46,6 +46,7 @@ static void add_collision(cJSON *object, const jolon_CollisionEvent *event)
     json_text(object, "response", response_name((enum response)event->response));
     json_text(object, "damage_a", damage(event->a.damage));
     json_text(object, "damage_b", damage(event->b.damage));
+    json_bool(object, "begins", event->begins);
 }
 
 static void add_fire(cJSON *object, const jolon_FireEvent *event)
@@ -88,6 +89,10 @@ static void add_contact_end(cJSON *object, const jolon_ContactEndEvent *event)
     party(object, "a", &event->a);
     party(object, "b", &event->b);
     json_number(object, "lasted_s", event->lasted_s);
+    json_whole(object, "impacts", event->impacts);
+    json_single(object, "impulse_ns", event->impulse_ns);
+    json_text(object, "because",
+              contact_end_reason_name((enum contact_end_reason)event->because));
 }
 
 void event_json(char line[EVENT_MERGE_LINE_MAX], enum dds_topic topic, const void *event)

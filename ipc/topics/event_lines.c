@@ -86,7 +86,10 @@ static void read_agent(struct reading *reading, const jolon_AgentEvent *agent)
 static void read_contact_end(struct reading *reading, const jolon_ContactEndEvent *end)
 {
     reading->event.contact_end = (struct event_contact_end){
-        .a = party(&end->a), .b = party(&end->b), .lasted_s = end->lasted_s};
+        .a = party(&end->a),
+        .b = party(&end->b),
+        .lasted_s = end->lasted_s,
+        .because = end->because};
     reading->kind[EVENT_TEXT_FIRST] = end->a.kind;
     reading->kind[EVENT_TEXT_SECOND] = end->b.kind;
     reading->ids[0] = entity_id(&end->a);

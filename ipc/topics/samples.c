@@ -160,7 +160,8 @@ static bool good_agent(jolon_AgentEvent *event)
 
 static bool good_contact_end(jolon_ContactEndEvent *event)
 {
-    return party(&event->a) && party(&event->b) && amount(event->lasted_s);
+    return party(&event->a) && party(&event->b) && amount(event->lasted_s) &&
+           number((double)event->impulse_ns) && event->because <= jolon_CONTACT_END_NO_ROOM;
 }
 
 static bool good_event(const jolon_EventHeader *header)

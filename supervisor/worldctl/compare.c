@@ -194,9 +194,13 @@ static bool compare_contacts(const struct compared *a, const struct compared *b,
                              struct difference *difference)
 {
 #define CONTACT(name) MEMBER(uint32_t, persistent_contact, name)
-    static const struct member members[] = {CONTACT(a_row),      CONTACT(b_row),
-                                            CONTACT(begin_tick), CONTACT(pressed_tick),
-                                            CONTACT(flags),      CONTACT(reserved)};
+    static const struct member members[] = {CONTACT(a_row),
+                                            CONTACT(b_row),
+                                            CONTACT(begin_tick),
+                                            CONTACT(pressed_tick),
+                                            MEMBER(uint16_t, persistent_contact, flags),
+                                            MEMBER(uint16_t, persistent_contact, impacts),
+                                            MEMBER(float, persistent_contact, impulse_ns)};
 #undef CONTACT
     uint32_t count_a = a->state.head->contact_count, count_b = b->state.head->contact_count;
     for (uint32_t i = 0; i < count_a || i < count_b; i++) {

@@ -11,18 +11,18 @@ static const struct heap_engine *const engines[] = {&heap_jolon, &heap_bullet, &
 
 #define ENGINES (sizeof engines / sizeof engines[0])
 
-static double collisions_a_pair(const struct heap_result *result)
+static double a_pair(const struct heap_result *result, uint64_t count)
 {
-    return result->pairs > 0 ? (double)result->collisions / result->pairs : 0.0;
+    return result->pairs > 0 ? (double)count / result->pairs : 0.0;
 }
 
 static void print_row(const char *name, const struct heap_result *result)
 {
-    printf("%-7s %7u %8.3f %8.3f %8.3f %8.3f %8.3f %8.2f %8.2f %8.2f %6u %7.2f  %s\n", name,
+    printf("%-7s %7u %8.3f %8.3f %8.3f %8.3f %8.3f %8.2f %8.2f %8.2f %6u %7.2f %7.2f  %s\n", name,
            result->threads, result->cpu_ms, result->cpu_p99_ms, result->cpu_worst_ms,
            result->wall_ms, result->rest_ms, 1e3 * result->impact_m, 1e3 * result->steady_m,
-           1e3 * result->end_m, result->pairs, collisions_a_pair(result),
-           result->at_rest ? "yes" : "no");
+           1e3 * result->end_m, result->pairs, a_pair(result, result->begins),
+           a_pair(result, result->collisions), result->at_rest ? "yes" : "no");
     fflush(stdout);
 }
 
@@ -31,11 +31,14 @@ static void print_member(const char *name, const struct heap_result *result)
     printf("{\"engine\":\"%s\",\"threads\":%u,\"cpu_ms\":%.6f,\"cpu_p99_ms\":%.6f,"
            "\"cpu_worst_ms\":%.6f,\"wall_ms\":%.6f,\"rest_ms\":%.6f,\"impact_mm\":%.4f,"
            "\"steady_mm\":%.4f,\"end_mm\":%.4f,\"pairs\":%u,"
+           "\"begins\":%llu,\"begins_a_pair\":%.4f,"
            "\"collisions\":%llu,\"collisions_a_pair\":%.4f,\"fastest_mps\":%.6f,\"at_rest\":%s}",
            name, result->threads, result->cpu_ms, result->cpu_p99_ms, result->cpu_worst_ms,
            result->wall_ms, result->rest_ms, 1e3 * result->impact_m, 1e3 * result->steady_m,
-           1e3 * result->end_m, result->pairs, (unsigned long long)result->collisions,
-           collisions_a_pair(result), result->fastest_mps, result->at_rest ? "true" : "false");
+           1e3 * result->end_m, result->pairs, (unsigned long long)result->begins,
+           a_pair(result, result->begins), (unsigned long long)result->collisions,
+           a_pair(result, result->collisions), result->fastest_mps,
+           result->at_rest ? "true" : "false");
 }
 
 static void print_head(const struct bench_options *options)
@@ -44,9 +47,9 @@ static void print_head(const struct bench_options *options)
                          : "%u tanks, %u frames; CPU ms of a step, overlap in mm\n",
            options->vehicles, options->frames);
     if (!options->json)
-        printf("%-7s %7s %8s %8s %8s %8s %8s %8s %8s %8s %6s %7s  %s\n", "engine", "threads",
+        printf("%-7s %7s %8s %8s %8s %8s %8s %8s %8s %8s %6s %7s %7s  %s\n", "engine", "threads",
                "median", "p99", "worst", "wall ms", "at rest", "impact", "steady", "end", "pairs",
-               "told", "rests");
+               "begins", "told", "rests");
 }
 
 int bench_heap(struct bench_options options)

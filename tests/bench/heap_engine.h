@@ -68,7 +68,7 @@ struct heap_engine {
     const char *name;
     uint32_t threads; /* the most that the engine can use */
     bool boxes;       /* its tanks are boxes, and not the hulls of the model */
-    bool tells;       /* it counts collisions itself; otherwise every new pair is a collision */
+    bool tells;       /* it tells collisions itself; otherwise every new pair is a collision */
     /* Makes a world with the tanks at their places. The tanks outlive it. */
     void *(*open)(const struct heap_tanks *tanks, uint32_t threads);
     void (*close)(void *self);

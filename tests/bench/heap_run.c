@@ -143,6 +143,7 @@ static void run_frames(struct run *run, void *self, struct heap_result *result)
             result->steady_m = deepest(run, result->steady_m);
         if (frame + 1 == pushed) {
             result->pairs = (uint32_t)run->look.pairs;
+            result->begins = run->begun;
             result->collisions = run->engine->tells ? run->look.told : run->begun;
         }
     }

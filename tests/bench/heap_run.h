@@ -19,7 +19,8 @@ struct heap_result {
     double steady_m;     /* of the frames in which the tanks push after that, */
     double end_m;        /* and of the last frame */
     uint32_t pairs;      /* in contact when the tanks stop pushing */
-    uint64_t collisions; /* told until then */
+    uint64_t begins;     /* contacts that began until then */
+    uint64_t collisions; /* told until then, by an engine that tells them; else as many */
     bool at_rest;        /* at the end */
     double fastest_mps;  /* at the end */
 };

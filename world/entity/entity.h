@@ -89,8 +89,6 @@ enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED
     X(uint32_t, until_tick)  /* when the behaviour, or a munition's life, ends; a wreck rests */   \
     X(uint32_t, reload_tick) /* when it may fire again */                                          \
     X(uint32_t, seen_tick)   /* when it last saw its target */                                     \
-    X(uint32_t, touch_body)  /* last contact: an id, or a fixed object with the top bit */         \
-    X(uint32_t, touch_tick)  /* when; a contact that persists is no new collision */               \
     X(uint32_t, born_tick)                                                                         \
     X(uint32_t, changed_tick) /* when its damage last grew; for fire and smoke */                  \
     X(uint32_t, order_arg)    /* its area (patrol), route, formation or script */                  \

@@ -69,6 +69,14 @@ enum agent_reason {
     REASON_COUNT
 };
 
+/* Why a contact ended. */
+enum contact_end_reason {
+    CONTACT_END_PARTED,
+    CONTACT_END_GONE,    /* one of the two bodies is gone, or a fixed object has fallen */
+    CONTACT_END_NO_ROOM, /* the table of contacts is full: it is not followed any further */
+    CONTACT_END_REASON_COUNT
+};
+
 /* One side of an event: an entity (id) or a fixed object (its index + 1). */
 struct event_party {
     uint32_t id;
@@ -87,6 +95,8 @@ struct event_collision {
     float impulse_ns;     /* on each body, friction included */
     float direction_a[3]; /* unit direction of travel, 0 when at rest (thesis row 34) */
     uint32_t response;    /* enum response */
+    uint32_t begins;      /* 1: a contact begins with it, which a contact_end will end */
+    uint32_t reserved;    /* 0 */
 };
 
 struct event_fire {
@@ -112,10 +122,14 @@ struct event_agent {
     uint32_t because;  /* enum agent_reason */
 };
 
-/* A contact that lasted has ended (world/entity/persistent_contact.h). */
+/* A contact has ended (world/entity/persistent_contact.h). */
 struct event_contact_end {
     struct event_party a, b; /* b may be a fixed object */
     double lasted_s;         /* simulated time from its first load to its last */
+    uint32_t impacts;        /* in this time, the first one included */
+    float impulse_ns;        /* of all these impacts together */
+    uint32_t because;        /* enum contact_end_reason */
+    uint32_t reserved;       /* 0 */
 };
 
 /* The whole command as it was taken, so that a run's commands can be sent again from its events. */
@@ -147,8 +161,8 @@ struct event {
     };
 };
 
-_Static_assert(sizeof(struct event_collision) == 88, "shared layout");
-_Static_assert(sizeof(struct event_contact_end) == 24, "shared layout");
+_Static_assert(sizeof(struct event_collision) == 96, "shared layout");
+_Static_assert(sizeof(struct event_contact_end) == 40, "shared layout");
 _Static_assert(sizeof(struct event_command) == 96, "shared layout");
 _Static_assert(sizeof(struct event) == 128, "two cache lines a slot");
 

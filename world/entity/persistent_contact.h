@@ -12,6 +12,8 @@
 /* A flag: the bodies overlap and have to part, even if nothing moves them. */
 #define PERSISTENT_CONTACT_OVERLAPS 1u
 
+#define PERSISTENT_CONTACT_IMPACTS_MAX UINT16_MAX
+
 /* The default length of the list: for each slot of the world's capacity, but at least. */
 #define PERSISTENT_CONTACTS_AN_ENTITY 4u
 #define PERSISTENT_CONTACT_SLOTS_MIN  256u
@@ -23,8 +25,9 @@ struct persistent_contact {
     uint32_t a_row, b_row; /* of these entities; b_row of a fixed object: SLOT_NONE */
     uint32_t begin_tick;   /* of simulated time: when it first bore a load */
     uint32_t pressed_tick; /* when it last bore a load */
-    uint32_t flags;        /* PERSISTENT_CONTACT_OVERLAPS */
-    uint32_t reserved;     /* 0 */
+    uint16_t flags;        /* PERSISTENT_CONTACT_OVERLAPS */
+    uint16_t impacts;      /* since it began, PERSISTENT_CONTACT_IMPACTS_MAX at most */
+    float impulse_ns;      /* of all these impacts together */
 };
 
 _Static_assert(sizeof(struct persistent_contact) == 32, "shared layout");

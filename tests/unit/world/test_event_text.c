@@ -55,6 +55,9 @@ static void test_each_type_has_its_text(void **state)
     check((struct event){.type = EVENT_CONTACT_END,
                          .contact_end = {.a.id = 12, .b = {.id = 40211, .fixed = 1}}},
           "tank", "tree", NULL, "tank 12 and tree 40211 parted after 0.0 s");
+    check((struct event){.type = EVENT_CONTACT_END,
+                         .contact_end = {.a.id = 12, .b.id = 14, .because = CONTACT_END_NO_ROOM}},
+          "tank", "jeep", NULL, "tank 12 and jeep 14: no room for their contact");
     check((struct event){.type = EVENT_COMMAND,
                          .command = {.type = COMMAND_SPAWN, .entity = 7, .result = COMMAND_DONE}},
           NULL, NULL, NULL, "command spawn 7: done");

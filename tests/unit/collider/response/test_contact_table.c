@@ -24,19 +24,12 @@ static struct response_context context;
 /* Tanks 100 m apart, and a tree. */
 static int open_world(void **state)
 {
-    (void)state;
+    *state = &f;
     fixture_open(&f, "objects = ( { kind = \"tree\"; at = [25000.0, 26000.0]; } );");
     for (uint32_t i = 0; i < ROWS; i++)
         fixture_put(&f,
                     (struct fixture_entity){.kind = "tank", .at = {25000.0 + 100 * i, 100, 25000}});
     fixture_state(&f).head->tick = TICK - 1;
-    return 0;
-}
-
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
     return 0;
 }
 
@@ -59,6 +52,14 @@ static void press(uint32_t a, uint32_t b, uint8_t marks)
 {
     uint32_t index = contact_queue_pair(context.contacts, &(struct pair){a, b});
     context.contacts->marks[index] |= CONTACT_PRESSED | marks;
+}
+
+/* Gives a pair impacts in this frame. */
+static void strike(uint32_t a, uint32_t b, uint32_t count, float impulse_ns)
+{
+    uint32_t index = contact_queue_pair(context.contacts, &(struct pair){a, b});
+    press(a, b, 0);
+    context.contacts->impacts[index] = (struct pair_impacts){count, impulse_ns};
 }
 
 static void move(uint32_t row)
@@ -92,8 +93,8 @@ static const struct event *event_of(uint32_t nth)
 
 static void test_a_pair_that_presses_begins_a_contact(void **state)
 {
-    const struct persistent_contact right = {1, 3, 0, 2, TICK, TICK, PERSISTENT_CONTACT_OVERLAPS,
-                                             0};
+    const struct persistent_contact right = {1, 3,   0, 2, TICK, TICK, PERSISTENT_CONTACT_OVERLAPS,
+                                             0, 0.0f};
     (void)state;
     begin();
     press(0, 2, CONTACT_OVERLAPS);
@@ -103,7 +104,7 @@ static void test_a_pair_that_presses_begins_a_contact(void **state)
 
 static void test_a_pressed_contact_keeps_its_beginning(void **state)
 {
-    const struct persistent_contact right = {1, 2, 0, 1, 7, TICK, 0, 0};
+    const struct persistent_contact right = {1, 2, 0, 1, 7, TICK, 0, 0, 0.0f};
     (void)state;
     know(0, 1, 7, TICK - 1)->flags = PERSISTENT_CONTACT_OVERLAPS; /* no more */
     begin();
@@ -133,7 +134,7 @@ static void test_the_list_is_sorted_by_the_pair(void **state)
 /* The lower id comes first, whichever row it is in. */
 static void test_reused_rows_are_sorted_by_their_ids(void **state)
 {
-    const struct persistent_contact right = {2, 50, 1, 0, TICK, TICK, 0, 0};
+    const struct persistent_contact right = {2, 50, 1, 0, TICK, TICK, 0, 0, 0.0f};
     (void)state;
     steps_rows(&f).id[0] = 50;
     begin();
@@ -143,34 +144,46 @@ static void test_reused_rows_are_sorted_by_their_ids(void **state)
 
 static void test_two_bodies_at_rest_stay_in_contact(void **state)
 {
-    const struct persistent_contact right = {1, 2, 0, 1, 7, 8, 0, 0};
+    const struct persistent_contact right = {1, 2, 0, 1, 7, 8, 0, 0, 0.0f};
     (void)state;
     know(0, 1, 7, 8);
     begin();
     assert_memory_equal(finish(1, 0), &right, sizeof right);
 }
 
-/* --- what is known -----------------------------------------------------------------------------*/
-
-static void test_known_are_the_committed_and_the_pressed(void **state)
+static void test_impacts_add_up(void **state)
 {
     (void)state;
+    *know(0, 1, 7, TICK - 1) = (struct persistent_contact){1, 2, 0, 1, 7, TICK - 1, 0, 3, 5.0f};
+    *know(0, 3, 7, TICK - 1) = (struct persistent_contact){1, 4, 0, 3, 7, TICK - 1, 0, 65535, 0.0f};
+    begin();
+    strike(0, 1, 2, 6.0f);
+    strike(0, 2, 1, 7.0f);
+    strike(0, 3, 1, 8.0f);
+    const struct persistent_contact *contacts = finish(3, 0);
+    assert_true(contacts[0].impacts == 5 && contacts[0].impulse_ns == 11.0f);
+    assert_true(contacts[1].impacts == 1 && contacts[1].impulse_ns == 7.0f);
+    assert_true(contacts[2].impacts == 65535 && contacts[2].impulse_ns == 8.0f);
+}
+
+/* --- what is known -----------------------------------------------------------------------------*/
+
+static void test_known_are_the_committed(void **state)
+{
+    (void)state;
+    const struct persistent_contact *first = fixture_state(&f).contacts;
     know(0, 1, 7, 8);
     know(0, 5, 7, 8);
     know(2, PERSISTENT_CONTACT_FIXED, 7, 8);
     begin();
-    assert_true(contact_table_knows(&context, 0, 1, 0));
-    assert_true(contact_table_knows(&context, 1, 0, 0));
-    assert_true(contact_table_knows(&context, 0, 5, 0));
-    assert_true(contact_table_knows(&context, 2, PAIR_FIXED, 0));
-    assert_false(contact_table_knows(&context, 0, 2, 0));
-    assert_false(contact_table_knows(&context, 4, 5, 0));
-    uint32_t pair = contact_queue_pair(context.contacts, &(struct pair){4, 5}) + 1;
-    assert_false(contact_table_knows(&context, 4, 5, pair));
-    press(4, 5, 0);
-    assert_true(contact_table_knows(&context, 4, 5, pair));
+    assert_ptr_equal(contact_table_find(&context, 0, 1), first);
+    assert_ptr_equal(contact_table_find(&context, 1, 0), first);
+    assert_ptr_equal(contact_table_find(&context, 0, 5), first + 1);
+    assert_ptr_equal(contact_table_find(&context, 2, PAIR_FIXED), first + 2);
+    assert_null(contact_table_find(&context, 0, 2));
+    assert_null(contact_table_find(&context, 4, 5));
     context.next->entities.id[1] = 60; /* another entity in the row */
-    assert_false(contact_table_knows(&context, 0, 1, 0));
+    assert_null(contact_table_find(&context, 0, 1));
     steps_respond_end(&context);
 }
 
@@ -181,7 +194,8 @@ static void test_a_body_that_moves_away_ends_the_contact_after_a_time(void **sta
     uint32_t lasts = (uint32_t)(CONTACT_TABLE_LASTS_S / f.view.world.params->dt_s);
     (void)state;
     know(0, 1, 70, TICK - lasts);
-    know(2, 3, 70, TICK - lasts - 1);
+    know(2, 3, 70, TICK - lasts - 1)->impacts = 4;
+    fixture_state(&f).contacts[1].impulse_ns = 9.0f;
     begin();
     move(1);
     move(2);
@@ -190,8 +204,22 @@ static void test_a_body_that_moves_away_ends_the_contact_after_a_time(void **sta
     const struct event *event = event_of(0);
     assert_int_equal(event->type, EVENT_CONTACT_END);
     assert_true(event->contact_end.a.id == 3 && event->contact_end.b.id == 4);
+    assert_true(event->contact_end.impacts == 4 && event->contact_end.impulse_ns == 9.0f);
+    assert_int_equal(event->contact_end.because, CONTACT_END_PARTED);
     assert_true(fabs(event->contact_end.lasted_s -
                      (TICK - lasts - 1 - 70) * f.view.world.params->dt_s) < 1e-12);
+}
+
+/* However long ago they bore a load. */
+static void test_bodies_that_still_touch_stay_in_contact(void **state)
+{
+    uint32_t lasts = (uint32_t)(CONTACT_TABLE_LASTS_S / f.view.world.params->dt_s);
+    (void)state;
+    know(0, 1, 70, TICK - lasts - 1);
+    begin();
+    context.next->entities.x[1] = context.next->entities.x[0] + 1.0;
+    body_motion_compute(context.motion, 1);
+    assert_int_equal(finish(1, 0)[0].pressed_tick, TICK);
 }
 
 static void test_a_body_that_is_gone_ends_its_contacts_at_once(void **state)
@@ -206,6 +234,7 @@ static void test_a_body_that_is_gone_ends_its_contacts_at_once(void **state)
     context.next->entities.id[4] = 77; /* another one in its row */
     finish(0, 3);
     assert_true(event_of(0)->contact_end.b.id == 2 && event_of(2)->contact_end.b.id == 5);
+    assert_int_equal(event_of(0)->contact_end.because, CONTACT_END_GONE);
 }
 
 static void test_an_object_that_falls_ends_its_contacts(void **state)
@@ -221,20 +250,27 @@ static void test_an_object_that_falls_ends_its_contacts(void **state)
 
 /* --- room --------------------------------------------------------------------------------------*/
 
-static void test_contacts_without_room_are_counted(void **state)
+/* Known contacts keep their room. New ones without room are counted, and end at once. */
+static void test_contacts_without_room_are_told(void **state)
 {
     (void)state;
-    know(0, 1, 7, TICK - 1);
+    know(0, 5, 7, TICK - 1);
+    know(2, 3, 7, TICK - 1);
     steps_params(&f)->contact_slots = 3;
     begin();
-    f.stepper.collider.table.capacity = 3;
+    f.stepper.collider.table.capacity = 1; /* its own lists grow */
     press(4, 5, 0);
     press(3, 5, 0);
     press(2, 5, 0);
-    press(1, 5, 0);
-    const struct persistent_contact *contacts = finish(3, 0); /* one did not fit in either list */
-    assert_int_equal(context.next->head->tally.contacts_refused, 2);
-    assert_true(contacts[0].b_id == 2 && contacts[2].a_id == 4);
+    press(2, 3, 0);
+    strike(1, 5, 2, 6.0f);
+    const struct persistent_contact *contacts = finish(3, 3);
+    assert_int_equal(context.next->head->tally.contacts_refused, 3);
+    assert_true(contacts[0].b_id == 6 && contacts[1].a_id == 2 && contacts[2].a_id == 3);
+    for (uint32_t i = 0; i < 3; i++) {
+        assert_int_equal(event_of(i)->contact_end.because, CONTACT_END_NO_ROOM);
+        assert_true(event_of(i)->contact_end.a.id == i + 3 && event_of(i)->contact_end.b.id == 6);
+    }
 }
 
 /* --- frames ------------------------------------------------------------------------------------*/
@@ -271,18 +307,20 @@ static void test_a_changed_contact_changes_the_digest_of_its_frame(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, fixture_teardown)
     const struct CMUnitTest tests[] = {
         TEST(test_a_pair_that_presses_begins_a_contact),
         TEST(test_a_pressed_contact_keeps_its_beginning),
         TEST(test_the_list_is_sorted_by_the_pair),
         TEST(test_reused_rows_are_sorted_by_their_ids),
         TEST(test_two_bodies_at_rest_stay_in_contact),
-        TEST(test_known_are_the_committed_and_the_pressed),
+        TEST(test_impacts_add_up),
+        TEST(test_known_are_the_committed),
         TEST(test_a_body_that_moves_away_ends_the_contact_after_a_time),
+        TEST(test_bodies_that_still_touch_stay_in_contact),
         TEST(test_a_body_that_is_gone_ends_its_contacts_at_once),
         TEST(test_an_object_that_falls_ends_its_contacts),
-        TEST(test_contacts_without_room_are_counted),
+        TEST(test_contacts_without_room_are_told),
         TEST(test_contacts_stay_as_they_are_while_paused),
         TEST(test_a_changed_contact_changes_the_digest_of_its_frame),
     };

@@ -32,11 +32,15 @@ static void test_the_end_of_a_contact(void **state)
         .type = EVENT_CONTACT_END,
         .contact_end = {.a = {.id = 12, .kind = fixture_kind(&f, "tank")},
                         .b = {.id = 7, .kind = fixture_kind(&f, "tree"), .fixed = 1},
-                        .lasted_s = 1.5}};
+                        .lasted_s = 1.5,
+                        .impacts = 2,
+                        .impulse_ns = 2.5f,
+                        .because = CONTACT_END_GONE}};
     check(&f.view.world, end,
           "{\"frame\":150,\"index\":3,\"time_s\":2,\"type\":\"contact_end\","
           "\"a\":{\"id\":12,\"kind\":\"tank\",\"fixed\":false},"
-          "\"b\":{\"id\":7,\"kind\":\"tree\",\"fixed\":true},\"lasted_s\":1.5}");
+          "\"b\":{\"id\":7,\"kind\":\"tree\",\"fixed\":true},\"lasted_s\":1.5,"
+          "\"impacts\":2,\"impulse_ns\":2.5,\"because\":\"gone\"}");
     fixture_close(&f);
 }
 

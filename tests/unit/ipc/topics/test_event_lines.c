@@ -14,6 +14,9 @@ static const jolon_ContactEndEvent end = {
     .a = {.id = 12, .kind = "tank"},
     .b = {.id = 7, .kind = "tree", .fixed = true},
     .lasted_s = 1.5,
+    .impacts = 2,
+    .impulse_ns = 2.5f,
+    .because = jolon_CONTACT_END_GONE,
 };
 
 static void test_the_end_of_a_contact_as_text(void **state)
@@ -33,10 +36,10 @@ static void test_the_end_of_a_contact_as_json(void **state)
     char line[EVENT_MERGE_LINE_MAX];
     (void)state;
     event_json(line, TOPIC_CONTACT_END, &end);
-    assert_string_equal(line,
-                        "{\"frame\":150,\"index\":3,\"time_s\":2,\"type\":\"contact_end\","
-                        "\"a\":{\"id\":12,\"kind\":\"tank\",\"fixed\":false},"
-                        "\"b\":{\"id\":7,\"kind\":\"tree\",\"fixed\":true},\"lasted_s\":1.5}");
+    assert_string_equal(line, "{\"frame\":150,\"index\":3,\"time_s\":2,\"type\":\"contact_end\","
+                              "\"a\":{\"id\":12,\"kind\":\"tank\",\"fixed\":false},"
+                              "\"b\":{\"id\":7,\"kind\":\"tree\",\"fixed\":true},\"lasted_s\":1.5,"
+                              "\"impacts\":2,\"impulse_ns\":2.5,\"because\":\"gone\"}");
 }
 
 int main(void)
