@@ -117,20 +117,20 @@ static const char *kind_text(const struct world *world, const struct event_party
     return party->kind < world->counts.kinds ? world->kinds[party->kind].name : "?";
 }
 
-static void add_party(cJSON *object, const char *key, const struct world *world,
-                      const struct event_party *party)
+static void add_party(cJSON *object, const char *key, const struct event_party *party,
+                      const char *kind)
 {
     cJSON *child = json_object(object, key);
     json_whole(child, "id", party->id);
-    json_text(child, "kind", kind_text(world, party));
+    json_text(child, "kind", kind);
     json_bool(child, "fixed", party->fixed);
 }
 
-static void add_collision(cJSON *object, const struct world *world,
-                          const struct event_collision *collision)
+static void add_collision(cJSON *object, const struct event_collision *collision,
+                          const char *const *kind)
 {
-    add_party(object, "a", world, &collision->a);
-    add_party(object, "b", world, &collision->b);
+    add_party(object, "a", &collision->a, kind[EVENT_TEXT_FIRST]);
+    add_party(object, "b", &collision->b, kind[EVENT_TEXT_SECOND]);
     json_triple(object, "point", collision->point[0], collision->point[1], collision->point[2]);
     json_triple_single(object, "normal", collision->normal);
     json_triple_single(object, "direction", collision->direction_a);
@@ -144,58 +144,57 @@ static void add_collision(cJSON *object, const struct world *world,
     json_bool(object, "begins", collision->begins != 0);
 }
 
-static void add_fire(cJSON *object, const struct world *world, const struct event_fire *fire)
+static void add_fire(cJSON *object, const struct event_fire *fire, const char *const *kind)
 {
-    add_party(object, "shooter", world, &fire->shooter);
-    add_party(object, "target", world, &fire->target);
-    add_party(object, "munition", world, &fire->munition);
+    add_party(object, "shooter", &fire->shooter, kind[EVENT_TEXT_FIRST]);
+    add_party(object, "target", &fire->target, kind[EVENT_TEXT_SECOND]);
+    add_party(object, "munition", &fire->munition, kind[EVENT_TEXT_MUNITION]);
     json_triple(object, "point", fire->point[0], fire->point[1], fire->point[2]);
 }
 
-static void add_detonation(cJSON *object, const struct world *world,
-                           const struct event_detonation *detonation)
+static void add_detonation(cJSON *object, const struct event_detonation *detonation,
+                           const char *const *kind)
 {
-    add_party(object, "munition", world, &detonation->munition);
+    add_party(object, "munition", &detonation->munition, kind[EVENT_TEXT_MUNITION]);
     json_triple(object, "point", detonation->point[0], detonation->point[1], detonation->point[2]);
     json_text(object, "struck", struck_name((enum struck)detonation->struck));
     json_whole(object, "id", detonation->struck_party.id);
-    json_text(object, "kind", kind_text(world, &detonation->struck_party));
+    json_text(object, "kind", kind[EVENT_TEXT_FIRST]);
     json_text(object, "damage", damage_name((enum damage)detonation->struck_party.damage));
     json_single(object, "explosive_kg", detonation->explosive_kg);
 }
 
-static void add_crater(cJSON *object, const struct world *world, const struct event_crater *crater)
+static void add_crater(cJSON *object, const struct event_crater *crater, const char *const *kind)
 {
-    (void)world;
+    (void)kind;
     json_triple(object, "point", crater->point[0], crater->point[1], crater->point[2]);
     json_single(object, "radius_m", crater->radius_m);
     json_single(object, "depth_m", crater->depth_m);
 }
 
-static void add_agent(cJSON *object, const struct world *world, const struct event_agent *agent)
+static void add_agent(cJSON *object, const struct event_agent *agent, const char *const *kind)
 {
     json_whole(object, "id", agent->agent.id);
-    json_text(object, "kind", kind_text(world, &agent->agent));
+    json_text(object, "kind", kind[EVENT_TEXT_FIRST]);
     json_text(object, "from", behaviour_name((enum behaviour)agent->from));
     json_text(object, "to", behaviour_name((enum behaviour)agent->to));
     json_text(object, "because", agent_reason_name((enum agent_reason)agent->because));
 }
 
-static void add_contact_end(cJSON *object, const struct world *world,
-                            const struct event_contact_end *end)
+static void add_contact_end(cJSON *object, const struct event_contact_end *end,
+                            const char *const *kind)
 {
-    add_party(object, "a", world, &end->a);
-    add_party(object, "b", world, &end->b);
+    add_party(object, "a", &end->a, kind[EVENT_TEXT_FIRST]);
+    add_party(object, "b", &end->b, kind[EVENT_TEXT_SECOND]);
     json_number(object, "lasted_s", end->lasted_s);
     json_whole(object, "impacts", end->impacts);
     json_single(object, "impulse_ns", end->impulse_ns);
     json_text(object, "because", contact_end_reason_name((enum contact_end_reason)end->because));
 }
 
-static void add_command(cJSON *object, const struct world *world,
-                        const struct event_command *command)
+static void add_command(cJSON *object, const struct event_command *command, const char *const *kind)
 {
-    (void)world;
+    (void)kind;
     json_hex(object, "source", command->source);
     json_whole(object, "command_sequence", command->sequence);
     json_text(object, "command", command_type_name((enum command_type)command->type));
@@ -203,23 +202,34 @@ static void add_command(cJSON *object, const struct world *world,
     json_whole(object, "id", command->entity);
 }
 
-cJSON *json_event(const struct world *world, const struct event *event)
+void json_event_members(cJSON *object, const struct event *event,
+                        const char *const kind[EVENT_TEXT_PARTIES])
 {
-    cJSON *object = cJSON_CreateObject();
-    need(object);
-    json_whole(object, "frame", event->frame);
-    json_whole(object, "index", event->index);
-    json_number(object, "time_s", (double)event->tick * world_dt_s(world));
     json_text(object, "type", event_type_name((enum event_type)event->type));
     switch ((enum event_type)event->type) {
 #define X(tag, word)                                                                               \
     case EVENT_##tag:                                                                              \
-        add_##word(object, world, &event->word);                                                   \
+        add_##word(object, &event->word, kind);                                                    \
         break;
         EVENT_TYPES(X)
 #undef X
     default:
         break;
     }
+}
+
+cJSON *json_event(const struct world *world, const struct event *event)
+{
+    const struct event_party *parties[EVENT_TEXT_PARTIES];
+    const char *kind[EVENT_TEXT_PARTIES];
+    cJSON *object = cJSON_CreateObject();
+    need(object);
+    json_whole(object, "frame", event->frame);
+    json_whole(object, "index", event->index);
+    json_number(object, "time_s", (double)event->tick * world_dt_s(world));
+    event_text_parties(event, parties);
+    for (int i = 0; i < EVENT_TEXT_PARTIES; i++)
+        kind[i] = parties[i] ? kind_text(world, parties[i]) : NULL;
+    json_event_members(object, event, kind);
     return object;
 }

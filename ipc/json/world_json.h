@@ -2,6 +2,8 @@
 #ifndef JOLON_IPC_JSON_WORLD_JSON_H
 #define JOLON_IPC_JSON_WORLD_JSON_H
 
+#include "world/event_text.h"
+
 #include <cjson/cJSON.h>
 #include <stdint.h>
 
@@ -23,7 +25,12 @@ cJSON *json_array(cJSON *object, const char *key);
 /* Prints the document on one line to standard output, and frees it. */
 void json_print(cJSON *object);
 
-/* Returns a new object of an event as docs/events.md describes it. */
+/* Adds an event's type and the members of that type, as docs/events.md describes them. kind: the
+ * names of its parties' kinds. */
+void json_event_members(cJSON *object, const struct event *event,
+                        const char *const kind[EVENT_TEXT_PARTIES]);
+
+/* Returns a new object of an event with its frame, index and time. */
 cJSON *json_event(const struct world *world, const struct event *event);
 
 #endif

@@ -2,11 +2,12 @@
 #ifndef JOLON_IPC_TOPICS_EVENT_LINES_H
 #define JOLON_IPC_TOPICS_EVENT_LINES_H
 
-#include "ipc/topics/world_mirror.h"
 #include "ipc/topics/event_merge.h"
+#include "ipc/topics/event_reading.h"
+#include "ipc/topics/world_mirror.h"
 
 #define EVENT_LINES_CLOCK_MAX 32
-#define EVENT_LINES_IDS       3
+#define EVENT_LINES_IDS       EVENT_READING_IDS
 
 /* Writes a time as 00:03:25.7 and returns text. */
 const char *event_lines_clock(char text[EVENT_LINES_CLOCK_MAX], double time_s);

@@ -191,18 +191,10 @@ static void mark_when_due(struct command_log *log, const struct view *view)
         take_mark(log, &head);
 }
 
-static bool flush(struct command_log *log)
-{
-    if (journal_flush(&log->journal) != 0)
-        return false;
-    log->written = log->cursor.next;
-    return true;
-}
-
 bool command_log_append(struct command_log *log, const struct view *view)
 {
     static struct event events[BATCH];
-    if (!flush(log))
+    if (!journal_flush_to(&log->journal, &log->written, log->cursor.next))
         return false;
     mark_when_due(log, view);
     uint32_t count = events_read(view, &log->cursor, events, BATCH);
@@ -215,7 +207,7 @@ bool command_log_append(struct command_log *log, const struct view *view)
     }
     if (log->marking && log->cursor.next >= log->mark.at.events)
         put_mark(log);
-    return flush(log) && count > 0;
+    return journal_flush_to(&log->journal, &log->written, log->cursor.next) && count > 0;
 }
 
 /* Prepares the end record: a mark of the last committed frame with its digest. */

@@ -144,19 +144,10 @@ static void put_gap(struct event_log *log, uint64_t frame, uint64_t next)
     log->cursor.gap = 0;
 }
 
-/* Writes pending records. On failure the ring keeps the events. */
-static bool flush(struct event_log *log)
-{
-    if (journal_flush(&log->journal) != 0)
-        return false;
-    log->written = log->cursor.next;
-    return true;
-}
-
 bool event_log_append(struct event_log *log, const struct view *view)
 {
     static struct event events[BATCH];
-    if (!flush(log))
+    if (!journal_flush_to(&log->journal, &log->written, log->cursor.next))
         return false; /* unwritten events stay in the ring, which survives a kill */
     uint32_t count = events_read(view, &log->cursor, events, BATCH);
     if (count > 0 && log->to_compare) {
@@ -168,7 +159,7 @@ bool event_log_append(struct event_log *log, const struct view *view)
         put_gap(log, atomic_load(&view->commit->commit), log->cursor.next - count);
     for (uint32_t i = 0; i < count; i++)
         journal_append(&log->journal, event_json(view, &events[i]));
-    return flush(log) && count > 0;
+    return journal_flush_to(&log->journal, &log->written, log->cursor.next) && count > 0;
 }
 
 uint64_t event_log_close(struct event_log *log, const struct view *view)

@@ -296,6 +296,14 @@ int journal_flush(struct journal *journal)
     return 0;
 }
 
+bool journal_flush_to(struct journal *journal, uint64_t *written, uint64_t next)
+{
+    if (journal_flush(journal) != 0)
+        return false;
+    *written = next;
+    return true;
+}
+
 int journal_sync(const struct journal *journal)
 {
     return fdatasync(journal->fd);

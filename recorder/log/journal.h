@@ -61,6 +61,10 @@ int journal_sync(const struct journal *journal);
  * the records stay pending. Any other error ends the process with the reason. */
 int journal_flush(struct journal *journal);
 
+/* Writes pending records, and then sets *written to next: the number of the record after them.
+ * Returns false if they stay pending. */
+bool journal_flush_to(struct journal *journal, uint64_t *written, uint64_t next);
+
 /* Closes the file. Returns 0, or -1 if pending records are lost. */
 int journal_close(struct journal *journal);
 

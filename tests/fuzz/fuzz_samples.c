@@ -59,6 +59,7 @@ static void show_event(enum dds_topic topic)
     if (topic == TOPIC_COLLISION) {
         end_party(&event.collision.a);
         end_party(&event.collision.b);
+        TRUTH(event.collision.begins);
     } else if (topic == TOPIC_FIRE) {
         end_party(&event.fire.shooter);
         end_party(&event.fire.target);

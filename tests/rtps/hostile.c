@@ -189,8 +189,10 @@ static void write_events(struct hostile *hostile)
                                         .explosive_kg = (float)number(hostile)};
     jolon_CraterEvent crater = {.header = header(hostile), .radius_m = (float)number(hostile)};
     jolon_AgentEvent agent = {.header = header(hostile), .agent = party(hostile)};
-    jolon_ContactEndEvent contact_end = {
-        .header = header(hostile), .a = party(hostile), .lasted_s = number(hostile)};
+    jolon_ContactEndEvent contact_end = {.header = header(hostile),
+                                         .a = party(hostile),
+                                         .lasted_s = number(hostile),
+                                         .impulse_ns = (float)number(hostile)};
     (void)dds_write(hostile->writer[TOPIC_COLLISION], &collision);
     (void)dds_write(hostile->writer[TOPIC_FIRE], &fire);
     (void)dds_write(hostile->writer[TOPIC_DETONATION], &detonation);

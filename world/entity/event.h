@@ -10,7 +10,7 @@
  * names the type's struct event_WORD, its member of struct event, and the functions that write it:
  * WORD_text() in world/event_text.c and add_WORD() in ipc/json/world_json.c. A type with a status
  * topic also has fill_WORD() in reporter/event_topics.c and, for clients, good_WORD() in
- * ipc/topics/samples.c, read_WORD() in event_lines.c and add_WORD() in event_json.c. The topics are
+ * ipc/topics/samples.c and read_WORD() in event_reading.c. The topics are
  * in the order of their rows.
  * An answer to a command has no topic here: the reporter publishes it as a CommandReply. */
 #define EVENT_TYPES_WITH_TOPIC(X)                                                                  \
