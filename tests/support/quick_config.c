@@ -1,6 +1,8 @@
 /* The temporary folder: copies of the kinds and a link to the models. */
 #include "tests/support/quick_config.h"
 
+#include "config/loader.h"
+
 #include <dirent.h>
 #include <ftw.h>
 #include <setjmp.h>
@@ -24,6 +26,14 @@ void quick_config_write(const char *path, const char *text)
     assert_non_null(file);
     assert_int_equal(fwrite(text, 1, strlen(text), file), strlen(text));
     assert_int_equal(fclose(file), 0);
+}
+
+int quick_config_load(struct scenario *scenario, const char *text, const char *override,
+                      struct error_text *error)
+{
+    quick_config_write(quick_config.scenario_path, text);
+    return loader_scenario(scenario, quick_config.data_dir, quick_config.scenario_path, &override,
+                           override != NULL, error);
 }
 
 /* Copies a kind's file and replaces its model with "tank". */

@@ -14,9 +14,17 @@ struct quick_config {
 
 extern struct quick_config quick_config;
 
+struct error_text;
+struct scenario;
+
 /* Group set-up and tear-down for cmocka: makes and removes quick_config.folder. */
 int quick_config_make(void **state);
 int quick_config_remove(void **state);
+
+/* Writes the text to quick_config.scenario_path and loads it. override: NULL or one KEY=VALUE.
+ * Returns what loader_scenario() does. */
+int quick_config_load(struct scenario *scenario, const char *text, const char *override,
+                      struct error_text *error);
 
 /* Writes a whole file. Fails the test on an error. */
 void quick_config_write(const char *path, const char *text);

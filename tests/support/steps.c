@@ -1,6 +1,7 @@
 /* Lets tests change a world and enter a frame in the middle. */
 #include "tests/support/steps.h"
 
+#include "collider/geometry/level_gap.h"
 #include "mover/motion/kinematics.h"
 #include "mover/weapon/turret.h"
 #include "world/entity/persistent_contact.h"
@@ -266,6 +267,15 @@ uint64_t steps_state_hash(const struct fixture *fixture, const struct state *sta
     for (uint64_t i = end > slots ? end - slots : 0; i < end; i++)
         hash = XXH3_64bits_withSeed(&view->events[i & (slots - 1)], sizeof(struct event), hash);
     return hash;
+}
+
+double steps_gap(const struct fixture *fixture, const struct entities *entities, uint32_t a,
+                 uint32_t b)
+{
+    const struct body_motion *motion = &fixture->stepper.collider.motion;
+    struct swept_body body_a = body_motion_standing(motion, entities, a);
+    struct swept_body body_b = body_motion_standing(motion, entities, b);
+    return level_gap_least(&body_a, &body_b, 0.0, 9.0);
 }
 
 void steps_move(struct fixture *fixture)

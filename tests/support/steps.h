@@ -75,6 +75,11 @@ void steps_serial_context(struct fixture *fixture, struct step_context *step,
 void steps_respond(struct fixture *fixture, struct response_context *context);
 void steps_respond_end(struct response_context *context);
 
+/* Returns the horizontal gap between two rows as they stand in a table, below 0 for an overlap [m].
+ * More than 9 m are 9. */
+double steps_gap(const struct fixture *fixture, const struct entities *entities, uint32_t a,
+                 uint32_t b);
+
 /* --- purity ------------------------------------------------------------------------------------*/
 
 /* Computes the mover's step alone, from the committed frame into the moved table. May be repeated.

@@ -26,17 +26,10 @@
 
 static struct error_text error;
 
-static int load_with(struct scenario *scenario, const char *text, const char *override)
-{
-    quick_config_write(quick_config.scenario_path, text);
-    return loader_scenario(scenario, quick_config.data_dir, quick_config.scenario_path, &override,
-                           override != NULL, &error);
-}
-
 /* Loads a text that must be accepted. */
 static void must_load(struct scenario *scenario, const char *text, const char *override)
 {
-    if (load_with(scenario, text, override) != 0)
+    if (quick_config_load(scenario, text, override, &error) != 0)
         fail_msg("refused: %s", error.text);
 }
 
@@ -206,92 +199,100 @@ static void test_vehicle_entry(void **state)
 }
 
 /* An override and the file store the same value, for every key that an override can set. */
+/* One override of each key, and the text that says the same. */
+static const struct {
+    const char *override, *text;
+} set_and_text[] = {
+    {"world.name=here", "world = { name = \"here\"; };"},
+    {"world.seed=7", "world = { seed = 7; };"},
+    {"world.hz=10", "world = { hz = 10; };"},
+    {"world.hz=12.5", "world = { hz = 12.5; };"},
+    {"world.capacity=64", "world = { capacity = 64; };"},
+    {"world.contacts=300", "world = { contacts = 300; };"},
+    {"world.frames=9007199254740991", "world = { frames = 9007199254740991; };"},
+    {"world.pace=max", "world = { pace = \"max\"; };"},
+    {"terrain.source=flat", "terrain = { source = \"flat\"; };"},
+    {"terrain.height_m=-20.5", "terrain = { height_m = -20.5; };"},
+    {"terrain.spacing_m=125", "terrain = { spacing_m = 125; };"},
+    {"objects.source=none", "objects = { source = \"none\"; };"},
+    {"collision.method=swept", "collision = { method = \"swept\"; };"},
+    {"collision.method=brute", "collision = { method = \"brute\"; };"},
+    {"collision.shape=sphere", "collision = { shape = \"sphere\"; };"},
+    {"collision.shape=model", "collision = { shape = \"model\"; };"},
+    {"collision.response=figure8", "collision = { response = \"figure8\"; };"},
+    {"collision.npsnet2.nearness=or", "collision = { npsnet2 = { nearness = \"or\"; }; };"},
+    {"collision.mps.near_m=25", "collision = { mps = { near_m = 25; }; };"},
+    {"collision.figure8.measure=mass", "collision = { figure8 = { measure = \"mass\"; }; };"},
+    {"collision.figure8.mass_c1_kg=30000", "collision = { figure8 = { mass_c1_kg = 30000; }; };"},
+    {"collision.figure8.mass_c2_kg=9000", "collision = { figure8 = { mass_c2_kg = 9000; }; };"},
+    {"collision.figure8.mass_c3_kg=0", "collision = { figure8 = { mass_c3_kg = 0; }; };"},
+    {"collision.threshold_height_m=5", "collision = { threshold_height_m = 5; };"},
+    {"collision.figure8.fast_vehicle_mps=1",
+     "collision = { figure8 = { fast_vehicle_mps = 1; }; };"},
+    {"collision.figure8.fast_fixed_mps=2", "collision = { figure8 = { fast_fixed_mps = 2; }; };"},
+    {"collision.figure8.large_fixed_kg=3", "collision = { figure8 = { large_fixed_kg = 3; }; };"},
+    {"collision.figure8.damage_high=4", "collision = { figure8 = { damage_high = 4; }; };"},
+    {"collision.figure8.damage_med=0.5", "collision = { figure8 = { damage_med = 0.5; }; };"},
+    {"collision.figure8.damage_low=0.25", "collision = { figure8 = { damage_low = 0.25; }; };"},
+    {"recorder.when_full=pause", "recorder = { when_full = \"pause\"; };"},
+    {"renderer.width=640", "renderer = { width = 640; };"},
+    {"renderer.height=480", "renderer = { height = 480; };"},
+    {"renderer.fps=0", "renderer = { fps = 0; };"},
+    {"renderer.view=map", "renderer = { view = \"map\"; };"},
+    {"renderer.follow=4294967295", "renderer = { follow = 4294967295; };"},
+    {"world.seed=4294967296", "/* 1 */ world = { seed = 0x100000000; # [1\n };"},
+    {"renderer.fog=false", "renderer = { fog = false; };"},
+    {"renderer.haze=false", "renderer = { haze = false; };"},
+    {"renderer.texture=false", "renderer = { texture = false; };"},
+    {"renderer.view=map,orbit", "renderer = { view = \"map, orbit\"; };"},
+    {"renderer.backend=soft", "renderer = { backend = \"soft\"; };"},
+    {"renderer.hold=false", "renderer = { hold = false; };"},
+};
+
+/* Asserts that two scenarios have the same settings but for their hashes. */
+static void assert_same_settings(const struct scenario *p, const struct scenario *q)
+{
+    p->settings->params.scenario_hash = q->settings->params.scenario_hash;
+    assert_memory_equal(&p->settings->params, &q->settings->params, sizeof(p->settings->params));
+    assert_true(p->settings->terrain == q->settings->terrain &&
+                p->settings->objects == q->settings->objects &&
+                p->settings->spacing_m == q->settings->spacing_m &&
+                p->settings->flat_height_m == q->settings->flat_height_m);
+}
+
 static void test_override_equals_file(void **state)
 {
-    static const struct {
-        const char *override, *text;
-    } rows[] = {
-        {"world.name=here", "world = { name = \"here\"; };"},
-        {"world.seed=7", "world = { seed = 7; };"},
-        {"world.hz=10", "world = { hz = 10; };"},
-        {"world.hz=12.5", "world = { hz = 12.5; };"},
-        {"world.capacity=64", "world = { capacity = 64; };"},
-        {"world.contacts=300", "world = { contacts = 300; };"},
-        {"world.frames=9007199254740991", "world = { frames = 9007199254740991; };"},
-        {"world.pace=max", "world = { pace = \"max\"; };"},
-        {"terrain.source=flat", "terrain = { source = \"flat\"; };"},
-        {"terrain.height_m=-20.5", "terrain = { height_m = -20.5; };"},
-        {"terrain.spacing_m=125", "terrain = { spacing_m = 125; };"},
-        {"objects.source=none", "objects = { source = \"none\"; };"},
-        {"collision.method=swept", "collision = { method = \"swept\"; };"},
-        {"collision.method=brute", "collision = { method = \"brute\"; };"},
-        {"collision.shape=sphere", "collision = { shape = \"sphere\"; };"},
-        {"collision.shape=model", "collision = { shape = \"model\"; };"},
-        {"collision.response=figure8", "collision = { response = \"figure8\"; };"},
-        {"collision.npsnet2.nearness=or", "collision = { npsnet2 = { nearness = \"or\"; }; };"},
-        {"collision.mps.near_m=25", "collision = { mps = { near_m = 25; }; };"},
-        {"collision.figure8.measure=mass", "collision = { figure8 = { measure = \"mass\"; }; };"},
-        {"collision.figure8.mass_c1_kg=30000",
-         "collision = { figure8 = { mass_c1_kg = 30000; }; };"},
-        {"collision.figure8.mass_c2_kg=9000", "collision = { figure8 = { mass_c2_kg = 9000; }; };"},
-        {"collision.figure8.mass_c3_kg=0", "collision = { figure8 = { mass_c3_kg = 0; }; };"},
-        {"collision.threshold_height_m=5", "collision = { threshold_height_m = 5; };"},
-        {"collision.figure8.fast_vehicle_mps=1",
-         "collision = { figure8 = { fast_vehicle_mps = 1; }; };"},
-        {"collision.figure8.fast_fixed_mps=2",
-         "collision = { figure8 = { fast_fixed_mps = 2; }; };"},
-        {"collision.figure8.large_fixed_kg=3",
-         "collision = { figure8 = { large_fixed_kg = 3; }; };"},
-        {"collision.figure8.damage_high=4", "collision = { figure8 = { damage_high = 4; }; };"},
-        {"collision.figure8.damage_med=0.5", "collision = { figure8 = { damage_med = 0.5; }; };"},
-        {"collision.figure8.damage_low=0.25", "collision = { figure8 = { damage_low = 0.25; }; };"},
-        {"recorder.when_full=pause", "recorder = { when_full = \"pause\"; };"},
-        {"renderer.width=640", "renderer = { width = 640; };"},
-        {"renderer.height=480", "renderer = { height = 480; };"},
-        {"renderer.fps=0", "renderer = { fps = 0; };"},
-        {"renderer.view=map", "renderer = { view = \"map\"; };"},
-        {"renderer.follow=4294967295", "renderer = { follow = 4294967295; };"},
-        {"world.seed=4294967296", "/* 1 */ world = { seed = 0x100000000; # [1\n };"},
-        {"renderer.fog=false", "renderer = { fog = false; };"},
-        {"renderer.haze=false", "renderer = { haze = false; };"},
-        {"renderer.texture=false", "renderer = { texture = false; };"},
-        {"renderer.view=map,orbit", "renderer = { view = \"map, orbit\"; };"},
-        {"renderer.backend=soft", "renderer = { backend = \"soft\"; };"},
-        {"renderer.hold=false", "renderer = { hold = false; };"},
-    };
-
     struct scenario plain;
 
     (void)state;
     must_load(&plain, "", NULL);
-    for (size_t i = 0; i < COUNT(rows); i++) {
+    for (size_t i = 0; i < COUNT(set_and_text); i++) {
         struct scenario with, file;
 
-        must_load(&with, "", rows[i].override);
-        must_load(&file, rows[i].text, NULL);
+        must_load(&with, "", set_and_text[i].override);
+        must_load(&file, set_and_text[i].text, NULL);
         assert_int_not_equal(with.settings->params.scenario_hash,
                              plain.settings->params.scenario_hash);
         assert_int_not_equal(file.settings->params.scenario_hash,
                              plain.settings->params.scenario_hash);
-        with.settings->params.scenario_hash = file.settings->params.scenario_hash;
-        assert_memory_equal(&with.settings->params, &file.settings->params,
-                            sizeof(with.settings->params));
-        assert_true(with.settings->terrain == file.settings->terrain &&
-                    with.settings->objects == file.settings->objects &&
-                    with.settings->spacing_m == file.settings->spacing_m &&
-                    with.settings->flat_height_m == file.settings->flat_height_m);
+        assert_same_settings(&with, &file);
         scenario_free(&with);
         scenario_free(&file);
     }
     scenario_free(&plain);
+}
+
+static void test_every_key_is_overridden(void **state)
+{
+    (void)state;
     for (uint32_t key = 0; key < schema_scenario.count; key++) {
+        const char *name = schema_scenario.keys[key].name;
         bool tried = false;
 
-        for (size_t i = 0; i < COUNT(rows); i++)
-            tried |= strncmp(rows[i].override, schema_scenario.keys[key].name,
-                             strlen(schema_scenario.keys[key].name)) == 0;
+        for (size_t i = 0; i < COUNT(set_and_text); i++)
+            tried |= strncmp(set_and_text[i].override, name, strlen(name)) == 0;
         if (!tried)
-            fail_msg("no row sets %s", schema_scenario.keys[key].name);
+            fail_msg("no row sets %s", name);
     }
 }
 
@@ -425,6 +426,7 @@ int main(void)
         cmocka_unit_test(test_default_objects_depend_on_ground),
         cmocka_unit_test(test_vehicle_entry),
         cmocka_unit_test(test_override_equals_file),
+        cmocka_unit_test(test_every_key_is_overridden),
         cmocka_unit_test(test_last_override_counts),
         cmocka_unit_test(test_same_input_same_hash),
         cmocka_unit_test(test_methods_shapes_and_responses_combine),

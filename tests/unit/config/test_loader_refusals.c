@@ -21,13 +21,6 @@
 
 static struct error_text error;
 
-static int load_with(struct scenario *scenario, const char *text, const char *override)
-{
-    quick_config_write(quick_config.scenario_path, text);
-    return loader_scenario(scenario, quick_config.data_dir, quick_config.scenario_path, &override,
-                           override != NULL, &error);
-}
-
 /* --- refusals ----------------------------------------------------------------------------------*/
 
 struct refusal {
@@ -380,7 +373,7 @@ static void test_refusals(void **state)
         snprintf(want, sizeof(want), "%s:%d: %s", quick_config.scenario_path, refusals[i].line,
                  refusals[i].says);
         memset(&s, 0xa5, sizeof(s));
-        if (load_with(&s, refusals[i].text, NULL) == 0)
+        if (quick_config_load(&s, refusals[i].text, NULL, &error) == 0)
             fail_msg("accepted: %s", refusals[i].text);
         check_message(want);
         assert_memory_equal(&s, &empty, sizeof(s));
@@ -430,7 +423,7 @@ static void test_override_refusals(void **state)
     for (size_t i = 0; i < COUNT(rows); i++) {
         struct scenario s;
 
-        assert_int_equal(load_with(&s, "", rows[i].override), -1);
+        assert_int_equal(quick_config_load(&s, "", rows[i].override, &error), -1);
         check_message(rows[i].says);
     }
 }

@@ -21,21 +21,6 @@ static struct fixture f;
 static struct response_context context;
 static double side_by_side; /* [m] between the positions of tanks that touch */
 
-/* Returns the gap of two rows in a table [m], 1 if it is larger. */
-static double gap(const struct entities *e, uint32_t a, uint32_t b)
-{
-    struct swept_body body[2];
-    const uint32_t row[2] = {a, b};
-    for (int i = 0; i < 2; i++) {
-        struct free_turn turn;
-        body[i] = body_motion_body(context.motion, row[i], &turn);
-        body[i].path = (struct path){.at = entities_position(e, row[i])};
-        body[i].from = body[i].to = rotation_of(e->heading[row[i]], 0.0, 0.0);
-        body[i].turn = NULL;
-    }
-    return level_gap_least(&body[0], &body[1], 0.0, 1.0);
-}
-
 /* Tanks that head north in a row from west to east, with 5 cm between their tracks. */
 static int open_world(void **state)
 {
@@ -47,7 +32,7 @@ static int open_world(void **state)
     for (uint32_t i = 0; i < ROWS; i++)
         steps_rows(&f).behaviour[i] = BEHAVIOUR_IDLE;
     steps_respond(&f, &context);
-    side_by_side = 4.5 - gap(&context.next->entities, 0, 1);
+    side_by_side = 4.5 - steps_gap(&f, &context.next->entities, 0, 1);
     steps_respond_end(&context);
     for (uint32_t i = 0; i < ROWS; i++)
         steps_rows(&f).x[i] = WEST_M + (side_by_side + 0.05) * i;
@@ -118,7 +103,7 @@ static void test_a_body_that_ends_in_another_goes_back_by_half(void **state)
     assert_true(fabs(next()->x[0] - WEST_M - 0.04) < 1e-9); /* both went back once */
     assert_true(fabs(next()->vx[0] - 30.0 * 0.08) < 1e-9);
     assert_true(next()->x[1] == committed()->x[1] && next()->x[2] == committed()->x[2]);
-    assert_true(gap(next(), 0, 1) > 0.0);
+    assert_true(steps_gap(&f, next(), 0, 1) > 0.0);
 }
 
 static void test_at_last_it_goes_back_all_the_way(void **state)
@@ -142,7 +127,7 @@ static void test_a_body_that_went_back_can_send_back_the_next(void **state)
     move(1, -0.04);
     run(3, (uint32_t[]){0, 1, 2});
     for (uint32_t i = 0; i + 1 < ROWS; i++)
-        assert_true(gap(next(), i, i + 1) >= -SLACK_M);
+        assert_true(steps_gap(&f, next(), i, i + 1) >= -SLACK_M);
     assert_true(next()->x[0] == WEST_M && next()->x[3] == committed()->x[3]);
 }
 
@@ -222,7 +207,7 @@ static void test_the_order_of_rows_and_pairs_does_not_matter(void **state)
         assert_memory_equal(x[order], x[0], sizeof x[0]);
         assert_memory_equal(vx[order], vx[0], sizeof vx[0]);
         for (uint32_t i = 0; i + 1 < ROWS; i++)
-            assert_true(gap(next(), i, i + 1) >= -SLACK_M);
+            assert_true(steps_gap(&f, next(), i, i + 1) >= -SLACK_M);
     }
 }
 

@@ -21,21 +21,6 @@ static struct response_context context;
 static struct resting *resting;
 static double nose_to_tail; /* [m] between the positions of trucks that touch */
 
-/* Returns the gap of two rows in a table [m], at most 9. */
-static double gap(const struct entities *e, uint32_t a, uint32_t b)
-{
-    struct swept_body body[2];
-    const uint32_t row[2] = {a, b};
-    for (int i = 0; i < 2; i++) {
-        struct free_turn turn;
-        body[i] = body_motion_body(context.motion, row[i], &turn);
-        body[i].path = (struct path){.at = entities_position(e, row[i])};
-        body[i].from = body[i].to = rotation_of(e->heading[row[i]], 0.0, 0.0);
-        body[i].turn = NULL;
-    }
-    return level_gap_least(&body[0], &body[1], 0.0, 9.0);
-}
-
 static void begin(void)
 {
     steps_respond(&f, &context);
@@ -53,7 +38,7 @@ static int open_world(void **state)
                                             .heading_rad = HALF_PI});
     begin();
     for (int n = 0; n < 60; n++)
-        context.next->entities.x[1] -= 0.5 * gap(&context.next->entities, 0, 1);
+        context.next->entities.x[1] -= 0.5 * steps_gap(&f, &context.next->entities, 0, 1);
     nose_to_tail = context.next->entities.x[1] - WEST_M;
     steps_respond_end(&context);
     for (uint32_t i = 0; i < ROWS; i++)
@@ -108,7 +93,7 @@ static void test_a_truck_pushes_two_others_on(void **state)
     const struct entities *e = &context.next->entities;
     assert_true(fabs(e->vx[0] + e->vx[1] + e->vx[2] - 0.9) < 1e-9); /* momentum */
     assert_true(e->vx[2] > 0.2 && e->vx[0] - e->vx[1] < 0.01 && e->vx[1] - e->vx[2] < 0.01);
-    assert_true(gap(e, 0, 1) > 0.0 && gap(e, 1, 2) > 0.0);
+    assert_true(steps_gap(&f, e, 0, 1) > 0.0 && steps_gap(&f, e, 1, 2) > 0.0);
     assert_int_equal(marks(0, 1), CONTACT_RESTS | CONTACT_PRESSED);
     assert_int_equal(resting->moved_count, 3);
     assert_true(fabs(context.path[2].along.x - e->vx[2] * world_dt_s(&f.view.world)) < 1e-9);
@@ -160,10 +145,10 @@ static void test_an_overlap_parts_without_a_speed(void **state)
     steps_rows(&f).x[1] -= 0.02;
     know(0)->flags = PERSISTENT_CONTACT_OVERLAPS;
     begin();
-    before = gap(&context.next->entities, 0, 1);
+    before = steps_gap(&f, &context.next->entities, 0, 1);
     resting_solve(resting, &context);
     const struct entities *e = &context.next->entities;
-    double after = gap(e, 0, 1);
+    double after = steps_gap(&f, e, 0, 1);
     assert_true(fabs(after - before - 0.5 * (SKIN_M - before)) < 1e-4); /* half of it */
     assert_true(e->vx[0] == 0.0 && e->vx[1] == 0.0 && e->spin_y[0] == 0.0);
     assert_int_equal(marks(0, 1), CONTACT_RESTS | CONTACT_PRESSED | CONTACT_OVERLAPS);
@@ -205,7 +190,7 @@ static void test_a_new_body_takes_nothing_from_its_row(void **state)
     assert_int_equal(resting->pairs, 1);
     assert_int_equal(marks(0, 1), CONTACT_RESTS | CONTACT_PRESSED | CONTACT_OVERLAPS);
     assert_true(fabs(e->heading[1] - HALF_PI) < 0.01);
-    assert_true(fabs(e->vx[1]) < 1e-12 && gap(e, 0, 1) > -0.012);
+    assert_true(fabs(e->vx[1]) < 1e-12 && steps_gap(&f, e, 0, 1) > -0.012);
     assert_true(resting->body[1].grip_along > 0.0);
     assert_int_equal(context.events.count, 1); /* no impact will report it */
     assert_int_equal(f.view.events[context.events.first].type, EVENT_COLLISION);

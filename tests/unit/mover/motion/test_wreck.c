@@ -17,15 +17,8 @@ static struct fixture f;
 
 static int open_world(void **state)
 {
-    (void)state;
+    *state = &f;
     fixture_open(&f, "");
-    return 0;
-}
-
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
     return 0;
 }
 
@@ -229,7 +222,7 @@ static void test_a_ship_drifts_on_the_water(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, fixture_teardown)
     const struct CMUnitTest tests[] = {
         TEST(test_a_wreck_slides_to_rest_by_friction),
         TEST(test_a_vehicle_that_is_destroyed_in_place_keeps_its_pose),
