@@ -204,13 +204,15 @@ static bool touch_at_end(const struct response_context *context,
     return gap <= CONTACT_TOUCHING_M;
 }
 
-/* The bodies were there in the committed frame, perhaps not any more. */
+/* A body that is gone is as it was in the committed frame. */
 static struct event_party party_of(const struct response_context *context, uint32_t row,
                                    uint32_t id)
 {
-    const struct entities *w = &context->motion->committed->entities;
+    const struct entities *e = &context->next->entities;
+    if (!(id & PERSISTENT_CONTACT_FIXED) && !entities_alive(e, row, id))
+        e = &context->motion->committed->entities;
     if (!(id & PERSISTENT_CONTACT_FIXED))
-        return (struct event_party){id, w->kind[row], 0, w->damage[row]};
+        return (struct event_party){id, e->kind[row], 0, e->damage[row]};
     uint32_t object = id & ~PERSISTENT_CONTACT_FIXED;
     return (struct event_party){object + 1, context->world->fixed[object].kind, 1,
                                 context->next->fixed_damage[object]};

@@ -264,12 +264,14 @@ static void test_contacts_without_room_are_told(void **state)
     press(2, 5, 0);
     press(2, 3, 0);
     strike(1, 5, 2, 6.0f);
+    context.next->entities.damage[5] = DAMAGE_HIGH; /* in this frame */
     const struct persistent_contact *contacts = finish(3, 3);
     assert_int_equal(context.next->head->tally.contacts_refused, 3);
     assert_true(contacts[0].b_id == 6 && contacts[1].a_id == 2 && contacts[2].a_id == 3);
     for (uint32_t i = 0; i < 3; i++) {
         assert_int_equal(event_of(i)->contact_end.because, CONTACT_END_NO_ROOM);
         assert_true(event_of(i)->contact_end.a.id == i + 3 && event_of(i)->contact_end.b.id == 6);
+        assert_int_equal(event_of(i)->contact_end.b.damage, DAMAGE_HIGH);
     }
 }
 
