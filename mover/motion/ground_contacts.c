@@ -2,7 +2,8 @@
  * Coherence", GDC 2005), started cold in each sub-step. */
 #include "mover/motion/ground_contacts.h"
 
-#include "mover/motion/kinematics.h"
+#include "mover/query/ground_marks.h"
+#include "world/terrain/square_bounds.h"
 #include "world/world.h"
 
 #define GROUND_FRICTION    0.7 /* of soil; a contact has the geometric mean of kind and soil */
@@ -29,6 +30,7 @@
 #define PUSH_SHARE   0.3 /* of the depth that a sub-step takes away */
 #define PUSH_MAX_MPS 3.0
 #define MARGIN_M     0.02 /* points this near to the ground are contacts at any speed */
+#define NORMAL_M     1.0  /* terrain_normal() looks no farther than this about a point */
 #define STEEPEST     2.0  /* vertical over perpendicular distance to the ground, at most */
 
 void ground_contacts_begin(struct ground_contacts *contacts, const struct kind *kind)
@@ -64,6 +66,30 @@ static struct ground_contact *place_for(struct ground_contacts *contacts, double
     return widest->gap_m > gap ? widest : NULL;
 }
 
+/* Returns the craters if some may be under the body, or NULL. */
+static const struct crater_index *craters_under(const struct step_context *context,
+                                                const struct body_points *points,
+                                                const struct rigid_body *body)
+{
+    double reach = points->reach_m + body->inertia.centre_m;
+    bool marked = ground_marks_at(context->ground_marks, body->centre.x, body->centre.z) &
+                  GROUND_MARKS_CRATER;
+    return marked || reach + NORMAL_M > GROUND_MARKS_NEAR_M ? context->craters : NULL;
+}
+
+/* Returns the steepest slope of the ground under the body, as a tangent, or more. */
+static double steepest_under(const struct step_context *context, const struct rigid_body *body,
+                             double reach_m, bool cratered)
+{
+    struct vec3 at = body->centre;
+    struct gridsquare_box box =
+        gridsquare_box_of(at.x - reach_m, at.z - reach_m, at.x + reach_m, at.z + reach_m);
+    if (cratered || box.x0 != box.x1 || box.z0 != box.z1)
+        return STEEPEST;
+    uint16_t bound = square_bounds_of(context->slopes, gridsquare_index(box.x0, box.z0));
+    return bound == SQUARE_BOUNDS_NONE ? STEEPEST : bound * SQUARE_BOUNDS_SLOPE_STEP;
+}
+
 static void add(struct ground_contacts *contacts, const struct rigid_body *body,
                 const struct mat3 *inverse, const struct ground_contact *found)
 {
@@ -86,20 +112,27 @@ void ground_contacts_find(struct ground_contacts *contacts, const struct step_co
     struct mat3 inverse = mass_properties_inverse_world(&body->inertia, &turn);
     double speed = vec3_length(body->velocity) + vec3_length(body->spin) * points->reach_m;
     double margin = MARGIN_M + speed * dt_s;
-    double high = body->centre.y - kinematics_ground(context, body->centre.x, body->centre.z);
+    const struct terrain *terrain = &context->world->terrain;
+    const struct crater_index *craters = craters_under(context, points, body);
+    double reach = points->reach_m + body->inertia.centre_m;
+    double ground = terrain_height(terrain, craters, body->centre.x, body->centre.z);
+    /* No point higher than this can be near the ground. */
+    double high = ground + reach * steepest_under(context, body, reach, craters != NULL) +
+                  STEEPEST * margin - body->centre.y;
     contacts->count = 0;
-    if (high > STEEPEST * (points->reach_m + body->inertia.centre_m + margin))
-        return; /* all points are high over the ground */
+    if (high < -reach)
+        return;
     for (uint32_t i = 0; i < points->count; i++) {
         struct vec3 point = points->point[i];
         point.y -= body->inertia.centre_m;
+        if (turn.m[1][0] * point.x + turn.m[1][1] * point.y + turn.m[1][2] * point.z > high)
+            continue;
         struct ground_contact found = {.arm = rotation_apply(&turn, point)};
         struct vec3 at = vec3_add(body->centre, found.arm);
-        double above = at.y - kinematics_ground(context, at.x, at.z);
+        double above = at.y - terrain_height(terrain, craters, at.x, at.z);
         if (above > STEEPEST * margin)
             continue;
-        found.axis[CONTACT_NORMAL] =
-            terrain_normal(&context->world->terrain, context->craters, at.x, at.z);
+        found.axis[CONTACT_NORMAL] = terrain_normal(terrain, craters, at.x, at.z);
         found.gap_m = above * found.axis[CONTACT_NORMAL].y;
         if (found.gap_m <= margin)
             add(contacts, body, &inverse, &found);
@@ -108,37 +141,43 @@ void ground_contacts_find(struct ground_contacts *contacts, const struct step_co
 
 /* --- impulses ----------------------------------------------------------------------------------*/
 
-static double speed_along(const struct ground_contact *contact, int k, struct vec3 velocity,
-                          struct vec3 spin)
+static inline double speed_along(const struct ground_contact *contact, int k, struct vec3 velocity,
+                                 struct vec3 spin)
 {
     return vec3_dot(velocity, contact->axis[k]) + vec3_dot(spin, contact->lever[k]);
 }
 
-static void apply(const struct ground_contact *contact, int k, double impulse, double mass_kg,
-                  struct vec3 *velocity, struct vec3 *spin)
+static inline void apply(const struct ground_contact *contact, int k, double impulse,
+                         double inverse_mass, struct vec3 *velocity, struct vec3 *spin)
 {
-    *velocity = vec3_add(*velocity, vec3_scale(contact->axis[k], impulse / mass_kg));
+    *velocity = vec3_add(*velocity, vec3_scale(contact->axis[k], impulse * inverse_mass));
     *spin = vec3_add(*spin, vec3_scale(contact->twist[k], impulse));
 }
 
 /* Gives the point its least speed along the normal, as far as a push can. Returns the change of its
  * speed. */
-static double solve_normal(struct ground_contact *contact, struct rigid_body *body)
+static inline double solve_normal(struct ground_contact *contact, double inverse_mass,
+                                  struct rigid_body *body)
 {
     double off =
         contact->least_mps - speed_along(contact, CONTACT_NORMAL, body->velocity, body->spin);
     double before = contact->impulse_ns[CONTACT_NORMAL];
     double after = maths_max(0.0, before + off * contact->mass_kg[CONTACT_NORMAL]);
     contact->impulse_ns[CONTACT_NORMAL] = after;
-    apply(contact, CONTACT_NORMAL, after - before, body->inertia.mass_kg, &body->velocity,
-          &body->spin);
+    if (after == before)
+        return 0.0;
+    apply(contact, CONTACT_NORMAL, after - before, inverse_mass, &body->velocity, &body->spin);
     return fabs(after - before) / contact->mass_kg[CONTACT_NORMAL];
 }
 
 /* Ends the slip of the point, as far as the friction cone allows. */
-static void solve_friction(struct ground_contact *contact, double friction, struct rigid_body *body)
+static inline void solve_friction(struct ground_contact *contact, double friction,
+                                  double inverse_mass, struct rigid_body *body)
 {
     double most = friction * contact->impulse_ns[CONTACT_NORMAL], after[CONTACT_AXES];
+    if (most == 0.0 && contact->impulse_ns[CONTACT_ALONG] == 0.0 &&
+        contact->impulse_ns[CONTACT_ACROSS] == 0.0)
+        return;
     for (int k = CONTACT_ALONG; k < CONTACT_AXES; k++)
         after[k] = contact->impulse_ns[k] -
                    contact->mass_kg[k] * speed_along(contact, k, body->velocity, body->spin);
@@ -148,19 +187,20 @@ static void solve_friction(struct ground_contact *contact, double friction, stru
     for (int k = CONTACT_ALONG; k < CONTACT_AXES; k++) {
         double change = share * after[k] - contact->impulse_ns[k];
         contact->impulse_ns[k] += change;
-        apply(contact, k, change, body->inertia.mass_kg, &body->velocity, &body->spin);
+        apply(contact, k, change, inverse_mass, &body->velocity, &body->spin);
     }
 }
 
 static void sweep(struct ground_contacts *contacts, struct rigid_body *body, int sweeps)
 {
+    double inverse_mass = 1.0 / body->inertia.mass_kg;
     for (int s = 0; s < sweeps; s++) {
         double most = 0.0;
         for (uint32_t n = 0; n < contacts->count; n++) {
             uint32_t i = s & 1 ? contacts->count - 1 - n : n;
             struct ground_contact *contact = &contacts->contact[i];
-            most = maths_max(most, solve_normal(contact, body));
-            solve_friction(contact, contacts->friction, body);
+            most = maths_max(most, solve_normal(contact, inverse_mass, body));
+            solve_friction(contact, contacts->friction, inverse_mass, body);
         }
         if (most < SETTLED_MPS)
             return;
@@ -251,6 +291,7 @@ void ground_contacts_push(struct ground_contacts *contacts, const struct rigid_b
                           double dt_s, struct vec3 *velocity_mps, struct vec3 *spin_rps)
 {
     struct vec3 velocity = {0.0, 0.0, 0.0}, spin = {0.0, 0.0, 0.0};
+    double inverse_mass = 1.0 / body->inertia.mass_kg;
     for (uint32_t n = 0; n < contacts->count; n++)
         contacts->contact[n].push_kgmps = 0.0;
     for (uint32_t n = 0; n < PUSH_SWEEPS * contacts->count; n++) {
@@ -259,8 +300,8 @@ void ground_contacts_push(struct ground_contacts *contacts, const struct rigid_b
             wanted_push(contact, body, dt_s) - speed_along(contact, CONTACT_NORMAL, velocity, spin);
         double before = contact->push_kgmps;
         contact->push_kgmps = maths_max(0.0, before + off * contact->mass_kg[CONTACT_NORMAL]);
-        apply(contact, CONTACT_NORMAL, contact->push_kgmps - before, body->inertia.mass_kg,
-              &velocity, &spin);
+        apply(contact, CONTACT_NORMAL, contact->push_kgmps - before, inverse_mass, &velocity,
+              &spin);
     }
     *velocity_mps = velocity;
     *spin_rps = spin;

@@ -20,10 +20,29 @@
 #define REST_S       0.5
 #define REST_DEPTH_M 0.02
 
+/* A body that has no energy for it is lifted out of the ground only from a greater depth [m]. */
+#define LIFT_DEPTH_M (2.0 * GROUND_CONTACTS_SLOP_M)
+
+/* The ground holds a wreck at rest that its neighbours push no faster than this [m/s, rad/s]. */
+#define HELD_MPS 1e-3
+#define HELD_RPS 1e-3
+
 static bool is_still(const struct entities *m, uint32_t i)
 {
     return m->vx[i] == 0.0 && m->vy[i] == 0.0 && m->vz[i] == 0.0 && m->spin_x[i] == 0.0 &&
            m->spin_y[i] == 0.0 && m->spin_z[i] == 0.0;
+}
+
+static bool is_slower(const struct entities *m, uint32_t i, double most_mps, double most_rps)
+{
+    struct vec3 spin = {m->spin_x[i], m->spin_y[i], m->spin_z[i]};
+    return vec3_length(entities_velocity(m, i)) < most_mps && vec3_length(spin) < most_rps;
+}
+
+static void stop(struct entities *m, uint32_t i)
+{
+    entities_set_velocity(m, i, (struct vec3){0.0, 0.0, 0.0});
+    m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
 }
 
 static bool is_due(const struct step_context *context, uint32_t i)
@@ -80,7 +99,7 @@ static void sub_step(struct ground_contacts *contacts, struct rigid_body *body, 
     body->centre = vec3_add(body->centre, vec3_scale(vec3_add(body->velocity, push), dt_s));
     rigid_body_turn(body, twist, dt_s);
     if (impulse > 0.0 && !rigid_body_limit_energy(body, energy) &&
-        ground_contacts_depth(contacts) <= GROUND_CONTACTS_SLOP_M) {
+        ground_contacts_depth(contacts) <= LIFT_DEPTH_M) {
         body->centre = before.centre; /* rounding alone has lifted it */
         body->turn = before.turn;
     }
@@ -91,16 +110,12 @@ static void sub_step(struct ground_contacts *contacts, struct rigid_body *body, 
 static void settle(const struct step_context *context, uint32_t i, double depth_m)
 {
     struct entities *m = context->m;
-    struct vec3 spin = {m->spin_x[i], m->spin_y[i], m->spin_z[i]};
-    bool slow = vec3_length(entities_velocity(m, i)) < REST_MPS && vec3_length(spin) < REST_RPS &&
-                depth_m < REST_DEPTH_M;
-    if (!slow) {
+    if (!is_slower(m, i, REST_MPS, REST_RPS) || depth_m >= REST_DEPTH_M) {
         m->until_tick[i] = 0;
     } else if (m->until_tick[i] == 0) {
         m->until_tick[i] = (uint32_t)context->tick + (uint32_t)ceil(REST_S / context->dt_s);
     } else if (is_due(context, i)) {
-        entities_set_velocity(m, i, (struct vec3){0.0, 0.0, 0.0});
-        m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
+        stop(m, i);
     }
 }
 
@@ -123,9 +138,12 @@ static void tumble(const struct step_context *context, uint32_t i)
 
 void wreck_row(const struct step_context *context, uint32_t i)
 {
-    if (is_due(context, i) && is_still(context->m, i))
+    bool due = is_due(context, i);
+    if (due && is_still(context->m, i))
         return; /* at rest: the common case */
-    if (context->world->kinds[context->m->kind[i]].domain == DOMAIN_SEA)
+    if (due && is_slower(context->m, i, HELD_MPS, HELD_RPS))
+        stop(context->m, i);
+    else if (context->world->kinds[context->m->kind[i]].domain == DOMAIN_SEA)
         drift(context, i);
     else
         tumble(context, i);

@@ -44,13 +44,15 @@ void steps_small_ring(const struct fixture *fixture, uint32_t slots)
     params->intents_per_frame = slots / 16;
 }
 
-/* Clears the mover's cache of the ground below its rows. */
+/* Clears what the mover remembers of the ground: the posts below its rows, and steepest slopes. */
 static void clear_terrain_cache(const struct fixture *fixture)
 {
     const struct mover *mover = &fixture->stepper.mover;
     uint32_t capacity = mover->world->params->capacity;
     memset(mover->terrain_entries, 0, capacity * sizeof *mover->terrain_entries);
     memset(mover->terrain_entries_ahead, 0, capacity * sizeof *mover->terrain_entries_ahead);
+    for (uint32_t square = 0; square < GRIDSQUARE_COUNT; square++)
+        atomic_store_explicit(&mover->slopes.bound[square], 0, memory_order_relaxed);
 }
 
 void steps_ground(const struct fixture *fixture, steps_height *height, const void *context)

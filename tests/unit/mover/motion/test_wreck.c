@@ -207,6 +207,21 @@ static void test_a_crater_and_a_push_wake_a_wreck(void **state)
     assert_true(rests(row) && steps_rows(&f).z[row] > at.z + 1.0);
 }
 
+static void test_a_light_push_does_not_wake_a_wreck(void **state)
+{
+    static const double speeds[] = {0.5e-3, 2e-3};
+    (void)state;
+    for (int n = 0; n < 2; n++) {
+        steps_empty(&f);
+        uint32_t row = put("tank", 100.0, (struct vec3){0.0, 0.0, 0.0});
+        fixture_run(&f, 2 * HZ);
+        double from = steps_rows(&f).z[row];
+        steps_rows(&f).vz[row] = speeds[n];
+        fixture_run(&f, 1);
+        assert_true(rests(row) && (steps_rows(&f).z[row] == from) == (n == 0));
+    }
+}
+
 static void test_a_ship_drifts_on_the_water(void **state)
 {
     (void)state;
@@ -233,6 +248,7 @@ int main(void)
         TEST(test_a_jet_ploughs_to_a_halt_within_a_kilometre),
         TEST(test_friction_holds_a_wreck_on_a_slope_or_lets_it_go),
         TEST(test_a_crater_and_a_push_wake_a_wreck),
+        TEST(test_a_light_push_does_not_wake_a_wreck),
         TEST(test_a_ship_drifts_on_the_water),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
