@@ -17,6 +17,8 @@
 /* A contact that would leave slower than this along the normal does not bounce [m/s]. */
 #define STOP_MPS 0.2
 
+#define FRICTION_HEAT 0.5 /* share of the work of friction between vehicles that becomes heat */
+
 static const struct kind *kind_of(const struct response_context *context, uint32_t row)
 {
     return &context->world->kinds[context->next->entities.kind[row]];
@@ -114,6 +116,15 @@ struct solver_contact contact_impulse_contact(const struct response_context *con
 
 /* --- afterwards --------------------------------------------------------------------------------*/
 
+/* Returns the part of the lost energy that bends and breaks [J]: all that is lost along the normal,
+ * but not the share of the friction's work that becomes heat. */
+static double crushing_j(const struct solver_contact *contact)
+{
+    double impulse = fabs(vec3_dot(contact->impulse, contact->normal));
+    double along = 0.5 * impulse * contact->closing_mps * (1.0 - contact->restitution);
+    return contact->lost_j - FRICTION_HEAT * maths_max(0.0, contact->lost_j - along);
+}
+
 void contact_impulse_damage(struct response_context *context, struct island_contact *met,
                             const struct solver_contact *contact)
 {
@@ -131,9 +142,10 @@ void contact_impulse_damage(struct response_context *context, struct island_cont
     } else { /* the larger mass damages the smaller one more (row 30) */
         const struct kind *kb = kind_of(context, impact->b);
         double share_a = kb->mass_kg / (ka->mass_kg + kb->mass_kg);
-        double harm_j = contact->lost_j * CONTACT_IMPULSE_HARM;
-        impact_damage_row(context, impact->a, impact, -1.0, harm_j * share_a, spring);
-        impact_damage_row(context, impact->b, impact, 1.0, harm_j * (1.0 - share_a), spring);
+        double crushing = crushing_j(contact), lost_a = crushing * share_a;
+        double lost_b = crushing - lost_a;
+        impact_damage_vehicle(context, impact->a, impact, -1.0, lost_a, spring);
+        impact_damage_vehicle(context, impact->b, impact, 1.0, lost_b, spring);
     }
     write_collision_event(context, &met->report, impact, &met->outcome);
 }

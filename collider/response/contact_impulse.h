@@ -4,12 +4,6 @@
 
 #include "collider/response/island.h"
 
-/* Energy that two vehicles lose in a collision damages this many times as much as the energy of a
- * charge that explodes on one: all of it goes into their frames, while most of a charge's goes
- * past. It is chosen so that the thesis's cases (p. 14) come true: two tanks that cross at 20 mph
- * are both highly damaged, and a jeep that a tank hits at 40 mph is destroyed. */
-#define CONTACT_IMPULSE_HARM 17.5
-
 /* Returns true if the fixed object bends aside or breaks, so that the row continues more slowly.
  * Nothing else needs to be done about the contact then. */
 bool contact_impulse_gives_way(struct response_context *context, struct island_contact *met);

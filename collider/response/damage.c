@@ -10,21 +10,15 @@
 #include "world/terrain/fixed.h"
 #include "world/world.h"
 
-/* A body's levels of damage as shares of resistance_j; those in between only show how much is
- * left. */
-#define SHARE_HIGH 0.6
-#define SHARE_MED  0.3
-#define SHARE_LOW  0.1
-
 static enum damage level(double share)
 {
     if (share >= 1.0)
         return DAMAGE_DESTROYED;
-    if (share >= SHARE_HIGH)
+    if (share >= DAMAGE_SHARE_HIGH)
         return DAMAGE_HIGH;
-    if (share >= SHARE_MED)
+    if (share >= DAMAGE_SHARE_MED)
         return DAMAGE_MED;
-    return share >= SHARE_LOW ? DAMAGE_LOW : DAMAGE_NONE;
+    return share >= DAMAGE_SHARE_LOW ? DAMAGE_LOW : DAMAGE_NONE;
 }
 
 static void set_damage(struct response_context *context, uint32_t row, enum damage damage)

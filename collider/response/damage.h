@@ -4,6 +4,12 @@
 
 #include "collider/response/response_context.h"
 
+/* A body's levels of damage as shares of resistance_j; those in between only show how much is
+ * left. */
+#define DAMAGE_SHARE_HIGH 0.6
+#define DAMAGE_SHARE_MED  0.3
+#define DAMAGE_SHARE_LOW  0.1
+
 /* Adds this energy to the row's damage. The row is destroyed when the sum reaches its kind's
  * resistance_j. */
 void damage_row(struct response_context *context, uint32_t row, double joules, double time);

@@ -3,7 +3,9 @@
 #include "collider/response/damage.h"
 #include "collider/response/contact_impulse.h"
 #include "collider/response/deformation.h"
+#include "collider/response/impact_damage.h"
 #include "tests/support/steps.h"
+#include "world/entity/mass_properties.h"
 #include "world/params.h"
 #include "world/terrain/fixed.h"
 
@@ -67,7 +69,7 @@ static void test_a_head_on_impact_follows_newton(void **state)
     assert_true(fabs(collision()->toi - 0.5) < 1e-9);
     assert_int_equal(collision()->response, RESPONSE_BOUNCE);
     /* Lost: half the reduced mass of 750 times 64 times 1 - e^2, the jeep three quarters of it. */
-    const double jeep_j = 13500.0 * CONTACT_IMPULSE_HARM, tank_j = 4500.0 * CONTACT_IMPULSE_HARM;
+    const double jeep_j = 13500.0 * IMPACT_DAMAGE_OUTSIDE, tank_j = 4500.0 * IMPACT_DAMAGE_OUTSIDE;
     assert_true(fabs(e.harm_j[jeep] - deformation_of(steps_kind(&f, "jeep"), jeep_j).harm_j) <
                 1e-6);
     assert_true(fabs(e.harm_j[tank] - deformation_of(steps_kind(&f, "tank"), tank_j).harm_j) <
@@ -153,6 +155,29 @@ static void test_without_friction_only_the_speed_along_the_normal_changes(void *
     assert_true(fabs(across + 8.0 * 0.6) < 1e-6);
     assert_true(fabs(along - 8.0 * 0.8 * 5.0 / 8.0) < 1e-6);
     assert_true(fabs(e.vx[jeep] * 0.6 - e.vz[jeep] * 0.8) < 1e-6);
+}
+
+static double kinetic_j(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    const struct mass_properties mass = mass_properties_of(&f.view.world.kinds[e.kind[row]]);
+    return 0.5 * mass.mass_kg * (e.vx[row] * e.vx[row] + e.vz[row] * e.vz[row]) +
+           0.5 * mass.moment.y * e.spin_y[row] * e.spin_y[row];
+}
+
+static void test_half_of_the_work_of_friction_is_heat(void **state)
+{
+    uint32_t tank, jeep;
+    (void)state;
+    graze(0.5, &tank, &jeep);
+    struct entities e = steps_rows(&f);
+    double lost = 0.5 * 3000.0 * 64.0 - kinetic_j(tank) - kinetic_j(jeep);
+    double impulse = 1000.0 * (e.vx[jeep] * 0.8 + e.vz[jeep] * 0.6);
+    double along = 0.5 * impulse * 8.0 * 0.8 * (1.0 - 0.5), rubbed = lost - along;
+    assert_true(rubbed > 0.02 * lost);
+    double jeep_j = 0.75 * (along + 0.5 * rubbed) * IMPACT_DAMAGE_OUTSIDE;
+    double harm = deformation_of(steps_kind(&f, "jeep"), jeep_j).harm_j;
+    assert_true(fabs(e.harm_j[jeep] - harm) < 1e-3 * harm);
 }
 
 /* --- fixed objects -----------------------------------------------------------------------------*/
@@ -282,6 +307,7 @@ int main(void)
         TEST(test_the_softer_of_the_two_decides_the_bounce),
         TEST(test_bodies_continue_from_where_they_touched),
         TEST(test_friction_drags_along_and_turns),
+        TEST(test_half_of_the_work_of_friction_is_heat),
         TEST(test_without_friction_only_the_speed_along_the_normal_changes),
         TEST(test_a_wall_throws_it_back),
         TEST(test_what_breaks_costs_its_resistance_and_takes_momentum),

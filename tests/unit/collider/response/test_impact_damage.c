@@ -115,10 +115,28 @@ static void test_a_wreck_is_dented_and_not_harmed(void **state)
     assert_int_equal(dent(1)->id, row + 1);
 }
 
+static void test_what_is_outside_breaks_before_the_frame(void **state)
+{
+    struct kind kind = {.resistance_j = 1e6};
+    double room = 0.6e6 / IMPACT_DAMAGE_OUTSIDE, harm = 0.0;
+    (void)state;
+    assert_true(fabs(impact_damage_harm(&kind, 0.0, 1000.0) - 1000.0 * IMPACT_DAMAGE_OUTSIDE) <
+                1e-6);
+    assert_true(fabs(impact_damage_harm(&kind, 0.0, room + 1000.0) - 0.6e6 -
+                     1000.0 * IMPACT_DAMAGE_INSIDE) < 1e-6);
+    assert_true(fabs(impact_damage_harm(&kind, 0.7e6, 1000.0) - 1000.0 * IMPACT_DAMAGE_INSIDE) <
+                1e-6);
+    for (int n = 0; n < 100; n++) /* many small impacts are as bad as one of the same energy */
+        harm += impact_damage_harm(&kind, harm, 2.0 * room / 100.0);
+    assert_true(fabs(harm - impact_damage_harm(&kind, 0.0, 2.0 * room)) < 1e-3);
+    assert_true(impact_damage_harm(&kind, 0.0, 0.0) == 0.0);
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
+        TEST(test_what_is_outside_breaks_before_the_frame),
         TEST(test_rows_33_47_an_impact_damages_and_dents),
         TEST(test_a_spring_dents_each_skin_by_half_its_compression),
         TEST(test_row_26_a_rigid_skin_takes_less_of_the_spring),

@@ -3,6 +3,7 @@
 #include "collider/response/contact_impulse.h"
 #include "collider/response/island.h"
 #include "collider/response/deformation.h"
+#include "collider/response/impact_damage.h"
 #include "collider/response/contact_spring.h"
 #include "tests/support/steps.h"
 #include "world/entity/dent.h"
@@ -197,7 +198,7 @@ static void test_rows_33_47_a_blow_leaves_a_dent_where_it_struck(void **state)
     fixture_run(&f, 1);
     struct state now = fixture_state(&f);
     double half = 0.5 * 0.5 * (0.5 * kind->mass_kg) * 3600.0; /* half of what is lost */
-    struct deformation crush = deformation_of(kind, half * CONTACT_IMPULSE_HARM);
+    struct deformation crush = deformation_of(kind, half * IMPACT_DAMAGE_OUTSIDE);
     assert_int_equal(now.head->dent_count, 2);
     assert_int_equal(now.dents[0].id, one + 1);
     assert_int_equal(now.dents[1].id, two + 1);
