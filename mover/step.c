@@ -323,6 +323,10 @@ static void pull_trigger(struct serial_context *context, uint32_t i)
     const struct entities *m = &context->moved->entities;
     uint8_t trigger = m->trigger[i];
     table_set_trigger(&context->writer, i, 0);
+    if (trigger == TRIGGER_BROKEN) {
+        wreck_tell_broken(context, i);
+        return;
+    }
     if (trigger >> TRIGGER_REASON_SHIFT) {
         struct event *event = serial_context_intent(context, EVENT_AGENT);
         if (event)

@@ -66,7 +66,8 @@ struct desired_motion {
 
 /* The trigger column: a row's requests to the serial part of the step. */
 #define TRIGGER_FIRE         1u
-#define TRIGGER_FIRE_AT      2u /* at its goal, a point on the ground */
-#define TRIGGER_REASON_SHIFT 2u /* above: enum agent_reason + 1 of a change of behaviour */
+#define TRIGGER_FIRE_AT      2u        /* at its goal, a point on the ground */
+#define TRIGGER_REASON_SHIFT 2u        /* above: enum agent_reason + 1 of a change of behaviour */
+#define TRIGGER_BROKEN       UINT8_MAX /* alone: a wreck has broken up */
 
 #endif

@@ -18,6 +18,11 @@
  * (docs/decisions/031-wrecks-on-the-ground.md). */
 #define PLOUGH_S2PM2 2.5e-4
 
+/* The same of pieces: half of the area that bears them digs a furrow, not a tenth. */
+#define PLOUGH_PIECES_S2PM2 1.25e-3
+
+#define SOLVED_AGAIN 0.9 /* ploughing that keeps less than this of the speed is solved again */
+
 /* Resistance against rolling: a lever for the normal impulse, as a share of the distance between
  * the point and the centre of mass. Without it a round hull would roll down every slope. */
 #define ROLLING 0.1
@@ -38,6 +43,13 @@ void ground_contacts_begin(struct ground_contacts *contacts, const struct kind *
     contacts->count = 0;
     contacts->friction = sqrt(kind->friction * GROUND_FRICTION);
     contacts->restitution = maths_min(kind->restitution, GROUND_RESTITUTION);
+    contacts->plough_s2pm2 = PLOUGH_S2PM2;
+}
+
+void ground_contacts_break(struct ground_contacts *contacts)
+{
+    contacts->restitution = 0.0;
+    contacts->plough_s2pm2 = PLOUGH_PIECES_S2PM2;
 }
 
 /* --- the points near the ground ----------------------------------------------------------------*/
@@ -240,9 +252,20 @@ double ground_contacts_solve(struct ground_contacts *contacts, struct rigid_body
     return sum;
 }
 
+double ground_contacts_taken(const struct ground_contacts *contacts, const struct rigid_body *body)
+{
+    double taken = 0.0;
+    for (uint32_t i = 0; i < contacts->count; i++) {
+        const struct ground_contact *contact = &contacts->contact[i];
+        double leaving = speed_along(contact, CONTACT_NORMAL, body->velocity, body->spin);
+        taken += 0.5 * contact->impulse_ns[CONTACT_NORMAL] * (contact->closing_mps - leaving);
+    }
+    return taken;
+}
+
 /* --- ploughing ---------------------------------------------------------------------------------*/
 
-void ground_contacts_plough(const struct ground_contacts *contacts, struct rigid_body *body,
+void ground_contacts_plough(struct ground_contacts *contacts, struct rigid_body *body,
                             double impulse_ns)
 {
     struct vec3 normal = {0.0, 0.0, 0.0};
@@ -254,9 +277,12 @@ void ground_contacts_plough(const struct ground_contacts *contacts, struct rigid
     struct vec3 along = vec3_sub(body->velocity, off);
     double speed = vec3_length(along);
     /* The solution of dv/dt = -PLOUGH v2 N/m over the sub-step. */
-    double keeps = 1.0 / (1.0 + PLOUGH_S2PM2 * speed * impulse_ns / body->inertia.mass_kg);
+    double keeps =
+        1.0 / (1.0 + contacts->plough_s2pm2 * speed * impulse_ns / body->inertia.mass_kg);
     body->velocity = vec3_add(off, vec3_scale(along, keeps));
     body->spin = vec3_scale(body->spin, keeps);
+    if (keeps < SOLVED_AGAIN) /* points would go into the ground without the spin that it had */
+        sweep(contacts, body, SWEEPS);
 }
 
 void ground_contacts_roll(const struct ground_contacts *contacts, struct rigid_body *body)

@@ -29,13 +29,17 @@ struct ground_contact {
 
 struct ground_contacts {
     uint32_t count;
-    double friction;    /* Coulomb's coefficient of the kind on the ground */
-    double restitution; /* of a slow impact */
+    double friction;     /* Coulomb's coefficient of the kind on the ground */
+    double restitution;  /* of a slow impact */
+    double plough_s2pm2; /* by which ploughing adds the square of the speed to the friction */
     struct ground_contact contact[GROUND_CONTACTS_MAX];
 };
 
 /* Sets the friction and the restitution of a kind on the ground; no contacts. */
 void ground_contacts_begin(struct ground_contacts *contacts, const struct kind *kind);
+
+/* Makes the body a field of pieces, which do not bounce and plough more. */
+void ground_contacts_break(struct ground_contacts *contacts);
 
 /* Finds the points that can reach the ground within dt_s at the body's velocity and spin. */
 void ground_contacts_find(struct ground_contacts *contacts, const struct step_context *context,
@@ -48,8 +52,12 @@ void ground_contacts_find(struct ground_contacts *contacts, const struct step_co
 double ground_contacts_solve(struct ground_contacts *contacts, struct rigid_body *body,
                              double dt_s);
 
+/* Returns the energy that the ground has taken from the body along its normals in the last solution
+ * [J]. */
+double ground_contacts_taken(const struct ground_contacts *contacts, const struct rigid_body *body);
+
 /* Slows a body that ploughs through the soil under this sum of impulses. */
-void ground_contacts_plough(const struct ground_contacts *contacts, struct rigid_body *body,
+void ground_contacts_plough(struct ground_contacts *contacts, struct rigid_body *body,
                             double impulse_ns);
 
 /* Slows the spin by the resistance of soil against rolling. */

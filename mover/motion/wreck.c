@@ -4,6 +4,7 @@
 #include "mover/motion/ground_contacts.h"
 #include "mover/motion/kinematics.h"
 #include "mover/motion/spin.h"
+#include "world/state.h"
 #include "world/world.h"
 
 #define AFLOAT_FRICTION 0.6 /* of a ship's wreck: share of the weight */
@@ -81,14 +82,16 @@ static double sub_steps(const struct rigid_body *body, const struct body_points 
 }
 
 /* Moves the body for a sub-step. Free motion is exact in the height; with contacts the velocity at
- * the end counts, which never adds energy. */
-static void sub_step(struct ground_contacts *contacts, struct rigid_body *body, double dt_s)
+ * the end counts, which never adds energy. Returns the energy that the ground took along its
+ * normals [J]. */
+static double sub_step(struct ground_contacts *contacts, struct rigid_body *body, double dt_s)
 {
     const double fall = GRAVITY_MPS2 * dt_s, energy = rigid_body_energy(body);
     const struct rigid_body before = *body;
     struct vec3 push = {0.0, 0.0, 0.0}, twist = {0.0, 0.0, 0.0};
     body->velocity.y -= fall;
     double impulse = ground_contacts_solve(contacts, body, dt_s);
+    double taken = ground_contacts_taken(contacts, body);
     if (impulse > 0.0) {
         ground_contacts_plough(contacts, body, impulse);
         ground_contacts_roll(contacts, body);
@@ -103,6 +106,46 @@ static void sub_step(struct ground_contacts *contacts, struct rigid_body *body, 
         body->centre = before.centre; /* rounding alone has lifted it */
         body->turn = before.turn;
     }
+    return taken;
+}
+
+/* Breaks up an aircraft from which the ground took this energy at once. */
+static void break_up(const struct step_context *context, uint32_t i, double taken_j,
+                     struct ground_contacts *contacts)
+{
+    struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    if (kind->domain != DOMAIN_AIR || m->flags[i] & ENTITY_FLAG_BROKEN ||
+        taken_j < WRECK_BREAKS_JPKG * kind->mass_kg)
+        return;
+    m->flags[i] |= ENTITY_FLAG_BROKEN;
+    m->trigger[i] = TRIGGER_BROKEN;
+    ground_contacts_break(contacts);
+}
+
+void wreck_tell_broken(struct serial_context *context, uint32_t i)
+{
+    const struct step_context *step = context->step;
+    const struct entities *m = step->m;
+    struct vec3 before = entities_velocity(&step->committed->entities, i);
+    struct vec3 change = vec3_sub(entities_velocity(m, i), before), at = entities_position(m, i);
+    struct vec3 normal = terrain_normal(&step->world->terrain, step->craters, at.x, at.z);
+    struct event *event = serial_context_intent(context, EVENT_COLLISION);
+    table_set_changed_tick(&context->writer, i, (uint32_t)step->tick);
+    context->moved->head->tally.collisions++;
+    if (event == NULL)
+        return;
+    struct event_collision *hit = &event->collision;
+    hit->a = serial_context_party(context, i);
+    hit->b = (struct event_party){0, KIND_NONE, 1, DAMAGE_NONE};
+    hit->point[0] = at.x, hit->point[1] = at.y, hit->point[2] = at.z;
+    vec3_to_floats(hit->normal, vec3_scale(normal, -1.0));
+    if (vec3_length(before) > 0.0)
+        vec3_to_floats(hit->direction_a, vec3_scale(before, 1.0 / vec3_length(before)));
+    hit->toi = 1.0;
+    hit->closing_mps = (float)maths_max(0.0, -vec3_dot(before, normal));
+    hit->impulse_ns = (float)(step->world->kinds[m->kind[i]].mass_kg * vec3_length(change));
+    hit->response = RESPONSE_DESTROYED;
 }
 
 /* Notes that the row is slow, or that it is not, and brings it to rest when it has been slow for
@@ -126,11 +169,13 @@ static void tumble(const struct step_context *context, uint32_t i)
     struct ground_contacts contacts;
     body_points_of(context->world, context->m->kind[i], &points);
     ground_contacts_begin(&contacts, kind);
+    if (context->m->flags[i] & ENTITY_FLAG_BROKEN)
+        ground_contacts_break(&contacts);
     struct rigid_body body = rigid_body_take(context, i);
     double steps = sub_steps(&body, &points, context->dt_s), dt_s = context->dt_s / steps;
     for (int n = 0; n < (int)steps; n++) {
         ground_contacts_find(&contacts, context, &points, &body, dt_s);
-        sub_step(&contacts, &body, dt_s);
+        break_up(context, i, sub_step(&contacts, &body, dt_s), &contacts);
     }
     rigid_body_put(context, i, &body);
     settle(context, i, ground_contacts_depth(&contacts));

@@ -22,6 +22,7 @@
 #define BURN_LOW         0.12f
 #define BURN_MED         0.28f
 #define BURN_HIGH        0.5f
+#define BROKEN_HEIGHT    0.35  /* of a body that has broken up, over its height before */
 #define DENT_MIN_REACH_M 0.55f /* sheet metal bends at least this far around a dent ... */
 #define DENT_REACH       2.2f  /* ... plus this many times the dent's depth */
 
@@ -112,6 +113,18 @@ static void add_dents(struct draw_list *list, const struct frame_view *frame_vie
     }
 }
 
+/* Presses a body that has broken up flat on the ground. */
+static void flatten(const struct frame_view *frame_view, double radius_m, struct vec3 *position,
+                    struct body_axes *axes)
+{
+    double ground =
+        terrain_height(&frame_view->world->terrain, frame_view->craters, position->x, position->z);
+    position->y -= (1.0 - BROKEN_HEIGHT) * maths_clamp(position->y - ground, 0.0, radius_m);
+    axes->forward.y *= BROKEN_HEIGHT;
+    axes->up.y *= BROKEN_HEIGHT;
+    axes->right.y *= BROKEN_HEIGHT;
+}
+
 static void add_entity(struct draw_list *list, const struct frame_view *frame_view, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
@@ -132,6 +145,8 @@ static void add_entity(struct draw_list *list, const struct frame_view *frame_vi
     if (body == NULL)
         return;
     struct body_axes axes = body_axes_of(e->heading[slot], e->pitch[slot], e->roll[slot]);
+    if (e->state[slot] == ENTITY_WRECK && e->flags[slot] & ENTITY_FLAG_BROKEN)
+        flatten(frame_view, kind->radius_m, &position, &axes);
     draw_list_place_body(list, body, position, &axes, 1.0);
     memcpy(body->tint, force_colours[e->force[slot] % FORCE_COUNT], sizeof body->tint);
     body->burn = burn_of(e, slot);

@@ -121,6 +121,8 @@ _Static_assert(ENTITY_COLUMN_COUNT <= 64, "a set of columns is one word");
 #define ENTITY_FLAG_FIRE_AT_WILL 1u /* engages all enemies that it sees */
 #define ENTITY_FLAG_HOLD_FIRE    2u /* never fires */
 #define ENTITY_FLAG_STAND        4u /* never flees or withdraws */
+#define ENTITY_FLAG_BROKEN                                                                         \
+    64u /* an aircraft's wreck that the ground has broken up (mover/motion/wreck.h) */
 
 /* How a driven vehicle's throttle acts on its wheels; a driver's choice, in flags. */
 enum gearing {

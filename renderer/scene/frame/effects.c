@@ -151,7 +151,7 @@ static void take_collision(struct effects *effects, const struct frame_view *fra
         add(effects, frame_view, event, EFFECT_HIT, at, 0.6 * size);
 }
 
-/* Adds the vehicles that were destroyed since the last call. */
+/* Adds the vehicles that were destroyed, and the wrecks that broke up, since the last call. */
 static void take_wrecks(struct effects *effects, const struct frame_view *frame_view)
 {
     const struct entities *e = frame_view->entities;
@@ -161,10 +161,13 @@ static void take_wrecks(struct effects *effects, const struct frame_view *frame_
     for (uint32_t slot = 0; slot < used; slot++) {
         struct motion_trail *trail = &effects->trails.trail[slot];
         const struct kind *kind = kind_of(frame_view, e->kind[slot]);
-        if (e->state[slot] != ENTITY_WRECK || trail->wrecked || kind == NULL)
+        bool broken = e->flags[slot] & ENTITY_FLAG_BROKEN;
+        if (e->state[slot] != ENTITY_WRECK || kind == NULL ||
+            (trail->wrecked && trail->broken == broken))
             continue;
         double time_s = (double)e->changed_tick[slot] * world_dt_s(frame_view->world);
         trail->wrecked = true;
+        trail->broken = broken;
         if (now_s - time_s > effects_life_s(EFFECT_WRECK))
             continue;
         struct effect *wreck = allocate(effects);

@@ -73,7 +73,7 @@ void motion_trails_note(struct motion_trails *trails, const struct frame_view *f
             trail->id = e->id[slot];
             trail->kind = e->kind[slot];
             trail->count = 0;
-            trail->wrecked = false;
+            trail->wrecked = trail->broken = false;
             trail->smokes_s = INFINITY;
         }
         if (e->state[slot] == ENTITY_ACTIVE && e->damage[slot] >= DAMAGE_MED)

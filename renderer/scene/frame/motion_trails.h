@@ -22,6 +22,7 @@ struct motion_trail {
     uint32_t count;
     uint16_t kind;
     bool wrecked;    /* it was already seen as a wreck */
+    bool broken;     /* ... that has broken up */
     double smokes_s; /* simulation time since when it smokes; INFINITY: it does not */
     struct motion_trail_point point[MOTION_TRAIL_POINTS];
 };

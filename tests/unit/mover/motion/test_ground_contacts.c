@@ -68,8 +68,11 @@ static void test_a_point_arrives_on_the_ground_and_not_under_it(void **state)
     double impulse = ground_contacts_solve(&contacts, &body, DT_S);
     assert_true(fabs(body.velocity.y + 0.05 / DT_S) < UNSOLVED * 20.0);
     assert_true(fabs(impulse / body.inertia.mass_kg - (20.0 - 5.0)) < UNSOLVED * 20.0);
+    double taken = ground_contacts_taken(&contacts, &body) / body.inertia.mass_kg;
+    assert_true(fabs(taken - 0.5 * (20.0 * 20.0 - 5.0 * 5.0)) < UNSOLVED * 400.0);
     body = truck(0.5, (struct vec3){0.0, -20.0, 0.0}); /* does not arrive */
     assert_true(ground_contacts_solve(&contacts, &body, DT_S) == 0.0 && body.velocity.y == -20.0);
+    assert_true(ground_contacts_taken(&contacts, &body) == 0.0);
 }
 
 static void test_restitution_falls_with_the_closing_speed(void **state)

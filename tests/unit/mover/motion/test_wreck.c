@@ -222,6 +222,86 @@ static void test_a_light_push_does_not_wake_a_wreck(void **state)
     }
 }
 
+/* --- breaking up ------------------------------------------------------------------------------*/
+
+static bool is_broken(uint32_t row)
+{
+    return steps_rows(&f).flags[row] & ENTITY_FLAG_BROKEN;
+}
+
+/* Kinetic and potential energy by the velocity of the position [J/kg]; the wreck does not spin. */
+static double energy_of(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    struct vec3 v = entities_velocity(&e, row);
+    return 0.5 * vec3_dot(v, v) + GRAVITY_MPS2 * e.y[row];
+}
+
+static uint32_t drop(const char *kind, struct vec3 velocity)
+{
+    steps_empty(&f);
+    uint32_t row = put(kind, 0.0, velocity);
+    steps_rows(&f).y[row] = 1.0 - clearance_of(row);
+    for (uint32_t frame = 0; frame < HZ && !is_broken(row); frame++)
+        fixture_run(&f, 1);
+    return row;
+}
+
+static void test_an_aircraft_that_strikes_the_ground_hard_breaks_up(void **state)
+{
+    (void)state;
+    uint32_t row = drop("jet", (struct vec3){200.0, -40.0, 0.0});
+    assert_true(is_broken(row));
+    assert_int_equal(steps_rows(&f).trigger[row], 0);
+    assert_int_equal(steps_rows(&f).changed_tick[row], fixture_state(&f).head->tick);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
+    const struct event_collision *hit = &fixture_event(&f, EVENT_COLLISION, 0)->collision;
+    assert_int_equal(hit->a.id, row + 1);
+    assert_true(hit->b.id == 0 && hit->b.fixed == 1 && hit->response == RESPONSE_DESTROYED);
+    assert_true(fabs((double)hit->closing_mps - 40.0) < 2.0);
+    /* What the wreck loses is what the ground has given it: breaking itself takes no momentum. */
+    struct entities e = steps_rows(&f);
+    struct vec3 fallen = {200.0, -(double)hit->closing_mps, 0.0};
+    struct vec3 change = vec3_sub(entities_velocity(&e, row), fallen);
+    double mass = steps_kind(&f, "jet")->mass_kg;
+    assert_true(fabs((double)hit->impulse_ns / mass - vec3_length(change)) < 0.01);
+    fixture_run(&f, 60 * HZ);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1); /* it breaks up once */
+}
+
+static void test_only_a_hard_impact_breaks_an_airframe_and_no_tank(void **state)
+{
+    (void)state;
+    assert_false(is_broken(drop("jet", (struct vec3){60.0, -10.0, 0.0})));
+    assert_false(is_broken(drop("helicopter", (struct vec3){0.0, -13.0, 0.0})));
+    assert_true(is_broken(drop("helicopter", (struct vec3){0.0, -25.0, 0.0})));
+    assert_false(is_broken(drop("tank", (struct vec3){0.0, -40.0, 0.0})));
+}
+
+static void test_pieces_stop_sooner_and_gain_no_energy(void **state)
+{
+    double slid[2];
+    (void)state;
+    for (int n = 0; n < 2; n++) {
+        steps_empty(&f);
+        uint32_t row = put("jet", 0.0, (struct vec3){150.0, 0.0, 0.0});
+        steps_rows(&f).flags[row] = n == 0 ? 0 : ENTITY_FLAG_BROKEN;
+        steps_rows(&f).y[row] = 0.05 - clearance_of(row);
+        double before = energy_of(row);
+        for (uint32_t frame = 0; frame < 30 * HZ && !rests(row); frame++) {
+            fixture_run(&f, 1);
+            assert_true(n == 0 || spin_of(row) > 1e-6 || energy_of(row) <= before + 1e-6);
+            before = energy_of(row);
+        }
+        assert_true(rests(row));
+        slid[n] = steps_rows(&f).x[row] - 25000.0;
+    }
+    /* ln(1 + b v2 / mu) / (2 b g), but for what tumbling takes */
+    double b = 1.25e-3, mu = friction_of("jet");
+    double way = log(1.0 + b * 150.0 * 150.0 / mu) / (2.0 * b * GRAVITY_MPS2);
+    assert_true(slid[1] < 0.6 * slid[0] && slid[1] > 0.5 * way && slid[1] < 1.3 * way);
+}
+
 static void test_a_ship_drifts_on_the_water(void **state)
 {
     (void)state;
@@ -249,6 +329,9 @@ int main(void)
         TEST(test_friction_holds_a_wreck_on_a_slope_or_lets_it_go),
         TEST(test_a_crater_and_a_push_wake_a_wreck),
         TEST(test_a_light_push_does_not_wake_a_wreck),
+        TEST(test_an_aircraft_that_strikes_the_ground_hard_breaks_up),
+        TEST(test_only_a_hard_impact_breaks_an_airframe_and_no_tank),
+        TEST(test_pieces_stop_sooner_and_gain_no_energy),
         TEST(test_a_ship_drifts_on_the_water),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -322,6 +322,25 @@ static void dent(struct scene_stage *s, uint32_t id, float plastic_m)
     dent_index_update(&s->dents, s->head.dent_count);
 }
 
+static void test_a_wreck_that_has_broken_up_is_flat(void **context)
+{
+    struct scene_stage *s = *context;
+    uint32_t slot = put_tank(s, 25010.0, 24940.0, 0.0);
+    struct camera camera = look_from(s, 25010.0, 25000.0, 0.0);
+    s->entities.state[slot] = ENTITY_WRECK;
+    s->entities.pitch[slot] = 0.5;
+    s->entities.flags[slot] = ENTITY_FLAG_BROKEN;
+    scene_build(&s->list, &camera, &s->static_scene, &s->frame_view, &s->effects);
+    uint32_t at = 0;
+    while (at < s->list.body_count && fabs((double)s->list.bodies[at].at[0]) > 1e-3)
+        at++;
+    assert_true(at < s->list.body_count);
+    const struct draw_list_body *body = &s->list.bodies[at];
+    assert_true(body->up[1] < 0.5f && fabs((double)body->forward[1]) < 0.5 * sin(0.5));
+    double level = hypot((double)body->forward[0], (double)body->forward[2]);
+    assert_true(fabs(level - cos(0.5)) < 1e-6);
+}
+
 static void test_a_near_body_is_drawn_with_its_dents(void **context)
 {
     struct scene_stage *s = *context;
@@ -598,6 +617,7 @@ int main(void)
         TEST(test_body_detail_is_monotone),
         TEST(test_bodies_in_view_are_listed),
         TEST(test_damage_is_visible_in_steps),
+        TEST(test_a_wreck_that_has_broken_up_is_flat),
         TEST(test_a_near_body_is_drawn_with_its_dents),
         TEST(test_a_tree_leans_and_then_is_a_stump),
         TEST(test_a_bush_ends_low),

@@ -298,6 +298,20 @@ static void test_a_wreck_bursts_once(void **context)
     assert_int_equal(s->effects.count, 1);
 }
 
+static void test_a_wreck_that_breaks_up_bursts_again(void **context)
+{
+    struct scene_stage *s = *context;
+    uint32_t slot = put_wreck(s, MIDDLE, MIDDLE);
+    step(s);
+    s->entities.flags[slot] |= ENTITY_FLAG_BROKEN;
+    s->entities.changed_tick[slot] = (uint32_t)s->head.tick;
+    for (uint32_t i = 0; i < 10; i++)
+        step(s);
+    assert_int_equal(s->effects.count, 2);
+    assert_int_equal(s->effects.effect[1].type, EFFECT_WRECK);
+    assert_true(s->effects.effect[1].time_s > s->effects.effect[0].time_s);
+}
+
 static void test_debris_flies_and_comes_to_rest(void **context)
 {
     struct scene_stage *s = *context;
@@ -693,6 +707,7 @@ int main(void)
         TEST(test_soil_and_water_fall_back),
         TEST(test_the_first_effect_to_end_is_replaced),
         TEST(test_a_wreck_bursts_once),
+        TEST(test_a_wreck_that_breaks_up_bursts_again),
         TEST(test_debris_flies_and_comes_to_rest),
         TEST(test_smoke_goes_on_when_damage_grows),
         TEST(test_dust_depends_on_the_cover),
