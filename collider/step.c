@@ -25,8 +25,8 @@ int collider_init(struct collider *collider, const struct world *world,
         contact_queue_init(&collider->contacts, world, workers) != 0 ||
         island_init(&collider->island, world) != 0 ||
         contact_table_init(&collider->table, world) != 0 ||
-        resting_init(&collider->resting, world) != 0 ||
-        end_guard_init(&collider->guard, world) != 0 ||
+        resting_init(&collider->resting, world, workers) != 0 ||
+        end_guard_init(&collider->guard, world, workers) != 0 ||
         charges_init(&collider->charges, world) != 0 ||
         pair_list_init(&collider->pairs, pair_filter_pairs_first(world)) != 0 ||
         !(collider->workspace = method_workspace_create(world, &collider->broad))) {

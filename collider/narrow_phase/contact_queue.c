@@ -42,6 +42,9 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
     contacts->swept = reserve_take(pairs, sizeof *contacts->swept);
     contacts->marks = reserve_take(pairs, sizeof *contacts->marks);
     contacts->impacts = reserve_take(pairs, sizeof *contacts->impacts);
+    contacts->axis = reserve_take(pairs, sizeof *contacts->axis);
+    contacts->proves = world->params->collision.shape == SHAPE_MODEL &&
+                       !method_discrete((enum method)world->params->collision.method);
     contacts->link = reserve_take(2 * (uint64_t)pairs, sizeof *contacts->link);
     contacts->head = calloc(rows, sizeof *contacts->head);
     contacts->version = calloc(rows, sizeof *contacts->version);
@@ -49,7 +52,8 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
     contacts->strays = calloc(rows, sizeof *contacts->strays);
     if (contacts->heap.contact && contacts->pair && contacts->met && contacts->swept &&
         contacts->marks && contacts->impacts && contacts->link && contacts->head &&
-        contacts->version && contacts->strayed && contacts->strays &&
+        contacts->version && contacts->strayed && contacts->strays && contacts->axis &&
+        pair_apart_init(&contacts->apart, world) == 0 &&
         pair_list_init(&contacts->near, broad_phase_found_most(world)) == 0)
         return 0;
     contact_queue_free(contacts);
@@ -65,6 +69,8 @@ void contact_queue_free(struct contact_queue *contacts)
     reserve_free(contacts->swept);
     reserve_free(contacts->marks);
     reserve_free(contacts->impacts);
+    reserve_free(contacts->axis);
+    pair_apart_free(&contacts->apart);
     reserve_free(contacts->link);
     free(contacts->head);
     free(contacts->version);
@@ -91,6 +97,7 @@ static void more_pairs(struct contact_queue *contacts)
     contacts->swept = reserve_grow(contacts->swept, held, more, sizeof *contacts->swept);
     contacts->marks = reserve_grow(contacts->marks, held, more, sizeof *contacts->marks);
     contacts->impacts = reserve_grow(contacts->impacts, held, more, sizeof *contacts->impacts);
+    contacts->axis = reserve_grow(contacts->axis, held, more, sizeof *contacts->axis);
     contacts->link = reserve_grow(contacts->link, contacts->link_count, 2 * (uint64_t)more,
                                   sizeof *contacts->link);
     contacts->pair_capacity = more;
@@ -106,6 +113,7 @@ static uint32_t add_pair(struct contact_queue *contacts, struct pair pair)
     contacts->swept[index] = 0;
     contacts->marks[index] = 0;
     contacts->impacts[index] = (struct pair_impacts){0};
+    contacts->axis[index] = (struct vec3){0.0, 0.0, 0.0};
     link_row(contacts, pair.a, index);
     if (!(pair.b & PAIR_FIXED))
         link_row(contacts, pair.b, index);
@@ -133,8 +141,11 @@ void contact_queue_end(struct contact_queue *contacts)
     for (uint32_t i = 0; i < contacts->pair_count; i++) {
         struct pair pair = contacts->pair[i];
         contacts->head[pair.a] = 0;
-        if (!(pair.b & PAIR_FIXED))
-            contacts->head[pair.b] = 0;
+        pair_apart_forget(&contacts->apart, pair.a);
+        if (pair.b & PAIR_FIXED)
+            continue;
+        contacts->head[pair.b] = 0;
+        pair_apart_forget(&contacts->apart, pair.b);
     }
 }
 
@@ -247,8 +258,9 @@ static bool rests_on(const struct contact_input *input, const struct contact *co
     return vec3_dot(velocity, contact->impact.normal) < CONTACT_IMPACT_MPS;
 }
 
-/* Sweeps one pair from a time on. Returns true, with the contact, if there is one. */
-static bool sweep_pair(const struct contact_queue *contacts, const struct contact_input *input,
+/* Sweeps one pair from a time on. Returns true, with the contact, if there is one. Bodies that rest
+ * on each other touch all the time: they are swept only if they may get into each other. */
+static bool sweep_pair(struct contact_queue *contacts, const struct contact_input *input,
                        uint32_t index, double from, struct contact *contact)
 {
     const struct pair *pair = &contacts->pair[index];
@@ -258,6 +270,9 @@ static bool sweep_pair(const struct contact_queue *contacts, const struct contac
         (!fixed && state[pair->b] == ENTITY_FREE) ||
         (fixed && !pair_filter_stands(&input->detect, pair->b & ~PAIR_FIXED)))
         return false;
+    if (contacts->proves &&
+        pair_apart_stays(&contacts->apart, pair, from, SKIN_M, &contacts->axis[index]))
+        return false;
     *contact = (struct contact){.a = pair->a,
                                 .b = pair->b,
                                 .pair = index + 1,
@@ -266,6 +281,13 @@ static bool sweep_pair(const struct contact_queue *contacts, const struct contac
     return narrow_phase_find(&input->detect, input->motion, input->through_fixed, pair, from,
                              &contact->impact) &&
            !(contacts->marks[index] & CONTACT_RESTS && rests_on(input, contact));
+}
+
+/* Computes what the proofs need of a row, if its path has changed. */
+static void prepare(struct contact_queue *contacts, const struct contact_input *input, uint32_t row)
+{
+    if (contacts->proves && !(row & PAIR_FIXED))
+        pair_apart_prepare(&contacts->apart, input->motion, row);
 }
 
 struct job {
@@ -312,6 +334,10 @@ static void find_all(struct job *job, thread_pool_function *find, uint32_t count
 void contact_queue_find(struct contact_queue *contacts, const struct contact_input *input)
 {
     struct job job = {.contacts = contacts, .input = input};
+    for (uint32_t i = 0; i < contacts->pair_count; i++) {
+        prepare(contacts, input, contacts->pair[i].a);
+        prepare(contacts, input, contacts->pair[i].b);
+    }
     find_all(&job, find_some, contacts->pair_count, 1, PAIRS_A_PIECE);
 }
 
@@ -505,6 +531,8 @@ static void sweep_row(struct contact_queue *contacts, const struct contact_input
         if (contacts->swept[pair] == contacts->change)
             continue;
         contacts->swept[pair] = contacts->change;
+        prepare(contacts, input, contacts->pair[pair].a);
+        prepare(contacts, input, contacts->pair[pair].b);
         if (sweep_pair(contacts, input, pair, time, &contact))
             push(contacts, &contact);
     }
@@ -516,8 +544,10 @@ void contact_queue_change(struct contact_queue *contacts, const struct contact_i
 {
     enum method method = (enum method)input->detect.world->params->collision.method;
     contacts->change++;
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; i < count; i++) {
         contacts->version[rows[i]]++;
+        pair_apart_forget(&contacts->apart, rows[i]);
+    }
     for (uint32_t i = 0; i < count; i++) {
         if (!method_discrete(method))
             look_around(contacts, input, rows[i], false);
@@ -529,4 +559,5 @@ void contact_queue_change(struct contact_queue *contacts, const struct contact_i
 void contact_queue_drop(struct contact_queue *contacts, uint32_t row)
 {
     contacts->version[row]++;
+    pair_apart_forget(&contacts->apart, row);
 }

@@ -5,6 +5,7 @@
 
 #include "collider/broad_phase/broad_phase.h"
 #include "collider/narrow_phase/narrow_phase.h"
+#include "collider/narrow_phase/pair_apart.h"
 
 #include <stdint.h>
 
@@ -66,7 +67,8 @@ struct contact_queue {
     uint32_t *swept;          /* [pair] the last change that swept it, 0: none */
     uint8_t *marks;           /* [pair] of CONTACT_RESTS to CONTACT_GATHERED */
     struct pair_impacts *impacts; /* [pair] */
-    uint32_t change;              /* changes so far in this frame */
+    struct vec3 *axis; /* [pair] unit, from a to b: may separate the bodies; 0: none known */
+    uint32_t change;   /* changes so far in this frame */
     uint32_t pair_count, pair_capacity;
     struct contact_link *link; /* of the rows' lists of pairs; two for each of pair_capacity */
     uint32_t link_count;
@@ -77,6 +79,8 @@ struct contact_queue {
     uint8_t *strays;   /* [capacity of the world] 1: the row is in strayed */
     uint32_t stray_count;
     struct pair_list near; /* result of a query */
+    struct pair_apart apart;
+    bool proves; /* pairs that certainly stay apart are not swept: bodies are hulls */
 };
 
 /* What the search for contacts reads. */

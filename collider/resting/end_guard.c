@@ -6,6 +6,7 @@
 #include "collider/response/path_change.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
+#include "world/runtime/thread_pool.h"
 #include "world/runtime/work_done.h"
 #include "world/world.h"
 
@@ -13,20 +14,26 @@
 #include <stdlib.h>
 
 #define ROUNDING_M     1e-5 /* less is no deepening */
-#define SENT_BACK_MOST 4u   /* the last time all the way; this bounds the work of a frame */
+#define PAIRS_A_PIECE  8u
+#define SENT_BACK_MOST 4u /* the last time all the way; this bounds the work of a frame */
 
-int end_guard_init(struct end_guard *guard, const struct world *world)
+int end_guard_init(struct end_guard *guard, const struct world *world, struct thread_pool *workers)
 {
     uint32_t rows = world->params->capacity;
-    *guard = (struct end_guard){.count = 0};
+    *guard =
+        (struct end_guard){.workers = workers, .pair_capacity = pair_filter_pairs_first(world)};
+    guard->pair = reserve_take(guard->pair_capacity, sizeof *guard->pair);
+    guard->side = reserve_take(rows, sizeof *guard->side);
+    guard->posed = calloc(rows, sizeof *guard->posed);
+    guard->posed_row = reserve_take(rows, sizeof *guard->posed_row);
     guard->row = reserve_take(rows, sizeof *guard->row);
     guard->back = reserve_take(rows, sizeof *guard->back);
     guard->touched = reserve_take(rows, sizeof *guard->touched);
     guard->listed = calloc(rows, sizeof *guard->listed);
     guard->marked = calloc(rows, sizeof *guard->marked);
     guard->sent_back = calloc(rows, sizeof *guard->sent_back);
-    if (guard->row && guard->back && guard->touched && guard->listed && guard->marked &&
-        guard->sent_back)
+    if (guard->pair && guard->side && guard->posed && guard->posed_row && guard->row &&
+        guard->back && guard->touched && guard->listed && guard->marked && guard->sent_back)
         return 0;
     end_guard_free(guard);
     errno = ENOMEM;
@@ -35,6 +42,10 @@ int end_guard_init(struct end_guard *guard, const struct world *world)
 
 void end_guard_free(struct end_guard *guard)
 {
+    reserve_free(guard->pair);
+    reserve_free(guard->side);
+    free(guard->posed);
+    reserve_free(guard->posed_row);
     reserve_free(guard->row);
     reserve_free(guard->back);
     reserve_free(guard->touched);
@@ -57,6 +68,35 @@ static double gap_in(const struct response_context *context, const struct entiti
     if (vec3_dot(between, between) > reach * reach)
         return 0.0;
     return level_gap_least(&a, &b, 0.0, 0.0);
+}
+
+/* Returns how the row stands at the frame's end. */
+static const struct axis_side *side_of(struct end_guard *guard,
+                                       const struct response_context *context, uint32_t row)
+{
+    if (!guard->posed[row]) {
+        guard->side[row] = pair_apart_standing(&context->contacts->apart, context->motion,
+                                               &context->next->entities, row);
+        guard->posed_row[guard->posed_count++] = row;
+    }
+    guard->posed[row] = 1;
+    return &guard->side[row];
+}
+
+/* Returns true if the pair ends the frame apart. */
+static bool is_apart(const struct end_guard *guard, const struct response_context *context,
+                     uint32_t index)
+{
+    const struct contact_queue *contacts = context->contacts;
+    const struct pair *pair = &contacts->pair[index];
+    const struct axis_side *b = &guard->side[pair->b & ~PAIR_FIXED];
+    struct axis_side fixed;
+    if (pair->b & PAIR_FIXED) {
+        fixed = pair_apart_standing(&contacts->apart, context->motion, &context->next->entities,
+                                    pair->b);
+        b = &fixed;
+    }
+    return separating_axis_find(&guard->side[pair->a], b, 0.0, &contacts->axis[index]);
 }
 
 /* Returns true if the pair ends the frame deeper in each other than it began it. */
@@ -126,23 +166,66 @@ static void mark(struct end_guard *guard, const struct response_context *context
     guard->back[guard->back_count++] = row;
 }
 
-/* Marks the bodies of the row's pairs that end the frame deeper in each other. A pair of two rows
- * that are looked at is looked at once. */
-static void check_row(struct end_guard *guard, struct response_context *context, uint32_t row)
+/* Lists a pair to be measured in this round. */
+static void add_pair(struct end_guard *guard, const struct response_context *context,
+                     uint32_t index)
+{
+    const struct pair *pair = &context->contacts->pair[index];
+    if (guard->pair_count == guard->pair_capacity) {
+        uint32_t more = 2 * guard->pair_capacity + 1;
+        guard->pair = reserve_grow(guard->pair, guard->pair_count, more, sizeof *guard->pair);
+        guard->pair_capacity = more;
+    }
+    side_of(guard, context, pair->a);
+    if (!(pair->b & PAIR_FIXED))
+        side_of(guard, context, pair->b);
+    guard->pair[guard->pair_count++] = (struct guard_pair){.pair = index};
+}
+
+/* Lists the row's pairs. A pair of two rows that are looked at is listed once. */
+static void add_pairs_of(struct end_guard *guard, struct response_context *context, uint32_t row)
 {
     const struct contact_queue *contacts = context->contacts;
     for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
-        const struct pair *pair = &contacts->pair[contacts->link[link - 1].pair];
+        uint32_t index = contacts->link[link - 1].pair;
+        const struct pair *pair = &contacts->pair[index];
         uint32_t other = pair->a == row ? pair->b : pair->a;
         bool fixed = other & PAIR_FIXED;
         if (fixed ? !is_wall(context, other & ~PAIR_FIXED)
                   : (guard->listed[other] && other < row) || !guarded(context, other))
             continue;
-        if (!deeper(context, pair))
+        add_pair(guard, context, index);
+    }
+}
+
+struct round {
+    struct end_guard *guard;
+    const struct response_context *context;
+};
+
+/* Measures pairs first .. end - 1. */
+static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t worker)
+{
+    const struct round *round = argument;
+    (void)worker;
+    for (uint32_t i = first; i < end; i++) {
+        struct guard_pair *one = &round->guard->pair[i];
+        one->deeper = !is_apart(round->guard, round->context, one->pair) &&
+                      deeper(round->context, &round->context->contacts->pair[one->pair]);
+    }
+    work_done();
+}
+
+/* Marks the bodies of the pairs that end the frame deeper in each other. */
+static void mark_deeper(struct end_guard *guard, const struct response_context *context)
+{
+    for (uint32_t i = 0; i < guard->pair_count; i++) {
+        const struct pair *pair = &context->contacts->pair[guard->pair[i].pair];
+        if (!guard->pair[i].deeper)
             continue;
-        mark(guard, context, row);
-        if (!fixed)
-            mark(guard, context, other);
+        mark(guard, context, pair->a);
+        if (!(pair->b & PAIR_FIXED))
+            mark(guard, context, pair->b);
     }
 }
 
@@ -151,12 +234,14 @@ static void check_row(struct end_guard *guard, struct response_context *context,
  * next. */
 static void run_round(struct end_guard *guard, struct response_context *context)
 {
-    guard->back_count = 0;
+    guard->back_count = guard->pair_count = 0;
     for (uint32_t i = 0; i < guard->count; i++) {
         if (guarded(context, guard->row[i]))
-            check_row(guard, context, guard->row[i]);
-        work_done();
+            add_pairs_of(guard, context, guard->row[i]);
     }
+    thread_pool_run(guard->workers, measure_some, &(struct round){guard, context},
+                    guard->pair_count, PAIRS_A_PIECE);
+    mark_deeper(guard, context);
     for (uint32_t i = 0; i < guard->count; i++)
         guard->listed[guard->row[i]] = 0;
     guard->count = 0;
@@ -166,6 +251,8 @@ static void run_round(struct end_guard *guard, struct response_context *context)
         if (guard->sent_back[row] == 0)
             guard->touched[guard->touched_count++] = row;
         send_back(guard, context, row);
+        guard->side[row] = pair_apart_standing(&context->contacts->apart, context->motion,
+                                               &context->next->entities, row);
         look_at(guard, row);
     }
 }
@@ -175,7 +262,7 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
 {
     const struct body_motion *motion = context->motion;
     const struct entities *e = &context->next->entities;
-    guard->count = guard->touched_count = 0;
+    guard->count = guard->touched_count = guard->posed_count = 0;
     for (uint32_t i = 0; i < resting->moved_count; i++)
         look_at(guard, resting->moved[i]);
     for (uint32_t i = 0; i < motion->changes; i++)
@@ -189,4 +276,6 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
         run_round(guard, context);
     for (uint32_t i = 0; i < guard->touched_count; i++)
         guard->sent_back[guard->touched[i]] = 0;
+    for (uint32_t i = 0; i < guard->posed_count; i++)
+        guard->posed[guard->posed_row[i]] = 0;
 }

@@ -1,17 +1,35 @@
 /* The guard at the end of a frame: no two bodies that the ground holds end it deeper in each other
  * than they began it. Bodies that would are sent back by half of their motion, three times, and
- * at last to where they stood when the frame began. Pure; one thread. */
+ * at last to where they stood when the frame began. Pure; one caller, and
+ * its workers. */
 #ifndef JOLON_COLLIDER_RESTING_END_GUARD_H
 #define JOLON_COLLIDER_RESTING_END_GUARD_H
 
 #include "collider/resting/resting.h"
 
+struct thread_pool;
+
 /* The guard leaves out pairs that began the frame deeper in each other than this [m]. The
  * recovery of overlaps parts them. */
 #define END_GUARD_LEFT_OUT_M 0.02
 
+struct axis_side;
+
+/* A pair that is measured in a round. */
+struct guard_pair {
+    uint32_t pair; /* index into contacts->pair */
+    bool deeper;   /* it would end the frame deeper than it began it */
+};
+
 /* The collider's own memory. */
 struct end_guard {
+    struct thread_pool *workers;
+    struct guard_pair *pair; /* of this round */
+    uint32_t pair_count, pair_capacity;
+    struct axis_side *side; /* [capacity of the world] how the row stands at the frame's end */
+    uint8_t *posed;         /* [capacity of the world] 1: side is known */
+    uint32_t *posed_row;    /* the rows of which it is */
+    uint32_t posed_count;
     uint32_t *row; /* rows to look at in this round */
     uint32_t count;
     uint32_t *back; /* rows that go back in this round */
@@ -23,8 +41,8 @@ struct end_guard {
     uint8_t *sent_back; /* [capacity of the world] how often a row has gone back in this frame */
 };
 
-/* Returns 0, or -1 with errno ENOMEM. */
-int end_guard_init(struct end_guard *guard, const struct world *world);
+/* Returns 0, or -1 with errno ENOMEM. workers may be NULL and stays the caller's. */
+int end_guard_init(struct end_guard *guard, const struct world *world, struct thread_pool *workers);
 void end_guard_free(struct end_guard *guard);
 
 /* Sets the bodies whose motion collisions have changed on the ground, and sends back those that

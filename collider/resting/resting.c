@@ -1,13 +1,13 @@
 /* Makes the points of the contacts that last, solves them, and moves the bodies. */
 #include "collider/resting/resting.h"
 
-#include "collider/geometry/level_gap.h"
 #include "collider/response/contact_impulse.h"
 #include "collider/response/response.h"
 #include "collider/resting/ground_placement.h"
 #include "world/entity/mass_properties.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
+#include "world/runtime/thread_pool.h"
 #include "world/runtime/work_done.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
@@ -25,21 +25,24 @@
 
 #define ROUNDING_M 1e-6 /* smaller overlaps of the skins are rounding */
 
+#define PAIRS_A_PIECE 4u
+
 #define POINTS_A_PAIR (2u * LEVEL_GAPS_MAX)
 
-int resting_init(struct resting *resting, const struct world *world)
+int resting_init(struct resting *resting, const struct world *world, struct thread_pool *workers)
 {
     uint32_t rows = world->params->capacity;
     uint64_t pairs = world->params->contact_slots;
-    *resting = (struct resting){0};
+    *resting = (struct resting){.workers = workers};
+    resting->gap = reserve_take(pairs, sizeof *resting->gap);
     resting->pair = reserve_take(pairs, sizeof *resting->pair);
     resting->point = reserve_take(pairs * POINTS_A_PAIR, sizeof *resting->point);
     resting->body = reserve_take(rows + pairs, sizeof *resting->body);
     resting->row = reserve_take(rows + pairs, sizeof *resting->row);
     resting->body_of = calloc(rows, sizeof *resting->body_of);
     resting->moved = reserve_take(rows, sizeof *resting->moved);
-    if (contact_groups_init(&resting->groups, world) == 0 && resting->pair && resting->point &&
-        resting->body && resting->row && resting->body_of && resting->moved)
+    if (contact_groups_init(&resting->groups, world) == 0 && resting->gap && resting->pair &&
+        resting->point && resting->body && resting->row && resting->body_of && resting->moved)
         return 0;
     resting_free(resting);
     errno = ENOMEM;
@@ -49,6 +52,7 @@ int resting_init(struct resting *resting, const struct world *world)
 void resting_free(struct resting *resting)
 {
     contact_groups_free(&resting->groups);
+    reserve_free(resting->gap);
     reserve_free(resting->pair);
     reserve_free(resting->point);
     reserve_free(resting->body);
@@ -180,17 +184,36 @@ static void report(struct response_context *context, const struct pair *pair,
     write_collision_event(context, &report, &impact, &outcome);
 }
 
-/* Takes a pair whose bodies are near and do not close as fast as in an impact. One that is not in
- * the table is taken only if it overlaps. */
-static void take(struct resting *resting, struct response_context *context, const struct pair *pair,
-                 bool known)
+struct gap_job {
+    struct resting *resting;
+    const struct response_context *context;
+};
+
+/* Measures pairs first .. end - 1. One that is not in the table is near only if it overlaps. */
+static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t worker)
 {
-    struct free_turn turn_a, turn_b;
-    struct swept_body a = body_motion_body(context->motion, pair->a, &turn_a);
-    struct swept_body b = body_motion_side(context->motion, pair->b, &turn_b);
-    struct level_gap gap[LEVEL_GAPS_MAX];
-    double margin = known ? NEAR_M + nearing(&a, &b) : 0.0;
-    uint32_t gaps = level_gap_find(&a, &b, 0.0, margin, gap);
+    const struct gap_job *job = argument;
+    const struct contact_groups *groups = &job->resting->groups;
+    (void)worker;
+    for (uint32_t i = first; i < end; i++) {
+        struct free_turn turn_a, turn_b;
+        const struct pair *pair = &groups->pair[i];
+        struct swept_body a = body_motion_body(job->context->motion, pair->a, &turn_a);
+        struct swept_body b = body_motion_side(job->context->motion, pair->b, &turn_b);
+        struct resting_gap *gap = &job->resting->gap[i];
+        double margin = i < groups->known ? NEAR_M + nearing(&a, &b) : 0.0;
+        gap->count = level_gap_find(&a, &b, 0.0, margin, gap->gap);
+    }
+    work_done();
+}
+
+/* Takes a pair whose bodies are near and do not close as fast as in an impact. known: it is in the
+ * table. */
+static void take(struct resting *resting, struct response_context *context, const struct pair *pair,
+                 const struct resting_gap *found, bool known)
+{
+    const struct level_gap *gap = found->gap;
+    uint32_t gaps = found->count;
     uint32_t bodies = resting->bodies;
     if (gaps == 0)
         return;
@@ -210,11 +233,11 @@ static void take(struct resting *resting, struct response_context *context, cons
         return;
     }
     taken.pair = contact_queue_pair(context->contacts, pair);
+    context->contacts->axis[taken.pair] = gap[0].normal;
     if (!known)
         report(context, pair, &gap[0]);
     resting->points += taken.count;
     resting->pair[resting->pairs++] = taken;
-    work_done();
 }
 
 /* --- motion ------------------------------------------------------------------------------------*/
@@ -310,8 +333,11 @@ void resting_solve(struct resting *resting, struct response_context *context)
 {
     resting->pairs = resting->points = resting->bodies = 0;
     contact_groups_find(&resting->groups, context);
+    thread_pool_run(resting->workers, measure_some, &(struct gap_job){resting, context},
+                    resting->groups.count, PAIRS_A_PIECE);
     for (uint32_t i = 0; i < resting->groups.count; i++)
-        take(resting, context, &resting->groups.pair[i], i < resting->groups.known);
+        take(resting, context, &resting->groups.pair[i], &resting->gap[i],
+             i < resting->groups.known);
     level_solver_run(resting->body, resting->bodies, resting->point, resting->points);
     mark(resting, context);
     move_bodies(resting, context);

@@ -1,14 +1,18 @@
 /* Resting contacts: contacts that last from frame to frame, among bodies that the ground holds and
  * the objects that stand. They are solved before the frame's impacts are searched, all together, so
- * that a heap of vehicles presses and pushes without a collision in each frame. Pure; one thread.
+ * that a heap of vehicles presses and pushes without a collision in each frame. Pure; one caller,
+ * and its workers.
  */
 #ifndef JOLON_COLLIDER_RESTING_RESTING_H
 #define JOLON_COLLIDER_RESTING_RESTING_H
 
+#include "collider/geometry/level_gap.h"
 #include "collider/resting/contact_groups.h"
 #include "collider/resting/level_solver.h"
 
 #include <stdint.h>
+
+struct thread_pool;
 
 /* Two bodies in a contact that lasts. */
 struct resting_pair {
@@ -17,9 +21,17 @@ struct resting_pair {
     double gap_m;          /* the smallest, at the frame's beginning; below 0: overlap */
 };
 
+/* How the two bodies of a pair lie at the frame's beginning. */
+struct resting_gap {
+    struct level_gap gap[LEVEL_GAPS_MAX]; /* smallest first */
+    uint32_t count;
+};
+
 /* The collider's own memory, kept from frame to frame. */
 struct resting {
+    struct thread_pool *workers;
     struct contact_groups groups;
+    struct resting_gap *gap; /* [groups.count] */
     struct resting_pair *pair;
     uint32_t pairs;
     struct level_contact *point;
@@ -32,8 +44,8 @@ struct resting {
     uint32_t moved_count;
 };
 
-/* Returns 0, or -1 with errno ENOMEM. */
-int resting_init(struct resting *resting, const struct world *world);
+/* Returns 0, or -1 with errno ENOMEM. workers may be NULL and stays the caller's. */
+int resting_init(struct resting *resting, const struct world *world, struct thread_pool *workers);
 void resting_free(struct resting *resting);
 
 /* Solves the contacts of the committed table whose bodies are still near each other and do not

@@ -1,0 +1,48 @@
+/* Which pairs certainly stay apart until the end of a frame, so that they need no sweep. The poses
+ * of a row are computed once for all of its pairs. The collider's own memory. */
+#ifndef JOLON_COLLIDER_NARROW_PHASE_PAIR_APART_H
+#define JOLON_COLLIDER_NARROW_PHASE_PAIR_APART_H
+
+#include "collider/motion/body_motion.h"
+#include "collider/motion/pair_filter.h"
+#include "collider/narrow_phase/separating_axis.h"
+
+/* A row's body with its rotation at path.since and at 1. */
+struct row_pose {
+    struct swept_body body;
+    struct mat3 from, to;
+    double rate; /* rotation_rate() from one to the other */
+    uint16_t kind;
+    bool freely; /* it turns by no fixed axis, and only its sphere is tested */
+    bool known;  /* the row's path has not changed since */
+};
+
+struct pair_apart {
+    const struct world *world;
+    struct hull_box *box; /* [kinds] of the outer hulls */
+    struct row_pose *row; /* [capacity of the world] */
+};
+
+/* Returns 0, or -1 with errno ENOMEM. */
+int pair_apart_init(struct pair_apart *apart, const struct world *world);
+void pair_apart_free(struct pair_apart *apart);
+
+/* Computes the row's pose from its present path, if that is not known. Any thread, for different
+ * rows. */
+void pair_apart_prepare(struct pair_apart *apart, const struct body_motion *motion, uint32_t row);
+
+/* The row's path has changed, or the frame is over. */
+void pair_apart_forget(struct pair_apart *apart, uint32_t row);
+
+/* Returns a side of a pair as it stands in a table, at rest. */
+struct axis_side pair_apart_standing(const struct pair_apart *apart,
+                                     const struct body_motion *motion,
+                                     const struct entities *entities, uint32_t side);
+
+/* Returns true if the hulls of the pair certainly stay farther apart than margin_m [m, >= 0] from
+ * `time` to 1. False promises nothing. *axis may show it, and is kept for the next time (see
+ * separating_axis_find). The rows must be prepared. Any thread. */
+bool pair_apart_stays(const struct pair_apart *apart, const struct pair *pair, double time,
+                      double margin_m, struct vec3 *axis);
+
+#endif

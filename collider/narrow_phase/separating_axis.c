@@ -1,0 +1,167 @@
+/* Boxes along the bodies' own axes first, then vertices along the best of these axes, then along
+ * the normal of the nearest points. */
+#include "collider/narrow_phase/separating_axis.h"
+
+#include "collider/geometry/gjk.h"
+#include "collider/geometry/time_of_impact.h"
+
+#define ROUNDING_M 1e-8 /* of positions 50 km from the origin, and of the distances of GJK */
+
+#define CANDIDATES 7 /* the three axes of each body, and the line between their positions */
+
+/* Of an arc with the acceleration c, the farthest distance from its chord is c t^2 / 8. */
+#define SAGITTA 0.125
+
+struct hull_box hull_box_of(const struct vec3 *vertices, const struct hull *hull)
+{
+    const struct vec3 *vertex = vertices + hull->first_vertex;
+    struct vec3 low = vertex[0], high = vertex[0];
+    for (uint32_t i = 1; i < hull->vertex_count; i++) {
+        low.x = maths_min(low.x, vertex[i].x), high.x = maths_max(high.x, vertex[i].x);
+        low.y = maths_min(low.y, vertex[i].y), high.y = maths_max(high.y, vertex[i].y);
+        low.z = maths_min(low.z, vertex[i].z), high.z = maths_max(high.z, vertex[i].z);
+    }
+    return (struct hull_box){vec3_lerp(low, high, 0.5), vec3_scale(vec3_sub(high, low), 0.5)};
+}
+
+struct axis_side axis_side_of(const struct swept_body *body, const struct mat3 *from,
+                              const struct mat3 *to, double rate, const struct hull_box *box,
+                              double time)
+{
+    double left = 1.0 - body->path.since, share = left > 0.0 ? (1.0 - time) / left : 0.0;
+    struct axis_side side = {
+        .vertex = body->vertices + body->outer->first_vertex,
+        .count = body->outer->vertex_count,
+        .scale = body->scale,
+        .box = {vec3_scale(box->middle, body->scale), vec3_scale(box->half, body->scale)},
+        .at = {path_at(&body->path, time), path_at(&body->path, 1.0)},
+        .turn = {*from, *to},
+        .still = rate == 0.0 && vec3_dot(body->path.along, body->path.along) == 0.0,
+        .bend_m = SAGITTA * rate * rate * share * share * body->bound_m};
+    if (rate > 0.0 && share < 1.0)
+        side.turn[0] = rotation_matrix(rotation_between(body->from, body->to, 1.0 - share));
+    return side;
+}
+
+/* Returns how far the side's box reaches along the axis, at one end of the time, from the
+ * position. */
+static double box_reach(const struct axis_side *side, int end, struct vec3 axis)
+{
+    struct vec3 own = rotation_back(&side->turn[end], axis);
+    return vec3_dot(own, side->box.middle) + fabs(own.x) * side->box.half.x +
+           fabs(own.y) * side->box.half.y + fabs(own.z) * side->box.half.z;
+}
+
+/* Returns the same for the hull. */
+static double hull_reach(const struct axis_side *side, int end, struct vec3 axis)
+{
+    struct vec3 own = rotation_back(&side->turn[end], axis);
+    double most[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
+    uint32_t i = 0;
+    for (; i + 4 <= side->count; i += 4) {
+        for (uint32_t k = 0; k < 4; k++)
+            most[k] = maths_max(most[k], vec3_dot(side->vertex[i + k], own));
+    }
+    for (; i < side->count; i++)
+        most[0] = maths_max(most[0], vec3_dot(side->vertex[i], own));
+    return side->scale * maths_max(maths_max(most[0], most[1]), maths_max(most[2], most[3]));
+}
+
+static double between(const struct axis_side *a, const struct axis_side *b, int end,
+                      struct vec3 axis)
+{
+    return vec3_dot(vec3_sub(b->at[end], a->at[end]), axis);
+}
+
+/* Returns the separation of the boxes along the axis, the lesser of both ends of the time. Less
+ * than enough is exact only at one of them. */
+static double box_separation(const struct axis_side *a, const struct axis_side *b, struct vec3 axis,
+                             double enough)
+{
+    const struct vec3 back = vec3_scale(axis, -1.0);
+    double apart = between(a, b, 0, axis) - box_reach(a, 0, axis) - box_reach(b, 0, back);
+    if (apart <= enough || (a->still && b->still))
+        return apart;
+    return maths_min(apart, between(a, b, 1, axis) - box_reach(a, 1, axis) - box_reach(b, 1, back));
+}
+
+/* A point of b stays relative to a point of a within the bends of the straight line between its
+ * places at both ends of the time. So the least separation is that of one of the ends, less the
+ * bends. */
+static double enough_for(const struct axis_side *a, const struct axis_side *b, double margin_m)
+{
+    return margin_m + ROUNDING_M + a->bend_m + b->bend_m;
+}
+
+bool separating_axis_holds(const struct axis_side *a, const struct axis_side *b, struct vec3 axis,
+                           double margin_m)
+{
+    const struct vec3 back = vec3_scale(axis, -1.0);
+    double enough = enough_for(a, b, margin_m);
+    int ends = a->still && b->still ? 1 : 2;
+    for (int end = 0; end < ends; end++) {
+        double apart =
+            between(a, b, end, axis) - hull_reach(a, end, axis) - hull_reach(b, end, back);
+        if (!(apart > enough))
+            return false;
+    }
+    return true;
+}
+
+static struct vec3 column(const struct mat3 *turn, int i)
+{
+    return (struct vec3){turn->m[0][i], turn->m[1][i], turn->m[2][i]};
+}
+
+/* Returns true if a box shows it. Else *best is the axis that separates the boxes most. */
+static bool find_by_boxes(const struct axis_side *a, const struct axis_side *b, double enough,
+                          struct vec3 *best)
+{
+    struct vec3 line = vec3_sub(b->at[0], a->at[0]);
+    double length = vec3_length(line), most = -INFINITY;
+    for (int i = 0; i < CANDIDATES; i++) {
+        struct vec3 axis = i < 3   ? column(&a->turn[0], 2 - i)
+                           : i < 6 ? column(&b->turn[0], 5 - i)
+                                   : vec3_scale(line, length > 0.0 ? 1.0 / length : 0.0);
+        if (vec3_dot(axis, line) < 0.0)
+            axis = vec3_scale(axis, -1.0);
+        double apart = box_separation(a, b, axis, enough);
+        if (apart > most) {
+            most = apart;
+            *best = axis;
+        }
+        if (most > enough)
+            return true;
+    }
+    return false;
+}
+
+/* Returns the normal of the nearest points of the hulls at the beginning, 0 if they overlap. */
+static struct vec3 nearest_normal(const struct axis_side *a, const struct axis_side *b)
+{
+    const struct convex hull_a = {
+        .vertex = a->vertex, .count = a->count, .scale = a->scale, .turn = a->turn[0]};
+    const struct convex hull_b = {.vertex = b->vertex,
+                                  .count = b->count,
+                                  .scale = b->scale,
+                                  .turn = b->turn[0],
+                                  .at = vec3_sub(b->at[0], a->at[0])};
+    return gjk_distance(&hull_a, &hull_b).normal;
+}
+
+bool separating_axis_find(const struct axis_side *a, const struct axis_side *b, double margin_m,
+                          struct vec3 *axis)
+{
+    struct vec3 best = {0.0, 0.0, 0.0};
+    if (vec3_dot(*axis, *axis) > 0.0 && separating_axis_holds(a, b, *axis, margin_m))
+        return true;
+    if (find_by_boxes(a, b, enough_for(a, b, margin_m), &best))
+        return true;
+    if (!separating_axis_holds(a, b, best, margin_m)) {
+        best = nearest_normal(a, b);
+        if (vec3_dot(best, best) == 0.0 || !separating_axis_holds(a, b, best, margin_m))
+            return false;
+    }
+    *axis = best;
+    return true;
+}

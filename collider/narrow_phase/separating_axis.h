@@ -1,0 +1,51 @@
+/* Proofs that two bodies stay apart: a plane between their outer hulls. A proof costs some hundred
+ * cycles, a sweep of two near bodies up to a hundred times as much. Pure; any thread. */
+#ifndef JOLON_COLLIDER_NARROW_PHASE_SEPARATING_AXIS_H
+#define JOLON_COLLIDER_NARROW_PHASE_SEPARATING_AXIS_H
+
+#include "world/entity/hull.h"
+#include "world/maths/rotation.h"
+
+#include <stdbool.h>
+
+struct swept_body;
+
+/* The box around an outer hull in body axes [m]. */
+struct hull_box {
+    struct vec3 middle, half;
+};
+
+/* One side of a pair at the beginning and at the end of a time. */
+struct axis_side {
+    const struct vec3 *vertex; /* of the outer hull, body axes */
+    uint32_t count;
+    double scale;        /* of the vertices */
+    struct hull_box box; /* scaled */
+    struct vec3 at[2];   /* [m, world] the position, which moves in a straight line */
+    struct mat3 turn[2];
+    /* [m] at most: by how much a point is off the straight line between its two places, because it
+     * moves on an arc. */
+    double bend_m;
+    bool still; /* both ends are the same */
+};
+
+struct hull_box hull_box_of(const struct vec3 *vertices, const struct hull *hull);
+
+/* Returns a body from `time` in [path.since, 1] to 1. from, to: the matrices of body->from and
+ * body->to; rate: rotation_rate() of them. box: not scaled. The body must not turn freely. */
+struct axis_side axis_side_of(const struct swept_body *body, const struct mat3 *from,
+                              const struct mat3 *to, double rate, const struct hull_box *box,
+                              double time);
+
+/* Returns true if the outer hulls stay farther apart along the unit axis, which points from a to b,
+ * than margin_m, all the time. */
+bool separating_axis_holds(const struct axis_side *a, const struct axis_side *b, struct vec3 axis,
+                           double margin_m);
+
+/* Finds an axis along which the outer hulls stay farther apart than margin_m [m, >= 0] all the
+ * time. Returns false if it finds none: the bodies may touch or not. *axis is tried first, unless
+ * it is 0, and becomes the axis found. */
+bool separating_axis_find(const struct axis_side *a, const struct axis_side *b, double margin_m,
+                          struct vec3 *axis);
+
+#endif
