@@ -17,6 +17,9 @@
 #define PAIRS_A_PIECE  16
 #define FLIERS_A_PIECE 128
 
+/* Room for the points of resting pairs. A pair for which there is none is swept always. */
+#define REST_POINTS_A_SLOT 8u
+
 /* The two ends of a row's path: ground, and end of life. */
 #define ENDS_A_ROW 2u
 
@@ -43,6 +46,9 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
     contacts->marks = reserve_take(pairs, sizeof *contacts->marks);
     contacts->impacts = reserve_take(pairs, sizeof *contacts->impacts);
     contacts->axis = reserve_take(pairs, sizeof *contacts->axis);
+    contacts->rest = reserve_take(pairs, sizeof *contacts->rest);
+    contacts->rest_capacity = REST_POINTS_A_SLOT * world->params->contact_slots;
+    contacts->rest_point = reserve_take(contacts->rest_capacity, sizeof *contacts->rest_point);
     contacts->proves = world->params->collision.shape == SHAPE_MODEL &&
                        !method_discrete((enum method)world->params->collision.method);
     contacts->link = reserve_take(2 * (uint64_t)pairs, sizeof *contacts->link);
@@ -51,9 +57,9 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
     contacts->strayed = reserve_take(rows, sizeof *contacts->strayed);
     contacts->strays = calloc(rows, sizeof *contacts->strays);
     if (contacts->heap.contact && contacts->pair && contacts->met && contacts->swept &&
-        contacts->marks && contacts->impacts && contacts->link && contacts->head &&
-        contacts->version && contacts->strayed && contacts->strays && contacts->axis &&
-        pair_apart_init(&contacts->apart, world) == 0 &&
+        contacts->marks && contacts->impacts && contacts->axis && contacts->rest &&
+        contacts->rest_point && contacts->link && contacts->head && contacts->version &&
+        contacts->strayed && contacts->strays && pair_apart_init(&contacts->apart, world) == 0 &&
         pair_list_init(&contacts->near, broad_phase_found_most(world)) == 0)
         return 0;
     contact_queue_free(contacts);
@@ -70,6 +76,8 @@ void contact_queue_free(struct contact_queue *contacts)
     reserve_free(contacts->marks);
     reserve_free(contacts->impacts);
     reserve_free(contacts->axis);
+    reserve_free(contacts->rest);
+    reserve_free(contacts->rest_point);
     pair_apart_free(&contacts->apart);
     reserve_free(contacts->link);
     free(contacts->head);
@@ -98,6 +106,7 @@ static void more_pairs(struct contact_queue *contacts)
     contacts->marks = reserve_grow(contacts->marks, held, more, sizeof *contacts->marks);
     contacts->impacts = reserve_grow(contacts->impacts, held, more, sizeof *contacts->impacts);
     contacts->axis = reserve_grow(contacts->axis, held, more, sizeof *contacts->axis);
+    contacts->rest = reserve_grow(contacts->rest, held, more, sizeof *contacts->rest);
     contacts->link = reserve_grow(contacts->link, contacts->link_count, 2 * (uint64_t)more,
                                   sizeof *contacts->link);
     contacts->pair_capacity = more;
@@ -114,6 +123,7 @@ static uint32_t add_pair(struct contact_queue *contacts, struct pair pair)
     contacts->marks[index] = 0;
     contacts->impacts[index] = (struct pair_impacts){0};
     contacts->axis[index] = (struct vec3){0.0, 0.0, 0.0};
+    contacts->rest[index] = (struct rest_span){0, 0};
     link_row(contacts, pair.a, index);
     if (!(pair.b & PAIR_FIXED))
         link_row(contacts, pair.b, index);
@@ -130,6 +140,7 @@ void contact_queue_begin(struct contact_queue *contacts, const struct pair_list 
     contacts->pair_count = 0;
     contacts->stray_count = 0;
     contacts->change = 0;
+    contacts->rest_points = 0;
     for (uint32_t i = 0; i < list_count; i++) {
         for (uint32_t n = 0; n < lists[i].count; n++)
             add_pair(contacts, lists[i].pair[n]);
@@ -258,6 +269,35 @@ static bool rests_on(const struct contact_input *input, const struct contact *co
     return vec3_dot(velocity, contact->impact.normal) < CONTACT_IMPACT_MPS;
 }
 
+/* Returns the velocity of a row on the map at an arm from its position [m/s]. */
+static struct vec3 level_velocity(const struct contact_queue *contacts, uint32_t row, double hz,
+                                  double x, double z)
+{
+    const struct row_pose *pose = &contacts->apart.row[row];
+    double spin = pose->spin_y * hz;
+    return (struct vec3){pose->body.path.along.x * hz + spin * z, 0.0,
+                         pose->body.path.along.z * hz - spin * x};
+}
+
+/* Returns true if the bodies of a pair that rest on each other close too slowly for an impact at
+ * all of their points. */
+static bool still_rests(const struct contact_queue *contacts, const struct contact_input *input,
+                        uint32_t index)
+{
+    const struct pair *pair = &contacts->pair[index];
+    const struct rest_span *rest = &contacts->rest[index];
+    double hz = 1.0 / world_dt_s(input->detect.world);
+    for (uint32_t i = rest->first; i < rest->first + rest->count; i++) {
+        const struct rest_point *point = &contacts->rest_point[i];
+        struct vec3 slip = level_velocity(contacts, pair->a, hz, point->a_x, point->a_z);
+        if (!(pair->b & PAIR_FIXED))
+            slip = vec3_sub(slip, level_velocity(contacts, pair->b, hz, point->b_x, point->b_z));
+        if (slip.x * point->normal_x + slip.z * point->normal_z >= CONTACT_IMPACT_MPS)
+            return false;
+    }
+    return rest->count > 0;
+}
+
 /* Sweeps one pair from a time on. Returns true, with the contact, if there is one. Bodies that rest
  * on each other touch all the time: they are swept only if they may get into each other. */
 static bool sweep_pair(struct contact_queue *contacts, const struct contact_input *input,
@@ -269,6 +309,8 @@ static bool sweep_pair(struct contact_queue *contacts, const struct contact_inpu
     if (contacts->met[index] >= input->meets || state[pair->a] == ENTITY_FREE ||
         (!fixed && state[pair->b] == ENTITY_FREE) ||
         (fixed && !pair_filter_stands(&input->detect, pair->b & ~PAIR_FIXED)))
+        return false;
+    if (contacts->proves && still_rests(contacts, input, index))
         return false;
     if (contacts->proves &&
         pair_apart_stays(&contacts->apart, pair, from, SKIN_M, &contacts->axis[index]))
@@ -512,6 +554,19 @@ static void look_around(struct contact_queue *contacts, const struct contact_inp
         contacts->strayed[contacts->stray_count++] = row;
     contacts->strays[row] = 1;
     *known = box_union(known, &box);
+}
+
+void contact_queue_rest(struct contact_queue *contacts, uint32_t pair,
+                        const struct rest_point *point, uint32_t count)
+{
+    contacts->marks[pair] |= CONTACT_RESTS;
+    contacts->rest[pair] = (struct rest_span){contacts->rest_points, 0};
+    for (uint32_t i = 0; i < count && contacts->rest_points < contacts->rest_capacity; i++) {
+        contacts->rest_point[contacts->rest_points++] = point[i];
+        contacts->rest[pair].count++;
+    }
+    if (contacts->rest[pair].count < count)
+        contacts->rest[pair].count = 0;
 }
 
 void contact_queue_look(struct contact_queue *contacts, const struct contact_input *input,

@@ -28,10 +28,16 @@
 #define CONTACT_TOUCHING_M (2.0 * SKIN_M)
 
 /* Marks of a pair. */
-#define CONTACT_RESTS    1u /* its contact lasts: collider/resting/ has solved it in this frame */
+#define CONTACT_RESTS    1u /* collider/resting/ has solved it, or its bodies have met */
 #define CONTACT_PRESSED  2u /* its bodies touched in this frame */
 #define CONTACT_OVERLAPS 4u /* they overlap, and have to part in the next frame */
 #define CONTACT_GATHERED 8u /* it belongs to the island that is being solved */
+
+/* A point at which two bodies rest on each other, on the map. */
+struct rest_point {
+    double normal_x, normal_z; /* unit, from a to b */
+    double a_x, a_z, b_x, b_z; /* [m] from the bodies' positions; b of a fixed object: 0 */
+};
 
 struct contact {
     struct hull_contact impact;
@@ -53,6 +59,11 @@ struct contact_link {
     uint32_t next; /* link + 1 */
 };
 
+/* The points of one pair: an index, and how many. */
+struct rest_span {
+    uint32_t first, count;
+};
+
 struct contact_list {
     struct contact *contact;
     uint32_t count, capacity;
@@ -67,8 +78,11 @@ struct contact_queue {
     uint32_t *swept;          /* [pair] the last change that swept it, 0: none */
     uint8_t *marks;           /* [pair] of CONTACT_RESTS to CONTACT_GATHERED */
     struct pair_impacts *impacts; /* [pair] */
-    struct vec3 *axis; /* [pair] unit, from a to b: may separate the bodies; 0: none known */
-    uint32_t change;   /* changes so far in this frame */
+    struct vec3 *axis;      /* [pair] unit, from a to b: may separate the bodies; 0: none known */
+    struct rest_span *rest; /* [pair] where its bodies rest on each other */
+    struct rest_point *rest_point;
+    uint32_t rest_points, rest_capacity;
+    uint32_t change; /* changes so far in this frame */
     uint32_t pair_count, pair_capacity;
     struct contact_link *link; /* of the rows' lists of pairs; two for each of pair_capacity */
     uint32_t link_count;
@@ -111,6 +125,12 @@ uint32_t contact_queue_pair(struct contact_queue *contacts, const struct pair *p
  * phase has. resting: also those of two bodies that rest. Nothing is swept. */
 void contact_queue_look(struct contact_queue *contacts, const struct contact_input *input,
                         uint32_t row, bool resting);
+
+/* The bodies of a pair rest on each other at these points: marks it as CONTACT_RESTS. From now on
+ * the pair is swept only if it closes as fast as in an impact at one of the points. Without points
+ * it always is. */
+void contact_queue_rest(struct contact_queue *contacts, uint32_t pair,
+                        const struct rest_point *point, uint32_t count);
 
 /* Finds the first contact of each of the frame's pairs, on all workers. */
 void contact_queue_find(struct contact_queue *contacts, const struct contact_input *input);

@@ -49,6 +49,10 @@ void pair_apart_prepare(struct pair_apart *apart, const struct body_motion *moti
     pose->from = rotation_matrix(pose->body.from);
     pose->to = rotation_matrix(pose->body.to);
     pose->rate = rotation_rate(pose->body.from, pose->body.to);
+    pose->spin_y = 0.0;
+    if (pose->rate > 0.0 && pose->body.path.since < 1.0)
+        pose->spin_y =
+            rotation_speed(pose->body.from, pose->body.to, 0.0).y / (1.0 - pose->body.path.since);
     pose->known = true;
 }
 

@@ -11,7 +11,8 @@
 struct row_pose {
     struct swept_body body;
     struct mat3 from, to;
-    double rate; /* rotation_rate() from one to the other */
+    double spin_y; /* [rad a frame] about the vertical, at path.since */
+    double rate;   /* rotation_rate() from one to the other */
     uint16_t kind;
     bool freely; /* it turns by no fixed axis, and only its sphere is tested */
     bool known;  /* the row's path has not changed since */

@@ -19,9 +19,8 @@
 
 /* Of the contacts that last, an island takes those of bodies so many contacts away from an impact,
  * and at most so many. */
-#define HOPS           2
-#define RESTING_MOST   64u
-#define RESTING_LISTED 1024u /* pairs, at first */
+#define HOPS         2
+#define RESTING_MOST 64u
 
 /* Smaller overlaps are rounding, 50 km from the origin [m]. */
 #define ROUNDING_M 1e-9
@@ -39,7 +38,7 @@ int island_init(struct island *island, const struct world *world)
     island->solve_of = reserve_take(solved, sizeof *island->solve_of);
     island->contact = reserve_take(most, sizeof *island->contact);
     island->shift = reserve_take(rows, sizeof *island->shift);
-    if (pair_list_init(&island->near, RESTING_LISTED) == 0 && island->met && island->body &&
+    if (pair_list_init(&island->near, 2 * (uint64_t)most) == 0 && island->met && island->body &&
         island->row && island->body_of && island->solve && island->solve_of && island->contact &&
         island->shift)
         return 0;
@@ -123,6 +122,36 @@ static void add_bodies(struct island *island, struct island_contact *met)
     join(island, met->body_a, met->body_b);
 }
 
+/* Bodies on the ground that have met rest on each other for the rest of the frame: what closes more
+ * slowly than in an impact is left to the solver of resting contacts, in the next frame. */
+static void rest(struct response_context *context, const struct contact *contact)
+{
+    struct contact_queue *contacts = context->contacts;
+    const struct pair pair = {contact->a, contact->b};
+    struct free_turn turn_a, turn_b;
+    struct level_gap gap[LEVEL_GAPS_MAX];
+    struct rest_point point[2 * LEVEL_GAPS_MAX];
+    uint32_t count = 0;
+    double time = contact->impact.toi;
+    if (!contacts->proves || contacts->rest[contact->pair - 1].count > 0 ||
+        !path_change_grounded(context, pair.a) ||
+        (!(pair.b & PAIR_FIXED) && !path_change_grounded(context, pair.b)))
+        return;
+    struct swept_body a = body_motion_body(context->motion, pair.a, &turn_a);
+    struct swept_body b = body_motion_side(context->motion, pair.b, &turn_b);
+    struct vec3 at_a = path_at(&a.path, time), at_b = path_at(&b.path, time);
+    uint32_t gaps = level_gap_find(&a, &b, time, CONTACT_TOUCHING_M, gap);
+    for (uint32_t g = 0; g < gaps; g++) {
+        for (uint32_t p = 0; p < gap[g].points; p++) {
+            struct vec3 at = gap[g].point[p];
+            point[count++] = (struct rest_point){gap[g].normal.x, gap[g].normal.z, at.x - at_a.x,
+                                                 at.z - at_a.z,   at.x - at_b.x,   at.z - at_b.z};
+        }
+    }
+    if (count > 0)
+        contact_queue_rest(contacts, contact->pair - 1, point, count);
+}
+
 /* Gathers one contact: a persistent contact, a fixed object that gives way, or a contact for the
  * solver. */
 static void take(struct response_context *context, const struct contact *contact)
@@ -142,6 +171,7 @@ static void take(struct response_context *context, const struct contact *contact
         contact_queue_skip_pair(context->contacts, contact);
         return;
     }
+    rest(context, contact);
     add_bodies(island, met);
     island->body[met->body_a].stays |= contact->last;
     if (met->body_b != BODY_FIXED)

@@ -13,7 +13,8 @@
 #include <errno.h>
 #include <stdlib.h>
 
-#define ROUNDING_M     1e-5 /* less is no deepening */
+#define ROUNDING_M     1e-5 /* a depth up to this is none */
+#define EXACT_M        1e-8 /* error of a depth: less is no deepening of a greater depth */
 #define PAIRS_A_PIECE  8u
 #define SENT_BACK_MOST 4u /* the last time all the way; this bounds the work of a frame */
 
@@ -106,7 +107,7 @@ static bool deeper(const struct response_context *context, const struct pair *pa
     if (after >= -ROUNDING_M)
         return false;
     double before = gap_in(context, &context->motion->committed->entities, pair);
-    return before > -END_GUARD_LEFT_OUT_M && after < before - ROUNDING_M;
+    return before > -END_GUARD_LEFT_OUT_M && after < before - EXACT_M;
 }
 
 /* --- rows --------------------------------------------------------------------------------------*/
@@ -257,6 +258,23 @@ static void run_round(struct end_guard *guard, struct response_context *context)
     }
 }
 
+/* Lists the bodies of the pairs that are not swept because they rest, even if no contact changed
+ * their motion: they may turn into each other. */
+static void look_at_resting(struct end_guard *guard, const struct resting *resting,
+                            const struct response_context *context)
+{
+    const struct contact_queue *contacts = context->contacts;
+    for (uint32_t i = 0; i < resting->pairs; i++) {
+        uint32_t index = resting->pair[i].pair;
+        const struct pair *pair = &contacts->pair[index];
+        if (!(contacts->marks[index] & CONTACT_RESTS))
+            continue;
+        look_at(guard, pair->a);
+        if (!(pair->b & PAIR_FIXED))
+            look_at(guard, pair->b);
+    }
+}
+
 void end_guard_run(struct end_guard *guard, const struct resting *resting,
                    struct response_context *context)
 {
@@ -272,6 +290,7 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
         if (guarded(context, row))
             ground_placement_put(context, row, entities_position(e, row), e->heading[row]);
     }
+    look_at_resting(guard, resting, context);
     while (guard->count > 0)
         run_round(guard, context);
     for (uint32_t i = 0; i < guard->touched_count; i++)

@@ -314,6 +314,18 @@ static bool overlaps(const struct resting *resting, const struct resting_pair *p
     return false;
 }
 
+/* Tells the search for impacts where the pair rests. */
+static void rest(const struct resting *resting, struct contact_queue *contacts,
+                 const struct resting_pair *pair)
+{
+    struct rest_point point[POINTS_A_PAIR];
+    for (uint32_t i = 0; i < pair->count; i++) {
+        const struct level_contact *c = &resting->point[pair->first + i];
+        point[i] = (struct rest_point){c->normal_x, c->normal_z, c->a_x, c->a_z, c->b_x, c->b_z};
+    }
+    contact_queue_rest(contacts, pair->pair, point, pair->count);
+}
+
 /* A pair that the sweeps have not brought to rest is left to the search for impacts. */
 static void mark(struct resting *resting, struct response_context *context)
 {
@@ -321,7 +333,7 @@ static void mark(struct resting *resting, struct response_context *context)
         const struct resting_pair *pair = &resting->pair[i];
         uint8_t *marks = &context->contacts->marks[pair->pair];
         if (closing(resting, pair) < CONTACT_IMPACT_MPS)
-            *marks |= CONTACT_RESTS;
+            rest(resting, context->contacts, pair);
         if (touches(resting, pair))
             *marks |= CONTACT_PRESSED;
         if (overlaps(resting, pair))

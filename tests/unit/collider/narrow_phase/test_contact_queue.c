@@ -297,6 +297,31 @@ static void test_resting_bodies_meet_only_in_an_impact(void **state)
     assert_int_equal(contact.pair, 1);
 }
 
+/* Bodies that rest at known points are swept only if they close fast at one of these. */
+static void test_resting_points_decide_what_is_swept(void **state)
+{
+    struct contact contact;
+    const struct rest_point aside = {.normal_z = 1.0, .a_x = 2.0, .b_x = -3.0};
+    const struct rest_point ahead = {.normal_x = 1.0, .a_x = 2.0, .b_x = -3.0};
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, "collision = { shape = \"model\"; };");
+    uint32_t a =
+        fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25000.0, 100.0, 25000.0}});
+    fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25005.0, 100.0, 25000.0}});
+    f.stepper.collider.motion.path[a] =
+        (struct path){.at = {25000.0, 100.0, 25000.0}, .along = {3.0, 0.0, 0.0}};
+    f.stepper.collider.motion.path[a + 1] = (struct path){.at = {25005.0, 100.0, 25000.0}};
+    find();
+    assert_true(contact_queue_next(contacts(), &context.input, &contact));
+    contact_queue_rest(contacts(), 0, &aside, 1);
+    contact_queue_change(contacts(), &context.input, &a, 1, 0.0);
+    assert_false(contact_queue_next(contacts(), &context.input, &contact));
+    contact_queue_rest(contacts(), 0, &ahead, 1);
+    contact_queue_change(contacts(), &context.input, &a, 1, 0.0);
+    assert_true(contact_queue_next(contacts(), &context.input, &contact));
+}
+
 static void test_marks_last_for_a_frame(void **state)
 {
     (void)state;
@@ -351,6 +376,7 @@ int main(void)
         TEST(test_a_pair_is_added_once),
         TEST(test_looking_around_finds_bodies_at_rest),
         TEST(test_a_row_that_left_its_box_is_found_by_the_next),
+        TEST(test_resting_points_decide_what_is_swept),
         TEST(test_resting_bodies_meet_only_in_an_impact),
         TEST(test_marks_last_for_a_frame),
         TEST(test_through_fixed_only_entering_is_a_contact),
