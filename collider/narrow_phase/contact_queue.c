@@ -310,7 +310,8 @@ static bool sweep_pair(struct contact_queue *contacts, const struct contact_inpu
         (!fixed && state[pair->b] == ENTITY_FREE) ||
         (fixed && !pair_filter_stands(&input->detect, pair->b & ~PAIR_FIXED)))
         return false;
-    if (contacts->proves && still_rests(contacts, input, index))
+    if (contacts->marks[index] & CONTACT_PARTS ||
+        (contacts->proves && still_rests(contacts, input, index)))
         return false;
     if (contacts->proves &&
         pair_apart_stays(&contacts->apart, pair, from, SKIN_M, &contacts->axis[index]))

@@ -28,10 +28,11 @@
 #define CONTACT_TOUCHING_M (2.0 * SKIN_M)
 
 /* Marks of a pair. */
-#define CONTACT_RESTS    1u /* collider/resting/ has solved it, or its bodies have met */
-#define CONTACT_PRESSED  2u /* its bodies touched in this frame */
-#define CONTACT_OVERLAPS 4u /* they overlap, and have to part in the next frame */
-#define CONTACT_GATHERED 8u /* it belongs to the island that is being solved */
+#define CONTACT_RESTS    1u  /* collider/resting/ has solved it, or its bodies have met */
+#define CONTACT_PRESSED  2u  /* its bodies touched in this frame */
+#define CONTACT_OVERLAPS 4u  /* they overlap, and have to part in the next frame */
+#define CONTACT_GATHERED 8u  /* it belongs to the island that is being solved */
+#define CONTACT_PARTS    16u /* it is deep, and rests: its bodies only have to part */
 
 /* A point at which two bodies rest on each other, on the map. */
 struct rest_point {
@@ -76,7 +77,7 @@ struct contact_queue {
     struct pair *pair;        /* every pair of the frame */
     uint8_t *met;             /* [pair] contacts of this pair in this frame */
     uint32_t *swept;          /* [pair] the last change that swept it, 0: none */
-    uint8_t *marks;           /* [pair] of CONTACT_RESTS to CONTACT_GATHERED */
+    uint8_t *marks;           /* [pair] of CONTACT_RESTS to CONTACT_PARTS */
     struct pair_impacts *impacts; /* [pair] */
     struct vec3 *axis;      /* [pair] unit, from a to b: may separate the bodies; 0: none known */
     struct rest_span *rest; /* [pair] where its bodies rest on each other */

@@ -107,7 +107,7 @@ static bool deeper(const struct response_context *context, const struct pair *pa
     if (after >= -ROUNDING_M)
         return false;
     double before = gap_in(context, &context->motion->committed->entities, pair);
-    return before > -END_GUARD_LEFT_OUT_M && after < before - EXACT_M;
+    return before > -RESTING_PARTS_M && after < before - EXACT_M;
 }
 
 /* --- rows --------------------------------------------------------------------------------------*/
@@ -184,7 +184,8 @@ static void add_pair(struct end_guard *guard, const struct response_context *con
 }
 
 /* Lists the row's pairs. A pair of two rows that are looked at is listed once. */
-static void add_pairs_of(struct end_guard *guard, struct response_context *context, uint32_t row)
+static void add_pairs_of(struct end_guard *guard, const struct resting *resting,
+                         const struct response_context *context, uint32_t row)
 {
     const struct contact_queue *contacts = context->contacts;
     for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
@@ -192,6 +193,8 @@ static void add_pairs_of(struct end_guard *guard, struct response_context *conte
         const struct pair *pair = &contacts->pair[index];
         uint32_t other = pair->a == row ? pair->b : pair->a;
         bool fixed = other & PAIR_FIXED;
+        if (resting->parts[row] || (!fixed && resting->parts[other]))
+            continue;
         if (fixed ? !is_wall(context, other & ~PAIR_FIXED)
                   : (guard->listed[other] && other < row) || !guarded(context, other))
             continue;
@@ -233,12 +236,13 @@ static void mark_deeper(struct end_guard *guard, const struct response_context *
 /* One round: all pairs of the listed rows are tested before any row goes back, so that the result
  * does not depend on the order of the rows and their pairs. The rows that went back are listed
  * next. */
-static void run_round(struct end_guard *guard, struct response_context *context)
+static void run_round(struct end_guard *guard, const struct resting *resting,
+                      struct response_context *context)
 {
     guard->back_count = guard->pair_count = 0;
     for (uint32_t i = 0; i < guard->count; i++) {
         if (guarded(context, guard->row[i]))
-            add_pairs_of(guard, context, guard->row[i]);
+            add_pairs_of(guard, resting, context, guard->row[i]);
     }
     thread_pool_run(guard->workers, measure_some, &(struct round){guard, context},
                     guard->pair_count, PAIRS_A_PIECE);
@@ -292,7 +296,7 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
     }
     look_at_resting(guard, resting, context);
     while (guard->count > 0)
-        run_round(guard, context);
+        run_round(guard, resting, context);
     for (uint32_t i = 0; i < guard->touched_count; i++)
         guard->sent_back[guard->touched[i]] = 0;
     for (uint32_t i = 0; i < guard->posed_count; i++)

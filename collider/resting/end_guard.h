@@ -9,10 +9,6 @@
 
 struct thread_pool;
 
-/* The guard leaves out pairs that began the frame deeper in each other than this [m]. The
- * recovery of overlaps parts them. */
-#define END_GUARD_LEFT_OUT_M 0.02
-
 struct axis_side;
 
 /* A pair that is measured in a round. */

@@ -14,6 +14,10 @@
 
 struct thread_pool;
 
+/* Bodies that begin the frame deeper in another than this have to part. The guard at the frame's
+ * end leaves them out [m]. */
+#define RESTING_PARTS_M 0.02
+
 /* Two bodies in a contact that lasts. */
 struct resting_pair {
     uint32_t pair;         /* index into contacts->pair */
@@ -40,6 +44,7 @@ struct resting {
     uint32_t *row; /* [bodies] SLOT_NONE for a fixed object */
     uint32_t bodies;
     uint32_t *body_of; /* [capacity of the world] body + 1, else 0 */
+    uint8_t *parts;    /* [capacity of the world] 1: deeper in another than RESTING_PARTS_M */
     uint32_t *moved;   /* rows whose motion the contacts changed */
     uint32_t moved_count;
 };

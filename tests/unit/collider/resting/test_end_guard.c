@@ -77,7 +77,10 @@ static void run(uint32_t count, const uint32_t *rows)
     uint32_t moved[ROWS];
     memcpy(moved, rows, count * sizeof *rows);
     end_guard_run(&f.stepper.collider.guard,
-                  &(struct resting){.moved = moved, .moved_count = count}, &context);
+                  &(struct resting){.moved = moved,
+                                    .moved_count = count,
+                                    .parts = f.stepper.collider.resting.parts},
+                  &context);
 }
 
 /* --- what goes back ----------------------------------------------------------------------------*/
@@ -168,7 +171,7 @@ static void test_an_overlap_may_last_but_not_grow(void **state)
 static void test_deep_overlaps_have_to_part_first(void **state)
 {
     (void)state;
-    overlap(2.0 * END_GUARD_LEFT_OUT_M);
+    overlap(2.0 * RESTING_PARTS_M);
     move(0, 0.005);
     run(1, (uint32_t[]){0});
     assert_true(next()->x[0] == WEST_M + 0.005);
