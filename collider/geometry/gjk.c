@@ -217,6 +217,7 @@ struct known {
     double square; /* of the simplex's distance */
     struct vec3 normal;
     double apart;
+    double enough; /* with a plane that separates the bodies by more the search ends */
 };
 
 static void keep(struct known *known, const struct simplex *simplex)
@@ -232,6 +233,12 @@ static bool certain(double square, double apart, double slack)
 {
     double length = sqrt(square);
     return length <= GJK_OVERLAP_M || length - apart <= slack + NEAR_SHARE * length;
+}
+
+/* Returns true if the bodies are farther apart than anyone asks. */
+static bool far(const struct known *known)
+{
+    return known->apart > known->enough;
 }
 
 /* Sets up the first simplex. */
@@ -268,7 +275,7 @@ static void search_once(const struct convex *a, const struct convex *b,
             known->apart = apart;
             known->normal = n;
         }
-        if (certain(square, known->apart, NEAR_M) || holds(&simplex, &corner))
+        if (far(known) || certain(square, known->apart, NEAR_M) || holds(&simplex, &corner))
             break;
         if (add_corner(&simplex, &corner, square))
             continue;
@@ -301,12 +308,14 @@ static struct gjk result(const struct convex *a, const struct convex *b, const s
     return gjk;
 }
 
-struct gjk gjk_distance_from(const struct convex *a, const struct convex *b,
-                             struct gjk_start *start)
+struct gjk gjk_distance_within(const struct convex *a, const struct convex *b, double limit_m,
+                               struct gjk_start *start)
 {
-    struct known known = {.square = INFINITY, .apart = -INFINITY};
+    struct known known = {
+        .square = INFINITY, .apart = -INFINITY, .enough = limit_m + GJK_OVERLAP_M + SURE_M};
     search_once(a, b, start, &known);
-    for (int other = 0; other < SEARCHES && !certain(known.square, known.apart, SURE_M); other++) {
+    for (int other = 0;
+         other < SEARCHES && !far(&known) && !certain(known.square, known.apart, SURE_M); other++) {
         const struct gjk_start elsewhere = {
             .guess = {other & 1 ? -1.0 : 1.0, other & 2 ? -1.0 : 1.0, other & 4 ? -1.0 : 1.0}};
         search_once(a, b, &elsewhere, &known);
@@ -316,7 +325,16 @@ struct gjk gjk_distance_from(const struct convex *a, const struct convex *b,
         start->a[i] = known.simplex.corner[i].a;
         start->b[i] = known.simplex.corner[i].b;
     }
-    return result(a, b, &known);
+    struct gjk gjk = result(a, b, &known);
+    if (far(&known))
+        gjk.distance_m = known.apart;
+    return gjk;
+}
+
+struct gjk gjk_distance_from(const struct convex *a, const struct convex *b,
+                             struct gjk_start *start)
+{
+    return gjk_distance_within(a, b, INFINITY, start);
 }
 
 struct gjk gjk_distance(const struct convex *a, const struct convex *b)

@@ -44,6 +44,13 @@ struct gjk_start {
 struct gjk gjk_distance_from(const struct convex *a, const struct convex *b,
                              struct gjk_start *start);
 
+/* The same for bodies whose distance is not above limit_m. Of bodies that are farther apart it says
+ * only that: the search ends with the first plane that proves it, mostly after one or two rounds.
+ * distance_m is then a lower bound above limit_m, and on_a, on_b and the end in start are those
+ * found so far. */
+struct gjk gjk_distance_within(const struct convex *a, const struct convex *b, double limit_m,
+                               struct gjk_start *start);
+
 /* Returns the position of a vertex relative to at. */
 struct vec3 gjk_vertex(const struct convex *convex, uint32_t vertex);
 

@@ -73,28 +73,47 @@ struct hull_pair hull_pair_of(const struct rotation_path *a, const struct rotati
     };
 }
 
-static void pose(const struct rotation_path *rotation, const struct hull *hull, double time,
-                 struct convex *convex, struct vec3 *spin, struct vec3 *centre)
+struct hull_pair hull_pair_first(const struct rotation_path *a, const struct rotation_path *b,
+                                 uint64_t pairs)
+{
+    uint32_t bit = (uint32_t)__builtin_ctzll(pairs);
+    return hull_pair_of(a, b, &a->body->hull[bit / HULLS_A_MODEL],
+                        &b->body->hull[bit % HULLS_A_MODEL]);
+}
+
+struct body_pose body_pose_at(const struct rotation_path *rotation, double time)
 {
     const struct swept_body *body = rotation->body;
-    convex->vertex = body->vertices + hull->first_vertex;
-    convex->count = hull->vertex_count;
-    convex->scale = body->scale;
-    convex->turn = rotation->turn;
-    *spin = (struct vec3){0.0, 0.0, 0.0};
-    if (rotation->rate > 0.0) {
-        double t = maths_clamp((time - body->path.since) * rotation->share, 0.0, 1.0);
-        struct quat turned;
-        if (rotation->free) {
-            free_turn_at(body->turn, t, &turned, spin);
-        } else {
-            turned = rotation_between(body->from, body->to, t);
-            *spin = rotation_speed(body->from, body->to, t);
-        }
-        convex->turn = rotation_matrix(turned);
-        *spin = vec3_scale(*spin, rotation->share);
+    struct body_pose pose = {.turn = rotation->turn};
+    if (!(rotation->rate > 0.0))
+        return pose;
+    double t = maths_clamp((time - body->path.since) * rotation->share, 0.0, 1.0);
+    struct quat turned;
+    if (rotation->free) {
+        free_turn_at(body->turn, t, &turned, &pose.spin);
+    } else {
+        turned = rotation_between(body->from, body->to, t);
+        pose.spin = rotation_speed(body->from, body->to, t);
     }
-    *centre = rotation_apply(&convex->turn, vec3_scale(hull->centre, body->scale));
+    pose.turn = rotation_matrix(turned);
+    pose.spin = vec3_scale(pose.spin, rotation->share);
+    return pose;
+}
+
+static struct convex convex_of(const struct swept_body *body, const struct hull *hull,
+                               const struct body_pose *pose, struct vec3 at)
+{
+    return (struct convex){.vertex = body->vertices + hull->first_vertex,
+                           .count = hull->vertex_count,
+                           .scale = body->scale,
+                           .turn = pose->turn,
+                           .at = at};
+}
+
+static struct vec3 centre_of(const struct swept_body *body, const struct hull *hull,
+                             const struct body_pose *pose)
+{
+    return rotation_apply(&pose->turn, vec3_scale(hull->centre, body->scale));
 }
 
 struct vec3 hull_separation_at(const struct path *a, const struct path *b, double time)
@@ -104,19 +123,30 @@ struct vec3 hull_separation_at(const struct path *a, const struct path *b, doubl
     return vec3_add(vec3_sub(b->at, a->at), vec3_sub(moved_b, moved_a));
 }
 
-struct relative_pose relative_pose_at(const struct hull_pair *pair, double time)
+struct relative_pose relative_pose_of(const struct hull_pair *pair, const struct body_pose *a,
+                                      const struct body_pose *b, double time)
 {
-    struct relative_pose now;
-    now.time = time;
-    pose(pair->a, pair->hull_a, time, &now.a, &now.spin_a, &now.centre_a);
-    pose(pair->b, pair->hull_b, time, &now.b, &now.spin_b, &now.centre_b);
-    now.a.at = (struct vec3){0.0, 0.0, 0.0};
-    now.b.at = hull_separation_at(&pair->a->body->path, &pair->b->body->path, time);
-    now.towards = vec3_add(now.b.at, vec3_sub(now.centre_b, now.centre_a));
+    const struct swept_body *body_a = pair->a->body, *body_b = pair->b->body;
+    struct vec3 at = hull_separation_at(&body_a->path, &body_b->path, time);
+    struct relative_pose now = {
+        .time = time,
+        .a = convex_of(body_a, pair->hull_a, a, (struct vec3){0.0, 0.0, 0.0}),
+        .b = convex_of(body_b, pair->hull_b, b, at),
+        .spin_a = a->spin,
+        .spin_b = b->spin,
+        .centre_a = centre_of(body_a, pair->hull_a, a),
+        .centre_b = centre_of(body_b, pair->hull_b, b)};
+    now.towards = vec3_add(at, vec3_sub(now.centre_b, now.centre_a));
     now.centres_m = vec3_length(now.towards);
     now.towards = now.centres_m > 0.0 ? vec3_scale(now.towards, 1.0 / now.centres_m)
                                       : (struct vec3){0.0, 1.0, 0.0};
     return now;
+}
+
+struct relative_pose relative_pose_at(const struct hull_pair *pair, double time)
+{
+    struct body_pose a = body_pose_at(pair->a, time), b = body_pose_at(pair->b, time);
+    return relative_pose_of(pair, &a, &b, time);
 }
 
 /* --- lines -------------------------------------------------------------------------------------*/

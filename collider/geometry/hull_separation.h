@@ -30,6 +30,12 @@ struct hull_pair {
     double bend, bend_spheres; /* their acceleration, the sum of both [m a frame^2] at most */
 };
 
+/* A body's rotation at one time. */
+struct body_pose {
+    struct mat3 turn;
+    struct vec3 spin; /* [rad a frame] */
+};
+
 /* The pair at one time. Positions are relative to a's. */
 struct relative_pose {
     double time;
@@ -49,7 +55,17 @@ struct plane {
 struct rotation_path rotation_path_of(const struct swept_body *body);
 struct hull_pair hull_pair_of(const struct rotation_path *a, const struct rotation_path *b,
                               const struct hull *hull_a, const struct hull *hull_b);
+
+/* Returns the pair of the first bit in a set, which must not be empty (box_view_near). */
+struct hull_pair hull_pair_first(const struct rotation_path *a, const struct rotation_path *b,
+                                 uint64_t pairs);
+
+struct body_pose body_pose_at(const struct rotation_path *rotation, double time);
 struct relative_pose relative_pose_at(const struct hull_pair *pair, double time);
+
+/* The same, where the poses of the bodies at this time are known. */
+struct relative_pose relative_pose_of(const struct hull_pair *pair, const struct body_pose *a,
+                                      const struct body_pose *b, double time);
 
 /* Returns the separation of the hulls along the plane's normal [m]; below 0 they overlap. */
 double hull_separation_now(const struct relative_pose *now, struct vec3 normal);

@@ -1,6 +1,7 @@
 /* Distances by GJK; overlaps by the separating axes that are horizontal. */
 #include "collider/geometry/level_gap.h"
 
+#include "collider/geometry/box_view.h"
 #include "collider/geometry/contact_manifold.h"
 #include "collider/geometry/hull_separation.h"
 
@@ -8,14 +9,6 @@
 
 /* A shorter contact is treated as a point [m]. */
 #define EDGE_LEAST_M 0.01
-
-/* Axes along which extents are compared: the normal, across it, and up. */
-enum { ALONG, ACROSS, UP, AXES };
-
-/* How far a hull reaches along the axes, relative to the first body's position [m]. */
-struct extent {
-    double low[AXES], high[AXES];
-};
 
 /* The two bodies at one time. */
 struct body_pair {
@@ -112,7 +105,7 @@ static bool measure(const struct body_pair *bodies, const struct hull_pair *pair
     if (now.centres_m - pair->radii_m > margin_m)
         return false;
     struct gjk_start start = {.guess = now.towards};
-    struct gjk gjk = gjk_distance_from(&now.a, &now.b, &start);
+    struct gjk gjk = gjk_distance_within(&now.a, &now.b, margin_m, &start);
     struct vec3 normal = gjk.normal;
     if (gjk.distance_m > margin_m)
         return false;
@@ -128,83 +121,6 @@ static bool measure(const struct body_pair *bodies, const struct hull_pair *pair
     }
     if (points)
         find_points(bodies, &now, normal, vec3_lerp(gjk.on_a, gjk.on_b, 0.5), gap);
-    return true;
-}
-
-/* --- extents -----------------------------------------------------------------------------------*/
-
-/* Widens an interval to the hull's extent along a direction of the body's own axes. */
-static void reach(const struct swept_body *body, const struct hull *hull, struct vec3 direction,
-                  double *low, double *high)
-{
-    const struct vec3 *vertex = body->vertices + hull->first_vertex;
-    double least = INFINITY, most = -INFINITY;
-    for (uint32_t i = 0; i < hull->vertex_count; i++) {
-        double along = vec3_dot(vertex[i], direction);
-        least = along < least ? along : least;
-        most = along > most ? along : most;
-    }
-    *low = least * body->scale;
-    *high = most * body->scale;
-}
-
-/* Returns the separation of the bodies along an axis, by the hulls around each. */
-static double separation(const struct body_pair *bodies, struct vec3 axis)
-{
-    double low_a, high_a, low_b, high_b;
-    reach(bodies->a, bodies->a->outer, rotation_back(&bodies->pose_a, axis), &low_a, &high_a);
-    reach(bodies->b, bodies->b->outer, rotation_back(&bodies->pose_b, axis), &low_b, &high_b);
-    return low_b + vec3_dot(bodies->between, axis) - high_a;
-}
-
-/* Returns the horizontal axis that separates the bodies most, of those of both bodies' own sides
- * and the line between them, or the first that separates them by more than the margin. Points from
- * a to b. */
-static struct vec3 best_axis(const struct body_pair *bodies, double margin_m, double *most)
-{
-    const double(*ma)[3] = bodies->pose_a.m, (*mb)[3] = bodies->pose_b.m;
-    const struct vec3 sides[4] = {{ma[0][0], 0.0, ma[2][0]},
-                                  {ma[0][2], 0.0, ma[2][2]},
-                                  {mb[0][0], 0.0, mb[2][0]},
-                                  {mb[0][2], 0.0, mb[2][2]}};
-    struct vec3 best = bodies->line;
-    *most = separation(bodies, best);
-    for (int i = 0; i < 4 && *most <= margin_m; i++) {
-        struct vec3 axis = sides[i];
-        if (level(&axis) == 0.0)
-            continue;
-        if (vec3_dot(axis, bodies->between) < 0.0)
-            axis = vec3_scale(axis, -1.0);
-        double apart = separation(bodies, axis);
-        if (apart > *most) {
-            *most = apart;
-            best = axis;
-        }
-    }
-    return best;
-}
-
-static void find_extents(const struct swept_body *body, const struct mat3 *pose, struct vec3 at,
-                         struct vec3 normal, struct extent *extent)
-{
-    const struct vec3 axis[AXES] = {normal, {-normal.z, 0.0, normal.x}, {0.0, 1.0, 0.0}};
-    for (uint32_t i = 0; i < body->hull_count; i++) {
-        for (int k = 0; k < AXES; k++) {
-            double off = vec3_dot(at, axis[k]);
-            reach(body, &body->hull[i], rotation_back(pose, axis[k]), &extent[i].low[k],
-                  &extent[i].high[k]);
-            extent[i].low[k] += off;
-            extent[i].high[k] += off;
-        }
-    }
-}
-
-static bool near(const struct extent *a, const struct extent *b, double margin_m)
-{
-    for (int k = 0; k < AXES; k++) {
-        if (b->low[k] - a->high[k] > margin_m || a->low[k] - b->high[k] > margin_m)
-            return false;
-    }
     return true;
 }
 
@@ -254,32 +170,26 @@ static struct body_pair body_pair_of(const struct swept_body *a, const struct sw
  * overlap are all measured, because the deepest overlap is found only by its own normals. */
 static uint32_t search(struct body_pair *bodies, double *margin_m, struct level_gap *list)
 {
-    struct extent extent_a[HULLS_A_MODEL] = {0}, extent_b[HULLS_A_MODEL] = {0};
     const struct swept_body *a = bodies->a, *b = bodies->b;
+    struct box_view view =
+        box_view_of(&bodies->pose_a, &bodies->pose_b, bodies->between, maths_max(*margin_m, 0.0));
     uint32_t count = 0;
-    double apart;
-    struct vec3 axis = best_axis(bodies, *margin_m, &apart);
-    if (apart > *margin_m)
+    if (box_view_apart(&view, a, a->outer, b, b->outer))
+        return 0;
+    uint64_t near = box_view_near(&view, a, b);
+    if (near == 0)
         return 0;
     bodies->turn_a = rotation_path_of(a);
     bodies->turn_b = rotation_path_of(b);
-    find_extents(a, &bodies->pose_a, (struct vec3){0.0, 0.0, 0.0}, axis, extent_a);
-    find_extents(b, &bodies->pose_b, bodies->between, axis, extent_b);
-    for (uint32_t i = 0; i < a->hull_count; i++) {
-        for (uint32_t j = 0; j < b->hull_count; j++) {
-            struct level_gap one;
-            double margin = maths_max(*margin_m, 0.0);
-            if (!near(&extent_a[i], &extent_b[j], margin))
-                continue;
-            struct hull_pair pair =
-                hull_pair_of(&bodies->turn_a, &bodies->turn_b, &a->hull[i], &b->hull[j]);
-            if (!measure(bodies, &pair, margin, list != NULL, &one))
-                continue;
-            if (list)
-                count = keep(list, count, &one);
-            else
-                *margin_m = maths_min(*margin_m, one.gap_m);
-        }
+    for (; near != 0; near &= near - 1) {
+        struct level_gap one;
+        struct hull_pair pair = hull_pair_first(&bodies->turn_a, &bodies->turn_b, near);
+        if (!measure(bodies, &pair, maths_max(*margin_m, 0.0), list != NULL, &one))
+            continue;
+        if (list)
+            count = keep(list, count, &one);
+        else
+            *margin_m = maths_min(*margin_m, one.gap_m);
     }
     return count;
 }

@@ -4,8 +4,9 @@
  * distance that GJK finds doubles the number of correct digits. */
 #include "collider/geometry/time_of_impact.h"
 
-#include "collider/geometry/hull_separation.h"
+#include "collider/geometry/box_view.h"
 #include "collider/geometry/contact_manifold.h"
+#include "collider/geometry/hull_separation.h"
 
 #define DISTANCES_MAX 1024 /* distances of one pair of hulls */
 #define CLOSE_M                                                                                    \
@@ -140,18 +141,17 @@ static void found(const struct hull_pair *pair, const struct relative_pose *now,
                               .depth_m = depth};
 }
 
-/* Advances one pair of hulls from `from` to its contact, if there is one before `until` and before
- * the contact found so far. */
-static void time_of_impact(const struct hull_pair *pair, double from, double until,
+/* Advances one pair of hulls from now to its contact, if there is one before `until` and before the
+ * contact found so far. */
+static void time_of_impact(const struct hull_pair *pair, struct relative_pose now, double until,
                            struct hull_contact *impact)
 {
     struct gjk_start start = {.count = 0};
     struct vec3 point, normal = {0.0, 0.0, 0.0};
-    double time = from, gap = SKIN_M, last = maths_min(until, impact->toi), h;
+    double time = now.time, gap = SKIN_M, last = maths_min(until, impact->toi), h;
     bool first = true;
     int tries = 0;
     for (int looks = 0; looks < DISTANCES_MAX; looks++) {
-        struct relative_pose now = relative_pose_at(pair, time);
         if (!hull_separation_by_spheres(pair, &now, last - time, &h)) {
             if (first && hull_separation_by_centres(pair, &now, last - time))
                 return;
@@ -170,6 +170,7 @@ static void time_of_impact(const struct hull_pair *pair, double from, double unt
         if (!(time + h < last))
             return;
         time += h;
+        now = relative_pose_at(pair, time);
     }
 }
 
@@ -232,6 +233,29 @@ static int order_of_bodies(const struct swept_body *a, const struct swept_body *
     return order != 0 || !a->turn || !b->turn ? order : free_turn_order(a->turn, b->turn);
 }
 
+/* Returns how far points of a body are moved by its rotation at most within a time [m]. */
+static double turned_m(const struct rotation_path *rotation, double time)
+{
+    return rotation->rate * time * rotation->body->bound_m;
+}
+
+/* Finds the first contact of the hulls of two bodies in [from, until]. */
+static void first_contact(const struct rotation_path *a, const struct rotation_path *b, double from,
+                          double until, struct hull_contact *first)
+{
+    struct body_pose pose_a = body_pose_at(a, from), pose_b = body_pose_at(b, from);
+    struct vec3 velocity = vec3_sub(b->body->path.along, a->body->path.along);
+    struct box_view view = box_view_swept(
+        &pose_a.turn, &pose_b.turn, hull_separation_at(&a->body->path, &b->body->path, from),
+        vec3_scale(velocity, until - from),
+        SKIN_M + turned_m(a, until - from) + turned_m(b, until - from));
+    uint64_t near = box_view_near(&view, a->body, b->body);
+    for (; near != 0; near &= near - 1) {
+        struct hull_pair pair = hull_pair_first(a, b, near);
+        time_of_impact(&pair, relative_pose_of(&pair, &pose_a, &pose_b, from), until, first);
+    }
+}
+
 bool time_of_impact_find(const struct swept_body *a, const struct swept_body *b, double from,
                          struct hull_contact *impact)
 {
@@ -249,13 +273,7 @@ bool time_of_impact_find(const struct swept_body *a, const struct swept_body *b,
         order_of_points(a->path.along, b->path.along) == 0)
         return false; /* at rest relative to each other */
     struct hull_contact first = {.toi = INFINITY};
-    for (uint32_t i = 0; i < a->hull_count; i++) {
-        for (uint32_t j = 0; j < b->hull_count; j++) {
-            struct hull_pair pair =
-                hull_pair_of(&rotation_a, &rotation_b, &a->hull[i], &b->hull[j]);
-            time_of_impact(&pair, from, until, &first);
-        }
-    }
+    first_contact(&rotation_a, &rotation_b, from, until, &first);
     if (first.toi == INFINITY)
         return false;
     if (swap)
@@ -264,18 +282,33 @@ bool time_of_impact_find(const struct swept_body *a, const struct swept_body *b,
     return true;
 }
 
-double time_of_impact_gap(const struct swept_body *a, const struct swept_body *b, double time)
+/* Returns the least distance of the hulls' pairs at a time, or least_m if all are farther apart. */
+static double least_gap(const struct swept_body *a, const struct swept_body *b, double time,
+                        double least_m)
 {
     struct rotation_path rotation_a = rotation_path_of(a), rotation_b = rotation_path_of(b);
-    double least = INFINITY;
-    for (uint32_t i = 0; i < a->hull_count; i++) {
-        for (uint32_t j = 0; j < b->hull_count; j++) {
-            struct hull_pair pair =
-                hull_pair_of(&rotation_a, &rotation_b, &a->hull[i], &b->hull[j]);
-            struct relative_pose now = relative_pose_at(&pair, time);
-            if (now.centres_m - pair.radii_m < least)
-                least = maths_min(least, gjk_distance(&now.a, &now.b).distance_m);
-        }
+    struct body_pose pose_a = body_pose_at(&rotation_a, time);
+    struct body_pose pose_b = body_pose_at(&rotation_b, time);
+    struct box_view view = box_view_of(&pose_a.turn, &pose_b.turn,
+                                       hull_separation_at(&a->path, &b->path, time), least_m);
+    for (uint64_t near = box_view_near(&view, a, b); near != 0; near &= near - 1) {
+        struct hull_pair pair = hull_pair_first(&rotation_a, &rotation_b, near);
+        struct relative_pose now = relative_pose_of(&pair, &pose_a, &pose_b, time);
+        struct gjk_start start = {.guess = now.towards};
+        if (now.centres_m - pair.radii_m < least_m)
+            least_m =
+                maths_min(least_m, gjk_distance_within(&now.a, &now.b, least_m, &start).distance_m);
     }
-    return least;
+    return least_m;
+}
+
+double time_of_impact_gap(const struct swept_body *a, const struct swept_body *b, double time)
+{
+    return least_gap(a, b, time, INFINITY);
+}
+
+bool time_of_impact_within(const struct swept_body *a, const struct swept_body *b, double time,
+                           double gap_m)
+{
+    return least_gap(a, b, time, gap_m + GJK_OVERLAP_M) <= gap_m;
 }

@@ -71,4 +71,8 @@ bool time_of_impact_find(const struct swept_body *a, const struct swept_body *b,
 /* Returns the gap between the bodies at a time [m], 0 if they overlap. */
 double time_of_impact_gap(const struct swept_body *a, const struct swept_body *b, double time);
 
+/* Returns true if that gap is at most gap_m [m, >= 0]. Costs less than finding it. */
+bool time_of_impact_within(const struct swept_body *a, const struct swept_body *b, double time,
+                           double gap_m);
+
 #endif

@@ -68,7 +68,7 @@ static bool outer_impact(const struct world *world, const struct swept_body *a, 
     if (meet && impact.toi == *from)
         return true;
     if (!far_apart(&outer_a, &outer_b, *from) &&
-        time_of_impact_gap(&outer_a, &outer_b, *from) <= SKIN_M)
+        time_of_impact_within(&outer_a, &outer_b, *from, SKIN_M))
         return true; /* the outer hulls part, but the pieces within may meet */
     if (meet)
         *from = impact.toi;

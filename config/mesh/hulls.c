@@ -283,8 +283,8 @@ static int shell_make(struct shell *shell, struct piece *piece)
 
 /* --- into the scenario's tables ----------------------------------------------------------------*/
 
-/* Sets the sphere around the vertices; its centre is that of their box. */
-static void set_sphere(struct hull *hull, const struct shell *shell)
+/* Sets the box and the sphere around the vertices. Each holds all of them, rounding included. */
+static void set_bounds(struct hull *hull, const struct shell *shell)
 {
     struct vec3 low = shell->vertex[0], high = low;
     for (uint32_t i = 1; i < shell->vertices; i++) {
@@ -294,9 +294,13 @@ static void set_sphere(struct hull *hull, const struct shell *shell)
                              maths_max(high.z, v->z)};
     }
     hull->centre = vec3_lerp(low, high, 0.5);
-    for (uint32_t i = 0; i < shell->vertices; i++)
-        hull->radius_m =
-            maths_max(hull->radius_m, vec3_length(vec3_sub(shell->vertex[i], hull->centre)));
+    for (uint32_t i = 0; i < shell->vertices; i++) {
+        struct vec3 arm = vec3_sub(shell->vertex[i], hull->centre);
+        hull->half = (struct vec3){maths_max(hull->half.x, fabs(arm.x)),
+                                   maths_max(hull->half.y, fabs(arm.y)),
+                                   maths_max(hull->half.z, fabs(arm.z))};
+        hull->radius_m = maths_max(hull->radius_m, vec3_length(arm));
+    }
 }
 
 static int add_hull(struct scenario *scenario, const struct shell *shell)
@@ -307,7 +311,7 @@ static int add_hull(struct scenario *scenario, const struct shell *shell)
                          .vertex_count = shell->vertices,
                          .first_plane = scenario->hull_plane_count,
                          .plane_count = shell->planes};
-    set_sphere(&added, shell);
+    set_bounds(&added, shell);
     struct hull *hull = table_extend(&hulls, &scenario->hull_count, 1, sizeof(*hull));
     scenario->hulls = hulls;
     struct vec3 *vertex =

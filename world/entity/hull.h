@@ -15,8 +15,9 @@
 struct hull {
     uint32_t first_vertex, vertex_count; /* extreme points, in the world's hull_vertices */
     uint32_t first_plane, plane_count;   /* faces, in the world's hull_planes */
-    struct vec3 centre;                  /* of its bounding sphere */
-    double radius_m;
+    struct vec3 centre;                  /* of its box along the body axes and of its sphere */
+    struct vec3 half;                    /* half the box's length, height and width [m] */
+    double radius_m;                     /* of the sphere: no vertex is outside either */
 };
 
 /* A face's plane: points inside have normal . p <= offset. Coplanar faces are one plane. */

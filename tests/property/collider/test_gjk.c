@@ -323,12 +323,37 @@ static void test_swapping_the_bodies_changes_only_the_normals_sign(void **state)
     }
 }
 
+/* --- limits ------------------------------------------------------------------------------------*/
+
+static void test_a_limit_gives_the_same_bits_or_a_lower_bound(void **state)
+{
+    static struct solid a, b;
+    uint64_t random = fixture_seed(313), far = 0;
+    (void)state;
+    for (int n = 0; n < 10000; n++) {
+        draw(&a, (enum sort)(n % 5), &random);
+        draw(&b, (enum sort)(n / 5 % 5), &random);
+        put_beside(&a, &b, n / 25 % 4, &random);
+        double limit = n % 2 ? 0.0 : fixture_uniform(&random, 0.0, 0.02);
+        struct gjk_start from = {.guess = {1, 0, 0}}, start = from;
+        struct gjk all = gjk_distance_from(&a.convex, &b.convex, &from);
+        struct gjk gjk = gjk_distance_within(&a.convex, &b.convex, limit, &start);
+        far += gjk.distance_m > limit;
+        if (gjk.distance_m > limit)
+            assert_true(all.distance_m > limit && gjk.distance_m < all.distance_m + SLACK_M);
+        else
+            assert_memory_equal(&gjk, &all, sizeof all);
+    }
+    assert_in_range(far, 1000, 9000);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_distance_is_that_of_the_nearest_features),
         cmocka_unit_test(test_big_small_and_thin_bodies_are_as_far_apart_as_they_were_put),
         cmocka_unit_test(test_swapping_the_bodies_changes_only_the_normals_sign),
+        cmocka_unit_test(test_a_limit_gives_the_same_bits_or_a_lower_bound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

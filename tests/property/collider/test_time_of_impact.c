@@ -72,8 +72,11 @@ static void add_hull(struct solid *s, uint32_t first)
                           .vertex_count = s->points - first,
                           .centre = vec3_lerp(low, high, 0.5)};
     for (uint32_t i = first; i < s->points; i++) {
-        hull->radius_m =
-            maths_max(hull->radius_m, vec3_length(vec3_sub(s->point[i], hull->centre)));
+        struct vec3 arm = vec3_sub(s->point[i], hull->centre);
+        hull->half = (struct vec3){maths_max(hull->half.x, fabs(arm.x)),
+                                   maths_max(hull->half.y, fabs(arm.y)),
+                                   maths_max(hull->half.z, fabs(arm.z))};
+        hull->radius_m = maths_max(hull->radius_m, vec3_length(arm));
         s->bound = maths_max(s->bound, vec3_length(s->point[i]));
     }
     add_planes(s, hull);

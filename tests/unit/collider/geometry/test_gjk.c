@@ -117,6 +117,20 @@ static void test_where_it_begins_changes_nothing_but_the_way(void **state)
     }
 }
 
+static void test_a_limit_says_only_that_bodies_are_farther_apart(void **state)
+{
+    struct convex a = cube_at(0, 0, 0), b = cube_at(4, 5, -8);
+    (void)state;
+    for (int i = 0; i < 8; i++) {                   /* they are 7 m apart */
+        double limit = i < 7 ? 3.5 + 0.5 * i : 8.0; /* up to 6.5 m, and 8 m */
+        struct gjk_start start = {.guess = {1, 0, 0}};
+        double found = gjk_distance_within(&a, &b, limit, &start).distance_m;
+        assert_true(i < 7 ? found > limit && found < 7.0 + 1e-14 : fabs(found - 7.0) < 1e-14);
+    }
+    struct gjk_start start = {.guess = {1, 0, 0}}; /* the limit itself is not above the limit */
+    assert_true(fabs(gjk_distance_within(&a, &b, 7.0, &start).distance_m - 7.0) < 1e-14);
+}
+
 static void test_support_is_the_first_of_the_farthest(void **state)
 {
     struct convex a = cube_at(100, 100, 100);
@@ -138,6 +152,7 @@ int main(void)
         cmocka_unit_test(test_coincident_bodies_overlap),
         cmocka_unit_test(test_scale_and_turn_count),
         cmocka_unit_test(test_where_it_begins_changes_nothing_but_the_way),
+        cmocka_unit_test(test_a_limit_says_only_that_bodies_are_farther_apart),
         cmocka_unit_test(test_support_is_the_first_of_the_farthest),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

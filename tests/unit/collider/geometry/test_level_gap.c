@@ -28,7 +28,7 @@
     }
 #define HULL(n, x)                                                                                 \
     .first_vertex = 8 * (n), .vertex_count = 8, .first_plane = 6 * (n), .plane_count = 6,          \
-    .centre = {x, 0, 0}, .radius_m = 2.4494897427831781
+    .centre = {x, 0, 0}, .half = {2, 1, 1}, .radius_m = 2.4494897427831781
 
 static const struct vec3 vertices[] = {CORNERS(0),   CORNERS(3),  CORNERS(-2), CORNERS(5),
                                        {-2, -1, -2}, {2, -1, -2}, {-2, -1, 2}, {-2, 1, -2},
@@ -45,12 +45,13 @@ static const struct hull_plane planes[] = {FACES(0),
 static const struct hull hulls[] = {
     {HULL(0, 0)},
     {HULL(1, 3)},
-    {.vertex_count = 32, .centre = {1.5, 0, 0}, .radius_m = 6.0},
+    {.vertex_count = 32, .centre = {1.5, 0, 0}, .half = {5.5, 1, 1}, .radius_m = 6.0},
     {.first_vertex = 32,
      .vertex_count = 6,
      .first_plane = 12,
      .plane_count = 5,
      .centre = {0, 0, 0},
+     .half = {2, 1, 2},
      .radius_m = 3.0},
 };
 

@@ -30,18 +30,20 @@ static const struct vec3 vertices[] = {CORNERS(0, 0, 0, 1, 1), CORNERS(10, 0, 0,
 static const struct hull_plane planes[] = {FACES(0, 0, 0, 1, 1), FACES(10, 0, 0, 1, 1),
                                            FACES(0, -2, 0, 6, 0.1)};
 static const struct hull hulls[] = {
-    {.vertex_count = 8, .plane_count = 6, .radius_m = 1.7320508075688774},
+    {.vertex_count = 8, .plane_count = 6, .half = {1, 1, 1}, .radius_m = 1.7320508075688774},
     {.first_vertex = 8,
      .vertex_count = 8,
      .first_plane = 6,
      .plane_count = 6,
      .centre = {10, 0, 0},
+     .half = {1, 1, 1},
      .radius_m = 1.7320508075688774},
     {.first_vertex = 16,
      .vertex_count = 8,
      .first_plane = 12,
      .plane_count = 6,
      .centre = {0, -2, 0},
+     .half = {6, 0.1, 6},
      .radius_m = 8.49},
 };
 

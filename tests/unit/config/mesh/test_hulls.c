@@ -198,6 +198,8 @@ static void check_cube(uint32_t n, double x, double half)
     }
     assert_true(fabs(hull->centre.x - x) < NEAR_M && fabs(hull->centre.y) < NEAR_M &&
                 fabs(hull->centre.z) < NEAR_M);
+    assert_true(fabs(hull->half.x - half) < NEAR_M && fabs(hull->half.y - half) < NEAR_M &&
+                fabs(hull->half.z - half) < NEAR_M);
     assert_true(fabs(hull->radius_m - half * sqrt(3.0)) < NEAR_M);
 }
 
@@ -566,7 +568,10 @@ static void check_hull(const struct hull *hull)
     }
     for (uint32_t i = 0; i < hull->vertex_count; i++) {
         assert_true(on_vertex[i] >= 3);
-        assert_true(vec3_length(vec3_sub(v[i], hull->centre)) <= hull->radius_m + 1e-12);
+        struct vec3 arm = vec3_sub(v[i], hull->centre);
+        assert_true(vec3_length(arm) <= hull->radius_m);
+        assert_true(fabs(arm.x) <= hull->half.x && fabs(arm.y) <= hull->half.y &&
+                    fabs(arm.z) <= hull->half.z);
     }
 }
 
