@@ -134,6 +134,8 @@ uint64_t box_view_near(const struct box_view *view, const struct swept_body *a,
 {
     struct box_list list_a, list_b;
     uint64_t near = 0;
+    if (a->outer && b->outer && box_view_apart(view, a, a->outer, b, b->outer))
+        return 0;
     for (uint32_t i = 0; i < a->hull_count; i++) {
         list_a.own[i] = box_of(a, &a->hull[i]);
         list_a.seen[i] = seen_by_b(view, &list_a.own[i]);

@@ -190,9 +190,9 @@ static bool holds(const struct simplex *simplex, const struct corner *corner)
 
 /* Returns the direction from the nearest point to the origin, made orthogonal to the edges again,
  * since the position of a very near point is lost in rounding. */
-static struct vec3 towards_origin(const struct face *face)
+static struct vec3 towards_origin(const struct face *face, double length)
 {
-    struct vec3 n = vec3_scale(face->nearest, -1.0 / sqrt(face->square));
+    struct vec3 n = vec3_scale(face->nearest, -1.0 / length);
     for (int i = 0; i < face->edges; i++)
         n = vec3_sub(n,
                      vec3_scale(face->edge[i], vec3_dot(n, face->edge[i]) / face->edge_square[i]));
@@ -228,10 +228,9 @@ static void keep(struct known *known, const struct simplex *simplex)
     settle(&known->simplex, &simplex->face);
 }
 
-/* Returns true if a squared distance agrees with its lower bound. */
-static bool certain(double square, double apart, double slack)
+/* Returns true if a distance agrees with its lower bound. */
+static bool certain(double length, double apart, double slack)
 {
-    double length = sqrt(square);
     return length <= GJK_OVERLAP_M || length - apart <= slack + NEAR_SHARE * length;
 }
 
@@ -265,17 +264,17 @@ static void search_once(const struct convex *a, const struct convex *b,
     int ties = 0;
     begin(a, b, start, &simplex);
     for (int round = 0; round < ROUNDS; round++) {
-        double square = simplex.face.square;
-        if (certain(square, known->apart, NEAR_M))
+        double square = simplex.face.square, length = sqrt(square);
+        if (certain(length, known->apart, NEAR_M))
             break;
-        struct vec3 n = towards_origin(&simplex.face);
+        struct vec3 n = towards_origin(&simplex.face, length);
         corner = corner_along(a, b, n);
         double apart = -vec3_dot(n, corner.w);
         if (apart > known->apart) {
             known->apart = apart;
             known->normal = n;
         }
-        if (far(known) || certain(square, known->apart, NEAR_M) || holds(&simplex, &corner))
+        if (far(known) || certain(length, known->apart, NEAR_M) || holds(&simplex, &corner))
             break;
         if (add_corner(&simplex, &corner, square))
             continue;
@@ -290,9 +289,10 @@ static void search_once(const struct convex *a, const struct convex *b,
 
 static struct gjk result(const struct convex *a, const struct convex *b, const struct known *known)
 {
-    struct gjk gjk = {.on_a = a->at, .on_b = b->at};
+    struct gjk gjk = {.on_a = a->at, .on_b = b->at, .corners = (uint32_t)known->simplex.face.count};
     for (int i = 0; i < known->simplex.face.count; i++) {
         const struct corner *corner = &known->simplex.corner[i];
+        gjk.corner[i] = corner->w;
         double weight = known->simplex.face.weight[i];
         gjk.on_a = vec3_add(gjk.on_a, vec3_scale(gjk_vertex(a, corner->a), weight));
         gjk.on_b = vec3_add(gjk.on_b, vec3_scale(gjk_vertex(b, corner->b), weight));
@@ -308,6 +308,14 @@ static struct gjk result(const struct convex *a, const struct convex *b, const s
     return gjk;
 }
 
+double gjk_most_apart(const struct gjk *gjk, struct vec3 normal)
+{
+    double most = -vec3_dot(normal, gjk->corner[0]);
+    for (uint32_t i = 1; i < gjk->corners; i++)
+        most = maths_min(most, -vec3_dot(normal, gjk->corner[i]));
+    return most;
+}
+
 struct gjk gjk_distance_within(const struct convex *a, const struct convex *b, double limit_m,
                                struct gjk_start *start)
 {
@@ -315,7 +323,8 @@ struct gjk gjk_distance_within(const struct convex *a, const struct convex *b, d
         .square = INFINITY, .apart = -INFINITY, .enough = limit_m + GJK_OVERLAP_M + SURE_M};
     search_once(a, b, start, &known);
     for (int other = 0;
-         other < SEARCHES && !far(&known) && !certain(known.square, known.apart, SURE_M); other++) {
+         other < SEARCHES && !far(&known) && !certain(sqrt(known.square), known.apart, SURE_M);
+         other++) {
         const struct gjk_start elsewhere = {
             .guess = {other & 1 ? -1.0 : 1.0, other & 2 ? -1.0 : 1.0, other & 4 ? -1.0 : 1.0}};
         search_once(a, b, &elsewhere, &known);

@@ -24,6 +24,8 @@ struct gjk {
     double distance_m;      /* 0 when they overlap */
     struct vec3 on_a, on_b; /* the nearest points; equal if the bodies overlap */
     struct vec3 normal;     /* unit, from a to b; zero if the bodies overlap */
+    struct vec3 corner[4];  /* from a vertex of b to one of a: where the search ended */
+    uint32_t corners;       /* at least 1 */
 };
 
 /* The error of the distance is below 1e-9 m for bodies up to 100 m, however thin, flat or small.
@@ -50,6 +52,10 @@ struct gjk gjk_distance_from(const struct convex *a, const struct convex *b,
  * found so far. */
 struct gjk gjk_distance_within(const struct convex *a, const struct convex *b, double limit_m,
                                struct gjk_start *start);
+
+/* Returns a bound that the separation of the bodies along a unit normal is not above, to within
+ * 1e-9 m. The corners of bodies that overlap lie around the origin, so that it is good for them. */
+double gjk_most_apart(const struct gjk *gjk, struct vec3 normal);
 
 /* Returns the position of a vertex relative to at. */
 struct vec3 gjk_vertex(const struct convex *convex, uint32_t vertex);

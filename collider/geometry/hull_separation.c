@@ -17,6 +17,7 @@
 
 #define NEWTON     16 /* steps for one time */
 #define ROUNDING_M 1e-13
+#define BOUND_M    1e-9 /* error of gjk_most_apart() */
 /* Spheres that are this share of their radii apart are tested instead of the hulls. */
 #define SPHERES_FAR 0.1
 
@@ -84,7 +85,7 @@ struct hull_pair hull_pair_first(const struct rotation_path *a, const struct rot
 struct body_pose body_pose_at(const struct rotation_path *rotation, double time)
 {
     const struct swept_body *body = rotation->body;
-    struct body_pose pose = {.turn = rotation->turn};
+    struct body_pose pose = {.body = body, .turn = rotation->turn};
     if (!(rotation->rate > 0.0))
         return pose;
     double t = maths_clamp((time - body->path.since) * rotation->share, 0.0, 1.0);
@@ -100,20 +101,19 @@ struct body_pose body_pose_at(const struct rotation_path *rotation, double time)
     return pose;
 }
 
-static struct convex convex_of(const struct swept_body *body, const struct hull *hull,
-                               const struct body_pose *pose, struct vec3 at)
+static struct convex convex_of(const struct body_pose *pose, const struct hull *hull,
+                               struct vec3 at)
 {
-    return (struct convex){.vertex = body->vertices + hull->first_vertex,
+    return (struct convex){.vertex = pose->body->vertices + hull->first_vertex,
                            .count = hull->vertex_count,
-                           .scale = body->scale,
+                           .scale = pose->body->scale,
                            .turn = pose->turn,
                            .at = at};
 }
 
-static struct vec3 centre_of(const struct swept_body *body, const struct hull *hull,
-                             const struct body_pose *pose)
+static struct vec3 centre_of(const struct body_pose *pose, const struct hull *hull)
 {
-    return rotation_apply(&pose->turn, vec3_scale(hull->centre, body->scale));
+    return rotation_apply(&pose->turn, vec3_scale(hull->centre, pose->body->scale));
 }
 
 struct vec3 hull_separation_at(const struct path *a, const struct path *b, double time)
@@ -123,19 +123,18 @@ struct vec3 hull_separation_at(const struct path *a, const struct path *b, doubl
     return vec3_add(vec3_sub(b->at, a->at), vec3_sub(moved_b, moved_a));
 }
 
-struct relative_pose relative_pose_of(const struct hull_pair *pair, const struct body_pose *a,
-                                      const struct body_pose *b, double time)
+struct relative_pose relative_pose_of(const struct body_pose *a, const struct hull *hull_a,
+                                      const struct body_pose *b, const struct hull *hull_b,
+                                      double time)
 {
-    const struct swept_body *body_a = pair->a->body, *body_b = pair->b->body;
-    struct vec3 at = hull_separation_at(&body_a->path, &body_b->path, time);
-    struct relative_pose now = {
-        .time = time,
-        .a = convex_of(body_a, pair->hull_a, a, (struct vec3){0.0, 0.0, 0.0}),
-        .b = convex_of(body_b, pair->hull_b, b, at),
-        .spin_a = a->spin,
-        .spin_b = b->spin,
-        .centre_a = centre_of(body_a, pair->hull_a, a),
-        .centre_b = centre_of(body_b, pair->hull_b, b)};
+    struct vec3 at = hull_separation_at(&a->body->path, &b->body->path, time);
+    struct relative_pose now = {.time = time,
+                                .a = convex_of(a, hull_a, (struct vec3){0.0, 0.0, 0.0}),
+                                .b = convex_of(b, hull_b, at),
+                                .spin_a = a->spin,
+                                .spin_b = b->spin,
+                                .centre_a = centre_of(a, hull_a),
+                                .centre_b = centre_of(b, hull_b)};
     now.towards = vec3_add(at, vec3_sub(now.centre_b, now.centre_a));
     now.centres_m = vec3_length(now.towards);
     now.towards = now.centres_m > 0.0 ? vec3_scale(now.towards, 1.0 / now.centres_m)
@@ -146,7 +145,7 @@ struct relative_pose relative_pose_of(const struct hull_pair *pair, const struct
 struct relative_pose relative_pose_at(const struct hull_pair *pair, double time)
 {
     struct body_pose a = body_pose_at(pair->a, time), b = body_pose_at(pair->b, time);
-    return relative_pose_of(pair, &a, &b, time);
+    return relative_pose_of(&a, pair->hull_a, &b, pair->hull_b, time);
 }
 
 /* --- lines -------------------------------------------------------------------------------------*/
@@ -215,6 +214,13 @@ double hull_separation_now(const struct relative_pose *now, struct vec3 normal)
     gjk_support(&now->a, normal, &r_a);
     gjk_support(&now->b, vec3_scale(normal, -1.0), &r_b);
     return vec3_dot(normal, vec3_add(now->b.at, vec3_sub(r_b, r_a)));
+}
+
+double hull_separation_above(const struct relative_pose *now, const struct gjk *gjk,
+                             struct vec3 normal, double length_m)
+{
+    return gjk_most_apart(gjk, normal) < length_m - BOUND_M ? length_m
+                                                            : hull_separation_now(now, normal);
 }
 
 double hull_separation_nearing(const struct hull_pair *pair, const struct relative_pose *now,

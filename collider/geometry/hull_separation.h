@@ -32,6 +32,7 @@ struct hull_pair {
 
 /* A body's rotation at one time. */
 struct body_pose {
+    const struct swept_body *body;
     struct mat3 turn;
     struct vec3 spin; /* [rad a frame] */
 };
@@ -63,12 +64,18 @@ struct hull_pair hull_pair_first(const struct rotation_path *a, const struct rot
 struct body_pose body_pose_at(const struct rotation_path *rotation, double time);
 struct relative_pose relative_pose_at(const struct hull_pair *pair, double time);
 
-/* The same, where the poses of the bodies at this time are known. */
-struct relative_pose relative_pose_of(const struct hull_pair *pair, const struct body_pose *a,
-                                      const struct body_pose *b, double time);
+/* The same for two hulls of bodies whose poses at this time are known. */
+struct relative_pose relative_pose_of(const struct body_pose *a, const struct hull *hull_a,
+                                      const struct body_pose *b, const struct hull *hull_b,
+                                      double time);
 
 /* Returns the separation of the hulls along the plane's normal [m]; below 0 they overlap. */
 double hull_separation_now(const struct relative_pose *now, struct vec3 normal);
+
+/* Returns the same if it is above a length, and no more than the length if not. gjk: what was found
+ * for the two; mostly it shows that without a look at the vertices. */
+double hull_separation_above(const struct relative_pose *now, const struct gjk *gjk,
+                             struct vec3 normal, double length_m);
 
 /* Returns the approach speed of a point that belongs to both bodies, or nearly [m a frame];
  * negative where they part. */

@@ -13,11 +13,11 @@
 /* The two bodies at one time. */
 struct body_pair {
     const struct swept_body *a, *b;
-    struct rotation_path turn_a, turn_b;
-    struct mat3 pose_a, pose_b;
+    struct body_pose pose_a, pose_b;
     struct vec3 between; /* [m] from a's position to b's */
     double time;
     struct vec3 line; /* unit, horizontal: from a's position to b's */
+    struct vec3 last; /* the normal of the last overlap, or the line */
 };
 
 /* --- directions --------------------------------------------------------------------------------*/
@@ -41,35 +41,47 @@ static struct vec3 line_of(struct vec3 between)
 
 /* --- overlaps ----------------------------------------------------------------------------------*/
 
-static void shallower(const struct relative_pose *now, struct vec3 normal, struct level_gap *gap)
+/* Two hulls that overlap, and the normal along which they do so least. */
+struct overlap {
+    const struct relative_pose *now;
+    const struct gjk *gjk;
+    struct level_gap *gap;
+};
+
+static void shallower(const struct overlap *overlap, struct vec3 normal)
 {
-    double depth = hull_separation_now(now, normal);
+    struct level_gap *gap = overlap->gap;
+    double depth = hull_separation_above(overlap->now, overlap->gjk, normal, gap->gap_m);
     if (depth > gap->gap_m) {
         gap->gap_m = depth;
         gap->normal = normal;
     }
 }
 
-static void faces(const struct relative_pose *now, const struct mat3 *turn,
-                  const struct hull_plane *plane, uint32_t count, double side,
-                  struct level_gap *gap)
+/* Looks along the normals of a hull's faces, until the hulls overlap by no more than enough_m. */
+static void faces(const struct overlap *overlap, const struct body_pose *pose,
+                  const struct hull *hull, double side, double enough_m)
 {
-    for (uint32_t i = 0; i < count; i++) {
-        struct vec3 normal = vec3_scale(rotation_apply(turn, plane[i].normal), side);
+    const struct hull_plane *plane = pose->body->planes + hull->first_plane;
+    for (uint32_t i = 0; i < hull->plane_count && overlap->gap->gap_m < enough_m; i++) {
+        struct vec3 normal = vec3_scale(rotation_apply(&pose->turn, plane[i].normal), side);
         if (level(&normal) > 0.0)
-            shallower(now, normal, gap);
+            shallower(overlap, normal);
     }
 }
 
-static void measure_overlap(const struct body_pair *bodies, const struct hull_pair *pair,
-                            const struct relative_pose *now, struct level_gap *gap)
+/* Finds the normal along which two hulls overlap least, or one along which they overlap by no more
+ * than enough_m [m]. */
+static void measure_overlap(const struct body_pair *bodies, const struct hull *hull_a,
+                            const struct hull *hull_b, const struct overlap *overlap,
+                            double enough_m)
 {
-    gap->gap_m = -INFINITY;
-    faces(now, &now->a.turn, bodies->a->planes + pair->hull_a->first_plane,
-          pair->hull_a->plane_count, 1.0, gap);
-    faces(now, &now->b.turn, bodies->b->planes + pair->hull_b->first_plane,
-          pair->hull_b->plane_count, -1.0, gap);
-    shallower(now, bodies->line, gap);
+    overlap->gap->gap_m = -INFINITY;
+    if (enough_m < INFINITY)
+        shallower(overlap, bodies->last);
+    faces(overlap, &bodies->pose_a, hull_a, 1.0, enough_m);
+    faces(overlap, &bodies->pose_b, hull_b, -1.0, enough_m);
+    shallower(overlap, bodies->line);
 }
 
 /* --- one pair of hulls -------------------------------------------------------------------------*/
@@ -97,27 +109,39 @@ static void find_points(const struct body_pair *bodies, const struct relative_po
     gap->point[1] = vec3_add(at, high);
 }
 
-/* Returns false if the hulls are farther apart than the margin. */
-static bool measure(const struct body_pair *bodies, const struct hull_pair *pair, double margin_m,
-                    bool points, struct level_gap *gap)
+/* Measures a pair of hulls whose distance is known, and not 0. */
+static void measure_distance(const struct body_pair *bodies, const struct gjk *gjk,
+                             struct level_gap *gap)
 {
-    struct relative_pose now = relative_pose_at(pair, bodies->time);
-    if (now.centres_m - pair->radii_m > margin_m)
+    gap->normal = gjk->normal;
+    double share = level(&gap->normal);
+    if (share == 0.0)
+        gap->normal = bodies->line;
+    gap->gap_m = gjk->distance_m / maths_max(share, LEVEL_MIN);
+}
+
+/* Returns false if the hulls are farther apart than the margin. points: finds the points, too. Else
+ * the gap is at least margin_m if it is not below it. */
+static bool measure(struct body_pair *bodies, const struct hull *hull_a, const struct hull *hull_b,
+                    double margin_m, bool points, struct level_gap *gap)
+{
+    const struct relative_pose now =
+        relative_pose_of(&bodies->pose_a, hull_a, &bodies->pose_b, hull_b, bodies->time);
+    double radii = hull_a->radius_m * bodies->a->scale + hull_b->radius_m * bodies->b->scale;
+    double near = maths_max(margin_m, 0.0);
+    if (now.centres_m - radii > near)
         return false;
     struct gjk_start start = {.guess = now.towards};
-    struct gjk gjk = gjk_distance_within(&now.a, &now.b, margin_m, &start);
+    const struct gjk gjk = gjk_distance_within(&now.a, &now.b, near, &start);
     struct vec3 normal = gjk.normal;
-    if (gjk.distance_m > margin_m)
+    if (gjk.distance_m > near)
         return false;
     if (gjk.distance_m > 0.0) {
-        gap->normal = gjk.normal;
-        double share = level(&gap->normal);
-        if (share == 0.0)
-            gap->normal = bodies->line;
-        gap->gap_m = gjk.distance_m / maths_max(share, LEVEL_MIN);
+        measure_distance(bodies, &gjk, gap);
     } else {
-        measure_overlap(bodies, pair, &now, gap);
-        normal = gap->normal;
+        const struct overlap overlap = {&now, &gjk, gap};
+        measure_overlap(bodies, hull_a, hull_b, &overlap, points ? INFINITY : margin_m);
+        normal = bodies->last = gap->normal;
     }
     if (points)
         find_points(bodies, &now, normal, vec3_lerp(gjk.on_a, gjk.on_b, 0.5), gap);
@@ -139,30 +163,31 @@ static uint32_t keep(struct level_gap *list, uint32_t count, const struct level_
     return count < LEVEL_GAPS_MAX ? count + 1 : count;
 }
 
-static struct mat3 pose_at(const struct swept_body *body, double time)
+static struct body_pose pose_at(const struct swept_body *body, double time)
 {
-    double left = 1.0 - body->path.since;
-    double t = left > 0.0 ? maths_clamp((time - body->path.since) / left, 0.0, 1.0) : 0.0;
-    struct quat turned;
+    double left = 1.0 - body->path.since, share = left > 0.0 ? 1.0 / left : 0.0;
+    double t = maths_clamp((time - body->path.since) * share, 0.0, 1.0);
+    struct quat turned = body->from;
     struct vec3 spin;
-    if (body->turn && body->turn->rotation.steps > 0) {
+    if (body->turn)
         free_turn_at(body->turn, t, &turned, &spin);
-        return rotation_matrix(turned);
-    }
-    return rotation_matrix(rotation_between(body->from, body->to, t));
+    else if (rotation_rate(body->from, body->to) > 0.0)
+        turned = rotation_between(body->from, body->to, t);
+    return (struct body_pose){.body = body, .turn = rotation_matrix(turned)};
 }
 
 static struct body_pair body_pair_of(const struct swept_body *a, const struct swept_body *b,
                                      double time)
 {
-    struct vec3 between = hull_separation_at(&a->path, &b->path, time);
+    struct vec3 between = hull_separation_at(&a->path, &b->path, time), line = line_of(between);
     return (struct body_pair){.a = a,
                               .b = b,
                               .pose_a = pose_at(a, time),
                               .pose_b = pose_at(b, time),
                               .between = between,
                               .time = time,
-                              .line = line_of(between)};
+                              .line = line,
+                              .last = line};
 }
 
 /* Measures each pair of hulls that may be as near as *margin_m. Puts the gaps into the list and
@@ -171,20 +196,14 @@ static struct body_pair body_pair_of(const struct swept_body *a, const struct sw
 static uint32_t search(struct body_pair *bodies, double *margin_m, struct level_gap *list)
 {
     const struct swept_body *a = bodies->a, *b = bodies->b;
-    struct box_view view =
-        box_view_of(&bodies->pose_a, &bodies->pose_b, bodies->between, maths_max(*margin_m, 0.0));
+    struct box_view view = box_view_of(&bodies->pose_a.turn, &bodies->pose_b.turn, bodies->between,
+                                       maths_max(*margin_m, 0.0));
     uint32_t count = 0;
-    if (box_view_apart(&view, a, a->outer, b, b->outer))
-        return 0;
-    uint64_t near = box_view_near(&view, a, b);
-    if (near == 0)
-        return 0;
-    bodies->turn_a = rotation_path_of(a);
-    bodies->turn_b = rotation_path_of(b);
-    for (; near != 0; near &= near - 1) {
+    for (uint64_t near = box_view_near(&view, a, b); near != 0; near &= near - 1) {
+        uint32_t bit = (uint32_t)__builtin_ctzll(near);
         struct level_gap one;
-        struct hull_pair pair = hull_pair_first(&bodies->turn_a, &bodies->turn_b, near);
-        if (!measure(bodies, &pair, maths_max(*margin_m, 0.0), list != NULL, &one))
+        if (!measure(bodies, &a->hull[bit / HULLS_A_MODEL], &b->hull[bit % HULLS_A_MODEL],
+                     *margin_m, list != NULL, &one))
             continue;
         if (list)
             count = keep(list, count, &one);

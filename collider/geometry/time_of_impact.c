@@ -27,10 +27,10 @@ struct separation {
 /* --- how two hulls lie -------------------------------------------------------------------------*/
 
 /* Takes the plane if the hulls overlap it less; its normal turns with a spin. */
-static void shallower(const struct relative_pose *now, struct vec3 normal, struct vec3 spin,
-                      struct separation *separation)
+static void shallower(const struct relative_pose *now, const struct gjk *gjk, struct vec3 normal,
+                      struct vec3 spin, struct separation *separation)
 {
-    double gap = hull_separation_now(now, normal);
+    double gap = hull_separation_above(now, gjk, normal, separation->gap);
     if (gap > separation->gap) {
         separation->gap = gap;
         separation->plane = (struct plane){normal, vec3_cross(spin, normal)};
@@ -40,20 +40,21 @@ static void shallower(const struct relative_pose *now, struct vec3 normal, struc
 /* Finds the direction of least overlap among the faces of both hulls, the line of the centres, and
  * the normal from when they were last apart. */
 static void measure_overlap(const struct hull_pair *pair, const struct relative_pose *now,
-                            struct vec3 last, struct separation *separation)
+                            const struct gjk *gjk, struct vec3 last, struct separation *separation)
 {
     const struct hull_plane *planes_a = pair->a->body->planes + pair->hull_a->first_plane;
     const struct hull_plane *planes_b = pair->b->body->planes + pair->hull_b->first_plane;
     const struct vec3 still = {0.0, 0.0, 0.0};
     separation->gap = -INFINITY;
     for (uint32_t i = 0; i < pair->hull_a->plane_count; i++)
-        shallower(now, rotation_apply(&now->a.turn, planes_a[i].normal), now->spin_a, separation);
+        shallower(now, gjk, rotation_apply(&now->a.turn, planes_a[i].normal), now->spin_a,
+                  separation);
     for (uint32_t i = 0; i < pair->hull_b->plane_count; i++)
-        shallower(now, vec3_scale(rotation_apply(&now->b.turn, planes_b[i].normal), -1.0),
+        shallower(now, gjk, vec3_scale(rotation_apply(&now->b.turn, planes_b[i].normal), -1.0),
                   now->spin_b, separation);
-    shallower(now, now->towards, still, separation);
+    shallower(now, gjk, now->towards, still, separation);
     if (vec3_dot(last, last) > 0.0)
-        shallower(now, last, still, separation);
+        shallower(now, gjk, last, still, separation);
 }
 
 /* last: the normal of the time before, 0 for none. */
@@ -68,7 +69,7 @@ static struct separation measure(const struct hull_pair *pair, const struct rela
         separation.plane =
             (struct plane){gjk.normal, hull_separation_swing(pair, now, gjk.normal, start)};
     } else {
-        measure_overlap(pair, now, last, &separation);
+        measure_overlap(pair, now, &gjk, last, &separation);
     }
     return separation;
 }
@@ -239,20 +240,32 @@ static double turned_m(const struct rotation_path *rotation, double time)
     return rotation->rate * time * rotation->body->bound_m;
 }
 
+/* Returns the pairs of hulls that boxes do not keep apart in all of [from, until]. The poses are
+ * those at from. */
+static uint64_t near_pairs(const struct rotation_path *a, const struct body_pose *pose_a,
+                           const struct rotation_path *b, const struct body_pose *pose_b,
+                           double from, double until)
+{
+    const struct path *path_a = &a->body->path, *path_b = &b->body->path;
+    double time = until - from;
+    struct vec3 between = hull_separation_at(path_a, path_b, from);
+    struct vec3 way = vec3_scale(vec3_sub(path_b->along, path_a->along), time);
+    struct box_view view = box_view_swept(&pose_a->turn, &pose_b->turn, between, way,
+                                          SKIN_M + turned_m(a, time) + turned_m(b, time));
+    return box_view_near(&view, a->body, b->body);
+}
+
 /* Finds the first contact of the hulls of two bodies in [from, until]. */
 static void first_contact(const struct rotation_path *a, const struct rotation_path *b, double from,
                           double until, struct hull_contact *first)
 {
     struct body_pose pose_a = body_pose_at(a, from), pose_b = body_pose_at(b, from);
-    struct vec3 velocity = vec3_sub(b->body->path.along, a->body->path.along);
-    struct box_view view = box_view_swept(
-        &pose_a.turn, &pose_b.turn, hull_separation_at(&a->body->path, &b->body->path, from),
-        vec3_scale(velocity, until - from),
-        SKIN_M + turned_m(a, until - from) + turned_m(b, until - from));
-    uint64_t near = box_view_near(&view, a->body, b->body);
+    uint64_t near = near_pairs(a, &pose_a, b, &pose_b, from, until);
     for (; near != 0; near &= near - 1) {
         struct hull_pair pair = hull_pair_first(a, b, near);
-        time_of_impact(&pair, relative_pose_of(&pair, &pose_a, &pose_b, from), until, first);
+        struct relative_pose now =
+            relative_pose_of(&pose_a, pair.hull_a, &pose_b, pair.hull_b, from);
+        time_of_impact(&pair, now, until, first);
     }
 }
 
@@ -282,6 +295,14 @@ bool time_of_impact_find(const struct swept_body *a, const struct swept_body *b,
     return true;
 }
 
+bool time_of_impact_excluded(const struct swept_body *a, const struct swept_body *b, double from)
+{
+    struct rotation_path rotation_a = rotation_path_of(a), rotation_b = rotation_path_of(b);
+    struct body_pose pose_a = body_pose_at(&rotation_a, from);
+    struct body_pose pose_b = body_pose_at(&rotation_b, from);
+    return near_pairs(&rotation_a, &pose_a, &rotation_b, &pose_b, from, 1.0) == 0;
+}
+
 /* Returns the least distance of the hulls' pairs at a time, or least_m if all are farther apart. */
 static double least_gap(const struct swept_body *a, const struct swept_body *b, double time,
                         double least_m)
@@ -293,7 +314,8 @@ static double least_gap(const struct swept_body *a, const struct swept_body *b, 
                                        hull_separation_at(&a->path, &b->path, time), least_m);
     for (uint64_t near = box_view_near(&view, a, b); near != 0; near &= near - 1) {
         struct hull_pair pair = hull_pair_first(&rotation_a, &rotation_b, near);
-        struct relative_pose now = relative_pose_of(&pair, &pose_a, &pose_b, time);
+        struct relative_pose now =
+            relative_pose_of(&pose_a, pair.hull_a, &pose_b, pair.hull_b, time);
         struct gjk_start start = {.guess = now.towards};
         if (now.centres_m - pair.radii_m < least_m)
             least_m =

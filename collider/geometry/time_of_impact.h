@@ -68,6 +68,10 @@ struct hull_contact {
 bool time_of_impact_find(const struct swept_body *a, const struct swept_body *b, double from,
                          struct hull_contact *impact);
 
+/* Returns true if boxes around the hulls show that time_of_impact_find() would find nothing in
+ * [from, 1]. Costs next to nothing. False says nothing. */
+bool time_of_impact_excluded(const struct swept_body *a, const struct swept_body *b, double from);
+
 /* Returns the gap between the bodies at a time [m], 0 if they overlap. */
 double time_of_impact_gap(const struct swept_body *a, const struct swept_body *b, double time);
 

@@ -85,7 +85,8 @@ static bool touch_hulls(const struct body_motion *motion, const struct pair *pai
     struct free_turn turn_a, turn_b;
     struct swept_body a = body_motion_body(motion, pair->a, &turn_a);
     struct swept_body b = body_motion_side(motion, pair->b, &turn_b);
-    return outer_impact(world, &a, kind[pair->a], &b, kind_b, &from) &&
+    return !time_of_impact_excluded(&a, &b, from) &&
+           outer_impact(world, &a, kind[pair->a], &b, kind_b, &from) &&
            time_of_impact_find(&a, &b, from, impact);
 }
 

@@ -234,6 +234,7 @@ static void check(const struct swept_body *a, const struct swept_body *b, bool r
     struct hull_contact impact;
     double from = a->path.since;
     bool hit = time_of_impact_find(a, b, from, &impact);
+    assert_false(hit && time_of_impact_excluded(a, b, from));
     double oracle = rotates ? stepped(a, b, SKIN_M - SLACK_M) : straight(a, b, SKIN_M - SLACK_M);
     *(hit ? &score->hits : &score->misses) += 1;
     if (!hit) {
@@ -640,6 +641,7 @@ static void test_swapping_the_bodies_changes_only_the_normals_sign(void **state)
         else
             draw(&solid_a, &solid_b, most_turn[n % 4], &a, &b, &random);
         bool hit = time_of_impact_find(&a, &b, a.path.since, &there);
+        assert_false(hit && time_of_impact_excluded(&b, &a, a.path.since));
         assert_true(time_of_impact_find(&b, &a, a.path.since, &back) == hit);
         hits += hit;
         if (!hit)

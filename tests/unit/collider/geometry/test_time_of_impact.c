@@ -94,6 +94,9 @@ static void test_they_do_not_reach_each_other_in_the_frame(void **state)
     (void)state;
     assert_false(time_of_impact_find(&a, &b, 0.0, &impact));
     assert_true(fabs(time_of_impact_gap(&a, &b, 1.0) - 0.01) < 1e-12);
+    assert_true(time_of_impact_excluded(&a, &b, 0.0));
+    assert_true(time_of_impact_within(&a, &b, 1.0, 0.0101));
+    assert_false(time_of_impact_within(&a, &b, 1.0, 0.0099));
 }
 
 static void test_a_path_that_began_in_mid_frame(void **state)
@@ -104,8 +107,10 @@ static void test_a_path_that_began_in_mid_frame(void **state)
     b.path.since = 0.5;
     assert_true(time_of_impact_find(&a, &b, 0.5, &impact));
     assert_true(fabs(impact.toi - (0.5 + (1.0 - SKIN_M) / 4.0)) < 1e-12);
+    assert_false(time_of_impact_excluded(&a, &b, 0.5));
     b.path.since = 0.8;
     assert_false(time_of_impact_find(&a, &b, 0.8, &impact));
+    assert_true(time_of_impact_excluded(&a, &b, 0.8));
     b.path.since = 1.0;
     assert_false(time_of_impact_find(&a, &b, 1.0, &impact));
 }
