@@ -1,6 +1,7 @@
 /* Union-find over the rows of the contact table. */
 #include "collider/resting/contact_groups.h"
 
+#include "collider/narrow_phase/narrow_phase.h"
 #include "collider/response/path_change.h"
 #include "world/checksum.h"
 #include "world/entity/persistent_contact.h"
@@ -47,17 +48,22 @@ static bool held(const struct response_context *context, uint32_t row, uint32_t 
     return entities_alive(e, row, id) && path_change_grounded(context, row);
 }
 
-/* Returns true if both sides still exist, the ground holds them, and neither lets the other in. */
+bool contact_groups_is_wall(const struct response_context *context, uint32_t object)
+{
+    return pair_filter_stands(&context->input.detect, object) &&
+           !narrow_phase_lets_in(context->world, context->input.through_fixed, object);
+}
+
+/* Returns true if both sides still exist and can bear a load: the ground holds bodies, and fixed
+ * objects are walls. */
 static bool still_there(const struct response_context *context,
                         const struct persistent_contact *contact)
 {
     uint32_t object = contact->b_id & ~PERSISTENT_CONTACT_FIXED;
     if (!held(context, contact->a_row, contact->a_id))
         return false;
-    return contact->b_id & PERSISTENT_CONTACT_FIXED
-               ? pair_filter_stands(&context->input.detect, object) &&
-                     !narrow_phase_lets_in(context->world, context->input.through_fixed, object)
-               : held(context, contact->b_row, contact->b_id);
+    return contact->b_id & PERSISTENT_CONTACT_FIXED ? contact_groups_is_wall(context, object)
+                                                    : held(context, contact->b_row, contact->b_id);
 }
 
 static struct pair pair_of(const struct persistent_contact *contact)

@@ -21,8 +21,11 @@ int contact_groups_init(struct contact_groups *groups, const struct world *world
 void contact_groups_free(struct contact_groups *groups);
 
 /* Finds the pairs of the groups that are awake: the table's contacts between bodies that the ground
- * holds, and of those with objects that stand. Adds the pairs of bodies that are new in this frame,
+ * holds, and of those with walls. Adds the pairs of bodies that are new in this frame,
  * because they may begin overlapped. Computes the paths of their rows. */
 void contact_groups_find(struct contact_groups *groups, struct response_context *context);
+
+/* Returns true if a fixed object stands and lets no body in, as bushes do. */
+bool contact_groups_is_wall(const struct response_context *context, uint32_t object);
 
 #endif

@@ -140,22 +140,41 @@ static void slow_down(struct response_context *context, uint32_t row, double kee
     table_set_spin_y(&context->writer, row, e->spin_y[row] * keep);
 }
 
+/* A wreck is a rigid body: it goes back in its whole pose. The body that it fell on stops it. */
+static void send_wreck_back(struct response_context *context, uint32_t row, double keep)
+{
+    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    double heading = w->heading[row], pitch = w->pitch[row], roll = w->roll[row];
+    if (keep > 0.0) {
+        struct quat to = rotation_of(e->heading[row], e->pitch[row], e->roll[row]);
+        rotation_angles(rotation_between(rotation_of(heading, pitch, roll), to, keep), &heading,
+                        &pitch, &roll);
+    }
+    table_set_position(&context->writer, row,
+                       vec3_lerp(entities_position(w, row), entities_position(e, row), keep));
+    table_set_heading(&context->writer, row, heading);
+    table_set_pitch(&context->writer, row, pitch);
+    table_set_roll(&context->writer, row, roll);
+    table_set_velocity(&context->writer, row, vec3_scale(entities_velocity(e, row), keep));
+    table_set_spin(
+        &context->writer, row,
+        (struct vec3){e->spin_x[row] * keep, e->spin_y[row] * keep, e->spin_z[row] * keep});
+}
+
 /* Sends a row back on its way from where it began the frame. */
 static void send_back(struct end_guard *guard, struct response_context *context, uint32_t row)
 {
     const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
     double keep = ++guard->sent_back[row] < SENT_BACK_MOST ? 0.5 : 0.0;
     struct vec3 from = entities_position(w, row), to = entities_position(e, row);
+    if (e->state[row] == ENTITY_WRECK) {
+        send_wreck_back(context, row, keep);
+        return;
+    }
     double turn = maths_wrap_half(e->heading[row] - w->heading[row]);
     ground_placement_put(context, row, vec3_lerp(from, to, keep),
                          maths_wrap_turn(w->heading[row] + turn * keep));
     slow_down(context, row, keep);
-}
-
-static bool is_wall(const struct response_context *context, uint32_t object)
-{
-    return pair_filter_stands(&context->input.detect, object) &&
-           !narrow_phase_lets_in(context->world, context->input.through_fixed, object);
 }
 
 /* Adds a row to those that have to go back, unless it is back already. */
@@ -195,7 +214,7 @@ static void add_pairs_of(struct end_guard *guard, const struct resting *resting,
         bool fixed = other & PAIR_FIXED;
         if (resting->parts[row] || (!fixed && resting->parts[other]))
             continue;
-        if (fixed ? !is_wall(context, other & ~PAIR_FIXED)
+        if (fixed ? !contact_groups_is_wall(context, other & ~PAIR_FIXED)
                   : (guard->listed[other] && other < row) || !guarded(context, other))
             continue;
         add_pair(guard, context, index);

@@ -18,11 +18,12 @@ static struct fixture f;
 static struct response_context context;
 static struct contact_groups *groups;
 
-/* A row of tanks 20 m apart, and a tree before the last. */
+/* A row of tanks 20 m apart, a tree before the last, and a bush at the end. */
 static int open_world(void **state)
 {
     (void)state;
-    fixture_open(&f, "objects = ( { kind = \"tree\"; at = [25140.0, 25010.0]; } );");
+    fixture_open(&f, "objects = ( { kind = \"tree\"; at = [25140.0, 25010.0]; },"
+                     "            { kind = \"bush\"; at = [25260.0, 25010.0]; } );");
     for (uint32_t i = 0; i < ROWS; i++)
         fixture_put(&f,
                     (struct fixture_entity){.kind = "tank", .at = {25000.0 + 20 * i, 100, 25000}});
@@ -204,6 +205,21 @@ static void test_bodies_that_are_gone_are_left_out(void **state)
     assert_int_equal(groups->count, 3);
 }
 
+/* Vehicles drive through bushes: they bear no load. */
+static void test_a_bush_is_no_wall(void **state)
+{
+    (void)state;
+    press(6, PERSISTENT_CONTACT_FIXED | 1);
+    press(7, PERSISTENT_CONTACT_FIXED);
+    steps_respond(&f, &context);
+    move(6);
+    move(7);
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->count, 1);
+    assert_true(is_pair(0, 7, PAIR_FIXED));
+    assert_true(contact_groups_is_wall(&context, 0) && !contact_groups_is_wall(&context, 1));
+}
+
 static void test_bodies_in_the_air_are_left_out(void **state)
 {
     (void)state;
@@ -262,6 +278,7 @@ int main(void)
         TEST(test_an_overlap_wakes_its_group),
         TEST(test_an_overlap_wakes_a_group_in_reused_rows),
         TEST(test_bodies_that_are_gone_are_left_out),
+        TEST(test_a_bush_is_no_wall),
         TEST(test_bodies_in_the_air_are_left_out),
         TEST(test_a_new_body_that_overlaps_is_found),
         TEST(test_two_new_bodies_are_one_pair),

@@ -118,6 +118,36 @@ static void test_at_last_it_goes_back_all_the_way(void **state)
     assert_true(next()->x[0] == WEST_M && next()->vx[0] == 0.0);
 }
 
+/* Resting pairs are not swept, so the guard looks at them even if no contact has moved them. */
+static void test_bodies_of_resting_pairs_are_looked_at(void **state)
+{
+    uint32_t rows[3] = {0, SLOT_NONE, 1}; /* of two bodies and a fixed object */
+    (void)state;
+    pair(0, 1);
+    move(0, 0.08);
+    end_guard_run(&f.stepper.collider.guard, &(struct resting){.row = rows, .bodies = 3}, &context);
+    assert_true(fabs(next()->x[0] - WEST_M - 0.04) < 1e-9);
+    assert_true(gap(next(), 0, 1) > 0.0);
+}
+
+/* A wreck that rolls over into its neighbour stops with its whole pose and motion. */
+static void test_a_wreck_goes_back_in_its_whole_pose(void **state)
+{
+    struct entities *e = next();
+    (void)state;
+    pair(0, 1);
+    e->state[0] = ENTITY_WRECK;
+    e->roll[0] = 0.3;
+    e->y[0] += 0.02;
+    e->vy[0] = 0.6;
+    e->spin_z[0] = 0.9;
+    body_motion_compute(context.motion, 0);
+    run(1, (uint32_t[]){0});
+    assert_true(e->roll[0] == committed()->roll[0] || fabs(e->roll[0]) < 0.16);
+    assert_true(fabs(e->y[0] - committed()->y[0]) < 0.011);
+    assert_true(e->vy[0] <= 0.3 && e->spin_z[0] <= 0.45);
+}
+
 /* The third tank follows the second, which has to go back; the fourth is out of it. */
 static void test_a_body_that_went_back_can_send_back_the_next(void **state)
 {
@@ -221,6 +251,8 @@ int main(void)
         TEST(test_bodies_that_do_not_meet_are_left_alone),
         TEST(test_a_body_that_ends_in_another_goes_back_by_half),
         TEST(test_at_last_it_goes_back_all_the_way),
+        TEST(test_bodies_of_resting_pairs_are_looked_at),
+        TEST(test_a_wreck_goes_back_in_its_whole_pose),
         TEST(test_a_body_that_went_back_can_send_back_the_next),
         TEST(test_a_driver_who_holds_the_course_keeps_its_speed),
         TEST(test_an_overlap_may_last_but_not_grow),
