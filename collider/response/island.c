@@ -390,6 +390,29 @@ static void leave(struct response_context *context, const struct solver_body *so
     path_change_leave(context, row, time, at, velocity, solve->spin, body->stays);
 }
 
+/* The way of a body in the air may differ from its velocity and spin: a pilot steers it, or a wreck
+ * has met the ground. If this way alone makes a contact, the body goes on without the difference,
+ * because no impulse can answer it. Returns true if the body still had such a way. */
+static bool drop_steering(const struct response_context *context, struct island_body *body)
+{
+    if (body->grounded || context->motion->change[body->row] != 0)
+        return false;
+    body->follows_spin = true;
+    return true;
+}
+
+/* The bodies of this contact do not close by their velocities. */
+static void answer_without_impulse(const struct response_context *context,
+                                   const struct island_contact *met)
+{
+    struct island *island = context->island;
+    bool drops = drop_steering(context, &island->body[met->body_a]);
+    if (met->body_b != BODY_FIXED)
+        drops |= drop_steering(context, &island->body[met->body_b]);
+    if (!drops)
+        contact_queue_skip_pair(context->contacts, &met->contact); /* it would be found again */
+}
+
 static bool same(struct vec3 a, struct vec3 b)
 {
     return a.x == b.x && a.y == b.y && a.z == b.z;
@@ -398,7 +421,7 @@ static bool same(struct vec3 a, struct vec3 b)
 static bool is_unmoved(const struct solver_body *solve, const struct island_body *body)
 {
     const struct vec3 none = {0.0, 0.0, 0.0};
-    return !body->stays && same(body->shift, none) &&
+    return !body->stays && !body->follows_spin && same(body->shift, none) &&
            same(solve->velocity, solve->velocity_before) && same(solve->spin, solve->spin_before);
 }
 
@@ -423,7 +446,7 @@ static void solve_group(struct response_context *context, uint32_t first, double
         const struct solver_contact *contact = &island->contact[contacts++];
         move_apart(context, met, contact);
         if (vec3_dot(contact->impulse, contact->impulse) == 0.0)
-            contact_queue_skip_pair(context->contacts, &met->contact); /* it would be found again */
+            answer_without_impulse(context, met);
     }
     keep_momentum(island, bodies);
     for (uint32_t i = 0; i < bodies; i++) {

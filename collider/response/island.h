@@ -29,6 +29,7 @@ struct island_body {
     bool stays;           /* its pair may not meet again in this frame: it stays where it is */
     bool unmoved;         /* the contacts have not changed its motion */
     bool grounded;
+    bool follows_spin; /* it goes on by its velocity and spin alone, without its pilot's steering */
     struct vec3 arm;   /* [m, world] from the position to the centre of mass */
     struct vec3 shift; /* [m] out of the bodies that it overlaps */
 };

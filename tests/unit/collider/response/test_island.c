@@ -184,6 +184,30 @@ static void test_a_vehicle_turning_in_place_meets_its_neighbour(void **state)
     assert_true(steps_speed(&f, 1) > 0.0); /* pushed aside */
 }
 
+/* A pilot steers the nose of a helicopter, which has no spin, into one that flies away from it. No
+ * impulse answers that: the turn ends at the contact. */
+static void test_a_pilot_cannot_steer_into_a_neighbour(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    open_with(
+        "world = { seed = 1; capacity = 16; hz = 10.0; }; collision = { shape = \"model\"; };");
+    const struct kind *kind = steps_kind(&f, "helicopter");
+    double apart = 0.5 * (kind->length_m + kind->width_m) - 3.0;
+    uint32_t row = put(20000.0, 20000.0, 0.0, 0.0);
+    put(20000.0 + apart, 20000.0 - 0.2 * kind->length_m, 0.5, 0.5);
+    for (int frame = 0; frame < 20; frame++) {
+        steps_drive(&f, row, 0.0, 1.0, 0.0);
+        fixture_run(&f, 1);
+        struct free_turn turn[2];
+        struct body_motion *motion = &f.stepper.collider.motion;
+        struct swept_body a = body_motion_body(motion, 0, &turn[0]);
+        struct swept_body b = body_motion_body(motion, 1, &turn[1]);
+        assert_true(time_of_impact_gap(&a, &b, 1.0) > 0.0);
+    }
+    assert_true(fixture_event_count(&f, EVENT_COLLISION) >= 1);
+}
+
 /* --- dents -------------------------------------------------------------------------------------*/
 
 static void test_rows_33_47_a_blow_leaves_a_dent_where_it_struck(void **state)
@@ -277,6 +301,7 @@ int main(void)
         TEST(test_row_36_a_bush_beside_makes_no_second_collision),
         TEST(test_row_46_overlapping_bodies_part_exactly),
         TEST(test_a_vehicle_turning_in_place_meets_its_neighbour),
+        TEST(test_a_pilot_cannot_steer_into_a_neighbour),
         TEST(test_rows_33_47_a_blow_leaves_a_dent_where_it_struck),
         TEST(test_dents_beyond_the_list_are_counted),
         TEST(test_a_light_contact_leaves_no_dent),
