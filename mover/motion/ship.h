@@ -1,10 +1,11 @@
-/* Motion of ships: they stay on the water. */
+/* Motion of ships: they stay on the water, and run aground by their bow. */
 #ifndef JOLON_MOVER_MOTION_SHIP_H
 #define JOLON_MOVER_MOTION_SHIP_H
 
 #include "mover/context/step_context.h"
 
-/* Returns true when land or the edge of the world blocks the ship. */
+/* Returns true when land or the edge of the world blocks the ship. The friction of the shore then
+ * stops it, while the leading end of its hull slides ashore. Its position stays on the water. */
 bool ship_move(const struct step_context *context, uint32_t i,
                const struct desired_motion *desired);
 

@@ -53,15 +53,36 @@ static void test_patrolling_ships_never_leave_the_water(void **state)
     }
 }
 
+/* The shore is half way to the next post. Friction stops the ship within v2 / 2 0.7 g. */
 static void test_the_shore_stops_a_ship_by_its_bow(void **state)
 {
-    uint32_t row = put_ship(27500.0, 25010.0, 13.0);
+    const double shore = 28062.5, fast = 13.0, hardest = 0.7 * GRAVITY_MPS2 + 1e-9;
+    uint32_t row = put_ship(27500.0, 25010.0, fast);
+    double before = fast;
     (void)state;
     steps_drive(&f, row, 1.0, 0.0, 0.0);
-    fixture_run(&f, (uint32_t)(90.0 * HZ));
+    for (int frame = 0; frame < (int)(90.0 * HZ); frame++) {
+        fixture_run(&f, 1);
+        assert_true(before - steps_speed(&f, row) <= hardest / HZ);
+        before = steps_speed(&f, row);
+    }
     double bow = steps_rows(&f).x[row] + 0.5 * steps_kind(&f, "ship")->length_m;
-    assert_true(bow <= 28062.5 && bow > 28060.0); /* half way to the next post */
-    assert_true(steps_speed(&f, row) < 0.1);
+    assert_true(bow > shore + 10.0 && bow < shore + 15.0);
+    assert_true(on_water(row));
+    assert_true(steps_speed(&f, row) == 0.0);
+}
+
+static void test_a_ship_that_is_aground_goes_astern(void **state)
+{
+    uint32_t row = put_ship(27900.0, 25010.0, 13.0);
+    (void)state;
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(30.0 * HZ));
+    assert_true(steps_speed(&f, row) == 0.0);
+    steps_pedals(&f, row, 1.0, 0.0, GEAR_REVERSE);
+    fixture_run(&f, (uint32_t)(60.0 * HZ));
+    double bow = steps_rows(&f).x[row] + 0.5 * steps_kind(&f, "ship")->length_m;
+    assert_true(bow < 28000.0 && steps_rows(&f).vx[row] < -5.0);
 }
 
 static void test_a_ship_lies_level_and_is_slow_to_gain_speed(void **state)
@@ -119,6 +140,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_patrolling_ships_never_leave_the_water),
         TEST(test_the_shore_stops_a_ship_by_its_bow),
+        TEST(test_a_ship_that_is_aground_goes_astern),
         TEST(test_a_ship_lies_level_and_is_slow_to_gain_speed),
         TEST(test_the_rudder_bites_with_the_ships_way),
         TEST(test_a_ship_drifts_long_and_goes_astern),
