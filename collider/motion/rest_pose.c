@@ -14,7 +14,9 @@ struct rest_pose rest_pose_of(const struct terrain *terrain, const struct crater
     double back = terrain_height(terrain, craters, x - sine * length, z + cosine * length);
     double right = terrain_height(terrain, craters, x + cosine * width, z + sine * width);
     double left = terrain_height(terrain, craters, x - cosine * width, z - sine * width);
-    return (struct rest_pose){.y_m = terrain_height(terrain, craters, x, z),
+    const struct crater_footing footing = {x, z, length, width, sine, cosine};
+    return (struct rest_pose){.y_m = terrain_height(terrain, craters, x, z) +
+                                     crater_lift(craters, &footing),
                               .pitch_rad = maths_atan2(front - back, 2.0 * length),
                               .roll_rad = maths_atan2(left - right, 2.0 * width)};
 }

@@ -59,6 +59,20 @@ static void dig(const struct step_context *context, const struct ground_pose *po
     }
 }
 
+static void lift(const struct step_context *context, struct ground_pose *pose)
+{
+    for (int l = 0; l < LANE_COUNT; l++) {
+        const struct crater_footing footing = {.x = pose->x.lane[l],
+                                               .z = pose->z.lane[l],
+                                               .half_length = pose->half_length.lane[l],
+                                               .half_width = pose->half_width.lane[l],
+                                               .sine = pose->sine.lane[l],
+                                               .cosine = pose->cosine.lane[l]};
+        if (pose->cratered.lane[l])
+            pose->y.lane[l] += crater_lift(context->craters, &footing);
+    }
+}
+
 VECTOR_CLONES
 void ground_pose_find(const struct step_context *context, struct ground_pose *pose)
 {
@@ -71,6 +85,8 @@ void ground_pose_find(const struct step_context *context, struct ground_pose *po
     if (context->craters->count > 0)
         dig(context, pose, x, z, height);
     pose->y = height[MIDDLE];
+    if (context->craters->count > 0)
+        lift(context, pose);
     for (int h = 0; h < LANE_FOURS; h++) {
         pitch_rise.f64x4[h] = height[FRONT].f64x4[h] - height[BACK].f64x4[h];
         pitch_run.f64x4[h] = 2.0 * pose->half_length.f64x4[h];

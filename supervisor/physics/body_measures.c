@@ -6,12 +6,13 @@
 
 #include <stddef.h>
 
-#define WORLD_EDGE_M  50000.0
-#define HELD_M        1e-3 /* a body that is no farther off the ground is on it */
-#define LEAST_DEPTH_M 0.05 /* a corner that is no higher over the ground touches it */
-#define LEANING_RPS   3.0  /* an aircraft banks and pitches so fast */
-#define BOX_CORNERS   8u
-#define LEAST_TOP     10.0 /* [m/s] top speed of kinds that hardly move by themselves */
+#define WORLD_EDGE_M   50000.0
+#define HELD_M         1e-3 /* a body that is no farther off the ground is on it */
+#define LEAST_DEPTH_M  0.05 /* a corner that is no higher over the ground touches it */
+#define LEANING_RPS    3.0  /* an aircraft banks and pitches so fast */
+#define BOX_CORNERS    8u
+#define STANCE_LEAST_M 0.5  /* a vehicle stands on half its length and width, at least on this */
+#define LEAST_TOP      10.0 /* [m/s] top speed of kinds that hardly move by themselves */
 
 static int unfinished(struct vec3 v)
 {
@@ -134,6 +135,22 @@ static void measure_corners(struct measures *measures, const struct ground_look 
         measure_sinking(measures, body);
 }
 
+/* Returns how high a vehicle stands over the ground under its middle. */
+static double standing_height(const struct surface *surface, const struct body_look *body)
+{
+    const struct kind *kind = body->kind;
+    double length = maths_max(0.5 * kind->length_m, STANCE_LEAST_M);
+    double width = maths_max(0.5 * kind->width_m, STANCE_LEAST_M);
+    double sine, cosine;
+    maths_sincos(body->now.heading, &sine, &cosine);
+    const struct surface_rectangle under = {.middle = body->named.at,
+                                            .forward = {sine * length, 0.0, -cosine * length},
+                                            .right = {cosine * width, 0.0, sine * width}};
+    if (kind->domain != DOMAIN_LAND || body->now.wreck)
+        return 0.0;
+    return surface_clearance(surface, &under);
+}
+
 void body_measures_ground(struct measures *measures, const struct ground_look *ground,
                           struct body_look *body)
 {
@@ -149,6 +166,8 @@ void body_measures_ground(struct measures *measures, const struct ground_look *g
     }
     const struct surface_part part = surface_around(surface, at.x, at.z, body->kind->bound_m);
     body->now.height_m = at.y - (part.flat ? part.at_m : surface_height(surface, at.x, at.z));
+    if (!part.flat)
+        body->now.height_m -= standing_height(surface, body);
     if (domain == DOMAIN_SEA || (domain == DOMAIN_LAND && !body->now.wreck))
         measure_take(measures, MEASURE_OF_HEIGHT, fabs(body->now.height_m), &body->named, NULL);
     measure_corners(measures, ground, &part, body);

@@ -136,6 +136,22 @@ double surface_height(const struct surface *surface, double x, double z)
     return surface->count > 0 ? height + craters_at(surface, x, z) : height;
 }
 
+double surface_clearance(const struct surface *surface, const struct surface_rectangle *under)
+{
+    double dug[3][3], highest = 0.0;
+    for (int i = 0; i < 9 && surface->count > 0; i++) {
+        const struct vec3 to =
+            vec3_add(vec3_scale(under->forward, i / 3 - 1), vec3_scale(under->right, i % 3 - 1));
+        dug[i / 3][i % 3] = craters_at(surface, under->middle.x + to.x, under->middle.z + to.z);
+    }
+    for (int i = 0; i < 9 && surface->count > 0; i++) {
+        double plane = dug[1][1] + 0.5 * (i / 3 - 1) * (dug[2][1] - dug[0][1]) +
+                       0.5 * (i % 3 - 1) * (dug[1][2] - dug[1][0]);
+        highest = maths_max(highest, dug[i / 3][i % 3] - plane);
+    }
+    return highest;
+}
+
 bool surface_is_water(const struct surface *surface, double x, double z)
 {
     const struct terrain *terrain = surface->terrain;

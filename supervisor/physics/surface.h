@@ -36,6 +36,17 @@ void surface_free(struct surface *surface);
 /* Height of the ground with its craters [m]. */
 double surface_height(const struct surface *surface, double x, double z);
 
+/* A rectangle on the map. */
+struct surface_rectangle {
+    struct vec3 middle;
+    struct vec3 forward, right; /* on the map, to the middles of its front and right side [m] */
+};
+
+/* Returns how high a vehicle stands over the ground under its middle because of craters [m]. Its
+ * underside, whose slopes are those between the middles of its sides, clears the craters at the
+ * middles of its sides and at its corners. */
+double surface_clearance(const struct surface *surface, const struct surface_rectangle *under);
+
 /* Returns true if there is water at the nearest post. */
 bool surface_is_water(const struct surface *surface, double x, double z);
 

@@ -55,4 +55,16 @@ void crater_index_update(struct crater_index *index, uint32_t count);
  * else 0. Does not depend on the order of the craters. */
 double crater_offset(const struct crater_index *index, double x, double z);
 
+/* The rectangle on which a vehicle stands. */
+struct crater_footing {
+    double x, z;                    /* [m] its middle */
+    double half_length, half_width; /* [m] */
+    double sine, cosine;            /* of its heading, clockwise from north */
+};
+
+/* Returns by how much craters lift a vehicle over the ground under its middle [m], at least 0. The
+ * vehicle has the pitch and roll of the middles of its sides; it is lifted until no corner and no
+ * middle of a side is in the bowl or the rim of a crater. */
+double crater_lift(const struct crater_index *index, const struct crater_footing *footing);
+
 #endif

@@ -95,6 +95,17 @@ static double rolling(const struct step_context *context, uint32_t i, const stru
     return maths_clamp(forward, -kind->max_speed_mps, kind->max_speed_mps);
 }
 
+static double standing_height(const struct step_context *context, uint32_t i, double x, double z)
+{
+    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    struct crater_footing footing = {.x = x,
+                                     .z = z,
+                                     .half_length = maths_max(kind->length_m * 0.5, 0.5),
+                                     .half_width = maths_max(kind->width_m * 0.5, 0.5)};
+    maths_sincos(context->m->heading[i], &footing.sine, &footing.cosine);
+    return kinematics_ground(context, x, z) + crater_lift(context->craters, &footing);
+}
+
 static void stand_on_ground(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
@@ -155,7 +166,7 @@ static bool drive_one(const struct step_context *context, uint32_t i,
         x = m->x[i], z = m->z[i];
         vx = vz = 0.0;
     }
-    double y = kinematics_ground(context, x, z);
+    double y = standing_height(context, i, x, z);
     entities_set_velocity(m, i, (struct vec3){vx, (y - m->y[i]) / context->dt_s, vz});
     entities_set_position(m, i, (struct vec3){x, y, z});
     stand_on_ground(context, i);
@@ -165,7 +176,7 @@ static bool drive_one(const struct step_context *context, uint32_t i,
 static void hold_one(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    double y = kinematics_ground(context, m->x[i], m->z[i]);
+    double y = standing_height(context, i, m->x[i], m->z[i]);
     m->vy[i] = (y - m->y[i]) / context->dt_s;
     m->y[i] = y;
     stand_on_ground(context, i);

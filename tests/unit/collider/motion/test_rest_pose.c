@@ -59,6 +59,9 @@ static void test_it_is_the_pose_that_the_mover_gives(void **state)
     }
     assert_true(steepest > 0.1);
     assert_true(crater_offset(&f.stepper.mover.craters, e.x[20], e.z[20]) < -0.5);
+    double ground =
+        terrain_height(&f.view.world.terrain, &f.stepper.mover.craters, e.x[20], e.z[20]);
+    assert_true(e.y[20] > ground + 0.01); /* it stands on its corners */
     fixture_close(&f);
 }
 

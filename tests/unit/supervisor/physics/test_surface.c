@@ -119,6 +119,36 @@ static void test_parts_of_the_ground(void **state)
     surface_free(&surface);
 }
 
+/* The same lift as that of the mover, by other code. */
+static void test_vehicles_stand_over_craters_as_the_mover_has_them(void **state)
+{
+    uint64_t random = fixture_seed(12);
+    struct surface surface = {.terrain = &terrain};
+    struct crater_index index;
+    double highest = 0.0;
+    (void)state;
+    roughen(&random);
+    assert_int_equal(crater_index_init(&index, craters), 0);
+    crater_index_update(&index, CRATERS);
+    assert_int_equal(surface_update(&surface, craters, CRATERS), 0);
+    for (int i = 0; i < 4000; i++) {
+        const struct crater *near = &craters[i % CRATERS];
+        double sine, cosine, x = near->x + fixture_uniform(&random, -20.0, 20.0);
+        double z = near->z + fixture_uniform(&random, -20.0, 20.0);
+        maths_sincos(fixture_uniform(&random, 0.0, TWO_PI), &sine, &cosine);
+        const struct crater_footing footing = {x, z, 3.5, 1.8, sine, cosine};
+        const struct surface_rectangle under = {.middle = {x, 0.0, z},
+                                                .forward = {3.5 * sine, 0.0, -3.5 * cosine},
+                                                .right = {1.8 * cosine, 0.0, 1.8 * sine}};
+        double lift = crater_lift(&index, &footing);
+        assert_true(fabs(surface_clearance(&surface, &under) - lift) < 1e-9);
+        highest = maths_max(highest, lift);
+    }
+    assert_true(highest > 0.5);
+    crater_index_free(&index);
+    surface_free(&surface);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -126,6 +156,7 @@ int main(void)
         cmocka_unit_test(test_a_crater_has_a_bowl_and_a_rim),
         cmocka_unit_test(test_the_ground_is_that_of_the_world),
         cmocka_unit_test(test_parts_of_the_ground),
+        cmocka_unit_test(test_vehicles_stand_over_craters_as_the_mover_has_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

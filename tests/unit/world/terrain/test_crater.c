@@ -218,6 +218,58 @@ static void test_entries_past_the_count_do_not_count(void **state)
     crater_index_free(&index);
 }
 
+/* A tank of 7 m by 3.6 m in the middle of a bowl stands on its corners, and on the rim beside it.
+ */
+static void test_a_vehicle_is_lifted_over_bowl_and_rim(void **state)
+{
+    const struct crater crater = {1000.0, 2000.0, 5.0f, 2.0f, 1};
+    struct crater_footing footing = {1000.0, 2000.0, 3.5, 1.8, 0.0, 1.0};
+    struct crater_index index;
+    (void)state;
+    index_of(&index, &crater, 1);
+    double corner = crater_offset(&index, 1001.8, 2003.5);
+    assert_true(fabs(crater_lift(&index, &footing) - (corner + 2.0)) < 1e-12);
+    footing.sine = footing.cosine = sqrt(0.5); /* the bowl is round */
+    assert_true(fabs(crater_lift(&index, &footing) - (corner + 2.0)) < 1e-9);
+    footing.x = 1008.0; /* its corners are outside, its middle is on the slope of the rim */
+    assert_true(crater_lift(&index, &footing) >= 0.0);
+    footing.x = 1020.0;
+    assert_true(crater_lift(&index, &footing) == 0.0);
+    crater_index_free(&index);
+}
+
+/* Wherever a vehicle stands, no corner and no middle of a side is below the craters. */
+static void test_no_corner_is_in_a_crater(void **state)
+{
+    uint64_t random = fixture_seed(77);
+    struct crater craters[MANY];
+    struct crater_index index;
+    (void)state;
+    for (int i = 0; i < 12; i++)
+        craters[i] = random_crater(&random);
+    index_of(&index, craters, 12);
+    for (int i = 0; i < 2000; i++) {
+        double heading = fixture_uniform(&random, 0.0, 6.28);
+        const struct crater_footing on = {fixture_uniform(&random, 24900.0, 25100.0),
+                                          fixture_uniform(&random, 24900.0, 25100.0),
+                                          3.5,
+                                          1.8,
+                                          sin(heading),
+                                          cos(heading)};
+        double at[3][3];
+        for (int k = 0; k < 9; k++) {
+            double along = 3.5 * (k / 3 - 1), across = 1.8 * (k % 3 - 1);
+            at[k / 3][k % 3] = crater_offset(&index, on.x + on.sine * along + on.cosine * across,
+                                             on.z - on.cosine * along + on.sine * across);
+        }
+        double y = at[1][1] + crater_lift(&index, &on);
+        for (int k = 0; k < 9; k++)
+            assert_true(at[k / 3][k % 3] <= y + 0.5 * (k / 3 - 1) * (at[2][1] - at[0][1]) +
+                                                0.5 * (k % 3 - 1) * (at[1][2] - at[1][0]) + 1e-9);
+    }
+    crater_index_free(&index);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -231,6 +283,8 @@ int main(void)
         cmocka_unit_test(test_index_grows_with_the_list_and_goes_back_with_it),
         cmocka_unit_test(test_crater_of_no_size_changes_nothing),
         cmocka_unit_test(test_entries_past_the_count_do_not_count),
+        cmocka_unit_test(test_a_vehicle_is_lifted_over_bowl_and_rim),
+        cmocka_unit_test(test_no_corner_is_in_a_crater),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
