@@ -23,7 +23,9 @@ int body_motion_init(struct body_motion *motion, const struct world *world)
     motion->change = calloc(capacity, sizeof *motion->change);
     motion->changed = reserve_take(capacity, sizeof *motion->changed);
     motion->row = reserve_take(capacity, sizeof *motion->row);
-    if (!motion->path || !motion->computed || !motion->change || !motion->changed || !motion->row) {
+    motion->parting_rps = calloc(capacity, sizeof *motion->parting_rps);
+    if (!motion->path || !motion->computed || !motion->change || !motion->changed || !motion->row ||
+        !motion->parting_rps) {
         body_motion_free(motion);
         return -1;
     }
@@ -37,6 +39,7 @@ void body_motion_free(struct body_motion *motion)
     reserve_free(motion->changed);
     free(motion->change);
     reserve_free(motion->row);
+    free(motion->parting_rps);
     *motion = (struct body_motion){0};
 }
 

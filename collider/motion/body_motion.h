@@ -33,6 +33,9 @@ struct body_motion {
     uint32_t changes;
     uint32_t *change; /* [capacity] index + 1 into changed; 0: rotates as the mover has it */
     uint32_t *row;    /* [changes] the row of each changed rotation */
+    /* [capacity] the turn about the vertical by which resting contacts part a row from what it
+     * overlaps [rad/s]. It is part of its path, but no motion that an impact can take. */
+    double *parting_rps;
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */

@@ -68,7 +68,8 @@ static double yaw_of(const struct response_context *context, uint32_t row)
     double by_spin = -w->spin_y[row] * dt_s;
     if (fabs(by_spin) <= HALF_PI)
         by_spin = 0.0;
-    return -(by_spin + maths_wrap_half(n->heading[row] - w->heading[row] - by_spin)) / dt_s;
+    double turn = by_spin + maths_wrap_half(n->heading[row] - w->heading[row] - by_spin);
+    return -turn / dt_s - motion->parting_rps[row];
 }
 
 struct vec3 path_change_spin(const struct response_context *context, uint32_t row, double time)

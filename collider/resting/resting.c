@@ -339,6 +339,7 @@ static void move(struct response_context *context, uint32_t row, const struct le
     at.x = maths_clamp(at.x + (body->moved.x + body->pushed.x) * dt_s, 0.0, WORLD_SIDE_M);
     at.z = maths_clamp(at.z + (body->moved.z + body->pushed.z) * dt_s, 0.0, WORLD_SIDE_M);
     double turn = (body->moved.spin + body->pushed.spin) * dt_s;
+    context->motion->parting_rps[row] = body->pushed.spin;
     ground_placement_put(context, row, at, maths_wrap_turn(w->heading[row] - turn));
     table_set_vx(&context->writer, row, e->vx[row] + body->moved.x - body->wanted.x);
     table_set_vz(&context->writer, row, e->vz[row] + body->moved.z - body->wanted.z);
@@ -348,7 +349,6 @@ static void move(struct response_context *context, uint32_t row, const struct le
 
 static void move_bodies(struct resting *resting, struct response_context *context)
 {
-    resting->moved_count = 0;
     for (uint32_t i = 0; i < resting->bodies; i++) {
         uint32_t row = resting->row[i];
         if (row == SLOT_NONE)
@@ -429,6 +429,9 @@ void resting_solve(struct resting *resting, struct response_context *context)
         if (resting->row[i] != SLOT_NONE)
             resting->parts[resting->row[i]] = 0;
     }
+    for (uint32_t i = 0; i < resting->moved_count; i++)
+        context->motion->parting_rps[resting->moved[i]] = 0.0;
+    resting->moved_count = 0;
     resting->pairs = resting->points = resting->bodies = 0;
     contact_groups_find(&resting->groups, context);
     thread_pool_run(resting->workers, measure_some, &(struct gap_job){resting, context},

@@ -227,6 +227,18 @@ static void test_a_body_in_the_air_has_its_momentum_at_every_time(void **state)
     assert_true(vec3_length(vec3_sub(end, spin)) < 1e-12 * vec3_length(spin));
 }
 
+/* A turn that parts a body from what it overlaps is no spin: an impact would make energy of it. */
+static void test_a_turn_that_parts_bodies_is_no_spin(void **state)
+{
+    (void)state;
+    uint32_t tank = put("tank", 25000.0, 100.0);
+    context.next->entities.heading[tank] += 0.02;
+    assert_true(fabs(path_change_spin(&context, tank, 0.5).y + 0.02 / DT_S) < 1e-9);
+    context.motion->parting_rps[tank] = -0.02 / DT_S;
+    assert_true(fabs(path_change_spin(&context, tank, 0.5).y) < 1e-9);
+    context.motion->parting_rps[tank] = 0.0;
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
@@ -236,6 +248,7 @@ int main(void)
         TEST(test_who_leaves_takes_velocity_and_spin_along),
         TEST(test_no_body_is_pushed_out_of_the_world),
         TEST(test_what_the_ground_holds),
+        TEST(test_a_turn_that_parts_bodies_is_no_spin),
         TEST(test_a_displaced_wreck_is_awake),
         TEST(test_a_pushed_wreck_gains_no_speed),
         TEST(test_an_answer_leaves_the_steering_to_the_driver),
