@@ -86,6 +86,7 @@ static void read_body(struct body_looks *looks, const struct world *world,
     if (body->known) {
         body->was = &memory->look;
         body->touched = memory->touched;
+        body->parted = memory->parted;
     }
     if (body->known && same_angles(&body->now, body->was)) {
         body->now.pose = body->was->pose;
@@ -120,6 +121,7 @@ void body_looks_end(struct body_looks *looks)
         struct row_memory *memory = &looks->memory[body->row];
         memory->id = body->finite ? body->named.id : 0;
         memory->touched = body->touches;
+        memory->parted = body->parts;
         memory->look = body->now;
     }
 }
@@ -171,9 +173,9 @@ void body_looks_explain(struct body_looks *looks, const struct event *event)
         a = party(looks, &event->collision.a);
         b = party(looks, &event->collision.b);
         if (a)
-            a->struck = true;
+            a->struck++;
         if (b)
-            b->struck = true;
+            b->struck++;
     } else if (event->type == EVENT_DETONATION) {
         const double *point = event->detonation.point;
         a = party(looks, &event->detonation.struck_party);

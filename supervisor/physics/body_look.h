@@ -43,15 +43,18 @@ struct body_look {
     /* What may explain a change of its velocity. */
     bool commanded;  /* a command named it */
     uint32_t blasts; /* explosions near */
-    bool struck;     /* it has a collision in this frame */
+    uint32_t struck; /* collisions in this frame */
     bool touches;    /* it touches a body or a wall */
     bool touched;    /* the same in the frame before */
+    uint32_t parts;  /* bodies and walls that it overlaps since one of the two was placed */
+    uint32_t parted; /* the same in the frame before */
 };
 
 /* What is kept of a row from frame to frame. */
 struct row_memory {
-    uint32_t id;  /* 0: nothing */
-    bool touched; /* a body or a wall */
+    uint32_t id;     /* 0: nothing */
+    bool touched;    /* a body or a wall */
+    uint32_t parted; /* bodies and walls that it overlapped since it was placed */
     struct motion_look look;
 };
 

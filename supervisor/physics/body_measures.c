@@ -11,6 +11,7 @@
 #define LEAST_DEPTH_M  0.05 /* a corner that is no higher over the ground touches it */
 #define LEANING_RPS    3.0  /* an aircraft banks and pitches so fast */
 #define BOX_CORNERS    8u
+#define FRAME_S        (1.0 / 60.0)
 #define STANCE_LEAST_M 0.5  /* a vehicle stands on half its length and width, at least on this */
 #define LEAST_TOP      10.0 /* [m/s] top speed of kinds that hardly move by themselves */
 
@@ -212,8 +213,11 @@ static void measure_jump(struct measures *measures, double dt_s, const struct bo
     double angle = rigid_pose_angle(&body->was->pose, &body->now.pose);
     if (!body->was->wreck)
         spin += body->kind->turn_rate_rps + LEANING_RPS;
-    measure_take(measures, MEASURE_OF_SNAP, maths_max(0.0, angle - spin * dt_s), &body->named,
-                 NULL);
+    /* The bound is that of a frame of at most 1/60 s: in a longer one gravity and the ground have
+     * more time to change the spin. */
+    double share = maths_min(1.0, FRAME_S / dt_s);
+    measure_take(measures, MEASURE_OF_SNAP, maths_max(0.0, angle - spin * dt_s) * share,
+                 &body->named, NULL);
 }
 
 static void measure_acceleration(struct measures *measures, double dt_s,
@@ -235,9 +239,10 @@ void body_measures_motion(struct measures *measures, double dt_s, const struct b
     measure_take(measures, MEASURE_OF_SPIN, vec3_length(body->now.spin), &body->named, NULL);
     if (!body->known || body->commanded)
         return;
-    if (body->blasts < 2) /* between two explosions it may be faster than before and after */
+    /* Between two explosions or collisions it may be faster than before and after. */
+    if (body->blasts < 2 && body->struck < 2 && body->parted == 0)
         measure_jump(measures, dt_s, body);
     bool touches = body->touches || body->touched || body->now.grounded || body->was->grounded;
-    if (body->blasts == 0 && !body->struck && !touches)
+    if (body->blasts == 0 && body->struck == 0 && !touches)
         measure_acceleration(measures, dt_s, body);
 }

@@ -86,7 +86,7 @@ static double work_j(const struct body_look *body, bool held, double dt_s)
             push += GRAVITY_MPS2 *
                     maths_max(fabs(body->now.pose.forward.y), fabs(body->was->pose.forward.y));
     }
-    if (!body->now.wreck && (body->struck || body->touches || body->now.grounded))
+    if (!body->now.wreck && (body->struck > 0 || body->touches || body->now.grounded))
         steering = 0.5 * moments(kind).y * square(kind->turn_rate_rps);
     return kind->mass_kg * (speed * push * dt_s + 0.5 * square(push * dt_s)) +
            weight_j(body, held) + steering;

@@ -160,16 +160,27 @@ struct look {
 static void measure_pair(struct look *look, struct overlap *pair, const struct overlap *last,
                          bool fresh, const struct measured_body *a, const struct measured_body *b)
 {
-    double before = last ? last->depth_m : 0.0;
     bool overlaps = pair->depth_m > ROUNDING_M;
     pair->since_start = overlaps && (last ? last->since_start : fresh);
     look->overlapping += overlaps;
     enum measure_kind kind = b->fixed ? MEASURE_OF_WALL_OVERLAP : MEASURE_OF_OVERLAP;
     measure_take(look->measures, pair->since_start ? MEASURE_OF_START_OVERLAP : kind, pair->depth_m,
                  a, b);
-    if (!fresh)
-        measure_take(look->measures, MEASURE_OF_OVERLAP_GROWTH,
-                     maths_max(0.0, pair->depth_m - before), a, b);
+}
+
+/* Returns true if the body has to part from others than the one of this pair: they may push it. */
+static bool parts_from_others(const struct body_look *body, const struct overlap *last)
+{
+    return body->parted > (last && last->since_start ? 1u : 0u);
+}
+
+static void measure_growth(struct look *look, const struct overlap *pair,
+                           const struct overlap *last, const struct measured_body *a,
+                           const struct measured_body *b)
+{
+    double before = last ? last->depth_m : 0.0;
+    measure_take(look->measures, MEASURE_OF_OVERLAP_GROWTH, maths_max(0.0, pair->depth_m - before),
+                 a, b);
 }
 
 static uint64_t key_of(uint32_t first, uint32_t second)
@@ -186,6 +197,8 @@ static int look_at_pair(struct look *look, struct body_look *a, struct body_look
     const struct overlap *last = list_find(before, pair.key);
     if (last && a->still && b->still) {
         pair = *last;
+        a->parts += pair.since_start;
+        b->parts += pair.since_start;
         look->overlapping += pair.depth_m > ROUNDING_M;
     } else {
         const struct pair_side sides[2] = {{&a->now.pose, a->kind, 1.0, a->kind->radius_m},
@@ -197,6 +210,10 @@ static int look_at_pair(struct look *look, struct body_look *a, struct body_look
         pair.depth_m = maths_max(0.0, -apart);
         pair.touch = apart < enough;
         measure_pair(look, &pair, last, !a->known || !b->known, &a->named, &b->named);
+        if (a->known && b->known && !parts_from_others(a, last) && !parts_from_others(b, last))
+            measure_growth(look, &pair, last, &a->named, &b->named);
+        a->parts += pair.since_start;
+        b->parts += pair.since_start;
     }
     if (pair.touch) {
         a->touches = b->touches = true;
@@ -229,6 +246,9 @@ static int look_at_wall(struct look *look, struct body_look *body, uint32_t inde
     pair.touch = apart < enough;
     body->touches |= pair.touch;
     measure_pair(look, &pair, last, !body->known, &body->named, &named);
+    if (body->known && !parts_from_others(body, last))
+        measure_growth(look, &pair, last, &body->named, &named);
+    body->parts += pair.since_start;
     return list_add(&overlaps->wall_pairs[overlaps->current], &pair);
 }
 
@@ -244,6 +264,7 @@ static int keep_walls(struct look *look, struct body_look *body)
             continue;
         look->overlapping += last->depth_m > ROUNDING_M;
         body->touches |= last->touch;
+        body->parts += last->since_start;
         if (list_add(&overlaps->wall_pairs[overlaps->current], last) != 0)
             return -1;
     }

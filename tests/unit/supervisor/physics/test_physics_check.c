@@ -361,6 +361,23 @@ static void test_two_explosions_explain_a_way(void **state)
     is_bad(MEASURE_OF_JUMP, 0.03);
 }
 
+/* So between two collisions. */
+static void test_two_collisions_explain_a_way(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 100.0);
+    (void)state;
+    begin();
+    add_event(EVENT_COLLISION)->collision.a.id = tank + 1;
+    add_event(EVENT_COLLISION)->collision.b.id = tank + 1;
+    now.entities.z[tank] += 0.03;
+    next();
+    is_good();
+    add_event(EVENT_COLLISION)->collision.a.id = tank + 1;
+    now.entities.z[tank] += 0.03;
+    next();
+    is_bad(MEASURE_OF_JUMP, 0.03);
+}
+
 static void test_a_corner_in_a_crater(void **state)
 {
     (void)state;
@@ -408,6 +425,21 @@ static void test_an_overlap_at_the_start_may_stay_but_not_grow(void **state)
     next();
     is_bad(MEASURE_OF_OVERLAP_GROWTH, 0.001);
     no_other_is_bad(MEASURE_OF_OVERLAP_GROWTH);
+}
+
+/* A body between two others that it overlaps is pushed into one by the other. */
+static void test_bodies_that_part_push_each_other(void **state)
+{
+    uint32_t b;
+    (void)state;
+    put("tank", MIDDLE, 100.0);
+    b = put("tank", MIDDLE + 5.5, 100.0);
+    put("tank", MIDDLE + 10.9, 100.0);
+    begin();
+    next();
+    now.entities.x[b] -= 0.05;
+    next();
+    is_good();
 }
 
 static void test_spheres_overlap(void **state)
@@ -622,9 +654,11 @@ int main(void)
         TEST(test_the_energy_of_a_wreck_that_rolls),
         TEST(test_a_wreck_that_is_pushed_out),
         TEST(test_two_explosions_explain_a_way),
+        TEST(test_two_collisions_explain_a_way),
         TEST(test_a_corner_in_a_crater),
         TEST(test_two_boxes_overlap),
         TEST(test_an_overlap_at_the_start_may_stay_but_not_grow),
+        TEST(test_bodies_that_part_push_each_other),
         TEST(test_spheres_overlap),
         TEST(test_no_bound_where_the_response_promises_none),
         TEST(test_a_wall),
