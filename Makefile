@@ -412,6 +412,11 @@ rtps: all $(PEER)
 storm: all $(STORM)
 	@$(STORM) --kills $(KILLS) $(if $(SEED),--seed $(SEED)) $(if $(SCENARIO),--scenario $(SCENARIO)) $(STORMY)
 
+# The physics of an hour of the default world; make judge [FRAMES=216000] [SCENARIO=file]
+FRAMES   ?= 216000
+judge: all
+	@tests/physics-hour $(abspath $(BIN)) $(or $(SCENARIO),hunter-liggett) $(FRAMES)
+
 # One after the other: each has the machine to itself.
 bench: bench-render
 	@tests/bench/run $(BENCH)
@@ -486,6 +491,7 @@ help:
 	@echo 'make rtps [PACKETS=1000000] [SEED=n]       mutated datagrams against a reporter'
 	@echo 'make game [SECONDS=300] [SEED=n]          two players and a program at once, while everything is killed'
 	@echo 'make storm [KILLS=1000] [SEED=n]           kill processes at random and check the consequences'
+	@echo 'make judge [FRAMES=216000]               judge the physics of an hour of the default world'
 	@echo 'make model [MODEL=short|usual|full]      check the frame protocol with spin'
 	@echo 'make bench                              build jolon-bench, measure; results in tests/bench/results/'
 	@echo 'make bench-render                       what pictures cost, alone'

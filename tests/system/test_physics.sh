@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# jolon replay LOG --physics: two tanks on level ground are good; a heap is looked at; output, JSON
-# and exit codes.
+# jolon replay LOG --physics: two tanks on level ground, heaps and four minutes of the default world are
+# good; output, JSON and exit codes.
+physics_hour=$(cd "$(dirname "$0")/.." && pwd)/physics-hour
 . "$(dirname "$0")/lib.sh"
 
 run() { # OUT SCENARIO FRAMES: records a run of so many frames
@@ -63,6 +64,54 @@ check "in a heap the exit code is the verdict" agree
 check "the heap is looked at whole" eval 'equal "$(json physics.bodies <heap.json)" 600'
 check "the heap's tanks never leave the ground" eval 'equal "$(json physics.measures.height.good <heap.json)" True'
 check "two replays say the same" eval 'replay heap/commands.log --physics --json --threads 2 | cmp - heap.json'
+
+# --- heaps: rings that drive inwards, a pile at one point, a crowd among obstacles --------------------
+# ring: 90 tanks; pile: 25 tanks that begin in each other; crowd: 60 of four kinds drive to one point
+# among trees, bushes and houses.
+heap_of() {
+    python3 -I -S - "$1" <<'P'
+import math, random, sys
+draw = random.Random(13)
+kinds, vehicles, objects = ("tank", "truck", "jeep", "carrier"), [], []
+def put(kind, x, z, heading, speed):
+    vehicles.append(f'{{ kind = "{kind}"; behaviour = "hold"; at = [{x:.2f}, {z:.2f}];'
+                    f' heading_deg = {heading % 360:.2f}; speed_mps = {speed:.1f}; }}')
+def inwards(kind, angle, distance, speed):
+    put(kind, 25000 + distance * math.sin(angle), 25000 - distance * math.cos(angle), math.degrees(angle) + 180, speed)
+if sys.argv[1] == "ring":
+    for ring, number in ((45, 24), (54, 30), (63, 36)):
+        for i in range(number):
+            inwards("tank", 2 * math.pi * i / number, ring, 10)
+elif sys.argv[1] == "pile":
+    for i in range(25):
+        put("tank", 25000 + draw.uniform(-4, 4), 25000 + draw.uniform(-4, 4), draw.uniform(0, 360), 0)
+else:
+    for i in range(60):
+        inwards(kinds[i % 4], 2 * math.pi * i / 60, draw.uniform(60, 140), draw.uniform(5, 15))
+    for kind in ("tree", "bush", "building"):
+        for i in range(12):
+            angle, distance = draw.uniform(0, 6.28), draw.uniform(12, 50)
+            objects.append(f'{{ kind = "{kind}"; at = [{25000 + distance * math.sin(angle):.1f},'
+                           f' {25000 + distance * math.cos(angle):.1f}]; }}')
+print('world = { name = "heap"; seed = 13; capacity = 256; };\nterrain = { source = "flat"; height_m = 100.0; };')
+print("objects = (", ",\n".join(objects), ");\nvehicles = (", ",\n".join(vehicles), ");")
+P
+}
+only_bad() { # LOG WORDS: no other measures are beyond their bounds
+    equal "$(replay "$1" --physics | awk '/ BAD / && !/^physics/ { printf "%s ", $1 }')" "$2"
+}
+for heap in ring pile crowd; do
+    heap_of "$heap" >"$heap.cfg"
+    run "$heap" "$heap.cfg" 900
+done
+check "15 s of 90 tanks in rings are within the bounds" replay ring/commands.log --physics
+check "15 s of a crowd among obstacles are within the bounds" replay crowd/commands.log --physics
+# Tanks that part push their neighbours aside and into others, without a speed.
+check "a pile that parts gains no energy and opens no overlap" only_bad pile/commands.log "overlap_growth jump "
+
+# --- the default world --------------------------------------------------------------------------------
+# Its first four minutes, with fire, craters, crashes and wrecks. `make judge` looks at an hour.
+check "four minutes of the default world are within the bounds" "$physics_hour" "$bin" hunter-liggett 14400
 
 # --- a bound that is passed: a jeep that the scenario makes three times too fast ---------------------
 cat >fast.cfg <<'C'
