@@ -1,6 +1,7 @@
 /* The collider's step, from top to bottom. */
 #include "collider/step.h"
 
+#include "collider/resting/turret_guard.h"
 #include "collider/response/response.h"
 #include "world/entity/persistent_contact.h"
 #include "world/params.h"
@@ -145,8 +146,10 @@ static void collide_all(struct step *step, struct response_context *context)
         response_contact(context, &contact);
         work_done();
     }
-    if (rest)
+    if (rest) {
         end_guard_run(&collider->guard, &collider->resting, context);
+        turret_guard_run(context);
+    }
     contact_table_finish(&collider->table, context);
 }
 

@@ -1,6 +1,7 @@
 /* Reads the files of kinds. Each file is checked alone, then the references between kinds. */
 #include "config/kinds.h"
 
+#include "config/mesh/model_parts.h"
 #include "config/mesh/models.h"
 #include "config/syntax/schema.h"
 #include "config/syntax/source.h"
@@ -215,12 +216,19 @@ static void complete_mind(struct kind *kind, bool has_doctrine)
         kind->doctrine = kind->range_m > 0 ? DOCTRINE_LIGHT : DOCTRINE_SOFT;
 }
 
-static void take_hulls(struct kind *kind, const struct hulls *hulls)
+static void take_hulls(struct kind *kind, const struct scenario *scenario,
+                       const struct hulls *hulls)
 {
     kind->first_hull = hulls->first;
     kind->hull_count = hulls->count;
     kind->outer_hull = hulls->outer;
+    kind->first_part_hull = hulls->first_part;
+    kind->part_count = hulls->parts;
+    kind->body_hulls = hulls->body;
+    kind->turret_pivot = hulls->turret_pivot;
+    kind->gun_pivot = hulls->gun_pivot;
     kind->bound_m = hulls->bound_m;
+    kind->reach_m = model_parts_reach(hulls, scenario, kind->gun_low_rad, kind->gun_high_rad);
     kind->level_m = hulls->level_m;
     kind->low_m = hulls->low_m;
     kind->high_m = hulls->high_m;
@@ -272,7 +280,7 @@ static int read_kind(struct reading *reading, struct kind *kind, const char *nam
     if (kind->stiffness_npm <= 0)
         kind->stiffness_npm = stiffness_of(kind);
     complete_mind(kind, (keys.given >> key_table_find(&schema_kind, "doctrine") & 1u) != 0);
-    take_hulls(kind, &models->hulls[model]);
+    take_hulls(kind, models->scenario, &models->hulls[model]);
     kind->munition = KIND_NONE;
     memcpy(reading->munition, entry.munition, sizeof(entry.munition));
     reading->munition_line = keys.line[key_table_find(&schema_kind, "munition")];

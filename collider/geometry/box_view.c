@@ -58,11 +58,32 @@ struct box_view box_view_of(const struct mat3 *a, const struct mat3 *b, struct v
 
 /* --- boxes -------------------------------------------------------------------------------------*/
 
+static struct box scaled(struct vec3 middle, struct vec3 half, double s)
+{
+    return (struct box){{middle.x * s, middle.y * s, middle.z * s},
+                        {half.x * s, half.y * s, half.z * s}};
+}
+
+static struct box turned_box_of(const struct swept_body *body, const struct hull *hull)
+{
+    const struct hull_box box = turret_path_box(&body->turret, hull);
+    return scaled(box.middle, box.half, body->scale);
+}
+
+/* The hull of a turret or a gun is in its box all the frame. */
 static struct box box_of(const struct swept_body *body, const struct hull *hull)
 {
-    double s = body->scale;
-    return (struct box){{hull->centre.x * s, hull->centre.y * s, hull->centre.z * s},
-                        {hull->half.x * s, hull->half.y * s, hull->half.z * s}};
+    return turret_path_turns(&body->turret, hull) ? turned_box_of(body, hull)
+                                                  : scaled(hull->centre, hull->half, body->scale);
+}
+
+/* Returns the box around all hulls of the body. */
+static struct box outer_box_of(const struct swept_body *body)
+{
+    if (body->turret.outers == 0)
+        return box_of(body, body->outer);
+    const struct hull_box box = turret_path_box_all(&body->turret);
+    return scaled(box.middle, box.half, body->scale);
 }
 
 /* Returns the box of b in a's axes. */
@@ -115,6 +136,27 @@ static struct box around(const struct box *box, uint32_t count)
     return all;
 }
 
+/* Returns true if a box of a and a box of b are certainly not near. */
+static bool both_apart(const struct box_view *view, const struct box *box_a,
+                       const struct box *box_b)
+{
+    struct box seen = seen_by_a(view, box_b);
+    if (apart(box_a, &seen, view->slack_a))
+        return true;
+    seen = seen_by_b(view, box_a);
+    return apart(box_b, &seen, view->slack_b);
+}
+
+/* Returns true if the boxes around all hulls of the bodies are certainly not near. */
+static bool outers_apart(const struct box_view *view, const struct swept_body *a,
+                         const struct swept_body *b)
+{
+    if (!a->outer || !b->outer)
+        return false;
+    struct box box_a = outer_box_of(a), box_b = outer_box_of(b);
+    return both_apart(view, &box_a, &box_b);
+}
+
 /* --- public ------------------------------------------------------------------------------------*/
 
 bool box_view_apart(const struct box_view *view, const struct swept_body *a,
@@ -122,11 +164,7 @@ bool box_view_apart(const struct box_view *view, const struct swept_body *a,
                     const struct hull *hull_b)
 {
     struct box box_a = box_of(a, hull_a), box_b = box_of(b, hull_b);
-    struct box seen = seen_by_a(view, &box_b);
-    if (apart(&box_a, &seen, view->slack_a))
-        return true;
-    seen = seen_by_b(view, &box_a);
-    return apart(&box_b, &seen, view->slack_b);
+    return both_apart(view, &box_a, &box_b);
 }
 
 uint64_t box_view_near(const struct box_view *view, const struct swept_body *a,
@@ -134,7 +172,7 @@ uint64_t box_view_near(const struct box_view *view, const struct swept_body *a,
 {
     struct box_list list_a, list_b;
     uint64_t near = 0;
-    if (a->outer && b->outer && box_view_apart(view, a, a->outer, b, b->outer))
+    if (outers_apart(view, a, b))
         return 0;
     for (uint32_t i = 0; i < a->hull_count; i++) {
         list_a.own[i] = box_of(a, &a->hull[i]);

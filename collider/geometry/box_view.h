@@ -1,5 +1,6 @@
 /* Boxes around the hulls of two bodies: which pairs of hulls may be near each other, by six axes
- * and without looking at a vertex. Pure; any thread. */
+ * and without looking at a vertex. The box of a turret or a gun holds it in the whole frame,
+ * however it turns. Pure; any thread. */
 #ifndef JOLON_COLLIDER_GEOMETRY_BOX_VIEW_H
 #define JOLON_COLLIDER_GEOMETRY_BOX_VIEW_H
 

@@ -55,22 +55,40 @@ static double arm_of(const struct rotation_path *rotation, const struct hull *hu
     return vec3_length(arm) * rotation->body->scale;
 }
 
+/* How the points within a radius of the centre of a hull's sphere move by rotation at most. */
+struct bounds {
+    double speed, bend;
+};
+
+static struct bounds bounds_of(const struct rotation_path *rotation, const struct hull *hull,
+                               double radius_m)
+{
+    const struct swept_body *body = rotation->body;
+    double scale = body->scale, rate = rotation->rate;
+    if (!turret_path_turns(&body->turret, hull)) {
+        double arm = arm_of(rotation, hull) + radius_m * scale;
+        return (struct bounds){rate * arm, rotation->bend * arm};
+    }
+    struct part_bounds part = turret_path_bounds(&body->turret, hull, radius_m);
+    double bend = rotation->bend * part.reach + 2.0 * rate * part.speed + part.bend;
+    return (struct bounds){(rate * part.reach + part.speed) * scale, bend * scale};
+}
+
 struct hull_pair hull_pair_of(const struct rotation_path *a, const struct rotation_path *b,
                               const struct hull *hull_a, const struct hull *hull_b)
 {
-    double scale_a = a->body->scale, scale_b = b->body->scale;
-    double arm_a = arm_of(a, hull_a), arm_b = arm_of(b, hull_b);
-    double radius_a = hull_a->radius_m * scale_a, radius_b = hull_b->radius_m * scale_b;
+    struct bounds bounds_a = bounds_of(a, hull_a, hull_a->radius_m);
+    struct bounds bounds_b = bounds_of(b, hull_b, hull_b->radius_m);
     return (struct hull_pair){
         .a = a,
         .b = b,
         .hull_a = hull_a,
         .hull_b = hull_b,
         .velocity = vec3_sub(b->body->path.along, a->body->path.along),
-        .radii_m = radius_a + radius_b,
-        .speed = a->rate * (arm_a + radius_a) + b->rate * (arm_b + radius_b),
-        .bend = a->bend * (arm_a + radius_a) + b->bend * (arm_b + radius_b),
-        .bend_spheres = a->bend * arm_a + b->bend * arm_b,
+        .radii_m = hull_a->radius_m * a->body->scale + hull_b->radius_m * b->body->scale,
+        .speed = bounds_a.speed + bounds_b.speed,
+        .bend = bounds_a.bend + bounds_b.bend,
+        .bend_spheres = bounds_of(a, hull_a, 0.0).bend + bounds_of(b, hull_b, 0.0).bend,
     };
 }
 
@@ -101,19 +119,42 @@ struct body_pose body_pose_at(const struct rotation_path *rotation, double time)
     return pose;
 }
 
-static struct convex convex_of(const struct body_pose *pose, const struct hull *hull,
-                               struct vec3 at)
+/* Where a hull is at one time: its axes and its origin, relative to the body's position. */
+struct hull_pose {
+    struct convex convex;
+    struct vec3 spin, velocity; /* of the axes [rad a frame], of the origin [m a frame] */
+};
+
+/* Turns the hull of a turret or a gun in its body. */
+static void turn_part(const struct swept_body *body, const struct hull *hull, double time,
+                      struct hull_pose *pose)
 {
-    return (struct convex){.vertex = pose->body->vertices + hull->first_vertex,
-                           .count = hull->vertex_count,
-                           .scale = pose->body->scale,
-                           .turn = pose->turn,
-                           .at = at};
+    struct part_motion part = turret_path_at(&body->turret, hull->part, time);
+    struct mat3 turn = pose->convex.turn;
+    pose->convex.turn = rotation_both(&turn, &part.pose.turn);
+    pose->convex.at = rotation_apply(&turn, vec3_scale(part.pose.at, body->scale));
+    pose->velocity = vec3_add(vec3_cross(pose->spin, pose->convex.at),
+                              rotation_apply(&turn, vec3_scale(part.velocity, body->scale)));
+    pose->spin = vec3_add(pose->spin, rotation_apply(&turn, part.spin));
 }
 
-static struct vec3 centre_of(const struct body_pose *pose, const struct hull *hull)
+static struct hull_pose hull_pose_of(const struct body_pose *pose, const struct hull *hull,
+                                     double time)
 {
-    return rotation_apply(&pose->turn, vec3_scale(hull->centre, pose->body->scale));
+    const struct swept_body *body = pose->body;
+    struct hull_pose own = {.convex = {.vertex = body->vertices + hull->first_vertex,
+                                       .count = hull->vertex_count,
+                                       .scale = body->scale,
+                                       .turn = pose->turn},
+                            .spin = pose->spin};
+    if (turret_path_turns(&body->turret, hull))
+        turn_part(body, hull, time, &own);
+    return own;
+}
+
+static struct vec3 centre_of(const struct hull_pose *pose, const struct hull *hull)
+{
+    return rotation_apply(&pose->convex.turn, vec3_scale(hull->centre, pose->convex.scale));
 }
 
 struct vec3 hull_separation_at(const struct path *a, const struct path *b, double time)
@@ -127,15 +168,21 @@ struct relative_pose relative_pose_of(const struct body_pose *a, const struct hu
                                       const struct body_pose *b, const struct hull *hull_b,
                                       double time)
 {
+    struct hull_pose own_a = hull_pose_of(a, hull_a, time), own_b = hull_pose_of(b, hull_b, time);
     struct vec3 at = hull_separation_at(&a->body->path, &b->body->path, time);
     struct relative_pose now = {.time = time,
-                                .a = convex_of(a, hull_a, (struct vec3){0.0, 0.0, 0.0}),
-                                .b = convex_of(b, hull_b, at),
-                                .spin_a = a->spin,
-                                .spin_b = b->spin,
-                                .centre_a = centre_of(a, hull_a),
-                                .centre_b = centre_of(b, hull_b)};
-    now.towards = vec3_add(at, vec3_sub(now.centre_b, now.centre_a));
+                                .a = own_a.convex,
+                                .b = own_b.convex,
+                                .spin_a = own_a.spin,
+                                .spin_b = own_b.spin,
+                                .velocity =
+                                    vec3_add(vec3_sub(b->body->path.along, a->body->path.along),
+                                             vec3_sub(own_b.velocity, own_a.velocity)),
+                                .centre_a = centre_of(&own_a, hull_a),
+                                .centre_b = centre_of(&own_b, hull_b)};
+    now.b.at = vec3_add(at, own_b.convex.at);
+    now.between = vec3_sub(now.b.at, now.a.at);
+    now.towards = vec3_add(now.between, vec3_sub(now.centre_b, now.centre_a));
     now.centres_m = vec3_length(now.towards);
     now.towards = now.centres_m > 0.0 ? vec3_scale(now.towards, 1.0 / now.centres_m)
                                       : (struct vec3){0.0, 1.0, 0.0};
@@ -150,33 +197,31 @@ struct relative_pose relative_pose_at(const struct hull_pair *pair, double time)
 
 /* --- lines -------------------------------------------------------------------------------------*/
 
-/* Returns the velocity of the vector from r_a to r_b, both relative to their bodies' positions. */
-static struct vec3 parting(const struct hull_pair *pair, const struct relative_pose *now,
-                           struct vec3 r_a, struct vec3 r_b)
+/* Returns the velocity of the vector from r_a to r_b, both relative to their hulls' origins. */
+static struct vec3 parting(const struct relative_pose *now, struct vec3 r_a, struct vec3 r_b)
 {
-    return vec3_add(pair->velocity,
+    return vec3_add(now->velocity,
                     vec3_sub(vec3_cross(now->spin_b, r_b), vec3_cross(now->spin_a, r_a)));
 }
 
-static struct line line_between(const struct hull_pair *pair, const struct relative_pose *now,
-                                const struct plane *plane, struct vec3 r_a, struct vec3 r_b)
+static struct line line_between(const struct relative_pose *now, const struct plane *plane,
+                                struct vec3 r_a, struct vec3 r_b)
 {
-    struct vec3 z = vec3_add(now->b.at, vec3_sub(r_b, r_a));
+    struct vec3 z = vec3_add(now->between, vec3_sub(r_b, r_a));
     return (struct line){vec3_dot(plane->normal, z),
-                         vec3_dot(plane->normal, parting(pair, now, r_a, r_b)) +
+                         vec3_dot(plane->normal, parting(now, r_a, r_b)) +
                              vec3_dot(plane->swing, z)};
 }
 
 /* Returns the linear function of the vertices with the least separation at h. */
-static struct line nearest_at(const struct hull_pair *pair, const struct relative_pose *now,
-                              const struct plane *plane, double h)
+static struct line nearest_at(const struct relative_pose *now, const struct plane *plane, double h)
 {
     struct vec3 n = plane->normal, r_a, r_b;
     struct vec3 change_a = vec3_add(vec3_cross(n, now->spin_a), plane->swing);
     struct vec3 change_b = vec3_add(vec3_cross(n, now->spin_b), plane->swing);
     gjk_support(&now->a, vec3_add(n, vec3_scale(change_a, h)), &r_a);
     gjk_support(&now->b, vec3_scale(vec3_add(n, vec3_scale(change_b, h)), -1.0), &r_b);
-    return line_between(pair, now, plane, r_a, r_b);
+    return line_between(now, plane, r_a, r_b);
 }
 
 /* Returns how much of the separation is left over a gap at h. */
@@ -206,6 +251,13 @@ static double bend_of(const struct hull_pair *pair, const struct plane *plane, d
            maths_max(0.0, -2.0 * known) + square * maths_max(0.0, gap);
 }
 
+/* Returns the greatest angular speed of a part of a body [rad a frame]. */
+static double rate_of(const struct rotation_path *rotation)
+{
+    const struct turret_path *turret = &rotation->body->turret;
+    return rotation->rate + fabs(turret->turret_turn) + fabs(turret->gun_turn);
+}
+
 /* --- public ------------------------------------------------------------------------------------*/
 
 double hull_separation_now(const struct relative_pose *now, struct vec3 normal)
@@ -213,7 +265,7 @@ double hull_separation_now(const struct relative_pose *now, struct vec3 normal)
     struct vec3 r_a, r_b;
     gjk_support(&now->a, normal, &r_a);
     gjk_support(&now->b, vec3_scale(normal, -1.0), &r_b);
-    return vec3_dot(normal, vec3_add(now->b.at, vec3_sub(r_b, r_a)));
+    return vec3_dot(normal, vec3_add(now->between, vec3_sub(r_b, r_a)));
 }
 
 double hull_separation_above(const struct relative_pose *now, const struct gjk *gjk,
@@ -223,10 +275,10 @@ double hull_separation_above(const struct relative_pose *now, const struct gjk *
                                                             : hull_separation_now(now, normal);
 }
 
-double hull_separation_nearing(const struct hull_pair *pair, const struct relative_pose *now,
-                               struct vec3 normal, struct vec3 point)
+double hull_separation_nearing(const struct relative_pose *now, struct vec3 normal,
+                               struct vec3 point)
 {
-    return -vec3_dot(normal, parting(pair, now, point, vec3_sub(point, now->b.at)));
+    return -vec3_dot(normal, parting(now, vec3_sub(point, now->a.at), vec3_sub(point, now->b.at)));
 }
 
 double hull_separation_for(const struct hull_pair *pair, const struct relative_pose *now,
@@ -234,14 +286,14 @@ double hull_separation_for(const struct hull_pair *pair, const struct relative_p
 {
     double bend = bend_of(pair, plane, gap, most), h = most;
     for (int i = 0; i < NEWTON; i++) {
-        struct line line = nearest_at(pair, now, plane, h);
+        struct line line = nearest_at(now, plane, h);
         if (over(line, gap, bend, h) >= -ROUNDING_M)
             return h;
         h = maths_min(h, root(line, gap, bend));
     }
     /* Concave: the separation is at least its chord from now to h. */
-    double left = nearest_at(pair, now, plane, 0.0).gap - gap;
-    double there = over(nearest_at(pair, now, plane, h), gap, bend, h);
+    double left = nearest_at(now, plane, 0.0).gap - gap;
+    double there = over(nearest_at(now, plane, h), gap, bend, h);
     return left > 0.0 ? h * left / (left - there) : 0.0;
 }
 
@@ -249,14 +301,14 @@ struct vec3 hull_separation_swing(const struct hull_pair *pair, const struct rel
                                   struct vec3 normal, const struct gjk_start *nearest)
 {
     struct vec3 edge[2], rest = {0.0, 0.0, 0.0}, first = rest, first_parting = rest;
-    double change[2], most = 2.0 * (pair->a->rate + pair->b->rate);
+    double change[2], most = 2.0 * (rate_of(pair->a) + rate_of(pair->b));
     if (most == 0.0 || nearest->count < 2)
         return rest;
     /* n stays orthogonal to the edges e of the simplex: m.e = -n.e'. */
     for (uint32_t i = 0; i < nearest->count; i++) {
         struct vec3 r_a = gjk_vertex(&now->a, nearest->a[i]);
         struct vec3 r_b = gjk_vertex(&now->b, nearest->b[i]);
-        struct vec3 z = vec3_sub(r_b, r_a), z_parting = parting(pair, now, r_a, r_b);
+        struct vec3 z = vec3_sub(r_b, r_a), z_parting = parting(now, r_a, r_b);
         if (i == 0) {
             first = z;
             first_parting = z_parting;
@@ -284,7 +336,7 @@ bool hull_separation_by_spheres(const struct hull_pair *pair, const struct relat
     if (now->centres_m <= gap + SPHERES_FAR * pair->radii_m)
         return false;
     const struct plane plane = {.normal = now->towards};
-    struct line line = line_between(pair, now, &plane, now->centre_a, now->centre_b);
+    struct line line = line_between(now, &plane, now->centre_a, now->centre_b);
     *h = most;
     if (over(line, gap, pair->bend_spheres, most) < 0.0)
         *h = maths_min(most, root(line, gap, pair->bend_spheres));
@@ -295,7 +347,7 @@ bool hull_separation_by_centres(const struct hull_pair *pair, const struct relat
                                 double most)
 {
     const struct plane plane = {.normal = now->towards};
-    if (nearest_at(pair, now, &plane, 0.0).gap < SKIN_M)
+    if (nearest_at(now, &plane, 0.0).gap < SKIN_M)
         return false;
-    return over(nearest_at(pair, now, &plane, most), SKIN_M, pair->bend, most) >= 0.0;
+    return over(nearest_at(now, &plane, most), SKIN_M, pair->bend, most) >= 0.0;
 }

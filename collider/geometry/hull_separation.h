@@ -37,12 +37,15 @@ struct body_pose {
     struct vec3 spin; /* [rad a frame] */
 };
 
-/* The pair at one time. Positions are relative to a's. */
+/* The pair at one time. Positions are relative to that of a's body. The hull of a turret or a gun
+ * has an origin of its own, and that moves relative to the body's position. */
 struct relative_pose {
     double time;
     struct convex a, b;
     struct vec3 spin_a, spin_b;     /* [rad a frame] */
-    struct vec3 centre_a, centre_b; /* of the hulls' spheres, relative to their bodies' positions */
+    struct vec3 between;            /* from a's origin to b's */
+    struct vec3 velocity;           /* of b's origin relative to a's [m a frame] */
+    struct vec3 centre_a, centre_b; /* of the hulls' spheres, relative to their origins */
     struct vec3 towards;            /* unit, from centre to centre */
     double centres_m;               /* between them */
 };
@@ -79,8 +82,8 @@ double hull_separation_above(const struct relative_pose *now, const struct gjk *
 
 /* Returns the approach speed of a point that belongs to both bodies, or nearly [m a frame];
  * negative where they part. */
-double hull_separation_nearing(const struct hull_pair *pair, const struct relative_pose *now,
-                               struct vec3 normal, struct vec3 point);
+double hull_separation_nearing(const struct relative_pose *now, struct vec3 normal,
+                               struct vec3 point);
 
 /* Returns how long, at most `most` frames, the hulls certainly stay more than a gap apart across
  * the plane. They must be so now. */

@@ -59,12 +59,12 @@ static void shallower(const struct overlap *overlap, struct vec3 normal)
 }
 
 /* Looks along the normals of a hull's faces, until the hulls overlap by no more than enough_m. */
-static void faces(const struct overlap *overlap, const struct body_pose *pose,
-                  const struct hull *hull, double side, double enough_m)
+static void faces(const struct overlap *overlap, const struct swept_body *body,
+                  const struct mat3 *turn, const struct hull *hull, double side, double enough_m)
 {
-    const struct hull_plane *plane = pose->body->planes + hull->first_plane;
+    const struct hull_plane *plane = body->planes + hull->first_plane;
     for (uint32_t i = 0; i < hull->plane_count && overlap->gap->gap_m < enough_m; i++) {
-        struct vec3 normal = vec3_scale(rotation_apply(&pose->turn, plane[i].normal), side);
+        struct vec3 normal = vec3_scale(rotation_apply(turn, plane[i].normal), side);
         if (level(&normal) > 0.0)
             shallower(overlap, normal);
     }
@@ -79,8 +79,8 @@ static void measure_overlap(const struct body_pair *bodies, const struct hull *h
     overlap->gap->gap_m = -INFINITY;
     if (enough_m < INFINITY)
         shallower(overlap, bodies->last);
-    faces(overlap, &bodies->pose_a, hull_a, 1.0, enough_m);
-    faces(overlap, &bodies->pose_b, hull_b, -1.0, enough_m);
+    faces(overlap, bodies->a, &overlap->now->a.turn, hull_a, 1.0, enough_m);
+    faces(overlap, bodies->b, &overlap->now->b.turn, hull_b, -1.0, enough_m);
     shallower(overlap, bodies->line);
 }
 

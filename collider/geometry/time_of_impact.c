@@ -83,12 +83,13 @@ static void scattered(const struct relative_pose *now, const struct separation *
     patch->count = 2;
     gjk_support(&now->a, separation->plane.normal, &patch->corner[0]);
     gjk_support(&now->b, vec3_scale(separation->plane.normal, -1.0), &patch->corner[1]);
+    patch->corner[0] = vec3_add(patch->corner[0], now->a.at);
     patch->corner[1] = vec3_add(patch->corner[1], now->b.at);
 }
 
 /* Returns true if the bodies approach where they touch; *point is where. */
-static bool nearing(const struct hull_pair *pair, const struct relative_pose *now,
-                    const struct separation *separation, struct vec3 *point)
+static bool nearing(const struct relative_pose *now, const struct separation *separation,
+                    struct vec3 *point)
 {
     struct contact_manifold patch;
     struct vec3 normal = separation->plane.normal;
@@ -97,10 +98,10 @@ static bool nearing(const struct hull_pair *pair, const struct relative_pose *no
     if (!contact_manifold_between(&now->a, &now->b, normal, &patch))
         scattered(now, separation, &patch);
     *point = patch.middle;
-    if (hull_separation_nearing(pair, now, normal, patch.middle) > NEARING_M)
+    if (hull_separation_nearing(now, normal, patch.middle) > NEARING_M)
         return true;
     for (uint32_t i = 0; i < patch.count; i++) {
-        double speed = hull_separation_nearing(pair, now, normal, patch.corner[i]);
+        double speed = hull_separation_nearing(now, normal, patch.corner[i]);
         if (speed > fastest) {
             fastest = speed;
             *point = patch.corner[i];
@@ -160,7 +161,7 @@ static void time_of_impact(const struct hull_pair *pair, struct relative_pose no
             struct separation separation = measure(pair, &now, normal, &start);
             double left = separation.gap - gap;
             bool there = left <= EXACT_M || (left <= CLOSE_M && tries++ >= TRIES);
-            if ((there || looks == DISTANCES_MAX - 1) && nearing(pair, &now, &separation, &point)) {
+            if ((there || looks == DISTANCES_MAX - 1) && nearing(&now, &separation, &point)) {
                 found(pair, &now, &separation, point, impact);
                 return;
             }
@@ -231,7 +232,9 @@ static int order_of_bodies(const struct swept_body *a, const struct swept_body *
         order = order_of_turns(a->from, b->from);
     if (order == 0)
         order = order_of_turns(a->to, b->to);
-    return order != 0 || !a->turn || !b->turn ? order : free_turn_order(a->turn, b->turn);
+    if (order == 0 && a->turn && b->turn)
+        order = free_turn_order(a->turn, b->turn);
+    return order != 0 ? order : turret_path_order(&a->turret, &b->turret);
 }
 
 /* Returns how far points of a body are moved by its rotation at most within a time [m]. */
@@ -282,8 +285,8 @@ bool time_of_impact_find(const struct swept_body *a, const struct swept_body *b,
     if (!window(a, b, &from, &until))
         return false;
     struct rotation_path rotation_a = rotation_path_of(a), rotation_b = rotation_path_of(b);
-    if (rotation_a.rate == 0.0 && rotation_b.rate == 0.0 &&
-        order_of_points(a->path.along, b->path.along) == 0)
+    if (rotation_a.rate == 0.0 && rotation_b.rate == 0.0 && !turret_path_moves(&a->turret) &&
+        !turret_path_moves(&b->turret) && order_of_points(a->path.along, b->path.along) == 0)
         return false; /* at rest relative to each other */
     struct hull_contact first = {.toi = INFINITY};
     first_contact(&rotation_a, &rotation_b, from, until, &first);

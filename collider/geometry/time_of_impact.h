@@ -6,6 +6,7 @@
 
 #include "collider/geometry/analytic_impact.h"
 #include "collider/geometry/free_turn.h"
+#include "collider/geometry/turret_path.h"
 #include "world/entity/hull.h"
 #include "world/maths/rotation.h"
 
@@ -31,6 +32,7 @@ struct swept_body {
     struct path path;                /* of the position */
     struct quat from, to;            /* rotation at path.since and at 1 */
     const struct free_turn *turn;    /* how it turns; NULL: the shorter way */
+    struct turret_path turret;       /* where its turret and gun point */
 };
 
 /* Where and how two bodies touch. */
@@ -57,6 +59,8 @@ struct hull_contact {
  * between their centres; axes across two edges are left out. Where two edges overlap, that is
  * deeper than necessary by at most the edges' length. As a rule the contact was found before any
  * overlap, with its exact normal.
+ *
+ * Hulls of a turret and a gun turn with them. Their motion counts like that of the body.
  *
  * A body that spins freely takes its real path, by however many turns. Its gap is SKIN_M to within
  * 1e-6 m at one turn a frame, and to within 1e-5 m at several.

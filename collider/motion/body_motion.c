@@ -177,6 +177,29 @@ static struct swept_body shape_of(const struct world *world, uint16_t kind, doub
     };
 }
 
+void body_motion_aim(const struct body_motion *motion, uint32_t row, double turret, double gun,
+                     double turret_turn, double gun_turn, struct swept_body *body)
+{
+    const struct kind *kind = &motion->world->kinds[motion->next->entities.kind[row]];
+    if (kind->part_count == 0 ||
+        (turret == 0.0 && gun == 0.0 && turret_turn == 0.0 && gun_turn == 0.0))
+        return;
+    body->turret.outer = motion->world->hulls + kind->first_part_hull;
+    body->turret.outers = kind->part_count;
+    body->turret.turret_pivot = kind->turret_pivot;
+    body->turret.gun_pivot = kind->gun_pivot;
+    body->bound_m = kind->reach_m;
+    turret_path_set(&body->turret, turret, gun, turret_turn, gun_turn);
+}
+
+/* Makes turret and gun point as they did when the frame began. */
+static void aim_as_before(const struct body_motion *motion, uint32_t row, struct swept_body *body)
+{
+    const struct entities *e =
+        body_motion_old(motion, row) ? &motion->committed->entities : &motion->next->entities;
+    body_motion_aim(motion, row, (double)e->turret[row], (double)e->gun[row], 0.0, 0.0, body);
+}
+
 struct swept_body body_motion_body(const struct body_motion *motion, uint32_t row,
                                    struct free_turn *turn)
 {
@@ -189,6 +212,7 @@ struct swept_body body_motion_body(const struct body_motion *motion, uint32_t ro
         *turn = rotation.turn;
         body.turn = turn;
     }
+    aim_as_before(motion, row, &body);
     return body;
 }
 
@@ -217,5 +241,6 @@ struct swept_body body_motion_standing(const struct body_motion *motion,
     struct swept_body body = shape_of(motion->world, entities->kind[side], 1.0);
     body.path.at = entities_position(entities, side);
     body.from = body.to = pose(entities, side);
+    aim_as_before(motion, side, &body);
     return body;
 }

@@ -7,12 +7,12 @@
 
 #include "collider/geometry/time_of_impact.h"
 #include "world/entity/entity.h"
+#include "world/entity/kind.h"
 #include "world/maths/rotation.h"
 #include "world/state.h"
+#include "world/world.h"
 
 #include <stdint.h>
-
-struct world;
 
 /* Rotations at path.since and at 1. */
 struct rotation_path {
@@ -77,10 +77,31 @@ static inline bool body_motion_rotated(const struct body_motion *motion, uint32_
             w->roll[row] != n->roll[row]);
 }
 
-/* Returns true if a row whose path has no length still moves because its shape rotates. */
+/* Returns true if the mover turned the row's turret or raised its gun, and these collide on their
+ * own. */
+static inline bool body_motion_aimed(const struct body_motion *motion, uint32_t row)
+{
+    const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
+    return body_motion_old(motion, row) &&
+           (w->turret[row] != n->turret[row] || w->gun[row] != n->gun[row]) &&
+           motion->world->kinds[n->kind[row]].part_count > 0;
+}
+
+/* Returns true if the mover moved or rotated the row, and not only its turret or its gun.
+ * Spheres do not rotate. Computes its path. */
+static inline bool body_motion_moves(struct body_motion *motion, uint32_t row)
+{
+    body_motion_require(motion, row);
+    const struct vec3 along = motion->path[row].along;
+    return along.x != 0.0 || along.y != 0.0 || along.z != 0.0 ||
+           (motion->models && body_motion_rotated(motion, row));
+}
+
+/* Returns true if a row whose path has no length still moves because its shape rotates, or a part
+ * of it. */
 static inline bool body_motion_rotates(const struct body_motion *motion, uint32_t row)
 {
-    return motion->models && body_motion_rotated(motion, row);
+    return motion->models && (body_motion_rotated(motion, row) || body_motion_aimed(motion, row));
 }
 
 struct rotation_path body_motion_rotation(const struct body_motion *motion, uint32_t row);
@@ -97,7 +118,8 @@ void body_motion_change(struct body_motion *motion, uint32_t row, const struct p
                         const struct rotation_path *rotation);
 
 /* Return the row, and a fixed object, as bodies for the narrow phase. A row that spins freely
- * points to *turn, which holds how. */
+ * points to *turn, which holds how. Turret and gun point as in the committed frame: they turn when
+ * all bodies have moved (collider/resting/turret_guard.h). */
 struct swept_body body_motion_body(const struct body_motion *motion, uint32_t row,
                                    struct free_turn *turn);
 struct swept_body body_motion_fixed(const struct world *world, uint32_t object);
@@ -106,8 +128,14 @@ struct swept_body body_motion_fixed(const struct world *world, uint32_t object);
 struct swept_body body_motion_side(const struct body_motion *motion, uint32_t side,
                                    struct free_turn *turn);
 
-/* Returns one side of a pair as it stands in a table, at rest. */
+/* Returns one side of a pair as it stands in a table, at rest. Turret and gun point as in the
+ * committed frame. */
 struct swept_body body_motion_standing(const struct body_motion *motion,
                                        const struct entities *entities, uint32_t side);
+
+/* Makes turret and gun of the row's body point and turn like this [rad]. Those of a kind without a
+ * turret stay as they are. */
+void body_motion_aim(const struct body_motion *motion, uint32_t row, double turret, double gun,
+                     double turret_turn, double gun_turn, struct swept_body *body);
 
 #endif

@@ -69,7 +69,8 @@ double pair_filter_row_reach(const struct method_input *input, uint32_t row)
 
 double pair_filter_margin(const struct world *world, const struct kind *kind)
 {
-    return kind_reach(world, kind) + BOX_SLACK_M;
+    bool models = world->params->collision.shape == SHAPE_MODEL;
+    return (models ? kind->reach_m : kind->radius_m) + BOX_SLACK_M;
 }
 
 double pair_filter_fixed_reach(const struct world *world, const struct fixed_object *object)

@@ -73,7 +73,7 @@ struct method_input {
 double pair_filter_row_reach(const struct method_input *input, uint32_t row);
 double pair_filter_fixed_reach(const struct world *world, const struct fixed_object *object);
 
-/* Returns how far a kind's box reaches beyond its path [m]. */
+/* Returns how far a kind's box reaches beyond its path, wherever turret and gun point [m]. */
 double pair_filter_margin(const struct world *world, const struct kind *kind);
 
 /* Returns the box around a path. */

@@ -51,19 +51,28 @@ static bool far_apart(const struct swept_body *a, const struct swept_body *b, do
     return vec3_dot(between, between) > reach * reach;
 }
 
+/* Returns the body with the one hull around it, or with one around each part if the parts have left
+ * their places in the model. */
+static struct swept_body outer_of(const struct swept_body *body)
+{
+    struct swept_body outer = *body;
+    bool parts = body->turret.outers > 0;
+    outer.hull = parts ? body->turret.outer : body->outer;
+    outer.hull_count = parts ? body->turret.outers : 1;
+    return outer;
+}
+
 /* Tests the bodies with one outer hull each first, so that bodies that pass each other cost one
  * pair of hulls and not dozens. The pieces within touch no sooner than the outer hulls. Returns
  * false if the outer hulls never touch; else *from is when. */
-static bool outer_impact(const struct world *world, const struct swept_body *a, uint16_t kind_a,
-                         const struct swept_body *b, uint16_t kind_b, double *from)
+static bool outer_impact(const struct swept_body *a, const struct swept_body *b, double *from)
 {
-    struct swept_body outer_a = *a, outer_b = *b;
+    struct swept_body outer_a, outer_b;
     struct hull_contact impact;
     if (a->hull_count * b->hull_count == 1)
         return true;
-    outer_a.hull = world->hulls + world->kinds[kind_a].outer_hull;
-    outer_b.hull = world->hulls + world->kinds[kind_b].outer_hull;
-    outer_a.hull_count = outer_b.hull_count = 1;
+    outer_a = outer_of(a);
+    outer_b = outer_of(b);
     bool meet = time_of_impact_find(&outer_a, &outer_b, *from, &impact);
     if (meet && impact.toi == *from)
         return true;
@@ -78,15 +87,10 @@ static bool outer_impact(const struct world *world, const struct swept_body *a, 
 static bool touch_hulls(const struct body_motion *motion, const struct pair *pair, double from,
                         struct hull_contact *impact)
 {
-    const struct world *world = motion->world;
-    const uint16_t *kind = motion->next->entities.kind;
-    uint16_t kind_b =
-        pair->b & PAIR_FIXED ? world->fixed[pair->b & ~PAIR_FIXED].kind : kind[pair->b];
     struct free_turn turn_a, turn_b;
     struct swept_body a = body_motion_body(motion, pair->a, &turn_a);
     struct swept_body b = body_motion_side(motion, pair->b, &turn_b);
-    return !time_of_impact_excluded(&a, &b, from) &&
-           outer_impact(world, &a, kind[pair->a], &b, kind_b, &from) &&
+    return !time_of_impact_excluded(&a, &b, from) && outer_impact(&a, &b, &from) &&
            time_of_impact_find(&a, &b, from, impact);
 }
 

@@ -29,11 +29,13 @@ struct axis_side axis_side_of(const struct swept_body *body, const struct mat3 *
                               double time)
 {
     double left = 1.0 - body->path.since, share = left > 0.0 ? (1.0 - time) / left : 0.0;
+    bool parts = body->turret.outers > 0;
+    struct hull_box around = parts ? turret_path_box_all(&body->turret) : *box;
     struct axis_side side = {
         .vertex = body->vertices + body->outer->first_vertex,
-        .count = body->outer->vertex_count,
+        .count = parts ? 0 : body->outer->vertex_count,
         .scale = body->scale,
-        .box = {vec3_scale(box->middle, body->scale), vec3_scale(box->half, body->scale)},
+        .box = {vec3_scale(around.middle, body->scale), vec3_scale(around.half, body->scale)},
         .at = {path_at(&body->path, time), path_at(&body->path, 1.0)},
         .turn = {*from, *to},
         .still = rate == 0.0 && vec3_dot(body->path.along, body->path.along) == 0.0,
@@ -52,9 +54,11 @@ static double box_reach(const struct axis_side *side, int end, struct vec3 axis)
            fabs(own.y) * side->box.half.y + fabs(own.z) * side->box.half.z;
 }
 
-/* Returns the same for the hull. */
+/* Returns the same for the hull, if there is one. */
 static double hull_reach(const struct axis_side *side, int end, struct vec3 axis)
 {
+    if (side->count == 0)
+        return box_reach(side, end, axis);
     struct vec3 own = rotation_back(&side->turn[end], axis);
     double most[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
     uint32_t i = 0;
@@ -136,9 +140,12 @@ static bool find_by_boxes(const struct axis_side *a, const struct axis_side *b, 
     return false;
 }
 
-/* Returns the normal of the nearest points of the hulls at the beginning, 0 if they overlap. */
+/* Returns the normal of the nearest points of the hulls at the beginning, 0 if they overlap or one
+ * side has none. */
 static struct vec3 nearest_normal(const struct axis_side *a, const struct axis_side *b)
 {
+    if (a->count == 0 || b->count == 0)
+        return (struct vec3){0.0, 0.0, 0.0};
     const struct convex hull_a = {
         .vertex = a->vertex, .count = a->count, .scale = a->scale, .turn = a->turn[0]};
     const struct convex hull_b = {.vertex = b->vertex,

@@ -10,18 +10,13 @@
 
 struct swept_body;
 
-/* The box around an outer hull in body axes [m]. */
-struct hull_box {
-    struct vec3 middle, half;
-};
-
 /* One side of a pair at the beginning and at the end of a time. */
 struct axis_side {
     const struct vec3 *vertex; /* of the outer hull, body axes */
-    uint32_t count;
-    double scale;        /* of the vertices */
-    struct hull_box box; /* scaled */
-    struct vec3 at[2];   /* [m, world] the position, which moves in a straight line */
+    uint32_t count;            /* 0: turret or gun have left their places, and only the box holds */
+    double scale;              /* of the vertices */
+    struct hull_box box;       /* scaled */
+    struct vec3 at[2];         /* [m, world] the position, which moves in a straight line */
     struct mat3 turn[2];
     /* [m] at most: by how much a point is off the straight line between its two places, because it
      * moves on an arc. */
@@ -29,10 +24,12 @@ struct axis_side {
     bool still; /* both ends are the same */
 };
 
+/* Returns the box around an outer hull. */
 struct hull_box hull_box_of(const struct vec3 *vertices, const struct hull *hull);
 
 /* Returns a body from `time` in [path.since, 1] to 1. from, to: the matrices of body->from and
- * body->to; rate: rotation_rate() of them. box: not scaled. The body must not turn freely. */
+ * body->to; rate: rotation_rate() of them. box: of the outer
+ * hull, not scaled. The body must not turn freely. */
 struct axis_side axis_side_of(const struct swept_body *body, const struct mat3 *from,
                               const struct mat3 *to, double rate, const struct hull_box *box,
                               double time);

@@ -147,8 +147,7 @@ static void collect(struct contact_table *table, const struct response_context *
 /* A row whose path nobody has needed yet is as the mover left it. */
 static bool moves(const struct response_context *context, uint32_t row)
 {
-    body_motion_require(context->motion, row);
-    return context->motion->change[row] != 0 || !pair_filter_rests(&context->path[row]);
+    return body_motion_moves(context->motion, row) || context->motion->change[row] != 0;
 }
 
 static bool gone(const struct response_context *context, const struct persistent_contact *contact)

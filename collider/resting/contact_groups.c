@@ -105,20 +105,14 @@ static void add(struct contact_groups *groups, struct pair pair)
     join(groups, pair.a, pair.b);
 }
 
-static bool moves(struct response_context *context, uint32_t row)
-{
-    body_motion_require(context->motion, row);
-    return !pair_filter_rests(&context->path[row]);
-}
-
 /* Wakes the groups in which a row moves, or of which a pair overlaps and has to part. */
 static void wake(struct contact_groups *groups, struct response_context *context)
 {
     for (uint32_t i = 0; i < groups->count; i++) {
         const struct pair *pair = &groups->pair[i];
         /* Both are asked in any case, because that computes their paths. */
-        bool a_moves = moves(context, pair->a);
-        bool b_moves = !(pair->b & PAIR_FIXED) && moves(context, pair->b);
+        bool a_moves = body_motion_moves(context->motion, pair->a);
+        bool b_moves = !(pair->b & PAIR_FIXED) && body_motion_moves(context->motion, pair->b);
         if (groups->awake[pair->a] || a_moves || b_moves)
             groups->awake[root_of(groups, pair->a)] = 1;
     }

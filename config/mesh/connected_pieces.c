@@ -1,6 +1,7 @@
 /* Finds the places of a model's corners, and connects them by its triangles. */
 #include "config/mesh/connected_pieces.h"
 
+#include "config/mesh/model_parts.h"
 #include "config/syntax/table.h"
 #include "world/making/scenario.h"
 #include "world/model.h"
@@ -11,7 +12,8 @@
 
 /* The places of a model's corners, each once, in a union-find forest. A tree is a piece. */
 struct places {
-    struct vec3 *at;  /* [count] in order of x, y, z */
+    struct vec3 *at;  /* [count] by part, in order of x, y, z */
+    uint8_t *part;    /* [count] enum hull_part */
     uint32_t *of;     /* [vertices] index of each vertex's place */
     uint32_t *parent; /* [count] the index of a parent is never above its child's */
     uint32_t count;
@@ -20,6 +22,7 @@ struct places {
 static void places_free(struct places *places)
 {
     free(places->at);
+    free(places->part);
     free(places->of);
     free(places->parent);
 }
@@ -46,35 +49,43 @@ static void join_places(const struct places *places, uint32_t a, uint32_t b)
 struct arrival {
     struct vec3 at;
     uint32_t vertex;
+    uint8_t part; /* enum hull_part */
 };
 
 static int compare_arrivals(const void *left, const void *right)
 {
     const struct arrival *a = left, *b = right;
-    int order = convex_hull_compare(&a->at, &b->at);
+    int order = (a->part > b->part) - (a->part < b->part);
+    if (order == 0)
+        order = convex_hull_compare(&a->at, &b->at);
     return order != 0 ? order : (a->vertex > b->vertex) - (a->vertex < b->vertex);
 }
 
-static int find_places(struct places *places, const struct model_vertex *vertex, uint32_t count)
+static int find_places(struct places *places, const struct model_vertex *vertex,
+                       const uint8_t *part, uint32_t count)
 {
     struct arrival *arrival = malloc(count * sizeof(*arrival));
     memset(places, 0, sizeof(*places));
     places->at = malloc(count * sizeof(*places->at));
+    places->part = malloc(count * sizeof(*places->part));
     places->of = malloc(count * sizeof(*places->of));
     places->parent = malloc(count * sizeof(*places->parent));
-    if (arrival == NULL || places->at == NULL || places->of == NULL || places->parent == NULL) {
+    if (arrival == NULL || places->at == NULL || places->part == NULL || places->of == NULL ||
+        places->parent == NULL) {
         free(arrival);
         return -1;
     }
     for (uint32_t i = 0; i < count; i++)
-        arrival[i] =
-            (struct arrival){{(double)vertex[i].x, (double)vertex[i].y, (double)vertex[i].z}, i};
+        arrival[i] = (struct arrival){
+            {(double)vertex[i].x, (double)vertex[i].y, (double)vertex[i].z}, i, part[i]};
     qsort(arrival, count, sizeof(*arrival), compare_arrivals);
     for (uint32_t i = 0; i < count; i++) {
         uint32_t last = places->count - 1;
-        if (i == 0 || convex_hull_compare(&places->at[last], &arrival[i].at) != 0) {
+        if (i == 0 || places->part[last] != arrival[i].part ||
+            convex_hull_compare(&places->at[last], &arrival[i].at) != 0) {
             last = places->count++;
             places->at[last] = arrival[i].at;
+            places->part[last] = arrival[i].part;
             places->parent[last] = last;
         }
         places->of[arrival[i].vertex] = last;
@@ -116,8 +127,10 @@ static int deal_places(struct connected_pieces *pieces, const struct places *pla
             result = -1;
             break;
         }
-        if (root == i)
+        if (root == i) {
+            pieces->piece[pieces->count].part = (enum hull_part)places->part[i];
             piece_of[i] = pieces->count++;
+        }
         result = add_point(&pieces->piece[piece_of[root]], places->at[i]);
     }
     free(piece_of);
@@ -149,11 +162,16 @@ static int thicken(struct piece *piece)
 int connected_pieces_find(struct connected_pieces *pieces, const struct scenario *scenario,
                           const struct model *model)
 {
-    struct places places;
-    int result;
+    struct places places = {.count = 0};
+    int result = -1;
     uint32_t vertices = model->solid_triangles > 0 ? model->solid_vertices : model->vertex_count;
+    uint8_t *part = calloc(vertices + 1, sizeof(*part));
     memset(pieces, 0, sizeof(*pieces));
-    result = find_places(&places, &scenario->vertices[model->first_vertex], vertices);
+    if (part != NULL) {
+        model_parts_of_vertices(part, scenario, model);
+        result = find_places(&places, &scenario->vertices[model->first_vertex], part, vertices);
+    }
+    free(part);
     if (result == 0) {
         join_corners(&places, &scenario->triangles[model->first_triangle],
                      model_solid_triangles(model));

@@ -1,10 +1,11 @@
 /* The connected pieces of a model, each with its convex hull. Triangles that share the place of a
- * corner are connected, whatever part of the model they belong to. Of a model with a solid part,
- * only that part counts. */
+ * corner are connected, if they belong to the same part that collides (world/entity/hull.h). Of a
+ * model with a solid part, only that part counts. */
 #ifndef JOLON_CONFIG_MESH_CONNECTED_PIECES_H
 #define JOLON_CONFIG_MESH_CONNECTED_PIECES_H
 
 #include "config/mesh/convex_hull.h"
+#include "world/entity/hull.h"
 
 #include <stdint.h>
 
@@ -22,11 +23,13 @@ struct scenario;
 struct piece {
     struct vec3 *point; /* every corner */
     uint32_t count;     /* 0: it was joined to another piece */
+    enum hull_part part;
     struct convex_hull hull;
 };
 
 struct connected_pieces {
-    struct piece piece[CONNECTED_PIECES_MAX]; /* in the order of their first points by x, y, z */
+    struct piece
+        piece[CONNECTED_PIECES_MAX]; /* by part, in the order of their first points by x, y, z */
     uint32_t count;
 };
 

@@ -3,9 +3,11 @@
 #include "config/mesh/hulls.h"
 
 #include "config/mesh/connected_pieces.h"
+#include "config/mesh/model_parts.h"
 #include "config/syntax/table.h"
 #include "world/entity/hull.h"
 #include "world/making/scenario.h"
+#include "world/model.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -34,12 +36,17 @@ static struct joint *joint_of(const struct joining *joining, uint32_t i, uint32_
     return i < j ? &joining->joint[i * count + j] : &joining->joint[j * count + i];
 }
 
-/* Joins all pieces that are inside this one to it. */
+static bool same_part(const struct joining *joining, uint32_t i, uint32_t j)
+{
+    return joining->pieces->piece[i].part == joining->pieces->piece[j].part;
+}
+
+/* Joins all pieces of its part that are inside this one to it. */
 static int take_inside(struct joining *joining, uint32_t outer)
 {
     struct connected_pieces *pieces = joining->pieces;
     for (uint32_t i = 0; pieces->piece[outer].count > 0 && i < pieces->count; i++) {
-        if (i == outer || pieces->piece[i].count == 0 ||
+        if (i == outer || pieces->piece[i].count == 0 || !same_part(joining, i, outer) ||
             !convex_hull_holds(&pieces->piece[outer].hull, &pieces->piece[i].hull, NESTED_M))
             continue;
         if (connected_pieces_join(&pieces->piece[outer], &pieces->piece[i], NULL) != 0)
@@ -71,7 +78,7 @@ static void guess_joints(const struct joining *joining, uint32_t i, uint32_t fro
 {
     const struct piece *piece = joining->pieces->piece;
     for (uint32_t j = from; piece[i].count > 0 && j < joining->pieces->count; j++) {
-        if (j == i || piece[j].count == 0)
+        if (j == i || piece[j].count == 0 || !same_part(joining, i, j))
             continue;
         *joint_of(joining, i, j) = (struct joint){
             maths_max(least_cost(&piece[i].hull, &piece[j].hull),
@@ -109,7 +116,7 @@ static int join(struct joining *joining, uint32_t i, uint32_t j)
     return 0;
 }
 
-/* The pair with the least cost, of equal pairs the first; NULL: there are no two pieces. */
+/* The pair of one part with the least cost, of equal pairs the first; NULL: there is none. */
 static const struct joint *cheapest(const struct joining *joining, uint32_t *left, uint32_t *right)
 {
     const struct piece *piece = joining->pieces->piece;
@@ -119,7 +126,8 @@ static const struct joint *cheapest(const struct joining *joining, uint32_t *lef
             continue;
         for (uint32_t j = i + 1; j < joining->pieces->count; j++) {
             const struct joint *joint = joint_of(joining, i, j);
-            if (piece[j].count > 0 && (best == NULL || joint->cost_m3 < best->cost_m3)) {
+            if (piece[j].count > 0 && same_part(joining, i, j) &&
+                (best == NULL || joint->cost_m3 < best->cost_m3)) {
                 best = joint;
                 *left = i;
                 *right = j;
@@ -303,14 +311,15 @@ static void set_bounds(struct hull *hull, const struct shell *shell)
     }
 }
 
-static int add_hull(struct scenario *scenario, const struct shell *shell)
+static int add_hull(struct scenario *scenario, const struct shell *shell, enum hull_part part)
 {
     void *hulls = scenario->hulls, *vertices = scenario->hull_vertices,
          *planes = scenario->hull_planes;
     struct hull added = {.first_vertex = scenario->hull_vertex_count,
                          .vertex_count = shell->vertices,
                          .first_plane = scenario->hull_plane_count,
-                         .plane_count = shell->planes};
+                         .plane_count = shell->planes,
+                         .part = part};
     set_bounds(&added, shell);
     struct hull *hull = table_extend(&hulls, &scenario->hull_count, 1, sizeof(*hull));
     scenario->hulls = hulls;
@@ -351,23 +360,25 @@ static int add_pieces(struct hulls *hulls, struct scenario *scenario,
         result = shell_make(&shell, &pieces->piece[i]);
         if (result == 0) {
             grow_extent(hulls, &shell);
-            result = add_hull(scenario, &shell);
+            result = add_hull(scenario, &shell, pieces->piece[i].part);
         }
         shell_free(&shell);
         if (result != 0)
             return -1;
         hulls->count++;
+        hulls->body += pieces->piece[i].part == HULL_PART_BODY;
     }
     return 0;
 }
 
-/* Makes one hull around all pieces, for a first test. The caller frees it in any case. */
-static int outer_make(struct shell *shell, const struct connected_pieces *pieces)
+/* Makes one hull around the pieces of these parts (a bit each), for a first test. The caller frees
+ * it in any case. -1 with errno EDOM: there are no such pieces. */
+static int outer_make(struct shell *shell, const struct connected_pieces *pieces, uint32_t parts)
 {
     uint32_t count = 0, taken = 0;
     int result = -1;
     for (uint32_t i = 0; i < pieces->count; i++)
-        count += pieces->piece[i].hull.point_count;
+        count += parts >> pieces->piece[i].part & 1u ? pieces->piece[i].hull.point_count : 0;
     if (count == 0) {
         errno = EDOM; /* as convex_hull_points() would say */
         return -1;
@@ -377,6 +388,8 @@ static int outer_make(struct shell *shell, const struct connected_pieces *pieces
         return -1;
     for (uint32_t i = 0; i < pieces->count; i++) {
         const struct convex_hull *hull = &pieces->piece[i].hull;
+        if (!(parts >> pieces->piece[i].part & 1u))
+            continue;
         memcpy(point + taken, hull->point, hull->point_count * sizeof(*point));
         taken += hull->point_count;
     }
@@ -389,15 +402,47 @@ static int outer_make(struct shell *shell, const struct connected_pieces *pieces
     return result;
 }
 
+/* Returns how many parts the model has, 0 if it is all body. */
+static uint32_t count_parts(const struct connected_pieces *pieces)
+{
+    uint32_t parts = 0;
+    for (uint32_t i = 0; i < pieces->count; i++)
+        parts |= 1u << pieces->piece[i].part;
+    return parts >> HULL_PART_GUN & 1u ? 3 : parts >> HULL_PART_TURRET & 1u ? 2 : 0;
+}
+
+/* Adds a hull around each part. */
+static int add_part_hulls(struct hulls *hulls, struct scenario *scenario,
+                          const struct connected_pieces *pieces)
+{
+    hulls->first_part = scenario->hull_count;
+    for (uint32_t part = 0; part < hulls->parts; part++) {
+        struct shell shell = {.vertex = NULL};
+        int result = outer_make(&shell, pieces, 1u << part);
+        if (result == 0)
+            result = add_hull(scenario, &shell, (enum hull_part)part);
+        shell_free(&shell);
+        if (result != 0)
+            return -1;
+    }
+    return 0;
+}
+
 static int build(struct hulls *hulls, struct scenario *scenario, const struct model *model,
                  struct connected_pieces *pieces)
 {
     struct shell outer = {.vertex = NULL};
     int result = -1;
-    if (connected_pieces_find(pieces, scenario, model) == 0 && outer_make(&outer, pieces) == 0 &&
-        join_pieces(pieces) == 0 && add_pieces(hulls, scenario, pieces) == 0) {
+    if (connected_pieces_find(pieces, scenario, model) == 0 &&
+        outer_make(&outer, pieces, UINT32_MAX) == 0 && join_pieces(pieces) == 0 &&
+        add_pieces(hulls, scenario, pieces) == 0) {
         hulls->outer = scenario->hull_count;
-        result = add_hull(scenario, &outer);
+        hulls->parts = count_parts(pieces);
+        result = add_hull(scenario, &outer, HULL_PART_BODY);
+        if (result == 0)
+            result = add_part_hulls(hulls, scenario, pieces);
+        hulls->turret_pivot = model_parts_pivot(scenario, model, PART_TURRET);
+        hulls->gun_pivot = model_parts_pivot(scenario, model, PART_GUN);
     }
     shell_free(&outer);
     return result;

@@ -3,13 +3,15 @@
  * Each connected piece of the model gets its convex hull, and a piece inside the hull of another
  * becomes part of that piece. Then the two pieces are joined whose common hull has the least volume
  * beyond their own hulls. This is repeated until at most HULLS_A_MODEL pieces are left, and further
- * while joining adds next to no volume. Every corner of the model is within a hull. The vertices of
+ * while joining adds next to no volume. Pieces of body, turret and gun are never joined with each
+ * other. Every corner of the model is within a hull. The vertices of
  * a hull are corners of the model, except those of flat pieces (config/mesh/connected_pieces.h).
  * The same model gives the same hulls to the bit on every machine. */
 #ifndef JOLON_CONFIG_MESH_HULLS_H
 #define JOLON_CONFIG_MESH_HULLS_H
 
 #include "config/syntax/key_table.h"
+#include "world/maths/maths.h"
 
 #include <stdint.h>
 
@@ -29,9 +31,13 @@ struct scenario;
 
 /* A model's hulls, as its kinds have them. */
 struct hulls {
-    uint32_t first, count; /* in the scenario's hulls */
-    uint32_t outer;        /* in the scenario's hulls: the hull around all of them */
-    double bound_m;        /* this and the next: as in struct kind */
+    uint32_t first, count;               /* in the scenario's hulls */
+    uint32_t outer;                      /* in the scenario's hulls: the hull around all of them */
+    uint32_t first_part;                 /* in the scenario's hulls: one around each part */
+    uint32_t parts;                      /* 0: the model has no turret */
+    uint32_t body;                       /* the first so many hulls are of the body */
+    struct vec3 turret_pivot, gun_pivot; /* [m] body axes */
+    double bound_m;                      /* this and the next: as in struct kind */
     double level_m;
     double low_m, high_m;
 };

@@ -41,7 +41,12 @@ static const char *const part_names[PART_COUNT] = {
     [PART_TRACK] = "track",
 };
 
-static const char solid_name[] = "solid";
+/* Objects that collide and are not drawn, by the part with which they move. */
+static const char *const solid_names[PART_COUNT] = {
+    [PART_BODY] = "solid",
+    [PART_TURRET] = "solid_turret",
+    [PART_GUN] = "solid_gun",
+};
 
 void models_open(struct models *models, struct scenario *scenario, const char *data_dir,
                  XXH3_state_t *hash)
@@ -290,6 +295,15 @@ static uint32_t part_of(const char *name)
     return part;
 }
 
+/* The part that an object which only collides moves with; PART_COUNT: it is drawn. */
+static uint32_t solid_part_of(const char *name)
+{
+    uint32_t part = 0;
+    while (part < PART_COUNT && (solid_names[part] == NULL || strcmp(name, solid_names[part]) != 0))
+        part++;
+    return part;
+}
+
 /* Sets the part and the joint of an object's triangles. 0; -1 with the message. */
 static int take_part(struct taking *taking, const struct aiNode *node, struct model_triangle *like)
 {
@@ -298,7 +312,8 @@ static int take_part(struct taking *taking, const struct aiNode *node, struct mo
         return key_table_refuse(
             taking->error, taking->place, NULL, NULL,
             "object %s: unknown part; allowed: body, turret, gun, rotor, "
-            "tail_rotor, wheel, front_wheel, track, solid; \"_1\" and so on may follow",
+            "tail_rotor, wheel, front_wheel, track, solid, solid_turret, solid_gun; "
+            "\"_1\" and so on may follow",
             node->mName.data);
     like->part = (uint16_t)part;
     if (part == PART_BODY || part == PART_TURRET)
@@ -318,9 +333,12 @@ static int take_node(struct taking *taking, const struct aiNode *node, bool soli
     struct model_triangle like = {.part = PART_BODY};
     if (depth > NODE_DEPTH_MAX)
         return key_table_refuse(taking->error, taking->place, NULL, NULL, "is nested too deeply");
-    if (node->mNumMeshes > 0 && (strcmp(node->mName.data, solid_name) == 0) == solid) {
+    uint32_t part = solid_part_of(node->mName.data);
+    if (node->mNumMeshes > 0 && (part != PART_COUNT) == solid) {
         if (!solid && take_part(taking, node, &like) != 0)
             return -1;
+        if (solid)
+            like.part = (uint16_t)part;
         for (unsigned i = 0; i < node->mNumMeshes; i++) {
             if (take_mesh(taking, taking->scene->mMeshes[node->mMeshes[i]], like) != 0)
                 return -1;
@@ -331,6 +349,20 @@ static int take_node(struct taking *taking, const struct aiNode *node, bool soli
             return -1;
     }
     return 0;
+}
+
+/* Gives the triangles of the gun that only collide the joint of the gun that is drawn: a small
+ * model is drawn as its solid. */
+static void join_solid_gun(const struct scenario *scenario, const struct model *model)
+{
+    struct model_triangle *triangle = &scenario->triangles[model->first_triangle];
+    uint32_t drawn = model->solid_triangles;
+    while (drawn < model->triangle_count && triangle[drawn].part != PART_GUN)
+        drawn++;
+    for (uint32_t t = 0; drawn < model->triangle_count && t < model->solid_triangles; t++) {
+        if (triangle[t].part == PART_GUN)
+            triangle[t].joint = triangle[drawn].joint;
+    }
 }
 
 static int take_scene(struct models *models, const struct aiScene *scene, const char *name,
@@ -355,6 +387,7 @@ static int take_scene(struct models *models, const struct aiScene *scene, const 
         return -1;
     if (model->triangle_count == model->solid_triangles)
         return key_table_refuse(error, place, NULL, NULL, "has no triangles");
+    join_solid_gun(scenario, model);
     if (hulls_build(&models->hulls[scenario->model_count - 1], scenario, model, place, error) != 0)
         return -1;
     return (int)scenario->model_count - 1;

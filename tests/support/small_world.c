@@ -24,6 +24,7 @@ void small_world_begin(struct small_world *w, uint32_t rows, uint32_t fixed)
         w->kinds[i] = (struct kind){.domain = DOMAIN_LAND,
                                     .radius_m = r,
                                     .bound_m = 1.1 * r,
+                                    .reach_m = 1.1 * r,
                                     .level_m = 0.9 * r,
                                     .low_m = -0.2 * r,
                                     .high_m = 0.7 * r};

@@ -3,6 +3,8 @@
 #ifndef JOLON_WORLD_ENTITY_KIND_H
 #define JOLON_WORLD_ENTITY_KIND_H
 
+#include "world/maths/maths.h"
+
 #include <stdint.h>
 
 #define KIND_NAME_MAX  24
@@ -100,9 +102,15 @@ struct kind {
     double fuel_l, fuel_lps;          /* tank, and burnt at full throttle a second */
     uint32_t rounds;
     /* These follow from the model's hulls. */
-    uint32_t first_hull, hull_count; /* index into the world's hulls */
+    uint32_t first_hull, hull_count; /* index into the world's hulls: body, then turret, gun */
     uint32_t outer_hull;             /* the hull around all of them */
+    uint32_t first_part_hull;        /* one hull around each part */
+    uint32_t part_count;             /* 0: the model has no turret */
+    uint32_t body_hulls;             /* the first so many are of the body */
+    uint32_t unused;
+    struct vec3 turret_pivot, gun_pivot; /* [m] body axes */
     double bound_m;       /* radius about the position that contains every hull in any rotation */
+    double reach_m;       /* the same wherever turret and gun point */
     double level_m;       /* the same on the map, upright */
     double low_m, high_m; /* lowest and highest point over the position, upright */
 };

@@ -52,6 +52,18 @@ static inline struct vec3 rotation_back(const struct mat3 *turn, struct vec3 wor
                          m[0][2] * world.x + m[1][2] * world.y + m[2][2] * world.z};
 }
 
+/* Returns the rotation by `first` and then, about the axes before it, by `then`. */
+static inline struct mat3 rotation_both(const struct mat3 *then, const struct mat3 *first)
+{
+    struct mat3 both;
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++)
+            both.m[i][j] = then->m[i][0] * first->m[0][j] + then->m[i][1] * first->m[1][j] +
+                           then->m[i][2] * first->m[2][j];
+    }
+    return both;
+}
+
 /* Returns the rotation at t in 0..1 on the shorter path from a to b, by normalised linear
  * interpolation: about one axis that is fixed in the world and in the body, slightly faster in the
  * middle than at the ends. For half a turn the signs of rotation_of() determine the path. */

@@ -50,7 +50,7 @@ static void begin(struct small_world *w, uint32_t capacity)
     memset(w, 0, sizeof *w);
     for (int i = 0; i < KINDS; i++) {
         w->kinds[i].radius_m = radii[i];
-        w->kinds[i].bound_m = 1.1 * radii[i];
+        w->kinds[i].bound_m = w->kinds[i].reach_m = 1.1 * radii[i];
         w->kinds[i].level_m = 1.3 * radii[i];
         w->kinds[i].low_m = -0.2 * radii[i];
         w->kinds[i].high_m = 1.7 * radii[i];

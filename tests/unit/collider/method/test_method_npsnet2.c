@@ -321,7 +321,7 @@ static void make_cubes(void)
     w.world.model_triangles = faces;
     for (int i = 0; i < SMALL_KINDS; i++) {
         w.kinds[i].radius_m = 2.0;
-        w.kinds[i].bound_m = sqrt(3.0);
+        w.kinds[i].bound_m = w.kinds[i].reach_m = sqrt(3.0);
         w.kinds[i].level_m = sqrt(2.0);
         w.kinds[i].low_m = -1.0;
         w.kinds[i].high_m = 1.0;

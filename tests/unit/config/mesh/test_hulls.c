@@ -524,7 +524,8 @@ static void test_shipped_hulls_fill_the_tables(void **state)
         if (kind->first_hull < hull_count) /* the model was checked with an earlier kind */
             continue;
         assert_int_equal(kind->first_hull, hull_count);
-        hull_count += kind->hull_count + 1;
+        assert_int_equal(kind->first_part_hull, kind->outer_hull + 1);
+        hull_count += kind->hull_count + 1 + kind->part_count;
     }
     assert_int_equal(hull_count, shipped.hull_count);
     for (uint32_t i = 0; i < shipped.hull_count; i++) {

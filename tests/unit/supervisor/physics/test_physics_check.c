@@ -41,7 +41,8 @@ static void make_box(const char *name)
     hull->radius_m = 3.5;
     kind->hull_count = 1;
     kind->first_hull = kind->outer_hull;
-    kind->bound_m = 3.91;
+    kind->bound_m = kind->reach_m = 3.91;
+    kind->part_count = 0;
 }
 
 static int open_world(void **state)

@@ -1,0 +1,104 @@
+/* A sweep of one angle at a time, from the committed one to the mover's, against the row's pairs.
+ */
+#include "collider/resting/turret_guard.h"
+
+#include "collider/resting/contact_groups.h"
+#include "world/maths/maths.h"
+#include "world/runtime/work_done.h"
+
+/* A row while its turret and its gun turn. */
+struct turning {
+    struct response_context *context;
+    uint32_t row;
+    double turret, gun; /* [rad] where they point now */
+};
+
+static bool turns(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    return e->state[row] != ENTITY_FREE && body_motion_aimed(context->motion, row);
+}
+
+/* Returns the other side of a pair as it ends the frame. Turrets of higher rows have not turned. */
+static struct swept_body other_body(const struct turning *turning, uint32_t other)
+{
+    const struct entities *e = &turning->context->next->entities;
+    const struct body_motion *motion = turning->context->motion;
+    struct swept_body body = body_motion_standing(motion, e, other);
+    if (!(other & PAIR_FIXED) && other < turning->row)
+        body_motion_aim(motion, other, (double)e->turret[other], (double)e->gun[other], 0.0, 0.0,
+                        &body);
+    return body;
+}
+
+/* Returns true if the other side of a pair stops turrets. */
+static bool stops(const struct response_context *context, uint32_t other)
+{
+    const struct entities *e = &context->next->entities;
+    if (other & PAIR_FIXED)
+        return contact_groups_is_wall(context, other & ~PAIR_FIXED);
+    return e->state[other] != ENTITY_FREE && e->behaviour[other] != BEHAVIOUR_FLIGHT;
+}
+
+/* Returns the share of a turn until the parts touch something, 1 if they do not. */
+static double free_share(const struct turning *turning, const struct swept_body *parts)
+{
+    const struct contact_queue *contacts = turning->context->contacts;
+    struct hull_contact impact;
+    double share = 1.0;
+    for (uint32_t link = contacts->head[turning->row]; link != 0;
+         link = contacts->link[link - 1].next) {
+        const struct pair *pair = &contacts->pair[contacts->link[link - 1].pair];
+        uint32_t other = pair->a == turning->row ? pair->b : pair->a;
+        if (!stops(turning->context, other))
+            continue;
+        struct swept_body body = other_body(turning, other);
+        if (time_of_impact_find(parts, &body, 0.0, &impact))
+            share = maths_min(share, impact.toi);
+    }
+    return share;
+}
+
+/* Turns turret and gun by these angles, or until they touch something. Returns the share. */
+static double turn(const struct turning *turning, double turret_turn, double gun_turn)
+{
+    const struct response_context *context = turning->context;
+    const struct entities *e = &context->next->entities;
+    const struct kind *kind = &context->world->kinds[e->kind[turning->row]];
+    struct swept_body parts = body_motion_standing(context->motion, e, turning->row);
+    body_motion_aim(context->motion, turning->row, turning->turret, turning->gun, turret_turn,
+                    gun_turn, &parts);
+    parts.hull += kind->body_hulls;
+    parts.hull_count -= kind->body_hulls;
+    return free_share(turning, &parts);
+}
+
+static void turn_row(struct response_context *context, uint32_t row)
+{
+    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    struct turning turning = {context, row, (double)w->turret[row], (double)w->gun[row]};
+    double turret_turn = maths_wrap_half((double)e->turret[row] - turning.turret);
+    double gun_turn = (double)e->gun[row] - turning.gun, share = 1.0;
+    if (turret_turn != 0.0)
+        share = turn(&turning, turret_turn, 0.0);
+    if (share < 1.0) {
+        turning.turret =
+            share > 0.0 ? maths_wrap_half(turning.turret + turret_turn * share) : turning.turret;
+        table_set_turret(&context->writer, row, (float)turning.turret);
+    }
+    turning.turret = (double)e->turret[row];
+    share = gun_turn != 0.0 ? turn(&turning, 0.0, gun_turn) : 1.0;
+    if (share < 1.0)
+        table_set_gun(&context->writer, row, (float)(turning.gun + gun_turn * share));
+}
+
+void turret_guard_run(struct response_context *context)
+{
+    const uint32_t *head = context->contacts->head;
+    for (uint32_t row = 0; row < context->next->head->used; row++) {
+        if (head[row] == 0 || !turns(context, row))
+            continue;
+        turn_row(context, row);
+        work_done();
+    }
+}
