@@ -37,7 +37,7 @@ static bool all_finite(const struct motion_look *look)
     const struct vec3 *at = &look->pose.at, *v = &look->velocity, *w = &look->spin;
     /* The sum of finite numbers of this size is finite, and NaN and infinity stay in it. */
     double sum = at->x + at->y + at->z + v->x + v->y + v->z + w->x + w->y + w->z;
-    return isfinite(sum + look->heading + look->pitch + look->roll);
+    return isfinite(sum + look->heading + look->pitch + look->roll + look->turret + look->gun);
 }
 
 static bool same_place(const struct motion_look *a, const struct motion_look *b)
@@ -48,7 +48,8 @@ static bool same_place(const struct motion_look *a, const struct motion_look *b)
 
 static bool same_angles(const struct motion_look *a, const struct motion_look *b)
 {
-    return a->heading == b->heading && a->pitch == b->pitch && a->roll == b->roll;
+    return a->heading == b->heading && a->pitch == b->pitch && a->roll == b->roll &&
+           a->turret == b->turret && a->gun == b->gun;
 }
 
 /* A wreck rests from the tick that until_tick says (docs/decisions/031-wrecks-on-the-ground.md). */
@@ -64,6 +65,8 @@ static void read_motion(struct motion_look *look, const struct state *state, uin
     const struct entities *e = &state->entities;
     *look = (struct motion_look){.pose = {.at = entities_position(e, row)},
                                  .heading = e->heading[row],
+                                 .turret = (double)e->turret[row],
+                                 .gun = (double)e->gun[row],
                                  .pitch = e->pitch[row],
                                  .roll = e->roll[row],
                                  .velocity = entities_velocity(e, row),

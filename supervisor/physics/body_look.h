@@ -21,6 +21,7 @@ struct world;
 struct motion_look {
     struct rigid_pose pose;
     double heading, pitch, roll; /* [rad] */
+    double turret, gun;          /* [rad] */
     struct vec3 velocity;        /* [m/s] */
     struct vec3 spin;            /* [rad/s, world axes] */
     double height_m;             /* over the ground */
@@ -38,7 +39,7 @@ struct body_look {
     struct motion_look now;
     const struct motion_look *was; /* in the frame before, if known; until body_looks_end() */
     bool known;                    /* it was there in the frame before */
-    bool still;                    /* known, and its pose is the same to the bit */
+    bool still;                    /* known, and its pose and its turret are the same to the bit */
     bool finite;                   /* all its numbers are */
     /* What may explain a change of its velocity. */
     bool commanded;  /* a command named it */

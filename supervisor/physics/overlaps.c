@@ -3,6 +3,7 @@
 
 #include "supervisor/physics/hull_overlap.h"
 #include "world/entity/entity.h"
+#include "world/entity/hull.h"
 #include "world/entity/kind.h"
 #include "world/param_values.h"
 #include "world/params.h"
@@ -94,20 +95,53 @@ struct pair_side {
     const struct rigid_pose *pose;
     const struct kind *kind;
     double scale, radius_m;
+    double turret, gun; /* [rad] */
 };
+
+/* Returns true if turret or gun are not where the model has them. */
+static bool aims(const struct pair_side *side)
+{
+    return side->kind->part_count > 0 && (side->turret != 0.0 || side->gun != 0.0);
+}
+
+/* Finds the poses of body, turret and gun. */
+static void find_parts(const struct pair_side *side, struct rigid_pose part[HULL_PART_COUNT])
+{
+    for (uint32_t i = 0; i < HULL_PART_COUNT; i++)
+        part[i] = *side->pose;
+    if (!aims(side))
+        return;
+    part[HULL_PART_TURRET] = rigid_pose_turned(side->pose, side->kind->turret_pivot, side->turret);
+    part[HULL_PART_GUN] =
+        rigid_pose_raised(&part[HULL_PART_TURRET], side->kind->gun_pivot, side->gun);
+}
+
+static uint32_t part_of(const struct overlaps *overlaps, uint32_t hull)
+{
+    return overlaps->world->hulls[hull].part;
+}
 
 /* Returns how far apart the pieces of both bodies are at least [m], enough when it is more; below 0
  * the greatest depth of two pieces. */
 static double pieces_apart(const struct overlaps *overlaps, const struct pair_side *a,
-                           const struct pair_side *b, const struct relative_place *place,
-                           double enough, struct vec3 *axis)
+                           const struct pair_side *b, double enough, struct vec3 *axis)
 {
+    struct rigid_pose part_a[HULL_PART_COUNT], part_b[HULL_PART_COUNT];
+    struct relative_place places[HULL_PART_COUNT][HULL_PART_COUNT];
     double least = enough;
     const struct vec3 first = *axis;
-    for (uint32_t i = 0; i < a->kind->hull_count; i++) {
-        const struct hull_shape *p = &overlaps->shape[a->kind->first_hull + i];
-        for (uint32_t j = 0; j < b->kind->hull_count; j++) {
-            const struct hull_shape *q = &overlaps->shape[b->kind->first_hull + j];
+    find_parts(a, part_a);
+    find_parts(b, part_b);
+    for (uint32_t i = 0; i < HULL_PART_COUNT; i++) {
+        for (uint32_t j = 0; j < HULL_PART_COUNT; j++)
+            places[i][j] = hull_overlap_place(&part_a[i], &part_b[j], b->scale);
+    }
+    for (uint32_t i = a->kind->first_hull; i < a->kind->first_hull + a->kind->hull_count; i++) {
+        const struct hull_shape *p = &overlaps->shape[i];
+        for (uint32_t j = b->kind->first_hull; j < b->kind->first_hull + b->kind->hull_count; j++) {
+            const struct hull_shape *q = &overlaps->shape[j];
+            const struct relative_place *place =
+                &places[part_of(overlaps, i)][part_of(overlaps, j)];
             struct vec3 tried = first;
             if (hull_overlap_far(p, q, place, enough, &tried))
                 continue;
@@ -128,14 +162,14 @@ static double bodies_apart(const struct overlaps *overlaps, const struct pair_si
     double distance = vec3_length(between);
     if (overlaps->spheres)
         return distance - a->radius_m - b->radius_m;
-    if (distance > a->kind->bound_m + b->kind->bound_m * b->scale + enough)
+    if (distance > a->kind->reach_m + b->kind->reach_m * b->scale + enough)
         return enough;
     const struct relative_place place = hull_overlap_place(a->pose, b->pose, b->scale);
     const struct hull_shape *outer = &overlaps->shape[a->kind->outer_hull];
     const struct hull_shape *other = &overlaps->shape[b->kind->outer_hull];
-    if (hull_overlap_far(outer, other, &place, enough, axis))
+    if (!aims(a) && !aims(b) && hull_overlap_far(outer, other, &place, enough, axis))
         return enough;
-    return pieces_apart(overlaps, a, b, &place, enough, axis);
+    return pieces_apart(overlaps, a, b, enough, axis);
 }
 
 /* --- a frame -----------------------------------------------------------------------------------*/
@@ -183,6 +217,12 @@ static void measure_growth(struct look *look, const struct overlap *pair,
                  a, b);
 }
 
+static struct pair_side side_of(const struct body_look *body)
+{
+    return (struct pair_side){&body->now.pose,      body->kind,       1.0,
+                              body->kind->radius_m, body->now.turret, body->now.gun};
+}
+
 static uint64_t key_of(uint32_t first, uint32_t second)
 {
     return (uint64_t)first << 32 | second;
@@ -201,8 +241,7 @@ static int look_at_pair(struct look *look, struct body_look *a, struct body_look
         b->parts += pair.since_start;
         look->overlapping += pair.depth_m > ROUNDING_M;
     } else {
-        const struct pair_side sides[2] = {{&a->now.pose, a->kind, 1.0, a->kind->radius_m},
-                                           {&b->now.pose, b->kind, 1.0, b->kind->radius_m}};
+        const struct pair_side sides[2] = {side_of(a), side_of(b)};
         double enough = touch_reach(a, b->now.velocity, look->dt_s);
         if (last)
             pair.axis = last->axis;
@@ -233,9 +272,9 @@ static int look_at_wall(struct look *look, struct body_look *body, uint32_t inde
     const struct rigid_pose pose =
         rigid_pose_of(at, (double)object->turn * (TWO_PI / 65536.0), 0.0, 0.0);
     const struct measured_body named = {index + 1, true, object->kind, at};
-    const struct pair_side sides[2] = {
-        {&body->now.pose, body->kind, 1.0, body->kind->radius_m},
-        {&pose, kind, (double)object->radius_m / kind->radius_m, (double)object->radius_m}};
+    const struct pair_side sides[2] = {side_of(body),
+                                       {&pose, kind, (double)object->radius_m / kind->radius_m,
+                                        (double)object->radius_m, 0.0, 0.0}};
     struct overlap pair = {.key = key_of(body->named.id, index)};
     const struct overlap *last = list_find(&overlaps->wall_pairs[!overlaps->current], pair.key);
     double enough = touch_reach(body, (struct vec3){0.0, 0.0, 0.0}, look->dt_s);
@@ -292,7 +331,7 @@ static void put_ball(const struct look *look, uint32_t index)
 {
     const struct body_look *body = &look->looks->body[index];
     struct overlaps *overlaps = look->overlaps;
-    double reach = maths_max(body->kind->bound_m, body->kind->radius_m) + 0.5 * TOUCH_M +
+    double reach = maths_max(body->kind->reach_m, body->kind->radius_m) + 0.5 * TOUCH_M +
                    look->dt_s * vec3_length(body->now.velocity);
     if (!body->finite || overlaps->listed[body->row])
         return;

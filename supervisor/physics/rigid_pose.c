@@ -17,6 +17,38 @@ struct rigid_pose rigid_pose_of(struct vec3 at, double heading, double pitch, do
     };
 }
 
+/* Moves the part so that the pivot stays where it is. */
+static struct rigid_pose about(const struct rigid_pose *before, struct rigid_pose after,
+                               struct vec3 pivot)
+{
+    struct vec3 off = vec3_sub(rigid_pose_out(before, pivot), rigid_pose_out(&after, pivot));
+    after.at = vec3_add(before->at, off);
+    return after;
+}
+
+struct rigid_pose rigid_pose_turned(const struct rigid_pose *pose, struct vec3 pivot,
+                                    double right_rad)
+{
+    double sine, cosine;
+    maths_sincos(right_rad, &sine, &cosine);
+    const struct rigid_pose after = {
+        .forward = vec3_add(vec3_scale(pose->forward, cosine), vec3_scale(pose->right, sine)),
+        .up = pose->up,
+        .right = vec3_sub(vec3_scale(pose->right, cosine), vec3_scale(pose->forward, sine))};
+    return about(pose, after, pivot);
+}
+
+struct rigid_pose rigid_pose_raised(const struct rigid_pose *pose, struct vec3 pivot, double up_rad)
+{
+    double sine, cosine;
+    maths_sincos(up_rad, &sine, &cosine);
+    const struct rigid_pose after = {
+        .forward = vec3_add(vec3_scale(pose->forward, cosine), vec3_scale(pose->up, sine)),
+        .up = vec3_sub(vec3_scale(pose->up, cosine), vec3_scale(pose->forward, sine)),
+        .right = pose->right};
+    return about(pose, after, pivot);
+}
+
 double rigid_pose_angle(const struct rigid_pose *from, const struct rigid_pose *to)
 {
     /* Half the sum of what each axis turns: its cross product has the sine, the sum of the dot

@@ -14,6 +14,13 @@ struct rigid_pose {
 /* heading: clockwise from north. pitch: nose up. roll: right side down [rad]. */
 struct rigid_pose rigid_pose_of(struct vec3 at, double heading, double pitch, double roll);
 
+/* Return the pose of a part that is turned to the right about its up axis, or raised about its
+ * right axis, through a pivot in its own axes [m]. */
+struct rigid_pose rigid_pose_turned(const struct rigid_pose *pose, struct vec3 pivot,
+                                    double right_rad);
+struct rigid_pose rigid_pose_raised(const struct rigid_pose *pose, struct vec3 pivot,
+                                    double up_rad);
+
 /* Return a direction of the body in world axes, and a direction of the world in body axes. */
 static inline struct vec3 rigid_pose_out(const struct rigid_pose *pose, struct vec3 body)
 {
