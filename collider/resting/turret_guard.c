@@ -7,7 +7,7 @@
 #include "world/runtime/work_done.h"
 
 /* A row while its turret and its gun turn. */
-struct turning {
+struct aiming_row {
     struct response_context *context;
     uint32_t row;
     double turret, gun; /* [rad] where they point now */
@@ -20,12 +20,12 @@ static bool turns(const struct response_context *context, uint32_t row)
 }
 
 /* Returns the other side of a pair as it ends the frame. Turrets of higher rows have not turned. */
-static struct swept_body other_body(const struct turning *turning, uint32_t other)
+static struct swept_body other_body(const struct aiming_row *aiming, uint32_t other)
 {
-    const struct entities *e = &turning->context->next->entities;
-    const struct body_motion *motion = turning->context->motion;
+    const struct entities *e = &aiming->context->next->entities;
+    const struct body_motion *motion = aiming->context->motion;
     struct swept_body body = body_motion_standing(motion, e, other);
-    if (!(other & PAIR_FIXED) && other < turning->row)
+    if (!(other & PAIR_FIXED) && other < aiming->row)
         body_motion_aim(motion, other, (double)e->turret[other], (double)e->gun[other], 0.0, 0.0,
                         &body);
     return body;
@@ -41,18 +41,18 @@ static bool stops(const struct response_context *context, uint32_t other)
 }
 
 /* Returns the share of a turn until the parts touch something, 1 if they do not. */
-static double free_share(const struct turning *turning, const struct swept_body *parts)
+static double free_share(const struct aiming_row *aiming, const struct swept_body *parts)
 {
-    const struct contact_queue *contacts = turning->context->contacts;
+    const struct contact_queue *contacts = aiming->context->contacts;
     struct hull_contact impact;
     double share = 1.0;
-    for (uint32_t link = contacts->head[turning->row]; link != 0;
+    for (uint32_t link = contacts->head[aiming->row]; link != 0;
          link = contacts->link[link - 1].next) {
         const struct pair *pair = &contacts->pair[contacts->link[link - 1].pair];
-        uint32_t other = pair->a == turning->row ? pair->b : pair->a;
-        if (!stops(turning->context, other))
+        uint32_t other = pair->a == aiming->row ? pair->b : pair->a;
+        if (!stops(aiming->context, other))
             continue;
-        struct swept_body body = other_body(turning, other);
+        struct swept_body body = other_body(aiming, other);
         if (time_of_impact_find(parts, &body, 0.0, &impact))
             share = maths_min(share, impact.toi);
     }
@@ -60,36 +60,36 @@ static double free_share(const struct turning *turning, const struct swept_body 
 }
 
 /* Turns turret and gun by these angles, or until they touch something. Returns the share. */
-static double turn(const struct turning *turning, double turret_turn, double gun_turn)
+static double turn(const struct aiming_row *aiming, double turret_turn, double gun_turn)
 {
-    const struct response_context *context = turning->context;
+    const struct response_context *context = aiming->context;
     const struct entities *e = &context->next->entities;
-    const struct kind *kind = &context->world->kinds[e->kind[turning->row]];
-    struct swept_body parts = body_motion_standing(context->motion, e, turning->row);
-    body_motion_aim(context->motion, turning->row, turning->turret, turning->gun, turret_turn,
+    const struct kind *kind = &context->world->kinds[e->kind[aiming->row]];
+    struct swept_body parts = body_motion_standing(context->motion, e, aiming->row);
+    body_motion_aim(context->motion, aiming->row, aiming->turret, aiming->gun, turret_turn,
                     gun_turn, &parts);
     parts.hull += kind->body_hulls;
     parts.hull_count -= kind->body_hulls;
-    return free_share(turning, &parts);
+    return free_share(aiming, &parts);
 }
 
 static void turn_row(struct response_context *context, uint32_t row)
 {
     const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
-    struct turning turning = {context, row, (double)w->turret[row], (double)w->gun[row]};
-    double turret_turn = maths_wrap_half((double)e->turret[row] - turning.turret);
-    double gun_turn = (double)e->gun[row] - turning.gun, share = 1.0;
+    struct aiming_row aiming = {context, row, (double)w->turret[row], (double)w->gun[row]};
+    double turret_turn = maths_wrap_half((double)e->turret[row] - aiming.turret);
+    double gun_turn = (double)e->gun[row] - aiming.gun, share = 1.0;
     if (turret_turn != 0.0)
-        share = turn(&turning, turret_turn, 0.0);
+        share = turn(&aiming, turret_turn, 0.0);
     if (share < 1.0) {
-        turning.turret =
-            share > 0.0 ? maths_wrap_half(turning.turret + turret_turn * share) : turning.turret;
-        table_set_turret(&context->writer, row, (float)turning.turret);
+        aiming.turret =
+            share > 0.0 ? maths_wrap_half(aiming.turret + turret_turn * share) : aiming.turret;
+        table_set_turret(&context->writer, row, (float)aiming.turret);
     }
-    turning.turret = (double)e->turret[row];
-    share = gun_turn != 0.0 ? turn(&turning, 0.0, gun_turn) : 1.0;
+    aiming.turret = (double)e->turret[row];
+    share = gun_turn != 0.0 ? turn(&aiming, 0.0, gun_turn) : 1.0;
     if (share < 1.0)
-        table_set_gun(&context->writer, row, (float)(turning.gun + gun_turn * share));
+        table_set_gun(&context->writer, row, (float)(aiming.gun + gun_turn * share));
 }
 
 void turret_guard_run(struct response_context *context)

@@ -58,12 +58,28 @@ static void test_the_angle_between_two_poses(void **state)
     assert_true(fabs(rigid_pose_angle(&north, &over) - PI) < 1e-14);
 }
 
+/* A tank heads north, its turret points to the right, and its gun is raised by 30 degrees. */
+static void test_a_gun_lies_where_its_turret_points(void **state)
+{
+    const struct vec3 at = {100.0, 50.0, 200.0}, pivot = {-1.0, 1.0, 0.0}, trunnion = {1.0, 2.0, 0};
+    const struct rigid_pose body = rigid_pose_of(at, 0.0, 0.0, 0.0);
+    const struct rigid_pose turret = rigid_pose_turned(&body, pivot, 0.5 * PI);
+    const struct rigid_pose gun = rigid_pose_raised(&turret, trunnion, PI / 6.0);
+    struct vec3 muzzle = vec3_add(gun.at, rigid_pose_out(&gun, (struct vec3){5.0, 2.0, 0.0}));
+    (void)state;
+    /* The trunnion is 2 m to the east of the pivot, which is 1 m south of the position. */
+    assert_true(fabs(muzzle.x - (100.0 + 2.0 + 4.0 * sqrt(0.75))) < 1e-9);
+    assert_true(fabs(muzzle.y - (50.0 + 2.0 + 2.0)) < 1e-9);
+    assert_true(fabs(muzzle.z - 201.0) < 1e-9);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_axes_of_single_turns),
         cmocka_unit_test(test_the_axes_are_those_of_the_documents_rotation),
         cmocka_unit_test(test_the_angle_between_two_poses),
+        cmocka_unit_test(test_a_gun_lies_where_its_turret_points),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
