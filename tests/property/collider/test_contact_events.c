@@ -19,6 +19,11 @@
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
 
+/* Bodies that do not touch at the end of one frame have parted if the frame is longer than 0.1 s,
+ * so that a few more impacts are events. */
+#define RENEWS_HZ 10.0
+#define RENEWED   0.1
+
 static const double rates_hz[] = {5.0, 30.0, 60.0, 240.0};
 static const double other_rates_hz[] = {5.0, 30.0, 240.0};
 
@@ -163,7 +168,8 @@ static void test_the_rate_does_not_change_how_much_is_told(void **state)
             struct told told = run_pairs(method, response, shape, other_rates_hz[h], seed);
             assert_near(told.begins, first.begins, rows[r].share);
             assert_near(told.ends, first.ends, rows[r].share);
-            assert_near(told.begins + told.others, first.begins + first.others, rows[r].share);
+            assert_near(told.begins + told.others, first.begins + first.others,
+                        rows[r].share + (other_rates_hz[h] < RENEWS_HZ ? RENEWED : 0.0));
         }
     }
 }

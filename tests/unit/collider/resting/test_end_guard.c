@@ -121,13 +121,17 @@ static void test_at_last_it_goes_back_all_the_way(void **state)
 /* Resting pairs are not swept, so the guard looks at them even if no contact has moved them. */
 static void test_bodies_of_resting_pairs_are_looked_at(void **state)
 {
-    uint32_t rows[3] = {0, SLOT_NONE, 1}; /* of two bodies and a fixed object */
+    struct resting_pair rests = {.pair =
+                                     contact_queue_pair(context.contacts, &(struct pair){0, 1})};
     (void)state;
-    pair(0, 1);
+    context.contacts->marks[rests.pair] |= CONTACT_RESTS;
     move(0, 0.08);
-    end_guard_run(&f.stepper.collider.guard, &(struct resting){.row = rows, .bodies = 3}, &context);
+    end_guard_run(
+        &f.stepper.collider.guard,
+        &(struct resting){.pair = &rests, .pairs = 1, .parts = f.stepper.collider.resting.parts},
+        &context);
     assert_true(fabs(next()->x[0] - WEST_M - 0.04) < 1e-9);
-    assert_true(gap(next(), 0, 1) > 0.0);
+    assert_true(steps_gap(&f, next(), 0, 1) > 0.0);
 }
 
 /* A wreck that rolls over into its neighbour stops with its whole pose and motion. */
