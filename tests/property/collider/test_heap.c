@@ -139,6 +139,7 @@ static void test_row_46_bodies_that_start_overlapped_part(void **state)
         &f, (struct fixture_entity){.kind = "tank", .at = {25000.0, FIXTURE_GROUND_M, 25000.0}});
     fixture_put(
         &f, (struct fixture_entity){.kind = "tank", .at = {25003.0, FIXTURE_GROUND_M, 25000.0}});
+    fixture_continue(&f, 1); /* from then on there is a committed frame */
     double before = deepest(2);
     fixture_continue(&f, FRAMES_APART);
     double after = deepest(2);
