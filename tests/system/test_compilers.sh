@@ -19,7 +19,7 @@ busy=$source_dir/tests/system/busy.cfg # everything that can happen, close toget
 run() {
     local as=$1 with=$2
     shift 2
-    "$with/jolon" run -w "$name" --without renderer --without reporter --pace max --frames 300 --json \
+    "$with/jolon" run -w "$name" --without renderer --without reporter --pace max --frames 420 --json \
         --out "$folder/$as" "$@" "$busy" >"$as.json" 2>"$as.err" || sed 's/^/# /' "$as.err"
 }
 
