@@ -281,16 +281,14 @@ static void run_round(struct end_guard *guard, const struct resting *resting,
     }
 }
 
-/* Lists the bodies of the pairs that are not swept because they rest, even if no contact changed
- * their motion: they may turn into each other. */
-static void look_at_resting(struct end_guard *guard, const struct resting *resting,
-                            const struct response_context *context)
+/* Lists the bodies of the pairs that rest or have met, even if nothing changed their motion. Pairs
+ * that rest are not swept, and an impact may find bodies that do not close by their velocities: it
+ * gives no impulse, and the pair is not swept again. */
+static void look_at_met(struct end_guard *guard, const struct contact_queue *contacts)
 {
-    const struct contact_queue *contacts = context->contacts;
-    for (uint32_t i = 0; i < resting->pairs; i++) {
-        uint32_t index = resting->pair[i].pair;
-        const struct pair *pair = &contacts->pair[index];
-        if (!(contacts->marks[index] & CONTACT_RESTS))
+    for (uint32_t i = 0; i < contacts->pair_count; i++) {
+        const struct pair *pair = &contacts->pair[i];
+        if (!(contacts->marks[i] & CONTACT_RESTS) && contacts->met[i] == 0)
             continue;
         look_at(guard, pair->a);
         if (!(pair->b & PAIR_FIXED))
@@ -313,7 +311,7 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
         if (guarded(context, row))
             ground_placement_put(context, row, entities_position(e, row), e->heading[row]);
     }
-    look_at_resting(guard, resting, context);
+    look_at_met(guard, context->contacts);
     while (guard->count > 0)
         run_round(guard, resting, context);
     for (uint32_t i = 0; i < guard->touched_count; i++)

@@ -118,20 +118,31 @@ static void test_at_last_it_goes_back_all_the_way(void **state)
     assert_true(next()->x[0] == WEST_M && next()->vx[0] == 0.0);
 }
 
+/* Nothing has moved the first tank but its driver. */
+static void assert_looked_at(void)
+{
+    move(0, 0.08);
+    run(0, (uint32_t[]){0});
+    assert_true(fabs(next()->x[0] - WEST_M - 0.04) < 1e-9);
+    assert_true(steps_gap(&f, next(), 0, 1) > 0.0);
+}
+
 /* Resting pairs are not swept, so the guard looks at them even if no contact has moved them. */
 static void test_bodies_of_resting_pairs_are_looked_at(void **state)
 {
-    struct resting_pair rests = {.pair =
-                                     contact_queue_pair(context.contacts, &(struct pair){0, 1})};
+    uint32_t rests = contact_queue_pair(context.contacts, &(struct pair){0, 1});
     (void)state;
-    context.contacts->marks[rests.pair] |= CONTACT_RESTS;
-    move(0, 0.08);
-    end_guard_run(
-        &f.stepper.collider.guard,
-        &(struct resting){.pair = &rests, .pairs = 1, .parts = f.stepper.collider.resting.parts},
-        &context);
-    assert_true(fabs(next()->x[0] - WEST_M - 0.04) < 1e-9);
-    assert_true(steps_gap(&f, next(), 0, 1) > 0.0);
+    context.contacts->marks[rests] |= CONTACT_RESTS;
+    assert_looked_at();
+}
+
+/* An impact that gives no impulse changes no path, and is the last of its pair in the frame. */
+static void test_bodies_that_have_met_are_looked_at(void **state)
+{
+    uint32_t met = contact_queue_pair(context.contacts, &(struct pair){0, 1});
+    (void)state;
+    context.contacts->met[met] = 1;
+    assert_looked_at();
 }
 
 /* A wreck that rolls over into its neighbour stops with its whole pose and motion. */
@@ -256,6 +267,7 @@ int main(void)
         TEST(test_a_body_that_ends_in_another_goes_back_by_half),
         TEST(test_at_last_it_goes_back_all_the_way),
         TEST(test_bodies_of_resting_pairs_are_looked_at),
+        TEST(test_bodies_that_have_met_are_looked_at),
         TEST(test_a_wreck_goes_back_in_its_whole_pose),
         TEST(test_a_body_that_went_back_can_send_back_the_next),
         TEST(test_a_driver_who_holds_the_course_keeps_its_speed),
