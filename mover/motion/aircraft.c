@@ -4,6 +4,7 @@
 #include "mover/motion/kinematics.h"
 #include "mover/motion/kinematics_simd.h"
 #include "world/maths/cpu_dispatch.h"
+#include "world/maths/rotation.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
@@ -148,11 +149,28 @@ static inline void lean(const struct step_context *context, struct aircraft *bat
     }
 }
 
+/* Steering turns the spin with the aircraft. The same spin about other axes of the body would have
+ * another energy. */
+static void carry_spin(struct entities *m, uint32_t i, const struct aircraft *batch, int l)
+{
+    const struct vec3 spin = {m->spin_x[i], m->spin_y[i], m->spin_z[i]};
+    if (vec3_dot(spin, spin) == 0.0)
+        return;
+    struct mat3 before = rotation_matrix(rotation_of(m->heading[i], m->pitch[i], m->roll[i]));
+    struct mat3 after = rotation_matrix(
+        rotation_of(batch->heading.lane[l], batch->pitch.lane[l], batch->roll.lane[l]));
+    struct vec3 turned = rotation_apply(&after, rotation_back(&before, spin));
+    m->spin_x[i] = turned.x;
+    m->spin_y[i] = turned.y;
+    m->spin_z[i] = turned.z;
+}
+
 static void write_rows(const struct step_context *context, const struct aircraft *batch)
 {
     struct entities *m = context->m;
     for (int l = 0; l < batch->count; l++) {
         uint32_t i = batch->row[l];
+        carry_spin(m, i, batch, l);
         m->x[i] = batch->x.lane[l];
         m->y[i] = batch->y.lane[l];
         m->z[i] = batch->z.lane[l];

@@ -198,6 +198,23 @@ static void test_a_pilot_gets_his_aircraft_out_of_a_spin(void **state)
     assert_true(fabs(e.roll[row]) < 0.1 && fabs(e.pitch[row]) < 0.3);
 }
 
+/* He leans and turns the aircraft under its spin. That adds no energy of rotation. */
+static void test_steering_adds_no_energy_to_a_spin(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 900.0, BEHAVIOUR_DRIVEN, (struct vec3){20.0, 0.0, 0.0});
+    set_spin(row, -1.2, -5.9, -1.6);
+    double last = INFINITY;
+    for (int frame = 0; frame < 120; frame++) {
+        steps_drive(&f, row, 1.0, frame < 60 ? 1.0 : -1.0, 0.0);
+        struct entities e = steps_rows(&f);
+        struct vec3 spin = {e.spin_x[row], e.spin_y[row], e.spin_z[row]};
+        double energy = vec3_dot(momentum_of(row), spin);
+        assert_true(energy < last);
+        last = energy;
+    }
+}
+
 int main(void)
 {
 #define TEST(function)                                                                             \
@@ -210,6 +227,7 @@ int main(void)
         TEST(test_a_body_on_hold_keeps_its_momentum_and_energy),
         TEST(test_spin_in_the_air_turns_by_its_rate),
         TEST(test_a_pilot_gets_his_aircraft_out_of_a_spin),
+        TEST(test_steering_adds_no_energy_to_a_spin),
     };
     return cmocka_run_group_tests_name("spin", tests, NULL, NULL);
 }
