@@ -32,6 +32,9 @@
 /* Positions nearer than this share of both bodies' least reach are within each other. */
 #define DEEP 0.9
 
+/* A body that leans more does not cover the disc of its least reach [rad]. */
+#define STANDS_RAD 0.5
+
 /* Bodies at one place part as if they were so far apart, times the root of their ids [m]. */
 #define COINCIDENT_M 1e-4
 #define GOLDEN_ANGLE 2.399963229728653 /* [rad] */
@@ -206,6 +209,15 @@ static double inner_reach(const struct kind *kind)
     return 0.5 * maths_min(kind->width_m, kind->length_m);
 }
 
+/* Returns true if the body covers the disc of its inner reach. Aircraft do not, because they are
+ * fuselages with wings and rotors, and no wreck on its side does. */
+static bool fills_disc(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    return context->world->kinds[e->kind[row]].domain != DOMAIN_AIR &&
+           fabs(e->pitch[row]) + fabs(e->roll[row]) <= STANDS_RAD;
+}
+
 /* Returns a place near the position, another one for each id. The places of all ids are spread
  * evenly over a disc, so that bodies at one place part in all directions [m]. */
 static struct vec3 place_of(const struct response_context *context, uint32_t row)
@@ -223,7 +235,7 @@ static struct vec3 place_of(const struct response_context *context, uint32_t row
 static bool measure_deep(const struct response_context *context, const struct pair *pair,
                          struct resting_gap *found)
 {
-    if (pair->b & PAIR_FIXED)
+    if (pair->b & PAIR_FIXED || !fills_disc(context, pair->a) || !fills_disc(context, pair->b))
         return false;
     const struct kind *ka = contact_impulse_kind(context, pair->a);
     const struct kind *kb = contact_impulse_kind(context, pair->b);

@@ -2,6 +2,7 @@
 #include "collider/resting/resting.h"
 
 #include "collider/geometry/level_gap.h"
+#include "collider/response/path_change.h"
 #include "tests/support/steps.h"
 #include "world/entity/persistent_contact.h"
 #include "world/params.h"
@@ -155,6 +156,31 @@ static void test_an_overlap_parts_without_a_speed(void **state)
     assert_int_equal(context.events.count, 0); /* no news */
 }
 
+/* Two trucks lie on their sides, with the wheels towards each other. Discs about their positions,
+ * which are between the wheels, would overlap. */
+static void test_who_lies_on_a_side_is_no_disc(void **state)
+{
+    struct entities w = steps_rows(&f);
+    double half = 0.5 * steps_kind(&f, "truck")->width_m;
+    (void)state;
+    for (uint32_t i = 0; i < 2; i++) {
+        w.state[i] = ENTITY_WRECK;
+        w.heading[i] = 0.0;
+        w.x[i] = WEST_M + half * i;
+        w.y[i] = FIXTURE_GROUND_M + half;
+        w.roll[i] = i == 0 ? -HALF_PI : HALF_PI;
+    }
+    know(0);
+    begin();
+    for (uint32_t i = 0; i < 2; i++)
+        assert_true(path_change_grounded(&context, i));
+    assert_true(steps_gap(&f, &w, 0, 1) > 0.5);
+    drive(0, -0.1); /* or the pair would sleep */
+    resting_solve(resting, &context);
+    assert_int_equal(resting->pairs, 0);
+    assert_int_equal(resting->moved_count, 0);
+}
+
 /* The recovery takes the second truck 2.5 cm out of the box that the broad phase has, up to that of
  * the third. */
 static void test_bodies_that_moved_find_their_new_neighbours(void **state)
@@ -205,6 +231,7 @@ int main(void)
         TEST(test_brakes_hold_against_a_push),
         TEST(test_bodies_that_are_far_do_not_press),
         TEST(test_an_overlap_parts_without_a_speed),
+        TEST(test_who_lies_on_a_side_is_no_disc),
         TEST(test_bodies_that_moved_find_their_new_neighbours),
         TEST(test_a_new_body_takes_nothing_from_its_row),
     };
