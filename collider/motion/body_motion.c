@@ -24,8 +24,9 @@ int body_motion_init(struct body_motion *motion, const struct world *world)
     motion->changed = reserve_take(capacity, sizeof *motion->changed);
     motion->row = reserve_take(capacity, sizeof *motion->row);
     motion->parting_rps = calloc(capacity, sizeof *motion->parting_rps);
+    motion->fall = calloc(capacity, sizeof *motion->fall);
     if (!motion->path || !motion->computed || !motion->change || !motion->changed || !motion->row ||
-        !motion->parting_rps) {
+        !motion->parting_rps || !motion->fall) {
         body_motion_free(motion);
         return -1;
     }
@@ -40,6 +41,7 @@ void body_motion_free(struct body_motion *motion)
     free(motion->change);
     reserve_free(motion->row);
     free(motion->parting_rps);
+    free(motion->fall);
     *motion = (struct body_motion){0};
 }
 
@@ -50,6 +52,7 @@ void body_motion_begin(struct body_motion *motion, const struct state *committed
         motion->change[motion->row[i]] = 0;
     motion->changes = 0;
     memset(motion->computed, 0, motion->world->params->capacity * sizeof *motion->computed);
+    memset(motion->fall, 0, motion->world->params->capacity * sizeof *motion->fall);
     motion->committed = committed;
     motion->next = next;
     motion->models = motion->world->params->collision.shape == SHAPE_MODEL;

@@ -36,6 +36,8 @@ struct body_motion {
     /* [capacity] the turn about the vertical by which resting contacts part a row from what it
      * overlaps [rad/s]. It is part of its path, but no motion that an impact can take. */
     double *parting_rps;
+    uint8_t *fall; /* [capacity] whether a row falls freely (collider/motion/free_fall.h); 0: not
+                      known yet */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */

@@ -61,7 +61,7 @@ void body_push(struct response_context *context, uint32_t row, double time, stru
                struct vec3 impulse_ns)
 {
     const struct pushed body = pushed_of(context, row, time);
-    struct vec3 before = entities_velocity(&context->next->entities, row);
+    struct vec3 before = path_change_velocity(context, row, time);
     struct vec3 moment = vec3_cross(vec3_sub(point, body.centre), impulse_ns);
     struct vec3 turned = rotation_apply(&body.inverse_inertia, moment);
     struct vec3 velocity = vec3_add(before, vec3_scale(impulse_ns, body.inverse_mass));

@@ -3,6 +3,7 @@
 #include "collider/response/island.h"
 
 #include "collider/geometry/level_gap.h"
+#include "collider/motion/free_fall.h"
 #include "collider/response/contact_impulse.h"
 #include "collider/response/overlap_shift.h"
 #include "collider/response/path_change.h"
@@ -313,7 +314,8 @@ static struct solver_body solve_body_of(const struct response_context *context,
         solve.inverse_inertia = mass_properties_inverse_world(&inertia, &turn);
     }
     solve.spin = path_change_spin(context, row, time);
-    solve.velocity = vec3_add(entities_velocity(e, row), vec3_cross(solve.spin, body->arm));
+    solve.velocity =
+        vec3_add(path_change_velocity(context, row, time), vec3_cross(solve.spin, body->arm));
     if (body->grounded)
         solve.velocity.y = 0.0; /* the slope causes it; it would lift the other body */
     return solve;
@@ -386,17 +388,25 @@ static void leave(struct response_context *context, const struct solver_body *so
     struct vec3 velocity = vec3_sub(solve->velocity, vec3_cross(solve->spin, body->arm));
     if (body->grounded)
         velocity.y = 0.0; /* the mover follows the slope again */
+    velocity.y -= body->fallen_mps;
     struct vec3 at = vec3_add(path_at(&context->path[row], time), body->shift);
     path_change_leave(context, row, time, at, velocity, solve->spin, body->stays);
 }
 
-/* The way of a body in the air may differ from its velocity and spin: a pilot steers it, or a wreck
- * has met the ground. If this way alone makes a contact, the body goes on without the difference,
- * because no impulse can answer it. Returns true if the body still had such a way. */
-static bool drop_steering(const struct response_context *context, struct island_body *body)
+/* The way of a body in the air may differ from its velocity and spin: a pilot steers it, a wreck
+ * falls, or it has met the ground. If this way alone makes a contact, the body goes on without the
+ * difference, because no impulse can answer it; one that falls takes the speed of its fall at once.
+ * Returns true if the body still had such a way. */
+static bool drop_steering(const struct response_context *context, struct island_body *body,
+                          double time)
 {
-    if (body->grounded || context->motion->change[body->row] != 0)
+    double fall = free_fall_left_mps(context->motion, body->row, time);
+    if (body->grounded || (context->motion->change[body->row] != 0 && fall == 0.0))
         return false;
+    if (fall > 0.0 && !body->stays) {
+        body->fallen_mps = fall;
+        free_fall_end(context->motion, body->row);
+    }
     body->follows_spin = true;
     return true;
 }
@@ -406,9 +416,10 @@ static void answer_without_impulse(const struct response_context *context,
                                    const struct island_contact *met)
 {
     struct island *island = context->island;
-    bool drops = drop_steering(context, &island->body[met->body_a]);
+    double time = met->impact.time;
+    bool drops = drop_steering(context, &island->body[met->body_a], time);
     if (met->body_b != BODY_FIXED)
-        drops |= drop_steering(context, &island->body[met->body_b]);
+        drops |= drop_steering(context, &island->body[met->body_b], time);
     if (!drops)
         contact_queue_skip_pair(context->contacts, &met->contact); /* it would be found again */
 }

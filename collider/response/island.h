@@ -30,6 +30,7 @@ struct island_body {
     bool unmoved;         /* the contacts have not changed its motion */
     bool grounded;
     bool follows_spin; /* it goes on by its velocity and spin alone, without its pilot's steering */
+    double fallen_mps; /* what it takes at once of the fall in the rest of the frame */
     struct vec3 arm;   /* [m, world] from the position to the centre of mass */
     struct vec3 shift; /* [m] out of the bodies that it overlaps */
 };

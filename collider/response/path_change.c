@@ -1,6 +1,7 @@
 /* How the response to a contact changes a body's path in the rest of the frame. */
 #include "collider/response/path_change.h"
 
+#include "collider/motion/free_fall.h"
 #include "world/body_points.h"
 #include "world/entity/free_rotation.h"
 #include "world/entity/mass_properties.h"
@@ -70,6 +71,19 @@ static double yaw_of(const struct response_context *context, uint32_t row)
         by_spin = 0.0;
     double turn = by_spin + maths_wrap_half(n->heading[row] - w->heading[row] - by_spin);
     return -turn / dt_s - motion->parting_rps[row];
+}
+
+static double fall_left_mps(const struct response_context *context, uint32_t row, double time)
+{
+    double fall = free_fall_left_mps(context->motion, row, time);
+    return fall > 0.0 && path_change_grounded(context, row) ? 0.0 : fall;
+}
+
+struct vec3 path_change_velocity(const struct response_context *context, uint32_t row, double time)
+{
+    struct vec3 velocity = entities_velocity(&context->next->entities, row);
+    velocity.y += fall_left_mps(context, row, time);
+    return velocity;
 }
 
 struct vec3 path_change_spin(const struct response_context *context, uint32_t row, double time)
@@ -201,17 +215,20 @@ void path_change_leave(struct response_context *context, uint32_t row, double ti
 {
     double dt_s = world_dt_s(context->world);
     bool grounded = path_change_grounded(context, row);
+    double fall = stays ? 0.0 : fall_left_mps(context, row, time);
     struct quat turned = body_motion_orientation(context->motion, row, time);
+    struct vec3 mean = {velocity.x, velocity.y - 0.5 * fall, velocity.z};
     struct rotation_path rotation = {
         .from = turned, .to = turned, .driven_rps = driven(context, row, grounded)};
     const struct path path = {.at = at,
-                              .along = vec3_scale(velocity, stays ? 0.0 : dt_s),
+                              .along = vec3_scale(mean, stays ? 0.0 : dt_s),
                               .since = time,
                               .rotates = context->motion->models && !stays &&
                                          vec3_dot(spin_rps, spin_rps) > 0.0};
     if (!stays)
         spin_on(context, row, grounded, (1.0 - time) * dt_s, &rotation, &spin_rps);
     spin_rps.y -= rotation.driven_rps;
+    velocity.y -= fall;
     if (grounded)
         velocity = vec3_add(velocity, rolling_velocity(context, row, turned));
     table_set_spin(&context->writer, row, spin_rps);

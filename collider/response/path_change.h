@@ -11,10 +11,10 @@ void path_change_stay(struct response_context *context, uint32_t row, double tim
 /* The row continues along its path at a share of its speed. Call path_change_swept afterwards. */
 void path_change_slow(struct response_context *context, uint32_t row, double time, double share);
 
-/* The row continues from `at` with this velocity and spin. If it stays, it remains there for the
- * rest of the frame and has both at the end. A body in the air rotates freely from then on.
- * spin_rps is as path_change_spin() returns it for the time; the driver's part does not become the
- * row's own spin. Call path_change_swept once all rows that leave
+/* The row continues from `at` with this velocity and spin. One that falls freely falls on. If it
+ * stays, it remains there for the rest of the frame and has both at the end. A body in the air
+ * rotates freely from then on. spin_rps is as path_change_spin() returns it for the time; the
+ * driver's part does not become the row's own spin. Call path_change_swept once all rows that leave
  * at this time have left. */
 void path_change_leave(struct response_context *context, uint32_t row, double time, struct vec3 at,
                        struct vec3 velocity, struct vec3 spin_rps, bool stays);
@@ -22,6 +22,10 @@ void path_change_leave(struct response_context *context, uint32_t row, double ti
 /* Finds the contacts of the rows' new paths. */
 void path_change_swept(struct response_context *context, const uint32_t *rows, uint32_t count,
                        double time);
+
+/* Returns the row's velocity at a time in [path.since, 1]: without the speed that one that falls
+ * freely will have by its weight afterwards. */
+struct vec3 path_change_velocity(const struct response_context *context, uint32_t row, double time);
 
 /* Returns the row's rotation at a time in [path.since, 1] [rad/s, world axes]. On the ground: its
  * spin from collisions and the driver's steering. In the air: the spin at the orientation of that

@@ -65,7 +65,7 @@ static struct vec3 velocity_at(const struct response_context *context, uint32_t 
 {
     struct vec3 w = path_change_spin(context, row, impact->toi);
     struct vec3 r = vec3_sub(impact->point, path_at(&context->path[row], impact->toi));
-    return vec3_add(entities_velocity(&context->next->entities, row), vec3_cross(w, r));
+    return vec3_add(path_change_velocity(context, row, impact->toi), vec3_cross(w, r));
 }
 
 struct impact response_impact(const struct response_context *context, const struct contact *contact)
@@ -238,7 +238,8 @@ static void end_approach(struct response_context *context, const struct impact *
         struct vec3 push = vec3_scale(impact->normal, side[i].push * impact->closing_mps);
         const struct vec3 spin = path_change_spin(context, row, impact->time);
         path_change_leave(context, row, impact->time, path_at(&context->path[row], impact->time),
-                          vec3_add(entities_velocity(e, row), push), spin, false);
+                          vec3_add(path_change_velocity(context, row, impact->time), push), spin,
+                          false);
     }
     const uint32_t rows[2] = {impact->a, impact->b};
     path_change_swept(context, rows, fixed ? 1 : 2, impact->time);

@@ -83,6 +83,27 @@ static void test_who_leaves_takes_velocity_and_spin_along(void **state)
     assert_true(e->z[row] == 25000.0 && e->vz[row] == 60.0); /* stays, and takes it with it */
 }
 
+/* The weight does no work on a wreck that stays, and on another one no more than its fall. */
+static void test_a_falling_wreck_gains_no_energy(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 25000.0, 900.0);
+    struct entities *e = &context.next->entities;
+    double fall = GRAVITY_MPS2 * DT_S;
+    steps_rows(&f).state[row] = e->state[row] = ENTITY_WRECK;
+    e->vy[row] -= fall;
+    struct vec3 at = {25001.5, 900.0, 25000.0},
+                velocity = path_change_velocity(&context, row, 0.25);
+    assert_true(fabs(velocity.y - (e->vy[row] + 0.75 * fall)) < 1e-12);
+    velocity.y = -5.0;
+    path_change_leave(&context, row, 0.25, at, velocity, none, false);
+    assert_true(fabs(e->vy[row] - (-5.0 - 0.75 * fall)) < 1e-12);
+    double before = 12.5, after = 0.5 * e->vy[row] * e->vy[row];
+    assert_true(fabs(after - before - GRAVITY_MPS2 * (900.0 - e->y[row])) < 1e-9);
+    path_change_leave(&context, row, 0.5, at, velocity, none, true);
+    assert_true(e->vy[row] == -5.0 && e->y[row] == 900.0);
+}
+
 /* Row 17 and the mover know nothing outside: no answer may push a body there. */
 static void test_no_body_is_pushed_out_of_the_world(void **state)
 {
@@ -246,6 +267,7 @@ int main(void)
         TEST(test_who_stays_ends_where_it_was_struck),
         TEST(test_who_is_slowed_goes_on_at_its_share),
         TEST(test_who_leaves_takes_velocity_and_spin_along),
+        TEST(test_a_falling_wreck_gains_no_energy),
         TEST(test_no_body_is_pushed_out_of_the_world),
         TEST(test_what_the_ground_holds),
         TEST(test_a_turn_that_parts_bodies_is_no_spin),

@@ -1,0 +1,46 @@
+/* Tells who falls freely by the mover's change of velocity. */
+#include "collider/motion/free_fall.h"
+
+#include "world/entity/kind.h"
+#include "world/entity/mass_properties.h"
+#include "world/state.h"
+#include "world/world.h"
+
+#define ROUNDING_MPS 1e-6
+
+/* What is known of a row in a frame. */
+enum fall { FALL_UNKNOWN, FALL_FREE, FALL_NONE };
+
+static struct vec3 centre_velocity(const struct entities *e, const struct kind *kind, uint32_t row)
+{
+    struct mat3 axes = rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+    struct vec3 up = {0.0, mass_properties_of(kind).centre_m, 0.0};
+    struct vec3 spin = {e->spin_x[row], e->spin_y[row], e->spin_z[row]};
+    return vec3_add(entities_velocity(e, row), vec3_cross(spin, rotation_apply(&axes, up)));
+}
+
+/* Returns true if the mover has changed the velocity of a wreck by its weight and nothing else. */
+static bool falls(const struct body_motion *motion, uint32_t row)
+{
+    const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
+    const struct kind *kind = &motion->world->kinds[n->kind[row]];
+    if (!body_motion_old(motion, row) || w->state[row] != ENTITY_WRECK ||
+        n->state[row] != ENTITY_WRECK)
+        return false;
+    struct vec3 change = vec3_sub(centre_velocity(n, kind, row), centre_velocity(w, kind, row));
+    change.y += GRAVITY_MPS2 * world_dt_s(motion->world);
+    return vec3_length(change) < ROUNDING_MPS;
+}
+
+double free_fall_left_mps(const struct body_motion *motion, uint32_t row, double time)
+{
+    uint8_t *fall = &motion->fall[row];
+    if (*fall == FALL_UNKNOWN)
+        *fall = falls(motion, row) ? FALL_FREE : FALL_NONE;
+    return *fall == FALL_FREE ? GRAVITY_MPS2 * world_dt_s(motion->world) * (1.0 - time) : 0.0;
+}
+
+void free_fall_end(const struct body_motion *motion, uint32_t row)
+{
+    motion->fall[row] = FALL_NONE;
+}
