@@ -202,7 +202,8 @@ static void add_pair(struct end_guard *guard, const struct response_context *con
     guard->pair[guard->pair_count++] = (struct guard_pair){.pair = index};
 }
 
-/* Lists the row's pairs. A pair of two rows that are looked at is listed once. */
+/* Lists the row's pairs. Bodies that have to part are stopped by walls only: in a crowd they would
+ * lock each other. A pair of two rows that are looked at is listed once. */
 static void add_pairs_of(struct end_guard *guard, const struct resting *resting,
                          const struct response_context *context, uint32_t row)
 {
@@ -212,7 +213,8 @@ static void add_pairs_of(struct end_guard *guard, const struct resting *resting,
         const struct pair *pair = &contacts->pair[index];
         uint32_t other = pair->a == row ? pair->b : pair->a;
         bool fixed = other & PAIR_FIXED;
-        if (resting->parts[row] || (!fixed && resting->parts[other]))
+        if (contacts->marks[index] & CONTACT_PARTS ||
+            (!fixed && (resting->parts[row] || resting->parts[other])))
             continue;
         if (fixed ? !contact_groups_is_wall(context, other & ~PAIR_FIXED)
                   : (guard->listed[other] && other < row) || !guarded(context, other))

@@ -15,7 +15,7 @@
 struct thread_pool;
 
 /* Bodies that begin the frame deeper in another than this have to part. The guard at the frame's
- * end leaves them out [m]. */
+ * end stops them at walls only [m]. */
 #define RESTING_PARTS_M 0.02
 
 /* Two bodies in a contact that lasts. */

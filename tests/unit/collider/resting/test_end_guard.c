@@ -25,7 +25,8 @@ static double side_by_side; /* [m] between the positions of tanks that touch */
 static int open_world(void **state)
 {
     (void)state;
-    fixture_open(&f, "collision = { shape = \"model\"; };");
+    fixture_open(&f, "objects = ( { kind = \"building\"; at = [24986.0, 25000.0]; } );"
+                     "collision = { shape = \"model\"; };");
     for (uint32_t i = 0; i < ROWS; i++)
         fixture_put(&f, (struct fixture_entity){
                             .kind = "tank", .at = {WEST_M + 4.5 * i, FIXTURE_GROUND_M, 25000.0}});
@@ -222,6 +223,22 @@ static void test_deep_overlaps_have_to_part_first(void **state)
     assert_true(next()->x[0] == WEST_M + 0.005);
 }
 
+/* The second tank is deep in the first, which gives way, but not into the house. */
+static void test_a_body_that_parts_from_another_is_stopped_by_a_wall(void **state)
+{
+    struct resting *resting = &f.stepper.collider.resting;
+    double free_m = steps_gap(&f, next(), 0, PAIR_FIXED);
+    (void)state;
+    assert_true(free_m > 0.1 && free_m < 8.0);
+    overlap(2.0 * RESTING_PARTS_M);
+    pair(0, PAIR_FIXED);
+    resting->parts[0] = resting->parts[1] = 1;
+    move(0, -free_m - 0.1);
+    run(1, (uint32_t[]){0});
+    assert_true(fabs(next()->x[0] - (WEST_M - 0.5 * (free_m + 0.1))) < 1e-9);
+    resting->parts[0] = resting->parts[1] = 0;
+}
+
 static void test_a_new_body_is_not_sent_back(void **state)
 {
     (void)state;
@@ -273,6 +290,7 @@ int main(void)
         TEST(test_a_driver_who_holds_the_course_keeps_its_speed),
         TEST(test_an_overlap_may_last_but_not_grow),
         TEST(test_deep_overlaps_have_to_part_first),
+        TEST(test_a_body_that_parts_from_another_is_stopped_by_a_wall),
         TEST(test_a_new_body_is_not_sent_back),
         TEST(test_the_order_of_rows_and_pairs_does_not_matter),
     };
