@@ -4,6 +4,7 @@
 #include "world/entity/entity.h"
 #include "world/entity/event.h"
 #include "world/entity/kind.h"
+#include "world/entity/persistent_contact.h"
 #include "world/state.h"
 #include "world/world.h"
 
@@ -157,6 +158,25 @@ static void blast(struct body_looks *looks, const struct body_look *struck, stru
         struct body_look *body = &looks->body[i];
         struct vec3 apart = vec3_sub(body->named.at, point);
         body->blasts += body == struck || vec3_length(apart) <= reach + body->kind->bound_m;
+    }
+}
+
+void body_looks_hits(struct body_looks *looks, const struct state *state,
+                     const struct persistent_contact *before, uint32_t count)
+{
+    uint32_t next = 0;
+    for (uint32_t i = 0; i < state->head->contact_count; i++) {
+        const struct persistent_contact *now = &state->contacts[i];
+        uint64_t key = persistent_contact_key(now);
+        while (next < count && persistent_contact_key(&before[next]) < key)
+            next++;
+        bool known = next < count && persistent_contact_key(&before[next]) == key;
+        uint32_t hits = now->impacts - (known ? before[next].impacts : 0u);
+        uint32_t a = body_looks_find(looks, now->a_id), b = body_looks_find(looks, now->b_id);
+        if (a != NO_LOOK)
+            looks->body[a].hits += hits;
+        if (b != NO_LOOK)
+            looks->body[b].hits += hits;
     }
 }
 

@@ -12,6 +12,7 @@
 
 struct event;
 struct kind;
+struct persistent_contact;
 struct state;
 struct world;
 
@@ -45,6 +46,7 @@ struct body_look {
     bool commanded;  /* a command named it */
     uint32_t blasts; /* explosions near */
     uint32_t struck; /* collisions in this frame */
+    uint32_t hits;   /* impacts in this frame of contacts that the table of contacts has */
     bool touches;    /* it touches a body or a wall */
     bool touched;    /* the same in the frame before */
     uint32_t parts;  /* bodies and walls that it overlaps since one of the two was placed */
@@ -81,6 +83,11 @@ uint32_t body_looks_find(const struct body_looks *looks, uint32_t id);
 
 /* Marks what an event explains. Explosions explain changes within their reach. */
 void body_looks_explain(struct body_looks *looks, const struct event *event);
+
+/* Marks the impacts that contacts have had since the frame before, told or not: those of a contact
+ * that has begun, too. before: [count] the contacts of that frame, sorted by their keys. */
+void body_looks_hits(struct body_looks *looks, const struct state *state,
+                     const struct persistent_contact *before, uint32_t count);
 
 /* Marks the bodies near charges that exploded with their vehicles. */
 void body_looks_wrecked(struct body_looks *looks);

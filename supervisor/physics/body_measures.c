@@ -240,7 +240,7 @@ void body_measures_motion(struct measures *measures, double dt_s, const struct b
     if (!body->known || body->commanded)
         return;
     /* Between two explosions or collisions it may be faster than before and after. */
-    if (body->blasts < 2 && body->struck < 2 && body->parted == 0)
+    if (body->blasts < 2 && body->struck < 2 && body->hits < 2 && body->parted == 0)
         measure_jump(measures, dt_s, body);
     bool touches = body->touches || body->touched || body->now.grounded || body->was->grounded;
     if (body->blasts == 0 && body->struck == 0 && !touches)

@@ -6,6 +6,7 @@
 #include "world/entity/event.h"
 #include "world/entity/hull.h"
 #include "world/entity/kind.h"
+#include "world/entity/persistent_contact.h"
 #include "world/param_values.h"
 #include "world/params.h"
 #include "world/state.h"
@@ -13,6 +14,7 @@
 
 #include <errno.h>
 #include <stdlib.h>
+#include <string.h>
 
 static int find_shapes(struct physics_check *check)
 {
@@ -50,6 +52,14 @@ static void explain(struct physics_check *check, uint64_t end, const struct phys
     for (uint64_t i = first_event(check, end, events); i < end; i++)
         body_looks_explain(&check->looks, &events->slot[i & (events->slots - 1)]);
     body_looks_wrecked(&check->looks);
+}
+
+/* Keeps the contacts for the look at the next frame. */
+static void keep_contacts(struct physics_check *check, const struct state *state)
+{
+    check->contact_count = state->head->contact_count;
+    if (check->contact_count > 0)
+        memcpy(check->contact, state->contacts, check->contact_count * sizeof *check->contact);
 }
 
 /* Bodies that collided in the frame share their energy, even if they are apart again. */
@@ -110,12 +120,14 @@ static int look_at(struct physics_check *check, const struct state *state,
     look_at_bodies(check, &ground);
     if (events)
         explain(check, state->head->event_end, events);
+    body_looks_hits(&check->looks, state, check->contact, check->contact_count);
     if (overlaps_look(&check->overlaps, &check->measures, &check->looks, state->fixed_damage,
                       dt_s) != 0 ||
         (events && join_struck(check, state->head->event_end, events) != 0))
         return -1;
     look_at_motion(check, &ground);
     body_looks_end(&check->looks);
+    keep_contacts(check, state);
     check->event_end = state->head->event_end;
     return 0;
 }
@@ -126,7 +138,9 @@ int physics_check_begin(struct physics_check *check, const struct world *world,
     uint32_t capacity = world->params->capacity;
     *check = (struct physics_check){.world = world, .surface = {.terrain = &world->terrain}};
     choose_bounds(check);
-    if (find_shapes(check) == 0 && body_looks_make(&check->looks, capacity) == 0 &&
+    check->contact = calloc(world->params->contact_slots, sizeof *check->contact);
+    if (check->contact && find_shapes(check) == 0 &&
+        body_looks_make(&check->looks, capacity) == 0 &&
         energy_make(&check->energy, capacity) == 0 &&
         overlaps_make(&check->overlaps, world, check->shape) == 0 &&
         look_at(check, state, NULL) == 0)
@@ -142,6 +156,7 @@ void physics_check_free(struct physics_check *check)
     for (uint32_t i = 0; i < hulls; i++)
         hull_shape_free(&check->shape[i]);
     free(check->shape);
+    free(check->contact);
     surface_free(&check->surface);
     body_looks_free(&check->looks);
     overlaps_free(&check->overlaps);

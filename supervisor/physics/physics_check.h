@@ -14,6 +14,7 @@
 #include <stdint.h>
 
 struct event;
+struct persistent_contact;
 struct state;
 struct world;
 
@@ -31,6 +32,8 @@ struct physics_check {
     struct overlaps overlaps;
     struct energy energy;
     struct measures measures;
+    struct persistent_contact *contact; /* [contact_count] of the frame before */
+    uint32_t contact_count;
     uint64_t event_end; /* events that were looked at */
     uint64_t frames;    /* looked at, the first one not counted */
     uint64_t bodies;    /* looked at in all these frames */

@@ -4,6 +4,7 @@
 #include "tests/support/steps.h"
 #include "world/entity/event.h"
 #include "world/entity/hull.h"
+#include "world/entity/persistent_contact.h"
 #include "world/params.h"
 #include "world/terrain/crater.h"
 #include "world/terrain/fixed.h"
@@ -379,6 +380,32 @@ static void test_two_collisions_explain_a_way(void **state)
     is_bad(MEASURE_OF_JUMP, 0.03);
 }
 
+/* So between two impacts of lasting contacts, which no event tells: one of a contact that lasts,
+ * and one of a contact that has begun. */
+static void test_two_impacts_of_contacts_explain_a_way(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 100.0);
+    struct persistent_contact row = {.a_id = tank + 1, .b_id = PERSISTENT_CONTACT_FIXED | 3u};
+    (void)state;
+    row.b_row = SLOT_NONE;
+    begin();
+    now.contacts[0] = row;
+    now.head->contact_count = 1;
+    next();
+    now.contacts[0].impacts = 1;
+    now.contacts[1] = row;
+    now.contacts[1].b_id++;
+    now.contacts[1].impacts = 1;
+    now.head->contact_count = 2;
+    now.entities.z[tank] += 0.03;
+    next();
+    is_good();
+    now.contacts[1].impacts = 2;
+    now.entities.z[tank] += 0.03;
+    next();
+    is_bad(MEASURE_OF_JUMP, 0.03);
+}
+
 static void test_a_corner_in_a_crater(void **state)
 {
     (void)state;
@@ -656,6 +683,7 @@ int main(void)
         TEST(test_a_wreck_that_is_pushed_out),
         TEST(test_two_explosions_explain_a_way),
         TEST(test_two_collisions_explain_a_way),
+        TEST(test_two_impacts_of_contacts_explain_a_way),
         TEST(test_a_corner_in_a_crater),
         TEST(test_two_boxes_overlap),
         TEST(test_an_overlap_at_the_start_may_stay_but_not_grow),
