@@ -7,6 +7,7 @@
 #include "world/maths/sort.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
+#include "world/runtime/work_done.h"
 #include "world/terrain/fixed.h"
 #include "world/world.h"
 
@@ -266,6 +267,7 @@ static void keep(struct response_context *context, const struct persistent_conta
     }
     if (asks && one_moves(context, known) && touch_at_end(context, known))
         contact.pressed_tick = (uint32_t)context->next->head->tick;
+    work_done();
     if (is_old(context, &contact) && one_moves(context, known))
         end(context, known, CONTACT_END_PARTED);
     else

@@ -12,6 +12,7 @@
 #include "world/maths/sort.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
+#include "world/runtime/work_done.h"
 #include "world/state.h"
 #include "world/world.h"
 
@@ -202,6 +203,7 @@ static void gather(struct response_context *context, const struct contact *first
             !pair_filter_stands(&context->input.detect, contact.b & ~PAIR_FIXED))
             continue;
         take(context, &contact);
+        work_done();
     }
 }
 

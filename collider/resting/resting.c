@@ -47,7 +47,7 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
 {
     uint32_t rows = world->params->capacity;
     uint64_t pairs = world->params->contact_slots;
-    *resting = (struct resting){.workers = workers};
+    *resting = (struct resting){.workers = workers, .capacity = world->params->contact_slots};
     resting->gap = reserve_take(pairs, sizeof *resting->gap);
     resting->pair = reserve_take(pairs, sizeof *resting->pair);
     resting->point = reserve_take(pairs * POINTS_A_PAIR, sizeof *resting->point);
@@ -77,6 +77,21 @@ void resting_free(struct resting *resting)
     free(resting->parts);
     reserve_free(resting->moved);
     *resting = (struct resting){0};
+}
+
+/* Makes room for so many pairs. There may be more than contacts in the table, because bodies that
+ * are new can overlap all others. What the arrays held is lost. */
+static void make_room(struct resting *resting, const struct world *world, uint32_t pairs)
+{
+    uint64_t more = 2 * (uint64_t)pairs, bodies = more + world->params->capacity;
+    if (pairs <= resting->capacity)
+        return;
+    resting->gap = reserve_grow(resting->gap, 0, more, sizeof *resting->gap);
+    resting->pair = reserve_grow(resting->pair, 0, more, sizeof *resting->pair);
+    resting->point = reserve_grow(resting->point, 0, more * POINTS_A_PAIR, sizeof *resting->point);
+    resting->body = reserve_grow(resting->body, 0, bodies, sizeof *resting->body);
+    resting->row = reserve_grow(resting->row, 0, bodies, sizeof *resting->row);
+    resting->capacity = (uint32_t)more;
 }
 
 /* --- bodies ------------------------------------------------------------------------------------*/
@@ -446,6 +461,7 @@ void resting_solve(struct resting *resting, struct response_context *context)
     resting->moved_count = 0;
     resting->pairs = resting->points = resting->bodies = 0;
     contact_groups_find(&resting->groups, context);
+    make_room(resting, context->world, resting->groups.count);
     thread_pool_run(resting->workers, measure_some, &(struct gap_job){resting, context},
                     resting->groups.count, PAIRS_A_PIECE);
     for (uint32_t i = 0; i < resting->groups.count; i++)

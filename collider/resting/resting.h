@@ -37,7 +37,7 @@ struct resting {
     struct contact_groups groups;
     struct resting_gap *gap; /* [groups.count] */
     struct resting_pair *pair;
-    uint32_t pairs;
+    uint32_t pairs, capacity;
     struct level_contact *point;
     uint32_t points;
     struct level_body *body;
