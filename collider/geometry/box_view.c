@@ -125,8 +125,8 @@ static struct box around(const struct box *box, uint32_t count)
 {
     struct box all;
     for (int k = 0; k < 3; k++) {
-        double low = box[0].middle[k] - box[0].half[k], high = box[0].middle[k] + box[0].half[k];
-        for (uint32_t i = 1; i < count; i++) {
+        double low = INFINITY, high = -INFINITY;
+        for (uint32_t i = 0; i < count; i++) {
             low = maths_min(low, box[i].middle[k] - box[i].half[k]);
             high = maths_max(high, box[i].middle[k] + box[i].half[k]);
         }

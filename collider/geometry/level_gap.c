@@ -77,6 +77,7 @@ static void measure_overlap(const struct body_pair *bodies, const struct hull *h
                             double enough_m)
 {
     overlap->gap->gap_m = -INFINITY;
+    overlap->gap->normal = bodies->line;
     if (enough_m < INFINITY)
         shallower(overlap, bodies->last);
     faces(overlap, bodies->a, &overlap->now->a.turn, hull_a, 1.0, enough_m);

@@ -96,9 +96,10 @@ static double turned_reach(const struct hulls *hulls, struct vec3 point)
 static double raised_reach(const struct hulls *hulls, struct vec3 point, double low, double high)
 {
     double dx = point.x - hulls->gun_pivot.x, dy = point.y - hulls->gun_pivot.y, most = 0.0;
-    for (double up = low; up < high + STEP; up += STEP) {
+    uint32_t steps = (uint32_t)((high - low) / STEP) + 1;
+    for (uint32_t i = 0; i <= steps; i++) {
         double sine, cosine;
-        maths_sincos(maths_min(up, high), &sine, &cosine);
+        maths_sincos(maths_min(low + i * STEP, high), &sine, &cosine);
         struct vec3 raised = {hulls->gun_pivot.x + cosine * dx - sine * dy,
                               hulls->gun_pivot.y + sine * dx + cosine * dy, point.z};
         most = maths_max(most, turned_reach(hulls, raised));
