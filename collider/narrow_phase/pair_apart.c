@@ -1,37 +1,21 @@
 /* Bounding spheres first, then a plane between the hulls. */
 #include "collider/narrow_phase/pair_apart.h"
 
-#include "world/entity/kind.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
-#include "world/terrain/fixed.h"
 #include "world/world.h"
-
-#include <errno.h>
-#include <stdlib.h>
 
 #define ROUNDING_M 1e-6 /* of distances between spheres */
 
 int pair_apart_init(struct pair_apart *apart, const struct world *world)
 {
-    uint32_t kinds = world->counts.kinds;
-    *apart = (struct pair_apart){.world = world};
-    apart->box = calloc(kinds > 0 ? kinds : 1, sizeof *apart->box);
-    apart->row = reserve_take(world->params->capacity, sizeof *apart->row);
-    if (!apart->box || !apart->row) {
-        pair_apart_free(apart);
-        errno = ENOMEM;
-        return -1;
-    }
-    for (uint32_t i = 0; i < kinds && world->params->collision.shape == SHAPE_MODEL; i++)
-        apart->box[i] =
-            hull_box_of(world->hull_vertices, &world->hulls[world->kinds[i].outer_hull]);
-    return 0;
+    *apart = (struct pair_apart){.world = world,
+                                 .row = reserve_take(world->params->capacity, sizeof *apart->row)};
+    return apart->row ? 0 : -1;
 }
 
 void pair_apart_free(struct pair_apart *apart)
 {
-    free(apart->box);
     reserve_free(apart->row);
     *apart = (struct pair_apart){0};
 }
@@ -43,7 +27,6 @@ void pair_apart_prepare(struct pair_apart *apart, const struct body_motion *moti
     if (pose->known)
         return;
     pose->body = body_motion_body(motion, row, &turn);
-    pose->kind = motion->next->entities.kind[row];
     pose->freely = pose->body.turn != NULL;
     pose->body.turn = NULL; /* it points to this function's memory */
     pose->from = rotation_matrix(pose->body.from);
@@ -77,21 +60,17 @@ static bool spheres_stay(const struct swept_body *a, const struct swept_body *b,
 
 static struct row_pose fixed_pose(const struct pair_apart *apart, uint32_t object)
 {
-    struct row_pose pose = {.body = body_motion_fixed(apart->world, object),
-                            .kind = apart->world->fixed[object].kind};
+    struct row_pose pose = {.body = body_motion_fixed(apart->world, object)};
     pose.from = pose.to = rotation_matrix(pose.body.from);
     return pose;
 }
 
-struct axis_side pair_apart_standing(const struct pair_apart *apart,
-                                     const struct body_motion *motion,
+struct axis_side pair_apart_standing(const struct body_motion *motion,
                                      const struct entities *entities, uint32_t side)
 {
     const struct swept_body body = body_motion_standing(motion, entities, side);
     const struct mat3 turn = rotation_matrix(body.from);
-    uint16_t kind =
-        side & PAIR_FIXED ? apart->world->fixed[side & ~PAIR_FIXED].kind : entities->kind[side];
-    return axis_side_of(&body, &turn, &turn, 0.0, &apart->box[kind], 0.0);
+    return axis_side_of(&body, &turn, &turn, 0.0, 0.0);
 }
 
 bool pair_apart_stays(const struct pair_apart *apart, const struct pair *pair, double time,
@@ -109,9 +88,7 @@ bool pair_apart_stays(const struct pair_apart *apart, const struct pair *pair, d
         return true;
     if (a->freely || b->freely)
         return false;
-    struct axis_side side_a =
-        axis_side_of(&a->body, &a->from, &a->to, a->rate, &apart->box[a->kind], time);
-    struct axis_side side_b =
-        axis_side_of(&b->body, &b->from, &b->to, b->rate, &apart->box[b->kind], time);
+    struct axis_side side_a = axis_side_of(&a->body, &a->from, &a->to, a->rate, time);
+    struct axis_side side_b = axis_side_of(&b->body, &b->from, &b->to, b->rate, time);
     return separating_axis_find(&side_a, &side_b, margin_m, axis);
 }

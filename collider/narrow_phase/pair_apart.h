@@ -13,14 +13,12 @@ struct row_pose {
     struct mat3 from, to;
     double spin_y; /* [rad a frame] about the vertical, at path.since */
     double rate;   /* rotation_rate() from one to the other */
-    uint16_t kind;
-    bool freely; /* it turns by no fixed axis, and only its sphere is tested */
-    bool known;  /* the row's path has not changed since */
+    bool freely;   /* it turns by no fixed axis, and only its sphere is tested */
+    bool known;    /* the row's path has not changed since */
 };
 
 struct pair_apart {
     const struct world *world;
-    struct hull_box *box; /* [kinds] of the outer hulls */
     struct row_pose *row; /* [capacity of the world] */
 };
 
@@ -36,8 +34,7 @@ void pair_apart_prepare(struct pair_apart *apart, const struct body_motion *moti
 void pair_apart_forget(struct pair_apart *apart, uint32_t row);
 
 /* Returns a side of a pair as it stands in a table, at rest. */
-struct axis_side pair_apart_standing(const struct pair_apart *apart,
-                                     const struct body_motion *motion,
+struct axis_side pair_apart_standing(const struct body_motion *motion,
                                      const struct entities *entities, uint32_t side);
 
 /* Returns true if the hulls of the pair certainly stay farther apart than margin_m [m, >= 0] from

@@ -12,25 +12,13 @@
 /* Of an arc with the acceleration c, the farthest distance from its chord is c t^2 / 8. */
 #define SAGITTA 0.125
 
-struct hull_box hull_box_of(const struct vec3 *vertices, const struct hull *hull)
-{
-    const struct vec3 *vertex = vertices + hull->first_vertex;
-    struct vec3 low = vertex[0], high = vertex[0];
-    for (uint32_t i = 1; i < hull->vertex_count; i++) {
-        low.x = maths_min(low.x, vertex[i].x), high.x = maths_max(high.x, vertex[i].x);
-        low.y = maths_min(low.y, vertex[i].y), high.y = maths_max(high.y, vertex[i].y);
-        low.z = maths_min(low.z, vertex[i].z), high.z = maths_max(high.z, vertex[i].z);
-    }
-    return (struct hull_box){vec3_lerp(low, high, 0.5), vec3_scale(vec3_sub(high, low), 0.5)};
-}
-
 struct axis_side axis_side_of(const struct swept_body *body, const struct mat3 *from,
-                              const struct mat3 *to, double rate, const struct hull_box *box,
-                              double time)
+                              const struct mat3 *to, double rate, double time)
 {
     double left = 1.0 - body->path.since, share = left > 0.0 ? (1.0 - time) / left : 0.0;
     bool parts = body->turret.outers > 0;
-    struct hull_box around = parts ? turret_path_box_all(&body->turret) : *box;
+    struct hull_box around = parts ? turret_path_box_all(&body->turret)
+                                   : (struct hull_box){body->outer->centre, body->outer->half};
     struct axis_side side = {
         .vertex = body->vertices + body->outer->first_vertex,
         .count = parts ? 0 : body->outer->vertex_count,

@@ -24,15 +24,11 @@ struct axis_side {
     bool still; /* both ends are the same */
 };
 
-/* Returns the box around an outer hull. */
-struct hull_box hull_box_of(const struct vec3 *vertices, const struct hull *hull);
-
 /* Returns a body from `time` in [path.since, 1] to 1. from, to: the matrices of body->from and
- * body->to; rate: rotation_rate() of them. box: of the outer
- * hull, not scaled. The body must not turn freely. */
+ * body->to; rate: rotation_rate() of them. The body must not turn
+ * freely. */
 struct axis_side axis_side_of(const struct swept_body *body, const struct mat3 *from,
-                              const struct mat3 *to, double rate, const struct hull_box *box,
-                              double time);
+                              const struct mat3 *to, double rate, double time);
 
 /* Returns true if the outer hulls stay farther apart along the unit axis, which points from a to b,
  * than margin_m, all the time. */

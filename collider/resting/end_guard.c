@@ -76,8 +76,7 @@ static const struct axis_side *side_of(struct end_guard *guard,
                                        const struct response_context *context, uint32_t row)
 {
     if (!guard->posed[row]) {
-        guard->side[row] = pair_apart_standing(&context->contacts->apart, context->motion,
-                                               &context->next->entities, row);
+        guard->side[row] = pair_apart_standing(context->motion, &context->next->entities, row);
         guard->posed_row[guard->posed_count++] = row;
     }
     guard->posed[row] = 1;
@@ -93,8 +92,7 @@ static bool is_apart(const struct end_guard *guard, const struct response_contex
     const struct axis_side *b = &guard->side[pair->b & ~PAIR_FIXED];
     struct axis_side fixed;
     if (pair->b & PAIR_FIXED) {
-        fixed = pair_apart_standing(&contacts->apart, context->motion, &context->next->entities,
-                                    pair->b);
+        fixed = pair_apart_standing(context->motion, &context->next->entities, pair->b);
         b = &fixed;
     }
     return separating_axis_find(&guard->side[pair->a], b, 0.0, &contacts->axis[index]);
@@ -277,8 +275,7 @@ static void run_round(struct end_guard *guard, const struct resting *resting,
         if (guard->sent_back[row] == 0)
             guard->touched[guard->touched_count++] = row;
         send_back(guard, context, row);
-        guard->side[row] = pair_apart_standing(&context->contacts->apart, context->motion,
-                                               &context->next->entities, row);
+        guard->side[row] = pair_apart_standing(context->motion, &context->next->entities, row);
         look_at(guard, row);
     }
 }

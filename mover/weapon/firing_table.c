@@ -34,6 +34,8 @@ void firing_table_make(struct firing_table *table, const struct kind *munition)
 {
     struct trajectory flight = {.speed_mps = maths_max(munition->max_speed_mps, SLOWEST_MPS)};
     table->munition = munition;
+    if (munition->drag == DRAG_NONE)
+        return; /* its data need no table */
     for (unsigned row = 0; row < FIRING_TABLE_ROWS; row++) {
         table->flight_s[row] = flight.time_s;
         table->drop_m[row] = flight.drop_m;
