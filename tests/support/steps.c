@@ -280,6 +280,32 @@ double steps_gap(const struct fixture *fixture, const struct entities *entities,
     return level_gap_least(&body_a, &body_b, 0.0, 9.0);
 }
 
+double steps_deepest(const struct fixture *fixture, uint32_t count)
+{
+    const struct body_motion *motion = &fixture->stepper.collider.motion;
+    struct state now = fixture_state(fixture);
+    double least = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        struct swept_body a = body_motion_standing(motion, &now.entities, i);
+        for (uint32_t j = i + 1; j < count; j++) {
+            struct swept_body b = body_motion_standing(motion, &now.entities, j);
+            if (vec3_length(vec3_sub(a.path.at, b.path.at)) < a.bound_m + b.bound_m)
+                least = maths_min(least, level_gap_least(&a, &b, 0.0, 0.0));
+        }
+    }
+    return -least;
+}
+
+double steps_off_the_ground(const struct fixture *fixture, uint32_t count)
+{
+    struct state now = fixture_state(fixture);
+    const struct entities *e = &now.entities;
+    double worst = 0.0;
+    for (uint32_t i = 0; i < count; i++)
+        worst = maths_max(worst, fabs(e->y[i] - steps_ground_at(fixture, e->x[i], e->z[i])));
+    return worst;
+}
+
 void steps_move(struct fixture *fixture)
 {
     struct view *view = &fixture->view;

@@ -80,6 +80,12 @@ void steps_respond_end(struct response_context *context);
 double steps_gap(const struct fixture *fixture, const struct entities *entities, uint32_t a,
                  uint32_t b);
 
+/* Returns the deepest overlap of any two of the first rows in the committed frame [m]. */
+double steps_deepest(const struct fixture *fixture, uint32_t count);
+
+/* Returns how far one of the first rows is off the ground under its middle at most [m]. */
+double steps_off_the_ground(const struct fixture *fixture, uint32_t count);
+
 /* --- purity ------------------------------------------------------------------------------------*/
 
 /* Computes the mover's step alone, from the committed frame into the moved table. May be repeated.

@@ -2,7 +2,6 @@
  * and a contact is reported when it begins and when it ends (thesis rows 36, 39, 46). SEED=n turns
  * the rings. */
 #include "tests/support/steps.h"
-#include "collider/geometry/level_gap.h"
 #include "world/params.h"
 
 #include <stdarg.h>
@@ -30,37 +29,6 @@ static void open_world(double hz)
              "collision = { shape = \"model\"; };\n",
              hz);
     fixture_open(&f, text);
-}
-
-/* --- what is measured --------------------------------------------------------------------------*/
-
-/* Returns the deepest overlap of any two of the first rows [m]. */
-static double deepest(uint32_t count)
-{
-    struct state now = fixture_state(&f);
-    const struct entities *e = &now.entities;
-    const struct body_motion *motion = &f.stepper.collider.motion;
-    double least = 0.0;
-    for (uint32_t i = 0; i < count; i++) {
-        for (uint32_t j = i + 1; j < count; j++) {
-            struct swept_body a = body_motion_standing(motion, e, i);
-            struct swept_body b = body_motion_standing(motion, e, j);
-            struct vec3 between = vec3_sub(a.path.at, b.path.at);
-            if (vec3_length(between) < a.bound_m + b.bound_m)
-                least = maths_min(least, level_gap_least(&a, &b, 0.0, 0.0));
-        }
-    }
-    return -least;
-}
-
-static double off_the_ground(uint32_t count)
-{
-    struct state now = fixture_state(&f);
-    const struct entities *e = &now.entities;
-    double worst = 0.0;
-    for (uint32_t i = 0; i < count; i++)
-        worst = maths_max(worst, fabs(e->y[i] - steps_ground_at(&f, e->x[i], e->z[i])));
-    return worst;
 }
 
 /* --- rings -------------------------------------------------------------------------------------*/
@@ -104,8 +72,8 @@ static void push_rings(uint32_t count, double hz, double seconds, uint64_t seed)
     double overlap = 0.0, height = 0.0;
     for (uint32_t frame = 0; frame < (uint32_t)(seconds * hz); frame++) {
         fixture_continue(&f, 1);
-        overlap = maths_max(overlap, deepest(count));
-        height = maths_max(height, off_the_ground(count));
+        overlap = maths_max(overlap, steps_deepest(&f, count));
+        height = maths_max(height, steps_off_the_ground(&f, count));
     }
     struct state now = fixture_state(&f);
     double told = (double)now.head->tally.collisions / now.head->contact_count;
@@ -140,9 +108,9 @@ static void test_row_46_bodies_that_start_overlapped_part(void **state)
     fixture_put(
         &f, (struct fixture_entity){.kind = "tank", .at = {25003.0, FIXTURE_GROUND_M, 25000.0}});
     fixture_continue(&f, 1); /* from then on there is a committed frame */
-    double before = deepest(2);
+    double before = steps_deepest(&f, 2);
     fixture_continue(&f, FRAMES_APART);
-    double after = deepest(2);
+    double after = steps_deepest(&f, 2);
     print_message("overlap %.3f m at the start, %.4f m after %d frames\n", before, after,
                   FRAMES_APART);
     assert_true(before > 0.3);

@@ -2,7 +2,6 @@
  * 46). They do not get deeper into each other, nobody is flung away or lifted, and no frame takes
  * without bound. SEED=n turns the vehicles. */
 #include "tests/support/steps.h"
-#include "collider/geometry/level_gap.h"
 #include "world/params.h"
 
 #include <stdarg.h>
@@ -36,37 +35,6 @@ static void open_world(double hz)
 }
 
 /* --- what is measured --------------------------------------------------------------------------*/
-
-static struct swept_body body_of(const struct entities *e, uint32_t row)
-{
-    return body_motion_standing(&f.stepper.collider.motion, e, row);
-}
-
-/* Returns the deepest overlap of any two of the first rows [m]. */
-static double deepest(uint32_t count)
-{
-    struct state now = fixture_state(&f);
-    double least = 0.0;
-    for (uint32_t i = 0; i < count; i++) {
-        struct swept_body a = body_of(&now.entities, i);
-        for (uint32_t j = i + 1; j < count; j++) {
-            struct swept_body b = body_of(&now.entities, j);
-            if (vec3_length(vec3_sub(a.path.at, b.path.at)) < a.bound_m + b.bound_m)
-                least = maths_min(least, level_gap_least(&a, &b, 0.0, 0.0));
-        }
-    }
-    return -least;
-}
-
-static double off_the_ground(uint32_t count)
-{
-    struct state now = fixture_state(&f);
-    const struct entities *e = &now.entities;
-    double worst = 0.0;
-    for (uint32_t i = 0; i < count; i++)
-        worst = maths_max(worst, fabs(e->y[i] - steps_ground_at(&f, e->x[i], e->z[i])));
-    return worst;
-}
 
 static double fastest(uint32_t count)
 {
@@ -102,12 +70,12 @@ static void run_column(double hz)
         double began = now_s();
         fixture_continue(&f, 1);
         longest = maths_max(longest, now_s() - began);
-        overlap = maths_max(overlap, deepest(JEEPS + 1));
+        overlap = maths_max(overlap, steps_deepest(&f, JEEPS + 1));
     }
     print_message("column of %d jeeps at %g Hz: overlap %.3f mm, %.1f ms at most\n", JEEPS, hz,
                   1e3 * overlap, 1e3 * longest);
     assert_true(overlap <= OVERLAP_M);
-    assert_true(off_the_ground(JEEPS + 1) <= HELD_M);
+    assert_true(steps_off_the_ground(&f, JEEPS + 1) <= HELD_M);
     assert_true(longest < SLOW_S);
     fixture_close(&f);
 }
@@ -139,13 +107,13 @@ static void test_row_46_a_crowd_at_one_place_parts(void **state)
         longest = maths_max(longest, took);
         sum += took;
         fast = maths_max(fast, fastest(CROWD));
-        height = maths_max(height, off_the_ground(CROWD));
+        height = maths_max(height, steps_off_the_ground(&f, CROWD));
     }
     print_message("%d at one place: %.2f m deep after %d frames, %.1f ms at most, %.1f ms on "
                   "average, %.2f m/s at most, off the ground %.1e m\n",
-                  CROWD, deepest(CROWD), CROWD_FRAMES, 1e3 * longest, 1e3 * sum / CROWD_FRAMES,
-                  fast, height);
-    assert_true(deepest(CROWD) < CROWD_DEEP_M);
+                  CROWD, steps_deepest(&f, CROWD), CROWD_FRAMES, 1e3 * longest,
+                  1e3 * sum / CROWD_FRAMES, fast, height);
+    assert_true(steps_deepest(&f, CROWD) < CROWD_DEEP_M);
     assert_true(height <= HELD_M);
     assert_true(fast <= FASTEST_MPS);
     assert_true(longest < SLOW_S);
