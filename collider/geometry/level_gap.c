@@ -10,14 +10,19 @@
 /* A shorter contact is treated as a point [m]. */
 #define EDGE_LEAST_M 0.01
 
+/* Hulls that a plane separates by this much more than the margin are farther apart than it, and GJK
+ * would say so: its error is a tenth of this [m]. */
+#define SURELY_M 1e-8
+
 /* The two bodies at one time. */
 struct body_pair {
     const struct swept_body *a, *b;
     struct body_pose pose_a, pose_b;
     struct vec3 between; /* [m] from a's position to b's */
     double time;
-    struct vec3 line; /* unit, horizontal: from a's position to b's */
-    struct vec3 last; /* the normal of the last overlap, or the line */
+    struct vec3 line;   /* unit, horizontal: from a's position to b's */
+    struct vec3 last;   /* the normal of the last overlap, or the line */
+    struct vec3 *plane; /* [LEVEL_GAP_PLANES] normals that may separate hulls, or NULL */
 };
 
 /* --- directions --------------------------------------------------------------------------------*/
@@ -121,6 +126,32 @@ static void measure_distance(const struct body_pair *bodies, const struct gjk *g
     gap->gap_m = gjk->distance_m / maths_max(share, LEVEL_MIN);
 }
 
+static bool is_known(struct vec3 plane)
+{
+    return vec3_dot(plane, plane) > 0.0;
+}
+
+/* Returns true if a known plane separates the hulls by more than a length. A plane between two
+ * convex bodies shows a lower bound of their distance, whatever plane it is. */
+static bool plane_separates(const struct body_pair *bodies, const struct relative_pose *now,
+                            double length_m)
+{
+    for (uint32_t i = 0; bodies->plane && i < LEVEL_GAP_PLANES; i++) {
+        if (is_known(bodies->plane[i]) &&
+            hull_separation_now(now, bodies->plane[i]) > length_m + SURELY_M)
+            return true;
+    }
+    return false;
+}
+
+/* Keeps the normal of hulls that are apart for the next ones. The first plane is that of the outer
+ * hulls, if these have one. */
+static void learn(const struct body_pair *bodies, struct vec3 normal)
+{
+    if (bodies->plane)
+        bodies->plane[is_known(bodies->plane[0])] = normal;
+}
+
 /* Returns false if the hulls are farther apart than the margin. points: finds the points, too. Else
  * the gap is at least margin_m if it is not below it. */
 static bool measure(struct body_pair *bodies, const struct hull *hull_a, const struct hull *hull_b,
@@ -130,13 +161,15 @@ static bool measure(struct body_pair *bodies, const struct hull *hull_a, const s
         relative_pose_of(&bodies->pose_a, hull_a, &bodies->pose_b, hull_b, bodies->time);
     double radii = hull_a->radius_m * bodies->a->scale + hull_b->radius_m * bodies->b->scale;
     double near = maths_max(margin_m, 0.0);
-    if (now.centres_m - radii > near)
+    if (now.centres_m - radii > near || plane_separates(bodies, &now, near))
         return false;
     struct gjk_start start = {.guess = now.towards};
     const struct gjk gjk = gjk_distance_within(&now.a, &now.b, near, &start);
     struct vec3 normal = gjk.normal;
-    if (gjk.distance_m > near)
+    if (gjk.distance_m > near) {
+        learn(bodies, gjk.normal);
         return false;
+    }
     if (gjk.distance_m > 0.0) {
         measure_distance(bodies, &gjk, gap);
     } else {
@@ -177,14 +210,15 @@ static struct body_pose pose_at(const struct swept_body *body, double time)
     return (struct body_pose){.body = body, .turn = rotation_matrix(turned)};
 }
 
-static struct body_pair body_pair_of(const struct swept_body *a, const struct swept_body *b,
+static struct body_pair body_pair_of(const struct body_pose *a, const struct body_pose *b,
                                      double time)
 {
-    struct vec3 between = hull_separation_at(&a->path, &b->path, time), line = line_of(between);
-    return (struct body_pair){.a = a,
-                              .b = b,
-                              .pose_a = pose_at(a, time),
-                              .pose_b = pose_at(b, time),
+    struct vec3 between = hull_separation_at(&a->body->path, &b->body->path, time);
+    struct vec3 line = line_of(between);
+    return (struct body_pair){.a = a->body,
+                              .b = b->body,
+                              .pose_a = *a,
+                              .pose_b = *b,
                               .between = between,
                               .time = time,
                               .line = line,
@@ -217,14 +251,28 @@ static uint32_t search(struct body_pair *bodies, double *margin_m, struct level_
 uint32_t level_gap_find(const struct swept_body *a, const struct swept_body *b, double time,
                         double margin_m, struct level_gap *gap)
 {
-    struct body_pair bodies = body_pair_of(a, b, time);
+    struct body_pose pose_a = pose_at(a, time), pose_b = pose_at(b, time);
+    struct body_pair bodies = body_pair_of(&pose_a, &pose_b, time);
     return search(&bodies, &margin_m, gap);
 }
 
 double level_gap_least(const struct swept_body *a, const struct swept_body *b, double time,
                        double margin_m)
 {
-    struct body_pair bodies = body_pair_of(a, b, time);
+    struct body_pose pose_a = pose_at(a, time), pose_b = pose_at(b, time);
+    struct body_pair bodies = body_pair_of(&pose_a, &pose_b, time);
     search(&bodies, &margin_m, NULL);
     return margin_m;
+}
+
+double level_gap_depth(const struct turned_body *a, const struct turned_body *b,
+                       struct vec3 plane[LEVEL_GAP_PLANES])
+{
+    const struct body_pose pose_a = {.body = a->body, .turn = a->turn};
+    const struct body_pose pose_b = {.body = b->body, .turn = b->turn};
+    struct body_pair bodies = body_pair_of(&pose_a, &pose_b, 0.0);
+    double gap_m = 0.0;
+    bodies.plane = plane;
+    search(&bodies, &gap_m, NULL);
+    return gap_m;
 }

@@ -13,12 +13,21 @@
 /* A normal with a smaller horizontal part is too steep for bodies that the ground holds. */
 #define LEVEL_MIN 0.2
 
+/* Normals that are tried for a pair of bodies before any search. */
+#define LEVEL_GAP_PLANES 2
+
 /* Two hulls that touch or nearly do. */
 struct level_gap {
     struct vec3 normal;   /* unit, horizontal, from a to b */
     double gap_m;         /* along the normal; below 0 the depth of the overlap */
     struct vec3 point[2]; /* [m, world] the ends of the contact, across the normal */
     uint32_t points;      /* 1 or 2 */
+};
+
+/* A body that stands still, and the matrix of its rotation. */
+struct turned_body {
+    const struct swept_body *body;
+    struct mat3 turn;
 };
 
 /* Finds the gaps of the pairs of hulls that are within margin_m [m, >= 0] of each other at a time
@@ -32,5 +41,12 @@ uint32_t level_gap_find(const struct swept_body *a, const struct swept_body *b, 
 /* Returns the smallest of those gaps [m], or margin_m if all are larger. */
 double level_gap_least(const struct swept_body *a, const struct swept_body *b, double time,
                        double margin_m);
+
+/* Returns the smallest of the gaps between bodies that stand still, if that is below 0, else 0: the
+ * same to the bit as level_gap_least() with a margin of 0. plane: unit normals from a to b, or 0,
+ * that are tried first; what a search finds is left there. Hulls that one of them separates
+ * are not searched. */
+double level_gap_depth(const struct turned_body *a, const struct turned_body *b,
+                       struct vec3 plane[LEVEL_GAP_PLANES]);
 
 #endif

@@ -45,7 +45,7 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
     contacts->swept = reserve_take(pairs, sizeof *contacts->swept);
     contacts->marks = reserve_take(pairs, sizeof *contacts->marks);
     contacts->impacts = reserve_take(pairs, sizeof *contacts->impacts);
-    contacts->axis = reserve_take(pairs, sizeof *contacts->axis);
+    contacts->known = reserve_take(pairs, sizeof *contacts->known);
     contacts->rest = reserve_take(pairs, sizeof *contacts->rest);
     contacts->rest_capacity = REST_POINTS_A_SLOT * world->params->contact_slots;
     contacts->rest_point = reserve_take(contacts->rest_capacity, sizeof *contacts->rest_point);
@@ -57,7 +57,7 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
     contacts->strayed = reserve_take(rows, sizeof *contacts->strayed);
     contacts->strays = calloc(rows, sizeof *contacts->strays);
     if (contacts->heap.contact && contacts->pair && contacts->met && contacts->swept &&
-        contacts->marks && contacts->impacts && contacts->axis && contacts->rest &&
+        contacts->marks && contacts->impacts && contacts->known && contacts->rest &&
         contacts->rest_point && contacts->link && contacts->head && contacts->version &&
         contacts->strayed && contacts->strays && pair_apart_init(&contacts->apart, world) == 0 &&
         pair_list_init(&contacts->near, broad_phase_found_most(world)) == 0)
@@ -75,7 +75,7 @@ void contact_queue_free(struct contact_queue *contacts)
     reserve_free(contacts->swept);
     reserve_free(contacts->marks);
     reserve_free(contacts->impacts);
-    reserve_free(contacts->axis);
+    reserve_free(contacts->known);
     reserve_free(contacts->rest);
     reserve_free(contacts->rest_point);
     pair_apart_free(&contacts->apart);
@@ -105,7 +105,7 @@ static void more_pairs(struct contact_queue *contacts)
     contacts->swept = reserve_grow(contacts->swept, held, more, sizeof *contacts->swept);
     contacts->marks = reserve_grow(contacts->marks, held, more, sizeof *contacts->marks);
     contacts->impacts = reserve_grow(contacts->impacts, held, more, sizeof *contacts->impacts);
-    contacts->axis = reserve_grow(contacts->axis, held, more, sizeof *contacts->axis);
+    contacts->known = reserve_grow(contacts->known, held, more, sizeof *contacts->known);
     contacts->rest = reserve_grow(contacts->rest, held, more, sizeof *contacts->rest);
     contacts->link = reserve_grow(contacts->link, contacts->link_count, 2 * (uint64_t)more,
                                   sizeof *contacts->link);
@@ -122,7 +122,7 @@ static uint32_t add_pair(struct contact_queue *contacts, struct pair pair)
     contacts->swept[index] = 0;
     contacts->marks[index] = 0;
     contacts->impacts[index] = (struct pair_impacts){0};
-    contacts->axis[index] = (struct vec3){0.0, 0.0, 0.0};
+    contacts->known[index] = (struct pair_known){.before_m = PAIR_NOT_MEASURED};
     contacts->rest[index] = (struct rest_span){0, 0};
     link_row(contacts, pair.a, index);
     if (!(pair.b & PAIR_FIXED))
@@ -314,7 +314,7 @@ static bool sweep_pair(struct contact_queue *contacts, const struct contact_inpu
         (contacts->proves && still_rests(contacts, input, index)))
         return false;
     if (contacts->proves &&
-        pair_apart_stays(&contacts->apart, pair, from, SKIN_M, &contacts->axis[index]))
+        pair_apart_stays(&contacts->apart, pair, from, SKIN_M, &contacts->known[index].plane[0]))
         return false;
     *contact = (struct contact){.a = pair->a,
                                 .b = pair->b,

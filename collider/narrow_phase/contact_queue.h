@@ -4,6 +4,7 @@
 #define JOLON_COLLIDER_NARROW_PHASE_CONTACT_QUEUE_H
 
 #include "collider/broad_phase/broad_phase.h"
+#include "collider/geometry/level_gap.h"
 #include "collider/narrow_phase/narrow_phase.h"
 #include "collider/narrow_phase/pair_apart.h"
 
@@ -55,6 +56,16 @@ struct pair_impacts {
     float impulse_ns; /* of all together */
 };
 
+#define PAIR_NOT_MEASURED 1.0 /* [m] no gap of overlapping bodies */
+
+/* What the frame has found out about a pair. It saves work and changes no result. */
+struct pair_known {
+    struct vec3 plane[LEVEL_GAP_PLANES]; /* unit, from a to b: normals that may separate the bodies,
+                                            the first one their outer hulls; 0: none known */
+    double before_m; /* their gap in the committed frame, 0 if they were apart, or
+                        PAIR_NOT_MEASURED */
+};
+
 struct contact_link {
     uint32_t pair; /* index */
     uint32_t next; /* link + 1 */
@@ -79,8 +90,8 @@ struct contact_queue {
     uint32_t *swept;          /* [pair] the last change that swept it, 0: none */
     uint8_t *marks;           /* [pair] of CONTACT_RESTS to CONTACT_PARTS */
     struct pair_impacts *impacts; /* [pair] */
-    struct vec3 *axis;      /* [pair] unit, from a to b: may separate the bodies; 0: none known */
-    struct rest_span *rest; /* [pair] where its bodies rest on each other */
+    struct pair_known *known;     /* [pair] */
+    struct rest_span *rest;       /* [pair] where its bodies rest on each other */
     struct rest_point *rest_point;
     uint32_t rest_points, rest_capacity;
     uint32_t change; /* changes so far in this frame */

@@ -65,14 +65,6 @@ static struct row_pose fixed_pose(const struct pair_apart *apart, uint32_t objec
     return pose;
 }
 
-struct axis_side pair_apart_standing(const struct body_motion *motion,
-                                     const struct entities *entities, uint32_t side)
-{
-    const struct swept_body body = body_motion_standing(motion, entities, side);
-    const struct mat3 turn = rotation_matrix(body.from);
-    return axis_side_of(&body, &turn, &turn, 0.0, 0.0);
-}
-
 bool pair_apart_stays(const struct pair_apart *apart, const struct pair *pair, double time,
                       double margin_m, struct vec3 *axis)
 {

@@ -33,10 +33,6 @@ void pair_apart_prepare(struct pair_apart *apart, const struct body_motion *moti
 /* The row's path has changed, or the frame is over. */
 void pair_apart_forget(struct pair_apart *apart, uint32_t row);
 
-/* Returns a side of a pair as it stands in a table, at rest. */
-struct axis_side pair_apart_standing(const struct body_motion *motion,
-                                     const struct entities *entities, uint32_t side);
-
 /* Returns true if the hulls of the pair certainly stay farther apart than margin_m [m, >= 0] from
  * `time` to 1. False promises nothing. *axis may show it, and is kept for the next time (see
  * separating_axis_find). The rows must be prepared. Any thread. */

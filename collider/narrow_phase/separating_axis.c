@@ -90,6 +90,8 @@ bool separating_axis_holds(const struct axis_side *a, const struct axis_side *b,
 {
     const struct vec3 back = vec3_scale(axis, -1.0);
     double enough = enough_for(a, b, margin_m);
+    if (box_separation(a, b, axis, enough) > enough)
+        return true;
     int ends = a->still && b->still ? 1 : 2;
     for (int end = 0; end < ends; end++) {
         double apart =

@@ -18,13 +18,20 @@
 #define PAIRS_A_PIECE  8u
 #define SENT_BACK_MOST 4u /* the last time all the way; this bounds the work of a frame */
 
+/* A body at rest. */
+struct placed_body {
+    struct swept_body body;
+    struct mat3 turn;
+    struct axis_side side;
+};
+
 int end_guard_init(struct end_guard *guard, const struct world *world, struct thread_pool *workers)
 {
     uint32_t rows = world->params->capacity;
     *guard =
         (struct end_guard){.workers = workers, .pair_capacity = pair_filter_pairs_first(world)};
     guard->pair = reserve_take(guard->pair_capacity, sizeof *guard->pair);
-    guard->side = reserve_take(rows, sizeof *guard->side);
+    guard->stands = reserve_take(rows, sizeof *guard->stands);
     guard->posed = calloc(rows, sizeof *guard->posed);
     guard->posed_row = reserve_take(rows, sizeof *guard->posed_row);
     guard->row = reserve_take(rows, sizeof *guard->row);
@@ -33,7 +40,7 @@ int end_guard_init(struct end_guard *guard, const struct world *world, struct th
     guard->listed = calloc(rows, sizeof *guard->listed);
     guard->marked = calloc(rows, sizeof *guard->marked);
     guard->sent_back = calloc(rows, sizeof *guard->sent_back);
-    if (guard->pair && guard->side && guard->posed && guard->posed_row && guard->row &&
+    if (guard->pair && guard->stands && guard->posed && guard->posed_row && guard->row &&
         guard->back && guard->touched && guard->listed && guard->marked && guard->sent_back)
         return 0;
     end_guard_free(guard);
@@ -44,7 +51,7 @@ int end_guard_init(struct end_guard *guard, const struct world *world, struct th
 void end_guard_free(struct end_guard *guard)
 {
     reserve_free(guard->pair);
-    reserve_free(guard->side);
+    reserve_free(guard->stands);
     free(guard->posed);
     reserve_free(guard->posed_row);
     reserve_free(guard->row);
@@ -58,53 +65,77 @@ void end_guard_free(struct end_guard *guard)
 
 /* --- poses -------------------------------------------------------------------------------------*/
 
-/* Returns the gap of a pair in a table: below 0 for bodies that overlap, else 0 [m]. */
-static double gap_in(const struct response_context *context, const struct entities *e,
-                     const struct pair *pair)
+static void stand(const struct body_motion *motion, const struct entities *e, uint32_t side,
+                  struct placed_body *stands)
 {
-    struct swept_body a = body_motion_standing(context->motion, e, pair->a);
-    struct swept_body b = body_motion_standing(context->motion, e, pair->b);
-    struct vec3 between = vec3_sub(b.path.at, a.path.at);
-    double reach = a.bound_m + b.bound_m;
+    stands->body = body_motion_standing(motion, e, side);
+    stands->turn = rotation_matrix(stands->body.from);
+    stands->side = axis_side_of(&stands->body, &stands->turn, &stands->turn, 0.0, 0.0);
+}
+
+/* Finds out how the row stands at the frame's end, if that is not known. */
+static void stand_at_end(struct end_guard *guard, const struct response_context *context,
+                         uint32_t row)
+{
+    if (guard->posed[row])
+        return;
+    stand(context->motion, &context->next->entities, row, &guard->stands[row]);
+    guard->posed_row[guard->posed_count++] = row;
+    guard->posed[row] = 1;
+}
+
+/* Returns the gap of two bodies: below 0 if they overlap, else 0 [m]. Spheres and the plane between
+ * their outer hulls are asked first: both are proofs that no two hulls overlap. */
+static double gap_of(const struct placed_body *a, const struct placed_body *b,
+                     struct pair_known *known)
+{
+    struct vec3 between = vec3_sub(b->body.path.at, a->body.path.at);
+    double reach = a->body.bound_m + b->body.bound_m;
+    const struct turned_body turned_a = {&a->body, a->turn}, turned_b = {&b->body, b->turn};
     if (vec3_dot(between, between) > reach * reach)
         return 0.0;
-    return level_gap_least(&a, &b, 0.0, 0.0);
+    if (vec3_dot(known->plane[0], known->plane[0]) > 0.0 &&
+        separating_axis_holds(&a->side, &b->side, known->plane[0], 0.0))
+        return 0.0;
+    return level_gap_depth(&turned_a, &turned_b, known->plane);
 }
 
-/* Returns how the row stands at the frame's end. */
-static const struct axis_side *side_of(struct end_guard *guard,
-                                       const struct response_context *context, uint32_t row)
+/* Returns the gap of a pair at the end of the frame. */
+static double gap_after(const struct end_guard *guard, const struct response_context *context,
+                        const struct pair *pair, struct pair_known *known)
 {
-    if (!guard->posed[row]) {
-        guard->side[row] = pair_apart_standing(context->motion, &context->next->entities, row);
-        guard->posed_row[guard->posed_count++] = row;
-    }
-    guard->posed[row] = 1;
-    return &guard->side[row];
+    struct placed_body fixed;
+    if (!(pair->b & PAIR_FIXED))
+        return gap_of(&guard->stands[pair->a], &guard->stands[pair->b], known);
+    stand(context->motion, &context->next->entities, pair->b, &fixed);
+    return gap_of(&guard->stands[pair->a], &fixed, known);
 }
 
-/* Returns true if the pair ends the frame apart. */
-static bool is_apart(const struct end_guard *guard, const struct response_context *context,
-                     uint32_t index)
+/* Returns the gap of a pair when the frame began, which is measured once. */
+static double gap_before(const struct response_context *context, const struct pair *pair,
+                         struct pair_known *known)
 {
-    const struct contact_queue *contacts = context->contacts;
-    const struct pair *pair = &contacts->pair[index];
-    const struct axis_side *b = &guard->side[pair->b & ~PAIR_FIXED];
-    struct axis_side fixed;
-    if (pair->b & PAIR_FIXED) {
-        fixed = pair_apart_standing(context->motion, &context->next->entities, pair->b);
-        b = &fixed;
-    }
-    return separating_axis_find(&guard->side[pair->a], b, 0.0, &contacts->axis[index]);
+    const struct entities *w = &context->motion->committed->entities;
+    struct placed_body a, b;
+    if (known->before_m != PAIR_NOT_MEASURED)
+        return known->before_m;
+    stand(context->motion, w, pair->a, &a);
+    stand(context->motion, w, pair->b, &b);
+    known->before_m = gap_of(&a, &b, known);
+    return known->before_m;
 }
 
-/* Returns true if the pair ends the frame deeper in each other than it began it. */
-static bool deeper(const struct response_context *context, const struct pair *pair)
+/* Returns true if the pair ends the frame deeper in each other than it began it. Pairs are measured
+ * on all workers, each by one. */
+static bool deeper(const struct end_guard *guard, const struct response_context *context,
+                   uint32_t index)
 {
-    double after = gap_in(context, &context->next->entities, pair);
+    const struct pair *pair = &context->contacts->pair[index];
+    struct pair_known *known = &context->contacts->known[index];
+    double after = gap_after(guard, context, pair, known);
     if (after >= -ROUNDING_M)
         return false;
-    double before = gap_in(context, &context->motion->committed->entities, pair);
+    double before = gap_before(context, pair, known);
     return before > -RESTING_PARTS_M && after < before - EXACT_M;
 }
 
@@ -194,9 +225,9 @@ static void add_pair(struct end_guard *guard, const struct response_context *con
         guard->pair = reserve_grow(guard->pair, guard->pair_count, more, sizeof *guard->pair);
         guard->pair_capacity = more;
     }
-    side_of(guard, context, pair->a);
+    stand_at_end(guard, context, pair->a);
     if (!(pair->b & PAIR_FIXED))
-        side_of(guard, context, pair->b);
+        stand_at_end(guard, context, pair->b);
     guard->pair[guard->pair_count++] = (struct guard_pair){.pair = index};
 }
 
@@ -233,8 +264,7 @@ static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t 
     (void)worker;
     for (uint32_t i = first; i < end; i++) {
         struct guard_pair *one = &round->guard->pair[i];
-        one->deeper = !is_apart(round->guard, round->context, one->pair) &&
-                      deeper(round->context, &round->context->contacts->pair[one->pair]);
+        one->deeper = deeper(round->guard, round->context, one->pair);
     }
     work_done();
 }
@@ -275,7 +305,7 @@ static void run_round(struct end_guard *guard, const struct resting *resting,
         if (guard->sent_back[row] == 0)
             guard->touched[guard->touched_count++] = row;
         send_back(guard, context, row);
-        guard->side[row] = pair_apart_standing(context->motion, &context->next->entities, row);
+        stand(context->motion, &context->next->entities, row, &guard->stands[row]);
         look_at(guard, row);
     }
 }

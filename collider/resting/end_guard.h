@@ -9,7 +9,7 @@
 
 struct thread_pool;
 
-struct axis_side;
+struct placed_body;
 
 /* A pair that is measured in a round. */
 struct guard_pair {
@@ -22,9 +22,9 @@ struct end_guard {
     struct thread_pool *workers;
     struct guard_pair *pair; /* of this round */
     uint32_t pair_count, pair_capacity;
-    struct axis_side *side; /* [capacity of the world] how the row stands at the frame's end */
-    uint8_t *posed;         /* [capacity of the world] 1: side is known */
-    uint32_t *posed_row;    /* the rows of which it is */
+    struct placed_body *stands; /* [capacity of the world] at the frame's end */
+    uint8_t *posed;             /* [capacity of the world] 1: it is known how the row stands */
+    uint32_t *posed_row;        /* the rows of which it is */
     uint32_t posed_count;
     uint32_t *row; /* rows to look at in this round */
     uint32_t count;

@@ -319,7 +319,7 @@ static void take(struct resting *resting, struct response_context *context, cons
         return;
     }
     taken.pair = contact_queue_pair(context->contacts, pair);
-    context->contacts->axis[taken.pair] = gap[0].normal;
+    context->contacts->known[taken.pair].plane[0] = gap[0].normal;
     if (!known)
         report(context, pair, &gap[0]);
     resting->points += taken.count;
