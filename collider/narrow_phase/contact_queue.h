@@ -25,8 +25,12 @@
  * contact is no impact [m/s]. */
 #define CONTACT_IMPACT_MPS 1.0
 
+/* Bodies that rest on each other keep this gap [m]. The sweeps leave a part of their closing speed:
+ * with a smaller gap the guard has to send bodies back in more frames. */
+#define CONTACT_REST_M 5e-3
+
 /* Bodies in a contact that lasts touch if they are this near, even if they bear no load [m]. */
-#define CONTACT_TOUCHING_M (2.0 * SKIN_M)
+#define CONTACT_TOUCHING_M (2.0 * CONTACT_REST_M)
 
 /* Marks of a pair. */
 #define CONTACT_RESTS    1u  /* collider/resting/ has solved it, or its bodies have met */

@@ -169,7 +169,7 @@ static struct level_contact point_of(const struct response_context *context,
 {
     const struct kind *ka = contact_impulse_kind(context, pair->a);
     const struct kind *kb = contact_impulse_kind(context, pair->b);
-    double dt_s = world_dt_s(context->world), room = gap->gap_m - SKIN_M;
+    double dt_s = world_dt_s(context->world), room = gap->gap_m - CONTACT_REST_M;
     struct vec3 a = context->path[pair->a].at;
     struct vec3 b = pair->b & PAIR_FIXED ? at : context->path[pair->b].at;
     return (struct level_contact){

@@ -156,7 +156,7 @@ static void test_the_rate_does_not_change_how_much_is_told(void **state)
     } rows[] = {{"swept", "mps", "model", 0.02},     {"swept", "mps", "sphere", 0.02},
                 {"swept", "figure8", "model", 0.03}, {"swept", "figure8", "sphere", 0.03},
                 {"swept", "impulse", "model", 0.12}, {"swept", "impulse", "sphere", 0.12},
-                {"swept", "spring", "model", 0.12},  {"swept", "spring", "sphere", 0.12},
+                {"swept", "spring", "model", 0.15},  {"swept", "spring", "sphere", 0.12},
                 {"npsnet2", "none", "sphere", 0.03}, {"npsnet2", "figure8", "sphere", 0.03},
                 {"npsnet2", "mps", "sphere", 0.03},  {"mps", "mps", "sphere", 0.02}};
     uint64_t seed = fixture_seed(43);

@@ -27,7 +27,8 @@ static void begin(void)
     steps_respond(&f, &context);
 }
 
-/* Trucks that roll freely, heading east, in a row from west to east, with a skin between them. */
+/* Trucks that roll freely, heading east, in a row from west to east, with the gap of resting bodies
+ * between them. */
 static int open_world(void **state)
 {
     (void)state;
@@ -43,7 +44,7 @@ static int open_world(void **state)
     nose_to_tail = context.next->entities.x[1] - WEST_M;
     steps_respond_end(&context);
     for (uint32_t i = 0; i < ROWS; i++)
-        steps_rows(&f).x[i] = WEST_M + (nose_to_tail + SKIN_M) * i;
+        steps_rows(&f).x[i] = WEST_M + (nose_to_tail + CONTACT_REST_M) * i;
     fixture_state(&f).head->tick = 10;
     resting = &f.stepper.collider.resting;
     return 0;
@@ -150,7 +151,7 @@ static void test_an_overlap_parts_without_a_speed(void **state)
     resting_solve(resting, &context);
     const struct entities *e = &context.next->entities;
     double after = steps_gap(&f, e, 0, 1);
-    assert_true(fabs(after - before - 0.5 * (SKIN_M - before)) < 1e-4); /* half of it */
+    assert_true(fabs(after - before - 0.5 * (CONTACT_REST_M - before)) < 1e-4); /* half of it */
     assert_true(e->vx[0] == 0.0 && e->vx[1] == 0.0 && e->spin_y[0] == 0.0);
     assert_int_equal(marks(0, 1), CONTACT_RESTS | CONTACT_PRESSED | CONTACT_OVERLAPS);
     assert_int_equal(context.events.count, 0); /* no news */
