@@ -13,6 +13,11 @@
 /* Hulls that a plane separates by this much more than the margin are farther apart than it, and GJK
  * would say so: its error is a tenth of this [m]. */
 #define SURELY_M 1e-8
+/* The least horizontal part of the normal between two hulls that are apart. */
+#define STEEP 1e-3
+
+/* Of more pairs of hulls that overlap, only so many count when whole bodies part. */
+#define OVERLAPS_MAX 16u
 
 /* The two bodies at one time. */
 struct body_pair {
@@ -119,11 +124,10 @@ static void find_points(const struct body_pair *bodies, const struct relative_po
 static void measure_distance(const struct body_pair *bodies, const struct gjk *gjk,
                              struct level_gap *gap)
 {
-    gap->normal = gjk->normal;
-    double share = level(&gap->normal);
-    if (share == 0.0)
-        gap->normal = bodies->line;
-    gap->gap_m = gjk->distance_m / maths_max(share, LEVEL_MIN);
+    struct vec3 n = gjk->normal;
+    double share = sqrt(n.x * n.x + n.z * n.z);
+    gap->normal = share > STEEP ? (struct vec3){n.x / share, 0.0, n.z / share} : bodies->line;
+    gap->gap_m = gjk->distance_m / maths_max(share, STEEP);
 }
 
 static bool is_known(struct vec3 plane)
@@ -185,16 +189,17 @@ static bool measure(struct body_pair *bodies, const struct hull *hull_a, const s
 /* --- bodies ------------------------------------------------------------------------------------*/
 
 /* Puts a gap into its place in the list; of too many the largest is left out. */
-static uint32_t keep(struct level_gap *list, uint32_t count, const struct level_gap *gap)
+static uint32_t keep(struct level_gap *list, uint32_t room, uint32_t count,
+                     const struct level_gap *gap)
 {
-    uint32_t place = count < LEVEL_GAPS_MAX ? count : LEVEL_GAPS_MAX;
+    uint32_t place = count < room ? count : room;
     for (; place > 0 && list[place - 1].gap_m > gap->gap_m; place--) {
-        if (place < LEVEL_GAPS_MAX)
+        if (place < room)
             list[place] = list[place - 1];
     }
-    if (place < LEVEL_GAPS_MAX)
+    if (place < room)
         list[place] = *gap;
-    return count < LEVEL_GAPS_MAX ? count + 1 : count;
+    return count < room ? count + 1 : count;
 }
 
 static struct body_pose pose_at(const struct swept_body *body, double time)
@@ -228,7 +233,8 @@ static struct body_pair body_pair_of(const struct body_pose *a, const struct bod
 /* Measures each pair of hulls that may be as near as *margin_m. Puts the gaps into the list and
  * returns how many it holds. list NULL: reduces *margin_m to the least gap instead. Hulls that
  * overlap are all measured, because the deepest overlap is found only by its own normals. */
-static uint32_t search(struct body_pair *bodies, double *margin_m, struct level_gap *list)
+static uint32_t search(struct body_pair *bodies, double *margin_m, struct level_gap *list,
+                       uint32_t room)
 {
     const struct swept_body *a = bodies->a, *b = bodies->b;
     struct box_view view = box_view_of(&bodies->pose_a.turn, &bodies->pose_b.turn, bodies->between,
@@ -241,7 +247,7 @@ static uint32_t search(struct body_pair *bodies, double *margin_m, struct level_
                      *margin_m, list != NULL, &one))
             continue;
         if (list)
-            count = keep(list, count, &one);
+            count = keep(list, room, count, &one);
         else
             *margin_m = maths_min(*margin_m, one.gap_m);
     }
@@ -251,9 +257,15 @@ static uint32_t search(struct body_pair *bodies, double *margin_m, struct level_
 uint32_t level_gap_find(const struct swept_body *a, const struct swept_body *b, double time,
                         double margin_m, struct level_gap *gap)
 {
+    return level_gap_find_more(a, b, time, margin_m, gap, LEVEL_GAPS_MAX);
+}
+
+uint32_t level_gap_find_more(const struct swept_body *a, const struct swept_body *b, double time,
+                             double margin_m, struct level_gap *gap, uint32_t room)
+{
     struct body_pose pose_a = pose_at(a, time), pose_b = pose_at(b, time);
     struct body_pair bodies = body_pair_of(&pose_a, &pose_b, time);
-    return search(&bodies, &margin_m, gap);
+    return search(&bodies, &margin_m, gap, room);
 }
 
 double level_gap_least(const struct swept_body *a, const struct swept_body *b, double time,
@@ -261,7 +273,7 @@ double level_gap_least(const struct swept_body *a, const struct swept_body *b, d
 {
     struct body_pose pose_a = pose_at(a, time), pose_b = pose_at(b, time);
     struct body_pair bodies = body_pair_of(&pose_a, &pose_b, time);
-    search(&bodies, &margin_m, NULL);
+    search(&bodies, &margin_m, NULL, 0);
     return margin_m;
 }
 
@@ -273,6 +285,56 @@ double level_gap_depth(const struct turned_body *a, const struct turned_body *b,
     struct body_pair bodies = body_pair_of(&pose_a, &pose_b, 0.0);
     double gap_m = 0.0;
     bodies.plane = plane;
-    search(&bodies, &gap_m, NULL);
+    search(&bodies, &gap_m, NULL, 0);
     return gap_m;
+}
+
+/* --- whole bodies ------------------------------------------------------------------------------*/
+
+/* Puts the pairs of hulls that overlap into the list. Returns how many it holds. */
+static uint32_t list_overlaps(const struct body_pair *bodies, struct relative_pose *list)
+{
+    const struct swept_body *a = bodies->a, *b = bodies->b;
+    struct box_view view =
+        box_view_of(&bodies->pose_a.turn, &bodies->pose_b.turn, bodies->between, 0.0);
+    uint32_t count = 0;
+    for (uint64_t near = box_view_near(&view, a, b); near != 0 && count < OVERLAPS_MAX;
+         near &= near - 1) {
+        uint32_t bit = (uint32_t)__builtin_ctzll(near);
+        list[count] =
+            relative_pose_of(&bodies->pose_a, &a->hull[bit / HULLS_A_MODEL], &bodies->pose_b,
+                             &b->hull[bit % HULLS_A_MODEL], bodies->time);
+        struct gjk_start start = {.guess = list[count].towards};
+        count += gjk_distance_within(&list[count].a, &list[count].b, 0.0, &start).distance_m == 0.0;
+    }
+    return count;
+}
+
+/* Returns the separation of all of the pairs along the normal, below 0, or least_m if it is less.
+ */
+static double along_all(const struct relative_pose *list, uint32_t count, struct vec3 normal,
+                        double least_m)
+{
+    double gap = 0.0;
+    for (uint32_t i = 0; i < count && gap > least_m; i++)
+        gap = maths_min(gap, hull_separation_now(&list[i], normal));
+    return maths_max(gap, least_m);
+}
+
+void level_gap_whole(const struct swept_body *a, const struct swept_body *b, double time,
+                     struct level_gap *gap, uint32_t count)
+{
+    struct body_pose pose_a = pose_at(a, time), pose_b = pose_at(b, time);
+    struct body_pair bodies = body_pair_of(&pose_a, &pose_b, time);
+    struct relative_pose list[OVERLAPS_MAX];
+    uint32_t overlaps = list_overlaps(&bodies, list);
+    struct vec3 best = bodies.line;
+    double least = along_all(list, overlaps, best, -INFINITY);
+    for (uint32_t i = 0; i < count && gap[i].gap_m < 0.0; i++) {
+        double along = along_all(list, overlaps, gap[i].normal, least);
+        if (along > least)
+            least = along, best = gap[i].normal;
+    }
+    gap[0].gap_m = maths_min(gap[0].gap_m, least);
+    gap[0].normal = best;
 }

@@ -38,6 +38,10 @@ struct turned_body {
 uint32_t level_gap_find(const struct swept_body *a, const struct swept_body *b, double time,
                         double margin_m, struct level_gap *gap);
 
+/* The same, with another room in gap. */
+uint32_t level_gap_find_more(const struct swept_body *a, const struct swept_body *b, double time,
+                             double margin_m, struct level_gap *gap, uint32_t room);
+
 /* Returns the smallest of those gaps [m], or margin_m if all are larger. */
 double level_gap_least(const struct swept_body *a, const struct swept_body *b, double time,
                        double margin_m);
@@ -48,5 +52,10 @@ double level_gap_least(const struct swept_body *a, const struct swept_body *b, d
  * are not searched. */
 double level_gap_depth(const struct turned_body *a, const struct turned_body *b,
                        struct vec3 plane[LEVEL_GAP_PLANES]);
+/* Replaces the first of the gaps that level_gap_find() found at this time, of bodies of which
+ * several pairs of hulls overlap: normal and gap become those along which the whole bodies part in
+ * the shortest way. The normal is that of one of the gaps, or the line between the positions. */
+void level_gap_whole(const struct swept_body *a, const struct swept_body *b, double time,
+                     struct level_gap *gap, uint32_t count);
 
 #endif

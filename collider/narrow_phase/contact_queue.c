@@ -532,10 +532,12 @@ static struct path_box box_union(const struct path_box *a, const struct path_box
 /* Pairs the row with the bodies near its new path: those that the broad phase finds, and the rows
  * that have left their boxes. */
 static void look_around(struct contact_queue *contacts, const struct contact_input *input,
-                        uint32_t row, bool resting)
+                        uint32_t row, bool resting, float wider_m)
 {
     struct path_box *known = &input->broad->box[row];
     struct path_box box = pair_filter_box(&input->detect, row);
+    box.min_x -= wider_m, box.max_x += wider_m;
+    box.min_z -= wider_m, box.max_z += wider_m;
     bool strays = !box_within(&box, known);
     contacts->near.count = 0;
     broad_phase_query(input->broad, &input->detect, &box, &contacts->near);
@@ -574,7 +576,14 @@ void contact_queue_look(struct contact_queue *contacts, const struct contact_inp
                         uint32_t row, bool resting)
 {
     if (!method_discrete((enum method)input->detect.world->params->collision.method))
-        look_around(contacts, input, row, resting);
+        look_around(contacts, input, row, resting, 0.0f);
+}
+
+void contact_queue_look_wider(struct contact_queue *contacts, const struct contact_input *input,
+                              uint32_t row, double wider_m)
+{
+    if (!method_discrete((enum method)input->detect.world->params->collision.method))
+        look_around(contacts, input, row, true, (float)wider_m);
 }
 
 /* Sweeps the row's pairs, except those that this change has already swept from the other row. */
@@ -606,7 +615,7 @@ void contact_queue_change(struct contact_queue *contacts, const struct contact_i
     }
     for (uint32_t i = 0; i < count; i++) {
         if (!method_discrete(method))
-            look_around(contacts, input, rows[i], false);
+            look_around(contacts, input, rows[i], false, 0.0f);
         sweep_row(contacts, input, rows[i], time);
         work_done();
     }

@@ -142,6 +142,10 @@ uint32_t contact_queue_pair(struct contact_queue *contacts, const struct pair *p
 void contact_queue_look(struct contact_queue *contacts, const struct contact_input *input,
                         uint32_t row, bool resting);
 
+/* The same with a box that is so much wider to all four sides [m], and with bodies that rest. */
+void contact_queue_look_wider(struct contact_queue *contacts, const struct contact_input *input,
+                              uint32_t row, double wider_m);
+
 /* The bodies of a pair rest on each other at these points: marks it as CONTACT_RESTS. From now on
  * the pair is swept only if it closes as fast as in an impact at one of the points. Without points
  * it always is. */

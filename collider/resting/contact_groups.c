@@ -148,13 +148,14 @@ static void keep_awake(struct contact_groups *groups)
 
 /* --- bodies that are new -----------------------------------------------------------------------*/
 
-static void make_room(struct contact_groups *groups)
+void contact_groups_add(struct contact_groups *groups, const struct pair *pair)
 {
-    if (groups->count < groups->capacity)
-        return;
-    uint32_t more = 2 * groups->capacity + 1;
-    groups->pair = reserve_grow(groups->pair, groups->count, more, sizeof *groups->pair);
-    groups->capacity = more;
+    if (groups->count == groups->capacity) {
+        uint32_t more = 2 * groups->capacity + 1;
+        groups->pair = reserve_grow(groups->pair, groups->count, more, sizeof *groups->pair);
+        groups->capacity = more;
+    }
+    groups->pair[groups->count++] = *pair;
 }
 
 static void add_pairs_of(struct contact_groups *groups, struct response_context *context,
@@ -164,14 +165,14 @@ static void add_pairs_of(struct contact_groups *groups, struct response_context 
     contact_queue_look(context->contacts, &context->input, row, true);
     for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
         const struct pair *pair = &contacts->pair[contacts->link[link - 1].pair];
-        bool fixed = pair->b & PAIR_FIXED;
         uint32_t other = pair->a == row ? pair->b : pair->a;
-        if (fixed || (other < row && is_new(context, other)) ||
-            !path_change_grounded(context, other) ||
-            context->next->entities.behaviour[other] == BEHAVIOUR_FLIGHT)
-            continue;
-        make_room(groups);
-        groups->pair[groups->count++] = *pair;
+        bool counts = other & PAIR_FIXED
+                          ? contact_groups_is_wall(context, other & ~PAIR_FIXED)
+                          : !(other < row && is_new(context, other)) &&
+                                path_change_grounded(context, other) &&
+                                context->next->entities.behaviour[other] != BEHAVIOUR_FLIGHT;
+        if (counts)
+            contact_groups_add(groups, pair);
     }
 }
 

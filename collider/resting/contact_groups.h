@@ -25,6 +25,9 @@ void contact_groups_free(struct contact_groups *groups);
  * because they may begin overlapped. Computes the paths of their rows. */
 void contact_groups_find(struct contact_groups *groups, struct response_context *context);
 
+/* Adds a pair to those found. */
+void contact_groups_add(struct contact_groups *groups, const struct pair *pair);
+
 /* Returns true if a fixed object stands and lets no body in, as bushes do. */
 bool contact_groups_is_wall(const struct response_context *context, uint32_t object);
 

@@ -231,10 +231,10 @@ static void add_pair(struct end_guard *guard, const struct response_context *con
     guard->pair[guard->pair_count++] = (struct guard_pair){.pair = index};
 }
 
-/* Lists the row's pairs. Bodies that have to part are stopped by walls only: in a crowd they would
- * lock each other. A pair of two rows that are looked at is listed once. */
-static void add_pairs_of(struct end_guard *guard, const struct resting *resting,
-                         const struct response_context *context, uint32_t row)
+/* Lists the row's pairs, except those whose bodies have to part. A pair of two rows that are looked
+ * at is listed once. */
+static void add_pairs_of(struct end_guard *guard, const struct response_context *context,
+                         uint32_t row)
 {
     const struct contact_queue *contacts = context->contacts;
     for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
@@ -242,8 +242,7 @@ static void add_pairs_of(struct end_guard *guard, const struct resting *resting,
         const struct pair *pair = &contacts->pair[index];
         uint32_t other = pair->a == row ? pair->b : pair->a;
         bool fixed = other & PAIR_FIXED;
-        if (contacts->marks[index] & CONTACT_PARTS ||
-            (!fixed && (resting->parts[row] || resting->parts[other])))
+        if (contacts->marks[index] & CONTACT_PARTS)
             continue;
         if (fixed ? !contact_groups_is_wall(context, other & ~PAIR_FIXED)
                   : (guard->listed[other] && other < row) || !guarded(context, other))
@@ -285,13 +284,12 @@ static void mark_deeper(struct end_guard *guard, const struct response_context *
 /* One round: all pairs of the listed rows are tested before any row goes back, so that the result
  * does not depend on the order of the rows and their pairs. The rows that went back are listed
  * next. */
-static void run_round(struct end_guard *guard, const struct resting *resting,
-                      struct response_context *context)
+static void run_round(struct end_guard *guard, struct response_context *context)
 {
     guard->back_count = guard->pair_count = 0;
     for (uint32_t i = 0; i < guard->count; i++) {
         if (guarded(context, guard->row[i]))
-            add_pairs_of(guard, resting, context, guard->row[i]);
+            add_pairs_of(guard, context, guard->row[i]);
     }
     thread_pool_run(guard->workers, measure_some, &(struct round){guard, context},
                     guard->pair_count, PAIRS_A_PIECE);
@@ -342,7 +340,7 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
     }
     look_at_met(guard, context->contacts);
     while (guard->count > 0)
-        run_round(guard, resting, context);
+        run_round(guard, context);
     for (uint32_t i = 0; i < guard->touched_count; i++)
         guard->sent_back[guard->touched[i]] = 0;
     for (uint32_t i = 0; i < guard->posed_count; i++)

@@ -153,6 +153,10 @@ void level_solver_run(struct level_body *body, uint32_t bodies, struct level_con
             solve_point(&body[c->a], &body[c->b], c);
         }
     }
+}
+
+void level_solver_part(struct level_body *body, struct level_contact *contact, uint32_t contacts)
+{
     if (!any_overlap(contact, contacts))
         return;
     for (uint32_t sweep = 0; sweep < LEVEL_SOLVER_SWEEPS; sweep++) {

@@ -55,6 +55,9 @@ struct level_contact {
 void level_solver_run(struct level_body *body, uint32_t bodies, struct level_contact *contact,
                       uint32_t contacts);
 
+/* Recovers the overlaps of contacts that have been solved: sets the bodies' pushed. */
+void level_solver_part(struct level_body *body, struct level_contact *contact, uint32_t contacts);
+
 /* Returns the speed at which the bodies of a contact close at its point [m/s], below 0 if they
  * part. */
 double level_solver_closing(const struct level_body *body, const struct level_contact *contact);

@@ -1,75 +1,420 @@
-/* Discs about the positions of bodies that are deep inside each other. */
+/* Steps of bodies within the bounds of their points. */
 #include "collider/resting/parting.h"
 
-#include "collider/response/contact_impulse.h"
+#include "collider/resting/deep_pair.h"
+#include "collider/resting/resting.h"
+#include "world/runtime/reserve.h"
+#include "world/runtime/work_done.h"
 #include "world/world.h"
 
-/* No body is moved apart faster than this. */
+#include <errno.h>
+
+/* No body is moved apart faster than this, and none turns faster. */
 #define PUSHED_MOST_MPS 10.0
 #define PUSHED_MOST_RPS 0.2
 
-/* Positions nearer than this share of both bodies' least reach are within each other. */
-#define DEEP 0.9
+/* The edge of a dense crowd spreads so fast, until its bodies have this share of the room that they
+ * cover. */
+#define SPREAD_MPS 20.0
+#define ROOM       2.0
 
-/* A body that leans more does not cover the disc of its least reach [rad]. */
-#define STANDS_RAD 0.5
+/* In masses that part light bodies would hold up heavy ones, as sweeps converge slowly between
+ * them: displacements are shared by the roots of the masses, in so many sweeps over the points. */
+#define WISH_SWEEPS 100
 
-/* Bodies at one place part as if they were so far apart, times the root of their ids [m]. */
-#define COINCIDENT_M 1e-4
-#define GOLDEN_ANGLE 2.399963229728653 /* [rad] */
+#define SWEEPS       30 /* over the bodies that part, forwards and backwards in turn */
+#define SLIDES       3  /* rounds over a body's bounds that turn its wish along them */
+#define BACKS_MOST   4  /* so often a body goes half as far, the last time not at all */
+#define ROUNDING_MPS 1e-9
 
-/* Returns how far the body reaches to each side at least [m]. */
-static double inner_reach(const struct kind *kind)
+int parting_init(struct parting *parting, uint64_t bodies, uint64_t points)
 {
-    return 0.5 * maths_min(kind->width_m, kind->length_m);
+    *parting = (struct parting){.body_capacity = bodies, .bound_capacity = 2 * points};
+    parting->body = reserve_take(bodies, sizeof *parting->body);
+    parting->bound = reserve_take(2 * points, sizeof *parting->bound);
+    if (parting->body && parting->bound)
+        return 0;
+    parting_free(parting);
+    errno = ENOMEM;
+    return -1;
 }
 
-/* Returns true if the body covers the disc of its inner reach. Aircraft do not, because they are
- * fuselages with wings and rotors, and no wreck on its side does. */
-static bool fills_disc(const struct response_context *context, uint32_t row)
+void parting_free(struct parting *parting)
 {
-    const struct entities *e = &context->next->entities;
-    return context->world->kinds[e->kind[row]].domain != DOMAIN_AIR &&
-           fabs(e->pitch[row]) + fabs(e->roll[row]) <= STANDS_RAD;
+    reserve_free(parting->body);
+    reserve_free(parting->bound);
+    *parting = (struct parting){0};
 }
 
-/* Returns a place near the position, another one for each id. The places of all ids are spread
- * evenly over a disc, so that bodies at one place part in all directions [m]. */
-static struct vec3 place_of(const struct response_context *context, uint32_t row)
+/* Makes room for the frame's bodies and points. What the arrays held is lost. */
+static void make_room(struct parting *parting, const struct parting_input *input)
 {
-    double id = context->next->entities.id[row], sine, cosine;
-    struct vec3 at = context->path[row].at;
-    maths_sincos(maths_wrap_turn(GOLDEN_ANGLE * id), &sine, &cosine);
-    double far = COINCIDENT_M * sqrt(id);
-    return (struct vec3){at.x + far * cosine, at.y, at.z + far * sine};
+    if (input->bodies > parting->body_capacity) {
+        parting->body_capacity = 2 * (uint64_t)input->bodies;
+        parting->body =
+            reserve_grow(parting->body, 0, parting->body_capacity, sizeof *parting->body);
+    }
+    if (2 * (uint64_t)input->points > parting->bound_capacity) {
+        parting->bound_capacity = 4 * (uint64_t)input->points;
+        parting->bound =
+            reserve_grow(parting->bound, 0, parting->bound_capacity, sizeof *parting->bound);
+    }
 }
 
-bool parting_measure(const struct response_context *context, const struct pair *pair,
-                     struct resting_gap *found)
+/* --- groups ------------------------------------------------------------------------------------*/
+
+static bool is_fixed(const struct parting_input *input, uint32_t body)
 {
-    if (pair->b & PAIR_FIXED || !fills_disc(context, pair->a) || !fills_disc(context, pair->b))
-        return false;
-    const struct kind *ka = contact_impulse_kind(context, pair->a);
-    const struct kind *kb = contact_impulse_kind(context, pair->b);
-    struct vec3 a = place_of(context, pair->a), b = place_of(context, pair->b);
-    struct vec3 line = {b.x - a.x, 0.0, b.z - a.z};
-    double reach = inner_reach(ka) + inner_reach(kb), distance = vec3_length(line);
-    if (distance > DEEP * reach || distance == 0.0 ||
-        fabs(b.y - a.y) > DEEP * 0.5 * (ka->height_m + kb->height_m))
-        return false;
-    found->count = 1;
-    found->gap[0] = (struct level_gap){.normal = vec3_scale(line, 1.0 / distance),
-                                       .gap_m = distance - reach,
-                                       .point = {vec3_lerp(a, b, 0.5)},
-                                       .points = 1};
-    return true;
+    return input->row[body] == SLOT_NONE;
 }
 
-void parting_limit(struct level_motion *pushed)
+static uint32_t root_of(struct parting_body *body, uint32_t i)
+{
+    while (body[i].parent != i)
+        i = body[i].parent = body[body[i].parent].parent;
+    return i;
+}
+
+static uint32_t crowd_of(struct parting_body *body, uint32_t i)
+{
+    while (body[i].crowd != i)
+        i = body[i].crowd = body[body[i].crowd].crowd;
+    return i;
+}
+
+/* The lower root becomes that of both. */
+static void join(struct parting_body *body, uint32_t p, uint32_t q, bool deep)
+{
+    uint32_t a = root_of(body, p), b = root_of(body, q);
+    body[a > b ? a : b].parent = a > b ? b : a;
+    a = crowd_of(body, p), b = crowd_of(body, q);
+    if (deep)
+        body[a > b ? a : b].crowd = a > b ? b : a;
+}
+
+/* Returns how fast the pair's deepest point has to part [m/s], 0 if none overlaps. */
+static double parts_mps(const struct parting_input *input, const struct resting_pair *pair)
+{
+    double most = 0.0;
+    for (uint32_t i = pair->first; i < pair->first + pair->count; i++)
+        most = maths_max(most, input->point[i].apart_mps);
+    return most;
+}
+
+/* Groups the bodies. Returns true if any has to part. */
+static bool find_groups(struct parting *parting, const struct parting_input *input)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < input->bodies; i++)
+        parting->body[i] = (struct parting_body){.parent = i, .crowd = i};
+    for (uint32_t i = 0; i < input->pairs; i++) {
+        const struct level_contact *point = &input->point[input->pair[i].first];
+        if (!is_fixed(input, point->b))
+            join(parting->body, point->a, point->b, input->pair[i].gap_m <= -RESTING_PARTS_M);
+    }
+    for (uint32_t i = 0; i < input->pairs; i++) {
+        bool deep = input->pair[i].gap_m <= -RESTING_PARTS_M;
+        uint32_t a = input->point[input->pair[i].first].a;
+        struct parting_body *crowd = &parting->body[crowd_of(parting->body, a)];
+        parting->body[root_of(parting->body, a)].parts |= deep;
+        crowd->deepest_m = maths_max(crowd->deepest_m, -input->pair[i].gap_m);
+        any |= deep;
+    }
+    return any;
+}
+
+static bool parts(struct parting *parting, uint32_t body)
+{
+    return parting->body[root_of(parting->body, body)].parts;
+}
+
+/* --- wishes ------------------------------------------------------------------------------------*/
+
+static const struct kind *kind_of(const struct parting_input *input, uint32_t body)
+{
+    const struct response_context *context = input->context;
+    return &context->world->kinds[context->next->entities.kind[input->row[body]]];
+}
+
+/* Returns true if the bodies of the crowd need more room than the disc about them has. */
+static bool is_dense(const struct parting_body *root)
+{
+    double reach = root->reach_m + sqrt(root->area_m2 / (PI * root->members));
+    return root->members > 1 && PI * reach * reach < ROOM * root->area_m2;
+}
+
+/* Sums masses, areas and places of each crowd at its root. */
+static void measure_crowds(struct parting *parting, const struct parting_input *input)
+{
+    for (uint32_t i = 0; i < input->bodies; i++) {
+        struct parting_body *body = &parting->body[i], *root;
+        if (is_fixed(input, i) || !parts(parting, i))
+            continue;
+        const struct kind *kind = kind_of(input, i);
+        root = &parting->body[crowd_of(parting->body, i)];
+        deep_pair_place(input->context, input->row[i], &body->x, &body->z);
+        root->members++;
+        root->mass_kg += kind->mass_kg;
+        root->area_m2 += kind->length_m * kind->width_m;
+        root->centre_x += kind->mass_kg * body->x;
+        root->centre_z += kind->mass_kg * body->z;
+    }
+    for (uint32_t i = 0; i < input->bodies; i++) {
+        struct parting_body *body = &parting->body[i], *root;
+        root = &parting->body[crowd_of(parting->body, i)];
+        if (root->mass_kg == 0.0)
+            continue;
+        double x = body->x - root->centre_x / root->mass_kg;
+        double z = body->z - root->centre_z / root->mass_kg;
+        root->reach_m = maths_max(root->reach_m, sqrt(x * x + z * z));
+    }
+    for (uint32_t i = 0; i < input->bodies; i++)
+        parting->body[i].spreads = is_dense(&parting->body[crowd_of(parting->body, i)]);
+}
+
+/* A crowd that is dense spreads: the farther from its centre, the faster, but by no more than parts
+ * its deepest pair. */
+static void spread(const struct parting_input *input, const struct parting_body *root,
+                   struct parting_body *body)
+{
+    double edge = maths_min(SPREAD_MPS, 0.5 * root->deepest_m / world_dt_s(input->context->world));
+    double rate = edge / root->reach_m;
+    body->wish_x = rate * (body->x - root->centre_x / root->mass_kg);
+    body->wish_z = rate * (body->z - root->centre_z / root->mass_kg);
+}
+
+static void limit(struct level_motion *pushed)
 {
     double speed = sqrt(pushed->x * pushed->x + pushed->z * pushed->z);
     double keep = speed > PUSHED_MOST_MPS ? PUSHED_MOST_MPS / speed : 1.0;
     pushed->x *= keep;
     pushed->z *= keep;
     pushed->spin = maths_clamp(pushed->spin, -PUSHED_MOST_RPS, PUSHED_MOST_RPS);
+}
+
+/* Those that are deep in each other in a dense crowd do not bound each other: spreading parts them
+ * all, though a pair may first get deeper. */
+static bool spread_together(struct parting *parting, const struct level_contact *point)
+{
+    return crowd_of(parting->body, point->a) == crowd_of(parting->body, point->b) &&
+           parting->body[point->a].spreads;
+}
+
+/* Gives the bodies of a point the speeds at which it parts, or keeps its gap: the lighter takes
+ * more. */
+static void part_point(const struct parting_input *input, const struct level_contact *point)
+{
+    struct level_motion *a = &input->body[point->a].pushed, *b = &input->body[point->b].pushed;
+    double light_a = sqrt(input->body[point->a].inverse_mass);
+    double light_b = sqrt(input->body[point->b].inverse_mass);
+    double along = (b->x - a->x) * point->normal_x + (b->z - a->z) * point->normal_z;
+    double least = maths_min(point->apart_mps / PARTING_SHARE, PARTING_MPS);
+    if (least == 0.0)
+        least = point->least_mps + level_solver_closing(input->body, point);
+    if (along >= least || light_a + light_b == 0.0)
+        return;
+    double step = (least - along) / (light_a + light_b);
+    a->x -= step * light_a * point->normal_x;
+    a->z -= step * light_a * point->normal_z;
+    b->x += step * light_b * point->normal_x;
+    b->z += step * light_b * point->normal_z;
+}
+
+/* Finds the speeds at which the bodies would part. They do not turn: a turn would change the depths
+ * of all their points. */
+static void part_points(struct parting *parting, const struct parting_input *input)
+{
+    for (uint32_t i = 0; i < input->bodies; i++) {
+        struct parting_body *body = &parting->body[i];
+        if (is_fixed(input, i) || !parts(parting, i))
+            continue;
+        if (parting->body[i].spreads)
+            spread(input, &parting->body[crowd_of(parting->body, i)], body);
+        input->body[i].pushed = (struct level_motion){body->wish_x, body->wish_z, 0.0};
+    }
+    for (uint32_t sweep = 0; sweep < WISH_SWEEPS; sweep++) {
+        for (uint32_t n = 0; n < input->points; n++) {
+            uint32_t i = sweep % 2 == 0 ? n : input->points - 1 - n;
+            if (parts(parting, input->point[i].a) && !spread_together(parting, &input->point[i]))
+                part_point(input, &input->point[i]);
+        }
+    }
+}
+
+static void make_wishes(struct parting *parting, const struct parting_input *input)
+{
+    for (uint32_t i = 0; i < input->bodies; i++) {
+        struct parting_body *body = &parting->body[i];
+        limit(&input->body[i].pushed);
+        body->goes = !is_fixed(input, i) && parts(parting, i);
+        if (!body->goes || parting->body[i].spreads)
+            continue;
+        body->wish_x = input->body[i].pushed.x;
+        body->wish_z = input->body[i].pushed.z;
+    }
+}
+
+/* --- bounds ------------------------------------------------------------------------------------*/
+
+/* Returns by how much the speed along the point's normal may fall without bringing the pair deeper
+ * into each other than it is [m/s]. An overlap along another normal, which is less deep, may become
+ * as deep as the deepest. */
+static double slack(const struct parting_input *input, const struct level_contact *point,
+                    double deepest_mps)
+{
+    double along = -level_solver_closing(input->body, point);
+    double least = point->apart_mps > 0.0 ? 0.0 : point->least_mps;
+    least -= (deepest_mps - point->apart_mps) / PARTING_SHARE;
+    return maths_max(0.0, along - least);
+}
+
+static void count_bounds(struct parting *parting, const struct parting_input *input)
+{
+    uint32_t first = 0;
+    for (uint32_t i = 0; i < input->points; i++) {
+        parting->body[input->point[i].a].end++;
+        parting->body[input->point[i].b].end++;
+    }
+    for (uint32_t i = 0; i < input->bodies; i++) {
+        uint32_t count = parting->body[i].end;
+        parting->body[i].first = parting->body[i].end = first;
+        first += count;
+    }
+}
+
+static void add_bound(struct parting *parting, uint32_t body, struct parting_bound bound)
+{
+    parting->bound[parting->body[body].end++] = bound;
+}
+
+static void add_bounds(struct parting *parting, const struct parting_input *input)
+{
+    for (uint32_t p = 0; p < input->pairs; p++) {
+        const struct resting_pair *pair = &input->pair[p];
+        double deepest = parts_mps(input, pair);
+        if (pair->gap_m <= -RESTING_PARTS_M && parting->body[input->point[pair->first].a].spreads)
+            continue;
+        for (uint32_t i = pair->first; i < pair->first + pair->count; i++) {
+            const struct level_contact *c = &input->point[i];
+            double free_mps = slack(input, c, deepest);
+            add_bound(parting, c->a,
+                      (struct parting_bound){c->b, -c->normal_x, -c->normal_z, free_mps});
+            add_bound(parting, c->b,
+                      (struct parting_bound){c->a, c->normal_x, c->normal_z, free_mps});
+        }
+    }
+}
+
+/* --- steps -------------------------------------------------------------------------------------*/
+
+/* Returns the least speed that the bound asks for along its direction [m/s]. */
+static double least_of(const struct parting_input *input, const struct parting_bound *bound)
+{
+    const struct level_motion *other = &input->body[bound->other].pushed;
+    return bound->x * other->x + bound->z * other->z - bound->slack_mps;
+}
+
+/* Returns true if the body, as it goes now, passes one of its bounds. */
+static bool is_out(const struct parting *parting, const struct parting_input *input, uint32_t index)
+{
+    const struct parting_body *body = &parting->body[index];
+    const struct level_motion *now = &input->body[index].pushed;
+    for (uint32_t i = body->first; i < body->end; i++) {
+        const struct parting_bound *bound = &parting->bound[i];
+        if (now->x * bound->x + now->z * bound->z < least_of(input, bound) - ROUNDING_MPS)
+            return true;
+    }
+    return false;
+}
+
+/* Lets all go by their wishes at once, and then those that pass a bound by half of that, at last
+ * not at all, until none does. A crowd that spreads cannot do so one by one. */
+static void go_together(struct parting *parting, const struct parting_input *input)
+{
+    bool any = true;
+    for (uint32_t i = 0; i < input->bodies; i++) {
+        if (parting->body[i].goes)
+            input->body[i].pushed =
+                (struct level_motion){parting->body[i].wish_x, parting->body[i].wish_z, 0.0};
+    }
+    while (any) {
+        any = false;
+        for (uint32_t i = 0; i < input->bodies; i++)
+            parting->body[i].back = parting->body[i].goes && is_out(parting, input, i);
+        for (uint32_t i = 0; i < input->bodies; i++) {
+            struct level_motion *now = &input->body[i].pushed;
+            if (!parting->body[i].back)
+                continue;
+            double keep = ++parting->body[i].backs < BACKS_MOST ? 0.5 : 0.0;
+            now->x *= keep;
+            now->z *= keep;
+            any = true;
+        }
+        work_done();
+    }
+}
+
+/* Lets one body go as far towards its wish as its bounds allow: along them, and no further than to
+ * the first. It stays within all of them. */
+static void step(struct parting *parting, const struct parting_input *input, uint32_t index)
+{
+    const struct parting_body *body = &parting->body[index];
+    struct level_motion *now = &input->body[index].pushed;
+    double x = body->wish_x, z = body->wish_z, share = 1.0;
+    for (int round = 0; round < SLIDES; round++) {
+        for (uint32_t i = body->first; i < body->end; i++) {
+            const struct parting_bound *bound = &parting->bound[i];
+            double off = least_of(input, bound) - x * bound->x - z * bound->z;
+            x += maths_max(0.0, off) * bound->x;
+            z += maths_max(0.0, off) * bound->z;
+        }
+    }
+    x -= now->x;
+    z -= now->z;
+    for (uint32_t i = body->first; i < body->end; i++) {
+        const struct parting_bound *bound = &parting->bound[i];
+        double closing = -(x * bound->x + z * bound->z);
+        double room = now->x * bound->x + now->z * bound->z - least_of(input, bound);
+        if (closing > 0.0 && closing * share > room)
+            share = maths_max(0.0, room) / closing;
+    }
+    now->x += share * x;
+    now->z += share * z;
+}
+
+/* Recovers the shallow overlaps of groups in which nobody has to part. */
+static void part_others(struct parting *parting, const struct parting_input *input)
+{
+    for (uint32_t i = 0; i < input->points; i++) {
+        if (input->point[i].apart_mps > 0.0 && !parts(parting, input->point[i].a)) {
+            level_solver_part(input->body, input->point, input->points);
+            return;
+        }
+    }
+}
+
+void parting_run(struct parting *parting, const struct parting_input *input)
+{
+    make_room(parting, input);
+    bool any = find_groups(parting, input);
+    part_others(parting, input);
+    if (!any) {
+        for (uint32_t i = 0; i < input->bodies; i++)
+            limit(&input->body[i].pushed);
+        return;
+    }
+    measure_crowds(parting, input);
+    part_points(parting, input);
+    make_wishes(parting, input);
+    count_bounds(parting, input);
+    add_bounds(parting, input);
+    go_together(parting, input);
+    for (uint32_t sweep = 0; sweep < SWEEPS; sweep++) {
+        for (uint32_t n = 0; n < input->bodies; n++) {
+            uint32_t i = sweep % 2 == 0 ? n : input->bodies - 1 - n;
+            if (parting->body[i].goes)
+                step(parting, input, i);
+        }
+        work_done();
+    }
 }

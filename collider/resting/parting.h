@@ -1,19 +1,73 @@
-/* How bodies part that overlap deeply, for instance because they began in each other. Pure; any
- * thread. */
+/* How bodies part that overlap deeply, for instance because they began in each other. They are
+ * displaced without a velocity, and no displacement brings two bodies deeper into each other.
+ *
+ * Sweeps over the points find how far each body would go. A crowd that has less room than
+ * its bodies need spreads about its centre of mass instead: that parts every pair at once. Then
+ * each body in turn goes as far as its points allow, where all others are by then, several times.
+ * So those at the edge go first, and those behind follow. Each intermediate state keeps the bounds
+ * of all points: the result does not depend on convergence. Pure; one caller. */
 #ifndef JOLON_COLLIDER_RESTING_PARTING_H
 #define JOLON_COLLIDER_RESTING_PARTING_H
 
 #include "collider/response/response.h"
-#include "collider/resting/resting.h"
+#include "collider/resting/level_solver.h"
 
-/* Bodies whose positions are within each other need no exact normals and depths, only to part: they
- * do so along the line between their positions, as discs. Returns false if the pair lies
- * otherwise. */
-bool parting_measure(const struct response_context *context, const struct pair *pair,
-                     struct resting_gap *found);
+#include <stdbool.h>
+#include <stdint.h>
 
-/* Limits what moves an overlapping body apart. The sweeps do not converge in a crowd at one place.
+struct resting_pair;
+
+/* Of an overlap this share is recovered in a frame, and never faster than this. */
+#define PARTING_SHARE 0.5
+#define PARTING_MPS   10.0
+
+/* A body of this frame's resting contacts. */
+struct parting_body {
+    uint32_t parent, crowd; /* body + 1: of bodies near each other, and of those deep in another */
+    uint32_t first, end;    /* its bounds in parting.bound */
+    uint32_t members;       /* of a root of a crowd: its bodies */
+    bool parts;             /* of a root: two of its bodies are deep in each other */
+    bool goes;              /* it belongs to such a group */
+    bool spreads;           /* its crowd is dense */
+    bool back;              /* it passes a bound */
+    uint32_t backs;         /* how often it went back */
+    double x, z;            /* [m] where it is; else coincident bodies are spread */
+    double wish_x, wish_z;  /* [m/s] how it would go */
+    double mass_kg, area_m2, centre_x, centre_z, reach_m, deepest_m; /* of a root of a crowd */
+};
+
+/* The body's speed along a direction is at least that of the other body along it, less the slack.
  */
-void parting_limit(struct level_motion *pushed);
+struct parting_bound {
+    uint32_t other; /* body */
+    double x, z;    /* unit, away from the other */
+    double slack_mps;
+};
+
+/* The collider's own memory. */
+struct parting {
+    struct parting_body *body;
+    struct parting_bound *bound;
+    uint64_t body_capacity, bound_capacity;
+};
+
+/* What is parted: the solver's bodies, of which row is SLOT_NONE for a fixed object, and points,
+ * those of a pair beside each other. */
+struct parting_input {
+    const struct response_context *context;
+    const uint32_t *row;
+    struct level_body *body;
+    struct level_contact *point;
+    const struct resting_pair *pair;
+    uint32_t bodies, points, pairs;
+};
+
+/* Returns 0, or -1 with errno ENOMEM. */
+int parting_init(struct parting *parting, uint64_t bodies, uint64_t points);
+void parting_free(struct parting *parting);
+
+/* Finds what pushes bodies apart (level_motion.pushed): those that are deep in each other, and all
+ * that they may push, as above, and others by level_solver_part(). The contacts are solved. */
+void parting_run(struct parting *parting, const struct parting_input *input);
 
 #endif

@@ -2,7 +2,9 @@
 #include "collider/resting/resting.h"
 
 #include "collider/response/contact_impulse.h"
+#include "collider/response/contact_table.h"
 #include "collider/response/response.h"
+#include "collider/resting/deep_pair.h"
 #include "collider/resting/ground_placement.h"
 #include "collider/resting/parting.h"
 #include "world/entity/mass_properties.h"
@@ -20,15 +22,11 @@
  * no load on each other [m]. */
 #define NEAR_M 0.02
 
-/* Of an overlap this share is recovered in a frame, and never faster than this. */
-#define RECOVERED 0.5
-#define PART_MPS  3.0
-
 #define ROUNDING_M 1e-6 /* smaller overlaps of the skins are rounding */
 
 #define PAIRS_A_PIECE 4u
 
-#define POINTS_A_PAIR (2u * LEVEL_GAPS_MAX)
+#define POINTS_A_PAIR (2u * RESTING_GAPS_MAX)
 
 int resting_init(struct resting *resting, const struct world *world, struct thread_pool *workers)
 {
@@ -41,11 +39,11 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
     resting->body = reserve_take(rows + pairs, sizeof *resting->body);
     resting->row = reserve_take(rows + pairs, sizeof *resting->row);
     resting->body_of = calloc(rows, sizeof *resting->body_of);
-    resting->parts = calloc(rows, sizeof *resting->parts);
     resting->moved = reserve_take(rows, sizeof *resting->moved);
-    if (contact_groups_init(&resting->groups, world) == 0 && resting->gap && resting->pair &&
-        resting->point && resting->body && resting->row && resting->body_of && resting->parts &&
-        resting->moved)
+    if (contact_groups_init(&resting->groups, world) == 0 &&
+        parting_init(&resting->parting, rows + pairs, pairs * POINTS_A_PAIR) == 0 &&
+        neighbours_init(&resting->neighbours, world) == 0 && resting->gap && resting->pair &&
+        resting->point && resting->body && resting->row && resting->body_of && resting->moved)
         return 0;
     resting_free(resting);
     errno = ENOMEM;
@@ -55,25 +53,27 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
 void resting_free(struct resting *resting)
 {
     contact_groups_free(&resting->groups);
+    parting_free(&resting->parting);
+    neighbours_free(&resting->neighbours);
     reserve_free(resting->gap);
     reserve_free(resting->pair);
     reserve_free(resting->point);
     reserve_free(resting->body);
     reserve_free(resting->row);
     free(resting->body_of);
-    free(resting->parts);
     reserve_free(resting->moved);
     *resting = (struct resting){0};
 }
 
 /* Makes room for so many pairs. There may be more than contacts in the table, because bodies that
- * are new can overlap all others. What the arrays held is lost. */
-static void make_room(struct resting *resting, const struct world *world, uint32_t pairs)
+ * are new can overlap all others. Only the gaps of the first pairs are kept. */
+static void make_room(struct resting *resting, const struct world *world, uint32_t kept,
+                      uint32_t pairs)
 {
     uint64_t more = 2 * (uint64_t)pairs, bodies = more + world->params->capacity;
     if (pairs <= resting->capacity)
         return;
-    resting->gap = reserve_grow(resting->gap, 0, more, sizeof *resting->gap);
+    resting->gap = reserve_grow(resting->gap, kept, more, sizeof *resting->gap);
     resting->pair = reserve_grow(resting->pair, 0, more, sizeof *resting->pair);
     resting->point = reserve_grow(resting->point, 0, more * POINTS_A_PAIR, sizeof *resting->point);
     resting->body = reserve_grow(resting->body, 0, bodies, sizeof *resting->body);
@@ -167,7 +167,8 @@ static struct level_contact point_of(const struct response_context *context,
         .b_x = at.x - b.x,
         .b_z = at.z - b.z,
         .least_mps = room > 0.0 ? -room / dt_s : 0.0,
-        .apart_mps = room < -ROUNDING_M ? maths_min(-RECOVERED * room / dt_s, PART_MPS) : 0.0,
+        .apart_mps =
+            room < -ROUNDING_M ? maths_min(-PARTING_SHARE * room / dt_s, PARTING_MPS) : 0.0,
         .friction = sqrt(ka->friction * kb->friction)};
 }
 
@@ -205,42 +206,121 @@ static void report(struct response_context *context, const struct pair *pair,
 
 /* --- gaps --------------------------------------------------------------------------------------*/
 
+static bool is_deep(const struct resting_gap *gap)
+{
+    return gap->count > 0 && gap->gap[0].gap_m <= -RESTING_PARTS_M;
+}
+
+/* A neighbourhood of bodies that part is measured with a greater margin and more gaps. */
 struct gap_job {
     struct resting *resting;
     const struct response_context *context;
+    uint32_t first; /* the pair with which it begins */
+    bool parts;     /* pairs of a neighbourhood */
 };
 
-/* Measures pairs first .. end - 1. One that is not in the table is near only if it overlaps. */
+/* Returns how near two bodies of a pair have to be. One that is not in the table, nor in a
+ * neighbourhood, is near only if it overlaps [m]. */
+static double margin_of(const struct gap_job *job, uint32_t index, const struct swept_body *a,
+                        const struct swept_body *b)
+{
+    if (job->parts)
+        return NEAR_M + nearing(a, b) + 2.0 * PARTING_MPS * world_dt_s(job->context->world);
+    return index < job->resting->groups.known ? NEAR_M + nearing(a, b) : 0.0;
+}
+
+static void measure_pair(const struct gap_job *job, uint32_t index)
+{
+    struct free_turn turn_a, turn_b;
+    const struct pair *pair = &job->resting->groups.pair[index];
+    struct resting_gap *gap = &job->resting->gap[index];
+    if (deep_pair_measure(job->context, pair, gap))
+        return;
+    struct swept_body a = body_motion_body(job->context->motion, pair->a, &turn_a);
+    struct swept_body b = body_motion_side(job->context->motion, pair->b, &turn_b);
+    gap->count = level_gap_find_more(&a, &b, 0.0, margin_of(job, index, &a, &b), gap->gap,
+                                     job->parts ? RESTING_GAPS_MAX : LEVEL_GAPS_MAX);
+    if (is_deep(gap) && gap->count > 1) {
+        level_gap_whole(&a, &b, 0.0, gap->gap, gap->count);
+        gap->count = 1;
+    }
+}
+
+/* Measures pairs first .. end - 1 of the job. */
 static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct gap_job *job = argument;
-    const struct contact_groups *groups = &job->resting->groups;
     (void)worker;
-    for (uint32_t i = first; i < end; i++) {
-        struct free_turn turn_a, turn_b;
-        const struct pair *pair = &groups->pair[i];
-        struct resting_gap *gap = &job->resting->gap[i];
-        if (parting_measure(job->context, pair, gap))
-            continue;
-        struct swept_body a = body_motion_body(job->context->motion, pair->a, &turn_a);
-        struct swept_body b = body_motion_side(job->context->motion, pair->b, &turn_b);
-        double margin = i < groups->known ? NEAR_M + nearing(&a, &b) : 0.0;
-        gap->count = level_gap_find(&a, &b, 0.0, margin, gap->gap);
-    }
+    for (uint32_t i = job->first + first; i < job->first + end; i++)
+        measure_pair(job, i);
     work_done();
 }
 
-/* Takes a pair whose bodies are near and do not close as fast as in an impact. known: it is in the
- * table. */
+/* Measures the pairs from the first on. */
+static void measure(struct resting *resting, const struct response_context *context, uint32_t first,
+                    bool parts)
+{
+    struct gap_job job = {resting, context, first, parts};
+    make_room(resting, context->world, first, resting->groups.count);
+    thread_pool_run(resting->workers, measure_some, &job, resting->groups.count - first,
+                    PAIRS_A_PIECE);
+    for (uint32_t i = first; i < resting->groups.count; i++) {
+        if (resting->gap[i].count > 0)
+            resting->gap[i].pair = contact_queue_pair(context->contacts, &resting->groups.pair[i]);
+    }
+}
+
+/* Measures the pairs within reach of the bodies that part, and of these all that they may push. */
+static void measure_neighbours(struct resting *resting, struct response_context *context)
+{
+    struct contact_groups *groups = &resting->groups;
+    struct neighbours *neighbours = &resting->neighbours;
+    const struct gap_job again = {resting, context, 0, true};
+    const double reach_m = 2.0 * PARTING_MPS * world_dt_s(context->world);
+    uint32_t table = groups->count, measured = table;
+    for (uint32_t i = 0; i < table; i++) {
+        if (resting->gap[i].count > 0)
+            context->contacts->marks[resting->gap[i].pair] |= CONTACT_GATHERED;
+    }
+    while (neighbours_list(neighbours, context, reach_m, groups)) {
+        measure(resting, context, measured, true);
+        for (; measured < groups->count; measured++) {
+            if (resting->gap[measured].count > 0)
+                neighbours_add(neighbours, &groups->pair[measured]);
+        }
+    }
+    for (uint32_t i = 0; i < table; i++) {
+        if (resting->gap[i].count > 0 && !is_deep(&resting->gap[i]) &&
+            neighbours_has(neighbours, &groups->pair[i]))
+            measure_pair(&again, i);
+    }
+    neighbours_unmark(context);
+}
+
+/* Measures the table's pairs, and those of bodies that are new. */
+static void measure_all(struct resting *resting, struct response_context *context)
+{
+    neighbours_begin(&resting->neighbours);
+    measure(resting, context, 0, false);
+    for (uint32_t i = 0; i < resting->groups.count; i++) {
+        if (is_deep(&resting->gap[i]))
+            neighbours_add(&resting->neighbours, &resting->groups.pair[i]);
+    }
+    if (resting->neighbours.count > 0)
+        measure_neighbours(resting, context);
+}
+
+/* Takes a pair whose bodies are near and do not close as fast as in an impact. */
 static void take(struct resting *resting, struct response_context *context, const struct pair *pair,
-                 const struct resting_gap *found, bool known)
+                 const struct resting_gap *found)
 {
     const struct level_gap *gap = found->gap;
     uint32_t gaps = found->count;
     uint32_t bodies = resting->bodies;
     if (gaps == 0)
         return;
-    struct resting_pair taken = {.first = resting->points, .gap_m = gap[0].gap_m};
+    struct resting_pair taken = {
+        .first = resting->points, .gap_m = gap[0].gap_m, .gap = gap, .pair = found->pair};
     uint32_t body_a = body_for(resting, context, pair->a);
     uint32_t body_b =
         pair->b & PAIR_FIXED ? fixed_body(resting) : body_for(resting, context, pair->b);
@@ -255,10 +335,7 @@ static void take(struct resting *resting, struct response_context *context, cons
         forget_bodies(resting, bodies);
         return;
     }
-    taken.pair = contact_queue_pair(context->contacts, pair);
     context->contacts->known[taken.pair].plane[0] = gap[0].normal;
-    if (!known)
-        report(context, pair, &gap[0]);
     resting->points += taken.count;
     resting->pair[resting->pairs++] = taken;
 }
@@ -309,12 +386,13 @@ static void move_bodies(struct resting *resting, struct response_context *contex
         resting->body_of[row] = 0;
         if (!changed(&resting->body[i]))
             continue;
-        parting_limit(&resting->body[i].pushed);
         move(context, row, &resting->body[i]);
         resting->moved[resting->moved_count++] = row;
     }
-    for (uint32_t i = 0; i < resting->moved_count; i++)
-        contact_queue_look(context->contacts, &context->input, resting->moved[i], false);
+    for (uint32_t i = 0; i < resting->moved_count; i++) {
+        if (!resting->neighbours.listed[resting->moved[i]]) /* or its neighbours are known */
+            contact_queue_look(context->contacts, &context->input, resting->moved[i], false);
+    }
 }
 
 /* --- all ---------------------------------------------------------------------------------------*/
@@ -350,27 +428,23 @@ static void rest(const struct resting *resting, struct contact_queue *contacts,
     contact_queue_rest(contacts, pair->pair, point, pair->count);
 }
 
-static void set_parting(struct resting *resting, const struct pair *pair)
-{
-    resting->parts[pair->a] = 1;
-    if (!(pair->b & PAIR_FIXED))
-        resting->parts[pair->b] = 1;
-}
-
 /* A pair that the sweeps have not brought to rest is left to the search for impacts. */
 static void mark(struct resting *resting, struct response_context *context)
 {
     for (uint32_t i = 0; i < resting->pairs; i++) {
         const struct resting_pair *pair = &resting->pair[i];
+        const struct pair *bodies = &context->contacts->pair[pair->pair];
         uint8_t *marks = &context->contacts->marks[pair->pair];
-        if (closing(resting, pair) < CONTACT_IMPACT_MPS)
+        bool known = contact_table_find(context, bodies->a, bodies->b) != NULL;
+        bool bears = touches(resting, pair);
+        if (bears && !known)
+            report(context, bodies, pair->gap);
+        if ((bears || known) && closing(resting, pair) < CONTACT_IMPACT_MPS)
             rest(resting, context->contacts, pair);
-        if (touches(resting, pair))
+        if (bears)
             *marks |= CONTACT_PRESSED;
-        if (pair->gap_m <= -RESTING_PARTS_M && *marks & CONTACT_RESTS) {
+        if (pair->gap_m <= -RESTING_PARTS_M && *marks & CONTACT_RESTS)
             *marks |= CONTACT_PARTS;
-            set_parting(resting, &context->contacts->pair[pair->pair]);
-        }
         if (overlaps(resting, pair))
             *marks |= CONTACT_OVERLAPS;
     }
@@ -378,22 +452,23 @@ static void mark(struct resting *resting, struct response_context *context)
 
 void resting_solve(struct resting *resting, struct response_context *context)
 {
-    for (uint32_t i = 0; i < resting->bodies; i++) {
-        if (resting->row[i] != SLOT_NONE)
-            resting->parts[resting->row[i]] = 0;
-    }
     for (uint32_t i = 0; i < resting->moved_count; i++)
         context->motion->parting_rps[resting->moved[i]] = 0.0;
     resting->moved_count = 0;
     resting->pairs = resting->points = resting->bodies = 0;
     contact_groups_find(&resting->groups, context);
-    make_room(resting, context->world, resting->groups.count);
-    thread_pool_run(resting->workers, measure_some, &(struct gap_job){resting, context},
-                    resting->groups.count, PAIRS_A_PIECE);
+    measure_all(resting, context);
     for (uint32_t i = 0; i < resting->groups.count; i++)
-        take(resting, context, &resting->groups.pair[i], &resting->gap[i],
-             i < resting->groups.known);
+        take(resting, context, &resting->groups.pair[i], &resting->gap[i]);
     level_solver_run(resting->body, resting->bodies, resting->point, resting->points);
+    parting_run(&resting->parting, &(struct parting_input){.context = context,
+                                                           .row = resting->row,
+                                                           .body = resting->body,
+                                                           .point = resting->point,
+                                                           .pair = resting->pair,
+                                                           .bodies = resting->bodies,
+                                                           .points = resting->points,
+                                                           .pairs = resting->pairs});
     mark(resting, context);
     move_bodies(resting, context);
 }

@@ -9,32 +9,41 @@
 #include "collider/geometry/level_gap.h"
 #include "collider/resting/contact_groups.h"
 #include "collider/resting/level_solver.h"
+#include "collider/resting/neighbours.h"
+#include "collider/resting/parting.h"
 
 #include <stdint.h>
 
 struct thread_pool;
 
-/* Bodies that begin the frame deeper in another than this have to part. The guard at the frame's
- * end stops them at walls only [m]. */
+/* Bodies that begin the frame deeper in each other than this only have to part: they have no
+ * impacts, and the guard at the frame's end does not hold them back from each other [m]. */
 #define RESTING_PARTS_M 0.02
+
+/* Of bodies that part, and of their neighbours, so many pairs of hulls count. */
+#define RESTING_GAPS_MAX 12u
 
 /* Two bodies in a contact that lasts. */
 struct resting_pair {
-    uint32_t pair;         /* index into contacts->pair */
-    uint32_t first, count; /* its points */
-    double gap_m;          /* the smallest, at the frame's beginning; below 0: overlap */
+    uint32_t pair;               /* index into contacts->pair */
+    uint32_t first, count;       /* its points */
+    const struct level_gap *gap; /* the smallest, until the next frame */
+    double gap_m;                /* the smallest, at the frame's beginning; below 0: overlap */
 };
 
 /* How the two bodies of a pair lie at the frame's beginning. */
 struct resting_gap {
-    struct level_gap gap[LEVEL_GAPS_MAX]; /* smallest first */
+    struct level_gap gap[RESTING_GAPS_MAX]; /* smallest first; LEVEL_GAPS_MAX unless bodies part */
     uint32_t count;
+    uint32_t pair; /* index into contacts->pair, if there are gaps */
 };
 
 /* The collider's own memory, kept from frame to frame. */
 struct resting {
     struct thread_pool *workers;
     struct contact_groups groups;
+    struct parting parting;
+    struct neighbours neighbours;
     struct resting_gap *gap; /* [groups.count] */
     struct resting_pair *pair;
     uint32_t pairs, capacity;
@@ -44,7 +53,6 @@ struct resting {
     uint32_t *row; /* [bodies] SLOT_NONE for a fixed object */
     uint32_t bodies;
     uint32_t *body_of; /* [capacity of the world] body + 1, else 0 */
-    uint8_t *parts;    /* [capacity of the world] 1: deeper in another than RESTING_PARTS_M */
     uint32_t *moved;   /* rows whose motion the contacts changed */
     uint32_t moved_count;
 };

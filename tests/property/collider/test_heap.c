@@ -17,7 +17,6 @@
 #define HELD_M       1e-6 /* off the ground at most */
 #define TOLD_MOST    1.75 /* collisions told for a pair in contact ... */
 #define TOLD_MOST_90 1.25 /* ... and in a heap of 90, in which few bounce apart */
-#define FRAMES_APART 60   /* in which bodies that start overlapped part */
 
 static struct fixture f;
 
@@ -96,30 +95,6 @@ static void test_rows_36_46_rings_press_without_overlap(void **state)
     push_rings(90, 60.0, 4.0, seed);
 }
 
-/* --- overlapping starts ------------------------------------------------------------------------*/
-
-/* Two tanks that stand half a metre in each other part, gain no speed by it, and are told. */
-static void test_row_46_bodies_that_start_overlapped_part(void **state)
-{
-    (void)state;
-    open_world(60.0);
-    fixture_put(
-        &f, (struct fixture_entity){.kind = "tank", .at = {25000.0, FIXTURE_GROUND_M, 25000.0}});
-    fixture_put(
-        &f, (struct fixture_entity){.kind = "tank", .at = {25003.0, FIXTURE_GROUND_M, 25000.0}});
-    fixture_continue(&f, 1); /* from then on there is a committed frame */
-    double before = steps_deepest(&f, 2);
-    fixture_continue(&f, FRAMES_APART);
-    double after = steps_deepest(&f, 2);
-    print_message("overlap %.3f m at the start, %.4f m after %d frames\n", before, after,
-                  FRAMES_APART);
-    assert_true(before > 0.3);
-    assert_true(after < 0.01);
-    assert_true(steps_speed(&f, 0) < 1e-6 && steps_speed(&f, 1) < 1e-6);
-    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
-    fixture_close(&f);
-}
-
 /* --- ends --------------------------------------------------------------------------------------*/
 
 /* A tank runs into another, pushes it and drives back: one contact ends. */
@@ -151,7 +126,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rows_36_46_rings_press_without_overlap),
-        cmocka_unit_test(test_row_46_bodies_that_start_overlapped_part),
         cmocka_unit_test(test_the_end_of_a_contact_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

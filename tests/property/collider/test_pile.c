@@ -18,7 +18,7 @@
 #define JEEPS        20
 #define CROWD        100
 #define CROWD_FRAMES 300
-#define CROWD_DEEP_M 2.0 /* at first as deep as a tank is wide and more */
+#define CROWD_DEEP_M 0.01 /* at the end; tests/property/collider/test_parting.c has more */
 #define FASTEST_MPS  3.0
 #define SLOW_S       5.0 /* of the processor, a frame: sanitizers are slow */
 

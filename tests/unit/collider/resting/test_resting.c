@@ -182,8 +182,8 @@ static void test_who_lies_on_a_side_is_no_disc(void **state)
     assert_int_equal(resting->moved_count, 0);
 }
 
-/* The recovery takes the second truck 2.5 cm out of the box that the broad phase has, up to that of
- * the third. */
+/* The recovery takes the second truck out of the box that the broad phase has, up to that of the
+ * third. */
 static void test_bodies_that_moved_find_their_new_neighbours(void **state)
 {
     struct entities w = steps_rows(&f);
@@ -197,7 +197,7 @@ static void test_bodies_that_moved_find_their_new_neighbours(void **state)
     for (uint32_t i = 0; i < context.contacts->pair_count; i++)
         found |= context.contacts->pair[i].a == 1 && context.contacts->pair[i].b == 2;
     assert_true(found);
-    assert_true(context.next->entities.x[1] < w.x[1] + 0.03);
+    assert_true(context.next->entities.x[1] > w.x[1] + 0.01);
 }
 
 /* Another body had the row in the frame before, elsewhere, faster and with another heading. */

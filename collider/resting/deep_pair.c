@@ -1,0 +1,136 @@
+/* Capsules in the inner shapes of bodies. */
+#include "collider/resting/deep_pair.h"
+
+#include "collider/response/contact_impulse.h"
+#include "collider/resting/resting.h"
+#include "world/world.h"
+
+/* Capsules nearer than this share of the sum of their radii are deep in each other. */
+#define DEEP 0.9
+
+/* A body that leans more does not cover the capsule [rad]. */
+#define STANDS_RAD 0.5
+
+/* Bodies at one place part as if they were so far apart, times the root of their ids [m]. */
+#define COINCIDENT_M 1e-4
+#define GOLDEN_ANGLE 2.399963229728653 /* [rad] */
+
+/* A body's inner shape on the map: all points that are nearer to a line than the radius. */
+struct capsule {
+    double x, z;             /* [m] its middle */
+    double along_x, along_z; /* [m] from there to one end of the line */
+    double radius_m;
+};
+
+/* Returns true if the body covers its capsule. Aircraft do not, because they are fuselages with
+ * wings and rotors, and no wreck on its side does. */
+static bool fills_capsule(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    return context->world->kinds[e->kind[row]].domain != DOMAIN_AIR &&
+           fabs(e->pitch[row]) + fabs(e->roll[row]) <= STANDS_RAD;
+}
+
+void deep_pair_place(const struct response_context *context, uint32_t row, double *x, double *z)
+{
+    double id = context->next->entities.id[row], sine, cosine;
+    struct vec3 at = context->path[row].at;
+    maths_sincos(maths_wrap_turn(GOLDEN_ANGLE * id), &sine, &cosine);
+    double far = COINCIDENT_M * sqrt(id);
+    *x = at.x + far * cosine;
+    *z = at.z + far * sine;
+}
+
+static struct capsule capsule_of(const struct response_context *context, uint32_t row,
+                                 const struct kind *kind)
+{
+    double sine, cosine, wide = maths_min(kind->width_m, kind->length_m);
+    double half = 0.5 * DEEP * (kind->length_m - wide);
+    struct capsule capsule = {.radius_m = 0.5 * wide};
+    maths_sincos(context->next->entities.heading[row], &sine, &cosine);
+    capsule.along_x = half * sine;
+    capsule.along_z = -half * cosine;
+    deep_pair_place(context, row, &capsule.x, &capsule.z);
+    return capsule;
+}
+
+/* Returns where on a capsule's line the point is nearest, -1 to 1. */
+static double nearest_on(const struct capsule *capsule, double x, double z)
+{
+    double square = capsule->along_x * capsule->along_x + capsule->along_z * capsule->along_z;
+    if (square == 0.0)
+        return 0.0;
+    double dot = (x - capsule->x) * capsule->along_x + (z - capsule->z) * capsule->along_z;
+    return maths_clamp(dot / square, -1.0, 1.0);
+}
+
+/* Finds the nearest points of two lines that do not cross: one of them is an end. Returns the
+ * square of their distance. */
+static double nearest(const struct capsule *a, const struct capsule *b, struct vec3 *on_a,
+                      struct vec3 *on_b)
+{
+    double least = INFINITY;
+    for (int i = 0; i < 4; i++) {
+        const struct capsule *p = i < 2 ? a : b, *q = i < 2 ? b : a;
+        double end = i & 1 ? 1.0 : -1.0;
+        struct vec3 from = {p->x + end * p->along_x, 0.0, p->z + end * p->along_z};
+        double share = nearest_on(q, from.x, from.z);
+        struct vec3 to = {q->x + share * q->along_x, 0.0, q->z + share * q->along_z};
+        struct vec3 off = vec3_sub(to, from);
+        double square = vec3_dot(off, off);
+        if (square < least) {
+            least = square;
+            *on_a = i < 2 ? from : to;
+            *on_b = i < 2 ? to : from;
+        }
+    }
+    return least;
+}
+
+/* Returns true if the lines cross. */
+static bool cross(const struct capsule *a, const struct capsule *b)
+{
+    double x = b->x - a->x, z = b->z - a->z;
+    double turn = a->along_x * b->along_z - a->along_z * b->along_x;
+    double on_a = x * b->along_z - z * b->along_x, on_b = x * a->along_z - z * a->along_x;
+    return fabs(on_a) <= fabs(turn) && fabs(on_b) <= fabs(turn);
+}
+
+/* Returns the distance along the normal, below 0 if the capsules overlap. Lines that cross part
+ * along the line between their middles. */
+static double capsule_gap(const struct capsule *a, const struct capsule *b, struct vec3 *normal,
+                          struct vec3 *middle)
+{
+    double radii = a->radius_m + b->radius_m;
+    struct vec3 on_a = {a->x, 0.0, a->z}, on_b = {b->x, 0.0, b->z};
+    bool crossing = cross(a, b);
+    if (!crossing)
+        nearest(a, b, &on_a, &on_b);
+    struct vec3 line = vec3_sub(on_b, on_a);
+    double distance = vec3_length(line);
+    *normal = distance > 0.0 ? vec3_scale(line, 1.0 / distance) : (struct vec3){1.0, 0.0, 0.0};
+    *middle = vec3_lerp(on_a, on_b, 0.5);
+    return crossing ? -radii : distance - radii;
+}
+
+bool deep_pair_measure(const struct response_context *context, const struct pair *pair,
+                       struct resting_gap *found)
+{
+    if (pair->b & PAIR_FIXED || !fills_capsule(context, pair->a) ||
+        !fills_capsule(context, pair->b))
+        return false;
+    const struct kind *ka = contact_impulse_kind(context, pair->a);
+    const struct kind *kb = contact_impulse_kind(context, pair->b);
+    struct capsule a = capsule_of(context, pair->a, ka), b = capsule_of(context, pair->b, kb);
+    double y_a = context->path[pair->a].at.y, y_b = context->path[pair->b].at.y;
+    struct vec3 normal, middle;
+    double gap = capsule_gap(&a, &b, &normal, &middle);
+    if (gap > (DEEP - 1.0) * (a.radius_m + b.radius_m) ||
+        fabs(y_b - y_a) > DEEP * 0.5 * (ka->height_m + kb->height_m))
+        return false;
+    middle.y = 0.5 * (y_a + y_b);
+    found->count = 1;
+    found->gap[0] =
+        (struct level_gap){.normal = normal, .gap_m = gap, .point = {middle}, .points = 1};
+    return true;
+}
