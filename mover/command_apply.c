@@ -10,6 +10,7 @@
 #include "world/params.h"
 #include "world/state.h"
 #include "world/terrain/gridsquare.h"
+#include "world/terrain/rest_pose.h"
 #include "world/world.h"
 
 #include <string.h>
@@ -179,6 +180,19 @@ static bool crowded(const struct serial_context *context, struct vec3 place)
     return count == COMMAND_SPOT_VEHICLES;
 }
 
+/* A land vehicle stands on the ground as it will in the frames to come. */
+static void set_on_ground(const struct serial_context *context, uint32_t row)
+{
+    const struct step_context *step = context->step;
+    const struct entities *m = &context->moved->entities;
+    struct rest_pose pose =
+        rest_pose_of(&step->world->terrain, step->craters, &step->world->kinds[m->kind[row]],
+                     m->x[row], m->z[row], m->heading[row]);
+    table_set_position(&context->writer, row, (struct vec3){m->x[row], pose.y_m, m->z[row]});
+    table_set_pitch(&context->writer, row, pose.pitch_rad);
+    table_set_roll(&context->writer, row, pose.roll_rad);
+}
+
 static enum command_result spawn(struct serial_context *context, const struct command *command,
                                  uint32_t *entity)
 {
@@ -208,6 +222,8 @@ static enum command_result spawn(struct serial_context *context, const struct co
     table_set_position(writer, row, position);
     table_set_velocity(writer, row, (struct vec3){v[4] * sine, 0.0, -v[4] * cosine});
     table_set_heading(writer, row, maths_wrap_turn(v[3]));
+    if (kind->domain == DOMAIN_LAND)
+        set_on_ground(context, row);
     table_set_behaviour(writer, row, (uint8_t)command->amount);
     table_set_order(writer, row, (uint8_t)command->amount);
     table_set_goal_x(writer, row, v[0]);

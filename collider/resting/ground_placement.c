@@ -1,7 +1,7 @@
 /* Heights under bodies that have been moved. */
 #include "collider/resting/ground_placement.h"
 
-#include "collider/motion/rest_pose.h"
+#include "world/terrain/rest_pose.h"
 #include "world/world.h"
 
 void ground_placement_put(struct response_context *context, uint32_t row, struct vec3 at,

@@ -12,6 +12,7 @@
 #include "world/making/road_routing.h"
 #include "world/making/script_build.h"
 #include "world/terrain/gridsquare.h"
+#include "world/terrain/rest_pose.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -60,6 +61,18 @@ static bool follows(const struct vehicle_placement *placement, uint32_t slot)
     return placement->rank.group->formed && slot != placement->rank.leader;
 }
 
+/* A land vehicle stands on the ground as it will in the frames to come. */
+static void set_on_ground(const struct world_build *built, uint32_t slot)
+{
+    const struct terrain terrain = world_build_terrain(built);
+    const struct entities *e = &built->first;
+    struct rest_pose pose = rest_pose_of(&terrain, NULL, &built->scenario->kinds[e->kind[slot]],
+                                         e->x[slot], e->z[slot], e->heading[slot]);
+    e->y[slot] = pose.y_m;
+    e->pitch[slot] = pose.pitch_rad;
+    e->roll[slot] = pose.roll_rad;
+}
+
 static void put_entity(const struct vehicle_placement *placement, uint32_t slot,
                        const struct stand *stand)
 {
@@ -88,6 +101,8 @@ static void put_entity(const struct vehicle_placement *placement, uint32_t slot,
     e->y[slot] = terrain_base_height(&terrain, stand->x, stand->z) +
                  (kind->domain == DOMAIN_AIR ? altitude : 0.0);
     e->heading[slot] = stand->heading;
+    if (kind->domain == DOMAIN_LAND)
+        set_on_ground(built, slot);
     e->vx[slot] = speed * sine;
     e->vz[slot] = -speed * cosine;
     e->fuel_l[slot] = kind->fuel_l;

@@ -1,7 +1,7 @@
 /* Bodies that are put elsewhere stand on the ground there. */
 #include "collider/resting/ground_placement.h"
 
-#include "collider/motion/rest_pose.h"
+#include "world/terrain/rest_pose.h"
 #include "tests/support/steps.h"
 
 #include <stdarg.h>

@@ -152,6 +152,31 @@ static void test_a_base_is_amid_its_force(void **state)
     fixture_close(&f);
 }
 
+/* At frame 0 they have the pose that later frames give them; the generated ground is uneven. */
+static void test_vehicles_stand_on_slopes(void **state)
+{
+    double steepest = 0.0;
+    (void)state;
+    fixture_open(&f, "terrain = { source = \"generated\"; };"
+                     "vehicles = ( { kind = \"tank\"; count = 20; behaviour = \"idle\"; } );");
+    struct state now = fixture_state(&f);
+    for (uint32_t i = 0; i < 20; i++)
+        steepest = maths_max(steepest, fabs(now.entities.pitch[i]) + fabs(now.entities.roll[i]));
+    assert_true(steepest > 0.05);
+    double pitch[20], roll[20], y[20];
+    memcpy(pitch, now.entities.pitch, sizeof pitch);
+    memcpy(roll, now.entities.roll, sizeof roll);
+    memcpy(y, now.entities.y, sizeof y);
+    fixture_run(&f, 2);
+    now = fixture_state(&f);
+    for (uint32_t i = 0; i < 20; i++) {
+        check_near(now.entities.pitch[i], pitch[i]);
+        check_near(now.entities.roll[i], roll[i]);
+        check_near(now.entities.y[i], y[i]);
+    }
+    fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -160,6 +185,7 @@ int main(void)
         cmocka_unit_test(test_who_follows_stands_behind),
         cmocka_unit_test(test_a_taken_place_gives_one_near_it),
         cmocka_unit_test(test_a_base_is_amid_its_force),
+        cmocka_unit_test(test_vehicles_stand_on_slopes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
 /* Five heights under a body. */
-#include "collider/motion/rest_pose.h"
+#include "world/terrain/rest_pose.h"
 
 #include "world/maths/maths.h"
 
@@ -16,7 +16,7 @@ struct rest_pose rest_pose_of(const struct terrain *terrain, const struct crater
     double left = terrain_height(terrain, craters, x - cosine * width, z - sine * width);
     const struct crater_footing footing = {x, z, length, width, sine, cosine};
     return (struct rest_pose){.y_m = terrain_height(terrain, craters, x, z) +
-                                     crater_lift(craters, &footing),
+                                     (craters ? crater_lift(craters, &footing) : 0.0),
                               .pitch_rad = maths_atan2(front - back, 2.0 * length),
                               .roll_rad = maths_atan2(left - right, 2.0 * width)};
 }

@@ -1,7 +1,7 @@
 /* How a body stands on the ground: its height, pitch and roll follow from where it is and where it
  * heads. Pure; any thread. */
-#ifndef JOLON_COLLIDER_MOTION_REST_POSE_H
-#define JOLON_COLLIDER_MOTION_REST_POSE_H
+#ifndef JOLON_WORLD_TERRAIN_REST_POSE_H
+#define JOLON_WORLD_TERRAIN_REST_POSE_H
 
 #include "world/entity/kind.h"
 #include "world/terrain/terrain.h"
@@ -13,7 +13,8 @@ struct rest_pose {
 
 /* Returns how a land vehicle stands on the ground as the mover has it (mover/motion/ground_pose.h):
  * the height under its middle and the lift by craters, and the slopes between the heights under
- * front and back and under its sides. heading clockwise from north [rad]. */
+ * front and back and under its sides. heading clockwise from north [rad];
+ * craters NULL: there are none. */
 struct rest_pose rest_pose_of(const struct terrain *terrain, const struct crater_index *craters,
                               const struct kind *kind, double x, double z, double heading_rad);
 

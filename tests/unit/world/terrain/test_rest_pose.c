@@ -1,5 +1,5 @@
 /* The collider sets land vehicles on the ground as the mover does. */
-#include "collider/motion/rest_pose.h"
+#include "world/terrain/rest_pose.h"
 
 #include "tests/support/steps.h"
 #include "world/terrain/crater.h"
