@@ -128,7 +128,7 @@ static void measure_corners(struct measures *measures, const struct ground_look 
         body->now.lowest_m = lowest_corner(ground, body);
     body->now.grounded =
         body->now.wreck ? body->now.lowest_m < near : kind->domain == DOMAIN_AIR && depth > -near;
-    /* A vehicle is placed level, and takes the ground's slope in its first frame. */
+    /* A vehicle is not measured in the frame in which it appears: a teleport may end on a cliff. */
     bool placed = !body->known && kind->domain == DOMAIN_LAND && !body->now.wreck;
     if (!placed && !surface_is_water(ground->surface, at.x, at.z))
         measure_take(measures, MEASURE_OF_UNDERGROUND, maths_max(0.0, depth), &body->named, NULL);
