@@ -5,6 +5,7 @@
 #include "collider/geometry/time_of_impact.h"
 #include "collider/narrow_phase/separating_axis.h"
 
+#include "tests/support/placed_hulls.h"
 #include "tests/support/fixture.h"
 
 #include <math.h>
@@ -15,9 +16,8 @@
 
 #include <cmocka.h>
 
-#define PAIRS    4000
-#define TIMES    17 /* at which the hulls are looked at */
-#define VERTICES 2048
+#define PAIRS 4000
+#define TIMES 17 /* at which the hulls are looked at */
 
 static const char *const kinds[] = {"tank", "carrier", "jeep"};
 
@@ -86,60 +86,15 @@ static struct swept_body any_body(struct vec3 at, uint64_t *random)
 
 /* --- the oracle --------------------------------------------------------------------------------*/
 
-/* A body's hulls at a time, relative to a point nearby. */
-struct placed {
-    struct vec3 vertex[VERTICES];
-    struct convex hull[HULLS_A_MODEL];
-};
-
-/* Returns where a vertex is in its body. */
-static struct vec3 in_body(const struct turret_path *path, uint32_t part, struct vec3 p,
-                           double time)
-{
-    double turret = path->turret + path->turret_turn * time,
-           gun = path->gun + path->gun_turn * time;
-    struct vec3 s = path->gun_pivot, t = path->turret_pivot;
-    double x = p.x - s.x, y = p.y - s.y;
-    if (part == HULL_PART_GUN)
-        p = (struct vec3){s.x + x * cos(gun) - y * sin(gun), s.y + y * cos(gun) + x * sin(gun),
-                          p.z};
-    double z = p.z - t.z;
-    x = p.x - t.x;
-    if (part != HULL_PART_BODY)
-        p = (struct vec3){t.x + x * cos(turret) - z * sin(turret), p.y,
-                          t.z + z * cos(turret) + x * sin(turret)};
-    return p;
-}
-
-static void place(const struct swept_body *body, double time, struct vec3 near, struct placed *to)
-{
-    struct mat3 turn = rotation_matrix(rotation_between(body->from, body->to, time));
-    struct vec3 at = vec3_sub(path_at(&body->path, time), near);
-    uint32_t used = 0;
-    for (uint32_t h = 0; h < body->hull_count; h++) {
-        const struct hull *hull = &body->hull[h];
-        assert_true(used + hull->vertex_count <= VERTICES);
-        to->hull[h] = (struct convex){.vertex = &to->vertex[used],
-                                      .count = hull->vertex_count,
-                                      .scale = 1.0,
-                                      .turn = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
-        for (uint32_t v = 0; v < hull->vertex_count; v++) {
-            struct vec3 p = body->vertices[hull->first_vertex + v];
-            p = in_body(&body->turret, hull->part, p, time);
-            to->vertex[used++] = vec3_add(at, rotation_apply(&turn, p));
-        }
-    }
-}
-
 /* Returns the pairs of hulls that touch at any of the times, by bits like box_view_near(). */
 static uint64_t touching(const struct swept_body *a, const struct swept_body *b)
 {
-    static struct placed one, other;
+    static struct placed_hulls one, other;
     uint64_t touch = 0;
     for (int n = 0; n < TIMES; n++) {
         double time = (double)n / (TIMES - 1);
-        place(a, time, a->path.at, &one);
-        place(b, time, a->path.at, &other);
+        placed_hulls_put(a, time, a->path.at, &one);
+        placed_hulls_put(b, time, a->path.at, &other);
         for (uint32_t i = 0; i < a->hull_count; i++) {
             for (uint32_t j = 0; j < b->hull_count; j++) {
                 if (gjk_distance(&one.hull[i], &other.hull[j]).distance_m <= SKIN_M)

@@ -4,6 +4,7 @@
 #include "collider/geometry/gjk.h"
 #include "collider/geometry/time_of_impact.h"
 
+#include "tests/support/placed_hulls.h"
 #include "tests/support/steps.h"
 
 #include <math.h>
@@ -14,10 +15,9 @@
 
 #include <cmocka.h>
 
-#define PAIRS    5000
-#define SLACK_M  1e-6
-#define STEP     2e-4 /* of a frame, at least */
-#define VERTICES 2048
+#define PAIRS   5000
+#define SLACK_M 1e-6
+#define STEP    2e-4 /* of a frame, at least */
 
 static struct fixture f;
 static const struct kind *tank;
@@ -40,65 +40,13 @@ static int close_world(void **state)
 
 /* --- the oracle --------------------------------------------------------------------------------*/
 
-/* A body's hulls in the world at a time, relative to a point nearby. */
-struct placed {
-    struct vec3 vertex[VERTICES];
-    struct convex hull[HULLS_A_MODEL];
-    uint32_t hulls;
-};
-
-static struct vec3 turned(struct vec3 p, struct vec3 pivot, double angle)
-{
-    double x = p.x - pivot.x, z = p.z - pivot.z;
-    return (struct vec3){pivot.x + x * cos(angle) - z * sin(angle), p.y,
-                         pivot.z + z * cos(angle) + x * sin(angle)};
-}
-
-static struct vec3 raised(struct vec3 p, struct vec3 pivot, double angle)
-{
-    double x = p.x - pivot.x, y = p.y - pivot.y;
-    return (struct vec3){pivot.x + x * cos(angle) - y * sin(angle),
-                         pivot.y + y * cos(angle) + x * sin(angle), p.z};
-}
-
-static struct vec3 part_point(const struct turret_path *path, uint32_t part, struct vec3 p,
-                              double time)
-{
-    if (part == HULL_PART_GUN)
-        p = raised(p, path->gun_pivot, path->gun + path->gun_turn * time);
-    if (part != HULL_PART_BODY)
-        p = turned(p, path->turret_pivot, path->turret + path->turret_turn * time);
-    return p;
-}
-
-static void place(const struct swept_body *body, double time, struct vec3 near, struct placed *to)
-{
-    struct mat3 turn = rotation_matrix(rotation_between(body->from, body->to, time));
-    struct vec3 at = vec3_sub(path_at(&body->path, time), near);
-    uint32_t used = 0;
-    to->hulls = body->hull_count;
-    for (uint32_t h = 0; h < body->hull_count; h++) {
-        const struct hull *hull = &body->hull[h];
-        assert_true(used + hull->vertex_count <= VERTICES);
-        to->hull[h] = (struct convex){.vertex = &to->vertex[used],
-                                      .count = hull->vertex_count,
-                                      .scale = 1.0,
-                                      .turn = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
-        for (uint32_t v = 0; v < hull->vertex_count; v++) {
-            struct vec3 p = body->vertices[hull->first_vertex + v];
-            p = part_point(&body->turret, hull->part, p, time);
-            to->vertex[used++] = vec3_add(at, rotation_apply(&turn, p));
-        }
-    }
-}
-
 static double gap(const struct swept_body *a, const struct swept_body *b, double time)
 {
-    static struct placed one, other;
+    static struct placed_hulls one, other;
     struct vec3 near = path_at(&a->path, time);
     double least = INFINITY;
-    place(a, time, near, &one);
-    place(b, time, near, &other);
+    placed_hulls_put(a, time, near, &one);
+    placed_hulls_put(b, time, near, &other);
     for (uint32_t i = 0; i < one.hulls; i++) {
         for (uint32_t j = 0; j < other.hulls; j++)
             least = fmin(least, gjk_distance(&one.hull[i], &other.hull[j]).distance_m);
@@ -199,14 +147,14 @@ static void test_turrets_touch_when_small_steps_say(void **state)
 /* The boxes of the broad phase and the spheres around bodies hold every direction. */
 static void test_no_vertex_reaches_beyond_the_bound(void **state)
 {
-    static struct placed placed;
+    static struct placed_hulls placed;
     uint64_t random = fixture_seed(734);
     double most = 0.0;
     (void)state;
     for (int n = 0; n < 3000; n++) {
         struct vec3 at = {25000.0, 100.0, 25000.0};
         struct swept_body body = any_tank(at, 0.0, &random);
-        place(&body, fixture_uniform(&random, 0.0, 1.0), at, &placed);
+        placed_hulls_put(&body, fixture_uniform(&random, 0.0, 1.0), at, &placed);
         for (uint32_t h = 0; h < placed.hulls; h++) {
             for (uint32_t v = 0; v < placed.hull[h].count; v++)
                 most = fmax(most, vec3_length(placed.hull[h].vertex[v]));
