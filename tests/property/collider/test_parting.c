@@ -261,16 +261,26 @@ static void test_row_46_a_pile_pushes_nobody_into_others(void **state)
     fixture_close(&f);
 }
 
-static void test_row_46_a_crowd_at_one_place_parts_in_3_s(void **state)
+static double waves(double x, double z, const void *context)
+{
+    double sine, cosine;
+    (void)context;
+    maths_sincos(0.02 * x + 0.035 * z, &sine, &cosine);
+    return FIXTURE_GROUND_M + 4.0 * sine + 2.0 * cosine;
+}
+
+static void run_crowd(bool uneven)
 {
     uint64_t random = fixture_seed(46);
     double height = 0.0, fast = 0.0;
-    (void)state;
     open_world("");
+    if (uneven)
+        steps_ground(&f, waves, NULL);
+    const struct vec3 at = {25000.0, steps_ground_at(&f, 25000.0, 25000.0), 25000.0};
     for (uint32_t i = 0; i < CROWD; i++)
         fixture_put(&f,
                     (struct fixture_entity){.kind = i % 3 == 0 ? "tank" : "jeep",
-                                            .at = {25000.0, FIXTURE_GROUND_M, 25000.0},
+                                            .at = at,
                                             .heading_rad = fixture_uniform(&random, 0.0, TWO_PI)});
     for (uint32_t frame = 0; frame < CROWD_FRAMES; frame++) {
         fixture_continue(&f, 1);
@@ -284,6 +294,13 @@ static void test_row_46_a_crowd_at_one_place_parts_in_3_s(void **state)
     assert_true(steps_deepest(&f, CROWD) < PARTED_M);
     assert_true(height <= HELD_M && fast < 1e-9);
     fixture_close(&f);
+}
+
+static void test_row_46_a_crowd_at_one_place_parts_in_3_s(void **state)
+{
+    (void)state;
+    run_crowd(false);
+    run_crowd(true);
 }
 
 int main(void)
