@@ -6,6 +6,7 @@
 #include "config/syntax/schema.h"
 #include "config/syntax/source.h"
 #include "world/entity/kind.h"
+#include "world/entity/mass_properties.h"
 #include "world/enum_names.h"
 #include "world/making/scenario.h"
 #include "world/maths/maths.h"
@@ -17,8 +18,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define SUFFIX          ".cfg"
-#define UNARMED_SIGHT_M 1500.0
+#define SUFFIX            ".cfg"
+#define UNARMED_SIGHT_M   1500.0
+#define HELICOPTER_LOAD_G 3.5 /* of the AH-64A */
 
 /* A kind's file while it is read. Its munition is looked up when all kinds are known. */
 struct reading {
@@ -216,6 +218,21 @@ static void complete_mind(struct kind *kind, bool has_doctrine)
         kind->doctrine = kind->range_m > 0 ? DOCTRINE_LIGHT : DOCTRINE_SOFT;
 }
 
+/* Sets the load limit that the file leaves open. An aircraft's follows from its turn rate, and is
+ * within what airframes bear. */
+static void complete_load(struct kind *kind)
+{
+    if (kind->max_load > 0)
+        return;
+    const double turn = kind->max_speed_mps * kind->turn_rate_rps / GRAVITY_MPS2;
+    if (kind->domain != DOMAIN_AIR)
+        kind->max_load = turn;
+    else if (kind->min_speed_mps > 0)
+        kind->max_load = fmin(fmax(sqrt(1.0 + turn * turn), 2.0), 8.0);
+    else
+        kind->max_load = HELICOPTER_LOAD_G;
+}
+
 static void take_hulls(struct kind *kind, const struct scenario *scenario,
                        const struct hulls *hulls)
 {
@@ -279,6 +296,7 @@ static int read_kind(struct reading *reading, struct kind *kind, const char *nam
     kind->model = (uint16_t)model;
     if (kind->stiffness_npm <= 0)
         kind->stiffness_npm = stiffness_of(kind);
+    complete_load(kind);
     complete_mind(kind, (keys.given >> key_table_find(&schema_kind, "doctrine") & 1u) != 0);
     take_hulls(kind, models->scenario, &models->hulls[model]);
     kind->munition = KIND_NONE;

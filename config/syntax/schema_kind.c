@@ -59,8 +59,8 @@ static const struct key kind_keys[] = {
            .meaning = "Vehicles and munitions, above 0: the top speed. A ballistic munition starts "
                       "with it."),
     NUMBER("min_speed_mps", K, kind.min_speed_mps, 0, 3000, "0", .unit = "m/s",
-           .meaning = "Aircraft: the least speed in flight, at most `max_speed_mps`. 0: the "
-                      "aircraft can hover."),
+           .meaning = "Aircraft: the speed below which they stall, at most `max_speed_mps`. Agents "
+                      "fly at 1.3 times this speed or faster. 0: the aircraft can hover."),
     NUMBER("acceleration_mps2", K, kind.acceleration_mps2, 0, 10000, "0", .unit = "m/s^2",
            .meaning = "Vehicles, above 0: the acceleration. Braking is twice as strong."),
     SCALED("turn_rate_dps", K, kind.turn_rate_rps, 0, 720, RAD_PER_DEG, "0", .unit = "degrees/s",
@@ -71,6 +71,10 @@ static const struct key kind_keys[] = {
            .meaning = "Aircraft: their usual height above the ground."),
     NUMBER("climb_rate_mps", K, kind.climb_rate_mps, 0, 500, "0", .unit = "m/s",
            .meaning = "Aircraft, above 0: how fast they climb."),
+    NUMBER("max_load_g", K, kind.max_load, 0, 100, "0", .unit = "g",
+           .meaning = "Aircraft and homing munitions: the most load that they bear in a turn, in "
+                      "multiples of their weight. 0: 3.5 for aircraft that can hover, else the "
+                      "load of a turn at `turn_rate_dps` and top speed (2 to 8 for aircraft)."),
     NUMBER("rigidity", K, kind.rigidity, 0, 1, "0.5",
            .meaning = "The share of an impact's energy that causes damage at once; the rest dents "
                       "the skin. Fixed objects under `impulse` and `spring`: the share of the "
@@ -150,6 +154,15 @@ static const struct key kind_keys[] = {
            .meaning = "Homing munitions, above 0: the half angle of the cone around the direction "
                       "of flight in which they see their target. A target that leaves the cone is "
                       "lost for good."),
+    NUMBER("burn_s", K, kind.burn_s, 0, 600, "0", .unit = "s",
+           .meaning = "Homing munitions: how long the motor burns, which brings them to top speed. "
+                      "Then they coast, and drag slows them. 0: it burns until the end."),
+    NUMBER("reliability", K, kind.reliability, 0, 1, "1",
+           .meaning = "Homing munitions: the share of them in which motor, seeker and fuze work. "
+                      "Any other flies straight on after a second or two."),
+    NUMBER("decoy_chance", K, kind.decoyed, 0, 1, "0",
+           .meaning = "Homing munitions: how often the flares of an alert aircraft take the seeker "
+                      "from it. The smoke of an alert land vehicle does so a third as often."),
     SCALED("dispersion_mrad", K, kind.dispersion_rad, 0, 500, 0.001, "0", .unit = "mrad",
            .meaning = "Munitions: the standard error of the aim from a vehicle that stands. 1 "
                       "mrad is 1 m at 1 km."),

@@ -17,6 +17,11 @@
 #define BACK_OFF_M    80.0
 #define REVERSE_SHARE 0.4 /* share of the speed when it drives backwards */
 
+/* An aircraft must bank before it turns and a ship's rudder is slow: they take this time for the
+ * angle that is left, or they would swing about the heading that they want. */
+#define SETTLE_AIR_S 1.2
+#define SETTLE_SEA_S 6.0
+
 static uint32_t after(const struct step_context *context, double seconds)
 {
     return (uint32_t)(context->tick + (uint64_t)(seconds / context->dt_s));
@@ -213,12 +218,20 @@ static void drive_by_behaviour(const struct step_context *context, uint32_t i,
 
 /* --- its controls ------------------------------------------------------------------------------*/
 
+static double settle_s(const struct kind *kind)
+{
+    return kind->domain == DOMAIN_AIR   ? SETTLE_AIR_S
+           : kind->domain == DOMAIN_SEA ? SETTLE_SEA_S
+                                        : 0;
+}
+
 /* Sets the steering so that the turn is complete at its next decision. */
 static void set_controls(const struct step_context *context, uint32_t i, const struct kind *kind,
                          const struct desired_motion *desired)
 {
     struct entities *m = context->m;
-    double turn = kind->turn_rate_rps * context->dt_s * (double)context->think_frames;
+    double time_s = maths_max(context->dt_s * (double)context->think_frames, settle_s(kind));
+    double turn = kind->turn_rate_rps * time_s;
     double off = maths_wrap_half(desired->heading_rad - m->heading[i]);
     m->steer[i] = (float)maths_clamp(off / maths_max(turn, 1e-9), -1.0, 1.0);
     m->throttle[i] = (float)(desired->speed_mps / maths_max(kind->max_speed_mps, 1e-9));
@@ -234,6 +247,8 @@ void agent_controls_motion(const struct step_context *context, uint32_t i,
         .heading_rad = m->heading[i] + (double)m->steer[i] * turn,
         .speed_mps = (double)m->throttle[i] * kind->max_speed_mps,
         .altitude_m = kind->cruise_altitude_m,
+        .held = true,
+        .turn = (double)m->steer[i],
     };
 }
 

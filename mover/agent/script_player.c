@@ -12,6 +12,7 @@
 #define CRUISE_SHARE  0.75 /* share of full speed where a step gives no speed */
 #define THERE_M       1.0  /* it has arrived within this and the path of a frame */
 #define FACED_RAD     0.01 /* it faces a heading within this */
+#define FOLLOW_S      0.7  /* time in which a helicopter's speed follows the wanted speed */
 #define STANDS_MPS    0.05
 #define LEVEL_M       2.0  /* it has a height within this */
 #define AGILE_SHARE   0.35 /* share of the turn rate that a body has even at rest */
@@ -142,10 +143,15 @@ static double speed_now(const struct reading *r)
     return sqrt(m->vx[r->i] * m->vx[r->i] + m->vz[r->i] * m->vz[r->i]);
 }
 
-/* Braking that it can rely on [m/s2]. */
+static bool hovers(const struct reading *r)
+{
+    return r->kind->domain == DOMAIN_AIR && !(r->kind->min_speed_mps > 0.0);
+}
+
+/* Braking that it can rely on [m/s2]. A helicopter has to lean back first. */
 static double slowing(const struct reading *r)
 {
-    double share = r->kind->domain == DOMAIN_LAND ? 0.8 * BRAKES : 0.8;
+    double share = r->kind->domain == DOMAIN_LAND ? 0.8 * BRAKES : hovers(r) ? 0.5 : 0.8;
     return maths_max(share * r->kind->acceleration_mps2, 0.01);
 }
 
@@ -180,8 +186,10 @@ static void desire_point(const struct reading *r, const struct script_step *step
     m->goal_z[r->i] = step->z;
     if (metres > THERE_M)
         desired->heading_rad = maths_heading(step->x - m->x[r->i], step->z - m->z[r->i]);
-    if (step->halt)
-        speed = maths_min(speed, sqrt(2.0 * slowing(r) * metres));
+    if (step->halt) {
+        double late = hovers(r) ? FOLLOW_S * slowing(r) : 0.0;
+        speed = maths_min(speed, maths_max(sqrt(2.0 * slowing(r) * metres) - late, 0.0));
+    }
     double off = maths_wrap_half(desired->heading_rad - m->heading[r->i]);
     desired->speed_mps = maths_min(speed, turning_speed(r, metres, off));
 }

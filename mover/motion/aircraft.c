@@ -1,8 +1,8 @@
-/* Moves aircraft: steering, speed, climb and lean. */
+/* Moves aircraft: bank and turn, speed, climb and lean. */
 #include "mover/motion/aircraft.h"
 
+#include "mover/motion/airframe.h"
 #include "mover/motion/kinematics.h"
-#include "mover/motion/kinematics_simd.h"
 #include "world/maths/cpu_dispatch.h"
 #include "world/maths/rotation.h"
 #include "world/terrain/gridsquare.h"
@@ -12,9 +12,13 @@
 
 #define LOOK_AHEAD_S   3.0
 #define SIDE_DRAG_MPS2 6.0
-#define BANK_LIMIT     1.0 /* [rad] */
-#define BANK_RATE_RPS  1.5
+#define NOSE_RATE_RPS  1.5   /* of an aeroplane's nose, towards its path */
+#define LEAN_LEAST     1e-4  /* [rad] by which an attitude at least nears what is wanted */
+#define STEEP_COSINE   0.12  /* a bank or pitch beyond counts as this one, whose slope is 8 */
+#define UPRIGHT        0.97  /* sine of the steepest path */
+#define SNAP_MPS       1e-3  /* a speed so near to what is wanted is what is wanted */
 #define EDGE_M         200.0 /* an aircraft turns back so far from the edge of the world */
+#define EDGE_TURN_S    9.0   /* an aeroplane so much earlier */
 
 void aircraft_begin(struct aircraft *batch)
 {
@@ -30,8 +34,35 @@ static void take_kind(struct aircraft *batch, int l, const struct kind *kind)
     batch->acceleration.lane[l] = kind->acceleration_mps2;
     batch->turn_rate.lane[l] = kind->turn_rate_rps;
     batch->climb_rate.lane[l] = kind->climb_rate_mps;
+    batch->load.lane[l] = maths_max(kind->max_load, 1.0);
     batch->burn_lps.lane[l] = kind->fuel_lps;
     batch->tank.lane[l] = -(int64_t)(kind->fuel_l > 0.0);
+}
+
+/* Returns true if an aeroplane flies towards an edge of the world that is near. */
+static bool leaves(const struct entities *m, uint32_t i)
+{
+    double x = m->x[i] + m->vx[i] * EDGE_TURN_S, z = m->z[i] + m->vz[i] * EDGE_TURN_S;
+    return x < 0.0 || z < 0.0 || x > WORLD_SIDE_M || z > WORLD_SIDE_M;
+}
+
+static void take_desired(const struct step_context *context, struct aircraft *batch, int l,
+                         const struct desired_motion *desired)
+{
+    const struct entities *m = context->m;
+    uint32_t i = batch->row[l];
+    bool back = !desired->driven && batch->least_mps.lane[l] > 0.0 && leaves(m, i);
+    double heading = back
+                         ? maths_heading(0.5 * WORLD_SIDE_M - m->x[i], 0.5 * WORLD_SIDE_M - m->z[i])
+                         : desired->heading_rad;
+    batch->driven.lane[l] = -(int64_t)desired->driven;
+    batch->held.lane[l] = -(int64_t)(desired->held && !back);
+    batch->wanted_heading.lane[l] = heading;
+    batch->wanted_mps.lane[l] = desired->speed_mps;
+    batch->altitude.lane[l] = desired->altitude_m;
+    batch->turn.lane[l] = desired->turn;
+    batch->climb.lane[l] = desired->climb_mps;
+    batch->brake.lane[l] = desired->brake;
 }
 
 bool aircraft_take(const struct step_context *context, struct aircraft *batch, uint32_t i,
@@ -43,13 +74,6 @@ bool aircraft_take(const struct step_context *context, struct aircraft *batch, u
     batch->here.patch[l] = &context->terrain_entries[i];
     batch->ahead.patch[l] = &context->terrain_entries_ahead[i];
     __builtin_prefetch(batch->ahead.patch[l]);
-    batch->driven.lane[l] = -(int64_t)desired->driven;
-    batch->wanted_heading.lane[l] = desired->heading_rad;
-    batch->wanted_mps.lane[l] = desired->speed_mps;
-    batch->altitude.lane[l] = desired->altitude_m;
-    batch->turn.lane[l] = desired->turn;
-    batch->climb.lane[l] = desired->climb_mps;
-    batch->brake.lane[l] = desired->brake;
     batch->x.lane[l] = m->x[i];
     batch->y.lane[l] = m->y[i];
     batch->z.lane[l] = m->z[i];
@@ -61,6 +85,7 @@ bool aircraft_take(const struct step_context *context, struct aircraft *batch, u
     batch->roll.lane[l] = m->roll[i];
     batch->fuel.lane[l] = m->fuel_l[i];
     take_kind(batch, l, &context->world->kinds[m->kind[i]]);
+    take_desired(context, batch, l, desired);
     return batch->count == LANE_COUNT;
 }
 
@@ -83,27 +108,28 @@ static inline void find_highest(const struct step_context *context, struct aircr
 
 /* Comments describe one aircraft. Each function treats the four of vector h. */
 
-/* Computes the desired speed and climb, and burns fuel for them. Without fuel an aircraft glides
- * down. */
+/* Computes the desired speed and climb, and burns fuel for them. Without fuel a helicopter comes
+ * down under its rotor. */
 static inline void want(struct aircraft *batch, int h, const f64x4 *ground, double dt_s,
-                        f64x4 *wanted, f64x4 *climb)
+                        struct airframe *f)
 {
     const f64x4 none = SIMD_EVERY(0.0);
-    four_masks driven = batch->driven.f64x4[h], dry;
     f64x4 full = batch->full_mps.f64x4[h], most = batch->climb_rate.f64x4[h];
-    f64x4 least = SIMD_NEGATIVE(most);
-    f64x4 by_agent = SIMD_CLAMP(batch->wanted_mps.f64x4[h], batch->least_mps.f64x4[h], full);
+    f64x4 least = SIMD_NEGATIVE(most), slowest = batch->least_mps.f64x4[h] * AIRFRAME_SAFE;
+    slowest = SIMD_MIN(slowest, full);
+    f64x4 by_agent = SIMD_CLAMP(batch->wanted_mps.f64x4[h], slowest, full);
     /* A driver's speed is not clamped: helicopters also fly backwards. */
-    *wanted = SIMD_CHOOSE(driven, batch->wanted_mps.f64x4[h], by_agent);
+    f->wanted_mps = SIMD_CHOOSE(f->driven, batch->wanted_mps.f64x4[h], by_agent);
     f64x4 off = (*ground + batch->altitude.f64x4[h] - batch->y.f64x4[h]) * 0.8;
     off = SIMD_CLAMP(off, least, most);
-    *climb = SIMD_CHOOSE(driven, batch->climb.f64x4[h], off);
-    f64x4 share = SIMD_ABS(*wanted) / SIMD_MAX(full, SIMD_EVERY(1e-9));
+    f->wanted_up_mps = SIMD_CHOOSE(f->driven, batch->climb.f64x4[h], off);
+    f64x4 share = SIMD_ABS(f->wanted_mps) / SIMD_MAX(full, SIMD_EVERY(1e-9));
     share = SIMD_CLAMP(share, SIMD_EVERY(0.2), SIMD_EVERY(1.0));
     kinematics_simd_burn(&batch->fuel.f64x4[h], &batch->burn_lps.f64x4[h], &share,
-                         &batch->tank.f64x4[h], dt_s, &dry);
-    *wanted = SIMD_CHOOSE(dry, none, *wanted);
-    *climb = SIMD_CHOOSE(dry, least, *climb);
+                         &batch->tank.f64x4[h], dt_s, &f->dry);
+    four_masks sinks = f->dry & ~f->aeroplane;
+    f->wanted_mps = SIMD_CHOOSE(sinks, none, f->wanted_mps);
+    f->wanted_up_mps = SIMD_CHOOSE(sinks, least, f->wanted_up_mps);
 }
 
 /* kinematics_advance() */
@@ -125,27 +151,76 @@ static inline void change_position(struct aircraft *batch, int h, double dt_s)
                               (batch->x.f64x4[h] > last) | (batch->z.f64x4[h] > last);
 }
 
+/* Moves value to wanted where they are near to each other. */
+static inline void snap(f64x4 *value, const f64x4 *wanted)
+{
+    *value = SIMD_CHOOSE(SIMD_ABS(*value - *wanted) < SNAP_MPS, *wanted, *value);
+}
+
+/* Changes the speeds. speed: an aeroplane's, along its path; before and after. */
+static inline void push(struct airframe *f, double dt_s, f64x4 *speed, f64x4 *nose)
+{
+    const f64x4 none = SIMD_EVERY(0.0);
+    f64x4 along, level;
+    airframe_push(f, speed, &along);
+    airframe_tilt(f, &level, nose);
+    f->up_mps += f->rising_mps2 * dt_s;
+    snap(&f->up_mps, &f->wanted_up_mps);
+    *speed = SIMD_MAX(*speed + along * dt_s, none);
+    snap(speed, &f->wanted_mps);
+    f64x4 high = *speed * UPRIGHT, low = SIMD_NEGATIVE(high);
+    f64x4 steep = SIMD_CLAMP(f->up_mps, low, high);
+    four_masks backwards = f->aeroplane & (f->forward_mps < 0.0);
+    f->up_mps = SIMD_CHOOSE(f->aeroplane & ~backwards, steep, f->up_mps);
+    f->forward_mps += SIMD_CHOOSE(f->aeroplane, along, level) * dt_s;
+    *speed = SIMD_CHOOSE(f->aeroplane & ~backwards, *speed * *speed - steep * steep,
+                         f->forward_mps * f->forward_mps);
+    f64x4 hovers = f->forward_mps;
+    snap(&hovers, &f->wanted_mps);
+    f->forward_mps = SIMD_CHOOSE(f->aeroplane, f->forward_mps, hovers);
+}
+
 /* --- lanes -------------------------------------------------------------------------------------*/
 
-/* What the lean follows from. A helicopter pitches with its speed and acceleration, a jet with its
- * climb. */
+static inline void roots(union simd_lanes *square)
+{
+    for (int l = 0; l < LANE_COUNT; l++)
+        square->lane[l] = sqrt(square->lane[l]);
+}
+
+/* Slope and cosine of an angle; both stay within what a wing can do. */
+static inline void slopes(const union simd_lanes *angle, union simd_lanes *slope,
+                          union simd_lanes *cosine)
+{
+    const f64x4 steep = SIMD_EVERY(STEEP_COSINE);
+    maths_sincos_lanes(angle, slope, cosine);
+    for (int h = 0; h < LANE_FOURS; h++)
+        slope->f64x4[h] /= SIMD_MAX(cosine->f64x4[h], steep);
+}
+
+/* What the lean follows from. A helicopter pitches to change its speed, an aeroplane with its
+ * path. */
 struct lean {
-    union simd_lanes turning, weight, rising, level, hover;
+    union simd_lanes bank, nose, flat;
+    double lag; /* share of the way that a helicopter's attitude goes in the frame */
 };
 
 static inline void lean(const struct step_context *context, struct aircraft *batch,
                         const struct lean *lean)
 {
-    const f64x4 most = SIMD_EVERY(BANK_LIMIT), least = SIMD_EVERY(-BANK_LIMIT);
-    const f64x4 step = SIMD_EVERY(BANK_RATE_RPS * context->dt_s);
+    const f64x4 rate = SIMD_EVERY(AIRFRAME_ROLL_RPS * context->dt_s);
+    const f64x4 nodding = SIMD_EVERY(NOSE_RATE_RPS * context->dt_s);
     union simd_lanes bank, nose;
-    maths_slopes_lanes(&lean->turning, &lean->weight, &bank);
-    maths_slopes_lanes(&lean->rising, &lean->level, &nose);
+    maths_slopes_lanes(&lean->bank, &lean->flat, &bank);
+    maths_slopes_lanes(&lean->nose, &lean->flat, &nose);
     for (int h = 0; h < LANE_FOURS; h++) {
-        f64x4 to = SIMD_CLAMP(bank.f64x4[h], least, most);
-        kinematics_simd_approach(&batch->roll.f64x4[h], &to, &step);
-        to = SIMD_CHOOSE(batch->least_mps.f64x4[h] > 0.0, nose.f64x4[h], lean->hover.f64x4[h]);
-        kinematics_simd_approach(&batch->pitch.f64x4[h], &to, &step);
+        four_masks aeroplane = batch->least_mps.f64x4[h] > 0.0;
+        f64x4 off = SIMD_ABS(bank.f64x4[h] - batch->roll.f64x4[h]) * lean->lag + LEAN_LEAST;
+        f64x4 step = SIMD_CHOOSE(aeroplane, rate, off);
+        kinematics_simd_approach(&batch->roll.f64x4[h], &bank.f64x4[h], &step);
+        off = SIMD_ABS(nose.f64x4[h] - batch->pitch.f64x4[h]) * lean->lag + LEAN_LEAST;
+        step = SIMD_CHOOSE(aeroplane, nodding, off);
+        kinematics_simd_approach(&batch->pitch.f64x4[h], &nose.f64x4[h], &step);
     }
 }
 
@@ -184,47 +259,111 @@ static void write_rows(const struct step_context *context, const struct aircraft
     }
 }
 
+/* Returns 1 - exp(-x) to 1e-4, for x up to 1: the share of a lag's way that a time of x lags
+ * makes. */
+static double lagged(double x)
+{
+    return x / (1.0 + x * (0.5 + x * (1.0 / 12.0)));
+}
+
+static inline void take_airframe(const struct aircraft *batch, int h, struct airframe *f)
+{
+    f->stall_mps = batch->least_mps.f64x4[h];
+    f->full_mps = batch->full_mps.f64x4[h];
+    f->thrust_mps2 = batch->acceleration.f64x4[h];
+    f->climb_mps = batch->climb_rate.f64x4[h];
+    f->turn_rps = batch->turn_rate.f64x4[h];
+    f->load = batch->load.f64x4[h];
+    f->aeroplane = batch->least_mps.f64x4[h] > 0.0;
+    f->driven = batch->driven.f64x4[h];
+    f->held = batch->held.f64x4[h];
+    f->up_mps = batch->vy.f64x4[h];
+    /* Agents slow an aeroplane by its air brakes. */
+    f->brake = SIMD_CHOOSE(f->driven, batch->brake.f64x4[h], SIMD_EVERY(1.0));
+    f64x4 off = batch->wanted_heading.f64x4[h] - batch->heading.f64x4[h];
+    kinematics_simd_wrap_half(&off);
+    f->turn = SIMD_CHOOSE(f->driven | f->held, batch->turn.f64x4[h], off);
+}
+
+/* The lanes between the steps of a move. */
+struct moving {
+    struct airframe flight[LANE_FOURS];
+    union simd_lanes speed, rightward;
+    struct lean lean;
+};
+
+/* Takes the lanes, and computes their lift. */
+static inline void rise(const struct step_context *context, struct aircraft *batch,
+                        const union simd_lanes *ground, struct moving *moving)
+{
+    union simd_lanes sine, cosine, bank_slope, bank_cosine, nose_slope, nose_cosine;
+    maths_sincos_lanes(&batch->heading, &sine, &cosine);
+    slopes(&batch->roll, &bank_slope, &bank_cosine);
+    slopes(&batch->pitch, &nose_slope, &nose_cosine);
+    for (int h = 0; h < LANE_FOURS; h++) {
+        struct airframe *f = &moving->flight[h];
+        f64x4 vx = batch->vx.f64x4[h], vz = batch->vz.f64x4[h];
+        take_airframe(batch, h, f);
+        f->forward_mps = vx * sine.f64x4[h] - vz * cosine.f64x4[h];
+        moving->rightward.f64x4[h] = vx * cosine.f64x4[h] + vz * sine.f64x4[h];
+        f->bank_slope = bank_slope.f64x4[h];
+        f->bank_cosine = bank_cosine.f64x4[h];
+        f->nose_slope = nose_slope.f64x4[h];
+        moving->speed.f64x4[h] = f->forward_mps * f->forward_mps + f->up_mps * f->up_mps;
+    }
+    roots(&moving->speed);
+    for (int h = 0; h < LANE_FOURS; h++) {
+        struct airframe *f = &moving->flight[h];
+        want(batch, h, &ground->f64x4[h], context->dt_s, f);
+        airframe_climb(f, &moving->speed.f64x4[h]);
+        airframe_lift(f, context->dt_s);
+        moving->lean.bank.f64x4[h] = f->turn_slope;
+    }
+    roots(&moving->lean.bank);
+}
+
+/* Turns and changes the speeds. */
+static inline void fly(const struct step_context *context, struct aircraft *batch,
+                       struct moving *moving)
+{
+    for (int h = 0; h < LANE_FOURS; h++) {
+        struct airframe *f = &moving->flight[h];
+        f->turn_slope = moving->lean.bank.f64x4[h];
+        airframe_turn(f, context->dt_s, &moving->lean.bank.f64x4[h]);
+        batch->heading.f64x4[h] += f->turning_rps * context->dt_s;
+        kinematics_simd_wrap_turn(&batch->heading.f64x4[h]);
+        push(f, context->dt_s, &moving->speed.f64x4[h], &moving->lean.nose.f64x4[h]);
+    }
+    roots(&moving->speed);
+    for (int h = 0; h < LANE_FOURS; h++) {
+        struct airframe *f = &moving->flight[h];
+        four_masks wings = f->aeroplane & (f->forward_mps >= 0.0);
+        f->forward_mps = SIMD_CHOOSE(wings, moving->speed.f64x4[h], f->forward_mps);
+        f64x4 path = f->up_mps / SIMD_MAX(f->forward_mps, SIMD_EVERY(1.0));
+        moving->lean.nose.f64x4[h] = SIMD_CHOOSE(f->aeroplane, path, moving->lean.nose.f64x4[h]);
+        moving->lean.flat.f64x4[h] = SIMD_EVERY(1.0);
+    }
+}
+
 VECTOR_CLONES
 void aircraft_move(const struct step_context *context, struct aircraft *batch)
 {
-    const f64x4 none = SIMD_EVERY(0.0), least = SIMD_EVERY(1e-9), one = SIMD_EVERY(1.0);
-    const f64x4 drag = SIMD_EVERY(SIDE_DRAG_MPS2 * context->dt_s);
-    union simd_lanes ground, sine, cosine, forward, rightward, turned;
-    struct lean leaning;
+    const f64x4 none = SIMD_EVERY(0.0), drag = SIMD_EVERY(SIDE_DRAG_MPS2 * context->dt_s);
+    union simd_lanes ground, sine, cosine;
+    struct moving moving;
     find_highest(context, batch, &ground);
+    rise(context, batch, &ground, &moving);
+    fly(context, batch, &moving);
     maths_sincos_lanes(&batch->heading, &sine, &cosine);
     for (int h = 0; h < LANE_FOURS; h++) {
-        f64x4 vx = batch->vx.f64x4[h], vz = batch->vz.f64x4[h], before = batch->heading.f64x4[h];
-        struct kinematics_simd_helm helm = {batch->wanted_heading.f64x4[h], batch->turn.f64x4[h],
-                                            batch->driven.f64x4[h]};
-        forward.f64x4[h] = vx * sine.f64x4[h] - vz * cosine.f64x4[h];
-        rightward.f64x4[h] = vx * cosine.f64x4[h] + vz * sine.f64x4[h];
-        kinematics_simd_steer(&batch->heading.f64x4[h], &helm, &batch->turn_rate.f64x4[h],
-                              context->dt_s);
-        turned.f64x4[h] = batch->heading.f64x4[h] - before;
-        kinematics_simd_wrap_half(&turned.f64x4[h]);
-    }
-    maths_sincos_lanes(&batch->heading, &sine, &cosine);
-    for (int h = 0; h < LANE_FOURS; h++) {
-        f64x4 wanted, climb, gain = batch->acceleration.f64x4[h] * context->dt_s;
-        f64x4 speed = forward.f64x4[h], before = speed;
-        want(batch, h, &ground.f64x4[h], context->dt_s, &wanted, &climb);
-        f64x4 faster = gain * (1.0 + batch->brake.f64x4[h]), steeper = 2.0 * gain;
-        kinematics_simd_approach(&speed, &wanted, &faster);
-        kinematics_simd_approach(&rightward.f64x4[h], &none, &drag);
-        batch->vx.f64x4[h] = speed * sine.f64x4[h] + rightward.f64x4[h] * cosine.f64x4[h];
-        batch->vz.f64x4[h] =
-            SIMD_NEGATIVE(speed) * cosine.f64x4[h] + rightward.f64x4[h] * sine.f64x4[h];
-        kinematics_simd_approach(&batch->vy.f64x4[h], &climb, &steeper);
+        f64x4 speed = moving.flight[h].forward_mps, side = moving.rightward.f64x4[h];
+        kinematics_simd_approach(&side, &none, &drag);
+        batch->vx.f64x4[h] = speed * sine.f64x4[h] + side * cosine.f64x4[h];
+        batch->vz.f64x4[h] = side * sine.f64x4[h] - speed * cosine.f64x4[h];
+        batch->vy.f64x4[h] = moving.flight[h].up_mps;
         change_position(batch, h, context->dt_s);
-        f64x4 full = SIMD_MAX(batch->full_mps.f64x4[h], least);
-        leaning.turning.f64x4[h] = turned.f64x4[h] / context->dt_s * speed;
-        leaning.weight.f64x4[h] = SIMD_EVERY(GRAVITY_MPS2);
-        leaning.rising.f64x4[h] = batch->vy.f64x4[h];
-        leaning.level.f64x4[h] = SIMD_MAX(speed, one);
-        leaning.hover.f64x4[h] =
-            -0.12 * speed / full - 0.1 * (speed - before) / SIMD_MAX(gain, least);
     }
-    lean(context, batch, &leaning);
+    moving.lean.lag = lagged(maths_min(context->dt_s / AIRFRAME_LAG_S, 1.0));
+    lean(context, batch, &moving.lean);
     write_rows(context, batch);
 }

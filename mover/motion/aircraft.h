@@ -1,6 +1,6 @@
-/* Motion of aircraft, in batches of eight as for land vehicles (ground_vehicle.h). Helicopters
- * hover (min_speed_mps 0) and jets keep their speed; both keep their height above the ground ahead.
- */
+/* Motion of aircraft, in batches of eight as for land vehicles (ground_vehicle.h), by the formulas
+ * of airframe.h. Helicopters hover (min_speed_mps 0); agents keep aeroplanes above the speed at
+ * which they stall. Both keep their height above the ground ahead. */
 #ifndef JOLON_MOVER_MOTION_AIRCRAFT_H
 #define JOLON_MOVER_MOTION_AIRCRAFT_H
 
@@ -11,12 +11,12 @@ struct aircraft {
     int count; /* lanes taken */
     uint32_t row[LANE_COUNT];
     /* The desired motion. */
-    union lane_masks driven;
+    union lane_masks driven, held;
     union simd_lanes wanted_heading, wanted_mps, altitude, turn, climb, brake;
     /* The row, before and after. */
     union simd_lanes x, y, z, vx, vy, vz, heading, pitch, roll, fuel;
     /* The kind. */
-    union simd_lanes full_mps, least_mps, acceleration, turn_rate, climb_rate, burn_lps;
+    union simd_lanes full_mps, least_mps, acceleration, turn_rate, climb_rate, load, burn_lps;
     union lane_masks tank;            /* it has one */
     union lane_masks blocked;         /* result: it is at the edge of the world */
     struct terrain_cache here, ahead; /* the ground under it, and where it soon will be */

@@ -6,6 +6,7 @@
 #define REVERSE_SHARE 0.4  /* of full speed, backwards */
 #define LOW_SHARE     0.35 /* of full speed, in low gear */
 #define ASTERN_SHARE  0.5  /* of full speed, ships backwards */
+#define STALL_SHARE   0.3  /* of the stalling speed that the air brake takes */
 #define HOVER_BACK    0.25 /* of full speed, helicopters backwards */
 
 /* The speed [m/s] for a throttle. full: the kind's top speed; back: the share of it backwards. */
@@ -26,11 +27,12 @@ static double geared(enum gearing gear, double throttle, double full, double bac
 }
 
 /* The throttle of a helicopter is its speed, forwards or backwards. That of a jet is its speed
- * above the least speed at which it flies. */
-static double airspeed(const struct kind *kind, double throttle)
+ * above that at which it stalls; with the air brake it stalls. */
+static double airspeed(const struct kind *kind, double throttle, double brake)
 {
+    throttle *= 1.0 - brake;
     if (kind->min_speed_mps > 0.0)
-        return kind->min_speed_mps +
+        return kind->min_speed_mps * (1.0 - STALL_SHARE * brake) +
                maths_max(throttle, 0.0) * (kind->max_speed_mps - kind->min_speed_mps);
     return kind->max_speed_mps * (throttle < 0.0 ? HOVER_BACK * throttle : throttle);
 }
@@ -52,7 +54,7 @@ void driver_controls_motion(const struct step_context *context, uint32_t i,
     };
     /* The brake overrides the throttle. */
     if (kind->domain == DOMAIN_AIR)
-        desired->speed_mps = airspeed(kind, throttle * (1.0 - brake));
+        desired->speed_mps = airspeed(kind, throttle, brake);
     else
         desired->speed_mps = geared(gear, throttle * (1.0 - brake), kind->max_speed_mps,
                                     kind->domain == DOMAIN_SEA ? ASTERN_SHARE : REVERSE_SHARE);

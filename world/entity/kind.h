@@ -63,13 +63,14 @@ struct kind {
     double mass_kg;
     double radius_m; /* of the bounding sphere, whose centre is the position */
     double max_speed_mps;
-    double min_speed_mps;     /* aircraft that cannot hover */
+    double min_speed_mps;     /* aircraft that cannot hover: below it they stall */
     double acceleration_mps2; /* braking is twice as hard */
     double turn_rate_rps;     /* [rad/s] */
     double max_slope_rad;     /* steepest ground a land vehicle climbs */
     double length_m, width_m, height_m;
     double cruise_altitude_m; /* aircraft: above the ground */
     double climb_rate_mps;    /* aircraft */
+    double max_load;          /* [g] aircraft and homing munitions: at most so much lift */
     double rigidity;          /* 0..1: share of an impact that becomes damage at once */
     double moldability;       /* 0..1: share of a dent that remains */
     double restitution;       /* 0..1: share of the closing speed after a bounce */
@@ -94,6 +95,9 @@ struct kind {
     double gun_rate_rps;              /* up and down; 0: the gun does not move */
     double gun_low_rad, gun_high_rad; /* limits, relative to the hull's own plane */
     double seeker_rad;                /* homing munitions: half angle of the seeker's cone */
+    double burn_s;                    /* homing munitions: time of the motor; 0: all their life */
+    double reliability;               /* homing munitions: 0..1 that nothing in them fails */
+    double decoyed;                   /* homing munitions: 0..1 that a decoy takes the seeker */
     double ballistic_kgpm2;           /* munitions with drag: mass / (form factor x calibre^2) */
     double dispersion_rad;            /* munitions: standard error from a shooter that stands */
     double dispersion_moving_rad;     /* and from one at half of its top speed or above */

@@ -80,7 +80,13 @@ static void test_a_helicopter_hovers(void **state)
     assert_true(fabs(height_of(row) - kind->cruise_altitude_m) < 0.1);
 }
 
-static void test_a_jet_never_flies_below_its_least_speed(void **state)
+static double airspeed(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    return vec3_length(entities_velocity(&e, row));
+}
+
+static void test_a_jet_never_stalls_by_its_agent(void **state)
 {
     const struct kind *kind = steps_kind(&f, "jet");
     uint32_t idle, patrol;
@@ -91,8 +97,9 @@ static void test_a_jet_never_flies_below_its_least_speed(void **state)
     for (int frame = 0; frame < (int)(120.0 * HZ); frame++) {
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
-        assert_true(hypot(e.vx[idle], e.vz[idle]) > kind->min_speed_mps - 1e-6);
-        assert_true(hypot(e.vx[patrol], e.vz[patrol]) > kind->min_speed_mps - 1e-6);
+        assert_true(airspeed(idle) > kind->min_speed_mps - 1e-6);
+        assert_true(frame < 10 * HZ || airspeed(idle) > 1.25 * kind->min_speed_mps);
+        assert_true(airspeed(patrol) > 1.25 * kind->min_speed_mps);
         assert_true(hypot(e.vx[patrol], e.vz[patrol]) < kind->max_speed_mps + 1e-6);
     }
     assert_int_equal(steps_rows(&f).state[idle], ENTITY_ACTIVE);
@@ -135,10 +142,10 @@ static void test_it_banks_into_its_turn(void **state)
     (void)state;
     steps_drive(&f, row, 1.0, 1.0, 0.0);
     fixture_run(&f, (uint32_t)(3.0 * HZ));
-    assert_true(steps_rows(&f).roll[row] > 0.5 && steps_rows(&f).roll[row] <= 1.0);
+    assert_true(steps_rows(&f).roll[row] > 1.0 && steps_rows(&f).roll[row] < HALF_PI);
     steps_drive(&f, row, 1.0, -1.0, 0.0);
     fixture_run(&f, (uint32_t)(3.0 * HZ));
-    assert_true(steps_rows(&f).roll[row] < -0.5);
+    assert_true(steps_rows(&f).roll[row] < -1.0);
     steps_drive(&f, row, 1.0, 0.0, 0.0);
     fixture_run(&f, (uint32_t)(3.0 * HZ));
     assert_true(fabs(steps_rows(&f).roll[row]) < 1e-6);
@@ -187,11 +194,14 @@ static void test_a_jets_throttle_is_above_its_least_speed_and_its_brake_slows_it
     steps_pedals(&f, row, 1.0, 1.0, GEAR_AUTOMATIC);
     double before = steps_speed(&f, row);
     fixture_run(&f, (uint32_t)HZ);
-    assert_true(fabs(before - steps_speed(&f, row) - 2.0 * kind->acceleration_mps2) < 1e-6);
-    fixture_run(&f, (uint32_t)(20.0 * HZ));
+    /* The brakes are as strong as the engine, and drag helps them. */
+    double slowed = before - steps_speed(&f, row);
+    assert_true(slowed > kind->acceleration_mps2 && slowed < 2.0 * kind->acceleration_mps2);
+    steps_pedals(&f, row, 0.0, 0.0, GEAR_AUTOMATIC);
+    fixture_run(&f, (uint32_t)(60.0 * HZ));
     assert_true(fabs(steps_speed(&f, row) - kind->min_speed_mps) < 1e-9);
     steps_drive(&f, row, 0.5, 0.0, 0.0);
-    fixture_run(&f, (uint32_t)(20.0 * HZ));
+    fixture_run(&f, (uint32_t)(60.0 * HZ));
     assert_true(fabs(steps_speed(&f, row) - 0.5 * (kind->min_speed_mps + kind->max_speed_mps)) <
                 1e-9);
 }
@@ -215,7 +225,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_a_helicopter_keeps_its_height_over_ridges),
         TEST(test_a_helicopter_hovers),
-        TEST(test_a_jet_never_flies_below_its_least_speed),
+        TEST(test_a_jet_never_stalls_by_its_agent),
         TEST(test_climbing_stays_within_the_kinds_rate),
         TEST(test_patrols_stay_inside_the_world),
         TEST(test_it_banks_into_its_turn),

@@ -1,0 +1,172 @@
+/* Flight as a point mass: load and bank, lift and stall, thrust and drag. For four aircraft at
+ * once, each by the formulas of its sort: an aeroplane (struct aircraft: least_mps > 0) or a
+ * helicopter. Aircraft bank before they turn and lean before they gain speed, so roll and pitch are
+ * part of the state. Pure; any thread.
+ *
+ * Aeroplane. The lift is at most (V / V_stall)^2 times the weight, and at most the kind's load. The
+ * bank leaves enough of it to climb, or to hold the height. Thrust is the kind's acceleration times
+ * its mass. The drag is k V^2 + INDUCED g (n V_stall / V)^2, where n is the load and k follows from
+ * the top speed. What thrust exceeds drag climbs or gains speed. Below V_stall the lift is less
+ * than the weight: it sinks, its nose drops, and it gains speed.
+ *
+ * Helicopter. Its thrust is along the mast, which follows the stick with a lag. It tilts by at most
+ * TILT_SLOPE forward or back, and banks by at most 60 degrees. */
+#ifndef JOLON_MOVER_MOTION_AIRFRAME_H
+#define JOLON_MOVER_MOTION_AIRFRAME_H
+
+#include "mover/motion/kinematics_simd.h"
+#include "world/entity/mass_properties.h"
+
+/* The drag of lift: with an aspect ratio of 2 to 3 the drag coefficient is CD0 + 0.2 CL^2, and the
+ * greatest CL is 1.2. A wing has that CL at the stall, where the drag is 0.24 of the weight. */
+#define AIRFRAME_INDUCED 0.24
+
+#define AIRFRAME_NEEDED 0.9 /* share of the thrust that holds the top speed */
+
+/* The least thrust [share of the weight] with which an aeroplane flies at 1.3 V_stall. */
+#define AIRFRAME_LEAST_THRUST 0.3
+
+/* Agents fly at this multiple of V_stall or faster, as on approach (14 CFR 25.125: 1.23 or more).
+ */
+#define AIRFRAME_SAFE 1.3
+
+#define AIRFRAME_ROLL_RPS   2.1     /* an aeroplane's rate of roll: 120 degrees/s */
+#define AIRFRAME_LAG_S      0.35    /* of a helicopter's attitude */
+#define AIRFRAME_TILT_SLOPE 0.57735 /* tan 30 degrees */
+#define AIRFRAME_BANK_SLOPE 1.73205 /* tan 60 degrees: 2 g */
+#define AIRFRAME_SIDESLIP   0.15    /* [g] that a helicopter turns without bank */
+#define AIRFRAME_DRAG_SLOPE 0.176 /* tan 10 degrees: the tilt that holds a helicopter's top speed  \
+                                   */
+#define AIRFRAME_CLIMB_S    0.5   /* in which the rate of climb follows the stick */
+#define AIRFRAME_SPEED_S    1.0   /* and an aeroplane's speed the throttle */
+#define AIRFRAME_HOVER_S    0.7   /* and a helicopter's the stick */
+#define AIRFRAME_TURN_S     1.2   /* and the heading an agent's will */
+#define AIRFRAME_PULL       1.5   /* [g] over level flight, pulled up no harder */
+#define AIRFRAME_COLLECTIVE 0.6   /* [g] the same by a helicopter's power */
+#define AIRFRAME_DOWN       -0.8  /* [g] pushed over no harder: the crew stays in its seats */
+
+/* Four aircraft in a frame. */
+struct airframe {
+    /* The kind. */
+    f64x4 stall_mps, full_mps, thrust_mps2, climb_mps, turn_rps, load;
+    four_masks aeroplane;
+    /* The state. Along the heading; up. */
+    f64x4 forward_mps, up_mps, bank_slope, bank_cosine, nose_slope;
+    /* What it wants. */
+    f64x4 wanted_mps, wanted_up_mps, turn; /* turn: -1..1 when driven or held, else [rad] off */
+    f64x4 brake;                           /* 0..1 */
+    four_masks driven, held, dry;
+    /* Results of airframe_lift() and airframe_turn(). */
+    f64x4 lift_most; /* [g] */
+    f64x4 rising_mps2, weight_mps2, turn_slope, turning_rps;
+    f64x4 level_mps2; /* centripetal */
+};
+
+/* Computes the lift: the vertical acceleration, and the weight that a bank has to carry. */
+static inline void airframe_lift(struct airframe *f, double dt_s)
+{
+    const f64x4 g = SIMD_EVERY(GRAVITY_MPS2), none = SIMD_EVERY(0.0), one = SIMD_EVERY(1.0);
+    const f64x4 lowest = SIMD_EVERY(AIRFRAME_DOWN * GRAVITY_MPS2);
+    f64x4 square = f->forward_mps * f->forward_mps + f->up_mps * f->up_mps;
+    f64x4 stall = SIMD_MAX(f->stall_mps, one);
+    f64x4 lift = SIMD_MIN(square / (stall * stall), f->load);
+    f->lift_most = SIMD_CHOOSE(f->aeroplane, lift, f->load);
+    double lag_s = dt_s > AIRFRAME_CLIMB_S ? dt_s : AIRFRAME_CLIMB_S;
+    f64x4 rise = (f->wanted_up_mps - f->up_mps) / lag_s;
+    f64x4 most = SIMD_CHOOSE(f->aeroplane, g * AIRFRAME_PULL, g * AIRFRAME_COLLECTIVE);
+    rise = SIMD_CLAMP(rise, lowest, most);
+    /* The bank is limited by what it wants, so that the lift is there when it has levelled out. */
+    f64x4 carried = one + SIMD_MAX(rise, none) / g;
+    f64x4 slope = f->lift_most / carried;
+    slope = SIMD_MAX(slope * slope - one, none);
+    f->turn_slope = slope; /* its square root is taken by lanes */
+    f64x4 high = (f->lift_most * SIMD_MAX(f->bank_cosine, none) - one) * g;
+    f->rising_mps2 = SIMD_MIN(rise, high);
+    f->weight_mps2 = SIMD_MAX(g + f->rising_mps2, g * 0.05);
+}
+
+/* Computes the wanted slope of the bank, and the rate of turn by the present bank. turn_slope: the
+ * steepest bank's. */
+static inline void airframe_turn(struct airframe *f, double dt_s, f64x4 *bank)
+{
+    const f64x4 one = SIMD_EVERY(1.0), none = SIMD_EVERY(0.0), slip = SIMD_EVERY(AIRFRAME_SIDESLIP);
+    const f64x4 gentle = SIMD_EVERY(AIRFRAME_BANK_SLOPE);
+    f64x4 steepest = f->turn_slope, most = f->turn_rps, least = SIMD_NEGATIVE(f->turn_rps);
+    steepest = SIMD_CHOOSE(f->aeroplane, steepest, SIMD_MIN(steepest, gentle));
+    double lag_s = dt_s > AIRFRAME_TURN_S ? dt_s : AIRFRAME_TURN_S;
+    f64x4 off = f->turn / lag_s, rate = f->turn * f->turn_rps;
+    off = SIMD_CLAMP(off, least, most);
+    rate = SIMD_CHOOSE(f->held | f->driven, rate, off);
+    f64x4 slope = rate * f->forward_mps / f->weight_mps2;
+    /* A driver's full deflection is the steepest bank. */
+    f64x4 high = SIMD_CHOOSE(f->driven, steepest * SIMD_ABS(f->turn), steepest);
+    f64x4 low = SIMD_NEGATIVE(high);
+    *bank = SIMD_CLAMP(slope, low, high);
+    f64x4 wing = f->bank_slope * f->weight_mps2;
+    f64x4 right = SIMD_MAX(f->bank_slope, none) + slip, left = SIMD_MIN(f->bank_slope, none) - slip;
+    f64x4 mast = SIMD_CLAMP(slope, left, right);
+    mast = SIMD_CLAMP(mast, low, high);
+    f->level_mps2 = SIMD_CHOOSE(f->aeroplane, wing, mast * f->weight_mps2);
+    f64x4 slowest = SIMD_MAX(f->stall_mps * 0.5, one);
+    f64x4 fast = SIMD_MAX(f->forward_mps, slowest);
+    f64x4 hover = SIMD_CHOOSE(SIMD_ABS(slope) > 1e-9, mast / slope, one);
+    f->turning_rps = SIMD_CHOOSE(f->aeroplane, wing / fast, rate * hover);
+}
+
+/* Returns the acceleration of an aeroplane along its path. speed: along it, above 0. */
+static inline void airframe_push(const struct airframe *f, const f64x4 *speed, f64x4 *push)
+{
+    const f64x4 none = SIMD_EVERY(0.0), g = SIMD_EVERY(GRAVITY_MPS2);
+    const f64x4 least = g * AIRFRAME_LEAST_THRUST, one = SIMD_EVERY(1.0);
+    f64x4 thrust = SIMD_MAX(f->thrust_mps2, least);
+    f64x4 square = *speed * *speed, full = f->full_mps * f->full_mps;
+    f64x4 stall = f->stall_mps * f->stall_mps;
+    full = SIMD_MAX(full, one);
+    f64x4 shape = (thrust * AIRFRAME_NEEDED - g * AIRFRAME_INDUCED * stall / full) / full;
+    f64x4 load = (f->weight_mps2 * f->weight_mps2 + f->level_mps2 * f->level_mps2) / (g * g);
+    f64x4 floor = SIMD_MAX(square, stall * 0.04);
+    f64x4 drag = shape * square + g * AIRFRAME_INDUCED * load * stall / SIMD_MAX(floor, one);
+    f64x4 slope = g * f->up_mps / SIMD_MAX(*speed, one);
+    f64x4 idle = SIMD_NEGATIVE(drag) - slope;
+    f64x4 most = idle + SIMD_CHOOSE(f->dry, none, thrust);
+    f64x4 low = idle - thrust * f->brake;
+    f64x4 wanted = (f->wanted_mps - *speed) / AIRFRAME_SPEED_S;
+    *push = SIMD_CLAMP(wanted, low, most);
+}
+
+/* The rate of climb [m/s] that an aeroplane may want: what its thrust gives, more while it is fast,
+ * and a glide without fuel. */
+static inline void airframe_climb(struct airframe *f, const f64x4 *speed)
+{
+    const f64x4 g = SIMD_EVERY(GRAVITY_MPS2), one = SIMD_EVERY(1.0);
+    const f64x4 least = g * AIRFRAME_LEAST_THRUST;
+    f64x4 thrust = SIMD_MAX(f->thrust_mps2, least);
+    f64x4 share = *speed / SIMD_MAX(f->full_mps, one);
+    f64x4 safe = f->stall_mps * AIRFRAME_SAFE;
+    f64x4 excess = (thrust * (1.0 - share * share) - g * AIRFRAME_INDUCED * 0.6) * *speed / g;
+    f64x4 most = SIMD_MAX(excess, SIMD_EVERY(0.0)) + (*speed - safe) * 0.5;
+    f64x4 glide = *speed * -0.25;
+    most = SIMD_CHOOSE(f->dry, SIMD_MIN(glide, most), SIMD_MIN(f->wanted_up_mps, most));
+    four_masks limited = f->aeroplane & (f->dry | ~f->driven);
+    f->wanted_up_mps = SIMD_CHOOSE(limited, most, f->wanted_up_mps);
+}
+
+/* Returns a helicopter's acceleration along its heading by its present pitch, and the slope of the
+ * pitch that it wants. */
+static inline void airframe_tilt(const struct airframe *f, f64x4 *push, f64x4 *nose)
+{
+    const f64x4 steepest = SIMD_EVERY(AIRFRAME_TILT_SLOPE),
+                flattest = SIMD_EVERY(-AIRFRAME_TILT_SLOPE);
+    const f64x4 g = SIMD_EVERY(GRAVITY_MPS2), one = SIMD_EVERY(1.0);
+    f64x4 high = f->thrust_mps2 * (1.0 + f->brake), low = SIMD_NEGATIVE(high);
+    f64x4 full = SIMD_MAX(f->full_mps * f->full_mps, one);
+    f64x4 drag = g * AIRFRAME_DRAG_SLOPE * f->forward_mps * SIMD_ABS(f->forward_mps) / full;
+    f64x4 wanted = (f->wanted_mps - f->forward_mps) / AIRFRAME_HOVER_S;
+    wanted = SIMD_CLAMP(wanted, low, high);
+    f64x4 slope = (wanted + drag) / f->weight_mps2;
+    slope = SIMD_CLAMP(slope, flattest, steepest);
+    *nose = SIMD_NEGATIVE(slope);
+    *push = SIMD_NEGATIVE(f->weight_mps2 * f->nose_slope) - drag;
+}
+
+#endif

@@ -1,0 +1,301 @@
+/* Flight: load, bank and rate of turn, stall, climb, tilt, hover. It prints a table of what is real
+ * and what is ours. */
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+static struct fixture f;
+static double hz;
+
+static void open_at(double rate)
+{
+    char world[64];
+    hz = rate;
+    (void)snprintf(world, sizeof world, "world = { seed = 1; capacity = 64; hz = %.1f; };", rate);
+    fixture_open(&f, world);
+}
+
+static int open_world(void **state)
+{
+    (void)state;
+    open_at(60.0);
+    return 0;
+}
+
+static uint32_t put(const char *kind, double height, double speed_mps, enum behaviour behaviour)
+{
+    return fixture_put(&f,
+                       (struct fixture_entity){.kind = kind,
+                                               .at = {25000.0, FIXTURE_GROUND_M + height, 25000.0},
+                                               .velocity = {speed_mps, 0.0, 0.0},
+                                               .heading_rad = HALF_PI,
+                                               .behaviour = behaviour});
+}
+
+static struct vec3 velocity_of(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    return entities_velocity(&e, row);
+}
+
+static void seconds(double s)
+{
+    fixture_run(&f, (uint32_t)(s * hz + 0.5));
+}
+
+static void tell(const char *what, double real, double ours, double tolerance)
+{
+    print_message("| %-40s | %8.2f | %8.2f | %5.0f %% |\n", what, real, ours, 100.0 * tolerance);
+    assert_true(fabs(ours / real - 1.0) <= tolerance);
+}
+
+/* The load [g] in a frame: what the crew feels. */
+static double load_in_a_frame(uint32_t row)
+{
+    struct vec3 before = velocity_of(row);
+    fixture_run(&f, 1);
+    struct vec3 felt = vec3_scale(vec3_sub(velocity_of(row), before), hz);
+    felt.y += GRAVITY_MPS2;
+    return vec3_length(felt) / GRAVITY_MPS2;
+}
+
+/* Full deflections at random for a minute. Returns the hardest load. */
+static double hardest_load(uint32_t row, uint64_t seed)
+{
+    uint64_t random = fixture_seed(seed);
+    double hardest = 0.0;
+    for (int n = 0; n < 40; n++) {
+        double turn = fixture_uniform(&random, -1.6, 1.6), up = fixture_uniform(&random, -1.6, 1.6);
+        steps_drive(&f, row, fixture_uniform(&random, 0.3, 1.0), maths_clamp(turn, -1.0, 1.0),
+                    maths_clamp(up, -1.0, 1.0));
+        for (int frame = 0; frame < (int)(1.5 * hz); frame++)
+            hardest = maths_max(hardest, load_in_a_frame(row));
+        steps_rows(&f).y[row] = FIXTURE_GROUND_M + 3000.0; /* it never strikes the ground */
+    }
+    return hardest;
+}
+
+static void test_loads_stay_within_what_airframes_bear(void **state)
+{
+    static const struct {
+        const char *kind;
+        double most;
+    } limit[] = {{"jet", 8.0}, {"helicopter", 3.5}, {"wishbone", 3.5}, {"helo-cow", 3.5}};
+    (void)state;
+    for (size_t n = 0; n < sizeof limit / sizeof limit[0]; n++) {
+        uint32_t row = put(limit[n].kind, 3000.0, steps_kind(&f, limit[n].kind)->max_speed_mps,
+                           BEHAVIOUR_IDLE);
+        double load = hardest_load(row, 3 + n);
+        print_message("| load of a %-30s | <= %5.1f | %8.2f |    hard |\n", limit[n].kind,
+                      limit[n].most, load);
+        assert_true(load <= limit[n].most && load > 1.3);
+        steps_empty(&f);
+    }
+}
+
+/* Turns at full deflection until the bank stands, and returns the rate of turn [rad/s] over half a
+ * second. speed, bank: in its middle. */
+static double turn_hard(uint32_t row, double lead_s, double *speed, double *bank)
+{
+    seconds(lead_s);
+    double before = steps_rows(&f).heading[row];
+    seconds(0.25);
+    *speed = vec3_length(velocity_of(row)), *bank = fabs(steps_rows(&f).roll[row]);
+    seconds(0.25);
+    return fabs(maths_wrap_half(steps_rows(&f).heading[row] - before)) / 0.5;
+}
+
+static void test_a_turn_follows_from_the_load(void **state)
+{
+    double speed, bank, rate;
+    (void)state;
+    steps_kind(&f, "jet")->max_load = 6.0;
+    uint32_t jet = put("jet", 3000.0, 277.8, BEHAVIOUR_IDLE);
+    steps_drive(&f, jet, 1.0, 1.0, 0.0);
+    rate = turn_hard(jet, 1.0, &speed, &bank);
+    tell("jet, 6 g at 278 m/s: bank, degrees", 80.4, bank * DEG_PER_RAD, 0.01);
+    tell("  degrees/s, if it kept its speed", 12.0, rate * DEG_PER_RAD * speed / 277.8, 0.02);
+    tell("  radius m, if it kept its speed", 1330.0, speed / rate * 277.8 * 277.8 / speed / speed,
+         0.02);
+    steps_empty(&f);
+    uint32_t helicopter = put("helicopter", 300.0, 60.0, BEHAVIOUR_IDLE);
+    steps_drive(&f, helicopter, 0.8, 1.0, 0.0);
+    rate = turn_hard(helicopter, 3.0, &speed, &bank);
+    tell("helicopter, 2 g at 60 m/s: bank", 60.0, bank * DEG_PER_RAD, 0.01);
+    tell("  degrees/s", 16.2, rate * DEG_PER_RAD, 0.03);
+    tell("  radius m", 212.0, speed / rate, 0.03);
+}
+
+static void test_a_hard_turn_costs_speed(void **state)
+{
+    (void)state;
+    uint32_t jet = put("jet", 3000.0, 277.8, BEHAVIOUR_IDLE);
+    steps_drive(&f, jet, 1.0, 1.0, 0.0);
+    seconds(30.0);
+    double speed = vec3_length(velocity_of(jet));
+    print_message("full deflection for 30 s: 278 to %.0f m/s\n", speed);
+    assert_true(speed < 210.0 && speed > steps_kind(&f, "jet")->min_speed_mps);
+    steps_drive(&f, jet, 1.0, 0.0, 0.0);
+    seconds(60.0);
+    assert_true(vec3_length(velocity_of(jet)) > 270.0);
+}
+
+static void test_below_its_stalling_speed_an_aeroplane_falls_until_it_is_faster(void **state)
+{
+    (void)state;
+    uint32_t jet = put("jet", 3000.0, 80.0, BEHAVIOUR_IDLE);
+    steps_drive(&f, jet, 0.0, 0.0, 1.0);
+    struct entities e = steps_rows(&f);
+    e.brake[jet] = 1.0f;
+    double stall = steps_kind(&f, "jet")->min_speed_mps, slowest = 1e9, lowest = 0.0;
+    for (int frame = 0; frame < (int)(20.0 * hz); frame++) {
+        fixture_run(&f, 1);
+        slowest = maths_min(slowest, vec3_length(velocity_of(jet)));
+        lowest = maths_min(lowest, steps_rows(&f).pitch[jet]);
+    }
+    assert_true(slowest < stall && lowest < -0.1 && velocity_of(jet).y < -3.0);
+    steps_drive(&f, jet, 1.0, 0.0, 0.0);
+    seconds(20.0);
+    assert_true(vec3_length(velocity_of(jet)) > 1.3 * stall && fabs(velocity_of(jet).y) < 0.1);
+}
+
+static void test_thrust_limits_the_climb(void **state)
+{
+    (void)state;
+    uint32_t jet = put("jet", 1000.0, 200.0, BEHAVIOUR_IDLE);
+    uint32_t helicopter = put("helicopter", 1500.0, 40.0, BEHAVIOUR_IDLE);
+    steps_drive(&f, jet, 1.0, 0.0, 1.0);
+    steps_drive(&f, helicopter, 0.5, 0.0, 1.0);
+    seconds(60.0);
+    struct vec3 v = velocity_of(jet);
+    print_message("jet climbs with %.0f m/s at %.0f m/s\n", v.y, vec3_length(v));
+    tell("jet, steady climb m/s", 80.0, v.y, 0.05);
+    assert_true(vec3_length(v) > 100.0);
+    tell("helicopter, climb m/s", 12.0, velocity_of(helicopter).y, 0.01);
+}
+
+static void test_without_fuel_an_aeroplane_glides(void **state)
+{
+    (void)state;
+    uint32_t jet = put("jet", 3000.0, 200.0, BEHAVIOUR_PATROL);
+    steps_rows(&f).fuel_l[jet] = 0.0;
+    for (int s = 0; s < 60; s++) {
+        seconds(1.0);
+        assert_true(vec3_length(velocity_of(jet)) > steps_kind(&f, "jet")->min_speed_mps);
+    }
+    double sink = -velocity_of(jet).y, ratio = vec3_length(velocity_of(jet)) / sink;
+    print_message("it glides 1 : %.1f, sinks with %.0f m/s\n", ratio, sink);
+    assert_true(ratio > 3.0 && ratio < 8.0);
+}
+
+static void test_a_helicopter_leans_before_it_gains_speed(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 300.0, 0.0, BEHAVIOUR_IDLE);
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    double tilt = 0.0;
+    for (int frame = 0; frame < (int)(30.0 * hz); frame++) {
+        double before = velocity_of(row).x;
+        fixture_run(&f, 1);
+        if (frame == (int)(3.0 * hz))
+            tell("helicopter, acceleration over g tan(tilt)", 1.0,
+                 (velocity_of(row).x - before) * hz / GRAVITY_MPS2 /
+                     tan(-steps_rows(&f).pitch[row]),
+                 0.05);
+        tilt = maths_max(tilt, -steps_rows(&f).pitch[row]);
+    }
+    print_message("helicopter, tilt %.2f degrees\n", tilt * DEG_PER_RAD);
+    assert_true(tilt <= 30.0 * RAD_PER_DEG + 1e-9 && tilt > 20.0 * RAD_PER_DEG);
+    assert_true(fabs(velocity_of(row).x - steps_kind(&f, "helicopter")->max_speed_mps) < 0.01);
+    assert_true(steps_rows(&f).pitch[row] < -8.0 * RAD_PER_DEG);
+    steps_drive(&f, row, 0.0, 0.0, 0.0);
+    seconds(1.0);
+    assert_true(steps_rows(&f).pitch[row] > 5.0 * RAD_PER_DEG); /* it flares */
+    seconds(39.0);
+    assert_true(steps_speed(&f, row) == 0.0 && fabs(steps_rows(&f).pitch[row]) < 1e-6);
+}
+
+/* Where a jet and a helicopter are after the same flight at another rate. */
+static void fly_course(double rate, struct vec3 at[2])
+{
+    fixture_close(&f);
+    open_at(rate);
+    uint32_t row[2] = {put("jet", 1000.0, 200.0, BEHAVIOUR_IDLE),
+                       put("helicopter", 300.0, 40.0, BEHAVIOUR_IDLE)};
+    static const double course[][3] = {{1.0, 0.6, 0.5}, {0.6, -1.0, 0.0}, {0.9, 0.0, -0.3}};
+    for (int leg = 0; leg < 3; leg++) {
+        for (int n = 0; n < 2; n++) {
+            struct entities e = steps_rows(&f);
+            e.behaviour[row[n]] = BEHAVIOUR_DRIVEN;
+            e.until_tick[row[n]] = UINT32_MAX;
+            e.throttle[row[n]] = (float)course[leg][0];
+            e.steer[row[n]] = (float)course[leg][1];
+            e.climb[row[n]] = (float)course[leg][2];
+        }
+        seconds(6.0);
+    }
+    struct entities e = steps_rows(&f);
+    for (int n = 0; n < 2; n++)
+        at[n] = entities_position(&e, row[n]);
+}
+
+static void test_10_and_60_hz_agree(void **state)
+{
+    static const double way[2] = {3600.0, 900.0};
+    struct vec3 slow[2], fast[2];
+    (void)state;
+    fly_course(10.0, slow);
+    fly_course(60.0, fast);
+    for (int n = 0; n < 2; n++) {
+        double off = vec3_length(vec3_sub(slow[n], fast[n])) / way[n];
+        print_message("%s: 10 and 60 Hz are %.1f %% of the way apart\n", n ? "helicopter" : "jet",
+                      100.0 * off);
+        assert_true(off < 0.05);
+    }
+}
+
+static uint64_t digest_on(uint32_t threads)
+{
+    fixture_close(&f);
+    open_at(20.0);
+    fixture_threads(&f, threads);
+    for (uint32_t n = 0; n < 40; n++) {
+        uint32_t row = put(n % 2 ? "jet" : "helicopter", 200.0 + 20.0 * n, 90.0, BEHAVIOUR_PATROL);
+        struct entities e = steps_rows(&f);
+        e.z[row] += 300.0 * n;
+        e.goal_x[row] = 10000.0 + 700.0 * n, e.goal_z[row] = 30000.0 - 300.0 * n;
+    }
+    seconds(30.0);
+    return fixture_digest(&f);
+}
+
+static void test_the_digest_does_not_depend_on_threads(void **state)
+{
+    (void)state;
+    uint64_t one = digest_on(1);
+    assert_true(digest_on(2) == one && digest_on(4) == one);
+}
+
+int main(void)
+{
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
+    const struct CMUnitTest tests[] = {
+        TEST(test_loads_stay_within_what_airframes_bear),
+        TEST(test_a_turn_follows_from_the_load),
+        TEST(test_a_hard_turn_costs_speed),
+        TEST(test_below_its_stalling_speed_an_aeroplane_falls_until_it_is_faster),
+        TEST(test_thrust_limits_the_climb),
+        TEST(test_without_fuel_an_aeroplane_glides),
+        TEST(test_a_helicopter_leans_before_it_gains_speed),
+        TEST(test_10_and_60_hz_agree),
+        TEST(test_the_digest_does_not_depend_on_threads),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
