@@ -159,7 +159,7 @@ static const struct key kind_keys[] = {
                       "Then they coast, and drag slows them. 0: it burns until the end."),
     NUMBER("reliability", K, kind.reliability, 0, 1, "1",
            .meaning = "Homing munitions: the share of them in which motor, seeker and fuze work. "
-                      "Any other flies straight on after a second or two."),
+                      "Any other swerves within two seconds."),
     NUMBER("decoy_chance", K, kind.decoyed, 0, 1, "0",
            .meaning = "Homing munitions: how often the flares of an alert aircraft take the seeker "
                       "from it. The smoke of an alert land vehicle does so a third as often."),

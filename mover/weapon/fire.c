@@ -2,6 +2,7 @@
 #include "mover/weapon/fire.h"
 
 #include "mover/motion/kinematics.h"
+#include "mover/motion/missile.h"
 #include "mover/weapon/spawn.h"
 #include "mover/weapon/turret.h"
 #include "world/entity/event.h"
@@ -13,7 +14,6 @@
 
 #include <stddef.h>
 
-#define LAUNCH_SHARE  0.3   /* share of full speed with which a missile starts */
 #define DROP_HEIGHT_M 300.0 /* height above the point from which bombs fall */
 #define MOVING_SHARE  0.5   /* of its top speed, at which a shooter aims as badly as it can */
 
@@ -108,7 +108,7 @@ static bool launch(struct serial_context *context, uint32_t shooter, uint32_t ta
     double speed = round->max_speed_mps;
     if (round->guidance == GUIDANCE_HOMING) { /* its motor starts now */
         double carried = maths_max(0.0, vec3_dot(direction, entities_velocity(m, shooter)));
-        speed = maths_min(speed, LAUNCH_SHARE * speed + carried);
+        speed = maths_min(speed, MISSILE_LAUNCH_SHARE * speed + carried);
     }
     struct event_fire *event = send_munition(context, row, muzzle, vec3_scale(direction, speed));
     event->shooter = serial_context_party(context, shooter);

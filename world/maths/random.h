@@ -25,6 +25,8 @@ enum random_purpose {
     RANDOM_MISSION_RANGE, /* where a round of a fire mission falls */
     RANDOM_MISSION_AZIMUTH,
     RANDOM_REACTION, /* mover: how soon a crew fires at a new target */
+    RANDOM_FAILURE,  /* mover: does something in a missile fail, and when */
+    RANDOM_DECOY,    /* and does a decoy take its seeker */
 };
 
 /* splitmix64's finaliser (Steele, Lea & Flood 2014). */
