@@ -216,9 +216,11 @@ static inline void lean(const struct step_context *context, struct aircraft *bat
     for (int h = 0; h < LANE_FOURS; h++) {
         four_masks aeroplane = batch->least_mps.f64x4[h] > 0.0;
         f64x4 off = SIMD_ABS(bank.f64x4[h] - batch->roll.f64x4[h]) * lean->lag + LEAN_LEAST;
+        off = SIMD_MIN(off, nodding);
         f64x4 step = SIMD_CHOOSE(aeroplane, rate, off);
         kinematics_simd_approach(&batch->roll.f64x4[h], &bank.f64x4[h], &step);
         off = SIMD_ABS(nose.f64x4[h] - batch->pitch.f64x4[h]) * lean->lag + LEAN_LEAST;
+        off = SIMD_MIN(off, nodding);
         step = SIMD_CHOOSE(aeroplane, nodding, off);
         kinematics_simd_approach(&batch->pitch.f64x4[h], &nose.f64x4[h], &step);
     }

@@ -1,13 +1,14 @@
-/* Moves wrecks: rigid bodies over the ground, and hulls that drift on the water. */
+/* Moves wrecks: rigid bodies over the ground, and hulls that drift on the water and sink. */
 #include "mover/motion/wreck.h"
 
 #include "mover/motion/ground_contacts.h"
 #include "mover/motion/kinematics.h"
+#include "mover/motion/sinking.h"
 #include "mover/motion/spin.h"
 #include "world/state.h"
 #include "world/world.h"
 
-#define AFLOAT_FRICTION 0.6 /* of a ship's wreck: share of the weight */
+#define AFLOAT_FRICTION 0.03 /* of a ship's wreck: share of the weight */
 
 /* A frame is cut into sub-steps of at most this length, in which no point moves further than this.
  * The number of sub-steps is bounded. */
@@ -63,11 +64,10 @@ static void drift(const struct step_context *context, uint32_t i)
     double share = speed > 0.0 ? left / speed : 0.0;
     m->vx[i] *= share;
     m->vz[i] *= share;
-    m->vy[i] = 0.0;
     kinematics_advance(&m->x[i], &m->vx[i], context->dt_s);
     kinematics_advance(&m->z[i], &m->vz[i], context->dt_s);
-    m->y[i] = kinematics_ground(context, m->x[i], m->z[i]);
-    if (!turned && is_still(m, i))
+    bool sinks = sinking_hull(context, i);
+    if (!turned && !sinks && is_still(m, i))
         m->until_tick[i] = (uint32_t)context->tick;
 }
 
@@ -155,7 +155,7 @@ static void settle(const struct step_context *context, uint32_t i, double depth_
     struct entities *m = context->m;
     if (!is_slower(m, i, REST_MPS, REST_RPS) || depth_m >= REST_DEPTH_M) {
         m->until_tick[i] = 0;
-    } else if (m->until_tick[i] == 0) {
+    } else if (m->until_tick[i] == 0 && !sinking_begin(context, i)) {
         m->until_tick[i] = (uint32_t)context->tick + (uint32_t)ceil(REST_S / context->dt_s);
     } else if (is_due(context, i)) {
         stop(m, i);
@@ -190,6 +190,6 @@ void wreck_row(const struct step_context *context, uint32_t i)
         stop(context->m, i);
     else if (context->world->kinds[context->m->kind[i]].domain == DOMAIN_SEA)
         drift(context, i);
-    else
+    else if (!sinking_row(context, i))
         tumble(context, i);
 }

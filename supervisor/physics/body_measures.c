@@ -103,10 +103,13 @@ static double way_of(const struct body_look *body, double dt_s)
     return dt_s * (vec3_length(now->velocity) + vec3_length(now->spin) * body->kind->bound_m);
 }
 
-/* Measures a wreck's depth in the ground if it has grown. One that a vehicle had may stay. */
-static void measure_sinking(struct measures *measures, const struct body_look *body)
+/* Measures a wreck's depth in the ground if it has grown. One that a vehicle had may stay. Wrecks
+ * sink in water. */
+static void measure_sinking(struct measures *measures, const struct surface *surface,
+                            const struct body_look *body)
 {
-    bool sinks = body->now.lowest_m < body->was->lowest_m;
+    bool sinks = body->now.lowest_m < body->was->lowest_m &&
+                 !surface_is_water(surface, body->named.at.x, body->named.at.z);
     measure_take(measures, MEASURE_OF_WRECK_UNDERGROUND,
                  sinks ? maths_max(0.0, -body->now.lowest_m) : 0.0, &body->named, NULL);
 }
@@ -133,7 +136,7 @@ static void measure_corners(struct measures *measures, const struct ground_look 
     if (!placed && !surface_is_water(ground->surface, at.x, at.z))
         measure_take(measures, MEASURE_OF_UNDERGROUND, maths_max(0.0, depth), &body->named, NULL);
     if (body->known && body->now.wreck && body->was->wreck && !ground->fresh)
-        measure_sinking(measures, body);
+        measure_sinking(measures, ground->surface, body);
 }
 
 /* Returns how high a vehicle stands over the ground under its middle. */
@@ -169,7 +172,7 @@ void body_measures_ground(struct measures *measures, const struct ground_look *g
     body->now.height_m = at.y - (part.flat ? part.at_m : surface_height(surface, at.x, at.z));
     if (!part.flat)
         body->now.height_m -= standing_height(surface, body);
-    if (domain == DOMAIN_SEA || (domain == DOMAIN_LAND && !body->now.wreck))
+    if (domain <= DOMAIN_SEA && !body->now.wreck)
         measure_take(measures, MEASURE_OF_HEIGHT, fabs(body->now.height_m), &body->named, NULL);
     measure_corners(measures, ground, &part, body);
 }
@@ -178,7 +181,8 @@ void body_measures_rest(struct measures *measures, const struct ground_look *gro
                         const struct body_look *body)
 {
     const struct motion_look *now = &body->now;
-    bool lies = now->at_rest && body->kind->domain != DOMAIN_SEA && !body->touches;
+    bool wet = surface_is_water(ground->surface, body->named.at.x, body->named.at.z);
+    bool lies = now->at_rest && !wet && body->kind->domain != DOMAIN_SEA && !body->touches;
     bool looked = body->known && body->was->at_rest && body->still && !ground->fresh;
     if (lies && !looked && body->kind->hull_count > 0)
         measure_take(measures, MEASURE_OF_WRECK_HEIGHT, fabs(now->lowest_m), &body->named, NULL);

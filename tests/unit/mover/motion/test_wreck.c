@@ -302,16 +302,16 @@ static void test_pieces_stop_sooner_and_gain_no_energy(void **state)
     assert_true(slid[1] < 0.6 * slid[0] && slid[1] > 0.5 * way && slid[1] < 1.3 * way);
 }
 
-static void test_a_ship_drifts_on_the_water(void **state)
+static void test_a_ship_drifts_on_the_water_and_sinks(void **state)
 {
     (void)state;
     steps_cover(&f, COVER_LAKE, 0.0, 0.0, 50000.0, 50000.0);
     uint32_t row = put("ship", 100.0, (struct vec3){6.0, 0.0, 0.0});
     steps_rows(&f).spin_y[row] = 0.2;
-    fixture_run(&f, 5 * HZ);
+    fixture_run(&f, 120 * HZ);
     struct entities e = steps_rows(&f);
-    assert_true(rests(row) && e.y[row] == 100.0 && e.pitch[row] == 0.0 && e.roll[row] == 0.0);
-    assert_true(fabs(e.x[row] - 25000.0 - 36.0 / (2.0 * 0.6 * GRAVITY_MPS2)) < 0.2);
+    assert_true(rests(row) && e.y[row] < 99.0 && e.pitch[row] == 0.0 && e.roll[row] == 0.0);
+    assert_true(fabs(e.x[row] - 25000.0 - 36.0 / (2.0 * 0.03 * GRAVITY_MPS2)) < 1.0);
     assert_true(e.until_tick[row] != 0);
 }
 
@@ -332,7 +332,7 @@ int main(void)
         TEST(test_an_aircraft_that_strikes_the_ground_hard_breaks_up),
         TEST(test_only_a_hard_impact_breaks_an_airframe_and_no_tank),
         TEST(test_pieces_stop_sooner_and_gain_no_energy),
-        TEST(test_a_ship_drifts_on_the_water),
+        TEST(test_a_ship_drifts_on_the_water_and_sinks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
