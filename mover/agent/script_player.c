@@ -151,7 +151,7 @@ static bool hovers(const struct reading *r)
 /* Braking that it can rely on [m/s2]. A helicopter has to lean back first. */
 static double slowing(const struct reading *r)
 {
-    double share = r->kind->domain == DOMAIN_LAND ? 0.8 * BRAKES : hovers(r) ? 0.5 : 0.7;
+    double share = r->kind->domain == DOMAIN_LAND ? 0.8 * BRAKES : 0.75;
     return maths_max(share * r->kind->acceleration_mps2, 0.01);
 }
 

@@ -4,8 +4,8 @@
 #include "mover/motion/kinematics.h"
 #include "world/world.h"
 
-#define HULL_MPS  0.15
-#define SINK_MPS  0.4
+#define HULL_MPS  0.1
+#define SINK_MPS  0.1 /* so slow that it begins at once without a gain of energy that shows */
 #define HULL_DEEP 0.4 /* of its height: so far a hull settles */
 #define UNDER_M   0.5 /* over the highest point of what has gone under */
 

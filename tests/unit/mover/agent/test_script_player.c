@@ -111,6 +111,23 @@ static void test_it_arrives_at_its_time(void **state)
     }
 }
 
+/* It has to speed up and to flare on the way; the mean is up to 40 m/s, near what it can do. */
+static void test_a_helicopter_arrives_from_afar_at_its_time(void **state)
+{
+    (void)state;
+    for (double metres = 800.0; metres <= 1600.0; metres += 400.0) {
+        char steps[96];
+        snprintf(steps, sizeof steps, "{ at_s = 40.0; arrive = [25000.0, %.1f]; }",
+                 25000.0 - metres);
+        open_script("helicopter", "", steps);
+        run_s(40.0);
+        print_message("from %.0f m: %.2f m off after 40 s\n", metres,
+                      off(25000.0, 25000.0 - metres));
+        assert_true(off(25000.0, 25000.0 - metres) < speed() / HZ + 1.5);
+        fixture_close(&f);
+    }
+}
+
 static void test_one_step_follows_the_other(void **state)
 {
     (void)state;
@@ -341,6 +358,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_it_arrives_at_its_time),
+        cmocka_unit_test(test_a_helicopter_arrives_from_afar_at_its_time),
         cmocka_unit_test(test_one_step_follows_the_other),
         cmocka_unit_test(test_a_wait_lasts_as_long_as_it_says),
         cmocka_unit_test(test_a_time_cuts_off_the_steps_before_it),

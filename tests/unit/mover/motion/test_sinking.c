@@ -64,7 +64,7 @@ static void test_an_aircrafts_wreck_ditches_slows_and_goes_under(void **state)
     uint32_t row = put_wreck("helicopter", 60.0, 30.0);
     double bound = steps_kind(&f, "helicopter")->bound_m;
     (void)state;
-    for (int s = 0; s < 120 && !still(row); s++)
+    for (int s = 0; s < 300 && !still(row); s++)
         fixture_run(&f, (uint32_t)HZ);
     assert_true(still(row));
     assert_true(steps_rows(&f).y[row] + bound < FIXTURE_GROUND_M);
