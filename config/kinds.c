@@ -22,6 +22,11 @@
 #define UNARMED_SIGHT_M   1500.0
 #define HELICOPTER_LOAD_G 3.5 /* of the AH-64A */
 
+/* Armour by mass: 12.5 mm and 14 mm for 11 t (M113: 38 and 32), 60 and 300 mm for 50 t (M60). */
+#define ARMOUR_SIDE_MMPT   1.2  /* [mm/t] */
+#define ARMOUR_FRONT_MMPT2 0.12 /* [mm/t^2] */
+#define ARMOUR_NONE_MM     3.0
+
 /* A kind's file while it is read. Its munition is looked up when all kinds are known. */
 struct reading {
     char path[PATH_MAX];
@@ -149,6 +154,12 @@ static int check_values(const struct kind *kind, const struct key_reading *keys,
          "is only for ballistic munitions; allowed: none"},
         {kind->drag != DRAG_NONE && kind->ballistic_kgpm2 <= 0, "ballistic_kgpm2",
          kind->ballistic_kgpm2, "is needed beside drag; allowed: above 0"},
+        {kind->delivery != DELIVERY_DIRECT && (!munition || homing), "delivery",
+         (double)kind->delivery, "is only for ballistic munitions; allowed: direct"},
+        {kind->delivery == DELIVERY_ARC && kind->drag == DRAG_NONE, "drag", 0.0,
+         "is needed by a munition on an arc; allowed: g1, g7"},
+        {kind->penetration_mm > 0 && !munition, "penetration_mm", kind->penetration_mm,
+         "is only for munitions; allowed: 0"},
         {kind->dispersion_moving_rad > 0 && kind->dispersion_moving_rad < kind->dispersion_rad,
          "dispersion_moving_mrad", kind->dispersion_moving_rad * 1000.0,
          "is below dispersion_mrad; allowed: from it on, or 0"},
@@ -233,6 +244,18 @@ static void complete_load(struct kind *kind)
         kind->max_load = HELICOPTER_LOAD_G;
 }
 
+/* Sets the armour that the file of a vehicle leaves open: that of an average vehicle of its mass.
+ * Ships and aircraft have none that counts. */
+static void complete_armour(struct kind *kind)
+{
+    const double mass_t = 0.001 * kind->mass_kg;
+    const double side = kind->domain == DOMAIN_LAND ? ARMOUR_SIDE_MMPT * mass_t : ARMOUR_NONE_MM;
+    const double front = kind->domain == DOMAIN_LAND ? ARMOUR_FRONT_MMPT2 * mass_t * mass_t : 0.0;
+    kind->armour_mm[ASPECT_FRONT] = fmax(front, side);
+    kind->armour_mm[ASPECT_SIDE] = side;
+    kind->armour_mm[ASPECT_REAR] = kind->armour_mm[ASPECT_TOP] = 0.5 * side;
+}
+
 static void take_hulls(struct kind *kind, const struct scenario *scenario,
                        const struct hulls *hulls)
 {
@@ -297,6 +320,9 @@ static int read_kind(struct reading *reading, struct kind *kind, const char *nam
     if (kind->stiffness_npm <= 0)
         kind->stiffness_npm = stiffness_of(kind);
     complete_load(kind);
+    if (kind->domain <= DOMAIN_AIR &&
+        (keys.given >> key_table_find(&schema_kind, "armour_mm") & 1u) == 0)
+        complete_armour(kind);
     complete_mind(kind, (keys.given >> key_table_find(&schema_kind, "doctrine") & 1u) != 0);
     take_hulls(kind, models->scenario, &models->hulls[model]);
     kind->munition = KIND_NONE;

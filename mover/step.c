@@ -14,7 +14,9 @@
 #include "mover/motion/ship.h"
 #include "mover/motion/wreck.h"
 #include "mover/weapon/fire.h"
+#include "mover/weapon/fire_mission.h"
 #include "mover/weapon/firing_table.h"
+#include "mover/weapon/scenario_fires.h"
 #include "mover/weapon/turret.h"
 #include "world/entity/event.h"
 #include "world/params.h"
@@ -292,31 +294,6 @@ static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t wo
     }
 }
 
-static void scenario_fires(struct serial_context *context)
-{
-    const struct world *world = context->step->world;
-    struct state_head *head = context->moved->head;
-    const struct entities *m = &context->moved->entities;
-    while (head->fire_cursor < world->counts.fires &&
-           world->fires[head->fire_cursor].tick <= head->tick) {
-        const struct fire_order *order = &world->fires[head->fire_cursor++];
-        uint32_t shooter = order->shooter_slot, target = order->target_slot;
-        if (shooter == SLOT_NONE) {
-            fire_drop_bomb(context, order->kind, order->x, order->z);
-            continue;
-        }
-        /* An initial slot still holds its first entity if the id is slot + 1. */
-        if (!entities_alive(m, shooter, shooter + 1) || m->state[shooter] != ENTITY_ACTIVE)
-            continue;
-        if (target != SLOT_NONE && !entities_alive(m, target, target + 1))
-            continue;
-        if (target != SLOT_NONE)
-            fire_shoot(context, shooter, target, order->kind);
-        else
-            fire_shoot_at(context, shooter, order->x, order->z, order->kind);
-    }
-}
-
 static void pull_trigger(struct serial_context *context, uint32_t i)
 {
     const struct entities *w = &context->step->committed->entities;
@@ -409,6 +386,7 @@ struct step_context mover_context(const struct mover *mover, const struct state 
         .look_frames = perception_look_frames(params, used),
         .aim_frames = attack_aim_frames(params),
         .dt_s = params->dt_s,
+        .wind = projectile_wind(params),
     };
 }
 
@@ -443,7 +421,8 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
         mover->line_of_sight.fixed_damage = committed->fixed_damage;
         ground_marks_update(&mover->ground_marks, mover->world, committed);
         thread_pool_run(mover->workers, move_rows, &rows, used, ROWS_A_WORKER);
-        scenario_fires(&serial_context);
+        scenario_fires_run(&serial_context);
+        fire_mission_run(&serial_context);
         pull_triggers(&serial_context);
     }
     mover->left = head->checksum = checksum(mover, moved);

@@ -8,6 +8,7 @@ WORDS(cover_name, cover, COVER_COUNT, "grass", "chaparral", "forest", "rock", "s
 WORDS(domain_name, domain, DOMAIN_COUNT, "land", "sea", "air", "munition", "fixed")
 WORDS(object_class_name, object_class, OBJECT_CLASS_COUNT, "tree", "bush", "pole", "building",
       "watertower", "other_manmade", "other_natural")
+WORDS(fuze_name, fuze, FUZE_COUNT, "point", "delay", "air")
 WORDS(doctrine_name, doctrine, DOCTRINE_COUNT, "armour", "light", "soft", "helicopter", "jet",
       "warship", "beast")
 WORDS(damage_name, damage, DAMAGE_COUNT, "none", "low", "med", "high", "destroyed")

@@ -13,6 +13,7 @@
 const char *cover_name(enum cover cover);
 const char *domain_name(enum domain domain);
 const char *doctrine_name(enum doctrine doctrine);
+const char *fuze_name(enum fuze fuze);
 const char *object_class_name(enum object_class object_class);
 const char *damage_name(enum damage damage);
 const char *entity_state_name(enum entity_state state);

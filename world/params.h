@@ -67,6 +67,7 @@ struct params {
     uint32_t reserved;
     uint32_t when_full; /* enum when_full */
     uint32_t initial_entities;
+    double wind_mps, wind_from_rad; /* the air's speed, and the bearing from which it comes */
     struct collision_params collision;
     struct force_base
         base[FORCE_COUNT]; /* the scenario's, or the middle of the force's initial places */

@@ -5,6 +5,7 @@
 
 #include "world/entity/command.h"
 #include "world/entity/entity.h"
+#include "world/entity/battery.h"
 
 #include <stdint.h>
 
@@ -43,10 +44,13 @@ struct state_head {
     uint32_t crater_count;
     uint32_t dent_count;
     uint32_t contact_count;
-    uint32_t fire_cursor;  /* fire orders of the scenario carried out */
-    uint32_t intent_count; /* M only: events the mover hands to the collider */
-    uint32_t advanced;     /* 1: simulated time moved in this frame */
-    uint64_t mover_ns;     /* M only: time of the mover's step; not in the digest */
+    uint32_t fire_cursor;   /* fire orders of the scenario carried out */
+    uint32_t intent_count;  /* M only: events the mover hands to the collider */
+    uint32_t advanced;      /* 1: simulated time moved in this frame */
+    uint32_t battery_count; /* entries of battery that are in use or cool down: the first ones */
+    uint32_t unused;        /* 0 */
+    struct battery battery[BATTERIES_MAX];
+    uint64_t mover_ns; /* M only: time of the mover's step; not in the digest */
     struct counters tally;
     uint64_t checksum; /* state_checksum(), moved_checksum() */
 };

@@ -35,11 +35,18 @@ struct route {
 /* A shot ordered by the scenario. */
 struct fire_order {
     uint64_t tick;         /* when, in steps of simulated time */
-    uint32_t shooter_slot; /* initial slot, SLOT_NONE: the round falls from the sky */
+    uint32_t shooter_slot; /* initial slot, SLOT_NONE: no vehicle of this world */
     uint32_t target_slot;  /* SLOT_NONE: the point */
     uint16_t kind;         /* munition, KIND_NONE: the shooter's own */
     uint16_t reserved;
+    uint16_t rounds;   /* of a fire mission; 0: one shot */
+    uint8_t fuze;      /* enum fuze; FUZE_COUNT: the munition's own */
+    uint8_t high;      /* 1: along the higher of the two arcs */
+    uint8_t adjusted;  /* 1: observers correct the fire */
+    uint8_t unused[3]; /* 0 */
     double x, z;
+    double bearing_rad; /* without a shooter: from which the round comes */
+    double flight_s;    /* the same: from the tick to the impact */
 };
 
 struct road_point {

@@ -98,6 +98,7 @@ const char *key_type_name(enum key_type type)
         [KEY_BOOLEAN] = "boolean", [KEY_INTEGER] = "integer", [KEY_NUMBER] = "number",
         [KEY_TEXT] = "text",       [KEY_CHOICE] = "choice",   [KEY_CHOICES] = "choices",
         [KEY_POINT] = "point",     [KEY_AREA] = "area",       [KEY_ROUTE] = "route",
+        [KEY_NUMBERS] = "numbers",
     };
     return type < KEY_TYPE_COUNT ? names[type] : "?";
 }
@@ -156,6 +157,10 @@ void key_table_allowed(const struct key *key, char *text, size_t bytes)
         break;
     case KEY_AREA:
         append(text, bytes, "[x0, z0, x1, z1] with x0 < x1 and z0 < z1, each ");
+        append_range(text, bytes, key);
+        break;
+    case KEY_NUMBERS:
+        append(text, bytes, "%u numbers in [ ], each ", key->size);
         append_range(text, bytes, key);
         break;
     case KEY_ROUTE:
@@ -311,6 +316,7 @@ int key_table_set_text(const struct key *key, void *destination, const char *tex
         return store_choices(&given, destination, text);
     case KEY_POINT:
     case KEY_AREA:
+    case KEY_NUMBERS:
     case KEY_ROUTE:
     case KEY_TYPE_COUNT:
         break;
@@ -423,6 +429,21 @@ static bool in_range(const struct key *key, const double *numbers, int count)
     return true;
 }
 
+#define NUMBERS_MAX 8
+
+static int store_numbers(const struct given *given, void *destination,
+                         const config_setting_t *setting)
+{
+    double numbers[NUMBERS_MAX];
+    int count = (int)given->key->size;
+    if (!numbers_of(setting, numbers, count))
+        return refuse_value(given, "has another number of numbers");
+    if (!in_range(given->key, numbers, count))
+        return refuse_value(given, "out of range");
+    memcpy((char *)destination + given->key->offset, numbers, (size_t)count * sizeof(*numbers));
+    return 0;
+}
+
 /* Stores a point (count 2) or an area (count 4). */
 static int store_place(const struct given *given, void *destination,
                        const config_setting_t *setting, int count)
@@ -489,6 +510,8 @@ static int store_setting(const struct given *given, void *destination,
         return store_place(given, destination, setting, 2);
     case KEY_AREA:
         return store_place(given, destination, setting, 4);
+    case KEY_NUMBERS:
+        return store_numbers(given, destination, setting);
     case KEY_ROUTE:
         return store_route(given, destination, setting);
     case KEY_TYPE_COUNT:

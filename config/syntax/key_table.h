@@ -26,6 +26,7 @@ enum key_type {
     KEY_CHOICES, /* one or several words, with commas between; their values are or-ed */
     KEY_POINT,   /* [x, z] */
     KEY_AREA,    /* [x0, z0, x1, z1] with x0 < x1 and z0 < z1 */
+    KEY_NUMBERS, /* [n, n, ...], exactly size of them */
     KEY_ROUTE,   /* ( [x, z], [x, z], ... ), two points or more */
     KEY_TYPE_COUNT
 };
@@ -35,7 +36,7 @@ enum key_store {
     STORE_U8,
     STORE_U32,
     STORE_U64,
-    STORE_DOUBLE, /* value * scale; [2] for a point, [4] for an area */
+    STORE_DOUBLE, /* value * scale; [2] for a point, [4] for an area, [size] for numbers */
     STORE_TEXT,   /* char[size], NUL-terminated */
     STORE_ROUTE   /* const config_setting_t *, checked; lives as long as its config_t */
 };
@@ -53,7 +54,7 @@ struct key {
     const char *name; /* with the groups that it is in: "world.seed" */
     enum key_type type;
     enum key_store store;
-    uint32_t size;        /* STORE_TEXT: bytes, the NUL included */
+    uint32_t size;        /* STORE_TEXT: bytes, the NUL included; KEY_NUMBERS: how many */
     size_t offset;        /* within the table's destination */
     double low, high;     /* inclusive; of each coordinate of points, areas and routes */
     double scale;         /* of STORE_DOUBLE: the stored value is the file's times this */

@@ -166,6 +166,14 @@ static int check_fire(const struct entry *entry, const struct fire_entry *fire,
             entry, FIRE_TARGET,
             "needs a shooter, as a munition that falls from the sky falls on a point; "
             "right would be: a shooter beside it, or a point");
+    if (fire->rounds > 0 && !entry_given(entry, FIRE_POINT))
+        return entry_refuse(entry, FIRE_ROUNDS,
+                            "is only for fire at a point; right would be: a point");
+    if (fire->rounds > 0 && shooter != NULL &&
+        (kinds[shooter->kind].munition == KIND_NONE ||
+         kinds[kinds[shooter->kind].munition].delivery != DELIVERY_ARC))
+        return entry_refuse(entry, FIRE_SHOOTER,
+                            "has no gun that fires along an arc; right would be: a howitzer");
     if (entry_given(entry, FIRE_MUNITION)) {
         *munition = entry_kind(entry, FIRE_MUNITION, fire->munition, DOMAIN_BIT(DOMAIN_MUNITION));
         return *munition == KIND_NONE ? -1 : 0;
@@ -207,6 +215,12 @@ int lists_fires(struct scenario *scenario, const config_setting_t *list,
         to->munition = munition;
         to->x = fire.point[0];
         to->z = fire.point[1];
+        to->rounds = (uint16_t)fire.rounds;
+        to->fuze = (uint8_t)fire.fuze;
+        to->adjusted = (uint8_t)fire.adjust;
+        to->high = (uint8_t)fire.high;
+        to->turned = entry_given(&entry, FIRE_BEARING);
+        to->bearing_rad = fire.bearing_rad;
         to->line = (int)config_setting_source_line(entry.setting);
     }
     result = 0;

@@ -127,7 +127,19 @@ struct object_entry {
 };
 extern const struct key_table schema_object;
 
-enum fire_key { FIRE_AT, FIRE_SHOOTER, FIRE_TARGET, FIRE_MUNITION, FIRE_POINT, FIRE_KEY_COUNT };
+enum fire_key {
+    FIRE_AT,
+    FIRE_SHOOTER,
+    FIRE_TARGET,
+    FIRE_MUNITION,
+    FIRE_POINT,
+    FIRE_ROUNDS,
+    FIRE_ADJUST,
+    FIRE_FUZE,
+    FIRE_HIGH,
+    FIRE_BEARING,
+    FIRE_KEY_COUNT
+};
 
 struct fire_entry {
     double at_s;
@@ -135,6 +147,8 @@ struct fire_entry {
     char target[ENTITY_NAME_MAX];
     char munition[KIND_NAME_MAX];
     double point[2];
+    uint32_t rounds, fuze, adjust, high;
+    double bearing_rad;
 };
 extern const struct key_table schema_fire;
 

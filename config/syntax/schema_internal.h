@@ -40,6 +40,11 @@
 #define PLACE(key, of_type, how, D, field, ...)                                                    \
     ROW(key, of_type, how, D, field, .low = 0.0, .high = WORLD_SIDE_M, .unit = "m", __VA_ARGS__)
 
+#define NUMBERS(key, D, field, min, max, ...)                                                      \
+    ROW(key, KEY_NUMBERS, STORE_DOUBLE, D, field,                                                  \
+        .size = sizeof(((D *)0)->field) / sizeof(double), .low = (min), .high = (max),             \
+        __VA_ARGS__)
+
 /* Defines the table of an entry's rows, with a row for each of `count` keys. */
 #define KEY_TABLE(table, path, rows, D, count)                                                     \
     _Static_assert(COUNT(rows) == (count), "a row for each key");                                  \

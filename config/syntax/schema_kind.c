@@ -10,6 +10,9 @@ static const struct key_choice guidances[] = {{"ballistic", GUIDANCE_BALLISTIC, 
 static const struct key_choice drags[] = {
     {"none", DRAG_NONE, NULL}, {"g1", DRAG_G1, NULL}, {"g7", DRAG_G7, NULL}};
 
+static const struct key_choice deliveries[] = {
+    {"direct", DELIVERY_DIRECT, NULL}, {"arc", DELIVERY_ARC, NULL}, {"drop", DELIVERY_DROP, NULL}};
+
 static const struct key_choice air_targets[] = {{"all", AIR_TARGETS_ALL, NULL},
                                                 {"slow", AIR_TARGETS_SLOW, NULL},
                                                 {"none", AIR_TARGETS_NONE, NULL}};
@@ -44,6 +47,25 @@ static const struct key kind_keys[] = {
                       "that can hover. Commands and drivers fire at anything."),
     BOOLEAN("craters", K, kind.craters, STORE_U8, "false",
             .meaning = "Munitions. true: a munition that strikes the ground digs a crater."),
+    CHOICE("delivery", K, kind.delivery, STORE_U8, WORDS(deliveries), "direct",
+           .meaning = "Ballistic munitions. `direct`: the gun points at the target. `arc`: the "
+                      "munition of howitzers, fired at points over what is in between. `drop`: an "
+                      "aircraft releases it with its own velocity."),
+    CHOICE("fuze", K, kind.fuze, STORE_U8, ALL(fuze_name, FUZE_COUNT), "point",
+           .meaning = "Munitions. `point`: the charge explodes where it strikes. `delay`: it "
+                      "explodes below the ground: a wider crater, and less effect around it. "
+                      "`air`: a munition on an arc explodes 8 m over the point that it is fired "
+                      "at."),
+    NUMBER("penetration_mm", K, kind.penetration_mm, 0, 5000, "0", .unit = "mm",
+           .meaning = "Munitions: the steel that one penetrates at the muzzle. 0: a vehicle that "
+                      "it strikes is damaged by its energy alone."),
+    NUMBER("penetration_loss", K, kind.penetration_loss, 0, 5000, "0", .unit = "mm/km",
+           .meaning = "Munitions: how much of the penetration is lost in each kilometre. 0: none, "
+                      "as with a shaped charge."),
+    NUMBERS("armour_mm", K, kind.armour_mm, 0, 5000, .unit = "mm",
+            .unset = "by domain and mass ([weapons](weapons.md#armour))",
+            .meaning = "Vehicles: the armour of front, side, rear and top, as steel along a line "
+                       "square to that side. Below 10 mm the energy of a hit counts."),
     NUMBER("mass_kg", K, kind.mass_kg, 0.001, 1e9, NULL, .required = true, .unit = "kg",
            .meaning = "The mass."),
     NUMBER("radius_m", K, kind.radius_m, 0.01, 500, NULL, .required = true, .unit = "m",

@@ -3,6 +3,7 @@
 #include "config/syntax/schema_internal.h"
 #include "world/entity/entity.h"
 #include "world/entity/formation.h"
+#include "world/entity/kind.h"
 #include "world/enum_names.h"
 #include "world/maths/maths.h"
 
@@ -210,13 +211,20 @@ static const struct key object_keys[] = {
 KEY_TABLE(schema_object, "objects", object_keys, O, OBJECT_KEY_COUNT);
 #undef O
 
+static const struct key_choice fire_fuzes[] = {{"own", FUZE_COUNT, NULL},
+                                               {"point", FUZE_POINT, NULL},
+                                               {"delay", FUZE_DELAY, NULL},
+                                               {"air", FUZE_AIR, NULL}};
+
 #define F struct fire_entry
 static const struct key fire_keys[] = {
     [FIRE_AT] = NUMBER("at_s", F, at_s, 0, 1e7, "0", .unit = "s",
                        .meaning = "The simulated time of the shot."),
-    [FIRE_SHOOTER] = TEXT("shooter", F, shooter, NULL,
-                          .meaning = "The name of the vehicle that fires. Without a shooter the "
-                                     "munition falls out of the sky."),
+    [FIRE_SHOOTER] =
+        TEXT("shooter", F, shooter, NULL,
+             .meaning = "The name of the vehicle that fires. Without a shooter, shells "
+                        "come along an arc from a battery that is off the map, and "
+                        "other munitions fall out of the sky."),
     [FIRE_TARGET] = TEXT("target", F, target, NULL,
                          .meaning = "The name of the vehicle that a shooter fires at. A shot has "
                                     "either a target or a point."),
@@ -225,6 +233,24 @@ static const struct key fire_keys[] = {
                                       "without a shooter must have it."),
     [FIRE_POINT] = PLACE("point", KEY_POINT, STORE_DOUBLE, F, point,
                          .meaning = "The point on the ground that the shot is aimed at."),
+    [FIRE_ROUNDS] = WHOLE32("rounds", F, rounds, 0, 1000, "0",
+                            .meaning = "Makes the shot a fire mission of so many rounds for "
+                                       "effect. The shooter is then a howitzer, and its battery "
+                                       "fires: up to 8 howitzers of its force within 300 m. "
+                                       "0: a single shot."),
+    [FIRE_ADJUST] = BOOLEAN("adjust", F, adjust, STORE_U32, "false",
+                            .meaning = "true: one gun of the mission fires first, and observers "
+                                       "who see the point correct its fire before the others "
+                                       "join."),
+    [FIRE_FUZE] = CHOICE("fuze", F, fuze, STORE_U32, WORDS(fire_fuzes), "own",
+                         .meaning = "The fuze of the rounds. `own`: that of the munition."),
+    [FIRE_HIGH] = BOOLEAN("high", F, high, STORE_U32, "false",
+                          .meaning = "true: shells take the higher of the two arcs that meet the "
+                                     "point, over mountains and walls."),
+    [FIRE_BEARING] = SCALED("bearing_deg", F, bearing_rad, 0, 360, RAD_PER_DEG, NULL,
+                            .unit = "degrees", .unset = "by seed and entry",
+                            .meaning = "Shells without a shooter: the bearing from the point, "
+                                       "clockwise from north, from which they come."),
 };
 KEY_TABLE(schema_fire, "fires", fire_keys, F, FIRE_KEY_COUNT);
 #undef F

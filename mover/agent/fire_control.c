@@ -13,6 +13,8 @@ bool fire_control_suits(const struct step_context *context, uint32_t i, uint32_t
     const struct kind *kinds = context->world->kinds;
     uint16_t munition = kinds[context->m->kind[i]].munition;
     const struct kind *other = &kinds[context->committed->entities.kind[target]];
+    if (munition != KIND_NONE && kinds[munition].delivery == DELIVERY_ARC)
+        return false; /* howitzers fire by missions */
     if (munition == KIND_NONE || other->domain != DOMAIN_AIR)
         return true;
     switch ((enum aircraft_targets)kinds[munition].air_targets) {

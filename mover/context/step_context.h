@@ -41,6 +41,7 @@ struct step_context {
         look_frames;     /* [frame] from one of its looks to the next, a multiple of think_frames */
     uint32_t aim_frames; /* [frame] from one attempt to fire to the next */
     double dt_s;
+    struct vec3 wind; /* [m/s] */
 };
 
 /* Returns true if row i's agent decides in this frame. */

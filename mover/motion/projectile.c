@@ -3,26 +3,45 @@
 
 #include "mover/motion/drag.h"
 #include "mover/motion/missile.h"
+#include "world/params.h"
+#include "world/state.h"
 #include "world/world.h"
 
-/* Returns the acceleration of a round by drag and gravity. */
-static struct vec3 acceleration(const struct kind *kind, struct vec3 velocity, double height_m)
+/* Returns the acceleration of a round by drag, which acts against its speed in the air, and
+ * gravity. */
+static struct vec3 acceleration(const struct kind *kind, struct vec3 velocity, struct vec3 wind,
+                                double height_m)
 {
-    double rate = drag_rate(kind, vec3_length(velocity), height_m);
-    return (struct vec3){-rate * velocity.x, -rate * velocity.y - GRAVITY_MPS2, -rate * velocity.z};
+    struct vec3 air = vec3_sub(velocity, wind);
+    double rate = drag_rate(kind, vec3_length(air), height_m);
+    return (struct vec3){-rate * air.x, -rate * air.y - GRAVITY_MPS2, -rate * air.z};
 }
 
 /* The midpoint method: exact without drag. */
+void projectile_fall(const struct kind *kind, struct vec3 wind, double dt_s, struct vec3 *at,
+                     struct vec3 *velocity)
+{
+    struct vec3 begun = acceleration(kind, *velocity, wind, at->y);
+    struct vec3 middle = vec3_add(*velocity, vec3_scale(begun, 0.5 * dt_s));
+    struct vec3 mean = acceleration(kind, middle, wind, at->y + 0.5 * dt_s * velocity->y);
+    *at = vec3_add(*at, vec3_scale(middle, dt_s));
+    *velocity = vec3_add(*velocity, vec3_scale(mean, dt_s));
+}
+
+struct vec3 projectile_wind(const struct params *params)
+{
+    double sine, cosine;
+    maths_sincos(params->wind_from_rad, &sine, &cosine);
+    return (struct vec3){-params->wind_mps * sine, 0.0, params->wind_mps * cosine};
+}
+
 static void fall(const struct step_context *context, uint32_t i, const struct kind *kind)
 {
     struct entities *m = context->m;
-    double dt_s = context->dt_s;
     struct vec3 at = entities_position(m, i), velocity = entities_velocity(m, i);
-    struct vec3 begun = acceleration(kind, velocity, at.y);
-    struct vec3 middle = vec3_add(velocity, vec3_scale(begun, 0.5 * dt_s));
-    struct vec3 mean = acceleration(kind, middle, at.y + 0.5 * dt_s * velocity.y);
-    entities_set_position(m, i, vec3_add(at, vec3_scale(middle, dt_s)));
-    entities_set_velocity(m, i, vec3_add(velocity, vec3_scale(mean, dt_s)));
+    projectile_fall(kind, context->wind, context->dt_s, &at, &velocity);
+    entities_set_position(m, i, at);
+    entities_set_velocity(m, i, velocity);
 }
 
 void projectile_move(const struct step_context *context, uint32_t i)

@@ -36,6 +36,8 @@ void firing_table_make(struct firing_table *table, const struct kind *munition)
     table->munition = munition;
     if (munition->drag == DRAG_NONE)
         return; /* its data need no table */
+    if (munition->delivery == DELIVERY_ARC)
+        firing_arc_make(&table->arc, munition);
     for (unsigned row = 0; row < FIRING_TABLE_ROWS; row++) {
         table->flight_s[row] = flight.time_s;
         table->drop_m[row] = flight.drop_m;

@@ -1,9 +1,11 @@
 /* Firing tables: how long a round flies to a range, and how far it drops on the way. One for each
  * kind of munition, made from the kinds when the mover starts and read-only afterwards; any thread.
  * The tables hold for flat fire in air of sea level: the line of departure is inclined by less than
- * about 20 degrees. */
+ * about 20 degrees. For arcs there is firing_arc.h. */
 #ifndef JOLON_MOVER_WEAPON_FIRING_TABLE_H
 #define JOLON_MOVER_WEAPON_FIRING_TABLE_H
+
+#include "mover/weapon/firing_arc.h"
 
 #define FIRING_TABLE_STEP_M 50.0
 #define FIRING_TABLE_ROWS   256u /* to 12,750 m */
@@ -14,6 +16,7 @@ struct firing_table {
     const struct kind *munition;
     double flight_s[FIRING_TABLE_ROWS];
     double drop_m[FIRING_TABLE_ROWS];
+    struct firing_arc arc; /* of a munition with DELIVERY_ARC */
 };
 
 /* A point of a trajectory. */

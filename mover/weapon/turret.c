@@ -22,6 +22,18 @@ struct vec3 turret_muzzle(const struct step_context *context, const struct entit
     return position;
 }
 
+/* The direction by the munition's table for a point at which it is fired along an arc. */
+static struct vec3 arc_to(const struct step_context *context, struct vec3 muzzle, uint16_t munition,
+                          struct vec3 point)
+{
+    return firing_arc_direction(&context->firing_tables[munition].arc, muzzle, point);
+}
+
+static bool flies_on_arc(const struct step_context *context, uint16_t munition)
+{
+    return context->world->kinds[munition].delivery == DELIVERY_ARC;
+}
+
 /* The direction for a target that is at `to`, relative to the muzzle, and moves at velocity. */
 static struct vec3 lead_on(const struct firing_table *table, double muzzle_height_m, struct vec3 to,
                            struct vec3 velocity)
@@ -42,12 +54,16 @@ struct vec3 turret_lead(const struct step_context *context, struct vec3 muzzle, 
 {
     struct vec3 to = vec3_sub(entities_position(e, target), muzzle);
     to.y += kinematics_aim_height(context, e->kind[target]);
+    if (flies_on_arc(context, munition))
+        return arc_to(context, muzzle, munition, vec3_add(muzzle, to));
     return lead_on(&context->firing_tables[munition], muzzle.y, to, entities_velocity(e, target));
 }
 
 struct vec3 turret_lead_point(const struct step_context *context, struct vec3 muzzle,
                               uint16_t munition, struct vec3 point)
 {
+    if (flies_on_arc(context, munition))
+        return arc_to(context, muzzle, munition, point);
     return lead_on(&context->firing_tables[munition], muzzle.y, vec3_sub(point, muzzle),
                    (struct vec3){0.0, 0.0, 0.0});
 }
@@ -157,6 +173,8 @@ static void by_agent(const struct step_context *context, uint32_t i, const struc
     }
     if (m->target_id[i] == 0) {
         m->traverse[i] = m->elevate[i] = 0.0f;
+        if (flies_on_arc(context, kind->munition))
+            return; /* a howitzer stays as it was laid */
         if (m->turret[i] != 0.0f || m->gun[i] != 0.0f)
             lay(context, i, kind, 0.0, 0.0);
         return;
@@ -194,14 +212,29 @@ void turret_turn(const struct step_context *context, uint32_t i, struct turret_s
     }
 }
 
-static double laid_rad(const struct kind *kind)
-{
-    return kind->turret_rate_rps > 0.0 ? LAID_RAD : HULL_LAID_RAD;
-}
-
 static double angle_between(struct vec3 a, struct vec3 b)
 {
     return maths_atan2(vec3_length(vec3_cross(a, b)), vec3_dot(a, b));
+}
+
+bool turret_lay(const struct step_context *context, const struct table_writer *writer, uint32_t i,
+                struct vec3 direction)
+{
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    struct mat3 body = pose_matrix(m, i);
+    struct vec3 own = rotation_back(&body, direction);
+    double turret = maths_atan2(own.z, own.x);
+    double gun = maths_atan2(own.y, sqrt(own.x * own.x + own.z * own.z));
+    lay(context, i, kind, turret, gun);
+    table_set_turret(writer, i, m->turret[i]);
+    table_set_gun(writer, i, m->gun[i]);
+    return angle_between(barrel_of(m, i, &body), direction) <= LAID_RAD;
+}
+
+static double laid_rad(const struct kind *kind)
+{
+    return kind->turret_rate_rps > 0.0 ? LAID_RAD : HULL_LAID_RAD;
 }
 
 /* turret_bears() for a barrel's direction. solution: this frame's, or NULL. */

@@ -7,6 +7,7 @@
 #define JOLON_MOVER_WEAPON_TURRET_H
 
 #include "mover/context/step_context.h"
+#include "world/entity/table_write.h"
 #include "world/maths/rotation.h"
 
 /* The firing solution by which a gun was laid in this frame. */
@@ -25,12 +26,18 @@ void turret_turn(const struct step_context *context, uint32_t i, struct turret_s
 void turret_hold_fire(const struct step_context *context, uint32_t i,
                       const struct turret_solution *solution);
 
+/* Turns turret and gun of row i towards a direction (unit), in the serial part of the step. Returns
+ * true if the gun bears. */
+bool turret_lay(const struct step_context *context, const struct table_writer *writer, uint32_t i,
+                struct vec3 direction);
+
 /* Where the rounds of row i leave [m, world], and the direction of its barrel (unit). */
 struct vec3 turret_muzzle(const struct step_context *context, const struct entities *e, uint32_t i);
 struct vec3 turret_barrel(const struct entities *e, uint32_t i);
 
 /* The direction (unit) in which a round of the kind `munition` meets row target if that keeps its
- * velocity. Flight time and drop are those of the firing table. */
+ * velocity. Flight time and drop are those of the firing table. A howitzer's shell leaves along
+ * about this direction, towards where the target is. */
 struct vec3 turret_lead(const struct step_context *context, struct vec3 muzzle, uint16_t munition,
                         const struct entities *e, uint32_t target);
 

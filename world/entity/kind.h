@@ -23,6 +23,17 @@ enum guidance { GUIDANCE_BALLISTIC, GUIDANCE_HOMING };
 /* The standard projectile by which the drag of a munition follows from its speed. */
 enum drag_function { DRAG_NONE, DRAG_G1, DRAG_G7, DRAG_COUNT };
 
+/* How a munition comes to its target: along the barrel, along an arc that a firing table gives, or
+ * released by an aircraft. */
+enum delivery { DELIVERY_DIRECT, DELIVERY_ARC, DELIVERY_DROP };
+
+/* When a charge explodes: where it strikes, a moment later inside what it strikes, or in the air
+ * over the point at which it was fired. The column flags of a round has its fuze. */
+enum fuze { FUZE_POINT, FUZE_DELAY, FUZE_AIR, FUZE_COUNT };
+
+/* The sides of a vehicle that its armour distinguishes. */
+enum aspect { ASPECT_FRONT, ASPECT_SIDE, ASPECT_REAR, ASPECT_TOP, ASPECT_COUNT };
+
 /* The aircraft at which a crew fires a munition. Slow are those that can hover. */
 enum aircraft_targets { AIR_TARGETS_ALL, AIR_TARGETS_SLOW, AIR_TARGETS_NONE };
 
@@ -58,6 +69,8 @@ struct kind {
     uint8_t drag;         /* enum drag_function; munitions */
     uint8_t air_targets;  /* enum aircraft_targets; munitions */
     uint8_t craters;      /* munitions: makes a crater when it hits the ground */
+    uint8_t delivery;     /* enum delivery; munitions */
+    uint8_t fuze;         /* enum fuze; munitions */
     uint16_t model;       /* index into the world's models */
     uint16_t munition;    /* kind it fires, KIND_NONE for none */
     double mass_kg;
@@ -102,6 +115,9 @@ struct kind {
     double dispersion_rad;            /* munitions: standard error from a shooter that stands */
     double dispersion_moving_rad;     /* and from one at half of its top speed or above */
     double life_s;                    /* munitions: end of flight */
+    double penetration_mm;            /* munitions: of steel at the muzzle; 0: energy counts */
+    double penetration_loss;          /* munitions: [mm/km] of it lost on the way */
+    double armour_mm[ASPECT_COUNT];   /* vehicles: of steel, along a line square to the side */
     double courage;                   /* 0..1: probability of returning fire rather than fleeing */
     double fuel_l, fuel_lps;          /* tank, and burnt at full throttle a second */
     uint32_t rounds;

@@ -71,7 +71,9 @@ struct scenario_fire {
     char shooter[ENTITY_NAME_MAX]; /* "" for none: the round falls from the sky */
     char target[ENTITY_NAME_MAX];  /* "" for the point */
     uint16_t munition;             /* KIND_NONE: the shooter's own */
-    double x, z;
+    uint16_t rounds;
+    uint8_t fuze, adjusted, high, turned; /* turned: 1: bearing_rad was given */
+    double x, z, bearing_rad;
     int line; /* of the file, for messages */
 };
 

@@ -3,9 +3,12 @@
 
 #include "world/entity/formation.h"
 #include "world/entity/hull.h"
+#include "world/entity/kind.h"
 #include "world/entity/script.h"
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
+#include "world/maths/maths.h"
+#include "world/maths/random.h"
 #include "world/model.h"
 #include "world/runtime/error_text.h"
 #include "world/making/generate.h"
@@ -21,6 +24,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* A shell from off the map is seen for so long before it strikes. */
+#define APPROACH_S 6.0
 
 static int build_ground(struct world_build *built, struct error_text *error)
 {
@@ -113,6 +119,15 @@ static int by_tick(const void *a, const void *b)
                : p->reserved > q->reserved; /* equal ones in the order of the file */
 }
 
+/* A shell from off the map appears on its arc so long before its time that it strikes then. */
+static void begin_approach(struct fire_order *order, double hz)
+{
+    uint64_t frames = (uint64_t)(APPROACH_S * hz);
+    frames = order->tick > frames ? frames : order->tick - 1;
+    order->tick -= frames;
+    order->flight_s = (double)frames / hz;
+}
+
 static int build_fire(struct world_build *built, uint32_t index, const struct name_index *names,
                       struct error_text *error)
 {
@@ -121,6 +136,13 @@ static int build_fire(struct world_build *built, uint32_t index, const struct na
     struct fire_order *order = &built->fires[index];
     double tick = floor(from->at_s * scenario->settings->params.hz + 0.5);
     order->tick = tick < 1.0 ? 1 : (uint64_t)tick;
+    order->rounds = from->rounds;
+    order->fuze = from->fuze;
+    order->high = from->high;
+    order->adjusted = from->adjusted;
+    order->bearing_rad = from->turned ? from->bearing_rad
+                                      : TWO_PI * random_unit(scenario->settings->params.seed, index,
+                                                             0, RANDOM_MEAN_AZIMUTH);
     order->kind = from->munition;
     order->reserved = (uint16_t)index;
     order->x = from->x;
@@ -131,6 +153,8 @@ static int build_fire(struct world_build *built, uint32_t index, const struct na
     if (name_index_find(names, from->target, &order->target_slot) != 0)
         return error_text_set(error, "%s:%d: fires.target = \"%s\": no vehicle has that name",
                               scenario->settings->params.scenario, from->line, from->target);
+    if (order->shooter_slot == SLOT_NONE && scenario->kinds[order->kind].delivery == DELIVERY_ARC)
+        begin_approach(order, scenario->settings->params.hz);
     return 0;
 }
 

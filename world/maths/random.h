@@ -24,6 +24,14 @@ enum random_purpose {
     RANDOM_SQUARE_SIZE,   /* creation: how many objects an occupied square holds */
     RANDOM_MISSION_RANGE, /* where a round of a fire mission falls */
     RANDOM_MISSION_AZIMUTH,
+    RANDOM_ROUND_RANGE, /* mover: the error of a round on an arc */
+    RANDOM_ROUND_AZIMUTH,
+    RANDOM_MEAN_RANGE, /* mover: the error that all rounds of a fire mission share */
+    RANDOM_MEAN_AZIMUTH,
+    RANDOM_SURVEY_RANGE, /* mover: how well the place of a target is known */
+    RANDOM_SURVEY_AZIMUTH,
+    RANDOM_PENETRATION, /* collider: whether armour is penetrated, and with what effect */
+    RANDOM_PENETRATED,
     RANDOM_REACTION, /* mover: how soon a crew fires at a new target */
     RANDOM_FAILURE,  /* mover: does something in a missile fail, and when */
     RANDOM_DECOY,    /* and does a decoy take its seeker */

@@ -234,6 +234,8 @@ static const struct {
     {"collision.figure8.damage_high=4", "collision = { figure8 = { damage_high = 4; }; };"},
     {"collision.figure8.damage_med=0.5", "collision = { figure8 = { damage_med = 0.5; }; };"},
     {"collision.figure8.damage_low=0.25", "collision = { figure8 = { damage_low = 0.25; }; };"},
+    {"world.wind_mps=12", "world = { wind_mps = 12; };"},
+    {"world.wind_from_deg=90", "world = { wind_from_deg = 90; };"},
     {"recorder.when_full=pause", "recorder = { when_full = \"pause\"; };"},
     {"renderer.width=640", "renderer = { width = 640; };"},
     {"renderer.height=480", "renderer = { height = 480; };"},

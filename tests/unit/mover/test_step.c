@@ -138,7 +138,7 @@ static void test_scenario_fires_come_at_their_tick_in_the_files_order(void **sta
         "  { kind = \"tank\"; name = \"B\"; at = [25000.0, 26000.0]; behaviour = \"hold\"; } );\n"
         "fires = ( { at_s = 1.01; munition = \"bomb\"; point = [30000.0, 30000.0]; },\n"
         "          { at_s = 0.5; shooter = \"A\"; target = \"B\"; },\n"
-        "          { at_s = 0.5; munition = \"artillery\"; point = [31000.0, 30000.0]; },\n"
+        "          { at_s = 0.5; munition = \"rocket\"; point = [31000.0, 30000.0]; },\n"
         "          { at_s = 0.0; shooter = \"B\"; target = \"A\"; } );\n");
     fixture_run(&f, 90);
     assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 4);
@@ -148,7 +148,7 @@ static void test_scenario_fires_come_at_their_tick_in_the_files_order(void **sta
     assert_int_equal(fixture_event(&f, EVENT_FIRE, 1)->fire.shooter.id, 1);
     assert_int_equal(fixture_event(&f, EVENT_FIRE, 1)->fire.target.id, 2);
     assert_int_equal(fixture_event(&f, EVENT_FIRE, 2)->fire.munition.kind,
-                     fixture_kind(&f, "artillery"));
+                     fixture_kind(&f, "rocket"));
     assert_true(fixture_event(&f, EVENT_FIRE, 3)->fire.point[0] == 30000.0);
     fixture_close(&f);
 }
