@@ -2,12 +2,14 @@
  * ground, and the chain of further explosions. */
 #include "collider/response/explosion.h"
 
+#include "collider/response/armour.h"
 #include "collider/response/body_push.h"
 #include "collider/response/damage.h"
 #include "collider/response/explosion_impulse.h"
 #include "collider/response/path_change.h"
 #include "collider/response/response.h"
 #include "world/entity/kind.h"
+#include "world/maths/random.h"
 #include "world/params.h"
 #include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
@@ -24,6 +26,12 @@
 #define EXPLOSION_COUPLING 0.02 /* share of a close charge's energy that a body absorbs */
 #define CRATER_RADIUS_M    1.1  /* crater of one kilogram on soil; grows with the cube root */
 #define CRATER_DEPTH       0.4  /* over the radius */
+
+/* A charge with a delay fuze explodes inside a fixed object, where more of its energy does harm, or
+ * below the ground: it throws out more soil, and less of its blast remains. */
+#define INSIDE        2.0
+#define BURIED_CRATER 3.0 /* the charge on the ground that makes as large a crater */
+#define BURIED_BLAST  0.3 /* and the one whose blast is as strong, over that of this charge */
 
 /* Tyres and tracks stop a slower push on the ground within a millimetre [m/s]. */
 #define PUSH_LEAST_MPS 0.05
@@ -254,21 +262,73 @@ static enum struck struck_of(const struct response_context *context, uint32_t st
     return struck & PAIR_FIXED ? STRUCK_FIXED : STRUCK_VEHICLE;
 }
 
-/* A direct hit: the charge's whole energy and the round's kinetic energy. */
-static void hit(struct response_context *context, uint32_t round, uint32_t struck, enum struck what,
-                double time)
+/* The energy of a round and its charge at this velocity. */
+static double energy_of(const struct kind *kind, struct vec3 velocity)
+{
+    return TNT_J_PER_KG * kind->explosive_kg + 0.5 * kind->mass_kg * vec3_dot(velocity, velocity);
+}
+
+static double luck_of(const struct response_context *context, uint32_t round,
+                      enum random_purpose purpose)
+{
+    return random_unit(context->world->params->seed, context->next->head->tick,
+                       context->next->entities.id[round], purpose);
+}
+
+/* The way that a round has flown, by its time and the mean of its speeds at the muzzle and now. */
+static double flown_of(const struct response_context *context, uint32_t round, double speed_mps,
+                       double time)
+{
+    const struct entities *e = &context->next->entities;
+    double frames = (double)(context->next->head->tick - e->born_tick[round]) - 1.0 + time;
+    double first = context->world->kinds[e->kind[round]].max_speed_mps;
+    return maths_max(frames, 0.0) * context->world->params->dt_s * 0.5 * (first + speed_mps);
+}
+
+/* A hit on a vehicle by a round that may penetrate its armour. Returns true if the round glances
+ * off. normal: from the round to the vehicle. */
+static bool hit_armour(struct response_context *context, uint32_t round, uint32_t struck,
+                       struct vec3 velocity, struct vec3 normal, double time)
+{
+    const struct entities *e = &context->next->entities;
+    const struct kind *kind = &context->world->kinds[e->kind[round]];
+    const struct kind *vehicle = &context->world->kinds[e->kind[struck]];
+    struct mat3 turn = rotation_matrix(body_motion_orientation(context->motion, struck, time));
+    double speed = vec3_length(velocity), joules = energy_of(kind, velocity);
+    struct vec3 flight = vec3_scale(velocity, 1.0 / maths_max(speed, 1e-9));
+    double penetration = armour_penetration(kind, flown_of(context, round, speed, time));
+    struct armour_hit hit = armour_hit_of(vehicle, penetration, rotation_back(&turn, flight),
+                                          rotation_back(&turn, vec3_scale(normal, -1.0)));
+    switch (armour_effect_of(vehicle, kind, &hit, luck_of(context, round, RANDOM_PENETRATION))) {
+    case ARMOUR_DEFLECTS:
+        return true;
+    case ARMOUR_HOLDS:
+        damage_row(context, struck, ARMOUR_OUTSIDE * joules, time);
+        return false;
+    case ARMOUR_PENETRATED:
+        joules = armour_harm(vehicle, joules, luck_of(context, round, RANDOM_PENETRATED));
+        break;
+    default:
+        break;
+    }
+    damage_row(context, struck, joules, time);
+    return false;
+}
+
+/* A direct hit. Returns true if the round glances off. */
+static bool hit(struct response_context *context, uint32_t round, uint32_t struck, enum struck what,
+                struct vec3 normal, double time)
 {
     const struct entities *e = &context->next->entities;
     const struct kind *kind = &context->world->kinds[e->kind[round]];
     struct vec3 velocity = entities_velocity(e, round);
     if (what == STRUCK_VEHICLE)
-        velocity = vec3_sub(velocity, entities_velocity(e, struck));
-    double joules =
-        TNT_J_PER_KG * kind->explosive_kg + 0.5 * kind->mass_kg * vec3_dot(velocity, velocity);
-    if (what == STRUCK_VEHICLE)
-        damage_row(context, struck, joules, time);
+        return hit_armour(context, round, struck, vec3_sub(velocity, entities_velocity(e, struck)),
+                          normal, time);
+    double inside = e->flags[round] == FUZE_DELAY ? INSIDE : 1.0;
     if (what == STRUCK_FIXED)
-        damage_fixed_object(context, struck & ~PAIR_FIXED, joules);
+        damage_fixed_object(context, struck & ~PAIR_FIXED, inside * energy_of(kind, velocity));
+    return false;
 }
 
 static struct event_party party_struck(const struct response_context *context, uint32_t struck,
@@ -286,7 +346,7 @@ static struct event_party party_struck(const struct response_context *context, u
 }
 
 void explosion_munition(struct response_context *context, uint32_t row, uint32_t struck,
-                        double time)
+                        struct vec3 normal, double time)
 {
     const struct entities *e = &context->next->entities;
     struct state_head *head = context->next->head;
@@ -303,18 +363,21 @@ void explosion_munition(struct response_context *context, uint32_t row, uint32_t
     struct event_party munition = {e->id[row], e->kind[row], 0, DAMAGE_DESTROYED};
 
     head->tally.detonations++;
-    hit(context, row, struck, what, time);
+    if (hit(context, row, struck, what, normal, time))
+        charge.explosive_kg = 0.0; /* a round that glances off breaks up */
     if (event) {
         event->detonation.munition = munition;
         event->detonation.struck_party = party_struck(context, struck, what);
         event->detonation.point[0] = point.x;
         event->detonation.point[1] = point.y;
         event->detonation.point[2] = point.z;
-        event->detonation.explosive_kg = (float)kind->explosive_kg;
+        event->detonation.explosive_kg = (float)charge.explosive_kg;
         event->detonation.struck = what;
     }
+    bool buried = what == STRUCK_GROUND && e->flags[row] == FUZE_DELAY;
     if (what == STRUCK_GROUND && kind->craters)
-        dig(context, point, kind->explosive_kg);
+        dig(context, point, kind->explosive_kg * (buried ? BURIED_CRATER : 1.0));
+    charge.explosive_kg *= buried ? BURIED_BLAST : 1.0;
     table_clear_row(&context->writer, row);
     head->munitions--;
     contact_queue_drop(context->contacts, row);

@@ -28,9 +28,10 @@ struct charges {
 int charges_init(struct charges *charges, const struct world *world);
 void charges_free(struct charges *charges);
 
-/* Explodes the munition where it is; struck is a contact's second side. */
+/* Explodes the munition where it is; struck is a contact's second side. normal: unit, from the
+ * munition to what it strikes; of ground and air it does not count. */
 void explosion_munition(struct response_context *context, uint32_t row, uint32_t struck,
-                        double time);
+                        struct vec3 normal, double time);
 
 /* Adds a charge, which explodes in the next explosion_all(). */
 void explosion_charge(struct response_context *context, const struct charge *charge);

@@ -304,16 +304,17 @@ void response_contact(struct response_context *context, const struct contact *co
 {
     bool round_a = is_round(context, contact->a), round_b = is_round(context, contact->b);
     double time = contact->impact.toi;
+    struct vec3 normal = contact->impact.normal;
     if (contact->b >= PAIR_FIXED && contact->b < CONTACT_AIR &&
         !pair_filter_stands(&context->input.detect, contact->b & ~PAIR_FIXED))
         return; /* it was destroyed earlier in this frame */
     if (round_a && round_b) {
-        explosion_munition(context, contact->a, CONTACT_AIR, time);
-        explosion_munition(context, contact->b, CONTACT_AIR, time);
+        explosion_munition(context, contact->a, CONTACT_AIR, normal, time);
+        explosion_munition(context, contact->b, CONTACT_AIR, normal, time);
     } else if (round_a) {
-        explosion_munition(context, contact->a, contact->b, time);
+        explosion_munition(context, contact->a, contact->b, normal, time);
     } else if (round_b) {
-        explosion_munition(context, contact->b, contact->a, time);
+        explosion_munition(context, contact->b, contact->a, vec3_scale(normal, -1.0), time);
     } else if (contact->b >= CONTACT_AIR) {
         crash(context, contact);
     } else if (context->functions->joint) {

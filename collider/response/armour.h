@@ -1,0 +1,55 @@
+/* Armour and what penetrates it. Pure; any thread.
+ *
+ * A round of a kind with penetration_mm meets the armour of the side that it comes from. The path
+ * through it is thickness / cos(angle), with the angle between the line of flight and the line
+ * square to that side. A round that penetrates 0.9 of it never gets through, 1.1 always, and in
+ * between the probability rises linearly. */
+#ifndef JOLON_COLLIDER_RESPONSE_ARMOUR_H
+#define JOLON_COLLIDER_RESPONSE_ARMOUR_H
+
+#include "world/entity/kind.h"
+#include "world/maths/maths.h"
+
+#include <stdbool.h>
+
+/* Thinner armour stops nothing: there the energy of a hit counts [mm]. */
+#define ARMOUR_LEAST_MM 10.0
+
+/* From this angle on a round without a shaped charge glances off: cos 72 degrees. */
+#define ARMOUR_RICOCHET_COSINE 0.309
+
+/* A penetrating round disables a vehicle that resists so many times its energy, or one that resists
+ * less. A machine gun's rounds do little inside a carrier. */
+#define ARMOUR_INSIDE 4.0
+
+/* What is lost of a round's energy on armour that it does not penetrate: the share that does harm.
+ */
+#define ARMOUR_OUTSIDE 0.02
+
+enum armour_effect { ARMOUR_NONE, ARMOUR_HOLDS, ARMOUR_DEFLECTS, ARMOUR_PENETRATED };
+
+struct armour_hit {
+    enum aspect aspect;
+    double cosine;      /* of the angle between the line of flight and the line square to it */
+    double path_mm;     /* of steel along the line of flight */
+    double probability; /* of penetration */
+};
+
+/* What a round strikes. flight, outwards: unit, in axes of the vehicle's body (forward, up, right):
+ * the round's direction relative to the vehicle, and the normal of the surface that it strikes. */
+struct armour_hit armour_hit_of(const struct kind *vehicle, double penetration_mm,
+                                struct vec3 flight, struct vec3 outwards);
+
+/* Returns what the round still penetrates after flown_m [mm]. */
+double armour_penetration(const struct kind *round, double flown_m);
+
+/* luck: uniform in [0, 1). */
+enum armour_effect armour_effect_of(const struct kind *vehicle, const struct kind *round,
+                                    const struct armour_hit *hit, double luck);
+
+/* Returns the harm of a penetration [J]. By luck, uniform in [0, 1), the vehicle loses its mobility
+ * (0.3: medium damage), its fire (0.3: high damage), or is lost (0.4). Two of the first make high
+ * damage, and three a loss. joules: energy of the round and its charge. */
+double armour_harm(const struct kind *vehicle, double joules, double luck);
+
+#endif
