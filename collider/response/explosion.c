@@ -2,12 +2,12 @@
  * ground, and the chain of further explosions. */
 #include "collider/response/explosion.h"
 
-#include "collider/response/armour.h"
 #include "collider/response/body_push.h"
 #include "collider/response/damage.h"
 #include "collider/response/explosion_impulse.h"
 #include "collider/response/path_change.h"
 #include "collider/response/response.h"
+#include "world/entity/armour.h"
 #include "world/entity/kind.h"
 #include "world/maths/random.h"
 #include "world/params.h"

@@ -54,7 +54,7 @@ struct vec3 fire_adjustment_line(const struct battery *battery)
 void fire_adjustment_correct(const struct serial_context *context, struct battery *battery)
 {
     if (!is_observed(context, battery)) {
-        battery->phase = MISSION_EFFECT;
+        battery->phase = BATTERY_FIRES;
         return;
     }
     struct vec3 ahead = fire_adjustment_line(battery), right = {-ahead.z, 0.0, ahead.x};
@@ -67,7 +67,7 @@ void fire_adjustment_correct(const struct serial_context *context, struct batter
     battery->aim_x += side * step * ahead.x - aside * right.x;
     battery->aim_z += side * step * ahead.z - aside * right.z;
     if (step <= CLOSE_M)
-        battery->phase = MISSION_EFFECT;
+        battery->phase = BATTERY_FIRES;
 }
 
 /* Notes where a round for adjustment falls, off the target. */

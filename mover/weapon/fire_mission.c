@@ -128,7 +128,7 @@ bool fire_mission_begin(struct serial_context *context, const struct fire_missio
         .cold_tick = entry->cold_tick,
         .rounds = order->rounds,
         .munition = munition,
-        .phase = order->adjusted ? MISSION_ADJUST : MISSION_EFFECT,
+        .phase = order->adjusted ? BATTERY_ADJUSTS : BATTERY_FIRES,
         .fuze = order->fuze == FUZE_COUNT ? kinds[munition].fuze : order->fuze,
         .force = afar ? order->force : m->force[order->gun],
         .high = order->high,
@@ -142,7 +142,7 @@ bool fire_mission_begin(struct serial_context *context, const struct fire_missio
 static bool has_mission(const struct state_head *head, uint32_t id)
 {
     for (uint32_t i = 0; i < head->battery_count; i++) {
-        if (head->battery[i].phase != MISSION_DONE && has_gun(&head->battery[i], id))
+        if (head->battery[i].phase != BATTERY_DONE && has_gun(&head->battery[i], id))
             return true;
     }
     return false;
@@ -181,7 +181,7 @@ static struct fire_error mean_of(const struct battery *battery)
 
 static uint32_t guns_of(const struct battery *battery)
 {
-    if (battery->phase == MISSION_ADJUST)
+    if (battery->phase == BATTERY_ADJUSTS)
         return 1;
     return is_afar(battery) ? FIRE_MISSION_AFAR_GUNS : battery->guns;
 }
@@ -252,7 +252,7 @@ static bool fire_afar_gun(struct serial_context *context, struct battery *batter
                           struct fire_error *error)
 {
     struct vec3 ahead = fire_adjustment_line(battery);
-    double aside = battery->phase == MISSION_ADJUST
+    double aside = battery->phase == BATTERY_ADJUSTS
                        ? 0.0
                        : SHEAF_M * ((double)g - 0.5 * (double)(FIRE_MISSION_AFAR_GUNS - 1));
     struct vec3 point = aim_of(context, battery);
@@ -288,7 +288,7 @@ static void serve_gun(struct serial_context *context, struct battery *battery, u
             return;
     }
     battery->fired |= 1u << g;
-    if (battery->phase == MISSION_ADJUST)
+    if (battery->phase == BATTERY_ADJUSTS)
         fire_adjustment_note(context, battery, error);
     else
         battery->rounds--;
@@ -321,7 +321,7 @@ static void end_volley(const struct serial_context *context, struct battery *bat
     if (battery->rounds > 0 && (battery->fired & all) != all && !late)
         return;
     if (battery->rounds == 0 || battery->fired == 0)
-        battery->phase = MISSION_DONE;
+        battery->phase = BATTERY_DONE;
     if (battery->fired != 0)
         cool(context, battery);
 }
@@ -363,19 +363,19 @@ static void run_battery(struct serial_context *context, struct battery *battery)
 {
     struct firing_arc_solution solution = {.flight_s = 0.0};
     if (!is_afar(battery) && !keep_guns(context, battery)) {
-        battery->phase = MISSION_DONE;
+        battery->phase = BATTERY_DONE;
         return;
     }
-    if (battery->phase == MISSION_ADJUST && await_correction(context, battery))
+    if (battery->phase == BATTERY_ADJUSTS && await_correction(context, battery))
         return;
     if (!is_afar(battery) && !lay_data(context, battery)) {
-        battery->phase = MISSION_DONE;
+        battery->phase = BATTERY_DONE;
         return;
     }
     uint32_t guns = guns_of(battery);
     for (uint32_t g = 0; g < guns; g++)
         serve_gun(context, battery, g, &solution);
-    if (battery->phase == MISSION_EFFECT)
+    if (battery->phase == BATTERY_FIRES)
         end_volley(context, battery);
 }
 
@@ -385,9 +385,9 @@ void fire_mission_run(struct serial_context *context)
     uint32_t left = 0, tick = (uint32_t)context->step->tick;
     for (uint32_t i = 0; i < head->battery_count; i++) {
         struct battery *battery = &head->battery[i];
-        if (battery->phase != MISSION_DONE)
+        if (battery->phase != BATTERY_DONE)
             run_battery(context, battery);
-        if (battery->phase != MISSION_DONE || battery->cold_tick > tick)
+        if (battery->phase != BATTERY_DONE || battery->cold_tick > tick)
             head->battery[left++] = *battery;
     }
     for (uint32_t i = left; i < head->battery_count; i++)

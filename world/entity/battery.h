@@ -8,10 +8,10 @@
 #define BATTERIES_MAX    8u /* that fire or cool down at one time */
 #define BATTERY_GUNS_MAX 8u
 
-enum mission_phase {
-    MISSION_DONE,   /* nothing more to fire; the entry remains until the guns have cooled */
-    MISSION_ADJUST, /* one gun fires, and an observer corrects it */
-    MISSION_EFFECT  /* all guns fire */
+enum battery_phase {
+    BATTERY_DONE,    /* nothing more to fire; the entry remains until the guns have cooled */
+    BATTERY_ADJUSTS, /* one gun fires, and an observer corrects it */
+    BATTERY_FIRES    /* all guns fire */
 };
 
 struct battery {
@@ -34,7 +34,7 @@ struct battery {
     uint32_t gun_id[BATTERY_GUNS_MAX]; /* 0: none */
     uint32_t fired;                    /* bit i: gun i has fired in this volley */
     uint16_t munition;                 /* kind */
-    uint8_t phase;                     /* enum mission_phase */
+    uint8_t phase;                     /* enum battery_phase */
     uint8_t fuze;                      /* enum fuze */
     uint8_t force;                     /* enum force */
     uint8_t high;                      /* 1: the higher of the two arcs */

@@ -138,7 +138,7 @@ static void test_a_gun_fires_four_a_minute_for_three_minutes_and_then_one(void *
                counts[minute]);
     assert_int_equal(steps_rows(&f).rounds[gun], 36 - 16);
     assert_int_equal(fixture_event_count(&f, EVENT_DETONATION), 16);
-    assert_int_equal(fixture_state(&f).head->battery[0].phase, MISSION_DONE);
+    assert_int_equal(fixture_state(&f).head->battery[0].phase, BATTERY_DONE);
 }
 
 /* Runs until the battery's mission is over and its rounds have fallen. Returns the mean distance on

@@ -1,5 +1,5 @@
 /* The side that is struck, the path through its armour, and the harm behind it. */
-#include "collider/response/armour.h"
+#include "world/entity/armour.h"
 
 #define RAMP_FROM 0.9
 #define RAMP_TO   1.1
@@ -7,7 +7,7 @@
 #define COS_LEAST 0.05 /* of the angle: no path is longer than 20 times the armour */
 
 /* The cumulative probabilities of the effects behind armour, and the harm of each as a share of
- * resistance_j: above the least of its level of damage (damage.h). */
+ * resistance_j: above the least of its level of damage (collider/response/damage.h). */
 #define MOBILITY_TO    0.3
 #define FIRE_TO        0.6
 #define MOBILITY_SHARE 0.35

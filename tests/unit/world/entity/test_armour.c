@@ -1,5 +1,5 @@
 /* Armour: what penetrates which side from where, what glances off, and the effects behind it. */
-#include "collider/response/armour.h"
+#include "world/entity/armour.h"
 
 #include "mover/weapon/fire.h"
 #include "tests/support/steps.h"

@@ -4,8 +4,8 @@
  * through it is thickness / cos(angle), with the angle between the line of flight and the line
  * square to that side. A round that penetrates 0.9 of it never gets through, 1.1 always, and in
  * between the probability rises linearly. */
-#ifndef JOLON_COLLIDER_RESPONSE_ARMOUR_H
-#define JOLON_COLLIDER_RESPONSE_ARMOUR_H
+#ifndef JOLON_WORLD_ENTITY_ARMOUR_H
+#define JOLON_WORLD_ENTITY_ARMOUR_H
 
 #include "world/entity/kind.h"
 #include "world/maths/maths.h"
