@@ -46,7 +46,8 @@ static const char response_words[] = RESPONSE_MODELS(X);
 static const struct refusal refusals[] = {
     /* Unknown keys. */
     {"world = {\n sede = 7; };", 2,
-     "world.sede = 7: unknown key; allowed here: name, seed, hz, capacity, contacts, frames, pace"},
+     "world.sede = 7: unknown key; allowed here: name, seed, hz, capacity, contacts, frames, pace, "
+     "wind_mps, wind_from_deg"},
     {"\nwrold = { seed = 7; };", 2,
      "wrold = {...}: unknown key; allowed here: world, terrain, objects, collision, recorder, "
      "renderer"},
@@ -61,7 +62,8 @@ static const struct refusal refusals[] = {
     {VEHICLE("colour = \"green\";"), 2,
      "vehicles[0].colour = \"green\": unknown key; allowed here: kind, count, ..."},
     {"fires = ( { at = 1; } );", 1,
-     "fires[0].at = 1: unknown key; allowed here: at_s, shooter, target, munition, point"},
+     "fires[0].at = 1: unknown key; allowed here: at_s, shooter, target, munition, point, "
+     "rounds, adjust, fuze, high, bearing_deg"},
     {"objects = ( { kind = \"tree\"; at = [1, 2]; size = 2; } );", 1,
      "objects[0].size = 2: unknown key; allowed here: kind, at, heading_deg"},
     /* Types. */

@@ -210,7 +210,7 @@ static void test_fires_are_in_order_of_time_then_of_the_file(void **state)
     fixture_open(&f, "vehicles = ( { kind = \"tank\"; name = \"A\"; at = [1000.0, 1000.0]; }, "
                      "{ kind = \"tank\"; name = \"B\"; at = [2000.0, 1000.0]; } );"
                      "fires = ( { at_s = 2.0; shooter = \"A\"; target = \"B\"; },"
-                     "{ at_s = 1.0; munition = \"artillery\"; point = [3000.0, 1000.0]; },"
+                     "{ at_s = 1.0; munition = \"rocket\"; point = [3000.0, 1000.0]; },"
                      "{ at_s = 1.0; shooter = \"B\"; munition = \"missile\"; point = [5.0, 6.0]; },"
                      "{ at_s = 0.0; shooter = \"B\"; target = \"A\"; } );");
     const struct fire_order *fires = f.view.world.fires;
@@ -223,7 +223,7 @@ static void test_fires_are_in_order_of_time_then_of_the_file(void **state)
     assert_int_equal(fires[0].target_slot, 0);
     assert_int_equal(fires[0].kind, KIND_NONE);
     assert_int_equal(fires[1].shooter_slot, SLOT_NONE);
-    assert_int_equal(fires[1].kind, fixture_kind(&f, "artillery"));
+    assert_int_equal(fires[1].kind, fixture_kind(&f, "rocket"));
     assert_true(fires[1].x == 3000.0 && fires[1].z == 1000.0);
     assert_int_equal(fires[2].target_slot, SLOT_NONE);
     assert_int_equal(fires[2].kind, fixture_kind(&f, "missile"));
