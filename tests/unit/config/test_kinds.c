@@ -98,6 +98,9 @@ static void test_given_values(void **state)
         {"damage_high = 3; damage_med = 2; damage_low = 1;", offsetof(struct kind, damage_low), 1},
         {"damage_high = 0; damage_med = 0; damage_low = 0;", offsetof(struct kind, damage_high), 0},
         {"debris_keep = 0.35;", offsetof(struct kind, debris_keep), 0.35},
+        {"armour_mm = [9, 8.5, 7, 6];", offsetof(struct kind, armour_mm), 9.0},
+        {"armour_mm = [9, 8.5, 7, 6];", offsetof(struct kind, armour_mm[ASPECT_SIDE]), 8.5},
+        {"armour_mm = [9, 8.5, 7, 6];", offsetof(struct kind, armour_mm[ASPECT_TOP]), 6.0},
     };
 
     (void)state;
@@ -167,6 +170,50 @@ static void test_shipped_kinds_slide_and_leave_debris(void **state)
     scenario_free(&s);
 }
 
+static const struct kind *shipped(const struct scenario *s, const char *name)
+{
+    return &s->kinds[kind_find(s->kinds, s->kind_count, name)];
+}
+
+/* A truck of 8.2 t has no armour in its file, a tank has. */
+static void test_armour_follows_from_mass_unless_it_is_given(void **state)
+{
+    struct scenario s;
+
+    (void)state;
+    assert_int_equal(loader_scenario(&s, QUICK_CONFIG_SHIPPED, NULL, NULL, 0, &error), 0);
+    const struct kind *truck = shipped(&s, "truck"), *tank = shipped(&s, "tank");
+    const struct kind *ship = shipped(&s, "ship"), *howitzer = shipped(&s, "howitzer");
+    assert_true(fabs(truck->armour_mm[ASPECT_SIDE] - 1.2 * 8.2) < 1e-9);
+    assert_true(fabs(truck->armour_mm[ASPECT_FRONT] - 1.2 * 8.2) < 1e-9);
+    assert_true(fabs(truck->armour_mm[ASPECT_TOP] - 0.6 * 8.2) < 1e-9);
+    assert_true(tank->armour_mm[ASPECT_FRONT] == 375.0 && tank->armour_mm[ASPECT_TOP] == 30.0);
+    assert_true(ship->armour_mm[ASPECT_SIDE] < 10.0);
+    assert_int_equal(s.kinds[howitzer->munition].delivery, DELIVERY_ARC);
+    assert_int_equal(shipped(&s, "bomb")->delivery, DELIVERY_DROP);
+    scenario_free(&s);
+}
+
+static void test_refused_numbers_of_armour(void **state)
+{
+    static const char *const texts[] = {"armour_mm = [1, 2, 3];", "armour_mm = [1, 2, 3, -4];",
+                                        "armour_mm = 5;", "penetration_mm = 100;",
+                                        "delivery = \"arc\";"};
+    struct scenario s;
+
+    (void)state;
+    load(&s, "");
+    scenario_free(&s);
+    for (size_t i = 0; i < COUNT(texts); i++) {
+        char kind[512];
+        snprintf(kind, sizeof(kind), "name = \"k\"; " NEEDS "\"k\"; %s", texts[i]);
+        write_in("kinds", "k.cfg", kind);
+        if (loader_scenario(&s, quick_config.folder, quick_config.scenario_path, NULL, 0, &error) ==
+            0)
+            fail_msg("not refused: %s", texts[i]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -174,6 +221,8 @@ int main(void)
         cmocka_unit_test(test_given_values),
         cmocka_unit_test(test_kinds_of_one_model_share_its_hulls),
         cmocka_unit_test(test_shipped_kinds_slide_and_leave_debris),
+        cmocka_unit_test(test_armour_follows_from_mass_unless_it_is_given),
+        cmocka_unit_test(test_refused_numbers_of_armour),
     };
 
     return cmocka_run_group_tests(tests, quick_config_make, quick_config_remove);
