@@ -7,6 +7,24 @@
 
 #include <inttypes.h>
 
+static int check_batteries(const struct segment_header *header, const struct state_head *head,
+                           struct error_text *error)
+{
+    if (head->battery_count > BATTERIES_MAX)
+        return error_text_set(error, "battery_count = %u; at most %u", head->battery_count,
+                              BATTERIES_MAX);
+    for (uint32_t i = 0; i < head->battery_count; i++) {
+        const struct battery *battery = &head->battery[i];
+        if (battery->guns > BATTERY_GUNS_MAX)
+            return error_text_set(error, "battery %u: guns = %u; at most %u", i, battery->guns,
+                                  BATTERY_GUNS_MAX);
+        if (battery->munition >= header->counts.kinds)
+            return error_text_set(error, "battery %u: munition = %u; kinds = %u", i,
+                                  battery->munition, header->counts.kinds);
+    }
+    return 0;
+}
+
 int segment_check_head(const struct view *view, const struct state_head *head,
                        struct error_text *error)
 {
@@ -25,7 +43,7 @@ int segment_check_head(const struct view *view, const struct state_head *head,
     if (head->intent_count > header->intents_per_frame)
         return error_text_set(error, "intent_count = %u; intents_per_frame = %u",
                               head->intent_count, header->intents_per_frame);
-    return 0;
+    return check_batteries(header, head, error);
 }
 
 static int check_frame(const struct view *view, const struct state_head *head, uint64_t frame,

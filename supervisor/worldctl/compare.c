@@ -269,6 +269,35 @@ static bool compare_dents(const struct compared *a, const struct compared *b,
     return false;
 }
 
+static bool compare_batteries(const struct compared *a, const struct compared *b,
+                              struct difference *difference)
+{
+    static const struct member members[] = {
+        MEMBER(uint32_t, battery, number),    MEMBER(double, battery, x),
+        MEMBER(double, battery, z),           MEMBER(double, battery, aim_x),
+        MEMBER(double, battery, aim_z),       MEMBER(float, battery, survey_x),
+        MEMBER(float, battery, survey_z),     MEMBER(float, battery, mean_range),
+        MEMBER(float, battery, mean_azimuth), MEMBER(float, battery, azimuth),
+        MEMBER(float, battery, elevation),    MEMBER(float, battery, flight_s),
+        MEMBER(float, battery, fell_x),       MEMBER(float, battery, fell_z),
+        MEMBER(float, battery, step_m),       MEMBER(uint32_t, battery, volley_tick),
+        MEMBER(uint32_t, battery, next_tick), MEMBER(uint32_t, battery, cold_tick),
+        MEMBER(uint32_t, battery, rounds),    MEMBER(uint32_t, battery, gun_slot[0]),
+        MEMBER(uint32_t, battery, gun_id[0]), MEMBER(uint32_t, battery, fired),
+        MEMBER(uint8_t, battery, phase),      MEMBER(uint8_t, battery, guns)};
+    for (uint32_t i = 0; i < BATTERIES_MAX; i++) {
+        const struct battery *p = &a->state.head->battery[i], *q = &b->state.head->battery[i];
+        const struct member *member = first_member(members, COUNT(members), p, q);
+        if (!member)
+            continue;
+        name_member(difference, member, p, q);
+        difference->row = i;
+        snprintf(difference->field, sizeof difference->field, "%s of battery %u", member->name, i);
+        return true;
+    }
+    return false;
+}
+
 /* Compares the members that state_digest() covers: not pacing, quit, stage times and the
  * checksum. */
 static bool compare_heads(const struct compared *a, const struct compared *b,
@@ -289,6 +318,7 @@ static bool compare_heads(const struct compared *a, const struct compared *b,
         HEAD(uint32_t, dent_count),
         HEAD(uint32_t, contact_count),
         HEAD(uint32_t, fire_cursor),
+        HEAD(uint32_t, battery_count),
         HEAD(uint32_t, advanced),
         HEAD(uint64_t, command_cursor[RING_CLIENTS]),
         HEAD(uint64_t, command_cursor[RING_RECORDER]),
@@ -323,7 +353,8 @@ bool compare_states(const struct compared *a, const struct compared *b,
     *difference = (struct difference){0};
     return compare_entities(a, b, difference) || compare_fixed(a, b, difference) ||
            compare_contacts(a, b, difference) || compare_craters(a, b, difference) ||
-           compare_dents(a, b, difference) || compare_heads(a, b, difference);
+           compare_dents(a, b, difference) || compare_heads(a, b, difference) ||
+           compare_batteries(a, b, difference);
 }
 
 bool compare_worlds(const struct world *a, const struct world *b, struct difference *difference)

@@ -72,6 +72,30 @@ static void test_contacts_beyond_their_list_are_refused(void **state)
     assert_non_null(strstr(error.text, "contact_count = 17"));
 }
 
+static void test_batteries_beyond_their_list_are_refused(void **state)
+{
+    struct state_head *head = view.w[0].head;
+    struct segment_header header = *view.header;
+    struct view look = view;
+    (void)state;
+    header.counts.kinds = 1;
+    look.header = &header;
+    head->battery_count = 1;
+    head->battery[0].guns = BATTERY_GUNS_MAX;
+    assert_int_equal(segment_check_head(&look, head, &error), 0);
+    head->battery[0].guns = BATTERY_GUNS_MAX + 1;
+    assert_int_equal(segment_check_head(&look, head, &error), -1);
+    assert_string_equal(error.text, "battery 0: guns = 9; at most 8");
+    head->battery[0].guns = 0;
+    head->battery[0].munition = UINT16_MAX;
+    assert_int_equal(segment_check_head(&look, head, &error), -1);
+    head->battery[0].munition = 0;
+    head->battery_count = BATTERIES_MAX + 1;
+    assert_int_equal(segment_check_head(&look, head, &error), -1);
+    assert_string_equal(error.text, "battery_count = 9; at most 8");
+    head->battery_count = 0;
+}
+
 static void test_changed_contact_fails_the_checksum(void **state)
 {
     (void)state;
@@ -128,6 +152,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_sorted_contacts_are_good),
         TEST(test_contacts_beyond_their_list_are_refused),
+        TEST(test_batteries_beyond_their_list_are_refused),
         TEST(test_changed_contact_fails_the_checksum),
         TEST(test_contacts_that_make_no_sense_are_refused),
     };

@@ -106,6 +106,10 @@ static void test_craters_dents_and_the_head_are_compared(void **state)
     q.head->paused = 0;
     q.head->command_cursor[RING_RECORDER] = 1;
     differs_in("command_cursor[RING_RECORDER] of the head");
+    q.head->command_cursor[RING_RECORDER] = 0;
+    q.head->battery[2].rounds = 3;
+    differs_in("rounds of battery 2");
+    q.head->battery[2].rounds = 0;
     p.head->dent_count = q.head->dent_count = 2;
     q.dents[1].plastic_m = 0.5f;
     differs_in("plastic_m of dent 1 (entity 0)");
