@@ -2,6 +2,7 @@
 #include "collider/step.h"
 
 #include "collider/resting/turret_guard.h"
+#include "collider/response/damage.h"
 #include "collider/response/response.h"
 #include "world/entity/persistent_contact.h"
 #include "world/params.h"
@@ -150,6 +151,7 @@ static void collide_all(struct step *step, struct response_context *context)
         end_guard_run(&collider->guard, &collider->resting, context);
         turret_guard_run(context);
     }
+    damage_overturned(context);
     contact_table_finish(&collider->table, context);
 }
 

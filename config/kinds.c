@@ -256,6 +256,34 @@ static void complete_armour(struct kind *kind)
     kind->armour_mm[ASPECT_REAR] = kind->armour_mm[ASPECT_TOP] = 0.5 * side;
 }
 
+static void set_open(double *value, double otherwise)
+{
+    if (*value <= 0.0)
+        *value = otherwise;
+}
+
+/* Sets what the file of a land vehicle leaves open about its chassis. At top speed on dirt a
+ * vehicle needs about a quarter of the power of its acceleration. */
+static void complete_chassis(struct kind *kind)
+{
+    const bool tracked = kind->tracked != 0;
+    const double efficiency = tracked ? 0.55 : 0.7;
+    if (kind->domain != DOMAIN_LAND)
+        return;
+    if (kind->axles < 2)
+        kind->axles = tracked ? 5 : 2;
+    set_open(&kind->power_w,
+             0.25 * kind->mass_kg * kind->acceleration_mps2 * kind->max_speed_mps / efficiency);
+    set_open(&kind->track_m, 0.84 * kind->width_m);
+    set_open(&kind->centre_height_m, 0.4 * kind->height_m);
+    set_open(&kind->travel_m, 0.07 * kind->height_m);
+    set_open(&kind->heave_hz, tracked ? 1.4 : 1.6);
+    set_open(&kind->ford_m, 0.3 * kind->height_m);
+    set_open(&kind->least_turn_m, 1.65 * kind->length_m);
+    if (tracked)
+        kind->least_turn_m = 0.0;
+}
+
 static void take_hulls(struct kind *kind, const struct scenario *scenario,
                        const struct hulls *hulls)
 {
@@ -323,6 +351,7 @@ static int read_kind(struct reading *reading, struct kind *kind, const char *nam
     if (kind->domain <= DOMAIN_AIR &&
         (keys.given >> key_table_find(&schema_kind, "armour_mm") & 1u) == 0)
         complete_armour(kind);
+    complete_chassis(kind);
     complete_mind(kind, (keys.given >> key_table_find(&schema_kind, "doctrine") & 1u) != 0);
     take_hulls(kind, models->scenario, &models->hulls[model]);
     kind->munition = KIND_NONE;

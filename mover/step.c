@@ -8,6 +8,7 @@
 #include "mover/agent/perception.h"
 #include "mover/agent/think_schedule.h"
 #include "mover/motion/aircraft.h"
+#include "mover/motion/chassis.h"
 #include "mover/motion/constant_course.h"
 #include "mover/motion/ground_vehicle.h"
 #include "mover/motion/projectile.h"
@@ -109,12 +110,25 @@ static void after_motion(const struct step_context *context, struct batches *bat
     turret_hold_fire(context, i, &solution);
 }
 
+/* Moves a land vehicle that is on its springs. */
+static void move_chassis(const struct step_context *context, struct batches *batches, uint32_t i,
+                         const struct desired_motion *desired)
+{
+    bool blocked = chassis_move(context, i, desired);
+    batches->motion[i - batches->block->first] = MOTION_AGENT; /* more than its motion changes */
+    after_motion(context, batches, i, blocked);
+}
+
 static void move_land(const struct step_context *context, struct batches *batches)
 {
     struct ground_vehicle *land = &batches->land;
     ground_vehicle_move(context, land);
-    for (int l = 0; l < land->count; l++)
-        after_motion(context, batches, land->row[l], land->blocked.lane[l] != 0);
+    for (int l = 0; l < land->count; l++) {
+        uint32_t i = land->row[l];
+        if (context->m->flags[i] & ENTITY_FLAG_CHASSIS)
+            batches->motion[i - batches->block->first] = MOTION_AGENT;
+        after_motion(context, batches, i, land->blocked.lane[l] != 0);
+    }
     land->count = 0;
 }
 
@@ -151,7 +165,9 @@ static void move_as_desired(const struct step_context *context, uint32_t i,
             move_air(context, batches);
         break;
     default:
-        if (ground_vehicle_take(context, &batches->land, i, desired))
+        if (chassis_takes(context, i))
+            move_chassis(context, batches, i, desired);
+        else if (ground_vehicle_take(context, &batches->land, i, desired))
             move_land(context, batches);
         break;
     }
@@ -161,7 +177,8 @@ static void move_as_desired(const struct step_context *context, uint32_t i,
 static void move_held(const struct step_context *context, uint32_t i, struct batches *batches)
 {
     struct desired_motion desired;
-    if (context->world->kinds[context->m->kind[i]].domain != DOMAIN_LAND) {
+    if (context->world->kinds[context->m->kind[i]].domain != DOMAIN_LAND ||
+        chassis_takes(context, i)) {
         agent_controls_motion(context, i, &desired);
         move_as_desired(context, i, &desired, batches);
     } else if (ground_vehicle_take_held(context, &batches->land, i)) {

@@ -19,7 +19,8 @@ static void take_hull(const struct world *world, const struct kind *kind,
 static void take_box(const struct kind *kind, struct body_points *points)
 {
     const struct vec3 half = {0.5 * kind->length_m, 0.5 * kind->height_m, 0.5 * kind->width_m};
-    double centre = mass_properties_of(kind).centre_m;
+    bool stands = kind->domain == DOMAIN_LAND || kind->domain == DOMAIN_FIXED;
+    double centre = stands ? half.y : 0.0;
     for (unsigned i = 0; i < BODY_POINTS_BOX; i++) {
         points->box[i] =
             (struct vec3){i & 1u ? half.x : -half.x, centre + (i & 2u ? half.y : -half.y),

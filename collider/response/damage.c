@@ -10,6 +10,14 @@
 #include "world/terrain/fixed.h"
 #include "world/world.h"
 
+#include <string.h>
+
+/* A vehicle that leans more lies on its side [cosine of 80 degrees]. */
+#define OVERTURNED_COSINE 0.17364817766693033
+
+/* ENTITY_FLAG_CHASSIS in each of eight flags. */
+#define CHASSIS_OF_EIGHT (ENTITY_FLAG_CHASSIS * UINT64_C(0x0101010101010101))
+
 static enum damage level(double share)
 {
     if (share >= 1.0)
@@ -35,6 +43,8 @@ static bool wreck(struct response_context *context, uint32_t row)
     if (e->state[row] != ENTITY_ACTIVE)
         return false;
     table_set_state(&context->writer, row, ENTITY_WRECK);
+    table_set_flags(&context->writer, row, e->flags[row] & (uint8_t)~ENTITY_FLAG_CHASSIS);
+    table_set_throttle(&context->writer, row, 0.0f);
     table_set_behaviour(&context->writer, row, BEHAVIOUR_IDLE);
     table_set_order(&context->writer, row, BEHAVIOUR_IDLE);
     table_set_until_tick(&context->writer, row, 0); /* it is not at rest (mover/motion/wreck.h) */
@@ -59,6 +69,28 @@ void damage_destroy(struct response_context *context, uint32_t row, double time)
 void damage_overturn(struct response_context *context, uint32_t row)
 {
     wreck(context, row);
+}
+
+/* Returns true if a vehicle lies on its side or on its roof. */
+static bool lies_over(const struct entities *e, uint32_t row)
+{
+    return e->state[row] == ENTITY_ACTIVE &&
+           maths_cos(e->pitch[row]) * maths_cos(e->roll[row]) < OVERTURNED_COSINE;
+}
+
+void damage_overturned(struct response_context *context)
+{
+    const struct entities *e = &context->next->entities;
+    uint32_t used = context->next->head->used;
+    for (uint32_t first = 0; first < used; first += 8) {
+        uint32_t end = used - first < 8 ? used : first + 8;
+        uint64_t eight = 0;
+        memcpy(&eight, e->flags + first, end - first);
+        for (uint32_t row = first; row < end && (eight & CHASSIS_OF_EIGHT) != 0; row++) {
+            if (e->flags[row] & ENTITY_FLAG_CHASSIS && lies_over(e, row))
+                damage_overturn(context, row);
+        }
+    }
 }
 
 void damage_row(struct response_context *context, uint32_t row, double joules, double time)

@@ -16,6 +16,11 @@
 #define LIES_MPS 2.0
 #define LIES_RPS 1.0
 
+/* A vehicle on its springs stands if it leans less than 45 degrees and its position is no higher
+ * over the ground. */
+#define STANDS_COSINE 0.70710678118654752
+#define STANDS_M      0.4
+
 static bool lies(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
@@ -32,13 +37,39 @@ static bool lies(const struct response_context *context, uint32_t row)
            LIES_M;
 }
 
+/* Returns true if a vehicle on its springs (mover/motion/chassis.h) stands on its wheels. */
+static bool stands(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    const struct crater_index *craters = context->input.detect.craters;
+    const struct vec3 at = entities_position(e, row);
+    struct vec3 normal = terrain_normal(&context->world->terrain, craters, at.x, at.z);
+    return maths_cos(e->pitch[row]) * maths_cos(e->roll[row]) > STANDS_COSINE &&
+           fabs(vec3_dot(entities_velocity(e, row), normal)) <= LIES_MPS &&
+           at.y - terrain_height(&context->world->terrain, craters, at.x, at.z) < STANDS_M;
+}
+
 bool path_change_grounded(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
     enum domain domain = (enum domain)context->world->kinds[e->kind[row]].domain;
     if (domain == DOMAIN_SEA)
         return true;
-    return e->state[row] == ENTITY_WRECK ? lies(context, row) : domain == DOMAIN_LAND;
+    if (e->state[row] == ENTITY_WRECK)
+        return lies(context, row);
+    return domain == DOMAIN_LAND &&
+           (!(e->flags[row] & ENTITY_FLAG_CHASSIS) || stands(context, row));
+}
+
+/* A land vehicle that is pushed moves on as a body on its springs. */
+static void disturb(struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    if (context->world->kinds[e->kind[row]].domain != DOMAIN_LAND ||
+        e->state[row] != ENTITY_ACTIVE || e->behaviour[row] == BEHAVIOUR_HOLD)
+        return;
+    table_set_flags(&context->writer, row, e->flags[row] | ENTITY_FLAG_CHASSIS);
+    table_set_jolt_tick(&context->writer, row, (uint32_t)context->next->head->tick);
 }
 
 static struct vec3 own_spin(const struct response_context *context, uint32_t row)
@@ -233,4 +264,5 @@ void path_change_leave(struct response_context *context, uint32_t row, double ti
         velocity = vec3_add(velocity, rolling_velocity(context, row, turned));
     table_set_spin(&context->writer, row, spin_rps);
     take_path(context, row, &path, &rotation, velocity);
+    disturb(context, row);
 }

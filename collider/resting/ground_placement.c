@@ -11,7 +11,8 @@ void ground_placement_put(struct response_context *context, uint32_t row, struct
     const struct terrain *terrain = &context->world->terrain;
     const struct crater_index *craters = context->input.detect.craters;
     const struct kind *kind = &context->world->kinds[e->kind[row]];
-    if (e->state[row] == ENTITY_ACTIVE && kind->domain == DOMAIN_LAND) {
+    if (e->state[row] == ENTITY_ACTIVE && kind->domain == DOMAIN_LAND &&
+        !(e->flags[row] & ENTITY_FLAG_CHASSIS)) {
         struct rest_pose pose = rest_pose_of(terrain, craters, kind, at.x, at.z, heading_rad);
         at.y = pose.y_m;
         table_set_pitch(&context->writer, row, pose.pitch_rad);

@@ -89,6 +89,30 @@ static const struct key kind_keys[] = {
            .meaning = "Vehicles and homing munitions, above 0: how fast they turn."),
     SCALED("max_slope_deg", K, kind.max_slope_rad, 1, 89, RAD_PER_DEG, "30", .unit = "degrees",
            .meaning = "Land vehicles: the steepest ground that they climb."),
+    BOOLEAN("tracked", K, kind.tracked, STORE_U8, "false",
+            .meaning = "Land vehicles. true: they have tracks, which turn them on the spot."),
+    WHOLE32("axles", K, kind.axles, 0, CHASSIS_AXLES_MAX, "0",
+            .meaning = "Land vehicles: pairs of wheels or road wheels. 0: 2, or 5 with tracks."),
+    SCALED("power_kw", K, kind.power_w, 0, 100000, 1000.0, "0", .unit = "kW",
+           .meaning = "Land vehicles: the power of the engine. 0: what `mass_kg`, "
+                      "`acceleration_mps2` and `max_speed_mps` need."),
+    NUMBER("track_m", K, kind.track_m, 0, 100, "0", .unit = "m",
+           .meaning = "Land vehicles: the distance between the middles of left and right wheels. "
+                      "0: 0.84 of the width."),
+    NUMBER("centre_height_m", K, kind.centre_height_m, 0, 100, "0", .unit = "m",
+           .meaning = "Land vehicles: the height of the centre of mass over the ground. 0: 0.4 of "
+                      "the height."),
+    NUMBER("travel_m", K, kind.travel_m, 0, 2, "0", .unit = "m",
+           .meaning = "Land vehicles: how far a wheel can rise from its place at rest. 0: 0.07 of "
+                      "the height."),
+    NUMBER("heave_hz", K, kind.heave_hz, 0, 5, "0", .unit = "Hz",
+           .meaning = "Land vehicles: how often the body swings on its springs. 0: 1.6, or 1.4 "
+                      "with tracks."),
+    NUMBER("least_turn_m", K, kind.least_turn_m, 0, 1000, "0", .unit = "m",
+           .meaning = "Land vehicles with wheels: the radius of the tightest circle of their "
+                      "middle. 0: 1.65 times the length."),
+    NUMBER("ford_m", K, kind.ford_m, 0, 10, "0", .unit = "m",
+           .meaning = "Land vehicles: the deepest water that they cross. 0: 0.3 of the height."),
     NUMBER("cruise_altitude_m", K, kind.cruise_altitude_m, 0, 20000, "0", .unit = "m",
            .meaning = "Aircraft: their usual height above the ground."),
     NUMBER("climb_rate_mps", K, kind.climb_rate_mps, 0, 500, "0", .unit = "m/s",

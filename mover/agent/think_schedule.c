@@ -56,6 +56,14 @@ static bool is_new(const struct step_context *context, uint32_t i)
     return w->state[i] == ENTITY_FREE || context->m->id[i] != w->id[i];
 }
 
+/* Returns true if its spin turns the row before it moves. Land vehicles that spin are bodies on
+ * their springs (mover/motion/chassis.h). */
+static bool spins_first(const struct step_context *context, enum motion how, uint32_t i)
+{
+    enum domain domain = (enum domain)context->world->kinds[context->m->kind[i]].domain;
+    return how == MOTION_HOLD || (how > MOTION_HOLD && domain != DOMAIN_LAND);
+}
+
 static void sort(const struct step_context *context, const struct row_block *block, uint8_t *motion,
                  struct think_schedule *thinkers)
 {
@@ -66,7 +74,7 @@ static void sort(const struct step_context *context, const struct row_block *blo
     thinkers->count = 0;
     for (uint32_t i = block->first; i < block->end; i++) {
         enum motion how = news && is_new(context, i) ? MOTION_NONE : motion_of(context, i);
-        if (how >= MOTION_HOLD && spins)
+        if (spins && spins_first(context, how, i))
             spin_row(context, i);
         if (how == MOTION_HOLD) { /* it reacts to nothing */
             m->bumped[i] = 0;

@@ -49,13 +49,19 @@ static inline void find_points(const struct ground_pose *pose, union simd_lanes 
     }
 }
 
-static void dig(const struct step_context *context, const struct ground_pose *pose,
+static void dig(const struct step_context *context, struct ground_pose *pose,
                 const union simd_lanes x[POINTS], const union simd_lanes z[POINTS],
                 union simd_lanes height[POINTS])
 {
     for (int l = 0; l < LANE_COUNT; l++) {
-        for (int p = 0; pose->cratered.lane[l] && p < POINTS; p++)
-            height[p].lane[l] += crater_offset(context->craters, x[p].lane[l], z[p].lane[l]);
+        double low = 0.0, high = 0.0;
+        for (int p = 0; pose->cratered.lane[l] && p < POINTS; p++) {
+            double dug = crater_offset(context->craters, x[p].lane[l], z[p].lane[l]);
+            height[p].lane[l] += dug;
+            low = p == 0 ? dug : maths_min(low, dug);
+            high = p == 0 ? dug : maths_max(high, dug);
+        }
+        pose->step.lane[l] = high - low;
     }
 }
 

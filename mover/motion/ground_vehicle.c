@@ -1,6 +1,9 @@
-/* Moves land vehicles: steering, power and brakes, slopes, debris and water. */
+/* Moves land vehicles that agents drive on easy ground: steering, power and brakes, slopes, debris
+ * and water. Their rolling resistance and grip are those of dirt. */
 #include "mover/motion/ground_vehicle.h"
 
+#include "mover/motion/chassis.h"
+#include "mover/motion/drivetrain.h"
 #include "mover/motion/kinematics.h"
 #include "mover/motion/kinematics_simd.h"
 #include "mover/query/ground_marks.h"
@@ -12,12 +15,13 @@
 
 #include <string.h>
 
-#define CRAWL_SHARE   0.1  /* share of full speed that is left on the steepest slope */
 #define STANDING_TURN 0.35 /* share of the turn rate at rest */
 #define FULL_TURN_MPS 4.0  /* from this speed on the turn rate is full */
-#define LOW_CLIMB     1.2  /* share of max_slope_rad that low gear climbs at full speed */
-#define ENGINE_DRAG   0.5  /* share of the acceleration: braking when the throttle is released */
-#define ROLLING       0.03 /* share of the weight: braking in neutral */
+#define TURNS_MPS     1.0  /* slower wheels turn the vehicle as at this speed */
+#define LATERAL_SHARE 0.75 /* of the greatest lateral acceleration: below that of rough motion */
+#define LEAST_MPS     0.5  /* below it the drive force grows no more */
+#define PIVOT_PM      1e3  /* [1/m] tracks turn a vehicle on the spot */
+#define LEAST_GAIN    0.1  /* [m/s2] a vehicle that can climb gains speed at least so fast */
 
 /* The share of full speed that the debris of an object leaves a vehicle which pushes it along: the
  * vehicle shares its momentum with the loose part, 1 - debris_keep, of the debris in its way. The
@@ -50,6 +54,14 @@ static double debris_share(const struct step_context *context, const struct kind
     return share;
 }
 
+double ground_vehicle_debris(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    if (!(ground_marks_at(context->ground_marks, m->x[i], m->z[i]) & GROUND_MARKS_DEBRIS))
+        return 1.0;
+    return debris_share(context, &context->world->kinds[m->kind[i]], m->x[i], m->z[i]);
+}
+
 void ground_vehicle_begin(struct ground_vehicle *batch)
 {
     memset(batch, 0, sizeof *batch);
@@ -72,10 +84,15 @@ static void find_scars(const struct step_context *context, struct ground_vehicle
 
 static void take_kind(struct ground_vehicle *batch, int l, const struct kind *kind)
 {
+    const struct ground_grip dirt = ground_grip_of(COVER_GRASS);
     batch->full_mps.lane[l] = kind->max_speed_mps;
     batch->acceleration.lane[l] = kind->acceleration_mps2;
     batch->turn_rate.lane[l] = kind->turn_rate_rps;
     batch->max_slope.lane[l] = kind->max_slope_rad;
+    batch->power_wpkg.lane[l] = drivetrain_power(kind) / kind->mass_kg;
+    batch->rolling.lane[l] = kind->tracked ? dirt.tracks : dirt.wheels;
+    batch->lateral.lane[l] = LATERAL_SHARE * drivetrain_lateral(kind, dirt.friction);
+    batch->curve.lane[l] = kind->least_turn_m > 0.0 ? 1.0 / kind->least_turn_m : PIVOT_PM;
     batch->half_length.lane[l] = kind->length_m * 0.5;
     batch->burn_lps.lane[l] = kind->fuel_lps;
     batch->tank.lane[l] = -(int64_t)(kind->fuel_l > 0.0);
@@ -104,13 +121,8 @@ bool ground_vehicle_take(const struct step_context *context, struct ground_vehic
 {
     int l = take_row(context, batch, i);
     batch->held.lane[l] = 0;
-    batch->out_of_gear[l] = desired->gear == GEAR_NEUTRAL;
-    batch->low_gear.lane[l] = -(int64_t)(desired->gear == GEAR_LOW);
-    batch->driven.lane[l] = -(int64_t)desired->driven;
     batch->wanted_heading.lane[l] = desired->heading_rad;
     batch->wanted_mps.lane[l] = desired->speed_mps;
-    batch->turn.lane[l] = desired->turn;
-    batch->brake.lane[l] = desired->brake;
     return batch->count == LANE_COUNT;
 }
 
@@ -120,12 +132,7 @@ bool ground_vehicle_take_held(const struct step_context *context, struct ground_
     int l = take_row(context, batch, i);
     batch->turn.lane[l] = (double)context->m->steer[i];
     batch->wanted_mps.lane[l] = (double)context->m->throttle[i];
-    if (batch->held.lane[l] == 0) {
-        batch->held.lane[l] = -1;
-        batch->out_of_gear[l] = false;
-        batch->low_gear.lane[l] = batch->driven.lane[l] = 0;
-        batch->brake.lane[l] = 0.0;
-    }
+    batch->held.lane[l] = -1;
     return batch->count == LANE_COUNT;
 }
 
@@ -144,14 +151,19 @@ static inline void find_desired(struct ground_vehicle *batch, int h, double dt_s
     batch->wanted_mps.f64x4[h] = SIMD_CHOOSE(held, speed, batch->wanted_mps.f64x4[h]);
 }
 
-/* Steers as kinematics_steer() does. */
+/* Steers as kinematics_steer() does: wheels in no tighter circle than they can, and no vehicle so
+ * hard that it would slide or lean over. */
 static inline void steer(struct ground_vehicle *batch, int h, const f64x4 *forward, double dt_s)
 {
+    const f64x4 slow = SIMD_EVERY(TURNS_MPS), none = SIMD_EVERY(0.0);
     f64x4 agility = STANDING_TURN + (1.0 - STANDING_TURN) * SIMD_ABS(*forward) / FULL_TURN_MPS;
-    agility = SIMD_CLAMP(agility, SIMD_EVERY(0.0), SIMD_EVERY(1.0));
-    f64x4 rate = batch->turn_rate.f64x4[h] * agility;
-    struct kinematics_simd_helm helm = {batch->wanted_heading.f64x4[h], batch->turn.f64x4[h],
-                                        batch->driven.f64x4[h]};
+    agility = SIMD_CLAMP(agility, none, SIMD_EVERY(1.0));
+    f64x4 rate = batch->turn_rate.f64x4[h] * agility, speed = SIMD_ABS(*forward);
+    speed = SIMD_MAX(speed, slow);
+    f64x4 circle = speed * batch->curve.f64x4[h], holds = batch->lateral.f64x4[h] / speed;
+    rate = SIMD_MIN(rate, circle);
+    rate = SIMD_MIN(rate, holds);
+    struct kinematics_simd_helm helm = {batch->wanted_heading.f64x4[h], none, {0}};
     kinematics_simd_steer(&batch->heading.f64x4[h], &helm, &rate, dt_s);
 }
 
@@ -159,63 +171,63 @@ static inline void steer(struct ground_vehicle *batch, int h, const f64x4 *forwa
 static inline void burn(struct ground_vehicle *batch, int h, f64x4 *wanted, double dt_s)
 {
     const f64x4 none = SIMD_EVERY(0.0), least = SIMD_EVERY(1e-9);
+    const f64x4 idle = SIMD_EVERY(DRIVETRAIN_IDLE);
     f64x4 share = SIMD_ABS(*wanted) / SIMD_MAX(batch->full_mps.f64x4[h], least);
+    share = SIMD_MAX(share, idle);
     four_masks dry;
     kinematics_simd_burn(&batch->fuel.f64x4[h], &batch->burn_lps.f64x4[h], &share,
                          &batch->tank.f64x4[h], dt_s, &dry);
     *wanted = SIMD_CHOOSE(dry, none, *wanted);
 }
 
-/* Limits the speed by slope and debris. On a slope that the kind cannot climb the speed is 0 and
- * the vehicle is blocked. */
-static inline void limit(struct ground_vehicle *batch, int h, f64x4 *wanted)
+/* The force that rolling and the slope ahead take from the engine, over the mass [m/s2]. */
+static inline void find_held_back(const struct ground_vehicle *batch, int h, const f64x4 *wanted,
+                                  f64x4 *back)
 {
-    const f64x4 none = SIMD_EVERY(0.0);
-    f64x4 full = batch->full_mps.f64x4[h], max_slope = batch->max_slope.f64x4[h];
     f64x4 pitch = batch->pitch.f64x4[h];
     f64x4 climb = SIMD_CHOOSE(*wanted < 0.0, SIMD_NEGATIVE(pitch), pitch);
-    f64x4 crawling = full * (1.0 - (1.0 - CRAWL_SHARE) * climb / max_slope);
-    crawling = SIMD_CHOOSE(climb >= max_slope, none, crawling);
-    f64x4 low = SIMD_CHOOSE(climb < LOW_CLIMB * max_slope, full, none);
-    f64x4 most = SIMD_CHOOSE(batch->low_gear.f64x4[h], low, crawling);
-    most = SIMD_CHOOSE(climb <= none, full, most);
+    f64x4 sine = climb * (1.0 - climb * climb / 6.0);
+    *back = GRAVITY_MPS2 * (sine + batch->rolling.f64x4[h]);
+}
+
+/* Limits the speed by the engine's power on the slope, and by debris. On a slope that the kind
+ * cannot climb the speed is 0 and the vehicle is blocked. */
+static inline void limit(struct ground_vehicle *batch, int h, f64x4 *wanted)
+{
+    const f64x4 none = SIMD_EVERY(0.0), least = SIMD_EVERY(1e-3);
+    f64x4 full = batch->full_mps.f64x4[h], pitch = batch->pitch.f64x4[h];
+    f64x4 climb = SIMD_CHOOSE(*wanted < 0.0, SIMD_NEGATIVE(pitch), pitch);
+    f64x4 back;
+    find_held_back(batch, h, wanted, &back);
+    f64x4 most = batch->power_wpkg.f64x4[h] / SIMD_MAX(back, least);
+    most = SIMD_MIN(most, full);
+    most = SIMD_CHOOSE(climb >= batch->max_slope.f64x4[h], none, most);
     batch->blocked.f64x4[h] = (SIMD_ABS(*wanted) > none) & (most <= none);
     f64x4 in_debris = batch->debris.f64x4[h] * full;
     most = SIMD_MIN(most, in_debris);
-    f64x4 least = SIMD_NEGATIVE(most);
-    *wanted = SIMD_CLAMP(*wanted, least, most);
+    f64x4 lowest = SIMD_NEGATIVE(most);
+    *wanted = SIMD_CLAMP(*wanted, lowest, most);
 }
 
-/* The speed along the heading after the step, in gear. Braking is as in kinematics_slowing(). */
+/* The speed along the heading after the step. Agents brake as hard as their kind can. */
 static inline void power(const struct ground_vehicle *batch, int h, const f64x4 *wanted,
                          f64x4 *forward, double dt_s)
 {
     const f64x4 none = SIMD_EVERY(0.0), grip = SIMD_EVERY(GROUND_GRIP * GRAVITY_MPS2);
-    f64x4 desired = batch->wanted_mps.f64x4[h], rate = batch->acceleration.f64x4[h];
+    const f64x4 slow = SIMD_EVERY(LEAST_MPS), least = SIMD_EVERY(LEAST_GAIN);
+    f64x4 rate = batch->acceleration.f64x4[h], speed = SIMD_ABS(*forward);
     four_masks braking = (SIMD_ABS(*wanted) < SIMD_ABS(*forward)) | (*wanted * *forward < none);
-    four_masks held = SIMD_ABS(*wanted) < SIMD_ABS(desired); /* the ground slows it as well */
-    f64x4 hardest = BRAKES * rate;
-    f64x4 drag = SIMD_CHOOSE(held, hardest, ENGINE_DRAG * rate);
-    f64x4 rest = hardest - drag;
-    f64x4 slowing = drag + batch->brake.f64x4[h] * SIMD_MAX(none, rest);
-    slowing = SIMD_CHOOSE(batch->driven.f64x4[h] & ~(desired * *forward < none), slowing, hardest);
-    slowing = SIMD_MIN(slowing, grip);
-    f64x4 step = SIMD_CHOOSE(braking, slowing, rate) * dt_s;
+    f64x4 hardest = BRAKES * rate, back;
+    find_held_back(batch, h, wanted, &back);
+    hardest = SIMD_MIN(hardest, grip);
+    f64x4 gain = batch->power_wpkg.f64x4[h] / SIMD_MAX(speed, slow) - back;
+    gain = SIMD_MAX(gain, least);
+    gain = SIMD_MIN(gain, rate);
+    f64x4 step = SIMD_CHOOSE(braking, hardest, gain) * dt_s;
     kinematics_simd_approach(forward, wanted, &step);
 }
 
 /* --- lanes -------------------------------------------------------------------------------------*/
-
-/* The same out of gear, where the slope accelerates and the wheels and the brake slow. */
-static double rolling(const struct step_context *context, const struct ground_vehicle *batch, int l,
-                      double forward)
-{
-    double pull = -GRAVITY_MPS2 * maths_sin(batch->pitch.lane[l]);
-    double drag =
-        ROLLING * GRAVITY_MPS2 + batch->brake.lane[l] * (BRAKES * batch->acceleration.lane[l]);
-    forward = kinematics_approach(forward + pull * context->dt_s, 0.0, drag * context->dt_s);
-    return maths_clamp(forward, -batch->full_mps.lane[l], batch->full_mps.lane[l]);
-}
 
 /* The position after the step, and that of the end of the body that leads. */
 struct ahead {
@@ -278,21 +290,82 @@ static inline void change_position(const struct step_context *context, struct gr
     }
 }
 
+/* A vehicle that comes back from its springs takes the height and the angles of the ground at these
+ * rates, and then loses its flag. */
+#define EASE_MPS 0.04
+#define EASE_RPS 0.04
+
+/* Writes height, pitch and roll of a row that comes back. Its place is not written yet. */
+static void ease(const struct step_context *context, const struct ground_vehicle *batch, int l)
+{
+    struct entities *m = context->m;
+    uint32_t i = batch->row[l];
+    double most_m = EASE_MPS * context->dt_s, most_rad = EASE_RPS * context->dt_s;
+    double height = m->y[i] - kinematics_ground(context, m->x[i], m->z[i]);
+    height = kinematics_approach(height, 0.0, most_m);
+    m->y[i] = batch->pose.y.lane[l] + height;
+    m->pitch[i] = kinematics_approach(m->pitch[i], batch->pose.pitch.lane[l], most_rad);
+    m->roll[i] = kinematics_approach(m->roll[i], batch->pose.roll.lane[l], most_rad);
+    m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
+    if (height == 0.0 && m->pitch[i] == batch->pose.pitch.lane[l] &&
+        m->roll[i] == batch->pose.roll.lane[l])
+        m->flags[i] &= (uint8_t)~ENTITY_FLAG_CHASSIS;
+}
+
+static void set_down(const struct step_context *context, const struct ground_vehicle *batch, int l)
+{
+    struct entities *m = context->m;
+    uint32_t i = batch->row[l];
+    if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
+        ease(context, batch, l);
+        return;
+    }
+    m->y[i] = batch->pose.y.lane[l];
+    m->pitch[i] = batch->pose.pitch.lane[l];
+    m->roll[i] = batch->pose.roll.lane[l];
+}
+
+/* Finds the lanes whose ground is too rough for a body that follows it: it leans, crosses the edge
+ * of a crater, or leaves the ground over a crest. */
+static inline void find_rough(const struct step_context *context, struct ground_vehicle *batch,
+                              const union simd_lanes *forward)
+{
+    const f64x4 tilt = SIMD_EVERY(CHASSIS_TILT_RAD), step = SIMD_EVERY(CHASSIS_STEP_M);
+    const f64x4 fall = SIMD_EVERY(GRAVITY_MPS2 * context->dt_s);
+    for (int h = 0; h < LANE_FOURS; h++) {
+        f64x4 pitch = batch->pose.pitch.f64x4[h], roll = batch->pose.roll.f64x4[h];
+        f64x4 drop = forward->f64x4[h] * (batch->pitch.f64x4[h] - pitch);
+        batch->rough.f64x4[h] = (SIMD_ABS(pitch) > tilt) | (SIMD_ABS(roll) > tilt) |
+                                (batch->pose.step.f64x4[h] > step) | (drop > fall);
+    }
+}
+
+/* Makes a row on rough ground a body on its springs, which turns as it does now. */
+static void leave_rails(const struct step_context *context, const struct ground_vehicle *batch,
+                        int l, double turned_rad)
+{
+    uint32_t i = batch->row[l];
+    if (!batch->rough.lane[l])
+        return;
+    chassis_disturb(context, i);
+    context->m->spin_y[i] = -maths_wrap_half(turned_rad) / context->dt_s;
+}
+
 static void write_rows(const struct step_context *context, const struct ground_vehicle *batch)
 {
     struct entities *m = context->m;
     for (int l = 0; l < batch->count; l++) {
         uint32_t i = batch->row[l];
+        double turned = batch->heading.lane[l] - m->heading[i];
+        set_down(context, batch, l);
         m->x[i] = batch->pose.x.lane[l];
-        m->y[i] = batch->pose.y.lane[l];
         m->z[i] = batch->pose.z.lane[l];
         m->vx[i] = batch->vx.lane[l];
-        m->vy[i] = (batch->pose.y.lane[l] - batch->y.lane[l]) / context->dt_s;
+        m->vy[i] = (m->y[i] - batch->y.lane[l]) / context->dt_s;
         m->vz[i] = batch->vz.lane[l];
         m->heading[i] = batch->heading.lane[l];
-        m->pitch[i] = batch->pose.pitch.lane[l];
-        m->roll[i] = batch->pose.roll.lane[l];
         m->fuel_l[i] = batch->fuel.lane[l];
+        leave_rails(context, batch, l, turned);
     }
 }
 
@@ -315,13 +388,10 @@ void ground_vehicle_move(const struct step_context *context, struct ground_vehic
         under_power.f64x4[h] = forward.f64x4[h];
         power(batch, h, &wanted, &under_power.f64x4[h], context->dt_s);
     }
-    for (int l = 0; l < batch->count; l++) {
-        if (batch->out_of_gear[l])
-            under_power.lane[l] = rolling(context, batch, l, forward.lane[l]);
-    }
     maths_sincos_lanes(&batch->heading, &batch->pose.sine, &batch->pose.cosine);
     find_ahead(context, batch, &under_power, &rightward, &ahead);
     change_position(context, batch, &ahead);
     ground_pose_find(context, &batch->pose);
+    find_rough(context, batch, &under_power);
     write_rows(context, batch);
 }

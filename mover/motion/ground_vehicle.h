@@ -9,18 +9,18 @@
 struct ground_vehicle {
     int count; /* lanes taken */
     uint32_t row[LANE_COUNT];
-    bool out_of_gear[LANE_COUNT];
     union lane_masks held; /* turn and wanted_mps are the row's controls (steer, throttle) */
     /* The desired motion. */
-    union lane_masks driven, low_gear;
-    union simd_lanes wanted_heading, wanted_mps, turn, brake;
+    union simd_lanes wanted_heading, wanted_mps, turn;
     /* The row, before and after; its place is in pose. */
     union simd_lanes y, vx, vz, heading, pitch, fuel;
     struct ground_pose pose;
     /* The kind. */
     union simd_lanes full_mps, acceleration, turn_rate, max_slope, half_length, burn_lps;
-    union lane_masks tank;    /* it has one */
+    union simd_lanes power_wpkg, rolling, lateral, curve; /* drivetrain.h; curve: 1/m */
+    union lane_masks tank;                                /* it has one */
     union simd_lanes debris;  /* the share of full speed that debris at its place allows */
+    union lane_masks rough;   /* result: it leaves the ground that it follows */
     union lane_masks blocked; /* result: water, a slope or the edge of the world blocks it */
 };
 
@@ -37,5 +37,8 @@ bool ground_vehicle_take_held(const struct step_context *context, struct ground_
 
 /* Moves the rows of the batch. Their lanes stay taken, so that the caller can read blocked. */
 void ground_vehicle_move(const struct step_context *context, struct ground_vehicle *batch);
+
+/* Returns the share of full speed that debris leaves row i where it is. */
+double ground_vehicle_debris(const struct step_context *context, uint32_t i);
 
 #endif

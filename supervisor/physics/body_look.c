@@ -73,6 +73,7 @@ static void read_motion(struct motion_look *look, const struct state *state, uin
                                  .velocity = entities_velocity(e, row),
                                  .spin = {e->spin_x[row], e->spin_y[row], e->spin_z[row]},
                                  .wreck = e->state[row] == ENTITY_WRECK};
+    look->sprung = !look->wreck && (e->flags[row] & ENTITY_FLAG_CHASSIS) != 0;
     look->at_rest = is_at_rest(look, e->until_tick[row], state->head->tick);
 }
 

@@ -29,6 +29,7 @@ struct motion_look {
     double lowest_m;             /* of a wreck: its lowest corner over the ground there, or if it is
                                     high over all ground near: height_m */
     bool wreck;
+    bool sprung;   /* a vehicle on its springs, which need not be on the ground */
     bool grounded; /* an aircraft or a wreck that may touch the ground */
     bool at_rest;  /* a wreck that the mover leaves as it is, or that has not moved */
 };

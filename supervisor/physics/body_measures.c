@@ -172,7 +172,7 @@ void body_measures_ground(struct measures *measures, const struct ground_look *g
     body->now.height_m = at.y - (part.flat ? part.at_m : surface_height(surface, at.x, at.z));
     if (!part.flat)
         body->now.height_m -= standing_height(surface, body);
-    if (domain <= DOMAIN_SEA && !body->now.wreck)
+    if (domain <= DOMAIN_SEA && !body->now.wreck && !body->now.sprung)
         measure_take(measures, MEASURE_OF_HEIGHT, fabs(body->now.height_m), &body->named, NULL);
     measure_corners(measures, ground, &part, body);
 }
@@ -246,7 +246,8 @@ void body_measures_motion(struct measures *measures, double dt_s, const struct b
     /* Between two explosions or collisions it may be faster than before and after. */
     if (body->blasts < 2 && body->struck < 2 && body->hits < 2 && body->parted == 0)
         measure_jump(measures, dt_s, body);
-    bool touches = body->touches || body->touched || body->now.grounded || body->was->grounded;
+    bool touches = body->touches || body->touched || body->now.grounded || body->was->grounded ||
+                   body->now.sprung || body->was->sprung;
     if (body->blasts == 0 && body->struck == 0 && !touches)
         measure_acceleration(measures, dt_s, body);
 }

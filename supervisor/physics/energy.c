@@ -35,10 +35,10 @@ static struct vec3 moments(const struct kind *kind)
                          twelfth * (length + height)};
 }
 
-/* Returns the centre of mass, from the position. That of a land vehicle is half its height up. */
+/* Returns the centre of mass, from the position. That of a land vehicle is above it. */
 static struct vec3 centre_of(const struct kind *kind, const struct motion_look *look)
 {
-    return vec3_scale(look->pose.up, kind->domain == DOMAIN_LAND ? 0.5 * kind->height_m : 0.0);
+    return vec3_scale(look->pose.up, kind->domain == DOMAIN_LAND ? kind->centre_height_m : 0.0);
 }
 
 /* Returns the kinetic energy [J]. Of a held body the vertical speed only follows the ground. */
@@ -109,6 +109,8 @@ static void begin_share(struct energy_share *share, uint32_t index, const struct
 {
     *share = (struct energy_share){.parent = index, .mass_kg = body->kind->mass_kg};
     share->unexplained = body->known && body->finite && !body->commanded && body->blasts == 0;
+    if (share->unexplained) /* springs take up energy and give it back */
+        share->unexplained = !body->now.sprung && !body->was->sprung;
     if (!share->unexplained)
         return;
     bool held = body_measures_held(body);

@@ -91,6 +91,7 @@ enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED
     X(uint32_t, seen_tick)   /* when it last saw its target */                                     \
     X(uint32_t, born_tick)                                                                         \
     X(uint32_t, changed_tick) /* when its damage last grew; for fire and smoke */                  \
+    X(uint32_t, jolt_tick)    /* when its chassis was last disturbed, while ENTITY_FLAG_CHASSIS */ \
     X(uint32_t, order_arg)    /* its area (patrol), route, formation or script */                  \
     X(uint32_t, leg)          /* its next route point or step of its script */                     \
     X(uint32_t, rounds)                                                                            \
@@ -123,6 +124,9 @@ _Static_assert(ENTITY_COLUMN_COUNT <= 64, "a set of columns is one word");
 #define ENTITY_FLAG_STAND        4u /* never flees or withdraws */
 #define ENTITY_FLAG_BROKEN                                                                         \
     64u /* an aircraft's wreck that the ground has broken up (mover/motion/wreck.h) */
+
+#define ENTITY_FLAG_CHASSIS                                                                        \
+    128u /* a land vehicle that moves as a body on its springs (mover/motion/chassis.h) */
 
 /* How a driven vehicle's throttle acts on its wheels; a driver's choice, in flags. */
 enum gearing {

@@ -15,6 +15,8 @@
  * over a shorter distance rounding dominates it. */
 #define KIND_STANCE_LEAST_M 0.5
 
+#define CHASSIS_AXLES_MAX 7u
+
 enum domain { DOMAIN_LAND, DOMAIN_SEA, DOMAIN_AIR, DOMAIN_MUNITION, DOMAIN_FIXED, DOMAIN_COUNT };
 
 /* How a munition flies. */
@@ -80,6 +82,16 @@ struct kind {
     double acceleration_mps2; /* braking is twice as hard */
     double turn_rate_rps;     /* [rad/s] */
     double max_slope_rad;     /* steepest ground a land vehicle climbs */
+    /* The chassis of a land vehicle (mover/motion/chassis.h). */
+    uint8_t tracked;        /* 1: tracks, which turn it on the spot; 0: wheels */
+    uint32_t axles;         /* pairs of wheels, 2..CHASSIS_AXLES_MAX */
+    double power_w;         /* of the engine */
+    double track_m;         /* between the middles of left and right wheels */
+    double centre_height_m; /* of the centre of mass over the ground */
+    double travel_m;        /* of a wheel from its place at rest up to the bump stop */
+    double heave_hz;        /* frequency of the body on its springs */
+    double least_turn_m;    /* radius of the tightest circle; tracks: 0 */
+    double ford_m;          /* deepest water that it crosses */
     double length_m, width_m, height_m;
     double cruise_altitude_m; /* aircraft: above the ground */
     double climb_rate_mps;    /* aircraft */

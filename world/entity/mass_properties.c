@@ -8,16 +8,22 @@ static double square(double value)
     return value * value;
 }
 
+static double centre_of(const struct kind *kind)
+{
+    if (kind->domain == DOMAIN_LAND && kind->centre_height_m > 0.0)
+        return kind->centre_height_m;
+    return kind->domain == DOMAIN_LAND || kind->domain == DOMAIN_FIXED ? 0.5 * kind->height_m : 0.0;
+}
+
 struct mass_properties mass_properties_of(const struct kind *kind)
 {
     double length2 = square(kind->length_m), height2 = square(kind->height_m);
     double width2 = square(kind->width_m), twelfth = kind->mass_kg / 12.0;
-    bool stands = kind->domain == DOMAIN_LAND || kind->domain == DOMAIN_FIXED;
     return (struct mass_properties){
         .mass_kg = kind->mass_kg,
         .moment = {twelfth * (height2 + width2), twelfth * (length2 + width2),
                    twelfth * (length2 + height2)},
-        .centre_m = stands ? 0.5 * kind->height_m : 0.0,
+        .centre_m = centre_of(kind),
     };
 }
 

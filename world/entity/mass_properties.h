@@ -18,9 +18,9 @@ struct mass_properties {
 };
 
 /* The position is on the ground below land vehicles and fixed objects, on the water line of ships
- * and in the middle of aircraft and munitions (docs/scenario.md, "Models"). The centre of mass is
- * half the height above it on land, and at it elsewhere; a ship floats with its mass about the
- * water line. */
+ * and in the middle of aircraft and munitions (docs/scenario.md, "Models"). The centre of mass of
+ * a land vehicle is at the kind's centre_height_m above it, that of a fixed object at half the
+ * height, and that of others at it; a ship floats with its mass about the water line. */
 struct mass_properties mass_properties_of(const struct kind *kind);
 
 /* [1/(kg m2)] on world axes, for this rotation of the body (world = turn * body): symmetric to the

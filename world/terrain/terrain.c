@@ -16,7 +16,9 @@ static inline uint32_t cell_of(const struct terrain *terrain, double metres, dou
     return cell;
 }
 
-static inline double base_height(const struct terrain *terrain, double x, double z)
+/* Returns the height, and how much it rises over a cell to the east and to the south. */
+static inline double base_plane(const struct terrain *terrain, double x, double z, double *east,
+                                double *south)
 {
     double u, v;
     uint32_t column = cell_of(terrain, x, &u);
@@ -26,13 +28,29 @@ static inline double base_height(const struct terrain *terrain, double x, double
     size_t north_east = u >= v;
     const float *across = north + (1 - north_east) * terrain->side;
     const float *down = north + north_east;
-    return (double)north[0] + ((double)across[1] - (double)across[0]) * u +
-           ((double)down[terrain->side] - (double)down[0]) * v;
+    *east = (double)across[1] - (double)across[0];
+    *south = (double)down[terrain->side] - (double)down[0];
+    return (double)north[0] + *east * u + *south * v;
+}
+
+static inline double base_height(const struct terrain *terrain, double x, double z)
+{
+    double east, south;
+    return base_plane(terrain, x, z, &east, &south);
 }
 
 double terrain_base_height(const struct terrain *terrain, double x, double z)
 {
     return base_height(terrain, x, z);
+}
+
+double terrain_base_plane(const struct terrain *terrain, double x, double z, double *east,
+                          double *south)
+{
+    double height = base_plane(terrain, x, z, east, south);
+    *east /= terrain->spacing_m;
+    *south /= terrain->spacing_m;
+    return height;
 }
 
 double terrain_height(const struct terrain *terrain, const struct crater_index *craters, double x,

@@ -36,6 +36,11 @@ struct terrain {
 /* Height of the uncratered ground [m]. */
 double terrain_base_height(const struct terrain *terrain, double x, double z);
 
+/* Returns the same and the slopes of the plane through the point: tangents, upwards to the east and
+ * to the south. */
+double terrain_base_plane(const struct terrain *terrain, double x, double z, double *east,
+                          double *south);
+
 /* Height of the ground with its craters [m]; craters may be NULL. */
 double terrain_height(const struct terrain *terrain, const struct crater_index *craters, double x,
                       double z);

@@ -3,6 +3,7 @@
  * controls. The oracle moves one at a time, by the same model. SEED=n tries others. */
 #include "mover/agent/agent.h"
 #include "mover/motion/aircraft.h"
+#include "mover/motion/chassis.h"
 #include "mover/motion/constant_course.h"
 #include "mover/motion/ground_vehicle.h"
 #include "mover/motion/kinematics.h"
@@ -31,15 +32,24 @@ static struct fixture f;
 
 /* --- the oracle --------------------------------------------------------------------------------*/
 
-static double slope_speed(const struct kind *kind, double climb_rad, enum gearing gear)
+/* What rolling on dirt and the slope ahead take from the engine [m/s2]. */
+static double held_back(const struct kind *kind, double climb_rad)
 {
-    if (climb_rad <= 0.0)
-        return kind->max_speed_mps;
-    if (gear == GEAR_LOW)
-        return climb_rad < 1.2 * kind->max_slope_rad ? kind->max_speed_mps : 0.0;
+    double sine = climb_rad * (1.0 - climb_rad * climb_rad / 6.0);
+    return GRAVITY_MPS2 * (sine + (kind->tracked ? 0.045 : 0.05));
+}
+
+static double power_of(const struct kind *kind)
+{
+    return kind->power_w * (kind->tracked ? 0.55 : 0.7) / kind->mass_kg;
+}
+
+static double slope_speed(const struct kind *kind, double climb_rad)
+{
     if (climb_rad >= kind->max_slope_rad)
         return 0.0;
-    return kind->max_speed_mps * (1.0 - (1.0 - 0.1) * climb_rad / kind->max_slope_rad);
+    return maths_min(power_of(kind) / maths_max(held_back(kind, climb_rad), 1e-3),
+                     kind->max_speed_mps);
 }
 
 static double debris_speed(const struct kind *vehicle, const struct kind *object)
@@ -71,28 +81,29 @@ static bool passable(const struct step_context *context, double x, double z)
            !cover_is_water(terrain_cover(&context->world->terrain, x, z));
 }
 
-static double powered(const struct step_context *context, const struct kind *kind,
-                      const struct desired_motion *desired, double forward, double wanted)
+static double powered(const struct step_context *context, const struct kind *kind, double pitch,
+                      double forward, double wanted)
 {
     bool braking = fabs(wanted) < fabs(forward) || wanted * forward < 0.0;
-    bool held = fabs(wanted) < fabs(desired->speed_mps);
     double rate = kind->acceleration_mps2;
+    double gain = power_of(kind) / maths_max(fabs(forward), 0.5) -
+                  held_back(kind, wanted < 0.0 ? -pitch : pitch);
+    gain = maths_min(maths_max(gain, 0.1), rate);
     if (braking)
-        rate = maths_min(kinematics_slowing(kind, desired, forward, (held ? BRAKES : 0.5) * rate),
-                         0.7 * GRAVITY_MPS2);
-    return kinematics_approach(forward, wanted, rate * context->dt_s);
+        gain = maths_min(BRAKES * rate, 0.7 * GRAVITY_MPS2);
+    return kinematics_approach(forward, wanted, gain * context->dt_s);
 }
 
-static double rolling(const struct step_context *context, uint32_t i, const struct kind *kind,
-                      const struct desired_motion *desired, double forward)
+/* How fast it turns without sliding or leaning over. */
+static double turn_rate(const struct kind *kind, double forward)
 {
-    double pull = -GRAVITY_MPS2 * maths_sin(context->m->pitch[i]);
-    double hold =
-        0.03 * GRAVITY_MPS2 +
-        desired->brake *
-            kinematics_slowing(kind, &(struct desired_motion){.driven = false}, forward, 0.0);
-    forward = kinematics_approach(forward + pull * context->dt_s, 0.0, hold * context->dt_s);
-    return maths_clamp(forward, -kind->max_speed_mps, kind->max_speed_mps);
+    double agility = maths_clamp(0.35 + (1.0 - 0.35) * fabs(forward) / 4.0, 0.0, 1.0);
+    double speed = maths_max(fabs(forward), 1.0);
+    double curve = kind->least_turn_m > 0.0 ? 1.0 / kind->least_turn_m : 1e3;
+    double over = 0.8 * (0.5 * kind->track_m / maths_max(kind->centre_height_m, 0.01));
+    double lateral = 0.75 * (GRAVITY_MPS2 * maths_min(0.65, over));
+    double rate = maths_min(kind->turn_rate_rps * agility, speed * curve);
+    return maths_min(rate, lateral / speed);
 }
 
 static double standing_height(const struct step_context *context, uint32_t i, double x, double z)
@@ -124,6 +135,28 @@ static void stand_on_ground(const struct step_context *context, uint32_t i)
     m->roll[i] = maths_atan2(left - right, 2.0 * half_width);
 }
 
+/* By how much craters differ under it [m]. */
+static double crater_step(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    double length = maths_max(kind->length_m * 0.5, 0.5), sine, cosine;
+    double width = maths_max(kind->width_m * 0.5, 0.5), x = m->x[i], z = m->z[i];
+    maths_sincos(m->heading[i], &sine, &cosine);
+    const double at[5][2] = {{x, z},
+                             {x + sine * length, z - cosine * length},
+                             {x - sine * length, z + cosine * length},
+                             {x + cosine * width, z + sine * width},
+                             {x - cosine * width, z - sine * width}};
+    double low = INFINITY, high = -INFINITY;
+    for (int p = 0; p < 5; p++) {
+        double dug = crater_offset(context->craters, at[p][0], at[p][1]);
+        low = maths_min(low, dug);
+        high = maths_max(high, dug);
+    }
+    return high - low;
+}
+
 static void speeds_of(const struct entities *m, uint32_t i, double *forward, double *rightward)
 {
     double sine, cosine;
@@ -139,20 +172,20 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     double forward, rightward, sine, cosine;
     bool blocked = false;
     speeds_of(m, i, &forward, &rightward);
-    double agility = maths_clamp(0.35 + (1.0 - 0.35) * fabs(forward) / 4.0, 0.0, 1.0);
-    kinematics_steer(context, i, desired, kind->turn_rate_rps * agility);
+    double heading = m->heading[i], pitch = m->pitch[i];
+    kinematics_steer(context, i, desired, turn_rate(kind, forward));
     maths_sincos(m->heading[i], &sine, &cosine);
 
     double wanted = desired->speed_mps;
-    if (!kinematics_burn(context, i, fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9)))
+    double share = maths_max(fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9), 0.15);
+    if (!kinematics_burn(context, i, share))
         wanted = 0.0;
-    double limit = slope_speed(kind, wanted < 0.0 ? -m->pitch[i] : m->pitch[i], desired->gear);
+    double limit = slope_speed(kind, wanted < 0.0 ? -pitch : pitch);
     if (fabs(wanted) > 0.0 && limit <= 0.0)
         blocked = true;
     limit = maths_min(limit, debris_share(context, kind, m->x[i], m->z[i]) * kind->max_speed_mps);
     wanted = maths_clamp(wanted, -limit, limit);
-    forward = desired->gear == GEAR_NEUTRAL ? rolling(context, i, kind, desired, forward)
-                                            : powered(context, kind, desired, forward, wanted);
+    forward = powered(context, kind, pitch, forward, wanted);
     rightward = kinematics_approach(rightward, 0.0, 0.7 * GRAVITY_MPS2 * context->dt_s);
 
     double vx = forward * sine + rightward * cosine;
@@ -170,6 +203,12 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     entities_set_velocity(m, i, (struct vec3){vx, (y - m->y[i]) / context->dt_s, vz});
     entities_set_position(m, i, (struct vec3){x, y, z});
     stand_on_ground(context, i);
+    if (fabs(m->pitch[i]) > CHASSIS_TILT_RAD || fabs(m->roll[i]) > CHASSIS_TILT_RAD ||
+        forward * (pitch - m->pitch[i]) > GRAVITY_MPS2 * context->dt_s ||
+        crater_step(context, i) > CHASSIS_STEP_M) {
+        chassis_disturb(context, i);
+        m->spin_y[i] = -maths_wrap_half(m->heading[i] - heading) / context->dt_s;
+    }
     return blocked;
 }
 
@@ -351,6 +390,7 @@ static void drive(struct both *both, uint64_t *random, struct ground_vehicle *la
     draw_rows(both, random, used, false, desired);
     for (uint32_t i = 0; i < used; i++) {
         bool held = fixture_random(random) % 2 != 0;
+        desired[i].driven = false; /* who is driven is on his springs */
         bool full = held ? ground_vehicle_take_held(both->context, land, i)
                          : ground_vehicle_take(both->context, land, i, &desired[i]);
         if (held)

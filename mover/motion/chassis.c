@@ -1,0 +1,345 @@
+/* Sub-steps of a body on its springs, rest, and when it is calm. */
+#include "mover/motion/chassis.h"
+
+#include "mover/motion/ground_contacts.h"
+#include "mover/motion/ground_vehicle.h"
+#include "mover/motion/kinematics.h"
+#include "mover/motion/tyre.h"
+#include "mover/query/ground_marks.h"
+#include "world/state.h"
+#include "world/terrain/gridsquare.h"
+#include "world/world.h"
+
+/* Sub-steps of springs, and of springs on their bump stops, are at most so long [s]. */
+#define STEP_S      (1.0 / 120.0)
+#define BUMP_STEP_S (1.0 / 240.0)
+
+/* A body that is slower than this, and that no force makes faster, is held in its place. */
+#define REST_MPS  0.03
+#define REST_RPS  0.02
+#define REST_MPS2 0.15
+
+/* A vehicle that is no higher over the ground was set down on it. */
+#define PLACED_M 0.01
+
+/* A chassis is calm below these. */
+#define CALM_LOAD     0.1  /* least load of a wheel over its load at rest */
+#define CALM_MPS      0.15 /* speed off the ground */
+#define CALM_RPS      0.15 /* roll and pitch */
+#define CALM_SLIP_MPS 0.4  /* to the side */
+#define CALM_LATERAL  0.8  /* share of the greatest lateral acceleration */
+
+/* The shell of the body. Its underside is as high as the wheels can rise. */
+#define SHELL_POINTS 12u
+#define UNDERSIDE    0.35 /* half length of the underside over the length */
+#define NOSE_HEIGHT  0.45 /* of the ends over the height */
+#define UPRIGHT      0.95 /* cosine: a body that leans less stands on its wheels alone */
+#define NEAR_STOPS   0.7  /* share of the travel from which the shell may touch */
+
+/* --- the modes ---------------------------------------------------------------------------------*/
+
+void chassis_disturb(const struct step_context *context, uint32_t i)
+{
+    context->m->flags[i] |= ENTITY_FLAG_CHASSIS;
+    context->m->jolt_tick[i] = (uint32_t)context->tick;
+}
+
+/* Returns the slope of the ground between two points of the row, at this distance in front and to
+ * the right of its middle and as far on the other side [rad]. */
+static double slope_between(const struct step_context *context, uint32_t i, double front_m,
+                            double right_m)
+{
+    const struct entities *m = context->m;
+    double sine, cosine;
+    maths_sincos(m->heading[i], &sine, &cosine);
+    double dx = front_m * sine + right_m * cosine, dz = right_m * sine - front_m * cosine;
+    return maths_atan2(kinematics_ground(context, m->x[i] + dx, m->z[i] + dz) -
+                           kinematics_ground(context, m->x[i] - dx, m->z[i] - dz),
+                       2.0 * (front_m + right_m));
+}
+
+/* A vehicle that is new stands level, whatever the ground. */
+static void take_slope(const struct step_context *context, uint32_t i)
+{
+    struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    if (fabs(m->y[i] - kinematics_ground(context, m->x[i], m->z[i])) > PLACED_M)
+        return;
+    m->pitch[i] = slope_between(context, i, 0.5 * kind->length_m, 0.0);
+    m->roll[i] = -slope_between(context, i, 0.0, 0.5 * kind->width_m);
+}
+
+bool chassis_takes(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    bool spins = m->spin_x[i] != 0.0 || m->spin_y[i] != 0.0 || m->spin_z[i] != 0.0;
+    if (!(m->flags[i] & ENTITY_FLAG_CHASSIS)) {
+        if (m->behaviour[i] != BEHAVIOUR_DRIVEN && !spins)
+            return false;
+        chassis_disturb(context, i);
+        take_slope(context, i);
+    }
+    double calm = (double)((uint32_t)context->tick - m->jolt_tick[i]) * context->dt_s;
+    return m->behaviour[i] == BEHAVIOUR_DRIVEN || calm < CHASSIS_CALM_S;
+}
+
+/* --- a frame -----------------------------------------------------------------------------------*/
+
+/* A vehicle in a frame. */
+struct chassis {
+    const struct step_context *context;
+    const struct kind *kind;
+    struct rigid_body body;
+    struct suspension suspension;
+    struct drivetrain drivetrain;
+    struct ground_grip grip;
+    struct vec3 shell_point[SHELL_POINTS];
+    struct body_points shell;
+    bool cratered;
+    bool level; /* every wheel bears in every sub-step */
+};
+
+static void find_shell(struct chassis *chassis)
+{
+    const struct kind *kind = chassis->kind;
+    for (unsigned n = 0; n < SHELL_POINTS; n++) {
+        unsigned layer = n / 4;
+        double length = kind->length_m * (layer == 0 ? UNDERSIDE : 0.5);
+        double height = layer == 0   ? kind->travel_m
+                        : layer == 1 ? maths_max(NOSE_HEIGHT * kind->height_m, kind->travel_m)
+                                     : kind->height_m;
+        chassis->shell_point[n] = (struct vec3){n & 1 ? length : -length, height,
+                                                n & 2 ? 0.5 * kind->width_m : -0.5 * kind->width_m};
+    }
+    double wide = 0.25 * (kind->length_m * kind->length_m + kind->width_m * kind->width_m);
+    chassis->shell = (struct body_points){.point = chassis->shell_point,
+                                          .count = SHELL_POINTS,
+                                          .reach_m = sqrt(wide + kind->height_m * kind->height_m)};
+}
+
+static double forward_speed(const struct chassis *chassis, const struct mat3 *turn)
+{
+    const struct vec3 ahead = {turn->m[0][0], turn->m[1][0], turn->m[2][0]};
+    return vec3_dot(chassis->body.velocity, ahead);
+}
+
+/* Returns the sine of the slope of the ground along the heading. normal: of any length. */
+static double rise_of(const struct mat3 *turn, struct vec3 normal)
+{
+    const struct vec3 right = {turn->m[0][2], turn->m[1][2], turn->m[2][2]};
+    struct vec3 ahead = vec3_cross(normal, right);
+    return ahead.y / maths_max(vec3_length(ahead), 1e-9);
+}
+
+/* Pushes the body up by its springs, and along the ground by its tyres. Returns the load [N]. */
+static double wheels(struct chassis *chassis, const struct mat3 *turn, double dt_s)
+{
+    struct rigid_body *body = &chassis->body;
+    struct suspension *suspension = &chassis->suspension;
+    const struct mat3 inverse = mass_properties_inverse_world(&body->inertia, turn);
+    double load = suspension_load(suspension, chassis->context, body, turn, chassis->cratered);
+    double least = CALM_LOAD * suspension->spring_npm * suspension->sag_m;
+    struct vec3 normal = {0.0, 0.0, 0.0};
+    for (uint32_t i = 0; i < suspension->count; i++) {
+        const struct wheel *wheel = &suspension->wheel[i];
+        struct vec3 push = vec3_scale(wheel->normal, wheel->load_n * dt_s);
+        chassis->level &= wheel->load_n > least;
+        normal = vec3_add(normal, vec3_scale(wheel->normal, wheel->load_n));
+        if (wheel->load_n == 0.0)
+            continue;
+        body->velocity = vec3_add(body->velocity, vec3_scale(push, 1.0 / body->inertia.mass_kg));
+        body->spin = vec3_add(body->spin, rotation_apply(&inverse, vec3_cross(wheel->arm, push)));
+    }
+    body->velocity.y -= GRAVITY_MPS2 * dt_s; /* the dampers do not see it */
+    if (!(load > 0.0))
+        return 0.0;
+    double forward = forward_speed(chassis, turn);
+    const struct tyre_demand demand = {
+        .drivetrain = &chassis->drivetrain,
+        .force = drivetrain_force(&chassis->drivetrain, forward, rise_of(turn, normal),
+                                  &chassis->grip, load),
+        .friction = chassis->grip.friction,
+        .side = tyre_side_share(chassis->kind, forward, body->spin.y),
+        .load_n = load,
+        .dt_s = dt_s};
+    tyre_solve(suspension, body, turn, &demand);
+    return load;
+}
+
+/* Returns true if the shell may touch the ground. */
+static bool shell_is_near(const struct chassis *chassis, const struct mat3 *turn)
+{
+    const struct suspension *suspension = &chassis->suspension;
+    double most = suspension->sag_m + NEAR_STOPS * chassis->kind->travel_m;
+    if (turn->m[1][1] < UPRIGHT || chassis->cratered)
+        return true;
+    for (uint32_t i = 0; i < suspension->count; i++) {
+        if (suspension->wheel[i].squeeze_m > most)
+            return true;
+    }
+    return false;
+}
+
+static void sub_step(struct chassis *chassis, double dt_s)
+{
+    struct rigid_body *body = &chassis->body;
+    struct vec3 push = {0.0, 0.0, 0.0}, twist = {0.0, 0.0, 0.0};
+    const struct mat3 turn = rotation_matrix(body->turn);
+    double fall = GRAVITY_MPS2 * dt_s;
+    double load = wheels(chassis, &turn, dt_s), shell = 0.0;
+    if (shell_is_near(chassis, &turn)) {
+        struct ground_contacts contacts;
+        ground_contacts_begin(&contacts, chassis->kind);
+        ground_contacts_find(&contacts, chassis->context, &chassis->shell, body, dt_s);
+        shell = ground_contacts_solve(&contacts, body, dt_s);
+        if (shell > 0.0)
+            ground_contacts_push(&contacts, body, dt_s, &push, &twist);
+    }
+    if (load == 0.0 && shell == 0.0)
+        push.y = 0.5 * fall; /* a free fall is exact */
+    body->centre = vec3_add(body->centre, vec3_scale(vec3_add(body->velocity, push), dt_s));
+    rigid_body_turn(body, twist, dt_s);
+}
+
+static bool on_bump_stops(const struct suspension *suspension)
+{
+    for (uint32_t i = 0; i < suspension->count; i++) {
+        if (suspension->wheel[i].squeeze_m > suspension->most_m)
+            return true;
+    }
+    return false;
+}
+
+static void run(struct chassis *chassis)
+{
+    double steps = ceil(chassis->context->dt_s / STEP_S - 1e-9);
+    double dt_s = chassis->context->dt_s / steps;
+    int more = (int)ceil(dt_s / BUMP_STEP_S - 1e-9);
+    for (int n = 0; n < (int)steps; n++) {
+        int parts = on_bump_stops(&chassis->suspension) ? more : 1;
+        for (int p = 0; p < parts; p++)
+            sub_step(chassis, dt_s / parts);
+    }
+}
+
+/* --- rest and calm -----------------------------------------------------------------------------*/
+
+/* Holds a body that stands still but for what springs and friction leave over. */
+static void rest(const struct chassis *chassis, const struct rigid_body *before,
+                 struct rigid_body *after)
+{
+    double dt_s = chassis->context->dt_s;
+    struct vec3 faster = vec3_sub(after->velocity, before->velocity);
+    bool wants = chassis->drivetrain.wanted_mps != 0.0 || chassis->drivetrain.neutral ||
+                 (chassis->kind->tracked && chassis->drivetrain.yaw_rps != 0.0);
+    if (wants || vec3_length(after->velocity) > REST_MPS || vec3_length(after->spin) > REST_RPS ||
+        vec3_length(faster) > REST_MPS2 * dt_s)
+        return;
+    after->centre = before->centre;
+    after->turn = before->turn;
+    after->velocity = after->spin = (struct vec3){0.0, 0.0, 0.0};
+}
+
+/* Returns true if the ground, the load and the motion are those of a vehicle that follows the
+ * ground. */
+static bool is_calm(const struct chassis *chassis)
+{
+    const struct rigid_body *body = &chassis->body;
+    const struct mat3 turn = rotation_matrix(body->turn);
+    const struct vec3 ahead = {turn.m[0][0], turn.m[1][0], turn.m[2][0]};
+    const struct vec3 up = {turn.m[0][1], turn.m[1][1], turn.m[2][1]};
+    const struct vec3 right = {turn.m[0][2], turn.m[1][2], turn.m[2][2]};
+    const struct vec3 spin = body->spin, velocity = body->velocity;
+    double lateral = fabs(vec3_dot(velocity, ahead) * spin.y);
+    return chassis->level && up.y > maths_cos(CHASSIS_TILT_RAD) &&
+           fabs(vec3_dot(velocity, up)) < CALM_MPS &&
+           fabs(vec3_dot(velocity, right)) < CALM_SLIP_MPS &&
+           fabs(vec3_dot(spin, ahead)) < CALM_RPS && fabs(vec3_dot(spin, right)) < CALM_RPS &&
+           lateral < CALM_LATERAL * drivetrain_lateral(chassis->kind, chassis->grip.friction);
+}
+
+/* --- the row -----------------------------------------------------------------------------------*/
+
+static bool passable(const struct step_context *context, double x, double z)
+{
+    return x >= 0.0 && z >= 0.0 && x <= WORLD_SIDE_M && z <= WORLD_SIDE_M &&
+           !cover_is_water(terrain_cover(&context->world->terrain, x, z));
+}
+
+/* Stops a row at the shore. Returns true if it was stopped. */
+static bool stop_at_water(const struct step_context *context, uint32_t i, double x, double z)
+{
+    struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    double sine, cosine;
+    maths_sincos(m->heading[i], &sine, &cosine);
+    double lead = m->vx[i] * sine - m->vz[i] * cosine < 0.0 ? -0.5 : 0.5;
+    lead *= kind->length_m;
+    if ((m->x[i] == x && m->z[i] == z) ||
+        (passable(context, m->x[i], m->z[i]) &&
+         passable(context, m->x[i] + sine * lead, m->z[i] - cosine * lead)))
+        return false;
+    m->x[i] = x;
+    m->z[i] = z;
+    m->vx[i] = m->vz[i] = 0.0;
+    return true;
+}
+
+/* Returns the desired motion without what fuel, debris and slopes do not allow. */
+static struct desired_motion allowed(const struct step_context *context, uint32_t i,
+                                     const struct desired_motion *desired)
+{
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    struct desired_motion motion = *desired;
+    double full = maths_max(kind->max_speed_mps, 1e-9);
+    double most = full * ground_vehicle_debris(context, i);
+    double pitch = slope_between(context, i, 0.5 * kind->length_m, 0.0);
+    double climb = desired->speed_mps < 0.0 ? -pitch : pitch;
+    double steepest = kind->max_slope_rad * (desired->gear == GEAR_LOW ? CHASSIS_LOW_CLIMB : 1.0);
+    double share = maths_max(DRIVETRAIN_IDLE, fabs(desired->speed_mps) / full);
+    if (!kinematics_burn(context, i, share) || climb >= steepest)
+        motion.speed_mps = 0.0;
+    motion.speed_mps = maths_clamp(motion.speed_mps, -most, most);
+    if (fabs(motion.speed_mps) < fabs(desired->speed_mps))
+        motion.brake = 1.0; /* the ground slows it as well */
+    return motion;
+}
+
+static void begin(struct chassis *chassis, const struct step_context *context, uint32_t i,
+                  const struct desired_motion *desired)
+{
+    const struct entities *m = context->m;
+    chassis->context = context;
+    chassis->kind = &context->world->kinds[m->kind[i]];
+    chassis->body = rigid_body_take(context, i);
+    chassis->grip = ground_grip_at(context, m->x[i], m->z[i]);
+    chassis->cratered =
+        ground_marks_at(context->ground_marks, m->x[i], m->z[i]) & GROUND_MARKS_CRATER;
+    chassis->level = true;
+    suspension_of(chassis->kind, &chassis->suspension);
+    find_shell(chassis);
+    const struct mat3 turn = rotation_matrix(chassis->body.turn);
+    const struct desired_motion motion = allowed(context, i, desired);
+    chassis->drivetrain =
+        drivetrain_of(context, i, &motion, forward_speed(chassis, &turn), chassis->grip.friction);
+}
+
+bool chassis_move(const struct step_context *context, uint32_t i,
+                  const struct desired_motion *desired)
+{
+    struct entities *m = context->m;
+    struct chassis chassis;
+    double x = m->x[i], z = m->z[i];
+    begin(&chassis, context, i, desired);
+    const struct rigid_body before = chassis.body;
+    for (uint32_t n = 0; n < chassis.suspension.count; n++)
+        chassis.suspension.wheel[n].squeeze_m = 0.0;
+    run(&chassis);
+    rest(&chassis, &before, &chassis.body);
+    rigid_body_put(context, i, &chassis.body);
+    bool blocked = stop_at_water(context, i, x, z);
+    if (m->behaviour[i] == BEHAVIOUR_DRIVEN || !is_calm(&chassis))
+        m->jolt_tick[i] = (uint32_t)context->tick;
+    return blocked || (desired->speed_mps != 0.0 && chassis.drivetrain.wanted_mps == 0.0);
+}

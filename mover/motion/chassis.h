@@ -1,0 +1,38 @@
+/* A land vehicle as one rigid body on springs (docs/decisions/035-chassis.md).
+ *
+ * Nearly all land vehicles follow the ground (mover/motion/ground_vehicle.h). A row with
+ * ENTITY_FLAG_CHASSIS moves as a body instead: on wheels or road wheels, each a ray with a spring,
+ * a damper and a tyre; it rolls, slides, jumps and overturns. The column jolt_tick says when it was
+ * last disturbed. After CHASSIS_CALM_S without disturbance it follows the ground again.
+ * ground_vehicle.c then moves its height and its angles to those of the ground bit by bit, and
+ * takes the flag away when they agree.
+ *
+ * The mover sets the flag for a row that is driven or spins, and where the ground is rough for its
+ * speed. The collider sets it for a row that is pushed. All of this follows from the row's state
+ * and the ground. Nothing but the row's position, pose, velocity and spin is kept between frames.
+ */
+#ifndef JOLON_MOVER_MOTION_CHASSIS_H
+#define JOLON_MOVER_MOTION_CHASSIS_H
+
+#include "mover/context/step_context.h"
+
+/* A chassis is calm for so long before its vehicle follows the ground again [s]. */
+#define CHASSIS_CALM_S 2.0
+
+/* Greatest tilt of a vehicle that follows the ground, and greatest step that it drives over. */
+#define CHASSIS_TILT_RAD  0.4363323129985824 /* 25 degrees */
+#define CHASSIS_LOW_CLIMB 1.2                /* share of max_slope_rad that low gear climbs */
+#define CHASSIS_STEP_M    0.3
+
+/* Returns true if row i, an active land vehicle that does not hold its course, moves as a body in
+ * this frame. */
+bool chassis_takes(const struct step_context *context, uint32_t i);
+
+/* Moves it. Returns true if water, a slope or the edge of the world blocks it. */
+bool chassis_move(const struct step_context *context, uint32_t i,
+                  const struct desired_motion *desired);
+
+/* Notes that row i is disturbed in this frame: it moves as a body from the next frame on. */
+void chassis_disturb(const struct step_context *context, uint32_t i);
+
+#endif

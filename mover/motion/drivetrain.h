@@ -1,0 +1,48 @@
+/* Engine, brakes and steering of a land vehicle: from the desired motion to forces. Wheels have no
+ * speed of their own: engine and brakes act as forces at the ground. Pure; any thread. */
+#ifndef JOLON_MOVER_MOTION_DRIVETRAIN_H
+#define JOLON_MOVER_MOTION_DRIVETRAIN_H
+
+#include "mover/context/step_context.h"
+#include "mover/motion/ground_grip.h"
+
+/* Shares of the engine's power that reach the ground. */
+#define DRIVETRAIN_BY_TRACKS 0.55
+#define DRIVETRAIN_BY_WHEELS 0.7
+
+/* Of the fuel at full throttle, an engine at rest burns this share. */
+#define DRIVETRAIN_IDLE 0.15
+
+/* What the vehicle is asked for in a frame. */
+struct drivetrain {
+    const struct kind *kind;
+    double wanted_mps;
+    double slowing; /* 0..1 of the hardest braking, if it is faster than that */
+    double curve;   /* [1/m] of the path, to the right: wheels */
+    double yaw_rps; /* to the right: tracks */
+    bool driven, neutral;
+};
+
+struct drivetrain_force {
+    double drive_n; /* along the heading */
+    double brake_n; /* most that brakes and rolling resistance hold against the motion */
+};
+
+/* Finds what a desired motion asks for at this speed along the heading. */
+struct drivetrain drivetrain_of(const struct step_context *context, uint32_t i,
+                                const struct desired_motion *desired, double forward_mps,
+                                double friction);
+
+/* Returns the forces at the ground. rise: sine of the pitch. */
+struct drivetrain_force drivetrain_force(const struct drivetrain *drivetrain, double forward_mps,
+                                         double rise, const struct ground_grip *grip,
+                                         double load_n);
+
+/* Returns the power of the kind that reaches the ground [W]. */
+double drivetrain_power(const struct kind *kind);
+
+/* Returns the greatest lateral acceleration at which an agent drives [m/s2]: below the grip, and
+ * below 0.8 of that which would overturn the vehicle. */
+double drivetrain_lateral(const struct kind *kind, double friction);
+
+#endif

@@ -1,0 +1,27 @@
+/* Forces between the wheels of a body and the ground, along the ground. Pure; any thread. */
+#ifndef JOLON_MOVER_MOTION_TYRE_H
+#define JOLON_MOVER_MOTION_TYRE_H
+
+#include "mover/motion/drivetrain.h"
+#include "mover/motion/suspension.h"
+
+/* What the wheels do in a sub-step. */
+struct tyre_demand {
+    const struct drivetrain *drivetrain;
+    struct drivetrain_force force;
+    double friction; /* greatest force along the ground over the load */
+    double side;     /* share of it that holds to the sides */
+    double load_n;   /* of all wheels */
+    double dt_s;
+};
+
+/* Returns the share of the friction that holds a vehicle to the sides: 1 on wheels, less on tracks
+ * in a wide turn. */
+double tyre_side_share(const struct kind *kind, double forward_mps, double yaw_rps);
+
+/* Changes velocity and spin by the forces of tyres or tracks within dt_s: drive, brakes, side
+ * forces within the friction of each wheel. No force reverses the slip that it acts against. */
+void tyre_solve(struct suspension *suspension, struct rigid_body *body, const struct mat3 *turn,
+                const struct tyre_demand *demand);
+
+#endif

@@ -1,0 +1,390 @@
+/* Land vehicles on their springs. The test prints a table: quantity, real value, ours, tolerance.
+ * The real values are from Foss (Jane's), Hunnicutt, TM 9-2320-218 and TM 9-2320-209. */
+#include "mover/motion/tyre.h"
+#include "tests/support/steps.h"
+#include "world/params.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#define HZ 60u
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    *state = &f;
+    fixture_open(&f, "");
+    return 0;
+}
+
+static void reopen(const char *text)
+{
+    fixture_close(&f);
+    fixture_open(&f, text);
+}
+
+static void row_of_table(const char *quantity, double real, double ours, const char *unit,
+                         double low, double high)
+{
+    printf("| %-44s | %7.2f | %7.2f | %-4s | %6.2f .. %6.2f |%s\n", quantity, real, ours, unit, low,
+           high, ours >= low && ours <= high ? "" : " OUT");
+    assert_true(ours >= low && ours <= high);
+}
+
+static void share_of_table(const char *quantity, double real, double ours, const char *unit,
+                           double share)
+{
+    row_of_table(quantity, real, ours, unit, real * (1.0 - share), real * (1.0 + share));
+}
+
+/* Puts a vehicle that heads east, driven, with its wheels on the ground there. */
+static uint32_t put(const char *kind, double x, double speed_mps)
+{
+    return fixture_put(&f,
+                       (struct fixture_entity){.kind = kind,
+                                               .at = {x, steps_ground_at(&f, x, 25000.0), 25000.0},
+                                               .velocity = {speed_mps, 0.0, 0.0},
+                                               .heading_rad = HALF_PI,
+                                               .behaviour = BEHAVIOUR_DRIVEN});
+}
+
+static double speed_of(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    return sqrt(e.vx[row] * e.vx[row] + e.vy[row] * e.vy[row] + e.vz[row] * e.vz[row]);
+}
+
+/* --- power and brakes --------------------------------------------------------------------------*/
+
+static double seconds_to(const char *kind, double mps)
+{
+    reopen("");
+    uint32_t row = put(kind, 20000.0, 0.0);
+    fixture_run(&f, 3 * HZ); /* it settles */
+    for (uint32_t frame = 1; frame < 60 * HZ; frame++) {
+        steps_drive(&f, row, 1.0, 0.0, 0.0);
+        if (speed_of(row) >= mps)
+            return (double)frame / HZ;
+    }
+    return 60.0;
+}
+
+static double climbs_at(const char *kind, double grade)
+{
+    reopen("");
+    steps_plane(&f, grade, 0.0);
+    uint32_t row = put(kind, 25000.0, 5.0);
+    steps_rows(&f).pitch[row] = maths_atan2(grade, 1.0);
+    for (uint32_t frame = 0; frame < 20 * HZ; frame++)
+        steps_drive(&f, row, 1.0, 0.0, 0.0);
+    return speed_of(row);
+}
+
+static double stops_in(const char *kind, double mps)
+{
+    reopen("");
+    uint32_t row = put(kind, 25000.0, mps);
+    for (uint32_t frame = 0; frame < 10 * HZ; frame++)
+        steps_pedals(&f, row, 0.0, 1.0, GEAR_AUTOMATIC);
+    assert_true(speed_of(row) < 0.01);
+    return steps_rows(&f).x[row] - 25000.0;
+}
+
+static void test_power_and_brakes(void **state)
+{
+    (void)state;
+    share_of_table("tank, 0 to 32 km/h on dirt", 6.0, seconds_to("tank", 32.0 / 3.6), "s", 0.25);
+    share_of_table("carrier, 0 to 48 km/h on dirt", 20.0, seconds_to("carrier", 48.0 / 3.6), "s",
+                   0.25);
+    share_of_table("tank, up a grade of 10 %", 8.9, climbs_at("tank", 0.1), "m/s", 0.2);
+    share_of_table("tank, up a grade of 60 %", 2.0, climbs_at("tank", 0.6), "m/s", 0.2);
+    share_of_table("tank, stop from 48 km/h on dirt", 15.0, stops_in("tank", 48.0 / 3.6), "m", 0.2);
+    share_of_table("jeep, stop from 48 km/h on dirt", 15.0, stops_in("jeep", 48.0 / 3.6), "m", 0.2);
+}
+
+/* --- turning -----------------------------------------------------------------------------------*/
+
+static double way_of(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    return maths_heading(e.vx[row], e.vz[row]);
+}
+
+/* Drives in a full turn to the right. Returns the radius of its path; most: the
+ * greatest lateral acceleration [g]. */
+static double turns(const char *kind, double mps, double seconds, double *most_g, uint32_t *driven)
+{
+    uint32_t row = put(kind, 25000.0, mps), frames = (uint32_t)(seconds * HZ);
+    double share = mps / steps_kind(&f, kind)->max_speed_mps, rate = 0.0, before;
+    *most_g = 0.0;
+    *driven = row;
+    for (uint32_t frame = 0; frame < frames; frame++) {
+        before = way_of(row);
+        steps_drive(&f, row, share, 1.0, 0.0);
+        rate = maths_wrap_half(way_of(row) - before) * HZ;
+        *most_g = maths_max(*most_g, fabs(rate) * speed_of(row) / GRAVITY_MPS2);
+    }
+    return speed_of(row) / rate;
+}
+
+static void test_turning(void **state)
+{
+    double most_g;
+    uint32_t row;
+    (void)state;
+    share_of_table("jeep, radius at crawl", 5.6, turns("jeep", 2.0, 10.0, &most_g, &row), "m",
+                   0.15);
+    reopen("");
+    share_of_table("truck, radius at crawl", 11.0, turns("truck", 2.0, 10.0, &most_g, &row), "m",
+                   0.15);
+    reopen("");
+    turns("jeep", 20.0, 6.0, &most_g, &row);
+    row_of_table("jeep, lateral acceleration on dirt", 0.75, most_g, "g", 0.3, 0.75);
+    reopen("");
+    turns("truck", 15.0, 6.0, &most_g, &row);
+    row_of_table("truck, lateral acceleration on dirt", 0.65, most_g, "g", 0.3, 0.65);
+    reopen("");
+    turns("tank", 15.0, 6.0, &most_g, &row);
+    row_of_table("tank, lateral acceleration on dirt", 0.65, most_g, "g", 0.2, 0.7);
+}
+
+static void test_a_tank_turns_on_the_spot(void **state)
+{
+    (void)state;
+    uint32_t row = put("tank", 25000.0, 0.0);
+    double turned = 0.0;
+    for (uint32_t frame = 0; frame < 5 * HZ; frame++) {
+        double before = steps_rows(&f).heading[row];
+        steps_drive(&f, row, 0.0, 1.0, 0.0);
+        turned += maths_wrap_half(steps_rows(&f).heading[row] - before);
+    }
+    row_of_table("tank, pivot in 5 s", 90.0, turned * DEG_PER_RAD, "deg", 45.0, 210.0);
+    assert_true(hypot(steps_rows(&f).x[row] - 25000.0, steps_rows(&f).z[row] - 25000.0) < 1.0);
+}
+
+/* --- tilt --------------------------------------------------------------------------------------*/
+
+/* A vehicle on ground with a friction that no cover has: on a tilt table, and on dry asphalt. */
+struct table_test {
+    struct step_context step;
+    struct serial_context serial;
+    struct rigid_body body;
+    struct suspension suspension;
+    struct drivetrain drivetrain;
+};
+
+static void table_begin(struct table_test *test, const char *kind, double roll_rad, double mps)
+{
+    uint32_t row = put(kind, 25000.0, mps);
+    steps_rows(&f).roll[row] = roll_rad;
+    steps_serial_context(&f, &test->step, &test->serial);
+    test->body = rigid_body_take(&test->step, row);
+    test->drivetrain = (struct drivetrain){.kind = steps_kind(&f, kind), .wanted_mps = mps};
+    suspension_of(test->drivetrain.kind, &test->suspension);
+}
+
+/* Moves it for a time while the table tilts; returns the cosine of its lean on the table. */
+static double table_run(struct table_test *test, double friction, double seconds, double *tilt_rad,
+                        double tilt_rps)
+{
+    const double dt_s = 1.0 / 240.0;
+    struct rigid_body *body = &test->body;
+    double up = 1.0, least = tilt_rps > 0.0 ? 0.8 : 0.1;
+    for (int n = 0; n < (int)(seconds / dt_s) && up > least; n++) {
+        struct mat3 turn = rotation_matrix(body->turn);
+        struct mat3 inverse = mass_properties_inverse_world(&body->inertia, &turn);
+        double load = suspension_load(&test->suspension, &test->step, body, &turn, false);
+        for (uint32_t i = 0; i < test->suspension.count; i++) {
+            const struct wheel *wheel = &test->suspension.wheel[i];
+            struct vec3 push = vec3_scale(wheel->normal, wheel->load_n * dt_s);
+            body->velocity =
+                vec3_add(body->velocity, vec3_scale(push, 1.0 / body->inertia.mass_kg));
+            body->spin =
+                vec3_add(body->spin, rotation_apply(&inverse, vec3_cross(wheel->arm, push)));
+        }
+        *tilt_rad += tilt_rps * dt_s;
+        body->velocity.y -= GRAVITY_MPS2 * maths_cos(*tilt_rad) * dt_s;
+        body->velocity.z += GRAVITY_MPS2 * maths_sin(*tilt_rad) * dt_s;
+        const struct tyre_demand demand = {
+            .drivetrain = &test->drivetrain,
+            .force = {0.0, test->drivetrain.wanted_mps == 0.0 ? friction * load : 0.0},
+            .friction = friction,
+            .side = 1.0,
+            .load_n = load,
+            .dt_s = dt_s};
+        if (load > 0.0)
+            tyre_solve(&test->suspension, body, &turn, &demand);
+        body->centre = vec3_add(body->centre, vec3_scale(body->velocity, dt_s));
+        rigid_body_turn(body, (struct vec3){0.0, 0.0, 0.0}, dt_s);
+        up = rotation_matrix(body->turn).m[1][1];
+    }
+    return up;
+}
+
+/* Returns the angle of the table at which the vehicle goes over [deg]. */
+static double tips_at(const char *kind)
+{
+    struct table_test test;
+    double tilt = 0.0;
+    steps_empty(&f);
+    table_begin(&test, kind, 0.0, 0.0);
+    table_run(&test, 5.0, 60.0, &tilt, 2.0 * RAD_PER_DEG);
+    return tilt * DEG_PER_RAD;
+}
+
+static void test_static_tilt(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *kind, *quantity;
+        double degrees;
+    } rows[] = {{"jeep", "jeep, static tilt", 46.0},
+                {"truck", "truck, static tilt", 37.0},
+                {"tank", "tank, static tilt", 55.0}};
+    for (size_t n = 0; n < sizeof rows / sizeof rows[0]; n++)
+        row_of_table(rows[n].quantity, rows[n].degrees, tips_at(rows[n].kind), "deg",
+                     rows[n].degrees - 4.0, rows[n].degrees + 4.0);
+}
+
+static void test_a_laden_truck_rolls_in_a_hard_turn_and_a_jeep_does_not(void **state)
+{
+    struct table_test test;
+    double level = 0.0;
+    (void)state;
+    table_begin(&test, "truck", 0.0, 20.0);
+    test.drivetrain.curve = 1.5 * GRAVITY_MPS2 / 400.0;
+    double truck = table_run(&test, 0.9, 5.0, &level, 0.0);
+    row_of_table("truck, hard turn at 20 m/s, friction 0.9, tilt", 90.0,
+                 maths_atan2(sqrt(1.0 - truck * truck), truck) * DEG_PER_RAD, "deg", 80.0, 180.0);
+    steps_empty(&f);
+    table_begin(&test, "jeep", 0.0, 20.0);
+    test.drivetrain.curve = 1.5 * GRAVITY_MPS2 / 400.0;
+    assert_true(table_run(&test, 0.65, 5.0, &level, 0.0) > 0.9);
+}
+
+/* --- jumps and drops ---------------------------------------------------------------------------*/
+
+/* A ramp of 10 degrees up to x = 25000, where the ground falls back to its level: posts are 125 m
+ * apart, so the ground falls steeply behind the edge. */
+static double ramp(double x, double z, const void *context)
+{
+    (void)z, (void)context;
+    return 500.0 + (x <= 25000.0 ? (x - 25000.0) * 0.17632698 : -200.0);
+}
+
+static void test_a_jeep_jumps_off_a_ramp(void **state)
+{
+    (void)state;
+    steps_ground(&f, ramp, NULL);
+    uint32_t row = put("jeep", 24950.0, 13.4);
+    steps_rows(&f).pitch[row] = 10.0 * RAD_PER_DEG;
+    double left = 0.0;
+    struct vec3 at = {0.0, 0.0, 0.0};
+    for (uint32_t frame = 0; frame < 8 * HZ; frame++) {
+        steps_drive(&f, row, 13.4 / 29.0, 0.0, 0.0);
+        struct entities e = steps_rows(&f);
+        if (left == 0.0 && e.x[row] > 25000.0) {
+            left = frame;
+            at = entities_position(&e, row);
+        }
+        if (left > 0.0 && e.y[row] < at.y && e.vy[row] < 0.0 && frame > left + 3) {
+            share_of_table("jeep, 10 degree ramp at 13.4 m/s, air time", 0.47, (frame - left) / HZ,
+                           "s", 0.2);
+            share_of_table("jeep, the same, way in the air", 6.2, e.x[row] - at.x, "m", 0.2);
+            return;
+        }
+    }
+    assert_true(false);
+}
+
+static struct fixture_entity hung(const char *kind, double height)
+{
+    return (struct fixture_entity){.kind = kind,
+                                   .at = {25000.0, 100.0 + height, 25000.0},
+                                   .heading_rad = HALF_PI,
+                                   .behaviour = BEHAVIOUR_DRIVEN};
+}
+
+/* Drops a vehicle; returns how deep its position goes below the ground, and its height at rest. */
+static double jounce(const char *kind, const char *world, uint32_t hz, double height,
+                     double *rest_m)
+{
+    double lowest = 1e9;
+    reopen(world);
+    uint32_t row = fixture_put(&f, hung(kind, height));
+    steps_rows(&f).flags[row] |= ENTITY_FLAG_CHASSIS;
+    for (uint32_t frame = 0; frame < 8 * hz; frame++) {
+        fixture_run(&f, 1);
+        lowest = maths_min(lowest, steps_rows(&f).y[row] - 100.0);
+    }
+    assert_true(speed_of(row) == 0.0); /* it stands */
+    *rest_m = steps_rows(&f).y[row] - 100.0;
+    return -lowest;
+}
+
+static void test_ride_height_and_jounce_at_10_and_60_hz(void **state)
+{
+    static const char *const kinds[] = {"tank", "carrier", "jeep", "truck", "hamburger"};
+    (void)state;
+    for (size_t n = 0; n < sizeof kinds / sizeof kinds[0]; n++) {
+        double slow_m, fast_m;
+        double fast = jounce(kinds[n], "", 60, 0.3, &fast_m);
+        double slow = jounce(kinds[n], "world = { hz = 10; };", 10, 0.3, &slow_m);
+        printf("%s: jounce %.3f at 60 Hz, %.3f at 10 Hz; rest %.4f, %.4f m\n", kinds[n], fast, slow,
+               fast_m, slow_m);
+        assert_true(fabs(slow_m - fast_m) < 0.01 && fabs(fast_m) < 0.01);
+    }
+}
+
+static void test_it_lands_from_a_metre_on_its_wheels(void **state)
+{
+    static const char *const kinds[] = {"tank", "carrier", "jeep", "truck", "attack-tomato"};
+    (void)state;
+    for (size_t n = 0; n < sizeof kinds / sizeof kinds[0]; n++) {
+        double rest_m;
+        jounce(kinds[n], "", 60, 1.0, &rest_m);
+        assert_true(fabs(rest_m) < 0.01);
+    }
+}
+
+static void test_it_stands_on_a_side_slope_without_creeping(void **state)
+{
+    static const char *const kinds[] = {"tank", "carrier", "jeep", "truck"};
+    (void)state;
+    for (size_t n = 0; n < sizeof kinds / sizeof kinds[0]; n++) {
+        reopen("");
+        steps_plane(&f, 0.1, 0.25);
+        uint32_t row = put(kinds[n], 25000.0, 0.0);
+        fixture_run(&f, 5 * HZ);
+        struct entities e = steps_rows(&f);
+        const struct vec3 at = entities_position(&e, row);
+        fixture_run(&f, 10 * HZ);
+        e = steps_rows(&f);
+        double crept = vec3_length(vec3_sub(entities_position(&e, row), at));
+        printf("%s crept %.6f m in 10 s on a slope of 27 %%\n", kinds[n], crept);
+        assert_true(crept < 1e-3 / 6.0);
+    }
+}
+
+int main(void)
+{
+#define T(name) cmocka_unit_test_setup_teardown(name, open_world, fixture_teardown)
+    const struct CMUnitTest tests[] = {
+        T(test_power_and_brakes),
+        T(test_turning),
+        T(test_a_tank_turns_on_the_spot),
+        T(test_a_laden_truck_rolls_in_a_hard_turn_and_a_jeep_does_not),
+        T(test_static_tilt),
+        T(test_a_jeep_jumps_off_a_ramp),
+        T(test_ride_height_and_jounce_at_10_and_60_hz),
+        T(test_it_lands_from_a_metre_on_its_wheels),
+        T(test_it_stands_on_a_side_slope_without_creeping),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
