@@ -58,20 +58,23 @@ struct explosion_impulse explosion_impulse_on(const struct explosion_impulse_tar
     return on_body;
 }
 
-/* moment: of inertia about the centre of mass [kg m2]; edge_m: half the track or half the length.
- */
-static bool tips(const struct mass_properties *body, double moment, double edge_m, double push_ns)
+/* moment: of inertia about the centre of mass [kg m2]; edge_m: half the track or half the length;
+ * lever_m: height of the push, in the middle of the side that it acts on. */
+static bool tips(const struct mass_properties *body, double moment, double edge_m, double lever_m,
+                 double push_ns)
 {
     double height = body->centre_m, arm2 = height * height + edge_m * edge_m;
     double about_edge = moment + body->mass_kg * arm2;
-    double rotation_j = 0.5 * push_ns * push_ns * height * height / about_edge;
+    double rotation_j = 0.5 * push_ns * push_ns * lever_m * lever_m / about_edge;
     return rotation_j >= body->mass_kg * GRAVITY_MPS2 * (sqrt(arm2) - height);
 }
 
 bool explosion_impulse_overturns(const struct kind *kind, double forward_ns, double right_ns)
 {
     const struct mass_properties body = mass_properties_of(kind);
+    double width = kind->track_m > 0.0 ? kind->track_m : kind->width_m;
+    double lever = 0.5 * kind->height_m;
     return kind->domain == DOMAIN_LAND &&
-           (tips(&body, body.moment.x, 0.5 * kind->width_m, right_ns) ||
-            tips(&body, body.moment.z, 0.5 * kind->length_m, forward_ns));
+           (tips(&body, body.moment.x, 0.5 * width, lever, right_ns) ||
+            tips(&body, body.moment.z, 0.5 * kind->length_m, lever, forward_ns));
 }

@@ -169,8 +169,9 @@ static void slow_down(struct response_context *context, uint32_t row, double kee
     table_set_spin_y(&context->writer, row, e->spin_y[row] * keep);
 }
 
-/* A wreck is a rigid body: it goes back in its whole pose. The body that it fell on stops it. */
-static void send_wreck_back(struct response_context *context, uint32_t row, double keep)
+/* A wreck, and a vehicle on its springs, are rigid bodies: they go back in their whole pose. The
+ * body that a wreck fell on stops it. */
+static void send_body_back(struct response_context *context, uint32_t row, double keep)
 {
     const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
     double heading = w->heading[row], pitch = w->pitch[row], roll = w->roll[row];
@@ -196,8 +197,8 @@ static void send_back(struct end_guard *guard, struct response_context *context,
     const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
     double keep = ++guard->sent_back[row] < SENT_BACK_MOST ? 0.5 : 0.0;
     struct vec3 from = entities_position(w, row), to = entities_position(e, row);
-    if (e->state[row] == ENTITY_WRECK) {
-        send_wreck_back(context, row, keep);
+    if (e->state[row] == ENTITY_WRECK || e->flags[row] & ENTITY_FLAG_CHASSIS) {
+        send_body_back(context, row, keep);
         return;
     }
     double turn = maths_wrap_half(e->heading[row] - w->heading[row]);

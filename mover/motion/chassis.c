@@ -10,9 +10,11 @@
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
-/* Sub-steps of springs, and of springs on their bump stops, are at most so long [s]. */
-#define STEP_S      (1.0 / 120.0)
-#define BUMP_STEP_S (1.0 / 240.0)
+/* Sub-steps are at most so long [s]: where all wheels bear, and where one is on its bump stop or
+ * off the ground. */
+#define STEP_S       (1.0 / 60.0)
+#define ROUGH_STEP_S (1.0 / 240.0)
+#define FAST_SHARE   0.3 /* of the travel of a wheel, in a sub-step */
 
 /* A body that is slower than this, and that no force makes faster, is held in its place. */
 #define REST_MPS  0.03
@@ -96,6 +98,7 @@ struct chassis {
     struct vec3 shell_point[SHELL_POINTS];
     struct body_points shell;
     bool cratered;
+    bool rough; /* a wheel is on its bump stop or bears next to nothing */
     bool level; /* every wheel bears in every sub-step */
 };
 
@@ -131,39 +134,41 @@ static double rise_of(const struct mat3 *turn, struct vec3 normal)
     return ahead.y / maths_max(vec3_length(ahead), 1e-9);
 }
 
-/* Pushes the body up by its springs, and along the ground by its tyres. Returns the load [N]. */
-static double wheels(struct chassis *chassis, const struct mat3 *turn, double dt_s)
+/* Pushes the body up by its springs. Returns the normals of the ground, each by its load. */
+static struct vec3 push_up(struct chassis *chassis, const struct mat3 *inverse, double dt_s)
 {
     struct rigid_body *body = &chassis->body;
-    struct suspension *suspension = &chassis->suspension;
-    const struct mat3 inverse = mass_properties_inverse_world(&body->inertia, turn);
-    double load = suspension_load(suspension, chassis->context, body, turn, chassis->cratered);
-    double least = CALM_LOAD * suspension->spring_npm * suspension->sag_m;
-    struct vec3 normal = {0.0, 0.0, 0.0};
+    const struct suspension *suspension = &chassis->suspension;
+    struct vec3 push = {0.0, 0.0, 0.0}, twist = {0.0, 0.0, 0.0};
     for (uint32_t i = 0; i < suspension->count; i++) {
         const struct wheel *wheel = &suspension->wheel[i];
-        struct vec3 push = vec3_scale(wheel->normal, wheel->load_n * dt_s);
-        chassis->level &= wheel->load_n > least;
-        normal = vec3_add(normal, vec3_scale(wheel->normal, wheel->load_n));
-        if (wheel->load_n == 0.0)
-            continue;
-        body->velocity = vec3_add(body->velocity, vec3_scale(push, 1.0 / body->inertia.mass_kg));
-        body->spin = vec3_add(body->spin, rotation_apply(&inverse, vec3_cross(wheel->arm, push)));
+        struct vec3 force = vec3_scale(wheel->normal, wheel->load_n);
+        push = vec3_add(push, force);
+        twist = vec3_add(twist, vec3_cross(wheel->arm, force));
     }
-    body->velocity.y -= GRAVITY_MPS2 * dt_s; /* the dampers do not see it */
-    if (!(load > 0.0))
-        return 0.0;
+    body->velocity = vec3_add(body->velocity, vec3_scale(push, dt_s / body->inertia.mass_kg));
+    body->spin = vec3_add(body->spin, rotation_apply(inverse, vec3_scale(twist, dt_s)));
+    return push;
+}
+
+/* Acts on the body by springs, weight and tyres. load_n: of all wheels. */
+static void wheels(struct chassis *chassis, const struct mat3 *turn, double load_n, double dt_s)
+{
+    struct rigid_body *body = &chassis->body;
+    const struct mat3 inverse = mass_properties_inverse_world(&body->inertia, turn);
     double forward = forward_speed(chassis, turn);
+    const struct vec3 push = push_up(chassis, &inverse, dt_s);
+    body->velocity.y -= GRAVITY_MPS2 * dt_s;
     const struct tyre_demand demand = {
         .drivetrain = &chassis->drivetrain,
-        .force = drivetrain_force(&chassis->drivetrain, forward, rise_of(turn, normal),
-                                  &chassis->grip, load),
+        .force = drivetrain_force(&chassis->drivetrain, forward, rise_of(turn, push),
+                                  &chassis->grip, load_n),
         .friction = chassis->grip.friction,
         .side = tyre_side_share(chassis->kind, forward, body->spin.y),
-        .load_n = load,
+        .load_n = load_n,
         .dt_s = dt_s};
-    tyre_solve(suspension, body, turn, &demand);
-    return load;
+    if (load_n > 0.0)
+        tyre_solve(&chassis->suspension, body, turn, &inverse, &demand);
 }
 
 /* Returns true if the shell may touch the ground. */
@@ -171,7 +176,7 @@ static bool shell_is_near(const struct chassis *chassis, const struct mat3 *turn
 {
     const struct suspension *suspension = &chassis->suspension;
     double most = suspension->sag_m + NEAR_STOPS * chassis->kind->travel_m;
-    if (turn->m[1][1] < UPRIGHT || chassis->cratered)
+    if (turn->m[1][1] < UPRIGHT || chassis->cratered || chassis->rough)
         return true;
     for (uint32_t i = 0; i < suspension->count; i++) {
         if (suspension->wheel[i].squeeze_m > most)
@@ -180,14 +185,13 @@ static bool shell_is_near(const struct chassis *chassis, const struct mat3 *turn
     return false;
 }
 
-static void sub_step(struct chassis *chassis, double dt_s)
+/* Lets the shell of the body act on the ground, and moves the body. load_n: of the wheels. */
+static void move(struct chassis *chassis, const struct mat3 *turn, double load_n, double dt_s)
 {
     struct rigid_body *body = &chassis->body;
     struct vec3 push = {0.0, 0.0, 0.0}, twist = {0.0, 0.0, 0.0};
-    const struct mat3 turn = rotation_matrix(body->turn);
-    double fall = GRAVITY_MPS2 * dt_s;
-    double load = wheels(chassis, &turn, dt_s), shell = 0.0;
-    if (shell_is_near(chassis, &turn)) {
+    double shell = 0.0;
+    if (shell_is_near(chassis, turn)) {
         struct ground_contacts contacts;
         ground_contacts_begin(&contacts, chassis->kind);
         ground_contacts_find(&contacts, chassis->context, &chassis->shell, body, dt_s);
@@ -195,30 +199,52 @@ static void sub_step(struct chassis *chassis, double dt_s)
         if (shell > 0.0)
             ground_contacts_push(&contacts, body, dt_s, &push, &twist);
     }
-    if (load == 0.0 && shell == 0.0)
-        push.y = 0.5 * fall; /* a free fall is exact */
+    if (load_n == 0.0 && shell == 0.0)
+        push.y = 0.5 * GRAVITY_MPS2 * dt_s; /* a free fall is exact */
     body->centre = vec3_add(body->centre, vec3_scale(vec3_add(body->velocity, push), dt_s));
     rigid_body_turn(body, twist, dt_s);
 }
 
-static bool on_bump_stops(const struct suspension *suspension)
+/* Returns true if a wheel is on its bump stop or bears next to nothing, or if the body comes down
+ * fast. */
+static bool is_rough(struct chassis *chassis, const struct mat3 *turn)
 {
+    const struct suspension *suspension = &chassis->suspension;
+    double least = CALM_LOAD * suspension->spring_npm * suspension->sag_m;
+    const struct vec3 up = {turn->m[0][1], turn->m[1][1], turn->m[2][1]};
+    bool rough =
+        -vec3_dot(chassis->body.velocity, up) * STEP_S > FAST_SHARE * chassis->kind->travel_m;
     for (uint32_t i = 0; i < suspension->count; i++) {
-        if (suspension->wheel[i].squeeze_m > suspension->most_m)
-            return true;
+        chassis->level &= suspension->wheel[i].load_n > least;
+        rough |= suspension->wheel[i].squeeze_m > suspension->most_m ||
+                 suspension->wheel[i].load_n <= least;
     }
-    return false;
+    return rough;
+}
+
+static double find_load(struct chassis *chassis, struct mat3 *turn)
+{
+    *turn = rotation_matrix(chassis->body.turn);
+    return suspension_load(&chassis->suspension, chassis->context, &chassis->body, turn,
+                           chassis->cratered);
 }
 
 static void run(struct chassis *chassis)
 {
     double steps = ceil(chassis->context->dt_s / STEP_S - 1e-9);
     double dt_s = chassis->context->dt_s / steps;
-    int more = (int)ceil(dt_s / BUMP_STEP_S - 1e-9);
+    int more = (int)ceil(dt_s / ROUGH_STEP_S - 1e-9);
+    struct mat3 turn;
     for (int n = 0; n < (int)steps; n++) {
-        int parts = on_bump_stops(&chassis->suspension) ? more : 1;
-        for (int p = 0; p < parts; p++)
-            sub_step(chassis, dt_s / parts);
+        double load = find_load(chassis, &turn);
+        chassis->rough = is_rough(chassis, &turn);
+        int parts = chassis->rough ? more : 1;
+        for (int p = 0; p < parts; p++) {
+            if (p > 0)
+                load = find_load(chassis, &turn);
+            wheels(chassis, &turn, load, dt_s / parts);
+            move(chassis, &turn, load, dt_s / parts);
+        }
     }
 }
 
@@ -333,8 +359,6 @@ bool chassis_move(const struct step_context *context, uint32_t i,
     double x = m->x[i], z = m->z[i];
     begin(&chassis, context, i, desired);
     const struct rigid_body before = chassis.body;
-    for (uint32_t n = 0; n < chassis.suspension.count; n++)
-        chassis.suspension.wheel[n].squeeze_m = 0.0;
     run(&chassis);
     rest(&chassis, &before, &chassis.body);
     rigid_body_put(context, i, &chassis.body);

@@ -13,7 +13,7 @@ static const struct ground_grip table[COVER_COUNT] = {
     [COVER_SEA] = {0.4, 0.15, 0.1},      [COVER_LAKE] = {0.4, 0.15, 0.1},
 };
 
-static const struct ground_grip crater_mud = {0.45, 0.12, 0.08};
+static const struct ground_grip crater_mud = {0.5, 0.12, 0.08};
 
 struct ground_grip ground_grip_of(enum cover cover)
 {

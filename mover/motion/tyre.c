@@ -137,18 +137,17 @@ static void solve_skid(struct skid *skid, struct rigid_body *body)
 }
 
 void tyre_solve(struct suspension *suspension, struct rigid_body *body, const struct mat3 *turn,
-                const struct tyre_demand *demand)
+                const struct mat3 *inverse, const struct tyre_demand *demand)
 {
     const struct kind *kind = demand->drivetrain->kind;
-    const struct mat3 inverse = mass_properties_inverse_world(&body->inertia, turn);
-    struct skid skid = skid_of(turn, &inverse, demand);
+    struct skid skid = skid_of(turn, inverse, demand);
     double curve = demand->drivetrain->curve, half = suspension->wheel[0].place.x;
     double base = suspension->wheelbase_m, rear = base - half; /* of the middle over the rear */
     /* The circle of the middle is wider than that of the rear axle. */
     double steer = base * curve / sqrt(maths_max(1.0 - curve * curve * rear * rear, 0.1));
     for (uint32_t i = 0; i < suspension->count; i++) {
         if (suspension->wheel[i].load_n > 0.0)
-            prepare(&suspension->wheel[i], body, turn, &inverse, demand, steer);
+            prepare(&suspension->wheel[i], body, turn, inverse, demand, steer);
     }
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         for (uint32_t i = 0; i < suspension->count; i++) {

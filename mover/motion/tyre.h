@@ -19,9 +19,10 @@ struct tyre_demand {
  * in a wide turn. */
 double tyre_side_share(const struct kind *kind, double forward_mps, double yaw_rps);
 
-/* Changes velocity and spin by the forces of tyres or tracks within dt_s: drive, brakes, side
- * forces within the friction of each wheel. No force reverses the slip that it acts against. */
+/* inverse: of the moments of inertia on world axes [1/(kg m2)]. Changes velocity and spin by the
+ * forces of tyres or tracks within dt_s: drive, brakes, side forces within the friction of each
+ * wheel. No force reverses the slip that it acts against. */
 void tyre_solve(struct suspension *suspension, struct rigid_body *body, const struct mat3 *turn,
-                const struct tyre_demand *demand);
+                const struct mat3 *inverse, const struct tyre_demand *demand);
 
 #endif

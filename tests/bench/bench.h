@@ -10,7 +10,7 @@
 
 struct bench_options {
     uint32_t vehicles, threads, frames;
-    bool json, peers, agents, gl, beside, all;
+    bool json, peers, agents, driven, gl, beside, all;
     struct option_size size; /* of one picture */
     double seconds;
     uint32_t follow;  /* entity id, 0: the most active vehicle */

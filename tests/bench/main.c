@@ -28,8 +28,8 @@ static const struct bench {
      {.size = {1280, 720}, .frames = 120}},
     {"frame",
      bench_frame,
-     "[--vehicles N [--agents]] [--threads T] [--frames F] [--json]     the steps of a frame; "
-     "--agents: of two forces at war",
+     "[--vehicles N [--agents]] [--driven] [--threads T] [--frames F] [--json]     the steps of a "
+     "frame; --agents: of two forces at war; --driven: all land vehicles on their springs",
      {.vehicles = BENCH_SCENARIO_VEHICLES, .threads = 1, .frames = 1200}},
     {"heap",
      bench_heap,
@@ -74,6 +74,7 @@ static const struct option_row rows[] = {
     {"kind", "NAME", NULL, .text = &given.kind},
     {"out", "DIR", NULL, .text = &given.out},
     {"peers", NULL, NULL, .flag = &given.peers},
+    {"driven", NULL, NULL, .flag = &given.driven},
     {"agents", NULL, NULL, .flag = &given.agents},
     {"beside", NULL, NULL, .flag = &given.beside},
     {"all", NULL, NULL, .flag = &given.all},

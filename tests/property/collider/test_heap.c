@@ -14,7 +14,7 @@
 
 #define SPACING_M    9.0
 #define OVERLAP_M    2e-5 /* at most, at a frame's end */
-#define HELD_M       1e-6 /* off the ground at most */
+#define HELD_M       0.02 /* off the ground at most: they are on their springs */
 #define TOLD_MOST    1.75 /* collisions told for a pair in contact ... */
 #define TOLD_MOST_90 1.25 /* ... and in a heap of 90, in which few bounce apart */
 

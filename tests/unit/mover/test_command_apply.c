@@ -171,7 +171,7 @@ static void test_drive_sets_brake_gear_and_the_turrets_controls(void **state)
                      COMMAND_OUT_OF_RANGE);
     assert_int_equal(DOES(.type = COMMAND_RELEASE, .entity = 1), COMMAND_DONE);
     e = steps_rows(&f);
-    assert_int_equal(e.flags[tank], 0);
+    assert_int_equal(e.flags[tank] & ~ENTITY_FLAG_CHASSIS, 0);
     assert_true(e.brake[tank] == 0.0f && e.traverse[tank] == 0.0f && e.elevate[tank] == 0.0f);
 }
 

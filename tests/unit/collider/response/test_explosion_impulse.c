@@ -11,8 +11,13 @@
 
 #include <cmocka.h>
 
-static const struct kind jeep = {
-    .domain = DOMAIN_LAND, .mass_kg = 1100.0, .length_m = 3.4, .width_m = 1.6, .height_m = 1.7};
+static const struct kind jeep = {.domain = DOMAIN_LAND,
+                                 .mass_kg = 1100.0,
+                                 .length_m = 3.4,
+                                 .width_m = 1.6,
+                                 .height_m = 1.7,
+                                 .track_m = 1.35,
+                                 .centre_height_m = 0.66};
 static const struct mat3 straight = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
 
 /* Swisdak 1994, hemispherical charges: reflected impulse [Pa s]. */
@@ -101,9 +106,9 @@ static void test_a_charge_at_the_centre_pushes_nothing(void **state)
  * Returns true if the centre of mass passes over the edge. */
 static bool stepped_over(const struct kind *kind, double edge_m, double moment, double push_ns)
 {
-    double height = 0.5 * kind->height_m, arm = sqrt(height * height + edge_m * edge_m);
+    double height = kind->centre_height_m, arm = sqrt(height * height + edge_m * edge_m);
     double about = moment + kind->mass_kg * arm * arm, dt = 1e-4;
-    double angle = atan2(height, edge_m), spin = push_ns * height / about;
+    double angle = atan2(height, edge_m), spin = push_ns * 0.5 * kind->height_m / about;
     while (spin > 0.0 && angle < HALF_PI) {
         spin -= dt * kind->mass_kg * 9.80665 * arm * cos(angle) / about;
         angle += dt * spin;
@@ -122,7 +127,7 @@ static void test_it_overturns_what_a_rotation_in_steps_lifts_over_its_edge(void 
              end = explosion_impulse_overturns(&jeep, -push, 0.0);
         if (explosion_impulse_overturns(&jeep, 0.0, 0.99 * push) ==
             explosion_impulse_overturns(&jeep, 0.0, 1.01 * push))
-            assert_int_equal(side, stepped_over(&jeep, 0.8, body.moment.x, push));
+            assert_int_equal(side, stepped_over(&jeep, 0.675, body.moment.x, push));
         if (explosion_impulse_overturns(&jeep, 0.99 * push, 0.0) ==
             explosion_impulse_overturns(&jeep, 1.01 * push, 0.0))
             assert_int_equal(end, stepped_over(&jeep, 1.7, body.moment.z, push));

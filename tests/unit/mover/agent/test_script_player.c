@@ -316,7 +316,7 @@ static void test_it_goes_on_by_the_clock_after_an_interruption(void **state)
     (void)state;
     open_script("tank", "",
                 "{ at_s = 20.0; arrive = [25000.0, 24800.0]; }, { at_s = 35.0; arrive = [25100.0, "
-                "24800.0]; }, { at_s = 60.0; arrive = [25100.0, 24600.0]; }, { wait_s = 1000.0; }");
+                "24800.0]; }, { at_s = 68.0; arrive = [25100.0, 24600.0]; }, { wait_s = 1000.0; }");
     run_s(10.0);
     struct state state_now = fixture_state(&f);
     state_now.entities.behaviour[0] = BEHAVIOUR_DRIVEN;
@@ -325,7 +325,7 @@ static void test_it_goes_on_by_the_clock_after_an_interruption(void **state)
     run_s(27.0);
     assert_int_equal(now()->behaviour[0], BEHAVIOUR_SCRIPT);
     check_step(1);
-    run_s(60.0 - 37.0);
+    run_s(68.0 - 37.0);
     assert_true(off(25100.0, 24600.0) < speed() / HZ + 1.5);
     run_s(5.0);
     check_step(3);

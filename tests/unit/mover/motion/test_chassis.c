@@ -219,7 +219,7 @@ static double table_run(struct table_test *test, double friction, double seconds
             .load_n = load,
             .dt_s = dt_s};
         if (load > 0.0)
-            tyre_solve(&test->suspension, body, &turn, &demand);
+            tyre_solve(&test->suspension, body, &turn, &inverse, &demand);
         body->centre = vec3_add(body->centre, vec3_scale(body->velocity, dt_s));
         rigid_body_turn(body, (struct vec3){0.0, 0.0, 0.0}, dt_s);
         up = rotation_matrix(body->turn).m[1][1];
@@ -372,6 +372,210 @@ static void test_it_stands_on_a_side_slope_without_creeping(void **state)
     }
 }
 
+/* --- modes -------------------------------------------------------------------------------------*/
+
+/* Returns how much the row's place and speed differ from those that its speed before gave, at most
+ * over the frames in which it goes back to the ground. */
+static void go_back(uint32_t row, double *jump_m, double *speed_mps)
+{
+    *jump_m = *speed_mps = 0.0;
+    for (uint32_t frame = 0; frame < 30 * HZ; frame++) {
+        struct entities e = steps_rows(&f);
+        const struct vec3 at = entities_position(&e, row), v = entities_velocity(&e, row);
+        bool back = !(e.flags[row] & ENTITY_FLAG_CHASSIS);
+        fixture_run(&f, 1);
+        e = steps_rows(&f);
+        struct vec3 way = vec3_sub(entities_position(&e, row), at);
+        struct vec3 off = vec3_sub(way, vec3_scale(v, 1.0 / HZ));
+        struct vec3 faster = vec3_sub(entities_velocity(&e, row), v);
+        double calm = (double)(fixture_state(&f).head->tick - e.jolt_tick[row]) / HZ;
+        if (back)
+            return;
+        if (calm < 1.9) /* not yet */
+            continue;
+        *jump_m = maths_max(*jump_m, vec3_length(off));
+        *speed_mps = maths_max(*speed_mps, vec3_length(faster));
+    }
+    assert_true(false); /* it never went back */
+}
+
+static uint32_t put_agent(const char *kind, double height_m, double mps)
+{
+    uint32_t row = fixture_put(
+        &f, (struct fixture_entity){
+                .kind = kind,
+                .at = {25000.0, steps_ground_at(&f, 25000.0, 25000.0) + height_m, 25000.0},
+                .velocity = {mps, 0.0, 0.0},
+                .heading_rad = HALF_PI,
+                .behaviour = BEHAVIOUR_IDLE});
+    steps_rows(&f).behaviour[row] = steps_rows(&f).order[row] = BEHAVIOUR_IDLE;
+    steps_rows(&f).flags[row] |= ENTITY_FLAG_CHASSIS;
+    return row;
+}
+
+static void test_it_goes_back_to_the_ground_without_a_jump(void **state)
+{
+    static const char *const kinds[] = {"tank", "carrier", "jeep", "truck"};
+    (void)state;
+    for (size_t n = 0; n < sizeof kinds / sizeof kinds[0]; n++) {
+        double jump, faster;
+        reopen("");
+        steps_plane(&f, 0.15, 0.1);
+        uint32_t row = put_agent(kinds[n], 0.2, n & 1 ? 0.0 : 6.0);
+        steps_rows(&f).pitch[row] = maths_atan2(0.15, 1.0);
+        go_back(row, &jump, &faster);
+        printf("%s: back with a jump of %.4f m and %.4f m/s a frame\n", kinds[n], jump, faster);
+        assert_true(jump <= 0.01 && faster <= 0.05);
+        struct entities e = steps_rows(&f);
+        assert_true(fabs(e.y[row] - steps_ground_at(&f, e.x[row], e.z[row])) < 1e-6);
+    }
+}
+
+static void test_an_undisturbed_agent_follows_the_ground(void **state)
+{
+    (void)state;
+    uint32_t row = put_agent("jeep", 0.0, 0.0);
+    steps_rows(&f).flags[row] = 0;
+    fixture_run(&f, 3 * HZ);
+    assert_false(steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS);
+    steps_rows(&f).spin_y[row] = 1.0; /* something has pushed it */
+    fixture_run(&f, 1);
+    assert_true(steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS);
+}
+
+/* --- rough ground ------------------------------------------------------------------------------*/
+
+/* Returns the height of the lowest corner of the shell over the ground [m]. */
+static double lowest_corner(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    const struct kind *kind = &f.view.world.kinds[e.kind[row]];
+    struct mat3 turn = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
+    double lowest = INFINITY;
+    for (unsigned n = 0; n < 8; n++) {
+        struct vec3 own = {(n & 1 ? 0.35 : -0.35) * kind->length_m,
+                           n & 2 ? kind->height_m : kind->travel_m,
+                           (n & 4 ? 0.5 : -0.5) * kind->width_m};
+        struct vec3 at = vec3_add(entities_position(&e, row), rotation_apply(&turn, own));
+        lowest = maths_min(lowest, at.y - steps_ground_at(&f, at.x, at.z));
+    }
+    return lowest;
+}
+
+static void dig(double x, double z, float radius_m, float depth_m)
+{
+    struct state now = fixture_state(&f);
+    for (int buffer = 0; buffer < 2; buffer++) {
+        struct state_head *head = f.view.w[buffer].head;
+        now.craters[head->crater_count] = (struct crater){x, z, radius_m, depth_m, 1};
+        head->crater_count++;
+    }
+}
+
+static void test_it_crosses_a_crater_on_its_springs(void **state)
+{
+    static const char *const kinds[] = {"tank", "carrier", "jeep", "truck"};
+    (void)state;
+    for (size_t n = 0; n < sizeof kinds / sizeof kinds[0]; n++) {
+        double deepest = 0.0, lean = 0.0;
+        reopen("");
+        dig(25030.0, 25001.0, 4.0f, 0.6f);
+        uint32_t row = put(kinds[n], 25000.0, 6.0);
+        for (uint32_t frame = 0; frame < 15 * HZ; frame++) {
+            steps_drive(&f, row, 6.0 / steps_kind(&f, kinds[n])->max_speed_mps, 0.0, 0.0);
+            deepest = maths_min(deepest, lowest_corner(row));
+            lean = maths_max(lean, fabs(steps_rows(&f).roll[row]));
+        }
+        printf("%s: %.0f m on, lowest corner %.3f m, leant %.1f degrees\n", kinds[n],
+               steps_rows(&f).x[row] - 25000.0, deepest, lean * DEG_PER_RAD);
+        assert_true(steps_rows(&f).x[row] > 25045.0); /* across */
+        assert_true(deepest > -0.02 && lean > 0.02);
+    }
+}
+
+static double waves(double x, double z, const void *context)
+{
+    (void)z;
+    return 100.0 + *(const double *)context * maths_sin(x * TWO_PI / 500.0);
+}
+
+static void test_it_keeps_its_shell_over_the_ground_on_waves(void **state)
+{
+    double high = 12.0;
+    (void)state;
+    steps_ground(&f, waves, &high);
+    uint32_t row = put("jeep", 25000.0, 25.0);
+    double deepest = 0.0, fastest = 0.0;
+    for (uint32_t frame = 0; frame < 60 * HZ; frame++) {
+        steps_drive(&f, row, 1.0, 0.0, 0.0);
+        deepest = maths_min(deepest, lowest_corner(row));
+        fastest = maths_max(fastest, fabs(steps_rows(&f).vy[row]));
+    }
+    printf("jeep on waves: lowest corner %.3f m, vertical speed %.1f m/s\n", deepest, fastest);
+    assert_true(deepest > -0.02 && steps_rows(&f).x[row] > 25900.0);
+}
+
+/* --- frames and threads ------------------------------------------------------------------------*/
+
+/* Drives into a hard turn and returns true if the vehicle overturns. */
+static bool overturns(const char *world, uint32_t hz, const char *kind, double mps)
+{
+    reopen(world);
+    steps_cover(&f, COVER_ROAD, 0.0, 0.0, 50000.0, 50000.0);
+    uint32_t row = put(kind, 25000.0, mps);
+    double share = maths_min(1.0, mps / steps_kind(&f, kind)->max_speed_mps);
+    steps_kind(&f, kind)->centre_height_m *= 1.3; /* a high load */
+    for (uint32_t frame = 0; frame < 6 * hz; frame++) {
+        if (steps_rows(&f).state[row] == ENTITY_WRECK)
+            return true;
+        steps_drive(&f, row, share, 1.0, 0.0);
+    }
+    return steps_rows(&f).state[row] == ENTITY_WRECK;
+}
+
+static void test_10_and_60_hz_agree_on_what_turns_over(void **state)
+{
+    static const char *const kinds[] = {"truck", "jeep", "tank", "carrier"};
+    int over = 0;
+    (void)state;
+    for (size_t n = 0; n < sizeof kinds / sizeof kinds[0]; n++) {
+        for (double mps = 8.0; mps <= 20.0; mps += 6.0) {
+            bool fast = overturns("", 60, kinds[n], mps);
+            bool slow = overturns("world = { hz = 10; };", 10, kinds[n], mps);
+            printf("%s at %2.0f m/s on asphalt: %s at 60 Hz, %s at 10 Hz\n", kinds[n], mps,
+                   fast ? "over" : "upright", slow ? "over" : "upright");
+            assert_int_equal(fast, slow);
+            over += fast;
+        }
+    }
+    assert_true(over > 0);
+}
+
+static uint64_t digest_after(uint32_t threads)
+{
+    reopen("");
+    for (int n = 0; n < 24; n++) {
+        static const char *const kinds[] = {"tank", "jeep", "truck", "carrier"};
+        double x = 25000.0 + 30.0 * (n % 6), z = 25000.0 + 30.0 * floor(n / 6.0);
+        uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kinds[n % 4],
+                                                               .at = {x, 100.0 + 0.1 * n, z},
+                                                               .velocity = {n - 10.0, 0.0, 5.0},
+                                                               .behaviour = BEHAVIOUR_DRIVEN});
+        steps_rows(&f).throttle[row] = 0.5f;
+        steps_rows(&f).steer[row] = (float)(n - 12) / 12.0f;
+    }
+    fixture_threads(&f, threads);
+    fixture_run(&f, 4 * HZ);
+    return fixture_digest(&f);
+}
+
+static void test_threads_do_not_matter(void **state)
+{
+    (void)state;
+    uint64_t one = digest_after(1);
+    assert_true(digest_after(2) == one && digest_after(4) == one);
+}
+
 int main(void)
 {
 #define T(name) cmocka_unit_test_setup_teardown(name, open_world, fixture_teardown)
@@ -385,6 +589,12 @@ int main(void)
         T(test_ride_height_and_jounce_at_10_and_60_hz),
         T(test_it_lands_from_a_metre_on_its_wheels),
         T(test_it_stands_on_a_side_slope_without_creeping),
+        T(test_it_goes_back_to_the_ground_without_a_jump),
+        T(test_an_undisturbed_agent_follows_the_ground),
+        T(test_it_crosses_a_crater_on_its_springs),
+        T(test_it_keeps_its_shell_over_the_ground_on_waves),
+        T(test_10_and_60_hz_agree_on_what_turns_over),
+        T(test_threads_do_not_matter),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -305,12 +305,12 @@ static void test_a_wreck_that_bounces(void **state)
 }
 
 /* Kinetic and potential energy of the centre of mass together, up and down. The centre comes down
- * by half the height when the wreck falls on its side, although its position rises. */
+ * when the wreck falls on its side, although its position rises. */
 static void test_the_energy_of_a_wreck_that_rolls(void **state)
 {
-    double half = 0.5 * steps_kind(&f, "tank")->height_m, rolled = 0.2;
+    double high = steps_kind(&f, "tank")->centre_height_m, rolled = 0.2;
     uint32_t tank = put("tank", MIDDLE, 130.0);
-    double fall = half * (1.0 - maths_cos(rolled)) - 0.01;
+    double fall = high * (1.0 - maths_cos(rolled)) - 0.01;
     (void)state;
     steps_rows(&f).state[tank] = ENTITY_WRECK;
     begin();
