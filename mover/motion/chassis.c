@@ -1,13 +1,13 @@
 /* Sub-steps of a body on its springs, rest, and when it is calm. */
 #include "mover/motion/chassis.h"
 
+#include "mover/motion/fording.h"
 #include "mover/motion/ground_contacts.h"
 #include "mover/motion/ground_vehicle.h"
 #include "mover/motion/kinematics.h"
 #include "mover/motion/tyre.h"
 #include "mover/query/ground_marks.h"
 #include "world/state.h"
-#include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
 /* Sub-steps are at most so long [s]: where all wheels bear, and where one is on its bump stop or
@@ -20,6 +20,8 @@
 #define REST_MPS  0.03
 #define REST_RPS  0.02
 #define REST_MPS2 0.15
+
+#define FORD_MPS 2.0 /* a vehicle in water is no faster */
 
 /* A vehicle that is no higher over the ground was set down on it. */
 #define PLACED_M 0.01
@@ -277,6 +279,8 @@ static bool is_calm(const struct chassis *chassis)
     const struct vec3 right = {turn.m[0][2], turn.m[1][2], turn.m[2][2]};
     const struct vec3 spin = body->spin, velocity = body->velocity;
     double lateral = fabs(vec3_dot(velocity, ahead) * spin.y);
+    if (fording_is_water(chassis->context, body->centre.x, body->centre.z))
+        return false; /* what follows the ground cannot cross water */
     return chassis->level && up.y > maths_cos(CHASSIS_TILT_RAD) &&
            fabs(vec3_dot(velocity, up)) < CALM_MPS &&
            fabs(vec3_dot(velocity, right)) < CALM_SLIP_MPS &&
@@ -286,14 +290,8 @@ static bool is_calm(const struct chassis *chassis)
 
 /* --- the row -----------------------------------------------------------------------------------*/
 
-static bool passable(const struct step_context *context, double x, double z)
-{
-    return x >= 0.0 && z >= 0.0 && x <= WORLD_SIDE_M && z <= WORLD_SIDE_M &&
-           !cover_is_water(terrain_cover(&context->world->terrain, x, z));
-}
-
-/* Stops a row at the shore. Returns true if it was stopped. */
-static bool stop_at_water(const struct step_context *context, uint32_t i, double x, double z)
+/* Stops a row at deep water. Returns true if it was stopped. */
+static bool stop_at_depth(const struct step_context *context, uint32_t i, double x, double z)
 {
     struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
@@ -302,8 +300,8 @@ static bool stop_at_water(const struct step_context *context, uint32_t i, double
     double lead = m->vx[i] * sine - m->vz[i] * cosine < 0.0 ? -0.5 : 0.5;
     lead *= kind->length_m;
     if ((m->x[i] == x && m->z[i] == z) ||
-        (passable(context, m->x[i], m->z[i]) &&
-         passable(context, m->x[i] + sine * lead, m->z[i] - cosine * lead)))
+        (fording_passable(context, kind, m->x[i], m->z[i]) &&
+         fording_passable(context, kind, m->x[i] + sine * lead, m->z[i] - cosine * lead)))
         return false;
     m->x[i] = x;
     m->z[i] = z;
@@ -320,6 +318,8 @@ static struct desired_motion allowed(const struct step_context *context, uint32_
     struct desired_motion motion = *desired;
     double full = maths_max(kind->max_speed_mps, 1e-9);
     double most = full * ground_vehicle_debris(context, i);
+    if (fording_is_water(context, m->x[i], m->z[i]))
+        most = maths_min(most, FORD_MPS);
     double pitch = slope_between(context, i, 0.5 * kind->length_m, 0.0);
     double climb = desired->speed_mps < 0.0 ? -pitch : pitch;
     double steepest = kind->max_slope_rad * (desired->gear == GEAR_LOW ? CHASSIS_LOW_CLIMB : 1.0);
@@ -362,7 +362,7 @@ bool chassis_move(const struct step_context *context, uint32_t i,
     run(&chassis);
     rest(&chassis, &before, &chassis.body);
     rigid_body_put(context, i, &chassis.body);
-    bool blocked = stop_at_water(context, i, x, z);
+    bool blocked = stop_at_depth(context, i, x, z);
     if (m->behaviour[i] == BEHAVIOUR_DRIVEN || !is_calm(&chassis))
         m->jolt_tick[i] = (uint32_t)context->tick;
     return blocked || (desired->speed_mps != 0.0 && chassis.drivetrain.wanted_mps == 0.0);

@@ -28,7 +28,8 @@
  * this frame. */
 bool chassis_takes(const struct step_context *context, uint32_t i);
 
-/* Moves it. Returns true if water, a slope or the edge of the world blocks it. */
+/* Moves it. It fords water as deep as its kind can. Returns true if deeper water, a slope or the
+ * edge of the world blocks it. */
 bool chassis_move(const struct step_context *context, uint32_t i,
                   const struct desired_motion *desired);
 
