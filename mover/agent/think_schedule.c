@@ -78,6 +78,7 @@ static void sort(const struct step_context *context, const struct row_block *blo
             spin_row(context, i);
         if (how == MOTION_HOLD) { /* it reacts to nothing */
             m->bumped[i] = 0;
+            m->flags[i] &= (uint8_t)~ENTITY_FLAG_CHASSIS;
             m->threat_slot[i] = m->threat_id[i] = 0;
         }
         if (how == MOTION_AGENT) {
