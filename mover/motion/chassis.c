@@ -14,7 +14,9 @@
  * off the ground. */
 #define STEP_S       (1.0 / 60.0)
 #define ROUGH_STEP_S (1.0 / 240.0)
-#define FAST_SHARE   0.3 /* of the travel of a wheel, in a sub-step */
+#define RISE_SHARE                                                                                 \
+    0.5 /* of the travel, by which the ground ahead is higher than the body's plane */
+#define FAST_SHARE 0.3 /* of the travel of a wheel, in a sub-step */
 
 /* A body that is slower than this, and that no force makes faster, is held in its place. */
 #define REST_MPS  0.03
@@ -207,15 +209,28 @@ static void move(struct chassis *chassis, const struct mat3 *turn, double load_n
     rigid_body_turn(body, twist, dt_s);
 }
 
-/* Returns true if a wheel is on its bump stop or bears next to nothing, or if the body comes down
- * fast. */
+/* Returns true if the ground rises before the body within a sub-step. */
+static bool ground_rises(const struct chassis *chassis, const struct mat3 *turn)
+{
+    const struct rigid_body *body = &chassis->body;
+    double way = forward_speed(chassis, turn) * STEP_S;
+    double ahead = way + (way < 0.0 ? -0.5 : 0.5) * chassis->kind->length_m;
+    const struct vec3 point = {ahead, -body->inertia.centre_m, 0.0};
+    struct vec3 at = vec3_add(body->centre, rotation_apply(turn, point));
+    return kinematics_ground(chassis->context, at.x, at.z) - at.y >
+           RISE_SHARE * chassis->kind->travel_m;
+}
+
+/* Returns true if a wheel is on its bump stop or bears next to nothing, if the body comes down
+ * fast, or if the ground rises before it. */
 static bool is_rough(struct chassis *chassis, const struct mat3 *turn)
 {
     const struct suspension *suspension = &chassis->suspension;
     double least = CALM_LOAD * suspension->spring_npm * suspension->sag_m;
     const struct vec3 up = {turn->m[0][1], turn->m[1][1], turn->m[2][1]};
     bool rough =
-        -vec3_dot(chassis->body.velocity, up) * STEP_S > FAST_SHARE * chassis->kind->travel_m;
+        -vec3_dot(chassis->body.velocity, up) * STEP_S > FAST_SHARE * chassis->kind->travel_m ||
+        ground_rises(chassis, turn);
     for (uint32_t i = 0; i < suspension->count; i++) {
         chassis->level &= suspension->wheel[i].load_n > least;
         rough |= suspension->wheel[i].squeeze_m > suspension->most_m ||

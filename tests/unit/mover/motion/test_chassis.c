@@ -501,7 +501,7 @@ static double waves(double x, double z, const void *context)
 
 static void test_it_keeps_its_shell_over_the_ground_on_waves(void **state)
 {
-    double high = 12.0;
+    double high = 25.0;
     (void)state;
     steps_ground(&f, waves, &high);
     uint32_t row = put("jeep", 25000.0, 25.0);
