@@ -3,6 +3,7 @@
 #include "config/loader.h"
 
 #include "config/kinds.h"
+#include "config/missions.h"
 #include "config/scripts.h"
 #include "config/syntax/lists.h"
 #include "config/syntax/schema.h"
@@ -76,6 +77,7 @@ static bool is_list(const config_setting_t *setting)
     const char *name = config_setting_name(setting);
     return strcmp(name, "vehicles") == 0 || strcmp(name, "fires") == 0 ||
            strcmp(name, "scripts") == 0 || strcmp(name, "bases") == 0 ||
+           strcmp(name, "missions") == 0 || strcmp(name, "objectives") == 0 ||
            (strcmp(name, "objects") == 0 && setting->type == CONFIG_TYPE_LIST);
 }
 
@@ -191,6 +193,7 @@ static int read_lists(struct load *load)
                      load->error) != 0 ||
         lists_bases(scenario, config_setting_get_member(root, "bases"), file, load->error) != 0 ||
         vehicles_read(scenario, vehicles, file, load->error) != 0 ||
+        missions_read(scenario, root, file, load->error) != 0 ||
         lists_objects(scenario, objects, file, load->error) != 0 ||
         lists_fires(scenario, fires, vehicles, file, load->error) != 0)
         return -1;

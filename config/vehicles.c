@@ -148,6 +148,7 @@ static int add_vehicle(struct entry *entry, struct vehicle_entry *vehicle)
                             "is not for a %s; allowed: false, or a kind of land or air",
                             vehicle->kind);
     memcpy(group->name, vehicle->name, sizeof(group->name));
+    memcpy(group->squad, vehicle->group, sizeof(group->squad));
     group->force = (uint8_t)vehicle->force;
     group->behaviour = (uint8_t)vehicle->behaviour;
     group->script =

@@ -7,6 +7,7 @@
 #include "mover/agent/goal.h"
 #include "mover/agent/perception.h"
 #include "mover/agent/think_schedule.h"
+#include "mover/mission.h"
 #include "mover/motion/aircraft.h"
 #include "mover/motion/chassis.h"
 #include "mover/motion/constant_course.h"
@@ -441,6 +442,7 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
         scenario_fires_run(&serial_context);
         fire_mission_run(&serial_context);
         pull_triggers(&serial_context);
+        mission_step(&serial_context);
     }
     mover->left = head->checksum = checksum(mover, moved);
 }

@@ -24,6 +24,10 @@ WORDS(struck_name, struck, STRUCK_COUNT, "vehicle", "fixed", "ground", "water", 
 WORDS(agent_reason_name, agent_reason, REASON_COUNT, "fired upon", "target gone", "out of rounds",
       "time over", "collision", "enemy seen", "command", "out of fuel", "lost sight", "hurt",
       "outnumbered", "low fuel", "supplied", "arrived", "leader lost", "script", "lease over")
+WORDS(mission_order_name, mission_order, MISSION_ORDER_COUNT, "hold", "reserve", "move", "bound",
+      "attack", "defend", "withdraw", "patrol", "strike", "barrage", "resupply")
+WORDS(mission_news_name, mission_news, MISSION_NEWS_COUNT, "phase", "reaction", "objective",
+      "result", "again")
 WORDS(contact_end_reason_name, contact_end_reason, CONTACT_END_REASON_COUNT, "parted", "gone",
       "no room")
 WORDS(command_ring_name, command_ring, COMMAND_RING_COUNT, "clients", "recorder")

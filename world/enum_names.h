@@ -8,6 +8,7 @@
 #include "world/entity/event.h"
 #include "world/entity/formation.h"
 #include "world/entity/kind.h"
+#include "world/entity/mission.h"
 #include "world/terrain/terrain.h"
 
 const char *cover_name(enum cover cover);
@@ -24,6 +25,8 @@ const char *force_name(enum force force);
 const char *response_name(enum response response);
 const char *struck_name(enum struck struck);
 const char *agent_reason_name(enum agent_reason reason);
+const char *mission_order_name(enum mission_order order);
+const char *mission_news_name(enum mission_news news);
 const char *contact_end_reason_name(enum contact_end_reason reason);
 const char *command_ring_name(enum command_ring ring);
 const char *command_type_name(enum command_type type);

@@ -98,6 +98,38 @@ static void command_text(char *text, const struct event *event, const char *cons
                    command_result_name((enum command_result)command->result));
 }
 
+static void result_text(char *text, const struct event_mission *mission)
+{
+    const char *winner =
+        mission->force == FORCE_NEUTRAL ? "nobody" : force_name((enum force)mission->force);
+    (void)snprintf(text, EVENT_TEXT_MAX,
+                   "battle %u ends: %s wins; blue holds %u and lost %u, red holds %u and lost %u",
+                   mission->round, winner, mission->held[FORCE_BLUE], mission->lost[FORCE_BLUE],
+                   mission->held[FORCE_RED], mission->lost[FORCE_RED]);
+}
+
+static void mission_text(char *text, const struct event *event, const char *const *kind)
+{
+    const struct event_mission *mission = &event->mission;
+    (void)kind;
+    switch ((enum mission_news)mission->news) {
+    case MISSION_NEWS_OBJECTIVE:
+        (void)snprintf(text, EVENT_TEXT_MAX, "%s takes %.23s from %s",
+                       force_name((enum force)mission->force), mission->name,
+                       force_name((enum force)mission->from));
+        break;
+    case MISSION_NEWS_RESULT:
+        result_text(text, mission);
+        break;
+    case MISSION_NEWS_AGAIN:
+        (void)snprintf(text, EVENT_TEXT_MAX, "battle %u begins", mission->round);
+        break;
+    default:
+        (void)snprintf(text, EVENT_TEXT_MAX, "%.23s: %.23s", mission->name, mission->phase);
+        break;
+    }
+}
+
 static const struct event_row {
     const char *word;
     void (*text)(char *text, const struct event *event, const char *const *kind);
@@ -135,6 +167,7 @@ void event_text_parties(const struct event *event,
     case EVENT_NONE:
     case EVENT_CRATER:
     case EVENT_COMMAND:
+    case EVENT_MISSION:
     case EVENT_TYPE_COUNT:
         break;
     }

@@ -47,6 +47,12 @@ struct force_base {
     double x, z; /* [m] */
 };
 
+/* When a battle of missions ends [s since it began]; 0: never. */
+struct battle_params {
+    double end_s;   /* its result is told */
+    double again_s; /* all missions begin again */
+};
+
 struct params {
     char name[WORLD_NAME_MAX];    /* of the ground: "hunter-liggett" */
     char scenario[PATH_TEXT_MAX]; /* path of its file, for people */
@@ -69,6 +75,7 @@ struct params {
     uint32_t initial_entities;
     double wind_mps, wind_from_rad; /* the air's speed, and the bearing from which it comes */
     struct collision_params collision;
+    struct battle_params battle;
     struct force_base
         base[FORCE_COUNT]; /* the scenario's, or the middle of the force's initial places */
     struct renderer_params renderer;

@@ -6,6 +6,7 @@
 #include "world/entity/command.h"
 #include "world/entity/entity.h"
 #include "world/entity/battery.h"
+#include "world/entity/mission.h"
 
 #include <stdint.h>
 
@@ -52,6 +53,7 @@ struct state_head {
     struct battery battery[BATTERIES_MAX];
     uint64_t mover_ns; /* M only: time of the mover's step; not in the digest */
     struct counters tally;
+    struct battle_state battle;
     uint64_t checksum; /* state_checksum(), moved_checksum() */
 };
 

@@ -16,6 +16,9 @@ struct kind;
 struct model;
 struct model_triangle;
 struct model_vertex;
+struct mission;
+struct mission_phase;
+struct objective;
 struct params;
 struct script;
 struct script_step;
@@ -30,6 +33,10 @@ struct route_point {
 
 struct route {
     uint32_t first, count; /* points */
+    uint32_t once;         /* 1: of a mission; it ends at its last point */
+    float bound_s;  /* [s] of a bound, in which every second vehicle stands; 0: none stands */
+    float spread_m; /* vehicles pass a point within this distance of it, each its own */
+    float last_x_m, last_z_m; /* the same at the last point: half of an area's sides */
 };
 
 /* A shot ordered by the scenario. */
@@ -60,6 +67,7 @@ struct counts {
     uint32_t hulls, hull_vertices, hull_planes;
     uint32_t posts_side, fixed, reach, areas, routes, route_points, fires, road_points, names;
     uint32_t formations, scripts, script_steps;
+    uint32_t missions, mission_phases, mission_members, objectives;
     uint32_t recipe; /* [byte] */
 };
 
@@ -85,6 +93,10 @@ struct world {
     const struct formation *formations;
     const struct script *scripts;
     const struct script_step *script_steps;
+    const struct mission *missions;
+    const struct mission_phase *mission_phases;
+    const uint32_t *mission_members; /* initial slots, ascending within a mission */
+    const struct objective *objectives;
     const struct entity_name *names; /* of the initial entities: slot i has id i + 1 */
     const char *recipe;              /* [counts.recipe] its provenance */
 };

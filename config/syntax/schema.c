@@ -137,6 +137,12 @@ static const struct key scenario_keys[] = {
            .unit = "kg",
            .meaning = "The thesis's c3: a vehicle of this mass or more does low damage, a lighter "
                       "one none. It must be below `mass_c2_kg`."),
+    NUMBER("battle.end_s", S, params.battle.end_s, 0, 1e6, "0", .unit = "s",
+           .meaning = "The battle of the missions ends at this time after its beginning, and its "
+                      "result is told. 0: it has no end."),
+    NUMBER("battle.again_s", S, params.battle.again_s, 0, 1e6, "0", .unit = "s",
+           .meaning = "All missions begin again with their first phase at this time after the "
+                      "beginning of the battle; it must be after `battle.end_s`. 0: never."),
     CHOICE("recorder.when_full", S, params.when_full, STORE_U32, WORDS(whens_full), "gap",
            .meaning = "What happens when the recorder cannot write, because the disk is full or "
                       "time is short, and the event ring fills up. `gap`: new events overwrite old "

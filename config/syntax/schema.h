@@ -11,6 +11,7 @@
 #include "config/syntax/key_table.h"
 #include "world/entity/entity.h"
 #include "world/entity/kind.h"
+#include "world/entity/mission.h"
 #include "world/entity/script.h"
 
 /* Limits of files. They are checked before memory of that size is allocated. */
@@ -40,6 +41,7 @@ enum vehicle_key {
     VEHICLE_ROADS,
     VEHICLE_SCRIPT,
     VEHICLE_NAME,
+    VEHICLE_GROUP,
     VEHICLE_AT,
     VEHICLE_ALTITUDE,
     VEHICLE_HEADING,
@@ -55,6 +57,7 @@ enum vehicle_key {
 struct vehicle_entry {
     char kind[KIND_NAME_MAX];
     char name[ENTITY_NAME_MAX];
+    char group[ENTITY_NAME_MAX];
     uint32_t count;
     uint32_t force, behaviour;
     uint32_t fire_at_will;
@@ -109,6 +112,82 @@ struct step_entry {
     char fire[ENTITY_NAME_MAX];
 };
 extern const struct key_table schema_step;
+
+enum objective_key { OBJECTIVE_NAME, OBJECTIVE_AREA, OBJECTIVE_FORCE, OBJECTIVE_KEY_COUNT };
+
+struct objective_entry {
+    char name[ENTITY_NAME_MAX];
+    double area[4];
+    uint32_t force;
+};
+extern const struct key_table schema_objective;
+
+enum mission_key {
+    MISSION_KEY_NAME,
+    MISSION_KEY_VEHICLES,
+    MISSION_KEY_OFF_MAP,
+    MISSION_KEY_FORCE,
+    MISSION_KEY_COUNT
+};
+
+struct mission_entry {
+    char name[ENTITY_NAME_MAX];
+    char vehicles[ENTITY_NAME_MAX];
+    uint32_t off_map, force;
+};
+extern const struct key_table schema_mission;
+
+enum phase_key {
+    PHASE_NAME,
+    PHASE_ORDER,
+    PHASE_TO,
+    PHASE_ROUTE,
+    PHASE_ROADS,
+    PHASE_AREA,
+    PHASE_OBJECTIVE,
+    PHASE_SPREAD,
+    PHASE_BOUND,
+    PHASE_ENGAGE,
+    PHASE_MUNITION,
+    PHASE_RATE,
+    PHASE_AT_LEAST,
+    PHASE_FOR,
+    PHASE_UNTIL,
+    PHASE_ARRIVED,
+    PHASE_TAKEN,
+    PHASE_LOST,
+    PHASE_BELOW,
+    PHASE_ENEMY_IN,
+    PHASE_AFTER,
+    PHASE_WHEN_TIME,
+    PHASE_WHEN_TAKEN,
+    PHASE_WHEN_LOST,
+    PHASE_WHEN_BELOW,
+    PHASE_WHEN_ENEMY_IN,
+    PHASE_WHEN_AFTER,
+    PHASE_KEY_COUNT
+};
+
+#define SCHEMA_AFTER_MAX 48 /* [byte] "mission.phase", with the NUL */
+
+/* Names of one set of conditions, and its numbers. */
+struct condition_entry {
+    double for_s, at_s, arrived, below;
+    char taken[ENTITY_NAME_MAX], lost[ENTITY_NAME_MAX], enemy_in[ENTITY_NAME_MAX];
+    char after[SCHEMA_AFTER_MAX];
+};
+
+struct phase_entry {
+    char name[ENTITY_NAME_MAX];
+    char objective[ENTITY_NAME_MAX];
+    char munition[KIND_NAME_MAX];
+    uint32_t order, engage, roads;
+    double to[2], area[4];
+    const config_setting_t *route;
+    double spread_m, bound_s, rounds_a_minute, at_least_s;
+    struct condition_entry until, when;
+};
+extern const struct key_table schema_phase;
 
 enum base_key { BASE_FORCE, BASE_AT, BASE_KEY_COUNT };
 

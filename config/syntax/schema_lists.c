@@ -69,6 +69,9 @@ static const struct key vehicle_keys[] = {
              .meaning = "The name for `fires` and reports; each name is given once. Several "
                         "vehicles called `alpha` are `alpha-1`, `alpha-2` and so on, and then the "
                         "name has at most 15 characters."),
+    [VEHICLE_GROUP] = TEXT("group", V, group, NULL,
+                           .meaning = "The vehicles belong to the mission that gives this word as "
+                                      "its `vehicles`, see below."),
     [VEHICLE_AT] =
         PLACE("at", KEY_POINT, STORE_DOUBLE, V, at,
               .meaning = "The exact place of one vehicle or of a formation's leader: on water for "

@@ -24,6 +24,9 @@ static const struct {
     {"bases[]", "bases[].", &schema_base},
     {"scripts[]", "scripts[].", &schema_script},
     {"steps[]", "steps[].", &schema_step},
+    {"objectives[]", "objectives[].", &schema_objective},
+    {"missions[]", "missions[].", &schema_mission},
+    {"phases[]", "phases[].", &schema_phase},
     {"fires[]", "fires[].", &schema_fire},
     {"a kind", "", &schema_kind},
 };

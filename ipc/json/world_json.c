@@ -202,6 +202,25 @@ static void add_command(cJSON *object, const struct event_command *command, cons
     json_whole(object, "id", command->entity);
 }
 
+static void add_mission(cJSON *object, const struct event_mission *mission, const char *const *kind)
+{
+    (void)kind;
+    json_text(object, "news", mission_news_name((enum mission_news)mission->news));
+    json_whole(object, "battle", mission->round);
+    json_text(object, "name", mission->name);
+    json_text(object, "phase", mission->phase);
+    json_text(object, "force", force_name((enum force)mission->force));
+    if (mission->news == MISSION_NEWS_OBJECTIVE)
+        json_text(object, "from", force_name((enum force)mission->from));
+    if (mission->news != MISSION_NEWS_RESULT)
+        return;
+    for (int force = FORCE_BLUE; force < FORCE_COUNT; force++) {
+        cJSON *side = json_object(object, force_name((enum force)force));
+        json_whole(side, "held", mission->held[force]);
+        json_whole(side, "lost", mission->lost[force]);
+    }
+}
+
 void json_event_members(cJSON *object, const struct event *event,
                         const char *const kind[EVENT_TEXT_PARTIES])
 {

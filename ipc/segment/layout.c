@@ -9,6 +9,7 @@
 #include "world/entity/formation.h"
 #include "world/entity/hull.h"
 #include "world/entity/kind.h"
+#include "world/entity/mission.h"
 #include "world/entity/persistent_contact.h"
 #include "world/entity/script.h"
 #include "world/model.h"
@@ -50,6 +51,10 @@ static const char *const region_names[REGION_COUNT] = {
     [REGION_FORMATIONS] = "formations",
     [REGION_SCRIPTS] = "scripts",
     [REGION_SCRIPT_STEPS] = "script steps",
+    [REGION_MISSIONS] = "missions",
+    [REGION_MISSION_PHASES] = "mission phases",
+    [REGION_MISSION_MEMBERS] = "mission members",
+    [REGION_OBJECTIVES] = "objectives",
     [REGION_NAMES] = "names",
     [REGION_RECIPE] = "recipe",
     [REGION_COMMIT] = "commit words",
@@ -96,7 +101,7 @@ static bool plausible(const struct segment_header *h)
         n->reach,       n->areas,   n->routes,         n->route_points,    n->fires,
         n->road_points, n->names,   h->crater_slots,   h->event_slots,     h->intents_per_frame,
         h->dent_slots,  n->hulls,   n->hull_vertices,  n->hull_planes,     n->recipe,
-        n->formations,  n->scripts, n->script_steps};
+        n->formations,  n->scripts, n->script_steps,   n->mission_phases,  n->mission_members};
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
         if (parts[i] > PART_MAX)
             return false;
@@ -104,7 +109,9 @@ static bool plausible(const struct segment_header *h)
     return h->capacity >= 1 && h->capacity <= CAPACITY_MAX && n->posts_side >= 2 &&
            n->posts_side <= POSTS_SIDE_MAX && power_of_two(h->event_slots) &&
            power_of_two(h->command_slots) && h->command_slots <= (1u << 20) &&
-           h->crater_slots <= CRATER_SLOTS_MAX && h->contact_slots <= PERSISTENT_CONTACT_SLOTS_MAX;
+           h->crater_slots <= CRATER_SLOTS_MAX &&
+           h->contact_slots <= PERSISTENT_CONTACT_SLOTS_MAX && n->missions <= MISSIONS_MAX &&
+           n->objectives <= OBJECTIVES_MAX;
 }
 
 int layout_compute(struct layout *layout, const struct segment_header *h)
@@ -138,6 +145,10 @@ int layout_compute(struct layout *layout, const struct segment_header *h)
     b[REGION_FORMATIONS] = n->formations * sizeof(struct formation);
     b[REGION_SCRIPTS] = n->scripts * sizeof(struct script);
     b[REGION_SCRIPT_STEPS] = n->script_steps * sizeof(struct script_step);
+    b[REGION_MISSIONS] = n->missions * sizeof(struct mission);
+    b[REGION_MISSION_PHASES] = n->mission_phases * sizeof(struct mission_phase);
+    b[REGION_MISSION_MEMBERS] = n->mission_members * sizeof(uint32_t);
+    b[REGION_OBJECTIVES] = n->objectives * sizeof(struct objective);
     b[REGION_NAMES] = n->names * sizeof(struct entity_name);
     b[REGION_RECIPE] = n->recipe;
     b[REGION_COMMIT] = sizeof(struct commit_words);
@@ -207,6 +218,10 @@ uint64_t layout_hash(void)
         FORCE_COUNT,
         FORMATION_SHAPE_COUNT,
         STEP_TYPE_COUNT,
+        sizeof(struct mission),
+        sizeof(struct mission_phase),
+        sizeof(struct objective),
+        MISSION_ORDER_COUNT,
         DAMAGE_COUNT,
         METHOD_COUNT,
         SHAPE_COUNT,

@@ -15,7 +15,7 @@
 #include <stdint.h>
 
 #define SEGMENT_MAGIC   0x314e4f4c4f4a0a1au /* "\x1a\nJOLON1": also no text file's first bytes */
-#define SEGMENT_VERSION 7u
+#define SEGMENT_VERSION 8u
 
 /* Every region begins at a multiple of this [byte]. A mapping begins on a page border, and pages
  * are 4, 16 or 64 KiB, depending on the kernel (aarch64 has all three). */
@@ -47,6 +47,10 @@ enum region {
     REGION_FORMATIONS,
     REGION_SCRIPTS,
     REGION_SCRIPT_STEPS,
+    REGION_MISSIONS,
+    REGION_MISSION_PHASES,
+    REGION_MISSION_MEMBERS,
+    REGION_OBJECTIVES,
     REGION_NAMES,
     REGION_RECIPE,
     REGION_COMMIT,  /* struct commit_words: collider */

@@ -69,6 +69,10 @@ void segment_bind(struct view *view)
     world->formations = segment_part(view, REGION_FORMATIONS);
     world->scripts = segment_part(view, REGION_SCRIPTS);
     world->script_steps = segment_part(view, REGION_SCRIPT_STEPS);
+    world->missions = segment_part(view, REGION_MISSIONS);
+    world->mission_phases = segment_part(view, REGION_MISSION_PHASES);
+    world->mission_members = segment_part(view, REGION_MISSION_MEMBERS);
+    world->objectives = segment_part(view, REGION_OBJECTIVES);
     world->names = segment_part(view, REGION_NAMES);
     world->recipe = segment_part(view, REGION_RECIPE);
     view->commit = segment_part(view, REGION_COMMIT);

@@ -6,6 +6,7 @@
 #include "mover/agent/fire_control.h"
 #include "mover/agent/formation_keeping.h"
 #include "mover/agent/goal.h"
+#include "mover/agent/mission_route.h"
 #include "mover/agent/perception.h"
 #include "mover/agent/script_player.h"
 #include "mover/motion/driver_controls.h"
@@ -172,6 +173,17 @@ static void drive_resupply(const struct step_context *context, uint32_t i, const
         drive_to_goal(context, i, kind->min_speed_mps, desired);
 }
 
+/* Keeps to the right of its route, unless it has a place of its own at its points. */
+static void keep_route(const struct step_context *context, uint32_t i,
+                       struct desired_motion *desired)
+{
+    const struct route *route = &context->world->routes[context->m->order_arg[i]];
+    if (!route->once || (route->spread_m <= 0.0f && context->m->leg[i] >= 2))
+        formation_keeping_route(context, i, desired);
+    if (route->once)
+        mission_route_pace(context, i, route, desired);
+}
+
 static void drive_by_behaviour(const struct step_context *context, uint32_t i,
                                struct desired_motion *desired)
 {
@@ -185,7 +197,7 @@ static void drive_by_behaviour(const struct step_context *context, uint32_t i,
             goal_next(context, i);
         drive_to_goal(context, i, cruise, desired);
         if (m->behaviour[i] == BEHAVIOUR_ROUTE)
-            formation_keeping_route(context, i, desired);
+            keep_route(context, i, desired);
         break;
     case BEHAVIOUR_FOLLOW:
         formation_keeping_follow(context, i, desired);

@@ -2,6 +2,7 @@
 #include "mover/agent/goal.h"
 
 #include "mover/agent/fire_control.h"
+#include "mover/agent/mission_route.h"
 #include "mover/agent/perception.h"
 #include "mover/agent/script_player.h"
 #include "mover/motion/kinematics.h"
@@ -50,6 +51,10 @@ static void route(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
     const struct route *route = &context->world->routes[m->order_arg[i]];
+    if (route->once) {
+        mission_route_next(context, i, route);
+        return;
+    }
     uint32_t leg = m->leg[i] % route->count;
     m->goal_x[i] = context->world->route_points[route->first + leg].x;
     m->goal_z[i] = context->world->route_points[route->first + leg].z;
@@ -69,6 +74,10 @@ void goal_resume(const struct step_context *context, uint32_t i)
     struct entities *m = context->m;
     if (m->behaviour[i] == BEHAVIOUR_SCRIPT)
         script_player_resume(context, i);
+    if (m->behaviour[i] == BEHAVIOUR_ROUTE && context->world->routes[m->order_arg[i]].once) {
+        mission_route_resume(context, i, &context->world->routes[m->order_arg[i]]);
+        return;
+    }
     if (m->behaviour[i] == BEHAVIOUR_ROUTE) {
         uint32_t count = context->world->routes[m->order_arg[i]].count;
         m->leg[i] = (m->leg[i] + count - 1) % count;
@@ -177,6 +186,12 @@ void goal_blocked(const struct step_context *context, uint32_t i)
             goal_away(context, i, 0.0, 0.0);
         else
             goal_away(context, i, TWO_PI * unit(context, i, RANDOM_GOAL_X), DETOUR_M);
+        break;
+    case BEHAVIOUR_ROUTE:
+        if (context->world->routes[m->order_arg[i]].once)
+            mission_route_blocked(context, i, &context->world->routes[m->order_arg[i]]);
+        else
+            goal_next(context, i);
         break;
     default:
         goal_next(context, i);

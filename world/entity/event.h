@@ -12,7 +12,8 @@
  * topic also has fill_WORD() in reporter/event_topics.c and, for clients, good_WORD() in
  * ipc/topics/samples.c and read_WORD() in event_reading.c. The topics are
  * in the order of their rows.
- * An answer to a command has no topic here: the reporter publishes it as a CommandReply. */
+ * An answer to a command has no topic here: the reporter publishes it as a CommandReply. Missions
+ * have none, as status has their state. */
 #define EVENT_TYPES_WITH_TOPIC(X)                                                                  \
     X(COLLISION, collision)                                                                        \
     X(FIRE, fire)                                                                                  \
@@ -20,7 +21,7 @@
     X(CRATER, crater)                                                                              \
     X(AGENT, agent)                                                                                \
     X(CONTACT_END, contact_end)
-#define EVENT_TYPES(X) EVENT_TYPES_WITH_TOPIC(X) X(COMMAND, command)
+#define EVENT_TYPES(X) EVENT_TYPES_WITH_TOPIC(X) X(COMMAND, command) X(MISSION, mission)
 
 enum event_type {
     EVENT_NONE,
@@ -75,6 +76,16 @@ enum contact_end_reason {
     CONTACT_END_GONE,    /* one of the two bodies is gone, or a fixed object has fallen */
     CONTACT_END_NO_ROOM, /* the table of contacts is full: it is not followed any further */
     CONTACT_END_REASON_COUNT
+};
+
+/* What a mission's event tells. */
+enum mission_news {
+    MISSION_NEWS_PHASE,     /* a phase has begun */
+    MISSION_NEWS_REACTION,  /* a reaction interrupts the phase */
+    MISSION_NEWS_OBJECTIVE, /* an objective has another owner */
+    MISSION_NEWS_RESULT,    /* the battle has ended */
+    MISSION_NEWS_AGAIN,     /* it begins again */
+    MISSION_NEWS_COUNT
 };
 
 /* One side of an event: an entity (id) or a fixed object (its index + 1). */
@@ -147,6 +158,19 @@ struct event_command {
     uint32_t number; /* commands of the run before it, modulo 2^32 */
 };
 
+#define EVENT_NAME_MAX 24
+
+struct event_mission {
+    char name[EVENT_NAME_MAX];  /* of the mission or objective; "" for a whole battle */
+    char phase[EVENT_NAME_MAX]; /* that begins */
+    uint32_t news;              /* enum mission_news */
+    uint32_t round;             /* the battle: 1, 2, ... */
+    uint32_t force;             /* enum force: the mission's, the new owner, the winner */
+    uint32_t from;              /* enum force: the owner before */
+    uint32_t held[3];           /* result: objectives of each enum force */
+    uint32_t lost[3];           /* result: vehicles of each enum force */
+};
+
 struct event {
     uint64_t sequence; /* number among all of the run's events, from 0 */
     uint64_t frame;
@@ -164,6 +188,7 @@ struct event {
 _Static_assert(sizeof(struct event_collision) == 96, "shared layout");
 _Static_assert(sizeof(struct event_contact_end) == 40, "shared layout");
 _Static_assert(sizeof(struct event_command) == 96, "shared layout");
+_Static_assert(sizeof(struct event_mission) == 88, "shared layout");
 _Static_assert(sizeof(struct event) == 128, "two cache lines a slot");
 
 #endif

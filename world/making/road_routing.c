@@ -18,6 +18,8 @@ struct laying {
     struct world_build *built;
     const struct road_graph *net;
     const struct scenario_group *group;
+    const char *key; /* of the route in the file, for messages */
+    bool open;       /* it does not lead back to its first point */
     struct error_text *error;
     uint32_t room; /* of built->route_points */
 };
@@ -28,10 +30,10 @@ static int add_points(struct laying *laying, const struct route_point *points, u
     uint32_t used = built->counts.route_points;
     if (used + count > ROUTE_POINTS_MAX)
         return error_text_set(laying->error,
-                              "%s:%d: vehicles.route: the routes have more than %u points along "
+                              "%s:%d: %s.route: the routes have more than %u points along "
                               "the roads; right would be: shorter or fewer ones",
                               built->scenario->settings->params.scenario, laying->group->line,
-                              ROUTE_POINTS_MAX);
+                              laying->key, ROUTE_POINTS_MAX);
     if (used + count > laying->room) {
         uint32_t room = 2 * (used + count) + 256;
         struct route_point *grown = realloc(built->route_points, room * sizeof *grown);
@@ -52,16 +54,16 @@ static int find_road(const struct laying *laying, const struct route_point *poin
     const char *file = laying->built->scenario->settings->params.scenario;
     if (!road_graph_place(laying->net, point->x, point->z, place))
         return error_text_set(laying->error,
-                              "%s:%d: vehicles.roads = true: this ground has no roads; right would "
+                              "%s:%d: %s.roads = true: this ground has no roads; right would "
                               "be: terrain.source = \"generated\", or a route without roads",
-                              file, laying->group->line);
+                              file, laying->group->line, laying->key);
     if (place->off_m > ROAD_ROUTE_OFF_M)
         return error_text_set(laying->error,
-                              "%s:%d: vehicles.route: point %u, [%.0f, %.0f], is %.0f m from the "
+                              "%s:%d: %s.route: point %u, [%.0f, %.0f], is %.0f m from the "
                               "nearest road; allowed: up to %.0f m; right would be: near [%.0f, "
                               "%.0f]",
-                              file, laying->group->line, number, point->x, point->z, place->off_m,
-                              ROAD_ROUTE_OFF_M, place->x, place->z);
+                              file, laying->group->line, laying->key, number, point->x, point->z,
+                              place->off_m, ROAD_ROUTE_OFF_M, place->x, place->z);
     return 0;
 }
 
@@ -81,12 +83,12 @@ static int lay_leg(struct laying *laying, const struct route_point *points, uint
         return errno == ENOMEM
                    ? error_text_memory(laying->error)
                    : error_text_set(laying->error,
-                                    "%s:%d: vehicles.route: no road leads from point %u, [%.0f, "
+                                    "%s:%d: %s.route: no road leads from point %u, [%.0f, "
                                     "%.0f], to point %u, [%.0f, %.0f]; right would be: points on "
                                     "roads that meet",
                                     laying->built->scenario->settings->params.scenario,
-                                    laying->group->line, leg + 1, a->x, a->z, (leg + 1) % count + 1,
-                                    b->x, b->z);
+                                    laying->group->line, laying->key, leg + 1, a->x, a->z,
+                                    (leg + 1) % count + 1, b->x, b->z);
     int result = add_points(laying, way, length - 1);
     free(way);
     return result;
@@ -101,10 +103,13 @@ static int lay_route(struct laying *laying)
     struct route *route = &built->routes[laying->group->route];
     const struct route_point *points = &scenario->route_points[given->first];
     uint32_t first = built->counts.route_points, kept = first;
-    for (uint32_t i = 0; i < given->count && laying->group->roads; i++) {
+    for (uint32_t i = 0; i + laying->open < given->count && laying->group->roads; i++) {
         if (lay_leg(laying, points, given->count, i) != 0)
             return -1;
     }
+    if (laying->open && laying->group->roads &&
+        add_points(laying, &points[given->count - 1], 1) != 0)
+        return -1;
     if (!laying->group->roads && add_points(laying, points, given->count) != 0)
         return -1;
     for (uint32_t i = first; i < built->counts.route_points && laying->group->roads; i++) {
@@ -116,21 +121,43 @@ static int lay_route(struct laying *laying)
     }
     if (laying->group->roads)
         built->counts.route_points = kept;
-    *route = (struct route){first, built->counts.route_points - first};
+    *route = *given;
+    route->first = first;
+    route->count = built->counts.route_points - first;
     return 0;
+}
+
+/* The routes of missions are open. */
+static int lay_missions(struct laying *laying)
+{
+    const struct scenario *scenario = laying->built->scenario;
+    int result = 0;
+    laying->key = "missions.phases";
+    laying->open = true;
+    for (uint32_t p = 0; p < scenario->phase_count && result == 0; p++) {
+        const struct scenario_phase *phase = &scenario->phases[p];
+        const struct scenario_group group = {
+            .route = phase->phase.route, .roads = phase->roads, .line = phase->line};
+        laying->group = &group;
+        if (group.route != MISSION_NONE)
+            result = lay_route(laying);
+    }
+    return result;
 }
 
 int road_routing_build(struct world_build *built, struct error_text *error)
 {
     const struct scenario *scenario = built->scenario;
     struct road_graph net = {0};
-    struct laying laying = {.built = built, .net = &net, .error = error};
+    struct laying laying = {.built = built, .net = &net, .key = "vehicles", .error = error};
     int result = 0;
     bool roads = false;
     built->counts.routes = scenario->route_count;
     built->routes = calloc(scenario->route_count + 1, sizeof *built->routes);
     for (uint32_t g = 0; g < scenario->group_count; g++)
         roads |= scenario->groups[g].roads != 0;
+    for (uint32_t p = 0; p < scenario->phase_count; p++)
+        roads |= scenario->phases[p].roads != 0;
     if (!built->routes ||
         (roads && road_graph_build(&net, built->roads, built->counts.road_points) != 0))
         return error_text_memory(error);
@@ -139,6 +166,8 @@ int road_routing_build(struct world_build *built, struct error_text *error)
         if (laying.group->route != UINT32_MAX)
             result = lay_route(&laying);
     }
+    if (result == 0)
+        result = lay_missions(&laying);
     road_graph_free(&net);
     return result;
 }

@@ -19,6 +19,9 @@ void scenario_free(struct scenario *scenario)
     free(scenario->fires);
     free(scenario->scripts);
     free(scenario->steps);
+    free(scenario->objectives);
+    free(scenario->missions);
+    free(scenario->phases);
     free(scenario->areas);
     free(scenario->routes);
     free(scenario->route_points);

@@ -4,6 +4,7 @@
 #define JOLON_WORLD_MAKING_SCENARIO_H
 
 #include "world/entity/entity.h"
+#include "world/entity/mission.h"
 #include "world/entity/script.h"
 #include "world/provenance.h"
 
@@ -25,7 +26,8 @@ struct vec3;
 
 /* One entry of "vehicles": count of them in an area, or one at a place. */
 struct scenario_group {
-    char name[ENTITY_NAME_MAX]; /* "" for none; with count > 1, "-1", "-2", ... is appended */
+    char name[ENTITY_NAME_MAX];  /* "" for none; with count > 1, "-1", "-2", ... is appended */
+    char squad[ENTITY_NAME_MAX]; /* the key "group"; "" for none */
     uint16_t kind;
     uint8_t force, behaviour;
     uint8_t flags;    /* ENTITY_FLAG_* */
@@ -36,11 +38,12 @@ struct scenario_group {
     uint8_t moving;   /* 1: speed_mps was given */
     uint8_t floating; /* 1: altitude_m was given */
     uint32_t count;
-    uint32_t area;   /* index into areas */
-    uint32_t route;  /* index into routes, UINT32_MAX for none */
-    uint32_t script; /* index into scripts, UINT32_MAX for none */
-    uint32_t shape;  /* enum formation_shape */
-    int line;        /* of the file, for messages */
+    uint32_t area;    /* index into areas */
+    uint32_t route;   /* index into routes, UINT32_MAX for none */
+    uint32_t script;  /* index into scripts, UINT32_MAX for none */
+    uint32_t mission; /* 1 + index into missions, 0 for none */
+    uint32_t shape;   /* enum formation_shape */
+    int line;         /* of the file, for messages */
     double x, z, altitude_m, heading_rad, speed_mps, spacing_m;
 };
 
@@ -58,6 +61,21 @@ struct scenario_script {
     char file[SCRIPT_FILE_MAX]; /* of its waypoints, beside the scenario; "": in the scenario */
     uint32_t first, count;      /* steps */
     uint8_t reacts, repeats;
+    int line;
+};
+
+/* A phase or reaction of a mission. Names have been looked up, except the phase's own route. */
+struct scenario_phase {
+    struct mission_phase phase; /* route, area: of the scenario's */
+    double spread_m, bound_s;
+    uint8_t roads; /* 1: the route goes along roads */
+    int line;      /* of the file, for messages */
+};
+
+struct scenario_mission {
+    struct mission mission;         /* first_phase: of the scenario's phases */
+    char vehicles[ENTITY_NAME_MAX]; /* a group, or a beginning of names */
+    uint8_t off_map;                /* 1: it has no vehicles */
     int line;
 };
 
@@ -108,6 +126,12 @@ struct scenario {
     uint32_t script_count;
     struct scenario_step *steps;
     uint32_t step_count;
+    struct objective *objectives;
+    uint32_t objective_count;
+    struct scenario_mission *missions;
+    uint32_t mission_count;
+    struct scenario_phase *phases;
+    uint32_t phase_count;
     struct route *routes;
     uint32_t route_count;
     struct route_point *route_points;

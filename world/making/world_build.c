@@ -4,6 +4,7 @@
 #include "world/entity/formation.h"
 #include "world/entity/hull.h"
 #include "world/entity/kind.h"
+#include "world/entity/mission.h"
 #include "world/entity/script.h"
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
@@ -12,6 +13,7 @@
 #include "world/model.h"
 #include "world/runtime/error_text.h"
 #include "world/making/generate.h"
+#include "world/making/mission_build.h"
 #include "world/making/vehicle_placement.h"
 #include "world/terrain/fixed_index.h"
 #include "world/making/road_routing.h"
@@ -183,6 +185,8 @@ static int build_orders(struct world_build *built, struct error_text *error)
     int result = script_build_build(built, &name_index, error);
     if (result == 0)
         result = build_fires(built, &name_index, error);
+    if (result == 0)
+        result = mission_build_build(built, error);
     name_index_free(&name_index);
     return result;
 }
@@ -206,6 +210,7 @@ int world_build_make(struct world_build *built, const struct scenario *scenario,
         .hull_vertices = scenario->hull_vertex_count,
         .hull_planes = scenario->hull_plane_count,
         .areas = scenario->area_count,
+        .objectives = scenario->objective_count,
         .recipe = provenance_room(scenario->recipe.bytes),
     };
     if (build_ground(built, error) != 0 || build_objects(built, error) != 0 ||
@@ -231,6 +236,9 @@ void world_build_free(struct world_build *built)
     free(built->formations);
     free(built->scripts);
     free(built->steps);
+    free(built->missions);
+    free(built->phases);
+    free(built->members);
     free(built->names);
     free(built->first_memory);
     *built = (struct world_build){0};
@@ -284,6 +292,10 @@ void world_build_fill(const struct world_build *built, struct world *world, stru
     fill(world->formations, built->formations, n->formations, sizeof *built->formations);
     fill(world->scripts, built->scripts, n->scripts, sizeof *built->scripts);
     fill(world->script_steps, built->steps, n->script_steps, sizeof *built->steps);
+    fill(world->missions, built->missions, n->missions, sizeof *built->missions);
+    fill(world->mission_phases, built->phases, n->mission_phases, sizeof *built->phases);
+    fill(world->mission_members, built->members, n->mission_members, sizeof *built->members);
+    fill(world->objectives, s->objectives, n->objectives, sizeof *s->objectives);
     fill(world->names, built->names, n->names, sizeof *built->names);
     fill(world->recipe, s->recipe.text, s->recipe.bytes, 1);
     for (int i = 0; i < 2; i++)

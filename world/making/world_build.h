@@ -14,6 +14,8 @@
 struct error_text;
 struct fixed_object;
 struct formation;
+struct mission;
+struct mission_phase;
 struct scenario;
 struct script;
 struct script_step;
@@ -33,6 +35,9 @@ struct world_build {
     struct formation *formations;
     struct script *scripts;
     struct script_step *steps;
+    struct mission *missions;
+    struct mission_phase *phases;
+    uint32_t *members;
     struct entity_name *names;
     struct force_base base[FORCE_COUNT];
     struct entities first; /* frame 0's entities, rows 0 .. used - 1 */

@@ -1,0 +1,137 @@
+/* Conditions read the moved table and the battle as it is in this frame. */
+#include "mover/mission_conditions.h"
+
+#include "world/entity/kind.h"
+#include "world/state.h"
+#include "world/world.h"
+
+#define THERE_M  150.0 /* so near to the end of a route or to an area */
+#define STRONGER 3u    /* times the enemy's vehicles: who holds an objective */
+
+/* --- who is where ------------------------------------------------------------------------------*/
+
+bool mission_conditions_active(const struct serial_context *context, uint32_t slot)
+{
+    const struct entities *m = &context->moved->entities;
+    return entities_alive(m, slot, slot + 1) && m->state[slot] == ENTITY_ACTIVE;
+}
+
+static bool within(const struct entities *m, uint32_t row, const struct objective *objective)
+{
+    return m->x[row] >= objective->x0 && m->x[row] <= objective->x1 && m->z[row] >= objective->z0 &&
+           m->z[row] <= objective->z1;
+}
+
+enum force mission_conditions_count(const struct serial_context *context, uint32_t objective)
+{
+    const struct world *world = context->step->world;
+    const struct entities *m = &context->moved->entities;
+    struct objective_state *state = &context->moved->head->battle.objective[objective];
+    uint32_t present[FORCE_COUNT] = {0}, used = context->moved->head->used;
+    enum force before = (enum force)state->owner;
+    for (uint32_t row = 0; row < used; row++) {
+        if (m->state[row] == ENTITY_ACTIVE && within(m, row, &world->objectives[objective]) &&
+            (world->kinds[m->kind[row]].domain == DOMAIN_LAND ||
+             world->kinds[m->kind[row]].domain == DOMAIN_SEA))
+            present[m->force[row] % FORCE_COUNT]++;
+    }
+    for (int force = 0; force < FORCE_COUNT; force++)
+        state->present[force] =
+            (uint16_t)(present[force] < UINT16_MAX ? present[force] : UINT16_MAX);
+    for (uint32_t force = FORCE_BLUE; force <= FORCE_RED; force++) {
+        uint32_t enemy = force == FORCE_BLUE ? FORCE_RED : FORCE_BLUE;
+        if (present[force] > 0 && present[force] >= STRONGER * present[enemy])
+            state->owner = (uint8_t)force;
+    }
+    if (state->owner != (uint8_t)before)
+        state->since_tick = (uint32_t)context->step->tick;
+    return before;
+}
+
+uint32_t mission_conditions_able(const struct serial_context *context,
+                                 const struct mission *mission)
+{
+    const uint32_t *member = context->step->world->mission_members + mission->first_member;
+    uint32_t able = 0;
+    for (uint32_t n = 0; n < mission->member_count; n++)
+        able += mission_conditions_active(context, member[n]);
+    return able;
+}
+
+bool mission_conditions_there(const struct serial_context *context,
+                              const struct mission_phase *phase, uint32_t row)
+{
+    const struct world *world = context->step->world;
+    const struct entities *m = &context->moved->entities;
+    const double x = m->x[row], z = m->z[row];
+    if (phase->route != MISSION_NONE) {
+        const struct route *route = &world->routes[phase->route];
+        const struct route_point *end = &world->route_points[route->first + route->count - 1];
+        return fabs(x - end->x) <= (double)route->last_x_m + THERE_M &&
+               fabs(z - end->z) <= (double)route->last_z_m + THERE_M;
+    }
+    if (phase->area == MISSION_NONE)
+        return true;
+    const struct area *area = &world->areas[phase->area];
+    return x >= area->x0 - THERE_M && x <= area->x1 + THERE_M && z >= area->z0 - THERE_M &&
+           z <= area->z1 + THERE_M;
+}
+
+/* --- conditions --------------------------------------------------------------------------------*/
+
+static bool arrived(const struct serial_context *context, const struct mission *mission,
+                    const struct mission_phase *phase, double share)
+{
+    const uint32_t *member = context->step->world->mission_members + mission->first_member;
+    uint32_t able = 0, there = 0;
+    for (uint32_t n = 0; n < mission->member_count; n++) {
+        if (!mission_conditions_active(context, member[n]))
+            continue;
+        able++;
+        there += mission_conditions_there(context, phase, member[n]);
+    }
+    return (double)there >= share * (double)able;
+}
+
+static bool phase_is_over(const struct serial_context *context,
+                          const struct mission_conditions *conditions)
+{
+    const struct mission_state *other =
+        &context->moved->head->battle.mission[conditions->after_mission];
+    uint32_t phase = other->resume > 0 ? other->resume - 1u : other->phase;
+    return phase > conditions->after_phase;
+}
+
+static bool has_passed(const struct serial_context *context, uint32_t since_tick, double seconds)
+{
+    uint32_t ticks = (uint32_t)context->step->tick - since_tick;
+    return seconds >= 0.0 && (double)ticks * context->step->dt_s >= seconds;
+}
+
+/* The conditions on objectives. */
+static bool objectives_hold(const struct battle_state *battle, uint32_t force,
+                            const struct mission_conditions *conditions)
+{
+    uint32_t enemy = force == FORCE_BLUE ? FORCE_RED : FORCE_BLUE;
+    return (conditions->taken != MISSION_NONE &&
+            battle->objective[conditions->taken].owner == force) ||
+           (conditions->lost != MISSION_NONE &&
+            battle->objective[conditions->lost].owner != force) ||
+           (conditions->enemy_in != MISSION_NONE &&
+            battle->objective[conditions->enemy_in].present[enemy] > 0);
+}
+
+bool mission_conditions_hold(const struct serial_context *context, uint32_t index,
+                             const struct mission_phase *phase,
+                             const struct mission_conditions *conditions)
+{
+    const struct mission *mission = &context->step->world->missions[index];
+    const struct battle_state *battle = &context->moved->head->battle;
+    const struct mission_state *state = &battle->mission[index];
+    return has_passed(context, state->since_tick, conditions->for_s) ||
+           has_passed(context, battle->round_tick, conditions->at_s) ||
+           (double)state->able < conditions->below * (double)state->begun ||
+           objectives_hold(battle, mission->force, conditions) ||
+           (conditions->after_mission != MISSION_NONE && phase_is_over(context, conditions)) ||
+           (conditions->arrived > 0.0 && arrived(context, mission, phase, conditions->arrived));
+}
