@@ -106,6 +106,37 @@ static void put_entity(struct json_writer *json, const struct world_query *query
     json_writer_end(json, ']');
 }
 
+/* In a world with missions: who holds what, and the phases. */
+static void put_battle(struct json_writer *json, const struct world *world,
+                       const struct state_head *head)
+{
+    const struct battle_state *battle = &head->battle;
+    double time_s = (double)((uint32_t)head->tick - battle->round_tick) * world_dt_s(world);
+    if (world->counts.missions == 0)
+        return;
+    json_writer_key(json, "battle");
+    json_writer_begin(json, '{');
+    json_writer_key_whole(json, "round", battle->round);
+    json_writer_key_number(json, "time_s", time_s, 1);
+    json_writer_key_bool(json, "ended", battle->ended_tick != 0);
+    json_writer_key_word(json, "winner", force_name((enum force)battle->winner));
+    json_writer_key(json, "objectives");
+    json_writer_begin(json, '{');
+    for (uint32_t o = 0; o < world->counts.objectives; o++)
+        json_writer_key_word(json, world->objectives[o].name,
+                             force_name((enum force)battle->objective[o].owner));
+    json_writer_end(json, '}');
+    json_writer_key(json, "phases");
+    json_writer_begin(json, '{');
+    for (uint32_t i = 0; i < world->counts.missions; i++) {
+        const struct mission *mission = &world->missions[i];
+        const uint32_t phase = mission->first_phase + battle->mission[i].phase;
+        json_writer_key_word(json, mission->name, world->mission_phases[phase].name);
+    }
+    json_writer_end(json, '}');
+    json_writer_end(json, '}');
+}
+
 /* If the area has more entities than are requested, only the multiples of an id stride are written,
  * so that the next answer has the same ones. */
 static void put_entities(struct json_writer *json, const struct world_query *query,
@@ -242,6 +273,7 @@ void state_json(const struct world_query *query, struct http_answer *answer)
     uint32_t row = world_reader_row(query->reader, (uint32_t)me);
     json_writer_begin(json, '{');
     put_head(json, query);
+    put_battle(json, &query->reader->view.world, &query->reader->snapshot.head);
     put_entities(json, query, &area);
     put_players(json, query);
     put_missions(json, query->queue);

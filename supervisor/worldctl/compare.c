@@ -298,6 +298,38 @@ static bool compare_batteries(const struct compared *a, const struct compared *b
     return false;
 }
 
+/* Compares missions and objectives. */
+static bool compare_battles(const struct compared *a, const struct compared *b,
+                            struct difference *difference)
+{
+    static const struct member of_mission[] = {
+        MEMBER(uint32_t, mission_state, since_tick), MEMBER(uint32_t, mission_state, reacted),
+        MEMBER(uint16_t, mission_state, phase),      MEMBER(uint16_t, mission_state, resume),
+        MEMBER(uint16_t, mission_state, able),       MEMBER(uint16_t, mission_state, begun)};
+    static const struct member of_objective[] = {
+        MEMBER(uint32_t, objective_state, since_tick), MEMBER(uint8_t, objective_state, owner),
+        MEMBER(uint16_t, objective_state, present[FORCE_BLUE]),
+        MEMBER(uint16_t, objective_state, present[FORCE_RED])};
+    const struct battle_state *p = &a->state.head->battle, *q = &b->state.head->battle;
+    for (uint32_t i = 0; i < MISSIONS_MAX + OBJECTIVES_MAX; i++) {
+        const bool is_mission = i < MISSIONS_MAX;
+        const uint32_t o = is_mission ? 0 : i - MISSIONS_MAX;
+        const void *left = is_mission ? (const void *)&p->mission[i] : &p->objective[o];
+        const void *right = is_mission ? (const void *)&q->mission[i] : &q->objective[o];
+        const struct member *member =
+            is_mission ? first_member(of_mission, COUNT(of_mission), left, right)
+                       : first_member(of_objective, COUNT(of_objective), left, right);
+        if (!member)
+            continue;
+        name_member(difference, member, left, right);
+        difference->row = is_mission ? i : o;
+        snprintf(difference->field, sizeof difference->field, "%s of %s %u", member->name,
+                 is_mission ? "mission" : "objective", is_mission ? i : o);
+        return true;
+    }
+    return false;
+}
+
 /* Compares the members that state_digest() covers: not pacing, quit, stage times and the
  * checksum. */
 static bool compare_heads(const struct compared *a, const struct compared *b,
@@ -334,6 +366,10 @@ static bool compare_heads(const struct compared *a, const struct compared *b,
         HEAD(uint64_t, tally.spawns_refused),
         HEAD(uint64_t, tally.dents_refused),
         HEAD(uint64_t, tally.contacts_refused),
+        HEAD(uint32_t, battle.round),
+        HEAD(uint32_t, battle.round_tick),
+        HEAD(uint32_t, battle.ended_tick),
+        HEAD(uint32_t, battle.winner),
         HEAD(uint64_t, event_end),
         HEAD(uint64_t, event_digest),
     };
@@ -353,8 +389,8 @@ bool compare_states(const struct compared *a, const struct compared *b,
     *difference = (struct difference){0};
     return compare_entities(a, b, difference) || compare_fixed(a, b, difference) ||
            compare_contacts(a, b, difference) || compare_craters(a, b, difference) ||
-           compare_dents(a, b, difference) || compare_heads(a, b, difference) ||
-           compare_batteries(a, b, difference);
+           compare_dents(a, b, difference) || compare_battles(a, b, difference) ||
+           compare_heads(a, b, difference) || compare_batteries(a, b, difference);
 }
 
 bool compare_worlds(const struct world *a, const struct world *b, struct difference *difference)

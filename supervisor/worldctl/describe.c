@@ -2,6 +2,7 @@
  * or one JSON object for scripts. */
 #include "ipc/segment/segment_attach.h"
 #include "ipc/segment/segment_locks.h"
+#include "supervisor/worldctl/battle.h"
 #include "supervisor/worldctl/verbs.h"
 
 #include "ipc/process/clock.h"
@@ -183,6 +184,7 @@ static void status_json(const struct view *view, const struct state_head *head)
     json_whole(object, "munitions", head->munitions);
     json_whole(object, "events", head->event_end);
     json_bool(object, "unguarded", unguarded(view));
+    battle_json(object, &view->world, head);
     cJSON *roles = json_array(object, "roles");
     for (int role = 0; role < ROLE_COUNT; role++) {
         if (atomic_load(&view->slot[role]->starts) > 0)
@@ -216,6 +218,7 @@ static void status_text(const struct view *view, const struct state_head *head)
         if (atomic_load(&view->slot[role]->starts) > 0)
             print_role(view, (enum role)role);
     }
+    battle_print(&view->world, head);
     if (unguarded(view))
         printf("WARNING: the reporter takes commands from every host that reaches its network "
                "(--remote-commands without DDS Security)\n");
@@ -304,6 +307,7 @@ static void summary_json(const struct view *view, const struct state_head *head,
     json_whole(object, "spawns_refused", tally->spawns_refused);
     json_whole(object, "contacts", head->contact_count);
     json_whole(object, "contacts_refused", tally->contacts_refused);
+    battle_json(object, &view->world, head);
     json_whole(object, "restarts", restarts_of(view));
     json_whole(object, "late_frames", atomic_load(&view->slot[ROLE_MOVER]->late_frames));
     add_times(object, "frame_ms", &view->slot[ROLE_COLLIDER]->whole);
