@@ -1,6 +1,6 @@
 /* Goes through missions and objectives in turns. A phase's orders are written into the columns that
  * agents obey: order, its argument, and whom to fire at. A vehicle that fights, flees or goes for
- * rounds obeys when it has done so, except to withdraw. */
+ * rounds obeys when it has done so; orders to withdraw and to resupply end a fight. */
 #include "mover/mission.h"
 
 #include "mover/mission_conditions.h"
@@ -63,7 +63,7 @@ static bool obeys_at_once(const struct entities *m, uint32_t row, const struct m
         return true;
     case BEHAVIOUR_ATTACK:
     case BEHAVIOUR_FLEE:
-        return phase->order == MISSION_WITHDRAW;
+        return phase->order == MISSION_WITHDRAW || phase->order == MISSION_RESUPPLY;
     default:
         return false;
     }

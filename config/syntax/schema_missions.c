@@ -22,8 +22,8 @@ static const struct key_choice orders[] = {
      "Rounds fall on random points of the area: of a `munition` out of the sky, or of the group's "
      "own loaded guns that reach them."},
     {NULL, MISSION_RESUPPLY,
-     "The vehicles go along the route or into the area. There rounds and fuel fill up within 20 "
-     "s."}};
+     "The vehicles break off a fight and go along the route or into the area. There rounds and "
+     "fuel fill up within 20 s."}};
 static const struct key_choice engagements[] = {{"free", ENTITY_FLAG_FIRE_AT_WILL, NULL},
                                                 {"return", 0, NULL},
                                                 {"hold", ENTITY_FLAG_HOLD_FIRE, NULL}};

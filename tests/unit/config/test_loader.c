@@ -236,6 +236,8 @@ static const struct {
     {"collision.figure8.damage_low=0.25", "collision = { figure8 = { damage_low = 0.25; }; };"},
     {"world.wind_mps=12", "world = { wind_mps = 12; };"},
     {"world.wind_from_deg=90", "world = { wind_from_deg = 90; };"},
+    {"battle.end_s=300", "battle = { end_s = 300; };"},
+    {"battle.again_s=400", "battle = { again_s = 400; };"},
     {"recorder.when_full=pause", "recorder = { when_full = \"pause\"; };"},
     {"renderer.width=640", "renderer = { width = 640; };"},
     {"renderer.height=480", "renderer = { height = 480; };"},

@@ -49,8 +49,8 @@ static const struct refusal refusals[] = {
      "world.sede = 7: unknown key; allowed here: name, seed, hz, capacity, contacts, frames, pace, "
      "wind_mps, wind_from_deg"},
     {"\nwrold = { seed = 7; };", 2,
-     "wrold = {...}: unknown key; allowed here: world, terrain, objects, collision, recorder, "
-     "renderer"},
+     "wrold = {...}: unknown key; allowed here: world, terrain, objects, collision, battle, "
+     "recorder, renderer"},
     {"collision = { figure8 = { damage = 1; }; };", 1,
      "collision.figure8.damage = 1: unknown key; allowed here: fast_vehicle_mps, fast_fixed_mps, "
      "large_fixed_kg, measure, damage_high, damage_med, damage_low, mass_c1_kg, mass_c2_kg, "

@@ -63,6 +63,25 @@ static void test_each_type_has_its_text(void **state)
           NULL, NULL, NULL, "command spawn 7: done");
     check((struct event){.type = EVENT_COMMAND, .command.type = COMMAND_PAUSE}, NULL, NULL, NULL,
           "command pause: done");
+    check((struct event){.type = EVENT_MISSION, .mission = {.name = "lead", .phase = "attack"}},
+          NULL, NULL, NULL, "lead: attack");
+    check((struct event){.type = EVENT_MISSION,
+                         .mission = {.news = MISSION_NEWS_OBJECTIVE,
+                                     .name = "hill",
+                                     .force = FORCE_BLUE,
+                                     .from = FORCE_RED}},
+          NULL, NULL, NULL, "blue takes hill from red");
+    check((struct event){.type = EVENT_MISSION,
+                         .mission = {.news = MISSION_NEWS_RESULT,
+                                     .round = 1,
+                                     .force = FORCE_RED,
+                                     .held = {0, 1, 2},
+                                     .lost = {0, 30, 4}}},
+          NULL, NULL, NULL,
+          "battle 1 ends: red wins; blue holds 1 and lost 30, red holds 2 and lost 4");
+    check(
+        (struct event){.type = EVENT_MISSION, .mission = {.news = MISSION_NEWS_AGAIN, .round = 2}},
+        NULL, NULL, NULL, "battle 2 begins");
 }
 
 static void test_parties_are_those_of_the_type(void **state)

@@ -166,6 +166,7 @@ static void test_digest_covers_the_head(void **state)
     COUNTS(tally.spawns_refused)
     COUNTS(tally.dents_refused)
     COUNTS(tally.contacts_refused)
+    COUNTS(battle)
 #undef COUNTS
     uint64_t before = digest();
     h->used--;
@@ -372,6 +373,8 @@ WORD(event_type_name, event_type)
 WORD(response_name, response)
 WORD(struck_name, struck)
 WORD(agent_reason_name, agent_reason)
+WORD(mission_order_name, mission_order)
+WORD(mission_news_name, mission_news)
 WORD(command_type_name, command_type)
 WORD(command_result_name, command_result)
 WORD(method_name, method)
@@ -394,6 +397,8 @@ static void test_every_value_has_a_word_of_its_own(void **state)
     check_words(word_response_name, RESPONSE_COUNT);
     check_words(word_struck_name, STRUCK_COUNT);
     check_words(word_agent_reason_name, REASON_COUNT);
+    check_words(word_mission_order_name, MISSION_ORDER_COUNT);
+    check_words(word_mission_news_name, MISSION_NEWS_COUNT);
     check_words(word_command_type_name, COMMAND_TYPE_COUNT);
     check_words(word_command_result_name, COMMAND_RESULT_COUNT);
     check_words(word_method_name, METHOD_COUNT);

@@ -155,6 +155,12 @@ static void test_contacts_are_compared_by_their_keys(void **state)
     assert_string_equal(difference.a, "none");
     assert_string_equal(difference.b, "present");
     p.head->contact_count = 3;
+    q.head->battle.objective[2].owner = FORCE_RED;
+    differs_in("owner of objective 2");
+    q.head->battle.objective[2] = p.head->battle.objective[2];
+    q.head->battle.mission[5].phase = 3;
+    differs_in("phase of mission 5");
+    q.head->battle.mission[5] = p.head->battle.mission[5];
     q.head->tally.contacts_refused = 1;
     differs_in("tally.contacts_refused of the head");
 }
