@@ -260,6 +260,24 @@ static void count_forces(const struct serial_context *context, uint32_t able[FOR
     }
 }
 
+/* Between two battles the vehicles of missions get rounds and fuel. */
+static void refill(struct serial_context *context, const struct mission *mission)
+{
+    const struct world *world = context->step->world;
+    const struct entities *m = &context->moved->entities;
+    const uint32_t *member = world->mission_members + mission->first_member;
+    for (uint32_t n = 0; n < mission->member_count; n++) {
+        const uint32_t row = member[n];
+        if (!mission_conditions_active(context, row))
+            continue;
+        const struct kind *kind = &world->kinds[m->kind[row]];
+        if (m->rounds[row] < kind->rounds)
+            table_set_rounds(&context->writer, row, kind->rounds);
+        if (m->fuel_l[row] < kind->fuel_l)
+            table_set_fuel_l(&context->writer, row, kind->fuel_l);
+    }
+}
+
 static void begin_battle(struct serial_context *context)
 {
     const struct world *world = context->step->world;
@@ -276,6 +294,8 @@ static void begin_battle(struct serial_context *context)
         struct mission_state *state = &battle->mission[index];
         state->able = state->begun =
             (uint16_t)mission_conditions_able(context, &world->missions[index]);
+        if (battle->round > 1)
+            refill(context, &world->missions[index]);
         begin_phase(context, index, 0);
     }
 }

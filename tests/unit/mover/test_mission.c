@@ -364,6 +364,7 @@ static void test_the_battle_ends_and_begins_again(void **state)
     check_phase(1);
     steps_rows(&f).z[1] = 25100.0; /* B takes the hill */
     steps_rows(&f).state[2] = ENTITY_WRECK;
+    steps_rows(&f).rounds[0] = steps_rows(&f).rounds[1] = 2;
     run_s(4.5);
     assert_int_equal(battle()->ended_tick, 0);
     run_s(1.0);
@@ -379,6 +380,8 @@ static void test_the_battle_ends_and_begins_again(void **state)
     assert_int_equal(battle()->round, 2);
     assert_int_equal(battle()->ended_tick, 0);
     assert_int_equal(battle()->begun[FORCE_RED], 0);
+    assert_int_equal(now()->rounds[0], steps_kind(&f, "tank")->rounds);
+    assert_int_equal(now()->rounds[1], 2); /* not of a mission */
     check_phase(0);
     fixture_close(&f);
 }
