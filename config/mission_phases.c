@@ -256,7 +256,7 @@ static int add_phase(const struct entry *entry, struct phase_entry *given)
                                      PHASE_WHEN_ENEMY_IN};
     struct scenario *scenario = entry->scenario;
     struct scenario_phase *to = &scenario->phases[scenario->phase_count++];
-    struct mission_phase *phase = &to->phase;
+    struct battle_phase *phase = &to->phase;
     *to = (struct scenario_phase){.roads = (uint8_t)given->roads,
                                   .line = (int)config_setting_source_line(entry->setting)};
     memcpy(phase->name, given->name, sizeof(phase->name));

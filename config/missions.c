@@ -199,7 +199,7 @@ static int link_phases(const struct entry *of, const char *member, uint32_t firs
     int length = list != NULL ? config_setting_length(list) : 0;
     for (int i = 0; i < length; i++) {
         struct phase_entry given;
-        struct mission_phase *phase = &of->scenario->phases[first + (uint32_t)i].phase;
+        struct battle_phase *phase = &of->scenario->phases[first + (uint32_t)i].phase;
         if (entry_read(&entry, &schema_phase, i, list, &given) != 0 ||
             find_after(&entry, PHASE_AFTER, given.until.after, &phase->until) != 0 ||
             find_after(&entry, PHASE_WHEN_AFTER, given.when.after, &phase->when) != 0)

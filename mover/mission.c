@@ -38,7 +38,7 @@ static const char no_name[ENTITY_NAME_MAX] = "";
 
 /* --- orders ------------------------------------------------------------------------------------*/
 
-static enum behaviour order_of(const struct mission_phase *phase)
+static enum behaviour order_of(const struct battle_phase *phase)
 {
     switch ((enum mission_order)phase->order) {
     case MISSION_HOLD:
@@ -54,7 +54,7 @@ static enum behaviour order_of(const struct mission_phase *phase)
 }
 
 /* Returns true if the row begins with a new order at once. */
-static bool obeys_at_once(const struct entities *m, uint32_t row, const struct mission_phase *phase)
+static bool obeys_at_once(const struct entities *m, uint32_t row, const struct battle_phase *phase)
 {
     switch ((enum behaviour)m->behaviour[row]) {
     case BEHAVIOUR_IDLE:
@@ -86,7 +86,7 @@ static void change_behaviour(struct serial_context *context, uint32_t row, enum 
 }
 
 /* Followers keep their places in their formation, whose leader obeys. */
-static void give_order(struct serial_context *context, const struct mission_phase *phase,
+static void give_order(struct serial_context *context, const struct battle_phase *phase,
                        uint32_t row)
 {
     const struct entities *m = &context->moved->entities;
@@ -108,7 +108,7 @@ static void give_order(struct serial_context *context, const struct mission_phas
         change_behaviour(context, row, order);
 }
 
-static const struct mission_phase *phase_of(const struct serial_context *context, uint32_t index)
+static const struct battle_phase *phase_of(const struct serial_context *context, uint32_t index)
 {
     const struct world *world = context->step->world;
     uint32_t phase = context->moved->head->battle.mission[index].phase;
@@ -123,7 +123,7 @@ static void begin_phase(struct serial_context *context, uint32_t index, uint32_t
     const uint32_t *member = world->mission_members + mission->first_member;
     state->phase = (uint16_t)number;
     state->since_tick = (uint32_t)context->step->tick;
-    const struct mission_phase *phase = phase_of(context, index);
+    const struct battle_phase *phase = phase_of(context, index);
     tell(context, number < mission->phase_count ? MISSION_NEWS_PHASE : MISSION_NEWS_REACTION,
          mission->force, mission->name, phase->name);
     for (uint32_t n = 0; n < mission->member_count; n++) {
@@ -144,7 +144,7 @@ static void random_point(const struct serial_context *context, const struct area
 
 /* Rounds of a minute fall evenly spread over it. */
 static void barrage_from_sky(struct serial_context *context, uint32_t index,
-                             const struct mission_phase *phase, uint32_t second_ticks)
+                             const struct battle_phase *phase, uint32_t second_ticks)
 {
     const struct area *area = &context->step->world->areas[phase->area];
     uint32_t ticks =
@@ -159,7 +159,7 @@ static void barrage_from_sky(struct serial_context *context, uint32_t index,
     }
 }
 
-static void barrage_by_gun(struct serial_context *context, const struct mission_phase *phase,
+static void barrage_by_gun(struct serial_context *context, const struct battle_phase *phase,
                            uint32_t row)
 {
     const struct entities *m = &context->moved->entities;
@@ -174,7 +174,7 @@ static void barrage_by_gun(struct serial_context *context, const struct mission_
         fire_shoot_at(context, row, x, z, KIND_NONE);
 }
 
-static void supply(struct serial_context *context, const struct mission_phase *phase, uint32_t row)
+static void supply(struct serial_context *context, const struct battle_phase *phase, uint32_t row)
 {
     const struct entities *m = &context->moved->entities;
     const struct kind *kind = &context->step->world->kinds[m->kind[row]];
@@ -192,7 +192,7 @@ static void work(struct serial_context *context, uint32_t index, uint32_t second
 {
     const struct world *world = context->step->world;
     const struct mission *mission = &world->missions[index];
-    const struct mission_phase *phase = phase_of(context, index);
+    const struct battle_phase *phase = phase_of(context, index);
     const uint32_t *member = world->mission_members + mission->first_member;
     if (phase->order == MISSION_BARRAGE && phase->munition != KIND_NONE) {
         barrage_from_sky(context, index, phase, second_ticks);
@@ -214,7 +214,7 @@ static bool react(struct serial_context *context, uint32_t index)
     const struct world *world = context->step->world;
     const struct mission *mission = &world->missions[index];
     struct mission_state *state = &context->moved->head->battle.mission[index];
-    const struct mission_phase *reaction =
+    const struct battle_phase *reaction =
         &world->mission_phases[mission->first_phase + mission->phase_count];
     for (uint32_t n = 0; n < mission->reaction_count; n++) {
         if ((state->reacted >> n & 1u) ||
@@ -232,7 +232,7 @@ static void go_on(struct serial_context *context, uint32_t index)
 {
     const struct mission *mission = &context->step->world->missions[index];
     struct mission_state *state = &context->moved->head->battle.mission[index];
-    const struct mission_phase *phase = phase_of(context, index);
+    const struct battle_phase *phase = phase_of(context, index);
     uint32_t ticks = (uint32_t)context->step->tick - state->since_tick;
     if (state->resume == 0 && react(context, index))
         return;

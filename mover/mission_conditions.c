@@ -59,7 +59,7 @@ uint32_t mission_conditions_able(const struct serial_context *context,
 }
 
 bool mission_conditions_there(const struct serial_context *context,
-                              const struct mission_phase *phase, uint32_t row)
+                              const struct battle_phase *phase, uint32_t row)
 {
     const struct world *world = context->step->world;
     const struct entities *m = &context->moved->entities;
@@ -80,7 +80,7 @@ bool mission_conditions_there(const struct serial_context *context,
 /* --- conditions --------------------------------------------------------------------------------*/
 
 static bool arrived(const struct serial_context *context, const struct mission *mission,
-                    const struct mission_phase *phase, double share)
+                    const struct battle_phase *phase, double share)
 {
     const uint32_t *member = context->step->world->mission_members + mission->first_member;
     uint32_t able = 0, there = 0;
@@ -122,7 +122,7 @@ static bool objectives_hold(const struct battle_state *battle, uint32_t force,
 }
 
 bool mission_conditions_hold(const struct serial_context *context, uint32_t index,
-                             const struct mission_phase *phase,
+                             const struct battle_phase *phase,
                              const struct mission_conditions *conditions)
 {
     const struct mission *mission = &context->step->world->missions[index];

@@ -17,11 +17,11 @@ bool mission_conditions_active(const struct serial_context *context, uint32_t sl
 
 /* Returns true if the row is in the area of a phase, or at the end of its route. */
 bool mission_conditions_there(const struct serial_context *context,
-                              const struct mission_phase *phase, uint32_t row);
+                              const struct battle_phase *phase, uint32_t row);
 
 /* Returns true if one of the conditions holds for a mission. phase: of its order. */
 bool mission_conditions_hold(const struct serial_context *context, uint32_t mission,
-                             const struct mission_phase *phase,
+                             const struct battle_phase *phase,
                              const struct mission_conditions *conditions);
 
 #endif

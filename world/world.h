@@ -17,7 +17,7 @@ struct model;
 struct model_triangle;
 struct model_vertex;
 struct mission;
-struct mission_phase;
+struct battle_phase;
 struct objective;
 struct params;
 struct script;
@@ -94,7 +94,7 @@ struct world {
     const struct script *scripts;
     const struct script_step *script_steps;
     const struct mission *missions;
-    const struct mission_phase *mission_phases;
+    const struct battle_phase *mission_phases;
     const uint32_t *mission_members; /* initial slots, ascending within a mission */
     const struct objective *objectives;
     const struct entity_name *names; /* of the initial entities: slot i has id i + 1 */

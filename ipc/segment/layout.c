@@ -146,7 +146,7 @@ int layout_compute(struct layout *layout, const struct segment_header *h)
     b[REGION_SCRIPTS] = n->scripts * sizeof(struct script);
     b[REGION_SCRIPT_STEPS] = n->script_steps * sizeof(struct script_step);
     b[REGION_MISSIONS] = n->missions * sizeof(struct mission);
-    b[REGION_MISSION_PHASES] = n->mission_phases * sizeof(struct mission_phase);
+    b[REGION_MISSION_PHASES] = n->mission_phases * sizeof(struct battle_phase);
     b[REGION_MISSION_MEMBERS] = n->mission_members * sizeof(uint32_t);
     b[REGION_OBJECTIVES] = n->objectives * sizeof(struct objective);
     b[REGION_NAMES] = n->names * sizeof(struct entity_name);
@@ -219,7 +219,7 @@ uint64_t layout_hash(void)
         FORMATION_SHAPE_COUNT,
         STEP_TYPE_COUNT,
         sizeof(struct mission),
-        sizeof(struct mission_phase),
+        sizeof(struct battle_phase),
         sizeof(struct objective),
         MISSION_ORDER_COUNT,
         DAMAGE_COUNT,

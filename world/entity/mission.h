@@ -45,7 +45,7 @@ struct mission_conditions {
     uint32_t reserved;
 };
 
-struct mission_phase {
+struct battle_phase {
     char name[ENTITY_NAME_MAX];
     struct mission_conditions until; /* of its end */
     struct mission_conditions when;  /* of the beginning of a reaction */

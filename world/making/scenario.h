@@ -66,7 +66,7 @@ struct scenario_script {
 
 /* A phase or reaction of a mission. Names have been looked up, except the phase's own route. */
 struct scenario_phase {
-    struct mission_phase phase; /* route, area: of the scenario's */
+    struct battle_phase phase; /* route, area: of the scenario's */
     double spread_m, bound_s;
     uint8_t roads; /* 1: the route goes along roads */
     int line;      /* of the file, for messages */

@@ -15,7 +15,7 @@ struct error_text;
 struct fixed_object;
 struct formation;
 struct mission;
-struct mission_phase;
+struct battle_phase;
 struct scenario;
 struct script;
 struct script_step;
@@ -36,7 +36,7 @@ struct world_build {
     struct script *scripts;
     struct script_step *steps;
     struct mission *missions;
-    struct mission_phase *phases;
+    struct battle_phase *phases;
     uint32_t *members;
     struct entity_name *names;
     struct force_base base[FORCE_COUNT];

@@ -186,7 +186,7 @@ static void test_conditions_are_read(void **state)
                    "{ name = \"b\"; order = \"hold\"; lost = \"hill\"; enemy_in = \"hill\"; }"),
             NULL, &error) != 0)
         fail_msg("%s", error.text);
-    const struct mission_phase *a = &s.phases[0].phase, *b = &s.phases[1].phase;
+    const struct battle_phase *a = &s.phases[0].phase, *b = &s.phases[1].phase;
     assert_true(a->until.for_s == 1.0 && a->until.at_s == 2.0 && a->until.arrived == 0.5 &&
                 a->until.below == 0.25 && a->at_least_s == 3.0);
     assert_int_equal(a->until.taken, 0);
