@@ -126,7 +126,7 @@ RENDERER_SRC := $(filter-out renderer/video/%,$(call sources,renderer renderer/*
 KEEPER_SRC   := $(call sources,supervisor)
 # Programs of their own that stand in a folder of another: what is linked into that one alone.
 SUPPORT_SRC  := $(call sources,tests/support)
-BENCH_SRC    := $(filter-out tests/bench/peer_%,$(call sources,tests/bench))
+BENCH_SRC    := $(filter-out tests/bench/peer_%,$(call sources,tests/bench tests/bench/*))
 # Only jolon-bench needs the engines that it measures: tests of its parts do not.
 ENGINES      := $(patsubst %,$(OBJ)/%.o,$(basename $(wildcard tests/bench/peer_*)))
 FUZZ_SRC     := $(call sources,tests/fuzz)

@@ -19,6 +19,7 @@ struct bench_options {
     const char *file; /* the argument besides the options, NULL: none */
 };
 
+int bench_battle(struct bench_options options);   /* agents/battle.c */
 int bench_detect(struct bench_options options);   /* detect.c */
 int bench_handover(struct bench_options options); /* handover.c */
 int bench_encode(struct bench_options options);   /* encode.c */
@@ -28,7 +29,7 @@ int bench_methods(struct bench_options options);  /* methods.c */
 int bench_models(struct bench_options options);   /* models.c */
 int bench_render(struct bench_options options);   /* render.c */
 int bench_shapes(struct bench_options options);   /* shapes.c */
-int bench_traffic(struct bench_options options);  /* traffic.c */
+int bench_traffic(struct bench_options options);  /* agents/traffic.c */
 
 /* Returns the value at or below which this fraction (0..1) of the values lies. Sorts the values. */
 double bench_quantile(double *values, uint32_t count, double fraction);

@@ -17,6 +17,10 @@ static const struct bench {
      bench_handover,
      "[--frames F] [--json]     a frame without work, beside a bare futex ping-pong",
      {.frames = 20000}},
+    {"battle",
+     bench_battle,
+     "[--threads T] [--frames F] [SCENARIO]     shots, losses and pushing in a battle",
+     {.threads = 1, .frames = 108000}},
     {"detect",
      bench_detect,
      "[--vehicles N] [--threads T] [--frames F] [--peers] [--json]     detection beside ODE, "
@@ -86,11 +90,12 @@ static int run(const struct bench *bench, int argc, char **argv)
 {
     char program[64];
     (void)snprintf(program, sizeof program, "jolon-bench %s", bench->name);
-    const struct option_table table = {.program = program,
-                                       .usage = bench->usage,
-                                       .rows = rows,
-                                       .usage_rows = true,
-                                       .plain = bench->run == bench_models};
+    const struct option_table table = {
+        .program = program,
+        .usage = bench->usage,
+        .rows = rows,
+        .usage_rows = true,
+        .plain = (bench->run == bench_models || bench->run == bench_battle)};
     given = bench->defaults;
     if (option_table_read(&table, argc, argv) > 0)
         given.file = argv[argc - 1];
