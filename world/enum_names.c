@@ -10,11 +10,12 @@ WORDS(object_class_name, object_class, OBJECT_CLASS_COUNT, "tree", "bush", "pole
       "watertower", "other_manmade", "other_natural")
 WORDS(fuze_name, fuze, FUZE_COUNT, "point", "delay", "air")
 WORDS(doctrine_name, doctrine, DOCTRINE_COUNT, "armour", "light", "soft", "helicopter", "jet",
-      "warship", "beast")
+      "warship", "beast", "flak")
 WORDS(damage_name, damage, DAMAGE_COUNT, "none", "low", "med", "high", "destroyed")
 WORDS(entity_state_name, entity_state, ENTITY_STATE_COUNT, "free", "active", "wreck")
 WORDS(behaviour_name, behaviour, BEHAVIOUR_COUNT, "idle", "hold", "patrol", "route", "attack",
-      "flee", "back_off", "driven", "flight", "follow", "script", "withdraw", "resupply")
+      "flee", "back_off", "driven", "flight", "follow", "script", "withdraw", "resupply",
+      "reposition")
 WORDS(formation_shape_name, formation_shape, FORMATION_SHAPE_COUNT, "column", "line", "wedge",
       "echelon-left", "echelon-right")
 WORDS(gear_name, gearing, GEAR_COUNT, "automatic", "reverse", "neutral", "low")
@@ -23,7 +24,8 @@ WORDS(response_name, response, RESPONSE_COUNT, "none", "bounce", "stop", "slow",
 WORDS(struck_name, struck, STRUCK_COUNT, "vehicle", "fixed", "ground", "water", "air")
 WORDS(agent_reason_name, agent_reason, REASON_COUNT, "fired upon", "target gone", "out of rounds",
       "time over", "collision", "enemy seen", "command", "out of fuel", "lost sight", "hurt",
-      "outnumbered", "low fuel", "supplied", "arrived", "leader lost", "script", "lease over")
+      "outnumbered", "low fuel", "supplied", "arrived", "leader lost", "script", "lease over",
+      "suppressed", "losses", "stuck", "rounds fired")
 WORDS(mission_order_name, mission_order, MISSION_ORDER_COUNT, "hold", "reserve", "move", "bound",
       "attack", "defend", "withdraw", "patrol", "strike", "barrage", "resupply")
 WORDS(mission_news_name, mission_news, MISSION_NEWS_COUNT, "phase", "reaction", "objective",

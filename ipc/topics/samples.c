@@ -93,7 +93,7 @@ static bool good_entity(const jolon_Entity *entity)
         entity->fuel_l,    entity->throttle, entity->reload_s,
     };
     bool good = entity->state <= jolon_ENTITY_WRECK && entity->force <= jolon_FORCE_RED &&
-                entity->behaviour <= jolon_BEHAVIOUR_RESUPPLY &&
+                entity->behaviour <= jolon_BEHAVIOUR_REPOSITION &&
                 entity->damage <= jolon_DAMAGE_DESTROYED && entity->gear <= jolon_GEAR_LOW &&
                 number(entity->x_m) && number(entity->y_m) && number(entity->z_m);
     for (size_t i = 0; good && i < sizeof numbers / sizeof numbers[0]; i++)
@@ -154,8 +154,9 @@ static bool good_crater(const jolon_CraterEvent *event)
 
 static bool good_agent(jolon_AgentEvent *event)
 {
-    return party(&event->agent) && event->before <= jolon_BEHAVIOUR_RESUPPLY &&
-           event->after <= jolon_BEHAVIOUR_RESUPPLY && event->because <= jolon_REASON_LEASE_OVER;
+    return party(&event->agent) && event->before <= jolon_BEHAVIOUR_REPOSITION &&
+           event->after <= jolon_BEHAVIOUR_REPOSITION &&
+           event->because <= jolon_REASON_ROUNDS_FIRED;
 }
 
 static bool good_contact_end(jolon_ContactEndEvent *event)

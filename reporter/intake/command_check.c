@@ -17,8 +17,8 @@ _Static_assert((int)jolon_RESULT_TAKEN == (int)COMMAND_TAKEN &&
                "command results in ipc/topics/status.idl");
 _Static_assert((int)jolon_FORCE_RED == (int)FORCE_RED && (int)FORCE_COUNT == FORCE_RED + 1,
                "forces in ipc/topics/status.idl");
-_Static_assert((int)jolon_BEHAVIOUR_RESUPPLY == (int)BEHAVIOUR_RESUPPLY &&
-                   (int)BEHAVIOUR_COUNT == (int)jolon_BEHAVIOUR_RESUPPLY + 1,
+_Static_assert((int)jolon_BEHAVIOUR_REPOSITION == (int)BEHAVIOUR_REPOSITION &&
+                   (int)BEHAVIOUR_COUNT == (int)jolon_BEHAVIOUR_REPOSITION + 1,
                "behaviours in ipc/topics/status.idl");
 _Static_assert((int)jolon_GEAR_LOW == (int)GEAR_LOW && (int)GEAR_COUNT == (int)jolon_GEAR_LOW + 1,
                "gears in ipc/topics/status.idl");

@@ -26,19 +26,20 @@ enum entity_state {
 };
 
 enum behaviour {
-    BEHAVIOUR_IDLE,     /* stands; reacts when fired upon */
-    BEHAVIOUR_HOLD,     /* keeps heading and speed, reacts to nothing */
-    BEHAVIOUR_PATROL,   /* from goal to random goal within its area */
-    BEHAVIOUR_ROUTE,    /* along its route's points, again and again */
-    BEHAVIOUR_ATTACK,   /* returns fire at its target */
-    BEHAVIOUR_FLEE,     /* away from its target */
-    BEHAVIOUR_BACK_OFF, /* away from what it ran into */
-    BEHAVIOUR_DRIVEN,   /* by commands: a player or an outside program */
-    BEHAVIOUR_FLIGHT,   /* a munition */
-    BEHAVIOUR_FOLLOW,   /* keeps its place in its formation */
-    BEHAVIOUR_SCRIPT,   /* by the steps of its script */
-    BEHAVIOUR_WITHDRAW, /* to its force's base, for rounds or fuel, or hurt */
-    BEHAVIOUR_RESUPPLY, /* there, until it has them */
+    BEHAVIOUR_IDLE,       /* stands; reacts when fired upon */
+    BEHAVIOUR_HOLD,       /* keeps heading and speed, reacts to nothing */
+    BEHAVIOUR_PATROL,     /* from goal to random goal within its area */
+    BEHAVIOUR_ROUTE,      /* along its route's points, again and again */
+    BEHAVIOUR_ATTACK,     /* returns fire at its target */
+    BEHAVIOUR_FLEE,       /* away from its target */
+    BEHAVIOUR_BACK_OFF,   /* away from what it ran into */
+    BEHAVIOUR_DRIVEN,     /* by commands: a player or an outside program */
+    BEHAVIOUR_FLIGHT,     /* a munition */
+    BEHAVIOUR_FOLLOW,     /* keeps its place in its formation */
+    BEHAVIOUR_SCRIPT,     /* by the steps of its script */
+    BEHAVIOUR_WITHDRAW,   /* to its force's base, for rounds or fuel, or hurt */
+    BEHAVIOUR_RESUPPLY,   /* there, until it has them */
+    BEHAVIOUR_REPOSITION, /* to another place from which it can fire at its target */
     BEHAVIOUR_COUNT
 };
 
@@ -49,7 +50,7 @@ enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED
 
 /* X(type, name) for every column: the state of the body, then the agent's memory. The mover writes
  * all of M. The collider writes all of W: it copies M and changes what collisions change: motion,
- * state, damage, harm_j, threat_*, bump*, touch_*. */
+ * state, damage, harm_j, threat_*, bump*, touch_*, ENTITY_FLAG_BURST. */
 #define ENTITY_COLUMNS(X)                                                                          \
     X(double, x)           /* [m] world frame: east; metres to better than 1e-10 */                \
     X(double, y)           /* [m] up */                                                            \
@@ -102,6 +103,7 @@ enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED
     X(uint8_t, order)   /* the behaviour it goes back to */                                        \
     X(uint8_t, damage)  /* enum damage */                                                          \
     X(uint8_t, bumped)  /* 1: ran into something in this frame */                                  \
+    X(uint8_t, stalled) /* decisions in a row in which it drove and did not get on */              \
     X(uint8_t, flags)   /* ENTITY_FLAG_* */                                                        \
     X(uint8_t, trigger) /* of the mover: the row's requests in this frame */
 
@@ -122,6 +124,7 @@ _Static_assert(ENTITY_COLUMN_COUNT <= 64, "a set of columns is one word");
 #define ENTITY_FLAG_FIRE_AT_WILL 1u /* engages all enemies that it sees */
 #define ENTITY_FLAG_HOLD_FIRE    2u /* never fires */
 #define ENTITY_FLAG_STAND        4u /* never flees or withdraws */
+#define ENTITY_FLAG_BURST        8u /* a charge has burst near it; its agent clears the flag */
 #define ENTITY_FLAG_BROKEN                                                                         \
     64u /* an aircraft's wreck that the ground has broken up (mover/motion/wreck.h) */
 

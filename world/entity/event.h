@@ -65,8 +65,12 @@ enum agent_reason {
     REASON_SUPPLIED,
     REASON_ARRIVED,
     REASON_LEADER_LOST,
-    REASON_SCRIPT,     /* a step of its script says so */
-    REASON_LEASE_OVER, /* its driver sent no more commands */
+    REASON_SCRIPT,       /* a step of its script says so */
+    REASON_LEASE_OVER,   /* its driver sent no more commands */
+    REASON_SUPPRESSED,   /* a charge has burst near it */
+    REASON_LOSSES,       /* half of its group is lost */
+    REASON_STUCK,        /* it drove and did not get on */
+    REASON_ROUNDS_FIRED, /* it has fired a salvo, and moves or leaves */
     REASON_COUNT
 };
 

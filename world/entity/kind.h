@@ -48,6 +48,7 @@ enum doctrine {
     DOCTRINE_JET,
     DOCTRINE_WARSHIP,
     DOCTRINE_BEAST,
+    DOCTRINE_FLAK,
     DOCTRINE_COUNT
 };
 

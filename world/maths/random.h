@@ -32,9 +32,12 @@ enum random_purpose {
     RANDOM_SURVEY_AZIMUTH,
     RANDOM_PENETRATION, /* collider: whether armour is penetrated, and with what effect */
     RANDOM_PENETRATED,
-    RANDOM_REACTION, /* mover: how soon a crew fires at a new target */
-    RANDOM_FAILURE,  /* mover: does something in a missile fail, and when */
-    RANDOM_DECOY,    /* and does a decoy take its seeker */
+    RANDOM_REACTION,   /* mover: how soon a crew fires at a new target */
+    RANDOM_FAILURE,    /* mover: does something in a missile fail, and when */
+    RANDOM_DECOY,      /* and does a decoy take its seeker */
+    RANDOM_SEARCH,     /* mover: whether a crew finds an enemy in its view */
+    RANDOM_SUPPRESSED, /* mover: for how long a burst keeps a crew from firing */
+    RANDOM_STUCK,      /* mover: where a vehicle turns that does not get on */
 };
 
 /* splitmix64's finaliser (Steele, Lea & Flood 2014). */
