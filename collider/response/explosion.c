@@ -24,6 +24,7 @@
 #define EXPLOSION_RADIUS_M                                                                         \
     8.0 /* radius of one kilogram; grows with the cube root (Hopkinson scaling) */
 #define EXPLOSION_COUPLING 0.02 /* share of a close charge's energy that a body absorbs */
+#define SUPPRESSION_REACH  3.0  /* times that radius: crews so near a burst take cover */
 #define CRATER_RADIUS_M    1.1  /* crater of one kilogram on soil; grows with the cube root */
 #define CRATER_DEPTH       0.4  /* over the radius */
 
@@ -179,6 +180,26 @@ static void find_rows(const struct response_context *context, const struct path_
     }
 }
 
+/* Marks the active vehicles within reach_m: their crews take cover (mover/agent). */
+static void alarm(struct response_context *context, const struct charge *charge, double reach_m)
+{
+    const struct entities *e = &context->next->entities;
+    const struct path still = {.at = charge->point};
+    struct path_box box = pair_filter_path_box(&still, reach_m);
+    struct pair_list *near = &context->charges->near;
+    near->count = 0;
+    broad_phase_query(context->broad, &context->input.detect, &box, near);
+    for (uint32_t n = 0; n < near->count; n++) {
+        uint32_t row = near->pair[n].a;
+        struct vec3 off = vec3_sub(entities_position(e, row), charge->point);
+        if (e->state[row] == ENTITY_ACTIVE && e->behaviour[row] != BEHAVIOUR_FLIGHT &&
+            e->behaviour[row] != BEHAVIOUR_HOLD && e->id[row] != charge->owner_id &&
+            !(e->flags[row] & ENTITY_FLAG_BURST) && vec3_dot(off, off) < reach_m * reach_m)
+            table_set_flags(&context->writer, row, e->flags[row] | ENTITY_FLAG_BURST);
+    }
+    near->count = 0;
+}
+
 static void explosion_one(struct response_context *context, const struct charge *charge)
 {
     double radius = EXPLOSION_RADIUS_M * maths_cbrt(charge->explosive_kg);
@@ -192,6 +213,7 @@ static void explosion_one(struct response_context *context, const struct charge 
         explosion_row(context, charge, radius, near->pair[i].a);
     if (charges->pushed_count > 0)
         path_change_swept(context, charges->pushed, charges->pushed_count, charge->time);
+    alarm(context, charge, SUPPRESSION_REACH * radius);
     near->count = 0;
     broad_phase_query_fixed(context->broad, &context->input.detect, &box, near);
     for (uint32_t i = 0; i < near->count; i++)

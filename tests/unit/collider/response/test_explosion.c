@@ -196,6 +196,28 @@ static void test_blast_falls_off_with_distance(void **state)
     assert_true(steps_rows(&f).harm_j[first] > 0.0);
 }
 
+static void test_a_burst_is_felt_at_three_times_its_radius(void **state)
+{
+    double radius = REACH_M * cbrt(steps_kind(&f, "bomb")->explosive_kg);
+    double distance[] = {0.5 * radius, 2.0 * radius, 2.9 * radius, 3.1 * radius, 5.0 * radius};
+    uint32_t first;
+    (void)state;
+    burst(distance, 5, &first);
+    for (uint32_t n = 0; n < 5; n++) /* jeeps on a held course feel nothing */
+        assert_int_equal(steps_rows(&f).flags[first + n] & ENTITY_FLAG_BURST, 0);
+    steps_empty(&f);
+    for (uint32_t n = 0; n < 5; n++) {
+        uint32_t row = put("jeep", 26000.0 + distance[n], 100.0, 26000.0, (struct vec3){0});
+        steps_rows(&f).behaviour[row] = BEHAVIOUR_IDLE;
+    }
+    uint32_t bomb = put("bomb", 26000.0, 100.0 + 1e-9, 26000.0, (struct vec3){0});
+    steps_rows(&f).until_tick[bomb] = 0;
+    fixture_run(&f, 1);
+    for (uint32_t n = 0; n < 5; n++)
+        assert_int_equal(steps_rows(&f).flags[n] & ENTITY_FLAG_BURST,
+                         n < 3 ? ENTITY_FLAG_BURST : 0);
+}
+
 static void test_a_body_in_several_squares_is_harmed_once(void **state)
 {
     static const double corners[4][2] = {
@@ -450,6 +472,7 @@ int main(void)
         TEST(test_a_charge_of_nothing_digs_nothing),
         TEST(test_a_full_list_of_craters_is_counted),
         TEST(test_an_explosion_damages_all_bodies_within_its_radius_only),
+        TEST(test_a_burst_is_felt_at_three_times_its_radius),
         TEST(test_blast_falls_off_with_distance),
         TEST(test_a_body_in_several_squares_is_harmed_once),
         TEST(test_blast_alarms_the_enemy_and_spares_no_friend),
