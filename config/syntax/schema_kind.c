@@ -44,7 +44,8 @@ static const struct key kind_keys[] = {
                       "703 kg/m^2."),
     CHOICE("air_targets", K, kind.air_targets, STORE_U8, WORDS(air_targets), "all",
            .meaning = "Munitions: the aircraft at which an agent fires them. `slow`: only those "
-                      "that can hover. Commands and drivers fire at anything."),
+                      "that can hover, while they fly at less than 15 m/s. Commands and drivers "
+                      "fire at anything."),
     BOOLEAN("craters", K, kind.craters, STORE_U8, "false",
             .meaning = "Munitions. true: a munition that strikes the ground digs a crater."),
     CHOICE("delivery", K, kind.delivery, STORE_U8, WORDS(deliveries), "direct",

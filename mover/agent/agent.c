@@ -8,7 +8,9 @@
 #include "mover/agent/goal.h"
 #include "mover/agent/mission_route.h"
 #include "mover/agent/perception.h"
+#include "mover/agent/progress.h"
 #include "mover/agent/script_player.h"
+#include "mover/agent/target_search.h"
 #include "mover/motion/driver_controls.h"
 #include "world/state.h"
 #include "world/world.h"
@@ -16,7 +18,9 @@
 
 #define CRUISE_SHARE  0.75 /* share of full speed on patrol and route */
 #define BACK_OFF_M    80.0
-#define REVERSE_SHARE 0.4 /* share of the speed when it drives backwards */
+#define REVERSE_SHARE 0.4   /* share of the speed when it drives backwards */
+#define REVERSE_M     150.0 /* so far a tank drives backwards into cover */
+#define LOW_SHARE     0.4   /* of its usual height, at which an aircraft evades */
 
 /* An aircraft must bank before it turns and a ship's rudder is slow: they take this time for the
  * angle that is left, or they would swing about the heading that they want. */
@@ -46,11 +50,13 @@ static void begin_attack(const struct step_context *context, uint32_t i,
     struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
     uint32_t target = notice->threat != SLOT_NONE ? notice->threat : notice->enemy;
+    if (before == BEHAVIOUR_REPOSITION) /* it turns to its target again */
+        target = m->target_slot[i];
     if (target == SLOT_NONE || !fire_control_suits(context, i, target) ||
         (before == BEHAVIOUR_ATTACK && perception_in_sight(context, i)))
         return; /* it keeps its target */
     goal_target(context, i, target, w->id[target]);
-    bool seen = target == notice->enemy || perception_sees(context, i, target);
+    bool seen = target == notice->enemy || target_search_sees(context, i, target);
     m->seen_tick[i] = (uint32_t)context->tick - (seen ? 0 : UINT32_MAX / 2);
 }
 
@@ -86,6 +92,19 @@ static void begin_order(const struct step_context *context, uint32_t i, enum beh
     goal_resume(context, i);
 }
 
+/* It backs off: from what it ran into, or from where it did not get on. */
+static void begin_back_off(const struct step_context *context, uint32_t i,
+                           const struct behaviour_table_row *row, enum behaviour before)
+{
+    struct entities *m = context->m;
+    if (row->because != REASON_STUCK) {
+        goal_away(context, i, (double)m->bump_heading[i], BACK_OFF_M);
+        return;
+    }
+    goal_away(context, i, progress_way_out(context, i, before == BEHAVIOUR_BACK_OFF), BACK_OFF_M);
+    m->until_tick[i] = after(context, row->time_s + (double)(m->id[i] % 4));
+}
+
 static void take(const struct step_context *context, uint32_t i,
                  const struct behaviour_table_row *row, const struct notice *notice)
 {
@@ -103,7 +122,10 @@ static void take(const struct step_context *context, uint32_t i,
         begin_flight(context, i, notice);
         break;
     case BEHAVIOUR_BACK_OFF:
-        goal_away(context, i, (double)m->bump_heading[i], BACK_OFF_M);
+        begin_back_off(context, i, row, before);
+        break;
+    case BEHAVIOUR_REPOSITION:
+        goal_position(context, i, m->target_slot[i]);
         break;
     case BEHAVIOUR_WITHDRAW:
         m->target_slot[i] = m->target_id[i] = 0;
@@ -131,10 +153,9 @@ static void drive_to_goal(const struct step_context *context, uint32_t i, double
     desired->speed_mps = speed;
 }
 
-/* Drives away from the obstacle that it ran into: forwards, or backwards where that needs a smaller
- * turn. */
-static void drive_back_off(const struct step_context *context, uint32_t i, double speed,
-                           struct desired_motion *desired)
+/* Drives forwards, or backwards where that needs a smaller turn. */
+static void drive_either_way(const struct step_context *context, uint32_t i, double speed,
+                             struct desired_motion *desired)
 {
     const struct entities *m = context->m;
     drive_to_goal(context, i, speed, desired);
@@ -144,11 +165,27 @@ static void drive_back_off(const struct step_context *context, uint32_t i, doubl
     }
 }
 
-/* Drives to cover and stops there. */
+/* Drives to cover and stops there. A tank that has not far to go keeps its front to the enemy. An
+ * aircraft flies low. */
 static void drive_to_cover(const struct step_context *context, uint32_t i, const struct kind *kind,
                            struct desired_motion *desired)
 {
-    drive_to_goal(context, i, goal_arrived(context, i) ? 0.0 : kind->max_speed_mps, desired);
+    const struct entities *m = context->m;
+    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    bool near = dx * dx + dz * dz < REVERSE_M * REVERSE_M;
+    double speed = goal_arrived(context, i) ? 0.0 : kind->max_speed_mps;
+    if (kind->doctrine == DOCTRINE_ARMOUR && near)
+        drive_either_way(context, i, speed, desired);
+    else
+        drive_to_goal(context, i, speed, desired);
+    desired->altitude_m = LOW_SHARE * kind->cruise_altitude_m;
+}
+
+static void drive_to_position(const struct step_context *context, uint32_t i,
+                              const struct kind *kind, struct desired_motion *desired)
+{
+    double speed = goal_in_position(context, i) ? 0.0 : CRUISE_SHARE * kind->max_speed_mps;
+    drive_either_way(context, i, speed, desired);
 }
 
 static void drive_to_base(const struct step_context *context, uint32_t i, const struct kind *kind,
@@ -165,7 +202,8 @@ static void drive_resupply(const struct step_context *context, uint32_t i, const
 {
     struct entities *m = context->m;
     double left = (double)(m->until_tick[i] - (uint32_t)context->tick) * context->dt_s;
-    double share = maths_clamp(1.0 - left / BEHAVIOUR_TABLE_RESUPPLY_S, 0.0, 1.0);
+    double all = behaviour_tables[kind->doctrine].resupply_s;
+    double share = maths_clamp(1.0 - left / all, 0.0, 1.0);
     uint32_t rounds = (uint32_t)(share * (double)kind->rounds);
     m->rounds[i] = rounds > m->rounds[i] ? rounds : m->rounds[i];
     m->fuel_l[i] = maths_max(m->fuel_l[i], share * kind->fuel_l);
@@ -208,8 +246,11 @@ static void drive_by_behaviour(const struct step_context *context, uint32_t i,
     case BEHAVIOUR_FLEE:
         drive_to_cover(context, i, kind, desired);
         break;
+    case BEHAVIOUR_REPOSITION:
+        drive_to_position(context, i, kind, desired);
+        break;
     case BEHAVIOUR_BACK_OFF:
-        drive_back_off(context, i, cruise, desired);
+        drive_either_way(context, i, cruise, desired);
         break;
     case BEHAVIOUR_SCRIPT:
         script_player_motion(context, i, desired);
@@ -237,7 +278,8 @@ static double settle_s(const struct kind *kind)
                                         : 0;
 }
 
-/* Sets the steering so that the turn is complete at its next decision. */
+/* Sets the steering so that the turn is complete at its next decision. The climb of an agent is its
+ * height over the usual one, less 1. */
 static void set_controls(const struct step_context *context, uint32_t i, const struct kind *kind,
                          const struct desired_motion *desired)
 {
@@ -247,6 +289,10 @@ static void set_controls(const struct step_context *context, uint32_t i, const s
     double off = maths_wrap_half(desired->heading_rad - m->heading[i]);
     m->steer[i] = (float)maths_clamp(off / maths_max(turn, 1e-9), -1.0, 1.0);
     m->throttle[i] = (float)(desired->speed_mps / maths_max(kind->max_speed_mps, 1e-9));
+    m->climb[i] =
+        (float)maths_clamp(desired->altitude_m / maths_max(kind->cruise_altitude_m, 1e-9) - 1.0,
+                           -1.0, 1.0) *
+        (kind->cruise_altitude_m > 0.0 ? 1.0f : 0.0f);
 }
 
 void agent_controls_motion(const struct step_context *context, uint32_t i,
@@ -258,10 +304,22 @@ void agent_controls_motion(const struct step_context *context, uint32_t i,
     *desired = (struct desired_motion){
         .heading_rad = m->heading[i] + (double)m->steer[i] * turn,
         .speed_mps = (double)m->throttle[i] * kind->max_speed_mps,
-        .altitude_m = kind->cruise_altitude_m,
+        .altitude_m = kind->cruise_altitude_m * (1.0 + (double)m->climb[i]),
         .held = true,
         .turn = (double)m->steer[i],
     };
+}
+
+/* A crew that takes cover from a burst stays there until it would fire again. */
+static void suppress(const struct step_context *context, uint32_t i,
+                     const struct behaviour_table_row *row)
+{
+    struct entities *m = context->m;
+    if (context->world->kinds[m->kind[i]].domain != DOMAIN_LAND)
+        return;
+    double time_s = fire_control_suppress(context, i);
+    if (row && row->because == REASON_SUPPRESSED)
+        m->until_tick[i] = after(context, time_s);
 }
 
 static void think(const struct step_context *context, uint32_t i, const struct kind *kind,
@@ -272,11 +330,13 @@ static void think(const struct step_context *context, uint32_t i, const struct k
                                        .altitude_m = kind->cruise_altitude_m};
     struct notice notice = perception_notice(context, i);
     if (m->order[i] == BEHAVIOUR_SCRIPT)
-        notice.percepts &= script_player_percepts(context, i);
+        notice.percepts &= script_player_percepts(context, i) | PERCEPTION_BIT(STALLED);
     const struct behaviour_table_row *row = behaviour_table_next(
         &behaviour_tables[kind->doctrine], (enum behaviour)m->behaviour[i], notice.percepts);
     if (row)
         take(context, i, row, &notice);
+    if (notice.percepts & PERCEPTION_BIT(SUPPRESSED))
+        suppress(context, i, row);
     drive_by_behaviour(context, i, desired);
     avoidance_steer(context, i, desired);
 }

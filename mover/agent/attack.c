@@ -1,6 +1,7 @@
 /* The manners of fighting (enum manner). */
 #include "mover/agent/attack.h"
 
+#include "mover/agent/fire_control.h"
 #include "mover/agent/perception.h"
 #include "world/params.h"
 #include "world/state.h"
@@ -12,6 +13,11 @@
 #define SIDE_RAD       1.7  /* direction to the other side, off its target */
 #define NEARLY_M       50.0 /* so far out of range it begins to lay its gun */
 #define BREAK_OFF      0.2  /* share of the range at which a jet's pass ends */
+#define BREAK_SHARE    0.6  /* nearer than this share a jet that cannot fire yet turns away */
+#define BREAK_RAD      2.1  /* so far off its target */
+#define LOW_SHARE      0.4  /* of its usual height, at which a helicopter changes sides */
+#define POP_UP_SHARE   1.3  /* and from which it fires */
+#define POP_UP_PHASE   0.35 /* share of the cycle in which it waits for a sight of its target */
 #define AIM_HZ         20.0 /* how often an agent tries to fire a loaded gun */
 
 /* The target where the agent last saw it. */
@@ -28,33 +34,54 @@ static void stand_off(const struct kind *kind, const struct aim *aim, double sha
     desired->speed_mps = there ? 0.0 : kind->max_speed_mps;
 }
 
+/* A helicopter hovers high enough to see its target, fires, and changes sides behind the crests. */
 static void hover(const struct step_context *context, uint32_t i, const struct kind *kind,
                   const struct aim *aim, double share, struct desired_motion *desired)
 {
     double round =
         ((double)context->tick * context->dt_s + (double)(context->m->id[i] % 12u)) / HOVER_S;
     double phase = round - floor(round);
+    bool near = aim->distance <= share * kind->range_m;
     stand_off(kind, aim, share, desired);
-    if (desired->speed_mps > 0.0 || phase < HOVER_SHARE)
+    desired->altitude_m = (near ? POP_UP_SHARE : LOW_SHARE) * kind->cruise_altitude_m;
+    if (near && phase < HOVER_SHARE && !aim->seen)
+        desired->speed_mps = phase < POP_UP_PHASE ? 0.0 : desired->speed_mps;
+    if (!near || phase < HOVER_SHARE)
         return;
     double side = (uint64_t)floor(round) % 2 ? SIDE_RAD : -SIDE_RAD;
     if (aim->distance < TOO_NEAR_SHARE * kind->range_m)
         side = PI;
     desired->heading_rad = maths_wrap_turn(aim->heading + side);
     desired->speed_mps = 0.5 * kind->max_speed_mps;
+    desired->altitude_m = LOW_SHARE * kind->cruise_altitude_m;
 }
 
-/* A jet flies to the target from afar. Near the target and past it, it flies straight on until
- * there is room to turn. */
+/* A jet flies to the target from afar and fires. Then it turns away, extends until there is room to
+ * turn, and comes back for the next pass. */
 static void pass(const struct step_context *context, uint32_t i, const struct kind *kind,
                  const struct aim *aim, double share, struct desired_motion *desired)
 {
-    double heading = context->m->heading[i];
+    const struct entities *m = context->m;
+    double heading = m->heading[i];
     bool ahead = fabs(maths_wrap_half(aim->heading - heading)) < HALF_PI;
-    bool inbound =
-        ahead ? aim->distance > BREAK_OFF * kind->range_m : aim->distance > share * kind->range_m;
+    bool loaded = context->tick >= m->reload_tick[i];
+    double least = (loaded ? BREAK_OFF : BREAK_SHARE) * kind->range_m;
+    bool inbound = ahead ? aim->distance > least : aim->distance > share * kind->range_m;
     desired->heading_rad = inbound ? aim->heading : heading;
     desired->speed_mps = kind->max_speed_mps;
+    if (ahead && !inbound)
+        desired->heading_rad =
+            maths_wrap_turn(aim->heading + (m->id[i] % 2 ? BREAK_RAD : -BREAK_RAD));
+}
+
+/* A land vehicle does not drive after aircraft. */
+static void await(const struct step_context *context, uint32_t i, struct desired_motion *desired)
+{
+    const struct kind *kinds = context->world->kinds;
+    uint32_t target = context->m->target_slot[i];
+    if (kinds[context->m->kind[i]].domain == DOMAIN_LAND &&
+        kinds[context->committed->entities.kind[target]].domain == DOMAIN_AIR)
+        desired->speed_mps = 0.0;
 }
 
 void attack_motion(const struct step_context *context, uint32_t i,
@@ -80,6 +107,7 @@ void attack_motion(const struct step_context *context, uint32_t i,
         break;
     default: /* a charge is a stand-off at distance 0 */
         stand_off(kind, &aim, table->stand_off, desired);
+        await(context, i, desired);
         break;
     }
 }
@@ -95,10 +123,11 @@ bool attack_ready(const struct step_context *context, uint32_t i)
     if (m->behaviour[i] != BEHAVIOUR_ATTACK || context->tick < m->reload_tick[i] ||
         !perception_in_sight(context, i) || !perception_armed(context, i))
         return false;
-    double range = context->world->kinds[m->kind[i]].range_m + NEARLY_M;
-    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
     const struct entities *w = &context->committed->entities;
     uint32_t target = m->target_slot[i];
-    return dx * dx + dz * dz < range * range && entities_alive(w, target, m->target_id[i]) &&
-           w->state[target] == ENTITY_ACTIVE;
+    if (!entities_alive(w, target, m->target_id[i]) || w->state[target] != ENTITY_ACTIVE)
+        return false;
+    double range = fire_control_reach_m(context, i, target) + NEARLY_M;
+    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    return dx * dx + dz * dz < range * range;
 }

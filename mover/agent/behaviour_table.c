@@ -4,9 +4,15 @@
 
 #include <stddef.h>
 
-#define FLEE_S     30
-#define DASH_S     15
-#define BACK_OFF_S 3
+#define RESUPPLY_S  20
+#define REARM_S     120 /* of a helicopter */
+#define REARM_JET_S 300
+#define FLEE_S      30
+#define DASH_S      15
+#define BACK_OFF_S  3
+#define WAY_OUT_S   4  /* it backs off from where it is stuck, up to 3 s longer */
+#define MOVE_S      12 /* to another firing position, at most */
+#define COVER_S     20 /* behind cover from bursts; a land vehicle draws its own time */
 
 #define B(name) (1u << BEHAVIOUR_##name)
 #define P(name) (1u << PERCEPT_##name)
@@ -14,7 +20,7 @@
 /* It carries out its order. */
 #define CALM (B(IDLE) | B(PATROL) | B(ROUTE) | B(FOLLOW) | B(SCRIPT))
 /* Its agent is in control: it is neither driven nor holding a course. */
-#define OWN    (CALM | B(ATTACK) | B(FLEE) | B(BACK_OFF) | B(WITHDRAW) | B(RESUPPLY))
+#define OWN    (CALM | B(ATTACK) | B(FLEE) | B(BACK_OFF) | B(WITHDRAW) | B(RESUPPLY) | B(REPOSITION))
 #define MOVING (OWN & ~(B(IDLE) | B(RESUPPLY)))
 
 #define ORDER    BEHAVIOUR_TABLE_ORDER
@@ -39,16 +45,17 @@
         ROW(B(ATTACK), 0, P(ARMED) | P(NO_ROUNDS), ORDER, AS(COMMAND), 0)
 
 /* It goes to its base for rounds and fuel, and back. */
-#define SUPPLIES                                                                                   \
-    ROW(B(WITHDRAW), P(ARRIVED), 0, TO(RESUPPLY), AS(ARRIVED), BEHAVIOUR_TABLE_RESUPPLY_S),        \
+#define SUPPLIES(time_s)                                                                           \
+    ROW(B(WITHDRAW), P(ARRIVED), 0, TO(RESUPPLY), AS(ARRIVED), time_s),                            \
         ROW(B(RESUPPLY), P(TIME_OVER), 0, ORDER, AS(SUPPLIED), 0),                                 \
         ROW(CALM | B(ATTACK), P(NO_ROUNDS), P(STAND), TO(WITHDRAW), AS(OUT_OF_ROUNDS), 0),         \
         ROW(B(ATTACK), P(NO_ROUNDS), 0, ORDER, AS(OUT_OF_ROUNDS), 0),                              \
         ROW(CALM | B(ATTACK), P(LOW_FUEL), P(STAND), TO(WITHDRAW), AS(LOW_FUEL), 0)
 
-/* It backs off from an obstacle that it ran into, and then goes on. */
+/* It backs off from an obstacle that it ran into, or from where it is stuck, and then goes on. */
 #define BUMPS                                                                                      \
     ROW(MOVING, P(BUMP), 0, TO(BACK_OFF), AS(COLLISION), BACK_OFF_S),                              \
+        ROW(MOVING, P(STALLED), 0, TO(BACK_OFF), AS(STUCK), WAY_OUT_S),                            \
         ROW(B(BACK_OFF), P(TIME_OVER) | P(TARGET) | P(ARMED) | P(BRAVE), 0, TO(ATTACK),            \
             AS(TIME_OVER), BEHAVIOUR_TABLE_FIGHT_S),                                               \
         ROW(B(BACK_OFF), P(TIME_OVER) | P(TARGET), P(STAND), TO(FLEE), AS(TIME_OVER), DASH_S),     \
@@ -62,6 +69,27 @@
             AS(FIRED_UPON), BEHAVIOUR_TABLE_FIGHT_S),                                              \
         ROW(CALM | B(RESUPPLY) | B(BACK_OFF) | B(FLEE), P(SHOT), P(STAND), TO(fleeing),            \
             AS(FIRED_UPON), time_s)
+
+/* When half of its group is lost it goes home. */
+#define LOSSES_END_IT                                                                              \
+    ROW(CALM | B(ATTACK) | B(REPOSITION), P(SHOT) | P(LOSSES), P(STAND), TO(WITHDRAW), AS(LOSSES), \
+        0)
+
+/* A burst near it drives it into cover; an aircraft evades. */
+#define SUPPRESSES(brave, time_s)                                                                  \
+    ROW(CALM | B(ATTACK) | B(REPOSITION), P(SUPPRESSED), P(STAND) | (brave), TO(FLEE),             \
+        AS(SUPPRESSED), time_s)
+
+/* After some rounds it changes its place, and turns to its target again. */
+#define SHOOTS_AND_MOVES                                                                           \
+    ROW(B(ATTACK), P(ROUNDS_FIRED) | P(TARGET), P(STAND), TO(REPOSITION), AS(ROUNDS_FIRED),        \
+        MOVE_S),                                                                                   \
+        ROW(B(REPOSITION), P(TARGET_GONE), 0, ORDER, AS(TARGET_GONE), 0),                          \
+        ROW(B(REPOSITION), P(ARRIVED), 0, TO(ATTACK), AS(ARRIVED), BEHAVIOUR_TABLE_FIGHT_S),       \
+        ROW(B(REPOSITION), P(TIME_OVER), 0, TO(ATTACK), AS(TIME_OVER), BEHAVIOUR_TABLE_FIGHT_S)
+
+/* An aircraft flies home for rounds when its passes are over. */
+#define LEAVES ROW(B(ATTACK), P(ROUNDS_FIRED), P(STAND), TO(WITHDRAW), AS(ROUNDS_FIRED), 0)
 
 #define SEES_ENEMY                                                                                 \
     ROW(B(IDLE) | B(PATROL) | B(ROUTE) | B(FOLLOW), P(ENEMY) | P(ARMED) | P(AT_WILL), 0,           \
@@ -77,11 +105,28 @@
 static const struct behaviour_table_row armour[] = {
     BY_NECESSITY,
     FIGHTS_END,
-    SUPPLIES,
+    SUPPLIES(RESUPPLY_S),
     ROW(B(ATTACK), P(HURT), P(BRAVE) | P(STAND) | P(BUMP), TO(FLEE), AS(HURT), FLEE_S),
+    LOSSES_END_IT,
+    SUPPRESSES(P(BRAVE), COVER_S),
     SHOT_AT(FLEE, FLEE_S),
     ODDS(FLEE, FLEE_S),
     BUMPS,
+    SHOOTS_AND_MOVES,
+    SEES_ENEMY,
+};
+
+/* Air defence fires from where it is, and flees from odds and bursts. */
+static const struct behaviour_table_row flak[] = {
+    BY_NECESSITY,
+    FIGHTS_END,
+    SUPPLIES(RESUPPLY_S),
+    LOSSES_END_IT,
+    SUPPRESSES(P(BRAVE), COVER_S),
+    SHOT_AT(FLEE, FLEE_S),
+    ODDS(FLEE, FLEE_S),
+    BUMPS,
+    SHOOTS_AND_MOVES,
     SEES_ENEMY,
 };
 
@@ -89,11 +134,14 @@ static const struct behaviour_table_row armour[] = {
 static const struct behaviour_table_row light[] = {
     BY_NECESSITY,
     FIGHTS_END,
-    SUPPLIES,
+    SUPPLIES(RESUPPLY_S),
     ROW(CALM | B(ATTACK) | B(FLEE), P(HURT), P(STAND) | P(BUMP), TO(WITHDRAW), AS(HURT), 0),
+    LOSSES_END_IT,
+    SUPPRESSES(0, COVER_S),
     SHOT_AT(FLEE, FLEE_S),
     ODDS(WITHDRAW, 0),
     BUMPS,
+    SHOOTS_AND_MOVES,
     SEES_ENEMY,
 };
 
@@ -101,7 +149,7 @@ static const struct behaviour_table_row light[] = {
 static const struct behaviour_table_row soft[] = {
     BY_NECESSITY,
     FIGHTS_END,
-    SUPPLIES,
+    SUPPLIES(RESUPPLY_S),
     ROW(CALM | B(FLEE), P(HURT), P(STAND) | P(BUMP), TO(WITHDRAW), AS(HURT), 0),
     SHOT_AT(FLEE, FLEE_S),
     ROW(B(PATROL) | B(ROUTE), P(ENEMY), P(STAND) | P(AT_WILL), TO(FLEE), AS(ENEMY_SEEN), DASH_S),
@@ -111,24 +159,37 @@ static const struct behaviour_table_row soft[] = {
 
 /* Helicopters flee only for a short time, and withdraw when they are hit. */
 static const struct behaviour_table_row helicopter[] = {
-    BY_NECESSITY,          FIGHTS_END,         SUPPLIES, HURT_GOES_HOME,
-    SHOT_AT(FLEE, DASH_S), ODDS(FLEE, DASH_S), BUMPS,    SEES_ENEMY,
+    BY_NECESSITY,
+    FIGHTS_END,
+    SUPPLIES(REARM_S),
+    HURT_GOES_HOME,
+    LOSSES_END_IT,
+    SUPPRESSES(0, COVER_S),
+    SHOT_AT(FLEE, DASH_S),
+    ODDS(FLEE, DASH_S),
+    BUMPS,
+    LEAVES,
+    SEES_ENEMY,
 };
 
 /* Jets do not react to odds and do not back off. Low fuel ends their fights. */
 static const struct behaviour_table_row jet[] = {
     BY_NECESSITY,
     FIGHTS_END,
-    SUPPLIES,
+    SUPPLIES(REARM_JET_S),
     HURT_GOES_HOME,
+    LOSSES_END_IT,
+    SUPPRESSES(0, COVER_S),
     SHOT_AT(FLEE, DASH_S),
     ROW(B(FLEE), P(TIME_OVER), 0, ORDER, AS(TIME_OVER), 0),
+    LEAVES,
     SEES_ENEMY,
 };
 
 /* Ships cannot hide. They fight, or keep their distance. */
 static const struct behaviour_table_row warship[] = {
-    BY_NECESSITY, FIGHTS_END, SUPPLIES, HURT_GOES_HOME, SHOT_AT(FLEE, FLEE_S), BUMPS, SEES_ENEMY,
+    BY_NECESSITY,          FIGHTS_END, SUPPLIES(RESUPPLY_S), HURT_GOES_HOME,
+    SHOT_AT(FLEE, FLEE_S), BUMPS,      SEES_ENEMY,
 };
 
 /* Beasts do not react to odds, damage or empty guns. */
@@ -143,20 +204,21 @@ static const struct behaviour_table_row beast[] = {
     SEES_ENEMY,
 };
 
-#define TABLE(rows_of, how, share)                                                                 \
+#define TABLE(rows_of, how, share, time_s)                                                         \
     {                                                                                              \
         .row = (rows_of), .rows = sizeof(rows_of) / sizeof((rows_of)[0]), .manner = (how),         \
-        .stand_off = (share)                                                                       \
+        .stand_off = (share), .resupply_s = (time_s)                                               \
     }
 
 const struct behaviour_table behaviour_tables[DOCTRINE_COUNT] = {
-    [DOCTRINE_ARMOUR] = TABLE(armour, MANNER_STAND_OFF, 0.5),
-    [DOCTRINE_LIGHT] = TABLE(light, MANNER_STAND_OFF, 0.7),
-    [DOCTRINE_SOFT] = TABLE(soft, MANNER_STAND_OFF, 0.8),
-    [DOCTRINE_HELICOPTER] = TABLE(helicopter, MANNER_HOVER, 0.6),
-    [DOCTRINE_JET] = TABLE(jet, MANNER_PASS, 0.8),
-    [DOCTRINE_WARSHIP] = TABLE(warship, MANNER_STAND_OFF, 0.6),
-    [DOCTRINE_BEAST] = TABLE(beast, MANNER_CHARGE, 0.0),
+    [DOCTRINE_ARMOUR] = TABLE(armour, MANNER_STAND_OFF, 0.5, RESUPPLY_S),
+    [DOCTRINE_LIGHT] = TABLE(light, MANNER_STAND_OFF, 0.7, RESUPPLY_S),
+    [DOCTRINE_SOFT] = TABLE(soft, MANNER_STAND_OFF, 0.8, RESUPPLY_S),
+    [DOCTRINE_HELICOPTER] = TABLE(helicopter, MANNER_HOVER, 0.7, REARM_S),
+    [DOCTRINE_JET] = TABLE(jet, MANNER_PASS, 0.8, REARM_JET_S),
+    [DOCTRINE_WARSHIP] = TABLE(warship, MANNER_STAND_OFF, 0.6, RESUPPLY_S),
+    [DOCTRINE_BEAST] = TABLE(beast, MANNER_CHARGE, 0.0, RESUPPLY_S),
+    [DOCTRINE_FLAK] = TABLE(flak, MANNER_STAND_OFF, 0.8, RESUPPLY_S),
 };
 
 const struct behaviour_table_row *behaviour_table_next(const struct behaviour_table *table,

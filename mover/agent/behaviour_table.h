@@ -14,28 +14,31 @@
 /* What an agent perceives (perception.c). Events last for one frame, states as long as they are
  * true. Percepts marked * are found only when the agent looks. */
 enum perceived {
-    PERCEPT_NO_FUEL,     /* its tank is empty */
-    PERCEPT_SHOT,        /* event: an active vehicle has fired at it */
-    PERCEPT_BUMP,        /* event: it ran into something */
-    PERCEPT_HURT,        /* event: its damage grew, to med or more */
-    PERCEPT_TIME_OVER,   /* the time of its behaviour is over */
-    PERCEPT_TARGET,      /* the vehicle that it attacks or flees from is active */
-    PERCEPT_TARGET_GONE, /* that vehicle was destroyed or removed */
-    PERCEPT_ARRIVED,     /* it withdraws and is at its base */
-    PERCEPT_LEASE_OVER,  /* event: its driver has sent no command in time */
-    PERCEPT_ENEMY,       /* *event: it sees an enemy */
-    PERCEPT_OUTNUMBERED, /* *event: many more enemies than friends are near */
-    PERCEPT_NO_ROUNDS,   /* it has no rounds left */
-    PERCEPT_LOW_FUEL,    /* *its fuel is only just enough for the path to its base */
-    PERCEPT_ARMED,       /* it can fire, and its orders are not to hold fire */
-    PERCEPT_AT_WILL,     /* its orders are to attack enemies on sight */
-    PERCEPT_STAND,       /* its orders are never to flee or withdraw */
-    PERCEPT_BRAVE,       /* its courage holds: drawn at random when an event tests it */
+    PERCEPT_NO_FUEL,      /* its tank is empty */
+    PERCEPT_SHOT,         /* event: an active vehicle has fired at it */
+    PERCEPT_BUMP,         /* event: it ran into something */
+    PERCEPT_HURT,         /* event: its damage grew, to med or more */
+    PERCEPT_TIME_OVER,    /* the time of its behaviour is over */
+    PERCEPT_TARGET,       /* the vehicle that it attacks or flees from is active */
+    PERCEPT_TARGET_GONE,  /* that vehicle was destroyed or removed */
+    PERCEPT_ARRIVED,      /* it withdraws and is at its base */
+    PERCEPT_LEASE_OVER,   /* event: its driver has sent no command in time */
+    PERCEPT_ENEMY,        /* *event: it sees an enemy */
+    PERCEPT_OUTNUMBERED,  /* *event: many more enemies than friends are near */
+    PERCEPT_NO_ROUNDS,    /* it has no rounds left */
+    PERCEPT_LOW_FUEL,     /* *its fuel is only just enough for the path to its base */
+    PERCEPT_ARMED,        /* it can fire, and its orders are not to hold fire */
+    PERCEPT_AT_WILL,      /* its orders are to attack enemies on sight */
+    PERCEPT_STAND,        /* its orders are never to flee or withdraw */
+    PERCEPT_SUPPRESSED,   /* event: a charge has burst near it, or air defence fires at it */
+    PERCEPT_STALLED,      /* event: it has driven for some time and not got on */
+    PERCEPT_ROUNDS_FIRED, /* its salvo or its pass is over */
+    PERCEPT_LOSSES,       /* it is fired upon, and half of its group is lost */
+    PERCEPT_BRAVE,        /* its courage holds: drawn at random when an event tests it */
     PERCEPT_COUNT
 };
 
-#define BEHAVIOUR_TABLE_FIGHT_S    45 /* an attack ends so long after the target was last seen */
-#define BEHAVIOUR_TABLE_RESUPPLY_S 20 /* fills an empty tank and empty racks */
+#define BEHAVIOUR_TABLE_FIGHT_S 45 /* an attack ends so long after the target was last seen */
 
 /* As the behaviour of a row: the agent's order. */
 #define BEHAVIOUR_TABLE_ORDER BEHAVIOUR_COUNT
@@ -62,7 +65,8 @@ struct behaviour_table {
     const struct behaviour_table_row *row;
     uint32_t rows;
     enum manner manner;
-    double stand_off; /* share of its range at which it fights */
+    double stand_off;  /* share of its range at which it fights */
+    double resupply_s; /* fills an empty tank and empty racks */
 };
 
 extern const struct behaviour_table behaviour_tables[DOCTRINE_COUNT];

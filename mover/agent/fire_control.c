@@ -8,6 +8,21 @@
 
 #define SLOWEST_SHARE 0.98 /* of crews; the others would take very long */
 
+/* Shares of the range at which a gun that is not meant for aircraft fires at them. */
+#define HOVERING_SHARE     0.5
+#define FLYING_SHARE       0.3
+#define SLOW_MPS           15.0  /* a faster helicopter is as hard to hit as a jet */
+#define KEPT_SHARE         0.64  /* of its rounds: the rest of a tank's 55 is 20 for half an hour */
+#define KEPT_REACH         0.3   /* share of the range at which it fires the rounds that it keeps */
+#define SELF_DEFENCE       0.4   /* share of the range at which air defence fires at the ground */
+#define ENGAGED_M          300.0 /* it chooses targets so far beyond its reach, and drives closer */
+#define POSITION_S         5.0 /* guns that load faster change their place about so often, times 2-4 */
+#define PASSES             2u  /* missiles of a jet's sortie */
+#define AMBUSHES           12u /* rockets of a helicopter's */
+#define JUST_FIRED         0.7 /* share of the time to load that is left at least */
+#define SUPPRESSED_LEAST_S 10.0
+#define SUPPRESSED_MOST_S  30.0
+
 bool fire_control_suits(const struct step_context *context, uint32_t i, uint32_t target)
 {
     const struct kind *kinds = context->world->kinds;
@@ -21,10 +36,82 @@ bool fire_control_suits(const struct step_context *context, uint32_t i, uint32_t
     case AIR_TARGETS_NONE:
         return false;
     case AIR_TARGETS_SLOW:
-        return other->min_speed_mps == 0.0;
+        return other->min_speed_mps == 0.0 &&
+               vec3_length(entities_velocity(&context->committed->entities, target)) < SLOW_MPS;
     default:
         return true;
     }
+}
+
+bool fire_control_air_defence(const struct step_context *context, uint32_t i)
+{
+    const struct kind *kinds = context->world->kinds;
+    const struct kind *kind = &kinds[context->committed->entities.kind[i]];
+    return kind->doctrine == DOCTRINE_FLAK ||
+           (kind->munition != KIND_NONE && kinds[kind->munition].guidance == GUIDANCE_HOMING);
+}
+
+static bool keeps_rounds(const struct entities *m, uint32_t i, const struct kind *kind)
+{
+    return kind->domain == DOMAIN_LAND && kind->doctrine != DOCTRINE_FLAK &&
+           (double)m->rounds[i] <= KEPT_SHARE * (double)kind->rounds;
+}
+
+double fire_control_reach_m(const struct step_context *context, uint32_t i, uint32_t target)
+{
+    const struct kind *kinds = context->world->kinds;
+    const struct kind *kind = &kinds[context->m->kind[i]];
+    const struct kind *other = &kinds[context->committed->entities.kind[target]];
+    bool homing = kind->munition != KIND_NONE && kinds[kind->munition].guidance == GUIDANCE_HOMING;
+    double reach = kind->range_m;
+    if (kind->doctrine == DOCTRINE_FLAK && other->domain != DOMAIN_AIR)
+        reach *= SELF_DEFENCE;
+    if (kind->doctrine != DOCTRINE_FLAK && !homing && other->domain == DOMAIN_AIR)
+        reach *= other->min_speed_mps > 0.0 ? FLYING_SHARE : HOVERING_SHARE;
+    if (keeps_rounds(context->m, i, kind))
+        reach *= KEPT_REACH;
+    return reach;
+}
+
+bool fire_control_worth(const struct step_context *context, uint32_t i, uint32_t target,
+                        double square)
+{
+    if (context->world->kinds[context->m->kind[i]].munition == KIND_NONE)
+        return true;
+    if (!fire_control_suits(context, i, target))
+        return false;
+    double reach = fire_control_reach_m(context, i, target) + ENGAGED_M;
+    return square < reach * reach;
+}
+
+/* Rounds from one place, or of one sortie: two to four of a tank, more of guns that load faster. */
+static uint32_t salvo_of(const struct kind *kind, uint32_t id)
+{
+    if (kind->domain == DOMAIN_AIR)
+        return kind->min_speed_mps > 0.0 ? PASSES : AMBUSHES;
+    return (2 + id % 3) * (uint32_t)maths_max(1.0, POSITION_S / maths_max(kind->reload_s, 0.1));
+}
+
+bool fire_control_salvo_over(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    if (m->rounds[i] == 0 || m->rounds[i] >= kind->rounds)
+        return false;
+    double left_s = ((double)m->reload_tick[i] - (double)(uint32_t)context->tick) * context->dt_s;
+    return (kind->rounds - m->rounds[i]) % salvo_of(kind, m->id[i]) == 0 &&
+           left_s <= kind->reload_s && left_s > JUST_FIRED * kind->reload_s;
+}
+
+double fire_control_suppress(const struct step_context *context, uint32_t i)
+{
+    struct entities *m = context->m;
+    double time_s = random_between(context->world->params->seed, context->tick, m->id[i],
+                                   RANDOM_SUPPRESSED, SUPPRESSED_LEAST_S, SUPPRESSED_MOST_S);
+    uint32_t ready = (uint32_t)(context->tick + (uint64_t)(time_s / context->dt_s));
+    if (ready > m->reload_tick[i])
+        m->reload_tick[i] = ready;
+    return time_s;
 }
 
 /* A log-logistic time: it has the median and the long tail of the log-normal times that are

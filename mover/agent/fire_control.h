@@ -13,6 +13,25 @@
  * unarmed row has no munition, and minds every enemy. */
 bool fire_control_suits(const struct step_context *context, uint32_t i, uint32_t target);
 
+/* Returns the range at which row i fires at the committed row target [m]: the range of its gun
+ * where a hit is likely, less at aircraft, and less when the rounds are low. */
+double fire_control_reach_m(const struct step_context *context, uint32_t i, uint32_t target);
+
+/* Returns true if row i would choose the committed row target, which is at this distance, squared
+ * [m^2]. An unarmed row minds every enemy in its sight. */
+bool fire_control_worth(const struct step_context *context, uint32_t i, uint32_t target,
+                        double square);
+
+/* Returns true if row i has just fired the last round of a salvo, after which a land vehicle
+ * changes its place (two to four rounds of a tank) and an aircraft flies home. */
+bool fire_control_salvo_over(const struct step_context *context, uint32_t i);
+
+/* Returns true if row i is air defence or fires homing missiles, so that aircraft evade it. */
+bool fire_control_air_defence(const struct step_context *context, uint32_t i);
+
+/* A burst near row i keeps its crew from firing for 10 to 30 s. Returns the time [s]. */
+double fire_control_suppress(const struct step_context *context, uint32_t i);
+
 /* Row i turns to a target that it did not attack before: its gun may fire when the crew has
  * identified the target and laid the gun. The time is drawn at random; its median is the kind's
  * reaction_s. */

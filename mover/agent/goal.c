@@ -3,8 +3,8 @@
 
 #include "mover/agent/fire_control.h"
 #include "mover/agent/mission_route.h"
-#include "mover/agent/perception.h"
 #include "mover/agent/script_player.h"
+#include "mover/agent/target_search.h"
 #include "mover/motion/kinematics.h"
 #include "world/maths/random.h"
 #include "world/params.h"
@@ -17,6 +17,9 @@
 #define FLEE_M     2000.0
 #define DETOUR_M   400.0 /* around what blocks the path to the base */
 #define GOAL_DRAWS 8
+#define HULL_SHARE 0.4 /* of the height: the top of the hull, below the turret */
+#define GUN_SHARE  0.9 /* of the height: the sight of the gun */
+#define IN_PLACE_M 6.0 /* near enough to a firing position */
 
 static double unit(const struct step_context *context, uint32_t i, enum random_purpose purpose)
 {
@@ -103,12 +106,12 @@ void goal_away(const struct step_context *context, uint32_t i, double heading, d
 
 void goal_cover(const struct step_context *context, uint32_t i, uint32_t enemy)
 {
-    static const double turns[] = {0.0, 0.6, -0.6, 1.2, -1.2}, ways[] = {300.0, 700.0, 1400.0};
+    static const double turns[] = {0.0, 0.6, -0.6, 1.2, -1.2}, ways[] = {120.0, 350.0, 900.0};
     struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     double away = maths_heading(m->x[i] - w->x[enemy], m->z[i] - w->z[enemy]);
-    struct vec3 eye = perception_eye(context, enemy), to;
+    struct vec3 eye = target_search_eye(context, enemy), to;
     for (int n = 0; n < 15; n++) {
         along(context, i, away + turns[n % 5], ways[n / 5], &to.x, &to.z);
         to.y = kinematics_ground(context, to.x, to.z) + kind->height_m +
@@ -121,6 +124,43 @@ void goal_cover(const struct step_context *context, uint32_t i, uint32_t enemy)
         }
     }
     goal_away(context, i, away, FLEE_M);
+}
+
+/* How well a place hides the vehicle from an enemy's eye: 2: its hull and not its gun; 1: all of
+ * it; 0: nothing. */
+static int hides(const struct step_context *context, const struct kind *kind, struct vec3 eye,
+                 struct vec3 at)
+{
+    double ground = kinematics_ground(context, at.x, at.z);
+    at.y = ground + HULL_SHARE * kind->height_m;
+    if (line_of_sight_clear(context->line_of_sight, eye, at))
+        return 0;
+    at.y = ground + GUN_SHARE * kind->height_m;
+    return line_of_sight_clear(context->line_of_sight, eye, at) ? 2 : 1;
+}
+
+void goal_position(const struct step_context *context, uint32_t i, uint32_t enemy)
+{
+    static const double turns[] = {HALF_PI, -HALF_PI, 2.2, -2.2, PI, 1.0, -1.0};
+    static const double ways[] = {50.0, 90.0};
+    struct entities *m = context->m;
+    const struct entities *w = &context->committed->entities;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    struct vec3 eye = target_search_eye(context, enemy), to = {0};
+    double towards = maths_heading(w->x[enemy] - m->x[i], w->z[enemy] - m->z[i]);
+    double side = unit(context, i, RANDOM_GOAL_X) < 0.5 ? 1.0 : -1.0;
+    int best = -1;
+    m->goal_x[i] = m->x[i];
+    m->goal_z[i] = m->z[i];
+    for (int n = 0; n < 14 && best < 2; n++) {
+        along(context, i, towards + side * turns[n % 7], ways[n / 7], &to.x, &to.z);
+        int found = suits(context, i, to.x, to.z) ? hides(context, kind, eye, to) : -1;
+        if (found > best) {
+            best = found;
+            m->goal_x[i] = to.x;
+            m->goal_z[i] = to.z;
+        }
+    }
 }
 
 void goal_target(const struct step_context *context, uint32_t i, uint32_t row, uint32_t id)
@@ -162,6 +202,11 @@ static bool within(const struct step_context *context, uint32_t i, double x, dou
 bool goal_arrived(const struct step_context *context, uint32_t i)
 {
     return within(context, i, context->m->goal_x[i], context->m->goal_z[i], ARRIVED_M);
+}
+
+bool goal_in_position(const struct step_context *context, uint32_t i)
+{
+    return within(context, i, context->m->goal_x[i], context->m->goal_z[i], IN_PLACE_M);
 }
 
 bool goal_at_base(const struct step_context *context, uint32_t i)

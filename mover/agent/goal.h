@@ -15,6 +15,12 @@ void goal_away(const struct step_context *context, uint32_t i, double heading, d
 /* A goal away from an enemy's row: a near place that the enemy cannot see, else a far one. */
 void goal_cover(const struct step_context *context, uint32_t i, uint32_t enemy);
 
+/* A firing position within 90 m: if there is one, a place from which row i sees the enemy's row
+ * while the ground or a building hides its hull; else a place where it is hidden, or beside it.
+ * Returns true if the vehicle is there. */
+void goal_position(const struct step_context *context, uint32_t i, uint32_t enemy);
+bool goal_in_position(const struct step_context *context, uint32_t i);
+
 /* Makes that row its target, and the place of the target its goal. The crew needs a time of
  * reaction before it fires at a new target. */
 void goal_target(const struct step_context *context, uint32_t i, uint32_t row, uint32_t id);

@@ -4,7 +4,9 @@
 
 #include "mover/agent/fire_control.h"
 #include "mover/agent/goal.h"
-#include "mover/motion/kinematics.h"
+#include "mover/agent/losses.h"
+#include "mover/agent/progress.h"
+#include "mover/agent/target_search.h"
 #include "world/maths/random.h"
 #include "world/params.h"
 #include "world/state.h"
@@ -14,10 +16,7 @@
 #define THOUGHTS_A_FRAME 3072u  /* decisions of all agents, about */
 #define LOOK_S           1.0    /* between two looks of an agent */
 #define LOOKS_A_FRAME    768u   /* of all agents, about */
-#define CANDIDATES       8u     /* a look considers so many of the nearest enemies */
-#define LINES            3u     /* lines of sight of a look */
 #define SEEN_LOOKS       2u     /* a target stays in sight for so many looks */
-#define EYE_SHARE        0.9    /* height of the eye as a share of the height; not of aircraft */
 #define ODDS_M           1500.0 /* vehicles in this radius count in the odds */
 #define ODDS_MOST        16u    /* of either side: more make no difference */
 #define OUTNUMBERED      3u     /* enemies to each friend; the agent is a friend, too */
@@ -31,7 +30,7 @@ static const double courage_left[DAMAGE_COUNT] = {1.0, 0.95, 0.6, 0.3, 0.0};
 /* Percepts that test its courage. */
 #define TESTS                                                                                      \
     (PERCEPTION_BIT(SHOT) | PERCEPTION_BIT(HURT) | PERCEPTION_BIT(OUTNUMBERED) |                   \
-     PERCEPTION_BIT(TIME_OVER))
+     PERCEPTION_BIT(TIME_OVER) | PERCEPTION_BIT(SUPPRESSED))
 
 static const struct behaviour_table *table_of(const struct step_context *context, uint32_t i)
 {
@@ -58,124 +57,6 @@ static bool looks_now(const struct step_context *context, uint32_t i)
 }
 
 /* --- seeing ------------------------------------------------------------------------------------*/
-
-struct vec3 perception_eye(const struct step_context *context, uint32_t i)
-{
-    struct vec3 at = entities_position(&context->committed->entities, i);
-    const struct kind *kind = &context->world->kinds[context->committed->entities.kind[i]];
-    if (kind->domain != DOMAIN_AIR)
-        at.y += EYE_SHARE * kind->height_m;
-    return at;
-}
-
-struct vec3 perception_middle(const struct step_context *context, uint32_t i)
-{
-    struct vec3 at = entities_position(&context->committed->entities, i);
-    at.y += kinematics_aim_height(context, context->committed->entities.kind[i]);
-    return at;
-}
-
-/* Its view: all round, or a sector around the direction of its turret. */
-struct sector {
-    bool around;
-    double sine, cosine; /* of the middle */
-    double edge;         /* cosine of half the width */
-};
-
-static struct sector sector_of(const struct step_context *context, uint32_t i)
-{
-    const struct entities *w = &context->committed->entities;
-    double wide = context->world->kinds[w->kind[i]].view_rad;
-    struct sector view = {.around = wide >= TWO_PI - 1e-9};
-    if (!view.around) {
-        maths_sincos(w->heading[i] + (double)w->turret[i], &view.sine, &view.cosine);
-        view.edge = maths_cos(0.5 * wide);
-    }
-    return view;
-}
-
-static bool in_view(const struct sector *view, double dx, double dz)
-{
-    return view->around ||
-           dx * view->sine - dz * view->cosine >= view->edge * sqrt(dx * dx + dz * dz);
-}
-
-bool perception_sees(const struct step_context *context, uint32_t i, uint32_t other)
-{
-    const struct entities *w = &context->committed->entities;
-    double dx = w->x[other] - w->x[i], dz = w->z[other] - w->z[i];
-    double sight = context->world->kinds[w->kind[i]].sight_m;
-    if (!(dx * dx + dz * dz < sight * sight))
-        return false;
-    struct sector view = sector_of(context, i);
-    return in_view(&view, dx, dz) &&
-           line_of_sight_clear(context->line_of_sight, perception_eye(context, i),
-                               perception_middle(context, other));
-}
-
-struct candidates {
-    uint32_t count;
-    uint32_t row[CANDIDATES];
-    double square[CANDIDATES]; /* of the distance; ascending */
-};
-
-static void consider(struct candidates *c, uint32_t row, double square)
-{
-    uint32_t n = c->count < CANDIDATES ? c->count++ : CANDIDATES;
-    if (n == CANDIDATES) {
-        if (square >= c->square[CANDIDATES - 1])
-            return;
-        n--;
-    }
-    for (; n > 0 && c->square[n - 1] > square; n--) {
-        c->square[n] = c->square[n - 1];
-        c->row[n] = c->row[n - 1];
-    }
-    c->square[n] = square;
-    c->row[n] = row;
-}
-
-static void gather(const struct step_context *context, uint32_t i, const struct sector *view,
-                   double radius, struct candidates *c)
-{
-    const struct entities *w = &context->committed->entities;
-    const struct neighbour_index_entry *entry;
-    struct neighbour_query query =
-        neighbour_query_begin(context->neighbours, neighbour_index_enemies((enum force)w->force[i]),
-                              w->x[i], w->z[i], radius);
-    c->count = 0;
-    while ((entry = neighbour_query_next(&query))) {
-        double dx = (double)entry->x - query.x, dz = (double)entry->z - query.z;
-        if (in_view(view, dx, dz) && fire_control_suits(context, i, entry->row))
-            consider(c, entry->row, dx * dx + dz * dz);
-    }
-}
-
-/* The nearest enemy that it sees; SLOT_NONE: none. The two nearest candidates are tried in each
- * look. The third line of sight goes to another candidate each time, so that an enemy behind a hill
- * does not hide those further away. */
-static uint32_t look_out(const struct step_context *context, uint32_t i)
-{
-    double sight = context->world->kinds[context->m->kind[i]].sight_m;
-    enum force force = (enum force)context->committed->entities.force[i];
-    struct candidates c = {0};
-    if (!(neighbour_index_enemies(force) & context->neighbours->present))
-        return SLOT_NONE;
-    struct sector view = sector_of(context, i);
-    for (double radius = 0.25 * sight;; radius = maths_min(2.0 * radius, sight)) {
-        gather(context, i, &view, radius, &c);
-        if (c.count == CANDIDATES || radius >= sight)
-            break;
-    }
-    uint32_t others = c.count > LINES - 1 ? c.count - (LINES - 1) : 0;
-    for (uint32_t n = 0; n < c.count && n < LINES; n++) {
-        uint32_t at =
-            n < LINES - 1 ? n : n + (uint32_t)(context->tick / context->look_frames) % others;
-        if (perception_sees(context, i, c.row[at]))
-            return c.row[at];
-    }
-    return SLOT_NONE;
-}
 
 bool perception_in_sight(const struct step_context *context, uint32_t i)
 {
@@ -246,7 +127,10 @@ static bool low_fuel(const struct step_context *context, uint32_t i)
 
 static bool has_arrived(const struct step_context *context, uint32_t i)
 {
-    return context->m->behaviour[i] == BEHAVIOUR_WITHDRAW && goal_at_base(context, i);
+    enum behaviour behaviour = (enum behaviour)context->m->behaviour[i];
+    return behaviour == BEHAVIOUR_WITHDRAW     ? goal_at_base(context, i)
+           : behaviour == BEHAVIOUR_REPOSITION ? goal_in_position(context, i)
+                                               : false;
 }
 
 static uint32_t notice_state(const struct step_context *context, uint32_t i)
@@ -276,6 +160,10 @@ static uint32_t notice_state(const struct step_context *context, uint32_t i)
         percepts |= PERCEPTION_BIT(LEASE_OVER);
     if (has_arrived(context, i))
         percepts |= PERCEPTION_BIT(ARRIVED);
+    if (m->behaviour[i] == BEHAVIOUR_ATTACK && fire_control_salvo_over(context, i))
+        percepts |= PERCEPTION_BIT(ROUNDS_FIRED);
+    if (step_context_thinks(context, i) && progress_stalled(context, i))
+        percepts |= PERCEPTION_BIT(STALLED);
     return percepts;
 }
 
@@ -292,6 +180,13 @@ bool perception_event(const struct step_context *context, uint32_t i)
     return m->threat_id[i] != 0 || m->bumped[i] != 0 || hurt(context, i);
 }
 
+/* An aircraft evades the fire of air defence. */
+static bool evades(const struct step_context *context, uint32_t i, uint32_t threat)
+{
+    return threat != SLOT_NONE && context->world->kinds[context->m->kind[i]].domain == DOMAIN_AIR &&
+           fire_control_air_defence(context, threat);
+}
+
 static void notice_events(const struct step_context *context, uint32_t i, struct notice *notice)
 {
     const struct entities *m = context->m, *w = &context->committed->entities;
@@ -305,8 +200,11 @@ static void notice_events(const struct step_context *context, uint32_t i, struct
         notice->percepts |= PERCEPTION_BIT(BUMP);
     if (hurt(context, i))
         notice->percepts |= PERCEPTION_BIT(HURT);
+    if ((m->flags[i] & ENTITY_FLAG_BURST) || evades(context, i, notice->threat))
+        notice->percepts |= PERCEPTION_BIT(SUPPRESSED);
     m->threat_slot[i] = m->threat_id[i] = 0;
     m->bumped[i] = 0;
+    m->flags[i] &= (uint8_t)~ENTITY_FLAG_BURST;
 }
 
 /* --- looks -------------------------------------------------------------------------------------*/
@@ -330,12 +228,20 @@ static void fight_on(const struct step_context *context, uint32_t i, uint32_t en
         (uint32_t)(context->tick + (uint64_t)(BEHAVIOUR_TABLE_FIGHT_S / context->dt_s));
 }
 
+/* Returns true if it is still worth the rounds to fire at the other row. */
+static bool in_reach(const struct step_context *context, uint32_t i, uint32_t other)
+{
+    const struct entities *w = &context->committed->entities;
+    double dx = w->x[other] - w->x[i], dz = w->z[other] - w->z[i];
+    return fire_control_worth(context, i, other, dx * dx + dz * dz);
+}
+
 /* In a fight: looks for its target, and for another enemy if it does not see the target. */
 static void watch_target(const struct step_context *context, uint32_t i)
 {
     uint32_t seen = context->m->target_slot[i];
-    if (!perception_sees(context, i, seen))
-        seen = look_out(context, i);
+    if (!in_reach(context, i, seen) || !target_search_sees(context, i, seen))
+        seen = target_search(context, i, TARGET_SEARCH_ALERT);
     if (seen != SLOT_NONE)
         fight_on(context, i, seen);
 }
@@ -352,7 +258,7 @@ static void next_target(const struct step_context *context, uint32_t i, struct n
                              percepts | PERCEPTION_BIT(ENEMY));
     if (!row || row->to != BEHAVIOUR_ATTACK || row->because != REASON_ENEMY_SEEN)
         return;
-    uint32_t seen = look_out(context, i);
+    uint32_t seen = target_search(context, i, TARGET_SEARCH_ALERT);
     if (seen == SLOT_NONE)
         return;
     fight_on(context, i, seen);
@@ -372,7 +278,7 @@ static void notice_look(const struct step_context *context, uint32_t i, struct n
         if (enemies >= OUTNUMBERED * friends)
             notice->percepts |= PERCEPTION_BIT(OUTNUMBERED);
     } else if (matters(context, i, notice->percepts, PERCEPTION_BIT(ENEMY))) {
-        notice->enemy = look_out(context, i);
+        notice->enemy = target_search(context, i, TARGET_SEARCH_CALM);
         if (notice->enemy != SLOT_NONE)
             notice->percepts |= PERCEPTION_BIT(ENEMY);
     }
@@ -391,6 +297,9 @@ struct notice perception_notice(const struct step_context *context, uint32_t i)
         next_target(context, i, &notice);
     if (looks_now(context, i))
         notice_look(context, i, &notice);
+    if ((notice.percepts & PERCEPTION_BIT(SHOT)) &&
+        matters(context, i, notice.percepts, PERCEPTION_BIT(LOSSES)) && losses_half(context, i))
+        notice.percepts |= PERCEPTION_BIT(LOSSES);
     if (notice.threat != SLOT_NONE && !fire_control_suits(context, i, notice.threat))
         return notice; /* it cannot fire back */
     if ((notice.percepts & TESTS) && matters(context, i, notice.percepts, PERCEPTION_BIT(BRAVE)) &&

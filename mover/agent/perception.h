@@ -28,13 +28,6 @@ bool perception_event(const struct step_context *context, uint32_t i);
 /* All percepts of row i. Clears the events (shot at, bumped) in its row. */
 struct notice perception_notice(const struct step_context *context, uint32_t i);
 
-/* Returns true if row i sees the other row: in range, within its view, with nothing between. */
-bool perception_sees(const struct step_context *context, uint32_t i, uint32_t other);
-
-/* The eye of row i, and the point of row i that others look at [m, world]. */
-struct vec3 perception_eye(const struct step_context *context, uint32_t i);
-struct vec3 perception_middle(const struct step_context *context, uint32_t i);
-
 /* Returns true if row i can fire and may fire. */
 bool perception_armed(const struct step_context *context, uint32_t i);
 

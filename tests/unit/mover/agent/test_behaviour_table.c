@@ -17,9 +17,9 @@
 #define P(name)  (1u << PERCEPT_##name)
 
 static const char *const names[PERCEPT_COUNT] = {
-    "no fuel",  "shot",    "bump",       "hurt",  "time over",   "target",
-    "gone",     "arrived", "lease over", "enemy", "outnumbered", "no rounds",
-    "low fuel", "armed",   "at will",    "stand", "brave"};
+    "no fuel", "shot",       "bump",       "hurt",        "time over", "target",   "gone",
+    "arrived", "lease over", "enemy",      "outnumbered", "no rounds", "low fuel", "armed",
+    "at will", "stand",      "suppressed", "stalled",     "salvo",     "losses",   "brave"};
 
 static const char *said(uint32_t percepts)
 {
@@ -78,7 +78,8 @@ static void test_row_9_every_row_of_every_table_can_win(void **state)
 static void test_rows_are_sound(void **state)
 {
     static const uint32_t timed = 1u << BEHAVIOUR_ATTACK | 1u << BEHAVIOUR_FLEE |
-                                  1u << BEHAVIOUR_BACK_OFF | 1u << BEHAVIOUR_RESUPPLY;
+                                  1u << BEHAVIOUR_BACK_OFF | 1u << BEHAVIOUR_RESUPPLY |
+                                  1u << BEHAVIOUR_REPOSITION;
     (void)state;
     for (uint32_t d = 0; d < DOCTRINE_COUNT; d++) {
         const struct behaviour_table *table = &behaviour_tables[d];
@@ -142,6 +143,28 @@ static const struct {
     {DOCTRINE_WARSHIP, BEHAVIOUR_PATROL, P(SHOT) | P(ARMED) | P(BRAVE), BEHAVIOUR_ATTACK,
      REASON_FIRED_UPON},
     {DOCTRINE_BEAST, BEHAVIOUR_ATTACK, P(HURT) | P(OUTNUMBERED), BEHAVIOUR_ATTACK, 0},
+    {DOCTRINE_ARMOUR, BEHAVIOUR_ATTACK, P(SUPPRESSED) | P(ARMED) | P(TARGET), BEHAVIOUR_FLEE,
+     REASON_SUPPRESSED},
+    {DOCTRINE_ARMOUR, BEHAVIOUR_ATTACK, P(SUPPRESSED) | P(ARMED) | P(TARGET) | P(BRAVE),
+     BEHAVIOUR_ATTACK, 0},
+    {DOCTRINE_ARMOUR, BEHAVIOUR_ATTACK, P(ROUNDS_FIRED) | P(ARMED) | P(TARGET),
+     BEHAVIOUR_REPOSITION, REASON_ROUNDS_FIRED},
+    {DOCTRINE_ARMOUR, BEHAVIOUR_ATTACK, P(ROUNDS_FIRED) | P(ARMED) | P(TARGET) | P(STAND),
+     BEHAVIOUR_ATTACK, 0},
+    {DOCTRINE_ARMOUR, BEHAVIOUR_REPOSITION, P(ARRIVED) | P(ARMED) | P(TARGET), BEHAVIOUR_ATTACK,
+     REASON_ARRIVED},
+    {DOCTRINE_ARMOUR, BEHAVIOUR_PATROL, P(SHOT) | P(LOSSES) | P(ARMED) | P(BRAVE),
+     BEHAVIOUR_WITHDRAW, REASON_LOSSES},
+    {DOCTRINE_ARMOUR, BEHAVIOUR_ATTACK, P(SHOT) | P(LOSSES) | P(ARMED) | P(STAND), BEHAVIOUR_ATTACK,
+     0},
+    {DOCTRINE_SOFT, BEHAVIOUR_ROUTE, P(STALLED), BEHAVIOUR_BACK_OFF, REASON_STUCK},
+    {DOCTRINE_SOFT, BEHAVIOUR_BACK_OFF, P(STALLED), BEHAVIOUR_BACK_OFF, REASON_STUCK},
+    {DOCTRINE_JET, BEHAVIOUR_ATTACK, P(ROUNDS_FIRED) | P(ARMED) | P(TARGET), BEHAVIOUR_WITHDRAW,
+     REASON_ROUNDS_FIRED},
+    {DOCTRINE_JET, BEHAVIOUR_ATTACK, P(SUPPRESSED) | P(SHOT) | P(ARMED) | P(BRAVE), BEHAVIOUR_FLEE,
+     REASON_SUPPRESSED},
+    {DOCTRINE_FLAK, BEHAVIOUR_PATROL, P(ENEMY) | P(ARMED) | P(AT_WILL), BEHAVIOUR_ATTACK,
+     REASON_ENEMY_SEEN},
 };
 
 static void test_row_9_each_sort_does_its_own_about_it(void **state)

@@ -87,6 +87,47 @@ static void test_a_tank_fires_no_round_at_a_jet(void **state)
     assert_int_equal(steps_rows(&f).rounds[tank], steps_kind(&f, "tank")->rounds);
 }
 
+static void test_a_fast_helicopter_is_no_target_for_a_tank_gun(void **state)
+{
+    (void)state;
+    uint32_t a = put("tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t b =
+        put("helicopter", (struct vec3){25000.0, 150.0, 25500.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    struct step_context step;
+    struct serial_context context;
+    steps_rows(&f).vx[b] = 50.0;
+    steps_serial_context(&f, &step, &context);
+    assert_false(fire_control_suits(&step, a, b));
+    steps_rows(&f).vx[b] = 5.0;
+    assert_true(fire_control_suits(&step, a, b));
+}
+
+/* Returns the reach over the range of the gun. */
+static double reach(const char *shooter, const char *target, double rounds_left)
+{
+    steps_empty(&f);
+    uint32_t a = put(shooter, (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t b = put(target, (struct vec3){25000.0, 400.0, 26000.0}, FORCE_RED, BEHAVIOUR_IDLE);
+    struct step_context step;
+    struct serial_context context;
+    steps_serial_context(&f, &step, &context);
+    const struct kind *kind = steps_kind(&f, shooter);
+    step.m->rounds[a] = (uint32_t)(rounds_left * kind->rounds);
+    return fire_control_reach_m(&step, a, b) / kind->range_m;
+}
+
+static void test_rounds_are_kept_for_targets_that_can_be_hit(void **state)
+{
+    (void)state;
+    assert_true(reach("tank", "tank", 1.0) == 1.0 && reach("tank", "tank", 0.7) == 1.0);
+    assert_true(reach("tank", "tank", 0.6) < 0.35);
+    assert_true(reach("carrier", "jet", 1.0) < 0.35);
+    assert_true(reach("carrier", "helicopter", 1.0) < 0.55);
+    assert_true(reach("flak", "jet", 1.0) == 1.0 && reach("flak", "jet", 0.2) == 1.0);
+    assert_true(reach("flak", "tank", 1.0) < 0.5);
+    assert_true(reach("ship", "jet", 1.0) == 1.0); /* its missiles home */
+}
+
 /* --- reactions ---------------------------------------------------------------------------------*/
 
 static int ascending(const void *p, const void *q)
@@ -163,6 +204,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_no_tank_gun_suits_a_jet),
         TEST(test_a_tank_fires_no_round_at_a_jet),
+        TEST(test_a_fast_helicopter_is_no_target_for_a_tank_gun),
+        TEST(test_rounds_are_kept_for_targets_that_can_be_hit),
         TEST(test_the_reaction_has_a_least_time_and_the_kinds_median),
         TEST(test_a_gun_that_loads_for_longer_is_not_loaded_sooner),
         TEST(test_crews_reply_after_a_human_time),

@@ -75,7 +75,7 @@ static double ridge(double x, double z, const void *context)
     return 100.0 + (fabs(x - MIDDLE) < 200.0 ? 40.0 : 0.0);
 }
 
-/* Does a tank that fires at will attack one on the other side of the middle within two seconds? */
+/* Does a tank that fires at will attack one on the other side of the middle within two minutes? */
 static bool attacks_across(bool hill)
 {
     fixture_close(&f);
@@ -86,7 +86,8 @@ static bool attacks_across(bool hill)
     uint32_t row =
         put("tank", MIDDLE - 500.0, MIDDLE, FORCE_BLUE, BEHAVIOUR_IDLE, ENTITY_FLAG_FIRE_AT_WILL);
     put("tank", MIDDLE + 500.0, MIDDLE, FORCE_RED, BEHAVIOUR_HOLD, 0);
-    seconds(2.0);
+    for (int second = 0; second < 120 && behaviour_of(row) != BEHAVIOUR_ATTACK; second++)
+        seconds(1.0);
     return behaviour_of(row) == BEHAVIOUR_ATTACK;
 }
 
@@ -123,7 +124,7 @@ static bool sees_at(double bearing_deg, double turret_deg)
     uint32_t row =
         put("jeep", MIDDLE, MIDDLE, FORCE_BLUE, BEHAVIOUR_IDLE, ENTITY_FLAG_FIRE_AT_WILL);
     put("tank", MIDDLE + 600.0 * sine, MIDDLE - 600.0 * cosine, FORCE_RED, BEHAVIOUR_HOLD, 0);
-    for (int frame = 0; frame < (int)(1.5 * HZ); frame++) {
+    for (int frame = 0; frame < (int)(60 * HZ) && behaviour_of(row) != BEHAVIOUR_ATTACK; frame++) {
         steps_rows(&f).turret[row] = (float)(turret_deg * RAD_PER_DEG);
         fixture_run(&f, 1);
     }

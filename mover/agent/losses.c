@@ -1,0 +1,68 @@
+/* Counts the wrecks of a group. */
+#include "mover/agent/losses.h"
+
+#include "world/entity/formation.h"
+#include "world/state.h"
+#include "world/world.h"
+
+#include <stddef.h>
+
+#define LEAST_GROUP 4u
+#define REACH       64u /* slots on each side */
+
+struct losses {
+    uint32_t all, lost;
+};
+
+static void count(const struct entities *w, uint32_t slot, struct losses *losses)
+{
+    losses->all++;
+    losses->lost += w->state[slot] != ENTITY_ACTIVE;
+}
+
+static bool same_group(const struct entities *w, uint32_t a, uint32_t b)
+{
+    return w->state[b] != ENTITY_FREE && w->kind[a] == w->kind[b] && w->force[a] == w->force[b] &&
+           w->order[a] == w->order[b] && w->order_arg[a] == w->order_arg[b];
+}
+
+/* Counts the vehicles beside row i that have the same kind, force and order. */
+static void count_beside(const struct step_context *context, uint32_t i, struct losses *losses)
+{
+    const struct entities *w = &context->committed->entities;
+    uint32_t used = context->committed->head->used;
+    count(w, i, losses);
+    for (uint32_t n = 1; n <= REACH && n <= i && same_group(w, i, i - n); n++)
+        count(w, i - n, losses);
+    for (uint32_t n = 1; n <= REACH && i + n < used && same_group(w, i, i + n); n++)
+        count(w, i + n, losses);
+}
+
+/* Returns the formation of row i, or NULL. A leader is known by its first follower. */
+static const struct formation *formation_of(const struct step_context *context, uint32_t i)
+{
+    const struct entities *w = &context->committed->entities;
+    uint32_t used = context->committed->head->used;
+    for (uint32_t slot = i; slot < used && slot <= i + 1; slot++) {
+        if (w->order[slot] != BEHAVIOUR_FOLLOW ||
+            w->order_arg[slot] >= context->world->counts.formations)
+            continue;
+        const struct formation *formation = &context->world->formations[w->order_arg[slot]];
+        if (i >= formation->first && i - formation->first < formation->count)
+            return formation;
+    }
+    return NULL;
+}
+
+bool losses_half(const struct step_context *context, uint32_t i)
+{
+    const struct formation *formation = formation_of(context, i);
+    struct losses losses = {0, 0};
+    if (formation == NULL) {
+        count_beside(context, i, &losses);
+    } else {
+        for (uint32_t n = 0; n < formation->count; n++)
+            count(&context->committed->entities, formation->first + n, &losses);
+    }
+    return losses.all >= LEAST_GROUP && 2 * losses.lost >= losses.all;
+}

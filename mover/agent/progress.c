@@ -1,0 +1,46 @@
+/* Compares the speed of a vehicle with its throttle. */
+#include "mover/agent/progress.h"
+
+#include "world/maths/random.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/world.h"
+
+#define STALLED_S    3.0
+#define DRIVES_MPS   1.0  /* it wants at least this speed */
+#define SLOW_MPS     0.3  /* and reaches less than this, */
+#define SLOW_SHARE   0.06 /* or than this share of it */
+#define SIDE_RAD     1.05 /* most off the way back */
+#define STALLED_MOST UINT8_MAX
+
+static bool gets_on(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    double wanted = fabs((double)m->throttle[i]) * kind->max_speed_mps;
+    double least = maths_max(SLOW_MPS, SLOW_SHARE * wanted);
+    return kind->domain == DOMAIN_AIR || wanted < DRIVES_MPS ||
+           m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i] >= least * least;
+}
+
+bool progress_stalled(const struct step_context *context, uint32_t i)
+{
+    struct entities *m = context->m;
+    if (m->throttle[i] == 0.0f || gets_on(context, i)) {
+        m->stalled[i] = 0;
+        return false;
+    }
+    uint32_t count = m->stalled[i] + 1u;
+    bool long_enough = count * context->think_frames * context->dt_s >= STALLED_S;
+    m->stalled[i] = long_enough || count > STALLED_MOST ? 0 : (uint8_t)count;
+    return long_enough;
+}
+
+double progress_way_out(const struct step_context *context, uint32_t i, bool tried)
+{
+    const struct entities *m = context->m;
+    double side =
+        random_between(context->world->params->seed, context->tick, m->id[i], RANDOM_STUCK, -1, 1);
+    double back = m->heading[i] + (m->throttle[i] < 0.0f ? 0.0 : PI);
+    return back + side * (tried ? PI : SIDE_RAD);
+}

@@ -1,0 +1,15 @@
+/* Whether a vehicle gets on. Writes the column stalled of row i. Any thread, each its own row. */
+#ifndef JOLON_MOVER_AGENT_PROGRESS_H
+#define JOLON_MOVER_AGENT_PROGRESS_H
+
+#include "mover/context/step_context.h"
+
+/* Counts the decisions of row i's agent in which the vehicle drives and does not get on. Returns
+ * true when that has lasted for 3 s, and counts from 0 again. For each decision once. */
+bool progress_stalled(const struct step_context *context, uint32_t i);
+
+/* Returns the heading in which a vehicle that is stuck backs off [rad]: away from where it drove,
+ * up to 60 degrees to a random side. tried: it is backing off already; then any heading. */
+double progress_way_out(const struct step_context *context, uint32_t i, bool tried);
+
+#endif

@@ -1,0 +1,174 @@
+/* Finds targets: candidates from the index of neighbours, a random time of search, and lines of
+ * sight. */
+#include "mover/agent/target_search.h"
+
+#include "mover/agent/fire_control.h"
+#include "mover/motion/kinematics.h"
+#include "world/maths/random.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/world.h"
+
+#define CANDIDATES     8u   /* a look considers so many enemies */
+#define LINES          3u   /* lines of sight of a look */
+#define EYE_SHARE      0.9  /* height of the eye as a share of the height; not of aircraft */
+#define SEARCH_MOST_S  30.0 /* mean time to find an enemy at the end of the sight */
+#define SEARCH_LEAST_S 1.0  /* and of one near by */
+#define PREFERENCE     2.0  /* a target's distance, squared, counts up to 1 + this much */
+
+/* --- seeing ------------------------------------------------------------------------------------*/
+
+struct vec3 target_search_eye(const struct step_context *context, uint32_t i)
+{
+    struct vec3 at = entities_position(&context->committed->entities, i);
+    const struct kind *kind = &context->world->kinds[context->committed->entities.kind[i]];
+    if (kind->domain != DOMAIN_AIR)
+        at.y += EYE_SHARE * kind->height_m;
+    return at;
+}
+
+struct vec3 target_search_middle(const struct step_context *context, uint32_t i)
+{
+    struct vec3 at = entities_position(&context->committed->entities, i);
+    at.y += kinematics_aim_height(context, context->committed->entities.kind[i]);
+    return at;
+}
+
+/* Its view: all round, or a sector around the direction of its turret. */
+struct sector {
+    bool around;
+    double sine, cosine; /* of the middle */
+    double edge;         /* cosine of half the width */
+};
+
+static struct sector sector_of(const struct step_context *context, uint32_t i)
+{
+    const struct entities *w = &context->committed->entities;
+    double wide = context->world->kinds[w->kind[i]].view_rad;
+    struct sector view = {.around = wide >= TWO_PI - 1e-9};
+    if (!view.around) {
+        maths_sincos(w->heading[i] + (double)w->turret[i], &view.sine, &view.cosine);
+        view.edge = maths_cos(0.5 * wide);
+    }
+    return view;
+}
+
+static bool in_view(const struct sector *view, double dx, double dz)
+{
+    return view->around ||
+           dx * view->sine - dz * view->cosine >= view->edge * sqrt(dx * dx + dz * dz);
+}
+
+bool target_search_sees(const struct step_context *context, uint32_t i, uint32_t other)
+{
+    const struct entities *w = &context->committed->entities;
+    double dx = w->x[other] - w->x[i], dz = w->z[other] - w->z[i];
+    double sight = context->world->kinds[w->kind[i]].sight_m;
+    if (!(dx * dx + dz * dz < sight * sight))
+        return false;
+    struct sector view = sector_of(context, i);
+    return in_view(&view, dx, dz) &&
+           line_of_sight_clear(context->line_of_sight, target_search_eye(context, i),
+                               target_search_middle(context, other));
+}
+
+/* --- candidates --------------------------------------------------------------------------------*/
+
+struct candidates {
+    uint32_t count;
+    uint32_t row[CANDIDATES];
+    double square[CANDIDATES]; /* of the distance, weighted; ascending */
+};
+
+static void consider(struct candidates *c, uint32_t row, double square)
+{
+    uint32_t n = c->count < CANDIDATES ? c->count++ : CANDIDATES;
+    if (n == CANDIDATES) {
+        if (square >= c->square[CANDIDATES - 1])
+            return;
+        n--;
+    }
+    for (; n > 0 && c->square[n - 1] > square; n--) {
+        c->square[n] = c->square[n - 1];
+        c->row[n] = c->row[n - 1];
+    }
+    c->square[n] = square;
+    c->row[n] = row;
+}
+
+/* A weight of 1 .. 1 + PREFERENCE that each pair of vehicles keeps: neighbours prefer different
+ * targets among those at about the same distance. */
+static double preference(const struct step_context *context, uint32_t i, uint32_t other)
+{
+    const struct entities *w = &context->committed->entities;
+    return 1.0 + PREFERENCE * random_unit(context->world->params->seed, w->id[other], w->id[i],
+                                          RANDOM_SEARCH);
+}
+
+static void gather(const struct step_context *context, uint32_t i, const struct sector *view,
+                   double radius, struct candidates *c)
+{
+    const struct entities *w = &context->committed->entities;
+    const struct neighbour_index_entry *entry;
+    struct neighbour_query query =
+        neighbour_query_begin(context->neighbours, neighbour_index_enemies((enum force)w->force[i]),
+                              w->x[i], w->z[i], radius);
+    c->count = 0;
+    while ((entry = neighbour_query_next(&query))) {
+        double dx = (double)entry->x - query.x, dz = (double)entry->z - query.z;
+        double square = dx * dx + dz * dz;
+        if (in_view(view, dx, dz) && fire_control_worth(context, i, entry->row, square))
+            consider(c, entry->row, square * preference(context, i, entry->row));
+    }
+}
+
+/* --- the search --------------------------------------------------------------------------------*/
+
+/* Returns true if the crew finds the vehicle in this look. A look of T seconds finds it with
+ * probability T / (T + mean), so that the time to find it is geometric, nearly exponential. */
+static bool finds(const struct step_context *context, uint32_t i, uint32_t other, double sight)
+{
+    const struct entities *w = &context->committed->entities;
+    double dx = w->x[other] - w->x[i], dz = w->z[other] - w->z[i];
+    double share = sqrt(dx * dx + dz * dz) / maths_max(sight, 1.0);
+    double mean_s = maths_clamp(SEARCH_MOST_S * share, SEARCH_LEAST_S, SEARCH_MOST_S);
+    double look_s = (double)context->look_frames * context->dt_s;
+    uint64_t pair = (uint64_t)w->id[i] << 32 | w->id[other];
+    return random_unit(context->world->params->seed, context->tick, pair, RANDOM_SEARCH) *
+               (look_s + mean_s) <
+           look_s;
+}
+
+/* The candidate for line of sight n. The last line goes to another one each time, so that an enemy
+ * behind a hill does not hide those further away. */
+static uint32_t in_turn(const struct step_context *context, const struct candidates *c, uint32_t n)
+{
+    if (n < LINES - 1 || c->count <= LINES)
+        return n;
+    return n + (uint32_t)(context->tick / context->look_frames) % (c->count - (LINES - 1));
+}
+
+uint32_t target_search(const struct step_context *context, uint32_t i, enum target_search how)
+{
+    double sight = context->world->kinds[context->m->kind[i]].sight_m;
+    enum force force = (enum force)context->committed->entities.force[i];
+    struct candidates c = {0};
+    uint32_t lines = 0;
+    if (!(neighbour_index_enemies(force) & context->neighbours->present))
+        return SLOT_NONE;
+    struct sector view = sector_of(context, i);
+    for (double radius = 0.25 * sight;; radius = maths_min(2.0 * radius, sight)) {
+        gather(context, i, &view, radius, &c);
+        if (c.count == CANDIDATES || radius >= sight)
+            break;
+    }
+    for (uint32_t n = 0; n < c.count && lines < LINES; n++) {
+        uint32_t row = c.row[how == TARGET_SEARCH_ALERT ? in_turn(context, &c, n) : n];
+        if (how == TARGET_SEARCH_CALM && !finds(context, i, row, sight))
+            continue;
+        lines++;
+        if (target_search_sees(context, i, row))
+            return row;
+    }
+    return SLOT_NONE;
+}

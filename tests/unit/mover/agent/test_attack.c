@@ -1,0 +1,284 @@
+/* The manners of fighting: jets' passes, helicopters' ambushes, air defence, and firing positions.
+ */
+#include "mover/agent/attack.h"
+
+#include "mover/agent/goal.h"
+#include "mover/agent/target_search.h"
+#include "tests/support/steps.h"
+#include "world/params.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define HZ   20
+#define JETS 8u
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 256; hz = 20.0; };");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t put(const char *kind, struct vec3 at, enum force force, enum behaviour behaviour)
+{
+    uint32_t row =
+        fixture_put(&f, (struct fixture_entity){
+                            .kind = kind, .at = at, .force = force, .behaviour = BEHAVIOUR_HOLD});
+    struct entities e = steps_rows(&f);
+    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
+    return row;
+}
+
+static void attack(uint32_t row, uint32_t target)
+{
+    struct entities e = steps_rows(&f);
+    e.behaviour[row] = BEHAVIOUR_ATTACK;
+    e.target_slot[row] = target;
+    e.target_id[row] = e.id[target];
+    e.goal_x[row] = e.x[target];
+    e.goal_z[row] = e.z[target];
+    e.until_tick[row] = (uint32_t)(fixture_state(&f).head->tick + 300 * HZ);
+}
+
+/* --- jets --------------------------------------------------------------------------------------*/
+
+/* Eight jets at 1 to 8 km from their targets, on all headings. */
+static void put_jets(uint32_t *jet, uint32_t *target)
+{
+    for (uint32_t n = 0; n < JETS; n++) {
+        double x = 8000.0 + 12000.0 * (n % 4), z = 15000.0 + 20000.0 * (double)(n / 4);
+        target[n] = put("truck", (struct vec3){x, 100.0, z}, FORCE_RED, BEHAVIOUR_HOLD);
+        jet[n] =
+            put("jet", (struct vec3){x, 500.0, z - 1000.0 * (n + 1)}, FORCE_BLUE, BEHAVIOUR_IDLE);
+        struct entities e = steps_rows(&f);
+        e.heading[jet[n]] = (double)n * TWO_PI / JETS;
+        e.vx[jet[n]] = 250.0 * sin(e.heading[jet[n]]);
+        e.vz[jet[n]] = -250.0 * cos(e.heading[jet[n]]);
+        attack(jet[n], target[n]);
+    }
+}
+
+static void test_jets_that_attack_fire_within_a_minute(void **state)
+{
+    uint32_t jet[JETS], target[JETS], fired = 0;
+    (void)state;
+    put_jets(jet, target);
+    fixture_run(&f, 60 * HZ);
+    for (uint32_t n = 0; n < JETS; n++)
+        fired += steps_rows(&f).rounds[jet[n]] < steps_kind(&f, "jet")->rounds;
+    if (fired < 7)
+        fail_msg("%u of 8 jets fired", fired);
+}
+
+static void test_a_jet_extends_after_its_shot_and_flies_home_after_two(void **state)
+{
+    uint32_t jet[JETS], target[JETS];
+    double farthest = 0.0;
+    (void)state;
+    steps_kind(&f, "truck")->resistance_j = 1e12;
+    steps_kind(&f, "truck")->mass_kg = 1e12;
+    put_jets(jet, target);
+    uint32_t full = steps_kind(&f, "jet")->rounds;
+    for (int frame = 0; frame < 180 * HZ && steps_rows(&f).rounds[jet[0]] > full - 2; frame++) {
+        fixture_run(&f, 1);
+        struct entities e = steps_rows(&f);
+        double away = hypot(e.x[jet[0]] - e.x[target[0]], e.z[jet[0]] - e.z[target[0]]);
+        if (e.rounds[jet[0]] == full - 1)
+            farthest = maths_max(farthest, away);
+    }
+    fixture_run(&f, 2);
+    assert_true(farthest > 3500.0);
+    assert_int_equal(steps_rows(&f).rounds[jet[0]], full - 2);
+    assert_int_equal(steps_rows(&f).behaviour[jet[0]], BEHAVIOUR_WITHDRAW);
+}
+
+/* --- helicopters -------------------------------------------------------------------------------*/
+
+static void test_a_helicopter_changes_sides_low_and_fires_from_above(void **state)
+{
+    uint32_t target =
+        put("truck", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row =
+        put("helicopter", (struct vec3){25000.0, 145.0, 26500.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    double low = INFINITY, fired_low = INFINITY;
+    (void)state;
+    steps_kind(&f, "truck")->resistance_j = 1e12;
+    steps_kind(&f, "truck")->mass_kg = 1e12;
+    attack(row, target);
+    for (uint32_t frame = 0, fires = 0; frame < 60 * HZ; frame++) {
+        fixture_run(&f, 1);
+        double height = steps_rows(&f).y[row] - FIXTURE_GROUND_M;
+        if (frame > 10 * HZ)
+            low = maths_min(low, height);
+        if (fixture_event_count(&f, EVENT_FIRE) > fires && frame > 10 * HZ)
+            fired_low = maths_min(fired_low, height);
+        fires = fixture_event_count(&f, EVENT_FIRE);
+    }
+    double usual = steps_kind(&f, "helicopter")->cruise_altitude_m;
+    assert_true(low < 0.75 * usual);
+    assert_true(fired_low < INFINITY && fired_low > low);
+}
+
+/* --- air defence -------------------------------------------------------------------------------*/
+
+static uint32_t flak_fires(const char *kind, double height, double distance)
+{
+    steps_empty(&f);
+    uint32_t row = put("flak", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    put(kind, (struct vec3){25000.0, 100.0 + height, 25000.0 - distance}, FORCE_RED,
+        BEHAVIOUR_HOLD);
+    steps_rows(&f).flags[row] = ENTITY_FLAG_FIRE_AT_WILL;
+    fixture_run(&f, 60 * HZ);
+    return fixture_event_count(&f, EVENT_FIRE);
+}
+
+static void test_flak_fires_at_aircraft_and_near_ground_targets(void **state)
+{
+    (void)state;
+    steps_kind(&f, "helicopter")->resistance_j = 1e12;
+    assert_true(flak_fires("helicopter", 60.0, 1200.0) > 3);
+    assert_int_equal(flak_fires("helicopter", 60.0, 2500.0), 0);
+    assert_int_equal(flak_fires("truck", 0.0, 1200.0), 0);
+    assert_true(flak_fires("truck", 0.0, 400.0) > 0);
+}
+
+static void test_aircraft_evade_flak(void **state)
+{
+    static const char *const kinds[] = {"helicopter", "jet"};
+    (void)state;
+    for (int n = 0; n < 2; n++) {
+        steps_empty(&f);
+        steps_kind(&f, kinds[n])->courage = 1.0;
+        uint32_t flak =
+            put("flak", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+        uint32_t row =
+            put(kinds[n], (struct vec3){25000.0, 500.0, 26000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+        struct entities e = steps_rows(&f);
+        e.threat_slot[row] = flak;
+        e.threat_id[row] = e.id[flak];
+        fixture_run(&f, 1);
+        assert_int_equal(steps_rows(&f).behaviour[row], BEHAVIOUR_FLEE);
+        const struct event *event = fixture_event(&f, EVENT_AGENT, 0);
+        assert_int_equal(event->agent.because, REASON_SUPPRESSED);
+    }
+}
+
+/* --- suppression and positions -----------------------------------------------------------------*/
+
+/* Returns the seconds that a tank in a duel holds its fire after a burst beside it. */
+static double silent_s(uint32_t seed)
+{
+    steps_empty(&f);
+    steps_params(&f)->seed = seed;
+    steps_kind(&f, "tank")->courage = 1.0;
+    uint32_t target =
+        put("truck", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row = put("tank", (struct vec3){25000.0, 100.0, 25800.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    attack(row, target);
+    steps_rows(&f).flags[row] = ENTITY_FLAG_STAND | ENTITY_FLAG_BURST;
+    steps_rows(&f).reload_tick[row] = HZ; /* its agent decides first */
+    for (int frame = 0; frame < 60 * HZ; frame++) {
+        fixture_run(&f, 1);
+        assert_false(steps_rows(&f).flags[row] & ENTITY_FLAG_BURST && frame > 2);
+        if (fixture_event_count(&f, EVENT_FIRE) > 0)
+            return (double)frame / HZ;
+    }
+    return INFINITY;
+}
+
+static void test_a_burst_silences_a_crew_for_ten_to_thirty_seconds(void **state)
+{
+    double least = INFINITY, most = 0.0;
+    (void)state;
+    for (uint32_t seed = 1; seed <= 20; seed++) {
+        double time_s = silent_s(seed);
+        least = maths_min(least, time_s);
+        most = maths_max(most, time_s);
+    }
+    if (least < 10.0 || most > 34.0 || most < 20.0)
+        fail_msg("from %g to %g s", least, most);
+}
+
+static void test_a_tank_fires_two_to_four_rounds_and_moves(void **state)
+{
+    uint32_t target =
+        put("ship", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row = put("tank", (struct vec3){25000.0, 100.0, 25800.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t fired = 0, moves = 0;
+    enum behaviour before = BEHAVIOUR_ATTACK;
+    (void)state;
+    steps_kind(&f, "ship")->resistance_j = 1e12;
+    steps_kind(&f, "ship")->mass_kg = 1e12;
+    attack(row, target);
+    for (int frame = 0; frame < 120 * HZ; frame++) {
+        fixture_run(&f, 1);
+        enum behaviour now = (enum behaviour)steps_rows(&f).behaviour[row];
+        if (now == BEHAVIOUR_REPOSITION && before != now) {
+            uint32_t rounds = fixture_event_count(&f, EVENT_FIRE);
+            assert_in_range(rounds - fired, 2, 4);
+            fired = rounds;
+            moves++;
+        }
+        before = now;
+    }
+    assert_true(moves >= 3);
+}
+
+/* A ridge of 2 m along x = 25000. */
+static double ridge(double x, double z, const void *context)
+{
+    (void)z, (void)context;
+    return 100.0 + (fabs(x - 25000.0) < 60.0 ? 2.0 : 0.0);
+}
+
+static void test_a_position_behind_a_crest_hides_the_hull(void **state)
+{
+    struct step_context step;
+    struct serial_context context;
+    (void)state;
+    steps_ground(&f, ridge, NULL);
+    fixture_threads(&f, 1);
+    uint32_t enemy = put("tank", (struct vec3){25600.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row = put("tank", (struct vec3){25000.0, 102.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    steps_rows(&f).heading[row] = HALF_PI;
+    steps_serial_context(&f, &step, &context);
+    goal_position(&step, row, enemy);
+    struct vec3 at = {step.m->goal_x[row], 0.0, step.m->goal_z[row]};
+    double height = steps_kind(&f, "tank")->height_m, ground = steps_ground_at(&f, at.x, at.z);
+    struct vec3 eye = target_search_eye(&step, enemy);
+    assert_true(hypot(at.x - 25000.0, at.z - 25000.0) < 91.0);
+    at.y = ground + 0.4 * height;
+    assert_false(line_of_sight_clear(step.line_of_sight, eye, at));
+    at.y = ground + 0.9 * height;
+    assert_true(line_of_sight_clear(step.line_of_sight, eye, at));
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_jets_that_attack_fire_within_a_minute),
+        TEST(test_a_jet_extends_after_its_shot_and_flies_home_after_two),
+        TEST(test_a_helicopter_changes_sides_low_and_fires_from_above),
+        TEST(test_flak_fires_at_aircraft_and_near_ground_targets),
+        TEST(test_aircraft_evade_flak),
+        TEST(test_a_burst_silences_a_crew_for_ten_to_thirty_seconds),
+        TEST(test_a_tank_fires_two_to_four_rounds_and_moves),
+        TEST(test_a_position_behind_a_crest_hides_the_hull),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,104 @@
+/* Losses: a group is lost when half of it is destroyed. */
+#include "mover/agent/losses.h"
+
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 64; };"
+                     "vehicles = ("
+                     "{ kind = \"tank\"; count = 6; force = \"blue\";"
+                     "  area = [24000.0, 24000.0, 24600.0, 24800.0]; },"
+                     "{ kind = \"tank\"; count = 6; force = \"blue\";"
+                     "  area = [26000.0, 24000.0, 26600.0, 24800.0]; },"
+                     "{ kind = \"carrier\"; count = 4; force = \"red\"; formation = \"wedge\";"
+                     "  at = [28000.0, 28000.0]; },"
+                     "{ kind = \"tank\"; force = \"red\"; at = [28500.0, 28000.0]; });");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static bool lost(uint32_t row)
+{
+    struct step_context step;
+    struct serial_context context;
+    steps_serial_context(&f, &step, &context);
+    return losses_half(&step, row);
+}
+
+static void destroy(uint32_t first, uint32_t count)
+{
+    for (uint32_t row = first; row < first + count; row++)
+        steps_rows(&f).state[row] = ENTITY_WRECK;
+}
+
+static void test_half_of_an_areas_group_is_three_of_six(void **state)
+{
+    (void)state;
+    assert_false(lost(0));
+    destroy(1, 2);
+    assert_false(lost(0));
+    destroy(3, 1);
+    assert_true(lost(0) && lost(4) && lost(5));
+    assert_false(lost(6)); /* another area */
+}
+
+static void test_a_formation_counts_its_leader(void **state)
+{
+    (void)state;
+    destroy(13, 1);
+    assert_false(lost(12) || lost(14));
+    destroy(12, 1);
+    assert_true(lost(14) && lost(15));
+}
+
+static void test_a_single_vehicle_has_no_group(void **state)
+{
+    (void)state;
+    assert_false(lost(16));
+}
+
+/* They withdraw when they are fired upon, not those that stand. */
+static void test_a_group_with_half_losses_withdraws_when_fired_upon(void **state)
+{
+    (void)state;
+    destroy(0, 3);
+    struct entities e = steps_rows(&f);
+    e.flags[4] |= ENTITY_FLAG_STAND;
+    for (uint32_t row = 3; row < 5; row++) {
+        e.threat_slot[row] = 16;
+        e.threat_id[row] = e.id[16];
+    }
+    fixture_run(&f, 1);
+    assert_int_equal(steps_rows(&f).behaviour[3], BEHAVIOUR_WITHDRAW);
+    assert_int_not_equal(steps_rows(&f).behaviour[4], BEHAVIOUR_WITHDRAW);
+    assert_int_equal(steps_rows(&f).behaviour[5], BEHAVIOUR_PATROL);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_half_of_an_areas_group_is_three_of_six),
+        TEST(test_a_formation_counts_its_leader),
+        TEST(test_a_single_vehicle_has_no_group),
+        TEST(test_a_group_with_half_losses_withdraws_when_fired_upon),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,170 @@
+/* Vehicles that do not get on: they give up, back off and go around. */
+#include "mover/agent/progress.h"
+
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#define HZ       20
+#define PUSH_S   10 /* nobody pushes for longer */
+#define TRUCKS   4u
+#define FAR_EAST "[25400.0, 25000.0], [25600.0, 25000.0]"
+#define FAR_WEST "[24600.0, 25000.0], [24400.0, 25000.0]"
+#define MODELS   "collision = { shape = \"model\"; };"
+#define WORLD    "world = { seed = 1; capacity = 64; hz = 20.0; };"
+#define TRUCK(at)                                                                                  \
+    "{ kind = \"truck\"; at = [" at ", 25000.0]; heading_deg = 90.0; route = (" FAR_EAST "); }"
+
+static struct fixture f;
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+/* Runs the world, without word of impacts: a contact that lasts has none. Returns the longest time
+ * for which one of the first rows drove at less than 0.3 m/s with its throttle open [s]. */
+static double longest_push(uint32_t rows, int seconds)
+{
+    uint32_t stuck[TRUCKS] = {0}, longest = 0;
+    for (int frame = 0; frame < seconds * HZ; frame++) {
+        fixture_run(&f, 1);
+        struct entities e = steps_rows(&f);
+        for (uint32_t i = 0; i < rows; i++) {
+            bool pushes = fabs((double)e.throttle[i]) > 0.15 && steps_speed(&f, i) < 0.3;
+            e.bumped[i] = 0;
+            stuck[i] = pushes && e.state[i] == ENTITY_ACTIVE ? stuck[i] + 1 : 0;
+            longest = stuck[i] > longest ? stuck[i] : longest;
+        }
+    }
+    return (double)longest / HZ;
+}
+
+static void test_two_trucks_nose_to_nose_give_up_and_pass(void **state)
+{
+    (void)state;
+    fixture_open(&f, WORLD MODELS
+                 "vehicles = (" TRUCK("24996.0") ", { kind = \"truck\"; at = [25003.0, 25000.0];"
+                                                 "heading_deg = 270.0; route = (" FAR_WEST
+                                                 "); } );");
+    double push_s = longest_push(2, 120);
+    struct entities e = steps_rows(&f);
+    if (push_s > PUSH_S)
+        fail_msg("pushed for %g s", push_s);
+    assert_true(e.x[0] > 25100.0 && e.x[1] < 24900.0);
+}
+
+static void test_a_truck_gives_up_against_a_house(void **state)
+{
+    (void)state;
+    fixture_open(&f, WORLD MODELS "objects = ( { kind = \"building\"; at = [25010.0, 25000.0]; } );"
+                                  "vehicles = (" TRUCK("24998.0") ");");
+    double push_s = longest_push(1, 120);
+    if (push_s > PUSH_S)
+        fail_msg("pushed for %g s", push_s);
+    assert_true(steps_rows(&f).x[0] > 25100.0);
+}
+
+static void test_a_column_behind_a_blocked_truck_does_not_push(void **state)
+{
+    (void)state;
+    fixture_open(
+        &f,
+        WORLD MODELS "vehicles = (" TRUCK("25000.0") "," TRUCK("24992.0") "," TRUCK(
+            "24984.0") ", { kind = \"truck\"; behaviour = \"hold\"; at = [25008.0, 25000.0]; });");
+    double push_s = longest_push(3, 120);
+    struct entities e = steps_rows(&f);
+    if (push_s > PUSH_S)
+        fail_msg("pushed for %g s", push_s);
+    assert_true(e.x[0] > 25100.0 && e.x[1] > 25100.0 && e.x[2] > 25100.0);
+}
+
+/* Something that no look shows, such as a stump in the grass, holds the truck while it drives east.
+ */
+static void test_a_truck_gives_up_against_what_it_does_not_see(void **state)
+{
+    uint32_t stuck = 0, longest = 0;
+    (void)state;
+    fixture_open(&f, WORLD "vehicles = (" TRUCK("25000.0") ");");
+    for (int frame = 0; frame < 120 * HZ; frame++) {
+        fixture_run(&f, 1);
+        struct entities e = steps_rows(&f);
+        bool held = e.throttle[0] > 0.15f && e.vx[0] > 0.0 && e.x[0] > 25000.0;
+        if (held)
+            e.x[0] -= e.vx[0] / HZ, e.vx[0] = e.vz[0] = 0.0;
+        stuck = held ? stuck + 1 : 0;
+        longest = stuck > longest ? stuck : longest;
+    }
+    const struct event *event = fixture_event(&f, EVENT_AGENT, 0);
+    assert_non_null(event);
+    assert_int_equal(event->agent.because, REASON_STUCK);
+    assert_int_equal(event->agent.to, BEHAVIOUR_BACK_OFF);
+    if (longest > PUSH_S * HZ)
+        fail_msg("pushed for %g s", (double)longest / HZ);
+}
+
+/* --- the count itself --------------------------------------------------------------------------*/
+
+static uint32_t decisions_until_stalled(float throttle, double speed)
+{
+    struct step_context step;
+    struct serial_context context;
+    uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = "truck",
+                                                           .at = {25000.0, 100.0, 25000.0},
+                                                           .velocity = {speed, 0.0, 0.0}});
+    steps_serial_context(&f, &step, &context);
+    step.m->throttle[row] = throttle;
+    for (uint32_t n = 1; n <= 100; n++) {
+        if (progress_stalled(&step, row))
+            return n;
+    }
+    return 0;
+}
+
+static void test_it_is_stuck_when_it_drives_for_three_seconds_in_vain(void **state)
+{
+    (void)state;
+    fixture_open(&f, WORLD);
+    assert_int_equal(decisions_until_stalled(1.0f, 0.0), 30);
+    assert_int_equal(decisions_until_stalled(-0.5f, 0.1), 30);
+    assert_int_equal(decisions_until_stalled(1.0f, 3.0), 0); /* it gets on */
+    assert_int_equal(decisions_until_stalled(0.0f, 0.0), 0); /* it stands */
+}
+
+static void test_the_way_out_is_to_the_back(void **state)
+{
+    struct step_context step;
+    struct serial_context context;
+    (void)state;
+    fixture_open(&f, WORLD);
+    uint32_t row =
+        fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {25000.0, 100.0, 25000.0}});
+    steps_serial_context(&f, &step, &context);
+    step.m->throttle[row] = 1.0f;
+    for (step.tick = 1; step.tick < 100; step.tick++) {
+        double off = maths_wrap_half(progress_way_out(&step, row, false) - step.m->heading[row]);
+        assert_true(fabs(off) > HALF_PI);
+    }
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_teardown(function, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_two_trucks_nose_to_nose_give_up_and_pass),
+        TEST(test_a_truck_gives_up_against_a_house),
+        TEST(test_a_column_behind_a_blocked_truck_does_not_push),
+        TEST(test_a_truck_gives_up_against_what_it_does_not_see),
+        TEST(test_it_is_stuck_when_it_drives_for_three_seconds_in_vain),
+        TEST(test_the_way_out_is_to_the_back),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,121 @@
+/* The search for targets: how long it takes, and which target a crew takes. */
+#include "mover/agent/target_search.h"
+
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define HZ    20
+#define CREWS 49u
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 256; hz = 20.0; };");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t put(const char *kind, double x, double z, enum force force,
+                    enum behaviour behaviour)
+{
+    uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kind,
+                                                           .at = {x, FIXTURE_GROUND_M, z},
+                                                           .force = force,
+                                                           .behaviour = BEHAVIOUR_HOLD});
+    struct entities e = steps_rows(&f);
+    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
+    e.flags[row] = ENTITY_FLAG_FIRE_AT_WILL;
+    e.reload_tick[row] = UINT32_MAX;
+    return row;
+}
+
+/* The mean time until a tank finds another that stands at this distance [s]. */
+static double mean_s(double distance)
+{
+    double sum = 0.0;
+    steps_empty(&f);
+    for (uint32_t n = 0; n < CREWS; n++) {
+        double x = 4000.0 + 6000.0 * (n % 7), z = 4000.0 + 6000.0 * (double)(n / 7);
+        put("tank", x, z, FORCE_BLUE, BEHAVIOUR_IDLE);
+        put("truck", x + distance, z, FORCE_RED, BEHAVIOUR_HOLD);
+    }
+    for (int frame = 0; frame < 120 * HZ; frame++) {
+        fixture_run(&f, 1);
+        for (uint32_t n = 0; n < CREWS; n++)
+            sum += steps_rows(&f).behaviour[2 * n] == BEHAVIOUR_IDLE ? 1.0 / HZ : 0.0;
+    }
+    return sum / CREWS;
+}
+
+static void test_the_time_to_find_a_target_grows_with_the_distance(void **state)
+{
+    double sight = steps_kind(&f, "tank")->sight_m;
+    (void)state;
+    double far_s = mean_s(0.8 * sight), near_s = mean_s(0.2 * sight);
+    if (far_s < 16.0 || far_s > 32.0 || near_s < 4.0 || near_s > 9.0)
+        fail_msg("%g s at 0.8 of the sight (24), %g s at 0.2 (6)", far_s, near_s);
+}
+
+static void test_crews_side_by_side_take_different_targets(void **state)
+{
+    uint32_t taken[8] = {0}, targets = 0, most = 0;
+    (void)state;
+    for (uint32_t n = 0; n < 8; n++)
+        put("tank", 25000.0 + 20.0 * n, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
+    for (uint32_t n = 0; n < 8; n++)
+        put("truck", 25000.0 + 20.0 * n, 24400.0, FORCE_RED, BEHAVIOUR_HOLD);
+    fixture_run(&f, 120 * HZ);
+    for (uint32_t n = 0; n < 8; n++) {
+        assert_int_equal(steps_rows(&f).behaviour[n], BEHAVIOUR_ATTACK);
+        taken[steps_rows(&f).target_slot[n] - 8]++;
+    }
+    for (uint32_t n = 0; n < 8; n++) {
+        targets += taken[n] > 0;
+        most = taken[n] > most ? taken[n] : most;
+    }
+    assert_true(targets >= 4 && most <= 4);
+}
+
+static void test_no_crew_takes_a_wreck_or_what_is_out_of_reach(void **state)
+{
+    struct step_context step;
+    struct serial_context context;
+    uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t wreck = put("tank", 25000.0, 24700.0, FORCE_RED, BEHAVIOUR_HOLD);
+    (void)state;
+    steps_rows(&f).state[wreck] = ENTITY_WRECK;
+    steps_kind(&f, "tank")->sight_m = 5000.0;
+    put("tank", 25000.0, 22000.0, FORCE_RED, BEHAVIOUR_HOLD);
+    fixture_run(&f, 60 * HZ);
+    assert_int_equal(steps_rows(&f).behaviour[row], BEHAVIOUR_IDLE);
+    steps_serial_context(&f, &step, &context);
+    assert_int_equal(target_search(&step, row, TARGET_SEARCH_ALERT), SLOT_NONE);
+    uint32_t near = put("tank", 25000.0, 24000.0, FORCE_RED, BEHAVIOUR_HOLD);
+    fixture_run(&f, 60 * HZ);
+    assert_int_equal(steps_rows(&f).target_slot[row], near);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_the_time_to_find_a_target_grows_with_the_distance),
+        TEST(test_crews_side_by_side_take_different_targets),
+        TEST(test_no_crew_takes_a_wreck_or_what_is_out_of_reach),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
