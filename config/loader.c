@@ -2,6 +2,7 @@
  * the parameters that follow from them. */
 #include "config/loader.h"
 
+#include "config/earthworks.h"
 #include "config/kinds.h"
 #include "config/missions.h"
 #include "config/scripts.h"
@@ -78,6 +79,7 @@ static bool is_list(const config_setting_t *setting)
     return strcmp(name, "vehicles") == 0 || strcmp(name, "fires") == 0 ||
            strcmp(name, "scripts") == 0 || strcmp(name, "bases") == 0 ||
            strcmp(name, "missions") == 0 || strcmp(name, "objectives") == 0 ||
+           strcmp(name, "earthworks") == 0 ||
            (strcmp(name, "objects") == 0 && setting->type == CONFIG_TYPE_LIST);
 }
 
@@ -192,6 +194,8 @@ static int read_lists(struct load *load)
     if (scripts_read(scenario, config_setting_get_member(root, "scripts"), file, load->hash,
                      load->error) != 0 ||
         lists_bases(scenario, config_setting_get_member(root, "bases"), file, load->error) != 0 ||
+        earthworks_read(scenario, config_setting_get_member(root, "earthworks"), file,
+                        load->error) != 0 ||
         vehicles_read(scenario, vehicles, file, load->error) != 0 ||
         missions_read(scenario, root, file, load->error) != 0 ||
         lists_objects(scenario, objects, file, load->error) != 0 ||

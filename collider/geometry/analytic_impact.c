@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-#define CRATER_STEP_M 0.5 /* finer than the width of any crater */
+#define UNEVEN_STEP_M 0.5 /* finer than the width of any crater, and of most works */
 #define BISECTIONS    24
 
 bool analytic_impact_spheres(const struct path *a, const struct path *b, double reach, double from,
@@ -41,19 +41,23 @@ static double clearance(const struct terrain *terrain, const struct crater_index
     return p.y - terrain_height(terrain, craters, p.x, p.z);
 }
 
-static bool craters_near(const struct crater_index *craters, struct vec3 p, struct vec3 q)
+/* Returns true if craters or earthworks may be under the path. */
+static bool uneven_near(const struct terrain *terrain, const struct crater_index *craters,
+                        struct vec3 p, struct vec3 q)
 {
-    if (!craters || craters->count == 0)
+    bool cratered = craters && craters->count > 0;
+    double highest, lowest;
+    if (!cratered && terrain->earthworks.count == 0)
         return false;
     struct gridsquare_box box = gridsquare_box_of(maths_min(p.x, q.x), maths_min(p.z, q.z),
                                                   maths_max(p.x, q.x), maths_max(p.z, q.z));
     for (int32_t row = box.z0; row <= box.z1; row++) {
         for (int32_t column = box.x0; column <= box.x1; column++) {
-            if (craters->head[gridsquare_index(column, row)] != 0)
+            if (cratered && craters->head[gridsquare_index(column, row)] != 0)
                 return true;
         }
     }
-    return false;
+    return earthwork_range(&terrain->earthworks, &box, &highest, &lowest);
 }
 
 /* Lines that a straight path crosses one after the other: value + rate * t = line * spacing. */
@@ -122,8 +126,8 @@ bool analytic_impact_ground(const struct terrain *terrain, const struct crater_i
 {
     double now = path->since;
     double here = clearance(terrain, craters, path, now);
-    bool cratered = craters_near(craters, path->at, path_at(path, 1.0));
-    double crater_step = CRATER_STEP_M / maths_max(vec3_length(path->along), CRATER_STEP_M);
+    bool uneven = uneven_near(terrain, craters, path->at, path_at(path, 1.0));
+    double uneven_step = UNEVEN_STEP_M / maths_max(vec3_length(path->along), UNEVEN_STEP_M);
     struct edges edges = edges_along(terrain, path);
     double edge = path->since + edges_cross(&edges);
     if (here < 0.0) {
@@ -132,15 +136,16 @@ bool analytic_impact_ground(const struct terrain *terrain, const struct crater_i
     }
     while (now < 1.0) {
         double next = maths_min(edge, 1.0);
-        if (cratered)
-            next = maths_min(next, now + crater_step);
+        if (uneven)
+            next = maths_min(next, now + uneven_step);
         if (next >= edge)
             edge = path->since + edges_cross(&edges);
         double there = clearance(terrain, craters, path, next);
         if (there < 0.0) {
-            /* Between edges the clearance is linear in time, except on craters. */
-            *toi = cratered ? bisect(terrain, craters, path, now, next)
-                            : now + (next - now) * here / (here - there);
+            /* Between edges the clearance is linear in time, except on craters and
+             * earthworks. */
+            *toi = uneven ? bisect(terrain, craters, path, now, next)
+                          : now + (next - now) * here / (here - there);
             return true;
         }
         now = next;

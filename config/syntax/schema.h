@@ -189,6 +189,30 @@ struct phase_entry {
 };
 extern const struct key_table schema_phase;
 
+enum earthwork_key {
+    EARTHWORK_KEY_SHAPE,
+    EARTHWORK_KEY_AT,
+    EARTHWORK_KEY_HEADING,
+    EARTHWORK_KEY_LENGTH,
+    EARTHWORK_KEY_WIDTH,
+    EARTHWORK_KEY_HEIGHT,
+    EARTHWORK_KEY_DEPTH,
+    EARTHWORK_KEY_EDGE,
+    EARTHWORK_KEY_GRADE,
+    EARTHWORK_KEY_WAVE,
+    EARTHWORK_KEY_GRIP,
+    EARTHWORK_KEY_COUNT
+};
+
+struct earthwork_entry {
+    uint32_t shape; /* enum earthwork_shape */
+    double at[2];
+    double heading_rad, length_m, width_m, height_m, depth_m, edge_m;
+    double grade; /* a tangent */
+    double wave_m, grip;
+};
+extern const struct key_table schema_earthwork;
+
 enum base_key { BASE_FORCE, BASE_AT, BASE_KEY_COUNT };
 
 struct base_entry {

@@ -6,6 +6,7 @@
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
 #include "world/maths/maths.h"
+#include "world/terrain/earthwork.h"
 
 static const struct key_choice behaviours[] = {
     {NULL, BEHAVIOUR_IDLE, "The vehicle stands still. It reacts when it is fired upon."},
@@ -187,6 +188,58 @@ static const struct key step_keys[] = {
 };
 KEY_TABLE(schema_step, "steps", step_keys, T, STEP_KEY_COUNT);
 #undef T
+
+#define E struct earthwork_entry
+static const struct key_choice shapes[] = {
+    {"ramp", EARTHWORK_RAMP,
+     "The ground rises along the length and ends in a lip: a jump, or a side slope for a vehicle "
+     "that drives across it."},
+    {"table", EARTHWORK_TABLE,
+     "The ground rises, is level and falls again: a step, or with `grade_percent` a hill."},
+    {"trench", EARTHWORK_TRENCH, "The same, dug `depth_m` deep."},
+    {"washboard", EARTHWORK_WASHBOARD,
+     "Waves lie across the way, `wave_m` from crest to crest and `height_m` high."},
+    {"ford", EARTHWORK_FORD,
+     "A trench with water in it, `depth_m` deep in the middle. Its bed is 0.25 m lower than that "
+     "below the ground, and its ends have a grade of 10 % unless `grade_percent` says otherwise."},
+    {"skid_pan", EARTHWORK_SKID_PAN,
+     "The ground is not changed, but has only the share `grip` of its grip."}};
+static const struct key earthwork_keys[] = {
+    [EARTHWORK_KEY_SHAPE] = CHOICE("shape", E, shape, STORE_U32, WORDS(shapes), NULL,
+                                   .required = true, .meaning = "What it is: see below."),
+    [EARTHWORK_KEY_AT] = PLACE("at", KEY_POINT, STORE_DOUBLE, E, at, .required = true,
+                               .meaning = "The middle of the earthwork."),
+    [EARTHWORK_KEY_HEADING] =
+        SCALED("heading_deg", E, heading_rad, -360, 360, RAD_PER_DEG, "0", .unit = "degrees",
+               .meaning = "The heading of its length, clockwise from north. A ramp rises in this "
+                          "direction."),
+    [EARTHWORK_KEY_LENGTH] = NUMBER("length_m", E, length_m, 1, 2000, NULL, .unit = "m",
+                                    .required = true, .meaning = "The length, slopes included."),
+    [EARTHWORK_KEY_WIDTH] = NUMBER("width_m", E, width_m, 1, 2000, NULL, .unit = "m",
+                                   .required = true, .meaning = "The width, slopes included."),
+    [EARTHWORK_KEY_HEIGHT] =
+        NUMBER("height_m", E, height_m, 0.02, 100, NULL, .unit = "m",
+               .meaning = "The height over the ground of a ramp, a table or a washboard, which "
+                          "must have it."),
+    [EARTHWORK_KEY_DEPTH] = NUMBER("depth_m", E, depth_m, 0.02, 50, NULL, .unit = "m",
+                                   .meaning = "The depth of a trench, or of the water of a ford, "
+                                              "which must have it."),
+    [EARTHWORK_KEY_EDGE] = NUMBER(
+        "edge_m", E, edge_m, 0.01, 500, NULL, .unit = "m", .unset = "0.6 of the height or depth",
+        .meaning = "How far the sides, the lip and the ends without a `grade_percent` "
+                   "slope, on the map. An eighth of the height is the least."),
+    [EARTHWORK_KEY_GRADE] =
+        SCALED("grade_percent", E, grade, 1, 800, 0.01, NULL, .unit = "%",
+               .meaning = "The grade of both ends of a table, a trench or a ford."),
+    [EARTHWORK_KEY_WAVE] = NUMBER("wave_m", E, wave_m, 0.2, 100, NULL, .unit = "m",
+                                  .meaning = "The length of a washboard's waves, which must have "
+                                             "it."),
+    [EARTHWORK_KEY_GRIP] = NUMBER("grip", E, grip, 0.01, 1, NULL,
+                                  .meaning = "The share of the ground's grip that is left on a "
+                                             "skid pan, which must have it."),
+};
+KEY_TABLE(schema_earthwork, "earthworks", earthwork_keys, E, EARTHWORK_KEY_COUNT);
+#undef E
 
 #define B struct base_entry
 static const struct key base_keys[] = {

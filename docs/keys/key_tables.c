@@ -21,6 +21,7 @@ static const struct {
     {NULL, "", &schema_scenario},
     {"vehicles[]", "vehicles[].", &schema_vehicle},
     {"objects[]", "objects[].", &schema_object},
+    {"earthworks[]", "earthworks[].", &schema_earthwork},
     {"bases[]", "bases[].", &schema_base},
     {"scripts[]", "scripts[].", &schema_script},
     {"steps[]", "steps[].", &schema_step},

@@ -40,6 +40,8 @@ static const char *const region_names[REGION_COUNT] = {
     [REGION_HULL_PLANES] = "hull planes",
     [REGION_POSTS] = "posts",
     [REGION_COVER] = "cover",
+    [REGION_EARTHWORKS] = "earthworks",
+    [REGION_EARTHWORK_INDEX] = "index of earthworks",
     [REGION_FIXED] = "fixed objects",
     [REGION_REACH_START] = "reach of squares",
     [REGION_REACH] = "reach",
@@ -96,12 +98,15 @@ static bool power_of_two(uint32_t value)
 static bool plausible(const struct segment_header *h)
 {
     const struct counts *n = &h->counts;
-    const uint32_t parts[] = {
-        n->kinds,       n->models,  n->model_vertices, n->model_triangles, n->fixed,
-        n->reach,       n->areas,   n->routes,         n->route_points,    n->fires,
-        n->road_points, n->names,   h->crater_slots,   h->event_slots,     h->intents_per_frame,
-        h->dent_slots,  n->hulls,   n->hull_vertices,  n->hull_planes,     n->recipe,
-        n->formations,  n->scripts, n->script_steps,   n->mission_phases,  n->mission_members};
+    const uint32_t parts[] = {n->kinds,           n->models,       n->model_vertices,
+                              n->model_triangles, n->fixed,        n->reach,
+                              n->areas,           n->routes,       n->route_points,
+                              n->fires,           n->road_points,  n->names,
+                              h->crater_slots,    h->event_slots,  h->intents_per_frame,
+                              h->dent_slots,      n->hulls,        n->hull_vertices,
+                              n->hull_planes,     n->recipe,       n->formations,
+                              n->scripts,         n->script_steps, n->mission_phases,
+                              n->mission_members, n->earthworks,   n->earthwork_words};
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
         if (parts[i] > PART_MAX)
             return false;
@@ -134,6 +139,8 @@ int layout_compute(struct layout *layout, const struct segment_header *h)
     b[REGION_HULL_PLANES] = n->hull_planes * sizeof(struct hull_plane);
     b[REGION_POSTS] = posts * sizeof(float);
     b[REGION_COVER] = posts;
+    b[REGION_EARTHWORKS] = n->earthworks * sizeof(struct earthwork);
+    b[REGION_EARTHWORK_INDEX] = n->earthwork_words * sizeof(uint32_t);
     b[REGION_FIXED] = n->fixed * sizeof(struct fixed_object);
     b[REGION_REACH_START] = (GRIDSQUARE_COUNT + 1) * sizeof(uint32_t);
     b[REGION_REACH] = n->reach * sizeof(uint32_t);
@@ -184,6 +191,7 @@ uint64_t layout_hash(void)
         sizeof(struct model),
         sizeof(struct model_triangle),
         sizeof(struct fixed_object),
+        sizeof(struct earthwork),
         sizeof(struct fire_order),
         sizeof(struct state_head),
         sizeof(struct crater),

@@ -75,7 +75,7 @@ static void lift(const struct step_context *context, struct ground_pose *pose)
                                                .sine = pose->sine.lane[l],
                                                .cosine = pose->cosine.lane[l]};
         if (pose->cratered.lane[l])
-            pose->y.lane[l] += crater_lift(context->craters, &footing);
+            pose->y.lane[l] += terrain_lift(&context->world->terrain, context->craters, &footing);
     }
 }
 
@@ -91,7 +91,7 @@ void ground_pose_find(const struct step_context *context, struct ground_pose *po
     if (context->craters->count > 0)
         dig(context, pose, x, z, height);
     pose->y = height[MIDDLE];
-    if (context->craters->count > 0)
+    if (context->craters->count > 0 || terrain->earthworks.count > 0)
         lift(context, pose);
     for (int h = 0; h < LANE_FOURS; h++) {
         pitch_rise.f64x4[h] = height[FRONT].f64x4[h] - height[BACK].f64x4[h];

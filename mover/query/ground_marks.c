@@ -15,13 +15,6 @@
 
 #define STRIDE 64u /* bytes of damage compared at once */
 
-int ground_marks_init(struct ground_marks *marks, const struct world *world)
-{
-    memset(marks, 0, sizeof *marks);
-    marks->damage = calloc(world->counts.fixed + 1, 1);
-    return marks->damage ? 0 : -1;
-}
-
 void ground_marks_free(struct ground_marks *marks)
 {
     free(marks->damage);
@@ -38,6 +31,25 @@ static void mark(struct ground_marks *marks, double x, double z, double reach, u
         }
     }
     marks->any = true;
+}
+
+/* Earthworks never change, so their marks are the first. */
+static void mark_earthworks(struct ground_marks *marks, const struct earthworks *earthworks)
+{
+    for (uint32_t i = 0; i < earthworks->count; i++) {
+        const struct earthwork *work = &earthworks->works[i];
+        double reach = maths_max(earthwork_reach_x(work), earthwork_reach_z(work));
+        if (work->height_m != 0.0)
+            mark(marks, work->x, work->z, reach + GROUND_MARKS_NEAR_M, GROUND_MARKS_CRATER);
+    }
+}
+
+int ground_marks_init(struct ground_marks *marks, const struct world *world)
+{
+    memset(marks, 0, sizeof *marks);
+    mark_earthworks(marks, &world->terrain.earthworks);
+    marks->damage = calloc(world->counts.fixed + 1, 1);
+    return marks->damage ? 0 : -1;
 }
 
 bool ground_marks_within(const struct ground_marks *marks, struct gridsquare_box box, uint8_t any)
@@ -57,6 +69,7 @@ static void forget(struct ground_marks *marks, const struct world *world)
     memset(marks->damage, 0, world->counts.fixed);
     marks->craters = 0;
     marks->any = false;
+    mark_earthworks(marks, &world->terrain.earthworks);
 }
 
 /* Returns false if a fallen object stands again: the marks must then be built again. */

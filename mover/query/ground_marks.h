@@ -1,6 +1,6 @@
-/* The gridsquares that have craters or the debris of objects. Most bodies are near neither, which
- * one bit shows. This is the mover's own cache of the committed world. It is built again after a
- * start, and after the world has been set back to an earlier frame. */
+/* The gridsquares that have craters, earthworks or the debris of objects. Most bodies are near
+ * neither, which one bit shows. This is the mover's own cache of the committed world. It is built
+ * again after a start, and after the world has been set back to an earlier frame. */
 #ifndef JOLON_MOVER_QUERY_GROUND_MARKS_H
 #define JOLON_MOVER_QUERY_GROUND_MARKS_H
 
@@ -14,7 +14,7 @@ struct world;
 
 #define GROUND_MARKS_DEBRIS 1u /* the debris of a fixed object reaches into the square */
 #define GROUND_MARKS_CRATER                                                                        \
-    2u /* a crater is in the square, or within GROUND_MARKS_NEAR_M of it                           \
+    2u /* a crater or an earthwork is in the square, or within GROUND_MARKS_NEAR_M of it           \
         */
 #define GROUND_MARKS_BITS 2u
 

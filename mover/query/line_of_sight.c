@@ -1,6 +1,6 @@
 /* Tests a line square by square. The ground between posts is flat triangles, so a line that is
- * above their edges is above the ground; craters are curved and are sampled. A square is skipped
- * when the line is above everything in it. */
+ * above their edges is above the ground. Earthworks have edges too. Craters and waves are curved
+ * and are sampled. A square is skipped when the line is above everything in it. */
 #include "mover/query/line_of_sight.h"
 
 #include "world/terrain/crater.h"
@@ -12,6 +12,7 @@
 #include <stdlib.h>
 
 #define CRATER_SAMPLES 12 /* along the part of the line that is over a crater */
+#define WAVE_SAMPLES   32 /* the same for an earthwork with waves */
 #define FIRST_LOOKS    7  /* points of the line that are tried first, because most hills are wide */
 #define LEAST_M        1.0 /* on the map: nearer points always see each other */
 
@@ -147,6 +148,81 @@ static bool crater_above(const struct line *line, const struct crater *crater, d
            (middle + crest > t0 && middle + crest < t1 && ground_above(line, middle + crest));
 }
 
+/* The shares of a work's height along the line, and 1 and 0: value + rate * t each. Where two of
+ * them are equal the ground may have an edge. */
+enum { WORK_BACK, WORK_FRONT, WORK_RIGHT, WORK_LEFT, WORK_TOP, WORK_FOOT, WORK_SHARES };
+struct work_share {
+    double value, rate;
+};
+
+static void shares_along(const struct line *line, const struct earthwork *work,
+                         struct work_share share[WORK_SHARES])
+{
+    double dx = line->from.x - work->x, dz = line->from.z - work->z;
+    double along = dx * work->sine - dz * work->cosine;
+    double across = dx * work->cosine + dz * work->sine;
+    double along_rate = line->delta.x * work->sine - line->delta.z * work->cosine;
+    double across_rate = line->delta.x * work->cosine + line->delta.z * work->sine;
+    share[WORK_BACK] =
+        (struct work_share){(work->half_length + along) / work->back_m, along_rate / work->back_m};
+    share[WORK_FRONT] = (struct work_share){(work->half_length - along) / work->front_m,
+                                            -along_rate / work->front_m};
+    share[WORK_RIGHT] = (struct work_share){(work->half_width - across) / work->side_m,
+                                            -across_rate / work->side_m};
+    share[WORK_LEFT] =
+        (struct work_share){(work->half_width + across) / work->side_m, across_rate / work->side_m};
+    share[WORK_TOP] = (struct work_share){1.0, 0.0};
+    share[WORK_FOOT] = (struct work_share){0.0, 0.0};
+}
+
+/* Returns true if the ground is above the line at an edge of the work. */
+static bool work_edges_above(const struct line *line, const struct earthwork *work, double t0,
+                             double t1)
+{
+    struct work_share share[WORK_SHARES];
+    shares_along(line, work, share);
+    for (int a = 0; a < WORK_SHARES; a++) {
+        for (int b = 0; b < a; b++) {
+            double t = (share[b].value - share[a].value) / (share[a].rate - share[b].rate);
+            if (t > t0 && t < t1 && ground_above(line, t))
+                return true;
+        }
+    }
+    return false;
+}
+
+/* Returns true if the ground is above the line within one earthwork. */
+static bool work_above(const struct line *line, const struct earthwork *work, double t0, double t1)
+{
+    double reach = work->half_length + work->half_width, square = line->level * line->level;
+    double dx = work->x - line->from.x, dz = work->z - line->from.z;
+    double middle = (dx * line->delta.x + dz * line->delta.z) / square;
+    double off = dx * dx + dz * dz - middle * middle * square;
+    if (work->height_m == 0.0 || off >= reach * reach)
+        return false;
+    double half = sqrt((reach * reach - off) / square);
+    double first = maths_max(middle - half, t0), last = maths_min(middle + half, t1);
+    if (!(first < last))
+        return false;
+    for (int n = 0; n <= WAVE_SAMPLES && work->wave_m > 0.0; n++) {
+        if (ground_above(line, first + (last - first) * (double)n / WAVE_SAMPLES))
+            return true;
+    }
+    return work_edges_above(line, work, first, last);
+}
+
+static bool works_above(const struct line *line, uint32_t square, double t0, double t1)
+{
+    const struct earthworks *earthworks = &line->sight->world->terrain.earthworks;
+    uint32_t count;
+    const uint32_t *items = earthwork_in_square(earthworks, square, &count);
+    for (uint32_t n = 0; n < count; n++) {
+        if (work_above(line, &earthworks->works[items[n]], t0, t1))
+            return true;
+    }
+    return false;
+}
+
 static bool ground_hides(const struct line *line, uint32_t square, double t0, double t1)
 {
     const struct crater_index *craters = line->sight->craters;
@@ -159,7 +235,7 @@ static bool ground_hides(const struct line *line, uint32_t square, double t0, do
         if (crater_above(line, &craters->craters[craters->links[link - 1].crater], t0, t1))
             return true;
     }
-    return false;
+    return works_above(line, square, t0, t1);
 }
 
 /* --- fixed objects -----------------------------------------------------------------------------*/

@@ -1,7 +1,8 @@
-/* Heights on the two triangles of each cell, and the shape of craters. */
+/* Heights on the two triangles of each cell, and the shapes of craters and earthworks. */
 #include "supervisor/physics/surface.h"
 
 #include "world/terrain/crater.h"
+#include "world/terrain/earthwork.h"
 #include "world/terrain/terrain.h"
 
 #include <stdlib.h>
@@ -91,6 +92,62 @@ static double craters_at(const struct surface *surface, double x, double z)
     return deepest < 0.0 ? deepest : highest;
 }
 
+/* --- earthworks --------------------------------------------------------------------------------*/
+
+/* What one earthwork adds to the ground: a frustum with a slope on each of its four sides, and the
+ * waves of a washboard. */
+static double work_shape(const struct earthwork *work, double x, double z)
+{
+    double east = x - work->x, south = z - work->z;
+    double forward = east * work->sine - south * work->cosine;
+    double right = east * work->cosine + south * work->sine;
+    double rise = 1.0;
+    rise = maths_min(rise, (work->half_length + forward) / work->back_m);
+    rise = maths_min(rise, (work->half_length - forward) / work->front_m);
+    rise = maths_min(rise, (work->half_width - right) / work->side_m);
+    rise = maths_min(rise, (work->half_width + right) / work->side_m);
+    if (work->wave_m > 0.0) {
+        double crest = maths_sin(PI * (work->half_length + forward) / work->wave_m);
+        rise *= crest * crest;
+    }
+    return work->height_m * maths_max(rise, 0.0);
+}
+
+static double works_at(const struct surface *surface, double x, double z)
+{
+    const struct earthworks *all = &surface->terrain->earthworks;
+    double deepest = 0.0, highest = 0.0;
+    for (uint32_t i = 0; i < all->count; i++) {
+        double offset = work_shape(&all->works[i], x, z);
+        deepest = maths_min(deepest, offset);
+        highest = maths_max(highest, offset);
+    }
+    return deepest + highest;
+}
+
+/* What craters and earthworks add to the ground. */
+static double uneven_at(const struct surface *surface, double x, double z)
+{
+    return (surface->count > 0 ? craters_at(surface, x, z) : 0.0) + works_at(surface, x, z);
+}
+
+/* Returns true if a work may be that near, with its height in rim_m if that is higher. */
+static bool work_near(const struct surface *surface, double x, double z, double distance,
+                      double *rim_m)
+{
+    const struct earthworks *all = &surface->terrain->earthworks;
+    bool near = false;
+    for (uint32_t i = 0; i < all->count; i++) {
+        const struct earthwork *work = &all->works[i];
+        double reach = work->half_length + work->half_width + distance;
+        if (fabs(work->x - x) > reach || fabs(work->z - z) > reach)
+            continue;
+        near = true;
+        *rim_m = maths_max(*rim_m, work->height_m);
+    }
+    return near;
+}
+
 /* --- the triangles -----------------------------------------------------------------------------*/
 
 /* A place in the grid: the cell's first post, and the share of the cell to the east and south. */
@@ -133,18 +190,19 @@ double surface_height(const struct surface *surface, double x, double z)
 {
     const struct cell cell = cell_at(surface->terrain, x, z);
     double height = triangle_height(surface->terrain, &cell);
-    return surface->count > 0 ? height + craters_at(surface, x, z) : height;
+    return height + uneven_at(surface, x, z);
 }
 
 double surface_clearance(const struct surface *surface, const struct surface_rectangle *under)
 {
     double dug[3][3], highest = 0.0;
-    for (int i = 0; i < 9 && surface->count > 0; i++) {
+    bool uneven = surface->count > 0 || surface->terrain->earthworks.count > 0;
+    for (int i = 0; i < 9 && uneven; i++) {
         const struct vec3 to =
             vec3_add(vec3_scale(under->forward, i / 3 - 1), vec3_scale(under->right, i % 3 - 1));
-        dug[i / 3][i % 3] = craters_at(surface, under->middle.x + to.x, under->middle.z + to.z);
+        dug[i / 3][i % 3] = uneven_at(surface, under->middle.x + to.x, under->middle.z + to.z);
     }
-    for (int i = 0; i < 9 && surface->count > 0; i++) {
+    for (int i = 0; i < 9 && uneven; i++) {
         double plane = dug[1][1] + 0.5 * (i / 3 - 1) * (dug[2][1] - dug[0][1]) +
                        0.5 * (i % 3 - 1) * (dug[1][2] - dug[1][0]);
         highest = maths_max(highest, dug[i / 3][i % 3] - plane);
@@ -210,8 +268,10 @@ struct surface_part surface_around(const struct surface *surface, double x, doub
     bool one_cell = middle.east > share && middle.east < 1.0 - share && middle.south > share &&
                     middle.south < 1.0 - share;
     bool crater = surface->count > 0 && crater_near(surface, x, z, distance);
+    double works_m = 0.0;
+    bool worked = work_near(surface, x, z, distance, &works_m);
     struct surface_part part = {.flat = false};
-    if (one_cell && fabs(middle.east - middle.south) > DIAGONAL * share && !crater) {
+    if (one_cell && fabs(middle.east - middle.south) > DIAGONAL * share && !crater && !worked) {
         part = plane_of(terrain, middle.column, middle.row, middle.east >= middle.south);
     } else {
         const struct cell from = cell_at(terrain, x - distance, z - distance);
@@ -222,6 +282,6 @@ struct surface_part surface_around(const struct surface *surface, double x, doub
         }
     }
     part.at_m = triangle_height(terrain, &middle);
-    part.rim_m = crater ? surface->rim_m : 0.0;
+    part.rim_m = (crater ? surface->rim_m : 0.0) + works_m;
     return part;
 }

@@ -1,6 +1,6 @@
 /* The ground as the physics check computes it: from the posts, the rule of the diagonal
- * (world/terrain/terrain.h) and the list of craters, without the functions that mover and collider
- * use. One thread. */
+ * (world/terrain/terrain.h) and the lists of earthworks and craters, without the functions that
+ * mover and collider use. One thread. */
 #ifndef JOLON_SUPERVISOR_PHYSICS_SURFACE_H
 #define JOLON_SUPERVISOR_PHYSICS_SURFACE_H
 
@@ -22,18 +22,19 @@ struct surface {
 
 /* A part of the ground. */
 struct surface_part {
-    bool flat;              /* it is one plane */
-    double at_m;            /* the height in the middle */
-    double east_m, south_m; /* a plane: what it rises by a metre to the east and to the south; any
-                               part: the most that it rises or falls so, without craters */
-    double rim_m;           /* no crater rises higher over the rest; a plane: 0 */
+    bool flat;   /* it is one plane */
+    double at_m; /* the height in the middle */
+    double east_m,
+        south_m;  /* a plane: what it rises by a metre to the east and to the south; any
+                     part: the most that it rises or falls so, without craters and works */
+    double rim_m; /* no crater or work rises higher over the rest; a plane: 0 */
 };
 
 /* Takes the first count craters of the world's list. Returns 0, or -1 with errno ENOMEM. */
 int surface_update(struct surface *surface, const struct crater *craters, uint32_t count);
 void surface_free(struct surface *surface);
 
-/* Height of the ground with its craters [m]. */
+/* Height of the ground with its earthworks and craters [m]. */
 double surface_height(const struct surface *surface, double x, double z);
 
 /* A rectangle on the map. */
@@ -42,9 +43,9 @@ struct surface_rectangle {
     struct vec3 forward, right; /* on the map, to the middles of its front and right side [m] */
 };
 
-/* Returns how high a vehicle stands over the ground under its middle because of craters [m]. Its
- * underside, whose slopes are those between the middles of its sides, clears the craters at the
- * middles of its sides and at its corners. */
+/* Returns how high a vehicle stands over the ground under its middle because of craters and
+ * earthworks [m]. Its underside, whose slopes are those between the middles of its sides, clears
+ * the craters at the middles of its sides and at its corners. */
 double surface_clearance(const struct surface *surface, const struct surface_rectangle *under);
 
 /* Returns true if there is water at the nearest post. */

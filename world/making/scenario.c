@@ -16,6 +16,7 @@ void scenario_free(struct scenario *scenario)
     free(scenario->hull_planes);
     free(scenario->groups);
     free(scenario->object_list);
+    free(scenario->earthworks);
     free(scenario->fires);
     free(scenario->scripts);
     free(scenario->steps);

@@ -12,6 +12,7 @@
 #include <stdint.h>
 
 struct area;
+struct earthwork;
 struct hull;
 struct hull_plane;
 struct kind;
@@ -118,6 +119,8 @@ struct scenario {
     uint32_t group_count;
     struct scenario_object *object_list;
     uint32_t object_count;
+    struct earthwork *earthworks;
+    uint32_t earthwork_count;
     struct scenario_fire *fires;
     uint32_t fire_count;
     struct area *areas;

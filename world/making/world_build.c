@@ -51,6 +51,16 @@ static int build_ground(struct world_build *built, struct error_text *error)
     return 0;
 }
 
+static int build_earthworks(struct world_build *built, struct error_text *error)
+{
+    const struct scenario *scenario = built->scenario;
+    if (earthwork_index_build(scenario->earthworks, scenario->earthwork_count,
+                              &built->earthwork_index, &built->counts.earthwork_words) != 0)
+        return error_text_memory(error);
+    built->counts.earthworks = scenario->earthwork_count;
+    return 0;
+}
+
 static int by_square(const void *a, const void *b)
 {
     const struct fixed_object *p = a, *q = b;
@@ -193,8 +203,12 @@ static int build_orders(struct world_build *built, struct error_text *error)
 
 struct terrain world_build_terrain(const struct world_build *built)
 {
-    return (struct terrain){built->posts, built->cover, built->counts.posts_side,
-                            WORLD_SIDE_M / (double)(built->counts.posts_side - 1)};
+    return (struct terrain){.posts = built->posts,
+                            .cover = built->cover,
+                            .side = built->counts.posts_side,
+                            .spacing_m = WORLD_SIDE_M / (double)(built->counts.posts_side - 1),
+                            .earthworks = {built->scenario->earthworks, built->earthwork_index,
+                                           built->counts.earthworks}};
 }
 
 int world_build_make(struct world_build *built, const struct scenario *scenario,
@@ -213,9 +227,9 @@ int world_build_make(struct world_build *built, const struct scenario *scenario,
         .objectives = scenario->objective_count,
         .recipe = provenance_room(scenario->recipe.bytes),
     };
-    if (build_ground(built, error) != 0 || build_objects(built, error) != 0 ||
-        road_routing_build(built, error) != 0 || vehicle_placement_build(built, error) != 0 ||
-        build_orders(built, error) != 0) {
+    if (build_ground(built, error) != 0 || build_earthworks(built, error) != 0 ||
+        build_objects(built, error) != 0 || road_routing_build(built, error) != 0 ||
+        vehicle_placement_build(built, error) != 0 || build_orders(built, error) != 0) {
         world_build_free(built);
         return -1;
     }
@@ -226,6 +240,7 @@ void world_build_free(struct world_build *built)
 {
     free(built->posts);
     free(built->cover);
+    free(built->earthwork_index);
     free(built->fixed);
     free(built->reach_start);
     free(built->reach);
@@ -281,6 +296,9 @@ void world_build_fill(const struct world_build *built, struct world *world, stru
     fill(world->hull_planes, s->hull_planes, n->hull_planes, sizeof *s->hull_planes);
     fill(world->terrain.posts, built->posts, posts, sizeof *built->posts);
     fill(world->terrain.cover, built->cover, posts, 1);
+    fill(world->terrain.earthworks.works, s->earthworks, n->earthworks, sizeof *s->earthworks);
+    fill(world->terrain.earthworks.index, built->earthwork_index, n->earthwork_words,
+         sizeof *built->earthwork_index);
     fill(world->fixed, built->fixed, n->fixed, sizeof *built->fixed);
     fill(world->reach_start, built->reach_start, GRIDSQUARE_COUNT + 1, sizeof(uint32_t));
     fill(world->reach, built->reach, n->reach, sizeof(uint32_t));

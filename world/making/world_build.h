@@ -26,6 +26,7 @@ struct world_build {
     struct counts counts;
     float *posts;
     uint8_t *cover;
+    uint32_t *earthwork_index;
     struct fixed_object *fixed;
     uint32_t *reach_start, *reach;
     struct road_point *roads;

@@ -95,31 +95,29 @@ double crater_offset(const struct crater_index *index, double x, double z)
     return deepest < 0.0 ? deepest : highest;
 }
 
-/* The crater's share of the height under a point of the rectangle; along and across are -1, 0 or 1.
- */
-static double offset_under(const struct crater_index *index, const struct crater_footing *footing,
-                           double along, double across)
+double crater_footing_lift(double offset[3][3])
 {
-    double length = along * footing->half_length, width = across * footing->half_width;
-    return crater_offset(index, footing->x + footing->sine * length + footing->cosine * width,
-                         footing->z - footing->cosine * length + footing->sine * width);
-}
-
-double crater_lift(const struct crater_index *index, const struct crater_footing *footing)
-{
-    if (index->count == 0)
-        return 0.0;
-    double middle = offset_under(index, footing, 0.0, 0.0);
-    double front = offset_under(index, footing, 1.0, 0.0);
-    double back = offset_under(index, footing, -1.0, 0.0);
-    double right = offset_under(index, footing, 0.0, 1.0);
-    double left = offset_under(index, footing, 0.0, -1.0);
+    double middle = offset[1][1], front = offset[2][1], back = offset[0][1];
+    double right = offset[1][2], left = offset[1][0];
     double pitch = 0.5 * (front - back), roll = 0.5 * (right - left);
     double lift = maths_max(0.0, maths_max(0.5 * (front + back), 0.5 * (right + left)) - middle);
     for (int corner = 0; corner < 4; corner++) {
         double along = corner & 1 ? 1.0 : -1.0, across = corner & 2 ? 1.0 : -1.0;
         double plane = middle + along * pitch + across * roll;
-        lift = maths_max(lift, offset_under(index, footing, along, across) - plane);
+        lift = maths_max(lift, offset[corner & 1 ? 2 : 0][corner & 2 ? 2 : 0] - plane);
     }
     return lift;
+}
+
+double crater_lift(const struct crater_index *index, const struct crater_footing *footing)
+{
+    double offset[3][3];
+    if (index->count == 0)
+        return 0.0;
+    for (int i = 0; i < 9; i++) {
+        double x, z;
+        crater_footing_point(footing, i / 3 - 1, i % 3 - 1, &x, &z);
+        offset[i / 3][i % 3] = crater_offset(index, x, z);
+    }
+    return crater_footing_lift(offset);
 }

@@ -62,6 +62,19 @@ struct crater_footing {
     double sine, cosine;            /* of its heading, clockwise from north */
 };
 
+/* The point of the rectangle so many halves along and across from its middle: -1, 0 or 1. */
+static inline void crater_footing_point(const struct crater_footing *footing, double along,
+                                        double across, double *x, double *z)
+{
+    double length = along * footing->half_length, width = across * footing->half_width;
+    *x = footing->x + footing->sine * length + footing->cosine * width;
+    *z = footing->z - footing->cosine * length + footing->sine * width;
+}
+
+/* Returns by how much a vehicle is lifted [m] if the ground under the points of its rectangle is
+ * this much higher than it would be. The first index is along: back, middle, front. */
+double crater_footing_lift(double offset[3][3]);
+
 /* Returns by how much craters lift a vehicle over the ground under its middle [m], at least 0. The
  * vehicle has the pitch and roll of the middles of its sides; it is lifted until no corner and no
  * middle of a side is in the bowl or the rim of a crater. */

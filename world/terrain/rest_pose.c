@@ -16,7 +16,7 @@ struct rest_pose rest_pose_of(const struct terrain *terrain, const struct crater
     double left = terrain_height(terrain, craters, x - cosine * width, z - sine * width);
     const struct crater_footing footing = {x, z, length, width, sine, cosine};
     return (struct rest_pose){.y_m = terrain_height(terrain, craters, x, z) +
-                                     (craters ? crater_lift(craters, &footing) : 0.0),
+                                     terrain_lift(terrain, craters, &footing),
                               .pitch_rad = maths_atan2(front - back, 2.0 * length),
                               .roll_rad = maths_atan2(left - right, 2.0 * width)};
 }

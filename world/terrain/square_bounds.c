@@ -79,6 +79,13 @@ struct posts {
     struct terrain_posts across, down;
 };
 
+static struct gridsquare_box square_box(uint32_t square)
+{
+    int32_t column = (int32_t)(square % GRIDSQUARE_PER_SIDE);
+    int32_t row = (int32_t)(square / GRIDSQUARE_PER_SIDE);
+    return (struct gridsquare_box){column, row, column, row};
+}
+
 static struct posts posts_of(const struct terrain *terrain, uint32_t square)
 {
     double west_m = GRIDSQUARE_SIDE_M * (square % GRIDSQUARE_PER_SIDE);
@@ -98,7 +105,10 @@ uint16_t square_bounds_height(const void *context, uint32_t square)
             top = post > top ? post : top;
         }
     }
-    return square_bounds_above_height((double)top);
+    const struct gridsquare_box box = square_box(square);
+    double highest, lowest;
+    earthwork_range(&terrain->earthworks, &box, &highest, &lowest);
+    return square_bounds_above_height((double)top + highest);
 }
 
 /* Returns the square of the steeper slope of a cell's two triangles; post is the north-west one. */
@@ -115,7 +125,10 @@ uint16_t square_bounds_slope(const void *context, uint32_t square)
 {
     const struct terrain *terrain = context;
     const struct posts posts = posts_of(terrain, square);
-    double most = 0.0;
+    const struct gridsquare_box box = square_box(square);
+    double most = 0.0, highest, lowest;
+    if (earthwork_range(&terrain->earthworks, &box, &highest, &lowest))
+        return SQUARE_BOUNDS_NONE;
     for (uint32_t z = posts.down.first; z <= posts.down.last; z++) {
         for (uint32_t x = posts.across.first; x <= posts.across.last; x++) {
             size_t post = (size_t)z * terrain->side + x;

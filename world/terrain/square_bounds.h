@@ -59,7 +59,8 @@ uint16_t square_bounds_above_height(double height_m);
 square_bounds_function square_bounds_height;
 
 /* The slope of the ground without its craters, at least half a step above the steepest one; the
- * context is a struct terrain. A square with water has no bound. */
+ * context is a struct terrain. A square with water or with an earthwork that changes the height has
+ * no bound. */
 square_bounds_function square_bounds_slope;
 
 /* Returns true if the straight path from p to q is above the ground and its craters (NULL: none)

@@ -41,7 +41,9 @@ static inline double base_height(const struct terrain *terrain, double x, double
 
 double terrain_base_height(const struct terrain *terrain, double x, double z)
 {
-    return base_height(terrain, x, z);
+    double height = base_height(terrain, x, z);
+    return terrain->earthworks.count > 0 ? height + earthwork_offset(&terrain->earthworks, x, z)
+                                         : height;
 }
 
 double terrain_base_plane(const struct terrain *terrain, double x, double z, double *east,
@@ -56,8 +58,28 @@ double terrain_base_plane(const struct terrain *terrain, double x, double z, dou
 double terrain_height(const struct terrain *terrain, const struct crater_index *craters, double x,
                       double z)
 {
-    double height = base_height(terrain, x, z);
+    double height = terrain_base_height(terrain, x, z);
     return craters ? height + crater_offset(craters, x, z) : height;
+}
+
+double terrain_lift(const struct terrain *terrain, const struct crater_index *craters,
+                    const struct crater_footing *footing)
+{
+    double offset[3][3];
+    if (terrain->earthworks.count == 0)
+        return craters ? crater_lift(craters, footing) : 0.0;
+    for (int i = 0; i < 9; i++) {
+        double x, z;
+        crater_footing_point(footing, i / 3 - 1, i % 3 - 1, &x, &z);
+        offset[i / 3][i % 3] = earthwork_offset(&terrain->earthworks, x, z) +
+                               (craters ? crater_offset(craters, x, z) : 0.0);
+    }
+    return crater_footing_lift(offset);
+}
+
+double terrain_water_depth(const struct terrain *terrain, double x, double z)
+{
+    return earthwork_water(&terrain->earthworks, x, z);
 }
 
 struct terrain_posts terrain_posts(const struct terrain *terrain, double from_m, double metres)

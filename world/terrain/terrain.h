@@ -1,13 +1,16 @@
-/* The ground: heights and cover at posts of a regular grid, with craters in it.
+/* The ground: heights and cover at posts of a regular grid, with earthworks on it and craters in
+ * it.
  *
  * Between posts the ground is two flat triangles for each cell, split along the diagonal from the
  * north-west to the south-east post; renderers that draw the same triangles draw the same ground.
+ * Earthworks add their own height to that (world/terrain/earthwork.h).
  * Post (column, row) lies at x = column * spacing_m, z = row * spacing_m. Outside the square the
  * edge's height continues. Pure; any thread. */
 #ifndef JOLON_WORLD_TERRAIN_TERRAIN_H
 #define JOLON_WORLD_TERRAIN_TERRAIN_H
 
 #include "world/terrain/crater.h"
+#include "world/terrain/earthwork.h"
 #include "world/maths/maths.h"
 
 #include <stdbool.h>
@@ -31,9 +34,10 @@ struct terrain {
     const uint8_t *cover; /* [side * side] enum cover */
     uint32_t side;        /* posts along one edge */
     double spacing_m;
+    struct earthworks earthworks;
 };
 
-/* Height of the uncratered ground [m]. */
+/* Height of the uncratered ground [m], with its earthworks. */
 double terrain_base_height(const struct terrain *terrain, double x, double z);
 
 /* Returns the same and the slopes of the plane through the point: tangents, upwards to the east and
@@ -44,6 +48,14 @@ double terrain_base_plane(const struct terrain *terrain, double x, double z, dou
 /* Height of the ground with its craters [m]; craters may be NULL. */
 double terrain_height(const struct terrain *terrain, const struct crater_index *craters, double x,
                       double z);
+
+/* Returns by how much craters and earthworks lift a vehicle over the ground under its middle [m],
+ * at least 0: see crater_lift(). craters may be NULL. */
+double terrain_lift(const struct terrain *terrain, const struct crater_index *craters,
+                    const struct crater_footing *footing);
+
+/* Depth of the water of a ford at (x, z) [m], 0 where there is none. Craters do not count. */
+double terrain_water_depth(const struct terrain *terrain, double x, double z);
 
 /* The first and last posts along one axis whose cells overlap the given range. */
 struct terrain_posts {

@@ -116,9 +116,11 @@ static inline void heights_four(const struct terrain *terrain, const struct terr
     f64x4 across = SIMD_CHOOSE(north_east, ne - nw, se - sw);
     f64x4 down = SIMD_CHOOSE(north_east, se - ne, sw - nw);
     *height = nw + across * u + down * v;
-    for (int i = 0; SIMD_ANY_CELL(outside) && i < 4; i++) {
+    for (int i = 0; (SIMD_ANY_CELL(outside) || terrain->earthworks.count > 0) && i < 4; i++) {
         if (outside[i])
             (*height)[i] = terrain_base_height(terrain, (*x)[i], (*z)[i]);
+        else if (terrain->earthworks.count > 0)
+            (*height)[i] += earthwork_offset(&terrain->earthworks, (*x)[i], (*z)[i]);
     }
 }
 

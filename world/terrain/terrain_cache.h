@@ -28,8 +28,9 @@ struct terrain_cache {
 void terrain_cache_find(const struct terrain *terrain, struct terrain_cache *cache,
                         const union simd_lanes *x, const union simd_lanes *z);
 
-/* Height of the uncratered ground [m] at a point of each body, equal to terrain_base_height() to
- * the bit; and whether there is water, as by terrain_cover(). Fast if the entry has the posts. */
+/* Height of the uncratered ground [m], with its earthworks, at a point of each body, equal to
+ * terrain_base_height() to the bit; and whether there is water, as by terrain_cover(). Fast if the
+ * entry has the posts. */
 void terrain_cache_heights(const struct terrain *terrain, const struct terrain_cache *cache,
                            const union simd_lanes *x, const union simd_lanes *z,
                            union simd_lanes *height);

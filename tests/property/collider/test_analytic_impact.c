@@ -3,6 +3,7 @@
 #include "collider/geometry/analytic_impact.h"
 
 #include "tests/support/fixture.h"
+#include "tests/support/works.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -193,7 +194,8 @@ static void raise_ground(struct ground *g, uint64_t *random)
     for (int i = 0; i < SIDE * SIDE; i++)
         g->posts[i] = (float)(fixture_random(random) % 4 == 0 ? fixture_uniform(random, 60, 120)
                                                               : fixture_uniform(random, 0, 20));
-    g->terrain = (struct terrain){g->posts, g->cover, SIDE, SPACING};
+    g->terrain =
+        (struct terrain){.posts = g->posts, .cover = g->cover, .side = SIDE, .spacing_m = SPACING};
 }
 
 static void dig_ground(struct ground *g, uint64_t *random)
@@ -292,12 +294,27 @@ static void test_no_path_tunnels_through_cratered_ground(void **state)
     crater_index_free(&g.craters);
 }
 
+static void test_no_path_tunnels_through_earthworks(void **state)
+{
+    static struct ground g;
+    static struct earthwork works[60];
+    uint64_t random = fixture_seed(27);
+    (void)state;
+    raise_ground(&g, &random);
+    works_scatter(works, 60, 200.0, (SIDE - 1) * SPACING - 200.0, 2.0, &random);
+    g.terrain.earthworks = works_index(works, 60);
+    /* An edge cut on less than the half metre between two looks is at most this deep. */
+    assert_in_range(sweep_paths(&g, false, &random, 0.5, 1e-3), PATHS / 10, PATHS * 9 / 10);
+    works_free(&g.terrain.earthworks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_spheres_touch_when_bisection_says),
         cmocka_unit_test(test_no_path_tunnels_through_ridges),
         cmocka_unit_test(test_no_path_tunnels_through_cratered_ground),
+        cmocka_unit_test(test_no_path_tunnels_through_earthworks),
         cmocka_unit_test(test_no_path_that_began_late_tunnels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

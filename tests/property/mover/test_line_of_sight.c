@@ -138,6 +138,20 @@ static void test_over_rough_ground(void **state)
     }
 }
 
+static void test_over_earthworks(void **state)
+{
+    uint64_t random = fixture_seed(20);
+    (void)state;
+    look_at("earthworks = ("
+            "{ shape = \"ramp\"; at = [25000.0, 24950.0]; length_m = 12.0; width_m = 8.0;"
+            "  height_m = 2.5; },"
+            "{ shape = \"table\"; at = [25040.0, 25010.0]; heading_deg = 40.0; length_m = 60.0;"
+            "  width_m = 30.0; height_m = 5.0; edge_m = 6.0; grade_percent = 40.0; },"
+            "{ shape = \"trench\"; at = [24960.0, 25020.0]; length_m = 6.0; width_m = 60.0;"
+            "  depth_m = 2.0; } );");
+    agree(&random, 25000.0, 25000.0, 80.0, 4.0, 3000, 100);
+}
+
 static void test_over_the_lips_of_craters(void **state)
 {
     uint64_t random = fixture_seed(23);
@@ -182,6 +196,7 @@ int main(void)
 #define TEST(function) cmocka_unit_test_teardown(function, close_world)
     const struct CMUnitTest tests[] = {
         TEST(test_over_rough_ground),
+        TEST(test_over_earthworks),
         TEST(test_over_the_lips_of_craters),
         TEST(test_past_trees_and_buildings_whole_and_broken),
     };

@@ -16,6 +16,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include <cmocka.h>
@@ -27,6 +28,15 @@ static const char scene[] = "world = { seed = 1; capacity = 64; };\n"
                             "objects = ( { kind = \"building\"; at = [25020.0, 25020.0]; },\n"
                             "            { kind = \"tree\"; at = [24990.0, 25060.0]; },\n"
                             "            { kind = \"building\"; at = [25125.0, 25000.0]; } );\n";
+
+static const char course[] =
+    "earthworks = ( { shape = \"ramp\"; at = [24950.0, 24950.0]; heading_deg = 30.0;\n"
+    "                 length_m = 20.0; width_m = 12.0; height_m = 3.0; },\n"
+    "               { shape = \"table\"; at = [25100.0, 25050.0]; length_m = 60.0; width_m = "
+    "30.0;\n"
+    "                 height_m = 4.0; grade_percent = 30.0; },\n"
+    "               { shape = \"washboard\"; at = [25020.0, 25150.0]; length_m = 80.0;\n"
+    "                 width_m = 20.0; height_m = 0.3; wave_m = 2.0; } );\n";
 
 static struct fixture f;
 
@@ -114,7 +124,8 @@ static double standing_height(const struct step_context *context, uint32_t i, do
                                      .half_length = maths_max(kind->length_m * 0.5, 0.5),
                                      .half_width = maths_max(kind->width_m * 0.5, 0.5)};
     maths_sincos(context->m->heading[i], &footing.sine, &footing.cosine);
-    return kinematics_ground(context, x, z) + crater_lift(context->craters, &footing);
+    return kinematics_ground(context, x, z) +
+           terrain_lift(&context->world->terrain, context->craters, &footing);
 }
 
 static void stand_on_ground(const struct step_context *context, uint32_t i)
@@ -457,16 +468,16 @@ static void move_some(struct both *both, uint64_t *random, struct drawn *drawn)
     }
 }
 
-static void test_lanes_go_where_one_would(void **state)
+/* Without earthworks and with some. */
+static void lanes_go_where_one_would(const char *text, uint64_t seed)
 {
     static const double heights[] = {0.0, 3.0, 15.0, 60.0};
-    uint64_t random = fixture_seed(50);
+    uint64_t random = fixture_seed(seed);
     struct drawn drawn = {0};
     struct serial_context serial_context;
     struct step_context context;
     struct both both = {.context = &context};
-    (void)state;
-    fixture_open(&f, scene);
+    fixture_open(&f, text);
     assert_true(f.view.world.counts.fixed == 3);
     void *memory = calloc(1, entities_bytes(64) + COLUMN_ALIGN);
     assert_non_null(memory);
@@ -494,8 +505,23 @@ static void test_lanes_go_where_one_would(void **state)
                 drawn.partial > 500);
 }
 
+static void test_lanes_go_where_one_would(void **state)
+{
+    (void)state;
+    lanes_go_where_one_would(scene, 50);
+}
+
+static void test_lanes_go_so_over_earthworks(void **state)
+{
+    char text[2048];
+    (void)state;
+    snprintf(text, sizeof text, "%s%s", scene, course);
+    lanes_go_where_one_would(text, 51);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_lanes_go_where_one_would)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_lanes_go_where_one_would),
+                                       cmocka_unit_test(test_lanes_go_so_over_earthworks)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -41,6 +41,10 @@ static const char response_words[] = RESPONSE_MODELS(X);
 
 #define VEHICLE(entry) "vehicles = (\n{ kind = \"tank\"; " entry " } );"
 
+#define WORK(shape, keys, place)                                                                   \
+    "earthworks = (\n{ shape = \"" shape "\"; at = [" place ", " place                             \
+    "]; length_m = 20.0; width_m = 12.0; " keys " } );"
+
 #define STEPS(list) "scripts = ( { name = \"a\"; steps = (\n" list " ); } );"
 
 static const struct refusal refusals[] = {
@@ -271,6 +275,28 @@ static const struct refusal refusals[] = {
      "scripts[0].steps[0].behaviour = \"attack\": unknown; allowed: idle, hold, patrol, route, "
      "withdraw"},
     {STEPS("{ jump = true; }"), 2, "scripts[0].steps[0].jump = true: unknown key; ..."},
+    {"earthworks = ( { shape = \"hill\"; at = [9, 9]; } );", 1,
+     "earthworks[0].shape = \"hill\": unknown; allowed: ramp, table, trench, washboard, ford, "
+     "skid_pan"},
+    {WORK("ramp", "height_m = 3.0;", "9.0"), 2,
+     "earthworks[0].at = [9, 9]: the earthwork reaches out of the world; allowed: all of it "
+     "within 0..50000 m"},
+    {WORK("ramp", "", "90.0"), 2, "earthworks[0].height_m: is missing; a ramp needs it"},
+    {WORK("ford", "depth_m = 0.5;\nheight_m = 2.0;", "90.0"), 3,
+     "earthworks[0].height_m = 2: is no key of a ford; right would be: without it"},
+    {WORK("table", "height_m = 8.0; edge_m = 0.5;", "90.0"), 2,
+     "earthworks[0].edge_m = 0.5: makes too steep a face; allowed: at least 1 m"},
+    {WORK("table", "height_m = 8.0; grade_percent = 20.0;", "90.0"), 2,
+     "earthworks[0].length_m = 20: is too short for the slopes of its ends; allowed: at least 80 "
+     "m"},
+    {WORK("trench", "depth_m = 20.0;", "90.0"), 2,
+     "earthworks[0].length_m = 20: is too short for the slopes of its ends; allowed: at least 24 "
+     "m"},
+    {WORK("ramp", "height_m = 5.0; edge_m = 8.0;", "90.0"), 2,
+     "earthworks[0].width_m = 12: is too narrow for the slopes of its sides; allowed: at least 16 "
+     "m"},
+    {WORK("washboard", "height_m = 2.0; wave_m = 0.5;", "90.0"), 2,
+     "earthworks[0].wave_m = 0.5: makes too steep a wave; allowed: at least 0.7854 m"},
     {"bases = ( { force = \"red\"; at = [1, 2]; },\n{ force = \"red\"; at = [1, 2]; } );", 2,
      "bases[1].force = \"red\": has a base already; allowed: one base for each force"},
     {VEHICLE("engage = \"some\";"), 2,

@@ -19,8 +19,9 @@
 #define DOCUMENT "docs/scenario.md"
 
 static const struct key_table *const tables[] = {
-    &schema_scenario,  &schema_vehicle, &schema_object, &schema_script, &schema_step, &schema_base,
-    &schema_objective, &schema_mission, &schema_phase,  &schema_fire,   &schema_kind};
+    &schema_scenario, &schema_vehicle, &schema_object,    &schema_script,
+    &schema_step,     &schema_base,    &schema_objective, &schema_mission,
+    &schema_phase,    &schema_fire,    &schema_kind,      &schema_earthwork};
 
 /* Every choice has a word of its own. */
 static void test_choices_have_words(void **state)

@@ -2,6 +2,7 @@
 #include "supervisor/physics/surface.h"
 
 #include "tests/support/fixture.h"
+#include "tests/support/works.h"
 #include "world/terrain/crater.h"
 #include "world/terrain/terrain.h"
 
@@ -149,6 +150,36 @@ static void test_vehicles_stand_over_craters_as_the_mover_has_them(void **state)
     surface_free(&surface);
 }
 
+/* The same heights, parts and lifts with earthworks, by other code. */
+static void test_earthworks_are_those_of_the_world(void **state)
+{
+    static struct earthwork works[30];
+    uint64_t random = fixture_seed(14);
+    struct terrain worked = terrain;
+    struct surface surface = {.terrain = &worked};
+    (void)state;
+    roughen(&random);
+    works_scatter(works, 30, 24700.0, 25300.0, 0.6, &random);
+    worked.earthworks = works_index(works, 30);
+    for (int i = 0; i < 20000; i++) {
+        double sine, cosine, x = fixture_uniform(&random, 24600.0, 25400.0);
+        double z = fixture_uniform(&random, 24600.0, 25400.0);
+        double height = terrain_height(&worked, NULL, x, z);
+        struct surface_part part = surface_around(&surface, x, z, 5.0);
+        double most = surface_part_most(&part, 3.0, -3.0);
+        maths_sincos(fixture_uniform(&random, 0.0, TWO_PI), &sine, &cosine);
+        const struct crater_footing footing = {x, z, 3.5, 1.8, sine, cosine};
+        const struct surface_rectangle under = {.middle = {x, 0.0, z},
+                                                .forward = {3.5 * sine, 0.0, -3.5 * cosine},
+                                                .right = {1.8 * cosine, 0.0, 1.8 * sine}};
+        assert_true(fabs(surface_height(&surface, x, z) - height) < 1e-9);
+        assert_true(terrain_height(&worked, NULL, x + 3.0, z - 3.0) <= most + 1e-9);
+        assert_true(fabs(surface_clearance(&surface, &under) -
+                         terrain_lift(&worked, NULL, &footing)) < 1e-9);
+    }
+    works_free(&worked.earthworks);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -156,6 +187,7 @@ int main(void)
         cmocka_unit_test(test_a_crater_has_a_bowl_and_a_rim),
         cmocka_unit_test(test_the_ground_is_that_of_the_world),
         cmocka_unit_test(test_parts_of_the_ground),
+        cmocka_unit_test(test_earthworks_are_those_of_the_world),
         cmocka_unit_test(test_vehicles_stand_over_craters_as_the_mover_has_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -20,7 +20,8 @@
 
 static float posts[SIDE * SIDE];
 static uint8_t cover[SIDE * SIDE];
-static const struct terrain terrain = {posts, cover, SIDE, SPACING};
+static const struct terrain terrain = {
+    .posts = posts, .cover = cover, .side = SIDE, .spacing_m = SPACING};
 static struct fixed_object trees[TREES];
 static uint32_t *reach_start, *reach;
 static struct free_place place;

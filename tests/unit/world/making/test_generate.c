@@ -91,7 +91,8 @@ static void make_ground(struct ground *g, uint32_t side, uint64_t seed)
     assert_int_equal(generate_hunter_liggett(g->posts, g->cover, side, seed, g->roads,
                                              GENERATE_ROAD_MAX, &g->road_count),
                      0);
-    g->terrain = (struct terrain){g->posts, g->cover, side, WORLD_SIDE_M / (side - 1)};
+    g->terrain = (struct terrain){
+        .posts = g->posts, .cover = g->cover, .side = side, .spacing_m = WORLD_SIDE_M / (side - 1)};
 }
 
 static void free_ground(struct ground *g)
@@ -520,7 +521,8 @@ static void flat_ground_holds_table_1(void **state)
     assert_non_null(flat.posts);
     assert_non_null(flat.cover);
     generate_flat(flat.posts, flat.cover, 401, 12.5);
-    flat.terrain = (struct terrain){flat.posts, flat.cover, 401, 125.0};
+    flat.terrain =
+        (struct terrain){.posts = flat.posts, .cover = flat.cover, .side = 401, .spacing_m = 125.0};
     struct fixed_object *made = make_objects(&flat, SEED);
     for (uint32_t i = 0; i < GENERATE_TABLE1_TOTAL; i++)
         assert_true(made[i].y == 12.5f);
@@ -536,7 +538,8 @@ static void water_holds_nothing(void **state)
     struct fixed_object *made = malloc(GENERATE_TABLE1_TOTAL * sizeof *made);
     assert_non_null(made);
     memset(sea.cover, COVER_SEA, 401 * 401);
-    sea.terrain = (struct terrain){sea.posts, sea.cover, 401, 125.0};
+    sea.terrain =
+        (struct terrain){.posts = sea.posts, .cover = sea.cover, .side = 401, .spacing_m = 125.0};
     errno = 0;
     assert_int_equal(generate_table1_objects(made, &sea.terrain, kinds, KIND_COUNT, NULL, 0, SEED),
                      -1);

@@ -5,6 +5,7 @@
 
 #include "collider/geometry/analytic_impact.h"
 #include "tests/support/fixture.h"
+#include "tests/support/works.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -118,6 +119,32 @@ static void test_the_highest_post_of_the_square_counts_and_none_beyond_it(void *
     square_bounds_free(&bounds);
 }
 
+/* The bound of a square with a work is above the work, and the square has no bound of its slope. */
+static void test_works_raise_the_bounds(void **state)
+{
+    static float posts[SIDE * SIDE];
+    static uint8_t grass[SIDE * SIDE];
+    static struct earthwork works[60];
+    struct terrain worked = {.posts = posts, .cover = grass, .side = SIDE, .spacing_m = 125.0};
+    uint64_t random = fixture_seed(15);
+    int raised = 0;
+    (void)state;
+    works_scatter(works, 60, 24000.0, 26000.0, 1.0, &random);
+    worked.earthworks = works_index(works, 60);
+    for (int i = 0; i < 20000; i++) {
+        double x = fixture_uniform(&random, 23900.0, 26100.0);
+        double z = fixture_uniform(&random, 23900.0, 26100.0);
+        double height = terrain_height(&worked, NULL, x, z);
+        uint32_t square = gridsquare_of(x, z);
+        assert_true(square_bounds_height(&worked, square) > square_bounds_below_height(height));
+        if (height != 0.0)
+            assert_int_equal(square_bounds_slope(&worked, square), SQUARE_BOUNDS_NONE);
+        raised += height > 0.0;
+    }
+    assert_true(raised > 100);
+    works_free(&worked.earthworks);
+}
+
 /* --- slopes ------------------------------------------------------------------------------------*/
 
 static float rough[ROUGH_SIDE * ROUGH_SIDE];
@@ -203,6 +230,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_path_above_its_squares_never_meets_the_ground),
         cmocka_unit_test(test_the_highest_post_of_the_square_counts_and_none_beyond_it),
+        cmocka_unit_test(test_works_raise_the_bounds),
         cmocka_unit_test(test_what_is_called_gentle_is),
         cmocka_unit_test(test_water_and_slopes_are_not_gentle),
     };

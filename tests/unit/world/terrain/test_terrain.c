@@ -18,7 +18,8 @@
 
 static float posts[SIDE * SIDE];
 static uint8_t cover[SIDE * SIDE];
-static const struct terrain terrain = {posts, cover, SIDE, SPACING};
+static const struct terrain terrain = {
+    .posts = posts, .cover = cover, .side = SIDE, .spacing_m = SPACING};
 
 static float *post(uint32_t column, uint32_t row)
 {
