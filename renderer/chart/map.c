@@ -9,6 +9,9 @@
 
 #define CRATER_SHARE  0.2   /* least radius of a crater in symbols' lengths */
 #define CRATER_LEAST  1.6   /* [pixel] least radius of a crater */
+#define WORK_LEAST    0.7   /* [pixel] half a side of an earthwork */
+#define WORK_SHOWN    0.2   /* [pixel] smaller works do not show */
+#define WORK_EDGED    6.0   /* [pixel] larger works have a line around them */
 #define TRACK_DOT     0.14  /* side of a dot in symbols' lengths */
 #define DOT_LEAST     1.7   /* [pixel] */
 #define BLAST_LIFE_S  3.0   /* for which a detonation shows */
@@ -80,6 +83,39 @@ void map_craters(struct image *image, const struct map_view *view,
         if (map_contains(view, at, radius))
             symbol_crater(image, at, radius);
     }
+}
+
+/* --- earthworks ------------------------------------------------------------------------------- */
+
+static void draw_work(struct image *image, const struct map_view *view,
+                      const struct earthwork *work)
+{
+    static const struct rgba fills[EARTHWORK_SHAPE_COUNT] = {
+        [EARTHWORK_RAMP] = {222, 205, 170, 255}, [EARTHWORK_TABLE] = {205, 185, 148, 255},
+        [EARTHWORK_TRENCH] = {92, 70, 48, 255},  [EARTHWORK_WASHBOARD] = {188, 160, 118, 255},
+        [EARTHWORK_FORD] = {60, 110, 165, 255},  [EARTHWORK_SKID_PAN] = {120, 126, 134, 255}};
+    static const struct rgba edge = {70, 52, 34, 255};
+    double length = fmax(work->half_length / view->metres, WORK_LEAST);
+    double width = fmax(work->half_width / view->metres, WORK_LEAST);
+    struct point at = map_point(view, work->x, work->z), corner[4];
+    if (work->half_length + work->half_width < WORK_SHOWN * view->metres ||
+        !map_contains(view, at, length + width))
+        return;
+    for (int i = 0; i < 4; i++) {
+        double along = i < 2 ? length : -length, across = i == 0 || i == 3 ? width : -width;
+        corner[i].x = at.x + work->sine * along + work->cosine * across;
+        corner[i].y = at.y - work->cosine * along + work->sine * across;
+    }
+    image_polygon(image, corner, 4, fills[work->shape % EARTHWORK_SHAPE_COUNT]);
+    for (int i = 0; i < 4 && length + width > WORK_EDGED; i++)
+        image_line(image, corner[i], corner[(i + 1) % 4], 0.8, edge);
+}
+
+void map_earthworks(struct image *image, const struct map_view *view,
+                    const struct earthworks *earthworks)
+{
+    for (uint32_t i = 0; i < earthworks->count; i++)
+        draw_work(image, view, &earthworks->works[i]);
 }
 
 /* --- vehicles --------------------------------------------------------------------------------- */

@@ -45,6 +45,11 @@ void map_grid(struct image *image, const struct map_view *view, double step_m);
 void map_craters(struct image *image, const struct map_view *view,
                  const struct crater_index *craters, double pixels);
 
+/* Draws each earthwork as a rectangle in the colour of its shape. Works far smaller than a pixel do
+ * not show. */
+void map_earthworks(struct image *image, const struct map_view *view,
+                    const struct earthworks *earthworks);
+
 /* Draws every vehicle's track: a dot for each TRACK_INTERVAL_S, which fades with age from this
  * opacity. pixels: length of symbols. */
 void map_tracks(struct image *image, const struct map_view *view,

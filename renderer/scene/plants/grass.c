@@ -126,7 +126,7 @@ static void add_clump(struct block *block, const struct world *world,
     enum cover cover = terrain_cover(&world->terrain, x, z);
     float luck = value_noise_value(x / 23.0, z / 23.0, 23);
     float draw = value_noise_unit(column, row, 24), share = clump_share(cover, luck);
-    if (draw >= share || on_road(roads, x, z))
+    if (draw >= share || on_road(roads, x, z) || earthwork_covers(&world->terrain.earthworks, x, z))
         return;
     double dug = craters != NULL ? crater_offset(craters, x, z) : 0.0;
     if (dug < CRATER_MIN)

@@ -2,6 +2,7 @@
  * time, in a simple loop. Colours are sRGB fractions; light multiplies them. */
 #include "renderer/scene/terrain/terrain_colour.h"
 
+#include "renderer/scene/terrain/earthwork_colour.h"
 #include "renderer/scene/terrain/terrain_block.h"
 #include "renderer/scene/noise/value_noise.h"
 #include "renderer/scene/noise/value_noise_rows.h"
@@ -478,6 +479,56 @@ static void terrain_colour_crater(const struct terrain_colour_tile *tile,
         }
 }
 
+/* --- earthworks ------------------------------------------------------------------------------- */
+
+/* Texels of the tile in a rectangle of the map; none if the first is after the last. */
+struct texels {
+    int64_t left, right, top, bottom;
+};
+
+static struct texels texels_in(const struct terrain_colour_tile *tile, struct vec3 middle,
+                               double reach_x, double reach_z)
+{
+    double step = tile->step_m;
+    return (struct texels){
+        (int64_t)ceil(maths_max((middle.x - reach_x - tile->x) / step, 0.0)),
+        (int64_t)floor(maths_min((middle.x + reach_x - tile->x) / step, tile->columns - 1.0)),
+        (int64_t)ceil(maths_max((middle.z - reach_z - tile->z) / step, 0.0)),
+        (int64_t)floor(maths_min((middle.z + reach_z - tile->z) / step, tile->rows - 1.0))};
+}
+
+/* Returns how much of the texel is painted, 0..1. */
+static float work_share(const struct earthwork *work, double x, double z)
+{
+    double inside = earthwork_colour_inside(work, x, z);
+    if (inside > 0.0 || work->height_m == 0.0)
+        return inside > 0.0 ? 1.0f : 0.0f;
+    return clamp01(1.0f + (float)(inside / EARTHWORK_COLOUR_MARGIN_M));
+}
+
+static void terrain_colour_work(const struct terrain_colour_tile *tile,
+                                const struct terrain *terrain, const struct earthwork *work)
+{
+    const struct earthwork_view view = {tile->sun, tile->step_m, tile->relief};
+    struct texels in = texels_in(tile, (struct vec3){work->x, 0.0, work->z},
+                                 earthwork_reach_x(work) + EARTHWORK_COLOUR_MARGIN_M,
+                                 earthwork_reach_z(work) + EARTHWORK_COLOUR_MARGIN_M);
+    for (int64_t row = in.top; row <= in.bottom; row++)
+        for (int64_t column = in.left; column <= in.right; column++) {
+            double x = tile->x + (double)column * tile->step_m;
+            double z = tile->z + (double)row * tile->step_m;
+            float share = work_share(work, x, z);
+            if (!(share > 0.0f))
+                continue;
+            struct earthwork_look look = earthwork_colour_at(terrain, work, &view, x, z);
+            size_t at = (size_t)row * tile->columns + (size_t)column;
+            lay(tile->rgba + at * 4, clamp01(tile->light[at] + look.light),
+                (struct colour){look.r, look.g, look.b}, share);
+            if (look.water)
+                tile->rgba[at * 4 + 3] = TERRAIN_COLOUR_WATER_ALPHA;
+        }
+}
+
 /* --- blocks ----------------------------------------------------------------------------------- */
 
 static void open_block(struct block *block, const struct world *world)
@@ -574,6 +625,8 @@ bool terrain_colour_ground(const struct world *world, const struct crater_index 
             terrain_colour_block(&block, world);
             sea |= block.terrain.sea;
         }
+    for (uint32_t i = 0; i < world->terrain.earthworks.count; i++)
+        terrain_colour_work(tile, &world->terrain, &world->terrain.earthworks.works[i]);
     if (craters != NULL)
         for (uint32_t i = 0; i < craters->count; i++)
             terrain_colour_crater(tile, &craters->craters[i]);

@@ -48,11 +48,27 @@ static bool has_crater(const struct crater_index *craters,
     return false;
 }
 
+/* Returns true if an earthwork that changes the height reaches into the patch. */
+static bool has_work(const struct terrain *terrain, const struct terrain_quadtree_patch *patch)
+{
+    double side = terrain_quadtree_patch_side(patch->level);
+    double x0 = patch->column * side, z0 = patch->row * side;
+    for (uint32_t i = 0; i < terrain->earthworks.count; i++) {
+        const struct earthwork *work = &terrain->earthworks.works[i];
+        double x = earthwork_reach_x(work), z = earthwork_reach_z(work);
+        if (work->height_m != 0.0 && work->x + x > x0 && work->x - x < x0 + side &&
+            work->z + z > z0 && work->z - z < z0 + side)
+            return true;
+    }
+    return false;
+}
+
+/* The ground, or the water of a ford on it. */
 static float height_at(const struct terrain *terrain, const struct crater_index *craters, double x,
                        double z)
 {
     terrain_quadtree_beyond(terrain, &x, &z);
-    return (float)terrain_height(terrain, craters, x, z);
+    return (float)(terrain_height(terrain, craters, x, z) + terrain_water_depth(terrain, x, z));
 }
 
 static void fill_heights(struct grid *grid, const struct terrain *terrain,
@@ -275,8 +291,8 @@ void terrain_mesh(const struct terrain *terrain, const struct crater_index *crat
     grid.cells = 1;
     grid.tolerance = (float)terrain_quadtree_tolerance(patch->level);
     double side = terrain_quadtree_patch_side(patch->level);
-    bool dug =
-        patch->level >= TERRAIN_QUADTREE_DIG_LEVEL && craters != NULL && has_crater(craters, patch);
+    bool dug = patch->level >= TERRAIN_QUADTREE_DIG_LEVEL &&
+               ((craters != NULL && has_crater(craters, patch)) || has_work(terrain, patch));
     while (grid.cells < (int32_t)GROUND_CELLS && grid.cells * terrain->spacing_m < side)
         grid.cells *= 2;
     if (dug) {

@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 #define GROUND_CELLS     32u /* cells a side of a patch; a power of two */
-#define GROUND_CELLS_MAX 64u /* of a patch with craters */
+#define GROUND_CELLS_MAX 64u /* of a patch with craters or earthworks */
 
 /* On the ground, and below its edges. */
 #define GROUND_VERTICES_MAX                                                                        \

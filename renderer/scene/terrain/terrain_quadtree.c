@@ -2,6 +2,7 @@
 #include "renderer/scene/terrain/terrain_quadtree.h"
 
 #include "renderer/scene/noise/value_noise.h"
+#include "world/terrain/gridsquare.h"
 
 #include <stdlib.h>
 
@@ -45,6 +46,12 @@ static struct terrain_quadtree_range posts_range(const struct terrain *terrain, 
             range.low = y < range.low ? y : range.low;
             range.high = y > range.high ? y : range.high;
         }
+    const struct gridsquare_box box =
+        gridsquare_box_of(column * side, row * side, column * side + side, row * side + side);
+    double highest, lowest;
+    earthwork_range(&terrain->earthworks, &box, &highest, &lowest);
+    range.high += (float)highest;
+    range.low += (float)lowest;
     return range;
 }
 

@@ -7,6 +7,7 @@
 #include "renderer/scene/terrain/terrain_quadtree.h"
 #include "renderer/scene/frame/light.h"
 #include "tests/support/fixture.h"
+#include "tests/support/works.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -54,7 +55,8 @@ static int open_coast(void **context)
     coast->road[0] = (struct road_point){.x = 9000.0f, .z = 2000.0f, .road = 7};
     coast->road[1] = (struct road_point){.x = 9500.0f, .z = 2500.0f, .road = 7};
     coast->road[2] = (struct road_point){.x = 9500.0f, .z = 9000.0f, .road = 8};
-    coast->world.terrain = (struct terrain){coast->posts, coast->cover, POSTS, SPACING};
+    coast->world.terrain = (struct terrain){
+        .posts = coast->posts, .cover = coast->cover, .side = POSTS, .spacing_m = SPACING};
     coast->world.road_points = coast->road;
     coast->world.counts.road_points = 3;
     return crater_index_init(&coast->index, coast->craters);
@@ -92,6 +94,37 @@ static const uint8_t *texel(double x, double z)
 static double brightness(const uint8_t *rgb)
 {
     return rgb[0] + rgb[1] + rgb[2];
+}
+
+/* A skid pan is grey, a ford is water, and the sunny side of a bank is brighter than the other. */
+static void test_earthworks_have_their_colours(void **context)
+{
+    const struct vec3 sun = light_sun();
+    struct earthwork works[3];
+    (void)context;
+    for (int i = 0; i < 3; i++)
+        works[i] = (struct earthwork){.x = 9000.0 + 200.0 * i,
+                                      .z = 7000.0,
+                                      .sine = 0.0,
+                                      .cosine = 1.0,
+                                      .half_length = 30.0,
+                                      .half_width = 30.0,
+                                      .back_m = 10.0,
+                                      .front_m = 10.0,
+                                      .side_m = 10.0,
+                                      .grip = 1.0};
+    works[0].shape = EARTHWORK_SKID_PAN;
+    works[1].shape = EARTHWORK_FORD;
+    works[1].height_m = -1.0;
+    works[2].shape = EARTHWORK_TABLE;
+    works[2].height_m = 5.0;
+    coast->world.terrain.earthworks = works_index(works, 3);
+    const uint8_t *pan = texel(9011.0, 7012.0);
+    assert_true(abs(pan[0] - pan[1]) < 25 && pan[2] >= pan[0]);
+    assert_int_equal(texel(9200.0, 7000.0)[3], TERRAIN_COLOUR_WATER_ALPHA);
+    double west = brightness(texel(9375.0, 7000.0)), east = brightness(texel(9425.0, 7000.0));
+    assert_true(sun.x > 0.0 ? east > west + 20.0 : west > east + 20.0);
+    works_free(&coast->world.terrain.earthworks);
 }
 
 static void test_rows_of_noise_equal_the_noise(void **context)
@@ -250,6 +283,7 @@ static void test_ground_continues_past_the_square(void **context)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_earthworks_have_their_colours),
         cmocka_unit_test(test_rows_of_noise_equal_the_noise),
         cmocka_unit_test(test_coarse_texels_have_no_fine_noise),
         cmocka_unit_test(test_blocks_do_not_show),

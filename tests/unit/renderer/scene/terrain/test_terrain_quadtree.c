@@ -4,6 +4,7 @@
 
 #include "renderer/scene/noise/value_noise.h"
 #include "tests/support/fixture.h"
+#include "tests/support/works.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -56,7 +57,8 @@ static int open_relief(void **context)
                     (double)value_noise_value(x * (1u << i) / 5000.0, z * (1u << i) / 5000.0, i);
             relief->posts[row * POSTS + column] = (float)height;
         }
-    relief->terrain = (struct terrain){relief->posts, relief->cover, POSTS, SPACING};
+    relief->terrain = (struct terrain){
+        .posts = relief->posts, .cover = relief->cover, .side = POSTS, .spacing_m = SPACING};
     open_mesh(&relief->mesh);
     open_mesh(&relief->other);
     return crater_index_init(&relief->index, relief->craters);
@@ -307,6 +309,43 @@ static void test_near_meshes_have_craters(void **context)
     }
 }
 
+/* Near meshes have the shape of a ramp to within a cell's width of its edges, and a ford's water.
+ */
+static void test_near_meshes_have_earthworks(void **context)
+{
+    (void)context;
+    uint64_t state = fixture_seed(SEED);
+    struct terrain_quadtree_patch patch = some_patch(&state, TERRAIN_QUADTREE_LEVEL_MAX);
+    double side = terrain_quadtree_patch_side(patch.level), worst = 0.0, highest = 0.0;
+    struct earthwork work = {.x = (patch.column + 0.5) * side,
+                             .z = (patch.row + 0.5) * side,
+                             .cosine = 1.0,
+                             .half_length = 10.0,
+                             .half_width = 6.0,
+                             .height_m = 3.0,
+                             .back_m = 18.0,
+                             .front_m = 2.0,
+                             .side_m = 2.0,
+                             .shape = EARTHWORK_RAMP};
+    relief->terrain.earthworks = works_index(&work, 1);
+    terrain_mesh(&relief->terrain, NULL, &patch, &relief->mesh);
+    for (uint32_t j = 0; j < 2000; j++) {
+        double dx = fixture_uniform(&state, 0.0, side), dz = fixture_uniform(&state, 0.0, side);
+        double x = patch.column * side + dx, z = patch.row * side + dz;
+        double truth = terrain_height(&relief->terrain, NULL, x, z);
+        worst = maths_max(worst, fabs(mesh_height(&relief->mesh, dx, dz) - truth));
+        highest = maths_max(highest, earthwork_height(&work, x, z));
+    }
+    assert_true(highest > 2.5 && worst < 1.5 * side / GROUND_CELLS_MAX);
+    work.shape = EARTHWORK_FORD;
+    work.height_m = -1.0;
+    work.freeboard_m = 0.25;
+    terrain_mesh(&relief->terrain, NULL, &patch, &relief->mesh);
+    works_free(&relief->terrain.earthworks);
+    double dry = terrain_height(&relief->terrain, NULL, work.x, work.z - 6.0);
+    assert_true(fabs(mesh_height(&relief->mesh, 0.5 * side, 0.5 * side - 6.0) - dry + 0.25) < 0.1);
+}
+
 static void test_meshes_are_small(void **context)
 {
     (void)context;
@@ -331,6 +370,7 @@ int main(void)
         cmocka_unit_test(test_ground_does_not_jump_when_a_patch_is_divided),
         cmocka_unit_test(test_skirts_close_every_gap),
         cmocka_unit_test(test_near_meshes_have_craters),
+        cmocka_unit_test(test_near_meshes_have_earthworks),
         cmocka_unit_test(test_meshes_are_small),
     };
     return cmocka_run_group_tests(tests, open_relief, close_relief);
