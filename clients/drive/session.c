@@ -327,7 +327,8 @@ static void read_drive_reply(struct session *session, uint64_t now_ns)
     (void)session_label(session->mirror, session->vehicle, label);
     if (reply.result == jolon_RESULT_DONE) {
         if (session->state == SESSION_TAKING)
-            session_notify(session, now_ns, "you drive %s from frame %llu", label,
+            session_notify(session, now_ns,
+                           "you drive %s from frame %llu; hold w to go, h shows the keys", label,
                            (unsigned long long)reply.frame);
         session->state = SESSION_DRIVING;
         return;

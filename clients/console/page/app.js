@@ -48,12 +48,14 @@ function mapNote(state) {
   return map.ground.missing ? 'The ground is being loaded.' : '';
 }
 
-/** Selects a vehicle for a new visitor: the first tank, or else the first vehicle. */
+/** Selects a vehicle for a new visitor: the first tank, or else the first vehicle, which in the
+ * training world is the one to begin with. */
 function lookAtSomething() {
   if (session.selected || !world.state) return;
   const there = world.entities.filter((entity) => entity[STATE] !== STATE_WRECK &&
     world.kind(entity[KIND]).domain !== 'munition');
-  const one = there.find((entity) => world.kind(entity[KIND]).name === 'tank') ?? there[0];
+  const tank = there.find((entity) => world.kind(entity[KIND]).name === 'tank');
+  const one = (world.info.ground !== 'training' && tank) || there[0];
   world.removeEventListener('state', lookAtSomething);
   if (one) session.select(one[ID]);
 }

@@ -61,9 +61,16 @@ export class Drive {
     this.strip.classList.toggle('on', driven !== 0);
     document.getElementById('driving-levers').hidden = driven === 0;
     document.getElementById('driving-show').hidden = driven === 0 || driven === selected;
-    setText(document.getElementById('driving-what'), driven ? 'you drive' :
-      'You drive no vehicle. Press Take, or double click a vehicle.');
+    setText(document.getElementById('driving-what'), driven ? 'you drive' : this.next());
     setText(document.getElementById('driving-name'), driven ? this.world.name(driven) : '');
+    document.getElementById('driving-keys').hidden = driven === 0;
+  }
+
+  /** Returns what a visitor who drives nothing can do next. */
+  next() {
+    const { selected } = this.session;
+    return selected ? `Next: press Take, or T, to drive ${this.world.name(selected)}.` :
+      'Next: click a vehicle on the map or in the list.';
   }
 
   /** The present controls. */
