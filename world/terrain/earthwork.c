@@ -123,28 +123,28 @@ static inline const uint32_t *works_at(const struct earthworks *works, double x,
 
 /* A point in the work's own axes [m]: from its back end, from its front end, from its nearer
  * side. */
-struct place {
+struct work_point {
     double from_back, from_front, from_side;
 };
 
-static inline struct place place_of(const struct earthwork *work, double x, double z)
+static inline struct work_point point_of(const struct earthwork *work, double x, double z)
 {
     double dx = x - work->x, dz = z - work->z;
     double along = dx * work->sine - dz * work->cosine;
     double across = dx * work->cosine + dz * work->sine;
-    return (struct place){work->half_length + along, work->half_length - along,
-                          work->half_width - fabs(across)};
+    return (struct work_point){work->half_length + along, work->half_length - along,
+                               work->half_width - fabs(across)};
 }
 
 bool earthwork_holds(const struct earthwork *work, double x, double z)
 {
-    struct place at = place_of(work, x, z);
+    struct work_point at = point_of(work, x, z);
     return at.from_back > 0.0 && at.from_front > 0.0 && at.from_side > 0.0;
 }
 
 double earthwork_height(const struct earthwork *work, double x, double z)
 {
-    struct place at = place_of(work, x, z);
+    struct work_point at = point_of(work, x, z);
     double share = maths_min(maths_min(at.from_back / work->back_m, at.from_front / work->front_m),
                              maths_min(at.from_side / work->side_m, 1.0));
     if (!(share > 0.0))

@@ -56,27 +56,27 @@ static double light_on(const struct slope *slope, struct vec3 sun)
 }
 
 /* A point in the work's own axes [m]: from its back end and from its left side. */
-struct place {
+struct work_point {
     double along, across;
 };
 
-static struct place place_of(const struct earthwork *work, double x, double z)
+static struct work_point point_of(const struct earthwork *work, double x, double z)
 {
     double dx = x - work->x, dz = z - work->z;
-    return (struct place){work->half_length + dx * work->sine - dz * work->cosine,
-                          work->half_width + dx * work->cosine + dz * work->sine};
+    return (struct work_point){work->half_length + dx * work->sine - dz * work->cosine,
+                               work->half_width + dx * work->cosine + dz * work->sine};
 }
 
 double earthwork_colour_inside(const struct earthwork *work, double x, double z)
 {
-    struct place at = place_of(work, x, z);
+    struct work_point at = point_of(work, x, z);
     return maths_min(maths_min(at.along, 2.0 * work->half_length - at.along),
                      maths_min(at.across, 2.0 * work->half_width - at.across));
 }
 
 static bool on_joint(const struct earthwork *work, double x, double z)
 {
-    struct place at = place_of(work, x, z);
+    struct work_point at = point_of(work, x, z);
     double along = fabs(at.along - JOINT_M * floor(at.along / JOINT_M + 0.5));
     double across = fabs(at.across - JOINT_M * floor(at.across / JOINT_M + 0.5));
     return maths_min(along, across) < JOINT_WIDTH_M;
