@@ -190,8 +190,8 @@ static int check_values(const struct kind *kind, const struct key_reading *keys,
 static int check_kind(const struct kind *kind, const struct key_reading *keys, const char *name,
                       struct error_text *error)
 {
-    bool has_class = (keys->given >> key_table_find(keys->table, "class") & 1u) != 0;
-    bool armed = (keys->given >> key_table_find(keys->table, "munition") & 1u) != 0;
+    bool has_class = keys->given[key_table_find(keys->table, "class")];
+    bool armed = keys->given[key_table_find(keys->table, "munition")];
     struct key_place place = {keys->file, keys->line[key_table_find(keys->table, "name")]};
     struct key_place class_place = {keys->file, keys->line[key_table_find(keys->table, "class")]};
     if (strcmp(kind->name, name) != 0)
@@ -348,11 +348,10 @@ static int read_kind(struct reading *reading, struct kind *kind, const char *nam
     if (kind->stiffness_npm <= 0)
         kind->stiffness_npm = stiffness_of(kind);
     complete_load(kind);
-    if (kind->domain <= DOMAIN_AIR &&
-        (keys.given >> key_table_find(&schema_kind, "armour_mm") & 1u) == 0)
+    if (kind->domain <= DOMAIN_AIR && !keys.given[key_table_find(&schema_kind, "armour_mm")])
         complete_armour(kind);
     complete_chassis(kind);
-    complete_mind(kind, (keys.given >> key_table_find(&schema_kind, "doctrine") & 1u) != 0);
+    complete_mind(kind, keys.given[key_table_find(&schema_kind, "doctrine")]);
     take_hulls(kind, models->scenario, &models->hulls[model]);
     kind->munition = KIND_NONE;
     memcpy(reading->munition, entry.munition, sizeof(entry.munition));

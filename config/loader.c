@@ -94,7 +94,7 @@ static int read_file(struct load *load)
     if (key_table_read(&keys, root, "", "", load->error) != 0)
         return -1;
     for (uint32_t i = 0; i < schema_scenario.count; i++) {
-        if ((keys.given >> i & 1u) != 0)
+        if (keys.given[i])
             load->origin[i] = (struct key_place){load->source.path, keys.line[i]};
         else
             load->origin[i] = (struct key_place){"default", 0};
@@ -103,7 +103,7 @@ static int read_file(struct load *load)
         load->scenario->settings->objects = OBJECTS_LIST;
         load->objects_chosen = true;
     }
-    if ((keys.given >> key_table_find(&schema_scenario, "objects.source") & 1u) != 0)
+    if (keys.given[key_table_find(&schema_scenario, "objects.source")])
         load->objects_chosen = true;
     return 0;
 }

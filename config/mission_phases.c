@@ -89,16 +89,20 @@ static int check_order(const struct entry *entry, const struct phase_entry *give
     return check_places(entry, given);
 }
 
+/* Returns true if the entry has one of the keys first .. last. */
+static bool any_given(const struct entry *entry, uint32_t first, uint32_t last)
+{
+    for (uint32_t key = first; key <= last; key++) {
+        if (entry_given(entry, key))
+            return true;
+    }
+    return false;
+}
+
 /* A phase ends by a condition, a reaction begins by one. */
 static int check_conditions(const struct entry *entry, bool reaction, bool last)
 {
-    static const uint64_t until = 1ull << PHASE_FOR | 1ull << PHASE_UNTIL | 1ull << PHASE_ARRIVED |
-                                  1ull << PHASE_TAKEN | 1ull << PHASE_LOST | 1ull << PHASE_BELOW |
-                                  1ull << PHASE_ENEMY_IN | 1ull << PHASE_AFTER;
-    static const uint64_t when = 1ull << PHASE_WHEN_TIME | 1ull << PHASE_WHEN_TAKEN |
-                                 1ull << PHASE_WHEN_LOST | 1ull << PHASE_WHEN_BELOW |
-                                 1ull << PHASE_WHEN_ENEMY_IN | 1ull << PHASE_WHEN_AFTER;
-    if (reaction && !(entry->keys.given & when))
+    if (reaction && !any_given(entry, PHASE_WHEN_TIME, PHASE_WHEN_AFTER))
         return entry_refuse(entry, PHASE_WHEN_BELOW,
                             "is missing, and so is any other condition; a reaction needs one of "
                             "the keys that begin with when_");
@@ -108,7 +112,7 @@ static int check_conditions(const struct entry *entry, bool reaction, bool last)
                                 "is only for reactions; allowed: for_s, until_s, "
                                 "arrived, taken, lost, below, enemy_in, after");
     }
-    if (!(entry->keys.given & until) && !last)
+    if (!any_given(entry, PHASE_FOR, PHASE_AFTER) && !last)
         return entry_refuse(entry, PHASE_FOR,
                             "is missing, and so is any other condition; a phase needs one unless "
                             "it is the last");

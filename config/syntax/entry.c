@@ -61,7 +61,7 @@ int entry_read(struct entry *entry, const struct key_table *table, int index,
     entry->setting = setting;
     entry->keys.table = table;
     entry->keys.destination = destination;
-    entry->keys.given = 0;
+    memset(entry->keys.given, 0, sizeof entry->keys.given);
     snprintf(entry->path, sizeof(entry->path), "%s%s[%d]",
              entry->within != NULL ? entry->within : "", table->path, index);
     if (setting->type != CONFIG_TYPE_GROUP) {

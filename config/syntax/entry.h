@@ -21,7 +21,7 @@ struct entry {
 
 static inline bool entry_given(const struct entry *entry, uint32_t key)
 {
-    return (entry->keys.given >> key & 1u) != 0;
+    return entry->keys.given[key];
 }
 
 /* The number of entries of a list; -1 with the message when it is no list or too long. */

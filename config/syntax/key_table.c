@@ -559,7 +559,7 @@ static int read_setting(struct key_reading *reading, const config_setting_t *set
     key_table_value_text(setting, value, sizeof(value));
     if (index >= 0) {
         struct given given = {&reading->table->keys[index], shown, value, place, error};
-        reading->given |= UINT64_C(1) << index;
+        reading->given[index] = true;
         reading->line[index] = place.line;
         return store_setting(&given, reading->destination, setting);
     }
@@ -605,7 +605,7 @@ int key_table_read(struct key_reading *reading, const config_setting_t *group, c
         const struct key *key = &reading->table->keys[i];
         const struct key_place place = {reading->file, group_line(group)};
         char allowed[ALLOWED_TEXT_MAX], path[KEY_PATH_MAX + KEY_PATH_MAX];
-        if (!key->required || (reading->given >> i & 1u) != 0)
+        if (!key->required || reading->given[i])
             continue;
         key_table_allowed(key, allowed, sizeof(allowed));
         snprintf(path, sizeof(path), "%s%s%s", shown, shown_dot, key->name);

@@ -68,10 +68,12 @@ struct key {
     const char *unset;   /* what holds when nothing is stored; NULL: "none" */
 };
 
+#define KEY_TABLE_MAX 128u /* keys of one table */
+
 struct key_table {
     const char *path; /* of an entry, in messages: "", "vehicles", "kind" */
     const struct key *keys;
-    uint32_t count; /* at most 64: key_reading.given is one word */
+    uint32_t count; /* at most KEY_TABLE_MAX */
     size_t size;    /* of the destination */
 };
 
@@ -112,8 +114,8 @@ struct key_reading {
     const struct key_table *table;
     void *destination;
     const char *file;
-    uint64_t given; /* out: bit i is set when the file has key i */
-    int line[64];   /* out: of each key that the file has */
+    bool given[KEY_TABLE_MAX]; /* out: the file has this key */
+    int line[KEY_TABLE_MAX];   /* out: of each key that the file has */
     /* Returns true for a top-level setting that another function reads; NULL: there is none. */
     bool (*skip)(const config_setting_t *setting);
 };

@@ -179,4 +179,4 @@ static const struct key scenario_keys[] = {
 #undef S
 const struct key_table schema_scenario = {"", scenario_keys, COUNT(scenario_keys),
                                           sizeof(struct scenario_settings)};
-_Static_assert(COUNT(scenario_keys) <= 64, "key_reading.given is one word");
+_Static_assert(COUNT(scenario_keys) <= KEY_TABLE_MAX, "the keys fit into a table");

@@ -17,8 +17,8 @@
 /* Limits of files. They are checked before memory of that size is allocated. */
 #define SCHEMA_SCENARIO_BYTES_MAX (4u * 1024u * 1024u)
 #define SCHEMA_KIND_BYTES_MAX     (64u * 1024u)
-#define SCHEMA_DEPTH_MAX          8u  /* levels of groups, lists and arrays */
-#define SCHEMA_MEMBERS_MAX        64u /* keys of one group; a struct key_table has no more */
+#define SCHEMA_DEPTH_MAX          8u            /* levels of groups, lists and arrays */
+#define SCHEMA_MEMBERS_MAX        KEY_TABLE_MAX /* keys of one group */
 
 #define SCHEMA_GROUPS_MAX  65536
 #define SCHEMA_OBJECTS_MAX 1048576

@@ -232,4 +232,4 @@ static const struct key kind_keys[] = {
 #undef K
 const struct key_table schema_kind = {"kind", kind_keys, COUNT(kind_keys),
                                       sizeof(struct kind_entry)};
-_Static_assert(COUNT(kind_keys) <= 64, "key_reading.given is one word");
+_Static_assert(COUNT(kind_keys) <= KEY_TABLE_MAX, "the keys fit into a table");
