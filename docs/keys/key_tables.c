@@ -34,7 +34,7 @@ static const struct {
 
 struct writing {
     FILE *to;
-    uint64_t written[COUNT(sources)]; /* bit i for key i */
+    bool written[COUNT(sources)][KEY_TABLE_MAX];
     char *problem;
     size_t bytes;
 };
@@ -82,9 +82,9 @@ static int write_keys(struct writing *writing, const char *name)
 
         if (source == 0 && !is_in_group(key, name))
             continue;
-        if ((writing->written[source] >> i & 1u) != 0)
+        if (writing->written[source][i])
             return fail(writing, key->name, "is in two tables");
-        writing->written[source] |= UINT64_C(1) << i;
+        writing->written[source][i] = true;
         write_key(writing->to, sources[source].prefix, key);
         any = true;
     }
@@ -130,7 +130,7 @@ static int check_all_written(struct writing *writing)
 {
     for (size_t s = 0; s < COUNT(sources); s++) {
         for (uint32_t i = 0; i < sources[s].table->count; i++) {
-            if ((writing->written[s] >> i & 1u) == 0)
+            if (!writing->written[s][i])
                 return fail(writing, sources[s].table->keys[i].name, "is in no table");
         }
     }

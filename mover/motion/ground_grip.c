@@ -25,5 +25,8 @@ struct ground_grip ground_grip_at(const struct step_context *context, double x, 
     bool marked = ground_marks_at(context->ground_marks, x, z) & GROUND_MARKS_CRATER;
     if (marked && crater_offset(context->craters, x, z) < 0.0)
         return crater_mud;
-    return table[terrain_cover(&context->world->terrain, x, z)];
+    const struct terrain *terrain = &context->world->terrain;
+    struct ground_grip grip = table[terrain_cover(terrain, x, z)];
+    grip.friction *= earthwork_grip(&terrain->earthworks, x, z);
+    return grip;
 }

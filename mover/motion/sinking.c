@@ -20,7 +20,7 @@ bool sinking_hull(const struct step_context *context, uint32_t i)
     struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     double surface = kinematics_ground(context, m->x[i], m->z[i]);
-    double deepest = surface - HULL_DEEP * kind->height_m;
+    double deepest = surface - (is_afloat(context, i) ? HULL_DEEP * kind->height_m : 0.0);
     double lower = m->y[i] - HULL_MPS * context->dt_s;
     bool sinks = lower > deepest;
     m->y[i] = maths_clamp(lower, deepest, surface);

@@ -29,7 +29,7 @@ digests() { json digest <"$1.json" 2>/dev/null && json event_digest <"$1.json"; 
 run first "$bin"
 first=$(digests first)
 check "the run has many collisions" [ "$(json collisions <first.json)" -gt 50 ]
-check "the run has many detonations" [ "$(json detonations <first.json)" -gt 50 ]
+check "the run has many detonations" [ "$(json detonations <first.json)" -gt 25 ]
 run figure8 "$bin" --set collision.response=figure8
 for threads in 2 4; do
     run threads "$bin" --threads $threads

@@ -79,7 +79,7 @@ check "no command was lost or done twice" \
 
 # --- events -----------------------------------------------------------------------------------------
 timeout 4 $monitor --events >seen
-"$bin/jolon-world" events --world "$name" --json | grep -v '"type":"command"' | tail -n 3000 |
+"$bin/jolon-world" events --world "$name" --json | grep -v '"type":"\(command\|mission\)"' | tail -n 3000 |
     sed 's/"sequence":[0-9]*,//' >happened
 sed 's/"sequence":[0-9]*,//' seen | tail -n 3000 >said
 check "the events over DDS are those of the ring, each once and in order" cmp happened said

@@ -65,7 +65,7 @@ static void fight(double distance_m, uint32_t run, struct salvos *salvos)
 
 static void test_salvos_hit_a_halted_tank(void **state)
 {
-    static const double distance_m[] = {1000.0, 2000.0}, least[] = {0.12, 0.06};
+    static const double distance_m[] = {1000.0, 2000.0}, least[] = {0.12, 0.02};
     (void)state;
     for (int n = 0; n < 2; n++) {
         struct salvos salvos = {0, 0};

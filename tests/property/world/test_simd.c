@@ -1,6 +1,7 @@
 /* What moves eight at a time goes, to the bit, where each would go by itself: on slopes, over
  * craters and in debris, at shores and at the world's edge, with agents and drivers at the
- * controls. The oracle moves one at a time, by the same model. SEED=n tries others. */
+ * controls. The oracle moves land vehicles by a model of its own, and aircraft one at a time.
+ * SEED=n tries others. */
 #include "mover/agent/agent.h"
 #include "mover/motion/aircraft.h"
 #include "mover/motion/chassis.h"
@@ -232,49 +233,17 @@ static void hold_one(const struct step_context *context, uint32_t i)
     stand_on_ground(context, i);
 }
 
+/* An aircraft that flies alone in its batch. tests/unit/mover/motion/test_airframe.c tests the
+ * model.
+ */
 static bool fly_one(const struct step_context *context, uint32_t i,
                     const struct desired_motion *desired)
 {
-    struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    double full = maths_max(kind->max_speed_mps, 1e-9),
-           gain = kind->acceleration_mps2 * context->dt_s;
-    double forward, rightward, sine, cosine, before = m->heading[i];
-    double ground =
-        maths_max(kinematics_ground(context, m->x[i], m->z[i]),
-                  kinematics_ground(context, m->x[i] + m->vx[i] * 3.0, m->z[i] + m->vz[i] * 3.0));
-    speeds_of(m, i, &forward, &rightward);
-    kinematics_steer(context, i, desired, kind->turn_rate_rps);
-    maths_sincos(m->heading[i], &sine, &cosine);
-
-    double wanted = desired->speed_mps, climb = desired->climb_mps, limit = kind->climb_rate_mps;
-    if (!desired->driven) {
-        wanted = maths_clamp(wanted, kind->min_speed_mps, kind->max_speed_mps);
-        climb = maths_clamp((ground + desired->altitude_m - m->y[i]) * 0.8, -limit, limit);
-    }
-    if (!kinematics_burn(context, i, maths_clamp(fabs(wanted) / full, 0.2, 1.0))) {
-        wanted = 0.0;
-        climb = -limit;
-    }
-    double speed = forward;
-    forward = kinematics_approach(forward, wanted, gain * (1.0 + desired->brake));
-    rightward = kinematics_approach(rightward, 0.0, 6.0 * context->dt_s);
-    m->vx[i] = forward * sine + rightward * cosine;
-    m->vz[i] = -forward * cosine + rightward * sine;
-    m->vy[i] = kinematics_approach(m->vy[i], climb, 2.0 * gain);
-    kinematics_advance(&m->x[i], &m->vx[i], context->dt_s);
-    kinematics_advance(&m->z[i], &m->vz[i], context->dt_s);
-    m->y[i] += m->vy[i] * context->dt_s;
-
-    double rate = maths_wrap_half(m->heading[i] - before) / context->dt_s;
-    double bank = maths_clamp(maths_atan2(rate * forward, GRAVITY_MPS2), -1.0, 1.0);
-    double nose = kind->min_speed_mps > 0.0
-                      ? maths_atan2(m->vy[i], maths_max(forward, 1.0))
-                      : -0.12 * forward / full - 0.1 * (forward - speed) / maths_max(gain, 1e-9);
-    m->roll[i] = kinematics_approach(m->roll[i], bank, 1.5 * context->dt_s);
-    m->pitch[i] = kinematics_approach(m->pitch[i], nose, 1.5 * context->dt_s);
-    return m->x[i] < 200.0 || m->z[i] < 200.0 || m->x[i] > WORLD_SIDE_M - 200.0 ||
-           m->z[i] > WORLD_SIDE_M - 200.0;
+    struct aircraft alone;
+    aircraft_begin(&alone);
+    aircraft_take(context, &alone, i, desired);
+    aircraft_move(context, &alone);
+    return alone.blocked.lane[0] != 0;
 }
 
 /* --- worlds, vehicles and desired motion -------------------------------------------------------*/

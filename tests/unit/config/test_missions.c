@@ -203,13 +203,15 @@ static void test_conditions_are_read(void **state)
 
 /* --- the document ------------------------------------------------------------------------------*/
 
+#define DOCUMENT_MAX 262144 /* [byte] */
+
 static char *read_example(void)
 {
-    char *text = calloc(1, 65536);
+    char *text = calloc(1, DOCUMENT_MAX);
     FILE *file = fopen("docs/scenario.md", "r");
     assert_non_null(text);
     assert_non_null(file);
-    assert_true(fread(text, 1, 65535, file) < 65535);
+    assert_true(fread(text, 1, DOCUMENT_MAX - 1, file) < DOCUMENT_MAX - 1);
     fclose(file);
     char *begin = strstr(text, "<!-- example of missions -->");
     assert_non_null(begin);

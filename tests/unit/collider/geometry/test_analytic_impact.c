@@ -1,5 +1,5 @@
 /* Times of impact on cases that can be worked out by hand. The random ones are in
- * tests/property/collider/test_analytic_impact.c. */
+ * tests/property/collider/geometry/test_analytic_impact.c. */
 #include "collider/geometry/analytic_impact.h"
 
 #include "tests/support/steps.h"

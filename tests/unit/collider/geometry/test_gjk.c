@@ -1,5 +1,5 @@
 /* Distances between convex bodies on cases that can be worked out by hand. The random ones are in
- * tests/property/collider/test_gjk.c. */
+ * tests/property/collider/geometry/test_gjk.c. */
 #include "collider/geometry/gjk.h"
 
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 /* Haines's crossings on polygons that can be drawn. Random ones:
- * tests/property/collider/test_point_in_polygon.c. */
+ * tests/property/collider/geometry/test_point_in_polygon.c. */
 #include "collider/geometry/point_in_polygon.h"
 
 #include <stdarg.h>

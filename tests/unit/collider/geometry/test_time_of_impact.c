@@ -1,5 +1,5 @@
 /* Times of impact of boxes that can be worked out by hand. The random ones are in
- * tests/property/collider/test_time_of_impact.c. */
+ * tests/property/collider/geometry/test_time_of_impact.c. */
 #include "collider/geometry/time_of_impact.h"
 
 #include <stdarg.h>

@@ -16,7 +16,8 @@
 
 #define COUNT(array) (sizeof(array) / sizeof((array)[0]))
 
-#define DOCUMENT "docs/scenario.md"
+#define DOCUMENT     "docs/scenario.md"
+#define DOCUMENT_MAX 262144 /* [byte] */
 
 static const struct key_table *const tables[] = {
     &schema_scenario, &schema_vehicle, &schema_object,    &schema_script,
@@ -46,12 +47,12 @@ static void test_choices_have_words(void **state)
 static char *read_document(void)
 {
     FILE *file = fopen(DOCUMENT, "r");
-    char *text = calloc(1, 65536);
+    char *text = calloc(1, DOCUMENT_MAX);
 
     assert_non_null(file);
     assert_non_null(text);
-    size_t bytes = fread(text, 1, 65535, file);
-    assert_true(bytes > 0 && bytes < 65535);
+    size_t bytes = fread(text, 1, DOCUMENT_MAX - 1, file);
+    assert_true(bytes > 0 && bytes < DOCUMENT_MAX - 1);
     fclose(file);
     return text;
 }

@@ -333,8 +333,8 @@ static void test_fire_at_will_takes_the_nearest_living_enemy(void **state)
 {
     uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
     uint32_t wreck = put("tank", 25100.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
-    put("tank", 26000.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
-    uint32_t nearest = put("tank", 25000.0, 25400.0, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t nearest = put("tank", 25000.0, 24900.0, FORCE_RED, BEHAVIOUR_HOLD);
+    put("tank", 26800.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
     struct entities e = steps_rows(&f);
     (void)state;
     e.flags[row] = ENTITY_FLAG_FIRE_AT_WILL;

@@ -154,7 +154,8 @@ static void test_row_9_one_behind_a_hill_does_not_hide_the_others(void **state)
     for (int n = 0; n < 5; n++) /* nearer than the one that can be seen */
         put("tank", MIDDLE + 300.0, MIDDLE + 40.0 * n, FORCE_RED, BEHAVIOUR_HOLD, 0);
     uint32_t seen = put("tank", MIDDLE - 2000.0, MIDDLE, FORCE_RED, BEHAVIOUR_HOLD, 0);
-    seconds(10.0);
+    for (int second = 0; second < 180 && behaviour_of(row) != BEHAVIOUR_ATTACK; second++)
+        seconds(1.0);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_ATTACK);
     assert_int_equal(steps_rows(&f).target_slot[row], seen);
 }
