@@ -69,7 +69,7 @@ struct counts {
     uint32_t formations, scripts, script_steps;
     uint32_t missions, mission_phases, mission_members, objectives;
     uint32_t earthworks, earthwork_words; /* of their index */
-    uint32_t recipe; /* [byte] */
+    uint32_t recipe;                      /* [byte] */
 };
 
 struct world {

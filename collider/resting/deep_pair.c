@@ -87,13 +87,13 @@ static double nearest(const struct capsule *a, const struct capsule *b, struct v
     return least;
 }
 
-/* Returns true if the lines cross. */
+/* Returns true if the lines cross. Parallel ones do not, nor does one without a length. */
 static bool cross(const struct capsule *a, const struct capsule *b)
 {
     double x = b->x - a->x, z = b->z - a->z;
     double turn = a->along_x * b->along_z - a->along_z * b->along_x;
     double on_a = x * b->along_z - z * b->along_x, on_b = x * a->along_z - z * a->along_x;
-    return fabs(on_a) <= fabs(turn) && fabs(on_b) <= fabs(turn);
+    return turn != 0.0 && fabs(on_a) <= fabs(turn) && fabs(on_b) <= fabs(turn);
 }
 
 /* Returns the distance along the normal, below 0 if the capsules overlap. Lines that cross part

@@ -35,15 +35,14 @@
 #define AIRFRAME_TILT_SLOPE 0.57735 /* tan 30 degrees */
 #define AIRFRAME_BANK_SLOPE 1.73205 /* tan 60 degrees: 2 g */
 #define AIRFRAME_SIDESLIP   0.15    /* [g] that a helicopter turns without bank */
-#define AIRFRAME_DRAG_SLOPE 0.176 /* tan 10 degrees: the tilt that holds a helicopter's top speed  \
-                                   */
-#define AIRFRAME_CLIMB_S    0.5   /* in which the rate of climb follows the stick */
-#define AIRFRAME_SPEED_S    1.0   /* and an aeroplane's speed the throttle */
-#define AIRFRAME_HOVER_S    0.7   /* and a helicopter's the stick */
-#define AIRFRAME_TURN_S     1.2   /* and the heading an agent's will */
-#define AIRFRAME_PULL       1.5   /* [g] over level flight, pulled up no harder */
-#define AIRFRAME_COLLECTIVE 0.6   /* [g] the same by a helicopter's power */
-#define AIRFRAME_DOWN       -0.8  /* [g] pushed over no harder: the crew stays in its seats */
+#define AIRFRAME_DRAG_SLOPE 0.176   /* tan 10 degrees: the tilt at a helicopter's top speed */
+#define AIRFRAME_CLIMB_S    0.5     /* in which the rate of climb follows the stick */
+#define AIRFRAME_SPEED_S    1.0     /* and an aeroplane's speed the throttle */
+#define AIRFRAME_HOVER_S    0.7     /* and a helicopter's the stick */
+#define AIRFRAME_TURN_S     1.2     /* and the heading an agent's will */
+#define AIRFRAME_PULL       1.5     /* [g] over level flight, pulled up no harder */
+#define AIRFRAME_COLLECTIVE 0.6     /* [g] the same by a helicopter's power */
+#define AIRFRAME_DOWN       -0.8    /* [g] pushed over no harder: the crew stays in its seats */
 
 /* Four aircraft in a frame. */
 struct airframe {

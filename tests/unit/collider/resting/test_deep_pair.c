@@ -1,0 +1,67 @@
+/* Which bodies count as deep in each other, by their inner shapes. */
+#include "collider/resting/deep_pair.h"
+
+#include "collider/resting/resting.h"
+#include "tests/support/steps.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+static struct fixture f;
+
+/* Returns the gap that is measured between two vehicles of a kind, the second so far to the south
+ * and turned so far; 0 if they are not deep in each other. */
+static double measured(const char *kind, double south_m, double turned_rad)
+{
+    struct response_context context;
+    struct resting_gap found;
+    const struct pair pair = {0, 1};
+    fixture_open(&f, "collision = { shape = \"model\"; };");
+    for (int n = 0; n < 2; n++)
+        fixture_put(
+            &f, (struct fixture_entity){.kind = kind,
+                                        .at = {25000.0, FIXTURE_GROUND_M, 25000.0 + n * south_m},
+                                        .heading_rad = n * turned_rad});
+    steps_respond(&f, &context);
+    bool deep = deep_pair_measure(&context, &pair, &found);
+    steps_respond_end(&context);
+    fixture_close(&f);
+    return deep ? found.gap[0].gap_m : 0.0;
+}
+
+/* The hamburger is as wide as it is long, so that its inner shape is a disc. */
+static void test_round_bodies_far_apart_are_not_deep(void **state)
+{
+    static const double south_m[] = {3.2, 5.5, 30.0};
+    (void)state;
+    for (int n = 0; n < 3; n++)
+        assert_true(measured("hamburger", south_m[n], 0.0) == 0.0);
+    assert_true(measured("hamburger", 1.0, 0.0) < -2.0);
+    assert_true(measured("hamburger", 1.0, HALF_PI) < -2.0);
+}
+
+static void test_long_bodies_are_deep_where_their_lines_cross(void **state)
+{
+    double width = 0.0;
+    (void)state;
+    fixture_open(&f, "");
+    width = steps_kind(&f, "truck")->width_m;
+    fixture_close(&f);
+    assert_true(measured("truck", 20.0, 0.0) == 0.0);
+    assert_true(measured("truck", 8.0, HALF_PI) == 0.0);
+    assert_true(fabs(measured("truck", 1.0, HALF_PI) + width) < 1e-9); /* they cross */
+    assert_true(fabs(measured("truck", 0.0, 0.0) + width) < 0.01);     /* at one place */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_round_bodies_far_apart_are_not_deep),
+        cmocka_unit_test(test_long_bodies_are_deep_where_their_lines_cross),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
