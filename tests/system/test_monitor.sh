@@ -59,7 +59,7 @@ sleep 1
 check "the driven tank moves (row 10)" python3 -c "import sys; sys.exit(not float('$(speed_of 1)') > 1)"
 check "release is accepted" ctl release 1
 check "spawn is accepted" ctl spawn jeep --at 2000,2000 --force blue
-check "fire is accepted" ctl fire 1 --target 2
+check "fire is accepted, as soon as the gun is laid" eventually ctl fire 1 --target 2
 sleep 0.3
 check "a vehicle that is fired upon reacts (row 9)" bash -c "'$jolon' events --json -w $name | grep '\"id\":2,' | grep -q '\"because\":\"fired upon\"'"
 check "remove is accepted" ctl remove 3

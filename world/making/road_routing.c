@@ -141,6 +141,7 @@ static int lay_missions(struct laying *laying)
         laying->group = &group;
         if (group.route != MISSION_NONE)
             result = lay_route(laying);
+        laying->group = NULL;
     }
     return result;
 }
