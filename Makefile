@@ -132,7 +132,7 @@ ENGINES      := $(patsubst %,$(OBJ)/%.o,$(basename $(wildcard tests/bench/peer_*
 FUZZ_SRC     := $(call sources,tests/fuzz)
 PLACES       := unit/* unit/*/* unit/*/*/* property/*
 UNIT_SRC     := $(filter tests/unit/%,$(wildcard $(addprefix tests/,$(addsuffix /test_*.c,$(PLACES)))))
-PROPERTY_SRC := $(wildcard tests/property/*/test_*.c)
+PROPERTY_SRC := $(wildcard tests/property/*/test_*.c tests/property/*/*/test_*.c)
 # Inner loops, compiled a second time where there is a wider vector to choose at run time.
 KERNEL_SRC   := $(wildcard renderer/*/kernel_*.c)
 KERNELS      := $(if $(filter x86_64%,$(shell $(CC) -dumpmachine 2>/dev/null || uname -m)),$(KERNEL_SRC:%.c=$(OBJ)/%.avx2.o))
