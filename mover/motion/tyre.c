@@ -6,6 +6,7 @@
 #define STIFFNESS 10.0 /* of a brush: force over load and slip [1/rad] */
 #define REAR_STIFFNESS                                                                             \
     1.2                 /* times it: of wheels that do not steer, so that no vehicle oversteers */
+#define FRONT_GRIP 0.9  /* share of the grip of wheels that steer: they slide first */
 #define SLOW_MPS   0.25 /* a wheel that rolls more slowly slips as at this speed */
 #define SWEEPS     3
 #define TRACK_SIDE 0.85 /* friction of tracks to the sides over that along them */
@@ -77,7 +78,8 @@ static void prepare(struct wheel *wheel, struct rigid_body *body, const struct m
     double slip = fabs(speed_along(wheel, WHEEL_ACROSS, body)) / maths_max(rolls, SLOW_MPS);
     double share = wheel->load_n / demand->load_n;
     double stiffness = STIFFNESS * (wheel->steers || tracked ? 1.0 : REAR_STIFFNESS);
-    wheel->grip_ns = demand->friction * wheel->load_n * demand->dt_s;
+    double grip = demand->friction * (wheel->steers && !tracked ? FRONT_GRIP : 1.0);
+    wheel->grip_ns = grip * wheel->load_n * demand->dt_s;
     wheel->most_ns[WHEEL_ALONG] = demand->force.brake_n * share * demand->dt_s;
     wheel->most_ns[WHEEL_ACROSS] =
         demand->side * wheel->grip_ns * brush(slip, stiffness, demand->friction);

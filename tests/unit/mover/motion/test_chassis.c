@@ -154,6 +154,28 @@ static void test_turning(void **state)
     row_of_table("tank, lateral acceleration on dirt", 0.65, most_g, "g", 0.2, 0.7);
 }
 
+/* A hard turn with full throttle slides, and ends when the wheel is straight: nothing spins out. */
+static void test_wheels_catch_a_slide(void **state)
+{
+    static const char *const kinds[] = {"jeep", "truck", "hamburger"};
+    (void)state;
+    for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++) {
+        reopen("");
+        uint32_t row = put(kinds[k], 25000.0, 0.0);
+        for (uint32_t frame = 0; frame < 3 * HZ; frame++)
+            steps_drive(&f, row, 1.0, 0.6, 0.0);
+        for (uint32_t frame = 0; frame < HZ; frame++)
+            steps_drive(&f, row, 1.0, 0.0, 0.0);
+        double heading = steps_rows(&f).heading[row], speed = speed_of(row);
+        for (uint32_t frame = 0; frame < HZ; frame++)
+            steps_drive(&f, row, 1.0, 0.0, 0.0);
+        double turned = fabs(maths_wrap_half(steps_rows(&f).heading[row] - heading));
+        printf("%s: turned by %.2f degrees in the second after, %.1f m/s\n", kinds[k],
+               turned * 180.0 / PI, speed_of(row));
+        assert_true(turned < 0.05 && speed_of(row) > speed);
+    }
+}
+
 static void test_a_tank_turns_on_the_spot(void **state)
 {
     (void)state;
@@ -582,6 +604,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         T(test_power_and_brakes),
         T(test_turning),
+        T(test_wheels_catch_a_slide),
         T(test_a_tank_turns_on_the_spot),
         T(test_a_laden_truck_rolls_in_a_hard_turn_and_a_jeep_does_not),
         T(test_static_tilt),
