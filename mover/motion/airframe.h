@@ -165,7 +165,10 @@ static inline void airframe_tilt(const struct airframe *f, f64x4 *push, f64x4 *n
     f64x4 slope = (wanted + drag) / f->weight_mps2;
     slope = SIMD_CLAMP(slope, flattest, steepest);
     *nose = SIMD_NEGATIVE(slope);
-    *push = SIMD_NEGATIVE(f->weight_mps2 * f->nose_slope) - drag;
+    /* One that tumbles has no more of its thrust along the ground than in its steepest bank. */
+    const f64x4 most = SIMD_EVERY(AIRFRAME_BANK_SLOPE), least = SIMD_EVERY(-AIRFRAME_BANK_SLOPE);
+    f64x4 mast = SIMD_CLAMP(f->nose_slope, least, most);
+    *push = SIMD_NEGATIVE(f->weight_mps2 * mast) - drag;
 }
 
 #endif

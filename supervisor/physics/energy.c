@@ -74,14 +74,22 @@ static double weight_j(const struct body_look *body, bool held)
            (body->now.wreck && body->was->wreck ? fall : maths_max(0.0, fall));
 }
 
+/* Returns the greatest acceleration by an aircraft's engine [m/s2]. An aeroplane speeds up along
+ * its nose and upwards, each at most twice as hard as its kind says. One that hovers has its whole
+ * lift along its mast, whichever way that points. */
+static double thrust_mps2(const struct kind *kind)
+{
+    double engine = 3.0 * kind->acceleration_mps2;
+    return kind->min_speed_mps > 0.0 ? engine : maths_max(engine, kind->max_load * GRAVITY_MPS2);
+}
+
 /* Returns the work that engine and weight may have done on a body in a frame [J]. */
 static double work_j(const struct body_look *body, bool held, double dt_s)
 {
     const struct kind *kind = body->kind;
     double speed = vec3_length(body->was->velocity), push = 0.0, steering = 0.0;
     if (!body->now.wreck) {
-        /* Aircraft speed up along their nose and upwards, each at most twice as hard. */
-        push = kind->acceleration_mps2 * (kind->domain == DOMAIN_AIR ? 3.0 : 1.0);
+        push = kind->domain == DOMAIN_AIR ? thrust_mps2(kind) : kind->acceleration_mps2;
         if (kind->domain == DOMAIN_LAND) /* out of gear it rolls down the slope */
             push += GRAVITY_MPS2 *
                     maths_max(fabs(body->now.pose.forward.y), fabs(body->was->pose.forward.y));
