@@ -158,19 +158,19 @@ static int link_names(const char *name, int fd, struct segment_paths *paths,
 
 int segment_give_names(const char *name, int fd, struct error_text *error)
 {
-    struct segment_paths paths;
-    if (segment_paths(&paths, name, error) != 0)
+    struct segment_paths before, paths;
+    if (segment_paths(&before, name, error) != 0)
         return -1;
     CRASH_POINT("lock file");
     bool made;
-    int lock = segment_lock_name(paths.lock, &made, error);
+    int lock = segment_lock_name(before.lock, &made, error);
     if (lock < 0)
         return -1;
     int result = -1;
     if (segment_paths(&paths, name, error) == 0 && free_name(&paths, name, error) == 0)
         result = link_names(name, fd, &paths, error);
     if (result != 0 && made)
-        unlink(paths.lock); /* segment_sweep() cannot when no file can be opened */
+        unlink(before.lock); /* segment_sweep() cannot when no file can be opened */
     close(lock);
     if (result != 0) {
         struct error_text second;

@@ -10,6 +10,8 @@ const { chromium } = createRequire(`${MODULES}/`)('playwright-core');
 /** The page's own complaints. A refused answer is one too, but what it says is the page's to show. */
 export const complaints = [];
 
+/** The open pages, for pictures of the first failure. */
+const pages = [];
 let number = 0;
 export let failures = 0;
 
@@ -23,7 +25,10 @@ export async function check(name, deed) {
   } catch (error) {
     failures++;
     console.log(`not ok ${number} - ${name}`);
-    console.log(String(error.stack).split('\n').slice(0, 12).map((line) => `# ${line}`).join('\n'));
+    // What fails after the first failure mostly follows from it: one line is enough.
+    const told = String(error.stack).split('\n').slice(0, failures === 1 ? 12 : 1);
+    console.log(told.map((line) => `# ${line}`).join('\n'));
+    if (failures === 1) await Promise.all(pages.map((page, i) => shot(page, `failure-${i + 1}`)));
   }
 }
 
@@ -57,6 +62,8 @@ export async function openPage(browser, url, width, height, options = {}) {
   page.on('response', (response) => {
     if (response.status() === 429) complaints.push(`too often: ${response.url()}`);
   });
+  pages.push(page);
+  page.on('close', () => pages.splice(pages.indexOf(page), 1));
   await page.goto(url);
   return page;
 }
