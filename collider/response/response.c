@@ -265,13 +265,23 @@ static void collide(struct response_context *context, const struct contact *cont
     write_collision_event(context, &report, &impact, &outcome);
 }
 
+/* Returns the velocity of an aircraft at a time of the frame. The mover gave it that of the frame's
+ * end; what it gains in the rest of the frame it does not have yet. */
+static struct vec3 crash_velocity(const struct response_context *context, uint32_t row, double time)
+{
+    const struct body_motion *motion = context->motion;
+    struct vec3 velocity = entities_velocity(&context->next->entities, row);
+    if (!body_motion_old(motion, row) || motion->change[row] != 0)
+        return velocity;
+    return vec3_lerp(entities_velocity(&motion->committed->entities, row), velocity, time);
+}
+
 /* Destroys an aircraft that hits the ground. */
 static void crash(struct response_context *context, const struct contact *contact)
 {
-    const struct entities *e = &context->next->entities;
     uint32_t row = contact->a;
     double time = contact->impact.toi;
-    struct vec3 velocity = entities_velocity(e, row);
+    struct vec3 velocity = crash_velocity(context, row, time);
     struct event *event = event_writer_event(&context->events, EVENT_COLLISION);
     struct vec3 at = path_at(&context->path[row], time);
     struct vec3 normal =

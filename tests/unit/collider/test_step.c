@@ -207,6 +207,36 @@ static void test_an_aircraft_that_flies_into_the_ground_is_destroyed(void **stat
     fixture_close(&f);
 }
 
+/* Returns the kinetic and potential energy of row 0 per mass, without its rotation [J/kg]. */
+static double energy_jpkg(const struct fixture *f)
+{
+    struct entities e = steps_rows(f);
+    struct vec3 velocity = entities_velocity(&e, 0);
+    return 0.5 * vec3_dot(velocity, velocity) + GRAVITY_MPS2 * e.y[0];
+}
+
+/* It stays where it touches the ground, and does not have the speed of the rest of the frame. */
+static void test_an_aircraft_that_crashes_gains_no_energy(void **state)
+{
+    (void)state;
+    for (double height_m = 120.0; height_m < 120.4; height_m += 0.05) {
+        struct fixture f;
+        double before = 0.0;
+        fixture_open(&f, "");
+        fixture_put(&f, (struct fixture_entity){.kind = "helicopter",
+                                                .behaviour = BEHAVIOUR_PATROL,
+                                                .at = {25000, height_m, 25000},
+                                                .velocity = {0, -20, 0}});
+        steps_rows(&f).roll[0] = 3.0;
+        while (steps_rows(&f).state[0] == ENTITY_ACTIVE) {
+            before = energy_jpkg(&f);
+            fixture_run(&f, 1);
+        }
+        assert_true(energy_jpkg(&f) < before);
+        fixture_close(&f);
+    }
+}
+
 static double step_up(double x, double z, const void *context)
 {
     (void)z, (void)context;
@@ -417,6 +447,7 @@ int main(void)
         cmocka_unit_test(test_what_is_pushed_moves_as_fast_as_it_says),
         cmocka_unit_test(test_a_wreck_is_still_in_the_way),
         cmocka_unit_test(test_an_aircraft_that_flies_into_the_ground_is_destroyed),
+        cmocka_unit_test(test_an_aircraft_that_crashes_gains_no_energy),
         cmocka_unit_test(test_a_crash_has_the_normal_of_the_ground_where_it_is),
         cmocka_unit_test(test_an_aircraft_slowed_on_its_path_still_meets_the_ground),
         cmocka_unit_test(test_response_none_tells_and_changes_nothing),
