@@ -28,6 +28,7 @@ int collider_init(struct collider *collider, const struct world *world,
         island_init(&collider->island, world) != 0 ||
         contact_table_init(&collider->table, world) != 0 ||
         resting_init(&collider->resting, world, workers) != 0 ||
+        free_bodies_init(&collider->free, world) != 0 ||
         end_guard_init(&collider->guard, world, workers) != 0 ||
         charges_init(&collider->charges, world) != 0 ||
         pair_list_init(&collider->pairs, pair_filter_pairs_first(world)) != 0 ||
@@ -49,6 +50,7 @@ void collider_free(struct collider *collider)
     island_free(&collider->island);
     contact_table_free(&collider->table);
     resting_free(&collider->resting);
+    free_bodies_free(&collider->free);
     end_guard_free(&collider->guard);
     charges_free(&collider->charges);
     method_workspace_free(collider->workspace);
@@ -139,8 +141,10 @@ static void collide_all(struct step *step, struct response_context *context)
     /* Spheres that touch are solved by impacts alone. */
     bool rest = context->functions->joint && collider->motion.models;
     find_pairs(step, &context->input.detect);
-    if (rest)
+    if (rest) {
         resting_solve(&collider->resting, context);
+        free_bodies_solve(&collider->free, context);
+    }
     contact_queue_find(&collider->contacts, &context->input);
     contact_queue_find_ends(&collider->contacts, &context->input, context->next->head->tick);
     while (contact_queue_next(&collider->contacts, &context->input, &contact)) {
@@ -148,7 +152,7 @@ static void collide_all(struct step *step, struct response_context *context)
         work_done();
     }
     if (rest) {
-        end_guard_run(&collider->guard, &collider->resting, context);
+        end_guard_run(&collider->guard, &collider->resting, &collider->free, context);
         turret_guard_run(context);
     }
     damage_overturned(context);

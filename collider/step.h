@@ -14,6 +14,7 @@
 #include "collider/response/contact_table.h"
 #include "collider/response/island.h"
 #include "collider/resting/end_guard.h"
+#include "collider/resting/free_bodies.h"
 #include "collider/resting/resting.h"
 #include "collider/motion/body_motion.h"
 #include "collider/response/explosion.h"
@@ -38,6 +39,7 @@ struct collider {
     struct island island;
     struct contact_table table;
     struct resting resting;
+    struct free_bodies free;
     struct end_guard guard;
     struct charges charges;
     struct method_workspace *workspace;

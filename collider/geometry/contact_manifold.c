@@ -47,14 +47,14 @@ static void add(struct outline *outline, struct uv p)
         outline->point[outline->count++] = p;
 }
 
-/* Collects the vertices within the slack of the foremost in a direction, projected relative to
+/* Collects the vertices within slack_m of the foremost in a direction, projected relative to
  * origin. *reach is the extent of the foremost in that direction [m]. */
 static void foremost(const struct convex *convex, struct vec3 origin, const struct view *view,
-                     double side, double *reach, struct outline *outline)
+                     double side, double slack_m, double *reach, struct outline *outline)
 {
     struct vec3 direction = vec3_scale(view->normal, side), most;
     gjk_support(convex, direction, &most);
-    double edge = vec3_dot(most, direction) - CONTACT_MANIFOLD_SLACK_M;
+    double edge = vec3_dot(most, direction) - slack_m;
     struct vec3 at = vec3_sub(convex->at, origin);
     outline->count = 0;
     for (uint32_t i = 0; i < convex->count; i++) {
@@ -179,12 +179,18 @@ static struct uv middle_of(const struct outline *outline)
 bool contact_manifold_between(const struct convex *a, const struct convex *b, struct vec3 normal,
                               struct contact_manifold *patch)
 {
+    return contact_manifold_within(a, b, normal, CONTACT_MANIFOLD_SLACK_M, patch);
+}
+
+bool contact_manifold_within(const struct convex *a, const struct convex *b, struct vec3 normal,
+                             double slack_m, struct contact_manifold *patch)
+{
     struct view view = view_along(normal);
     struct outline outline[2], cut;
     struct line line[LINES_MAX];
     double reach_a, reach_b;
-    foremost(a, a->at, &view, 1.0, &reach_a, &outline[0]);
-    foremost(b, a->at, &view, -1.0, &reach_b, &outline[1]);
+    foremost(a, a->at, &view, 1.0, slack_m, &reach_a, &outline[0]);
+    foremost(b, a->at, &view, -1.0, slack_m, &reach_b, &outline[1]);
     wrap(&outline[0]);
     wrap(&outline[1]);
     bool swap = outline[1].count < outline[0].count; /* a point on a face remains a point */

@@ -28,4 +28,8 @@ struct contact_manifold {
 bool contact_manifold_between(const struct convex *a, const struct convex *b, struct vec3 normal,
                               struct contact_manifold *patch);
 
+/* The same with the vertices within slack_m [m, >= 0] of the foremost ones of each body. */
+bool contact_manifold_within(const struct convex *a, const struct convex *b, struct vec3 normal,
+                             double slack_m, struct contact_manifold *patch);
+
 #endif

@@ -42,10 +42,36 @@ static bool is_new(const struct response_context *context, uint32_t row)
 
 /* --- pairs of the table ------------------------------------------------------------------------*/
 
+/* A wreck on the ground tips over if the ground alone makes it turn about a level axis as fast as
+ * this: something else carries it, or it rolls [rad/s2, rad/s]. */
+#define TIPS_RPS2 0.5
+#define TIPS_RPS  0.05
+
+static bool tips(const struct response_context *context, uint32_t row)
+{
+    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    double x = e->spin_x[row] - w->spin_x[row], z = e->spin_z[row] - w->spin_z[row];
+    double most = TIPS_RPS2 * world_dt_s(context->world);
+    double now = e->spin_x[row] * e->spin_x[row] + e->spin_z[row] * e->spin_z[row];
+    return x * x + z * z > most * most || now > TIPS_RPS * TIPS_RPS;
+}
+
+bool contact_groups_is_free(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    enum domain domain = (enum domain)context->world->kinds[e->kind[row]].domain;
+    bool wreck = e->state[row] == ENTITY_WRECK;
+    if (domain == DOMAIN_SEA || !body_motion_old(context->motion, row) ||
+        !(wreck || (domain == DOMAIN_LAND && e->flags[row] & ENTITY_FLAG_CHASSIS)))
+        return false;
+    return (wreck && tips(context, row)) || !path_change_grounded(context, row);
+}
+
 static bool held(const struct response_context *context, uint32_t row, uint32_t id)
 {
     const struct entities *e = &context->next->entities;
-    return entities_alive(e, row, id) && path_change_grounded(context, row);
+    return entities_alive(e, row, id) && path_change_grounded(context, row) &&
+           !contact_groups_is_free(context, row);
 }
 
 bool contact_groups_is_wall(const struct response_context *context, uint32_t object)
@@ -64,6 +90,34 @@ static bool still_there(const struct response_context *context,
         return false;
     return contact->b_id & PERSISTENT_CONTACT_FIXED ? contact_groups_is_wall(context, object)
                                                     : held(context, contact->b_row, contact->b_id);
+}
+
+/* Returns true if one of the bodies is free, and the other one can bear a load. */
+static bool is_free_pair(const struct response_context *context,
+                         const struct persistent_contact *contact)
+{
+    bool a = contact_groups_is_free(context, contact->a_row);
+    if (contact->b_id & PERSISTENT_CONTACT_FIXED)
+        return a;
+    bool b = contact_groups_is_free(context, contact->b_row);
+    return (a || path_change_grounded(context, contact->a_row)) &&
+           (b || path_change_grounded(context, contact->b_row)) && (a || b);
+}
+
+/* Returns true if a side of a contact is still there. id: as in the contact. */
+static bool is_there(const struct response_context *context, uint32_t row, uint32_t id)
+{
+    return id & PERSISTENT_CONTACT_FIXED
+               ? contact_groups_is_wall(context, id & ~PERSISTENT_CONTACT_FIXED)
+               : entities_alive(&context->next->entities, row, id);
+}
+
+/* What a wreck at rest may have leant on is gone. */
+static void wake_wreck(struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    if (e->state[row] == ENTITY_WRECK && e->until_tick[row] != 0)
+        table_set_until_tick(&context->writer, row, 0);
 }
 
 static struct pair pair_of(const struct persistent_contact *contact)
@@ -221,4 +275,28 @@ void contact_groups_find(struct contact_groups *groups, struct response_context 
     groups->known = groups->count;
     find_new(groups, context);
     sort_words(&groups->pair[groups->known], groups->count - groups->known);
+}
+
+void contact_groups_find_free(struct contact_groups *groups, struct response_context *context)
+{
+    const struct state *committed = context->motion->committed;
+    groups->count = 0;
+    for (uint32_t i = 0; i < committed->head->contact_count; i++) {
+        const struct persistent_contact *contact = &committed->contacts[i];
+        bool a = is_there(context, contact->a_row, contact->a_id);
+        bool b = is_there(context, contact->b_row, contact->b_id);
+        if (a && !b)
+            wake_wreck(context, contact->a_row);
+        if (b && !a && !(contact->b_id & PERSISTENT_CONTACT_FIXED))
+            wake_wreck(context, contact->b_row);
+        if (!a || !b || !is_free_pair(context, contact))
+            continue;
+        struct pair pair = pair_of(contact);
+        add(groups, pair);
+        if (contact->flags & PERSISTENT_CONTACT_OVERLAPS)
+            groups->awake[pair.a] = 1;
+    }
+    wake(groups, context);
+    keep_awake(groups);
+    groups->known = groups->count;
 }

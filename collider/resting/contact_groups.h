@@ -25,6 +25,14 @@ void contact_groups_free(struct contact_groups *groups);
  * because they may begin overlapped. Computes the paths of their rows. */
 void contact_groups_find(struct contact_groups *groups, struct response_context *context);
 
+/* Finds the pairs of the groups that are awake of which one body is free, and the other is free, or
+ * the ground holds it, or it is a wall. Wakes the wrecks that lean on something that is gone. */
+void contact_groups_find_free(struct contact_groups *groups, struct response_context *context);
+
+/* Returns true for a wreck that does not lie on the ground or that tips over there, and for a
+ * vehicle on its springs that does not stand on the ground. */
+bool contact_groups_is_free(const struct response_context *context, uint32_t row);
+
 /* Adds a pair to those found. */
 void contact_groups_add(struct contact_groups *groups, const struct pair *pair);
 

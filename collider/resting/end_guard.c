@@ -141,12 +141,14 @@ static bool deeper(const struct end_guard *guard, const struct response_context 
 
 /* --- rows --------------------------------------------------------------------------------------*/
 
+/* Wrecks, and vehicles on their springs, are also guarded in the air. */
 static bool guarded(const struct response_context *context, uint32_t row)
 {
-    return body_motion_old(context->motion, row) &&
-           context->next->entities.state[row] != ENTITY_FREE &&
-           context->next->entities.behaviour[row] != BEHAVIOUR_FLIGHT &&
-           path_change_grounded(context, row);
+    const struct entities *e = &context->next->entities;
+    return body_motion_old(context->motion, row) && e->state[row] != ENTITY_FREE &&
+           e->behaviour[row] != BEHAVIOUR_FLIGHT &&
+           (e->state[row] == ENTITY_WRECK || e->flags[row] & ENTITY_FLAG_CHASSIS ||
+            path_change_grounded(context, row));
 }
 
 /* Lists a row to be looked at. */
@@ -325,18 +327,20 @@ static void look_at_met(struct end_guard *guard, const struct contact_queue *con
 }
 
 void end_guard_run(struct end_guard *guard, const struct resting *resting,
-                   struct response_context *context)
+                   const struct free_bodies *free, struct response_context *context)
 {
     const struct body_motion *motion = context->motion;
     const struct entities *e = &context->next->entities;
     guard->count = guard->touched_count = guard->posed_count = 0;
     for (uint32_t i = 0; i < resting->moved_count; i++)
         look_at(guard, resting->moved[i]);
+    for (uint32_t i = 0; i < free->moved_count; i++)
+        look_at(guard, free->moved[i]);
     for (uint32_t i = 0; i < motion->changes; i++)
         look_at(guard, motion->row[i]);
     for (uint32_t i = 0; i < guard->count; i++) {
         uint32_t row = guard->row[i];
-        if (guarded(context, row))
+        if (!free->owned[row] && guarded(context, row) && path_change_grounded(context, row))
             ground_placement_put(context, row, entities_position(e, row), e->heading[row]);
     }
     look_at_met(guard, context->contacts);

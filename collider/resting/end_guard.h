@@ -1,10 +1,11 @@
-/* The guard at the end of a frame: no two bodies that the ground holds end it deeper in each other
- * than they began it. Bodies that would are sent back by half of their motion, three times, and
- * at last to where they stood when the frame began. Pure; one caller, and
+/* The guard at the end of a frame: no two bodies that the ground holds, or that rest on others, end
+ * it deeper in each other than they began it. Bodies that would are sent back by half of their
+ * motion, three times, and at last to where they stood when the frame began. Pure; one caller, and
  * its workers. */
 #ifndef JOLON_COLLIDER_RESTING_END_GUARD_H
 #define JOLON_COLLIDER_RESTING_END_GUARD_H
 
+#include "collider/resting/free_bodies.h"
 #include "collider/resting/resting.h"
 
 struct thread_pool;
@@ -44,6 +45,6 @@ void end_guard_free(struct end_guard *guard);
 /* Sets the bodies whose motion collisions have changed on the ground, and sends back those that
  * ended in others. Afterwards nothing of the frame moves any more. */
 void end_guard_run(struct end_guard *guard, const struct resting *resting,
-                   struct response_context *context);
+                   const struct free_bodies *free, struct response_context *context);
 
 #endif

@@ -110,14 +110,10 @@ static void set_grip(const struct response_context *context, uint32_t row, struc
     body->grip_turn = left * 0.25 * kind->length_m;
 }
 
-static uint32_t body_for(struct resting *resting, const struct response_context *context,
-                         uint32_t row)
+void resting_level_body(const struct response_context *context, uint32_t row,
+                        struct level_body *body)
 {
     const struct entities *w = rows_before(context, row), *e = &context->next->entities;
-    if (resting->body_of[row] != 0)
-        return resting->body_of[row] - 1;
-    uint32_t index = resting->bodies++;
-    struct level_body *body = &resting->body[index];
     const struct mass_properties mass = mass_properties_of(&context->world->kinds[e->kind[row]]);
     double hz = 1.0 / world_dt_s(context->world);
     struct vec3 along = context->path[row].along;
@@ -128,6 +124,15 @@ static uint32_t body_for(struct resting *resting, const struct response_context 
     maths_sincos(e->heading[row], &body->forward_x, &body->forward_z);
     body->forward_z = -body->forward_z;
     set_grip(context, row, body);
+}
+
+static uint32_t body_for(struct resting *resting, const struct response_context *context,
+                         uint32_t row)
+{
+    if (resting->body_of[row] != 0)
+        return resting->body_of[row] - 1;
+    uint32_t index = resting->bodies++;
+    resting_level_body(context, row, &resting->body[index]);
     resting->row[index] = row;
     resting->body_of[row] = index + 1;
     return index;

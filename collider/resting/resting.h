@@ -67,4 +67,9 @@ void resting_free(struct resting *resting);
  * queue, and nothing swept yet. */
 void resting_solve(struct resting *resting, struct response_context *context);
 
+/* Returns a row that the ground holds as a body of the solver, with the motion that it has so far
+ * and the grip that the ground has left. */
+void resting_level_body(const struct response_context *context, uint32_t row,
+                        struct level_body *body);
+
 #endif
