@@ -265,6 +265,46 @@ static void test_two_new_bodies_are_one_pair(void **state)
     assert_true(is_pair(0, 0, 1) && is_pair(1, 2, 3));
 }
 
+/* --- free bodies -------------------------------------------------------------------------------*/
+
+static void make_wreck(uint32_t row, double up_m)
+{
+    struct entities e = steps_rows(&f);
+    e.state[row] = ENTITY_WRECK;
+    e.y[row] += up_m;
+    e.until_tick[row] = 3; /* at rest */
+}
+
+static void test_a_wreck_above_the_ground_is_free(void **state)
+{
+    (void)state;
+    make_wreck(1, 2.0);
+    press(0, 1);
+    press(2, 3);
+    steps_respond(&f, &context);
+    move(0);
+    move(2);
+    contact_groups_find(groups, &context);
+    assert_true(groups->count == 1 && is_pair(0, 2, 3));
+    contact_groups_find_free(groups, &context);
+    assert_true(groups->count == 1 && is_pair(0, 0, 1));
+    assert_true(contact_groups_is_free(&context, 1) && !contact_groups_is_free(&context, 0));
+}
+
+static void test_a_wreck_wakes_when_what_it_leans_on_is_gone(void **state)
+{
+    (void)state;
+    make_wreck(1, 2.0);
+    press(0, 1);
+    steps_respond(&f, &context);
+    contact_groups_find_free(groups, &context);
+    assert_int_equal(context.next->entities.until_tick[1], 3);
+    context.next->entities.state[0] = ENTITY_FREE;
+    contact_groups_find_free(groups, &context);
+    assert_int_equal(context.next->entities.until_tick[1], 0);
+    assert_int_equal(groups->count, 0);
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
@@ -282,6 +322,8 @@ int main(void)
         TEST(test_bodies_in_the_air_are_left_out),
         TEST(test_a_new_body_that_overlaps_is_found),
         TEST(test_two_new_bodies_are_one_pair),
+        TEST(test_a_wreck_above_the_ground_is_free),
+        TEST(test_a_wreck_wakes_when_what_it_leans_on_is_gone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
