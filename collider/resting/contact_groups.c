@@ -56,11 +56,21 @@ static bool tips(const struct response_context *context, uint32_t row)
     return x * x + z * z > most * most || now > TIPS_RPS * TIPS_RPS;
 }
 
+bool contact_groups_is_piloted(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    return e->state[row] == ENTITY_ACTIVE && e->behaviour[row] != BEHAVIOUR_FLIGHT &&
+           e->behaviour[row] != BEHAVIOUR_HOLD &&
+           context->world->kinds[e->kind[row]].domain == DOMAIN_AIR;
+}
+
 bool contact_groups_is_free(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
     enum domain domain = (enum domain)context->world->kinds[e->kind[row]].domain;
     bool wreck = e->state[row] == ENTITY_WRECK;
+    if (contact_groups_is_piloted(context, row))
+        return body_motion_old(context->motion, row);
     if (domain == DOMAIN_SEA || !body_motion_old(context->motion, row) ||
         !(wreck || (domain == DOMAIN_LAND && e->flags[row] & ENTITY_FLAG_CHASSIS)))
         return false;

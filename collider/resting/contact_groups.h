@@ -29,9 +29,12 @@ void contact_groups_find(struct contact_groups *groups, struct response_context 
  * the ground holds it, or it is a wall. Wakes the wrecks that lean on something that is gone. */
 void contact_groups_find_free(struct contact_groups *groups, struct response_context *context);
 
-/* Returns true for a wreck that does not lie on the ground or that tips over there, and for a
- * vehicle on its springs that does not stand on the ground. */
+/* Returns true for a piloted aircraft, for a wreck that does not lie on the ground or that tips
+ * over there, and for a vehicle on its springs that does not stand on the ground. */
 bool contact_groups_is_free(const struct response_context *context, uint32_t row);
+
+/* Returns true for an aircraft that is no wreck and does not only hold its course. */
+bool contact_groups_is_piloted(const struct response_context *context, uint32_t row);
 
 /* Adds a pair to those found. */
 void contact_groups_add(struct contact_groups *groups, const struct pair *pair);

@@ -4,6 +4,7 @@
 #include "collider/geometry/level_gap.h"
 #include "collider/resting/ground_placement.h"
 #include "collider/response/path_change.h"
+#include "world/body_points.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
 #include "world/runtime/thread_pool.h"
@@ -15,8 +16,10 @@
 
 #define ROUNDING_M     1e-5 /* a depth up to this is none */
 #define EXACT_M        1e-8 /* error of a depth: less is no deepening of a greater depth */
+#define SINKS_M        0.02 /* as deep may a wreck at rest be in the ground */
 #define PAIRS_A_PIECE  8u
-#define SENT_BACK_MOST 4u /* the last time all the way; this bounds the work of a frame */
+#define SENT_BACK_HALF 3u /* so often a row goes back by half, the next time all the way */
+#define SENT_BACK_MOST 5u /* aircraft that go together go back among themselves before */
 
 /* A body at rest. */
 struct placed_body {
@@ -141,14 +144,14 @@ static bool deeper(const struct end_guard *guard, const struct response_context 
 
 /* --- rows --------------------------------------------------------------------------------------*/
 
-/* Wrecks, and vehicles on their springs, are also guarded in the air. */
+/* Aircraft that nobody steers are not guarded: they keep both momenta exactly. */
 static bool guarded(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
     return body_motion_old(context->motion, row) && e->state[row] != ENTITY_FREE &&
            e->behaviour[row] != BEHAVIOUR_FLIGHT &&
            (e->state[row] == ENTITY_WRECK || e->flags[row] & ENTITY_FLAG_CHASSIS ||
-            path_change_grounded(context, row));
+            contact_groups_is_piloted(context, row) || path_change_grounded(context, row));
 }
 
 /* Lists a row to be looked at. */
@@ -173,7 +176,8 @@ static void slow_down(struct response_context *context, uint32_t row, double kee
 
 /* A wreck, and a vehicle on its springs, are rigid bodies: they go back in their whole pose. The
  * body that a wreck fell on stops it. */
-static void send_body_back(struct response_context *context, uint32_t row, double keep)
+static void send_body_back(struct response_context *context, uint32_t row, struct vec3 drift,
+                           double keep)
 {
     const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
     double heading = w->heading[row], pitch = w->pitch[row], roll = w->roll[row];
@@ -182,11 +186,14 @@ static void send_body_back(struct response_context *context, uint32_t row, doubl
         rotation_angles(rotation_between(rotation_of(heading, pitch, roll), to, keep), &heading,
                         &pitch, &roll);
     }
-    table_set_position(&context->writer, row,
-                       vec3_lerp(entities_position(w, row), entities_position(e, row), keep));
+    table_set_position(
+        &context->writer, row,
+        vec3_lerp(vec3_add(entities_position(w, row), drift), entities_position(e, row), keep));
     table_set_heading(&context->writer, row, heading);
     table_set_pitch(&context->writer, row, pitch);
     table_set_roll(&context->writer, row, roll);
+    if (contact_groups_is_piloted(context, row))
+        return;
     table_set_velocity(&context->writer, row, vec3_scale(entities_velocity(e, row), keep));
     table_set_spin(
         &context->writer, row,
@@ -197,16 +204,44 @@ static void send_body_back(struct response_context *context, uint32_t row, doubl
 static void send_back(struct end_guard *guard, struct response_context *context, uint32_t row)
 {
     const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
-    double keep = ++guard->sent_back[row] < SENT_BACK_MOST ? 0.5 : 0.0;
+    double keep = ++guard->sent_back[row] <= SENT_BACK_HALF ? 0.5 : 0.0;
+    struct vec3 drift = guard->drift[row];
+    if (keep == 0.0 && (vec3_dot(drift, drift) == 0.0 || guard->sent_back[row] == SENT_BACK_MOST)) {
+        drift = (struct vec3){0.0, 0.0, 0.0};
+        guard->sent_back[row] = SENT_BACK_MOST;
+    }
     struct vec3 from = entities_position(w, row), to = entities_position(e, row);
-    if (e->state[row] == ENTITY_WRECK || e->flags[row] & ENTITY_FLAG_CHASSIS) {
-        send_body_back(context, row, keep);
+    if (e->state[row] == ENTITY_WRECK || e->flags[row] & ENTITY_FLAG_CHASSIS ||
+        contact_groups_is_piloted(context, row)) {
+        send_body_back(context, row, drift, keep);
         return;
     }
     double turn = maths_wrap_half(e->heading[row] - w->heading[row]);
     ground_placement_put(context, row, vec3_lerp(from, to, keep),
                          maths_wrap_turn(w->heading[row] + turn * keep));
     slow_down(context, row, keep);
+}
+
+/* Returns how high the lowest point of a row of a table is over the ground [m]. */
+static double clearance_of(const struct response_context *context, const struct entities *e,
+                           uint32_t row)
+{
+    struct body_points points;
+    body_points_of(context->world, e->kind[row], &points);
+    return body_points_clearance(context->world, context->input.detect.craters, &points,
+                                 entities_position(e, row),
+                                 rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+}
+
+/* Returns true for a wreck that an impact has driven deeper into the ground. */
+static bool sinks(const struct response_context *context, uint32_t row)
+{
+    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    if (context->motion->change[row] == 0 || e->state[row] != ENTITY_WRECK ||
+        context->world->kinds[e->kind[row]].domain == DOMAIN_SEA)
+        return false;
+    double now = clearance_of(context, e, row);
+    return now < -SINKS_M && now < clearance_of(context, w, row) - EXACT_M;
 }
 
 /* Adds a row to those that have to go back, unless it is back already. */
@@ -271,7 +306,8 @@ static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t 
     work_done();
 }
 
-/* Marks the bodies of the pairs that end the frame deeper in each other. */
+/* Marks the bodies of the pairs that end the frame deeper in each other, and the wrecks that end it
+ * deeper in the ground. */
 static void mark_deeper(struct end_guard *guard, const struct response_context *context)
 {
     for (uint32_t i = 0; i < guard->pair_count; i++) {
@@ -281,6 +317,10 @@ static void mark_deeper(struct end_guard *guard, const struct response_context *
         mark(guard, context, pair->a);
         if (!(pair->b & PAIR_FIXED))
             mark(guard, context, pair->b);
+    }
+    for (uint32_t i = 0; i < guard->count; i++) {
+        if (guarded(context, guard->row[i]) && sinks(context, guard->row[i]))
+            mark(guard, context, guard->row[i]);
     }
 }
 
@@ -331,6 +371,7 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
 {
     const struct body_motion *motion = context->motion;
     const struct entities *e = &context->next->entities;
+    guard->drift = free->drift;
     guard->count = guard->touched_count = guard->posed_count = 0;
     for (uint32_t i = 0; i < resting->moved_count; i++)
         look_at(guard, resting->moved[i]);

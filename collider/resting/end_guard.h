@@ -27,7 +27,8 @@ struct end_guard {
     uint8_t *posed;             /* [capacity of the world] 1: it is known how the row stands */
     uint32_t *posed_row;        /* the rows of which it is */
     uint32_t posed_count;
-    uint32_t *row; /* rows to look at in this round */
+    const struct vec3 *drift; /* free_bodies.h */
+    uint32_t *row;            /* rows to look at in this round */
     uint32_t count;
     uint32_t *back; /* rows that go back in this round */
     uint32_t back_count;

@@ -2,10 +2,13 @@
 #include "collider/resting/free_bodies.h"
 
 #include "collider/response/contact_impulse.h"
+#include "collider/response/contact_table.h"
 #include "collider/response/path_change.h"
 #include "collider/resting/free_motion.h"
 #include "collider/resting/resting.h"
+#include "world/entity/free_rotation.h"
 #include "world/entity/mass_properties.h"
+#include "world/entity/persistent_contact.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
 #include "world/runtime/work_done.h"
@@ -30,6 +33,8 @@
 #define GROUND_FRICTION 0.7    /* of soil */
 #define PLOUGH_S2PM2    2.5e-4 /* as of a wreck on the ground (mover/motion/ground_contacts.c) */
 
+#define STEERING_RPS 1e-6 /* less is rounding */
+
 /* Resistance against rolling: a lever as a share of the distance from the centre of mass. */
 #define ROLLING_GROUND 0.1
 #define ROLLING_BODY   0.05
@@ -47,8 +52,10 @@ int free_bodies_init(struct free_bodies *bodies, const struct world *world)
     bodies->moved = reserve_take(rows, sizeof *bodies->moved);
     bodies->body_of = calloc(rows, sizeof *bodies->body_of);
     bodies->owned = calloc(rows, sizeof *bodies->owned);
+    bodies->drift = calloc(rows, sizeof *bodies->drift);
     if (contact_groups_init(&bodies->groups, world) == 0 && bodies->body && bodies->side &&
-        bodies->contact && bodies->pair && bodies->moved && bodies->body_of && bodies->owned)
+        bodies->contact && bodies->pair && bodies->moved && bodies->body_of && bodies->owned &&
+        bodies->drift)
         return 0;
     free_bodies_free(bodies);
     errno = ENOMEM;
@@ -65,6 +72,7 @@ void free_bodies_free(struct free_bodies *bodies)
     reserve_free(bodies->moved);
     free(bodies->body_of);
     free(bodies->owned);
+    free(bodies->drift);
     *bodies = (struct free_bodies){.count = 0};
 }
 
@@ -93,6 +101,27 @@ static void begin_moved(const struct response_context *context, struct free_side
                                     vec3_cross(body->moved.spin, side->arm));
 }
 
+/* An aircraft begins with its velocity and its committed spin, less what its pilot has stopped of
+ * it. What he turns it by in addition presses on nobody. */
+static void begin_piloted(const struct response_context *context, struct free_side *side,
+                          struct free_body *body)
+{
+    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    double dt_s = world_dt_s(context->world);
+    uint32_t row = side->row;
+    struct vec3 spin = {w->spin_x[row], w->spin_y[row], w->spin_z[row]};
+    const struct vec3 left = {e->spin_x[row], e->spin_y[row], e->spin_z[row]}, begun = spin;
+    struct quat freely = side->turn;
+    free_rotation_turn(side->mass.moment, &freely, &spin, dt_s);
+    double rate = vec3_length(spin);
+    body->moved.spin = vec3_scale(begun, rate > 0.0 ? vec3_length(left) / rate : 0.0);
+    body->moved.velocity = vec3_scale(context->path[row].along, 1.0 / dt_s);
+    struct quat to = body_motion_rotation(context->motion, row).to;
+    struct vec3 steering = vec3_scale(rotation_speed(freely, to, 0.0), 1.0 / dt_s);
+    if (vec3_length(steering) > STEERING_RPS)
+        side->steering = steering;
+}
+
 static void hold(const struct response_context *context, uint32_t row, struct free_body *body)
 {
     struct level_body level;
@@ -114,6 +143,7 @@ static uint32_t body_for(struct free_bodies *bodies, const struct response_conte
     *side = (struct free_side){.row = row,
                                .is_free = contact_groups_is_free(context, row),
                                .wreck = e->state[row] == ENTITY_WRECK,
+                               .piloted = contact_groups_is_piloted(context, row),
                                .mass = mass_properties_of(&context->world->kinds[e->kind[row]]),
                                .turn = rotation_of(w->heading[row], w->pitch[row], w->roll[row]),
                                .at = entities_position(w, row),
@@ -129,6 +159,8 @@ static uint32_t body_for(struct free_bodies *bodies, const struct response_conte
     }
     if (side->is_free && side->wreck)
         begin_wreck(context, side, body);
+    else if (side->piloted)
+        begin_piloted(context, side, body);
     else
         begin_moved(context, side, body);
     return index;
@@ -231,6 +263,19 @@ static double nearing(const struct swept_body *a, const struct swept_body *b)
            rotation_rate(a->from, a->to) * a->bound_m + rotation_rate(b->from, b->to) * b->bound_m;
 }
 
+/* Returns the closing speed from which on a pair is left to the search for impacts [m/s]. One that
+ * has pressed in the last frame is never: where two bodies hook into each other at several points,
+ * impacts at one point after the other do not end. */
+static double impact_mps(const struct response_context *context, const struct pair *pair,
+                         double gap_m)
+{
+    const struct persistent_contact *known = contact_table_find(context, pair->a, pair->b);
+    if (gap_m > CONTACT_TOUCHING_M)
+        return CONTACT_IMPACT_MPS;
+    bool pressed = known && known->pressed_tick + 1 >= (uint32_t)context->next->head->tick;
+    return pressed ? INFINITY : TOUCHING_MPS;
+}
+
 /* Takes a pair whose bodies are near and do not close as fast as in an impact. */
 static void take(struct free_bodies *bodies, struct response_context *context,
                  const struct pair *pair)
@@ -252,8 +297,7 @@ static void take(struct free_bodies *bodies, struct response_context *context,
         gap = maths_min(gap, point[i].gap_m);
     }
     taken->overlaps = gap < 0.0;
-    if (closing(bodies, taken, true) >=
-        (gap <= CONTACT_TOUCHING_M ? TOUCHING_MPS : CONTACT_IMPACT_MPS)) {
+    if (closing(bodies, taken, true) >= impact_mps(context, pair, gap)) {
         bodies->contacts = taken->first;
         return;
     }
@@ -297,38 +341,55 @@ static void add_ground(struct free_bodies *bodies, const struct response_context
 
 /* --- all ---------------------------------------------------------------------------------------*/
 
+/* Returns true if the bodies of the pair press on each other. */
+static bool presses(const struct free_bodies *bodies, const struct free_pair *pair)
+{
+    for (uint32_t n = pair->first; n < pair->first + pair->count; n++) {
+        if (bodies->contact[n].impulse_ns[FREE_NORMAL] > 0.0)
+            return true;
+    }
+    return pair->overlaps;
+}
+
 /* A pair that rests without points on the map is swept, and an impact if it closes as fast. */
 static void mark(struct free_bodies *bodies, struct response_context *context)
 {
     for (uint32_t i = 0; i < bodies->pairs; i++) {
         const struct free_pair *pair = &bodies->pair[i];
         uint8_t *marks = &context->contacts->marks[pair->pair];
+        if (!presses(bodies, pair))
+            continue;
         if (closing(bodies, pair, false) < CONTACT_IMPACT_MPS)
             contact_queue_rest(context->contacts, pair->pair, NULL, 0);
-        for (uint32_t n = pair->first; n < pair->first + pair->count; n++) {
-            if (bodies->contact[n].impulse_ns[FREE_NORMAL] > 0.0)
-                *marks |= CONTACT_PRESSED;
-        }
-        if (pair->overlaps)
-            *marks |= CONTACT_PRESSED | CONTACT_OVERLAPS;
+        *marks |= CONTACT_PRESSED | (pair->overlaps ? CONTACT_OVERLAPS : 0);
+        bodies->side[bodies->contact[pair->first].a].pressed = true;
+        bodies->side[bodies->contact[pair->first].b].pressed = true;
     }
+}
+
+/* Forgets the last frame. */
+static void forget(struct free_bodies *bodies)
+{
+    for (uint32_t i = 0; i < bodies->moved_count; i++)
+        bodies->owned[bodies->moved[i]] = 0;
+    for (uint32_t i = 1; i < bodies->count; i++)
+        bodies->drift[bodies->side[i].row] = (struct vec3){0.0, 0.0, 0.0};
+    bodies->moved_count = bodies->pairs = bodies->contacts = 0;
+    bodies->count = 1;
 }
 
 void free_bodies_solve(struct free_bodies *bodies, struct response_context *context)
 {
-    for (uint32_t i = 0; i < bodies->moved_count; i++)
-        bodies->owned[bodies->moved[i]] = 0;
-    bodies->moved_count = bodies->pairs = bodies->contacts = 0;
+    forget(bodies);
     contact_groups_find_free(&bodies->groups, context);
     if (bodies->groups.count == 0)
         return;
-    bodies->count = 1;
     bodies->body[0] = (struct free_body){.inverse_mass = 0.0};
     bodies->side[0] = (struct free_side){.parent = 0};
     for (uint32_t i = 0; i < bodies->groups.count; i++)
         take(bodies, context, &bodies->groups.pair[i]);
     for (uint32_t i = 1; i < bodies->count; i++) {
-        if (bodies->side[i].is_free && bodies->side[i].points > 0)
+        if (bodies->side[i].is_free && !bodies->side[i].piloted && bodies->side[i].points > 0)
             add_ground(bodies, context, i);
     }
     work_done();

@@ -17,15 +17,20 @@
 struct free_side {
     uint32_t row;
     uint32_t points; /* 0: all its pairs are left to the search for impacts */
-    bool is_free, wreck;
+    bool pressed;    /* another body or a wall presses on it */
+    bool is_free, wreck, piloted;
     struct mass_properties mass;
-    struct quat turn; /* when the frame begins */
-    struct vec3 at;   /* [m, world] the position then */
-    struct vec3 arm;  /* [m, world] from it to the centre of mass */
-    struct vec3 fall; /* [m/s] by its weight, part of the velocity */
-    uint32_t parent;  /* union-find of bodies that touch */
-    bool quick;       /* of a root: one of its bodies moves */
-    bool due;         /* of a root: all have been slow for long enough */
+    struct quat turn;     /* when the frame begins */
+    struct vec3 at;       /* [m, world] the position then */
+    struct vec3 arm;      /* [m, world] from it to the centre of mass */
+    struct vec3 fall;     /* [m/s] by its weight, part of the velocity */
+    struct vec3 steering; /* [rad/s] a pilot's, which is no part of the spin */
+    bool let_go;          /* the contacts have stopped the steering */
+    uint32_t parent;      /* union-find of bodies that touch */
+    double kg;            /* of a root: the mass of its bodies, if all are piloted */
+    struct vec3 momentum; /* [N s] of a root: of its bodies */
+    bool quick;           /* of a root: one of its bodies moves */
+    bool due;             /* of a root: all have been slow for long enough */
 };
 
 /* Two bodies whose points are solved. */
@@ -47,7 +52,9 @@ struct free_bodies {
     uint32_t pairs, pair_capacity;
     uint32_t *body_of; /* [capacity of the world] body, or 0 */
     uint8_t *owned;    /* [capacity of the world] 1: this frame's contacts move the row freely */
-    uint32_t *moved;   /* rows whose motion the contacts determine */
+    struct vec3
+        *drift;      /* [capacity of the world] the way that aircraft in contact go together [m] */
+    uint32_t *moved; /* rows whose motion the contacts determine */
     uint32_t moved_count;
 };
 

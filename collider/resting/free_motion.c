@@ -17,12 +17,22 @@
 #define HELD_MPS 5e-3
 #define HELD_RPS 5e-3
 
+/* A pilot may bring his aircraft nearer to another one by so much more than the contacts allow. */
+#define STEERS_MPS 1e-4
+
 /* --- rest --------------------------------------------------------------------------------------*/
 
-static bool is_quick(const struct free_side *side, const struct free_body *body)
+/* What counts of a free body is what it kept of its velocity in the last frame: in a heap the
+ * solver leaves a part of the weight's, and the guard at the frame's end takes it. */
+static bool is_quick(const struct response_context *context, const struct free_side *side,
+                     const struct free_body *body)
 {
-    double mps = side->is_free ? REST_MPS : HELD_MPS, rps = side->is_free ? REST_RPS : HELD_RPS;
-    return vec3_length(body->moved.velocity) > mps || vec3_length(body->moved.spin) > rps;
+    const struct entities *w = &context->motion->committed->entities;
+    uint32_t row = side->row;
+    const struct vec3 spin = {w->spin_x[row], w->spin_y[row], w->spin_z[row]};
+    if (side->is_free)
+        return vec3_length(entities_velocity(w, row)) > REST_MPS || vec3_length(spin) > REST_RPS;
+    return vec3_length(body->moved.velocity) > HELD_MPS || vec3_length(body->moved.spin) > HELD_RPS;
 }
 
 /* Finds out which bodies that touch each other are all slow, and for how long they have been. */
@@ -38,7 +48,7 @@ static void find_rest(struct free_bodies *bodies, const struct response_context 
         uint32_t until = w->until_tick[side->row];
         if (side->points == 0)
             continue;
-        root->quick |= is_quick(side, &bodies->body[i]);
+        root->quick |= is_quick(context, side, &bodies->body[i]);
         if (side->is_free)
             root->due &= side->wreck && until != 0 && until <= now;
     }
@@ -54,6 +64,36 @@ static uint32_t until_tick(struct free_bodies *bodies, const struct response_con
     if (root->quick)
         return 0;
     return until != 0 ? until : now + (uint32_t)ceil(REST_S / world_dt_s(context->world));
+}
+
+/* --- aircraft that go together -----------------------------------------------------------------*/
+
+/* Adds up the bodies that touch each other, directly or not. */
+static void add_up(struct free_bodies *bodies)
+{
+    for (uint32_t i = 1; i < bodies->count; i++) {
+        struct free_side *root = &bodies->side[free_bodies_root(bodies, i)];
+        double kg = bodies->side[i].mass.mass_kg;
+        root->kg += bodies->side[i].piloted ? kg : -INFINITY;
+        root->momentum = vec3_add(root->momentum, vec3_scale(bodies->body[i].moved.velocity, kg));
+    }
+    for (uint32_t i = 0; i < bodies->contacts; i++) {
+        const struct free_contact *contact = &bodies->contact[i];
+        if (contact->b == 0)
+            bodies->side[free_bodies_root(bodies, contact->a)].kg = -INFINITY;
+    }
+}
+
+/* Finds the way that aircraft in contact with nothing else go together. Those that the guard sends
+ * back stay behind the others by no more than their own part of the motion. */
+static void find_drift(struct free_bodies *bodies, double dt_s)
+{
+    add_up(bodies);
+    for (uint32_t i = 1; i < bodies->count; i++) {
+        const struct free_side *root = &bodies->side[free_bodies_root(bodies, i)];
+        if (root->kg > 0.0)
+            bodies->drift[bodies->side[i].row] = vec3_scale(root->momentum, dt_s / root->kg);
+    }
 }
 
 /* --- motion ------------------------------------------------------------------------------------*/
@@ -108,6 +148,36 @@ static void move_free(const struct response_context *context, const struct free_
         vec3_sub(body->moved.velocity, vec3_cross(spin, arm)), spin);
 }
 
+static bool same(struct vec3 a, struct vec3 b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* Moves an aircraft. Returns false if its contacts have changed nothing. */
+static bool move_piloted(struct response_context *context, const struct free_side *side,
+                         const struct free_body *body)
+{
+    const struct entities *e = &context->next->entities;
+    const struct vec3 none = {0.0, 0.0, 0.0};
+    double dt_s = world_dt_s(context->world);
+    struct quat turn = side->turn;
+    struct vec3 spin = body->moved.spin;
+    if (same(body->moved.velocity, body->wanted.velocity) &&
+        same(body->moved.spin, body->wanted.spin) && same(body->pushed.velocity, none) &&
+        same(body->pushed.spin, none) && !side->let_go)
+        return false;
+    free_rotation_turn(side->mass.moment, &turn, &spin, dt_s);
+    struct mat3 freely = rotation_matrix(turn);
+    turn = rotation_spun(turn, vec3_add(side->steering, body->pushed.spin), dt_s);
+    struct mat3 axes = rotation_matrix(turn);
+    struct vec3 way = vec3_scale(vec3_add(body->moved.velocity, body->pushed.velocity), dt_s);
+    struct vec3 change = vec3_sub(body->moved.velocity, body->wanted.velocity);
+    put(context, side->row, vec3_add(side->at, way), turn,
+        vec3_add(entities_velocity(e, side->row), change),
+        rotation_apply(&axes, rotation_back(&freely, spin)));
+    return true;
+}
+
 /* Adds what the contacts have changed to the motion of a held body. Returns false if that is
  * nothing. */
 static bool move_held(struct response_context *context, const struct free_side *side,
@@ -130,15 +200,61 @@ static bool move_held(struct response_context *context, const struct free_side *
     return true;
 }
 
+/* --- pilots ------------------------------------------------------------------------------------*/
+
+static void steer(struct free_bodies *bodies, double share)
+{
+    for (uint32_t i = 1; i < bodies->count; i++) {
+        struct vec3 by = vec3_scale(bodies->side[i].steering, share);
+        bodies->body[i].moved.spin = vec3_add(bodies->body[i].moved.spin, by);
+    }
+}
+
+/* A pilot of this body lets go. Returns true if he has steered. */
+static bool let_go(struct free_side *side)
+{
+    const struct vec3 none = {0.0, 0.0, 0.0};
+    bool steered = vec3_dot(side->steering, side->steering) > 0.0;
+    side->steering = none;
+    side->let_go |= steered;
+    return steered;
+}
+
+/* Takes the steering from the pilots whom it would bring nearer to another body than the contacts
+ * allow: it has no momentum that the other could take. */
+static void limit_steering(struct free_bodies *bodies)
+{
+    bool again = true;
+    while (again) {
+        again = false;
+        steer(bodies, 1.0);
+        for (uint32_t i = 0; i < bodies->contacts; i++) {
+            struct free_contact *contact = &bodies->contact[i];
+            contact->crossed =
+                free_solver_closing(bodies->body, contact) > STEERS_MPS - contact->least_mps;
+        }
+        steer(bodies, -1.0);
+        for (uint32_t i = 0; i < bodies->contacts; i++) {
+            const struct free_contact *contact = &bodies->contact[i];
+            if (!contact->crossed)
+                continue;
+            again |= let_go(&bodies->side[contact->a]);
+            again |= let_go(&bodies->side[contact->b]);
+        }
+    }
+}
+
 /* Gives a body its motion. Returns false if that stays as it was. */
 static bool move(struct free_bodies *bodies, struct response_context *context, uint32_t index)
 {
     const struct free_side *side = &bodies->side[index];
     uint32_t row = side->row;
-    if (side->points == 0)
+    if (side->points == 0 || (side->wreck && !side->pressed))
         return false;
     if (!side->is_free)
         return move_held(context, side, &bodies->body[index]);
+    if (side->piloted)
+        return move_piloted(context, side, &bodies->body[index]);
     const struct free_side *root = &bodies->side[free_bodies_root(bodies, index)];
     free_fall_end(context->motion, row);
     bodies->owned[row] = 1;
@@ -153,7 +269,9 @@ static bool move(struct free_bodies *bodies, struct response_context *context, u
 
 void free_motion_run(struct free_bodies *bodies, struct response_context *context)
 {
+    limit_steering(bodies);
     find_rest(bodies, context);
+    find_drift(bodies, world_dt_s(context->world));
     for (uint32_t i = 1; i < bodies->count; i++) {
         uint32_t row = bodies->side[i].row;
         bodies->body_of[row] = 0;
@@ -161,6 +279,7 @@ void free_motion_run(struct free_bodies *bodies, struct response_context *contex
             continue;
         body_motion_compute(context->motion, row);
         bodies->moved[bodies->moved_count++] = row;
+        contact_queue_ground(context->contacts, &context->input, row);
     }
     for (uint32_t i = 0; i < bodies->moved_count; i++)
         contact_queue_look(context->contacts, &context->input, bodies->moved[i], false);

@@ -55,6 +55,7 @@ struct free_contact {
     double mass_kg[FREE_AXES];
     struct vec3 rolling_nms;
     double push_ns;
+    bool crossed; /* the caller's own */
 };
 
 /* Solves the contacts. The result depends on their order, which must be the caller's fixed one. */

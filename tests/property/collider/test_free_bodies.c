@@ -21,9 +21,11 @@
 #define ENERGY_JPKG 0.01 /* growth in a frame, of all together, beyond an engine's work */
 #define STILL_M     1e-3 /* most motion of a wreck in the last second */
 #define CREEPS_M    1e-2 /* the same in a heap, and on a vehicle without brakes */
-#define HEAP_JPKG   1.0  /* growth where wrecks strike each other at up to 50 m/s */
+#define HEAP_JPKG   0.05 /* growth where wrecks strike each other at up to 50 m/s */
+#define UNDER_M     0.1  /* of a wreck that others have struck into the ground */
 #define SEARCHES    1000 /* of a plane between two hulls */
 #define MOST        32
+#define MANY        10 /* bodies, of which only each fourth frame is looked at for overlaps */
 
 static struct fixture f;
 static struct placed_hulls placed[MOST + 1];
@@ -200,7 +202,8 @@ static struct seen run(uint32_t count, double seconds, double push_jpkg)
         seen.longest_s = maths_max(seen.longest_s, took);
         seen.sum_s += took;
         seen.frames++;
-        seen.overlap_m = maths_max(seen.overlap_m, deepest(count));
+        if (count < MANY || frame % 4 == 0)
+            seen.overlap_m = maths_max(seen.overlap_m, deepest(count));
         after = energy_of(count, &mass);
         seen.energy_jpkg = maths_max(seen.energy_jpkg, (after - before) / mass - push_jpkg);
         before = after;
@@ -353,6 +356,7 @@ static void test_a_heap_of_wrecks(void **state)
         tell("20 wrecks in a heap", rates_hz[n], &seen);
         fixture_close(&f);
         check(&seen, HEAP_JPKG, CREEPS_M);
+        assert_true(seen.under_m <= UNDER_M);
     }
 }
 

@@ -78,8 +78,8 @@ static void run(uint32_t count, const uint32_t *rows)
     uint32_t moved[ROWS];
     memcpy(moved, rows, count * sizeof *rows);
     end_guard_run(&f.stepper.collider.guard,
-                  &(struct resting){.moved = moved, .moved_count = count},
-                  &f.stepper.collider.free, &context);
+                  &(struct resting){.moved = moved, .moved_count = count}, &f.stepper.collider.free,
+                  &context);
 }
 
 /* --- what goes back ----------------------------------------------------------------------------*/
