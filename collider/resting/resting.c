@@ -412,15 +412,6 @@ static bool touches(const struct resting *resting, const struct resting_pair *pa
     return pair->gap_m < CONTACT_TOUCHING_M;
 }
 
-static bool overlaps(const struct resting *resting, const struct resting_pair *pair)
-{
-    for (uint32_t i = pair->first; i < pair->first + pair->count; i++) {
-        if (resting->point[i].apart_mps > 0.0)
-            return true;
-    }
-    return false;
-}
-
 /* Tells the search for impacts where the pair rests. */
 static void rest(const struct resting *resting, struct contact_queue *contacts,
                  const struct resting_pair *pair)
@@ -450,7 +441,7 @@ static void mark(struct resting *resting, struct response_context *context)
             *marks |= CONTACT_PRESSED;
         if (pair->gap_m <= -RESTING_PARTS_M && *marks & CONTACT_RESTS)
             *marks |= CONTACT_PARTS;
-        if (overlaps(resting, pair))
+        if (pair->gap_m < -ROUNDING_M)
             *marks |= CONTACT_OVERLAPS;
     }
 }

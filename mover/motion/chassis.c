@@ -267,20 +267,26 @@ static void run(struct chassis *chassis)
 
 /* --- rest and calm -----------------------------------------------------------------------------*/
 
-/* Holds a body that stands still but for what springs and friction leave over. */
-static void rest(const struct chassis *chassis, const struct rigid_body *before,
-                 struct rigid_body *after)
+/* Returns true if the body stands still but for what springs and friction leave over. */
+static bool rests(const struct chassis *chassis, const struct rigid_body *before,
+                  const struct rigid_body *after)
 {
     double dt_s = chassis->context->dt_s;
     struct vec3 faster = vec3_sub(after->velocity, before->velocity);
     bool wants = chassis->drivetrain.wanted_mps != 0.0 || chassis->drivetrain.neutral ||
                  (chassis->kind->tracked && chassis->drivetrain.yaw_rps != 0.0);
-    if (wants || vec3_length(after->velocity) > REST_MPS || vec3_length(after->spin) > REST_RPS ||
-        vec3_length(faster) > REST_MPS2 * dt_s)
-        return;
-    after->centre = before->centre;
-    after->turn = before->turn;
-    after->velocity = after->spin = (struct vec3){0.0, 0.0, 0.0};
+    return !wants && vec3_length(after->velocity) <= REST_MPS &&
+           vec3_length(after->spin) <= REST_RPS && vec3_length(faster) <= REST_MPS2 * dt_s;
+}
+
+/* Holds the row in its place. Position and angles keep every bit, because a heap sleeps only if
+ * nothing in it moves (collider/resting/contact_groups.h). */
+static void hold(const struct step_context *context, uint32_t i, struct rigid_body *body)
+{
+    struct entities *m = context->m;
+    body->velocity = body->spin = (struct vec3){0.0, 0.0, 0.0};
+    m->vx[i] = m->vy[i] = m->vz[i] = 0.0;
+    m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
 }
 
 /* Returns true if the ground, the load and the motion are those of a vehicle that follows the
@@ -375,8 +381,10 @@ bool chassis_move(const struct step_context *context, uint32_t i,
     begin(&chassis, context, i, desired);
     const struct rigid_body before = chassis.body;
     run(&chassis);
-    rest(&chassis, &before, &chassis.body);
-    rigid_body_put(context, i, &chassis.body);
+    if (rests(&chassis, &before, &chassis.body))
+        hold(context, i, &chassis.body);
+    else
+        rigid_body_put(context, i, &chassis.body);
     bool blocked = stop_at_depth(context, i, x, z);
     if (m->behaviour[i] == BEHAVIOUR_DRIVEN || !is_calm(&chassis))
         m->jolt_tick[i] = (uint32_t)context->tick;

@@ -157,6 +157,17 @@ static void test_an_overlap_parts_without_a_speed(void **state)
     assert_int_equal(context.events.count, 0); /* no news */
 }
 
+/* Bodies that are nearer than bodies at rest may sleep, unless they overlap. */
+static void test_a_small_gap_is_no_overlap(void **state)
+{
+    (void)state;
+    steps_rows(&f).x[1] -= 0.5 * CONTACT_REST_M;
+    know(0)->flags = PERSISTENT_CONTACT_OVERLAPS;
+    begin();
+    resting_solve(resting, &context);
+    assert_int_equal(marks(0, 1), CONTACT_RESTS | CONTACT_PRESSED);
+}
+
 /* Two trucks lie on their sides, with the wheels towards each other. Discs about their positions,
  * which are between the wheels, would overlap. */
 static void test_who_lies_on_a_side_is_no_disc(void **state)
@@ -232,6 +243,7 @@ int main(void)
         TEST(test_brakes_hold_against_a_push),
         TEST(test_bodies_that_are_far_do_not_press),
         TEST(test_an_overlap_parts_without_a_speed),
+        TEST(test_a_small_gap_is_no_overlap),
         TEST(test_who_lies_on_a_side_is_no_disc),
         TEST(test_bodies_that_moved_find_their_new_neighbours),
         TEST(test_a_new_body_takes_nothing_from_its_row),

@@ -465,6 +465,32 @@ static void test_an_undisturbed_agent_follows_the_ground(void **state)
     assert_true(steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS);
 }
 
+/* A heap sleeps only if nothing in it moves by the last bit. */
+static void test_it_keeps_every_bit_of_its_pose_at_rest(void **state)
+{
+    enum { TANKS = 40 };
+    struct entities e;
+    double x[TANKS], z[TANKS], heading[TANKS], pitch[TANKS];
+    (void)state;
+    steps_plane(&f, 0.05, 0.03);
+    for (uint32_t i = 0; i < TANKS; i++) {
+        put("tank", 24000.0 + 50.0 * i, 0.0);
+        steps_rows(&f).heading[i] = 0.01 + 0.15 * i;
+    }
+    fixture_run(&f, 10 * HZ);
+    e = steps_rows(&f);
+    for (uint32_t i = 0; i < TANKS; i++)
+        x[i] = e.x[i], z[i] = e.z[i], heading[i] = e.heading[i], pitch[i] = e.pitch[i];
+    for (uint32_t frame = 0; frame < 3; frame++) {
+        fixture_run(&f, 1);
+        e = steps_rows(&f);
+        assert_memory_equal(x, e.x, sizeof x);
+        assert_memory_equal(z, e.z, sizeof z);
+        assert_memory_equal(heading, e.heading, sizeof heading);
+        assert_memory_equal(pitch, e.pitch, sizeof pitch);
+    }
+}
+
 /* --- rough ground ------------------------------------------------------------------------------*/
 
 /* Returns the height of the lowest corner of the shell over the ground [m]. */
@@ -614,6 +640,7 @@ int main(void)
         T(test_it_stands_on_a_side_slope_without_creeping),
         T(test_it_goes_back_to_the_ground_without_a_jump),
         T(test_an_undisturbed_agent_follows_the_ground),
+        T(test_it_keeps_every_bit_of_its_pose_at_rest),
         T(test_it_crosses_a_crater_on_its_springs),
         T(test_it_keeps_its_shell_over_the_ground_on_waves),
         T(test_10_and_60_hz_agree_on_what_turns_over),
