@@ -28,6 +28,7 @@ struct body_pair {
     struct vec3 line;   /* unit, horizontal: from a's position to b's */
     struct vec3 last;   /* the normal of the last overlap, or the line */
     struct vec3 *plane; /* [LEVEL_GAP_PLANES] normals that may separate hulls, or NULL */
+    double apart_m;     /* all hulls measured so far are apart by this at least */
 };
 
 /* --- directions --------------------------------------------------------------------------------*/
@@ -174,6 +175,7 @@ static bool measure(struct body_pair *bodies, const struct hull *hull_a, const s
         learn(bodies, gjk.normal);
         return false;
     }
+    bodies->apart_m = maths_min(bodies->apart_m, gjk.distance_m);
     if (gjk.distance_m > 0.0) {
         measure_distance(bodies, &gjk, gap);
     } else {
@@ -240,6 +242,7 @@ static uint32_t search(struct body_pair *bodies, double *margin_m, struct level_
     struct box_view view = box_view_of(&bodies->pose_a.turn, &bodies->pose_b.turn, bodies->between,
                                        maths_max(*margin_m, 0.0));
     uint32_t count = 0;
+    bodies->apart_m = maths_max(*margin_m, 0.0);
     for (uint64_t near = box_view_near(&view, a, b); near != 0; near &= near - 1) {
         uint32_t bit = (uint32_t)__builtin_ctzll(near);
         struct level_gap one;
@@ -257,15 +260,18 @@ static uint32_t search(struct body_pair *bodies, double *margin_m, struct level_
 uint32_t level_gap_find(const struct swept_body *a, const struct swept_body *b, double time,
                         double margin_m, struct level_gap *gap)
 {
-    return level_gap_find_more(a, b, time, margin_m, gap, LEVEL_GAPS_MAX);
+    double apart_m;
+    return level_gap_find_more(a, b, time, margin_m, gap, LEVEL_GAPS_MAX, &apart_m);
 }
 
 uint32_t level_gap_find_more(const struct swept_body *a, const struct swept_body *b, double time,
-                             double margin_m, struct level_gap *gap, uint32_t room)
+                             double margin_m, struct level_gap *gap, uint32_t room, double *apart_m)
 {
     struct body_pose pose_a = pose_at(a, time), pose_b = pose_at(b, time);
     struct body_pair bodies = body_pair_of(&pose_a, &pose_b, time);
-    return search(&bodies, &margin_m, gap, room);
+    uint32_t count = search(&bodies, &margin_m, gap, room);
+    *apart_m = bodies.apart_m;
+    return count;
 }
 
 double level_gap_least(const struct swept_body *a, const struct swept_body *b, double time,

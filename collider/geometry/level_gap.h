@@ -38,9 +38,11 @@ struct turned_body {
 uint32_t level_gap_find(const struct swept_body *a, const struct swept_body *b, double time,
                         double margin_m, struct level_gap *gap);
 
-/* The same, with another room in gap. */
+/* The same, with another room in gap. Sets *apart_m to a length [m, >= 0] by which the bodies are
+ * apart at least: their distance if it is within margin_m. */
 uint32_t level_gap_find_more(const struct swept_body *a, const struct swept_body *b, double time,
-                             double margin_m, struct level_gap *gap, uint32_t room);
+                             double margin_m, struct level_gap *gap, uint32_t room,
+                             double *apart_m);
 
 /* Returns the smallest of those gaps [m], or margin_m if all are larger. */
 double level_gap_least(const struct swept_body *a, const struct swept_body *b, double time,

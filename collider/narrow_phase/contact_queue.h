@@ -68,6 +68,7 @@ struct pair_known {
                                             the first one their outer hulls; 0: none known */
     double before_m; /* their gap in the committed frame, 0 if they were apart, or
                         PAIR_NOT_MEASURED */
+    double apart_m;  /* they are apart by this at least when the frame begins; 0: not known */
 };
 
 struct contact_link {

@@ -152,9 +152,8 @@ bool separating_axis_find(const struct axis_side *a, const struct axis_side *b, 
     struct vec3 best = {0.0, 0.0, 0.0};
     if (vec3_dot(*axis, *axis) > 0.0 && separating_axis_holds(a, b, *axis, margin_m))
         return true;
-    if (find_by_boxes(a, b, enough_for(a, b, margin_m), &best))
-        return true;
-    if (!separating_axis_holds(a, b, best, margin_m)) {
+    if (!find_by_boxes(a, b, enough_for(a, b, margin_m), &best) &&
+        !separating_axis_holds(a, b, best, margin_m)) {
         best = nearest_normal(a, b);
         if (vec3_dot(best, best) == 0.0 || !separating_axis_holds(a, b, best, margin_m))
             return false;

@@ -15,6 +15,7 @@
 #include <stdlib.h>
 
 #define ROUNDING_M     1e-5 /* a depth up to this is none */
+#define APART_M        1e-6 /* bodies that are farther apart than they can have come do not touch */
 #define EXACT_M        1e-8 /* error of a depth: less is no deepening of a greater depth */
 #define SINKS_M        0.02 /* as deep may a wreck at rest be in the ground */
 #define PAIRS_A_PIECE  8u
@@ -26,6 +27,8 @@ struct placed_body {
     struct swept_body body;
     struct mat3 turn;
     struct axis_side side;
+    struct vec3 moved; /* [m] from where it stood when the frame began */
+    double turned_m;   /* by rotation none of its points has moved farther since then */
 };
 
 int end_guard_init(struct end_guard *guard, const struct world *world, struct thread_pool *workers)
@@ -74,6 +77,22 @@ static void stand(const struct body_motion *motion, const struct entities *e, ui
     stands->body = body_motion_standing(motion, e, side);
     stands->turn = rotation_matrix(stands->body.from);
     stands->side = axis_side_of(&stands->body, &stands->turn, &stands->turn, 0.0, 0.0);
+    stands->moved = (struct vec3){0.0, 0.0, 0.0};
+    stands->turned_m = 0.0;
+}
+
+/* Finds out how the row stands at the frame's end, and how far it has come. The angle between two
+ * poses is at most the sum of the differences of their three angles. */
+static void stand_now(struct end_guard *guard, const struct response_context *context, uint32_t row)
+{
+    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    struct placed_body *stands = &guard->stands[row];
+    stand(context->motion, e, row, stands);
+    stands->moved = vec3_sub(entities_position(e, row), entities_position(w, row));
+    stands->turned_m =
+        stands->body.bound_m * (fabs(maths_wrap_half(e->heading[row] - w->heading[row])) +
+                                fabs(maths_wrap_half(e->pitch[row] - w->pitch[row])) +
+                                fabs(maths_wrap_half(e->roll[row] - w->roll[row])));
 }
 
 /* Finds out how the row stands at the frame's end, if that is not known. */
@@ -82,7 +101,7 @@ static void stand_at_end(struct end_guard *guard, const struct response_context 
 {
     if (guard->posed[row])
         return;
-    stand(context->motion, &context->next->entities, row, &guard->stands[row]);
+    stand_now(guard, context, row);
     guard->posed_row[guard->posed_count++] = row;
     guard->posed[row] = 1;
 }
@@ -128,6 +147,21 @@ static double gap_before(const struct response_context *context, const struct pa
     return known->before_m;
 }
 
+/* Returns true if the bodies were farther apart when the frame began than they have come since
+ * then. Nothing has to be measured again. */
+static bool stays_apart(const struct end_guard *guard, const struct pair *pair,
+                        const struct pair_known *known)
+{
+    const struct placed_body *a = &guard->stands[pair->a];
+    struct vec3 way = a->moved;
+    double least = known->apart_m - APART_M - a->turned_m;
+    if (!(pair->b & PAIR_FIXED)) {
+        way = vec3_sub(way, guard->stands[pair->b].moved);
+        least -= guard->stands[pair->b].turned_m;
+    }
+    return least > 0.0 && vec3_dot(way, way) < least * least;
+}
+
 /* Returns true if the pair ends the frame deeper in each other than it began it. Pairs are measured
  * on all workers, each by one. */
 static bool deeper(const struct end_guard *guard, const struct response_context *context,
@@ -135,6 +169,8 @@ static bool deeper(const struct end_guard *guard, const struct response_context 
 {
     const struct pair *pair = &context->contacts->pair[index];
     struct pair_known *known = &context->contacts->known[index];
+    if (stays_apart(guard, pair, known))
+        return false;
     double after = gap_after(guard, context, pair, known);
     if (after >= -ROUNDING_M)
         return false;
@@ -346,7 +382,7 @@ static void run_round(struct end_guard *guard, struct response_context *context)
         if (guard->sent_back[row] == 0)
             guard->touched[guard->touched_count++] = row;
         send_back(guard, context, row);
-        stand(context->motion, &context->next->entities, row, &guard->stands[row]);
+        stand_now(guard, context, row);
         look_at(guard, row);
     }
 }

@@ -239,12 +239,13 @@ static void measure_pair(const struct gap_job *job, uint32_t index)
     struct free_turn turn_a, turn_b;
     const struct pair *pair = &job->resting->groups.pair[index];
     struct resting_gap *gap = &job->resting->gap[index];
+    gap->apart_m = 0.0;
     if (deep_pair_measure(job->context, pair, gap))
         return;
     struct swept_body a = body_motion_body(job->context->motion, pair->a, &turn_a);
     struct swept_body b = body_motion_side(job->context->motion, pair->b, &turn_b);
     gap->count = level_gap_find_more(&a, &b, 0.0, margin_of(job, index, &a, &b), gap->gap,
-                                     job->parts ? RESTING_GAPS_MAX : LEVEL_GAPS_MAX);
+                                     job->parts ? RESTING_GAPS_MAX : LEVEL_GAPS_MAX, &gap->apart_m);
     if (is_deep(gap) && gap->count > 1) {
         level_gap_whole(&a, &b, 0.0, gap->gap, gap->count);
         gap->count = 1;
@@ -270,8 +271,11 @@ static void measure(struct resting *resting, const struct response_context *cont
     thread_pool_run(resting->workers, measure_some, &job, resting->groups.count - first,
                     PAIRS_A_PIECE);
     for (uint32_t i = first; i < resting->groups.count; i++) {
-        if (resting->gap[i].count > 0)
-            resting->gap[i].pair = contact_queue_pair(context->contacts, &resting->groups.pair[i]);
+        struct resting_gap *gap = &resting->gap[i];
+        if (gap->count == 0)
+            continue;
+        gap->pair = contact_queue_pair(context->contacts, &resting->groups.pair[i]);
+        context->contacts->known[gap->pair].apart_m = gap->apart_m;
     }
 }
 

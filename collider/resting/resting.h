@@ -35,7 +35,8 @@ struct resting_pair {
 struct resting_gap {
     struct level_gap gap[RESTING_GAPS_MAX]; /* smallest first; LEVEL_GAPS_MAX unless bodies part */
     uint32_t count;
-    uint32_t pair; /* index into contacts->pair, if there are gaps */
+    uint32_t pair;  /* index into contacts->pair, if there are gaps */
+    double apart_m; /* the bodies are apart by this at least */
 };
 
 /* The collider's own memory, kept from frame to frame. */

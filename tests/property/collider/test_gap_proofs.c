@@ -107,8 +107,55 @@ static void test_known_planes_change_no_depth(void **state)
     fixture_close(&f);
 }
 
+/* The guard measures no pair that was farther apart than its bodies have come. */
+static void test_the_distance_of_all_hulls_is_told(void **state)
+{
+    const double margin_m = 0.5;
+    (void)state;
+    uint64_t random = fixture_seed(14);
+    uint32_t apart = 0;
+    fixture_open(&f, "world = { seed = 1; };\ncollision = { shape = \"model\"; };\n");
+    for (uint32_t i = 0; i < PAIRS; i++) {
+        struct swept_body a = random_body(&random), b = random_body(&random);
+        struct level_gap gap[LEVEL_GAPS_MAX];
+        double told, exact = maths_min(margin_m, time_of_impact_gap(&a, &b, 0.0));
+        level_gap_find_more(&a, &b, 0.0, margin_m, gap, LEVEL_GAPS_MAX, &told);
+        assert_true(fabs(told - exact) < 1e-9);
+        apart += told > 0.0;
+    }
+    assert_true(apart > PAIRS / 20 && apart < PAIRS);
+    fixture_close(&f);
+}
+
+/* An axis that is found, in whatever way, is kept, and shows the same again. */
+static void test_an_axis_that_is_found_holds(void **state)
+{
+    (void)state;
+    uint64_t random = fixture_seed(15);
+    uint32_t found = 0;
+    fixture_open(&f, "world = { seed = 1; };\ncollision = { shape = \"model\"; };\n");
+    for (uint32_t i = 0; i < PAIRS; i++) {
+        struct swept_body a = random_body(&random), b = random_body(&random);
+        const struct turned_body turned_a = {&a, rotation_matrix(a.from)};
+        const struct turned_body turned_b = {&b, rotation_matrix(b.from)};
+        struct axis_side side_a = side_of(&turned_a), side_b = side_of(&turned_b);
+        struct vec3 axis = {0.0, 0.0, 0.0};
+        if (!separating_axis_find(&side_a, &side_b, 0.0, &axis))
+            continue;
+        found++;
+        assert_true(fabs(vec3_length(axis) - 1.0) < 1e-9);
+        assert_true(separating_axis_holds(&side_a, &side_b, axis, 0.0));
+    }
+    assert_true(found > PAIRS / 20);
+    fixture_close(&f);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_known_planes_change_no_depth)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_known_planes_change_no_depth),
+        cmocka_unit_test(test_the_distance_of_all_hulls_is_told),
+        cmocka_unit_test(test_an_axis_that_is_found_holds),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
