@@ -1,0 +1,115 @@
+/* Columns of pairs, and lists of them by row. */
+#include "collider/narrow_phase/contact_pairs.h"
+
+#include "world/runtime/check.h"
+#include "world/runtime/reserve.h"
+
+static void link_row(struct contact_queue *contacts, uint32_t row, uint32_t pair)
+{
+    contacts->link[contacts->link_count] = (struct contact_link){pair, contacts->head[row]};
+    contacts->head[row] = ++contacts->link_count;
+}
+
+static void more_pairs(struct contact_queue *contacts)
+{
+    uint32_t held = contacts->pair_count, more = 2 * contacts->pair_capacity + 1;
+    CHECK(held < PAIRS_MAX);
+    contacts->pair = reserve_grow(contacts->pair, held, more, sizeof *contacts->pair);
+    contacts->met = reserve_grow(contacts->met, held, more, sizeof *contacts->met);
+    contacts->swept = reserve_grow(contacts->swept, held, more, sizeof *contacts->swept);
+    contacts->marks = reserve_grow(contacts->marks, held, more, sizeof *contacts->marks);
+    contacts->impacts = reserve_grow(contacts->impacts, held, more, sizeof *contacts->impacts);
+    contacts->known = reserve_grow(contacts->known, held, more, sizeof *contacts->known);
+    contacts->rest = reserve_grow(contacts->rest, held, more, sizeof *contacts->rest);
+    contacts->link = reserve_grow(contacts->link, contacts->link_count, 2 * (uint64_t)more,
+                                  sizeof *contacts->link);
+    contacts->pair_capacity = more;
+}
+
+uint32_t contact_pairs_add(struct contact_queue *contacts, struct pair pair)
+{
+    if (contacts->pair_count == contacts->pair_capacity)
+        more_pairs(contacts);
+    uint32_t index = contacts->pair_count++;
+    contacts->pair[index] = pair;
+    contacts->met[index] = 0;
+    contacts->swept[index] = 0;
+    contacts->marks[index] = 0;
+    contacts->impacts[index] = (struct pair_impacts){0};
+    contacts->known[index] = (struct pair_known){.before_m = PAIR_NOT_MEASURED};
+    contacts->rest[index] = (struct rest_span){0, 0};
+    link_row(contacts, pair.a, index);
+    if (!(pair.b & PAIR_FIXED))
+        link_row(contacts, pair.b, index);
+    return index;
+}
+
+uint32_t contact_pairs_find(const struct contact_queue *contacts, const struct pair *pair)
+{
+    for (uint32_t link = contacts->head[pair->a]; link != 0; link = contacts->link[link - 1].next) {
+        uint32_t index = contacts->link[link - 1].pair;
+        const struct pair *known = &contacts->pair[index];
+        if (known->a == pair->a && known->b == pair->b)
+            return index + 1;
+    }
+    return 0;
+}
+
+/* resting: two bodies that rest are a pair, too. */
+static void meet(struct contact_queue *contacts, const struct contact_input *input, uint32_t row,
+                 uint32_t other, bool resting)
+{
+    bool fixed = other & PAIR_FIXED;
+    struct pair pair = {fixed || row < other ? row : other, fixed || row < other ? other : row};
+    if (other == row || contact_pairs_find(contacts, &pair))
+        return;
+    if (!fixed)
+        body_motion_require(input->motion, other);
+    if (fixed || (resting ? !pair_same_shooter(input->detect.entities, pair.a, pair.b)
+                          : !pair_excluded(&input->detect, pair.a, pair.b)))
+        contact_pairs_add(contacts, pair);
+}
+
+static bool box_within(const struct path_box *inner, const struct path_box *outer)
+{
+    return inner->min_x >= outer->min_x && inner->max_x <= outer->max_x &&
+           inner->min_y >= outer->min_y && inner->max_y <= outer->max_y &&
+           inner->min_z >= outer->min_z && inner->max_z <= outer->max_z;
+}
+
+static struct path_box box_union(const struct path_box *a, const struct path_box *b)
+{
+    return (struct path_box){
+        a->min_x < b->min_x ? a->min_x : b->min_x, a->min_y < b->min_y ? a->min_y : b->min_y,
+        a->min_z < b->min_z ? a->min_z : b->min_z, a->max_x > b->max_x ? a->max_x : b->max_x,
+        a->max_y > b->max_y ? a->max_y : b->max_y, a->max_z > b->max_z ? a->max_z : b->max_z,
+    };
+}
+
+void contact_pairs_look(struct contact_queue *contacts, const struct contact_input *input,
+                        uint32_t row, bool resting, float wider_m)
+{
+    struct path_box *known = &input->broad->box[row];
+    struct path_box box = pair_filter_box(&input->detect, row);
+    box.min_x -= wider_m, box.max_x += wider_m;
+    box.min_z -= wider_m, box.max_z += wider_m;
+    bool strays = !box_within(&box, known);
+    contacts->near.count = 0;
+    broad_phase_query(input->broad, &input->detect, &box, &contacts->near);
+    uint32_t rows = contacts->near.count;
+    broad_phase_query_fixed(input->broad, &input->detect, &box, &contacts->near);
+    for (uint32_t i = 0; i < contacts->near.count; i++) {
+        const struct pair *near = &contacts->near.pair[i];
+        meet(contacts, input, row, i < rows ? near->a : near->b, resting);
+    }
+    for (uint32_t i = 0; i < contacts->stray_count; i++) {
+        if (pair_filter_boxes_meet(&box, &input->broad->box[contacts->strayed[i]]))
+            meet(contacts, input, row, contacts->strayed[i], resting);
+    }
+    if (!strays)
+        return;
+    if (!contacts->strays[row])
+        contacts->strayed[contacts->stray_count++] = row;
+    contacts->strays[row] = 1;
+    *known = box_union(known, &box);
+}
