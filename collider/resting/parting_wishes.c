@@ -1,0 +1,218 @@
+/* Groups by union-find; wishes by sweeps over the points, or by spreading. */
+#include "collider/resting/parting_wishes.h"
+
+#include "collider/resting/deep_pair.h"
+#include "collider/resting/resting.h"
+#include "world/world.h"
+
+/* No body is moved apart faster than this, and none turns faster. */
+#define PUSHED_MOST_MPS 10.0
+#define PUSHED_MOST_RPS 0.2
+
+/* The edge of a dense crowd spreads so fast, until its bodies have this share of the room that they
+ * cover. */
+#define SPREAD_MPS 20.0
+#define ROOM       2.0
+
+/* In masses that part light bodies would hold up heavy ones, as sweeps converge slowly between
+ * them: displacements are shared by the roots of the masses, in so many sweeps over the points. */
+#define WISH_SWEEPS 100
+
+/* --- groups ------------------------------------------------------------------------------------*/
+
+static bool is_fixed(const struct parting_input *input, uint32_t body)
+{
+    return input->row[body] == SLOT_NONE;
+}
+
+static uint32_t root_of(struct parting_body *body, uint32_t i)
+{
+    while (body[i].parent != i)
+        i = body[i].parent = body[body[i].parent].parent;
+    return i;
+}
+
+static uint32_t crowd_of(struct parting_body *body, uint32_t i)
+{
+    while (body[i].crowd != i)
+        i = body[i].crowd = body[body[i].crowd].crowd;
+    return i;
+}
+
+/* The lower root becomes that of both. */
+static void join(struct parting_body *body, uint32_t p, uint32_t q, bool deep)
+{
+    uint32_t a = root_of(body, p), b = root_of(body, q);
+    body[a > b ? a : b].parent = a > b ? b : a;
+    a = crowd_of(body, p), b = crowd_of(body, q);
+    if (deep)
+        body[a > b ? a : b].crowd = a > b ? b : a;
+}
+
+double parting_wishes_speed(const struct parting_input *input, const struct resting_pair *pair)
+{
+    double most = 0.0;
+    for (uint32_t i = pair->first; i < pair->first + pair->count; i++)
+        most = maths_max(most, input->point[i].apart_mps);
+    return most;
+}
+
+bool parting_wishes_group(struct parting *parting, const struct parting_input *input)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < input->bodies; i++)
+        parting->body[i] = (struct parting_body){.parent = i, .crowd = i};
+    for (uint32_t i = 0; i < input->pairs; i++) {
+        const struct level_contact *point = &input->point[input->pair[i].first];
+        if (!is_fixed(input, point->b))
+            join(parting->body, point->a, point->b, input->pair[i].gap_m <= -RESTING_PARTS_M);
+    }
+    for (uint32_t i = 0; i < input->pairs; i++) {
+        bool deep = input->pair[i].gap_m <= -RESTING_PARTS_M;
+        uint32_t a = input->point[input->pair[i].first].a;
+        struct parting_body *crowd = &parting->body[crowd_of(parting->body, a)];
+        parting->body[root_of(parting->body, a)].parts |= deep;
+        crowd->deepest_m = maths_max(crowd->deepest_m, -input->pair[i].gap_m);
+        any |= deep;
+    }
+    return any;
+}
+
+bool parting_wishes_parts(struct parting *parting, uint32_t body)
+{
+    return parting->body[root_of(parting->body, body)].parts;
+}
+
+/* --- wishes ------------------------------------------------------------------------------------*/
+
+static const struct kind *kind_of(const struct parting_input *input, uint32_t body)
+{
+    const struct response_context *context = input->context;
+    return &context->world->kinds[context->next->entities.kind[input->row[body]]];
+}
+
+/* Returns true if the bodies of the crowd need more room than the disc about them has. */
+static bool is_dense(const struct parting_body *root)
+{
+    double reach = root->reach_m + sqrt(root->area_m2 / (PI * root->members));
+    return root->members > 1 && PI * reach * reach < ROOM * root->area_m2;
+}
+
+/* Sums masses, areas and places of each crowd at its root. */
+static void measure_crowds(struct parting *parting, const struct parting_input *input)
+{
+    for (uint32_t i = 0; i < input->bodies; i++) {
+        struct parting_body *body = &parting->body[i], *root;
+        if (is_fixed(input, i) || !parting_wishes_parts(parting, i))
+            continue;
+        const struct kind *kind = kind_of(input, i);
+        root = &parting->body[crowd_of(parting->body, i)];
+        deep_pair_place(input->context, input->row[i], &body->x, &body->z);
+        root->members++;
+        root->mass_kg += kind->mass_kg;
+        root->area_m2 += kind->length_m * kind->width_m;
+        root->centre_x += kind->mass_kg * body->x;
+        root->centre_z += kind->mass_kg * body->z;
+    }
+    for (uint32_t i = 0; i < input->bodies; i++) {
+        struct parting_body *body = &parting->body[i], *root;
+        root = &parting->body[crowd_of(parting->body, i)];
+        if (root->mass_kg == 0.0)
+            continue;
+        double x = body->x - root->centre_x / root->mass_kg;
+        double z = body->z - root->centre_z / root->mass_kg;
+        root->reach_m = maths_max(root->reach_m, sqrt(x * x + z * z));
+    }
+    for (uint32_t i = 0; i < input->bodies; i++)
+        parting->body[i].spreads = is_dense(&parting->body[crowd_of(parting->body, i)]);
+}
+
+/* A crowd that is dense spreads: the farther from its centre, the faster, but by no more than parts
+ * its deepest pair. */
+static void spread(const struct parting_input *input, const struct parting_body *root,
+                   struct parting_body *body)
+{
+    double edge = maths_min(SPREAD_MPS, 0.5 * root->deepest_m / world_dt_s(input->context->world));
+    double rate = edge / root->reach_m;
+    body->wish_x = rate * (body->x - root->centre_x / root->mass_kg);
+    body->wish_z = rate * (body->z - root->centre_z / root->mass_kg);
+}
+
+void parting_wishes_limit(struct level_motion *pushed)
+{
+    double speed = sqrt(pushed->x * pushed->x + pushed->z * pushed->z);
+    double keep = speed > PUSHED_MOST_MPS ? PUSHED_MOST_MPS / speed : 1.0;
+    pushed->x *= keep;
+    pushed->z *= keep;
+    pushed->spin = maths_clamp(pushed->spin, -PUSHED_MOST_RPS, PUSHED_MOST_RPS);
+}
+
+/* Those that are deep in each other in a dense crowd do not bound each other: spreading parts them
+ * all, though a pair may first get deeper. */
+static bool spread_together(struct parting *parting, const struct level_contact *point)
+{
+    return crowd_of(parting->body, point->a) == crowd_of(parting->body, point->b) &&
+           parting->body[point->a].spreads;
+}
+
+/* Gives the bodies of a point the speeds at which it parts, or keeps its gap: the lighter takes
+ * more. */
+static void part_point(const struct parting_input *input, const struct level_contact *point)
+{
+    struct level_motion *a = &input->body[point->a].pushed, *b = &input->body[point->b].pushed;
+    double light_a = sqrt(input->body[point->a].inverse_mass);
+    double light_b = sqrt(input->body[point->b].inverse_mass);
+    double along = (b->x - a->x) * point->normal_x + (b->z - a->z) * point->normal_z;
+    double least = maths_min(point->apart_mps / PARTING_SHARE, PARTING_MPS);
+    if (least == 0.0)
+        least = point->least_mps + level_solver_closing(input->body, point);
+    if (along >= least || light_a + light_b == 0.0)
+        return;
+    double step = (least - along) / (light_a + light_b);
+    a->x -= step * light_a * point->normal_x;
+    a->z -= step * light_a * point->normal_z;
+    b->x += step * light_b * point->normal_x;
+    b->z += step * light_b * point->normal_z;
+}
+
+/* Finds the speeds at which the bodies would part. They do not turn: a turn would change the depths
+ * of all their points. */
+static void part_points(struct parting *parting, const struct parting_input *input)
+{
+    for (uint32_t i = 0; i < input->bodies; i++) {
+        struct parting_body *body = &parting->body[i];
+        if (is_fixed(input, i) || !parting_wishes_parts(parting, i))
+            continue;
+        if (parting->body[i].spreads)
+            spread(input, &parting->body[crowd_of(parting->body, i)], body);
+        input->body[i].pushed = (struct level_motion){body->wish_x, body->wish_z, 0.0};
+    }
+    for (uint32_t sweep = 0; sweep < WISH_SWEEPS; sweep++) {
+        for (uint32_t n = 0; n < input->points; n++) {
+            uint32_t i = sweep % 2 == 0 ? n : input->points - 1 - n;
+            if (parting_wishes_parts(parting, input->point[i].a) &&
+                !spread_together(parting, &input->point[i]))
+                part_point(input, &input->point[i]);
+        }
+    }
+}
+
+static void make_wishes(struct parting *parting, const struct parting_input *input)
+{
+    for (uint32_t i = 0; i < input->bodies; i++) {
+        struct parting_body *body = &parting->body[i];
+        parting_wishes_limit(&input->body[i].pushed);
+        body->goes = !is_fixed(input, i) && parting_wishes_parts(parting, i);
+        if (!body->goes || parting->body[i].spreads)
+            continue;
+        body->wish_x = input->body[i].pushed.x;
+        body->wish_z = input->body[i].pushed.z;
+    }
+}
+
+void parting_wishes_make(struct parting *parting, const struct parting_input *input)
+{
+    measure_crowds(parting, input);
+    part_points(parting, input);
+    make_wishes(parting, input);
+}
