@@ -1,7 +1,7 @@
 /* The effect of a collision's energy on one body: damage, and a dent where it was hit. */
 #include "collider/response/impact_damage.h"
 
-#include "collider/response/contact_spring.h"
+#include "collider/solver/contact_spring.h"
 #include "collider/response/damage.h"
 #include "collider/response/deformation.h"
 #include "world/entity/dent.h"

@@ -4,7 +4,7 @@
 #include "collider/motion/free_fall.h"
 #include "collider/response/contact_impulse.h"
 #include "collider/response/island_gather.h"
-#include "collider/response/overlap_shift.h"
+#include "collider/solver/overlap_shift.h"
 #include "collider/response/path_change.h"
 #include "collider/response/response.h"
 #include "world/entity/mass_properties.h"

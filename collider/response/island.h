@@ -3,8 +3,8 @@
 #define JOLON_COLLIDER_RESPONSE_ISLAND_H
 
 #include "collider/response/response.h"
-#include "collider/response/contact_solver.h"
-#include "collider/response/contact_spring.h"
+#include "collider/solver/contact_solver.h"
+#include "collider/solver/contact_spring.h"
 
 /* A contact that is solved by impulses. */
 struct island_contact {

@@ -1,7 +1,7 @@
 /* What impulses must conserve, over random islands of 2 to 8 bodies: momentum, angular momentum,
  * energy, the friction cone, and that no two bodies approach (thesis rows 36, 39, 43). SEED=n runs
  * another set. */
-#include "collider/response/contact_solver.h"
+#include "collider/solver/contact_solver.h"
 
 #include "tests/support/fixture.h"
 

@@ -1,7 +1,7 @@
 /* Energy into harm and dents, and what each physical characteristic changes: rows 26, 33, 47. */
 #include "collider/response/deformation.h"
-#include "collider/response/contact_solver.h"
-#include "collider/response/contact_spring.h"
+#include "collider/solver/contact_solver.h"
+#include "collider/solver/contact_spring.h"
 #include "world/entity/mass_properties.h"
 
 #include <stdarg.h>

@@ -1,7 +1,7 @@
 /* One impact on one body: damage, and a dent where it was hit (thesis rows 33, 47). */
 #include "collider/response/impact_damage.h"
 #include "collider/response/deformation.h"
-#include "collider/response/contact_spring.h"
+#include "collider/solver/contact_spring.h"
 #include "tests/support/steps.h"
 #include "world/entity/dent.h"
 

@@ -4,7 +4,7 @@
 #include "collider/response/island.h"
 #include "collider/response/deformation.h"
 #include "collider/response/impact_damage.h"
-#include "collider/response/contact_spring.h"
+#include "collider/solver/contact_spring.h"
 #include "tests/support/steps.h"
 #include "world/entity/dent.h"
 #include "world/params.h"

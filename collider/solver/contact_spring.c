@@ -1,5 +1,5 @@
 /* Compression and rebound of the spring in closed form. */
-#include "collider/response/contact_spring.h"
+#include "collider/solver/contact_spring.h"
 
 #include "world/maths/maths.h"
 

@@ -1,8 +1,8 @@
 /* Impulses of the contacts of one moment: rigid bodies, restitution, Coulomb friction, any number
  * of contacts solved together. Linear and angular momentum are conserved to rounding; kinetic
  * energy never grows. Pure; any thread. */
-#ifndef JOLON_COLLIDER_RESPONSE_CONTACT_SOLVER_H
-#define JOLON_COLLIDER_RESPONSE_CONTACT_SOLVER_H
+#ifndef JOLON_COLLIDER_SOLVER_CONTACT_SOLVER_H
+#define JOLON_COLLIDER_SOLVER_CONTACT_SOLVER_H
 
 #include "world/maths/rotation.h"
 

@@ -1,5 +1,5 @@
 /* Bodies that are shifted out of each other keep their momentum and gain no energy. */
-#include "collider/response/overlap_shift.h"
+#include "collider/solver/overlap_shift.h"
 
 #include "tests/support/fixture.h"
 

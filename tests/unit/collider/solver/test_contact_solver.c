@@ -1,6 +1,6 @@
 /* Simultaneous impulses on cases that can be worked out by hand. Conservation over random islands
  * is in tests/property/collider/test_contact_solver.c. */
-#include "collider/response/contact_solver.h"
+#include "collider/solver/contact_solver.h"
 
 #include "tests/support/fixture.h"
 

@@ -1,5 +1,5 @@
 /* Simultaneous impulses: contacts on axes of their own, sweeps, and the guard over energy. */
-#include "collider/response/contact_solver.h"
+#include "collider/solver/contact_solver.h"
 
 #include "world/runtime/work_done.h"
 

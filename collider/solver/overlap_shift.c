@@ -1,7 +1,7 @@
 /* The bodies' motion is that of one rigid body with their momentum, which has the least energy of
  * all motions with this momentum, and a rest that has no momentum. The rest must have none after
  * the shift either. It is made smaller where the energy would grow. */
-#include "collider/response/overlap_shift.h"
+#include "collider/solver/overlap_shift.h"
 
 /* Growth of energy below this share of all of it is rounding. */
 #define ROUNDING 1e-12

@@ -1,9 +1,9 @@
 /* What a shift of bodies out of each other changes: a body that is moved while it flies past
  * another takes angular momentum from nowhere. Pure; any thread. */
-#ifndef JOLON_COLLIDER_RESPONSE_OVERLAP_SHIFT_H
-#define JOLON_COLLIDER_RESPONSE_OVERLAP_SHIFT_H
+#ifndef JOLON_COLLIDER_SOLVER_OVERLAP_SHIFT_H
+#define JOLON_COLLIDER_SOLVER_OVERLAP_SHIFT_H
 
-#include "collider/response/contact_solver.h"
+#include "collider/solver/contact_solver.h"
 
 #include <stdbool.h>
 

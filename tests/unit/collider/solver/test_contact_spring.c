@@ -1,5 +1,5 @@
 /* The temporary spring against one that is stepped through time: row 43. */
-#include "collider/response/contact_spring.h"
+#include "collider/solver/contact_spring.h"
 
 #include "world/maths/maths.h"
 

@@ -8,8 +8,8 @@
  * time, and the compression that remains is the dent. In both phases the force grows linearly with
  * depth, so each is a quarter of a harmonic oscillation and needs no steps in time. Pure; any
  * thread. */
-#ifndef JOLON_COLLIDER_RESPONSE_CONTACT_SPRING_H
-#define JOLON_COLLIDER_RESPONSE_CONTACT_SPRING_H
+#ifndef JOLON_COLLIDER_SOLVER_CONTACT_SPRING_H
+#define JOLON_COLLIDER_SOLVER_CONTACT_SPRING_H
 
 struct contact_spring {
     double reduced_kg;    /* > 0: effective mass of both along the normal */
