@@ -4,29 +4,19 @@
 #include "collider/response/contact_impulse.h"
 #include "collider/response/contact_table.h"
 #include "collider/response/response.h"
-#include "collider/resting/deep_pair.h"
 #include "collider/resting/ground_placement.h"
 #include "collider/resting/parting.h"
+#include "collider/resting/resting_gaps.h"
 #include "world/entity/mass_properties.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
-#include "world/runtime/thread_pool.h"
-#include "world/runtime/work_done.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
 #include <errno.h>
 #include <stdlib.h>
 
-/* Bodies that are farther apart at the frame's beginning, and do not come as near within it, bear
- * no load on each other [m]. */
-#define NEAR_M 0.02
-
 #define ROUNDING_M 1e-6 /* smaller overlaps of the skins are rounding */
-
-#define PAIRS_A_PIECE 4u
-
-#define POINTS_A_PAIR (2u * RESTING_GAPS_MAX)
 
 int resting_init(struct resting *resting, const struct world *world, struct thread_pool *workers)
 {
@@ -35,13 +25,13 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
     *resting = (struct resting){.workers = workers, .capacity = world->params->contact_slots};
     resting->gap = reserve_take(pairs, sizeof *resting->gap);
     resting->pair = reserve_take(pairs, sizeof *resting->pair);
-    resting->point = reserve_take(pairs * POINTS_A_PAIR, sizeof *resting->point);
+    resting->point = reserve_take(pairs * RESTING_POINTS_MAX, sizeof *resting->point);
     resting->body = reserve_take(rows + pairs, sizeof *resting->body);
     resting->row = reserve_take(rows + pairs, sizeof *resting->row);
     resting->body_of = calloc(rows, sizeof *resting->body_of);
     resting->moved = reserve_take(rows, sizeof *resting->moved);
     if (contact_groups_init(&resting->groups, world) == 0 &&
-        parting_init(&resting->parting, rows + pairs, pairs * POINTS_A_PAIR) == 0 &&
+        parting_init(&resting->parting, rows + pairs, pairs * RESTING_POINTS_MAX) == 0 &&
         neighbours_init(&resting->neighbours, world) == 0 && resting->gap && resting->pair &&
         resting->point && resting->body && resting->row && resting->body_of && resting->moved)
         return 0;
@@ -63,22 +53,6 @@ void resting_free(struct resting *resting)
     free(resting->body_of);
     reserve_free(resting->moved);
     *resting = (struct resting){0};
-}
-
-/* Makes room for so many pairs. There may be more than contacts in the table, because bodies that
- * are new can overlap all others. Only the gaps of the first pairs are kept. */
-static void make_room(struct resting *resting, const struct world *world, uint32_t kept,
-                      uint32_t pairs)
-{
-    uint64_t more = 2 * (uint64_t)pairs, bodies = more + world->params->capacity;
-    if (pairs <= resting->capacity)
-        return;
-    resting->gap = reserve_grow(resting->gap, kept, more, sizeof *resting->gap);
-    resting->pair = reserve_grow(resting->pair, 0, more, sizeof *resting->pair);
-    resting->point = reserve_grow(resting->point, 0, more * POINTS_A_PAIR, sizeof *resting->point);
-    resting->body = reserve_grow(resting->body, 0, bodies, sizeof *resting->body);
-    resting->row = reserve_grow(resting->row, 0, bodies, sizeof *resting->row);
-    resting->capacity = (uint32_t)more;
 }
 
 /* --- bodies ------------------------------------------------------------------------------------*/
@@ -148,13 +122,6 @@ static uint32_t fixed_body(struct resting *resting)
 
 /* --- points ------------------------------------------------------------------------------------*/
 
-/* Returns how much nearer two bodies can come within the frame, at most [m]. */
-static double nearing(const struct swept_body *a, const struct swept_body *b)
-{
-    return vec3_length(vec3_sub(a->path.along, b->path.along)) +
-           rotation_rate(a->from, a->to) * a->bound_m + rotation_rate(b->from, b->to) * b->bound_m;
-}
-
 static struct level_contact point_of(const struct response_context *context,
                                      const struct pair *pair, const struct level_gap *gap,
                                      struct vec3 at)
@@ -209,115 +176,7 @@ static void report(struct response_context *context, const struct pair *pair,
     write_collision_event(context, &report, &impact, &outcome);
 }
 
-/* --- gaps --------------------------------------------------------------------------------------*/
-
-static bool is_deep(const struct resting_gap *gap)
-{
-    return gap->count > 0 && gap->gap[0].gap_m <= -RESTING_PARTS_M;
-}
-
-/* A neighbourhood of bodies that part is measured with a greater margin and more gaps. */
-struct gap_job {
-    struct resting *resting;
-    const struct response_context *context;
-    uint32_t first; /* the pair with which it begins */
-    bool parts;     /* pairs of a neighbourhood */
-};
-
-/* Returns how near two bodies of a pair have to be. One that is not in the table, nor in a
- * neighbourhood, is near only if it overlaps [m]. */
-static double margin_of(const struct gap_job *job, uint32_t index, const struct swept_body *a,
-                        const struct swept_body *b)
-{
-    if (job->parts)
-        return NEAR_M + nearing(a, b) + 2.0 * PARTING_MPS * world_dt_s(job->context->world);
-    return index < job->resting->groups.known ? NEAR_M + nearing(a, b) : 0.0;
-}
-
-static void measure_pair(const struct gap_job *job, uint32_t index)
-{
-    struct free_turn turn_a, turn_b;
-    const struct pair *pair = &job->resting->groups.pair[index];
-    struct resting_gap *gap = &job->resting->gap[index];
-    gap->apart_m = 0.0;
-    if (deep_pair_measure(job->context, pair, gap))
-        return;
-    struct swept_body a = body_motion_body(job->context->motion, pair->a, &turn_a);
-    struct swept_body b = body_motion_side(job->context->motion, pair->b, &turn_b);
-    gap->count = level_gap_find_more(&a, &b, 0.0, margin_of(job, index, &a, &b), gap->gap,
-                                     job->parts ? RESTING_GAPS_MAX : LEVEL_GAPS_MAX, &gap->apart_m);
-    if (is_deep(gap) && gap->count > 1) {
-        level_gap_whole(&a, &b, 0.0, gap->gap, gap->count);
-        gap->count = 1;
-    }
-}
-
-/* Measures pairs first .. end - 1 of the job. */
-static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t worker)
-{
-    const struct gap_job *job = argument;
-    (void)worker;
-    for (uint32_t i = job->first + first; i < job->first + end; i++)
-        measure_pair(job, i);
-    work_done();
-}
-
-/* Measures the pairs from the first on. */
-static void measure(struct resting *resting, const struct response_context *context, uint32_t first,
-                    bool parts)
-{
-    struct gap_job job = {resting, context, first, parts};
-    make_room(resting, context->world, first, resting->groups.count);
-    thread_pool_run(resting->workers, measure_some, &job, resting->groups.count - first,
-                    PAIRS_A_PIECE);
-    for (uint32_t i = first; i < resting->groups.count; i++) {
-        struct resting_gap *gap = &resting->gap[i];
-        if (gap->count == 0)
-            continue;
-        gap->pair = contact_queue_pair(context->contacts, &resting->groups.pair[i]);
-        context->contacts->known[gap->pair].apart_m = gap->apart_m;
-    }
-}
-
-/* Measures the pairs within reach of the bodies that part, and of these all that they may push. */
-static void measure_neighbours(struct resting *resting, struct response_context *context)
-{
-    struct contact_groups *groups = &resting->groups;
-    struct neighbours *neighbours = &resting->neighbours;
-    const struct gap_job again = {resting, context, 0, true};
-    const double reach_m = 2.0 * PARTING_MPS * world_dt_s(context->world);
-    uint32_t table = groups->count, measured = table;
-    for (uint32_t i = 0; i < table; i++) {
-        if (resting->gap[i].count > 0)
-            context->contacts->marks[resting->gap[i].pair] |= CONTACT_GATHERED;
-    }
-    while (neighbours_list(neighbours, context, reach_m, groups)) {
-        measure(resting, context, measured, true);
-        for (; measured < groups->count; measured++) {
-            if (resting->gap[measured].count > 0)
-                neighbours_add(neighbours, &groups->pair[measured]);
-        }
-    }
-    for (uint32_t i = 0; i < table; i++) {
-        if (resting->gap[i].count > 0 && !is_deep(&resting->gap[i]) &&
-            neighbours_has(neighbours, &groups->pair[i]))
-            measure_pair(&again, i);
-    }
-    neighbours_unmark(context);
-}
-
-/* Measures the table's pairs, and those of bodies that are new. */
-static void measure_all(struct resting *resting, struct response_context *context)
-{
-    neighbours_begin(&resting->neighbours);
-    measure(resting, context, 0, false);
-    for (uint32_t i = 0; i < resting->groups.count; i++) {
-        if (is_deep(&resting->gap[i]))
-            neighbours_add(&resting->neighbours, &resting->groups.pair[i]);
-    }
-    if (resting->neighbours.count > 0)
-        measure_neighbours(resting, context);
-}
+/* --- pairs -------------------------------------------------------------------------------------*/
 
 /* Takes a pair whose bodies are near and do not close as fast as in an impact. */
 static void take(struct resting *resting, struct response_context *context, const struct pair *pair,
@@ -420,7 +279,7 @@ static bool touches(const struct resting *resting, const struct resting_pair *pa
 static void rest(const struct resting *resting, struct contact_queue *contacts,
                  const struct resting_pair *pair)
 {
-    struct rest_point point[POINTS_A_PAIR];
+    struct rest_point point[RESTING_POINTS_MAX];
     for (uint32_t i = 0; i < pair->count; i++) {
         const struct level_contact *c = &resting->point[pair->first + i];
         point[i] = (struct rest_point){c->normal_x, c->normal_z, c->a_x, c->a_z, c->b_x, c->b_z};
@@ -457,7 +316,7 @@ void resting_solve(struct resting *resting, struct response_context *context)
     resting->moved_count = 0;
     resting->pairs = resting->points = resting->bodies = 0;
     contact_groups_find(&resting->groups, context);
-    measure_all(resting, context);
+    resting_gaps_measure(resting, context);
     for (uint32_t i = 0; i < resting->groups.count; i++)
         take(resting, context, &resting->groups.pair[i], &resting->gap[i]);
     level_solver_run(resting->body, resting->bodies, resting->point, resting->points);

@@ -21,7 +21,8 @@ struct thread_pool;
 #define RESTING_PARTS_M 0.02
 
 /* Of bodies that part, and of their neighbours, so many pairs of hulls count. */
-#define RESTING_GAPS_MAX 12u
+#define RESTING_GAPS_MAX   12u
+#define RESTING_POINTS_MAX (2u * RESTING_GAPS_MAX) /* of a pair */
 
 /* Two bodies in a contact that lasts. */
 struct resting_pair {

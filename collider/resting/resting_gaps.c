@@ -1,0 +1,146 @@
+/* Measures pairs of the table, of new bodies and of neighbours, on all workers. */
+#include "collider/resting/resting_gaps.h"
+
+#include "collider/resting/deep_pair.h"
+#include "world/params.h"
+#include "world/runtime/reserve.h"
+#include "world/runtime/thread_pool.h"
+#include "world/runtime/work_done.h"
+#include "world/world.h"
+
+/* Bodies that are farther apart at the frame's beginning, and do not come as near within it, bear
+ * no load on each other [m]. */
+#define NEAR_M 0.02
+
+#define PAIRS_A_PIECE 4u
+
+/* Makes room for so many pairs. There may be more than contacts in the table, because bodies that
+ * are new can overlap all others. Only the gaps of the first pairs are kept. */
+static void make_room(struct resting *resting, const struct world *world, uint32_t kept,
+                      uint32_t pairs)
+{
+    uint64_t more = 2 * (uint64_t)pairs, bodies = more + world->params->capacity;
+    if (pairs <= resting->capacity)
+        return;
+    resting->gap = reserve_grow(resting->gap, kept, more, sizeof *resting->gap);
+    resting->pair = reserve_grow(resting->pair, 0, more, sizeof *resting->pair);
+    resting->point =
+        reserve_grow(resting->point, 0, more * RESTING_POINTS_MAX, sizeof *resting->point);
+    resting->body = reserve_grow(resting->body, 0, bodies, sizeof *resting->body);
+    resting->row = reserve_grow(resting->row, 0, bodies, sizeof *resting->row);
+    resting->capacity = (uint32_t)more;
+}
+
+/* Returns how much nearer two bodies can come within the frame, at most [m]. */
+static double nearing(const struct swept_body *a, const struct swept_body *b)
+{
+    return vec3_length(vec3_sub(a->path.along, b->path.along)) +
+           rotation_rate(a->from, a->to) * a->bound_m + rotation_rate(b->from, b->to) * b->bound_m;
+}
+
+static bool is_deep(const struct resting_gap *gap)
+{
+    return gap->count > 0 && gap->gap[0].gap_m <= -RESTING_PARTS_M;
+}
+
+/* A neighbourhood of bodies that part is measured with a greater margin and more gaps. */
+struct gap_job {
+    struct resting *resting;
+    const struct response_context *context;
+    uint32_t first; /* the pair with which it begins */
+    bool parts;     /* pairs of a neighbourhood */
+};
+
+/* Returns how near two bodies of a pair have to be. One that is not in the table, nor in a
+ * neighbourhood, is near only if it overlaps [m]. */
+static double margin_of(const struct gap_job *job, uint32_t index, const struct swept_body *a,
+                        const struct swept_body *b)
+{
+    if (job->parts)
+        return NEAR_M + nearing(a, b) + 2.0 * PARTING_MPS * world_dt_s(job->context->world);
+    return index < job->resting->groups.known ? NEAR_M + nearing(a, b) : 0.0;
+}
+
+static void measure_pair(const struct gap_job *job, uint32_t index)
+{
+    struct free_turn turn_a, turn_b;
+    const struct pair *pair = &job->resting->groups.pair[index];
+    struct resting_gap *gap = &job->resting->gap[index];
+    gap->apart_m = 0.0;
+    if (deep_pair_measure(job->context, pair, gap))
+        return;
+    struct swept_body a = body_motion_body(job->context->motion, pair->a, &turn_a);
+    struct swept_body b = body_motion_side(job->context->motion, pair->b, &turn_b);
+    gap->count = level_gap_find_more(&a, &b, 0.0, margin_of(job, index, &a, &b), gap->gap,
+                                     job->parts ? RESTING_GAPS_MAX : LEVEL_GAPS_MAX, &gap->apart_m);
+    if (is_deep(gap) && gap->count > 1) {
+        level_gap_whole(&a, &b, 0.0, gap->gap, gap->count);
+        gap->count = 1;
+    }
+}
+
+/* Measures pairs first .. end - 1 of the job. */
+static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t worker)
+{
+    const struct gap_job *job = argument;
+    (void)worker;
+    for (uint32_t i = job->first + first; i < job->first + end; i++)
+        measure_pair(job, i);
+    work_done();
+}
+
+/* Measures the pairs from the first on. */
+static void measure(struct resting *resting, const struct response_context *context, uint32_t first,
+                    bool parts)
+{
+    struct gap_job job = {resting, context, first, parts};
+    make_room(resting, context->world, first, resting->groups.count);
+    thread_pool_run(resting->workers, measure_some, &job, resting->groups.count - first,
+                    PAIRS_A_PIECE);
+    for (uint32_t i = first; i < resting->groups.count; i++) {
+        struct resting_gap *gap = &resting->gap[i];
+        if (gap->count == 0)
+            continue;
+        gap->pair = contact_queue_pair(context->contacts, &resting->groups.pair[i]);
+        context->contacts->known[gap->pair].apart_m = gap->apart_m;
+    }
+}
+
+/* Measures the pairs within reach of the bodies that part, and of these all that they may push. */
+static void measure_neighbours(struct resting *resting, struct response_context *context)
+{
+    struct contact_groups *groups = &resting->groups;
+    struct neighbours *neighbours = &resting->neighbours;
+    const struct gap_job again = {resting, context, 0, true};
+    const double reach_m = 2.0 * PARTING_MPS * world_dt_s(context->world);
+    uint32_t table = groups->count, measured = table;
+    for (uint32_t i = 0; i < table; i++) {
+        if (resting->gap[i].count > 0)
+            context->contacts->marks[resting->gap[i].pair] |= CONTACT_GATHERED;
+    }
+    while (neighbours_list(neighbours, context, reach_m, groups)) {
+        measure(resting, context, measured, true);
+        for (; measured < groups->count; measured++) {
+            if (resting->gap[measured].count > 0)
+                neighbours_add(neighbours, &groups->pair[measured]);
+        }
+    }
+    for (uint32_t i = 0; i < table; i++) {
+        if (resting->gap[i].count > 0 && !is_deep(&resting->gap[i]) &&
+            neighbours_has(neighbours, &groups->pair[i]))
+            measure_pair(&again, i);
+    }
+    neighbours_unmark(context);
+}
+
+void resting_gaps_measure(struct resting *resting, struct response_context *context)
+{
+    neighbours_begin(&resting->neighbours);
+    measure(resting, context, 0, false);
+    for (uint32_t i = 0; i < resting->groups.count; i++) {
+        if (is_deep(&resting->gap[i]))
+            neighbours_add(&resting->neighbours, &resting->groups.pair[i]);
+    }
+    if (resting->neighbours.count > 0)
+        measure_neighbours(resting, context);
+}
