@@ -93,6 +93,7 @@ struct batches {
     struct ground_vehicle land;
     struct aircraft air;
     struct constant_course course;
+    bool harmed; /* a hard landing has harmed a row */
 };
 
 /* After a vehicle has moved: its agent reacts to a blocked path, and its gun turns. */
@@ -115,7 +116,9 @@ static void after_motion(const struct step_context *context, struct batches *bat
 static void move_chassis(const struct step_context *context, struct batches *batches, uint32_t i,
                          const struct desired_motion *desired)
 {
+    double harm_j = context->m->harm_j[i];
     bool blocked = chassis_move(context, i, desired);
+    batches->harmed |= context->m->harm_j[i] != harm_j;
     batches->motion[i - batches->block->first] = MOTION_AGENT; /* more than its motion changes */
     after_motion(context, batches, i, blocked);
 }
@@ -148,8 +151,11 @@ static void move_course(const struct step_context *context, struct batches *batc
     const bool guns = !row_block_lacks(batches->block, GUN_COLUMNS);
     constant_course_set_down(context, course);
     for (int l = 0; l < course->count; l++) {
+        uint32_t i = course->row[l];
+        if (context->m->flags[i] & ENTITY_FLAG_CHASSIS)
+            batches->motion[i - batches->block->first] = MOTION_AGENT;
         if (guns)
-            turret_turn(context, course->row[l], &(struct turret_solution){0});
+            turret_turn(context, i, &(struct turret_solution){0});
     }
     course->count = 0;
 }
@@ -166,7 +172,7 @@ static void move_as_desired(const struct step_context *context, uint32_t i,
             move_air(context, batches);
         break;
     default:
-        if (chassis_takes(context, i))
+        if (chassis_takes(context, i, desired->driven))
             move_chassis(context, batches, i, desired);
         else if (ground_vehicle_take(context, &batches->land, i, desired))
             move_land(context, batches);
@@ -179,12 +185,31 @@ static void move_held(const struct step_context *context, uint32_t i, struct bat
 {
     struct desired_motion desired;
     if (context->world->kinds[context->m->kind[i]].domain != DOMAIN_LAND ||
-        chassis_takes(context, i)) {
+        chassis_takes(context, i, false)) {
         agent_controls_motion(context, i, &desired);
         move_as_desired(context, i, &desired, batches);
     } else if (ground_vehicle_take_held(context, &batches->land, i)) {
         move_land(context, batches);
     }
+}
+
+/* Moves a row that holds its course, but came from its springs and is not calm yet: it goes on as a
+ * body with the speed that it has. Returns false if it follows the ground. */
+static bool settle_first(const struct step_context *context, uint32_t i, struct batches *batches)
+{
+    const struct entities *m = context->m;
+    double sine, cosine;
+    if (!(m->flags[i] & ENTITY_FLAG_CHASSIS) || !chassis_takes(context, i, false))
+        return false;
+    maths_sincos(m->heading[i], &sine, &cosine);
+    const struct desired_motion desired = {.heading_rad = m->heading[i],
+                                           .speed_mps = m->vx[i] * sine - m->vz[i] * cosine};
+    double harm_j = m->harm_j[i];
+    chassis_move(context, i, &desired);
+    batches->harmed |= m->harm_j[i] != harm_j;
+    batches->motion[i - batches->block->first] = MOTION_AGENT;
+    turret_turn(context, i, &(struct turret_solution){0});
+    return true;
 }
 
 static void move_row(const struct step_context *context, uint32_t i, struct batches *batches)
@@ -200,6 +225,8 @@ static void move_row(const struct step_context *context, uint32_t i, struct batc
         projectile_move(context, i);
         break;
     case MOTION_HOLD:
+        if (settle_first(context, i, batches))
+            break;
         if (!constant_course_row(context, i))
             turret_turn(context, i, &(struct turret_solution){0});
         else if (constant_course_take(context, &batches->course, i))
@@ -226,7 +253,7 @@ static void move_rest(const struct step_context *context, struct batches *batche
         move_course(context, batches);
 }
 
-/* Columns that only commands, shots and collisions change. */
+/* Columns that only commands, shots, collisions and hard landings change. */
 #define STILL_COLUMNS                                                                              \
     (COLUMN_BIT(harm_j) | COLUMN_BIT(bump_heading) | COLUMN_BIT(id) | COLUMN_BIT(owner_slot) |     \
      COLUMN_BIT(owner_id) | COLUMN_BIT(born_tick) | COLUMN_BIT(changed_tick) | COLUMN_BIT(kind) |  \
@@ -260,12 +287,13 @@ static uint64_t still_blank(const struct rows *rows, const struct batches *batch
     return table_zero(rows->moved, columns, row, count);
 }
 
-/* Returns the columns that have not changed. */
-static uint64_t move_block(const struct rows *rows, const struct row_block *block)
+/* Returns the columns that have not changed. *harmed: set if harm_j has changed. */
+static uint64_t move_block(const struct rows *rows, const struct row_block *block, bool *harmed)
 {
     const struct step_context *context = rows->context;
     struct batches batches;
     batches.block = block;
+    batches.harmed = false;
     think_schedule_run(context, block, batches.motion);
     ground_vehicle_begin(&batches.land);
     aircraft_begin(&batches.air);
@@ -273,6 +301,7 @@ static uint64_t move_block(const struct rows *rows, const struct row_block *bloc
     for (uint32_t i = block->first; i < block->end; i++)
         move_row(context, i, &batches);
     move_rest(context, &batches);
+    *harmed = batches.harmed;
     return still_blank(rows, &batches);
 }
 
@@ -292,7 +321,10 @@ static void move_rows(void *context, uint32_t first, uint32_t end, uint32_t work
             .blank = ~*changed & table_blank(rows->committed, number,
                                              rows->context->committed->head->used, rows->blank),
         };
-        uint64_t same = move_block(rows, &block);
+        bool harmed;
+        uint64_t same = move_block(rows, &block, &harmed);
+        if (harmed)
+            *changed |= COLUMN_BIT(harm_j);
         table_hash_block(rows->moved, number, rows->head->used,
                          *changed | (COLUMNS_ALL & ~STILL_COLUMNS & ~same));
         *changed = 0;

@@ -71,6 +71,21 @@ void damage_overturn(struct response_context *context, uint32_t row)
     wreck(context, row);
 }
 
+/* The mover has added the harm of a hard landing to harm_j (mover/motion/chassis.h): it becomes
+ * damage. */
+static void fall(struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    const struct kind *kind = &context->world->kinds[e->kind[row]];
+    enum damage damage = level(e->harm_j[row] / kind->resistance_j);
+    if (e->state[row] != ENTITY_ACTIVE || damage <= e->damage[row])
+        return;
+    if (damage == DAMAGE_DESTROYED)
+        wreck(context, row);
+    else
+        set_damage(context, row, damage);
+}
+
 /* Returns true if a vehicle lies on its side or on its roof. */
 static bool lies_over(const struct entities *e, uint32_t row)
 {
@@ -87,8 +102,12 @@ void damage_overturned(struct response_context *context)
         uint64_t eight = 0;
         memcpy(&eight, e->flags + first, end - first);
         for (uint32_t row = first; row < end && (eight & CHASSIS_OF_EIGHT) != 0; row++) {
-            if (e->flags[row] & ENTITY_FLAG_CHASSIS && lies_over(e, row))
+            if (!(e->flags[row] & ENTITY_FLAG_CHASSIS))
+                continue;
+            if (lies_over(e, row))
                 damage_overturn(context, row);
+            else
+                fall(context, row);
         }
     }
 }

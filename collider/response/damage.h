@@ -19,7 +19,8 @@ void damage_destroy(struct response_context *context, uint32_t row, double time)
  * explode. */
 void damage_overturn(struct response_context *context, uint32_t row);
 
-/* Does so with all vehicles that have rolled over on their springs (mover/motion/chassis.h). */
+/* Does so with all vehicles that have rolled over on their springs (mover/motion/chassis.h), and
+ * gives those that landed hard their damage. */
 void damage_overturned(struct response_context *context);
 
 /* Both damage a fixed object and return its damage. It is never repaired: the hardest impact

@@ -491,7 +491,11 @@ void avoidance_steer(const struct step_context *context, uint32_t i, struct desi
 {
     struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
-    if (desired->driven || !(fabs(desired->speed_mps) > 0.0)) {
+    if (desired->driven) { /* dodge is the driver's wheel (mover/motion/chassis.h) */
+        m->ease[i] = 0.0f;
+        return;
+    }
+    if (!(fabs(desired->speed_mps) > 0.0)) {
         m->dodge[i] = m->ease[i] = 0.0f;
         return;
     }

@@ -61,7 +61,8 @@ static bool is_new(const struct step_context *context, uint32_t i)
 static bool spins_first(const struct step_context *context, enum motion how, uint32_t i)
 {
     enum domain domain = (enum domain)context->world->kinds[context->m->kind[i]].domain;
-    return how == MOTION_HOLD || (how > MOTION_HOLD && domain != DOMAIN_LAND);
+    bool sprung = (context->m->flags[i] & ENTITY_FLAG_CHASSIS) != 0;
+    return (how == MOTION_HOLD && !sprung) || (how > MOTION_HOLD && domain != DOMAIN_LAND);
 }
 
 static void sort(const struct step_context *context, const struct row_block *block, uint8_t *motion,
@@ -78,7 +79,6 @@ static void sort(const struct step_context *context, const struct row_block *blo
             spin_row(context, i);
         if (how == MOTION_HOLD) { /* it reacts to nothing */
             m->bumped[i] = 0;
-            m->flags[i] &= (uint8_t)~ENTITY_FLAG_CHASSIS;
             m->threat_slot[i] = m->threat_id[i] = 0;
         }
         if (how == MOTION_AGENT) {

@@ -9,7 +9,11 @@
  *
  * The mover sets the flag for a row that is driven or spins, and where the ground is rough for its
  * speed. The collider sets it for a row that is pushed. All of this follows from the row's state
- * and the ground. Nothing but the row's position, pose, velocity and spin is kept between frames.
+ * and the ground. Nothing but the row's position, pose, velocity and spin is kept between frames,
+ * and of a driven row where its steering wheel is: -1..1 in the column dodge, which avoidance does
+ * not need then.
+ *
+ * A hard landing adds to harm_j. The collider makes damage of it.
  */
 #ifndef JOLON_MOVER_MOTION_CHASSIS_H
 #define JOLON_MOVER_MOTION_CHASSIS_H
@@ -24,9 +28,9 @@
 #define CHASSIS_LOW_CLIMB 1.2                /* share of max_slope_rad that low gear climbs */
 #define CHASSIS_STEP_M    0.3
 
-/* Returns true if row i, an active land vehicle that does not hold its course, moves as a body in
- * this frame. */
-bool chassis_takes(const struct step_context *context, uint32_t i);
+/* Returns true if row i, an active land vehicle, moves as a body in this frame. driven: a driver or
+ * a script has its controls. */
+bool chassis_takes(const struct step_context *context, uint32_t i, bool driven);
 
 /* Moves it. It fords water as deep as its kind can. Returns true if deeper water, a slope or the
  * edge of the world blocks it. */

@@ -1,6 +1,7 @@
 /* Moves rows that hold their course, and sets bodies down on the ground. */
 #include "mover/motion/constant_course.h"
 
+#include "mover/motion/ground_vehicle.h"
 #include "mover/motion/kinematics.h"
 #include "mover/query/ground_marks.h"
 #include "world/world.h"
@@ -39,6 +40,23 @@ bool constant_course_take(const struct step_context *context, struct constant_co
     return batch->count == LANE_COUNT;
 }
 
+/* Writes height, pitch and roll of lane l, row i. A row that comes from its springs eases to them.
+ */
+static void set_down(const struct step_context *context, const struct ground_pose *pose, int l,
+                     uint32_t i)
+{
+    struct entities *m = context->m;
+    if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
+        const struct vec3 ground = {pose->y.lane[l], pose->pitch.lane[l], pose->roll.lane[l]};
+        ground_vehicle_ease(context, i, m->x[i] - m->vx[i] * context->dt_s,
+                            m->z[i] - m->vz[i] * context->dt_s, ground);
+        return;
+    }
+    m->y[i] = pose->y.lane[l];
+    m->pitch[i] = pose->pitch.lane[l];
+    m->roll[i] = pose->roll.lane[l];
+}
+
 void constant_course_set_down(const struct step_context *context, struct constant_course *batch)
 {
     struct entities *m = context->m;
@@ -53,10 +71,8 @@ void constant_course_set_down(const struct step_context *context, struct constan
     ground_pose_find(context, pose);
     for (int l = 0; l < batch->count; l++) {
         uint32_t i = batch->row[l];
-        double y = pose->y.lane[l];
-        m->vy[i] = (y - m->y[i]) / context->dt_s;
-        m->y[i] = y;
-        m->pitch[i] = pose->pitch.lane[l];
-        m->roll[i] = pose->roll.lane[l];
+        double before = m->y[i];
+        set_down(context, pose, l, i);
+        m->vy[i] = (m->y[i] - before) / context->dt_s;
     }
 }

@@ -51,6 +51,7 @@ void driver_controls_motion(const struct step_context *context, uint32_t i,
         .turn = (double)m->steer[i],
         .climb_mps = (double)m->climb[i] * kind->climb_rate_mps,
         .brake = brake,
+        .hand_brake = kind->domain == DOMAIN_LAND ? maths_max(0.0, (double)m->climb[i]) : 0.0,
     };
     /* The brake overrides the throttle. */
     if (kind->domain == DOMAIN_AIR)
@@ -64,6 +65,7 @@ void driver_controls_release(const struct entities *m, uint32_t i)
 {
     m->throttle[i] = m->steer[i] = m->climb[i] = 0.0f;
     m->traverse[i] = m->elevate[i] = m->brake[i] = 0.0f;
+    m->dodge[i] = 0.0f; /* the front wheels */
     m->flags[i] &= (uint8_t)~ENTITY_GEAR_MASK;
     m->driver[i] = 0;
 }

@@ -1,6 +1,7 @@
 /* Power-limited drive, brakes, engine braking, and the limits of steering. */
 #include "mover/motion/drivetrain.h"
 
+#include "mover/motion/kinematics.h"
 #include "world/world.h"
 
 #define REACTS_S     0.2  /* in which a difference of speed is made good, if forces allow */
@@ -21,17 +22,10 @@ double drivetrain_lateral(const struct kind *kind, double friction)
     return GRAVITY_MPS2 * maths_min(friction, STABLE * overturns);
 }
 
-/* The turn rate that is asked for [rad/s, to the right]. */
-static double asked_rate(const struct step_context *context, uint32_t i, const struct kind *kind,
-                         const struct desired_motion *desired)
-{
-    double most = kind->turn_rate_rps;
-    double off = maths_wrap_half(desired->heading_rad - context->m->heading[i]) / context->dt_s;
-    return desired->driven ? desired->turn * most : maths_clamp(off, -most, most);
-}
-
-static void steer(struct drivetrain *drivetrain, double rate_rps, double lateral_mps2, double turn,
-                  double forward_mps)
+/* Turns to the right by this rate [rad/s], or along this curve [1/m], as far as the kind and the
+ * lateral acceleration allow. */
+static void turn_at(struct drivetrain *drivetrain, double rate_rps, double lateral_mps2,
+                    double forward_mps)
 {
     const struct kind *kind = drivetrain->kind;
     double speed = maths_max(fabs(forward_mps), TURNS_MPS);
@@ -43,23 +37,40 @@ static void steer(struct drivetrain *drivetrain, double rate_rps, double lateral
     double most =
         maths_min(1.0 / maths_max(kind->least_turn_m, 0.1), lateral_mps2 / (speed * speed));
     double curve = forward_mps < 0.0 ? -rate_rps / speed : rate_rps / speed;
-    drivetrain->curve = drivetrain->driven ? turn * most : maths_clamp(curve, -most, most);
+    drivetrain->curve =
+        drivetrain->driven ? drivetrain->wheel * most : maths_clamp(curve, -most, most);
+}
+
+void drivetrain_steer(struct drivetrain *drivetrain, double forward_mps, double friction,
+                      double dt_s)
+{
+    const struct kind *kind = drivetrain->kind;
+    if (!drivetrain->driven) {
+        turn_at(drivetrain, drivetrain->asked_rps, drivetrain_lateral(kind, friction), forward_mps);
+        return;
+    }
+    drivetrain->wheel =
+        kinematics_approach(drivetrain->wheel, drivetrain->turn, DRIVETRAIN_WHEEL_PS * dt_s);
+    turn_at(drivetrain, drivetrain->wheel * kind->turn_rate_rps, DRIVER_TURNS * GRAVITY_MPS2,
+            forward_mps);
 }
 
 struct drivetrain drivetrain_of(const struct step_context *context, uint32_t i,
-                                const struct desired_motion *desired, double forward_mps,
-                                double friction)
+                                const struct desired_motion *desired)
 {
-    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
-    struct drivetrain drivetrain = {.kind = kind,
-                                    .wanted_mps = desired->speed_mps,
-                                    .slowing = desired->driven ? desired->brake : 1.0,
-                                    .driven = desired->driven,
-                                    .neutral = desired->gear == GEAR_NEUTRAL};
-    double lateral =
-        desired->driven ? DRIVER_TURNS * GRAVITY_MPS2 : drivetrain_lateral(kind, friction);
-    steer(&drivetrain, asked_rate(context, i, kind, desired), lateral, desired->turn, forward_mps);
-    return drivetrain;
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    double most = kind->turn_rate_rps;
+    double off = maths_wrap_half(desired->heading_rad - m->heading[i]) / context->dt_s;
+    return (struct drivetrain){.kind = kind,
+                               .wanted_mps = desired->speed_mps,
+                               .slowing = desired->driven ? desired->brake : 1.0,
+                               .hand_brake = desired->hand_brake,
+                               .asked_rps = maths_clamp(off, -most, most),
+                               .turn = desired->turn,
+                               .wheel = maths_clamp((double)m->dodge[i], -1.0, 1.0),
+                               .driven = desired->driven,
+                               .neutral = desired->gear == GEAR_NEUTRAL};
 }
 
 double drivetrain_power(const struct kind *kind)
@@ -80,24 +91,26 @@ static double drive(const struct kind *kind, double speed, double wanted, double
     return maths_clamp(needed, 0.0, maths_min(power, grip_n));
 }
 
-/* Returns how hard brakes and engine slow a vehicle that is faster than wanted [N]. */
-static double slow(const struct drivetrain *drivetrain, double speed, double wanted, double rise,
-                   double grip_n)
+/* Returns how hard brakes and engine slow a vehicle that is faster than wanted [N]. The engine's
+ * drag is a force of its own, which a steep slope may exceed. The rolling resistance adds to it. */
+static double slow(const struct drivetrain *drivetrain, double speed, double wanted,
+                   const struct drivetrain_ground *ground, double rise)
 {
     const struct kind *kind = drivetrain->kind;
-    double hardest = HARDEST * grip_n / kind->mass_kg;
-    double engine = maths_min(hardest, ENGINE_BRAKE * kind->acceleration_mps2);
-    double most = engine + drivetrain->slowing * (hardest - engine);
-    double slower = maths_min((speed - wanted) / REACTS_S, most);
-    return maths_clamp(kind->mass_kg * (slower - GRAVITY_MPS2 * rise), 0.0, grip_n);
+    double needed = kind->mass_kg * ((speed - wanted) / REACTS_S - GRAVITY_MPS2 * rise);
+    double engine = ENGINE_BRAKE * kind->acceleration_mps2 * kind->mass_kg;
+    double pedal = speed > kind->max_speed_mps ? 1.0 : drivetrain->slowing;
+    double most = maths_min(engine, HARDEST * ground->grip_n);
+    most += pedal * (HARDEST * ground->grip_n - most);
+    return ground->rolling_n + maths_clamp(needed - ground->rolling_n, 0.0, most);
 }
 
 struct drivetrain_force drivetrain_force(const struct drivetrain *drivetrain, double forward_mps,
-                                         double rise, const struct ground_grip *grip, double load_n)
+                                         const struct drivetrain_ground *ground)
 {
     const struct kind *kind = drivetrain->kind;
-    double rolling = (kind->tracked ? grip->tracks : grip->wheels) * load_n;
-    double grip_n = grip->friction * load_n, wanted = drivetrain->wanted_mps;
+    double rolling = ground->rolling_n, rise = ground->rise;
+    double grip_n = ground->grip_n, wanted = drivetrain->wanted_mps;
     struct drivetrain_force force = {0.0, rolling};
     if (drivetrain->neutral) {
         force.brake_n = fabs(forward_mps) > kind->max_speed_mps
@@ -111,8 +124,7 @@ struct drivetrain_force drivetrain_force(const struct drivetrain *drivetrain, do
     if (speed < 0.0 || (wanted == 0.0 && speed < STANDS_MPS))
         force.brake_n = grip_n; /* it does not roll back */
     else if (wanted < speed)
-        force.brake_n = maths_min(
-            grip_n, maths_max(rolling, slow(drivetrain, speed, wanted, ahead * rise, grip_n)));
+        force.brake_n = maths_min(grip_n, slow(drivetrain, speed, wanted, ground, ahead * rise));
     if (wanted > speed && speed > -STANDS_MPS)
         force.drive_n =
             ahead * drive(kind, maths_max(speed, 0.0), wanted, ahead * rise, rolling, grip_n);

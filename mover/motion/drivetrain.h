@@ -13,13 +13,21 @@
 /* Of the fuel at full throttle, an engine at rest burns this share. */
 #define DRIVETRAIN_IDLE 0.15
 
+/* A driver turns the steering wheel, or pulls the levers of tracks, at this rate [1/s]: from the
+ * middle to the stop in half a second. */
+#define DRIVETRAIN_WHEEL_PS 2.0
+
 /* What the vehicle is asked for in a frame. */
 struct drivetrain {
     const struct kind *kind;
     double wanted_mps;
-    double slowing; /* 0..1 of the hardest braking, if it is faster than that */
-    double curve;   /* [1/m] of the path, to the right: wheels */
-    double yaw_rps; /* to the right: tracks */
+    double slowing;    /* 0..1 of the hardest braking, if it is faster than that */
+    double hand_brake; /* 0..1 */
+    double asked_rps;  /* turn rate, to the right: by an agent */
+    double turn;       /* -1..1 of the wheel that a driver asks for */
+    double wheel;      /* -1..1: where the steering wheel is; it turns with DRIVETRAIN_WHEEL_PS */
+    double curve;      /* [1/m] of the path, to the right: wheels */
+    double yaw_rps;    /* to the right: tracks */
     bool driven, neutral;
 };
 
@@ -28,15 +36,24 @@ struct drivetrain_force {
     double brake_n; /* most that brakes and rolling resistance hold against the motion */
 };
 
-/* Finds what a desired motion asks for at this speed along the heading. */
+/* Finds what a desired motion asks for in a frame. */
 struct drivetrain drivetrain_of(const struct step_context *context, uint32_t i,
-                                const struct desired_motion *desired, double forward_mps,
-                                double friction);
+                                const struct desired_motion *desired);
 
-/* Returns the forces at the ground. rise: sine of the pitch. */
+/* Steers for a sub-step at this speed along the heading. */
+void drivetrain_steer(struct drivetrain *drivetrain, double forward_mps, double friction,
+                      double dt_s);
+
+/* What the ground gives in a sub-step. */
+struct drivetrain_ground {
+    double rise;      /* sine of the slope along the heading */
+    double grip_n;    /* most that all wheels can bear along the ground */
+    double rolling_n; /* resistance against rolling */
+};
+
+/* Returns the forces at the ground. */
 struct drivetrain_force drivetrain_force(const struct drivetrain *drivetrain, double forward_mps,
-                                         double rise, const struct ground_grip *grip,
-                                         double load_n);
+                                         const struct drivetrain_ground *ground);
 
 /* Returns the power of the kind that reaches the ground [W]. */
 double drivetrain_power(const struct kind *kind);

@@ -14,7 +14,8 @@ struct ground_grip {
 /* Returns the grip of a cover without craters. */
 struct ground_grip ground_grip_of(enum cover cover);
 
-/* Returns the grip at a point: of its cover, of a skid pan, or of the loose earth in a crater. */
+/* Returns the grip at a point: of its cover, of a skid pan, of the debris of a fallen object, or of
+ * the loose earth in a crater. */
 struct ground_grip ground_grip_at(const struct step_context *context, double x, double z);
 
 #endif

@@ -295,20 +295,19 @@ static inline void change_position(const struct step_context *context, struct gr
 #define EASE_MPS 0.04
 #define EASE_RPS 0.04
 
-/* Writes height, pitch and roll of a row that comes back. Its place is not written yet. */
-static void ease(const struct step_context *context, const struct ground_vehicle *batch, int l)
+void ground_vehicle_ease(const struct step_context *context, uint32_t i, double x, double z,
+                         struct vec3 height_pitch_roll)
 {
     struct entities *m = context->m;
-    uint32_t i = batch->row[l];
     double most_m = EASE_MPS * context->dt_s, most_rad = EASE_RPS * context->dt_s;
-    double height = m->y[i] - kinematics_ground(context, m->x[i], m->z[i]);
+    double pitch = height_pitch_roll.y, roll = height_pitch_roll.z;
+    double height = m->y[i] - kinematics_ground(context, x, z);
     height = kinematics_approach(height, 0.0, most_m);
-    m->y[i] = batch->pose.y.lane[l] + height;
-    m->pitch[i] = kinematics_approach(m->pitch[i], batch->pose.pitch.lane[l], most_rad);
-    m->roll[i] = kinematics_approach(m->roll[i], batch->pose.roll.lane[l], most_rad);
+    m->y[i] = height_pitch_roll.x + height;
+    m->pitch[i] = kinematics_approach(m->pitch[i], pitch, most_rad);
+    m->roll[i] = kinematics_approach(m->roll[i], roll, most_rad);
     m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
-    if (height == 0.0 && m->pitch[i] == batch->pose.pitch.lane[l] &&
-        m->roll[i] == batch->pose.roll.lane[l])
+    if (height == 0.0 && m->pitch[i] == pitch && m->roll[i] == roll)
         m->flags[i] &= (uint8_t)~ENTITY_FLAG_CHASSIS;
 }
 
@@ -317,7 +316,9 @@ static void set_down(const struct step_context *context, const struct ground_veh
     struct entities *m = context->m;
     uint32_t i = batch->row[l];
     if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
-        ease(context, batch, l);
+        const struct vec3 ground = {batch->pose.y.lane[l], batch->pose.pitch.lane[l],
+                                    batch->pose.roll.lane[l]};
+        ground_vehicle_ease(context, i, m->x[i], m->z[i], ground);
         return;
     }
     m->y[i] = batch->pose.y.lane[l];

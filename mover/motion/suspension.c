@@ -10,6 +10,7 @@
 #define WHEELBASE     0.68 /* between the outer axles over the length */
 #define TRACK_LENGTH  0.58 /* of a track on the ground over the length */
 #define TANDEM_M      1.2  /* between the axles of a tandem, at most */
+#define HARD_MPS      2.0  /* a bump stop that is hit more slowly takes no harm */
 #define LEANS_MOST    0.3  /* cosine: a wheel whose ray is flatter to the ground bears nothing */
 #define CRATER_STEP_M 0.1  /* between the heights that give the slope of a crater */
 
@@ -73,6 +74,16 @@ static double force_of(const struct suspension *suspension, double squeeze_m, do
                               suspension->damper_nspm * closing_mps);
 }
 
+/* Returns the power by which the bump stop is hit beyond what it bears without harm [W]. */
+static double stop_power(const struct suspension *suspension, double squeeze_m, double closing_mps)
+{
+    double beyond = squeeze_m - suspension->most_m;
+    if (beyond <= 0.0 || closing_mps <= HARD_MPS)
+        return 0.0;
+    return BUMP_STOP * suspension->spring_npm * beyond *
+           (closing_mps - HARD_MPS * HARD_MPS / closing_mps);
+}
+
 /* Moves load from the less pressed wheel of each axle to the other one. Returns the sum of loads.
  */
 static double roll_bars(struct suspension *suspension)
@@ -104,14 +115,23 @@ double suspension_load(struct suspension *suspension, const struct step_context 
         struct vec3 at = vec3_add(body->centre, wheel->arm);
         double above = at.y - ground_at(context, cratered, at.x, at.z, &wheel->normal);
         double leans = vec3_dot(up, wheel->normal);
-        wheel->squeeze_m = wheel->load_n = 0.0;
+        wheel->squeeze_m = wheel->load_n = wheel->stop_w = 0.0;
         if (above >= 0.0 || leans < LEANS_MOST)
             continue;
         wheel->squeeze_m = -above * wheel->normal.y / leans;
         wheel->arm = vec3_add(wheel->arm, vec3_scale(up, wheel->squeeze_m));
         struct vec3 speed = vec3_add(body->velocity, vec3_cross(body->spin, wheel->arm));
-        wheel->load_n =
-            force_of(suspension, wheel->squeeze_m, -vec3_dot(speed, wheel->normal) / leans);
+        double closing = -vec3_dot(speed, wheel->normal) / leans;
+        wheel->load_n = force_of(suspension, wheel->squeeze_m, closing);
+        wheel->stop_w = stop_power(suspension, wheel->squeeze_m, closing);
     }
     return roll_bars(suspension);
+}
+
+double suspension_grip(const struct suspension *suspension)
+{
+    double grip = 0.0;
+    for (uint32_t i = 0; i < suspension->count; i++)
+        grip += suspension->wheel[i].friction * suspension->wheel[i].load_n;
+    return grip;
 }

@@ -18,6 +18,8 @@ struct wheel {
     /* In this sub-step. */
     double squeeze_m; /* how far the ground presses it from there; 0: it does not touch */
     double load_n;
+    double stop_w;   /* power by which its bump stop is hit hard */
+    double friction; /* of the ground under it: set by the caller */
     struct vec3 normal;
     struct vec3 arm;               /* [m, world axes] from the centre of mass to its contact */
     struct vec3 axis[WHEEL_AXES];  /* unit, in the plane of the ground */
@@ -48,5 +50,9 @@ void suspension_of(const struct kind *kind, struct suspension *suspension);
  * there may be craters under the body. */
 double suspension_load(struct suspension *suspension, const struct step_context *context,
                        const struct rigid_body *body, const struct mat3 *turn, bool cratered);
+
+/* Returns the greatest force along the ground that all wheels together can bear [N], by their loads
+ * and the friction under them. */
+double suspension_grip(const struct suspension *suspension);
 
 #endif

@@ -63,6 +63,17 @@ double tyre_side_share(const struct kind *kind, double forward_mps, double yaw_r
     return TRACK_SIDE / (0.925 + 0.15 * maths_min(radius / kind->track_m, 10.0));
 }
 
+/* Lets the hand brake hold a wheel. A wheel that does not roll slides along its slip, so that it
+ * hardly holds to the sides. slip: to the side over along. */
+static void pull_hand_brake(struct wheel *wheel, double share, double slip)
+{
+    double aside = slip / sqrt(1.0 + slip * slip);
+    wheel->most_ns[WHEEL_ALONG] =
+        maths_min(wheel->grip_ns, wheel->most_ns[WHEEL_ALONG] + share * wheel->grip_ns);
+    wheel->most_ns[WHEEL_ACROSS] *= maths_max(1.0 - share, aside);
+    wheel->drive_ns *= 1.0 - share;
+}
+
 /* Sets the axes of a wheel that touches, and the most that its impulses can be. */
 static void prepare(struct wheel *wheel, struct rigid_body *body, const struct mat3 *turn,
                     const struct mat3 *inverse, const struct tyre_demand *demand, double steer)
@@ -76,15 +87,17 @@ static void prepare(struct wheel *wheel, struct rigid_body *body, const struct m
     set_axis(wheel, WHEEL_ACROSS, vec3_cross(along, wheel->normal), arm, body, inverse);
     double rolls = fabs(speed_along(wheel, WHEEL_ALONG, body));
     double slip = fabs(speed_along(wheel, WHEEL_ACROSS, body)) / maths_max(rolls, SLOW_MPS);
-    double share = wheel->load_n / demand->load_n;
+    double share = wheel->friction * wheel->load_n / demand->grip_n;
     double stiffness = STIFFNESS * (wheel->steers || tracked ? 1.0 : REAR_STIFFNESS);
-    double grip = demand->friction * (wheel->steers && !tracked ? FRONT_GRIP : 1.0);
+    double grip = wheel->friction * (wheel->steers && !tracked ? FRONT_GRIP : 1.0);
     wheel->grip_ns = grip * wheel->load_n * demand->dt_s;
     wheel->most_ns[WHEEL_ALONG] = demand->force.brake_n * share * demand->dt_s;
     wheel->most_ns[WHEEL_ACROSS] =
-        demand->side * wheel->grip_ns * brush(slip, stiffness, demand->friction);
+        demand->side * wheel->grip_ns * brush(slip, stiffness, wheel->friction);
     wheel->drive_ns =
         maths_clamp(demand->force.drive_n * share * demand->dt_s, -wheel->grip_ns, wheel->grip_ns);
+    if (!wheel->steers && demand->drivetrain->hand_brake > 0.0)
+        pull_hand_brake(wheel, demand->drivetrain->hand_brake, slip);
     apply(wheel, WHEEL_ALONG, wheel->drive_ns, body);
 }
 
@@ -124,7 +137,7 @@ static struct skid skid_of(const struct mat3 *turn, const struct mat3 *inverse,
                         .wanted_rps = -demand->drivetrain->yaw_rps};
     skid.twist = rotation_apply(inverse, skid.up);
     skid.inertia_kgm2 = 1.0 / vec3_dot(skid.up, skid.twist);
-    double left = TRACK_PULL * demand->friction * demand->load_n - fabs(demand->force.drive_n);
+    double left = TRACK_PULL * demand->grip_n - fabs(demand->force.drive_n);
     skid.most_nms = maths_max(left, 0.0) * 0.5 * kind->track_m * demand->dt_s;
     return skid;
 }

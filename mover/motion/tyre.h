@@ -9,9 +9,8 @@
 struct tyre_demand {
     const struct drivetrain *drivetrain;
     struct drivetrain_force force;
-    double friction; /* greatest force along the ground over the load */
-    double side;     /* share of it that holds to the sides */
-    double load_n;   /* of all wheels */
+    double side;   /* share of the friction under a wheel that holds to the sides */
+    double grip_n; /* most that all wheels can bear, over 0: drive and brakes are shared by it */
     double dt_s;
 };
 

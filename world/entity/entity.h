@@ -70,13 +70,14 @@ enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED
     X(double, fuel_l)      /* [l] */                                                               \
     X(float, throttle)     /* -1..1, by its driver or its agent */                                 \
     X(float, steer)        /* -1..1, by its driver or its agent: right */                          \
-    X(float, climb)        /* -1..1, when driven: up (aircraft) */                                 \
+    X(float, climb)        /* -1..1, when driven: up (aircraft), hand brake (land, above 0) */     \
     X(float, brake)        /* 0..1, when driven */                                                 \
     X(float, traverse)     /* -1..1, when driven: turret to the right */                           \
     X(float, elevate)      /* -1..1, when driven: gun up */                                        \
     X(float, turret)       /* [rad] clockwise off the heading, -pi..pi */                          \
     X(float, gun)          /* [rad] up off the body's own plane */                                 \
-    X(float, dodge)        /* [rad] to the right of its goal, around obstacles */                  \
+    X(float, dodge)        /* [rad] to the right of its goal, around obstacles; when driven: */    \
+                           /* -1..1, where the steering wheel of a land vehicle is */              \
     X(float, ease)         /* 0..1: share of its speed that it gives up for obstacles ahead */     \
     X(float, bump_heading) /* [rad] away from the obstacle that it ran into */                     \
     X(uint64_t, driver) /* the one source of commands that drives it, until until_tick; 0: none */ \

@@ -222,6 +222,8 @@ static double table_run(struct table_test *test, double friction, double seconds
         struct mat3 turn = rotation_matrix(body->turn);
         struct mat3 inverse = mass_properties_inverse_world(&body->inertia, &turn);
         double load = suspension_load(&test->suspension, &test->step, body, &turn, false);
+        for (uint32_t i = 0; i < test->suspension.count; i++)
+            test->suspension.wheel[i].friction = friction;
         for (uint32_t i = 0; i < test->suspension.count; i++) {
             const struct wheel *wheel = &test->suspension.wheel[i];
             struct vec3 push = vec3_scale(wheel->normal, wheel->load_n * dt_s);
@@ -236,9 +238,8 @@ static double table_run(struct table_test *test, double friction, double seconds
         const struct tyre_demand demand = {
             .drivetrain = &test->drivetrain,
             .force = {0.0, test->drivetrain.wanted_mps == 0.0 ? friction * load : 0.0},
-            .friction = friction,
             .side = 1.0,
-            .load_n = load,
+            .grip_n = friction * load,
             .dt_s = dt_s};
         if (load > 0.0)
             tyre_solve(&test->suspension, body, &turn, &inverse, &demand);
@@ -453,6 +454,37 @@ static void test_it_goes_back_to_the_ground_without_a_jump(void **state)
     }
 }
 
+/* A driver takes a vehicle that follows the ground. */
+static void test_it_goes_to_its_springs_without_a_jump(void **state)
+{
+    static const char *const kinds[] = {"tank", "carrier", "jeep", "truck"};
+    (void)state;
+    for (size_t n = 0; n < sizeof kinds / sizeof kinds[0]; n++) {
+        double jump = 0.0, faster = 0.0, turned = 0.0;
+        reopen("");
+        steps_plane(&f, 0.12, 0.15);
+        uint32_t row = put_agent(kinds[n], 0.0, 6.0);
+        steps_rows(&f).flags[row] = 0;
+        fixture_run(&f, 2);
+        steps_rows(&f).vx[row] = 6.0;
+        for (uint32_t frame = 0; frame < 2 * HZ; frame++) {
+            struct entities e = steps_rows(&f);
+            const struct vec3 at = entities_position(&e, row), v = entities_velocity(&e, row);
+            double pitch = e.pitch[row], roll = e.roll[row];
+            steps_drive(&f, row, 6.0 / steps_kind(&f, kinds[n])->max_speed_mps, 0.0, 0.0);
+            e = steps_rows(&f);
+            struct vec3 way = vec3_sub(entities_position(&e, row), at);
+            jump = maths_max(jump, vec3_length(vec3_sub(way, vec3_scale(v, 1.0 / HZ))));
+            faster = maths_max(faster, vec3_length(vec3_sub(entities_velocity(&e, row), v)));
+            turned = maths_max(turned, fabs(e.pitch[row] - pitch) + fabs(e.roll[row] - roll));
+        }
+        printf("%s: driven with a jump of %.4f m, %.3f m/s and %.4f rad a frame\n", kinds[n], jump,
+               faster, turned);
+        assert_true(steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS);
+        assert_true(jump <= 0.01 && faster <= 0.1 && turned <= 0.01);
+    }
+}
+
 static void test_an_undisturbed_agent_follows_the_ground(void **state)
 {
     (void)state;
@@ -552,6 +584,7 @@ static void test_it_keeps_its_shell_over_the_ground_on_waves(void **state)
     double high = 25.0;
     (void)state;
     steps_ground(&f, waves, &high);
+    steps_kind(&f, "jeep")->resistance_j = 1e12; /* its landings would wreck it */
     uint32_t row = put("jeep", 25000.0, 25.0);
     double deepest = 0.0, fastest = 0.0;
     for (uint32_t frame = 0; frame < 60 * HZ; frame++) {
@@ -639,6 +672,7 @@ int main(void)
         T(test_it_lands_from_a_metre_on_its_wheels),
         T(test_it_stands_on_a_side_slope_without_creeping),
         T(test_it_goes_back_to_the_ground_without_a_jump),
+        T(test_it_goes_to_its_springs_without_a_jump),
         T(test_an_undisturbed_agent_follows_the_ground),
         T(test_it_keeps_every_bit_of_its_pose_at_rest),
         T(test_it_crosses_a_crater_on_its_springs),

@@ -6,6 +6,7 @@
 #include <stddef.h>
 #include <setjmp.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include <cmocka.h>
 
@@ -89,6 +90,39 @@ static void test_hold_ends_at_the_worlds_edge(void **state)
     assert_true(steps_rows(&f).x[row] == 0.0 && steps_rows(&f).vx[row] == 0.0);
 }
 
+/* A driven vehicle that is in the air, or leans on its springs, is told to hold its course. */
+static void test_hold_begins_without_a_jump(void **state)
+{
+    double jump_m = 0.0, jump_mps = 0.0, jump_rad = 0.0;
+    (void)state;
+    uint32_t row = put("jeep", 25000.0, 25000.0, 100.25, (struct vec3){12.0, 0.0, 0.0});
+    steps_rows(&f).behaviour[row] = BEHAVIOUR_DRIVEN;
+    for (uint32_t frame = 0; frame < 8; frame++)
+        steps_drive(&f, row, 12.0 / 29.0, 0.5, 0.0);
+    steps_rows(&f).behaviour[row] = steps_rows(&f).order[row] = BEHAVIOUR_HOLD;
+    for (uint32_t frame = 0; frame < 1200; frame++) {
+        struct entities e = steps_rows(&f);
+        const struct vec3 at = entities_position(&e, row), v = entities_velocity(&e, row);
+        double pitch = e.pitch[row], roll = e.roll[row];
+        fixture_run(&f, 1);
+        e = steps_rows(&f);
+        struct vec3 way = vec3_sub(entities_position(&e, row), at),
+                    after = entities_velocity(&e, row);
+        double faster = vec3_length(vec3_sub(after, v));
+        double off = vec3_length(vec3_sub(way, vec3_scale(vec3_add(v, after), 0.5 / 60.0)));
+        jump_m = maths_max(jump_m, off);
+        jump_mps = maths_max(jump_mps, faster);
+        jump_rad = maths_max(jump_rad, fabs(e.pitch[row] - pitch) + fabs(e.roll[row] - roll));
+    }
+    struct entities e = steps_rows(&f);
+    printf("hold after a drop: at most %.4f m, %.2f m/s, %.4f rad in a frame\n", jump_m, jump_mps,
+           jump_rad);
+    assert_true(jump_m < 0.01 && jump_mps < 1.0 && jump_rad < 0.02);
+    assert_false(e.flags[row] & ENTITY_FLAG_CHASSIS);
+    assert_true(e.y[row] == 100.0 && e.pitch[row] == 0.0 && e.roll[row] == 0.0);
+    assert_true(steps_speed(&f, row) > 8.0);
+}
+
 int main(void)
 {
 #define TEST(function)                                                                             \
@@ -98,6 +132,7 @@ int main(void)
         TEST(test_hold_reacts_to_nothing),
         TEST(test_hold_follows_the_ground_and_asks_nothing_of_it),
         TEST(test_hold_ends_at_the_worlds_edge),
+        TEST(test_hold_begins_without_a_jump),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -224,10 +224,11 @@ static void test_a_throttle_let_go_slows_it_by_its_engine(void **state)
     steps_pedals(&f, half, 0.0, 0.5, GEAR_AUTOMATIC);
     double before[2] = {steps_speed(&f, row), steps_speed(&f, half)};
     fixture_run(&f, (uint32_t)HZ);
-    assert_true(near(before[0] - steps_speed(&f, row), 0.5 * kind->acceleration_mps2, SPEED_MPS));
+    double rolling = 0.045 * GRAVITY_MPS2, engine = 0.5 * kind->acceleration_mps2;
+    assert_true(near(before[0] - steps_speed(&f, row), engine + rolling, SPEED_MPS));
     double hardest = 0.95 * DIRT * GRAVITY_MPS2;
-    assert_true(near(before[1] - steps_speed(&f, half),
-                     0.25 * kind->acceleration_mps2 + 0.5 * hardest, 2.0 * SPEED_MPS));
+    assert_true(near(before[1] - steps_speed(&f, half), 0.5 * engine + 0.5 * hardest + rolling,
+                     2.0 * SPEED_MPS));
 }
 
 static void test_reverse_gear_goes_backwards_by_the_throttle(void **state)
@@ -296,6 +297,7 @@ static void test_no_control_makes_a_number_that_is_none_or_passes_a_limit(void *
     uint32_t row = put_tank(25000.0, 25010.0, 90.0, 0.0);
     (void)state;
     steps_ground(&f, bumpy, NULL);
+    steps_kind(&f, "tank")->resistance_j = 1e12; /* hard landings do not wreck it */
     for (int n = 0; n < 3000; n++) {
         double before = steps_speed(&f, row), heading = steps_rows(&f).heading[row];
         struct command command = {.type = COMMAND_DRIVE, .entity = steps_rows(&f).id[row]};
