@@ -5,8 +5,17 @@
 #ifndef JOLON_MOVER_MOTION_CHASSIS_RUN_H
 #define JOLON_MOVER_MOTION_CHASSIS_RUN_H
 
-#include "mover/motion/body_shell.h"
+#include "mover/motion/ground_contacts.h"
 #include "mover/motion/tyre.h"
+
+/* Four points each of the underside, of the ends and of the roof. */
+#define CHASSIS_SHELL_POINTS 12u
+
+/* The points of the body that the ground may touch. */
+struct chassis_shell {
+    struct vec3 point[CHASSIS_SHELL_POINTS]; /* [m] body axes */
+    double reach_m;
+};
 
 /* A vehicle in a frame. */
 struct chassis {
@@ -19,7 +28,7 @@ struct chassis {
     double most_mps;               /* that fuel and debris allow */
     double friction;               /* mean of the ground under the wheels in the last sub-step */
     double fall_j;                 /* energy by which stops and shell were hit hard in the frame */
-    struct body_shell shell;
+    struct chassis_shell shell;
     bool cratered, littered; /* there may be craters, debris under it */
     bool rough;              /* a wheel is on its bump stop or bears next to nothing */
     bool level;              /* every wheel bears in every sub-step */

@@ -48,8 +48,7 @@ static void set_down(const struct step_context *context, const struct ground_pos
     struct entities *m = context->m;
     if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
         const struct vec3 ground = {pose->y.lane[l], pose->pitch.lane[l], pose->roll.lane[l]};
-        ground_vehicle_ease(context, i, m->x[i] - m->vx[i] * context->dt_s,
-                            m->z[i] - m->vz[i] * context->dt_s, ground);
+        ground_vehicle_ease(context, i, m->x[i], m->z[i], ground);
         return;
     }
     m->y[i] = pose->y.lane[l];

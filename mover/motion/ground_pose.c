@@ -65,6 +65,25 @@ static void dig(const struct step_context *context, struct ground_pose *pose,
     }
 }
 
+/* Earthworks are rough where they bend under a body. */
+static void find_bends(const struct step_context *context, struct ground_pose *pose,
+                       const union simd_lanes x[POINTS], const union simd_lanes z[POINTS])
+{
+    const struct earthworks *works = &context->world->terrain.earthworks;
+    for (int l = 0; l < LANE_COUNT; l++) {
+        double offset[POINTS];
+        if (context->craters->count == 0) /* nothing was dug */
+            pose->step.lane[l] = 0.0;
+        for (int p = 0; pose->cratered.lane[l] && p < POINTS; p++)
+            offset[p] = earthwork_offset(works, x[p].lane[l], z[p].lane[l]);
+        if (!pose->cratered.lane[l])
+            continue;
+        double along = offset[FRONT] + offset[BACK] - 2.0 * offset[MIDDLE];
+        double across = offset[RIGHT] + offset[LEFT] - 2.0 * offset[MIDDLE];
+        pose->step.lane[l] = maths_max(pose->step.lane[l], maths_max(fabs(along), fabs(across)));
+    }
+}
+
 static void lift(const struct step_context *context, struct ground_pose *pose)
 {
     for (int l = 0; l < LANE_COUNT; l++) {
@@ -90,6 +109,8 @@ void ground_pose_find(const struct step_context *context, struct ground_pose *po
         terrain_cache_heights(terrain, &pose->ground, &x[p], &z[p], &height[p]);
     if (context->craters->count > 0)
         dig(context, pose, x, z, height);
+    if (terrain->earthworks.count > 0)
+        find_bends(context, pose, x, z);
     pose->y = height[MIDDLE];
     if (context->craters->count > 0 || terrain->earthworks.count > 0)
         lift(context, pose);

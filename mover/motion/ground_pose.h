@@ -18,7 +18,7 @@ struct ground_pose {
     uint16_t kind[LANE_COUNT];                /* of the half sizes; KIND_NONE: none yet */
     union lane_masks cratered;                /* there may be craters under the body */
     union simd_lanes y, pitch, roll;          /* results */
-    union simd_lanes step;                    /* result: by which craters differ under it [m] */
+    union simd_lanes step; /* result: by which craters differ, and works bend, under it [m] */
 };
 
 /* Empties all lanes. */

@@ -295,19 +295,19 @@ static inline void change_position(const struct step_context *context, struct gr
 #define EASE_MPS 0.04
 #define EASE_RPS 0.04
 
-void ground_vehicle_ease(const struct step_context *context, uint32_t i, double x, double z,
+void ground_vehicle_ease(const struct step_context *context, uint32_t i, double to_x, double to_z,
                          struct vec3 height_pitch_roll)
 {
     struct entities *m = context->m;
+    double x = context->committed->entities.x[i], z = context->committed->entities.z[i];
     double most_m = EASE_MPS * context->dt_s, most_rad = EASE_RPS * context->dt_s;
     double pitch = height_pitch_roll.y, roll = height_pitch_roll.z;
-    double height = m->y[i] - kinematics_ground(context, x, z);
-    height = kinematics_approach(height, 0.0, most_m);
-    m->y[i] = height_pitch_roll.x + height;
+    double risen = kinematics_ground(context, to_x, to_z) - kinematics_ground(context, x, z);
+    m->y[i] = kinematics_approach(m->y[i] + risen, height_pitch_roll.x, most_m);
     m->pitch[i] = kinematics_approach(m->pitch[i], pitch, most_rad);
     m->roll[i] = kinematics_approach(m->roll[i], roll, most_rad);
     m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
-    if (height == 0.0 && m->pitch[i] == pitch && m->roll[i] == roll)
+    if (m->y[i] == height_pitch_roll.x && m->pitch[i] == pitch && m->roll[i] == roll)
         m->flags[i] &= (uint8_t)~ENTITY_FLAG_CHASSIS;
 }
 
@@ -318,7 +318,7 @@ static void set_down(const struct step_context *context, const struct ground_veh
     if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
         const struct vec3 ground = {batch->pose.y.lane[l], batch->pose.pitch.lane[l],
                                     batch->pose.roll.lane[l]};
-        ground_vehicle_ease(context, i, m->x[i], m->z[i], ground);
+        ground_vehicle_ease(context, i, batch->pose.x.lane[l], batch->pose.z.lane[l], ground);
         return;
     }
     m->y[i] = batch->pose.y.lane[l];

@@ -38,10 +38,10 @@ bool ground_vehicle_take_held(const struct step_context *context, struct ground_
 /* Moves the rows of the batch. Their lanes stay taken, so that the caller can read blocked. */
 void ground_vehicle_move(const struct step_context *context, struct ground_vehicle *batch);
 
-/* Writes height, pitch and roll of row i, which has ENTITY_FLAG_CHASSIS and is calm: they go from
- * where they are to those of the ground at its new place, bit by bit. x, z: its place before the
- * frame. Takes the flag away when they agree. */
-void ground_vehicle_ease(const struct step_context *context, uint32_t i, double x, double z,
+/* Writes height, pitch and roll of row i, which has ENTITY_FLAG_CHASSIS and is calm, at its new
+ * place on the map: they go with the ground and ease to those of a row that follows it, bit by bit.
+ * Takes the flag away when they agree. */
+void ground_vehicle_ease(const struct step_context *context, uint32_t i, double to_x, double to_z,
                          struct vec3 height_pitch_roll);
 
 /* Returns the share of full speed that debris leaves row i where it is. */

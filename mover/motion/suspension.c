@@ -4,15 +4,21 @@
 #include "world/terrain/terrain.h"
 #include "world/world.h"
 
-#define DAMPING       0.35 /* share of the critical damping */
-#define BUMP_STOP     10.0 /* stiffness of the bump stop over that of the spring */
-#define ROLL_BAR      0.75 /* of an axle: stiffness against roll over that of a spring */
-#define WHEELBASE     0.68 /* between the outer axles over the length */
-#define TRACK_LENGTH  0.58 /* of a track on the ground over the length */
-#define TANDEM_M      1.2  /* between the axles of a tandem, at most */
-#define HARD_MPS      2.0  /* a bump stop that is hit more slowly takes no harm */
-#define LEANS_MOST    0.3  /* cosine: a wheel whose ray is flatter to the ground bears nothing */
-#define CRATER_STEP_M 0.1  /* between the heights that give the slope of a crater */
+#define DAMPING      0.35 /* share of the critical damping */
+#define BUMP_STOP    10.0 /* stiffness of the bump stop over that of the spring */
+#define BUMP_RETURN  0.5  /* share of its force that it gives back */
+#define ROLL_BAR     0.75 /* of an axle: stiffness against roll over that of a spring */
+#define WHEELBASE    0.68 /* between the outer axles over the length */
+#define TRACK_LENGTH 0.58 /* of a track on the ground over the length */
+#define TANDEM_M     1.2  /* between the axles of a tandem, at most */
+#define HARD_MPS     2.0  /* a bump stop that is hit more slowly takes no harm */
+#define LEANS_MOST   0.3  /* cosine: a wheel whose ray is flatter to the ground bears nothing */
+#define SLOPE_STEP_M 0.1  /* between the heights that give the slope of uneven ground */
+#define WHEEL_RADIUS 0.2  /* of a wheel over the height of its vehicle */
+#define BOW          0.21 /* length of the end of a track over the vehicle's */
+#define BOW_RISE     0.7  /* tangent of its slope */
+#define STEEPEST     3.0  /* tangent: a wheel rolls onto an edge as onto a slope like that */
+#define SAMPLES      9    /* points at which a wheel may touch uneven ground */
 
 /* Returns where the axle is over the distance between the outer axles: the middle of all axles is
  * the body's. Behind the front axle of a truck the others stand close together. */
@@ -37,10 +43,13 @@ void suspension_of(const struct kind *kind, struct suspension *suspension)
     suspension->spring_npm = kind->mass_kg * rate * rate / count;
     suspension->damper_nspm = 2.0 * DAMPING * kind->mass_kg * rate / count;
     suspension->ground_m = length;
+    suspension->radius_m = WHEEL_RADIUS * kind->height_m;
+    suspension->bow_m = kind->tracked ? BOW * kind->length_m : 0.0;
     for (uint32_t i = 0; i < suspension->count; i++) {
         struct wheel *wheel = &suspension->wheel[i];
         wheel->side = i & 1 ? 1.0 : -1.0;
         wheel->steers = !kind->tracked && i < 2;
+        wheel->bow = !kind->tracked ? 0.0 : i < 2 ? 1.0 : i + 2 >= suspension->count ? -1.0 : 0.0;
         wheel->place = (struct vec3){axle_place(kind, i / 2, length), -suspension->sag_m,
                                      0.5 * wheel->side * kind->track_m};
     }
@@ -48,28 +57,92 @@ void suspension_of(const struct kind *kind, struct suspension *suspension)
     suspension->wheelbase_m = front * kind->axles / (kind->axles - 1);
 }
 
-/* Returns the height of the ground and its upward normal. */
-static double ground_at(const struct step_context *context, bool cratered, double x, double z,
-                        struct vec3 *normal)
+/* --- the ground --------------------------------------------------------------------------------*/
+
+/* Where a wheel touches. */
+struct wheel_contact {
+    double height_m; /* of the ground for the wheel */
+    double ahead_m;  /* from the wheel along the body's heading */
+    struct vec3 normal;
+};
+
+static struct vec3 normal_of(double east, double south)
+{
+    return vec3_scale((struct vec3){-east, 1.0, -south},
+                      1.0 / sqrt(1.0 + east * east + south * south));
+}
+
+static double height_at(const struct step_context *context, double x, double z)
+{
+    return terrain_height(&context->world->terrain, context->craters, x, z);
+}
+
+/* Returns the height of the rim of a wheel, or of the end of a track, over its lowest point.
+ * *slope: its tangent there. ahead_m: within the wheel or the end. */
+static double rim(const struct suspension *suspension, const struct wheel *wheel, double ahead_m,
+                  double *slope)
+{
+    double r = suspension->radius_m, d = fabs(ahead_m);
+    if (wheel->bow * ahead_m > 0.0) {
+        *slope = BOW_RISE * wheel->bow;
+        return BOW_RISE * d;
+    }
+    double left = sqrt(maths_max(r * r - d * d, 1e-9));
+    *slope = maths_clamp(ahead_m / left, -STEEPEST, STEEPEST);
+    return r - left;
+}
+
+/* Returns sample n of the points at which a wheel may contact. */
+static double sample(const struct suspension *suspension, const struct wheel *wheel, int n)
+{
+    static const double share[SAMPLES] = {-0.98, -0.85, -0.6, -0.3, 0.3, 0.6, 0.85, 0.98, 1.0};
+    static const double bow[SAMPLES] = {-0.85, -0.4, 0.12, 0.25, 0.4, 0.55, 0.7, 0.85, 1.0};
+    if (wheel->bow == 0.0)
+        return share[n] * suspension->radius_m;
+    return wheel->bow * bow[n] * (bow[n] < 0.0 ? suspension->radius_m : suspension->bow_m);
+}
+
+/* Finds where a wheel touches uneven ground. ahead: the body's heading on the map, unit. */
+static struct wheel_contact contact_uneven(const struct suspension *suspension,
+                                           const struct wheel *wheel,
+                                           const struct step_context *context, struct vec3 at,
+                                           struct vec3 ahead)
+{
+    double here = height_at(context, at.x, at.z), slope;
+    double east = (height_at(context, at.x + SLOPE_STEP_M, at.z) - here) / SLOPE_STEP_M;
+    double south = (height_at(context, at.x, at.z + SLOPE_STEP_M) - here) / SLOPE_STEP_M;
+    double steep = east * ahead.x + south * ahead.z, most = 0.0;
+    if (fabs(steep) > 1.0) /* the side of an edge: its top bears the wheel */
+        east = south = steep = 0.0;
+    struct wheel_contact contact = {here, 0.0, normal_of(east, south)};
+    for (int n = 0; n < SAMPLES; n++) {
+        double d = sample(suspension, wheel, n);
+        double over = height_at(context, at.x + d * ahead.x, at.z + d * ahead.z) - here -
+                      steep * d - rim(suspension, wheel, d, &slope);
+        if (over <= most)
+            continue;
+        most = over;
+        slope += steep;
+        contact =
+            (struct wheel_contact){here + over, d, normal_of(slope * ahead.x, slope * ahead.z)};
+    }
+    return contact;
+}
+
+static struct wheel_contact contact_plane(const struct step_context *context, struct vec3 at)
 {
     double east, south;
-    double height = terrain_base_plane(&context->world->terrain, x, z, &east, &south);
-    if (cratered) {
-        const struct crater_index *craters = context->craters;
-        double dug = crater_offset(craters, x, z);
-        east += (crater_offset(craters, x + CRATER_STEP_M, z) - dug) / CRATER_STEP_M;
-        south += (crater_offset(craters, x, z + CRATER_STEP_M) - dug) / CRATER_STEP_M;
-        height += dug;
-    }
-    *normal = vec3_scale((struct vec3){-east, 1.0, -south},
-                         1.0 / sqrt(1.0 + east * east + south * south));
-    return height;
+    double height = terrain_base_plane(&context->world->terrain, at.x, at.z, &east, &south);
+    return (struct wheel_contact){height, 0.0, normal_of(east, south)};
 }
+
+/* --- loads -------------------------------------------------------------------------------------*/
 
 /* Returns the force of spring, damper and bump stop; they do not pull. */
 static double force_of(const struct suspension *suspension, double squeeze_m, double closing_mps)
 {
     double beyond = maths_max(0.0, squeeze_m - suspension->most_m);
+    beyond *= closing_mps < 0.0 ? BUMP_RETURN : 1.0;
     return maths_max(0.0, suspension->spring_npm * (squeeze_m + BUMP_STOP * beyond) +
                               suspension->damper_nspm * closing_mps);
 }
@@ -103,27 +176,41 @@ static double roll_bars(struct suspension *suspension)
     return sum;
 }
 
-double suspension_load(struct suspension *suspension, const struct step_context *context,
-                       const struct rigid_body *body, const struct mat3 *turn, bool cratered)
+/* Finds how far the ground presses a wheel, and its load. */
+static void press(struct suspension *suspension, struct wheel *wheel,
+                  const struct step_context *context, const struct rigid_body *body,
+                  const struct mat3 *turn, const struct vec3 *level)
 {
     const struct vec3 up = {turn->m[0][1], turn->m[1][1], turn->m[2][1]};
+    const struct vec3 at = vec3_add(body->centre, wheel->arm);
+    const struct wheel_contact contact =
+        level ? contact_uneven(suspension, wheel, context, at, *level) : contact_plane(context, at);
+    double above = at.y - contact.height_m, leans = vec3_dot(up, contact.normal);
+    wheel->normal = contact.normal;
+    wheel->squeeze_m = wheel->load_n = wheel->stop_w = 0.0;
+    if (above >= 0.0 || leans < LEANS_MOST)
+        return;
+    wheel->squeeze_m = -above * wheel->normal.y / leans;
+    wheel->arm = vec3_add(wheel->arm, vec3_scale(up, wheel->squeeze_m));
+    if (level)
+        wheel->arm = vec3_add(wheel->arm, vec3_scale(*level, contact.ahead_m));
+    struct vec3 speed = vec3_add(body->velocity, vec3_cross(body->spin, wheel->arm));
+    double closing = -vec3_dot(speed, wheel->normal) / leans;
+    wheel->load_n = force_of(suspension, wheel->squeeze_m, closing);
+    wheel->stop_w = stop_power(suspension, wheel->squeeze_m, closing);
+}
+
+double suspension_load(struct suspension *suspension, const struct step_context *context,
+                       const struct rigid_body *body, const struct mat3 *turn, bool uneven)
+{
+    struct vec3 ahead = {turn->m[0][0], 0.0, turn->m[2][0]};
+    ahead = vec3_scale(ahead, 1.0 / maths_max(vec3_length(ahead), 1e-9));
     for (uint32_t i = 0; i < suspension->count; i++) {
         struct wheel *wheel = &suspension->wheel[i];
         struct vec3 place = wheel->place;
         place.y -= body->inertia.centre_m;
         wheel->arm = rotation_apply(turn, place);
-        struct vec3 at = vec3_add(body->centre, wheel->arm);
-        double above = at.y - ground_at(context, cratered, at.x, at.z, &wheel->normal);
-        double leans = vec3_dot(up, wheel->normal);
-        wheel->squeeze_m = wheel->load_n = wheel->stop_w = 0.0;
-        if (above >= 0.0 || leans < LEANS_MOST)
-            continue;
-        wheel->squeeze_m = -above * wheel->normal.y / leans;
-        wheel->arm = vec3_add(wheel->arm, vec3_scale(up, wheel->squeeze_m));
-        struct vec3 speed = vec3_add(body->velocity, vec3_cross(body->spin, wheel->arm));
-        double closing = -vec3_dot(speed, wheel->normal) / leans;
-        wheel->load_n = force_of(suspension, wheel->squeeze_m, closing);
-        wheel->stop_w = stop_power(suspension, wheel->squeeze_m, closing);
+        press(suspension, wheel, context, body, turn, uneven ? &ahead : NULL);
     }
     return roll_bars(suspension);
 }

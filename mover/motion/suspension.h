@@ -1,5 +1,9 @@
 /* Wheels of a land vehicle as vertical rays with a spring and a damper each. Pure; any thread.
  *
+ * On ground that craters and earthworks make uneven a wheel is a disc: it touches the highest of
+ * the points before and behind it. So it rolls over an edge. The ends of tracks rise from the first
+ * and the last road wheel, so that they climb a step.
+ *
  * A road wheel of a track is a wheel like others. Springs carry the body so that its position, the
  * middle of its underside, is on the ground at rest. */
 #ifndef JOLON_MOVER_MOTION_SUSPENSION_H
@@ -14,6 +18,7 @@ enum { WHEEL_ALONG, WHEEL_ACROSS, WHEEL_AXES };
 struct wheel {
     struct vec3 place; /* [m] body axes, relative to the position: its lowest point without load */
     double side;       /* -1: left, 1: right */
+    double bow;        /* 1: at the front end of a track, -1: at the rear end; 0: elsewhere */
     bool steers;
     /* In this sub-step. */
     double squeeze_m; /* how far the ground presses it from there; 0: it does not touch */
@@ -40,16 +45,18 @@ struct suspension {
     double spring_npm; /* of a wheel */
     double damper_nspm;
     double wheelbase_m; /* from the steering axle to the middle of the others */
+    double radius_m;    /* of a wheel */
+    double bow_m;       /* length of the ends of tracks, which rise from the ground; 0 on wheels */
     double ground_m;    /* length of the tracks on the ground, or between the outer axles */
 };
 
 /* Finds the wheels of a kind. */
 void suspension_of(const struct kind *kind, struct suspension *suspension);
 
-/* Finds which wheels touch the ground, and their loads. Returns the sum of the loads [N]. cratered:
- * there may be craters under the body. */
+/* Finds which wheels touch the ground, and their loads. Returns the sum of the loads [N]. uneven:
+ * there may be craters or earthworks under the body. */
 double suspension_load(struct suspension *suspension, const struct step_context *context,
-                       const struct rigid_body *body, const struct mat3 *turn, bool cratered);
+                       const struct rigid_body *body, const struct mat3 *turn, bool uneven);
 
 /* Returns the greatest force along the ground that all wheels together can bear [N], by their loads
  * and the friction under them. */

@@ -18,6 +18,13 @@ struct world;
 
 #define NO_LOOK UINT32_MAX
 
+/* Of a vehicle on its springs. */
+struct sprung_look {
+    double wheel_m;     /* its lowest wheel over the ground, as if without load; below 0: pressed */
+    double shell_m;     /* the lowest point of its shell over the ground */
+    double spring_jpkg; /* energy in its springs over its mass */
+};
+
 /* A frame in a body's life. */
 struct motion_look {
     struct rigid_pose pose;
@@ -29,9 +36,10 @@ struct motion_look {
     double lowest_m;             /* of a wreck: its lowest corner over the ground there, or if it is
                                     high over all ground near: height_m */
     bool wreck;
-    bool sprung;   /* a vehicle on its springs, which need not be on the ground */
-    bool grounded; /* an aircraft or a wreck that may touch the ground */
-    bool at_rest;  /* a wreck that the mover leaves as it is, or that has not moved */
+    struct sprung_look springs; /* of a vehicle on its springs */
+    bool sprung;                /* a vehicle on its springs, which need not be on the ground */
+    bool grounded;              /* an aircraft or a wreck that may touch the ground */
+    bool at_rest;               /* a wreck that the mover leaves as it is, or that has not moved */
 };
 
 struct body_look {

@@ -2,6 +2,7 @@
 #include "supervisor/physics/body_measures.h"
 
 #include "supervisor/physics/hull_shape.h"
+#include "supervisor/physics/sprung_body.h"
 #include "world/entity/kind.h"
 
 #include <stddef.h>
@@ -165,6 +166,9 @@ void body_measures_ground(struct measures *measures, const struct ground_look *g
         body->now.height_m = body->was->height_m;
         body->now.lowest_m = body->was->lowest_m;
         body->now.grounded = body->was->grounded;
+        body->now.springs = body->was->springs;
+        if (body->now.sprung && !body->was->sprung)
+            sprung_body_look(surface, body);
         body->now.at_rest |= body->now.wreck;
         return;
     }
@@ -175,6 +179,8 @@ void body_measures_ground(struct measures *measures, const struct ground_look *g
     if (domain <= DOMAIN_SEA && !body->now.wreck && !body->now.sprung)
         measure_take(measures, MEASURE_OF_HEIGHT, fabs(body->now.height_m), &body->named, NULL);
     measure_corners(measures, ground, &part, body);
+    if (body->now.sprung)
+        sprung_body_look(surface, body);
 }
 
 void body_measures_rest(struct measures *measures, const struct ground_look *ground,
@@ -241,6 +247,8 @@ void body_measures_motion(struct measures *measures, double dt_s, const struct b
     measure_take(measures, MEASURE_OF_SPEED, vec3_length(level(body->now.velocity, true)) / top,
                  &body->named, NULL);
     measure_take(measures, MEASURE_OF_SPIN, vec3_length(body->now.spin), &body->named, NULL);
+    if (body->now.sprung)
+        sprung_body_measure(measures, dt_s, body);
     if (!body->known || body->commanded)
         return;
     /* Between two explosions or collisions it may be faster than before and after. */

@@ -117,7 +117,7 @@ static void begin_share(struct energy_share *share, uint32_t index, const struct
 {
     *share = (struct energy_share){.parent = index, .mass_kg = body->kind->mass_kg};
     share->unexplained = body->known && body->finite && !body->commanded && body->blasts == 0;
-    if (share->unexplained) /* springs take up energy and give it back */
+    if (share->unexplained) /* springs give energy back: see sprung_body.h */
         share->unexplained = !body->now.sprung && !body->was->sprung;
     if (!share->unexplained)
         return;

@@ -13,7 +13,7 @@ replay() { "$jolon" replay "$@"; }
 run duel-run duel 600
 check "600 frames of the duel are good" replay duel-run/commands.log --physics
 replay duel-run/commands.log --physics >text
-check "the table has a line for each measure" eval '[ "$(sed "1,/^measure/d" text | wc -l)" = 17 ]'
+check "the table has a line for each measure" eval '[ "$(sed "1,/^measure/d" text | wc -l)" = 20 ]'
 check "the first lines have the digest, the verdict and the frames" eval \
     'sed -n 1p text | grep -q "equal to the run" && sed -n 2p text | grep -q "^physics: good: looked at 600 frames, 1200 times"'
 check "--frames N looks at N frames" eval \
@@ -28,7 +28,7 @@ told = json.load(open(sys.argv[1]))
 physics = told["physics"]
 assert told["equal"] and physics["good"] is True
 assert physics["frames"] == 600 and physics["bodies"] == 1200 and physics["bodies_at_once"] == 2
-assert len(physics["measures"]) == 17
+assert len(physics["measures"]) == 20
 for name, measure in physics["measures"].items():
     assert set(measure) == {"unit", "meaning", "worst", "bound", "good", "taken", "beyond", "frame", "time_s", "bodies"}, name
     assert measure["good"] and measure["beyond"] == 0, name

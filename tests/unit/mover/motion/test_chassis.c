@@ -533,7 +533,7 @@ static double lowest_corner(uint32_t row)
     struct mat3 turn = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
     double lowest = INFINITY;
     for (unsigned n = 0; n < 8; n++) {
-        struct vec3 own = {(n & 1 ? 0.35 : -0.35) * kind->length_m,
+        struct vec3 own = {(n & 1 ? 0.22 : -0.22) * kind->length_m,
                            n & 2 ? kind->height_m : kind->travel_m,
                            (n & 4 ? 0.5 : -0.5) * kind->width_m};
         struct vec3 at = vec3_add(entities_position(&e, row), rotation_apply(&turn, own));

@@ -1,0 +1,160 @@
+/* Shell, wheels and energy of a vehicle on its springs (docs/decisions/035-chassis.md). */
+#include "supervisor/physics/sprung_body.h"
+
+#include "supervisor/physics/measure.h"
+#include "world/entity/kind.h"
+
+#include <stddef.h>
+
+#define GRAVITY_MPS2 9.80665
+#define SHELL        12u
+#define SLOPE_M      0.5  /* between the heights that give the slope under a wheel */
+#define AIR_M        0.05 /* wheels and shell of a vehicle in the air are higher over the ground */
+#define BUMP_STOP    10.0 /* stiffness over that of the spring */
+#define ROLL_BAR     0.75 /* the same of an axle's bar against roll */
+#define TANDEM_M     1.2  /* between the rear axles of a truck, at most */
+
+static double square_of(double value)
+{
+    return value * value;
+}
+
+/* --- shell and wheels --------------------------------------------------------------------------*/
+
+/* Returns point i of the shell: underside, as high as the wheels can rise, ends and roof. */
+static struct vec3 shell_point(const struct kind *kind, uint32_t i)
+{
+    double length = i < 4 ? 0.22 * kind->length_m : 0.5 * kind->length_m;
+    double height = i < 4   ? kind->travel_m
+                    : i < 8 ? maths_max(0.45 * kind->height_m, kind->travel_m)
+                            : kind->height_m;
+    return (struct vec3){i & 1 ? length : -length, height,
+                         i & 2 ? 0.5 * kind->width_m : -0.5 * kind->width_m};
+}
+
+static double sag_of(const struct kind *kind)
+{
+    return GRAVITY_MPS2 / square_of(TWO_PI * kind->heave_hz);
+}
+
+/* Returns how far in front of the middle an axle is [m]. */
+static double axle_at(const struct kind *kind, uint32_t axle)
+{
+    uint32_t behind = kind->axles - 1u;
+    double length = kind->length_m * (kind->tracked ? 0.58 : 0.68);
+    if (kind->tracked || kind->axles == 2)
+        return length * (0.5 - (double)axle / behind);
+    double spread = maths_min(TANDEM_M, length / kind->axles) * (behind - 1u);
+    double front = (length - 0.5 * spread) * behind / kind->axles;
+    if (axle == 0)
+        return front;
+    return -front / behind + spread * (0.5 - (axle - 1.0) / maths_max(behind - 1.0, 1.0));
+}
+
+/* Returns how far the ground presses a wheel, along the body's upward axis [m]. Below 0: how high
+ * it is over the ground, and more. */
+static double squeeze_of(const struct surface *surface, const struct body_look *body,
+                         struct vec3 wheel)
+{
+    const struct vec3 at = vec3_add(body->named.at, rigid_pose_out(&body->now.pose, wheel));
+    const struct vec3 up = body->now.pose.up;
+    double ground = surface_height(surface, at.x, at.z), half = 0.5 * SLOPE_M;
+    if (at.y >= ground)
+        return ground - at.y;
+    double east =
+        (surface_height(surface, at.x + half, at.z) - surface_height(surface, at.x - half, at.z)) /
+        SLOPE_M;
+    double south =
+        (surface_height(surface, at.x, at.z + half) - surface_height(surface, at.x, at.z - half)) /
+        SLOPE_M;
+    return (ground - at.y) / maths_max(0.3, up.y - up.x * east - up.z * south);
+}
+
+/* Returns the energy in a spring and its bump stop over the mass [J/kg]. */
+static double spring_jpkg(const struct kind *kind, double squeeze_m)
+{
+    double share = 0.5 * square_of(TWO_PI * kind->heave_hz) / (2.0 * kind->axles);
+    double pressed = maths_max(0.0, squeeze_m);
+    double beyond = maths_max(0.0, pressed - sag_of(kind) - kind->travel_m);
+    return share * (square_of(pressed) + BUMP_STOP * square_of(beyond));
+}
+
+static void look_at_wheels(const struct surface *surface, struct body_look *body,
+                           struct sprung_look *look)
+{
+    const struct kind *kind = body->kind;
+    double bar = 0.5 * ROLL_BAR * square_of(TWO_PI * kind->heave_hz) / (2.0 * kind->axles);
+    for (uint32_t axle = 0; axle < kind->axles; axle++) {
+        double squeeze[2];
+        for (int side = 0; side < 2; side++) {
+            const struct vec3 wheel = {axle_at(kind, axle), -sag_of(kind),
+                                       (side ? 0.5 : -0.5) * kind->track_m};
+            squeeze[side] = squeeze_of(surface, body, wheel);
+            look->spring_jpkg += spring_jpkg(kind, squeeze[side]);
+            look->wheel_m = maths_min(look->wheel_m, -squeeze[side]);
+        }
+        look->spring_jpkg +=
+            bar * square_of(maths_max(0.0, squeeze[0]) - maths_max(0.0, squeeze[1]));
+    }
+}
+
+void sprung_body_look(const struct surface *surface, struct body_look *body)
+{
+    struct sprung_look *look = &body->now.springs;
+    *look = (struct sprung_look){.wheel_m = HUGE_VAL, .shell_m = HUGE_VAL};
+    for (uint32_t i = 0; i < SHELL; i++) {
+        const struct vec3 own = rigid_pose_out(&body->now.pose, shell_point(body->kind, i));
+        const struct vec3 at = vec3_add(body->named.at, own);
+        look->shell_m = maths_min(look->shell_m, at.y - surface_height(surface, at.x, at.z));
+    }
+    look_at_wheels(surface, body, look);
+}
+
+/* --- motion ------------------------------------------------------------------------------------*/
+
+static struct vec3 centre_velocity(const struct motion_look *look, const struct kind *kind)
+{
+    const struct vec3 arm = vec3_scale(look->pose.up, kind->centre_height_m);
+    return vec3_add(look->velocity, vec3_cross(look->spin, arm));
+}
+
+/* Returns kinetic energy, height and springs of the body over its mass [J/kg]. */
+static double energy_jpkg(const struct body_look *body, const struct motion_look *look)
+{
+    const struct kind *kind = body->kind;
+    double length = square_of(kind->length_m), width = square_of(kind->width_m);
+    double height = square_of(kind->height_m);
+    const struct vec3 v = centre_velocity(look, kind),
+                      spin = rigid_pose_in(&look->pose, look->spin);
+    double turning = ((height + width) * square_of(spin.x) + (length + width) * square_of(spin.y) +
+                      (length + height) * square_of(spin.z)) /
+                     24.0;
+    double risen = look->pose.at.y + look->pose.up.y * kind->centre_height_m;
+    return 0.5 * vec3_dot(v, v) + turning + GRAVITY_MPS2 * risen + look->springs.spring_jpkg;
+}
+
+static bool is_in_air(const struct motion_look *look)
+{
+    return look->springs.wheel_m > AIR_M && look->springs.shell_m > AIR_M;
+}
+
+void sprung_body_measure(struct measures *measures, double dt_s, const struct body_look *body)
+{
+    const struct kind *kind = body->kind;
+    measure_take(measures, MEASURE_OF_SHELL_UNDERGROUND, maths_max(0.0, -body->now.springs.shell_m),
+                 &body->named, NULL);
+    if (!body->known || body->commanded || body->blasts > 0 || body->struck > 0 || body->hits > 0 ||
+        body->touches || body->touched || !body->was->sprung)
+        return;
+    const struct vec3 before = centre_velocity(body->was, kind);
+    const struct vec3 after = centre_velocity(&body->now, kind);
+    struct vec3 push = vec3_scale(vec3_sub(after, before), 1.0 / dt_s);
+    push.y += GRAVITY_MPS2;
+    if (is_in_air(&body->now) && is_in_air(body->was))
+        measure_take(measures, MEASURE_OF_FLOATING, vec3_length(push), &body->named, NULL);
+    double engine = kind->power_w / kind->mass_kg * dt_s;
+    measure_take(
+        measures, MEASURE_OF_SPRUNG_ENERGY,
+        maths_max(0.0, energy_jpkg(body, &body->now) - energy_jpkg(body, body->was) - engine),
+        &body->named, NULL);
+}

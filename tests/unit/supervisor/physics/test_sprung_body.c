@@ -1,0 +1,144 @@
+/* A tank on its springs, placed and moved by hand: in the ground, in the air, and with energy that
+ * its engine did not give. */
+#include "supervisor/physics/sprung_body.h"
+
+#include "supervisor/physics/physics_check.h"
+#include "tests/support/steps.h"
+#include "world/params.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define DT 0.016666666666666666
+
+static struct fixture f;
+static struct physics_check check;
+static struct state now;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static int end_check(void **state)
+{
+    (void)state;
+    physics_check_free(&check);
+    steps_empty(&f);
+    return 0;
+}
+
+/* Puts a tank on its springs so high over the level ground, and looks at it. */
+static void begin(double height_m, double up_mps)
+{
+    fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                            .at = {25000.0, 100.0 + height_m, 25000.0},
+                                            .behaviour = BEHAVIOUR_DRIVEN});
+    now = fixture_state(&f);
+    now.entities.flags[0] |= ENTITY_FLAG_CHASSIS;
+    now.entities.vy[0] = up_mps;
+    assert_int_equal(physics_check_begin(&check, &f.view.world, &now), 0);
+}
+
+static void next(void)
+{
+    const struct physics_events events = {f.view.events, f.view.world.params->event_slots};
+    now.head->frame++;
+    now.head->tick++;
+    assert_int_equal(physics_check_frame(&check, &now, &events), 0);
+}
+
+static double worst(enum measure_kind kind)
+{
+    return check.measures.of[kind].taken > 0 ? check.measures.of[kind].worst : -1.0;
+}
+
+static void test_a_shell_in_the_ground(void **state)
+{
+    (void)state;
+    double travel = steps_kind(&f, "tank")->travel_m;
+    begin(-travel + 0.01, 0.0);
+    next();
+    assert_true(measure_good(&check.measures, MEASURE_OF_SHELL_UNDERGROUND));
+    now.entities.y[0] = 100.0 - travel - 0.03;
+    next();
+    assert_true(fabs(worst(MEASURE_OF_SHELL_UNDERGROUND) - 0.03) < 1e-9);
+    assert_false(measure_good(&check.measures, MEASURE_OF_SHELL_UNDERGROUND));
+}
+
+static void test_a_tank_that_falls_is_good_and_one_that_floats_is_not(void **state)
+{
+    (void)state;
+    begin(3.0, 0.0);
+    for (int n = 0; n < 20; n++) {
+        double v = now.entities.vy[0] - GRAVITY_MPS2 * DT;
+        now.entities.y[0] += 0.5 * (v + now.entities.vy[0]) * DT;
+        now.entities.vy[0] = v;
+        next();
+    }
+    assert_true(worst(MEASURE_OF_FLOATING) >= 0.0 && worst(MEASURE_OF_FLOATING) < 1e-9);
+    assert_true(worst(MEASURE_OF_SPRUNG_ENERGY) < 1e-6);
+    next(); /* it stands still in the air */
+    now.entities.vy[0] = 0.0;
+    next();
+    assert_true(worst(MEASURE_OF_FLOATING) >= GRAVITY_MPS2 - 1e-9);
+    assert_false(measure_good(&check.measures, MEASURE_OF_FLOATING));
+}
+
+static void test_energy_that_no_engine_gives(void **state)
+{
+    (void)state;
+    const struct kind *kind = steps_kind(&f, "tank");
+    begin(0.0, 0.0);
+    next();
+    assert_true(worst(MEASURE_OF_SPRUNG_ENERGY) == 0.0);
+    now.entities.vx[0] = 4.0; /* 8 J/kg, in one frame */
+    next();
+    double engine = kind->power_w / kind->mass_kg * DT;
+    assert_true(fabs(worst(MEASURE_OF_SPRUNG_ENERGY) - (8.0 - engine)) < 1e-6);
+    assert_false(measure_good(&check.measures, MEASURE_OF_SPRUNG_ENERGY));
+}
+
+/* Its springs give back what a drop pressed into them. */
+static void test_a_drop_on_its_springs_gains_nothing(void **state)
+{
+    (void)state;
+    begin(0.3, 0.0);
+    now.entities.flags[0] |= ENTITY_FLAG_CHASSIS;
+    physics_check_free(&check);
+    fixture_run(&f, 1);
+    now = fixture_state(&f);
+    assert_int_equal(physics_check_begin(&check, &f.view.world, &now), 0);
+    for (int n = 0; n < 180; n++) {
+        fixture_run(&f, 1);
+        now = fixture_state(&f);
+        assert_int_equal(physics_check_frame(&check, &now, NULL), 0);
+    }
+    assert_true(worst(MEASURE_OF_SPRUNG_ENERGY) >= 0.0 && worst(MEASURE_OF_SPRUNG_ENERGY) < 0.2);
+    assert_true(worst(MEASURE_OF_SHELL_UNDERGROUND) < 0.02);
+}
+
+int main(void)
+{
+#define T(name) cmocka_unit_test_teardown(name, end_check)
+    const struct CMUnitTest tests[] = {
+        T(test_a_shell_in_the_ground),
+        T(test_a_tank_that_falls_is_good_and_one_that_floats_is_not),
+        T(test_energy_that_no_engine_gives),
+        T(test_a_drop_on_its_springs_gains_nothing),
+    };
+    return cmocka_run_group_tests(tests, open_world, close_world);
+}
