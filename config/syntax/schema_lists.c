@@ -173,7 +173,8 @@ static const struct key step_keys[] = {
                               .meaning = "The steering, also held for `for_s`. It is positive to "
                                          "the right."),
     [STEP_KEY_CLIMB] = NUMBER("climb", T, climb, -1, 1, "0",
-                              .meaning = "The climb of an aircraft, also held for `for_s`. It is "
+                              .meaning = "The climb of an aircraft, also held for `for_s`; above 0 "
+                                         "the hand brake of a land vehicle. It is "
                                          "positive upwards."),
     [STEP_KEY_FOR] = NUMBER("for_s", T, for_s, 0, 1e7, NULL, .unit = "s",
                             .meaning = "How long the controls are held."),

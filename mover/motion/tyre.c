@@ -10,6 +10,7 @@
 #define SLOW_MPS   0.25 /* a wheel that rolls more slowly slips as at this speed */
 #define SWEEPS     3
 #define TRACK_SIDE 0.85 /* friction of tracks to the sides over that along them */
+#define WIDE       10.0 /* radius of a turn over the track in which tracks hold least */
 #define TRACK_PULL 0.95 /* share of the grip by which tracks turn the body */
 
 /* Returns the direction in which the wheel rolls, on the ground. */
@@ -54,13 +55,14 @@ static double brush(double slip, double stiffness, double friction)
     return 1.0 - left * left * left;
 }
 
-/* The side force of tracks falls in wide turns (Nikitin). */
+/* The side force of tracks falls in wide turns (Nikitin). Straight on they hold on a side slope. */
 double tyre_side_share(const struct kind *kind, double forward_mps, double yaw_rps)
 {
-    double radius = fabs(forward_mps) / maths_max(fabs(yaw_rps), 1e-3);
     if (!kind->tracked)
         return 1.0;
-    return TRACK_SIDE / (0.925 + 0.15 * maths_min(radius / kind->track_m, 10.0));
+    double radius = fabs(forward_mps) / maths_max(fabs(yaw_rps), 1e-3) / kind->track_m;
+    double wide = radius < WIDE ? radius : WIDE * WIDE / radius;
+    return TRACK_SIDE / (0.925 + 0.15 * wide);
 }
 
 /* Lets the hand brake hold a wheel. A wheel that does not roll slides along its slip, so that it
