@@ -254,7 +254,20 @@ static inline void find_ahead(const struct step_context *context, struct ground_
     }
 }
 
-/* Tests whether the point is in the world and on dry land. */
+/* Takes away the lanes whose point is in a ford too deep for the kind. */
+static void heed_fords(const struct step_context *context, const struct ground_vehicle *batch,
+                       const union simd_lanes *x, const union simd_lanes *z, union lane_masks *pass)
+{
+    const struct terrain *terrain = &context->world->terrain;
+    for (int l = 0; l < batch->count; l++) {
+        const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
+        if (batch->pose.cratered.lane[l] &&
+            terrain_water_depth(terrain, x->lane[l], z->lane[l]) > kind->ford_m)
+            pass->lane[l] = 0;
+    }
+}
+
+/* Tests whether the point is in the world and on dry land, or in a ford that the kind can cross. */
 static inline void passable(const struct step_context *context, const struct ground_vehicle *batch,
                             const union simd_lanes *x, const union simd_lanes *z,
                             union lane_masks *pass)
@@ -263,6 +276,8 @@ static inline void passable(const struct step_context *context, const struct gro
     for (int h = 0; h < LANE_FOURS; h++)
         pass->f64x4[h] = ~pass->f64x4[h] & (x->f64x4[h] >= 0.0) & (z->f64x4[h] >= 0.0) &
                          (x->f64x4[h] <= WORLD_SIDE_M) & (z->f64x4[h] <= WORLD_SIDE_M);
+    if (context->world->terrain.earthworks.count > 0)
+        heed_fords(context, batch, x, z, pass);
 }
 
 /* Moves the vehicle there unless it is blocked. */

@@ -8,18 +8,21 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include <cmocka.h>
 
 #define HZ 60
 
-/* Fords of 0.5 and 1.2 m beside each other, and a skid pan. */
+/* Fords of 0.5 and 1.2 m beside each other, one of 1.2 m with gentle banks, and a skid pan. */
 static const char scene[] =
     "world = { seed = 1; capacity = 64; };\n"
     "earthworks = ( { shape = \"ford\"; at = [25000.0, 25000.0]; length_m = 40.0;\n"
     "                 width_m = 30.0; depth_m = 0.5; edge_m = 5.0; },\n"
     "               { shape = \"ford\"; at = [25000.0, 25200.0]; length_m = 40.0;\n"
     "                 width_m = 30.0; depth_m = 1.2; edge_m = 5.0; },\n"
+    "               { shape = \"ford\"; at = [25000.0, 25600.0]; length_m = 80.0;\n"
+    "                 width_m = 80.0; depth_m = 1.2; edge_m = 38.0; },\n"
     "               { shape = \"skid_pan\"; at = [25000.0, 25400.0]; length_m = 60.0;\n"
     "                 width_m = 60.0; grip = 0.2; } );\n";
 
@@ -72,6 +75,36 @@ static void test_a_jeep_crosses_a_shallow_ford_and_stops_at_a_deep_one(void **st
     assert_true(stopped > 10.0 && stopped < 40.0);
 }
 
+/* An agent with a goal beyond the fords crosses the shallow one and never goes into the deep one.
+ */
+static void test_agents_heed_the_depth(void **state)
+{
+    static const double z[3] = {25000.0, 25200.0, 25600.0};
+    double deepest[3] = {0.0, 0.0, 0.0}, farthest[3] = {0.0, 0.0, 0.0};
+    (void)state;
+    for (int n = 0; n < 3; n++) {
+        uint32_t row =
+            fixture_put(&f, (struct fixture_entity){.kind = "jeep",
+                                                    .at = {24950.0, FIXTURE_GROUND_M, z[n]},
+                                                    .heading_rad = HALF_PI});
+        steps_rows(&f).behaviour[row] = steps_rows(&f).order[row] = BEHAVIOUR_PATROL;
+        for (int frame = 0; frame < 20 * HZ; frame++) {
+            struct entities e = steps_rows(&f);
+            e.goal_x[row] = 25100.0;
+            e.goal_z[row] = z[n];
+            fixture_run(&f, 1);
+            e = steps_rows(&f);
+            deepest[n] = maths_max(deepest[n],
+                                   terrain_water_depth(&f.view.world.terrain, e.x[row], e.z[row]));
+            farthest[n] = maths_max(farthest[n], e.x[row]);
+        }
+    }
+    for (int n = 0; n < 3; n++)
+        printf("agent: %.2f m deep, as far as %.0f m\n", deepest[n], farthest[n] - 24950.0);
+    assert_true(deepest[0] > 0.4 && farthest[0] > 25030.0);
+    assert_true(deepest[1] <= 0.53 && deepest[2] <= 0.53);
+}
+
 static void test_a_skid_pan_holds_a_fifth(void **state)
 {
     struct serial_context serial;
@@ -90,6 +123,7 @@ int main(void)
                                         close_world),
         cmocka_unit_test_setup_teardown(test_a_jeep_crosses_a_shallow_ford_and_stops_at_a_deep_one,
                                         open_world, close_world),
+        cmocka_unit_test_setup_teardown(test_agents_heed_the_depth, open_world, close_world),
         cmocka_unit_test_setup_teardown(test_a_skid_pan_holds_a_fifth, open_world, close_world),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
