@@ -1,0 +1,96 @@
+/* Wheels and tyres of a jeep that stands on level ground, and on a step. */
+#include "mover/motion/suspension.h"
+
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+static struct fixture f;
+static struct step_context step;
+static struct serial_context serial;
+static struct suspension suspension;
+
+static int open_world(void **state)
+{
+    *state = &f;
+    fixture_open(&f, "earthworks = ( { shape = \"table\"; at = [25050.0, 25000.0]; length_m = 60.0;"
+                     " width_m = 40.0; height_m = 0.2; edge_m = 0.05; } );");
+    return 0;
+}
+
+/* Returns the load over the weight of a jeep that heads east there, so high over its rest. */
+static double load_at(double x, double height_m, bool uneven)
+{
+    uint32_t row =
+        fixture_put(&f, (struct fixture_entity){.kind = "jeep",
+                                                .at = {x, FIXTURE_GROUND_M + height_m, 25000.0},
+                                                .heading_rad = HALF_PI});
+    steps_serial_context(&f, &step, &serial);
+    struct rigid_body body = rigid_body_take(&step, row);
+    struct mat3 turn = rotation_matrix(body.turn);
+    suspension_of(steps_kind(&f, "jeep"), &suspension);
+    return suspension_load(&suspension, &step, &body, &turn, uneven) /
+           (GRAVITY_MPS2 * body.inertia.mass_kg);
+}
+
+static void test_springs_carry_the_weight_at_rest(void **state)
+{
+    (void)state;
+    assert_true(fabs(load_at(25000.0, 0.0, false) - 1.0) < 1e-9);
+    assert_true(fabs(load_at(25000.0, 0.0, true) - 1.0) < 1e-9);
+    assert_true(fabs(load_at(25000.0, 0.5 * suspension.sag_m, false) - 0.5) < 1e-9);
+    assert_true(load_at(25000.0, 1.01 * suspension.sag_m, false) == 0.0);
+}
+
+static void test_bump_stops_are_ten_times_as_stiff(void **state)
+{
+    (void)state;
+    load_at(25000.0, 0.0, false);
+    double travel = suspension.most_m - suspension.sag_m;
+    double at_stop = load_at(25000.0, -travel, false);
+    double beyond = load_at(25000.0, -travel - 0.01, false);
+    assert_true(fabs(at_stop - suspension.most_m / suspension.sag_m) < 1e-9);
+    assert_true(fabs(beyond - at_stop - 11.0 * 0.01 / suspension.sag_m) < 1e-9);
+}
+
+/* The west end of the table is at 25030, because its width lies east and west. */
+static void test_a_wheel_touches_an_edge_before_it_is_over_it(void **state)
+{
+    (void)state;
+    load_at(25000.0, 0.0, true);
+    double front = suspension.wheel[0].place.x;
+    for (double before = 0.5; before > 0.0; before -= 0.05) {
+        load_at(25030.0 - front - before, 0.0, true);
+        const struct wheel *wheel = &suspension.wheel[0];
+        bool touches = before < 0.3; /* its radius is 0.34 m */
+        assert_true(before > 0.3 || wheel->squeeze_m > suspension.sag_m);
+        assert_true(touches || fabs(wheel->squeeze_m - suspension.sag_m) < 0.05);
+    }
+}
+
+static void test_grip_is_the_sum_of_the_wheels(void **state)
+{
+    (void)state;
+    double load = load_at(25000.0, 0.0, false);
+    for (uint32_t i = 0; i < suspension.count; i++)
+        suspension.wheel[i].friction = i & 1 ? 0.2 : 0.6;
+    double weight = GRAVITY_MPS2 * steps_kind(&f, "jeep")->mass_kg;
+    assert_true(fabs(suspension_grip(&suspension) - 0.4 * load * weight) < 1e-6);
+}
+
+int main(void)
+{
+#define T(name) cmocka_unit_test_setup_teardown(name, open_world, fixture_teardown)
+    const struct CMUnitTest tests[] = {
+        T(test_springs_carry_the_weight_at_rest),
+        T(test_bump_stops_are_ten_times_as_stiff),
+        T(test_a_wheel_touches_an_edge_before_it_is_over_it),
+        T(test_grip_is_the_sum_of_the_wheels),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
