@@ -1,6 +1,7 @@
 /* Changes the behaviour of agents, and sets their controls. */
 #include "mover/agent/agent.h"
 
+#include "mover/agent/aircraft_separation.h"
 #include "mover/agent/attack.h"
 #include "mover/agent/avoidance.h"
 #include "mover/agent/fire_control.h"
@@ -21,6 +22,8 @@
 #define REVERSE_SHARE 0.4   /* share of the speed when it drives backwards */
 #define REVERSE_M     150.0 /* so far a tank drives backwards into cover */
 #define LOW_SHARE     0.4   /* of its usual height, at which an aircraft evades */
+#define LEVEL_LEAST   0.6   /* of its usual height, the lowest level over its base */
+#define LEVEL_STEP    0.1   /* from level to level */
 
 /* An aircraft must bank before it turns and a ship's rudder is slow: they take this time for the
  * angle that is left, or they would swing about the heading that they want. */
@@ -188,12 +191,22 @@ static void drive_to_position(const struct step_context *context, uint32_t i,
     drive_either_way(context, i, speed, desired);
 }
 
+/* Over its base each of eight aeroplanes has a level of its own. */
+static void hold_level(const struct step_context *context, uint32_t i, const struct kind *kind,
+                       struct desired_motion *desired)
+{
+    double level = LEVEL_LEAST + LEVEL_STEP * (double)(context->m->id[i] % 8);
+    if (kind->min_speed_mps > 0.0)
+        desired->altitude_m = level * kind->cruise_altitude_m;
+}
+
 static void drive_to_base(const struct step_context *context, uint32_t i, const struct kind *kind,
                           struct desired_motion *desired)
 {
     if (goal_arrived(context, i)) /* at the end of a detour */
         goal_base(context, i);
     drive_to_goal(context, i, kind->max_speed_mps, desired);
+    hold_level(context, i, kind, desired);
 }
 
 /* Fuel and rounds fill up evenly. An aircraft that cannot hover circles over the base. */
@@ -209,6 +222,7 @@ static void drive_resupply(const struct step_context *context, uint32_t i, const
     m->fuel_l[i] = maths_max(m->fuel_l[i], share * kind->fuel_l);
     if (kind->min_speed_mps > 0.0)
         drive_to_goal(context, i, kind->min_speed_mps, desired);
+    hold_level(context, i, kind, desired);
 }
 
 /* Keeps to the right of its route, unless it has a place of its own at its points. */
@@ -339,6 +353,8 @@ static void think(const struct step_context *context, uint32_t i, const struct k
         suppress(context, i, row);
     drive_by_behaviour(context, i, desired);
     avoidance_steer(context, i, desired);
+    if (kind->domain == DOMAIN_AIR && !desired->driven)
+        aircraft_separation_keep(context, i, desired);
 }
 
 void agent_think(const struct step_context *context, uint32_t i, struct desired_motion *desired)

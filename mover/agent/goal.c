@@ -12,14 +12,17 @@
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
-#define ARRIVED_M  25.0
-#define HOME_M     150.0 /* a base has room for many vehicles */
-#define FLEE_M     2000.0
-#define DETOUR_M   400.0 /* around what blocks the path to the base */
-#define GOAL_DRAWS 8
-#define HULL_SHARE 0.4 /* of the height: the top of the hull, below the turret */
-#define GUN_SHARE  0.9 /* of the height: the sight of the gun */
-#define IN_PLACE_M 6.0 /* near enough to a firing position */
+#define ARRIVED_M   25.0
+#define HOME_M      150.0               /* a base has room for many vehicles */
+#define HOME_PLACES 64u                 /* of helicopters at their base */
+#define HOME_ROOM_M 40.0                /* their spiral: places are about 70 m apart */
+#define GOLDEN_RAD  2.39996322972865332 /* between two places of the spiral */
+#define FLEE_M      2000.0
+#define DETOUR_M    400.0 /* around what blocks the path to the base */
+#define GOAL_DRAWS  8
+#define HULL_SHARE  0.4 /* of the height: the top of the hull, below the turret */
+#define GUN_SHARE   0.9 /* of the height: the sight of the gun */
+#define IN_PLACE_M  6.0 /* near enough to a firing position */
 
 static double unit(const struct step_context *context, uint32_t i, enum random_purpose purpose)
 {
@@ -177,12 +180,24 @@ void goal_target(const struct step_context *context, uint32_t i, uint32_t row, u
 
 /* --- home --------------------------------------------------------------------------------------*/
 
+/* Its place at its force's base. Those of helicopters are on a spiral, each with about the same
+ * room. */
+static void base_place(const struct step_context *context, uint32_t i, double *x, double *z)
+{
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct force_base *base = &context->world->params->base[m->force[i] % FORCE_COUNT];
+    double sine, cosine, number = (double)(m->id[i] % HOME_PLACES);
+    bool hovers = kind->domain == DOMAIN_AIR && kind->min_speed_mps <= 0.0;
+    double away = hovers ? HOME_ROOM_M * sqrt(number) : 0.0;
+    maths_sincos(GOLDEN_RAD * number, &sine, &cosine);
+    *x = maths_clamp(base->x + away * sine, 0.0, WORLD_SIDE_M);
+    *z = maths_clamp(base->z - away * cosine, 0.0, WORLD_SIDE_M);
+}
+
 void goal_base(const struct step_context *context, uint32_t i)
 {
-    struct entities *m = context->m;
-    const struct force_base *base = &context->world->params->base[m->force[i] % FORCE_COUNT];
-    m->goal_x[i] = base->x;
-    m->goal_z[i] = base->z;
+    base_place(context, i, &context->m->goal_x[i], &context->m->goal_z[i]);
 }
 
 static bool within(const struct step_context *context, uint32_t i, double x, double z,
@@ -212,11 +227,12 @@ bool goal_in_position(const struct step_context *context, uint32_t i)
 bool goal_at_base(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    const struct force_base *base = &context->world->params->base[m->force[i] % FORCE_COUNT];
-    if (within(context, i, base->x, base->z, HOME_M))
+    const enum domain domain = (enum domain)context->world->kinds[m->kind[i]].domain;
+    double x, z;
+    base_place(context, i, &x, &z);
+    if (within(context, i, x, z, domain == DOMAIN_AIR ? ARRIVED_M : HOME_M))
         return true;
-    return context->world->kinds[m->kind[i]].domain == DOMAIN_SEA && m->goal_x[i] != base->x &&
-           goal_arrived(context, i);
+    return domain == DOMAIN_SEA && m->goal_x[i] != x && goal_arrived(context, i);
 }
 
 void goal_blocked(const struct step_context *context, uint32_t i)

@@ -1,0 +1,127 @@
+/* Finds conflicts and the heights that resolve them. */
+#include "mover/agent/aircraft_separation.h"
+
+#include "mover/agent/avoidance.h"
+#include "mover/motion/kinematics.h"
+#include "world/entity/mass_properties.h"
+#include "world/state.h"
+#include "world/world.h"
+
+#define AHEAD_S      4.0   /* how far ahead it looks for conflicts */
+#define SAMPLE_S     0.5   /* between two of the times at which it compares the courses */
+#define STEEPEST_RAD 1.4   /* a steeper bank counts as this one */
+#define BESIDE_M     8.0   /* gap at the sides */
+#define OVER_M       14.0  /* gap above and below */
+#define SPREAD       0.15  /* how far courses stray, as a share of the way until they meet */
+#define LEAD_S       0.5   /* who will be higher after this time is the higher one */
+#define LEVEL_M      0.5   /* at the same height to this, the lower row is the higher one */
+#define FAR_M        150.0 /* aircraft that are further above or below are in nobody's way */
+#define LOW_SHARE    0.6   /* of its usual height, which it keeps above the ground */
+#define GROUND_S     3.0   /* flight keeps its height above the ground here and after this time */
+
+/* The heights [m] between which row i may fly, and when [s] it meets whom they keep it from. */
+struct clearance {
+    double low, high, low_s, high_s;
+};
+
+/* Its acceleration [m/s2] towards its right in a turn, by its bank. */
+static double turning_mps2(const struct entities *w, uint32_t i)
+{
+    double sine, cosine;
+    maths_sincos(maths_clamp(w->roll[i], -STEEPEST_RAD, STEEPEST_RAD), &sine, &cosine);
+    return GRAVITY_MPS2 * sine / cosine;
+}
+
+/* The course of row i: where it will be if it holds its bank. */
+struct course {
+    double x, z, vx, vz, ax, az;
+};
+
+static struct course course_of(const struct entities *w, uint32_t i)
+{
+    double right = turning_mps2(w, i), sine, cosine;
+    maths_sincos(w->heading[i], &sine, &cosine);
+    return (struct course){w->x[i], w->z[i], w->vx[i], w->vz[i], right * cosine, right * sine};
+}
+
+/* Returns true if the other row's course comes near within AHEAD_S. time_s: when. */
+static bool meets(const struct step_context *context, uint32_t i, uint32_t other,
+                  const struct course *own, double *time_s)
+{
+    const struct entities *w = &context->committed->entities;
+    const double *reach = context->avoidance->reach_m;
+    const struct course its = course_of(w, other);
+    double vx = its.vx - own->vx, vz = its.vz - own->vz;
+    double beside = reach[w->kind[i]] + reach[w->kind[other]] + BESIDE_M;
+    double spread = SPREAD * sqrt(vx * vx + vz * vz);
+    for (*time_s = 0.0; *time_s <= AHEAD_S; *time_s += SAMPLE_S) {
+        double t = *time_s, half = 0.5 * t * t, most = beside + spread * maths_max(t, SAMPLE_S);
+        double dx = its.x - own->x + vx * t + (its.ax - own->ax) * half;
+        double dz = its.z - own->z + vz * t + (its.az - own->az) * half;
+        if (dx * dx + dz * dz < most * most)
+            return true;
+    }
+    return false;
+}
+
+static void keep_from(const struct step_context *context, uint32_t i, uint32_t other,
+                      const struct course *own, struct clearance *clear)
+{
+    const struct entities *w = &context->committed->entities;
+    const struct kind *kinds = context->world->kinds;
+    double up = w->y[i] - w->y[other], time_s;
+    if (fabs(up) > FAR_M || !meets(context, i, other, own, &time_s))
+        return;
+    double soon = up + LEAD_S * (w->vy[i] - w->vy[other]);
+    bool above = fabs(soon) > LEVEL_M ? soon > 0.0 : i < other;
+    double gap = 0.5 * (kinds[w->kind[i]].height_m + kinds[w->kind[other]].height_m) + OVER_M;
+    double middle = 0.5 * (w->y[i] + w->y[other]);
+    if (above) {
+        clear->low = maths_max(clear->low, middle + 0.5 * gap);
+        clear->low_s = maths_min(clear->low_s, time_s);
+    } else {
+        clear->high = maths_min(clear->high, middle - 0.5 * gap);
+        clear->high_s = maths_min(clear->high_s, time_s);
+    }
+}
+
+static void look_around(const struct step_context *context, uint32_t i, struct clearance *clear)
+{
+    const struct entities *w = &context->committed->entities;
+    double speed = sqrt(w->vx[i] * w->vx[i] + w->vz[i] * w->vz[i]);
+    double radius =
+        2.0 * AHEAD_S * speed + 2.0 * context->avoidance->reach_m[w->kind[i]] + AHEAD_S * BESIDE_M;
+    const struct course own = course_of(w, i);
+    const struct neighbour_index_entry *entry;
+    struct neighbour_query query = neighbour_query_begin(
+        context->neighbours, NEIGHBOUR_INDEX_LIVING, w->x[i], w->z[i], radius);
+    while ((entry = neighbour_query_next(&query)) != NULL) {
+        if (entry->row != i && context->world->kinds[entry->kind].domain == DOMAIN_AIR)
+            keep_from(context, i, entry->row, &own, clear);
+    }
+}
+
+/* The ground [m] above which it holds its height. */
+static double ground_under(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    double here = kinematics_ground(context, m->x[i], m->z[i]);
+    return maths_max(here, kinematics_ground(context, m->x[i] + GROUND_S * m->vx[i],
+                                             m->z[i] + GROUND_S * m->vz[i]));
+}
+
+void aircraft_separation_keep(const struct step_context *context, uint32_t i,
+                              struct desired_motion *desired)
+{
+    struct clearance clear = {-INFINITY, INFINITY, INFINITY, INFINITY};
+    look_around(context, i, &clear);
+    if (clear.low == -INFINITY && clear.high == INFINITY)
+        return;
+    double usual = context->world->kinds[context->m->kind[i]].cruise_altitude_m;
+    double ground = ground_under(context, i), height = desired->altitude_m;
+    if (clear.low_s < clear.high_s) /* of two the one that it meets first */
+        height = maths_max(maths_min(height, clear.high - ground), clear.low - ground);
+    else
+        height = maths_min(maths_max(height, clear.low - ground), clear.high - ground);
+    desired->altitude_m = maths_max(height, maths_min(desired->altitude_m, LOW_SHARE * usual));
+}

@@ -1,0 +1,17 @@
+/* Aircraft keep apart by height.
+ *
+ * When an agent flies, it looks for other aircraft that come near it within a few seconds if both
+ * hold their speed and bank. Of two such aircraft the higher one stays above and the lower one
+ * below, each by half of the gap between them. Both find the same from the committed table, so they
+ * need no agreement; this is how airliners resolve a conflict (RTCA DO-185, TCAS II). Any thread,
+ * each its own row. */
+#ifndef JOLON_MOVER_AGENT_AIRCRAFT_SEPARATION_H
+#define JOLON_MOVER_AGENT_AIRCRAFT_SEPARATION_H
+
+#include "mover/context/step_context.h"
+
+/* Changes the desired height of row i, an aircraft. */
+void aircraft_separation_keep(const struct step_context *context, uint32_t i,
+                              struct desired_motion *desired);
+
+#endif

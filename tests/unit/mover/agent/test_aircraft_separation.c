@@ -1,0 +1,131 @@
+/* Aircraft keep apart: head on, in a crowd, over their base. */
+#include "mover/agent/aircraft_separation.h"
+
+#include "tests/support/steps.h"
+#include "world/params.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include <cmocka.h>
+
+#define HZ 20
+
+static struct fixture f;
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t send(const char *kind, struct vec3 from, double heading)
+{
+    uint32_t row =
+        fixture_put(&f, (struct fixture_entity){.kind = kind, .at = from, .heading_rad = heading});
+    struct entities e = steps_rows(&f);
+    e.behaviour[row] = e.order[row] = BEHAVIOUR_PATROL;
+    e.goal_x[row] = from.x + 6000.0 * maths_sin(heading);
+    e.goal_z[row] = from.z - 6000.0 * maths_cos(heading);
+    double speed = 0.75 * steps_kind(&f, kind)->max_speed_mps;
+    e.vx[row] = speed * maths_sin(heading);
+    e.vz[row] = -speed * maths_cos(heading);
+    return row;
+}
+
+/* Two aircraft of a kind whose courses cross at an angle meet at one point, at one height. */
+static void cross(const char *kind, double angle)
+{
+    double usual = steps_kind(&f, kind)->cruise_altitude_m;
+    double way = 10.0 * 0.75 * steps_kind(&f, kind)->max_speed_mps, least = 1e9, apart = 0.0;
+    steps_empty(&f);
+    uint32_t a = send(kind, (struct vec3){25000.0, FIXTURE_GROUND_M + usual, 25000.0 + way}, 0.0);
+    uint32_t b = send(kind,
+                      (struct vec3){25000.0 - way * maths_sin(angle), FIXTURE_GROUND_M + usual,
+                                    25000.0 + way * maths_cos(angle)},
+                      angle);
+    for (int frame = 0; frame < 20 * HZ; frame++) {
+        fixture_run(&f, 1);
+        struct entities e = steps_rows(&f);
+        struct vec3 off = vec3_sub(entities_position(&e, a), entities_position(&e, b));
+        if (vec3_length(off) < least) {
+            least = vec3_length(off);
+            apart = fabs(off.y);
+        }
+    }
+    double size = steps_kind(&f, kind)->radius_m;
+    if (!(least > 2.0 * size && apart > 0.5 * steps_kind(&f, kind)->height_m + 4.0))
+        fail_msg(
+            "two of the kind %s that cross at %.1f rad pass at %.1f m, %.1f m above each other",
+            kind, angle, least, apart);
+}
+
+static void test_two_that_meet_pass_above_and_below(void **state)
+{
+    static const char *const kinds[] = {"jet", "helicopter", "wishbone", "helo-cow"};
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; };");
+    for (int n = 0; n < 4; n++) {
+        for (double angle = 0.4; angle <= PI + 1e-6; angle += (PI - 0.4) / 4.0)
+            cross(kinds[n], angle);
+    }
+}
+
+static void test_a_crowd_on_patrol_does_not_collide(void **state)
+{
+    (void)state;
+    fixture_open(
+        &f,
+        "world = { seed = 1; capacity = 64; hz = 20.0; }; vehicles = (\n"
+        "{ kind = \"wishbone\"; count = 15; area = [25000.0, 25000.0, 25500.0, 25500.0]; },\n"
+        "{ kind = \"jet\"; count = 8; area = [20000.0, 20000.0, 24000.0, 24000.0]; },\n"
+        "{ kind = \"helicopter\"; count = 12; area = [25600.0, 25000.0, 26300.0, 25700.0]; } );");
+    fixture_run(&f, 300 * HZ);
+    assert_in_range(fixture_state(&f).head->tally.collisions, 0, 1);
+}
+
+static double least_gap(uint32_t first, uint32_t end)
+{
+    struct entities e = steps_rows(&f);
+    double least = INFINITY;
+    for (uint32_t a = first; a < end; a++) {
+        for (uint32_t b = a + 1; b < end; b++)
+            least = maths_min(least, hypot(e.x[a] - e.x[b], e.z[a] - e.z[b]));
+    }
+    return least;
+}
+
+/* Aircraft that are out of rounds fly home, circle or hover there until they have them, and leave.
+ */
+static void test_those_at_their_base_do_not_collide(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; }; vehicles = (\n"
+                     "{ kind = \"jet\"; count = 8; force = \"blue\"; area = [20000.0, 20000.0, "
+                     "24000.0, 24000.0]; },\n"
+                     "{ kind = \"helicopter\"; count = 14; force = \"blue\"; area = [26000.0, "
+                     "25000.0, 27000.0, 26000.0]; } );");
+    struct entities e = steps_rows(&f);
+    for (uint32_t row = 0; row < 22; row++)
+        e.rounds[row] = 0;
+    fixture_run(&f, 100 * HZ);
+    for (uint32_t row = 0; row < 22; row++)
+        assert_int_equal(steps_rows(&f).behaviour[row], BEHAVIOUR_RESUPPLY);
+    assert_true(least_gap(8, 22) > 20.0); /* of the helicopters */
+    fixture_run(&f, 240 * HZ);
+    assert_int_equal(fixture_state(&f).head->tally.collisions, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(test_two_that_meet_pass_above_and_below, close_world),
+        cmocka_unit_test_teardown(test_a_crowd_on_patrol_does_not_collide, close_world),
+        cmocka_unit_test_teardown(test_those_at_their_base_do_not_collide, close_world),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
