@@ -11,6 +11,7 @@
 #define HOVER_SHARE    0.6  /* share of the cycle in which it hovers */
 #define TOO_NEAR_SHARE 0.25 /* share of the range: if the target is nearer it backs away */
 #define SIDE_RAD       1.7  /* direction to the other side, off its target */
+#define ROCKET_SHARE   0.48 /* of the range, from which a helicopter fires rockets */
 #define NEARLY_M       50.0 /* so far out of range it begins to lay its gun */
 #define BREAK_OFF      0.2  /* share of the range at which a jet's pass ends */
 #define BREAK_SHARE    0.6  /* nearer than this share a jet that cannot fire yet turns away */
@@ -112,6 +113,17 @@ void attack_motion(const struct step_context *context, uint32_t i,
     }
 }
 
+/* A helicopter fires rockets from near by. They spread too much to hit a vehicle from as far as
+ * they reach. */
+static double rocket_reach_m(const struct step_context *context, uint32_t i, double reach)
+{
+    const struct kind *kinds = context->world->kinds;
+    const struct kind *kind = &kinds[context->m->kind[i]];
+    bool hovers = behaviour_tables[kind->doctrine].manner == MANNER_HOVER;
+    bool guided = kinds[kind->munition].guidance == GUIDANCE_HOMING;
+    return hovers && !guided ? maths_min(reach, ROCKET_SHARE * kind->range_m) : reach;
+}
+
 uint32_t attack_aim_frames(const struct params *params)
 {
     return (uint32_t)maths_max(1.0, params->hz / AIM_HZ);
@@ -127,7 +139,7 @@ bool attack_ready(const struct step_context *context, uint32_t i)
     uint32_t target = m->target_slot[i];
     if (!entities_alive(w, target, m->target_id[i]) || w->state[target] != ENTITY_ACTIVE)
         return false;
-    double range = fire_control_reach_m(context, i, target) + NEARLY_M;
+    double range = rocket_reach_m(context, i, fire_control_reach_m(context, i, target)) + NEARLY_M;
     double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
     return dx * dx + dz * dz < range * range;
 }
