@@ -2,6 +2,7 @@
 #include "mover/motion/missile.h"
 
 #include "mover/motion/kinematics.h"
+#include "world/entity/decoy.h"
 #include "world/maths/random.h"
 #include "world/params.h"
 #include "world/state.h"
@@ -16,7 +17,6 @@
 #define LAG_S       0.25        /* of seeker and fins together */
 #define FAILS_S     2.0         /* a failure shows within this time of flight */
 #define STUCK_FINS  0.3         /* of full deflection, of a missile that has failed */
-#define DECOY_S     2.5         /* decoys are out so long before the missile arrives */
 #define SMOKE_SHARE (1.0 / 3.0) /* of the decoy chance: smoke takes seconds to grow */
 
 static double draw(const struct step_context *context, uint32_t i, enum random_purpose purpose)
@@ -67,16 +67,13 @@ static bool has_failed(const struct step_context *context, uint32_t i, const str
     return over >= 0.0 && age_s(context, i) >= FAILS_S * over / (1.0 - kind->reliability);
 }
 
-/* Returns true if the target's decoys have taken the seeker. A target that reacts to nothing
- * releases none. */
+/* Returns true if the target's decoys have taken the seeker. */
 static bool is_decoyed(const struct step_context *context, uint32_t i, const struct kind *kind,
                        const struct seen_target *sight)
 {
     const struct entities *w = &context->committed->entities;
     uint32_t target = context->m->target_slot[i];
-    double near = -vec3_dot(sight->to, sight->closing) * DECOY_S;
-    bool alert = w->state[target] == ENTITY_ACTIVE && w->behaviour[target] != BEHAVIOUR_HOLD;
-    if (!alert || vec3_dot(sight->to, sight->to) > near)
+    if (!decoy_due(w, target, sight->to, sight->closing, DECOY_S))
         return false;
     bool land = context->world->kinds[w->kind[target]].domain == DOMAIN_LAND;
     return draw(context, i, RANDOM_DECOY) < kind->decoyed * (land ? SMOKE_SHARE : 1.0);

@@ -1,6 +1,7 @@
 /* Makes effects from events. */
 #include "renderer/scene/frame/effects.h"
 
+#include "renderer/scene/frame/decoys.h"
 #include "world/entity/event.h"
 #include "world/entity/kind.h"
 #include "world/world.h"
@@ -18,9 +19,10 @@
 double effects_life_s(enum effect_type type)
 {
     static const double life[EFFECT_TYPE_COUNT] = {
-        [EFFECT_FLASH] = 0.8,          [EFFECT_EXPLOSION] = 10.0, [EFFECT_BURST] = 9.0,
-        [EFFECT_SPLASH] = 5.0,         [EFFECT_HIT] = 1.2,        [EFFECT_CRASH] = 3.5,
-        [EFFECT_WRECK] = EFFECT_LIFE_S};
+        [EFFECT_FLASH] = 0.8, [EFFECT_EXPLOSION] = 10.0,
+        [EFFECT_BURST] = 9.0, [EFFECT_SPLASH] = 5.0,
+        [EFFECT_HIT] = 1.2,   [EFFECT_CRASH] = 3.5,
+        [EFFECT_DECOY] = 6.0, [EFFECT_WRECK] = EFFECT_LIFE_S};
     return life[type];
 }
 
@@ -29,8 +31,7 @@ static double end_of(const struct effect *effect)
     return effect->time_s + effects_life_s((enum effect_type)effect->type);
 }
 
-/* Returns a free effect, or the one that ends first. */
-static struct effect *allocate(struct effects *effects)
+struct effect *effects_allocate(struct effects *effects)
 {
     if (effects->count < EFFECTS_MAX)
         return &effects->effect[effects->count++];
@@ -45,7 +46,7 @@ static struct effect *add(struct effects *effects, const struct frame_view *fram
                           const struct event *event, enum effect_type type, const double point[3],
                           double size_m)
 {
-    struct effect *effect = allocate(effects);
+    struct effect *effect = effects_allocate(effects);
     *effect = (struct effect){
         .point = {point[0], point[1], point[2]},
         .time_s = (double)event->tick * world_dt_s(frame_view->world),
@@ -170,7 +171,7 @@ static void take_wrecks(struct effects *effects, const struct frame_view *frame_
         trail->broken = broken;
         if (now_s - time_s > effects_life_s(EFFECT_WRECK))
             continue;
-        struct effect *wreck = allocate(effects);
+        struct effect *wreck = effects_allocate(effects);
         *wreck = (struct effect){
             .point = entities_position(e, slot),
             .time_s = time_s,
@@ -188,6 +189,7 @@ void effects_take(struct effects *effects, const struct frame_view *frame_view,
 {
     motion_trails_note(&effects->trails, frame_view);
     take_wrecks(effects, frame_view);
+    decoys_take(effects, frame_view);
     for (uint32_t i = 0; i < count; i++) {
         const struct event *event = &events[i];
         switch (event->type) {

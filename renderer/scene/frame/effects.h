@@ -20,6 +20,7 @@ enum effect_type {
     EFFECT_HIT,       /* metal on metal: sparks */
     EFFECT_CRASH,     /* dust of a collision */
     EFFECT_WRECK,     /* a vehicle is destroyed: it bursts, and parts of it fly off */
+    EFFECT_DECOY,     /* a flare, or a salvo of smoke grenades */
     EFFECT_TYPE_COUNT
 };
 
@@ -27,10 +28,10 @@ struct effect {
     struct vec3 point;  /* [m, world] */
     double time_s;      /* of simulation */
     float size_m;       /* radius of the flash, the fireball, the splash, the dust */
-    float direction[3]; /* of a shot: unit; of a wreck: its velocity [m/s] */
+    float direction[3]; /* of a shot: unit; of a wreck or a decoy: its velocity [m/s] */
     uint32_t type;      /* enum effect_type */
     uint32_t seed;
-    uint16_t kind; /* of a wreck */
+    uint16_t kind; /* of a wreck, or of who released a decoy */
 };
 
 struct effects {
@@ -43,6 +44,9 @@ struct effects {
  * events or a later one. */
 void effects_take(struct effects *effects, const struct frame_view *frame_view,
                   const struct event *events, uint32_t count);
+
+/* Returns an entry for a new effect: a free one, or the one that ends first. */
+struct effect *effects_allocate(struct effects *effects);
 
 /* Returns how long an effect is visible [s]. */
 double effects_life_s(enum effect_type type);

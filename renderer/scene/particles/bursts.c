@@ -2,6 +2,7 @@
  * Particles appear and vanish by their opacity. */
 #include "renderer/scene/particles/bursts.h"
 
+#include "renderer/scene/particles/decoy_particles.h"
 #include "renderer/scene/particles/particles.h"
 #include "world/world.h"
 
@@ -355,6 +356,9 @@ void bursts_effect(struct draw_list *list, const struct frame_view *frame_view,
     case EFFECT_CRASH:
         dust.a = 0.15f + 0.40f * dust.a;
         cloud(list, effect, age, dust, life, 1.0, 0.12);
+        break;
+    case EFFECT_DECOY:
+        decoy_particles_add(list, frame_view, effect, age);
         break;
     case EFFECT_TYPE_COUNT:
         break;
