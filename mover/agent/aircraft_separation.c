@@ -12,6 +12,7 @@
 #define STEEPEST_RAD 1.4   /* a steeper bank counts as this one */
 #define BESIDE_M     8.0   /* gap at the sides */
 #define OVER_M       14.0  /* gap above and below */
+#define NEARING_S    1.5   /* the gap is larger by their nearing in this time */
 #define SPREAD       0.15  /* how far courses stray, as a share of the way until they meet */
 #define LEAD_S       0.5   /* who will be higher after this time is the higher one */
 #define LEVEL_M      0.5   /* at the same height to this, the lower row is the higher one */
@@ -75,6 +76,8 @@ static void keep_from(const struct step_context *context, uint32_t i, uint32_t o
     double soon = up + LEAD_S * (w->vy[i] - w->vy[other]);
     bool above = fabs(soon) > LEVEL_M ? soon > 0.0 : i < other;
     double gap = 0.5 * (kinds[w->kind[i]].height_m + kinds[w->kind[other]].height_m) + OVER_M;
+    double nearing = up > 0.0 ? w->vy[other] - w->vy[i] : w->vy[i] - w->vy[other];
+    gap += NEARING_S * maths_max(nearing, 0.0);
     double middle = 0.5 * (w->y[i] + w->y[other]);
     if (above) {
         clear->low = maths_max(clear->low, middle + 0.5 * gap);
