@@ -6,6 +6,8 @@
 #include "world/state.h"
 #include "world/world.h"
 
+#include <stddef.h>
+
 #define SLOWEST_SHARE 0.98 /* of crews; the others would take very long */
 
 /* Shares of the range at which a gun that is not meant for aircraft fires at them. */
@@ -47,8 +49,9 @@ bool fire_control_air_defence(const struct step_context *context, uint32_t i)
 {
     const struct kind *kinds = context->world->kinds;
     const struct kind *kind = &kinds[context->committed->entities.kind[i]];
+    const struct kind *round = kind->munition != KIND_NONE ? &kinds[kind->munition] : NULL;
     return kind->doctrine == DOCTRINE_FLAK ||
-           (kind->munition != KIND_NONE && kinds[kind->munition].guidance == GUIDANCE_HOMING);
+           (round && round->guidance == GUIDANCE_HOMING && round->air_targets == AIR_TARGETS_ALL);
 }
 
 static bool keeps_rounds(const struct entities *m, uint32_t i, const struct kind *kind)
