@@ -95,12 +95,17 @@ static void look_around(const struct step_context *context, uint32_t i, struct c
     double radius =
         2.0 * AHEAD_S * speed + 2.0 * context->avoidance->reach_m[w->kind[i]] + AHEAD_S * BESIDE_M;
     const struct course own = course_of(w, i);
-    const struct neighbour_index_entry *entry;
+    float x = (float)w->x[i], y = (float)w->y[i], z = (float)w->z[i];
+    float square = (float)(radius * radius);
     struct neighbour_query query = neighbour_query_begin(
         context->neighbours, NEIGHBOUR_INDEX_LIVING, w->x[i], w->z[i], radius);
-    while ((entry = neighbour_query_next(&query)) != NULL) {
-        if (entry->row != i && context->world->kinds[entry->kind].domain == DOMAIN_AIR)
-            keep_from(context, i, entry->row, &own, clear);
+    while (neighbour_query_next_span(&query)) {
+        for (const struct neighbour_index_entry *at = query.at; at < query.end; at++) {
+            float dx = at->x - x, dz = at->z - z;
+            if ((fabsf(at->y - y) <= (float)FAR_M + 1.0f) & (dx * dx + dz * dz <= square) &&
+                at->row != i && context->world->kinds[at->kind].domain == DOMAIN_AIR)
+                keep_from(context, i, at->row, &own, clear);
+        }
     }
 }
 
