@@ -1,0 +1,49 @@
+/* Counts what happens in a battle. One thread. */
+#ifndef JOLON_TESTS_BENCH_AGENTS_BATTLE_COUNT_H
+#define JOLON_TESTS_BENCH_AGENTS_BATTLE_COUNT_H
+
+#include "ipc/segment/segment.h"
+#include "world/entity/event.h"
+#include "world/entity/kind.h"
+
+#include <stdint.h>
+
+#define BATTLE_MINUTES  96u /* later ones count to the last */
+#define BATTLE_NEWS_MAX 512u
+#define BATTLE_GROUND   KIND_COUNT_MAX /* as a target: a point, or the sky */
+
+struct battle_tally {
+    uint32_t fired, hits, wrecks, ended; /* wrecks: hits on them; ended: vehicles destroyed */
+};
+
+struct battle_count {
+    double dt_s;
+    uint32_t shots[BATTLE_MINUTES];
+    uint32_t losses[BATTLE_MINUTES];                            /* vehicles of the scenario */
+    struct battle_tally by[KIND_COUNT_MAX][KIND_COUNT_MAX + 1]; /* by munition, then target */
+    uint32_t rounds[KIND_COUNT_MAX][KIND_COUNT_MAX + 1];        /* by shooter, then target */
+    uint32_t first[FORCE_COUNT][KIND_COUNT_MAX];                /* vehicles at the beginning ... */
+    uint32_t lost[FORCE_COUNT][KIND_COUNT_MAX];                 /* ... and how many are wrecks */
+    uint32_t bumps, crashes;                                    /* collisions; ending a vehicle */
+    uint32_t *stuck, *longest; /* frames in which a row pushed, by row; NULL: no memory */
+    uint8_t *kind, *force;     /* of the vehicles of the scenario, by row */
+    uint8_t *gone;             /* 1: it is lost */
+    uint32_t vehicles, news_count;
+    struct event news[BATTLE_NEWS_MAX]; /* of missions */
+};
+
+/* Begins to count a world at frame 0. Returns false if there is no memory. */
+bool battle_count_begin(struct battle_count *count, const struct view *view);
+
+/* Takes a frame: its state, the one before it, and its events, of which the first has this number.
+ */
+void battle_count_frame(struct battle_count *count, const struct view *view,
+                        const struct state *before, const struct state *state, uint64_t from);
+
+/* Sums `minutes` minutes of a count, of which the first has this number. */
+uint32_t battle_count_sum(const uint32_t by_minute[BATTLE_MINUTES], uint32_t first,
+                          uint32_t minutes);
+
+void battle_count_free(struct battle_count *count);
+
+#endif
