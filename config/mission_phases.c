@@ -106,7 +106,7 @@ static int check_conditions(const struct entry *entry, bool reaction, bool last)
         return entry_refuse(entry, PHASE_WHEN_BELOW,
                             "is missing, and so is any other condition; a reaction needs one of "
                             "the keys that begin with when_");
-    for (uint32_t key = PHASE_WHEN_TIME; key < PHASE_KEY_COUNT && !reaction; key++) {
+    for (uint32_t key = PHASE_WHEN_ALL; key < PHASE_KEY_COUNT && !reaction; key++) {
         if (entry_given(entry, key))
             return entry_refuse(entry, key,
                                 "is only for reactions; allowed: for_s, until_s, "
@@ -116,6 +116,52 @@ static int check_conditions(const struct entry *entry, bool reaction, bool last)
         return entry_refuse(entry, PHASE_FOR,
                             "is missing, and so is any other condition; a phase needs one unless "
                             "it is the last");
+    return 0;
+}
+
+/* The key of a condition. when: of those that begin a reaction, which have no time since the
+ * beginning of the phase and no arrival. */
+static uint32_t key_of(enum mission_condition condition, bool when)
+{
+    if (!when)
+        return PHASE_FOR + (uint32_t)condition;
+    return condition == MISSION_IF_AT ? PHASE_WHEN_TIME
+           : condition >= MISSION_IF_TAKEN
+               ? PHASE_WHEN_TAKEN + (uint32_t)condition - (uint32_t)MISSION_IF_TAKEN
+               : PHASE_KEY_COUNT;
+}
+
+/* Finds the condition whose key has a name of this length. Returns MISSION_CONDITION_COUNT if it is
+ * no name of a condition, or the entry does not give the condition. */
+static uint32_t find_condition(const struct entry *entry, const char *name, size_t length,
+                               bool when)
+{
+    for (uint32_t n = 0; n < MISSION_CONDITION_COUNT; n++) {
+        uint32_t key = key_of((enum mission_condition)n, when);
+        const char *word = key < PHASE_KEY_COUNT ? schema_phase.keys[key].name : "";
+        if (strlen(word) == length && memcmp(word, name, length) == 0)
+            return entry_given(entry, key) ? n : MISSION_CONDITION_COUNT;
+    }
+    return MISSION_CONDITION_COUNT;
+}
+
+/* Reads which conditions must not hold, and whether all are needed. */
+static int read_logic(const struct entry *entry, const struct condition_entry *given, bool when,
+                      struct mission_conditions *to)
+{
+    const uint32_t key = when ? PHASE_WHEN_NOT : PHASE_NOT;
+    const char *word = entry_given(entry, key) ? given->unless : "";
+    to->logic = given->all ? MISSION_ALL : 0;
+    for (word += strspn(word, " "); *word != '\0'; word += strspn(word, " ")) {
+        size_t length = strcspn(word, " ");
+        uint32_t condition = find_condition(entry, word, length, when);
+        if (condition == MISSION_CONDITION_COUNT)
+            return entry_refuse(entry, key,
+                                "does not name conditions of this phase; allowed: the names of "
+                                "keys that stand beside it, with spaces between them");
+        to->logic |= 1u << condition;
+        word += length;
+    }
     return 0;
 }
 
@@ -268,6 +314,8 @@ static int add_phase(const struct entry *entry, struct phase_entry *given)
     phase->route = MISSION_NONE;
     phase->at_least_s = given->at_least_s;
     phase->rounds_a_minute = given->rounds_a_minute;
+    phase->bearing_rad = given->bearing_rad;
+    phase->adjusted = given->adjust;
     phase->engage = engagement(entry, given);
     phase->munition = KIND_NONE;
     if (entry_given(entry, PHASE_MUNITION))
@@ -277,6 +325,8 @@ static int add_phase(const struct entry *entry, struct phase_entry *given)
         return -1;
     if (read_conditions(entry, &given->until, until, &phase->until) != 0 ||
         read_conditions(entry, &given->when, when, &phase->when) != 0 ||
+        read_logic(entry, &given->until, false, &phase->until) != 0 ||
+        read_logic(entry, &given->when, true, &phase->when) != 0 ||
         read_area(entry, given, &phase->area) != 0)
         return -1;
     if (entry_given(entry, PHASE_FOR))

@@ -3,20 +3,18 @@
  * rounds obeys when it has done so; orders to withdraw and to resupply end a fight. */
 #include "mover/mission.h"
 
+#include "mover/mission_barrage.h"
 #include "mover/mission_conditions.h"
-#include "mover/weapon/fire.h"
 #include "world/entity/event.h"
 #include "world/entity/kind.h"
 #include "world/entity/mission.h"
-#include "world/maths/random.h"
 #include "world/params.h"
 #include "world/state.h"
 #include "world/world.h"
 
 #include <string.h>
 
-#define SUPPLY_S      20.0 /* in which empty racks and an empty tank fill up */
-#define SHOTS_A_SCORE 64u  /* of a barrage from the sky, at most in a second */
+#define SUPPLY_S 20.0 /* in which empty racks and an empty tank fill up */
 
 /* --- events ------------------------------------------------------------------------------------*/
 
@@ -134,46 +132,6 @@ static void begin_phase(struct serial_context *context, uint32_t index, uint32_t
 
 /* --- what a phase does each second -------------------------------------------------------------*/
 
-static void random_point(const struct serial_context *context, const struct area *area, uint32_t id,
-                         double *x, double *z)
-{
-    uint64_t seed = context->step->world->params->seed, tick = context->step->tick;
-    *x = area->x0 + (area->x1 - area->x0) * random_unit(seed, tick, id, RANDOM_GOAL_X);
-    *z = area->z0 + (area->z1 - area->z0) * random_unit(seed, tick, id, RANDOM_GOAL_Z);
-}
-
-/* Rounds of a minute fall evenly spread over it. */
-static void barrage_from_sky(struct serial_context *context, uint32_t index,
-                             const struct battle_phase *phase, uint32_t second_ticks)
-{
-    const struct area *area = &context->step->world->areas[phase->area];
-    uint32_t ticks =
-        (uint32_t)context->step->tick - context->moved->head->battle.mission[index].since_tick;
-    double rate = phase->rounds_a_minute / 60.0 * context->step->dt_s;
-    double before = ticks > second_ticks ? floor(rate * (double)(ticks - second_ticks)) : 0.0;
-    uint32_t rounds = (uint32_t)(floor(rate * (double)ticks) - before);
-    for (uint32_t n = 0; n < rounds && n < SHOTS_A_SCORE; n++) {
-        double x, z;
-        random_point(context, area, UINT32_MAX - index * SHOTS_A_SCORE - n, &x, &z);
-        fire_drop_bomb(context, (uint16_t)phase->munition, x, z);
-    }
-}
-
-static void barrage_by_gun(struct serial_context *context, const struct battle_phase *phase,
-                           uint32_t row)
-{
-    const struct entities *m = &context->moved->entities;
-    const struct kind *kind = &context->step->world->kinds[m->kind[row]];
-    double x, z;
-    if (m->behaviour[row] != BEHAVIOUR_IDLE || kind->munition == KIND_NONE || m->rounds[row] == 0 ||
-        context->step->tick < m->reload_tick[row])
-        return;
-    random_point(context, &context->step->world->areas[phase->area], m->id[row], &x, &z);
-    double dx = x - m->x[row], dz = z - m->z[row];
-    if (dx * dx + dz * dz <= kind->range_m * kind->range_m)
-        fire_shoot_at(context, row, x, z, KIND_NONE);
-}
-
 static void supply(struct serial_context *context, const struct battle_phase *phase, uint32_t row)
 {
     const struct entities *m = &context->moved->entities;
@@ -194,14 +152,10 @@ static void work(struct serial_context *context, uint32_t index, uint32_t second
     const struct mission *mission = &world->missions[index];
     const struct battle_phase *phase = phase_of(context, index);
     const uint32_t *member = world->mission_members + mission->first_member;
-    if (phase->order == MISSION_BARRAGE && phase->munition != KIND_NONE) {
-        barrage_from_sky(context, index, phase, second_ticks);
-        return;
-    }
-    for (uint32_t n = 0; n < mission->member_count; n++) {
-        if (phase->order == MISSION_BARRAGE && mission_conditions_active(context, member[n]))
-            barrage_by_gun(context, phase, member[n]);
-        if (phase->order == MISSION_RESUPPLY && mission_conditions_active(context, member[n]))
+    if (phase->order == MISSION_BARRAGE)
+        mission_barrage(context, index, phase, second_ticks);
+    for (uint32_t n = 0; n < mission->member_count && phase->order == MISSION_RESUPPLY; n++) {
+        if (mission_conditions_active(context, member[n]))
             supply(context, phase, member[n]);
     }
 }

@@ -108,30 +108,76 @@ static bool has_passed(const struct serial_context *context, uint32_t since_tick
     return seconds >= 0.0 && (double)ticks * context->step->dt_s >= seconds;
 }
 
-/* The conditions on objectives. */
-static bool objectives_hold(const struct battle_state *battle, uint32_t force,
-                            const struct mission_conditions *conditions)
+static bool is_given(const struct mission_conditions *conditions, enum mission_condition condition)
+{
+    switch (condition) {
+    case MISSION_IF_FOR:
+        return conditions->for_s >= 0.0;
+    case MISSION_IF_AT:
+        return conditions->at_s >= 0.0;
+    case MISSION_IF_ARRIVED:
+        return conditions->arrived > 0.0;
+    case MISSION_IF_TAKEN:
+        return conditions->taken != MISSION_NONE;
+    case MISSION_IF_LOST:
+        return conditions->lost != MISSION_NONE;
+    case MISSION_IF_BELOW:
+        return conditions->below > 0.0;
+    case MISSION_IF_ENEMY_IN:
+        return conditions->enemy_in != MISSION_NONE;
+    default:
+        return conditions->after_mission != MISSION_NONE;
+    }
+}
+
+static bool enemy_is_in(const struct battle_state *battle, uint32_t force, uint32_t objective)
 {
     uint32_t enemy = force == FORCE_BLUE ? FORCE_RED : FORCE_BLUE;
-    return (conditions->taken != MISSION_NONE &&
-            battle->objective[conditions->taken].owner == force) ||
-           (conditions->lost != MISSION_NONE &&
-            battle->objective[conditions->lost].owner != force) ||
-           (conditions->enemy_in != MISSION_NONE &&
-            battle->objective[conditions->enemy_in].present[enemy] > 0);
+    return battle->objective[objective].present[enemy] > 0;
+}
+
+/* Returns true if a condition that is given holds. */
+static bool holds(const struct serial_context *context, uint32_t index,
+                  const struct battle_phase *phase, const struct mission_conditions *conditions,
+                  enum mission_condition condition)
+{
+    const struct mission *mission = &context->step->world->missions[index];
+    const struct battle_state *battle = &context->moved->head->battle;
+    const struct mission_state *state = &battle->mission[index];
+    switch (condition) {
+    case MISSION_IF_FOR:
+        return has_passed(context, state->since_tick, conditions->for_s);
+    case MISSION_IF_AT:
+        return has_passed(context, battle->round_tick, conditions->at_s);
+    case MISSION_IF_ARRIVED:
+        return arrived(context, mission, phase, conditions->arrived);
+    case MISSION_IF_TAKEN:
+        return battle->objective[conditions->taken].owner == mission->force;
+    case MISSION_IF_LOST:
+        return battle->objective[conditions->lost].owner != mission->force;
+    case MISSION_IF_BELOW:
+        return (double)state->able < conditions->below * (double)state->begun;
+    case MISSION_IF_ENEMY_IN:
+        return enemy_is_in(battle, mission->force, conditions->enemy_in);
+    default:
+        return phase_is_over(context, conditions);
+    }
 }
 
 bool mission_conditions_hold(const struct serial_context *context, uint32_t index,
                              const struct battle_phase *phase,
                              const struct mission_conditions *conditions)
 {
-    const struct mission *mission = &context->step->world->missions[index];
-    const struct battle_state *battle = &context->moved->head->battle;
-    const struct mission_state *state = &battle->mission[index];
-    return has_passed(context, state->since_tick, conditions->for_s) ||
-           has_passed(context, battle->round_tick, conditions->at_s) ||
-           (double)state->able < conditions->below * (double)state->begun ||
-           objectives_hold(battle, mission->force, conditions) ||
-           (conditions->after_mission != MISSION_NONE && phase_is_over(context, conditions)) ||
-           (conditions->arrived > 0.0 && arrived(context, mission, phase, conditions->arrived));
+    const bool all = (conditions->logic & MISSION_ALL) != 0;
+    bool any_given = false;
+    for (int n = 0; n < MISSION_CONDITION_COUNT; n++) {
+        enum mission_condition condition = (enum mission_condition)n;
+        if (!is_given(conditions, condition))
+            continue;
+        any_given = true;
+        bool negated = (conditions->logic >> n & 1u) != 0;
+        if ((holds(context, index, phase, conditions, condition) != negated) != all)
+            return !all;
+    }
+    return all && any_given;
 }

@@ -150,7 +150,10 @@ enum phase_key {
     PHASE_ENGAGE,
     PHASE_MUNITION,
     PHASE_RATE,
+    PHASE_ADJUST,
+    PHASE_BEARING,
     PHASE_AT_LEAST,
+    PHASE_ALL,
     PHASE_FOR,
     PHASE_UNTIL,
     PHASE_ARRIVED,
@@ -159,6 +162,9 @@ enum phase_key {
     PHASE_BELOW,
     PHASE_ENEMY_IN,
     PHASE_AFTER,
+    PHASE_NOT,
+    PHASE_WHEN_ALL,
+    PHASE_WHEN_NOT,
     PHASE_WHEN_TIME,
     PHASE_WHEN_TAKEN,
     PHASE_WHEN_LOST,
@@ -170,11 +176,15 @@ enum phase_key {
 
 #define SCHEMA_AFTER_MAX 48 /* [byte] "mission.phase", with the NUL */
 
+#define SCHEMA_NOT_MAX 80 /* [byte] names of keys, with spaces between them */
+
 /* Names of one set of conditions, and its numbers. */
 struct condition_entry {
     double for_s, at_s, arrived, below;
     char taken[ENTITY_NAME_MAX], lost[ENTITY_NAME_MAX], enemy_in[ENTITY_NAME_MAX];
     char after[SCHEMA_AFTER_MAX];
+    uint32_t all;
+    char unless[SCHEMA_NOT_MAX];
 };
 
 struct phase_entry {
@@ -184,7 +194,8 @@ struct phase_entry {
     uint32_t order, engage, roads;
     double to[2], area[4];
     const config_setting_t *route;
-    double spread_m, bound_s, rounds_a_minute, at_least_s;
+    double spread_m, bound_s, rounds_a_minute, bearing_rad, at_least_s;
+    uint32_t adjust;
     struct condition_entry until, when;
 };
 extern const struct key_table schema_phase;

@@ -19,8 +19,10 @@ static const struct key_choice orders[] = {
     {NULL, MISSION_PATROL, "The vehicles go from one random goal in the area to the next."},
     {NULL, MISSION_STRIKE, "The same for aircraft, which attack what they see there."},
     {NULL, MISSION_BARRAGE,
-     "Rounds fall on random points of the area: of a `munition` out of the sky, or of the group's "
-     "own loaded guns that reach them."},
+     "Volleys of six rounds fall on random points of the area. The group's howitzers fire them, or "
+     "a "
+     "battery off the map fires its `munition`. Other munitions fall one by one out of the sky. "
+     "Guns that are no howitzers fire directly, as fast as they load."},
     {NULL, MISSION_RESUPPLY,
      "The vehicles break off a fight and go along the route or into the area. There rounds and "
      "fuel fill up within 20 s."}};
@@ -90,13 +92,26 @@ static const struct key phase_keys[] = {
                                      "`barrage`, else free",
                             .meaning = "The targets of the vehicles from now on, as for "
                                        "`vehicles[].engage`."),
-    [PHASE_MUNITION] = TEXT("munition", P, munition, NULL,
-                            .meaning = "The kind of munition that a `barrage` lets fall out of the "
-                                       "sky."),
-    [PHASE_RATE] = NUMBER("rounds_a_minute", P, rounds_a_minute, 0.1, 600, "6",
-                          .meaning = "How many of them fall in a minute."),
+    [PHASE_MUNITION] =
+        TEXT("munition", P, munition, NULL,
+             .meaning = "The kind of munition of a `barrage`, instead of that of the "
+                        "group's own guns."),
+    [PHASE_RATE] =
+        NUMBER("rounds_a_minute", P, rounds_a_minute, 0.1, 600, "6",
+               .meaning = "How many rounds of a `barrage` are fired in a minute. A volley "
+                          "is left out while the guns still fire the last one."),
+    [PHASE_ADJUST] = BOOLEAN("adjust", P, adjust, STORE_U32, "false",
+                             .meaning = "true: one howitzer fires first, and any vehicle of the "
+                                        "force that sees the point corrects it."),
+    [PHASE_BEARING] =
+        SCALED("bearing_deg", P, bearing_rad, 0, 360, RAD_PER_DEG, "0", .unit = "degrees",
+               .meaning = "Where a battery off the map stands: the bearing from the "
+                          "area, clockwise from north."),
     [PHASE_AT_LEAST] = NUMBER("at_least_s", P, at_least_s, 0, 1e6, "0", .unit = "s",
                               .meaning = "The phase does not end earlier, whatever holds."),
+    [PHASE_ALL] = BOOLEAN("all", P, until.all, STORE_U32, "false",
+                          .meaning = "false: the phase ends when one of the conditions below "
+                                     "holds. true: when all that are given hold."),
     [PHASE_FOR] = NUMBER("for_s", P, until.for_s, 0, 1e6, NULL, .unit = "s",
                          .meaning = "The phase ends after this time."),
     [PHASE_UNTIL] = NUMBER("until_s", P, until.at_s, 0, 1e6, NULL, .unit = "s",
@@ -116,6 +131,16 @@ static const struct key phase_keys[] = {
     [PHASE_AFTER] = TEXT("after", P, until.after, NULL,
                          .meaning = "It ends when the phase of another mission has ended, written "
                                     "`\"mission.phase\"`."),
+    [PHASE_NOT] = TEXT("not", P, until.unless, NULL,
+                       .meaning = "The names of those conditions that must not hold, with spaces "
+                                  "between them, such as `\"enemy_in arrived\"`."),
+    [PHASE_WHEN_ALL] =
+        BOOLEAN("when_all", P, when.all, STORE_U32, "false",
+                .meaning = "true: a reaction begins when all of the conditions below "
+                           "that are given hold, and not when one of them does."),
+    [PHASE_WHEN_NOT] = TEXT("when_not", P, when.unless, NULL,
+                            .meaning = "The names of those that must not hold, such as "
+                                       "`\"when_enemy_in\"`."),
     [PHASE_WHEN_TIME] = NUMBER("when_s", P, when.at_s, 0, 1e6, NULL, .unit = "s",
                                .meaning = "A reaction begins at this time after the beginning of "
                                           "the battle."),

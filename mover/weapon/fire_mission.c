@@ -148,13 +148,18 @@ static bool has_mission(const struct state_head *head, uint32_t id)
     return false;
 }
 
+bool fire_mission_can(const struct serial_context *context, uint32_t row, double x, double z)
+{
+    const struct entities *m = &context->moved->entities;
+    return is_howitzer(context, row) && !has_mission(context->moved->head, m->id[row]) &&
+           distance(m, row, x, z) <= context->step->world->kinds[m->kind[row]].range_m;
+}
+
 uint32_t fire_mission_gun(const struct serial_context *context, uint8_t force, double x, double z)
 {
     const struct entities *m = &context->moved->entities;
     for (uint32_t row = 0; row < context->moved->head->used; row++) {
-        if (m->force[row] == force && is_howitzer(context, row) &&
-            !has_mission(context->moved->head, m->id[row]) &&
-            distance(m, row, x, z) <= context->step->world->kinds[m->kind[row]].range_m)
+        if (m->force[row] == force && fire_mission_can(context, row, x, z))
             return row;
     }
     return SLOT_NONE;
@@ -387,7 +392,8 @@ void fire_mission_run(struct serial_context *context)
         struct battery *battery = &head->battery[i];
         if (battery->phase != BATTERY_DONE)
             run_battery(context, battery);
-        if (battery->phase != BATTERY_DONE || battery->cold_tick > tick)
+        /* The barrels of a battery off the map are not kept: each mission has other guns. */
+        if (battery->phase != BATTERY_DONE || (battery->cold_tick > tick && !is_afar(battery)))
             head->battery[left++] = *battery;
     }
     for (uint32_t i = left; i < head->battery_count; i++)

@@ -31,7 +31,21 @@ enum mission_order {
     MISSION_ORDER_COUNT
 };
 
-/* Each member is one condition. One that holds is enough. */
+/* The conditions of a phase, as bits of mission_conditions.logic. */
+enum mission_condition {
+    MISSION_IF_FOR,
+    MISSION_IF_AT,
+    MISSION_IF_ARRIVED,
+    MISSION_IF_TAKEN,
+    MISSION_IF_LOST,
+    MISSION_IF_BELOW,
+    MISSION_IF_ENEMY_IN,
+    MISSION_IF_AFTER,
+    MISSION_CONDITION_COUNT
+};
+#define MISSION_ALL 256u /* of logic: all conditions that are given must hold */
+
+/* Each member is one condition. One that holds is enough, unless logic has MISSION_ALL. */
 struct mission_conditions {
     double for_s;           /* [s] since the phase began; negative: none */
     double at_s;            /* [s] since the battle began; negative: none */
@@ -42,7 +56,7 @@ struct mission_conditions {
     uint32_t enemy_in;      /* objective with enemies in it */
     uint32_t after_mission; /* whose phase ... */
     uint32_t after_phase;   /* ... has ended */
-    uint32_t reserved;
+    uint32_t logic;         /* bit n: condition n must not hold; and MISSION_ALL */
 };
 
 struct battle_phase {
@@ -50,12 +64,13 @@ struct battle_phase {
     struct mission_conditions until; /* of its end */
     struct mission_conditions when;  /* of the beginning of a reaction */
     double at_least_s;               /* [s] it does not end before */
-    double rounds_a_minute;          /* barrage from the sky */
+    double rounds_a_minute;          /* barrage */
+    double bearing_rad;              /* barrage from off the map: where the battery stands */
     uint32_t order;                  /* enum mission_order */
     uint32_t engage;                 /* ENTITY_FLAG_FIRE_AT_WILL, _HOLD_FIRE or 0 */
     uint32_t route, area;            /* MISSION_NONE: none */
-    uint32_t munition;               /* barrage from the sky; KIND_NONE: of the group's own guns */
-    uint32_t reserved;
+    uint32_t munition;               /* of a barrage; KIND_NONE: that of the group's own guns */
+    uint32_t adjusted;               /* 1: an observer corrects the barrage */
 };
 
 struct mission {

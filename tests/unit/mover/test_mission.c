@@ -20,10 +20,13 @@
 
 static struct fixture f;
 
-#define WORLD                                                                                      \
+/* A world with more vehicles before its two tanks and its truck. */
+#define WORLD WORLD_OF("")
+#define WORLD_OF(more)                                                                             \
     "objectives = ( { name = \"hill\"; area = [25000.0, 25000.0, 25200.0, 25200.0]; force = "      \
     "\"red\"; } );"                                                                                \
-    "vehicles = ( { name = \"A\"; kind = \"tank\"; force = \"blue\"; at = [25100.0, 25400.0]; "    \
+    "vehicles = ( " more                                                                           \
+    "{ name = \"A\"; kind = \"tank\"; force = \"blue\"; at = [25100.0, 25400.0]; "                 \
     "heading_deg = 0.0; },"                                                                        \
     "{ name = \"B\"; kind = \"tank\"; force = \"blue\"; at = [25160.0, 25400.0]; heading_deg = "   \
     "0.0; },"                                                                                      \
@@ -140,6 +143,33 @@ static void test_an_equal_enemy_keeps_an_objective(void **state)
     fixture_close(&f);
 }
 
+/* Red holds the hill and nobody is on it. */
+static void test_conditions_are_joined(void **state)
+{
+    static const struct {
+        const char *conditions;
+        uint32_t phase;
+    } cases[] = {
+        {"lost = \"hill\"; for_s = 100.0;", 1},
+        {"lost = \"hill\"; for_s = 100.0; all = true;", 0},
+        {"lost = \"hill\"; for_s = 1.0; all = true;", 1},
+        {"lost = \"hill\"; not = \"lost\";", 0},
+        {"lost = \"hill\"; for_s = 1.0; all = true; not = \"lost\";", 0},
+        {"enemy_in = \"hill\"; not = \"enemy_in\";", 1},
+        {"enemy_in = \"hill\"; for_s = 1.0; all = true; not = \"enemy_in\";", 1},
+        {"enemy_in = \"hill\"; for_s = 1.0; all = true; not = \"for_s enemy_in\";", 1},
+    };
+    (void)state;
+    for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
+        char phases[256];
+        snprintf(phases, sizeof phases, HOLD_UNTIL("%s"), cases[n].conditions);
+        open_mission("A", phases, "");
+        run_s(4.0);
+        check_phase(cases[n].phase);
+        fixture_close(&f);
+    }
+}
+
 static void test_losses_end_a_phase(void **state)
 {
     (void)state;
@@ -254,6 +284,16 @@ static void test_a_patrol_and_a_strike_stay_in_their_area(void **state)
     }
 }
 
+/* The hill is 200 m wide; the rounds of a battery and their errors spread further. */
+static void check_falls_on_the_hill(uint32_t first, uint32_t end)
+{
+    for (uint32_t n = first; n < end; n++) {
+        const double *at = fixture_event(&f, EVENT_DETONATION, n)->detonation.point;
+        double dx = at[0] - 25100.0, dz = at[2] - 25100.0;
+        assert_true(dx * dx + dz * dz < 500.0 * 500.0);
+    }
+}
+
 static void test_a_barrage_falls_on_its_area(void **state)
 {
     (void)state;
@@ -261,17 +301,31 @@ static void test_a_barrage_falls_on_its_area(void **state)
         &f,
         WORLD "missions = ( { name = \"g\"; off_map = true; force = \"blue\"; phases = ( { name "
               "= \"a\"; order = \"barrage\"; objective = \"hill\"; munition = \"artillery\"; "
-              "rounds_a_minute = 30.0; for_s = 60.0; }, { name = \"b\"; order = \"hold\"; } ); } "
+              "rounds_a_minute = 30.0; for_s = 59.0; }, { name = \"b\"; order = \"hold\"; } ); } "
               ");");
-    run_s(70.0);
+    run_s(20.0); /* volleys of six, one in 12 s */
+    assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 12);
+    run_s(50.0);
+    assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 30);
     uint32_t fell = fixture_event_count(&f, EVENT_DETONATION);
-    assert_true(fell >= 29 && fell <= 31);
-    for (uint32_t n = 0; n < fell; n++) {
-        const double *at = fixture_event(&f, EVENT_DETONATION, n)->detonation.point;
-        assert_true(at[0] > 24995.0 && at[0] < 25205.0 && at[2] > 24995.0 && at[2] < 25205.0);
-    }
-    run_s(20.0);
+    assert_int_equal(fell, 30);
+    check_falls_on_the_hill(0, fell);
+    run_s(30.0);
     assert_int_equal(fixture_event_count(&f, EVENT_DETONATION), fell);
+    fixture_close(&f);
+}
+
+static void test_bombs_fall_one_by_one(void **state)
+{
+    (void)state;
+    fixture_open(
+        &f,
+        WORLD "missions = ( { name = \"g\"; off_map = true; force = \"blue\"; phases = ( { name "
+              "= \"a\"; order = \"barrage\"; objective = \"hill\"; munition = \"bomb\"; "
+              "rounds_a_minute = 30.0; for_s = 59.0; }, { name = \"b\"; order = \"hold\"; } ); } "
+              ");");
+    run_s(29.5);
+    assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 15);
     fixture_close(&f);
 }
 
@@ -282,6 +336,33 @@ static void test_own_guns_fire_a_barrage(void **state)
     run_s(20.0);
     assert_true(fixture_event_count(&f, EVENT_FIRE) >= 2);
     assert_int_equal(fixture_event(&f, EVENT_FIRE, 0)->fire.shooter.id, 1);
+    fixture_close(&f);
+}
+
+/* Three howitzers 5 km from the hill: a volley is two rounds of each. */
+static void test_howitzers_fire_a_barrage_by_missions(void **state)
+{
+    (void)state;
+    fixture_open(
+        &f,
+        WORLD_OF(
+            "{ name = \"G\"; kind = \"howitzer\"; force = \"blue\"; count = 3; area = "
+            "[25050.0, 30050.0, 25150.0, 30150.0]; },") "missions = ( { name = \"m\"; vehicles = "
+                                                        "\"G\"; phases = ( { name = \"a\"; order "
+                                                        "= \"barrage\"; objective = \"hill\"; "
+                                                        "rounds_a_minute = 6.0; for_s = 59.0; }, { "
+                                                        "name = \"b\"; order = \"hold\"; } ); } "
+                                                        ");");
+    run_s(5.0);
+    assert_int_equal(fixture_state(&f).head->battery_count, 1);
+    assert_int_equal(fixture_state(&f).head->battery[0].guns, 3);
+    run_s(75.0);
+    uint32_t shots = fixture_event_count(&f, EVENT_FIRE);
+    assert_int_equal(shots, 6);
+    for (uint32_t n = 0; n < shots; n++)
+        assert_int_not_equal(fixture_event(&f, EVENT_FIRE, n)->fire.shooter.id, 0);
+    assert_int_equal(fixture_event_count(&f, EVENT_DETONATION), 6);
+    check_falls_on_the_hill(0, 6);
     fixture_close(&f);
 }
 
@@ -412,6 +493,9 @@ int main(void)
         cmocka_unit_test(test_a_patrol_and_a_strike_stay_in_their_area),
         cmocka_unit_test(test_a_barrage_falls_on_its_area),
         cmocka_unit_test(test_own_guns_fire_a_barrage),
+        cmocka_unit_test(test_bombs_fall_one_by_one),
+        cmocka_unit_test(test_howitzers_fire_a_barrage_by_missions),
+        cmocka_unit_test(test_conditions_are_joined),
         cmocka_unit_test(test_supplies_fill_up),
         cmocka_unit_test(test_only_some_orders_end_a_fight),
         cmocka_unit_test(test_a_reaction_interrupts_and_resumes),
