@@ -43,7 +43,8 @@ static bool wreck(struct response_context *context, uint32_t row)
     if (e->state[row] != ENTITY_ACTIVE)
         return false;
     table_set_state(&context->writer, row, ENTITY_WRECK);
-    table_set_flags(&context->writer, row, e->flags[row] & (uint8_t)~ENTITY_FLAG_CHASSIS);
+    table_set_flags(&context->writer, row,
+                    e->flags[row] & (uint8_t) ~(ENTITY_FLAG_CHASSIS | ENTITY_FLAG_DISARMED));
     table_set_throttle(&context->writer, row, 0.0f);
     table_set_behaviour(&context->writer, row, BEHAVIOUR_IDLE);
     table_set_order(&context->writer, row, BEHAVIOUR_IDLE);

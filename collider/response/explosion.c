@@ -307,6 +307,20 @@ static double flown_of(const struct response_context *context, uint32_t round, d
     return maths_max(frames, 0.0) * context->world->params->dt_s * 0.5 * (first + speed_mps);
 }
 
+/* A round gets through. Returns the harm [J]. An undamaged vehicle may lose its gun alone, and then
+ * still drives (world/entity/disabled.h). */
+static double penetrate(struct response_context *context, uint32_t round, uint32_t struck,
+                        double joules)
+{
+    const struct entities *e = &context->next->entities;
+    const struct kind *vehicle = &context->world->kinds[e->kind[struck]];
+    double luck = luck_of(context, round, RANDOM_PENETRATED);
+    if (armour_loss_of(luck) == ARMOUR_LOSS_FIRE && armour_disables(vehicle, joules) &&
+        e->state[struck] == ENTITY_ACTIVE && e->damage[struck] < DAMAGE_MED)
+        table_set_flags(&context->writer, struck, e->flags[struck] | ENTITY_FLAG_DISARMED);
+    return armour_harm(vehicle, joules, luck);
+}
+
 /* A hit on a vehicle by a round that may penetrate its armour. Returns true if the round glances
  * off. normal: from the round to the vehicle. */
 static bool hit_armour(struct response_context *context, uint32_t round, uint32_t struck,
@@ -328,7 +342,7 @@ static bool hit_armour(struct response_context *context, uint32_t round, uint32_
         damage_row(context, struck, ARMOUR_OUTSIDE * joules, time);
         return false;
     case ARMOUR_PENETRATED:
-        joules = armour_harm(vehicle, joules, luck_of(context, round, RANDOM_PENETRATED));
+        joules = penetrate(context, round, struck, joules);
         break;
     default:
         break;

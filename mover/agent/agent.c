@@ -13,12 +13,14 @@
 #include "mover/agent/script_player.h"
 #include "mover/agent/target_search.h"
 #include "mover/motion/driver_controls.h"
+#include "world/entity/disabled.h"
 #include "world/state.h"
 #include "world/world.h"
 #include <stddef.h>
 
 #define CRUISE_SHARE  0.75 /* share of full speed on patrol and route */
 #define BACK_OFF_M    80.0
+#define REST_S        8.0   /* who is stuck again stands so long or twice as long */
 #define REVERSE_SHARE 0.4   /* share of the speed when it drives backwards */
 #define REVERSE_M     150.0 /* so far a tank drives backwards into cover */
 #define LOW_SHARE     0.4   /* of its usual height, at which an aircraft evades */
@@ -105,7 +107,9 @@ static void begin_back_off(const struct step_context *context, uint32_t i,
         return;
     }
     goal_away(context, i, progress_way_out(context, i, before == BEHAVIOUR_BACK_OFF), BACK_OFF_M);
-    m->until_tick[i] = after(context, row->time_s + (double)(m->id[i] % 4));
+    m->until_tick[i] =
+        after(context, progress_rests(context, i) ? REST_S + (double)(m->id[i] % 8)
+                                                  : row->time_s + (double)(m->id[i] % 4));
 }
 
 static void take(const struct step_context *context, uint32_t i,
@@ -264,7 +268,7 @@ static void drive_by_behaviour(const struct step_context *context, uint32_t i,
         drive_to_position(context, i, kind, desired);
         break;
     case BEHAVIOUR_BACK_OFF:
-        drive_either_way(context, i, cruise, desired);
+        drive_either_way(context, i, progress_rests(context, i) ? 0.0 : cruise, desired);
         break;
     case BEHAVIOUR_SCRIPT:
         script_player_motion(context, i, desired);
@@ -355,6 +359,10 @@ static void think(const struct step_context *context, uint32_t i, const struct k
     avoidance_steer(context, i, desired);
     if (kind->domain == DOMAIN_AIR && !desired->driven)
         aircraft_separation_keep(context, i, desired);
+    if (disabled_drive(kind, m, i)) {
+        desired->heading_rad = m->heading[i];
+        desired->speed_mps = desired->turn = 0.0;
+    }
 }
 
 void agent_think(const struct step_context *context, uint32_t i, struct desired_motion *desired)

@@ -29,11 +29,11 @@ enum perceived {
     PERCEPT_LOW_FUEL,     /* *its fuel is only just enough for the path to its base */
     PERCEPT_ARMED,        /* it can fire, and its orders are not to hold fire */
     PERCEPT_AT_WILL,      /* its orders are to attack enemies on sight */
-    PERCEPT_STAND,        /* its orders are never to flee or withdraw */
+    PERCEPT_STAND,        /* its orders are never to flee or withdraw, or it cannot drive */
     PERCEPT_SUPPRESSED,   /* event: a charge has burst near it, or air defence fires at it */
     PERCEPT_STALLED,      /* event: it has driven for some time and not got on */
     PERCEPT_ROUNDS_FIRED, /* its salvo or its pass is over */
-    PERCEPT_LOSSES,       /* it is fired upon, and half of its group is lost */
+    PERCEPT_LOSSES,       /* it is fired upon, and half of its group, or its gun, is lost */
     PERCEPT_BRAVE,        /* its courage holds: drawn at random when an event tests it */
     PERCEPT_COUNT
 };

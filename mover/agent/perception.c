@@ -7,6 +7,7 @@
 #include "mover/agent/losses.h"
 #include "mover/agent/progress.h"
 #include "mover/agent/target_search.h"
+#include "world/entity/disabled.h"
 #include "world/maths/random.h"
 #include "world/params.h"
 #include "world/state.h"
@@ -104,11 +105,16 @@ static bool brave(const struct step_context *context, uint32_t i)
 
 /* --- its own state -----------------------------------------------------------------------------*/
 
+static bool is_disarmed(const struct step_context *context, uint32_t i)
+{
+    return disabled_gun(&context->world->kinds[context->m->kind[i]], context->m, i);
+}
+
 bool perception_armed(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
     return context->world->kinds[m->kind[i]].munition != KIND_NONE && m->rounds[i] > 0 &&
-           !(m->flags[i] & ENTITY_FLAG_HOLD_FIRE);
+           !(m->flags[i] & ENTITY_FLAG_HOLD_FIRE) && !is_disarmed(context, i);
 }
 
 /* Returns true if its fuel is only just enough for the path to its base. */
@@ -147,7 +153,7 @@ static uint32_t notice_state(const struct step_context *context, uint32_t i)
         percepts |= PERCEPTION_BIT(ARMED);
     if (flags & ENTITY_FLAG_FIRE_AT_WILL)
         percepts |= PERCEPTION_BIT(AT_WILL);
-    if (flags & ENTITY_FLAG_STAND)
+    if ((flags & ENTITY_FLAG_STAND) || disabled_drive(kind, m, i))
         percepts |= PERCEPTION_BIT(STAND);
     if (m->target_id[i] != 0)
         percepts |= entities_alive(w, target, m->target_id[i]) && w->state[target] == ENTITY_ACTIVE
@@ -298,7 +304,8 @@ struct notice perception_notice(const struct step_context *context, uint32_t i)
     if (looks_now(context, i))
         notice_look(context, i, &notice);
     if ((notice.percepts & PERCEPTION_BIT(SHOT)) &&
-        matters(context, i, notice.percepts, PERCEPTION_BIT(LOSSES)) && losses_half(context, i))
+        matters(context, i, notice.percepts, PERCEPTION_BIT(LOSSES)) &&
+        (losses_half(context, i) || is_disarmed(context, i)))
         notice.percepts |= PERCEPTION_BIT(LOSSES);
     if (notice.threat != SLOT_NONE && !fire_control_suits(context, i, notice.threat))
         return notice; /* it cannot fire back */

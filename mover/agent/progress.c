@@ -6,34 +6,45 @@
 #include "world/state.h"
 #include "world/world.h"
 
-#define STALLED_S    3.0
-#define DRIVES_MPS   1.0  /* it wants at least this speed */
-#define SLOW_MPS     0.3  /* and reaches less than this, */
-#define SLOW_SHARE   0.06 /* or than this share of it */
-#define SIDE_RAD     1.05 /* most off the way back */
-#define STALLED_MOST UINT8_MAX
+#define STALLED_S  3.0
+#define DRIVES_MPS 1.0  /* it wants at least this speed */
+#define SLOW_MPS   0.3  /* and reaches less than this, */
+#define SLOW_SHARE 0.06 /* or than this share of it */
+#define SIDE_RAD   1.05 /* most off the way back */
 
-static bool gets_on(const struct step_context *context, uint32_t i)
-{
-    const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    double wanted = fabs((double)m->throttle[i]) * kind->max_speed_mps;
-    double least = maths_max(SLOW_MPS, SLOW_SHARE * wanted);
-    return kind->domain == DOMAIN_AIR || wanted < DRIVES_MPS ||
-           m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i] >= least * least;
-}
+/* The column stalled: a count of decisions, and how often the vehicle has been stuck since it last
+ * got on. */
+#define STALLED_COUNT 0x3fu
+#define STALLED_ONCE  0x40u /* it backs off */
+#define STALLED_AGAIN 0x80u /* it rests */
 
 bool progress_stalled(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    if (m->throttle[i] == 0.0f || gets_on(context, i)) {
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    double wanted = fabs((double)m->throttle[i]) * kind->max_speed_mps;
+    double least = maths_max(SLOW_MPS, SLOW_SHARE * wanted);
+    uint8_t before = m->stalled[i] & (uint8_t)~STALLED_COUNT;
+    if (kind->domain == DOMAIN_AIR || wanted < DRIVES_MPS) {
+        m->stalled[i] = before;
+        return false;
+    }
+    if (m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i] >= least * least) {
         m->stalled[i] = 0;
         return false;
     }
-    uint32_t count = m->stalled[i] + 1u;
-    bool long_enough = count * context->think_frames * context->dt_s >= STALLED_S;
-    m->stalled[i] = long_enough || count > STALLED_MOST ? 0 : (uint8_t)count;
-    return long_enough;
+    uint32_t count = (m->stalled[i] & STALLED_COUNT) + 1u;
+    if (count * context->think_frames * context->dt_s < STALLED_S && count < STALLED_COUNT) {
+        m->stalled[i] = (uint8_t)(before | count);
+        return false;
+    }
+    m->stalled[i] = before & STALLED_ONCE ? STALLED_AGAIN : STALLED_ONCE;
+    return true;
+}
+
+bool progress_rests(const struct step_context *context, uint32_t i)
+{
+    return (context->m->stalled[i] & STALLED_AGAIN) != 0;
 }
 
 double progress_way_out(const struct step_context *context, uint32_t i, bool tried)

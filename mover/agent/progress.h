@@ -8,6 +8,10 @@
  * true when that has lasted for 3 s, and counts from 0 again. For each decision once. */
 bool progress_stalled(const struct step_context *context, uint32_t i);
 
+/* Returns true if it was stuck twice without getting on in between: then it stands for a while
+ * before it tries again. */
+bool progress_rests(const struct step_context *context, uint32_t i);
+
 /* Returns the heading in which a vehicle that is stuck backs off [rad]: away from where it drove,
  * up to 60 degrees to a random side. tried: it is backing off already; then any heading. */
 double progress_way_out(const struct step_context *context, uint32_t i, bool tried);

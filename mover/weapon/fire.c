@@ -6,6 +6,7 @@
 #include "mover/weapon/firing_table.h"
 #include "mover/weapon/spawn.h"
 #include "mover/weapon/turret.h"
+#include "world/entity/disabled.h"
 #include "world/entity/event.h"
 #include "world/maths/maths.h"
 #include "world/maths/random.h"
@@ -66,6 +67,11 @@ static uint32_t new_munition(struct serial_context *context, uint16_t kind, uint
     if (context->moved->head->intent_count >= context->step->world->params->intents_per_frame)
         return SLOT_NONE;
     return spawn_entity(context, kind, force);
+}
+
+static bool can_fire(const struct entities *m, const struct kind *kind, uint32_t shooter)
+{
+    return m->rounds[shooter] > 0 && !disabled_gun(kind, m, shooter);
 }
 
 /* Sends the munition on its path, and returns the event, to which the caller adds the parties. */
@@ -156,7 +162,7 @@ bool fire_shell(struct serial_context *context, uint32_t shooter, const struct f
     const struct entities *m = &context->moved->entities;
     const struct kind *kinds = context->step->world->kinds;
     const struct kind *kind = &kinds[m->kind[shooter]], *round = &kinds[shell->munition];
-    uint32_t row = m->rounds[shooter] > 0
+    uint32_t row = can_fire(m, kind, shooter)
                        ? new_munition(context, shell->munition, m->force[shooter])
                        : SLOT_NONE;
     if (row == SLOT_NONE)
@@ -227,7 +233,7 @@ static bool launch(struct serial_context *context, uint32_t shooter, uint32_t ta
     const struct kind *kind = &world->kinds[m->kind[shooter]];
     if (munition == KIND_NONE)
         munition = kind->munition;
-    if (munition == KIND_NONE || m->rounds[shooter] == 0)
+    if (munition == KIND_NONE || !can_fire(m, kind, shooter))
         return false;
     const struct kind *round = &world->kinds[munition];
     if (round->delivery == DELIVERY_ARC && (point || target != SLOT_NONE))

@@ -4,6 +4,7 @@
 #include "mover/motion/kinematics.h"
 #include "mover/weapon/fire_adjustment.h"
 #include "mover/weapon/turret.h"
+#include "world/entity/disabled.h"
 #include "world/maths/random.h"
 #include "world/params.h"
 #include "world/state.h"
@@ -35,7 +36,8 @@ static bool is_howitzer(const struct serial_context *context, uint32_t row)
     if (m->state[row] != ENTITY_ACTIVE || m->behaviour[row] == BEHAVIOUR_FLIGHT)
         return false;
     uint16_t munition = kinds[m->kind[row]].munition;
-    return munition != KIND_NONE && kinds[munition].delivery == DELIVERY_ARC && m->rounds[row] > 0;
+    return !disabled_gun(&kinds[m->kind[row]], m, row) && munition != KIND_NONE &&
+           kinds[munition].delivery == DELIVERY_ARC && m->rounds[row] > 0;
 }
 
 /* --- orders ------------------------------------------------------------------------------------*/

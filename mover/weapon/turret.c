@@ -3,6 +3,7 @@
 
 #include "mover/motion/kinematics.h"
 #include "mover/weapon/firing_table.h"
+#include "world/entity/disabled.h"
 #include "world/maths/rotation.h"
 #include "world/state.h"
 #include "world/world.h"
@@ -197,7 +198,7 @@ void turret_turn(const struct step_context *context, uint32_t i, struct turret_s
     struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     solution->found = false;
-    if (kind->munition == KIND_NONE)
+    if (kind->munition == KIND_NONE || disabled_gun(kind, m, i))
         return;
     if (m->behaviour[i] != BEHAVIOUR_DRIVEN) {
         by_agent(context, i, kind, solution);
@@ -222,6 +223,8 @@ bool turret_lay(const struct step_context *context, const struct table_writer *w
 {
     const struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
+    if (disabled_gun(kind, m, i))
+        return false;
     struct mat3 body = pose_matrix(m, i);
     struct vec3 own = rotation_back(&body, direction);
     double turret = maths_atan2(own.z, own.x);

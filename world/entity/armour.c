@@ -65,9 +65,24 @@ enum armour_effect armour_effect_of(const struct kind *vehicle, const struct kin
     return luck < hit->probability ? ARMOUR_PENETRATED : ARMOUR_HOLDS;
 }
 
+enum armour_loss armour_loss_of(double luck)
+{
+    return luck < MOBILITY_TO ? ARMOUR_LOSS_MOBILITY
+           : luck < FIRE_TO   ? ARMOUR_LOSS_FIRE
+                              : ARMOUR_LOSS_ALL;
+}
+
+bool armour_disables(const struct kind *vehicle, double joules)
+{
+    return ARMOUR_INSIDE * joules >= vehicle->resistance_j;
+}
+
 double armour_harm(const struct kind *vehicle, double joules, double luck)
 {
-    double share = luck < MOBILITY_TO ? MOBILITY_SHARE : luck < FIRE_TO ? FIRE_SHARE : 1.0;
+    static const double shares[] = {[ARMOUR_LOSS_MOBILITY] = MOBILITY_SHARE,
+                                    [ARMOUR_LOSS_FIRE] = FIRE_SHARE,
+                                    [ARMOUR_LOSS_ALL] = 1.0};
+    double share = shares[armour_loss_of(luck)];
     double most = maths_min(1.0, ARMOUR_INSIDE * joules / vehicle->resistance_j);
     return share * most * vehicle->resistance_j;
 }

@@ -47,6 +47,15 @@ double armour_penetration(const struct kind *round, double flown_m);
 enum armour_effect armour_effect_of(const struct kind *vehicle, const struct kind *round,
                                     const struct armour_hit *hit, double luck);
 
+/* What a round costs that penetrates. */
+enum armour_loss { ARMOUR_LOSS_MOBILITY, ARMOUR_LOSS_FIRE, ARMOUR_LOSS_ALL };
+
+/* Returns the loss by luck, uniform in [0, 1). */
+enum armour_loss armour_loss_of(double luck);
+
+/* Returns true if a round of this energy disables what it finds behind the armour. */
+bool armour_disables(const struct kind *vehicle, double joules);
+
 /* Returns the harm of a penetration [J]. By luck, uniform in [0, 1), the vehicle loses its mobility
  * (0.3: medium damage), its fire (0.3: high damage), or is lost (0.4). Two of the first make high
  * damage, and three a loss. joules: energy of the round and its charge. */

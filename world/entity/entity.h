@@ -104,7 +104,7 @@ enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED
     X(uint8_t, order)   /* the behaviour it goes back to */                                        \
     X(uint8_t, damage)  /* enum damage */                                                          \
     X(uint8_t, bumped)  /* 1: ran into something in this frame */                                  \
-    X(uint8_t, stalled) /* decisions in a row in which it drove and did not get on */              \
+    X(uint8_t, stalled) /* how long it has driven and not got on (mover/agent/progress.c) */       \
     X(uint8_t, flags)   /* ENTITY_FLAG_* */                                                        \
     X(uint8_t, trigger) /* of the mover: the row's requests in this frame */
 
@@ -128,6 +128,8 @@ _Static_assert(ENTITY_COLUMN_COUNT <= 64, "a set of columns is one word");
 #define ENTITY_FLAG_BURST        8u /* a charge has burst near it; its agent clears the flag */
 #define ENTITY_FLAG_BROKEN                                                                         \
     64u /* an aircraft's wreck that the ground has broken up (mover/motion/wreck.h) */
+#define ENTITY_FLAG_DISARMED                                                                       \
+    64u /* the same bit while it is active: its gun is out of action (world/entity/disabled.h) */
 
 #define ENTITY_FLAG_CHASSIS                                                                        \
     128u /* a land vehicle that moves as a body on its springs (mover/motion/chassis.h) */

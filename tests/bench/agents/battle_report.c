@@ -113,8 +113,9 @@ void battle_report(const struct battle_count *count, const struct view *view, ui
     print_losses(count, view);
     print_hits(count, view);
     print_news(count);
-    printf("longest push: %.1f s, row %u; collisions: %u, by which %u vehicles ended\n",
-           count->longest[row] * count->dt_s, row, count->bumps, count->crashes);
+    printf("longest push: %.1f s, %s of row %u; collisions: %u, by which %u vehicles ended\n",
+           count->longest[row] * count->dt_s, view->world.kinds[count->kind[row]].name, row,
+           count->bumps, count->crashes);
 }
 
 /* --- bounds ------------------------------------------------------------------------------------*/

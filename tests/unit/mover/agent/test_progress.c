@@ -139,6 +139,26 @@ static void test_it_is_stuck_when_it_drives_for_three_seconds_in_vain(void **sta
     assert_int_equal(decisions_until_stalled(0.0f, 0.0), 0); /* it stands */
 }
 
+/* A tank that nothing frees, such as one that hangs on a wreck, stands for more than half of the
+ * time.
+ */
+static void test_who_is_stuck_again_rests(void **state)
+{
+    int drives = 0, rests = 0;
+    (void)state;
+    fixture_open(&f, WORLD "vehicles = (" TRUCK("25000.0") ");");
+    for (int frame = 0; frame < 300 * HZ; frame++) {
+        fixture_run(&f, 1);
+        struct entities e = steps_rows(&f);
+        e.x[0] = e.z[0] = 25000.0;
+        e.vx[0] = e.vz[0] = 0.0;
+        drives += fabs((double)e.throttle[0]) > 0.15;
+        rests += fabs((double)e.throttle[0]) < 0.01;
+    }
+    assert_true(rests > drives);
+    assert_true(drives > 30 * HZ); /* it tries again and again */
+}
+
 static void test_the_way_out_is_to_the_back(void **state)
 {
     struct step_context step;
@@ -164,6 +184,7 @@ int main(void)
         TEST(test_a_column_behind_a_blocked_truck_does_not_push),
         TEST(test_a_truck_gives_up_against_what_it_does_not_see),
         TEST(test_it_is_stuck_when_it_drives_for_three_seconds_in_vain),
+        TEST(test_who_is_stuck_again_rests),
         TEST(test_the_way_out_is_to_the_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -136,7 +136,11 @@ static void shoot(double bearing_deg, const char *munition, unsigned count[DAMAG
         assert_non_null(event);
         assert_int_equal(event->detonation.struck, STRUCK_VEHICLE);
         *broken += event->detonation.explosive_kg == 0.0f;
-        count[steps_rows(&f).damage[tank]]++;
+        enum damage damage = steps_rows(&f).damage[tank];
+        count[damage]++;
+        /* Only a round that strikes the gun alone does high damage at once. */
+        assert_true(((steps_rows(&f).flags[tank] & ENTITY_FLAG_DISARMED) != 0) ==
+                    (damage == DAMAGE_HIGH));
     }
     fixture_close(&f);
 }

@@ -1,0 +1,115 @@
+/* What damage stops: tracks and wheels, turret and gun. */
+#include "world/entity/disabled.h"
+
+#include "tests/support/steps.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define HZ 20
+
+static struct fixture f;
+
+/* The vehicles of the first column stand 300 m from a truck of the enemy, and aim at it. */
+static const struct {
+    const char *kind;
+    enum damage damage;
+    uint8_t flags;
+    bool drives, fires;
+} cases[] = {
+    {"tank", DAMAGE_NONE, 0, true, true},
+    {"tank", DAMAGE_LOW, 0, true, true},
+    {"tank", DAMAGE_MED, 0, false, true},
+    {"tank", DAMAGE_HIGH, 0, false, false},
+    {"tank", DAMAGE_HIGH, ENTITY_FLAG_DISARMED, true, false},
+    {"carrier", DAMAGE_MED, 0, false, true},
+    {"jeep", DAMAGE_HIGH, 0, true, true},
+};
+
+#define COUNT (sizeof cases / sizeof cases[0])
+
+static void open_case(size_t n, enum behaviour behaviour)
+{
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; };");
+    uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = cases[n].kind,
+                                                           .at = {25000.0, 100.0, 25000.0},
+                                                           .force = FORCE_BLUE,
+                                                           .behaviour = behaviour});
+    uint32_t target = fixture_put(&f, (struct fixture_entity){.kind = "truck",
+                                                              .at = {25300.0, 100.0, 25000.0},
+                                                              .force = FORCE_RED,
+                                                              .behaviour = BEHAVIOUR_HOLD});
+    struct entities e = steps_rows(&f);
+    e.damage[row] = (uint8_t)cases[n].damage;
+    e.flags[row] = cases[n].flags;
+    e.behaviour[row] = (uint8_t)behaviour;
+    e.order[row] = BEHAVIOUR_IDLE;
+    e.target_slot[row] = target;
+    e.target_id[row] = e.id[target];
+}
+
+static void test_what_a_driver_can_do(void **state)
+{
+    (void)state;
+    for (size_t n = 0; n < COUNT; n++) {
+        open_case(n, BEHAVIOUR_DRIVEN);
+        struct entities e = steps_rows(&f);
+        e.until_tick[0] = UINT32_MAX;
+        e.throttle[0] = 1.0f;
+        fixture_run(&f, 4 * HZ);
+        e = steps_rows(&f);
+        assert_true((steps_speed(&f, 0) > 2.0) == cases[n].drives);
+        uint32_t rounds = e.rounds[0];
+        steps_aim(&f, 0, 1);
+        steps_command(&f, (struct command){.type = COMMAND_FIRE, .entity = 1, .target = 2});
+        assert_true((steps_rows(&f).rounds[0] < rounds) == cases[n].fires);
+        fixture_close(&f);
+    }
+}
+
+static void test_what_a_crew_can_do(void **state)
+{
+    (void)state;
+    for (size_t n = 0; n < COUNT; n++) {
+        open_case(n, BEHAVIOUR_ATTACK);
+        struct entities e = steps_rows(&f);
+        e.until_tick[0] = UINT32_MAX;
+        e.flags[0] |= ENTITY_FLAG_STAND;
+        e.goal_x[0] = e.x[1];
+        e.goal_z[0] = e.z[1];
+        fixture_run(&f, 30 * HZ);
+        assert_true((fixture_event_count(&f, EVENT_FIRE) > 0) == cases[n].fires);
+        fixture_close(&f);
+    }
+}
+
+/* A crew whose tracks are gone stays where it is, whatever fires at it. */
+static void test_a_crew_that_cannot_drive_does_not_flee(void **state)
+{
+    (void)state;
+    for (int immobile = 0; immobile < 2; immobile++) {
+        open_case(immobile ? 2 : 1, BEHAVIOUR_IDLE);
+        steps_kind(&f, "tank")->courage = 0.0;
+        struct entities e = steps_rows(&f);
+        e.threat_slot[0] = 1;
+        e.threat_id[0] = e.id[1];
+        fixture_run(&f, 3 * HZ);
+        assert_int_equal(steps_rows(&f).behaviour[0], immobile ? BEHAVIOUR_IDLE : BEHAVIOUR_FLEE);
+        assert_true((steps_speed(&f, 0) > 1.0) == !immobile);
+        fixture_close(&f);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_what_a_driver_can_do),
+        cmocka_unit_test(test_what_a_crew_can_do),
+        cmocka_unit_test(test_a_crew_that_cannot_drive_does_not_flee),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
