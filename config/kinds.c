@@ -30,8 +30,8 @@
 /* A kind's file while it is read. Its munition is looked up when all kinds are known. */
 struct reading {
     char path[PATH_MAX];
-    char munition[KIND_NAME_MAX];
-    int munition_line;
+    char munition[KIND_NAME_MAX], light_munition[KIND_NAME_MAX];
+    int munition_line, light_line;
 };
 
 struct names {
@@ -356,6 +356,8 @@ static int read_kind(struct reading *reading, struct kind *kind, const char *nam
     kind->munition = KIND_NONE;
     memcpy(reading->munition, entry.munition, sizeof(entry.munition));
     reading->munition_line = keys.line[key_table_find(&schema_kind, "munition")];
+    memcpy(reading->light_munition, entry.light_munition, sizeof(entry.light_munition));
+    reading->light_line = keys.line[key_table_find(&schema_kind, "light_munition")];
     result = 0;
 err_config:
     config_destroy(&config);
@@ -363,22 +365,38 @@ err_config:
     return result;
 }
 
-/* Looks up the kind's munition, which may be a kind with a later name. */
+/* Looks up a munition that a kind's file names. Returns KIND_NONE with the message. */
+static uint16_t find_munition(const struct scenario *scenario, struct key_place place,
+                              const char *key, const char *name, struct error_text *error)
+{
+    uint16_t found = kind_find(scenario->kinds, scenario->kind_count, name);
+    if (found != KIND_NONE && scenario->kinds[found].domain == DOMAIN_MUNITION)
+        return found;
+    key_table_refuse(error, place, key, name, "%s; allowed: a kind with domain = \"munition\"",
+                     found == KIND_NONE ? "unknown kind" : "is not a munition");
+    return KIND_NONE;
+}
+
+/* Looks up the kind's munitions, which may be kinds with later names. */
 static int resolve_munition(struct scenario *scenario, uint32_t index,
                             const struct reading *reading, struct error_text *error)
 {
     const struct key_place place = {reading->path, reading->munition_line};
+    const struct key_place light_place = {reading->path, reading->light_line};
     struct kind *kind = &scenario->kinds[index];
-    if (reading->munition[0] == '\0')
+    if (reading->munition[0] != '\0')
+        kind->munition = find_munition(scenario, place, "munition", reading->munition, error);
+    if (reading->munition[0] != '\0' && kind->munition == KIND_NONE)
+        return -1;
+    if (reading->light_munition[0] == '\0')
         return 0;
-    kind->munition = kind_find(scenario->kinds, scenario->kind_count, reading->munition);
     if (kind->munition == KIND_NONE)
-        return key_table_refuse(error, place, "munition", reading->munition,
-                                "unknown kind; allowed: a kind with domain = \"munition\"");
-    if (scenario->kinds[kind->munition].domain != DOMAIN_MUNITION)
-        return key_table_refuse(error, place, "munition", reading->munition,
-                                "is not a munition; allowed: a kind with domain = \"munition\"");
-    return 0;
+        return key_table_refuse(error, light_place, "light_munition", reading->light_munition,
+                                "is only for an armed vehicle; allowed: with munition");
+    uint16_t light =
+        find_munition(scenario, light_place, "light_munition", reading->light_munition, error);
+    kind->light_munition = light == KIND_NONE ? 0 : light + 1u;
+    return light == KIND_NONE ? -1 : 0;
 }
 
 int kinds_read(struct scenario *scenario, const char *data_dir, XXH3_state_t *hash,

@@ -270,6 +270,7 @@ struct kind_entry {
     struct kind kind;
     char model[KIND_NAME_MAX];
     char munition[KIND_NAME_MAX]; /* "": none */
+    char light_munition[KIND_NAME_MAX];
 };
 extern const struct key_table schema_kind;
 

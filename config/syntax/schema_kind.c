@@ -31,6 +31,10 @@ static const struct key kind_keys[] = {
          .meaning = "The shape: the name of a file of `config/models`, without `.obj`."),
     TEXT("munition", K, munition, NULL,
          .meaning = "Vehicles: the kind that they fire. A vehicle without it is unarmed."),
+    TEXT("light_munition", K, light_munition, NULL,
+         .meaning =
+             "Vehicles with `munition`: the kind that they fire at vehicles on land and water "
+             "whose side armour is below 45 mm. Both are counted by `rounds`."),
     CHOICE("guidance", K, kind.guidance, STORE_U8, WORDS(guidances), "ballistic",
            .meaning = "Munitions. `ballistic`: the munition falls freely. `homing`: it follows its "
                       "target."),

@@ -232,7 +232,8 @@ static bool launch(struct serial_context *context, uint32_t shooter, uint32_t ta
     const struct world *world = context->step->world;
     const struct kind *kind = &world->kinds[m->kind[shooter]];
     if (munition == KIND_NONE)
-        munition = kind->munition;
+        munition = target != SLOT_NONE ? kind_munition_at(kind, &world->kinds[m->kind[target]])
+                                       : kind->munition;
     if (munition == KIND_NONE || !can_fire(m, kind, shooter))
         return false;
     const struct kind *round = &world->kinds[munition];

@@ -123,11 +123,12 @@ static void solve(const struct step_context *context, uint32_t i, const struct k
                   struct turret_solution *solution, double *turret, double *gun)
 {
     const struct entities *m = context->m, *w = &context->committed->entities;
+    const struct kind *target = &context->world->kinds[w->kind[m->target_slot[i]]];
     solution->body = pose_matrix(m, i);
     solution->lead = m->trigger[i] & TRIGGER_FIRE_AT
                          ? lead_goal(context, i, kind->munition)
-                         : turret_lead(context, turret_muzzle(context, m, i), kind->munition, w,
-                                       m->target_slot[i]);
+                         : turret_lead(context, turret_muzzle(context, m, i),
+                                       kind_munition_at(kind, target), w, m->target_slot[i]);
     solution->found = true;
     struct vec3 lead = rotation_back(&solution->body, solution->lead);
     double level = sqrt(lead.x * lead.x + lead.z * lead.z);
@@ -246,6 +247,7 @@ static bool bears(const struct step_context *context, const struct entities *row
 {
     const struct kind *kind = &context->world->kinds[rows->kind[i]];
     const struct kind *munition = &context->world->kinds[kind->munition];
+    const struct kind *aimed_at = &context->world->kinds[context->committed->entities.kind[target]];
     struct vec3 muzzle = turret_muzzle(context, rows, i), to;
     double most = laid_rad(kind);
     if (munition->guidance == GUIDANCE_HOMING) {
@@ -253,8 +255,8 @@ static bool bears(const struct step_context *context, const struct entities *row
         to = vec3_sub(entities_position(&context->committed->entities, target), muzzle);
     } else {
         to = solution ? solution->lead
-                      : turret_lead(context, muzzle, kind->munition, &context->committed->entities,
-                                    target);
+                      : turret_lead(context, muzzle, kind_munition_at(kind, aimed_at),
+                                    &context->committed->entities, target);
     }
     return angle_between(barrel, to) <= most;
 }

@@ -5,6 +5,7 @@
 
 #include "world/maths/maths.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #define KIND_NAME_MAX  24
@@ -140,13 +141,23 @@ struct kind {
     uint32_t first_part_hull;        /* one hull around each part */
     uint32_t part_count;             /* 0: the model has no turret */
     uint32_t body_hulls;             /* the first so many are of the body */
-    uint32_t unused;
+    uint32_t light_munition; /* vehicles: 1 + the kind that it fires at thin armour; 0: none */
     struct vec3 turret_pivot, gun_pivot; /* [m] body axes */
     double bound_m;       /* radius about the position that contains every hull in any rotation */
     double reach_m;       /* the same wherever turret and gun point */
     double level_m;       /* the same on the map, upright */
     double low_m, high_m; /* lowest and highest point over the position, upright */
 };
+
+/* Returns the munition that a vehicle fires at one of another kind, KIND_NONE for none. Thin armour
+ * is below KIND_LIGHT_MM at the sides. */
+#define KIND_LIGHT_MM 45.0
+static inline uint16_t kind_munition_at(const struct kind *kind, const struct kind *target)
+{
+    bool light = kind->light_munition != 0 && target->domain != DOMAIN_AIR &&
+                 target->armour_mm[ASPECT_SIDE] < KIND_LIGHT_MM;
+    return light ? (uint16_t)(kind->light_munition - 1u) : kind->munition;
+}
 
 /* Index of the kind called name, KIND_NONE when there is none. */
 uint16_t kind_find(const struct kind *kinds, uint32_t count, const char *name);
