@@ -12,6 +12,11 @@
 #define CELLS          200   /* cells a side */
 #define AHEAD_M        160.0 /* neighbours count where the camera looks */
 #define NEIGHBOURS_MAX 10
+#define FIRES          16.0 /* its round is in the air */
+#define FIRED_AT       14.0 /* a round is in the air that was fired at it */
+#define FIGHTS         5.0
+#define NO_ENEMY       4.0 /* less for vehicles of no force while others fight */
+#define BETTER         4.0 /* so much livelier is the vehicle to which the camera changes */
 #define ACTION_LIFE_S  20.0
 #define ACTION_NEAR_M  450.0
 #define ACTION_MAX     12.0
@@ -43,6 +48,41 @@ static double action_near(const struct effects *effects, struct vec3 position, d
     return maths_min(sum, ACTION_MAX);
 }
 
+/* Returns true if the row is a round in the air that a living vehicle fired. */
+static bool is_round(const struct frame_view *frame_view, uint32_t slot)
+{
+    const struct entities *e = frame_view->entities;
+    return e->state[slot] == ENTITY_ACTIVE && e->behaviour[slot] == BEHAVIOUR_FLIGHT &&
+           entities_alive(e, e->owner_slot[slot], e->owner_id[slot]);
+}
+
+static bool is_owner(const struct entities *e, uint32_t round, uint32_t slot)
+{
+    return e->owner_slot[round] == slot && e->owner_id[round] == e->id[slot];
+}
+
+static bool is_target(const struct entities *e, uint32_t round, uint32_t slot)
+{
+    return e->target_slot[round] == slot && e->target_id[round] == e->id[slot];
+}
+
+/* What one round in the air adds to a vehicle. */
+static double fire_of(const struct entities *e, uint32_t round, uint32_t slot)
+{
+    return is_owner(e, round, slot) ? FIRES : is_target(e, round, slot) ? FIRED_AT : 0.0;
+}
+
+/* The most that a round in the air adds to a vehicle. */
+static double fire_near(const struct frame_view *frame_view, uint32_t slot)
+{
+    double most = 0.0;
+    for (uint32_t i = 0; i < frame_view->head->used; i++) {
+        if (is_round(frame_view, i))
+            most = maths_max(most, fire_of(frame_view->entities, i, slot));
+    }
+    return most;
+}
+
 static double liveliness(const struct frame_view *frame_view, const struct effects *effects,
                          uint32_t slot, uint32_t neighbours)
 {
@@ -50,15 +90,16 @@ static double liveliness(const struct frame_view *frame_view, const struct effec
     const struct kind *kind = &frame_view->world->kinds[e->kind[slot]];
     struct vec3 position = entities_position(e, slot);
     double speed = vec3_length(entities_velocity(e, slot));
-    double score = 0.8 * (neighbours < NEIGHBOURS_MAX ? neighbours : NEIGHBOURS_MAX);
+    double score = 0.4 * (neighbours < NEIGHBOURS_MAX ? neighbours : NEIGHBOURS_MAX);
     score += kind->domain == DOMAIN_LAND ? 5.0 : kind->domain == DOMAIN_AIR ? 0.5 : 0.0;
     score += speed > 3.0 ? 5.0 : 0.0;
-    score += e->behaviour[slot] == BEHAVIOUR_ATTACK ? 2.0 : 0.0;
+    score -= e->force[slot] == FORCE_NEUTRAL ? NO_ENEMY : 0.0;
     score -= e->damage[slot];
     const uint32_t *around;
     uint32_t objects =
         world_reach(frame_view->world, gridsquare_of(position.x, position.z), &around);
     score += 0.25 * (objects < OBJECTS_MAX ? objects : OBJECTS_MAX);
+    score += e->behaviour[slot] == BEHAVIOUR_ATTACK ? FIGHTS : 0.0;
     return score +
            action_near(effects, position, state_time_s(frame_view->world, frame_view->head));
 }
@@ -68,30 +109,65 @@ static uint16_t *cell_of(uint16_t *cells, double x, double z)
     return &cells[cell_axis(z) * CELLS + cell_axis(x)];
 }
 
-static uint32_t liveliest(const struct frame_view *frame_view, const struct effects *effects)
+static double score_of(const struct frame_view *frame_view, const struct effects *effects,
+                       uint16_t *neighbours, uint32_t slot)
+{
+    const struct entities *e = frame_view->entities;
+    double ahead_x = e->x[slot] + AHEAD_M * maths_sin(e->heading[slot]);
+    double ahead_z = e->z[slot] - AHEAD_M * maths_cos(e->heading[slot]);
+    return liveliness(frame_view, effects, slot, *cell_of(neighbours, ahead_x, ahead_z));
+}
+
+/* The best vehicle so far. */
+struct choice {
+    uint32_t slot; /* SLOT_NONE: none yet */
+    double score;
+};
+
+static void offer(struct choice *choice, const struct frame_view *frame_view, uint32_t slot,
+                  double score)
+{
+    if (slot < frame_view->head->used && is_vehicle(frame_view, slot) && score > choice->score)
+        *choice = (struct choice){slot, score};
+}
+
+/* Offers the shooters and the targets of the rounds in the air. */
+static void offer_fighters(struct choice *choice, const struct frame_view *frame_view,
+                           const struct effects *effects, uint16_t *neighbours)
+{
+    const struct entities *e = frame_view->entities;
+    for (uint32_t i = 0; i < frame_view->head->used; i++) {
+        uint32_t of[2] = {e->owner_slot[i], e->target_slot[i]};
+        for (int n = 0; n < 2 && is_round(frame_view, i); n++) {
+            if (of[n] < frame_view->head->used)
+                offer(choice, frame_view, of[n],
+                      score_of(frame_view, effects, neighbours, of[n]) + fire_of(e, i, of[n]));
+        }
+    }
+}
+
+/* Returns the liveliest vehicle, or `now` (SLOT_NONE: none) if no other one is much livelier. */
+static uint32_t liveliest(const struct frame_view *frame_view, const struct effects *effects,
+                          uint32_t now)
 {
     uint16_t neighbours[CELLS * CELLS];
     const struct entities *e = frame_view->entities;
+    struct choice choice = {SLOT_NONE, -INFINITY};
     memset(neighbours, 0, sizeof neighbours);
     for (uint32_t i = 0; i < frame_view->head->used; i++)
         if (is_vehicle(frame_view, i)) {
             uint16_t *here = cell_of(neighbours, e->x[i], e->z[i]);
             *here = (uint16_t)(*here + (*here < UINT16_MAX));
         }
-    uint32_t best = SLOT_NONE;
-    double most = -INFINITY;
+    if (now != SLOT_NONE && is_vehicle(frame_view, now))
+        offer(&choice, frame_view, now,
+              score_of(frame_view, effects, neighbours, now) + fire_near(frame_view, now) + BETTER);
     for (uint32_t i = 0; i < frame_view->head->used; i++) {
-        if (!is_vehicle(frame_view, i))
-            continue;
-        double ahead_x = e->x[i] + AHEAD_M * maths_sin(e->heading[i]);
-        double ahead_z = e->z[i] - AHEAD_M * maths_cos(e->heading[i]);
-        double score = liveliness(frame_view, effects, i, *cell_of(neighbours, ahead_x, ahead_z));
-        if (score > most) {
-            most = score;
-            best = i;
-        }
+        if (is_vehicle(frame_view, i))
+            offer(&choice, frame_view, i, score_of(frame_view, effects, neighbours, i));
     }
-    return best;
+    offer_fighters(&choice, frame_view, effects, neighbours);
+    return choice.slot;
 }
 
 /* Returns true if the vehicle is active, or was destroyed only recently. */
@@ -118,7 +194,7 @@ uint32_t follow_choose(struct follow *follow, const struct frame_view *frame_vie
     if (slot != SLOT_NONE && worth_following(frame_view, slot) &&
         (e->state[slot] == ENTITY_WRECK || now - follow->since_s < FOLLOW_KEEP_S))
         return slot;
-    uint32_t next = liveliest(frame_view, effects);
+    uint32_t next = liveliest(frame_view, effects, slot);
     if (next == SLOT_NONE)
         return slot;
     *follow = (struct follow){.id = e->id[next], .since_s = now};

@@ -553,6 +553,37 @@ static void test_follow_keeps_its_choice(void **context)
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 2, true), 1);
 }
 
+/* A tank that drives among others is quiet beside one whose round is in the air, and so is a herd.
+ */
+static void test_follow_goes_to_the_fire(void **context)
+{
+    struct scene_stage *s = *context;
+    struct follow follow = {.id = 0};
+    uint32_t driver = put_tank(s, 10000.0, 10000.0, 0.0);
+    for (int n = 0; n < 12; n++)
+        put_tank(s, 10000.0, 9850.0, 0.0);
+    s->entities.vx[driver] = 10.0;
+    uint32_t shooter = put_tank(s, 20000.0, 20000.0, 0.0);
+    uint32_t target = put_tank(s, 21000.0, 20000.0, 0.0);
+    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), driver);
+    uint32_t round = put_tank(s, 20500.0, 20000.0, 0.0);
+    s->entities.behaviour[round] = BEHAVIOUR_FLIGHT;
+    s->entities.kind[round] =
+        kind_find(s->frame_view.world->kinds, s->frame_view.world->counts.kinds, "shell");
+    s->entities.owner_slot[round] = shooter;
+    s->entities.owner_id[round] = s->entities.id[shooter];
+    s->entities.target_slot[round] = target;
+    s->entities.target_id[round] = s->entities.id[target];
+    s->head.tick = 50; /* not before FOLLOW_KEEP_S */
+    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), driver);
+    s->head.tick = 200;
+    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), shooter);
+    /* The target is as lively when it fires, but not so much livelier that the camera changes. */
+    s->entities.vx[target] = 4.0;
+    s->head.tick = 400;
+    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), shooter);
+}
+
 static void test_statistics_equal_the_table(void **context)
 {
     struct scene_stage *s = *context;
@@ -626,6 +657,7 @@ int main(void)
         TEST(test_a_building_collapses_in_steps),
         TEST(test_fire_and_detonation_are_visible),
         TEST(test_follow_keeps_its_choice),
+        TEST(test_follow_goes_to_the_fire),
         TEST(test_statistics_equal_the_table),
         TEST(test_tracks_remember_positions),
     };
