@@ -54,6 +54,23 @@ static void put_names(struct json_writer *json, const struct world *world)
     json_writer_key_whole(json, "names_left_out", left_out);
 }
 
+static void put_objectives(struct json_writer *json, const struct world *world)
+{
+    json_writer_key(json, "objectives");
+    json_writer_begin(json, '[');
+    for (uint32_t o = 0; o < world->counts.objectives; o++) {
+        const struct objective *objective = &world->objectives[o];
+        json_writer_begin(json, '{');
+        json_writer_key_word(json, "name", objective->name);
+        json_writer_key_number(json, "x0", objective->x0, 0);
+        json_writer_key_number(json, "z0", objective->z0, 0);
+        json_writer_key_number(json, "x1", objective->x1, 0);
+        json_writer_key_number(json, "z1", objective->z1, 0);
+        json_writer_end(json, '}');
+    }
+    json_writer_end(json, ']');
+}
+
 void world_json(const struct world_query *query, struct http_answer *answer)
 {
     struct json_writer *json = &answer->json;
@@ -76,6 +93,7 @@ void world_json(const struct world_query *query, struct http_answer *answer)
     json_writer_key_bool(json, "token_needed", true);
     put_kinds(json, query->reader);
     put_names(json, &view->world);
+    put_objectives(json, &view->world);
     json_writer_key(json, "behaviours");
     json_writer_begin(json, '[');
     for (int i = 0; i < BEHAVIOUR_COUNT; i++)

@@ -92,6 +92,7 @@ int annotated_picture_ground(struct base_map *base, struct image *image,
     if (base_map_draw(base, image, view) != 0)
         return -1;
     map_earthworks(image, view, &frame_view->world->terrain.earthworks);
+    map_objectives(image, view, frame_view);
     map_craters(image, view, frame_view->craters, style->symbol);
     if (style->tracks > 0)
         map_tracks(image, view, frame_view, source->tracks, style->symbol, style->tracks);

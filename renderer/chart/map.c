@@ -7,18 +7,20 @@
 
 #include <math.h>
 
-#define CRATER_SHARE  0.2   /* least radius of a crater in symbols' lengths */
-#define CRATER_LEAST  1.6   /* [pixel] least radius of a crater */
-#define WORK_LEAST    0.7   /* [pixel] half a side of an earthwork */
-#define WORK_SHOWN    0.2   /* [pixel] smaller works do not show */
-#define WORK_EDGED    6.0   /* [pixel] larger works have a line around them */
-#define TRACK_DOT     0.14  /* side of a dot in symbols' lengths */
-#define DOT_LEAST     1.7   /* [pixel] */
-#define BLAST_LIFE_S  3.0   /* for which a detonation shows */
-#define FIRE_LIFE_S   150.0 /* for which a wreck burns, as in the other views */
-#define LEVEL_LEAST   0.2   /* least horizontal part of the camera's direction */
-#define STROKE_LENGTH 75.0  /* [pixel] longer triangles have thicker lines */
-#define OUTSIDE_MOST  40.0  /* [pixel] a symbol farther outside does not show */
+#define CRATER_SHARE   0.2   /* least radius of a crater in symbols' lengths */
+#define CRATER_LEAST   1.6   /* [pixel] least radius of a crater */
+#define WORK_LEAST     0.7   /* [pixel] half a side of an earthwork */
+#define WORK_SHOWN     0.2   /* [pixel] smaller works do not show */
+#define WORK_EDGED     6.0   /* [pixel] larger works have a line around them */
+#define OBJECTIVE_FILL 48    /* opacity of 255 */
+#define OBJECTIVE_EDGE 1.4   /* [pixel] */
+#define TRACK_DOT      0.14  /* side of a dot in symbols' lengths */
+#define DOT_LEAST      1.7   /* [pixel] */
+#define BLAST_LIFE_S   3.0   /* for which a detonation shows */
+#define FIRE_LIFE_S    150.0 /* for which a wreck burns, as in the other views */
+#define LEVEL_LEAST    0.2   /* least horizontal part of the camera's direction */
+#define STROKE_LENGTH  75.0  /* [pixel] longer triangles have thicker lines */
+#define OUTSIDE_MOST   40.0  /* [pixel] a symbol farther outside does not show */
 
 struct map_view map_whole(int32_t left, int32_t top, uint32_t side)
 {
@@ -116,6 +118,26 @@ void map_earthworks(struct image *image, const struct map_view *view,
 {
     for (uint32_t i = 0; i < earthworks->count; i++)
         draw_work(image, view, &earthworks->works[i]);
+}
+
+/* --- objectives ------------------------------------------------------------------------------- */
+
+void map_objectives(struct image *image, const struct map_view *view,
+                    const struct frame_view *frame_view)
+{
+    const struct world *world = frame_view->world;
+    for (uint32_t o = 0; o < world->counts.objectives; o++) {
+        const struct objective *objective = &world->objectives[o];
+        const struct point low = map_point(view, objective->x0, objective->z0),
+                           high = map_point(view, objective->x1, objective->z1),
+                           corner[4] = {low, {high.x, low.y}, high, {low.x, high.y}};
+        struct rgba colour = symbol_colour((enum force)frame_view->head->battle.objective[o].owner);
+        colour.a = OBJECTIVE_FILL;
+        image_polygon(image, corner, 4, colour);
+        colour.a = UINT8_MAX;
+        for (int i = 0; i < 4; i++)
+            image_line(image, corner[i], corner[(i + 1) % 4], OBJECTIVE_EDGE, colour);
+    }
 }
 
 /* --- vehicles --------------------------------------------------------------------------------- */

@@ -50,6 +50,10 @@ void map_craters(struct image *image, const struct map_view *view,
 void map_earthworks(struct image *image, const struct map_view *view,
                     const struct earthworks *earthworks);
 
+/* Draws the objectives of the battle: the area of each in the colour of the force that holds it. */
+void map_objectives(struct image *image, const struct map_view *view,
+                    const struct frame_view *frame_view);
+
 /* Draws every vehicle's track: a dot for each TRACK_INTERVAL_S, which fades with age from this
  * opacity. pixels: length of symbols. */
 void map_tracks(struct image *image, const struct map_view *view,

@@ -57,6 +57,8 @@ def reading():
     status, world = ask("/api/world")
     check("the world is described", status == 200 and world["world"] == sys.argv[2] and
           any(kind["name"] == "tank" and kind["turret"] for kind in world["kinds"]), world)
+    check("the world has the objectives of its battle", {"name", "x0", "z0", "x1", "z1"} <= set(world["objectives"][0]) and
+          {one["name"] for one in world["objectives"]} == set(state("most=1")["battle"]["objectives"]), world["objectives"])
     now = state("most=100")
     check("the state has entities and counts the others", 50 <= len(now["entities"]) <= 100 and
           now["left_out"] == now["vehicles"] + now["munitions"] - len(now["entities"]), now["left_out"])

@@ -14,6 +14,7 @@ const SYMBOL_PX = 13;
 const FORMS_BELOW_MPP = 60; /* [m] a pixel; at a coarser scale a symbol is a dot */
 const BLAST_MS = 2500;
 const NEAR_PX = 22;
+const OBJECTIVE_NAMED_PX = 40; /* a narrower objective has no name */
 
 export class MapView {
   /**
@@ -153,10 +154,31 @@ export class MapView {
     if (!this.world.info) return;
     this.ground.draw(context, camera, this.density);
     drawGrid(context, camera, this.ground.missing);
+    this.drawObjectives();
     this.drawEntities();
     this.drawBlasts();
     this.drawChosen();
     drawScaleBar(context, camera);
+  }
+
+  /** Draws the objectives of the battle in the colours of the forces that hold them, with their names. */
+  drawObjectives() {
+    const { context, camera, world } = this;
+    const holders = world.state?.battle?.objectives ?? {};
+    for (const { name, x0, z0, x1, z1 } of world.info.objectives ?? []) {
+      const force = Math.max(world.info.forces.indexOf(holders[name]), 0);
+      const px = camera.px(x0), py = camera.py(z0), width = camera.px(x1) - px, height = camera.py(z1) - py;
+      context.fillStyle = context.strokeStyle = FILL[force];
+      context.globalAlpha = 0.14;
+      context.fillRect(px, py, width, height);
+      context.globalAlpha = 0.9;
+      context.lineWidth = 1.2;
+      context.strokeRect(px, py, width, height);
+      context.globalAlpha = 1;
+      if (width < OBJECTIVE_NAMED_PX) continue;
+      context.font = '600 12px system-ui, "DejaVu Sans", sans-serif';
+      drawLabel(context, name, px + 3, py + 3);
+    }
   }
 
   drawEntities() {

@@ -296,11 +296,38 @@ static void test_a_map_that_follows_paints_strips(void **context)
     image_free(&image);
 }
 
+/* An objective is in the colour of the force that holds it, and nowhere else. */
+static void test_objectives_have_their_holders_colour(void **context)
+{
+    struct map_stage *stage = *context;
+    const struct objective hill = {.x0 = 10000.0, .z0 = 20000.0, .x1 = 20000.0, .z1 = 30000.0};
+    struct world world = *stage->frame_view.world;
+    struct frame_view frame_view = stage->frame_view;
+    struct map_view view = map_whole(0, 0, 500);
+    world.objectives = &hill;
+    world.counts.objectives = 1;
+    frame_view.world = &world;
+    for (uint32_t force = 0; force < FORCE_COUNT; force++) {
+        struct image image;
+        assert_int_equal(image_init(&image, 500, 500), 0);
+        stage->state.head->battle.objective[0].owner = (uint8_t)force;
+        map_objectives(&image, &view, &frame_view);
+        struct rgba colour = symbol_colour((enum force)force);
+        const uint8_t *edge = pixel_at(&image, 150.0, 200.0), *in = pixel_at(&image, 150.0, 250.0);
+        assert_true(abs(edge[0] - colour.r) < 80 && abs(edge[2] - colour.b) < 80);
+        assert_true(in[0] + in[1] + in[2] > 30 && in[0] + in[1] + in[2] < 200);
+        const uint8_t *out = pixel_at(&image, 250.0, 250.0);
+        assert_int_equal(out[0] + out[1] + out[2], 0);
+        image_free(&image);
+    }
+}
+
 int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup_teardown(name, open_stage, map_stage_teardown)
     const struct CMUnitTest tests[] = {
         TEST(test_points_of_the_map),
+        TEST(test_objectives_have_their_holders_colour),
         TEST(test_vehicles_are_where_the_table_says),
         TEST(test_every_symbol_is_its_force_in_the_middle),
         TEST(test_shapes_differ),
