@@ -62,8 +62,9 @@ static const struct key scenario_keys[] = {
            .meaning = "`real`: a second of simulated time takes a second of the clock. `max`: the "
                       "run goes as fast as it can."),
     NUMBER("world.wind_mps", S, params.wind_mps, 0, 50, "0", .unit = "m/s",
-           .meaning = "The speed of the wind, the same everywhere. It acts on rounds in flight. "
-                      "Howitzers take it into account, other guns do not."),
+           .meaning =
+               "The speed of the wind, the same everywhere. It acts on rounds in flight, and "
+               "crews take it into account."),
     SCALED("world.wind_from_deg", S, params.wind_from_rad, 0, 360, RAD_PER_DEG, "0",
            .unit = "degrees", .meaning = "From where the wind blows, clockwise from north."),
     CHOICE("terrain.source", S, terrain, STORE_U32, WORDS(terrains), "generated",

@@ -35,10 +35,15 @@ static bool flies_on_arc(const struct step_context *context, uint16_t munition)
     return context->world->kinds[munition].delivery == DELIVERY_ARC;
 }
 
-/* The direction for a target that is at `to`, relative to the muzzle, and moves at velocity. */
-static struct vec3 lead_on(const struct firing_table *table, double muzzle_height_m, struct vec3 to,
-                           struct vec3 velocity)
+/* The direction for a target that is at `to`, relative to the muzzle, and moves at velocity. The
+ * table is for still air, so the round is aimed in the air's own frame, and carries the air's
+ * velocity. What has no drag feels no wind. */
+static struct vec3 lead_on(const struct firing_table *table, struct vec3 wind,
+                           double muzzle_height_m, struct vec3 to, struct vec3 velocity)
 {
+    if (table->munition->drag == DRAG_NONE)
+        wind = (struct vec3){0.0, 0.0, 0.0};
+    velocity = vec3_sub(velocity, wind);
     double distance = vec3_length(to), height = muzzle_height_m + 0.5 * to.y;
     struct vec3 lead = to;
     for (int step = 0; step < LEAD_STEPS; step++) {
@@ -47,7 +52,10 @@ static struct vec3 lead_on(const struct firing_table *table, double muzzle_heigh
         lead.y += data.drop_m;
         distance = vec3_length(lead);
     }
-    return distance > 0.0 ? vec3_scale(lead, 1.0 / distance) : (struct vec3){0.0, 1.0, 0.0};
+    if (!(distance > 0.0))
+        return (struct vec3){0.0, 1.0, 0.0};
+    lead = vec3_add(vec3_scale(lead, table->munition->max_speed_mps / distance), wind);
+    return vec3_scale(lead, 1.0 / vec3_length(lead));
 }
 
 struct vec3 turret_lead(const struct step_context *context, struct vec3 muzzle, uint16_t munition,
@@ -57,7 +65,8 @@ struct vec3 turret_lead(const struct step_context *context, struct vec3 muzzle, 
     to.y += kinematics_aim_height(context, e->kind[target]);
     if (flies_on_arc(context, munition))
         return arc_to(context, muzzle, munition, vec3_add(muzzle, to));
-    return lead_on(&context->firing_tables[munition], muzzle.y, to, entities_velocity(e, target));
+    return lead_on(&context->firing_tables[munition], context->wind, muzzle.y, to,
+                   entities_velocity(e, target));
 }
 
 struct vec3 turret_lead_point(const struct step_context *context, struct vec3 muzzle,
@@ -65,8 +74,8 @@ struct vec3 turret_lead_point(const struct step_context *context, struct vec3 mu
 {
     if (flies_on_arc(context, munition))
         return arc_to(context, muzzle, munition, point);
-    return lead_on(&context->firing_tables[munition], muzzle.y, vec3_sub(point, muzzle),
-                   (struct vec3){0.0, 0.0, 0.0});
+    return lead_on(&context->firing_tables[munition], context->wind, muzzle.y,
+                   vec3_sub(point, muzzle), (struct vec3){0.0, 0.0, 0.0});
 }
 
 static struct mat3 pose_matrix(const struct entities *e, uint32_t i)

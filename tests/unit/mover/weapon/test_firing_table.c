@@ -1,6 +1,7 @@
 /* Firing tables: published figures, and rounds that pass through the point they were aimed at. */
 #include "mover/weapon/firing_table.h"
 
+#include "mover/motion/projectile.h"
 #include "mover/weapon/turret.h"
 #include "tests/support/steps.h"
 
@@ -50,6 +51,7 @@ static void test_times_of_flight_are_the_published_ones(void **state)
 static double miss_m(const char *name, double height_m, struct vec3 to)
 {
     const struct step_context context = {.world = &f.view.world,
+                                         .wind = projectile_wind(f.view.world.params),
                                          .firing_tables = f.stepper.mover.firing_tables};
     const struct vec3 muzzle = {25000.0, height_m, 25000.0}, point = vec3_add(muzzle, to);
     struct vec3 lead = turret_lead_point(&context, muzzle, kind_of(name), point);
@@ -92,6 +94,24 @@ static void test_rounds_pass_through_the_point_at_any_height(void **state)
     }
 }
 
+/* A wind of 10 m/s from the side and ahead carries a bullet 6 m aside on 1,500 m. */
+static void test_gunners_allow_for_wind(void **state)
+{
+    static const struct {
+        const char *kind;
+        double range_m, most_m;
+    } shot[] = {{"shell", 2500.0, 0.3}, {"heat", 2000.0, 0.5}, {"bullet", 1500.0, 1.0}};
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, "world = { seed = 1; capacity = 64; wind_mps = 10; wind_from_deg = 250; };");
+    for (size_t n = 0; n < sizeof shot / sizeof shot[0]; n++) {
+        double r = shot[n].range_m;
+        double miss = miss_m(shot[n].kind, 800.0, (struct vec3){0.6 * r, -20.0, -0.8 * r});
+        if (miss > shot[n].most_m)
+            fail_msg("%s at %g m: misses by %g m", shot[n].kind, r, miss);
+    }
+}
+
 static void test_a_round_that_has_stopped_flies_no_farther(void **state)
 {
     double drop = 0.0, flight = 0.0;
@@ -120,6 +140,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_times_of_flight_are_the_published_ones),
         TEST(test_rounds_pass_through_the_point_at_any_height),
+        TEST(test_gunners_allow_for_wind),
         TEST(test_a_round_that_has_stopped_flies_no_farther),
         TEST(test_what_has_no_drag_needs_no_table),
     };
