@@ -210,7 +210,7 @@ static const struct refusal refusals[] = {
      "objects[0].at: is missing; allowed: [x, z], each 0..50000 m"},
     {"fires = ( { munition = \"tank\"; point = [1, 2]; } );", 1,
      "fires[0].munition = \"tank\": is not a kind for this list; allowed: anti-tank-missile, "
-     "artillery, bomb, bullet, burst, flak-burst, missile, rocket, shell"},
+     "artillery, bomb, bullet, burst, flak-burst, heat, missile, rocket, shell"},
     /* Keys that exclude each other. */
     {VEHICLE("at = [1, 2]; count = 2;"), 2,
      "vehicles[0].count = 2: is not 1, but at places one vehicle; allowed: 1, or a "

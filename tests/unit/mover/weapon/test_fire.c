@@ -123,11 +123,13 @@ static void test_a_round_starts_clear_of_its_shooter(void **state)
     struct entities e = steps_rows(&f);
     const struct event *event = fixture_event(&f, EVENT_FIRE, 0);
     uint32_t round = 2;
-    double reach = steps_kind(&f, "tank")->radius_m + steps_kind(&f, "shell")->radius_m;
+    const struct kind *heat = steps_kind(&f, "heat"); /* a jeep has thin armour */
+    double reach = steps_kind(&f, "tank")->radius_m + heat->radius_m;
     assert_int_equal(e.behaviour[round], BEHAVIOUR_FLIGHT);
     assert_true(vec3_length(vec3_sub(entities_position(&e, round),
                                      entities_position(&e, shooter))) > reach);
-    assert_true(fabs(steps_speed(&f, round) - steps_kind(&f, "shell")->max_speed_mps) < 1e-6);
+    assert_true(fabs(steps_speed(&f, round) - heat->max_speed_mps) < 1e-6);
+    assert_int_equal(e.kind[round], fixture_kind(&f, "heat"));
     assert_int_equal(e.owner_id[round], e.id[shooter]);
     assert_int_equal(e.target_id[round], e.id[target]);
     assert_int_equal(event->fire.shooter.id, e.id[shooter]);
