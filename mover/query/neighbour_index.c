@@ -142,24 +142,38 @@ static void sort_blocks(void *context, uint32_t begin, uint32_t end, uint32_t wo
 
 /* --- second pass: the entries of a row of cells, by cell and layer -----------------------------*/
 
-static void fill_band(struct neighbour_index *index, uint32_t band)
+/* Counts the entries of each cell and layer of a band, and returns the layers that have one. */
+static uint32_t count_slots(const struct neighbour_index *index, uint32_t band, uint32_t *count)
 {
-    uint32_t slots = index->side * NEIGHBOUR_INDEX_LAYERS, blocks = blocks_of(index->used),
-             layers = 0;
-    uint32_t next[SIDE_MANY * NEIGHBOUR_INDEX_LAYERS + 1] = {0};
-    uint32_t *start = index->start + band * slots;
+    uint32_t blocks = blocks_of(index->used), layers = 0;
     for (uint32_t p = 0; p < blocks; p++) {
         const uint32_t *first = index->first + p * (SIDE_MANY + 1) + band;
-        for (uint32_t n = first[0]; n < first[1]; n++)
-            next[index->slot[n] + 1u]++;
+        for (uint32_t n = first[0]; n < first[1]; n++) {
+            count[index->slot[n]]++;
+            layers |= 1u << index->slot[n] % NEIGHBOUR_INDEX_LAYERS;
+        }
     }
-    next[0] = index->band[band];
+    return layers;
+}
+
+/* The cells of a band without entries keep what an earlier frame left there: queries pass over the
+ * band. Only its first cell is set, because it ends the band before it. */
+static void fill_band(struct neighbour_index *index, uint32_t band)
+{
+    uint32_t slots = index->side * NEIGHBOUR_INDEX_LAYERS, blocks = blocks_of(index->used);
+    uint32_t *start = index->start + band * slots, at = index->band[band];
+    uint32_t next[SIDE_MANY * NEIGHBOUR_INDEX_LAYERS];
+    start[0] = at;
+    index->layers[band] = 0;
+    if (index->band[band + 1] == at)
+        return;
+    memset(next, 0, slots * sizeof *next);
+    index->layers[band] = count_slots(index, band, next);
     for (uint32_t s = 0; s < slots; s++) {
-        start[s] = next[s];
-        layers |= (next[s + 1] > 0 ? 1u : 0u) << s % NEIGHBOUR_INDEX_LAYERS;
-        next[s + 1] += next[s];
+        uint32_t count = next[s];
+        start[s] = next[s] = at;
+        at += count;
     }
-    index->layers[band] = layers;
     for (uint32_t p = 0; p < blocks; p++) {
         const uint32_t *first = index->first + p * (SIDE_MANY + 1) + band;
         for (uint32_t n = first[0]; n < first[1]; n++)
@@ -243,6 +257,8 @@ bool neighbour_query_next_span(struct neighbour_query *query)
     const struct neighbour_index *index = query->index;
     do {
         for (; query->row <= query->z1; query->row++, query->column = query->x0) {
+            if (index->layers[query->row] == 0)
+                continue;
             uint32_t first = (uint32_t)query->row * index->side;
             while (query->column <= query->x1) {
                 const uint32_t *cell =

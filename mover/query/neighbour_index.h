@@ -61,7 +61,7 @@ struct neighbour_index {
     uint16_t *slot;   /* [capacity] of sorted: column and layer within a row of cells */
     uint32_t *first;  /* [blocks][side + 1] index of sorted: where a block's row of cells begins */
     uint32_t *band;   /* [side + 1] index of entries: where each row of cells begins */
-    uint32_t *layers; /* [side] the layers that a row of cells has */
+    uint32_t *layers; /* [side] the layers that a row of cells has; 0: its start is not set */
 };
 
 /* For tables of up to capacity rows. 0, or -1 with errno ENOMEM. */
