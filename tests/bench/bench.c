@@ -14,3 +14,9 @@ double bench_quantile(double *values, uint32_t count, double fraction)
     qsort(values, count, sizeof *values, ascending);
     return count ? values[(uint32_t)(fraction * (double)(count - 1) + 0.5)] : 0.0;
 }
+
+const char *bench_mode_word(enum bench_mode mode)
+{
+    static const char *const word[] = {"scenario", "idle", "patrol", "war", "dense"};
+    return word[mode];
+}

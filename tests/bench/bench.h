@@ -8,8 +8,24 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* What the vehicles of a world to measure on do. */
+#define BENCH_MODE_WORDS "scenario|idle|patrol|war|dense"
+enum bench_mode {
+    BENCH_MODE_SCENARIO, /* Hunter-Liggett's own; with another number of vehicles than its: patrol
+                          */
+    BENCH_MODE_IDLE,     /* stand all over the map */
+    BENCH_MODE_PATROL,   /* are on crossing paths all over the map */
+    BENCH_MODE_WAR,      /* two forces; they patrol, and attack all enemies that they see */
+    BENCH_MODE_DENSE     /* patrol, with 800 square metres for each: 5,000 in a square of 2 km */
+};
+
+/* Returns the word of a mode in BENCH_MODE_WORDS. */
+const char *bench_mode_word(enum bench_mode mode);
+
 struct bench_options {
     uint32_t vehicles, threads, frames;
+    int mode;       /* enum bench_mode */
+    uint32_t burst; /* bombs */
     bool json, peers, agents, driven, gl, beside, all;
     struct option_size size; /* of one picture */
     double seconds;

@@ -1,38 +1,111 @@
 /* Measures the steps of a frame: mover and collider run one after the other in one process, on the
- * Hunter-Liggett world (500 vehicles), or on its ground with any number of vehicles on patrol or at
- * war. */
+ * Hunter-Liggett world (500 vehicles), or on its ground with any number of vehicles that stand, are
+ * on patrol, are at war or are close together. */
 #include "tests/bench/bench.h"
+#include "tests/bench/burst.h"
 #include "tests/bench/world.h"
 
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
 #include "recorder/replay/frame_stepper.h"
+#include "world/params.h"
 
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 
+#define SETTLE_FRAMES 60u /* after a burst, before frames are measured again */
+
+/* Of each frame [ms]: wall time of the stages and of both, and processor time of all threads. */
 struct times {
-    double *mover_ms, *collider_ms, *frame_ms;
+    double *mover_ms, *collider_ms, *frame_ms, *cpu_ms;
+    uint32_t frames;
 };
 
-static void run(struct view *view, const struct bench_options *options, struct times *times)
+struct result {
+    double mover_ms, collider_ms, frame_ms, slow_ms, cpu_ms; /* medians, and a p99 */
+    double first_ms;                                         /* the first frame */
+    double second_ms, second_worst_ms; /* frames of the first simulated second: sum and worst */
+};
+
+struct burst {
+    struct result after;
+    uint32_t frames; /* until the last bomb was gone */
+    double worst_ms; /* of these frames */
+    uint32_t rows, rows_after;
+};
+
+static double cpu_now_ms(void)
 {
-    struct frame_stepper stepper;
-    if (frame_stepper_init(&stepper, view, options->threads) != 0)
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec / 1e6;
+}
+
+static void begin(struct frame_stepper *stepper, struct view *view, uint32_t threads)
+{
+    if (frame_stepper_init(stepper, view, threads) != 0)
         die_refused("cannot begin: %s", strerror(errno));
-    for (uint32_t i = 0; i < options->frames; i++) {
+}
+
+static void run(struct frame_stepper *stepper, const struct times *times)
+{
+    for (uint32_t i = 0; i < times->frames; i++) {
+        double cpu = cpu_now_ms();
         uint64_t t0 = clock_now_ns();
-        frame_stepper_move(&stepper, NULL);
+        frame_stepper_move(stepper, NULL);
         uint64_t t1 = clock_now_ns();
-        frame_stepper_collide(&stepper);
+        frame_stepper_collide(stepper);
         uint64_t t2 = clock_now_ns();
         times->mover_ms[i] = (double)(t1 - t0) / 1e6;
         times->collider_ms[i] = (double)(t2 - t1) / 1e6;
         times->frame_ms[i] = (double)(t2 - t0) / 1e6;
+        times->cpu_ms[i] = cpu_now_ms() - cpu;
     }
+}
+
+/* Sorts the times. */
+static struct result result_of(const struct times *times, double dt_s)
+{
+    struct result result = {.first_ms = times->frame_ms[0]};
+    for (uint32_t i = 0; i < times->frames && (double)i * dt_s < 1.0; i++) {
+        result.second_ms += times->frame_ms[i];
+        if (times->frame_ms[i] > result.second_worst_ms)
+            result.second_worst_ms = times->frame_ms[i];
+    }
+    result.mover_ms = bench_quantile(times->mover_ms, times->frames, 0.5);
+    result.collider_ms = bench_quantile(times->collider_ms, times->frames, 0.5);
+    result.cpu_ms = bench_quantile(times->cpu_ms, times->frames, 0.5);
+    result.frame_ms = bench_quantile(times->frame_ms, times->frames, 0.5);
+    result.slow_ms = bench_quantile(times->frame_ms, times->frames, 0.99);
+    return result;
+}
+
+/* Drops the bombs, runs until the last one is gone, lets the world settle and measures again. */
+static void run_burst(struct view *view, const struct bench_options *options,
+                      const struct times *times, struct burst *burst)
+{
+    struct frame_stepper stepper;
+    burst->rows = view->w[options->frames & 1].head->used;
+    burst_drop(view, options->burst);
+    begin(&stepper, view, options->threads);
+    for (uint32_t munitions = 1; munitions > 0; burst->frames++) {
+        uint64_t t0 = clock_now_ns();
+        frame_stepper_step(&stepper, NULL);
+        double ms = (double)(clock_now_ns() - t0) / 1e6;
+        burst->worst_ms = ms > burst->worst_ms ? ms : burst->worst_ms;
+        munitions = view->w[frame_stepper_frame(&stepper) & 1].head->munitions;
+        if (burst->frames > options->frames + 600) /* others fire too */
+            break;
+    }
+    for (uint32_t i = 0; i < SETTLE_FRAMES; i++)
+        frame_stepper_step(&stepper, NULL);
+    run(&stepper, times);
+    burst->after = result_of(times, world_dt_s(&view->world));
+    burst->rows_after = view->w[frame_stepper_frame(&stepper) & 1].head->used;
     frame_stepper_free(&stepper);
 }
 
@@ -51,42 +124,72 @@ static void drive_all(const struct view *view)
     }
 }
 
+/* --- what is printed ---------------------------------------------------------------------------*/
+
+static void print_json(const struct bench_options *options, const struct result *result,
+                       const struct burst *burst, const struct counters *tally)
+{
+    printf("{\"vehicles\":%u,\"mode\":\"%s\",\"threads\":%u,\"frames\":%u,\"mover_ms\":%.6f,"
+           "\"collider_ms\":%.6f,\"frame_ms\":%.6f,\"frame_p99_ms\":%.6f,\"cpu_ms\":%.6f,"
+           "\"first_ms\":%.6f,\"second_ms\":%.6f,\"second_worst_ms\":%.6f,",
+           options->vehicles, bench_mode_word((enum bench_mode)options->mode), options->threads,
+           options->frames, result->mover_ms, result->collider_ms, result->frame_ms,
+           result->slow_ms, result->cpu_ms, result->first_ms, result->second_ms,
+           result->second_worst_ms);
+    if (options->burst > 0)
+        printf("\"burst\":%u,\"burst_frames\":%u,\"burst_worst_ms\":%.6f,\"after_ms\":%.6f,"
+               "\"after_cpu_ms\":%.6f,\"rows\":%u,\"rows_after\":%u,",
+               options->burst, burst->frames, burst->worst_ms, burst->after.frame_ms,
+               burst->after.cpu_ms, burst->rows, burst->rows_after);
+    printf("\"collisions\":%llu,\"fires\":%llu,\"changes\":%llu,\"destroyed\":%llu}\n",
+           (unsigned long long)tally->collisions, (unsigned long long)tally->fires,
+           (unsigned long long)tally->agent_changes, (unsigned long long)tally->destroyed);
+}
+
+static void print_text(const struct bench_options *options, const struct result *result,
+                       const struct burst *burst, const struct counters *tally)
+{
+    printf("%u vehicles, %s, %u thread(s), %u frames: mover %.3f ms, collider %.3f ms, frame %.3f "
+           "ms (p99 %.3f), processor time %.3f ms; first frame %.3f ms, first second %.3f ms "
+           "(worst frame %.3f); %llu collisions, %llu shots, %llu changes of mind, %llu destroyed",
+           options->vehicles, bench_mode_word((enum bench_mode)options->mode), options->threads,
+           options->frames, result->mover_ms, result->collider_ms, result->frame_ms,
+           result->slow_ms, result->cpu_ms, result->first_ms, result->second_ms,
+           result->second_worst_ms, (unsigned long long)tally->collisions,
+           (unsigned long long)tally->fires, (unsigned long long)tally->agent_changes,
+           (unsigned long long)tally->destroyed);
+    if (options->burst > 0)
+        printf("; %u bombs in %u frames (worst %.3f ms), then frame %.3f ms, processor time %.3f "
+               "ms; rows in use %u before, %u after",
+               options->burst, burst->frames, burst->worst_ms, burst->after.frame_ms,
+               burst->after.cpu_ms, burst->rows, burst->rows_after);
+    putchar('\n');
+}
+
 int bench_frame(struct bench_options options)
 {
     struct view view;
+    struct frame_stepper stepper;
+    struct burst burst = {0};
     if (options.agents)
-        bench_world_agents(&view, options.vehicles);
-    else
-        bench_world_open(&view, NULL, options.vehicles);
+        options.mode = BENCH_MODE_WAR;
+    bench_world_mode(&view, (enum bench_mode)options.mode, options.vehicles, options.burst);
     if (options.driven)
         drive_all(&view);
-    double *values = calloc((size_t)options.frames * 3, sizeof *values);
+    size_t frames = options.frames;
+    double *values = calloc(frames * 4, sizeof *values);
     if (!values)
         die_refused("out of memory");
-    struct times times = {values, values + options.frames, values + 2 * (size_t)options.frames};
-    run(&view, &options, &times);
-    const struct state_head *head = view.w[options.frames & 1].head;
-    double mover = bench_quantile(times.mover_ms, options.frames, 0.5);
-    double collider = bench_quantile(times.collider_ms, options.frames, 0.5);
-    double frame = bench_quantile(times.frame_ms, options.frames, 0.5);
-    double slow = bench_quantile(times.frame_ms, options.frames, 0.99);
-    if (options.json)
-        printf(
-            "{\"vehicles\":%u,\"threads\":%u,\"frames\":%u,\"mover_ms\":%.6f,\"collider_ms\":%.6f,"
-            "\"frame_ms\":%.6f,\"frame_p99_ms\":%.6f,\"collisions\":%llu,\"fires\":%llu,"
-            "\"changes\":%llu,\"destroyed\":%llu}\n",
-            options.vehicles, options.threads, options.frames, mover, collider, frame, slow,
-            (unsigned long long)head->tally.collisions, (unsigned long long)head->tally.fires,
-            (unsigned long long)head->tally.agent_changes,
-            (unsigned long long)head->tally.destroyed);
-    else
-        printf(
-            "%u vehicles, %u thread(s), %u frames: mover %.3f ms, collider %.3f ms, frame %.3f ms "
-            "(p99 %.3f); %llu collisions, %llu shots, %llu changes of mind, %llu destroyed\n",
-            options.vehicles, options.threads, options.frames, mover, collider, frame, slow,
-            (unsigned long long)head->tally.collisions, (unsigned long long)head->tally.fires,
-            (unsigned long long)head->tally.agent_changes,
-            (unsigned long long)head->tally.destroyed);
+    const struct times times = {values, values + frames, values + 2 * frames, values + 3 * frames,
+                                options.frames};
+    begin(&stepper, &view, options.threads);
+    run(&stepper, &times);
+    frame_stepper_free(&stepper);
+    const struct counters tally = view.w[options.frames & 1].head->tally;
+    const struct result result = result_of(&times, world_dt_s(&view.world));
+    if (options.burst > 0)
+        run_burst(&view, &options, &times, &burst);
+    (options.json ? print_json : print_text)(&options, &result, &burst, &tally);
     free(values);
     segment_abandon(&view);
     return EXIT_OK;

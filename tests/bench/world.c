@@ -9,6 +9,7 @@
 #include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 #include "world/maths/maths.h"
+#include "world/terrain/gridsquare.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -24,6 +25,8 @@ struct share {
 #define KINDS   8
 #define NEVER_J 1e12 /* no impact has so much energy */
 
+#define DENSE_SQUARE_M 800.0 /* [m2] for each vehicle of BENCH_MODE_DENSE */
+
 static const struct share mixture[KINDS] = {{"tank", 50, FORCE_NEUTRAL, 0},
                                             {"truck", 20, FORCE_BLUE, 0},
                                             {"jeep", 20, FORCE_RED, 0},
@@ -37,14 +40,23 @@ static const struct share agents[KINDS] = {
     {"jeep", 10, FORCE_BLUE, AT_WILL},      {"jeep", 10, FORCE_RED, AT_WILL},
     {"helicopter", 5, FORCE_BLUE, AT_WILL}, {"helicopter", 5, FORCE_RED, AT_WILL}};
 
-static void replace_groups(struct scenario *scenario, uint32_t vehicles, const struct share *shares)
+/* What replaces the groups of a scenario. */
+struct crowd {
+    const struct share *shares; /* [KINDS] NULL: the scenario's own groups stay */
+    uint8_t behaviour;
+    double side_m; /* of the square in the middle of the map that the vehicles are in */
+};
+
+static void replace_groups(struct scenario *scenario, uint32_t vehicles, const struct crowd *crowd)
 {
+    const struct share *shares = crowd->shares;
+    double low = BENCH_MIDDLE_M - 0.5 * crowd->side_m, high = BENCH_MIDDLE_M + 0.5 * crowd->side_m;
     struct scenario_group *groups = calloc(KINDS, sizeof *groups);
     struct area *areas = calloc(1, sizeof *areas);
     uint32_t left = vehicles;
     if (!groups || !areas)
         die_refused("out of memory");
-    areas[0] = (struct area){0.0, 0.0, 50000.0, 50000.0};
+    areas[0] = (struct area){low, low, high, high};
     uint32_t used = 0;
     for (; used < KINDS && shares[used].kind; used++) {
         const struct share *share = &shares[used];
@@ -55,7 +67,7 @@ static void replace_groups(struct scenario *scenario, uint32_t vehicles, const s
             die_refused("kind %s is missing", share->kind);
         groups[used] = (struct scenario_group){.kind = kind,
                                                .force = (uint8_t)share->force,
-                                               .behaviour = BEHAVIOUR_PATROL,
+                                               .behaviour = crowd->behaviour,
                                                .flags = share->flags,
                                                .count = count,
                                                .route = UINT32_MAX};
@@ -103,25 +115,41 @@ static void build(struct view *view, struct scenario *scenario)
     scenario_free(scenario);
 }
 
-static void open_world(struct view *view, const char *path, uint32_t vehicles,
-                       const struct share *shares)
+static void open_world(struct view *view, const char *path, uint32_t vehicles, uint32_t more,
+                       const struct crowd *crowd)
 {
     const char *overrides[OVERRIDES_MAX];
     struct scenario scenario;
-    read_scenario(&scenario, path, vehicles, overrides, 0);
-    if (shares)
-        replace_groups(&scenario, vehicles, shares);
+    read_scenario(&scenario, path, vehicles + more, overrides, 0);
+    if (crowd->shares)
+        replace_groups(&scenario, vehicles, crowd);
     build(view, &scenario);
+}
+
+/* Vehicles on patrol all over the map, or the scenario's own. */
+static struct crowd usual(uint32_t vehicles)
+{
+    return (struct crowd){.shares = vehicles != BENCH_SCENARIO_VEHICLES ? mixture : NULL,
+                          .behaviour = BEHAVIOUR_PATROL,
+                          .side_m = WORLD_SIDE_M};
 }
 
 void bench_world_open(struct view *view, const char *path, uint32_t vehicles)
 {
-    open_world(view, path, vehicles, vehicles != BENCH_SCENARIO_VEHICLES ? mixture : NULL);
+    const struct crowd crowd = usual(vehicles);
+    open_world(view, path, vehicles, 0, &crowd);
 }
 
-void bench_world_agents(struct view *view, uint32_t vehicles)
+void bench_world_mode(struct view *view, enum bench_mode mode, uint32_t vehicles, uint32_t more)
 {
-    open_world(view, NULL, vehicles, agents);
+    struct crowd crowd = usual(vehicles);
+    if (mode != BENCH_MODE_SCENARIO)
+        crowd.shares = mode == BENCH_MODE_WAR ? agents : mixture;
+    if (mode == BENCH_MODE_IDLE)
+        crowd.behaviour = BEHAVIOUR_IDLE;
+    if (mode == BENCH_MODE_DENSE)
+        crowd.side_m = maths_min(WORLD_SIDE_M, sqrt(DENSE_SQUARE_M * (double)vehicles));
+    open_world(view, NULL, vehicles, more, &crowd);
 }
 
 void bench_world_tanks(struct view *view, const struct heap_tanks *tanks)

@@ -3,6 +3,7 @@
 #define JOLON_TESTS_BENCH_WORLD_H
 
 #include "ipc/segment/segment.h"
+#include "tests/bench/bench.h"
 #include "tests/bench/heap_engine.h"
 
 #include <stdint.h>
@@ -16,9 +17,9 @@
  * memory is out. */
 void bench_world_open(struct view *view, const char *path, uint32_t vehicles);
 
-/* Makes a world at war on Hunter-Liggett's ground: this many armed vehicles of two forces patrol
- * and attack the enemies that they see. Otherwise the same. */
-void bench_world_agents(struct view *view, uint32_t vehicles);
+/* Makes a world on Hunter-Liggett's ground whose vehicles do what the mode says, with room for this
+ * many rows more. Otherwise the same. */
+void bench_world_mode(struct view *view, enum bench_mode mode, uint32_t vehicles, uint32_t more);
 
 /* Makes a world of level ground with tanks at places relative to its middle, which cannot be
  * destroyed and move forward at HEAP_SPEED_MPS. Row i holds tank i. Otherwise the same. */
