@@ -19,6 +19,7 @@
 #include "mover/weapon/fire_mission.h"
 #include "mover/weapon/firing_table.h"
 #include "mover/weapon/scenario_fires.h"
+#include "mover/weapon/spawn.h"
 #include "mover/weapon/turret.h"
 #include "world/entity/event.h"
 #include "world/params.h"
@@ -457,6 +458,8 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
     uint32_t used = committed->head->used;
     crater_index_update(&mover->craters, committed->head->crater_count);
     begin_head(moved, committed->head);
+    if (!rows.known)
+        entities_clear_rows(&moved->entities, used, moved->entities.capacity);
     thread_pool_run(mover->workers, take_blocks, &rows, block_count(used), BLOCKS_A_WORKER);
     command_apply_all(&serial_context, sources);
     if (!head->paused || head->steps_left > 0) {
@@ -475,6 +478,7 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
         fire_mission_run(&serial_context);
         pull_triggers(&serial_context);
         mission_step(&serial_context);
+        spawn_fall_back(&serial_context);
     }
     mover->left = head->checksum = checksum(mover, moved);
 }

@@ -38,7 +38,7 @@ struct state_head {
     uint32_t paused;
     uint32_t steps_left; /* frames to advance while paused */
     uint32_t quit;
-    uint32_t used;       /* slots 0 .. used - 1 have ever held an entity */
+    uint32_t used;       /* slots 0 .. used - 1 may hold an entity; those after them are zero */
     uint32_t alloc_next; /* where the search for a free slot continues */
     uint32_t next_id;
     uint32_t vehicles, munitions; /* active or wrecks; in flight */

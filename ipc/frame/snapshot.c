@@ -31,6 +31,8 @@ int snapshot_init(struct snapshot *snapshot, const struct view *view)
         return -1;
     }
     entities_bind(&snapshot->entities, view->header->capacity, snapshot->memory);
+    memset(snapshot->entities.id, 0, view->header->capacity * sizeof *snapshot->entities.id);
+    memset(snapshot->entities.state, ENTITY_FREE, view->header->capacity);
     return 0;
 }
 
@@ -66,6 +68,8 @@ int snapshot_take(struct snapshot *snapshot, const struct view *view)
         if (used > view->header->capacity || contacts > view->header->contact_slots)
             used = contacts = 0; /* torn or damaged, which the checks below find */
         entities_copy(&snapshot->entities, &from->entities, 0, used);
+        entities_clear_rows(&snapshot->entities, used, snapshot->held);
+        snapshot->held = used;
         memcpy(snapshot->fixed_damage, from->fixed_damage, view->header->counts.fixed);
         memcpy(snapshot->contacts, from->contacts, contacts * sizeof *from->contacts);
         if (!still_whole(view, frame)) {

@@ -10,12 +10,13 @@
 
 struct snapshot {
     struct state_head head;
-    struct entities entities;            /* rows 0 .. head.used - 1 */
+    struct entities entities;            /* rows 0 .. head.used - 1; those after them have no id */
     uint8_t *fixed_damage;               /* [world.counts.fixed] */
     struct persistent_contact *contacts; /* [head.contact_count] */
     struct list_hashes lists;            /* of the craters and dents copied so far */
     uint64_t overtaken; /* copies that were taken again, because the buffer was being written */
     uint64_t damaged;   /* copies that failed their checksum, during a repair or by damage */
+    uint32_t held;      /* rows that the last copy filled, whole or not */
     void *memory;
 };
 

@@ -20,6 +20,14 @@ static void count(const struct entities *w, uint32_t slot, struct losses *losses
     losses->lost += w->state[slot] != ENTITY_ACTIVE;
 }
 
+/* Counts the vehicle that the scenario put into the slot. Another entity may have its slot by now.
+ */
+static void count_member(const struct entities *w, uint32_t slot, struct losses *losses)
+{
+    losses->all++;
+    losses->lost += !entities_alive(w, slot, slot + 1) || w->state[slot] != ENTITY_ACTIVE;
+}
+
 static bool same_group(const struct entities *w, uint32_t a, uint32_t b)
 {
     return w->state[b] != ENTITY_FREE && w->kind[a] == w->kind[b] && w->force[a] == w->force[b] &&
@@ -62,7 +70,7 @@ bool losses_half(const struct step_context *context, uint32_t i)
         count_beside(context, i, &losses);
     } else {
         for (uint32_t n = 0; n < formation->count; n++)
-            count(&context->committed->entities, formation->first + n, &losses);
+            count_member(&context->committed->entities, formation->first + n, &losses);
     }
     return losses.all >= LEAST_GROUP && 2 * losses.lost >= losses.all;
 }

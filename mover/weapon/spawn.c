@@ -8,21 +8,47 @@
 
 #include <string.h>
 
+#define SPARE_ROWS  128u
+#define SPARE_SHARE 16u /* one spare row for so many entities */
+#define ROOF_STEP   64u /* each change of the rows in use hashes a whole block anew */
+
+uint32_t spawn_roof(const struct state_head *head, uint32_t capacity)
+{
+    uint32_t live = head->vehicles + head->munitions;
+    uint32_t roof = live + SPARE_ROWS + live / SPARE_SHARE;
+    roof = (roof + ROOF_STEP - 1) / ROOF_STEP * ROOF_STEP;
+    return roof < capacity ? roof : capacity;
+}
+
+/* Searches the rows below the roof, one after the other and then again from the first, so that a
+ * row stays free for a while. */
 static uint32_t free_row(struct serial_context *context)
 {
     struct state_head *head = context->moved->head;
     const struct entities *m = &context->moved->entities;
-    if (head->vehicles + head->munitions >= m->capacity)
-        return SLOT_NONE;
-    for (uint32_t n = 0; n < m->capacity; n++) {
-        uint32_t row = (head->alloc_next + n) % m->capacity;
-        if (row < head->used && m->state[row] != ENTITY_FREE)
-            continue;
-        if (row > head->used) /* rows are used for the first time in their order */
-            row = head->used;
-        return row;
+    uint32_t roof = spawn_roof(head, m->capacity);
+    uint32_t row = head->alloc_next < roof ? head->alloc_next : 0;
+    for (uint32_t n = 0; n < roof; n++, row = row + 1 < roof ? row + 1 : 0) {
+        if (row >= head->used) /* rows are used for the first time in their order */
+            return head->used;
+        if (m->state[row] == ENTITY_FREE)
+            return row;
     }
     return SLOT_NONE;
+}
+
+void spawn_fall_back(struct serial_context *context)
+{
+    struct state_head *head = context->moved->head;
+    const struct entities *m = &context->moved->entities;
+    uint32_t roof = spawn_roof(head, m->capacity), used = head->used;
+    while (used > roof && m->state[used - 1] == ENTITY_FREE)
+        used--;
+    if (used == head->used)
+        return;
+    head->used = used;
+    if (used > 0) /* the last block is shorter than before, so every hash of it is another */
+        table_row_changes(&context->writer, used - 1);
 }
 
 uint32_t spawn_entity(struct serial_context *context, uint16_t kind_index, uint8_t force)

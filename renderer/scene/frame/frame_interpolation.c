@@ -74,16 +74,16 @@ struct frame_view frame_interpolation_between(struct frame_interpolation *interp
 {
     double passed_s = frame_view_time_s(later) - frame_view_time_s(earlier);
     double most_s = FRAME_INTERPOLATION_STEPS_MAX * world_dt_s(earlier->world);
-    if (!(share < 1.0) || passed_s <= 0.0 || passed_s > most_s ||
-        later->head->used < earlier->head->used)
+    if (!(share < 1.0) || passed_s <= 0.0 || passed_s > most_s)
         return *later;
     if (share <= 0.0)
         return *earlier;
     const struct entities *a = earlier->entities, *b = later->entities;
     borrow(interpolation, a);
-    for (uint32_t i = 0; i < earlier->head->used; i++)
-        interpolate_row(&interpolation->entities, a, is_continuous(a, b, i, passed_s) ? b : a, i,
-                        share);
+    for (uint32_t i = 0; i < earlier->head->used; i++) {
+        bool goes_on = i < later->head->used && is_continuous(a, b, i, passed_s);
+        interpolate_row(&interpolation->entities, a, goes_on ? b : a, i, share);
+    }
     struct frame_view between = *earlier;
     between.entities = &interpolation->entities;
     between.ahead_s += share * passed_s;

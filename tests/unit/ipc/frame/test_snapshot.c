@@ -63,6 +63,21 @@ static void make_frame(uint32_t rows, uint32_t events)
 
 /* --- snapshots ---------------------------------------------------------------------------------*/
 
+static void test_rows_after_those_in_use_have_no_id(void **state)
+{
+    struct snapshot snapshot;
+    static const uint32_t used[] = {15, 4, 9, 0, 20, 19};
+    (void)state;
+    assert_int_equal(snapshot_init(&snapshot, &view), 0);
+    for (size_t n = 0; n < sizeof used / sizeof used[0]; n++) {
+        make_frame(used[n], 0);
+        assert_int_equal(snapshot_take(&snapshot, &view), 0);
+        for (uint32_t row = 0; row < 20; row++)
+            assert_int_equal(snapshot.entities.id[row], row < used[n] ? row + 1 : 0);
+    }
+    snapshot_free(&snapshot);
+}
+
 static void test_snapshot_is_the_committed_frame(void **state)
 {
     struct snapshot snapshot;
@@ -380,6 +395,7 @@ static void test_putting_a_command_rings_the_movers_bell(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        TEST(test_rows_after_those_in_use_have_no_id),
         cmocka_unit_test(test_snapshot_is_the_committed_frame),
         TEST(test_snapshot_has_the_contacts),
         TEST(test_frame_being_made_does_not_hinder_a_snapshot),

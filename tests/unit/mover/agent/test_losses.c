@@ -68,6 +68,13 @@ static void test_a_formation_counts_its_leader(void **state)
     assert_true(lost(14) && lost(15));
 }
 
+static void test_a_member_whose_row_holds_another_entity_is_lost(void **state)
+{
+    (void)state;
+    steps_rows(&f).id[12] = steps_rows(&f).id[13] = 1000;
+    assert_true(lost(14) && lost(15));
+}
+
 static void test_a_single_vehicle_has_no_group(void **state)
 {
     (void)state;
@@ -97,6 +104,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_half_of_an_areas_group_is_three_of_six),
         TEST(test_a_formation_counts_its_leader),
+        TEST(test_a_member_whose_row_holds_another_entity_is_lost),
         TEST(test_a_single_vehicle_has_no_group),
         TEST(test_a_group_with_half_losses_withdraws_when_fired_upon),
     };

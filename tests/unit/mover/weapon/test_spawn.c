@@ -93,6 +93,71 @@ static void test_freed_rows_rest_while_there_are_others(void **state)
     assert_int_equal(spawn("jeep"), 1);
 }
 
+/* --- the end of the table ----------------------------------------------------------------------*/
+
+#define MANY 3000u
+
+static int open_wide_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 4096; };");
+    steps_serial_context(&f, &step, &context);
+    return 0;
+}
+
+static void test_the_end_of_the_table_falls_back_after_a_burst(void **state)
+{
+    const struct state_head *head = f.view.m.head;
+    const struct entities *m = &f.view.m.entities;
+    uint64_t changed;
+    (void)state;
+    for (uint32_t n = 0; n < MANY; n++)
+        assert_int_equal(spawn("shell"), n);
+    for (uint32_t n = 0; n < MANY; n++)
+        spawn_remove(&context, n);
+    context.writer.changed[0] = 0;
+    spawn_fall_back(&context);
+    changed = context.writer.changed[0];
+    assert_int_equal(head->used, spawn_roof(head, m->capacity));
+    assert_true(head->used < MANY / 10);
+    assert_true(changed == COLUMNS_ALL); /* the block's hashes are of fewer rows */
+    for (uint32_t n = 0; n < 2 * head->used; n++) {
+        uint32_t row = spawn("shell");
+        assert_true(row < head->used && head->used < MANY / 10);
+        spawn_remove(&context, row);
+    }
+}
+
+static void test_a_row_in_use_holds_the_end_of_the_table(void **state)
+{
+    const struct state_head *head = f.view.m.head;
+    (void)state;
+    for (uint32_t n = 0; n < MANY; n++)
+        spawn(n == MANY - 500 ? "jeep" : "shell");
+    for (uint32_t n = 0; n < MANY; n++) {
+        if (n != MANY - 500)
+            spawn_remove(&context, n);
+    }
+    spawn_fall_back(&context);
+    assert_int_equal(head->used, MANY - 499);
+    assert_int_equal(f.view.m.entities.state[MANY - 500], ENTITY_ACTIVE);
+    spawn_remove(&context, MANY - 500);
+    spawn_fall_back(&context);
+    assert_true(head->used < MANY / 10);
+}
+
+static void test_a_free_row_rests_below_the_roof_too(void **state)
+{
+    (void)state;
+    for (uint32_t n = 0; n < 100; n++)
+        spawn("jeep");
+    spawn_remove(&context, 50);
+    for (uint32_t n = 0; n < 100; n++) {
+        assert_true(spawn("shell") != 50);
+        spawn_fall_back(&context);
+    }
+}
+
 /* Against a list that a child could keep. */
 static void test_random_comings_and_goings_keep_ids_and_counts(void **state)
 {
@@ -154,6 +219,12 @@ int main(void)
         TEST(test_a_munition_flies_and_has_a_life),
         TEST(test_a_full_table_refuses_and_counts),
         TEST(test_freed_rows_rest_while_there_are_others),
+        cmocka_unit_test_prestate_setup_teardown(test_the_end_of_the_table_falls_back_after_a_burst,
+                                                 open_wide_world, fixture_teardown, &f),
+        cmocka_unit_test_prestate_setup_teardown(test_a_row_in_use_holds_the_end_of_the_table,
+                                                 open_wide_world, fixture_teardown, &f),
+        cmocka_unit_test_prestate_setup_teardown(test_a_free_row_rests_below_the_roof_too,
+                                                 open_wide_world, fixture_teardown, &f),
         TEST(test_random_comings_and_goings_keep_ids_and_counts),
         TEST(test_intents_end_when_the_frame_is_full),
     };

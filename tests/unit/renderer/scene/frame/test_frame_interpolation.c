@@ -115,6 +115,20 @@ static void test_ends_are_the_frames_themselves(void **context)
     }
 }
 
+/* Rows in use may be fewer in the later frame: the bodies that are left move on, the others stay.
+ */
+static void test_bodies_move_evenly_when_the_end_of_the_table_falls_back(void **context)
+{
+    struct stage *s = *context;
+    s->b.head.used = CAPACITY / 2;
+    struct frame_view frame_view = at(s, 0.5);
+    for (uint32_t i = 0; i < CAPACITY; i++) {
+        double ax = s->a.entities.x[i], bx = s->b.entities.x[i];
+        double x = i < CAPACITY / 2 ? 0.5 * (ax + bx) : ax;
+        assert_true(fabs(frame_view.entities->x[i] - x) < 1e-6);
+    }
+}
+
 static void test_bodies_move_evenly_and_turn_by_the_shorter_arc(void **context)
 {
     struct stage *s = *context;
@@ -266,6 +280,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(test_ends_are_the_frames_themselves),
+        TEST(test_bodies_move_evenly_when_the_end_of_the_table_falls_back),
         TEST(test_bodies_move_evenly_and_turn_by_the_shorter_arc),
         TEST(test_turning_past_north_takes_the_shorter_arc),
         TEST(test_nothing_else_changes_early),
