@@ -42,6 +42,7 @@ int main(int argc, char **argv)
     stage_open(&stage, argc, argv, ROLE_COLLIDER);
     if (collider_init(&collider, &view->world, view->w[0].craters, stage.workers) != 0)
         stage_refuse_memory(&stage);
+    collider_touch(&collider, &view->m, view->w, stage_rows(view));
     if (stage_enter(&stage)) {
         log_info("collides world \"%s\" on %u thread(s)", view->name, stage.options.threads);
         collide_frames(&collider, view);

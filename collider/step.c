@@ -5,6 +5,7 @@
 #include "collider/response/damage.h"
 #include "collider/response/response.h"
 #include "world/entity/persistent_contact.h"
+#include "world/entity/table_touch.h"
 #include "world/params.h"
 #include "world/runtime/work_done.h"
 #include "world/state.h"
@@ -56,6 +57,16 @@ void collider_free(struct collider *collider)
     method_workspace_free(collider->workspace);
     pair_list_free(&collider->pairs);
     *collider = (struct collider){0};
+}
+
+void collider_touch(const struct collider *collider, const struct moved *moved,
+                    const struct state states[2], uint32_t rows)
+{
+    table_touch(&states[0].entities, rows, true);
+    table_touch(&states[1].entities, rows, true);
+    table_touch(&moved->entities, rows, false);
+    body_motion_touch(&collider->motion, rows);
+    broad_phase_touch(&collider->broad, rows);
 }
 
 struct step {

@@ -63,6 +63,12 @@ int collider_init(struct collider *collider, const struct world *world,
                   const struct crater *craters, struct thread_pool *workers);
 void collider_free(struct collider *collider);
 
+/* Takes the memory of the steps of this many rows, so that no step waits for its pages, and the
+ * pages of the tables: of the world's two buffers for writing, of the moved table for reading. For
+ * a stand-by process too. */
+void collider_touch(const struct collider *collider, const struct moved *moved,
+                    const struct state states[2], uint32_t rows);
+
 /* Fills next and the ring; reads committed and moved, and writes neither. Takes no memory, and
  * makes no system call except to wake the workers. */
 void collider_step(struct collider *collider, const struct state *committed,

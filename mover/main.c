@@ -29,6 +29,7 @@ int main(int argc, char **argv)
     stage_open(&stage, argc, argv, ROLE_MOVER);
     if (mover_init(&mover, &view->world, view->w[0].craters, stage.workers) != 0)
         stage_refuse_memory(&stage);
+    mover_touch(&mover, &view->m, view->w, stage_rows(view));
     if (stage_enter(&stage)) {
         log_info("moves world \"%s\" on %u thread(s)", view->name, stage.options.threads);
         move_frames(&mover, view);

@@ -22,7 +22,9 @@
 #include "mover/weapon/spawn.h"
 #include "mover/weapon/turret.h"
 #include "world/entity/event.h"
+#include "world/entity/table_touch.h"
 #include "world/params.h"
+#include "world/runtime/prefault.h"
 #include "world/state.h"
 #include "world/world.h"
 
@@ -76,6 +78,18 @@ void mover_free(struct mover *mover)
     free(mover->firing_tables);
     free(mover->terrain_entries);
     free(mover->terrain_entries_ahead);
+}
+
+void mover_touch(const struct mover *mover, const struct moved *moved, const struct state states[2],
+                 uint32_t rows)
+{
+    table_touch(&moved->entities, rows, true);
+    table_touch(&states[0].entities, rows, false);
+    table_touch(&states[1].entities, rows, false);
+    neighbour_index_touch(&mover->neighbours, rows);
+    neighbour_lists_touch(&mover->neighbour_lists, rows);
+    prefault_own(mover->terrain_entries, rows * sizeof *mover->terrain_entries);
+    prefault_own(mover->terrain_entries_ahead, rows * sizeof *mover->terrain_entries_ahead);
 }
 
 struct rows {

@@ -48,6 +48,12 @@ int mover_init(struct mover *mover, const struct world *world, const struct crat
                struct thread_pool *workers);
 void mover_free(struct mover *mover);
 
+/* Takes the memory of the steps of this many rows, so that no step waits for its pages, and the
+ * pages of the tables: of the moved table for writing, of the world's two buffers for reading. For
+ * a stand-by process too. */
+void mover_touch(const struct mover *mover, const struct moved *moved, const struct state states[2],
+                 uint32_t rows);
+
 /* The context of the frame after committed. */
 struct step_context mover_context(const struct mover *mover, const struct state *committed,
                                   struct moved *moved);

@@ -6,6 +6,7 @@
 #include "world/entity/kind.h"
 #include "world/maths/sort.h"
 #include "world/params.h"
+#include "world/runtime/prefault.h"
 #include "world/runtime/work_done.h"
 #include "world/terrain/fixed.h"
 #include "world/world.h"
@@ -15,6 +16,7 @@
 
 #define ROWS_A_PIECE   (2 * BROAD_PHASE_ROWS_TAKEN)
 #define STRIPS_A_PIECE 4
+#define QUERIES_LEAST  2048 /* fewer cost less than an index of all rows */
 #define ALONE_MOST     8192 /* rows that one thread finishes sooner than others would wake */
 
 int broad_phase_init(struct broad_phase *broad, const struct world *world,
@@ -25,7 +27,9 @@ int broad_phase_init(struct broad_phase *broad, const struct world *world,
     uint32_t rows = world->params->capacity, pairs = pair_filter_pairs_first(world);
     broad->box = malloc(rows * sizeof *broad->box);
     broad->sweeper = calloc(broad->sweepers, sizeof *broad->sweeper);
-    bool taken = broad->box && broad->sweeper && static_boxes_init(&broad->fixed_boxes, world) == 0;
+    bool taken = broad->box && broad->sweeper &&
+                 static_boxes_init(&broad->fixed_boxes, world) == 0 &&
+                 query_index_init(&broad->index, rows) == 0;
     for (uint32_t i = 0; taken && i < broad->sweepers; i++)
         taken = sweep_worker_init(&broad->sweeper[i], rows, pairs) == 0;
     if (taken)
@@ -40,9 +44,17 @@ void broad_phase_free(struct broad_phase *broad)
     for (uint32_t i = 0; broad->sweeper && i < broad->sweepers; i++)
         sweep_worker_free(&broad->sweeper[i]);
     static_boxes_free(&broad->fixed_boxes);
+    query_index_free(&broad->index);
     free(broad->sweeper);
     free(broad->box);
     *broad = (struct broad_phase){0};
+}
+
+void broad_phase_touch(const struct broad_phase *broad, uint32_t rows)
+{
+    prefault_own(broad->box, rows * sizeof *broad->box);
+    for (uint32_t i = 0; i < broad->sweepers; i++)
+        strip_bins_touch(&broad->sweeper[i].bins, rows);
 }
 
 struct job {
@@ -97,6 +109,7 @@ void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_inpu
                                  .margin = job.margin,
                                  .sweeper = broad->sweeper,
                                  .sweepers = broad->sweepers};
+    broad->index.built = false;
     for (uint32_t i = 0; i < broad->sweepers; i++) {
         strip_bins_clear(&broad->sweeper[i].bins);
         broad->sweeper[i].fliers.count = 0;
@@ -151,31 +164,67 @@ static struct bin_record record_of(const struct path_box *box, uint32_t strip)
                                .z = bin_z(box->min_z, box->max_z, strip)};
 }
 
-static void query_strip(const struct broad_phase *broad, const struct strip_bins *bins,
-                        uint32_t strip, const struct path_box *box, struct pair_list *found,
-                        uint32_t since)
+/* What a query looks for, and where it puts the rows. */
+struct query {
+    const struct broad_phase *broad;
+    const struct path_box *box;
+    struct pair_list *found;
+    uint32_t since;
+};
+
+static void query_records(const struct query *query, const struct bin_record *one,
+                          const struct bin_record *record, uint32_t count)
 {
-    struct bin_record one = record_of(box, strip);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t row = record[i].tag & BIN_ROW;
+        if (bin_meet(one, &record[i]) &&
+            pair_filter_boxes_meet(query->box, &query->broad->box[row]))
+            add_found(query->found, query->since, row, 0);
+    }
+}
+
+static void query_bins(const struct query *query, const struct strip_bins *bins, uint32_t strip,
+                       const struct bin_record *one)
+{
     uint32_t count;
     const struct bin_chunk *chunk = strip_bins_last(bins, strip, &count);
-    for (; chunk; chunk = chunk->before, count = BIN_CHUNK_RECORDS) {
-        for (uint32_t i = 0; i < count; i++) {
-            uint32_t row = chunk->record[i].tag & BIN_ROW;
-            if (bin_meet(&one, &chunk->record[i]) && pair_filter_boxes_meet(box, &broad->box[row]))
-                add_found(found, since, row, 0);
-        }
+    for (; chunk; chunk = chunk->before, count = BIN_CHUNK_RECORDS)
+        query_records(query, one, chunk->record, count);
+}
+
+static void query_strip(const struct query *query, uint32_t strip)
+{
+    const struct broad_phase *broad = query->broad;
+    const struct bin_record one = record_of(query->box, strip);
+    if (broad->index.built) {
+        uint32_t count;
+        const struct bin_record *record =
+            query_index_from(&broad->index, strip, one.min_x, one.max_x, &count);
+        query_records(query, &one, record, count);
+        return;
     }
+    for (uint32_t i = 0; i < broad->sweepers; i++)
+        query_bins(query, &broad->sweeper[i].bins, strip, &one);
+}
+
+void broad_phase_expect_queries(struct broad_phase *broad, uint32_t queries)
+{
+    const struct strip_bins *bins[THREAD_POOL_MAX];
+    if (queries < QUERIES_LEAST || broad->index.built)
+        return;
+    for (uint32_t i = 0; i < broad->sweepers; i++)
+        bins[i] = &broad->sweeper[i].bins;
+    query_index_build(&broad->index, bins, broad->sweepers);
 }
 
 void broad_phase_query(const struct broad_phase *broad, const struct method_input *input,
                        const struct path_box *box, struct pair_list *found)
 {
     uint32_t since = found->count, last = bin_strip(box->max_z);
+    const struct query query = {broad, box, found, since};
     (void)input;
-    for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
-        for (uint32_t i = 0; i < broad->sweepers; i++)
-            query_strip(broad, &broad->sweeper[i].bins, strip, box, found, since);
-    }
+    for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++)
+        query_strip(&query, strip);
     order_found(found, since);
 }
 

@@ -9,6 +9,7 @@
 #include "collider/motion/pair_filter.h"
 #include "collider/motion/body_motion.h"
 #include "collider/broad_phase/static_boxes.h"
+#include "collider/broad_phase/query_index.h"
 #include "collider/broad_phase/sweep_and_prune.h"
 #include "world/runtime/thread_pool.h"
 
@@ -23,6 +24,7 @@ struct broad_phase {
     struct static_boxes fixed_boxes;
     struct sweep_worker *sweeper; /* [sweepers] one for each worker */
     uint32_t sweepers;
+    struct query_index index;               /* of this frame, once many queries are expected */
     struct pair_list list[THREAD_POOL_MAX]; /* one for each worker; their order does not matter,
                                                since contacts are put in a total order */
 };
@@ -32,6 +34,9 @@ struct broad_phase {
 int broad_phase_init(struct broad_phase *broad, const struct world *world,
                      struct thread_pool *workers);
 void broad_phase_free(struct broad_phase *broad);
+
+/* Takes the memory for this many rows, spread over the map, before a step needs it. */
+void broad_phase_touch(const struct broad_phase *broad, uint32_t rows);
 
 /* Fills the lists with every pair whose swept boxes overlap, each pair once. Bodies with long paths
  * through several strips are paired only if they are near each other in one of the strips. Pairs
@@ -54,6 +59,10 @@ void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_inpu
 
 /* Returns how many pairs a list must have room for if both queries add to it for one row. */
 uint64_t broad_phase_found_most(const struct world *world);
+
+/* After broad_phase_pairs: prepares for so many queries in this frame, if they are many. They find
+ * the same rows without it, but read every record of a strip. One thread. */
+void broad_phase_expect_queries(struct broad_phase *broad, uint32_t queries);
 
 /* After broad_phase_pairs: adds every row whose box (broad->box) meets this box as pair.a, each
  * once, ascending; pair.b is 0. A row with a long path is found only near the path. found must have

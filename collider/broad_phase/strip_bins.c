@@ -3,6 +3,7 @@
 
 #include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
+#include "world/runtime/prefault.h"
 
 #include <string.h>
 #include <sys/mman.h>
@@ -27,6 +28,14 @@ int strip_bins_init(struct strip_bins *bins, uint32_t rows)
         return -1;
     advise(bins->slab[0], bins->first);
     return 0;
+}
+
+/* Most rows are in one strip. Each strip's newest chunk is half full on average. */
+void strip_bins_touch(const struct strip_bins *bins, uint32_t rows)
+{
+    uint32_t chunks = rows / BIN_CHUNK_RECORDS + STRIP_COUNT / 2;
+    chunks = chunks < bins->first ? chunks : bins->first;
+    prefault_own(bins->slab[0], chunks * sizeof *bins->slab[0]);
 }
 
 void strip_bins_free(struct strip_bins *bins)

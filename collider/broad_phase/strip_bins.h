@@ -78,6 +78,10 @@ struct strip_bins {
 int strip_bins_init(struct strip_bins *bins, uint32_t rows);
 void strip_bins_free(struct strip_bins *bins);
 
+/* Takes the memory of the chunks for this many rows, spread over the map, before a step needs it.
+ */
+void strip_bins_touch(const struct strip_bins *bins, uint32_t rows);
+
 /* Empties the bins and keeps their memory. */
 void strip_bins_clear(struct strip_bins *bins);
 

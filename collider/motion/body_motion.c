@@ -7,6 +7,7 @@
 #include "world/maths/maths.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
+#include "world/runtime/prefault.h"
 #include "world/state.h"
 #include "world/terrain/fixed.h"
 #include "world/world.h"
@@ -43,6 +44,15 @@ void body_motion_free(struct body_motion *motion)
     free(motion->parting_rps);
     free(motion->fall);
     *motion = (struct body_motion){0};
+}
+
+void body_motion_touch(const struct body_motion *motion, uint32_t rows)
+{
+    prefault_own(motion->path, rows * sizeof *motion->path);
+    prefault_own(motion->computed, rows * sizeof *motion->computed);
+    prefault_own(motion->change, rows * sizeof *motion->change);
+    prefault_own(motion->parting_rps, rows * sizeof *motion->parting_rps);
+    prefault_own(motion->fall, rows * sizeof *motion->fall);
 }
 
 void body_motion_begin(struct body_motion *motion, const struct state *committed,

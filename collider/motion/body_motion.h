@@ -44,6 +44,9 @@ struct body_motion {
 int body_motion_init(struct body_motion *motion, const struct world *world);
 void body_motion_free(struct body_motion *motion);
 
+/* Takes the memory for this many rows before a step needs it. */
+void body_motion_touch(const struct body_motion *motion, uint32_t rows);
+
 /* Begins a frame: no path has been computed. */
 void body_motion_begin(struct body_motion *motion, const struct state *committed,
                        const struct state *next);

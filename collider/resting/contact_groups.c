@@ -257,12 +257,31 @@ static void add_new(struct contact_groups *groups, struct response_context *cont
 
 /* Blocks with the same ids as in the committed frame have no new body. In the first frame all are
  * new. */
-static void find_new(struct contact_groups *groups, struct response_context *context)
+static bool may_be_new(const struct response_context *context, uint32_t block)
 {
     const struct state *committed = context->motion->committed, *next = context->next;
-    for (uint32_t block = 0; block < block_count(next->head->used); block++) {
-        if (next->head->tick == 1 || block >= block_count(committed->head->used) ||
-            committed->hashes[block].column[COLUMN_id] != next->hashes[block].column[COLUMN_id])
+    return next->head->tick == 1 || block >= block_count(committed->head->used) ||
+           committed->hashes[block].column[COLUMN_id] != next->hashes[block].column[COLUMN_id];
+}
+
+/* Returns how many bodies of the block have to be looked at. */
+static uint32_t count_new(const struct response_context *context, uint32_t block)
+{
+    uint32_t first = block * CHECKSUM_ROWS, used = context->next->head->used, count = 0;
+    uint32_t end = used - first < CHECKSUM_ROWS ? used : first + CHECKSUM_ROWS;
+    for (uint32_t row = first; row < end; row++)
+        count += is_new(context, row);
+    return count;
+}
+
+static void find_new(struct contact_groups *groups, struct response_context *context)
+{
+    uint32_t blocks = block_count(context->next->head->used), count = 0;
+    for (uint32_t block = 0; block < blocks; block++)
+        count += may_be_new(context, block) ? count_new(context, block) : 0;
+    broad_phase_expect_queries(context->broad, count);
+    for (uint32_t block = 0; block < blocks; block++) {
+        if (may_be_new(context, block))
             add_new(groups, context, block);
     }
 }

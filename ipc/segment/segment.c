@@ -8,6 +8,7 @@
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
+#include "world/runtime/prefault.h"
 #include "world/terrain/gridsquare.h"
 
 #include <errno.h>
@@ -169,6 +170,7 @@ int segment_private(struct view *view, const struct segment_header *header,
         view->base = NULL;
         return error_text_set(error, "out of memory: %zu bytes", view->layout.total);
     }
+    prefault_large(view->base, view->layout.total);
     return prepare(view, header) == 0 ? 0 : error_text_set(error, "doorbells: %s", strerror(errno));
 }
 

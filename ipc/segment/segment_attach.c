@@ -6,6 +6,7 @@
 #include "ipc/process/process.h"
 #include "ipc/segment/segment_internal.h"
 #include "ipc/segment/segment_locks.h"
+#include "world/runtime/prefault.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -133,6 +134,7 @@ int segment_map(struct view *view, segment_writable *writable, struct error_text
         goto err_map;
     }
     view->header = view->base;
+    prefault_large(view->base, bytes);
     segment_bind(view);
     result = 0;
     goto done;

@@ -6,6 +6,7 @@
 #include "ipc/process/option_table.h"
 #include "ipc/process/process.h"
 #include "ipc/segment/segment_attach.h"
+#include "world/entity/table_touch.h"
 #include "world/params.h"
 #include "world/runtime/thread_pool.h"
 #include "world/runtime/work_done.h"
@@ -58,6 +59,12 @@ void stage_refuse_memory(const struct stage *stage)
                 "address space (ulimit -v; vm.overcommit_ratio where vm.overcommit_memory is 2) "
                 "or lower world.capacity",
                 stage->view.world.params->capacity, strerror(errno));
+}
+
+uint32_t stage_rows(const struct view *view)
+{
+    uint64_t commit = segment_load(&view->commit->commit);
+    return table_touch_rows(view->w[commit & 1].head->used, view->header->capacity);
 }
 
 bool stage_enter(struct stage *stage)

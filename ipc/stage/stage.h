@@ -40,6 +40,10 @@ void stage_open(struct stage *stage, int argc, char **argv, enum role role);
 /* Ends a process that cannot allocate the memory of its steps (exit 1). errno says why. */
 _Noreturn void stage_refuse_memory(const struct stage *stage);
 
+/* Returns how many rows a stage should take memory for before it is ready. A guess: of a stand-by
+ * process, another process may be writing the world. */
+uint32_t stage_rows(const struct view *view);
+
 /* Enters the sandbox, takes the role and marks it as ready. A stand-by process blocks until the
  * role's holder dies. Returns false if the process was asked to stop or the run ended meanwhile. */
 bool stage_enter(struct stage *stage);

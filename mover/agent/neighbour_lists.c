@@ -2,6 +2,7 @@
 #include "mover/agent/neighbour_lists.h"
 
 #include "mover/agent/avoidance.h"
+#include "world/runtime/prefault.h"
 
 #include <stdlib.h>
 
@@ -23,6 +24,12 @@ void neighbour_lists_free(struct neighbour_lists *lists)
     free(lists->entries);
     free(lists->list);
     *lists = (struct neighbour_lists){0};
+}
+
+void neighbour_lists_touch(const struct neighbour_lists *lists, uint32_t rows)
+{
+    prefault_own(lists->entries, (size_t)ROOM * rows * sizeof *lists->entries);
+    prefault_own(lists->list, rows * sizeof *lists->list);
 }
 
 struct gathering {

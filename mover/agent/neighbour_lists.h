@@ -28,6 +28,9 @@ struct neighbour_lists {
 int neighbour_lists_init(struct neighbour_lists *lists, uint32_t capacity);
 void neighbour_lists_free(struct neighbour_lists *lists);
 
+/* Takes the memory for this many rows before a step needs it. */
+void neighbour_lists_touch(const struct neighbour_lists *lists, uint32_t rows);
+
 /* Gathers the lists of all rows whose entry is due. workers may be NULL. */
 void neighbour_lists_gather(struct neighbour_lists *lists, const struct neighbour_index *index,
                             const struct world *world, const struct avoidance *avoidance,

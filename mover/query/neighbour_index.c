@@ -2,6 +2,7 @@
 #include "mover/query/neighbour_index.h"
 
 #include "world/checksum.h"
+#include "world/runtime/prefault.h"
 #include "world/terrain/gridsquare.h"
 
 #include <stdlib.h>
@@ -64,6 +65,14 @@ void neighbour_index_free(struct neighbour_index *index)
     free(index->band);
     free(index->layers);
     *index = (struct neighbour_index){0};
+}
+
+void neighbour_index_touch(const struct neighbour_index *index, uint32_t rows)
+{
+    prefault_own(index->entries, rows * sizeof *index->entries);
+    prefault_own(index->sorted, rows * sizeof *index->sorted);
+    prefault_own(index->slot, rows * sizeof *index->slot);
+    prefault_own(index->first, blocks_of(rows) * (SIDE_MANY + 1) * sizeof *index->first);
 }
 
 static int32_t cell_axis(const struct neighbour_index *index, double metres)

@@ -68,6 +68,9 @@ struct neighbour_index {
 int neighbour_index_init(struct neighbour_index *index, uint32_t capacity);
 void neighbour_index_free(struct neighbour_index *index);
 
+/* Takes the memory for this many rows before a step needs it. */
+void neighbour_index_touch(const struct neighbour_index *index, uint32_t rows);
+
 /* Indexes rows 0 .. used - 1. The entries of active vehicles for which tick + id is a multiple of
  * think_frames are due. workers may be NULL. */
 void neighbour_index_build(struct neighbour_index *index, const struct entities *committed,

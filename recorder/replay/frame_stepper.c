@@ -1,6 +1,8 @@
 /* Runs the two stages of a frame, one after the other, in one process. */
 #include "recorder/replay/frame_stepper.h"
 
+#include "world/entity/table_touch.h"
+
 #include <errno.h>
 
 int frame_stepper_init(struct frame_stepper *stepper, struct view *view, uint32_t threads)
@@ -13,6 +15,10 @@ int frame_stepper_init(struct frame_stepper *stepper, struct view *view, uint32_
         goto err_workers;
     if (collider_init(&stepper->collider, &view->world, view->w[0].craters, stepper->workers) != 0)
         goto err_mover;
+    uint32_t rows = table_touch_rows(view->w[frame_stepper_frame(stepper) & 1].head->used,
+                                     view->header->capacity);
+    mover_touch(&stepper->mover, &view->m, view->w, rows);
+    collider_touch(&stepper->collider, &view->m, view->w, rows);
     return 0;
 err_mover:
     mover_free(&stepper->mover);

@@ -27,7 +27,7 @@ struct times {
 
 struct result {
     double mover_ms, collider_ms, frame_ms, slow_ms, cpu_ms; /* medians, and a p99 */
-    double first_ms;                                         /* the first frame */
+    double first_ms, first_cpu_ms;                           /* the first frame */
     double second_ms, second_worst_ms; /* frames of the first simulated second: sum and worst */
 };
 
@@ -70,7 +70,7 @@ static void run(struct frame_stepper *stepper, const struct times *times)
 /* Sorts the times. */
 static struct result result_of(const struct times *times, double dt_s)
 {
-    struct result result = {.first_ms = times->frame_ms[0]};
+    struct result result = {.first_ms = times->frame_ms[0], .first_cpu_ms = times->cpu_ms[0]};
     for (uint32_t i = 0; i < times->frames && (double)i * dt_s < 1.0; i++) {
         result.second_ms += times->frame_ms[i];
         if (times->frame_ms[i] > result.second_worst_ms)
@@ -131,11 +131,11 @@ static void print_json(const struct bench_options *options, const struct result 
 {
     printf("{\"vehicles\":%u,\"mode\":\"%s\",\"threads\":%u,\"frames\":%u,\"mover_ms\":%.6f,"
            "\"collider_ms\":%.6f,\"frame_ms\":%.6f,\"frame_p99_ms\":%.6f,\"cpu_ms\":%.6f,"
-           "\"first_ms\":%.6f,\"second_ms\":%.6f,\"second_worst_ms\":%.6f,",
+           "\"first_ms\":%.6f,\"first_cpu_ms\":%.6f,\"second_ms\":%.6f,\"second_worst_ms\":%.6f,",
            options->vehicles, bench_mode_word((enum bench_mode)options->mode), options->threads,
            options->frames, result->mover_ms, result->collider_ms, result->frame_ms,
-           result->slow_ms, result->cpu_ms, result->first_ms, result->second_ms,
-           result->second_worst_ms);
+           result->slow_ms, result->cpu_ms, result->first_ms, result->first_cpu_ms,
+           result->second_ms, result->second_worst_ms);
     if (options->burst > 0)
         printf("\"burst\":%u,\"burst_frames\":%u,\"burst_worst_ms\":%.6f,\"after_ms\":%.6f,"
                "\"after_cpu_ms\":%.6f,\"rows\":%u,\"rows_after\":%u,",
@@ -149,15 +149,16 @@ static void print_json(const struct bench_options *options, const struct result 
 static void print_text(const struct bench_options *options, const struct result *result,
                        const struct burst *burst, const struct counters *tally)
 {
-    printf("%u vehicles, %s, %u thread(s), %u frames: mover %.3f ms, collider %.3f ms, frame %.3f "
-           "ms (p99 %.3f), processor time %.3f ms; first frame %.3f ms, first second %.3f ms "
-           "(worst frame %.3f); %llu collisions, %llu shots, %llu changes of mind, %llu destroyed",
-           options->vehicles, bench_mode_word((enum bench_mode)options->mode), options->threads,
-           options->frames, result->mover_ms, result->collider_ms, result->frame_ms,
-           result->slow_ms, result->cpu_ms, result->first_ms, result->second_ms,
-           result->second_worst_ms, (unsigned long long)tally->collisions,
-           (unsigned long long)tally->fires, (unsigned long long)tally->agent_changes,
-           (unsigned long long)tally->destroyed);
+    printf(
+        "%u vehicles, %s, %u thread(s), %u frames: mover %.3f ms, collider %.3f ms, frame %.3f "
+        "ms (p99 %.3f), processor time %.3f ms; first frame %.3f ms (%.3f), first second %.3f ms "
+        "(worst frame %.3f); %llu collisions, %llu shots, %llu changes of mind, %llu destroyed",
+        options->vehicles, bench_mode_word((enum bench_mode)options->mode), options->threads,
+        options->frames, result->mover_ms, result->collider_ms, result->frame_ms, result->slow_ms,
+        result->cpu_ms, result->first_ms, result->first_cpu_ms, result->second_ms,
+        result->second_worst_ms, (unsigned long long)tally->collisions,
+        (unsigned long long)tally->fires, (unsigned long long)tally->agent_changes,
+        (unsigned long long)tally->destroyed);
     if (options->burst > 0)
         printf("; %u bombs in %u frames (worst %.3f ms), then frame %.3f ms, processor time %.3f "
                "ms; rows in use %u before, %u after",

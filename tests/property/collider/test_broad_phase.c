@@ -347,6 +347,9 @@ static void test_a_query_finds_every_row_and_object_once_in_order(void **state)
         assert_int_equal(pair_list_init(&found, broad_phase_found_most(&w.world)), 0);
         for (int i = 0; i < 20; i++) {
             struct path_box box = draw_box(&place, &random);
+            if (i == 10) /* from here on by the index */
+                broad_phase_expect_queries(&broad, UINT32_MAX);
+            assert_true(broad.index.built == (i >= 10));
             found.count = 0;
             pair_list_add(&found, 7, 7);
             broad_phase_query(&broad, &input, &box, &found);
