@@ -248,11 +248,15 @@ void collider_step(struct collider *collider, const struct state *committed,
     struct step step = {collider, moved_table(moved), state_table(next), moved->head->used,
                         known_blocks(collider, moved, next)};
     uint64_t *left = &collider->left[moved->head->frame & 1];
+    /* An own buffer holds the frame before the committed one. */
+    bool same_damage =
+        step.known > 0 && next->head->tally.fixed_damaged == committed->head->tally.fixed_damaged;
     uint32_t held = step.known > 0 ? next->head->used : next->entities.capacity;
     entities_clear_rows(&next->entities, step.used, held);
     crater_index_update(&collider->craters, committed->head->crater_count);
     begin_head(next->head, moved->head);
-    memcpy(next->fixed_damage, committed->fixed_damage, world->counts.fixed);
+    if (!same_damage)
+        memcpy(next->fixed_damage, committed->fixed_damage, world->counts.fixed);
     body_motion_begin(&collider->motion, committed, next);
 
     struct response_context context = collider_response_context(collider, next);

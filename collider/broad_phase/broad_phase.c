@@ -79,12 +79,23 @@ static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worke
     }
 }
 
+static bool is_empty(const struct broad_phase *broad, uint32_t strip)
+{
+    for (uint32_t i = 0; i < broad->sweepers; i++) {
+        if (broad->sweeper[i].bins.next[strip])
+            return false;
+    }
+    return true;
+}
+
 static void meet_strips(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     struct job *job = context;
     struct sweep_worker *sweeper = &job->broad->sweeper[worker];
-    for (uint32_t strip = first; strip < end; strip++)
-        sweep_and_prune_pairs(&job->strips, sweeper, strip);
+    for (uint32_t strip = first; strip < end; strip++) {
+        if (!is_empty(job->broad, strip))
+            sweep_and_prune_pairs(&job->strips, sweeper, strip);
+    }
 }
 
 void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_input *input,

@@ -61,8 +61,8 @@ void body_motion_begin(struct body_motion *motion, const struct state *committed
     for (uint32_t i = 0; i < motion->changes; i++)
         motion->change[motion->row[i]] = 0;
     motion->changes = 0;
-    memset(motion->computed, 0, motion->world->params->capacity * sizeof *motion->computed);
-    memset(motion->fall, 0, motion->world->params->capacity * sizeof *motion->fall);
+    memset(motion->computed, 0, next->head->used * sizeof *motion->computed);
+    memset(motion->fall, 0, next->head->used * sizeof *motion->fall);
     motion->committed = committed;
     motion->next = next;
     motion->models = motion->world->params->collision.shape == SHAPE_MODEL;

@@ -47,7 +47,7 @@ void body_motion_free(struct body_motion *motion);
 /* Takes the memory for this many rows before a step needs it. */
 void body_motion_touch(const struct body_motion *motion, uint32_t rows);
 
-/* Begins a frame: no path has been computed. */
+/* Begins a frame: no path of next's rows in use has been computed. */
 void body_motion_begin(struct body_motion *motion, const struct state *committed,
                        const struct state *next);
 
