@@ -89,5 +89,6 @@ void neighbour_lists_gather(struct neighbour_lists *lists, const struct neighbou
                             struct thread_pool *workers)
 {
     struct gathering gathering = {lists, index, world, avoidance};
+    workers = index->used > NEIGHBOUR_INDEX_ALONE ? workers : NULL;
     thread_pool_run(workers, gather_bands, &gathering, index->side, 1);
 }

@@ -208,6 +208,7 @@ void neighbour_index_build(struct neighbour_index *index, const struct entities 
     index->tick = tick;
     index->think_divisor = neighbour_index_divisor(think_frames);
     index->present = 0;
+    workers = used > NEIGHBOUR_INDEX_ALONE ? workers : NULL;
     thread_pool_run(workers, sort_blocks, index, blocks_of(used), 1);
     memset(index->band, 0, (SIDE_MANY + 1) * sizeof *index->band);
     for (uint32_t p = 0; p < blocks_of(used); p++) {

@@ -22,6 +22,9 @@
 #define NEIGHBOUR_INDEX_LIVING   (NEIGHBOUR_INDEX_LAYER(FORCE_COUNT) - 1u)
 #define NEIGHBOUR_INDEX_ALL      (NEIGHBOUR_INDEX_LAYER(NEIGHBOUR_INDEX_LAYERS) - 1u)
 
+/* Up to this many rows one thread builds the index sooner than others would wake. */
+#define NEIGHBOUR_INDEX_ALONE 2048u
+
 #define NEIGHBOUR_INDEX_KINDS 0x7ffu
 struct neighbour_index_entry {
     float x, z;      /* [m] to 2 mm; the row has the exact position */
