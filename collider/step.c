@@ -6,6 +6,7 @@
 #include "collider/response/response.h"
 #include "world/entity/persistent_contact.h"
 #include "world/entity/table_touch.h"
+#include "world/entity/table_write.h"
 #include "world/params.h"
 #include "world/runtime/work_done.h"
 #include "world/state.h"
@@ -252,7 +253,7 @@ void collider_step(struct collider *collider, const struct state *committed,
     bool same_damage =
         step.known > 0 && next->head->tally.fixed_damaged == committed->head->tally.fixed_damaged;
     uint32_t held = step.known > 0 ? next->head->used : next->entities.capacity;
-    entities_clear_rows(&next->entities, step.used, held);
+    table_clear_unused(&next->entities, step.used, held);
     crater_index_update(&collider->craters, committed->head->crater_count);
     begin_head(next->head, moved->head);
     if (!same_damage)

@@ -23,6 +23,7 @@
 #include "mover/weapon/turret.h"
 #include "world/entity/event.h"
 #include "world/entity/table_touch.h"
+#include "world/entity/table_write.h"
 #include "world/params.h"
 #include "world/runtime/prefault.h"
 #include "world/state.h"
@@ -473,7 +474,7 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
     crater_index_update(&mover->craters, committed->head->crater_count);
     begin_head(moved, committed->head);
     if (!rows.known)
-        entities_clear_rows(&moved->entities, used, moved->entities.capacity);
+        table_clear_unused(&moved->entities, used, moved->entities.capacity);
     thread_pool_run(mover->workers, take_blocks, &rows, block_count(used), BLOCKS_A_WORKER);
     command_apply_all(&serial_context, sources);
     if (!head->paused || head->steps_left > 0) {

@@ -3,6 +3,7 @@
 
 #include "ipc/segment/frame_check.h"
 #include "world/entity/persistent_contact.h"
+#include "world/entity/table_write.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -68,7 +69,7 @@ int snapshot_take(struct snapshot *snapshot, const struct view *view)
         if (used > view->header->capacity || contacts > view->header->contact_slots)
             used = contacts = 0; /* torn or damaged, which the checks below find */
         entities_copy(&snapshot->entities, &from->entities, 0, used);
-        entities_clear_rows(&snapshot->entities, used, snapshot->held);
+        table_clear_unused(&snapshot->entities, used, snapshot->held);
         snapshot->held = used;
         memcpy(snapshot->fixed_damage, from->fixed_damage, view->header->counts.fixed);
         memcpy(snapshot->contacts, from->contacts, contacts * sizeof *from->contacts);

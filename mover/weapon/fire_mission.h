@@ -37,8 +37,8 @@ struct fire_mission_order {
  * that turns out to be out of range ends the mission. */
 bool fire_mission_begin(struct serial_context *context, const struct fire_mission_order *order);
 
-/* Returns true if the row is a howitzer that has rounds, has no mission and whose range contains the
- * point. */
+/* Returns true if the row is a howitzer that has rounds, has no mission and whose range contains
+ * the point. */
 bool fire_mission_can(const struct serial_context *context, uint32_t row, double x, double z);
 
 /* Returns the first row of a howitzer of the force that has rounds, has no mission and whose range

@@ -52,14 +52,6 @@ void entities_clear(const struct entities *entities, uint32_t row)
 #undef X
 }
 
-void entities_clear_rows(const struct entities *entities, uint32_t first, uint32_t end)
-{
-    for (uint32_t row = first; row < end; row++) {
-        if (entities->id[row] != 0 || entities->state[row] != ENTITY_FREE)
-            entities_clear(entities, row);
-    }
-}
-
 uint32_t entities_find(const struct entities *entities, uint32_t used, uint32_t id)
 {
     for (uint32_t i = 0; i < used && id != 0; i++) {

@@ -178,10 +178,6 @@ void entities_copy(const struct entities *to, const struct entities *from, uint3
 /* Sets row to zero in every column: a free slot. */
 void entities_clear(const struct entities *entities, uint32_t row);
 
-/* Sets rows first .. end - 1 to zero where they hold something, so that a reference to one of them
- * is void. Nothing to do if end <= first. */
-void entities_clear_rows(const struct entities *entities, uint32_t first, uint32_t end);
-
 /* Row of the entity with this id among the first used rows, SLOT_NONE when it is gone. */
 uint32_t entities_find(const struct entities *entities, uint32_t used, uint32_t id);
 

@@ -81,4 +81,15 @@ static inline void table_clear_row(const struct table_writer *writer, uint32_t r
     entities_clear(writer->entities, row);
 }
 
+/* Sets rows first .. end - 1 to zero where they hold something, so that a reference to one of them
+ * is void. For rows beyond those in use: they are in no checksum, so nothing is noted. Nothing to
+ * do if end <= first. */
+static inline void table_clear_unused(const struct entities *entities, uint32_t first, uint32_t end)
+{
+    for (uint32_t row = first; row < end; row++) {
+        if (entities->id[row] != 0 || entities->state[row] != ENTITY_FREE)
+            entities_clear(entities, row);
+    }
+}
+
 #endif

@@ -147,7 +147,7 @@ static void stand_on_ground(const struct step_context *context, uint32_t i)
     m->roll[i] = maths_atan2(left - right, 2.0 * half_width);
 }
 
-/* By how much craters differ under it [m]. */
+/* By how much craters differ under it, or how far earthworks bend under it [m]. */
 static double crater_step(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
@@ -161,12 +161,16 @@ static double crater_step(const struct step_context *context, uint32_t i)
                              {x + cosine * width, z + sine * width},
                              {x - cosine * width, z - sine * width}};
     double low = INFINITY, high = -INFINITY;
+    double offset[5];
     for (int p = 0; p < 5; p++) {
         double dug = crater_offset(context->craters, at[p][0], at[p][1]);
         low = maths_min(low, dug);
         high = maths_max(high, dug);
+        offset[p] = earthwork_offset(&context->world->terrain.earthworks, at[p][0], at[p][1]);
     }
-    return high - low;
+    double along = fabs(offset[1] + offset[2] - 2.0 * offset[0]);
+    double across = fabs(offset[3] + offset[4] - 2.0 * offset[0]);
+    return maths_max(high - low, maths_max(along, across));
 }
 
 static void speeds_of(const struct entities *m, uint32_t i, double *forward, double *rightward)
@@ -227,10 +231,15 @@ static bool drive_one(const struct step_context *context, uint32_t i,
 static void hold_one(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
-    double y = standing_height(context, i, m->x[i], m->z[i]);
-    m->vy[i] = (y - m->y[i]) / context->dt_s;
-    m->y[i] = y;
+    double before = m->y[i], pitch = m->pitch[i], roll = m->roll[i];
+    m->y[i] = standing_height(context, i, m->x[i], m->z[i]);
     stand_on_ground(context, i);
+    if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
+        const struct vec3 ground = {m->y[i], m->pitch[i], m->roll[i]};
+        m->y[i] = before, m->pitch[i] = pitch, m->roll[i] = roll;
+        ground_vehicle_ease(context, i, m->x[i], m->z[i], ground);
+    }
+    m->vy[i] = (m->y[i] - before) / context->dt_s;
 }
 
 /* An aircraft that flies alone in its batch. tests/unit/mover/motion/test_airframe.c tests the

@@ -89,7 +89,8 @@ static const struct {
     {PHASES("{ name = \"a\"; order = \"hold\"; munition = \"artillery\"; }"), 4,
      P0 "munition = \"artillery\": is only for barrage; allowed: none here"},
     {PHASES("{ name = \"a\"; order = \"barrage\"; objective = \"hill\"; munition = \"tank\"; }"), 4,
-     P0 "munition = \"tank\": is not a kind for this list; allowed: artillery, "},
+     P0
+     "munition = \"tank\": is not a kind for this list; allowed: anti-tank-missile, artillery, "},
     {PHASES(""), 3, "missions[0]: has no phases; right would be: phases = ("},
     {AIR("{ name = \"a\"; order = \"hold\"; }"), 4,
      P0 "order = \"hold\": is not for aircraft that cannot hover; right would be: patrol"},
