@@ -106,10 +106,10 @@ struct rows {
 struct batches {
     const struct row_block *block;
     uint8_t motion[CHECKSUM_ROWS];
+    bool harmed; /* a hard landing has harmed a row */
     struct ground_vehicle land;
     struct aircraft air;
     struct constant_course course;
-    bool harmed; /* a hard landing has harmed a row */
 };
 
 /* After a vehicle has moved: its agent reacts to a blocked path, and its gun turns. */

@@ -6,13 +6,17 @@
 
 #define MORE_ROWS 4096u
 
+static void take_pages(void *pages, size_t bytes, bool writes)
+{
+    if (writes)
+        prefault_shared(pages, bytes);
+    else
+        prefault_readable(pages, bytes);
+}
+
 void table_touch(const struct entities *entities, uint32_t rows, bool writes)
 {
-#define X(type, name)                                                                              \
-    if (writes)                                                                                    \
-        prefault_shared(entities->name, rows * sizeof(type));                                      \
-    else                                                                                           \
-        prefault_readable(entities->name, rows * sizeof(type));
+#define X(type, name) take_pages(entities->name, rows * sizeof(type), writes);
     ENTITY_COLUMNS(X)
 #undef X
 }
