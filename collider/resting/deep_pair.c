@@ -23,11 +23,11 @@ struct capsule {
 };
 
 /* Returns true if the body covers its capsule. Aircraft do not, because they are fuselages with
- * wings and rotors, and no wreck on its side does. */
+ * wings and rotors, nor do ships, whose bows are narrow, nor does a wreck on its side. */
 static bool fills_capsule(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
-    return context->world->kinds[e->kind[row]].domain != DOMAIN_AIR &&
+    return context->world->kinds[e->kind[row]].domain == DOMAIN_LAND &&
            fabs(e->pitch[row]) + fabs(e->roll[row]) <= STANDS_RAD;
 }
 

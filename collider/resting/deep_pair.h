@@ -10,7 +10,7 @@
 struct resting_gap;
 
 /* Finds the gap of the capsules of a pair of rows. Returns false if they are not deep in each
- * other, or if a body does not cover its capsule: aircraft, wrecks on a side. */
+ * other, or if a body does not cover its capsule: aircraft, ships, wrecks on a side. */
 bool deep_pair_measure(const struct response_context *context, const struct pair *pair,
                        struct resting_gap *found);
 

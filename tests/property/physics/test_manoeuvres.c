@@ -17,6 +17,8 @@
 
 #define FRAMES   1200
 #define VEHICLES 17u
+/* On the lanes no corner of a shell is deeper in the ground [m]. */
+#define LANES_SHELL_M 0.02
 
 static struct fixture f;
 static struct physics_check check;
@@ -121,6 +123,7 @@ static void test_the_judge_is_content(void **state)
         assert_true(measure_good(&check.measures, (enum measure_kind)kind));
     }
     assert_true(check.measures.of[MEASURE_OF_SHELL_UNDERGROUND].taken > 6000);
+    assert_true(check.measures.of[MEASURE_OF_SHELL_UNDERGROUND].worst < LANES_SHELL_M);
     assert_true(check.measures.of[MEASURE_OF_FLOATING].taken > 60);
 }
 

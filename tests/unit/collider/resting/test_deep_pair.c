@@ -57,11 +57,20 @@ static void test_long_bodies_are_deep_where_their_lines_cross(void **state)
     assert_true(fabs(measured("truck", 0.0, 0.0) + width) < 0.01);     /* at one place */
 }
 
+/* The bow of a ship is narrow: two that pass bow to bow are measured by their hulls. */
+static void test_ships_are_measured_by_their_hulls(void **state)
+{
+    (void)state;
+    assert_true(measured("ship", 1.0, 0.0) == 0.0);
+    assert_true(measured("ship", 36.0, HALF_PI) == 0.0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_round_bodies_far_apart_are_not_deep),
         cmocka_unit_test(test_long_bodies_are_deep_where_their_lines_cross),
+        cmocka_unit_test(test_ships_are_measured_by_their_hulls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

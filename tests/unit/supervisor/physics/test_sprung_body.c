@@ -73,9 +73,9 @@ static void test_a_shell_in_the_ground(void **state)
     begin(-travel + 0.01, 0.0);
     next();
     assert_true(measure_good(&check.measures, MEASURE_OF_SHELL_UNDERGROUND));
-    now.entities.y[0] = 100.0 - travel - 0.03;
+    now.entities.y[0] = 100.0 - travel - 0.16;
     next();
-    assert_true(fabs(worst(MEASURE_OF_SHELL_UNDERGROUND) - 0.03) < 1e-9);
+    assert_true(fabs(worst(MEASURE_OF_SHELL_UNDERGROUND) - 0.16) < 1e-9);
     assert_false(measure_good(&check.measures, MEASURE_OF_SHELL_UNDERGROUND));
 }
 
