@@ -271,9 +271,9 @@ static void move_rest(const struct step_context *context, struct batches *batche
 
 /* Columns that only commands, shots, collisions and hard landings change. */
 #define STILL_COLUMNS                                                                              \
-    (COLUMN_BIT(harm_j) | COLUMN_BIT(bump_heading) | COLUMN_BIT(id) | COLUMN_BIT(owner_slot) |     \
-     COLUMN_BIT(owner_id) | COLUMN_BIT(born_tick) | COLUMN_BIT(changed_tick) | COLUMN_BIT(kind) |  \
-     COLUMN_BIT(state) | COLUMN_BIT(force) | COLUMN_BIT(damage))
+    (COLUMN_BIT(harm_j) | COLUMN_BIT(bump_heading) | COLUMN_BIT(id) | COLUMN_BIT(owner_id) |       \
+     COLUMN_BIT(born_tick) | COLUMN_BIT(changed_tick) | COLUMN_BIT(kind) | COLUMN_BIT(state) |     \
+     COLUMN_BIT(force) | COLUMN_BIT(damage))
 
 /* Columns that motion changes, and those that laying a gun changes. */
 #define MOTION_COLUMNS                                                                             \

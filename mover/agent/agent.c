@@ -11,6 +11,7 @@
 #include "mover/agent/perception.h"
 #include "mover/agent/progress.h"
 #include "mover/agent/script_player.h"
+#include "mover/agent/smoke_screen.h"
 #include "mover/agent/target_search.h"
 #include "mover/motion/driver_controls.h"
 #include "world/entity/disabled.h"
@@ -81,6 +82,21 @@ static void begin_flight(const struct step_context *context, uint32_t i,
     m->target_slot[i] = from;
     m->target_id[i] = w->id[from];
     goal_cover(context, i, from);
+    if (notice->threat != SLOT_NONE)
+        smoke_screen_fire(context, i);
+}
+
+/* To another place from which it can fire at its target, or at who has just fired at it. */
+static void begin_reposition(const struct step_context *context, uint32_t i,
+                             const struct behaviour_table_row *row, const struct notice *notice)
+{
+    struct entities *m = context->m;
+    if (row->because == REASON_FIRED_UPON) {
+        goal_target(context, i, notice->threat, context->committed->entities.id[notice->threat]);
+        m->seen_tick[i] = (uint32_t)context->tick - UINT32_MAX / 2;
+        smoke_screen_fire(context, i);
+    }
+    goal_position(context, i, m->target_slot[i]);
 }
 
 static void begin_order(const struct step_context *context, uint32_t i, enum behaviour before)
@@ -132,7 +148,7 @@ static void take(const struct step_context *context, uint32_t i,
         begin_back_off(context, i, row, before);
         break;
     case BEHAVIOUR_REPOSITION:
-        goal_position(context, i, m->target_slot[i]);
+        begin_reposition(context, i, row, notice);
         break;
     case BEHAVIOUR_WITHDRAW:
         m->target_slot[i] = m->target_id[i] = 0;
@@ -328,7 +344,8 @@ void agent_controls_motion(const struct step_context *context, uint32_t i,
     };
 }
 
-/* A crew that takes cover from a burst stays there until it would fire again. */
+/* A crew that takes cover from a burst stays there until it would fire again. Another burst keeps
+ * one in cover there. */
 static void suppress(const struct step_context *context, uint32_t i,
                      const struct behaviour_table_row *row)
 {
@@ -336,8 +353,10 @@ static void suppress(const struct step_context *context, uint32_t i,
     if (context->world->kinds[m->kind[i]].domain != DOMAIN_LAND)
         return;
     double time_s = fire_control_suppress(context, i);
-    if (row && row->because == REASON_SUPPRESSED)
-        m->until_tick[i] = after(context, time_s);
+    uint32_t until = after(context, time_s);
+    if ((row && row->because == REASON_SUPPRESSED) ||
+        (m->behaviour[i] == BEHAVIOUR_FLEE && until > m->until_tick[i]))
+        m->until_tick[i] = until;
 }
 
 static void think(const struct step_context *context, uint32_t i, const struct kind *kind,

@@ -62,6 +62,12 @@
         ROW(B(BACK_OFF), P(TIME_OVER), 0, ORDER, AS(TIME_OVER), 0),                                \
         ROW(B(FLEE), P(TIME_OVER), 0, ORDER, AS(TIME_OVER), 0)
 
+/* It is fired upon while it carries out its order. A crew that will fight fights from cover if that
+ * is near. */
+#define COVERS                                                                                     \
+    ROW(CALM, P(SHOT) | P(ARMED) | P(BRAVE) | P(COVER), P(STAND), TO(REPOSITION), AS(FIRED_UPON),  \
+        MOVE_S)
+
 /* It is fired upon. A fight then lasts longer, and so does a flight, away from the last shooter. */
 #define SHOT_AT(fleeing, time_s)                                                                   \
     ROW(B(ATTACK), P(SHOT), 0, TO(ATTACK), AS(FIRED_UPON), BEHAVIOUR_TABLE_FIGHT_S),               \
@@ -109,6 +115,7 @@ static const struct behaviour_table_row armour[] = {
     ROW(B(ATTACK), P(HURT), P(BRAVE) | P(STAND) | P(BUMP), TO(FLEE), AS(HURT), FLEE_S),
     LOSSES_END_IT,
     SUPPRESSES(P(BRAVE), COVER_S),
+    COVERS,
     SHOT_AT(FLEE, FLEE_S),
     ODDS(FLEE, FLEE_S),
     BUMPS,
@@ -123,6 +130,7 @@ static const struct behaviour_table_row flak[] = {
     SUPPLIES(RESUPPLY_S),
     LOSSES_END_IT,
     SUPPRESSES(P(BRAVE), COVER_S),
+    COVERS,
     SHOT_AT(FLEE, FLEE_S),
     ODDS(FLEE, FLEE_S),
     BUMPS,
@@ -138,6 +146,7 @@ static const struct behaviour_table_row light[] = {
     ROW(CALM | B(ATTACK) | B(FLEE), P(HURT), P(STAND) | P(BUMP), TO(WITHDRAW), AS(HURT), 0),
     LOSSES_END_IT,
     SUPPRESSES(0, COVER_S),
+    COVERS,
     SHOT_AT(FLEE, FLEE_S),
     ODDS(WITHDRAW, 0),
     BUMPS,

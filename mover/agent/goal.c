@@ -109,13 +109,14 @@ void goal_away(const struct step_context *context, uint32_t i, double heading, d
 
 void goal_cover(const struct step_context *context, uint32_t i, uint32_t enemy)
 {
-    static const double turns[] = {0.0, 0.6, -0.6, 1.2, -1.2}, ways[] = {120.0, 350.0, 900.0};
+    static const double turns[] = {0.0, 0.6, -0.6, 1.2, -1.2};
+    static const double ways[] = {40.0, 75.0, 120.0, 350.0, 900.0};
     struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     double away = maths_heading(m->x[i] - w->x[enemy], m->z[i] - w->z[enemy]);
     struct vec3 eye = target_search_eye(context, enemy), to;
-    for (int n = 0; n < 15; n++) {
+    for (int n = 0; n < 25; n++) {
         along(context, i, away + turns[n % 5], ways[n / 5], &to.x, &to.z);
         to.y = kinematics_ground(context, to.x, to.z) + kind->height_m +
                (kind->domain == DOMAIN_AIR ? kind->cruise_altitude_m : 0.0);
@@ -142,28 +143,45 @@ static int hides(const struct step_context *context, const struct kind *kind, st
     return line_of_sight_clear(context->line_of_sight, eye, at) ? 2 : 1;
 }
 
-void goal_position(const struct step_context *context, uint32_t i, uint32_t enemy)
+/* Finds the best place for firing at the enemy. Returns how well it hides the vehicle; -1: it
+ * cannot drive anywhere, and *best is where it is. */
+static int find_position(const struct step_context *context, uint32_t i, uint32_t enemy,
+                         struct vec3 *best)
 {
     static const double turns[] = {HALF_PI, -HALF_PI, 2.2, -2.2, PI, 1.0, -1.0};
     static const double ways[] = {50.0, 90.0};
-    struct entities *m = context->m;
+    const struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     struct vec3 eye = target_search_eye(context, enemy), to = {0};
     double towards = maths_heading(w->x[enemy] - m->x[i], w->z[enemy] - m->z[i]);
     double side = unit(context, i, RANDOM_GOAL_X) < 0.5 ? 1.0 : -1.0;
-    int best = -1;
-    m->goal_x[i] = m->x[i];
-    m->goal_z[i] = m->z[i];
-    for (int n = 0; n < 14 && best < 2; n++) {
+    int hidden = -1;
+    *best = entities_position(m, i);
+    for (int n = 0; n < 14 && hidden < 2; n++) {
         along(context, i, towards + side * turns[n % 7], ways[n / 7], &to.x, &to.z);
         int found = suits(context, i, to.x, to.z) ? hides(context, kind, eye, to) : -1;
-        if (found > best) {
-            best = found;
-            m->goal_x[i] = to.x;
-            m->goal_z[i] = to.z;
+        if (found > hidden) {
+            hidden = found;
+            *best = to;
         }
     }
+    return hidden;
+}
+
+void goal_position(const struct step_context *context, uint32_t i, uint32_t enemy)
+{
+    struct vec3 place;
+    (void)find_position(context, i, enemy, &place);
+    context->m->goal_x[i] = place.x;
+    context->m->goal_z[i] = place.z;
+}
+
+bool goal_cover_near(const struct step_context *context, uint32_t i, uint32_t enemy)
+{
+    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    struct vec3 eye = target_search_eye(context, enemy), place = entities_position(context->m, i);
+    return hides(context, kind, eye, place) == 0 && find_position(context, i, enemy, &place) > 0;
 }
 
 void goal_target(const struct step_context *context, uint32_t i, uint32_t row, uint32_t id)

@@ -12,13 +12,16 @@ void goal_resume(const struct step_context *context, uint32_t i);
 /* A goal at a distance in a direction. */
 void goal_away(const struct step_context *context, uint32_t i, double heading, double distance);
 
-/* A goal away from an enemy's row: a near place that the enemy cannot see, else a far one. */
+/* A goal away from an enemy's row: the nearest place found that the enemy cannot see, else a far
+ * one. */
 void goal_cover(const struct step_context *context, uint32_t i, uint32_t enemy);
 
 /* A firing position within 90 m: if there is one, a place from which row i sees the enemy's row
  * while the ground or a building hides its hull; else a place where it is hidden, or beside it.
- * Returns true if the vehicle is there. */
+ * goal_cover_near() returns true if nothing hides it where it is, and there is a place that does;
+ * goal_in_position() if the vehicle is at its place. */
 void goal_position(const struct step_context *context, uint32_t i, uint32_t enemy);
+bool goal_cover_near(const struct step_context *context, uint32_t i, uint32_t enemy);
 bool goal_in_position(const struct step_context *context, uint32_t i);
 
 /* Makes that row its target, and the place of the target its goal. The crew needs a time of

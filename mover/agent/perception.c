@@ -290,6 +290,13 @@ static void notice_look(const struct step_context *context, uint32_t i, struct n
     }
 }
 
+/* Returns true if the row is no aircraft: those see what is behind a crest. */
+static bool is_on_surface(const struct step_context *context, uint32_t row)
+{
+    return row != SLOT_NONE &&
+           context->world->kinds[context->committed->entities.kind[row]].domain != DOMAIN_AIR;
+}
+
 struct notice perception_notice(const struct step_context *context, uint32_t i)
 {
     struct notice notice = {notice_state(context, i), SLOT_NONE, SLOT_NONE};
@@ -312,5 +319,8 @@ struct notice perception_notice(const struct step_context *context, uint32_t i)
     if ((notice.percepts & TESTS) && matters(context, i, notice.percepts, PERCEPTION_BIT(BRAVE)) &&
         ((notice.percepts & PERCEPTION_BIT(STAND)) || brave(context, i)))
         notice.percepts |= PERCEPTION_BIT(BRAVE);
+    if (matters(context, i, notice.percepts, PERCEPTION_BIT(COVER)) &&
+        is_on_surface(context, notice.threat) && goal_cover_near(context, i, notice.threat))
+        notice.percepts |= PERCEPTION_BIT(COVER);
     return notice;
 }

@@ -3,6 +3,7 @@
 #include "mover/agent/target_search.h"
 
 #include "mover/agent/fire_control.h"
+#include "mover/agent/smoke_screen.h"
 #include "mover/motion/kinematics.h"
 #include "world/maths/random.h"
 #include "world/params.h"
@@ -67,7 +68,7 @@ bool target_search_sees(const struct step_context *context, uint32_t i, uint32_t
     if (!(dx * dx + dz * dz < sight * sight))
         return false;
     struct sector view = sector_of(context, i);
-    return in_view(&view, dx, dz) &&
+    return in_view(&view, dx, dz) && !smoke_screen_between(context, i, other) &&
            line_of_sight_clear(context->line_of_sight, target_search_eye(context, i),
                                target_search_middle(context, other));
 }

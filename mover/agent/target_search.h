@@ -16,7 +16,8 @@ enum target_search {
  * and the NVEOL search model). Crews side by side take different targets. */
 uint32_t target_search(const struct step_context *context, uint32_t i, enum target_search how);
 
-/* Returns true if row i sees the other row: in range, within its view, with nothing between. */
+/* Returns true if row i sees the other row: in range, within its view, with nothing between,
+ * not even smoke. */
 bool target_search_sees(const struct step_context *context, uint32_t i, uint32_t other);
 
 /* The eye of row i, and the point of row i that others look at [m, world]. */

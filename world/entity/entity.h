@@ -84,7 +84,7 @@ enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED
     X(uint32_t, id)                                                                                \
     X(uint32_t, target_slot) /* what it attacks, flees, or homes on */                             \
     X(uint32_t, target_id)                                                                         \
-    X(uint32_t, owner_slot) /* a munition's shooter */                                             \
+    X(uint32_t, owner_slot) /* a munition's shooter; a vehicle's smoke (smoke.h) */                \
     X(uint32_t, owner_id)                                                                          \
     X(uint32_t, threat_slot) /* fired at it since its agent last decided */                        \
     X(uint32_t, threat_id)                                                                         \

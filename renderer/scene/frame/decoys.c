@@ -3,27 +3,30 @@
 
 #include "world/entity/decoy.h"
 #include "world/entity/kind.h"
+#include "world/entity/smoke.h"
 #include "world/world.h"
 
 #define MISSILES_MAX 64u /* of a frame; the decoys against others are not shown */
 
-/* Returns true if this vehicle released a decoy just before. */
-static bool released_just_now(const struct effects *effects, uint32_t id, double now_s)
+/* Returns true if this vehicle released a decoy within this time. */
+static bool released_just_now(const struct effects *effects, uint32_t id, double now_s,
+                              double interval_s)
 {
     for (uint32_t n = 0; n < effects->count; n++) {
         const struct effect *effect = &effects->effect[n];
         if (effect->type == EFFECT_DECOY && effect->seed >> 8 == (id & 0xffffffu) &&
-            now_s - effect->time_s < DECOYS_INTERVAL_S)
+            now_s - effect->time_s < interval_s)
             return true;
     }
     return false;
 }
 
-static void release(struct effects *effects, const struct frame_view *frame_view, uint32_t target)
+static void release(struct effects *effects, const struct frame_view *frame_view, uint32_t target,
+                    double interval_s)
 {
     const struct entities *e = frame_view->entities;
     double now_s = frame_view_time_s(frame_view);
-    if (released_just_now(effects, e->id[target], now_s))
+    if (released_just_now(effects, e->id[target], now_s, interval_s))
         return;
     struct effect *effect = effects_allocate(effects);
     uint32_t number = (uint32_t)(now_s / DECOYS_INTERVAL_S) & 0xffu;
@@ -49,11 +52,23 @@ static bool homes(const struct frame_view *frame_view, uint32_t slot)
            entities_alive(e, e->target_slot[slot], e->target_id[slot]);
 }
 
+/* Returns true if the vehicle's smoke grenades burn. */
+static bool screens(const struct frame_view *frame_view, uint32_t slot)
+{
+    const struct entities *e = frame_view->entities;
+    const struct world *world = frame_view->world;
+    return e->state[slot] == ENTITY_ACTIVE && e->kind[slot] < world->counts.kinds &&
+           smoke_age_s(e, &world->kinds[e->kind[slot]], slot, frame_view->head->tick,
+                       world_dt_s(world)) < SMOKE_S;
+}
+
 void decoys_take(struct effects *effects, const struct frame_view *frame_view)
 {
     const struct entities *e = frame_view->entities;
     uint32_t missiles = 0;
     for (uint32_t slot = 0; slot < frame_view->head->used && missiles < MISSILES_MAX; slot++) {
+        if (screens(frame_view, slot))
+            release(effects, frame_view, slot, DECOYS_SCREEN_S);
         if (!homes(frame_view, slot))
             continue;
         uint32_t target = e->target_slot[slot];
@@ -61,6 +76,6 @@ void decoys_take(struct effects *effects, const struct frame_view *frame_view)
         struct vec3 closing = vec3_sub(entities_velocity(e, target), entities_velocity(e, slot));
         missiles++;
         if (decoy_due(e, target, to, closing, DECOY_RELEASED_S))
-            release(effects, frame_view, target);
+            release(effects, frame_view, target, DECOYS_INTERVAL_S);
     }
 }

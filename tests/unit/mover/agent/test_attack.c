@@ -267,6 +267,83 @@ static void test_a_position_behind_a_crest_hides_the_hull(void **state)
     assert_true(line_of_sight_clear(step.line_of_sight, eye, at));
 }
 
+/* --- first threatened --------------------------------------------------------------------------*/
+
+/* A brave tank that carries out its order is fired upon. Returns what it does. */
+static enum behaviour fired_upon(uint32_t *row, uint32_t *enemy)
+{
+    steps_kind(&f, "tank")->courage = 1.0;
+    *enemy = put("tank", (struct vec3){25600.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    *row = put("tank", (struct vec3){25000.0, steps_ground_at(&f, 25000.0, 25000.0), 25000.0},
+               FORCE_BLUE, BEHAVIOUR_IDLE);
+    struct entities e = steps_rows(&f);
+    e.heading[*row] = HALF_PI;
+    e.threat_slot[*row] = *enemy;
+    e.threat_id[*row] = e.id[*enemy];
+    fixture_run(&f, 1);
+    return (enum behaviour)steps_rows(&f).behaviour[*row];
+}
+
+static void test_first_fired_upon_a_crew_fights_from_cover_that_is_near(void **state)
+{
+    uint32_t row, enemy;
+    (void)state;
+    assert_int_equal(fired_upon(&row, &enemy), BEHAVIOUR_ATTACK); /* nothing hides it */
+    fixture_close(&f);
+    open_world(NULL);
+    steps_ground(&f, ridge, NULL);
+    fixture_threads(&f, 1);
+    assert_int_equal(fired_upon(&row, &enemy), BEHAVIOUR_REPOSITION);
+    assert_int_equal(steps_rows(&f).target_id[row], steps_rows(&f).id[enemy]);
+    assert_true(steps_rows(&f).owner_slot[row] != 0); /* behind its smoke */
+    for (int frame = 0; frame < 14 * HZ; frame++)
+        fixture_run(&f, 1);
+    struct entities e = steps_rows(&f);
+    assert_int_equal(e.behaviour[row], BEHAVIOUR_ATTACK);
+    assert_int_equal(e.target_id[row], e.id[enemy]);
+}
+
+static void test_a_crew_that_flees_takes_the_nearest_cover(void **state)
+{
+    struct step_context step;
+    struct serial_context context;
+    (void)state;
+    steps_ground(&f, ridge, NULL);
+    fixture_threads(&f, 1);
+    uint32_t enemy = put("tank", (struct vec3){25600.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row = put("jeep", (struct vec3){24920.0, 101.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    steps_serial_context(&f, &step, &context);
+    goal_cover(&step, row, enemy);
+    double away = hypot(step.m->goal_x[row] - 24920.0, step.m->goal_z[row] - 25000.0);
+    struct vec3 at = {step.m->goal_x[row], 0.0, step.m->goal_z[row]};
+    at.y = steps_ground_at(&f, at.x, at.z) + steps_kind(&f, "jeep")->height_m;
+    print_message("cover is %.0f m away\n", away);
+    assert_true(away < 76.0);
+    assert_false(line_of_sight_clear(step.line_of_sight, target_search_eye(&step, enemy), at));
+}
+
+/* Bursts keep a crew in cover for its time. */
+static void test_another_burst_keeps_a_crew_in_cover(void **state)
+{
+    (void)state;
+    for (int burst = 0; burst < 2; burst++) {
+        fixture_close(&f);
+        open_world(NULL);
+        uint32_t row =
+            put("tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_FLEE);
+        struct entities e = steps_rows(&f);
+        e.order[row] = BEHAVIOUR_IDLE;
+        e.goal_x[row] = e.x[row];
+        e.goal_z[row] = e.z[row];
+        e.until_tick[row] = (uint32_t)fixture_state(&f).head->tick + HZ;
+        e.flags[row] = burst ? ENTITY_FLAG_BURST : 0;
+        fixture_run(&f, 9 * HZ);
+        assert_int_equal(steps_rows(&f).behaviour[row], burst ? BEHAVIOUR_FLEE : BEHAVIOUR_IDLE);
+        fixture_run(&f, 23 * HZ);
+        assert_int_equal(steps_rows(&f).behaviour[row], BEHAVIOUR_IDLE);
+    }
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
@@ -279,6 +356,9 @@ int main(void)
         TEST(test_a_burst_silences_a_crew_for_ten_to_thirty_seconds),
         TEST(test_a_tank_fires_two_to_four_rounds_and_moves),
         TEST(test_a_position_behind_a_crest_hides_the_hull),
+        TEST(test_first_fired_upon_a_crew_fights_from_cover_that_is_near),
+        TEST(test_a_crew_that_flees_takes_the_nearest_cover),
+        TEST(test_another_burst_keeps_a_crew_in_cover),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

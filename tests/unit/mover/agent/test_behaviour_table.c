@@ -17,9 +17,10 @@
 #define P(name)  (1u << PERCEPT_##name)
 
 static const char *const names[PERCEPT_COUNT] = {
-    "no fuel", "shot",       "bump",       "hurt",        "time over", "target",   "gone",
-    "arrived", "lease over", "enemy",      "outnumbered", "no rounds", "low fuel", "armed",
-    "at will", "stand",      "suppressed", "stalled",     "salvo",     "losses",   "brave"};
+    "no fuel",  "shot",    "bump",       "hurt",  "time over",   "target",
+    "gone",     "arrived", "lease over", "enemy", "outnumbered", "no rounds",
+    "low fuel", "armed",   "at will",    "stand", "suppressed",  "stalled",
+    "salvo",    "losses",  "cover",      "brave"};
 
 static const char *said(uint32_t percepts)
 {
@@ -105,6 +106,10 @@ static const struct {
 } cases[] = {
     {DOCTRINE_ARMOUR, BEHAVIOUR_PATROL, P(SHOT) | P(ARMED) | P(BRAVE), BEHAVIOUR_ATTACK,
      REASON_FIRED_UPON},
+    {DOCTRINE_ARMOUR, BEHAVIOUR_PATROL, P(SHOT) | P(ARMED) | P(BRAVE) | P(COVER),
+     BEHAVIOUR_REPOSITION, REASON_FIRED_UPON},
+    {DOCTRINE_ARMOUR, BEHAVIOUR_PATROL, P(SHOT) | P(ARMED) | P(BRAVE) | P(COVER) | P(STAND),
+     BEHAVIOUR_ATTACK, REASON_FIRED_UPON},
     {DOCTRINE_ARMOUR, BEHAVIOUR_PATROL, P(SHOT) | P(ARMED), BEHAVIOUR_FLEE, REASON_FIRED_UPON},
     {DOCTRINE_ARMOUR, BEHAVIOUR_PATROL, P(SHOT) | P(STAND), BEHAVIOUR_PATROL, 0},
     {DOCTRINE_ARMOUR, BEHAVIOUR_ATTACK, P(OUTNUMBERED) | P(ARMED), BEHAVIOUR_FLEE,

@@ -3,6 +3,7 @@
 
 #include "renderer/scene/scene.h"
 #include "tests/support/scene_stage.h"
+#include "world/entity/smoke.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -112,6 +113,21 @@ static void test_decoys_are_out_before_a_missile_arrives(void **context)
     }
 }
 
+static void test_a_crew_that_fires_its_grenades_is_seen_in_smoke(void **context)
+{
+    struct scene_stage *s = *context;
+    uint32_t row = put(s, TANK, MIDDLE, GROUND, 0.0);
+    decoys_take(&s->effects, &s->frame_view);
+    assert_int_equal(released(s), 0);
+    s->head.tick += 10;
+    s->entities.owner_slot[row] = (uint32_t)s->head.tick;
+    for (double s_after = 0.0; s_after < SMOKE_S + 4.0; s_after += 0.5) {
+        s->head.tick += (uint64_t)(0.5 * HZ);
+        decoys_take(&s->effects, &s->frame_view);
+    }
+    assert_in_range(released(s), 4, 6);
+}
+
 static void test_who_reacts_to_nothing_releases_none(void **context)
 {
     struct scene_stage *s = *context;
@@ -130,6 +146,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_decoys_are_out_before_a_missile_arrives, open_stage,
                                         scene_stage_teardown),
+        cmocka_unit_test_setup_teardown(test_a_crew_that_fires_its_grenades_is_seen_in_smoke,
+                                        open_stage, scene_stage_teardown),
         cmocka_unit_test_setup_teardown(test_who_reacts_to_nothing_releases_none, open_stage,
                                         scene_stage_teardown),
     };
