@@ -79,7 +79,7 @@ static const struct binding bindings[] = {
 static const char *const help[][2] = {
     {"w s", "throttle up, down; the longer, the faster; through 0 into reverse"},
     {"a d", "steer left, right: wheel, rudder, stick"},
-    {"r f", "climb, sink: stick or collective of aircraft"},
+    {"r f", "climb, sink: stick or collective; of land vehicles r: hand brake"},
     {"b  x", "brake; stop: throttle 0, wheels straight"},
     {"g v", "gear up, down: reverse, neutral, low, automatic"},
     {"arrows", "turret left, right, gun up, down; aircraft: the stick"},

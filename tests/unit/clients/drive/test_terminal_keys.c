@@ -141,11 +141,14 @@ static void test_help_is_whole(void **state)
 {
     (void)state;
     char all[512] = "";
+    bool hand_brake = false;
     const char *names, *meaning;
     for (uint32_t i = 0; terminal_keys_help(i, &names, &meaning); i++) {
         assert_true(strlen(names) <= 11 && strlen(meaning) + 14 <= 80);
         (void)strcat(strcat(all, names), " ");
+        hand_brake |= strchr(names, 'r') && strstr(meaning, "hand brake");
     }
+    assert_true(hand_brake);
     for (size_t i = 0; i < sizeof bindings / sizeof bindings[0]; i++) {
         uint32_t code = bindings[i].code;
         if (code > ' ' && code < TERMINAL_KEYS_UP && code != '=' && code != '?')
