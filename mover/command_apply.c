@@ -88,6 +88,8 @@ static enum command_result drive(struct serial_context *context, const struct co
     if (!within(v[5], 0.0, 1.0) || command->force >= GEAR_COUNT ||
         command->amount > COMMAND_LEASE_MAX)
         return COMMAND_OUT_OF_RANGE;
+    if (m->behaviour[row] != BEHAVIOUR_DRIVEN)
+        table_set_dodge(writer, row, 0.0f); /* wheels straight, engine warm */
     table_set_throttle(writer, row, (float)v[0]);
     table_set_steer(writer, row, (float)v[1]);
     table_set_climb(writer, row, (float)v[2]);

@@ -63,6 +63,7 @@ static void take_desired(const struct step_context *context, struct aircraft *ba
     batch->turn.lane[l] = desired->turn;
     batch->climb.lane[l] = desired->climb_mps;
     batch->brake.lane[l] = desired->brake;
+    batch->spool.lane[l] = desired->driven ? 1.0 - (double)m->dodge[i] : 1.0;
 }
 
 bool aircraft_take(const struct step_context *context, struct aircraft *batch, uint32_t i,
@@ -162,7 +163,7 @@ static inline void push(struct airframe *f, double dt_s, f64x4 *speed, f64x4 *no
 {
     const f64x4 none = SIMD_EVERY(0.0);
     f64x4 along, level;
-    airframe_push(f, speed, &along);
+    airframe_push(f, speed, dt_s, &along);
     airframe_tilt(f, &level, nose);
     f->up_mps += f->rising_mps2 * dt_s;
     snap(&f->up_mps, &f->wanted_up_mps);
@@ -258,6 +259,8 @@ static void write_rows(const struct step_context *context, const struct aircraft
         m->pitch[i] = batch->pitch.lane[l];
         m->roll[i] = batch->roll.lane[l];
         m->fuel_l[i] = batch->fuel.lane[l];
+        if (batch->driven.lane[l])
+            m->dodge[i] = (float)(1.0 - batch->spool.lane[l]);
     }
 }
 
@@ -280,6 +283,7 @@ static inline void take_airframe(const struct aircraft *batch, int h, struct air
     f->driven = batch->driven.f64x4[h];
     f->held = batch->held.f64x4[h];
     f->up_mps = batch->vy.f64x4[h];
+    f->spool = batch->spool.f64x4[h];
     /* Agents slow an aeroplane by its air brakes. */
     f->brake = SIMD_CHOOSE(f->driven, batch->brake.f64x4[h], SIMD_EVERY(1.0));
     f64x4 off = batch->wanted_heading.f64x4[h] - batch->heading.f64x4[h];
@@ -335,6 +339,7 @@ static inline void fly(const struct step_context *context, struct aircraft *batc
         batch->heading.f64x4[h] += f->turning_rps * context->dt_s;
         kinematics_simd_wrap_turn(&batch->heading.f64x4[h]);
         push(f, context->dt_s, &moving->speed.f64x4[h], &moving->lean.nose.f64x4[h]);
+        batch->spool.f64x4[h] = f->spool;
     }
     roots(&moving->speed);
     for (int h = 0; h < LANE_FOURS; h++) {

@@ -10,7 +10,10 @@
  * than the weight: it sinks, its nose drops, and it gains speed.
  *
  * Helicopter. Its thrust is along the mast, which follows the stick with a lag. It tilts by at most
- * TILT_SLOPE forward or back, and banks by at most 60 degrees. */
+ * TILT_SLOPE forward or back, and banks by at most 60 degrees.
+ *
+ * Engine. What the engine of a driven aircraft gives follows what is asked of it: the thrust of an
+ * aeroplane, and the lift by which a helicopter climbs. Less is given at once. */
 #ifndef JOLON_MOVER_MOTION_AIRFRAME_H
 #define JOLON_MOVER_MOTION_AIRFRAME_H
 
@@ -42,6 +45,9 @@
 #define AIRFRAME_TURN_S     1.2     /* and the heading an agent's will */
 #define AIRFRAME_PULL       1.5     /* [g] over level flight, pulled up no harder */
 #define AIRFRAME_COLLECTIVE 0.6     /* [g] the same by a helicopter's power */
+#define AIRFRAME_SPOOL_S    5.0     /* a jet's engine, from idle to full thrust (14 CFR 33.73) */
+#define AIRFRAME_SLOW_S     3.0     /* and back */
+#define AIRFRAME_GOVERNOR_S 1.5     /* a helicopter's, both ways */
 #define AIRFRAME_DOWN       -0.8    /* [g] pushed over no harder: the crew stays in its seats */
 
 /* Four aircraft in a frame. */
@@ -54,12 +60,39 @@ struct airframe {
     /* What it wants. */
     f64x4 wanted_mps, wanted_up_mps, turn; /* turn: -1..1 when driven or held, else [rad] off */
     f64x4 brake;                           /* 0..1 */
+    f64x4 spool; /* 0..1: what its engine gives at most now; 1 unless driven */
     four_masks driven, held, dry;
     /* Results of airframe_lift() and airframe_turn(). */
     f64x4 lift_most; /* [g] */
     f64x4 rising_mps2, weight_mps2, turn_slope, turning_rps;
     f64x4 level_mps2; /* centripetal */
 };
+
+/* Lets the engine follow what is asked of it, 0..1. which: the sort of aircraft. */
+static inline void airframe_spool(struct airframe *f, const f64x4 *asked, const four_masks *which,
+                                  double dt_s)
+{
+    const f64x4 one = SIMD_EVERY(1.0), none = SIMD_EVERY(0.0);
+    const f64x4 governed = SIMD_EVERY(dt_s / AIRFRAME_GOVERNOR_S);
+    f64x4 up = SIMD_CHOOSE(f->aeroplane, SIMD_EVERY(dt_s / AIRFRAME_SPOOL_S), governed);
+    f64x4 down =
+        SIMD_CHOOSE(f->aeroplane, SIMD_EVERY(-dt_s / AIRFRAME_SLOW_S), SIMD_NEGATIVE(governed));
+    f64x4 off = SIMD_CLAMP(*asked, none, one) - f->spool;
+    off = SIMD_CLAMP(off, down, up);
+    f->spool = SIMD_CHOOSE(f->driven & *which, f->spool + off, f->spool);
+}
+
+/* Limits the vertical acceleration of a driven helicopter to what its engine gives. */
+static inline void airframe_govern(struct airframe *f, f64x4 *rise, double dt_s)
+{
+    const f64x4 g = SIMD_EVERY(GRAVITY_MPS2), one = SIMD_EVERY(1.0);
+    const f64x4 full = SIMD_EVERY(1.0 + AIRFRAME_COLLECTIVE);
+    four_masks helicopter = ~f->aeroplane;
+    f64x4 asked = (one + *rise / g) / full;
+    airframe_spool(f, &asked, &helicopter, dt_s);
+    f64x4 most = (f->spool * full - one) * g;
+    *rise = SIMD_CHOOSE(f->driven & helicopter, SIMD_MIN(*rise, most), *rise);
+}
 
 /* Computes the lift: the vertical acceleration, and the weight that a bank has to carry. */
 static inline void airframe_lift(struct airframe *f, double dt_s)
@@ -74,6 +107,7 @@ static inline void airframe_lift(struct airframe *f, double dt_s)
     f64x4 rise = (f->wanted_up_mps - f->up_mps) / lag_s;
     f64x4 most = SIMD_CHOOSE(f->aeroplane, g * AIRFRAME_PULL, g * AIRFRAME_COLLECTIVE);
     rise = SIMD_CLAMP(rise, lowest, most);
+    airframe_govern(f, &rise, dt_s);
     /* The bank is limited by what it wants, so that the lift is there when it has levelled out. */
     f64x4 carried = one + SIMD_MAX(rise, none) / g;
     f64x4 slope = f->lift_most / carried;
@@ -113,7 +147,7 @@ static inline void airframe_turn(struct airframe *f, double dt_s, f64x4 *bank)
 }
 
 /* Returns the acceleration of an aeroplane along its path. speed: along it, above 0. */
-static inline void airframe_push(const struct airframe *f, const f64x4 *speed, f64x4 *push)
+static inline void airframe_push(struct airframe *f, const f64x4 *speed, double dt_s, f64x4 *push)
 {
     const f64x4 none = SIMD_EVERY(0.0), g = SIMD_EVERY(GRAVITY_MPS2);
     const f64x4 least = g * AIRFRAME_LEAST_THRUST, one = SIMD_EVERY(1.0);
@@ -127,9 +161,11 @@ static inline void airframe_push(const struct airframe *f, const f64x4 *speed, f
     f64x4 drag = shape * square + g * AIRFRAME_INDUCED * load * stall / SIMD_MAX(floor, one);
     f64x4 slope = g * f->up_mps / SIMD_MAX(*speed, one);
     f64x4 idle = SIMD_NEGATIVE(drag) - slope;
-    f64x4 most = idle + SIMD_CHOOSE(f->dry, none, thrust);
-    f64x4 low = idle - thrust * f->brake;
     f64x4 wanted = (f->wanted_mps - *speed) / AIRFRAME_SPEED_S;
+    f64x4 asked = SIMD_CHOOSE(f->dry, none, (wanted - idle) / thrust);
+    airframe_spool(f, &asked, &f->aeroplane, dt_s);
+    f64x4 most = idle + SIMD_CHOOSE(f->dry, none, thrust * f->spool);
+    f64x4 low = idle - thrust * f->brake;
     *push = SIMD_CLAMP(wanted, low, most);
 }
 

@@ -65,7 +65,7 @@ void driver_controls_release(const struct entities *m, uint32_t i)
 {
     m->throttle[i] = m->steer[i] = m->climb[i] = 0.0f;
     m->traverse[i] = m->elevate[i] = m->brake[i] = 0.0f;
-    m->dodge[i] = 0.0f; /* the front wheels */
+    m->dodge[i] = 0.0f; /* the front wheels, or the engine */
     m->flags[i] &= (uint8_t)~ENTITY_GEAR_MASK;
     m->driver[i] = 0;
 }

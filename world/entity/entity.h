@@ -77,7 +77,8 @@ enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED
     X(float, turret)       /* [rad] clockwise off the heading, -pi..pi */                          \
     X(float, gun)          /* [rad] up off the body's own plane */                                 \
     X(float, dodge)        /* [rad] to the right of its goal, around obstacles; when driven: */    \
-                           /* -1..1, where the steering wheel of a land vehicle is */              \
+                           /* -1..1, where the steering wheel of a land vehicle is; 0..1, how */   \
+                           /* far the engine of an aircraft is below its full power (spool.h) */   \
     X(float, ease)         /* 0..1: share of its speed that it gives up for obstacles ahead */     \
     X(float, bump_heading) /* [rad] away from the obstacle that it ran into */                     \
     X(uint64_t, driver) /* the one source of commands that drives it, until until_tick; 0: none */ \

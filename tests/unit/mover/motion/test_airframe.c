@@ -245,6 +245,80 @@ static void fly_course(double rate, struct vec3 at[2])
         at[n] = entities_position(&e, row[n]);
 }
 
+/* --- engines -----------------------------------------------------------------------------------*/
+
+static double spool(uint32_t row)
+{
+    return 1.0 - (double)steps_rows(&f).dodge[row];
+}
+
+/* Waits until the engine gives this share of its power, and returns the time [s]. */
+static double time_to(uint32_t row, double share)
+{
+    double s = 0.0;
+    for (; spool(row) < share && s < 20.0; s += 1.0 / hz)
+        fixture_run(&f, 1);
+    return s;
+}
+
+static double forward_mps2(uint32_t row)
+{
+    double before = vec3_length(velocity_of(row));
+    seconds(0.1);
+    return (vec3_length(velocity_of(row)) - before) / 0.1;
+}
+
+static void test_a_jet_engine_takes_five_seconds_to_full_thrust(void **state)
+{
+    (void)state;
+    for (int rate = 0; rate < 2; rate++) {
+        fixture_close(&f);
+        open_at(rate ? 10.0 : 60.0);
+        uint32_t row = put("jet", 3000.0, 270.0, BEHAVIOUR_IDLE);
+        steps_drive(&f, row, 0.0, 0.0, 0.0);
+        seconds(4.0);
+        assert_true(spool(row) < 0.01 && vec3_length(velocity_of(row)) < 265.0);
+        steps_drive(&f, row, 1.0, 0.0, 0.0);
+        double slow = forward_mps2(row);
+        tell("jet, idle to 95 % thrust, s", 5.0, time_to(row, 0.95), 0.1);
+        double fast = forward_mps2(row);
+        print_message("| %-40s |          | %8.2f |         |\n", "  acceleration at first, m/s2",
+                      slow);
+        print_message("| %-40s |          | %8.2f |         |\n", "  and with that thrust", fast);
+        assert_true(slow < 0.0 && fast > slow + 3.0);
+    }
+}
+
+static void test_a_governor_takes_a_second_or_two(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 300.0, 0.0, BEHAVIOUR_IDLE);
+    steps_drive(&f, row, 0.0, 0.0, 0.0);
+    seconds(3.0);
+    tell("helicopter, power at a hover, of the full", 0.625, spool(row), 0.02);
+    steps_drive(&f, row, 0.0, 0.0, -1.0);
+    double s = 0.0, low = 1.0;
+    for (; s < 0.7; s += 1.0 / hz) {
+        fixture_run(&f, 1);
+        low = maths_min(low, spool(row));
+    }
+    steps_drive(&f, row, 0.0, 0.0, 1.0);
+    double rise_s = time_to(row, 0.98);
+    print_message("| %-40s |          | %8.2f |         |\n", "  lowest when it goes down", low);
+    tell("  seconds from idle to full, 1 to 2", 1.5, rise_s / (0.98 - low), 0.1);
+}
+
+/* Agents' engines have no lag, and a driver takes over an engine that runs. */
+static void test_a_driver_takes_over_an_engine_that_runs(void **state)
+{
+    (void)state;
+    uint32_t row = put("jet", 3000.0, 200.0, BEHAVIOUR_IDLE);
+    steps_rows(&f).dodge[row] = 0.4f; /* its agent goes around something */
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    seconds(0.1);
+    assert_true(spool(row) > 0.95);
+}
+
 static void test_10_and_60_hz_agree(void **state)
 {
     static const double way[2] = {3600.0, 900.0};
@@ -294,6 +368,9 @@ int main(void)
         TEST(test_thrust_limits_the_climb),
         TEST(test_without_fuel_an_aeroplane_glides),
         TEST(test_a_helicopter_leans_before_it_gains_speed),
+        TEST(test_a_jet_engine_takes_five_seconds_to_full_thrust),
+        TEST(test_a_governor_takes_a_second_or_two),
+        TEST(test_a_driver_takes_over_an_engine_that_runs),
         TEST(test_10_and_60_hz_agree),
         TEST(test_the_digest_does_not_depend_on_threads),
     };
