@@ -2,6 +2,7 @@
 #include "reporter/entity_topic.h"
 
 #include "ipc/process/clock.h"
+#include "world/entity/spool.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -22,6 +23,7 @@ int entity_topic_open(struct entity_topic *topic, const struct view *view,
         (struct entity_topic){.room = capacity < ENTITY_TOPIC_PART ? capacity : ENTITY_TOPIC_PART};
     topic->wire.run = run;
     topic->dt_s = world_dt_s(&view->world);
+    topic->kinds = view->world.kinds;
     topic->writer = dds_topics_writer(link, TOPIC_ENTITIES, error);
     if (topic->writer < 0)
         return -1;
@@ -110,9 +112,12 @@ static void write_part(struct entity_topic *topic)
     const struct snapshot *snapshot = &topic->snapshot;
     uint32_t count = 0;
     for (; topic->row < snapshot->head.used && count < topic->room; topic->row++) {
-        if (snapshot->entities.state[topic->row] != ENTITY_FREE)
-            fill(&topic->entity[count++], &snapshot->entities, topic->row, snapshot->head.tick,
-                 topic->dt_s);
+        if (snapshot->entities.state[topic->row] == ENTITY_FREE)
+            continue;
+        fill(&topic->entity[count], &snapshot->entities, topic->row, snapshot->head.tick,
+             topic->dt_s);
+        topic->entity[count++].spool = (float)spool_of(
+            &snapshot->entities, &topic->kinds[snapshot->entities.kind[topic->row]], topic->row);
     }
     topic->wire.entities._buffer = topic->entity;
     topic->wire.entities._length = topic->wire.entities._maximum = count;

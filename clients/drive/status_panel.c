@@ -44,14 +44,14 @@ void status_panel_line(char line[STATUS_PANEL_LINE], const struct session *sessi
         " id=%u name=%s kind=%s force=%s state=%s damage=%s behaviour=%s x_m=%.2f z_m=%.2f "
         "speed_mps=%.3f heading_deg=%.3f pitch_deg=%.3f roll_deg=%.3f altitude_m=%.3f "
         "turret_deg=%.3f gun_deg=%.3f rounds=%u fuel_l=%.2f reload_s=%.3f throttle=%.3f gear=%s "
-        "target=%u",
+        "target=%u spool=%.3f",
         e->id, name_table_of(&mirror->names, e->id), world_mirror_kind_name(mirror, e->kind),
         force_name((enum force)e->force), entity_state_name((enum entity_state)e->state),
         damage_name((enum damage)e->damage), behaviour_name((enum behaviour)e->behaviour), e->x_m,
         e->z_m, speed_of(e), degrees(e->heading_rad), degrees(e->pitch_rad), degrees(e->roll_rad),
         e->y_m, degrees(e->turret_rad), degrees(e->gun_rad), e->rounds, (double)e->fuel_l,
-        (double)e->reload_s, (double)e->throttle, gear_name((enum gearing)e->gear),
-        session->target);
+        (double)e->reload_s, (double)e->throttle, gear_name((enum gearing)e->gear), session->target,
+        (double)e->spool);
 }
 
 void status_panel_head(char line[STATUS_PANEL_LINE], const struct session *session, uint64_t now_ns)
@@ -156,8 +156,8 @@ void status_panel_statistics(char row[STATUS_PANEL_ROWS][STATUS_PANEL_COLUMNS],
     (void)snprintf(row[5], STATUS_PANEL_COLUMNS, "steering  %+5.2f     %s", (double)c->steer,
                    gauge(bar, (double)c->steer));
     if (kind->domain == jolon_DOMAIN_AIR)
-        (void)snprintf(row[6], STATUS_PANEL_COLUMNS, "climb     %+5.2f     %s", (double)c->climb,
-                       gauge(bar, (double)c->climb));
+        (void)snprintf(row[6], STATUS_PANEL_COLUMNS, "climb     %+5.2f     engine %3.0f %%",
+                       (double)c->climb, 100.0 * (double)e->spool);
     else
         (void)snprintf(row[6], STATUS_PANEL_COLUMNS, "gear      %-10s brake %.2f",
                        gear_name((enum gearing)e->gear), (double)c->brake);

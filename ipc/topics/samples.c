@@ -90,7 +90,7 @@ static bool good_entity(const jolon_Entity *entity)
     const float numbers[] = {
         entity->vx_mps,    entity->vy_mps,   entity->vz_mps,     entity->heading_rad,
         entity->pitch_rad, entity->roll_rad, entity->turret_rad, entity->gun_rad,
-        entity->fuel_l,    entity->throttle, entity->reload_s,
+        entity->fuel_l,    entity->throttle, entity->spool,      entity->reload_s,
     };
     bool good = entity->state <= jolon_ENTITY_WRECK && entity->force <= jolon_FORCE_RED &&
                 entity->behaviour <= jolon_BEHAVIOUR_REPOSITION &&
