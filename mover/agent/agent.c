@@ -204,11 +204,17 @@ static void drive_to_cover(const struct step_context *context, uint32_t i, const
     desired->altitude_m = LOW_SHARE * kind->cruise_altitude_m;
 }
 
+/* Drives to a firing position, no faster than it can stop there. */
 static void drive_to_position(const struct step_context *context, uint32_t i,
                               const struct kind *kind, struct desired_motion *desired)
 {
-    double speed = goal_in_position(context, i) ? 0.0 : CRUISE_SHARE * kind->max_speed_mps;
-    drive_either_way(context, i, speed, desired);
+    const struct entities *m = context->m;
+    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    double stops = sqrt(2.0 * kind->acceleration_mps2 * sqrt(dx * dx + dz * dz));
+    drive_either_way(context, i, CRUISE_SHARE * kind->max_speed_mps, desired);
+    if (goal_in_position(context, i))
+        stops = 0.0;
+    desired->speed_mps = maths_clamp(desired->speed_mps, -stops, stops);
 }
 
 /* Over its base each of eight aeroplanes has a level of its own. */

@@ -2,6 +2,7 @@
 #include "mover/agent/attack.h"
 
 #include "mover/agent/fire_control.h"
+#include "mover/agent/goal.h"
 #include "mover/agent/perception.h"
 #include "world/params.h"
 #include "world/state.h"
@@ -75,13 +76,19 @@ static void pass(const struct step_context *context, uint32_t i, const struct ki
             maths_wrap_turn(aim->heading + (m->id[i] % 2 ? BREAK_RAD : -BREAK_RAD));
 }
 
-/* A land vehicle does not drive after aircraft. */
-static void await(const struct step_context *context, uint32_t i, struct desired_motion *desired)
+/* A land vehicle does not drive after aircraft, and does not leave a place that hides its hull
+ * while it sees a target that is worth its rounds. */
+static void await(const struct step_context *context, uint32_t i, const struct aim *aim,
+                  struct desired_motion *desired)
 {
     const struct kind *kinds = context->world->kinds;
     uint32_t target = context->m->target_slot[i];
     if (kinds[context->m->kind[i]].domain == DOMAIN_LAND &&
         kinds[context->committed->entities.kind[target]].domain == DOMAIN_AIR)
+        desired->speed_mps = 0.0;
+    if (desired->speed_mps > 0.0 && aim->seen && kinds[context->m->kind[i]].domain == DOMAIN_LAND &&
+        aim->distance <= fire_control_reach_m(context, i, target) &&
+        goal_hull_down(context, i, target))
         desired->speed_mps = 0.0;
 }
 
@@ -108,7 +115,7 @@ void attack_motion(const struct step_context *context, uint32_t i,
         break;
     default: /* a charge is a stand-off at distance 0 */
         stand_off(kind, &aim, table->stand_off, desired);
-        await(context, i, desired);
+        await(context, i, &aim, desired);
         break;
     }
 }

@@ -11,7 +11,7 @@
 #define DASH_S      15
 #define BACK_OFF_S  3
 #define WAY_OUT_S   4  /* it backs off from where it is stuck, up to 3 s longer */
-#define MOVE_S      12 /* to another firing position, at most */
+#define MOVE_S      20 /* to another firing position, at most: 90 m backwards */
 #define COVER_S     20 /* behind cover from bursts; a land vehicle draws its own time */
 
 #define B(name) (1u << BEHAVIOUR_##name)

@@ -20,9 +20,10 @@
 #define FLEE_M      2000.0
 #define DETOUR_M    400.0 /* around what blocks the path to the base */
 #define GOAL_DRAWS  8
-#define HULL_SHARE  0.4 /* of the height: the top of the hull, below the turret */
-#define GUN_SHARE   0.9 /* of the height: the sight of the gun */
-#define IN_PLACE_M  6.0 /* near enough to a firing position */
+#define HULL_SHARE  0.4  /* of the height: the top of the hull, below the turret */
+#define GUN_SHARE   0.9  /* of the height: the sight of the gun */
+#define NEARER_M    10.0 /* steps in which it looks for the nearest place on the way */
+#define IN_PLACE_M  3.0  /* near enough to a firing position */
 
 static double unit(const struct step_context *context, uint32_t i, enum random_purpose purpose)
 {
@@ -149,7 +150,7 @@ static int find_position(const struct step_context *context, uint32_t i, uint32_
                          struct vec3 *best)
 {
     static const double turns[] = {HALF_PI, -HALF_PI, 2.2, -2.2, PI, 1.0, -1.0};
-    static const double ways[] = {50.0, 90.0};
+    static const double ways[] = {30.0, 60.0, 90.0};
     const struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
@@ -157,13 +158,23 @@ static int find_position(const struct step_context *context, uint32_t i, uint32_
     double towards = maths_heading(w->x[enemy] - m->x[i], w->z[enemy] - m->z[i]);
     double side = unit(context, i, RANDOM_GOAL_X) < 0.5 ? 1.0 : -1.0;
     int hidden = -1;
+    double heading = towards, distance = 0.0;
     *best = entities_position(m, i);
-    for (int n = 0; n < 14 && hidden < 2; n++) {
-        along(context, i, towards + side * turns[n % 7], ways[n / 7], &to.x, &to.z);
+    for (int n = 0; n < 21 && hidden < 2; n++) {
+        heading = towards + side * turns[n % 7];
+        distance = ways[n / 7];
+        along(context, i, heading, distance, &to.x, &to.z);
         int found = suits(context, i, to.x, to.z) ? hides(context, kind, eye, to) : -1;
         if (found > hidden) {
             hidden = found;
             *best = to;
+        }
+    }
+    for (double near = NEARER_M; hidden == 2 && near < distance; near += NEARER_M) {
+        along(context, i, heading, near, &to.x, &to.z);
+        if (suits(context, i, to.x, to.z) && hides(context, kind, eye, to) == 2) {
+            *best = to;
+            break;
         }
     }
     return hidden;
@@ -175,6 +186,13 @@ void goal_position(const struct step_context *context, uint32_t i, uint32_t enem
     (void)find_position(context, i, enemy, &place);
     context->m->goal_x[i] = place.x;
     context->m->goal_z[i] = place.z;
+}
+
+bool goal_hull_down(const struct step_context *context, uint32_t i, uint32_t enemy)
+{
+    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    struct vec3 eye = target_search_eye(context, enemy);
+    return hides(context, kind, eye, entities_position(context->m, i)) == 2;
 }
 
 bool goal_cover_near(const struct step_context *context, uint32_t i, uint32_t enemy)
@@ -239,7 +257,9 @@ bool goal_arrived(const struct step_context *context, uint32_t i)
 
 bool goal_in_position(const struct step_context *context, uint32_t i)
 {
-    return within(context, i, context->m->goal_x[i], context->m->goal_z[i], IN_PLACE_M);
+    const struct entities *m = context->m;
+    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    return dx * dx + dz * dz < IN_PLACE_M * IN_PLACE_M;
 }
 
 bool goal_at_base(const struct step_context *context, uint32_t i)

@@ -19,9 +19,11 @@ void goal_cover(const struct step_context *context, uint32_t i, uint32_t enemy);
 /* A firing position within 90 m: if there is one, a place from which row i sees the enemy's row
  * while the ground or a building hides its hull; else a place where it is hidden, or beside it.
  * goal_cover_near() returns true if nothing hides it where it is, and there is a place that does;
- * goal_in_position() if the vehicle is at its place. */
+ * goal_hull_down() if it is at such a place, with its gun in sight; goal_in_position() if the
+ * vehicle is at its place. */
 void goal_position(const struct step_context *context, uint32_t i, uint32_t enemy);
 bool goal_cover_near(const struct step_context *context, uint32_t i, uint32_t enemy);
+bool goal_hull_down(const struct step_context *context, uint32_t i, uint32_t enemy);
 bool goal_in_position(const struct step_context *context, uint32_t i);
 
 /* Makes that row its target, and the place of the target its goal. The crew needs a time of

@@ -284,6 +284,20 @@ static enum behaviour fired_upon(uint32_t *row, uint32_t *enemy)
     return (enum behaviour)steps_rows(&f).behaviour[*row];
 }
 
+/* Returns true if the ground hides the hull of a row from another, and not its gun. */
+static bool hull_hidden(uint32_t row, uint32_t enemy)
+{
+    struct step_context step;
+    struct serial_context context;
+    steps_serial_context(&f, &step, &context);
+    struct vec3 eye = target_search_eye(&step, enemy), at = entities_position(step.m, row);
+    double height = steps_kind(&f, "tank")->height_m, ground = steps_ground_at(&f, at.x, at.z);
+    at.y = ground + 0.4 * height;
+    bool hull = line_of_sight_clear(step.line_of_sight, eye, at);
+    at.y = ground + 0.9 * height;
+    return !hull && line_of_sight_clear(step.line_of_sight, eye, at);
+}
+
 static void test_first_fired_upon_a_crew_fights_from_cover_that_is_near(void **state)
 {
     uint32_t row, enemy;
@@ -296,11 +310,44 @@ static void test_first_fired_upon_a_crew_fights_from_cover_that_is_near(void **s
     assert_int_equal(fired_upon(&row, &enemy), BEHAVIOUR_REPOSITION);
     assert_int_equal(steps_rows(&f).target_id[row], steps_rows(&f).id[enemy]);
     assert_true(steps_rows(&f).owner_slot[row] != 0); /* behind its smoke */
-    for (int frame = 0; frame < 14 * HZ; frame++)
-        fixture_run(&f, 1);
+    fixture_run(&f, 20 * HZ);
     struct entities e = steps_rows(&f);
     assert_int_equal(e.behaviour[row], BEHAVIOUR_ATTACK);
     assert_int_equal(e.target_id[row], e.id[enemy]);
+    print_message("it fights %.0f m away at %.1f m/s: %s\n",
+                  hypot(e.x[row] - 25000.0, e.z[row] - 25000.0), hypot(e.vx[row], e.vz[row]),
+                  hull_hidden(row, enemy) ? "hull down" : "open");
+    assert_true(hull_hidden(row, enemy));
+}
+
+/* It is hull down, and the target is further away than it usually fights. */
+static void test_a_crew_does_not_leave_a_place_that_hides_its_hull(void **state)
+{
+    struct step_context step;
+    struct serial_context context;
+    double far = 0.8 * steps_kind(&f, "tank")->range_m;
+    (void)state;
+    steps_ground(&f, ridge, NULL);
+    fixture_threads(&f, 1);
+    uint32_t enemy =
+        put("tank", (struct vec3){25000.0 + far, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row = put("tank", (struct vec3){25000.0, 102.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    steps_serial_context(&f, &step, &context);
+    goal_position(&step, row, enemy);
+    struct vec3 at = {step.m->goal_x[row], 0.0, step.m->goal_z[row]};
+    at.y = steps_ground_at(&f, at.x, at.z);
+    steps_empty(&f);
+    enemy = put("tank", (struct vec3){25000.0 + far, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    row = put("tank", at, FORCE_BLUE, BEHAVIOUR_IDLE);
+    steps_rows(&f).heading[row] = HALF_PI;
+    steps_rows(&f).flags[row] |= ENTITY_FLAG_STAND;
+    attack(row, enemy);
+    assert_true(hull_hidden(row, enemy));
+    fixture_run(&f, 5 * HZ);
+    struct entities e = steps_rows(&f);
+    print_message("target %.0f m away: it has moved %.1f m in 5 s\n", far,
+                  hypot(e.x[row] - at.x, e.z[row] - at.z));
+    assert_true(hypot(e.x[row] - at.x, e.z[row] - at.z) < 3.0);
 }
 
 static void test_a_crew_that_flees_takes_the_nearest_cover(void **state)
@@ -357,6 +404,7 @@ int main(void)
         TEST(test_a_tank_fires_two_to_four_rounds_and_moves),
         TEST(test_a_position_behind_a_crest_hides_the_hull),
         TEST(test_first_fired_upon_a_crew_fights_from_cover_that_is_near),
+        TEST(test_a_crew_does_not_leave_a_place_that_hides_its_hull),
         TEST(test_a_crew_that_flees_takes_the_nearest_cover),
         TEST(test_another_burst_keeps_a_crew_in_cover),
     };
