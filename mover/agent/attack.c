@@ -76,6 +76,15 @@ static void pass(const struct step_context *context, uint32_t i, const struct ki
             maths_wrap_turn(aim->heading + (m->id[i] % 2 ? BREAK_RAD : -BREAK_RAD));
 }
 
+/* Returns true if its hull is hidden from its target. It checks that when it looks; between two
+ * looks a vehicle that has stopped stays. */
+static bool hull_down(const struct step_context *context, uint32_t i, uint32_t target)
+{
+    if (((uint32_t)context->tick + context->m->id[i]) % context->look_frames != 0)
+        return context->m->throttle[i] == 0.0f;
+    return goal_hull_down(context, i, target);
+}
+
 /* A land vehicle does not drive after aircraft, and does not leave a place that hides its hull
  * while it sees a target that is worth its rounds. */
 static void await(const struct step_context *context, uint32_t i, const struct aim *aim,
@@ -87,8 +96,7 @@ static void await(const struct step_context *context, uint32_t i, const struct a
         kinds[context->committed->entities.kind[target]].domain == DOMAIN_AIR)
         desired->speed_mps = 0.0;
     if (desired->speed_mps > 0.0 && aim->seen && kinds[context->m->kind[i]].domain == DOMAIN_LAND &&
-        aim->distance <= fire_control_reach_m(context, i, target) &&
-        goal_hull_down(context, i, target))
+        aim->distance <= fire_control_reach_m(context, i, target) && hull_down(context, i, target))
         desired->speed_mps = 0.0;
 }
 
