@@ -3,6 +3,7 @@
 
 #include "collider/resting/turret_guard.h"
 #include "collider/response/damage.h"
+#include "collider/response/debris_push.h"
 #include "collider/response/response.h"
 #include "world/entity/persistent_contact.h"
 #include "world/entity/table_touch.h"
@@ -167,6 +168,8 @@ static void collide_all(struct step *step, struct response_context *context)
         end_guard_run(&collider->guard, &collider->resting, &collider->free, context);
         turret_guard_run(context);
     }
+    if (context->functions->joint)
+        debris_push_step(context);
     damage_overturned(context);
     contact_table_finish(&collider->table, context);
 }

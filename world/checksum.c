@@ -207,7 +207,7 @@ uint64_t state_checksum_of(const struct state *state, uint64_t rows, uint64_t fi
         XXH3_64bits(state->contacts, head.contact_count * sizeof *state->contacts),
         lists->crater_hash, lists->dent_hash};
     head.checksum = 0;
-    return XXH3_64bits_withSeed(&head, sizeof head, XXH3_64bits(rest, sizeof rest));
+    return XXH3_64bits_withSeed(&head, state_head_bytes(&head), XXH3_64bits(rest, sizeof rest));
 }
 
 /* Returns the checksum for this hash of the rows. */
@@ -245,7 +245,7 @@ uint64_t moved_checksum_of(const struct moved *moved, uint64_t rows)
     head.mover_ns = 0; /* written after it */
     const uint64_t rest[] = {
         rows, XXH3_64bits(moved->intents, head.intent_count * sizeof *moved->intents)};
-    return XXH3_64bits_withSeed(&head, sizeof head, XXH3_64bits(rest, sizeof rest));
+    return XXH3_64bits_withSeed(&head, state_head_bytes(&head), XXH3_64bits(rest, sizeof rest));
 }
 
 uint64_t moved_checksum(const struct moved *moved)

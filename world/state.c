@@ -29,7 +29,7 @@ uint64_t state_digest(const struct world *world, const struct state *state)
     head.mover_ns = 0;
     head.time_scale = 0.0; /* pacing: not a property of the frame */
     head.quit = 0;
-    uint64_t hash = XXH3_64bits(&head, sizeof head);
+    uint64_t hash = XXH3_64bits(&head, state_head_bytes(&head));
     hash = XXH3_64bits_withSeed(&world->params->seed, sizeof world->params->seed, hash);
     hash = hash_columns(hash, &state->entities, head.used);
     hash = XXH3_64bits_withSeed(state->fixed_damage, world->counts.fixed, hash);

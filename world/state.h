@@ -6,8 +6,10 @@
 #include "world/entity/command.h"
 #include "world/entity/entity.h"
 #include "world/entity/battery.h"
+#include "world/entity/debris.h"
 #include "world/entity/mission.h"
 
+#include <stddef.h>
 #include <stdint.h>
 
 struct crater;
@@ -49,20 +51,28 @@ struct state_head {
     uint32_t intent_count;  /* M only: events the mover hands to the collider */
     uint32_t advanced;      /* 1: simulated time moved in this frame */
     uint32_t battery_count; /* entries of battery that are in use or cool down: the first ones */
-    uint32_t unused;        /* 0 */
+    uint32_t debris_count;  /* entries of debris that are in use: the first ones */
     struct battery battery[BATTERIES_MAX];
     uint64_t mover_ns; /* M only: time of the mover's step; not in the digest */
     struct counters tally;
     struct battle_state battle;
-    uint64_t checksum; /* state_checksum(), moved_checksum() */
+    uint64_t checksum;                /* state_checksum(), moved_checksum() */
+    struct debris debris[DEBRIS_MAX]; /* moving debris; unused entries are 0 */
 };
+
+/* Returns the bytes of a head that are in use: without the unused entries at its end. */
+static inline size_t state_head_bytes(const struct state_head *head)
+{
+    uint32_t count = head->debris_count < DEBRIS_MAX ? head->debris_count : DEBRIS_MAX;
+    return offsetof(struct state_head, debris) + count * sizeof(struct debris);
+}
 
 /* One buffer of the world. fixed_damage, contacts, craters and dents belong to W only. */
 struct state {
     struct state_head *head;
     struct entities entities;
     struct block_hashes *hashes; /* of the rows (checksum.h); a reader's copy has none: NULL */
-    uint8_t *fixed_damage;       /* [counts.fixed] enum damage */
+    uint8_t *fixed_damage;       /* [counts.fixed] as in world/terrain/fallen.h */
     struct persistent_contact
         *contacts;          /* [contact_count] sorted by ids; written by the collider */
     struct crater *craters; /* shared by both buffers, append-only: committed by crater_count */

@@ -5,6 +5,7 @@
 #include "collider/response/body_push.h"
 #include "collider/response/breaking.h"
 #include "collider/response/damage.h"
+#include "collider/response/debris_push.h"
 #include "collider/response/impact_damage.h"
 #include "collider/response/joined_walls.h"
 #include "collider/response/response.h"
@@ -50,6 +51,21 @@ static void go_on(struct response_context *context, struct island_contact *met,
     impact_damage_row(context, impact->a, impact, -1.0, breaking->lost_j * harm_share, NULL);
 }
 
+/* Lays what broke down, away from its striker. */
+static void fall(struct response_context *context, const struct impact *impact,
+                 const struct breaking *breaking, double debris_kg)
+{
+    double x = impact->normal.x, z = impact->normal.z, level = sqrt(x * x + z * z);
+    const struct debris_fall fall = {.object = impact->b & ~PAIR_FIXED,
+                                     .x = impact->point.x,
+                                     .z = impact->point.z,
+                                     .away_x = level > 0.0 ? x / level : 0.0,
+                                     .away_z = level > 0.0 ? z / level : -1.0,
+                                     .speed_mps = breaking->speed_mps * level,
+                                     .moving_kg = debris_kg};
+    debris_push_add(context, &fall);
+}
+
 /* Damages the object and the walls joined to it by the energy of the impact [J]. Returns true if
  * the object breaks, with what that costs, joined walls included. */
 static bool breaks(struct response_context *context, uint32_t object, double energy_j,
@@ -83,6 +99,8 @@ bool contact_impulse_gives_way(struct response_context *context, struct island_c
     if (!breaking.breaks)
         return false;
     go_on(context, met, &breaking, bends ? 0.0 : fixed->rigidity);
+    if (!bends)
+        fall(context, impact, &breaking, input.debris_kg);
     if (!met->leans)
         write_collision_event(context, &met->report, impact, &met->outcome);
     return true;

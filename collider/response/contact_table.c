@@ -8,7 +8,7 @@
 #include "world/params.h"
 #include "world/runtime/reserve.h"
 #include "world/runtime/work_done.h"
-#include "world/terrain/fixed.h"
+#include "world/terrain/fallen.h"
 #include "world/world.h"
 
 int contact_table_init(struct contact_table *table, const struct world *world)
@@ -215,7 +215,7 @@ static struct event_party party_of(const struct response_context *context, uint3
         return (struct event_party){id, e->kind[row], 0, e->damage[row]};
     uint32_t object = id & ~PERSISTENT_CONTACT_FIXED;
     return (struct event_party){object + 1, context->world->fixed[object].kind, 1,
-                                context->next->fixed_damage[object]};
+                                (uint8_t)fallen_damage(context->next->fixed_damage[object])};
 }
 
 static void end(struct response_context *context, const struct persistent_contact *contact,

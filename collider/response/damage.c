@@ -7,7 +7,7 @@
 #include "world/entity/kind.h"
 #include "world/params.h"
 #include "world/state.h"
-#include "world/terrain/fixed.h"
+#include "world/terrain/fallen.h"
 #include "world/world.h"
 
 #include <string.h>
@@ -135,7 +135,7 @@ static enum damage damage_fixed(struct response_context *context, uint32_t objec
         *now = (uint8_t)damage;
         context->next->head->tally.fixed_damaged++;
     }
-    return (enum damage) * now;
+    return fallen_damage(*now);
 }
 
 /* Returns a kind's own constant if it has one, or the scenario's. */
@@ -163,6 +163,16 @@ enum damage damage_fixed_object(struct response_context *context, uint32_t objec
     else if (share >= own_or(kind->damage_low, limits->damage_low))
         damage = DAMAGE_LOW;
     return damage_fixed(context, object, damage);
+}
+
+void damage_fell_object(struct response_context *context, uint32_t object, double joules,
+                        struct vec3 away)
+{
+    const struct world *world = context->world;
+    uint8_t *stored = &context->next->fixed_damage[object];
+    bool stood = *stored < DAMAGE_HIGH;
+    if (damage_fixed_object(context, object, joules) == DAMAGE_HIGH && stood)
+        *stored = fallen_towards(&world->kinds[world->fixed[object].kind], away.x, away.z);
 }
 
 enum damage damage_fixed_mass(struct response_context *context, uint32_t object, double mass_kg)

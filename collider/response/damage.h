@@ -23,11 +23,15 @@ void damage_overturn(struct response_context *context, uint32_t row);
  * gives those that landed hard their damage. */
 void damage_overturned(struct response_context *context);
 
-/* Both damage a fixed object and return its damage. It is never repaired: the hardest impact
+/* These damage a fixed object, and two return its damage. It is never repaired: the hardest impact
  * counts.
  *
  * By the energy of the impact: the measure "energy". */
 enum damage damage_fixed_object(struct response_context *context, uint32_t object, double joules);
+
+/* By the energy too; a trunk that falls by it falls in this direction on the map. */
+void damage_fell_object(struct response_context *context, uint32_t object, double joules,
+                        struct vec3 away);
 
 /* By the mass of the body that hits it, as figure 8 is printed: the measure "mass" (thesis row 27).
  * Damage is high from mass_c1_kg on, medium from mass_c2_kg, low from mass_c3_kg and none below.

@@ -15,7 +15,7 @@
 #include "world/runtime/reserve.h"
 #include "world/runtime/work_done.h"
 #include "world/state.h"
-#include "world/terrain/fixed.h"
+#include "world/terrain/fallen.h"
 #include "world/world.h"
 
 #include <errno.h>
@@ -154,7 +154,8 @@ static void explosion_fixed(struct response_context *context, const struct charg
     const struct fixed_object *object = &context->world->fixed[index];
     struct vec3 at = fixed_position(object);
     double distance = distance_to(charge->point, at, (double)object->radius_m);
-    damage_fixed_object(context, index, explosion_energy(charge->explosive_kg, radius, distance));
+    damage_fell_object(context, index, explosion_energy(charge->explosive_kg, radius, distance),
+                       vec3_sub(at, charge->point));
 }
 
 static bool listed(const struct pair_list *list, uint32_t row)
@@ -363,7 +364,8 @@ static bool hit(struct response_context *context, uint32_t round, uint32_t struc
                           normal, time);
     double inside = e->flags[round] == FUZE_DELAY ? INSIDE : 1.0;
     if (what == STRUCK_FIXED)
-        damage_fixed_object(context, struck & ~PAIR_FIXED, inside * energy_of(kind, velocity));
+        damage_fell_object(context, struck & ~PAIR_FIXED, inside * energy_of(kind, velocity),
+                           velocity);
     return false;
 }
 
@@ -376,7 +378,7 @@ static struct event_party party_struck(const struct response_context *context, u
     if (what == STRUCK_FIXED) {
         uint32_t object = struck & ~PAIR_FIXED;
         return (struct event_party){object + 1, context->world->fixed[object].kind, 1,
-                                    context->next->fixed_damage[object]};
+                                    (uint8_t)fallen_damage(context->next->fixed_damage[object])};
     }
     return (struct event_party){0, KIND_NONE, 0, DAMAGE_NONE};
 }

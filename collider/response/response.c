@@ -13,7 +13,7 @@
 #include "world/maths/maths.h"
 #include "world/params.h"
 #include "world/state.h"
-#include "world/terrain/fixed.h"
+#include "world/terrain/fallen.h"
 #include "world/world.h"
 
 /* Bodies in contact that close no faster than this lean on each other or scrape along. */
@@ -100,7 +100,7 @@ static struct event_party party_of(const struct response_context *context, uint3
     if (body & PAIR_FIXED) {
         uint32_t object = body & ~PAIR_FIXED;
         return (struct event_party){object + 1, context->world->fixed[object].kind, 1,
-                                    context->next->fixed_damage[object]};
+                                    (uint8_t)fallen_damage(context->next->fixed_damage[object])};
     }
     return (struct event_party){e->id[body], e->kind[body], 0, e->damage[body]};
 }

@@ -167,9 +167,9 @@ static const struct key kind_keys[] = {
     NUMBER("debris_keep", K, kind.debris_keep, 0, 1, "1",
            .meaning =
                "Fixed objects: the share of the debris that lies firm after the fall. A land "
-               "vehicle pushes the rest of what is under it, and goes at most at the share "
-               "of its top speed that its mass is of both masses. The lowest share counts "
-               "where several lie."),
+               "vehicle pushes the rest along, which moves if a vehicle felled the object. Over "
+               "what stays where it fell it goes at most at the share of its top speed that its "
+               "mass is of both masses. The lowest share counts where several lie."),
     NUMBER("explosive_kg", K, kind.explosive_kg, 0, 100000, "0", .unit = "kg of TNT",
            .meaning = "Munitions: the charge. Vehicles: what explodes when they are destroyed."),
     NUMBER("range_m", K, kind.range_m, 0, 50000, "0", .unit = "m",

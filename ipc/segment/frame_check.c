@@ -25,6 +25,20 @@ static int check_batteries(const struct segment_header *header, const struct sta
     return 0;
 }
 
+static int check_debris(const struct segment_header *header, const struct state_head *head,
+                        struct error_text *error)
+{
+    if (head->debris_count > DEBRIS_MAX)
+        return error_text_set(error, "debris_count = %u; room for %u", head->debris_count,
+                              DEBRIS_MAX);
+    for (uint32_t i = 0; i < head->debris_count; i++) {
+        if (head->debris[i].object >= header->counts.fixed)
+            return error_text_set(error, "debris %u: object = %u; fixed objects = %u", i,
+                                  head->debris[i].object, header->counts.fixed);
+    }
+    return 0;
+}
+
 int segment_check_head(const struct view *view, const struct state_head *head,
                        struct error_text *error)
 {
@@ -43,6 +57,8 @@ int segment_check_head(const struct view *view, const struct state_head *head,
     if (head->intent_count > header->intents_per_frame)
         return error_text_set(error, "intent_count = %u; intents_per_frame = %u",
                               head->intent_count, header->intents_per_frame);
+    if (check_debris(header, head, error) != 0)
+        return -1;
     return check_batteries(header, head, error);
 }
 

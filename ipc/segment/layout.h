@@ -22,7 +22,7 @@
 #define REGION_ALIGN 65536u
 
 /* Room for a table's head before its columns [byte]. */
-#define LAYOUT_HEAD_BYTES 4096u
+#define LAYOUT_HEAD_BYTES 8192u
 
 enum region {
     REGION_HEADER, /* struct segment_header; never changes, like all regions before COMMIT */

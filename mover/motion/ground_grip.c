@@ -3,9 +3,9 @@
  * 0.04 to 0.1. */
 #include "mover/motion/ground_grip.h"
 
+#include "mover/query/ground_debris.h"
 #include "mover/query/ground_marks.h"
 #include "world/state.h"
-#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
@@ -23,28 +23,12 @@ struct ground_grip ground_grip_of(enum cover cover)
     return table[cover];
 }
 
-/* Returns true if the debris of a fallen object lies at the point. */
-static bool is_debris(const struct step_context *context, double x, double z)
-{
-    const struct world *world = context->world;
-    const uint32_t *objects;
-    uint32_t count = world_reach(world, gridsquare_of(x, z), &objects);
-    for (uint32_t n = 0; n < count; n++) {
-        const struct fixed_object *object = &world->fixed[objects[n]];
-        double dx = x - object->x, dz = z - object->z, radius = (double)object->radius_m;
-        if (context->committed->fixed_damage[objects[n]] >= DAMAGE_HIGH &&
-            dx * dx + dz * dz < radius * radius)
-            return true;
-    }
-    return false;
-}
-
 struct ground_grip ground_grip_at(const struct step_context *context, double x, double z)
 {
     uint8_t marks = ground_marks_at(context->ground_marks, x, z);
     if (marks & GROUND_MARKS_CRATER && crater_offset(context->craters, x, z) < 0.0)
         return crater_mud;
-    if (marks & GROUND_MARKS_DEBRIS && is_debris(context, x, z))
+    if (marks & GROUND_MARKS_DEBRIS && ground_debris_lies(context->world, context->committed, x, z))
         return debris;
     const struct terrain *terrain = &context->world->terrain;
     struct ground_grip grip = table[terrain_cover(terrain, x, z)];

@@ -6,10 +6,10 @@
 #include "mover/motion/drivetrain.h"
 #include "mover/motion/kinematics.h"
 #include "mover/motion/kinematics_simd.h"
+#include "mover/query/ground_debris.h"
 #include "mover/query/ground_marks.h"
 #include "world/maths/cpu_dispatch.h"
 #include "world/state.h"
-#include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
@@ -23,43 +23,13 @@
 #define PIVOT_PM      1e3  /* [1/m] tracks turn a vehicle on the spot */
 #define LEAST_GAIN    0.1  /* [m/s2] a vehicle that can climb gains speed at least so fast */
 
-/* The share of full speed that the debris of an object leaves a vehicle which pushes it along: the
- * vehicle shares its momentum with the loose part, 1 - debris_keep, of the debris in its way. The
- * debris lies evenly over the object's rectangle. */
-static double debris_speed(const struct kind *vehicle, const struct kind *object)
-{
-    double loose_kg = object->mass_kg * (1.0 - object->debris_keep);
-    double covered = vehicle->length_m * vehicle->width_m / (object->length_m * object->width_m);
-    return vehicle->mass_kg / (vehicle->mass_kg + loose_kg * maths_min(1.0, covered));
-}
-
-/* The share of full speed that the debris of fallen objects allows the vehicle here; 1: there is
- * none. */
-static double debris_share(const struct step_context *context, const struct kind *vehicle, double x,
-                           double z)
-{
-    const struct world *world = context->world;
-    const struct state *committed = context->committed;
-    double share = 1.0;
-    const uint32_t *objects;
-    uint32_t count = world_reach(world, gridsquare_of(x, z), &objects);
-    for (uint32_t n = 0; n < count; n++) {
-        if (committed->fixed_damage[objects[n]] < DAMAGE_HIGH)
-            continue;
-        const struct fixed_object *object = &world->fixed[objects[n]];
-        double dx = x - object->x, dz = z - object->z, radius = (double)object->radius_m;
-        if (dx * dx + dz * dz < radius * radius)
-            share = maths_min(share, debris_speed(vehicle, &world->kinds[object->kind]));
-    }
-    return share;
-}
-
 double ground_vehicle_debris(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
     if (!(ground_marks_at(context->ground_marks, m->x[i], m->z[i]) & GROUND_MARKS_DEBRIS))
         return 1.0;
-    return debris_share(context, &context->world->kinds[m->kind[i]], m->x[i], m->z[i]);
+    return ground_debris_share(context->world, context->committed,
+                               &context->world->kinds[m->kind[i]], m->x[i], m->z[i]);
 }
 
 void ground_vehicle_begin(struct ground_vehicle *batch)
@@ -78,7 +48,8 @@ static void find_scars(const struct step_context *context, struct ground_vehicle
         if (!debris.lane[l])
             continue;
         const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
-        batch->debris.lane[l] = debris_share(context, kind, pose->x.lane[l], pose->z.lane[l]);
+        batch->debris.lane[l] = ground_debris_share(context->world, context->committed, kind,
+                                                    pose->x.lane[l], pose->z.lane[l]);
     }
 }
 

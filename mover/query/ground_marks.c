@@ -5,7 +5,7 @@
 #include "world/maths/cpu_dispatch.h"
 #include "world/state.h"
 #include "world/terrain/crater.h"
-#include "world/terrain/fixed_index.h"
+#include "world/terrain/fallen.h"
 #include "world/world.h"
 
 #include <stdbool.h>
@@ -72,6 +72,19 @@ static void forget(struct ground_marks *marks, const struct world *world)
     mark_earthworks(marks, &world->terrain.earthworks);
 }
 
+static void mark_area(struct ground_marks *marks, const struct debris_area *area)
+{
+    double reach = area->half_length_m + area->radius_m;
+    mark(marks, area->x, area->z, reach, GROUND_MARKS_DEBRIS);
+}
+
+static void mark_fallen(struct ground_marks *marks, const struct fixed_object *object,
+                        const struct kind *kind, uint8_t damage)
+{
+    const struct debris_area area = fallen_area(object, kind, damage);
+    mark_area(marks, &area);
+}
+
 /* Returns false if a fallen object stands again: the marks must then be built again. */
 static bool take_damage(struct ground_marks *marks, const struct world *world,
                         const uint8_t *damage, uint32_t first, uint32_t end)
@@ -81,8 +94,7 @@ static bool take_damage(struct ground_marks *marks, const struct world *world,
         if (damage[i] < DAMAGE_HIGH && marks->damage[i] >= DAMAGE_HIGH)
             return false;
         if (damage[i] >= DAMAGE_HIGH && marks->damage[i] < DAMAGE_HIGH)
-            mark(marks, object->x, object->z, fixed_index_of_fixed(object, world->kinds),
-                 GROUND_MARKS_DEBRIS);
+            mark_fallen(marks, object, &world->kinds[object->kind], damage[i]);
         marks->damage[i] = damage[i];
     }
     return true;
@@ -98,6 +110,10 @@ static bool take_in(struct ground_marks *marks, const struct world *world,
         const struct crater *crater = &committed->craters[marks->craters];
         mark(marks, crater->x, crater->z,
              (double)crater->radius_m * CRATER_RIM + GROUND_MARKS_NEAR_M, GROUND_MARKS_CRATER);
+    }
+    for (uint32_t i = 0; i < committed->head->debris_count; i++) {
+        const struct debris_area area = debris_area(&committed->head->debris[i]);
+        mark_area(marks, &area);
     }
     for (uint32_t i = 0; i < fixed; i += STRIDE) {
         uint32_t count = fixed - i < STRIDE ? fixed - i : STRIDE;

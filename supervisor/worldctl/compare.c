@@ -6,6 +6,7 @@
 #include "world/enum_names.h"
 #include "world/params.h"
 #include "world/terrain/crater.h"
+#include "world/terrain/fallen.h"
 #include "world/world.h"
 
 #include <inttypes.h>
@@ -116,6 +117,14 @@ static bool compare_entities(const struct compared *a, const struct compared *b,
 
 /* --- fixed objects, contacts, craters, dents, head ---------------------------------------------*/
 
+static void name_damage(char *text, size_t bytes, uint8_t stored)
+{
+    if (stored < FALLEN_FIRST)
+        snprintf(text, bytes, "%s", damage_name(fallen_damage(stored)));
+    else
+        snprintf(text, bytes, "fell to %.1f", fallen_heading(stored) * DEG_PER_RAD);
+}
+
 static bool compare_fixed(const struct compared *a, const struct compared *b,
                           struct difference *difference)
 {
@@ -130,8 +139,8 @@ static bool compare_fixed(const struct compared *a, const struct compared *b,
     difference->row = i;
     snprintf(difference->column, sizeof difference->column, "fixed_damage");
     snprintf(difference->field, sizeof difference->field, "damage of fixed object %u", i + 1);
-    snprintf(difference->a, sizeof difference->a, "%s", damage_name((enum damage)p[i]));
-    snprintf(difference->b, sizeof difference->b, "%s", damage_name((enum damage)q[i]));
+    name_damage(difference->a, sizeof difference->a, p[i]);
+    name_damage(difference->b, sizeof difference->b, q[i]);
     return true;
 }
 
@@ -269,6 +278,29 @@ static bool compare_dents(const struct compared *a, const struct compared *b,
     return false;
 }
 
+static bool compare_debris(const struct compared *a, const struct compared *b,
+                           struct difference *difference)
+{
+    static const struct member members[] = {
+        MEMBER(uint32_t, debris, object),   MEMBER(double, debris, x),
+        MEMBER(double, debris, z),          MEMBER(float, debris, vx),
+        MEMBER(float, debris, vz),          MEMBER(float, debris, heading_rad),
+        MEMBER(float, debris, spin_rps),    MEMBER(float, debris, mass_kg),
+        MEMBER(float, debris, radius_m),    MEMBER(float, debris, half_length_m),
+        MEMBER(uint32_t, debris, fell_tick)};
+    for (uint32_t i = 0; i < DEBRIS_MAX; i++) {
+        const struct debris *p = &a->state.head->debris[i], *q = &b->state.head->debris[i];
+        const struct member *member = first_member(members, COUNT(members), p, q);
+        if (!member)
+            continue;
+        name_member(difference, member, p, q);
+        difference->row = i;
+        snprintf(difference->field, sizeof difference->field, "%s of debris %u", member->name, i);
+        return true;
+    }
+    return false;
+}
+
 static bool compare_batteries(const struct compared *a, const struct compared *b,
                               struct difference *difference)
 {
@@ -351,6 +383,7 @@ static bool compare_heads(const struct compared *a, const struct compared *b,
         HEAD(uint32_t, contact_count),
         HEAD(uint32_t, fire_cursor),
         HEAD(uint32_t, battery_count),
+        HEAD(uint32_t, debris_count),
         HEAD(uint32_t, advanced),
         HEAD(uint64_t, command_cursor[RING_CLIENTS]),
         HEAD(uint64_t, command_cursor[RING_RECORDER]),
@@ -390,7 +423,8 @@ bool compare_states(const struct compared *a, const struct compared *b,
     return compare_entities(a, b, difference) || compare_fixed(a, b, difference) ||
            compare_contacts(a, b, difference) || compare_craters(a, b, difference) ||
            compare_dents(a, b, difference) || compare_battles(a, b, difference) ||
-           compare_heads(a, b, difference) || compare_batteries(a, b, difference);
+           compare_heads(a, b, difference) || compare_batteries(a, b, difference) ||
+           compare_debris(a, b, difference);
 }
 
 bool compare_worlds(const struct world *a, const struct world *b, struct difference *difference)

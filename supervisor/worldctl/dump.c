@@ -8,7 +8,7 @@
 #include "ipc/json/world_json.h"
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
-#include "world/terrain/fixed.h"
+#include "world/terrain/fallen.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -91,7 +91,7 @@ static void dump_fixed(const struct arguments *arguments, const struct view *vie
     for (uint32_t i = 0; i < view->world.counts.fixed; i++) {
         const struct fixed_object *object = &view->world.fixed[i];
         const char *kind = view->world.kinds[object->kind].name;
-        const char *damage = damage_name((enum damage)snapshot->fixed_damage[i]);
+        const char *damage = damage_name(fallen_damage(snapshot->fixed_damage[i]));
         if (!arguments->json) {
             printf("%6u %-12s x %10.2f y %8.2f z %10.2f radius %5.2f %s\n", i + 1, kind, object->x,
                    (double)object->y, object->z, (double)object->radius_m, damage);

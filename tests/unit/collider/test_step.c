@@ -3,6 +3,7 @@
 #include "world/checksum.h"
 #include "world/entity/persistent_contact.h"
 #include "world/params.h"
+#include "world/terrain/fallen.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -271,7 +272,7 @@ static void test_an_aircraft_slowed_on_its_path_still_meets_the_ground(void **st
     fixture_put(&f, (struct fixture_entity){
                         .kind = "jet", .at = {24990, 110, 25000}, .velocity = {180, -180, 0}});
     fixture_run(&f, 1);
-    assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_HIGH);
+    assert_int_equal(fallen_damage(fixture_state(&f).fixed_damage[0]), DAMAGE_HIGH);
     assert_true(steps_rows(&f).y[0] >= 100.0 - 1e-6); /* not under the ground */
     fixture_close(&f);
 }

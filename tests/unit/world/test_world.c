@@ -200,6 +200,10 @@ static void test_digest_covers_damage_contacts_craters_and_seed(void **state)
         assert_true(every_bit_counts(&now.fixed_damage[i], 1));
     assert_true(every_bit_counts(&now.contacts[0], sizeof now.contacts[0]));
     assert_true(no_bit_counts(&now.contacts[1], sizeof now.contacts[1])); /* past contact_count */
+    now.head->debris_count = 1;
+    assert_true(every_bit_counts(&now.head->debris[0], sizeof now.head->debris[0]));
+    assert_true(no_bit_counts(&now.head->debris[1], sizeof now.head->debris[1])); /* past it */
+    now.head->debris_count = 0;
     assert_true(every_bit_counts(&now.craters[0], sizeof now.craters[0]));
     assert_true(no_bit_counts(&now.craters[1], sizeof now.craters[1])); /* past crater_count */
     assert_true(every_bit_counts(params + offsetof(struct params, seed), sizeof(uint64_t)));
@@ -236,7 +240,7 @@ static void test_checksum_covers_all_of_head_and_rows_but_itself(void **state)
     uint64_t before = checksum();
     unsigned char *head = (unsigned char *)now.head;
     (void)state;
-    for (size_t i = 0; i < sizeof *now.head; i++) {
+    for (size_t i = 0; i < offsetof(struct state_head, debris); i++) {
         bool own = within(i, offsetof(struct state_head, checksum), sizeof now.head->checksum);
         if (within(i, offsetof(struct state_head, used), sizeof now.head->used) ||
             within(i, offsetof(struct state_head, crater_count), sizeof now.head->crater_count) ||

@@ -7,7 +7,7 @@
 #include "tests/support/steps.h"
 #include "world/entity/mass_properties.h"
 #include "world/params.h"
-#include "world/terrain/fixed.h"
+#include "world/terrain/fallen.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -220,7 +220,7 @@ static void test_what_breaks_costs_its_resistance_and_takes_momentum(void **stat
     double after = through_tree(speed);
     uint32_t row = into(0, speed, (double)1.8f);
     (void)state;
-    assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_HIGH);
+    assert_int_equal(fallen_damage(fixture_state(&f).fixed_damage[0]), DAMAGE_HIGH);
     assert_int_equal(collision()->response, RESPONSE_SLOW);
     assert_int_equal(collision()->b.damage, DAMAGE_HIGH);
     assert_true(fabs(steps_rows(&f).vx[row] - after) < 1e-6);
@@ -246,7 +246,7 @@ static void test_what_breaks_changes_the_speed_along_the_normal_only(void **stat
     uint32_t row = put("tank", 25000.0 - 0.8 * reach, 25000.0 - 0.6 * reach, speed);
     fixture_run(&f, 1);
     struct entities e = steps_rows(&f);
-    assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_HIGH);
+    assert_int_equal(fallen_damage(fixture_state(&f).fixed_damage[0]), DAMAGE_HIGH);
     double along = e.vx[row] * 0.8 + e.vz[row] * 0.6, across = e.vz[row] * 0.8 - e.vx[row] * 0.6;
     assert_true(fabs(across + 0.6 * speed) < 1e-4);
     assert_true(fabs(along - through_tree(0.8 * speed)) < 1e-4);

@@ -2,6 +2,7 @@
 #include "collider/response/explosion.h"
 #include "tests/support/steps.h"
 #include "world/params.h"
+#include "world/terrain/fallen.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -115,7 +116,9 @@ static void test_a_round_into_a_tree_fells_it_and_then_others_pass(void **state)
     assert_int_equal(detonation(0)->struck, STRUCK_FIXED);
     assert_int_equal(detonation(0)->struck_party.id, 1);
     assert_int_equal(detonation(0)->struck_party.fixed, 1);
-    assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_HIGH);
+    assert_int_equal(fallen_damage(fixture_state(&f).fixed_damage[0]), DAMAGE_HIGH);
+    assert_true(fallen_heading(fixture_state(&f).fixed_damage[0]) ==
+                HALF_PI); /* as the round flew */
     uint32_t jeep = put("jeep", 24990.0, 100.0, 25000.0, (struct vec3){20.0, 0.0, 0.0});
     fixture_run(&f, 60);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);

@@ -3,6 +3,7 @@
 #include "tests/support/steps.h"
 #include "world/entity/dent.h"
 #include "world/params.h"
+#include "world/terrain/fallen.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -140,7 +141,7 @@ static void test_a_fast_tank_leaves_a_stump_and_goes_on(void **state)
                      "objects = ( { kind = \"tree\"; at = [25000.0, 25000.0]; } );\n");
     uint32_t tank = put("tank", -12.0, 0.0, 90.0, 35.0);
     fixture_run(&f, 120);
-    assert_int_equal(fixture_state(&f).fixed_damage[0], DAMAGE_HIGH);
+    assert_int_equal(fallen_damage(fixture_state(&f).fixed_damage[0]), DAMAGE_HIGH);
     assert_true(steps_rows(&f).vx[tank] > 10.0);
     assert_in_range(damage_of(tank), DAMAGE_NONE, DAMAGE_LOW);
 }

@@ -72,6 +72,21 @@ static void test_contacts_beyond_their_list_are_refused(void **state)
     assert_non_null(strstr(error.text, "contact_count = 17"));
 }
 
+static void test_debris_beyond_its_list_is_refused(void **state)
+{
+    struct state_head *head = view.w[0].head;
+    uint32_t fixed = view.header->counts.fixed;
+    (void)state;
+    head->debris_count = DEBRIS_MAX + 1;
+    assert_int_equal(segment_check_head(&view, head, &error), -1);
+    assert_string_equal(error.text, "debris_count = 65; room for 64");
+    head->debris_count = 1;
+    head->debris[0].object = fixed;
+    assert_int_equal(segment_check_head(&view, head, &error), -1);
+    assert_non_null(strstr(error.text, "debris 0: object = "));
+    assert_int_equal(segment_check_state(&view, 0, &error), -1);
+}
+
 static void test_batteries_beyond_their_list_are_refused(void **state)
 {
     struct state_head *head = view.w[0].head;
@@ -152,6 +167,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_sorted_contacts_are_good),
         TEST(test_contacts_beyond_their_list_are_refused),
+        TEST(test_debris_beyond_its_list_is_refused),
         TEST(test_batteries_beyond_their_list_are_refused),
         TEST(test_changed_contact_fails_the_checksum),
         TEST(test_contacts_that_make_no_sense_are_refused),

@@ -229,7 +229,7 @@ static void test_every_bit_of_the_head_is_found(void **state)
     (void)state;
     run_to(30);
     unsigned char *head = place(look.w[0].head);
-    for (size_t bit = 0; bit < sizeof(struct state_head) * 8; bit++) {
+    for (size_t bit = 0; bit < offsetof(struct state_head, debris) * 8; bit++) {
         head[bit / 8] ^= (unsigned char)(1u << (bit % 8));
         if (segment_check_state(&look, 30, &error) == 0)
             fail_msg("bit %zu of byte %zu", bit % 8, bit / 8);
@@ -260,7 +260,7 @@ static unsigned char *random_byte(const struct state *last, const struct state *
 {
     uint64_t where = fixture_random(random) % 8, at = fixture_random(random);
     if (where == 0)
-        return place(last->head) + at % sizeof *last->head;
+        return place(last->head) + at % offsetof(struct state_head, debris);
     if (where == 1)
         return place(last->fixed_damage) + at % look.header->counts.fixed;
     if (where == 2 && last->head->crater_count > before->head->crater_count)

@@ -11,7 +11,7 @@
 #include "world/enum_names.h"
 #include "world/maths/random.h"
 #include "world/params.h"
-#include "world/terrain/fixed.h"
+#include "world/terrain/fallen.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
@@ -408,9 +408,67 @@ static void test_a_tree_leans_and_then_is_a_stump(void **context)
         uint32_t lying = 0;
         for (uint32_t i = 0; i < s->list.body_count; i++)
             lying += fabsf(s->list.bodies[i].up[1]) < 0.7f;
-        assert_int_equal(lying, down ? 1 : 0);
+        assert_int_equal(lying, damage == DAMAGE_HIGH ? 1 : 0); /* later it is scattered */
         assert_true((s->list.plants[0].height < 5.0f) == down);
     }
+}
+
+/* Returns the body that lies. */
+static const struct draw_list_body *lying_body(struct scene_stage *s)
+{
+    const struct draw_list_body *found = NULL;
+    look_at(s, OAK);
+    for (uint32_t i = 0; i < s->list.body_count; i++) {
+        if (fabsf(s->list.bodies[i].up[1]) < 0.7f)
+            found = &s->list.bodies[i];
+    }
+    assert_non_null(found);
+    return found;
+}
+
+static void test_a_felled_tree_lies_as_it_fell_and_where_it_was_pushed(void **context)
+{
+    struct scene_stage *s = *context;
+    s->fixed_damage[OAK] = FALLEN_FIRST + FALLEN_STEPS / 4; /* east */
+    const struct draw_list_body *body = lying_body(s);
+    double x = (double)body->at[0] + s->list.camera.eye.x - objects[OAK].x;
+    assert_true(body->up[0] > 0.9f && fabsf(body->up[2]) < 0.1f);
+    assert_true(x > 0.3 && x < 1.0);
+    s->head.debris_count = 1;
+    s->head.debris[0] = (struct debris){.object = OAK,
+                                        .x = objects[OAK].x + 5.0,
+                                        .z = objects[OAK].z + 20.0,
+                                        .heading_rad = (float)PI,
+                                        .half_length_m = 5.0f,
+                                        .mass_kg = 1.0f};
+    s->head.tick = 100000;
+    body = lying_body(s);
+    double z = (double)body->at[2] + s->list.camera.eye.z - objects[OAK].z;
+    assert_true(body->up[2] > 0.9f && fabsf(body->up[0]) < 0.1f);
+    assert_true(z > 15.3 && z < 16.0);
+    s->head.debris[0].fell_tick = 100000; /* it has only begun to fall */
+    look_at(s, OAK);
+    for (uint32_t i = 0; i < s->list.body_count; i++)
+        assert_true(s->list.bodies[i].up[1] > 0.7f);
+    s->head.debris_count = 0;
+    s->head.tick = 0;
+}
+
+static void test_a_heap_of_rubble_is_where_it_was_pushed(void **context)
+{
+    struct scene_stage *s = *context;
+    look_at(s, OAK);
+    uint32_t before = s->list.body_count;
+    s->head.debris_count = 1;
+    s->head.debris[0] = (struct debris){.object = COTTAGE,
+                                        .x = objects[OAK].x + 3.0,
+                                        .z = objects[OAK].z,
+                                        .radius_m = 1.0f,
+                                        .mass_kg = 1.0f};
+    look_at(s, OAK);
+    assert_int_equal(s->list.body_count, before + 1);
+    assert_true(s->list.bodies[before].collapse[2] > 0.0f);
+    s->head.debris_count = 0;
 }
 
 static void test_a_bush_ends_low(void **context)
@@ -651,6 +709,8 @@ int main(void)
         TEST(test_a_wreck_that_has_broken_up_is_flat),
         TEST(test_a_near_body_is_drawn_with_its_dents),
         TEST(test_a_tree_leans_and_then_is_a_stump),
+        TEST(test_a_felled_tree_lies_as_it_fell_and_where_it_was_pushed),
+        TEST(test_a_heap_of_rubble_is_where_it_was_pushed),
         TEST(test_a_bush_ends_low),
         TEST(test_a_pole_leans_and_then_is_broken),
         TEST(test_a_tower_sags_and_then_lies),

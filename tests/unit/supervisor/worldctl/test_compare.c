@@ -110,6 +110,9 @@ static void test_craters_dents_and_the_head_are_compared(void **state)
     q.head->battery[2].rounds = 3;
     differs_in("rounds of battery 2");
     q.head->battery[2].rounds = 0;
+    q.head->debris[1].vx = 3.0f;
+    differs_in("vx of debris 1");
+    q.head->debris[1].vx = 0.0f;
     p.head->dent_count = q.head->dent_count = 2;
     q.dents[1].plastic_m = 0.5f;
     differs_in("plastic_m of dent 1 (entity 0)");
