@@ -149,6 +149,9 @@ static void settle(struct simplex *simplex, const struct face *face)
     }
 }
 
+/* For each set of corners, bit c of which is corner c: the sets that are a part of it. */
+static const uint32_t FACES_WITHIN[8] = {0x00, 0x01, 0x01, 0x07, 0x01, 0x13, 0x15, 0x7f};
+
 /* Adds a new corner: the nearest of all faces that contain it is taken, which is the whole simplex
  * if the origin projects into it. Returns false if no face is nearer than the limit [squared
  * distance]. */
@@ -157,8 +160,11 @@ static bool add_corner(struct simplex *simplex, const struct corner *corner, dou
     struct face trial[2];
     double least = limit;
     int kept = 0, whole = (1 << simplex->face.count) - 1;
+    uint32_t within = 0; /* faces of a face whose inside is nearest: they are farther */
     bool any = false;
     for (int faces = whole; faces >= 0; faces--) {
+        if (within >> faces & 1)
+            continue;
         struct face *face = &trial[1 - kept];
         face->corner[0] = corner;
         face->count = 1;
@@ -166,7 +172,10 @@ static bool add_corner(struct simplex *simplex, const struct corner *corner, dou
             if (faces & 1 << i)
                 face->corner[face->count++] = &simplex->corner[i];
         }
-        if (!project(face) || !(face->square < least))
+        if (!project(face))
+            continue;
+        within |= FACES_WITHIN[faces];
+        if (!(face->square < least))
             continue;
         least = face->square;
         kept = 1 - kept;
