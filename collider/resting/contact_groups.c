@@ -20,7 +20,9 @@ int contact_groups_init(struct contact_groups *groups, const struct world *world
     groups->pair = reserve_take(groups->capacity, sizeof *groups->pair);
     groups->parent = calloc(rows, sizeof *groups->parent);
     groups->awake = calloc(rows, sizeof *groups->awake);
-    if (groups->pair && groups->parent && groups->awake)
+    groups->ground = calloc(rows, sizeof *groups->ground);
+    groups->asked = reserve_take(rows, sizeof *groups->asked);
+    if (groups->pair && groups->parent && groups->awake && groups->ground && groups->asked)
         return 0;
     contact_groups_free(groups);
     errno = ENOMEM;
@@ -32,6 +34,8 @@ void contact_groups_free(struct contact_groups *groups)
     reserve_free(groups->pair);
     free(groups->parent);
     free(groups->awake);
+    free(groups->ground);
+    reserve_free(groups->asked);
     *groups = (struct contact_groups){0};
 }
 
@@ -41,6 +45,28 @@ static bool is_new(const struct response_context *context, uint32_t row)
 }
 
 /* --- pairs of the table ------------------------------------------------------------------------*/
+
+#define OFF_GROUND 1u
+#define ON_GROUND  2u
+
+/* Returns true if the ground holds the row. A row has several contacts, and is asked once. */
+static bool on_ground(struct contact_groups *groups, const struct response_context *context,
+                      uint32_t row)
+{
+    if (groups->ground[row] == 0) {
+        groups->ground[row] = path_change_grounded(context, row) ? ON_GROUND : OFF_GROUND;
+        groups->asked[groups->asked_count++] = row;
+    }
+    return groups->ground[row] == ON_GROUND;
+}
+
+/* Rows change after a search. */
+static void forget_ground(struct contact_groups *groups)
+{
+    for (uint32_t i = 0; i < groups->asked_count; i++)
+        groups->ground[groups->asked[i]] = 0;
+    groups->asked_count = 0;
+}
 
 /* A wreck on the ground tips over if the ground alone makes it turn about a level axis as fast as
  * this: something else carries it, or it rolls [rad/s2, rad/s]. */
@@ -64,24 +90,42 @@ bool contact_groups_is_piloted(const struct response_context *context, uint32_t 
            context->world->kinds[e->kind[row]].domain == DOMAIN_AIR;
 }
 
-bool contact_groups_is_free(const struct response_context *context, uint32_t row)
+/* Returns true for a body that is free, no matter whether the ground holds it. Sets *held to true
+ * if it is free unless the ground does. */
+static bool free_anyway(const struct response_context *context, uint32_t row, bool *held)
 {
     const struct entities *e = &context->next->entities;
     enum domain domain = (enum domain)context->world->kinds[e->kind[row]].domain;
     bool wreck = e->state[row] == ENTITY_WRECK;
+    *held = false;
     if (contact_groups_is_piloted(context, row))
         return body_motion_old(context->motion, row);
     if (domain == DOMAIN_SEA || !body_motion_old(context->motion, row) ||
         !(wreck || (domain == DOMAIN_LAND && e->flags[row] & ENTITY_FLAG_CHASSIS)))
         return false;
-    return (wreck && tips(context, row)) || !path_change_grounded(context, row);
+    *held = true;
+    return wreck && tips(context, row);
 }
 
-static bool held(const struct response_context *context, uint32_t row, uint32_t id)
+bool contact_groups_is_free(const struct response_context *context, uint32_t row)
 {
-    const struct entities *e = &context->next->entities;
-    return entities_alive(e, row, id) && path_change_grounded(context, row) &&
-           !contact_groups_is_free(context, row);
+    bool held;
+    return free_anyway(context, row, &held) || (held && !path_change_grounded(context, row));
+}
+
+/* The same, in a search of the table. */
+static bool is_free(struct contact_groups *groups, const struct response_context *context,
+                    uint32_t row)
+{
+    bool held;
+    return free_anyway(context, row, &held) || (held && !on_ground(groups, context, row));
+}
+
+static bool is_held(struct contact_groups *groups, const struct response_context *context,
+                    uint32_t row, uint32_t id)
+{
+    return entities_alive(&context->next->entities, row, id) && on_ground(groups, context, row) &&
+           !is_free(groups, context, row);
 }
 
 bool contact_groups_is_wall(const struct response_context *context, uint32_t object)
@@ -92,26 +136,27 @@ bool contact_groups_is_wall(const struct response_context *context, uint32_t obj
 
 /* Returns true if both sides still exist and can bear a load: the ground holds bodies, and fixed
  * objects are walls. */
-static bool still_there(const struct response_context *context,
+static bool still_there(struct contact_groups *groups, const struct response_context *context,
                         const struct persistent_contact *contact)
 {
     uint32_t object = contact->b_id & ~PERSISTENT_CONTACT_FIXED;
-    if (!held(context, contact->a_row, contact->a_id))
+    if (!is_held(groups, context, contact->a_row, contact->a_id))
         return false;
-    return contact->b_id & PERSISTENT_CONTACT_FIXED ? contact_groups_is_wall(context, object)
-                                                    : held(context, contact->b_row, contact->b_id);
+    return contact->b_id & PERSISTENT_CONTACT_FIXED
+               ? contact_groups_is_wall(context, object)
+               : is_held(groups, context, contact->b_row, contact->b_id);
 }
 
 /* Returns true if one of the bodies is free, and the other one can bear a load. */
-static bool is_free_pair(const struct response_context *context,
+static bool is_free_pair(struct contact_groups *groups, const struct response_context *context,
                          const struct persistent_contact *contact)
 {
-    bool a = contact_groups_is_free(context, contact->a_row);
+    bool a = is_free(groups, context, contact->a_row);
     if (contact->b_id & PERSISTENT_CONTACT_FIXED)
         return a;
-    bool b = contact_groups_is_free(context, contact->b_row);
-    return (a || path_change_grounded(context, contact->a_row)) &&
-           (b || path_change_grounded(context, contact->b_row)) && (a || b);
+    bool b = is_free(groups, context, contact->b_row);
+    return (a || b) && (a || on_ground(groups, context, contact->a_row)) &&
+           (b || on_ground(groups, context, contact->b_row));
 }
 
 /* Returns true if a side of a contact is still there. id: as in the contact. */
@@ -292,13 +337,14 @@ void contact_groups_find(struct contact_groups *groups, struct response_context 
     groups->count = 0;
     for (uint32_t i = 0; i < committed->head->contact_count; i++) {
         const struct persistent_contact *contact = &committed->contacts[i];
-        if (!still_there(context, contact))
+        if (!still_there(groups, context, contact))
             continue;
         struct pair pair = pair_of(contact);
         add(groups, pair);
         if (contact->flags & PERSISTENT_CONTACT_OVERLAPS)
             groups->awake[pair.a] = 1;
     }
+    forget_ground(groups);
     wake(groups, context);
     keep_awake(groups);
     groups->known = groups->count;
@@ -318,13 +364,14 @@ void contact_groups_find_free(struct contact_groups *groups, struct response_con
             wake_wreck(context, contact->a_row);
         if (b && !a && !(contact->b_id & PERSISTENT_CONTACT_FIXED))
             wake_wreck(context, contact->b_row);
-        if (!a || !b || !is_free_pair(context, contact))
+        if (!a || !b || !is_free_pair(groups, context, contact))
             continue;
         struct pair pair = pair_of(contact);
         add(groups, pair);
         if (contact->flags & PERSISTENT_CONTACT_OVERLAPS)
             groups->awake[pair.a] = 1;
     }
+    forget_ground(groups);
     wake(groups, context);
     keep_awake(groups);
     groups->known = groups->count;
