@@ -38,6 +38,7 @@
 #define CONTACT_OVERLAPS 4u  /* they overlap, and have to part in the next frame */
 #define CONTACT_GATHERED 8u  /* it belongs to the island that is being solved */
 #define CONTACT_PARTS    16u /* it is deep, and rests: its bodies only have to part */
+#define CONTACT_HOLDS    32u /* its bodies stand still because one keeps the other from moving */
 
 /* A point at which two bodies rest on each other, on the map. */
 struct rest_point {
@@ -93,7 +94,7 @@ struct contact_queue {
     struct pair *pair;        /* every pair of the frame */
     uint8_t *met;             /* [pair] contacts of this pair in this frame */
     uint32_t *swept;          /* [pair] the last change that swept it, 0: none */
-    uint8_t *marks;           /* [pair] of CONTACT_RESTS to CONTACT_PARTS */
+    uint8_t *marks;           /* [pair] of CONTACT_RESTS to CONTACT_HOLDS */
     struct pair_impacts *impacts; /* [pair] */
     struct pair_known *known;     /* [pair] */
     struct rest_span *rest;       /* [pair] where its bodies rest on each other */

@@ -122,6 +122,12 @@ static uint32_t place_of(const struct contact_table *table,
     return low;
 }
 
+static uint16_t flags_of(uint8_t marks)
+{
+    return (uint16_t)((marks & CONTACT_OVERLAPS ? PERSISTENT_CONTACT_OVERLAPS : 0u) |
+                      (marks & CONTACT_HOLDS ? PERSISTENT_CONTACT_HOLDS : 0u));
+}
+
 static void collect(struct contact_table *table, const struct response_context *context)
 {
     const struct contact_queue *contacts = context->contacts;
@@ -134,7 +140,7 @@ static void collect(struct contact_table *table, const struct response_context *
             contact_of(context, contacts->pair[i].a, contacts->pair[i].b);
         const struct pair_impacts *impacts = &contacts->impacts[i];
         contact.begin_tick = contact.pressed_tick = tick;
-        contact.flags = contacts->marks[i] & CONTACT_OVERLAPS ? PERSISTENT_CONTACT_OVERLAPS : 0;
+        contact.flags = flags_of(contacts->marks[i]);
         contact.impacts = (uint16_t)impacts->count;
         contact.impulse_ns = impacts->impulse_ns;
         table->touched[place_of(table, &contact)] = contact;

@@ -3,6 +3,7 @@
 
 #include "collider/narrow_phase/narrow_phase.h"
 #include "collider/response/path_change.h"
+#include "collider/resting/held_rest.h"
 #include "world/checksum.h"
 #include "world/entity/persistent_contact.h"
 #include "world/maths/sort.h"
@@ -48,16 +49,17 @@ static bool is_new(const struct response_context *context, uint32_t row)
 
 #define OFF_GROUND 1u
 #define ON_GROUND  2u
+#define HELD       4u /* by a contact, in the frame before */
 
 /* Returns true if the ground holds the row. A row has several contacts, and is asked once. */
 static bool on_ground(struct contact_groups *groups, const struct response_context *context,
                       uint32_t row)
 {
-    if (groups->ground[row] == 0) {
+    if (groups->ground[row] == 0) { /* it is the first thing that is asked */
         groups->ground[row] = path_change_grounded(context, row) ? ON_GROUND : OFF_GROUND;
         groups->asked[groups->asked_count++] = row;
     }
-    return groups->ground[row] == ON_GROUND;
+    return groups->ground[row] & ON_GROUND;
 }
 
 /* Rows change after a search. */
@@ -214,14 +216,30 @@ static void add(struct contact_groups *groups, struct pair pair)
     join(groups, pair.a, pair.b);
 }
 
+/* Notes that a contact that is still there held its bodies in the frame before. */
+static void note_holding(struct contact_groups *groups, const struct pair *pair)
+{
+    groups->ground[pair->a] |= HELD;
+    if (!(pair->b & PAIR_FIXED))
+        groups->ground[pair->b] |= HELD;
+}
+
+/* Returns true if a row moves, and its contacts do not hold it. */
+static bool moves(const struct contact_groups *groups, struct response_context *context,
+                  uint32_t row)
+{
+    return body_motion_moves(context->motion, row) &&
+           !(groups->ground[row] & HELD && held_rest_stays(context, row));
+}
+
 /* Wakes the groups in which a row moves, or of which a pair overlaps and has to part. */
 static void wake(struct contact_groups *groups, struct response_context *context)
 {
     for (uint32_t i = 0; i < groups->count; i++) {
         const struct pair *pair = &groups->pair[i];
         /* Both are asked in any case, because that computes their paths. */
-        bool a_moves = body_motion_moves(context->motion, pair->a);
-        bool b_moves = !(pair->b & PAIR_FIXED) && body_motion_moves(context->motion, pair->b);
+        bool a_moves = moves(groups, context, pair->a);
+        bool b_moves = !(pair->b & PAIR_FIXED) && moves(groups, context, pair->b);
         if (groups->awake[pair->a] || a_moves || b_moves)
             groups->awake[root_of(groups, pair->a)] = 1;
     }
@@ -253,6 +271,20 @@ static void keep_awake(struct contact_groups *groups)
     for (uint32_t i = 0; i < all; i++)
         clear(groups, &pair[i]);
     groups->count = kept;
+}
+
+/* What is asleep stands still: the bodies that contacts hold go back. all: pairs, with those that
+ * are not kept. */
+static void put_back(const struct contact_groups *groups, struct response_context *context,
+                     uint32_t all)
+{
+    for (uint32_t i = groups->count; i < all; i++) {
+        const struct pair *pair = &groups->pair[i];
+        if (body_motion_moves(context->motion, pair->a))
+            held_rest_put_back(context, pair->a);
+        if (!(pair->b & PAIR_FIXED) && body_motion_moves(context->motion, pair->b))
+            held_rest_put_back(context, pair->b);
+    }
 }
 
 /* --- bodies that are new -----------------------------------------------------------------------*/
@@ -341,12 +373,16 @@ void contact_groups_find(struct contact_groups *groups, struct response_context 
             continue;
         struct pair pair = pair_of(contact);
         add(groups, pair);
+        if (contact->flags & PERSISTENT_CONTACT_HOLDS)
+            note_holding(groups, &pair);
         if (contact->flags & PERSISTENT_CONTACT_OVERLAPS)
             groups->awake[pair.a] = 1;
     }
-    forget_ground(groups);
+    uint32_t all = groups->count;
     wake(groups, context);
     keep_awake(groups);
+    put_back(groups, context, all);
+    forget_ground(groups);
     groups->known = groups->count;
     find_new(groups, context);
     sort_words(&groups->pair[groups->known], groups->count - groups->known);
@@ -371,8 +407,8 @@ void contact_groups_find_free(struct contact_groups *groups, struct response_con
         if (contact->flags & PERSISTENT_CONTACT_OVERLAPS)
             groups->awake[pair.a] = 1;
     }
-    forget_ground(groups);
     wake(groups, context);
     keep_awake(groups);
+    forget_ground(groups);
     groups->known = groups->count;
 }

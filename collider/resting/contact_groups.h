@@ -14,8 +14,8 @@ struct contact_groups {
     uint32_t known;   /* the first so many are in the table; the others may begin overlapped */
     uint32_t *parent; /* [capacity of the world] union-find: row + 1, 0 for a row in no pair */
     uint8_t *awake;   /* [capacity of the world] of roots */
-    uint8_t *ground;  /* [capacity of the world] 0: not asked yet in this search, else 1 or 2 */
-    uint32_t *asked;  /* rows of which it was asked */
+    uint8_t *ground; /* [capacity of the world] what is known of a row in this search; 0: nothing */
+    uint32_t *asked; /* rows of which something is */
     uint32_t asked_count;
 };
 

@@ -3,6 +3,7 @@
 
 #include "collider/geometry/level_gap.h"
 #include "collider/resting/ground_placement.h"
+#include "collider/resting/held_rest.h"
 #include "collider/response/path_change.h"
 #include "world/body_points.h"
 #include "world/params.h"
@@ -402,6 +403,23 @@ static void look_at_met(struct end_guard *guard, const struct contact_queue *con
     }
 }
 
+/* Marks the contacts that have kept a row where it began the frame. */
+static void mark_holding(const struct end_guard *guard, struct response_context *context,
+                         uint32_t row)
+{
+    struct contact_queue *contacts = context->contacts;
+    if (guard->sent_back[row] != SENT_BACK_MOST || !held_rest_ended(context, row))
+        return;
+    for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
+        uint32_t index = contacts->link[link - 1].pair;
+        const struct pair *pair = &contacts->pair[index];
+        uint32_t other = pair->a == row ? pair->b : pair->a;
+        if (contacts->marks[index] & CONTACT_RESTS &&
+            (other & PAIR_FIXED || held_rest_ended(context, other)))
+            contacts->marks[index] |= CONTACT_HOLDS;
+    }
+}
+
 void end_guard_run(struct end_guard *guard, const struct resting *resting,
                    const struct free_bodies *free, struct response_context *context)
 {
@@ -423,6 +441,8 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
     look_at_met(guard, context->contacts);
     while (guard->count > 0)
         run_round(guard, context);
+    for (uint32_t i = 0; i < guard->touched_count; i++)
+        mark_holding(guard, context, guard->touched[i]);
     for (uint32_t i = 0; i < guard->touched_count; i++)
         guard->sent_back[guard->touched[i]] = 0;
     for (uint32_t i = 0; i < guard->posed_count; i++)

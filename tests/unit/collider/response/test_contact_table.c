@@ -93,11 +93,11 @@ static const struct event *event_of(uint32_t nth)
 
 static void test_a_pair_that_presses_begins_a_contact(void **state)
 {
-    const struct persistent_contact right = {1, 3,   0, 2, TICK, TICK, PERSISTENT_CONTACT_OVERLAPS,
-                                             0, 0.0f};
+    const uint16_t flags = PERSISTENT_CONTACT_OVERLAPS | PERSISTENT_CONTACT_HOLDS;
+    const struct persistent_contact right = {1, 3, 0, 2, TICK, TICK, flags, 0, 0.0f};
     (void)state;
     begin();
-    press(0, 2, CONTACT_OVERLAPS);
+    press(0, 2, CONTACT_OVERLAPS | CONTACT_HOLDS);
     contact_queue_pair(context.contacts, &(struct pair){3, 4}); /* does not press */
     assert_memory_equal(finish(1, 0), &right, sizeof right);
 }

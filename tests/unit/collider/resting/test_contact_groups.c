@@ -3,6 +3,7 @@
 
 #include "tests/support/steps.h"
 #include "world/entity/persistent_contact.h"
+#include "world/world.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -184,6 +185,80 @@ static void test_an_overlap_wakes_a_group_in_reused_rows(void **state)
     assert_true(is_pair(0, 0, 1));
 }
 
+/* --- bodies that a contact holds ---------------------------------------------------------------*/
+
+/* The springs of row 1, which stands partly on row 0, tilt it in the next frame, as they did in the
+ * frame before. */
+static void tilt(double spin_rps)
+{
+    press(0, 1)->flags = PERSISTENT_CONTACT_HOLDS;
+    steps_rows(&f).flags[1] |= ENTITY_FLAG_CHASSIS;
+    steps_respond(&f, &context);
+    context.next->entities.roll[1] += spin_rps * world_dt_s(context.world);
+    context.next->entities.spin_x[1] = spin_rps;
+    context.next->entities.x[1] += 1e-5;
+    body_motion_compute(context.motion, 1);
+}
+
+static void test_a_group_that_its_contacts_hold_sleeps(void **state)
+{
+    (void)state;
+    tilt(0.02);
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->count, 0);
+    assert_true(context.next->entities.roll[1] == steps_rows(&f).roll[1]);
+    assert_true(context.next->entities.x[1] == steps_rows(&f).x[1]);
+    assert_true(context.next->entities.spin_x[1] == 0.0);
+    assert_false(body_motion_moves(context.motion, 1));
+}
+
+static void assert_wakes(void)
+{
+    contact_groups_find(groups, &context);
+    assert_int_equal(groups->count, 1);
+    assert_true(context.next->entities.spin_x[1] != 0.0);
+}
+
+static void test_a_held_body_that_falls_wakes_its_group(void **state)
+{
+    (void)state;
+    tilt(0.02);
+    context.next->entities.vy[1] = -9.8 * world_dt_s(context.world);
+    assert_wakes();
+}
+
+static void test_a_held_body_that_is_driven_wakes_its_group(void **state)
+{
+    (void)state;
+    tilt(0.02);
+    context.next->entities.vz[1] = -1.0 * world_dt_s(context.world);
+    assert_wakes();
+}
+
+static void test_a_held_body_that_tips_over_wakes_its_group(void **state)
+{
+    (void)state;
+    tilt(5.0 * world_dt_s(&f.view.world));
+    assert_wakes();
+}
+
+/* What rests on a body that moves is no longer held as it was. */
+static void test_a_neighbour_wakes_a_held_body(void **state)
+{
+    (void)state;
+    tilt(0.02);
+    move(0);
+    assert_wakes();
+}
+
+static void test_what_no_contact_holds_moves(void **state)
+{
+    (void)state;
+    tilt(0.02);
+    fixture_state(&f).contacts[0].flags = 0;
+    assert_wakes();
+}
+
 /* --- what is no resting contact ----------------------------------------------------------------*/
 
 static void test_bodies_that_are_gone_are_left_out(void **state)
@@ -317,6 +392,12 @@ int main(void)
         TEST(test_a_fixed_object_joins_no_groups),
         TEST(test_an_overlap_wakes_its_group),
         TEST(test_an_overlap_wakes_a_group_in_reused_rows),
+        TEST(test_a_group_that_its_contacts_hold_sleeps),
+        TEST(test_a_held_body_that_falls_wakes_its_group),
+        TEST(test_a_held_body_that_is_driven_wakes_its_group),
+        TEST(test_a_held_body_that_tips_over_wakes_its_group),
+        TEST(test_a_neighbour_wakes_a_held_body),
+        TEST(test_what_no_contact_holds_moves),
         TEST(test_bodies_that_are_gone_are_left_out),
         TEST(test_a_bush_is_no_wall),
         TEST(test_bodies_in_the_air_are_left_out),

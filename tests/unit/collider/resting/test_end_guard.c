@@ -117,6 +117,27 @@ static void test_at_last_it_goes_back_all_the_way(void **state)
     assert_true(next()->x[0] == WEST_M && next()->vx[0] == 0.0);
 }
 
+/* Two bodies that stand still because the guard has put one back hold each other. */
+static void test_the_contact_that_keeps_a_body_in_its_place_is_marked(void **state)
+{
+    uint32_t rests = contact_queue_pair(context.contacts, &(struct pair){0, 1});
+    (void)state;
+    context.contacts->marks[rests] |= CONTACT_RESTS;
+    move(0, 1.5);
+    run(1, (uint32_t[]){0});
+    assert_true(context.contacts->marks[rests] & CONTACT_HOLDS);
+}
+
+static void test_a_contact_of_a_body_that_keeps_a_part_of_its_way_is_not_marked(void **state)
+{
+    uint32_t rests = contact_queue_pair(context.contacts, &(struct pair){0, 1});
+    (void)state;
+    context.contacts->marks[rests] |= CONTACT_RESTS;
+    move(0, 0.08);
+    run(1, (uint32_t[]){0});
+    assert_false(context.contacts->marks[rests] & CONTACT_HOLDS);
+}
+
 /* Nothing has moved the first tank but its driver. */
 static void assert_looked_at(void)
 {
@@ -278,6 +299,8 @@ int main(void)
         TEST(test_bodies_that_do_not_meet_are_left_alone),
         TEST(test_a_body_that_ends_in_another_goes_back_by_half),
         TEST(test_at_last_it_goes_back_all_the_way),
+        TEST(test_the_contact_that_keeps_a_body_in_its_place_is_marked),
+        TEST(test_a_contact_of_a_body_that_keeps_a_part_of_its_way_is_not_marked),
         TEST(test_bodies_of_resting_pairs_are_looked_at),
         TEST(test_bodies_that_have_met_are_looked_at),
         TEST(test_a_wreck_goes_back_in_its_whole_pose),

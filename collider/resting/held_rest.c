@@ -1,0 +1,49 @@
+/* Compares rows of two tables. */
+#include "collider/resting/held_rest.h"
+
+#include "world/params.h"
+#include "world/world.h"
+
+/* What moves faster from rest is driven, turns in its place or falls. */
+#define DRIVEN_MPS2 0.15
+#define TURNED_RPS2 0.15
+/* Springs that a contact keeps from lifting or lowering a side tilt a body no faster. */
+#define TILTED_RPS2 3.0
+
+static bool is_still(const struct entities *e, uint32_t row)
+{
+    return e->vx[row] == 0.0 && e->vy[row] == 0.0 && e->vz[row] == 0.0 && e->spin_x[row] == 0.0 &&
+           e->spin_y[row] == 0.0 && e->spin_z[row] == 0.0;
+}
+
+bool held_rest_ended(const struct response_context *context, uint32_t row)
+{
+    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    return body_motion_old(context->motion, row) && is_still(e, row) && e->x[row] == w->x[row] &&
+           e->y[row] == w->y[row] && e->z[row] == w->z[row] && e->heading[row] == w->heading[row] &&
+           e->pitch[row] == w->pitch[row] && e->roll[row] == w->roll[row];
+}
+
+bool held_rest_stays(const struct response_context *context, uint32_t row)
+{
+    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    double dt_s = world_dt_s(context->world);
+    return body_motion_old(context->motion, row) && e->state[row] == ENTITY_ACTIVE &&
+           e->flags[row] & ENTITY_FLAG_CHASSIS && is_still(w, row) &&
+           vec3_length(entities_velocity(e, row)) <= DRIVEN_MPS2 * dt_s &&
+           fabs(e->spin_y[row]) <= TURNED_RPS2 * dt_s &&
+           fabs(e->spin_x[row]) + fabs(e->spin_z[row]) <= TILTED_RPS2 * dt_s;
+}
+
+void held_rest_put_back(struct response_context *context, uint32_t row)
+{
+    const struct entities *w = &context->motion->committed->entities;
+    table_set_position(&context->writer, row, entities_position(w, row));
+    table_set_heading(&context->writer, row, w->heading[row]);
+    table_set_pitch(&context->writer, row, w->pitch[row]);
+    table_set_roll(&context->writer, row, w->roll[row]);
+    table_set_velocity(&context->writer, row, entities_velocity(w, row));
+    table_set_spin(&context->writer, row,
+                   (struct vec3){w->spin_x[row], w->spin_y[row], w->spin_z[row]});
+    body_motion_compute(context->motion, row);
+}

@@ -1,0 +1,21 @@
+/* Vehicles that rest on their springs and partly on another body. Their springs would move them,
+ * and the guard at the end of each frame (collider/resting/end_guard.h) puts them back: they stand
+ * still, and the contact that holds them is marked in the table. Pure; one thread. */
+#ifndef JOLON_COLLIDER_RESTING_HELD_REST_H
+#define JOLON_COLLIDER_RESTING_HELD_REST_H
+
+#include "collider/response/response_context.h"
+
+#include <stdbool.h>
+
+/* Returns true if a row ends the frame in the pose in which it began it, without any motion. */
+bool held_rest_ended(const struct response_context *context, uint32_t row);
+
+/* Returns true if a row that a contact held in the frame before began this one at rest, and the
+ * mover has moved it by no more than springs do: no engine drives it, and it does not fall. */
+bool held_rest_stays(const struct response_context *context, uint32_t row);
+
+/* Puts a row back to where it began the frame. Nothing of the frame must have been solved yet. */
+void held_rest_put_back(struct response_context *context, uint32_t row);
+
+#endif
