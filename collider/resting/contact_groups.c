@@ -19,11 +19,13 @@ int contact_groups_init(struct contact_groups *groups, const struct world *world
     uint32_t rows = world->params->capacity;
     *groups = (struct contact_groups){.capacity = world->params->contact_slots};
     groups->pair = reserve_take(groups->capacity, sizeof *groups->pair);
+    groups->stirred = reserve_take(groups->capacity, sizeof *groups->stirred);
     groups->parent = calloc(rows, sizeof *groups->parent);
     groups->awake = calloc(rows, sizeof *groups->awake);
     groups->ground = calloc(rows, sizeof *groups->ground);
     groups->asked = reserve_take(rows, sizeof *groups->asked);
-    if (groups->pair && groups->parent && groups->awake && groups->ground && groups->asked)
+    if (groups->pair && groups->stirred && groups->parent && groups->awake && groups->ground &&
+        groups->asked)
         return 0;
     contact_groups_free(groups);
     errno = ENOMEM;
@@ -33,6 +35,7 @@ int contact_groups_init(struct contact_groups *groups, const struct world *world
 void contact_groups_free(struct contact_groups *groups)
 {
     reserve_free(groups->pair);
+    reserve_free(groups->stirred);
     free(groups->parent);
     free(groups->awake);
     free(groups->ground);
@@ -204,9 +207,8 @@ static void join(struct contact_groups *groups, uint32_t p, uint32_t q)
     groups->parent[a > b ? a : b] = (a > b ? b : a) + 1;
 }
 
-static void add(struct contact_groups *groups, struct pair pair)
+static void join_pair(struct contact_groups *groups, struct pair pair)
 {
-    groups->pair[groups->count++] = pair;
     if (groups->parent[pair.a] == 0)
         groups->parent[pair.a] = pair.a + 1;
     if (pair.b & PAIR_FIXED)
@@ -214,6 +216,12 @@ static void add(struct contact_groups *groups, struct pair pair)
     if (groups->parent[pair.b] == 0)
         groups->parent[pair.b] = pair.b + 1;
     join(groups, pair.a, pair.b);
+}
+
+static void add(struct contact_groups *groups, struct pair pair)
+{
+    groups->pair[groups->count++] = pair;
+    join_pair(groups, pair);
 }
 
 /* Notes that a contact that is still there held its bodies in the frame before. */
@@ -253,6 +261,58 @@ static void clear(struct contact_groups *groups, const struct pair *pair)
     if (pair->b & PAIR_FIXED)
         return;
     groups->parent[pair->b] = 0;
+}
+
+/* Returns true if both sides of a contact are the same as in the frame before. */
+static bool are_there(const struct response_context *context,
+                      const struct persistent_contact *contact)
+{
+    const struct entities *e = &context->next->entities;
+    return entities_alive(e, contact->a_row, contact->a_id) &&
+           (contact->b_id & PERSISTENT_CONTACT_FIXED ||
+            entities_alive(e, contact->b_row, contact->b_id));
+}
+
+/* Joins all contacts of the table, whether they bear loads or not, and marks the rows with motion.
+ */
+static void stir(struct contact_groups *groups, struct response_context *context)
+{
+    const struct state *committed = context->motion->committed;
+    for (uint32_t i = 0; i < committed->head->contact_count; i++) {
+        const struct persistent_contact *contact = &committed->contacts[i];
+        struct pair pair = pair_of(contact);
+        if (!are_there(context, contact))
+            continue;
+        join_pair(groups, pair);
+        /* Both are asked in any case, because that computes their paths. */
+        bool a_moves = body_motion_moves(context->motion, pair.a);
+        bool b_moves = !(pair.b & PAIR_FIXED) && body_motion_moves(context->motion, pair.b);
+        if (a_moves || b_moves || contact->flags & PERSISTENT_CONTACT_OVERLAPS)
+            groups->awake[pair.a] = 1;
+    }
+    for (uint32_t i = 0; i < committed->head->contact_count; i++) {
+        uint32_t row = pair_of(&committed->contacts[i]).a;
+        if (groups->awake[row])
+            groups->awake[root_of(groups, row)] = 1;
+    }
+}
+
+/* Lists the contacts of bodies that are joined with one that moves. Those of all others sleep in
+ * any case, and it need not be known what holds their bodies. */
+static void list_stirred(struct contact_groups *groups, struct response_context *context)
+{
+    const struct state *committed = context->motion->committed;
+    stir(groups, context);
+    groups->stirred_count = 0;
+    for (uint32_t i = 0; i < committed->head->contact_count; i++) {
+        const struct persistent_contact *contact = &committed->contacts[i];
+        if (are_there(context, contact) && groups->awake[root_of(groups, pair_of(contact).a)])
+            groups->stirred[groups->stirred_count++] = i;
+    }
+    for (uint32_t i = 0; i < committed->head->contact_count; i++) {
+        const struct pair pair = pair_of(&committed->contacts[i]);
+        clear(groups, &pair);
+    }
 }
 
 /* Keeps the pairs that are awake, and marks no row any more. */
@@ -367,8 +427,9 @@ void contact_groups_find(struct contact_groups *groups, struct response_context 
 {
     const struct state *committed = context->motion->committed;
     groups->count = 0;
-    for (uint32_t i = 0; i < committed->head->contact_count; i++) {
-        const struct persistent_contact *contact = &committed->contacts[i];
+    list_stirred(groups, context);
+    for (uint32_t i = 0; i < groups->stirred_count; i++) {
+        const struct persistent_contact *contact = &committed->contacts[groups->stirred[i]];
         if (!still_there(groups, context, contact))
             continue;
         struct pair pair = pair_of(contact);
@@ -400,7 +461,13 @@ void contact_groups_find_free(struct contact_groups *groups, struct response_con
             wake_wreck(context, contact->a_row);
         if (b && !a && !(contact->b_id & PERSISTENT_CONTACT_FIXED))
             wake_wreck(context, contact->b_row);
-        if (!a || !b || !is_free_pair(groups, context, contact))
+    }
+    list_stirred(groups, context);
+    for (uint32_t i = 0; i < groups->stirred_count; i++) {
+        const struct persistent_contact *contact = &committed->contacts[groups->stirred[i]];
+        if (!is_there(context, contact->a_row, contact->a_id) ||
+            !is_there(context, contact->b_row, contact->b_id) ||
+            !is_free_pair(groups, context, contact))
             continue;
         struct pair pair = pair_of(contact);
         add(groups, pair);

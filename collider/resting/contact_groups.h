@@ -11,7 +11,9 @@
 struct contact_groups {
     struct pair *pair; /* found: those of the table in its order, then those of new bodies */
     uint32_t count, capacity;
-    uint32_t known;   /* the first so many are in the table; the others may begin overlapped */
+    uint32_t known;    /* the first so many are in the table; the others may begin overlapped */
+    uint32_t *stirred; /* [contact_slots] contacts of the table whose bodies may be awake */
+    uint32_t stirred_count;
     uint32_t *parent; /* [capacity of the world] union-find: row + 1, 0 for a row in no pair */
     uint8_t *awake;   /* [capacity of the world] of roots */
     uint8_t *ground; /* [capacity of the world] what is known of a row in this search; 0: nothing */

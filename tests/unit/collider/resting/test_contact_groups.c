@@ -87,6 +87,7 @@ static void test_a_group_in_which_nothing_moves_is_left_out(void **state)
     steps_respond(&f, &context);
     contact_groups_find(groups, &context);
     assert_int_equal(groups->count, 0);
+    assert_int_equal(groups->stirred_count, 0);
 }
 
 static void test_one_mover_wakes_all_of_its_group(void **state)
@@ -99,6 +100,7 @@ static void test_one_mover_wakes_all_of_its_group(void **state)
         contact_groups_find(groups, &context);
         assert_int_equal(groups->count, 2);
         assert_int_equal(groups->known, 2);
+        assert_int_equal(groups->stirred_count, 2);
         assert_true(is_pair(0, 0, 1) && is_pair(1, 1, 2));
         steps_respond_end(&context);
     }
