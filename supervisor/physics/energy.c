@@ -83,18 +83,19 @@ static double thrust_mps2(const struct kind *kind)
     return kind->min_speed_mps > 0.0 ? engine : maths_max(engine, kind->max_load * GRAVITY_MPS2);
 }
 
-/* Returns the work that engine and weight may have done on a body in a frame [J]. */
+/* Returns the work that engine and weight may have done on a body in a frame [J]. The engine works
+ * until the impact that makes a wreck of the body. */
 static double work_j(const struct body_look *body, bool held, double dt_s)
 {
     const struct kind *kind = body->kind;
     double speed = vec3_length(body->was->velocity), push = 0.0, steering = 0.0;
-    if (!body->now.wreck) {
+    if (!body->was->wreck) {
         push = kind->domain == DOMAIN_AIR ? thrust_mps2(kind) : kind->acceleration_mps2;
         if (kind->domain == DOMAIN_LAND) /* out of gear it rolls down the slope */
             push += GRAVITY_MPS2 *
                     maths_max(fabs(body->now.pose.forward.y), fabs(body->was->pose.forward.y));
     }
-    if (!body->now.wreck && (body->struck > 0 || body->touches || body->now.grounded))
+    if (!body->was->wreck && (body->struck > 0 || body->touches || body->now.grounded))
         steering = 0.5 * moments(kind).y * square(kind->turn_rate_rps);
     return kind->mass_kg * (speed * push * dt_s + 0.5 * square(push * dt_s)) +
            weight_j(body, held) + steering;

@@ -339,6 +339,25 @@ static void test_a_wreck_that_is_pushed_out(void **state)
     no_other_is_bad(MEASURE_OF_ENERGY);
 }
 
+/* The engine worked until the impact, which may come at the end of the frame. */
+static void test_an_aircraft_that_becomes_a_wreck(void **state)
+{
+    uint32_t plane = put("wishbone", MIDDLE, 600.0);
+    (void)state;
+    double faster = 20.0 + 0.9 * steps_kind(&f, "wishbone")->acceleration_mps2 * DT;
+    now.entities.vx[plane] = 20.0;
+    begin();
+    now.entities.x[plane] += 20.0 * DT;
+    now.entities.vx[plane] = faster;
+    steps_rows(&f).state[plane] = ENTITY_WRECK;
+    next();
+    assert_true(measure_good(&check.measures, MEASURE_OF_ENERGY));
+    now.entities.x[plane] += faster * DT;
+    now.entities.vx[plane] = faster + 0.1;
+    next();
+    assert_false(measure_good(&check.measures, MEASURE_OF_ENERGY));
+}
+
 static void hit(uint32_t row)
 {
     struct event *event = add_event(EVENT_DETONATION);
@@ -681,6 +700,7 @@ int main(void)
         TEST(test_a_wreck_that_bounces),
         TEST(test_the_energy_of_a_wreck_that_rolls),
         TEST(test_a_wreck_that_is_pushed_out),
+        TEST(test_an_aircraft_that_becomes_a_wreck),
         TEST(test_two_explosions_explain_a_way),
         TEST(test_two_collisions_explain_a_way),
         TEST(test_two_impacts_of_contacts_explain_a_way),
