@@ -40,6 +40,13 @@ check "one line says so" [ "$(grep -c 'no world runs, so a quiet one begins' tol
 check "the world ends with the drive" gone
 check "no other world was made" equal "$("$bin/jolon-world" list)" ""
 
+check "another world runs" "$jolon" start -w "$name" --without renderer --out out3 training
+(sleep 4; printf q) | "$jolon" drive --plain >shown 2>told
+check "a drive still begins in the training world" grep -q 'you drive jeep (jeep 1)' shown
+check "and names the other world" grep -q "(-w takes one of these: $name)" told
+check "only the other world is left" equal "$("$bin/jolon-world" list)" "$name"
+check "the other world stops" "$jolon" stop -w "$name"
+
 mkfifo keys
 exec {keys}<>keys # its end never comes
 "$jolon" drive --plain <keys >shown 2>told &
