@@ -90,20 +90,31 @@ struct frame_view frame_interpolation_between(struct frame_interpolation *interp
     return between;
 }
 
-double frame_interpolation_time(struct frame_interpolation_clock *clock, double now_s,
-                                double newest_s, double step_s, double rate)
+/* Lets the clock run on, or begins it anew. ahead_s: of the newest frame. */
+static void follow_world(struct frame_interpolation_clock *clock, double ahead_s, double step_s,
+                         double rate)
 {
-    if (rate <= 0.0) {
-        clock->set = false;
-        return newest_s;
-    }
-    double ahead_s = newest_s - rate * now_s;
     double late_s = clock->ahead_s - ahead_s;
     if (!clock->set || rate != clock->rate || fabs(late_s) > LATE_STEPS * step_s)
-        *clock = (struct frame_interpolation_clock){.set = true, .rate = rate, .ahead_s = ahead_s};
+        clock->ahead_s = ahead_s;
     else if (late_s < 0.0)
         clock->ahead_s -= EARLY_DRIFT * late_s;
     else if (late_s > step_s) /* a delay of up to one step may be a late look at the frame */
         clock->ahead_s -= LATE_DRIFT * (late_s - step_s);
-    return maths_min(newest_s, rate * now_s + clock->ahead_s - step_s);
+    clock->set = true;
+    clock->rate = rate;
+}
+
+double frame_interpolation_time(struct frame_interpolation_clock *clock, double now_s,
+                                double newest_s, double step_s, double rate)
+{
+    double show_s = newest_s;
+    if (rate > 0.0) {
+        follow_world(clock, newest_s - rate * now_s, step_s, rate);
+        show_s = maths_max(clock->shown_s, rate * now_s + clock->ahead_s - step_s);
+    } else {
+        clock->set = false;
+    }
+    clock->shown_s = maths_min(newest_s, show_s);
+    return clock->shown_s;
 }

@@ -37,11 +37,13 @@ struct frame_interpolation_clock {
     double rate;
     double ahead_s; /* time of the world minus rate times the time of the clock, when no frame is
                        late */
+    double shown_s; /* the last time returned [s] */
 };
 
 /* Returns the simulation time to show at time now_s of the clock. It is one step behind the world,
- * and never later than the last frame seen, which is of time newest_s. rate: seconds of simulation
- * a second; 0 if the world is paused or unpaced, and then newest_s is returned. */
+ * and never later than the last frame seen, which is of time newest_s. It does not go back, unless
+ * the world itself does: then it is no later than newest_s. rate: seconds of simulation a second; 0
+ * if the world is paused or unpaced, and then newest_s is returned. */
 double frame_interpolation_time(struct frame_interpolation_clock *clock, double now_s,
                                 double newest_s, double step_s, double rate);
 
