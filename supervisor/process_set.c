@@ -119,11 +119,14 @@ static void role_arguments(struct command_line *line, const struct plan *plan, e
         add(line, NULL, plan->role_options[role].argument[i]);
 }
 
-/* Runs in the child. Sets default signals. A session of its own keeps Ctrl-C of the terminal away:
- * the keeper ends the roles in its own order. */
-_Noreturn static void exec_child(const char *path, const char *const *arguments, int output)
+/* Runs in the child. It dies with the keeper from here on: a child that is stopped before it has
+ * reached its own code would else outlive a keeper that is killed. Sets default signals. A session
+ * of its own keeps Ctrl-C of the terminal away: the keeper ends the roles in its own order. */
+_Noreturn static void exec_child(const char *path, const char *const *arguments, int output,
+                                 int keeper)
 {
     sigset_t none;
+    process_die_with_parent(keeper);
     sigemptyset(&none);
     for (int number = 1; number < SIGRTMIN; number++)
         signal(number, SIG_DFL);
@@ -144,9 +147,10 @@ static int start(const struct process_set *set, const char *program, const char 
 {
     char path[300];
     snprintf(path, sizeof path, "%s/%s", set->folder, program);
+    int keeper = (int)getpid();
     pid_t pid = fork();
     if (pid == 0)
-        exec_child(path, arguments, output);
+        exec_child(path, arguments, output, keeper);
     if (pid < 0)
         process_set_log(set, "%s: cannot be started: %s", program, strerror(errno));
     return pid > 0 ? (int)pid : 0;

@@ -105,6 +105,30 @@ check "no role leaks memory at a clean stop (built with SAN=address)" eval '! gr
 "$jolon" stop -w "$name" 2>second
 check "stop without a set is refused" equal $? 1
 
+# A role that is stopped before it has reached its own code dies with a killed supervisor, too.
+mkdir programs
+ln -s "$bin"/* programs
+rm programs/jolon programs/jolon-keeper programs/jolon-reporter
+cp "$bin/jolon" "$bin/jolon-keeper" programs
+printf '#!/bin/sh\necho halted $$\nkill -STOP $$\n' >programs/jolon-reporter
+chmod +x programs/jolon-reporter
+rm -f out/jolon.log
+programs/jolon start -w "$name" --without renderer --out out >/dev/null 2>&1 &
+halted=''
+for _ in $(seq 2000); do # quick looks, because the supervisor replaces it soon
+    halted=$(sed -n 's/^halted //p' out/jolon.log 2>/dev/null | tail -n 1)
+    [ -z "$halted" ] || break
+    sleep 0.005
+done
+check "a role is stopped at its start" test -n "$halted"
+kill -KILL "$(cat "$(path_of lock)")"
+check "it dies with a killed supervisor" eventually gone "$halted"
+kill -KILL "$halted" 2>/dev/null
+wait $!
+"$jolon" stop -w "$name" >/dev/null 2>&1
+"$jolon" start -w "$name" --without renderer --out out >/dev/null && "$jolon" stop -w "$name" >/dev/null
+check "nothing is left" nothing_left "$name"
+
 # The set keeps the reporter's network for restarts. A role that the set was started without stays
 # away.
 check "a set with a DDS domain starts" start --domain 7 --without renderer
