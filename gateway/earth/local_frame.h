@@ -1,0 +1,52 @@
+/* The world on the earth. Jolon's world has the axes x east, y up and z south [m], heights above
+ * sea level, and lies on the plane that touches the earth at one point of reference. DIS has ECEF
+ * places on the WGS 84 ellipsoid. Pure; any thread. */
+#ifndef JOLON_GATEWAY_EARTH_LOCAL_FRAME_H
+#define JOLON_GATEWAY_EARTH_LOCAL_FRAME_H
+
+#include "gateway/earth/euler.h"
+#include "gateway/earth/geodesy.h"
+
+/* The default point of reference: the middle of the square of Fort Hunter Liggett, where the sea
+ * level (EGM96) is 33.7 m below the ellipsoid. */
+#define LOCAL_FRAME_LATITUDE_DEG  35.95
+#define LOCAL_FRAME_LONGITUDE_DEG (-121.25)
+#define LOCAL_FRAME_UNDULATION_M  (-33.7)
+
+struct local_frame {
+    struct vec3 origin;        /* [m] ECEF of the point of reference at sea level */
+    struct mat3 axes;          /* columns: east, up and south in ECEF */
+    double middle_x, middle_z; /* [m] world coordinates of the point of reference */
+};
+
+/* latitude, longitude [deg] of the world's point (middle_x, middle_z). undulation_m: height of the
+ * sea level above the ellipsoid there. */
+void local_frame_make(struct local_frame *frame, double latitude_deg, double longitude_deg,
+                      double undulation_m, double middle_x, double middle_z);
+
+/* World to ECEF, and back: places, and velocities or directions. */
+struct vec3 local_frame_ecef(const struct local_frame *frame, struct vec3 world);
+struct vec3 local_frame_world(const struct local_frame *frame, struct vec3 ecef);
+struct vec3 local_frame_ecef_direction(const struct local_frame *frame, struct vec3 world);
+struct vec3 local_frame_world_direction(const struct local_frame *frame, struct vec3 ecef);
+
+/* The attitude of a body, world = turn * body with Jolon's body axes (world/maths/rotation.h), to
+ * the matrix of euler.h, and back. */
+struct mat3 local_frame_ecef_turn(const struct local_frame *frame, const struct mat3 *turn);
+struct mat3 local_frame_world_turn(const struct local_frame *frame, const struct mat3 *matrix);
+
+/* Body axes of Jolon (forward, up, right) to those of DIS (forward, right, down), and back. */
+static inline struct vec3 local_frame_body_to_dis(struct vec3 body)
+{
+    return (struct vec3){body.x, body.z, -body.y};
+}
+static inline struct vec3 local_frame_body_from_dis(struct vec3 body)
+{
+    return (struct vec3){body.x, -body.z, body.y};
+}
+
+/* Returns the heading (0..2 pi, clockwise from north), pitch and roll [rad] of an attitude. */
+void local_frame_angles(const struct mat3 *turn, double *heading_rad, double *pitch_rad,
+                        double *roll_rad);
+
+#endif
