@@ -124,7 +124,7 @@ COLLIDER_SRC := $(call sources,collider collider/*)
 RUNS_SRC     := $(call sources,recorder/log recorder/archive recorder/replay)
 RENDERER_SRC := $(filter-out renderer/video/%,$(call sources,renderer renderer/* renderer/scene/*))
 KEEPER_SRC   := $(call sources,supervisor)
-GATEWAY_SRC  := $(call sources,gateway gateway/pdu gateway/earth)
+GATEWAY_SRC  := $(call sources,gateway gateway/pdu gateway/earth gateway/udp)
 # Programs of their own that stand in a folder of another: what is linked into that one alone.
 SUPPORT_SRC  := $(call sources,tests/support)
 BENCH_SRC    := $(filter-out tests/bench/peer_%,$(call sources,tests/bench tests/bench/*))
@@ -164,6 +164,7 @@ $(eval $(call library,recorder,$(call sources,recorder)))
 $(eval $(call library,renderer,$(RENDERER_SRC),$(KERNELS)))
 $(eval $(call library,video,$(call sources,renderer/video)))
 $(eval $(call library,gateway,$(GATEWAY_SRC)))
+$(eval $(call library,tool,$(call sources,gateway/tool)))
 $(eval $(call library,intake,$(call sources,reporter/intake)))
 $(eval $(call library,reporter,$(call sources,reporter)))
 $(eval $(call library,supervisor,$(KEEPER_SRC)))
@@ -193,6 +194,7 @@ CONFIG_LIBS   = -Wl,-Bstatic $(call pc,libs,libconfig) -Wl,-Bdynamic $(call pc,l
 JSON_LIBS     = $(call pc,libs,libcjson)
 CURSES_LIBS   = $(call pc,libs,ncursesw)
 ARCHIVE_LIBS  = $(call pc,libs,libzstd)
+PCAP_LIBS     = $(call pc,libs,libpcap)
 SANDBOX_LIBS  = -Wl,-Bstatic $(call pc,libs,libseccomp) -Wl,-Bdynamic
 # The engines that jolon-bench measures us beside; their headers are not held to our warnings.
 PEER_CFLAGS   = $(patsubst -I%,-isystem %,$(call pc,cflags,bullet))
@@ -200,9 +202,9 @@ PEER_LIBS     = $(call pc,libs,ode) $(filter-out -lBulletSoftBody,$(call pc,libs
 BASE_LIBS     = $(call pc,libs,libxxhash) -lm
 # For tests, which use what they happen to test.
 TEST_LIBS     = -Wl,--as-needed $(call pc,libs,cmocka libpng) $(RENDER_LIBS) $(HTTP_LIBS) $(DDS_LIBS) $(SANDBOX_LIBS) \
-        $(JSON_LIBS) $(ARCHIVE_LIBS) $(CONFIG_LIBS) $(BASE_LIBS)
+        $(JSON_LIBS) $(ARCHIVE_LIBS) $(PCAP_LIBS) $(CONFIG_LIBS) $(BASE_LIBS)
 
-PROGRAMS := $(addprefix $(BIN)/jolon,-world -mover -collider -renderer -video -intake -reporter -recorder \
+PROGRAMS := $(addprefix $(BIN)/jolon,-world -mover -collider -renderer -video -intake -reporter -recorder -dis \
         $(addprefix -,$(CLIENTS)) -keeper) $(BIN)/jolon
 # The benchmarks have packages of their own, so only `make bench` and the tests build them.
 BENCH    := $(BIN)/jolon-bench
@@ -254,6 +256,8 @@ $(BIN)/jolon-harness: $(OBJ)/clients/harness/main.o $(call libraries,harness top
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-monitor: $(OBJ)/clients/monitor/main.o $(call libraries,monitor screens topics datagrams ipc world)
 	$(call link,$(DDS_LIBS) $(CURSES_LIBS) $(JSON_LIBS) $(BASE_LIBS))
+$(BIN)/jolon-dis: $(OBJ)/gateway/tool/main.o $(call libraries,tool gateway ipc world)
+	$(call link,$(PCAP_LIBS) $(BASE_LIBS))
 $(BENCH): $(OBJ)/tests/bench/main.o $(ENGINES) $(call libraries,bench physics renderer $(STEPS) config http ipc world)
 	$(call link,$(RENDER_LIBS) $(HTTP_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(PEER_LIBS) $(BASE_LIBS))
 $(ENGINES): | $(BENCH_STAMP)
@@ -310,7 +314,7 @@ FORCE:
 # --- tests --------------------------------------------------------------------------------------
 # tests/unit/FOLDER/test_NAME.c may use that folder's library beside those that every test may use.
 COMMON := support renderer $(STEPS) config topics http ipc world
-own_library = $(or $(filter $(CLIENTS) intake physics worldctl sandbox,$(word 4,$(subst /, ,$(1)))),$(filter recorder reporter supervisor physics bench,$(word 3,$(subst /, ,$(1)))))
+own_library = $(or $(filter $(CLIENTS) intake physics worldctl sandbox tool,$(word 4,$(subst /, ,$(1)))),$(filter recorder reporter supervisor physics bench,$(word 3,$(subst /, ,$(1)))))
 define test_of
 $(BUILD)/$(1:%.c=%): $(call libraries,$(call own_library,$(1)))
 endef

@@ -1,0 +1,39 @@
+/* Addresses of UDP in numbers: 127.0.0.1, 127.0.0.1:3000, ::1, [::1]:3000. Names are not looked up,
+ * because that takes files and sockets that a sandbox forbids. */
+#ifndef JOLON_GATEWAY_UDP_UDP_ADDRESS_H
+#define JOLON_GATEWAY_UDP_UDP_ADDRESS_H
+
+#include "world/runtime/error_text.h"
+
+#include <netinet/in.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+struct udp_address {
+    union {
+        struct sockaddr any;
+        struct sockaddr_in v4;
+        struct sockaddr_in6 v6;
+    };
+};
+
+#define UDP_ADDRESS_TEXT 64u /* room for any address with its port */
+
+/* Reads an address. A text without a port has the given one. Returns 0, or -1 with the reason in
+ * error. */
+int udp_address_parse(struct udp_address *address, const char *text, uint16_t port,
+                      struct error_text *error);
+
+/* Writes the address and its port into text, cut where the size ends. Returns text. */
+const char *udp_address_text(const struct udp_address *address, char *text, size_t size);
+
+uint16_t udp_address_port(const struct udp_address *address);
+socklen_t udp_address_bytes(const struct udp_address *address);
+bool udp_address_multicast(const struct udp_address *address);
+bool udp_address_loopback(const struct udp_address *address);
+
+/* Returns true if both have the same host; the ports may differ. */
+bool udp_address_same_host(const struct udp_address *a, const struct udp_address *b);
+
+#endif

@@ -1,0 +1,97 @@
+/* Sockets of UDP. */
+#include "gateway/udp/udp_socket.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <time.h>
+#include <unistd.h>
+
+#define RECEIVE_BUFFER                                                                             \
+    (4 * 1024 * 1024) /* a burst of some thousand PDUs; the system may give less */
+
+static int refused(int socket, const struct udp_address *address, const char *what,
+                   struct error_text *error)
+{
+    char text[UDP_ADDRESS_TEXT];
+    int cause = errno;
+    if (socket >= 0)
+        close(socket);
+    return error_text_set(error, "%s: cannot %s: %s", udp_address_text(address, text, sizeof text),
+                          what, strerror(cause));
+}
+
+static int set(int socket, int level, int name, int value)
+{
+    return setsockopt(socket, level, name, &value, sizeof value);
+}
+
+int udp_socket_sender(const struct udp_address *to, const struct udp_address *interface,
+                      struct error_text *error)
+{
+    int out = socket(to->any.sa_family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    if (out < 0)
+        return refused(out, to, "make a socket", error);
+    if (to->any.sa_family == AF_INET && set(out, SOL_SOCKET, SO_BROADCAST, 1) != 0)
+        return refused(out, to, "broadcast", error);
+    if (interface && interface->any.sa_family == AF_INET && udp_address_multicast(to) &&
+        setsockopt(out, IPPROTO_IP, IP_MULTICAST_IF, &interface->v4.sin_addr,
+                   sizeof interface->v4.sin_addr) != 0)
+        return refused(out, interface, "send multicast by this interface", error);
+    return out;
+}
+
+static int join(int in, const struct udp_address *at, const struct udp_address *interface)
+{
+    if (at->any.sa_family == AF_INET6) {
+        struct ipv6_mreq group = {.ipv6mr_multiaddr = at->v6.sin6_addr};
+        return setsockopt(in, IPPROTO_IPV6, IPV6_ADD_MEMBERSHIP, &group, sizeof group);
+    }
+    struct ip_mreq group = {.imr_multiaddr = at->v4.sin_addr};
+    if (interface && interface->any.sa_family == AF_INET)
+        group.imr_interface = interface->v4.sin_addr;
+    return setsockopt(in, IPPROTO_IP, IP_ADD_MEMBERSHIP, &group, sizeof group);
+}
+
+int udp_socket_listener(const struct udp_address *at, const struct udp_address *interface,
+                        struct error_text *error)
+{
+    int in = socket(at->any.sa_family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    if (in < 0)
+        return refused(in, at, "make a socket", error);
+    (void)set(in, SOL_SOCKET, SO_RCVBUF, RECEIVE_BUFFER);
+    if (set(in, SOL_SOCKET, SO_REUSEADDR, 1) != 0 || bind(in, &at->any, udp_address_bytes(at)) != 0)
+        return refused(in, at, "receive there", error);
+    if (udp_address_multicast(at) && join(in, at, interface) != 0)
+        return refused(in, at, "join the group", error);
+    return in;
+}
+
+int udp_socket_send(int socket, const struct udp_address *to, const void *bytes, size_t size)
+{
+    ssize_t sent;
+    do {
+        sent = sendto(socket, bytes, size, MSG_NOSIGNAL, &to->any, udp_address_bytes(to));
+    } while (sent < 0 && errno == EINTR);
+    /* The kernel reports that an earlier datagram reached no receiver, and has not sent this one.
+     */
+    if (sent < 0 && errno == ECONNREFUSED)
+        sent = sendto(socket, bytes, size, MSG_NOSIGNAL, &to->any, udp_address_bytes(to));
+    return sent >= 0 || errno == ECONNREFUSED ? 0 : -1;
+}
+
+int udp_socket_receive(int socket, void *bytes, size_t size, struct udp_address *from)
+{
+    socklen_t length = sizeof *from;
+    memset(from, 0, sizeof *from);
+    ssize_t got = recvfrom(socket, bytes, size, 0, &from->any, &length);
+    return got < 0 ? -1 : (int)got;
+}
+
+bool udp_socket_wait(int socket, uint64_t wait_ns)
+{
+    struct pollfd ready = {.fd = socket, .events = POLLIN};
+    struct timespec wait = {(time_t)(wait_ns / 1000000000u), (long)(wait_ns % 1000000000u)};
+    return ppoll(&ready, 1, &wait, NULL) > 0;
+}

@@ -1,0 +1,31 @@
+/* Sockets of UDP for PDUs: unicast, broadcast and multicast. No call blocks but udp_socket_wait().
+ */
+#ifndef JOLON_GATEWAY_UDP_UDP_SOCKET_H
+#define JOLON_GATEWAY_UDP_UDP_SOCKET_H
+
+#include "gateway/udp/udp_address.h"
+
+#define UDP_SOCKET_BYTES_MAX 65536u /* room for any datagram */
+
+/* Opens a socket that sends to an address. interface: the local address by which multicast leaves;
+ * NULL: the system's choice. Multicast stays within the network (TTL 1). Returns the descriptor, or
+ * -1 with the reason in error. */
+int udp_socket_sender(const struct udp_address *to, const struct udp_address *interface,
+                      struct error_text *error);
+
+/* Opens a socket that receives what is sent to an address of this machine, or to a group of
+ * multicast, which it joins. Other sockets of this machine may receive the same. */
+int udp_socket_listener(const struct udp_address *at, const struct udp_address *interface,
+                        struct error_text *error);
+
+/* Sends a datagram. Returns 0, or -1 with errno. A host that says that nobody receives is no error.
+ */
+int udp_socket_send(int socket, const struct udp_address *to, const void *bytes, size_t size);
+
+/* Receives a datagram into bytes. Returns its size, -1 when there is none. */
+int udp_socket_receive(int socket, void *bytes, size_t size, struct udp_address *from);
+
+/* Waits for a datagram, at most for a time. Returns true when there is one. */
+bool udp_socket_wait(int socket, uint64_t wait_ns);
+
+#endif
