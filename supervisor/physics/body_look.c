@@ -33,6 +33,16 @@ void body_looks_free(struct body_looks *looks)
     *looks = (struct body_looks){0};
 }
 
+struct vec3 motion_look_centre(const struct motion_look *look, const struct kind *kind)
+{
+    return vec3_scale(look->pose.up, kind->domain == DOMAIN_LAND ? kind->centre_height_m : 0.0);
+}
+
+struct vec3 motion_look_centre_velocity(const struct motion_look *look, const struct kind *kind)
+{
+    return vec3_add(look->velocity, vec3_cross(look->spin, motion_look_centre(look, kind)));
+}
+
 static bool all_finite(const struct motion_look *look)
 {
     const struct vec3 *at = &look->pose.at, *v = &look->velocity, *w = &look->spin;
@@ -92,6 +102,7 @@ static void read_body(struct body_looks *looks, const struct world *world,
         body->was = &memory->look;
         body->touched = memory->touched;
         body->parted = memory->parted;
+        body->thrown = memory->thrown;
     }
     if (body->known && same_angles(&body->now, body->was)) {
         body->now.pose = body->was->pose;
@@ -127,6 +138,7 @@ void body_looks_end(struct body_looks *looks)
         memory->id = body->finite ? body->named.id : 0;
         memory->touched = body->touches;
         memory->parted = body->parts;
+        memory->thrown = body->thrown;
         memory->look = body->now;
     }
 }

@@ -60,6 +60,7 @@ struct body_look {
     bool touched;    /* the same in the frame before */
     uint32_t parts;  /* bodies and walls that it overlaps since one of the two was placed */
     uint32_t parted; /* the same in the frame before */
+    bool thrown;     /* an explosion or another body made it faster than an engine does */
 };
 
 /* What is kept of a row from frame to frame. */
@@ -67,6 +68,7 @@ struct row_memory {
     uint32_t id;     /* 0: nothing */
     bool touched;    /* a body or a wall */
     uint32_t parted; /* bodies and walls that it overlapped since it was placed */
+    bool thrown;     /* as in struct body_look */
     struct motion_look look;
 };
 
@@ -76,6 +78,12 @@ struct body_looks {
     uint32_t *of_row;          /* [capacity] index into body, or NO_LOOK */
     struct row_memory *memory; /* [capacity] */
 };
+
+/* Returns the centre of mass, from the position [m, world axes]: a land vehicle's is above it. */
+struct vec3 motion_look_centre(const struct motion_look *look, const struct kind *kind);
+
+/* Returns the velocity of the centre of mass [m/s]. */
+struct vec3 motion_look_centre_velocity(const struct motion_look *look, const struct kind *kind);
 
 /* Takes memory for the rows of a world. Returns 0, or -1 with errno ENOMEM. */
 int body_looks_make(struct body_looks *looks, uint32_t capacity);

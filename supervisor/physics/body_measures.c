@@ -230,22 +230,40 @@ static void measure_jump(struct measures *measures, double dt_s, const struct bo
                  &body->named, NULL);
 }
 
+/* Free rotation accelerates every point of a wreck but its centre of mass. */
+static struct vec3 measured_velocity(const struct body_look *body, const struct motion_look *look)
+{
+    if (body->was->wreck && body->now.wreck)
+        return motion_look_centre_velocity(look, body->kind);
+    return level(look->velocity, body_measures_held(body));
+}
+
 static void measure_acceleration(struct measures *measures, double dt_s,
                                  const struct body_look *body)
 {
-    bool held = body_measures_held(body);
-    struct vec3 before = level(body->was->velocity, held);
-    struct vec3 change = vec3_sub(level(body->now.velocity, held), before);
+    struct vec3 before = measured_velocity(body, body->was);
+    struct vec3 change = vec3_sub(measured_velocity(body, &body->now), before);
     double steered = body->now.wreck ? 0.0 : vec3_length(before) * body->kind->turn_rate_rps;
     measure_take(measures, MEASURE_OF_ACCELERATION,
                  maths_max(0.0, vec3_length(change) / dt_s - steered), &body->named, NULL);
 }
 
-void body_measures_motion(struct measures *measures, double dt_s, const struct body_look *body)
+/* Engines bound the speed of what they drive. An explosion or another body may throw a body faster;
+ * it then is left out until it is slow again. */
+static void measure_speed(struct measures *measures, struct body_look *body)
 {
     double top = maths_max(body->kind->max_speed_mps, LEAST_TOP);
-    measure_take(measures, MEASURE_OF_SPEED, vec3_length(level(body->now.velocity, true)) / top,
-                 &body->named, NULL);
+    double share = vec3_length(level(body->now.velocity, true)) / top;
+    bool faster = share > measure_bound(measures, MEASURE_OF_SPEED);
+    body->thrown =
+        faster && (body->thrown || body->blasts > 0 || body->struck > 0 || body->hits > 0);
+    if (!body->thrown)
+        measure_take(measures, MEASURE_OF_SPEED, share, &body->named, NULL);
+}
+
+void body_measures_motion(struct measures *measures, double dt_s, struct body_look *body)
+{
+    measure_speed(measures, body);
     measure_take(measures, MEASURE_OF_SPIN, vec3_length(body->now.spin), &body->named, NULL);
     if (body->now.sprung)
         sprung_body_measure(measures, dt_s, body);

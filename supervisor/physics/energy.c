@@ -35,12 +35,6 @@ static struct vec3 moments(const struct kind *kind)
                          twelfth * (length + height)};
 }
 
-/* Returns the centre of mass, from the position. That of a land vehicle is above it. */
-static struct vec3 centre_of(const struct kind *kind, const struct motion_look *look)
-{
-    return vec3_scale(look->pose.up, kind->domain == DOMAIN_LAND ? kind->centre_height_m : 0.0);
-}
-
 /* Returns the kinetic energy [J]. Of a held body the vertical speed only follows the ground. */
 static double kinetic_j(const struct kind *kind, const struct motion_look *look, bool held)
 {
@@ -49,7 +43,7 @@ static double kinetic_j(const struct kind *kind, const struct motion_look *look,
         return 0.5 * kind->mass_kg * (square(v.x) + square(v.z)) +
                0.5 * moment.y * square(look->spin.y);
     struct vec3 spin = rigid_pose_in(&look->pose, look->spin);
-    v = vec3_add(v, vec3_cross(look->spin, centre_of(kind, look)));
+    v = motion_look_centre_velocity(look, kind);
     return 0.5 * kind->mass_kg * vec3_dot(v, v) +
            0.5 *
                (moment.x * square(spin.x) + moment.y * square(spin.y) + moment.z * square(spin.z));
@@ -58,7 +52,8 @@ static double kinetic_j(const struct kind *kind, const struct motion_look *look,
 /* Returns how far the centre of mass has come down in a frame [m]. */
 static double fall_m(const struct body_look *body)
 {
-    double arms = centre_of(body->kind, body->was).y - centre_of(body->kind, &body->now).y;
+    double arms =
+        motion_look_centre(body->was, body->kind).y - motion_look_centre(&body->now, body->kind).y;
     return body->was->pose.at.y - body->now.pose.at.y + arms;
 }
 

@@ -112,19 +112,13 @@ void sprung_body_look(const struct surface *surface, struct body_look *body)
 
 /* --- motion ------------------------------------------------------------------------------------*/
 
-static struct vec3 centre_velocity(const struct motion_look *look, const struct kind *kind)
-{
-    const struct vec3 arm = vec3_scale(look->pose.up, kind->centre_height_m);
-    return vec3_add(look->velocity, vec3_cross(look->spin, arm));
-}
-
 /* Returns kinetic energy, height and springs of the body over its mass [J/kg]. */
 static double energy_jpkg(const struct body_look *body, const struct motion_look *look)
 {
     const struct kind *kind = body->kind;
     double length = square_of(kind->length_m), width = square_of(kind->width_m);
     double height = square_of(kind->height_m);
-    const struct vec3 v = centre_velocity(look, kind),
+    const struct vec3 v = motion_look_centre_velocity(look, kind),
                       spin = rigid_pose_in(&look->pose, look->spin);
     double turning = ((height + width) * square_of(spin.x) + (length + width) * square_of(spin.y) +
                       (length + height) * square_of(spin.z)) /
@@ -146,8 +140,8 @@ void sprung_body_measure(struct measures *measures, double dt_s, const struct bo
     if (!body->known || body->commanded || body->blasts > 0 || body->struck > 0 || body->hits > 0 ||
         body->touches || body->touched || !body->was->sprung)
         return;
-    const struct vec3 before = centre_velocity(body->was, kind);
-    const struct vec3 after = centre_velocity(&body->now, kind);
+    const struct vec3 before = motion_look_centre_velocity(body->was, kind);
+    const struct vec3 after = motion_look_centre_velocity(&body->now, kind);
     struct vec3 push = vec3_scale(vec3_sub(after, before), 1.0 / dt_s);
     push.y += GRAVITY_MPS2;
     if (is_in_air(&body->now) && is_in_air(body->was))

@@ -585,6 +585,31 @@ static void test_speed_from_nowhere(void **state)
     assert_false(measure_good(&check.measures, MEASURE_OF_ENERGY));
 }
 
+/* The centre of mass of a wreck that turns over falls freely, and its position flies around it. */
+static void test_a_wreck_that_turns_over_in_the_air(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 200.0);
+    double arm = steps_kind(&f, "tank")->centre_height_m, rate = 12.0;
+    (void)state;
+    for (uint32_t frame = 0; frame < 60; frame++) {
+        double angle = rate * DT * frame, speed = -GRAVITY_MPS2 * DT * frame;
+        const struct entities rows = frame == 0 ? steps_rows(&f) : now.entities, *e = &rows;
+        e->state[tank] = ENTITY_WRECK;
+        e->roll[tank] = angle;
+        e->spin_x[tank] = rate; /* it faces east, so that its right side goes down */
+        e->y[tank] = 200.0 + 0.5 * speed * DT * frame - arm * cos(angle);
+        e->z[tank] = MIDDLE - arm * sin(angle);
+        e->vy[tank] = speed + arm * rate * sin(angle);
+        e->vz[tank] = -arm * rate * cos(angle);
+        if (frame == 0)
+            begin();
+        else
+            next();
+    }
+    assert_true(arm * rate * rate > 2.0 * measure_bound(&check.measures, MEASURE_OF_ACCELERATION));
+    assert_true(measure_good(&check.measures, MEASURE_OF_ACCELERATION));
+}
+
 static void test_a_command_an_explosion_and_a_collision_explain_it(void **state)
 {
     uint32_t a = put("tank", MIDDLE, 100.0), b = put("tank", MIDDLE + 20.0, 100.0);
@@ -630,6 +655,28 @@ static void test_speed_and_spin(void **state)
     next();
     is_bad(MEASURE_OF_SPEED, 3.0);
     is_bad(MEASURE_OF_SPIN, 30.0);
+}
+
+static void test_a_body_that_is_thrown(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 100.0);
+    double top = steps_kind(&f, "tank")->max_speed_mps;
+    (void)state;
+    begin();
+    struct event *event = add_event(EVENT_DETONATION);
+    event->detonation.point[0] = MIDDLE;
+    event->detonation.point[1] = 100.0;
+    event->detonation.point[2] = MIDDLE;
+    event->detonation.explosive_kg = 1.0f;
+    now.entities.vx[tank] = 3.0 * top;
+    next();
+    next();
+    assert_true(measure_good(&check.measures, MEASURE_OF_SPEED));
+    now.entities.vx[tank] = top;
+    next();
+    now.entities.vx[tank] = 3.0 * top;
+    next();
+    is_bad(MEASURE_OF_SPEED, 3.0);
 }
 
 static void test_a_jump(void **state)
@@ -713,8 +760,10 @@ int main(void)
         TEST(test_a_wall),
         TEST(test_a_wall_overlapped_from_the_start),
         TEST(test_speed_from_nowhere),
+        TEST(test_a_wreck_that_turns_over_in_the_air),
         TEST(test_a_command_an_explosion_and_a_collision_explain_it),
         TEST(test_speed_and_spin),
+        TEST(test_a_body_that_is_thrown),
         TEST(test_a_jump),
         TEST(test_a_wreck_that_snaps),
         TEST(test_no_numbers_and_no_world),
