@@ -241,7 +241,7 @@ struct response_context collider_response_context(struct collider *collider, str
         .path = collider->motion.path,
         .charges = &collider->charges,
         .island = &collider->island,
-        .writer = {&next->entities, collider->changed},
+        .writer = {.entities = &next->entities, .changed = collider->changed},
     };
 }
 

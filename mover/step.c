@@ -34,6 +34,7 @@
 
 #define BLOCKS_A_WORKER 2u
 #define ROWS_A_WORKER   (BLOCKS_A_WORKER * CHECKSUM_ROWS)
+#define FEW_AWAKE       128u /* rows of a block whose changed columns are found by comparing */
 
 /* Returns the tables of all kinds, or NULL with errno ENOMEM. */
 static struct firing_table *make_firing_tables(const struct world *world)
@@ -60,6 +61,7 @@ int mover_init(struct mover *mover, const struct world *world, const struct crat
         ground_marks_init(&mover->ground_marks, world) == 0 &&
         square_bounds_init(&mover->slopes, square_bounds_slope, &world->terrain) == 0 &&
         crater_index_init(&mover->craters, craters) == 0 &&
+        resting_rows_init(&mover->resting, world->params->capacity) == 0 &&
         neighbour_index_init(&mover->neighbours, world->params->capacity) == 0 &&
         neighbour_lists_init(&mover->neighbour_lists, world->params->capacity) == 0 &&
         line_of_sight_init(&mover->line_of_sight, world, &mover->craters) == 0)
@@ -71,6 +73,7 @@ int mover_init(struct mover *mover, const struct world *world, const struct crat
 void mover_free(struct mover *mover)
 {
     crater_index_free(&mover->craters);
+    resting_rows_free(&mover->resting);
     neighbour_index_free(&mover->neighbours);
     neighbour_lists_free(&mover->neighbour_lists);
     line_of_sight_free(&mover->line_of_sight);
@@ -95,6 +98,7 @@ void mover_touch(const struct mover *mover, const struct moved *moved, const str
 
 struct rows {
     const struct step_context *context;
+    struct mover *mover; /* its caches */
     struct table committed, moved;
     const struct state_head *head; /* of moved */
     uint64_t *changed;             /* [CHECKSUM_BLOCKS] columns to hash again */
@@ -303,7 +307,8 @@ static uint64_t still_blank(const struct rows *rows, const struct batches *batch
     return table_zero(rows->moved, columns, row, count);
 }
 
-/* Returns the columns that have not changed. *harmed: set if harm_j has changed. */
+/* Moves the rows of the block that are awake, and finds out which rest from now on. Returns the
+ * columns that have not changed. *harmed: set if harm_j has changed. */
 static uint64_t move_block(const struct rows *rows, const struct row_block *block, bool *harmed)
 {
     const struct step_context *context = rows->context;
@@ -314,48 +319,75 @@ static uint64_t move_block(const struct rows *rows, const struct row_block *bloc
     ground_vehicle_begin(&batches.land);
     aircraft_begin(&batches.air);
     constant_course_begin(&batches.course);
-    for (uint32_t i = block->first; i < block->end; i++)
+    for (uint32_t i = row_block_next(block, block->first); i < block->end;
+         i = row_block_next(block, i + 1))
         move_row(context, i, &batches);
     move_rest(context, &batches);
     *harmed = batches.harmed;
+    resting_rows_settle(&rows->mover->resting, context, block, batches.motion,
+                        &rows->mover->neighbours, &rows->mover->neighbour_lists);
     return still_blank(rows, &batches);
 }
 
+/* Returns the columns that are different from those of the committed block: of a few rows. */
+static uint64_t differing(const struct rows *rows, const struct row_block *block)
+{
+    const struct entities *w = &rows->context->committed->entities;
+    uint64_t columns = 0;
+    for (uint32_t i = row_block_next(block, block->first); i < block->end;
+         i = row_block_next(block, i + 1))
+        columns |= entities_differing(rows->context->m, w, i);
+    return columns;
+}
+
+/* Moves the rows of a block that are awake, and hashes it while it is in the processor's cache. */
+static void move_awake(const struct rows *rows, struct row_block *block, uint32_t awake)
+{
+    uint32_t number = block->first / CHECKSUM_ROWS, used = rows->context->committed->head->used;
+    uint64_t *changed = &rows->changed[number];
+    bool harmed;
+    block->changed = *changed;
+    block->blank = ~*changed & table_blank(rows->committed, number, used, rows->blank);
+    uint64_t same = move_block(rows, block, &harmed);
+    if (awake <= FEW_AWAKE && rows->known)
+        *changed |= differing(rows, block);
+    else
+        *changed |= COLUMNS_ALL & ~STILL_COLUMNS & ~same;
+    if (harmed)
+        *changed |= COLUMN_BIT(harm_j);
+    table_hash_block(rows->moved, number, rows->head->used, *changed);
+    *changed = 0;
+}
+
 /* Moves the committed rows; a row that a command has spawned moves from the next frame on. A block
- * is hashed while it is in the processor's cache. */
+ * in which all rows rest is not touched. */
 static void move_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct rows *rows = context;
     (void)worker;
     for (; first < end; first += CHECKSUM_ROWS) {
-        uint32_t number = first / CHECKSUM_ROWS;
-        uint64_t *changed = &rows->changed[number];
-        const struct row_block block = {
-            .first = first,
-            .end = end - first < CHECKSUM_ROWS ? end : first + CHECKSUM_ROWS,
-            .changed = *changed,
-            .blank = ~*changed & table_blank(rows->committed, number,
-                                             rows->context->committed->head->used, rows->blank),
-        };
-        bool harmed;
-        uint64_t same = move_block(rows, &block, &harmed);
-        if (harmed)
-            *changed |= COLUMN_BIT(harm_j);
-        table_hash_block(rows->moved, number, rows->head->used,
-                         *changed | (COLUMNS_ALL & ~STILL_COLUMNS & ~same));
-        *changed = 0;
+        struct row_block block = {.first = first,
+                                  .end = end - first < CHECKSUM_ROWS ? end : first + CHECKSUM_ROWS};
+        uint32_t awake = resting_rows_awake(&rows->mover->resting, rows->context, &block);
+        if (awake > 0)
+            move_awake(rows, &block, awake);
     }
 }
 
-/* Copies the committed rows. The hashes of a table whose content is unknown must all be computed.
- */
+/* Copies the committed rows, and wakes those that differ from what this process left. The hashes of
+ * a table whose content is unknown must all be computed. */
 static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct rows *rows = context;
+    struct resting_rows *resting = &rows->mover->resting;
+    uint32_t used = rows->context->committed->head->used;
     (void)worker;
     for (uint32_t block = first; block < end; block++) {
-        table_take(rows->moved, rows->committed, block, rows->context->committed->head->used,
-                   rows->known);
+        if (rows->known)
+            resting_rows_wake_differing(resting, rows->moved, rows->committed, block, used);
+        else
+            resting_rows_wake_block(resting, block);
+        table_take(rows->moved, rows->committed, block, used, rows->known);
         rows->changed[block] = rows->known ? 0 : COLUMNS_ALL;
     }
 }
@@ -456,14 +488,30 @@ struct step_context mover_context(const struct mover *mover, const struct state 
     };
 }
 
+static void index_neighbours(struct mover *mover, const struct step_context *context)
+{
+    const struct state *committed = context->committed;
+    const struct neighbour_index_frame frame = {.committed = &committed->entities,
+                                                .used = committed->head->used,
+                                                .tick = (uint32_t)context->tick,
+                                                .think_frames = context->think_frames,
+                                                .resting = mover->resting.resting};
+    neighbour_index_update(&mover->neighbours, &frame, mover->workers);
+    neighbour_lists_gather(&mover->neighbour_lists, &mover->neighbours, mover->world,
+                           &mover->avoidance, mover->workers);
+}
+
 void mover_step(struct mover *mover, const struct state *committed, struct moved *moved,
                 const struct command_source sources[COMMAND_RING_COUNT])
 {
     struct state_head *head = moved->head;
     const struct step_context context = mover_context(mover, committed, moved);
     struct serial_context serial_context = {
-        .step = &context, .moved = moved, .writer = {&moved->entities, mover->changed}};
+        .step = &context,
+        .moved = moved,
+        .writer = {&moved->entities, mover->changed, mover->resting.resting}};
     struct rows rows = {.context = &context,
+                        .mover = mover,
                         .committed = state_table(committed),
                         .moved = moved_table(moved),
                         .head = head,
@@ -482,12 +530,10 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
             head->steps_left--;
         head->advanced = 1;
         head->tick = context.tick;
-        neighbour_index_build(&mover->neighbours, &committed->entities, used,
-                              (uint32_t)context.tick, context.think_frames, mover->workers);
-        neighbour_lists_gather(&mover->neighbour_lists, &mover->neighbours, mover->world,
-                               &mover->avoidance, mover->workers);
+        index_neighbours(mover, &context);
         mover->line_of_sight.fixed_damage = committed->fixed_damage;
         ground_marks_update(&mover->ground_marks, mover->world, committed);
+        resting_rows_wake_craters(&mover->resting, &context);
         thread_pool_run(mover->workers, move_rows, &rows, used, ROWS_A_WORKER);
         scenario_fires_run(&serial_context);
         fire_mission_run(&serial_context);

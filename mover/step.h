@@ -7,6 +7,7 @@
 #include "mover/agent/neighbour_lists.h"
 #include "mover/command_apply.h"
 #include "mover/query/ground_marks.h"
+#include "mover/resting_rows.h"
 #include "world/checksum.h"
 #include "world/entity/command.h"
 #include "world/runtime/thread_pool.h"
@@ -26,7 +27,7 @@ struct mover {
     struct avoidance avoidance;
     struct square_bounds slopes;
     struct firing_table *firing_tables; /* [kind_count] */
-    /* Of the committed world, built in each frame. */
+    /* Of the committed world, changed in each frame. */
     struct neighbour_index neighbours;
     struct neighbour_lists neighbour_lists;
     struct line_of_sight line_of_sight;
@@ -35,6 +36,7 @@ struct mover {
     struct ground_marks ground_marks;
     struct terrain_cache_entry *terrain_entries;       /* [capacity + GROUND_POSE_AHEAD] */
     struct terrain_cache_entry *terrain_entries_ahead; /* [capacity] */
+    struct resting_rows resting;
     /* The moved table. */
     uint64_t changed[CHECKSUM_BLOCKS]; /* columns of each block that must be hashed again */
     struct block_hashes blank;         /* of a block that is all zero */

@@ -153,6 +153,31 @@ void table_take(struct table to, struct table from, uint32_t block, uint32_t use
     *has = *wants;
 }
 
+void table_differing(struct table a, struct table b, uint32_t block, uint32_t used, uint64_t *rows)
+{
+    const struct cells one = cells_of(a.entities, block), other = cells_of(b.entities, block);
+    uint32_t count = block_rows(block, used);
+    for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++) {
+        const uint8_t *p = one.column[c], *q = other.column[c];
+        size_t bytes = cell_bytes[c];
+        if (a.hashes[block].column[c] == b.hashes[block].column[c])
+            continue;
+        for (uint32_t i = 0; i < count; i++)
+            rows[i / 64] |= (uint64_t)(memcmp(p + i * bytes, q + i * bytes, bytes) != 0) << i % 64;
+    }
+}
+
+/* Bits, not values: two zeros of different signs differ. */
+#define DIFFERS(type, name)                                                                        \
+    columns |= (uint64_t)(memcmp(&a->name[i], &b->name[i], sizeof(type)) != 0) << COLUMN_##name;
+
+uint64_t entities_differing(const struct entities *a, const struct entities *b, uint32_t i)
+{
+    uint64_t columns = 0;
+    ENTITY_COLUMNS(DIFFERS)
+    return columns;
+}
+
 /* --- checksums ---------------------------------------------------------------------------------*/
 
 /* Each block's hashes are chained into the whole. */

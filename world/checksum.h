@@ -65,6 +65,13 @@ uint64_t table_zero(struct table table, uint64_t columns, const uint32_t *rows, 
  * copied. Two different columns have the same hash with a probability of 2^-64. */
 void table_take(struct table to, struct table from, uint32_t block, uint32_t used, bool known);
 
+/* Sets the bits of the rows of a block in which the two tables differ, in columns whose hashes
+ * differ. rows: CHECKSUM_ROWS bits, to which these are added. */
+void table_differing(struct table a, struct table b, uint32_t block, uint32_t used, uint64_t *rows);
+
+/* Returns the columns in which row i of the two differs, bit by bit. */
+uint64_t entities_differing(const struct entities *a, const struct entities *b, uint32_t i);
+
 /* --- checksums ---------------------------------------------------------------------------------*/
 
 /* Running hashes of the lists that only grow; all zero before the first entry. */

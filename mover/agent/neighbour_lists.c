@@ -6,12 +6,12 @@
 
 #include <stdlib.h>
 
-#define ROOM 2u /* times the vehicles of a row of cells: the entries of its lists */
+#define ROOM 2u /* times the room of a row of cells: the entries of its lists */
 
 int neighbour_lists_init(struct neighbour_lists *lists, uint32_t capacity)
 {
     *lists = (struct neighbour_lists){.capacity = capacity};
-    lists->entries = malloc(ROOM * capacity * sizeof *lists->entries);
+    lists->entries = malloc((size_t)ROOM * neighbour_index_room(capacity) * sizeof *lists->entries);
     lists->list = malloc(capacity * sizeof *lists->list);
     if (lists->entries && lists->list)
         return 0;
@@ -34,7 +34,7 @@ void neighbour_lists_touch(const struct neighbour_lists *lists, uint32_t rows)
 
 struct gathering {
     struct neighbour_lists *lists;
-    const struct neighbour_index *index;
+    struct neighbour_index *index;
     const struct world *world;
     const struct avoidance *avoidance;
 };
@@ -66,25 +66,35 @@ static uint32_t gather(const struct gathering *g, const struct neighbour_index_e
     return at - first;
 }
 
+static void gather_band(const struct gathering *g, uint32_t band)
+{
+    uint32_t from = g->index->room[band], past = from + g->index->held[band];
+    uint32_t first = ROOM * from, end = ROOM * g->index->room[band + 1];
+    bool decides = false;
+    for (uint32_t n = from; n < past; n++) {
+        decides |= g->index->agent[n] != 0;
+        if (!neighbour_index_due(g->index, n))
+            continue;
+        const struct neighbour_index_entry *looker = &g->index->entries[n];
+        uint32_t count = gather(g, looker, first, end);
+        g->lists->list[looker->row] = (struct neighbour_list){first, count};
+        first += count == NEIGHBOUR_LISTS_NONE ? 0 : count;
+    }
+    if (!decides)
+        atomic_store_explicit(&g->index->decides[band], 0, memory_order_relaxed);
+}
+
 static void gather_bands(void *context, uint32_t begin, uint32_t end, uint32_t worker)
 {
     const struct gathering *g = context;
     (void)worker;
     for (uint32_t band = begin; band < end; band++) {
-        uint32_t from = g->index->band[band], past = g->index->band[band + 1];
-        uint32_t first = ROOM * from;
-        for (uint32_t n = from; n < past; n++) {
-            const struct neighbour_index_entry *looker = &g->index->entries[n];
-            if (!looker->due)
-                continue;
-            uint32_t count = gather(g, looker, first, ROOM * past);
-            g->lists->list[looker->row] = (struct neighbour_list){first, count};
-            first += count == NEIGHBOUR_LISTS_NONE ? 0 : count;
-        }
+        if (atomic_load_explicit(&g->index->decides[band], memory_order_relaxed))
+            gather_band(g, band);
     }
 }
 
-void neighbour_lists_gather(struct neighbour_lists *lists, const struct neighbour_index *index,
+void neighbour_lists_gather(struct neighbour_lists *lists, struct neighbour_index *index,
                             const struct world *world, const struct avoidance *avoidance,
                             struct thread_pool *workers)
 {

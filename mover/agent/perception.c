@@ -180,6 +180,12 @@ static bool hurt(const struct step_context *context, uint32_t i)
            m->damage[i] >= DAMAGE_MED;
 }
 
+bool perception_hurt_soon(const struct step_context *context, uint32_t i)
+{
+    return (uint32_t)context->tick + 1 - context->m->changed_tick[i] <= HURT_FRAMES &&
+           context->m->damage[i] >= DAMAGE_MED;
+}
+
 bool perception_event(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
@@ -323,4 +329,14 @@ struct notice perception_notice(const struct step_context *context, uint32_t i)
         is_on_surface(context, notice.threat) && goal_cover_near(context, i, notice.threat))
         notice.percepts |= PERCEPTION_BIT(COVER);
     return notice;
+}
+
+bool perception_settled(const struct step_context *context, uint32_t i)
+{
+    uint32_t percepts = notice_state(context, i);
+    enum behaviour behaviour = (enum behaviour)context->m->behaviour[i];
+    return !behaviour_table_next(table_of(context, i), behaviour, percepts) &&
+           !low_fuel(context, i) && !matters(context, i, percepts, PERCEPTION_BIT(ENEMY)) &&
+           !matters(context, i, percepts, PERCEPTION_BIT(BRAVE)) &&
+           !matters(context, i, percepts, PERCEPTION_BIT(COVER));
 }

@@ -34,4 +34,11 @@ bool perception_armed(const struct step_context *context, uint32_t i);
 /* Returns true if it saw its target within its last two looks. */
 bool perception_in_sight(const struct step_context *context, uint32_t i);
 
+/* Returns true if the row counts as hurt in the next frame, unless it is hurt again. */
+bool perception_hurt_soon(const struct step_context *context, uint32_t i);
+
+/* Returns true if row i, whose order is to stand, goes on standing until an event: no row of its
+ * table applies, and none would if it looked for enemies or at its fuel. */
+bool perception_settled(const struct step_context *context, uint32_t i);
+
 #endif

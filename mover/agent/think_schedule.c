@@ -73,7 +73,10 @@ static void sort(const struct step_context *context, const struct row_block *blo
     const bool spins = !row_block_lacks(block, SPIN_COLUMNS);
     const bool events = !row_block_lacks(block, EVENT_COLUMNS);
     thinkers->count = 0;
-    for (uint32_t i = block->first; i < block->end; i++) {
+    if (!block->all)
+        memset(motion, MOTION_NONE, block->end - block->first);
+    for (uint32_t i = row_block_next(block, block->first); i < block->end;
+         i = row_block_next(block, i + 1)) {
         enum motion how = news && is_new(context, i) ? MOTION_NONE : motion_of(context, i);
         if (spins && spins_first(context, how, i))
             spin_row(context, i);
@@ -106,7 +109,8 @@ static void aim(const struct step_context *context, const struct row_block *bloc
 {
     const struct entities *m = context->m;
     uint64_t divisor = neighbour_index_divisor(context->aim_frames);
-    for (uint32_t i = block->first; i < block->end; i++) {
+    for (uint32_t i = row_block_next(block, block->first); i < block->end;
+         i = row_block_next(block, i + 1)) {
         enum motion how = (enum motion)motion[i - block->first];
         if ((how == MOTION_COURSE || how == MOTION_AGENT) && m->behaviour[i] == BEHAVIOUR_ATTACK &&
             neighbour_index_divides(divisor, (uint32_t)context->tick + m->id[i]) &&

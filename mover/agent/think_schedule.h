@@ -18,12 +18,28 @@ enum motion {
     MOTION_ALONE,  /* on a script or driven: it decides as it moves */
 };
 
+#define ROW_BLOCK_WORDS (CHECKSUM_ROWS / 64u)
+
 /* A block of rows before it moves. */
 struct row_block {
     uint32_t first, end; /* rows; at most CHECKSUM_ROWS */
     uint64_t changed;    /* columns that commands of this frame changed */
     uint64_t blank;      /* other columns, which are zero in every row and need not be read */
+    uint64_t awake[ROW_BLOCK_WORDS]; /* a bit for each row that is moved in this frame */
+    bool all;                        /* all are */
 };
+
+/* Returns the first row from `row` on that is moved in this frame, or end. */
+static inline uint32_t row_block_next(const struct row_block *block, uint32_t row)
+{
+    if (block->all || row >= block->end)
+        return row;
+    uint32_t n = (row - block->first) / 64;
+    uint64_t word = block->awake[n] & UINT64_MAX << (row - block->first) % 64;
+    while (word == 0 && ++n < ROW_BLOCK_WORDS)
+        word = block->awake[n];
+    return word == 0 ? block->end : block->first + n * 64 + (uint32_t)__builtin_ctzll(word);
+}
 
 /* Columns that are zero unless a row spins, and unless a gun moves or has a target. */
 #define SPIN_COLUMNS (COLUMN_BIT(spin_x) | COLUMN_BIT(spin_y) | COLUMN_BIT(spin_z))
@@ -36,8 +52,8 @@ static inline bool row_block_lacks(const struct row_block *block, uint64_t colum
     return (block->blank & columns) == columns;
 }
 
-/* Sets motion[] of the block's rows, turns the rows that spin, and lets the agents decide that are
- * due or that must react to an event. */
+/* Sets motion[] of the block's rows (MOTION_NONE: it is not moved), turns the rows that spin, and
+ * lets the agents decide that are due or that must react to an event. */
 void think_schedule_run(const struct step_context *context, const struct row_block *block,
                         uint8_t motion[CHECKSUM_ROWS]);
 

@@ -86,6 +86,9 @@ bool aircraft_take(const struct step_context *context, struct aircraft *batch, u
     batch->roll.lane[l] = m->roll[i];
     batch->fuel.lane[l] = m->fuel_l[i];
     take_kind(batch, l, &context->world->kinds[m->kind[i]]);
+    if (kinematics_parked(m, i)) /* it hovers, and burns the fuel of a turn at once */
+        batch->burn_lps.lane[l] *=
+            step_context_thinks(context, i) ? (double)context->think_frames : 0.0;
     take_desired(context, batch, l, desired);
     return batch->count == LANE_COUNT;
 }

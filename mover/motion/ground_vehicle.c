@@ -84,6 +84,7 @@ static inline int take_row(const struct step_context *context, struct ground_veh
     batch->heading.lane[l] = m->heading[i];
     batch->pitch.lane[l] = m->pitch[i];
     batch->fuel.lane[l] = m->fuel_l[i];
+    batch->parked.lane[l] = -(int64_t)kinematics_parked(m, i);
     return l;
 }
 
@@ -138,13 +139,15 @@ static inline void steer(struct ground_vehicle *batch, int h, const f64x4 *forwa
     kinematics_simd_steer(&batch->heading.f64x4[h], &helm, &rate, dt_s);
 }
 
-/* Burns fuel for the desired speed as kinematics_burn() does. Without fuel the speed is 0. */
+/* Burns fuel for the desired speed as kinematics_burn() does, unless the engine is off. Without
+ * fuel the speed is 0. */
 static inline void burn(struct ground_vehicle *batch, int h, f64x4 *wanted, double dt_s)
 {
     const f64x4 none = SIMD_EVERY(0.0), least = SIMD_EVERY(1e-9);
     const f64x4 idle = SIMD_EVERY(DRIVETRAIN_IDLE);
     f64x4 share = SIMD_ABS(*wanted) / SIMD_MAX(batch->full_mps.f64x4[h], least);
     share = SIMD_MAX(share, idle);
+    share = SIMD_CHOOSE(batch->parked.f64x4[h], none, share);
     four_masks dry;
     kinematics_simd_burn(&batch->fuel.f64x4[h], &batch->burn_lps.f64x4[h], &share,
                          &batch->tank.f64x4[h], dt_s, &dry);

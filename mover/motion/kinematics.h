@@ -41,6 +41,10 @@ double kinematics_approach(double value, double wanted, double step);
  * stop. */
 void kinematics_advance(double *metres, double *speed_mps, double dt_s);
 
+/* Returns true if row i has the order to stand, and stands. The engine of a land vehicle is then
+ * off. */
+bool kinematics_parked(const struct entities *m, uint32_t i);
+
 /* Burns fuel at a share of full throttle. False when the tank is empty. A kind without a tank
  * (fuel_l 0) always has fuel. */
 bool kinematics_burn(const struct step_context *context, uint32_t i, double share);

@@ -181,12 +181,16 @@ static void tumble(const struct step_context *context, uint32_t i)
     settle(context, i, ground_contacts_depth(&contacts));
 }
 
+bool wreck_rests(const struct step_context *context, uint32_t i)
+{
+    return is_due(context, i) && is_still(context->m, i);
+}
+
 void wreck_row(const struct step_context *context, uint32_t i)
 {
-    bool due = is_due(context, i);
-    if (due && is_still(context->m, i))
-        return; /* at rest: the common case */
-    if (due && is_slower(context->m, i, HELD_MPS, HELD_RPS))
+    if (wreck_rests(context, i))
+        return; /* the common case */
+    if (is_due(context, i) && is_slower(context->m, i, HELD_MPS, HELD_RPS))
         stop(context->m, i);
     else if (context->world->kinds[context->m->kind[i]].domain == DOMAIN_SEA)
         drift(context, i);

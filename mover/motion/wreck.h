@@ -24,6 +24,9 @@
 /* Moves row i, a wreck; a wreck at rest stays as it is. */
 void wreck_row(const struct step_context *context, uint32_t i);
 
+/* Returns true if row i is a wreck at rest: it stays as it is until something changes it. */
+bool wreck_rests(const struct step_context *context, uint32_t i);
+
 /* Tells in an event that row i has broken up in this frame. Serial. */
 void wreck_tell_broken(struct serial_context *context, uint32_t i);
 

@@ -1,4 +1,4 @@
-/* Builds the index by a counting sort in two parallel passes, and goes through it. */
+/* Builds the index by a counting sort in two parallel passes, changes it, and goes through it. */
 #include "mover/query/neighbour_index.h"
 
 #include "world/checksum.h"
@@ -12,16 +12,31 @@
 /* Cells along an edge, of 781 m, 391 m or 195 m. More cells than vehicles only cost time. */
 #define SIDE_FEW  64u
 #define SIDE_MORE 128u
-#define SIDE_MANY 256u
+#define SIDE_MANY NEIGHBOUR_INDEX_SIDE_MOST
 #define FEW_ROWS  4096u
 #define MORE_ROWS 131072u
 
 #define BLOCK_ROWS 2048u /* fit a second-level cache */
 #define HUGE_PAGE  (UINT64_C(2) << 20)
 
+/* A row of cells has room for an eighth more entries than it holds when the index is built, and for
+ * some more. */
+#define ROOM_SHARE 8u
+#define ROOM_LEAST 16u
+
+/* When more rows than one in so many have entered another cell, building the index is quicker than
+ * to move their entries. */
+#define MOVED_SHARE 256u
+#define MOVED_LEAST 16u
+
 static uint32_t blocks_of(uint32_t rows)
 {
     return (rows + BLOCK_ROWS - 1) / BLOCK_ROWS;
+}
+
+uint32_t neighbour_index_room(uint32_t rows)
+{
+    return rows + rows / ROOM_SHARE + SIDE_MANY * ROOM_LEAST;
 }
 
 /* Queries read all parts of the entries. Large pages, where the kernel has them, cause fewer misses
@@ -40,16 +55,22 @@ static void *large(size_t bytes)
 
 int neighbour_index_init(struct neighbour_index *index, uint32_t capacity)
 {
+    uint32_t room = neighbour_index_room(capacity);
     *index = (struct neighbour_index){.capacity = capacity};
-    index->start = calloc(NEIGHBOUR_INDEX_LAYERS * SIDE_MANY * SIDE_MANY + 1, sizeof *index->start);
-    index->entries = large(capacity * sizeof *index->entries);
+    index->start =
+        calloc((NEIGHBOUR_INDEX_LAYERS * SIDE_MANY + 1) * SIDE_MANY, sizeof *index->start);
+    index->entries = large(room * sizeof *index->entries);
+    index->agent = malloc(room * sizeof *index->agent);
+    index->room = calloc(SIDE_MANY + 1, sizeof *index->room);
+    index->held = calloc(SIDE_MANY, sizeof *index->held);
+    index->key = malloc(capacity * sizeof *index->key);
+    index->place = malloc(capacity * sizeof *index->place);
+    index->moved = malloc(capacity * sizeof *index->moved);
     index->sorted = malloc(capacity * sizeof *index->sorted);
     index->slot = malloc(capacity * sizeof *index->slot);
     index->first = calloc(blocks_of(capacity) * (SIDE_MANY + 1), sizeof *index->first);
-    index->band = calloc(SIDE_MANY + 1, sizeof *index->band);
-    index->layers = calloc(SIDE_MANY, sizeof *index->layers);
-    if (index->start && index->entries && index->sorted && index->slot && index->first &&
-        index->band && index->layers)
+    if (index->start && index->entries && index->agent && index->room && index->held &&
+        index->key && index->place && index->moved && index->sorted && index->slot && index->first)
         return 0;
     neighbour_index_free(index);
     return -1;
@@ -59,17 +80,24 @@ void neighbour_index_free(struct neighbour_index *index)
 {
     free(index->start);
     free(index->entries);
+    free(index->agent);
+    free(index->room);
+    free(index->held);
+    free(index->key);
+    free(index->place);
+    free(index->moved);
     free(index->sorted);
     free(index->slot);
     free(index->first);
-    free(index->band);
-    free(index->layers);
     *index = (struct neighbour_index){0};
 }
 
 void neighbour_index_touch(const struct neighbour_index *index, uint32_t rows)
 {
     prefault_own(index->entries, rows * sizeof *index->entries);
+    prefault_own(index->agent, rows * sizeof *index->agent);
+    prefault_own(index->key, rows * sizeof *index->key);
+    prefault_own(index->place, rows * sizeof *index->place);
     prefault_own(index->sorted, rows * sizeof *index->sorted);
     prefault_own(index->slot, rows * sizeof *index->slot);
     prefault_own(index->first, blocks_of(rows) * (SIDE_MANY + 1) * sizeof *index->first);
@@ -83,7 +111,15 @@ static int32_t cell_axis(const struct neighbour_index *index, double metres)
     return cells >= (double)index->side ? (int32_t)index->side - 1 : (int32_t)cells;
 }
 
-/* --- first pass: the rows of a block, by row of cells ------------------------------------------*/
+static uint32_t slots_of(const struct neighbour_index *index)
+{
+    return index->side * NEIGHBOUR_INDEX_LAYERS;
+}
+
+static bool row_rests(const struct neighbour_index *index, uint32_t i)
+{
+    return index->resting && (index->resting[i / 64] >> i % 64 & 1);
+}
 
 /* The row of cells of a table row; side: none. */
 static uint32_t band_of(const struct neighbour_index *index, const struct entities *w, uint32_t i)
@@ -103,25 +139,42 @@ static uint16_t slot_of(const struct neighbour_index *index, const struct entiti
                       layer);
 }
 
-static struct neighbour_index_entry entry_of(const struct neighbour_index *index,
-                                             const struct entities *w, uint32_t i)
+static uint32_t key_of(const struct neighbour_index *index, const struct entities *w, uint32_t i)
 {
-    bool due = neighbour_index_divides(index->think_divisor, index->tick + w->id[i]) &&
-               w->state[i] == ENTITY_ACTIVE;
+    uint32_t band = band_of(index, w, i);
+    return band == index->side ? NEIGHBOUR_INDEX_NO_KEY
+                               : band * slots_of(index) + slot_of(index, w, i);
+}
+
+static struct neighbour_index_entry entry_of(const struct entities *w, uint32_t i)
+{
     return (struct neighbour_index_entry){.x = (float)w->x[i],
                                           .z = (float)w->z[i],
                                           .y = (float)w->y[i],
                                           .vx = (float)w->vx[i],
                                           .vz = (float)w->vz[i],
                                           .row = i & (CAPACITY_MAX - 1u),
-                                          .kind = w->kind[i] & NEIGHBOUR_INDEX_KINDS,
-                                          .due = due};
+                                          .kind = w->kind[i] & NEIGHBOUR_INDEX_KINDS};
 }
+
+/* The id of the row's agent if it decides in its turn, else 0. */
+static uint32_t agent_of(const struct neighbour_index *index, uint32_t i)
+{
+    const struct entities *w = index->committed;
+    return w->state[i] == ENTITY_ACTIVE && !row_rests(index, i) ? w->id[i] : 0;
+}
+
+static void note_agent(struct neighbour_index *index, uint32_t band)
+{
+    atomic_store_explicit(&index->decides[band], 1, memory_order_relaxed);
+}
+
+/* --- building: the rows of a block, by row of cells --------------------------------------------*/
 
 static void sort_block(struct neighbour_index *index, uint32_t block)
 {
     const struct entities *w = index->committed;
-    uint32_t begin = block * BLOCK_ROWS;
+    uint32_t begin = block * BLOCK_ROWS, slots = slots_of(index);
     uint32_t end = begin + BLOCK_ROWS < index->used ? begin + BLOCK_ROWS : index->used;
     uint32_t *first = index->first + block * (SIDE_MANY + 1), next[SIDE_MANY + 2] = {0};
     uint16_t band[BLOCK_ROWS];
@@ -134,11 +187,14 @@ static void sort_block(struct neighbour_index *index, uint32_t block)
         next[b + 1] += next[b];
     }
     for (uint32_t i = begin; i < end; i++) {
-        if (band[i - begin] == index->side)
+        uint32_t b = band[i - begin];
+        index->key[i] = NEIGHBOUR_INDEX_NO_KEY;
+        if (b == index->side)
             continue;
-        uint32_t at = begin + next[band[i - begin]]++;
-        index->sorted[at] = entry_of(index, w, i);
+        uint32_t at = begin + next[b]++;
+        index->sorted[at] = entry_of(w, i);
         index->slot[at] = slot_of(index, w, i);
+        index->key[i] = b * slots + index->slot[at];
     }
 }
 
@@ -149,45 +205,44 @@ static void sort_blocks(void *context, uint32_t begin, uint32_t end, uint32_t wo
         sort_block(context, block);
 }
 
-/* --- second pass: the entries of a row of cells, by cell and layer -----------------------------*/
+/* --- building: the entries of a row of cells, by cell and layer --------------------------------*/
 
-/* Counts the entries of each cell and layer of a band, and returns the layers that have one. */
-static uint32_t count_slots(const struct neighbour_index *index, uint32_t band, uint32_t *count)
+/* Counts the entries of each cell and layer of a band. */
+static void count_slots(const struct neighbour_index *index, uint32_t band, uint32_t *count)
 {
-    uint32_t blocks = blocks_of(index->used), layers = 0;
+    uint32_t blocks = blocks_of(index->used);
+    memset(count, 0, slots_of(index) * sizeof *count);
     for (uint32_t p = 0; p < blocks; p++) {
         const uint32_t *first = index->first + p * (SIDE_MANY + 1) + band;
-        for (uint32_t n = first[0]; n < first[1]; n++) {
+        for (uint32_t n = first[0]; n < first[1]; n++)
             count[index->slot[n]]++;
-            layers |= 1u << index->slot[n] % NEIGHBOUR_INDEX_LAYERS;
-        }
     }
-    return layers;
 }
 
-/* The cells of a band without entries keep what an earlier frame left there: queries pass over the
- * band. Only its first cell is set, because it ends the band before it. */
 static void fill_band(struct neighbour_index *index, uint32_t band)
 {
-    uint32_t slots = index->side * NEIGHBOUR_INDEX_LAYERS, blocks = blocks_of(index->used);
-    uint32_t *start = index->start + band * slots, at = index->band[band];
+    uint32_t slots = slots_of(index), blocks = blocks_of(index->used);
+    uint32_t *start = index->start + band * index->stride, at = index->room[band];
     uint32_t next[SIDE_MANY * NEIGHBOUR_INDEX_LAYERS];
-    start[0] = at;
-    index->layers[band] = 0;
-    if (index->band[band + 1] == at)
+    if (index->held[band] == 0)
         return;
-    memset(next, 0, slots * sizeof *next);
-    index->layers[band] = count_slots(index, band, next);
+    count_slots(index, band, next);
     for (uint32_t s = 0; s < slots; s++) {
         uint32_t count = next[s];
         start[s] = next[s] = at;
         at += count;
     }
+    start[slots] = at;
     for (uint32_t p = 0; p < blocks; p++) {
         const uint32_t *first = index->first + p * (SIDE_MANY + 1) + band;
-        for (uint32_t n = first[0]; n < first[1]; n++)
-            index->entries[next[index->slot[n]]++] = index->sorted[n];
+        for (uint32_t n = first[0]; n < first[1]; n++) {
+            uint32_t to = next[index->slot[n]]++, i = index->sorted[n].row;
+            index->entries[to] = index->sorted[n];
+            index->agent[to] = agent_of(index, i);
+            index->place[i] = to;
+        }
     }
+    note_agent(index, band);
 }
 
 static void fill_bands(void *context, uint32_t begin, uint32_t end, uint32_t worker)
@@ -197,31 +252,202 @@ static void fill_bands(void *context, uint32_t begin, uint32_t end, uint32_t wor
         fill_band(context, band);
 }
 
-void neighbour_index_build(struct neighbour_index *index, const struct entities *committed,
-                           uint32_t used, uint32_t tick, uint32_t think_frames,
-                           struct thread_pool *workers)
+/* Gives each row of cells its room. */
+static void lay_out(struct neighbour_index *index)
 {
-    index->side = used <= FEW_ROWS ? SIDE_FEW : used <= MORE_ROWS ? SIDE_MORE : SIDE_MANY;
-    index->cells_per_m = (double)index->side / WORLD_SIDE_M;
-    index->committed = committed;
-    index->used = used;
-    index->tick = tick;
-    index->think_divisor = neighbour_index_divisor(think_frames);
-    index->present = 0;
-    workers = used > NEIGHBOUR_INDEX_ALONE ? workers : NULL;
-    thread_pool_run(workers, sort_blocks, index, blocks_of(used), 1);
-    memset(index->band, 0, (SIDE_MANY + 1) * sizeof *index->band);
-    for (uint32_t p = 0; p < blocks_of(used); p++) {
+    memset(index->held, 0, SIDE_MANY * sizeof *index->held);
+    for (uint32_t p = 0; p < blocks_of(index->used); p++) {
         const uint32_t *first = index->first + p * (SIDE_MANY + 1);
         for (uint32_t b = 0; b < index->side; b++)
-            index->band[b + 1] += first[b + 1] - first[b];
+            index->held[b] += first[b + 1] - first[b];
     }
     for (uint32_t b = 0; b < index->side; b++)
-        index->band[b + 1] += index->band[b];
+        index->room[b + 1] =
+            index->room[b] + index->held[b] + index->held[b] / ROOM_SHARE + ROOM_LEAST;
+}
+
+static void find_present(struct neighbour_index *index)
+{
+    index->present = 0;
+    for (uint32_t layer = 0; layer < NEIGHBOUR_INDEX_LAYERS; layer++)
+        index->present |= index->count[layer] > 0 ? NEIGHBOUR_INDEX_LAYER(layer) : 0;
+}
+
+static void count_layers(struct neighbour_index *index)
+{
+    memset(index->count, 0, sizeof index->count);
+    for (uint32_t i = 0; i < index->used; i++) {
+        if (index->key[i] != NEIGHBOUR_INDEX_NO_KEY)
+            index->count[index->key[i] % NEIGHBOUR_INDEX_LAYERS]++;
+    }
+    find_present(index);
+}
+
+static uint32_t side_for(uint32_t used)
+{
+    return used <= FEW_ROWS ? SIDE_FEW : used <= MORE_ROWS ? SIDE_MORE : SIDE_MANY;
+}
+
+static void take_frame(struct neighbour_index *index, const struct neighbour_index_frame *frame)
+{
+    index->committed = frame->committed;
+    index->resting = frame->resting;
+    index->used = frame->used;
+    index->tick = frame->tick;
+    index->think_divisor = neighbour_index_divisor(frame->think_frames);
+}
+
+void neighbour_index_build(struct neighbour_index *index, const struct neighbour_index_frame *frame,
+                           struct thread_pool *workers)
+{
+    take_frame(index, frame);
+    index->side = side_for(index->used);
+    index->cells_per_m = (double)index->side / WORLD_SIDE_M;
+    index->stride = slots_of(index) + 1;
+    index->built = true;
+    workers = index->used > NEIGHBOUR_INDEX_ALONE ? workers : NULL;
+    thread_pool_run(workers, sort_blocks, index, blocks_of(index->used), 1);
+    lay_out(index);
     thread_pool_run(workers, fill_bands, index, index->side, 1);
-    index->start[index->side * index->side * NEIGHBOUR_INDEX_LAYERS] = index->band[index->side];
-    for (uint32_t b = 0; b < index->side; b++)
-        index->present |= index->layers[b];
+    count_layers(index);
+}
+
+/* --- changing ----------------------------------------------------------------------------------*/
+
+/* Shifts the entries at .. end - 1 by one, and notes their places. */
+static void shift(struct neighbour_index *index, uint32_t at, uint32_t end, int by)
+{
+    uint32_t to = at + (uint32_t)by, count = end - at;
+    memmove(&index->entries[to], &index->entries[at], count * sizeof *index->entries);
+    memmove(&index->agent[to], &index->agent[at], count * sizeof *index->agent);
+    for (uint32_t n = to; n < to + count; n++)
+        index->place[index->entries[n].row] = n;
+}
+
+static void take_out(struct neighbour_index *index, uint32_t i)
+{
+    uint32_t slots = slots_of(index), key = index->key[i], band = key / slots, slot = key % slots;
+    uint32_t *start = index->start + band * index->stride;
+    shift(index, index->place[i] + 1, start[slots], -1);
+    for (uint32_t s = slot + 1; s <= slots; s++)
+        start[s]--;
+    index->held[band]--;
+    index->count[key % NEIGHBOUR_INDEX_LAYERS]--;
+    index->key[i] = NEIGHBOUR_INDEX_NO_KEY;
+}
+
+/* Returns false if the row of cells has no room. */
+static bool put_in(struct neighbour_index *index, uint32_t i, uint32_t key)
+{
+    uint32_t slots = slots_of(index), band = key / slots, slot = key % slots;
+    uint32_t *start = index->start + band * index->stride;
+    if (index->room[band] + index->held[band] == index->room[band + 1])
+        return false;
+    for (uint32_t s = 0; index->held[band] == 0 && s <= slots; s++)
+        start[s] = index->room[band];
+    uint32_t at = start[slot];
+    while (at < start[slot + 1] && index->entries[at].row < i)
+        at++;
+    shift(index, at, start[slots], 1);
+    for (uint32_t s = slot + 1; s <= slots; s++)
+        start[s]++;
+    index->entries[at] = entry_of(index->committed, i);
+    index->agent[at] = agent_of(index, i);
+    index->place[i] = at;
+    index->key[i] = key;
+    index->held[band]++;
+    index->count[key % NEIGHBOUR_INDEX_LAYERS]++;
+    note_agent(index, band);
+    return true;
+}
+
+/* Writes the entry of a row again where it is. A row that has entered another cell, or has come or
+ * gone, is listed. */
+static void renew(struct neighbour_index *index, uint32_t i)
+{
+    uint32_t key = key_of(index, index->committed, i);
+    if (key != index->key[i]) {
+        uint32_t n = atomic_fetch_add_explicit(&index->moved_count, 1, memory_order_relaxed);
+        index->moved[n] = i;
+    } else if (key != NEIGHBOUR_INDEX_NO_KEY) {
+        uint32_t at = index->place[i], agent = agent_of(index, i);
+        index->entries[at] = entry_of(index->committed, i);
+        if (agent != index->agent[at])
+            note_agent(index, key / slots_of(index));
+        index->agent[at] = agent;
+    }
+}
+
+static void renew_block(struct neighbour_index *index, uint32_t begin, uint32_t end)
+{
+    for (uint32_t first = begin; first < end; first += 64) {
+        uint32_t rows = end - first < 64 ? end - first : 64;
+        uint64_t awake =
+            (index->resting ? ~index->resting[first / 64] : UINT64_MAX) & UINT64_MAX >> (64 - rows);
+        for (; awake != 0; awake &= awake - 1)
+            renew(index, first + (uint32_t)__builtin_ctzll(awake));
+    }
+}
+
+static void renew_blocks(void *context, uint32_t begin, uint32_t end, uint32_t worker)
+{
+    struct neighbour_index *index = context;
+    (void)worker;
+    for (uint32_t block = begin; block < end; block++) {
+        uint32_t first = block * BLOCK_ROWS;
+        renew_block(index, first,
+                    index->used - first < BLOCK_ROWS ? index->used : first + BLOCK_ROWS);
+    }
+}
+
+/* Rows that are no longer in use have no entry, and rows that are new in use have none yet. */
+static void change_used(struct neighbour_index *index, uint32_t used)
+{
+    for (uint32_t i = used; i < index->used; i++) {
+        if (index->key[i] != NEIGHBOUR_INDEX_NO_KEY)
+            take_out(index, i);
+    }
+    for (uint32_t i = index->used; i < used; i++)
+        index->key[i] = NEIGHBOUR_INDEX_NO_KEY;
+}
+
+/* Moves the listed entries. Returns false if they are too many, or one finds no room. */
+static bool move_entries(struct neighbour_index *index)
+{
+    uint32_t count = index->moved_count;
+    if (count > index->used / MOVED_SHARE + MOVED_LEAST)
+        return false;
+    for (uint32_t n = 0; n < count; n++) {
+        uint32_t i = index->moved[n], key = key_of(index, index->committed, i);
+        if (index->key[i] != NEIGHBOUR_INDEX_NO_KEY)
+            take_out(index, i);
+        if (key != NEIGHBOUR_INDEX_NO_KEY && !put_in(index, i, key))
+            return false;
+    }
+    find_present(index);
+    return true;
+}
+
+void neighbour_index_update(struct neighbour_index *index,
+                            const struct neighbour_index_frame *frame, struct thread_pool *workers)
+{
+    bool kept = index->built && index->side == side_for(frame->used);
+    if (kept) {
+        change_used(index, frame->used);
+        take_frame(index, frame);
+        index->moved_count = 0;
+        workers = index->used > NEIGHBOUR_INDEX_ALONE ? workers : NULL;
+        thread_pool_run(workers, renew_blocks, index, blocks_of(index->used), 1);
+        kept = move_entries(index);
+    }
+    if (!kept)
+        neighbour_index_build(index, frame, workers);
+}
+
+void neighbour_index_rests(struct neighbour_index *index, uint32_t row)
+{
+    if (index->key[row] != NEIGHBOUR_INDEX_NO_KEY)
+        index->agent[index->place[row]] = 0;
 }
 
 /* --- queries -----------------------------------------------------------------------------------*/
@@ -267,12 +493,11 @@ bool neighbour_query_next_span(struct neighbour_query *query)
     const struct neighbour_index *index = query->index;
     do {
         for (; query->row <= query->z1; query->row++, query->column = query->x0) {
-            if (index->layers[query->row] == 0)
+            if (index->held[query->row] == 0)
                 continue;
-            uint32_t first = (uint32_t)query->row * index->side;
+            const uint32_t *start = index->start + (uint32_t)query->row * index->stride;
             while (query->column <= query->x1) {
-                const uint32_t *cell =
-                    index->start + (first + (uint32_t)query->column) * NEIGHBOUR_INDEX_LAYERS;
+                const uint32_t *cell = start + (uint32_t)query->column * NEIGHBOUR_INDEX_LAYERS;
                 uint32_t cells = query->all ? (uint32_t)(query->x1 - query->x0) + 1 : 1;
                 query->column += (int32_t)cells;
                 query->at = index->entries + cell[query->all ? 0 : query->low];

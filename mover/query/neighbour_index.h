@@ -1,10 +1,14 @@
 /* Finds the vehicles near a point, by an index over the committed rows.
  *
- * The index is built in each frame by a counting sort into square cells of the map. Within a cell
- * the active vehicles of each force come first and then the wrecks, so that a search for enemies
- * reads only the entries of enemies, and a search for all reads consecutive entries. Within a cell
- * and a force rows ascend. The order of neighbour_query_next() follows from the world alone, not
- * from the number of threads or from earlier queries. All threads may query at once. */
+ * The entries lie in square cells of the map. Within a cell the active vehicles of each force come
+ * first and then the wrecks, so that a search for enemies reads only the entries of enemies, and a
+ * search for all reads consecutive entries. Within a cell and a force rows ascend. The order of
+ * neighbour_query_next() follows from the world alone, not from the number of threads, from earlier
+ * queries or from earlier frames. All threads may query at once.
+ *
+ * The index is kept from frame to frame. Only the entries of rows that may have changed are written
+ * again; a row that enters another cell moves its entry. When many do, and when there is no index
+ * yet, it is built by a counting sort. */
 #ifndef JOLON_MOVER_QUERY_NEIGHBOUR_INDEX_H
 #define JOLON_MOVER_QUERY_NEIGHBOUR_INDEX_H
 
@@ -12,6 +16,7 @@
 #include "world/entity/kind.h"
 #include "world/runtime/thread_pool.h"
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -25,13 +30,12 @@
 /* Up to this many rows one thread builds the index sooner than others would wake. */
 #define NEIGHBOUR_INDEX_ALONE 2048u
 
-#define NEIGHBOUR_INDEX_KINDS 0x7ffu
+#define NEIGHBOUR_INDEX_KINDS 0xfffu
 struct neighbour_index_entry {
     float x, z;      /* [m] to 2 mm; the row has the exact position */
     float y, vx, vz; /* [m, m/s] */
     uint32_t row : 20;
-    uint32_t kind : 11;
-    uint32_t due : 1; /* the agent decides in this frame */
+    uint32_t kind : 12;
 };
 
 _Static_assert(CAPACITY_MAX <= 1u << 20 && KIND_COUNT_MAX <= NEIGHBOUR_INDEX_KINDS,
@@ -49,22 +53,39 @@ static inline bool neighbour_index_divides(uint64_t divisor, uint32_t number)
     return number * divisor <= divisor - 1;
 }
 
+#define NEIGHBOUR_INDEX_NO_KEY    UINT32_MAX
+#define NEIGHBOUR_INDEX_SIDE_MOST 256u
+
 struct neighbour_index {
     uint32_t side;      /* cells along an edge of the map */
     double cells_per_m; /* along an edge */
-    uint32_t capacity;  /* entries */
-    uint32_t *start;    /* [side][side][NEIGHBOUR_INDEX_LAYERS], and the end: index of entries */
-    struct neighbour_index_entry *entries;
-    uint32_t present; /* the layers that have an entry */
-    /* Used while the index is built: blocks of rows are sorted first, then each row of cells. */
+    uint32_t capacity;  /* rows */
+    uint32_t stride;    /* words of start for a row of cells */
+    uint32_t *start; /* [side][stride] index of entries: where each layer of each cell begins, and
+                        where the row of cells ends; set only where held is not 0 */
+    struct neighbour_index_entry *entries; /* each row of cells has room for some more */
+    uint32_t *agent; /* beside entries: the id of an agent that decides in its turn; 0: none */
+    uint32_t *room;  /* [side + 1] where the room of each row of cells begins, and the end */
+    uint32_t *held;  /* [side] entries of each row of cells */
+    _Atomic uint8_t decides[NEIGHBOUR_INDEX_SIDE_MOST]; /* 0: the row of cells has no agent that
+                                                           decides */
+    uint32_t count[NEIGHBOUR_INDEX_LAYERS];             /* entries of each layer */
+    uint32_t present;                                   /* the layers that have an entry */
+    /* Of the rows: */
+    uint32_t *key;   /* [capacity] cell and layer, or NEIGHBOUR_INDEX_NO_KEY: in no cell */
+    uint32_t *place; /* [capacity] index of entries */
+    /* Of the frame: */
     const struct entities *committed;
+    const uint64_t *resting; /* a bit for each row whose entry has not changed; NULL: none */
     uint32_t used, tick;
-    uint64_t think_divisor;               /* neighbour_index_divisor() of think_frames */
+    uint64_t think_divisor; /* neighbour_index_divisor() of think_frames */
+    bool built;
+    uint32_t *moved; /* [capacity] rows that have entered another cell */
+    _Atomic uint32_t moved_count;
+    /* Used while the index is built: blocks of rows are sorted first, then each row of cells. */
     struct neighbour_index_entry *sorted; /* [capacity] by block and row of cells */
-    uint16_t *slot;   /* [capacity] of sorted: column and layer within a row of cells */
-    uint32_t *first;  /* [blocks][side + 1] index of sorted: where a block's row of cells begins */
-    uint32_t *band;   /* [side + 1] index of entries: where each row of cells begins */
-    uint32_t *layers; /* [side] the layers that a row of cells has; 0: its start is not set */
+    uint16_t *slot;  /* [capacity] of sorted: column and layer within a row of cells */
+    uint32_t *first; /* [blocks][side + 1] index of sorted: where a block's row of cells begins */
 };
 
 /* For tables of up to capacity rows. 0, or -1 with errno ENOMEM. */
@@ -74,11 +95,38 @@ void neighbour_index_free(struct neighbour_index *index);
 /* Takes the memory for this many rows before a step needs it. */
 void neighbour_index_touch(const struct neighbour_index *index, uint32_t rows);
 
-/* Indexes rows 0 .. used - 1. The entries of active vehicles for which tick + id is a multiple of
- * think_frames are due. workers may be NULL. */
-void neighbour_index_build(struct neighbour_index *index, const struct entities *committed,
-                           uint32_t used, uint32_t tick, uint32_t think_frames,
+/* Returns how many entries the index of a table of so many rows has room for. */
+uint32_t neighbour_index_room(uint32_t rows);
+
+/* What the index is of. */
+struct neighbour_index_frame {
+    const struct entities *committed;
+    uint32_t used;         /* rows */
+    uint32_t tick;         /* of the frame that is made */
+    uint32_t think_frames; /* from one decision of an agent to the next */
+    /* Bits of the rows that rest: they have no agent that decides. NULL: no row rests. */
+    const uint64_t *resting;
+};
+
+/* Indexes all rows. workers may be NULL. */
+void neighbour_index_build(struct neighbour_index *index, const struct neighbour_index_frame *frame,
                            struct thread_pool *workers);
+
+/* The same for the frame after the one that is indexed. The entries of rows that rest must not have
+ * changed since. */
+void neighbour_index_update(struct neighbour_index *index,
+                            const struct neighbour_index_frame *frame, struct thread_pool *workers);
+
+/* Notes that the row rests from now on. Any thread, each its own row. */
+void neighbour_index_rests(struct neighbour_index *index, uint32_t row);
+
+/* Returns true if entry n is of an agent that decides in this frame: tick + id is a multiple of
+ * think_frames, and it does not rest. */
+static inline bool neighbour_index_due(const struct neighbour_index *index, uint32_t n)
+{
+    return index->agent[n] != 0 &&
+           neighbour_index_divides(index->think_divisor, index->tick + index->agent[n]);
+}
 
 /* Returns the layers of a force's enemies. Neutral vehicles have no enemies and are no
  * force's enemies. */

@@ -197,10 +197,10 @@ void steps_serial_context(struct fixture *fixture, struct step_context *step,
     *step = mover_context(&fixture->stepper.mover, committed, &view->m);
     *view->m.head = *committed->head;
     entities_copy(&view->m.entities, &committed->entities, 0, committed->head->used);
-    *context =
-        (struct serial_context){.step = step,
-                                .moved = &view->m,
-                                .writer = {&view->m.entities, fixture->stepper.mover.changed}};
+    *context = (struct serial_context){.step = step,
+                                       .moved = &view->m,
+                                       .writer = {&view->m.entities, fixture->stepper.mover.changed,
+                                                  fixture->stepper.mover.resting.resting}};
 }
 
 void steps_respond(struct fixture *fixture, struct response_context *context)

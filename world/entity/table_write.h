@@ -14,14 +14,23 @@
 struct table_writer {
     const struct entities *entities;
     uint64_t *changed; /* [CHECKSUM_BLOCKS] the columns written in each block */
+    uint64_t *resting; /* a bit for each row, which is cleared when the row is written; or NULL */
 };
+
+/* Notes that these columns of a row are written. */
+static inline void table_note(const struct table_writer *writer, uint32_t row, uint64_t columns)
+{
+    writer->changed[row / CHECKSUM_ROWS] |= columns;
+    if (writer->resting)
+        writer->resting[row / 64] &= ~((uint64_t)1 << row % 64);
+}
 
 /* table_set_x(writer, row, x) and so on: one for each column. */
 #define X(type, name)                                                                              \
     static inline void table_set_##name(const struct table_writer *writer, uint32_t row,           \
                                         type value)                                                \
     {                                                                                              \
-        writer->changed[row / CHECKSUM_ROWS] |= COLUMN_BIT(name);                                  \
+        table_note(writer, row, COLUMN_BIT(name));                                                 \
         writer->entities->name[row] = value;                                                       \
     }
 ENTITY_COLUMNS(X)
@@ -71,7 +80,7 @@ static inline void table_set_threat(const struct table_writer *writer, uint32_t 
  * of the row. */
 static inline void table_row_changes(const struct table_writer *writer, uint32_t row)
 {
-    writer->changed[row / CHECKSUM_ROWS] = COLUMNS_ALL;
+    table_note(writer, row, COLUMNS_ALL);
 }
 
 /* Sets the row to zero in every column: a free slot. */

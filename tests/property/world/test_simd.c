@@ -194,7 +194,7 @@ static bool drive_one(const struct step_context *context, uint32_t i,
 
     double wanted = desired->speed_mps;
     double share = maths_max(fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9), 0.15);
-    if (!kinematics_burn(context, i, share))
+    if (!kinematics_burn(context, i, kinematics_parked(m, i) ? 0.0 : share))
         wanted = 0.0;
     double limit = slope_speed(kind, wanted < 0.0 ? -pitch : pitch);
     if (fabs(wanted) > 0.0 && limit <= 0.0)

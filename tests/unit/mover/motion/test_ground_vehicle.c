@@ -374,6 +374,29 @@ static void test_fuel_burns_with_the_throttle_and_an_empty_tank_stops_it(void **
     assert_true(steps_rows(&f).fuel_l[runs] == 0.0 && steps_speed(&f, runs) < 0.05);
 }
 
+static void test_the_engine_is_off_where_a_vehicle_has_the_order_to_stand(void **state)
+{
+    struct kind *kind = steps_kind(&f, "tank");
+    struct fixture_entity stands = {.kind = "tank", .at = {25000.0, 100.0, 25500.0}};
+    uint32_t parked = fixture_put(&f, stands), flees;
+    (void)state;
+    stands.at.z = 25900.0;
+    flees = fixture_put(&f, stands);
+    kind->fuel_l = 1.0;
+    kind->fuel_lps = 0.2;
+    struct entities e = steps_rows(&f);
+    e.fuel_l[parked] = e.fuel_l[flees] = 1.0;
+    e.flags[parked] = e.flags[flees] = ENTITY_FLAG_STAND;
+    e.behaviour[parked] = e.order[parked] = e.order[flees] = BEHAVIOUR_IDLE;
+    e.behaviour[flees] = BEHAVIOUR_FLEE; /* and stands: it is in its place */
+    e.goal_x[flees] = e.x[flees];
+    e.goal_z[flees] = e.z[flees];
+    e.until_tick[flees] = UINT32_MAX;
+    fixture_run(&f, (uint32_t)(2.0 * HZ));
+    assert_true(steps_rows(&f).fuel_l[parked] == 1.0);
+    assert_true(steps_rows(&f).fuel_l[flees] < 1.0 - 0.14 * 0.2 * 2.0);
+}
+
 /* --- debris ------------------------------------------------------------------------------------*/
 
 /* A fallen tree of radius 6 m at (25100, 25010), in both buffers: it fell some frames ago. */
@@ -521,6 +544,7 @@ int main(void)
         TEST(test_it_turns_as_fast_as_the_ground_holds),
         TEST(test_a_sideways_slide_is_braked_by_its_tyres),
         TEST(test_fuel_burns_with_the_throttle_and_an_empty_tank_stops_it),
+        TEST(test_the_engine_is_off_where_a_vehicle_has_the_order_to_stand),
         TEST(test_debris_slows_vehicles),
         TEST(test_debris_keeps_to_its_share),
         TEST(test_debris_slows_by_the_masses_of_both),

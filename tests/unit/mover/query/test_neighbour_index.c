@@ -1,6 +1,7 @@
 /* The index of neighbours, against a search of all rows. */
 #include "mover/query/neighbour_index.h"
 #include "tests/support/steps.h"
+#include "world/terrain/gridsquare.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -63,6 +64,19 @@ static void scatter(uint64_t *random, uint32_t count, double side_m)
     }
 }
 
+/* Indexes the first rows, of which none rests. */
+static struct neighbour_index_frame frame_of(uint32_t count, uint32_t tick, uint32_t think)
+{
+    return (struct neighbour_index_frame){
+        .committed = &rows, .used = count, .tick = tick, .think_frames = think};
+}
+
+static void build(uint32_t count, uint32_t tick, uint32_t think, struct thread_pool *workers)
+{
+    const struct neighbour_index_frame frame = frame_of(count, tick, think);
+    neighbour_index_build(&neighbours, &frame, workers);
+}
+
 static bool belongs(uint32_t i, uint32_t layers, double x, double z, double radius)
 {
     double dx = (double)(float)rows.x[i] - x, dz = (double)(float)rows.z[i] - z;
@@ -94,7 +108,7 @@ static void test_a_query_finds_exactly_the_rows_within_the_radius(void **state)
     for (int trial = 0; trial < 60; trial++) {
         uint32_t count = (uint32_t)(fixture_random(&random) % ROWS_MAX);
         scatter(&random, count, trial % 2 ? WORLD_SIDE_M : 3000.0);
-        neighbour_index_build(&neighbours, &rows, count, 0, 1, NULL);
+        build(count, 0, 1, NULL);
         for (int n = 0; n < 6; n++)
             agrees(count, (uint32_t)(fixture_random(&random) % (NEIGHBOUR_INDEX_ALL + 1)),
                    fixture_uniform(&random, -100.0, 6000.0), fixture_uniform(&random, 0.0, 6000.0),
@@ -128,9 +142,9 @@ static void test_rows_ascend_in_a_cell_on_any_number_of_threads(void **state)
     uint64_t random = fixture_seed(4);
     (void)state;
     scatter(&random, ROWS_MAX, 9000.0);
-    neighbour_index_build(&neighbours, &rows, ROWS_MAX, 0, 1, NULL);
+    build(ROWS_MAX, 0, 1, NULL);
     for (uint32_t layers = 1; layers <= NEIGHBOUR_INDEX_ALL; layers++) {
-        neighbour_index_build(&neighbours, &rows, ROWS_MAX, 0, 1, NULL);
+        build(ROWS_MAX, 0, 1, NULL);
         uint32_t count = walk_all(layers, one);
         for (uint32_t n = 1; n < count && layers == NEIGHBOUR_INDEX_LAYER(FORCE_RED); n++)
             assert_true(cell_of(&one[n - 1]) < cell_of(&one[n]) ||
@@ -138,7 +152,7 @@ static void test_rows_ascend_in_a_cell_on_any_number_of_threads(void **state)
         for (uint32_t threads = 2; threads <= 3; threads++) {
             struct thread_pool *workers = thread_pool_create(threads);
             assert_non_null(workers);
-            neighbour_index_build(&neighbours, &rows, ROWS_MAX, 0, 1, workers);
+            build(ROWS_MAX, 0, 1, workers);
             assert_int_equal(walk_all(layers, other), count);
             for (uint32_t n = 0; n < count; n++)
                 assert_int_equal(one[n].row, other[n].row);
@@ -149,27 +163,119 @@ static void test_rows_ascend_in_a_cell_on_any_number_of_threads(void **state)
 
 static void test_those_are_due_whose_turn_it_is(void **state)
 {
-    static struct neighbour_index_entry all[ROWS_MAX];
     uint64_t random = fixture_seed(8);
     (void)state;
     scatter(&random, 1000, 9000.0);
     for (uint32_t think = 1; think < 40; think += 6) {
         uint32_t tick = (uint32_t)fixture_random(&random);
-        neighbour_index_build(&neighbours, &rows, 1000, tick, think, NULL);
-        uint32_t count = walk_all(NEIGHBOUR_INDEX_ALL, all);
-        for (uint32_t n = 0; n < count; n++)
-            assert_int_equal(all[n].due, rows.state[all[n].row] == ENTITY_ACTIVE &&
-                                             (tick + rows.id[all[n].row]) % think == 0);
+        build(1000, tick, think, NULL);
+        for (uint32_t i = 0; i < 1000; i++) {
+            if (neighbours.key[i] == NEIGHBOUR_INDEX_NO_KEY)
+                continue;
+            assert_int_equal(neighbour_index_due(&neighbours, neighbours.place[i]),
+                             rows.state[i] == ENTITY_ACTIVE && (tick + rows.id[i]) % think == 0);
+        }
     }
+}
+
+/* --- from frame to frame -----------------------------------------------------------------------*/
+
+/* Moves, adds, removes or destroys the row, or leaves it alone. */
+static void change(uint64_t *random, uint32_t i, double side_m)
+{
+    switch (fixture_random(random) % 16) {
+    case 0:
+        put(i, fixture_uniform(random, 0.0, side_m), fixture_uniform(random, 0.0, side_m),
+            (enum force)(fixture_random(random) % 3));
+        break;
+    case 1:
+        rows.state[i] = ENTITY_FREE;
+        break;
+    case 2:
+        rows.state[i] = rows.state[i] == ENTITY_FREE ? ENTITY_FREE : ENTITY_WRECK;
+        break;
+    default:
+        rows.x[i] = maths_clamp(rows.x[i] + fixture_uniform(random, -9.0, 9.0), 0.0, WORLD_SIDE_M);
+        rows.z[i] = maths_clamp(rows.z[i] + fixture_uniform(random, -9.0, 9.0), 0.0, WORLD_SIDE_M);
+        rows.vx[i] = fixture_uniform(random, -9.0, 9.0);
+        break;
+    }
+}
+
+/* Compares the index that was kept with one that is built: all entries in their order, and the
+ * agents that are due. */
+static void is_as_built(const struct neighbour_index_frame *frame)
+{
+    static struct neighbour_index_entry kept[ROWS_MAX], built[ROWS_MAX];
+    static bool due[ROWS_MAX];
+    uint32_t present = neighbours.present;
+    for (uint32_t i = 0; i < frame->used; i++)
+        due[i] = neighbours.key[i] != NEIGHBOUR_INDEX_NO_KEY &&
+                 neighbour_index_due(&neighbours, neighbours.place[i]);
+    for (uint32_t layers = 1; layers <= NEIGHBOUR_INDEX_ALL; layers += 7) {
+        struct neighbour_index other;
+        uint32_t count = walk_all(layers, kept);
+        const struct neighbour_index mine = neighbours;
+        assert_int_equal(neighbour_index_init(&other, ROWS_MAX), 0);
+        neighbour_index_build(&other, frame, NULL);
+        neighbours = other;
+        assert_int_equal(walk_all(layers, built), count);
+        assert_memory_equal(kept, built, count * sizeof *kept);
+        assert_int_equal(present, neighbours.present);
+        for (uint32_t i = 0; i < frame->used; i++)
+            assert_int_equal(due[i], neighbours.key[i] != NEIGHBOUR_INDEX_NO_KEY &&
+                                         neighbour_index_due(&neighbours, neighbours.place[i]));
+        neighbours = mine;
+        neighbour_index_free(&other);
+    }
+}
+
+static void test_an_index_that_is_kept_is_one_that_is_built(void **state)
+{
+    static uint64_t resting[ROWS_MAX / 64 + 1];
+    uint64_t random = fixture_seed(10);
+    struct thread_pool *workers = thread_pool_create(3);
+    (void)state;
+    assert_non_null(workers);
+    for (int trial = 0; trial < 12; trial++) {
+        double side_m = trial % 2 ? WORLD_SIDE_M : 2000.0;
+        uint32_t used = 3000 + (uint32_t)(fixture_random(&random) % 1000), most = 1u << trial;
+        memset(resting, 0, sizeof resting);
+        memset(rows.state, 0, ROWS_MAX);
+        scatter(&random, used, side_m);
+        build(used, 0, 5, NULL);
+        for (uint32_t tick = 1; tick < 12; tick++) {
+            for (uint32_t i = 0; i < ROWS_MAX / 64; i++)
+                resting[i] = fixture_random(&random);
+            for (uint32_t n = 0; n < most; n++) {
+                uint32_t i = (uint32_t)(fixture_random(&random) % used);
+                change(&random, i, side_m);
+                resting[i / 64] &= ~((uint64_t)1 << i % 64);
+            }
+            for (uint32_t i = 0; i < used; i++) { /* rows that begin to rest */
+                if (resting[i / 64] >> i % 64 & 1)
+                    neighbour_index_rests(&neighbours, i);
+            }
+            used += (uint32_t)(fixture_random(&random) % 3);
+            used -= (uint32_t)(fixture_random(&random) % 3);
+            for (uint32_t i = used; i < ROWS_MAX; i++)
+                rows.state[i] = ENTITY_FREE;
+            struct neighbour_index_frame frame = frame_of(used, tick, 5);
+            frame.resting = resting;
+            neighbour_index_update(&neighbours, &frame, tick % 2 ? workers : NULL);
+            is_as_built(&frame);
+        }
+    }
+    thread_pool_destroy(workers);
 }
 
 static void test_an_empty_world_and_an_empty_layer_have_no_rows(void **state)
 {
     (void)state;
-    neighbour_index_build(&neighbours, &rows, 0, 0, 1, NULL);
+    build(0, 0, 1, NULL);
     agrees(0, NEIGHBOUR_INDEX_ALL, 25000.0, 25000.0, 1e6);
     put(0, 25000.0, 25000.0, FORCE_BLUE);
-    neighbour_index_build(&neighbours, &rows, 1, 0, 1, NULL);
+    build(1, 0, 1, NULL);
     agrees(1, NEIGHBOUR_INDEX_LIVING, 25000.0, 25000.0, 0.0);
     agrees(1, neighbour_index_enemies(FORCE_BLUE), 25000.0, 25000.0, 1e6);
     agrees(1, neighbour_index_enemies(FORCE_NEUTRAL), 25000.0, 25000.0, 1e6);
@@ -191,6 +297,7 @@ int main(void)
         TEST(test_a_query_finds_exactly_the_rows_within_the_radius),
         TEST(test_rows_ascend_in_a_cell_on_any_number_of_threads),
         TEST(test_those_are_due_whose_turn_it_is),
+        TEST(test_an_index_that_is_kept_is_one_that_is_built),
         TEST(test_an_empty_world_and_an_empty_layer_have_no_rows),
         TEST(test_the_neutral_are_nobodys_enemies),
     };

@@ -1,0 +1,201 @@
+/* Finds the rows that rest, and wakes them. */
+#include "mover/resting_rows.h"
+
+#include "mover/agent/neighbour_lists.h"
+#include "mover/agent/perception.h"
+#include "mover/motion/kinematics.h"
+#include "mover/motion/wreck.h"
+#include "world/entity/kind.h"
+#include "world/state.h"
+#include "world/terrain/crater.h"
+#include "world/world.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* A crater wakes all rows whose middle is so near to its rim: more than the half diagonal of any
+ * body, and of what a query rounds. */
+#define CRATER_NEAR_M 200.0
+
+static size_t words_of(uint32_t capacity)
+{
+    return (capacity + CHECKSUM_ROWS - 1) / CHECKSUM_ROWS * ROW_BLOCK_WORDS;
+}
+
+int resting_rows_init(struct resting_rows *rows, uint32_t capacity)
+{
+    *rows = (struct resting_rows){.resting = calloc(words_of(capacity), sizeof *rows->resting),
+                                  .turns = calloc(words_of(capacity), sizeof *rows->turns)};
+    if (rows->resting && rows->turns)
+        return 0;
+    resting_rows_free(rows);
+    return -1;
+}
+
+void resting_rows_free(struct resting_rows *rows)
+{
+    free(rows->resting);
+    free(rows->turns);
+    *rows = (struct resting_rows){0};
+}
+
+/* --- waking ------------------------------------------------------------------------------------*/
+
+static uint64_t *block_of(const struct resting_rows *rows, uint32_t block)
+{
+    return rows->resting + block * ROW_BLOCK_WORDS;
+}
+
+void resting_rows_wake_block(struct resting_rows *rows, uint32_t block)
+{
+    memset(block_of(rows, block), 0, ROW_BLOCK_WORDS * sizeof *rows->resting);
+}
+
+void resting_rows_wake_differing(struct resting_rows *rows, struct table moved,
+                                 struct table committed, uint32_t block, uint32_t used)
+{
+    uint64_t *resting = block_of(rows, block), differ[ROW_BLOCK_WORDS] = {0}, any = 0;
+    for (uint32_t w = 0; w < ROW_BLOCK_WORDS; w++)
+        any |= resting[w];
+    if (any == 0 ||
+        memcmp(&moved.hashes[block], &committed.hashes[block], sizeof *moved.hashes) == 0)
+        return;
+    table_differing(moved, committed, block, used, differ);
+    for (uint32_t w = 0; w < ROW_BLOCK_WORDS; w++)
+        resting[w] &= ~differ[w];
+}
+
+static void wake_near(struct resting_rows *rows, const struct step_context *context,
+                      const struct crater *crater)
+{
+    const struct neighbour_index_entry *entry;
+    double reach = CRATER_RIM * (double)crater->radius_m + CRATER_NEAR_M;
+    struct neighbour_query query = neighbour_query_begin(context->neighbours, NEIGHBOUR_INDEX_ALL,
+                                                         crater->x, crater->z, reach);
+    while ((entry = neighbour_query_next(&query)) != NULL)
+        rows->resting[entry->row / 64] &= ~((uint64_t)1 << entry->row % 64);
+}
+
+void resting_rows_wake_craters(struct resting_rows *rows, const struct step_context *context)
+{
+    uint32_t count = context->committed->head->crater_count;
+    uint32_t used = context->committed->head->used;
+    for (uint32_t block = 0; rows->craters > count && block < block_count(used); block++)
+        resting_rows_wake_block(rows, block); /* the world was set back */
+    for (; rows->craters < count; rows->craters++)
+        wake_near(rows, context, &context->craters->craters[rows->craters]);
+    rows->craters = count;
+}
+
+/* --- this frame's rows -------------------------------------------------------------------------*/
+
+/* Returns those of the rows of a word that decide in this frame. */
+static uint64_t due_of(const struct step_context *context, uint32_t first, uint64_t word)
+{
+    uint64_t due = 0;
+    for (; word != 0; word &= word - 1) {
+        uint32_t k = (uint32_t)__builtin_ctzll(word);
+        due |= (uint64_t)step_context_thinks(context, first + k) << k;
+    }
+    return due;
+}
+
+uint32_t resting_rows_awake(const struct resting_rows *rows, const struct step_context *context,
+                            struct row_block *block)
+{
+    uint32_t count = 0;
+    for (uint32_t w = 0; w < ROW_BLOCK_WORDS; w++) {
+        uint32_t row = block->first + w * 64;
+        block->awake[w] = 0;
+        if (row >= block->end)
+            continue;
+        uint64_t there = UINT64_MAX >> (block->end - row < 64 ? 64 - (block->end - row) : 0);
+        uint64_t resting = rows->resting[row / 64], turns = rows->turns[row / 64];
+        block->awake[w] = there & (~resting | due_of(context, row, there & resting & turns));
+        count += (uint32_t)__builtin_popcountll(block->awake[w]);
+    }
+    block->all = count == block->end - block->first;
+    return count;
+}
+
+/* --- coming to rest ----------------------------------------------------------------------------*/
+
+static bool is_still(const struct entities *m, uint32_t i)
+{
+    return m->vx[i] == 0.0 && m->vy[i] == 0.0 && m->vz[i] == 0.0 && m->spin_x[i] == 0.0 &&
+           m->spin_y[i] == 0.0 && m->spin_z[i] == 0.0 && !(m->flags[i] & ENTITY_FLAG_CHASSIS);
+}
+
+/* Returns true if nothing that the row knows lets it do anything else than stand. */
+static bool is_at_ease(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    return kinematics_parked(m, i) && is_still(m, i) && m->target_id[i] == 0 &&
+           m->threat_id[i] == 0 && m->bumped[i] == 0 && m->trigger[i] == 0 &&
+           !(m->flags[i] & ENTITY_FLAG_BURST) && context->tick >= m->until_tick[i] &&
+           !perception_hurt_soon(context, i);
+}
+
+enum rest { REST_NONE, REST_TURNS, REST_ALL };
+
+/* Returns how row i rests if moving it has changed nothing. */
+static enum rest rest_of(const struct step_context *context, uint32_t i, enum motion motion)
+{
+    const struct entities *m = context->m;
+    switch (motion) {
+    case MOTION_NONE:
+        return m->state[i] == ENTITY_FREE ? REST_ALL : REST_NONE;
+    case MOTION_WRECK:
+        return wreck_rests(context, i) && m->trigger[i] == 0 ? REST_ALL : REST_NONE;
+    case MOTION_HOLD: /* a gun with a target is laid in the row's turn */
+        return is_still(m, i) && m->trigger[i] == 0 && m->target_id[i] == 0 ? REST_ALL : REST_NONE;
+    case MOTION_COURSE:
+        return is_at_ease(context, i) ? REST_TURNS : REST_NONE;
+    case MOTION_AGENT:
+        if (!is_at_ease(context, i))
+            return REST_NONE;
+        return context->world->kinds[m->kind[i]].domain != DOMAIN_AIR &&
+                       perception_settled(context, i)
+                   ? REST_ALL
+                   : REST_TURNS;
+    case MOTION_FLIGHT:
+    case MOTION_ALONE:
+        break;
+    }
+    return REST_NONE;
+}
+
+static bool has_rest(const struct resting_rows *rows, uint32_t i)
+{
+    return rows->resting[i / 64] >> i % 64 & 1;
+}
+
+static void settle_row(struct resting_rows *rows, const struct step_context *context, uint32_t i,
+                       enum motion motion)
+{
+    const uint64_t bit = (uint64_t)1 << i % 64;
+    uint64_t *resting = &rows->resting[i / 64], *turns = &rows->turns[i / 64];
+    enum rest rest = rest_of(context, i, motion);
+    if (rest == REST_NONE && !(*resting & bit))
+        return;
+    if (rest == REST_NONE || entities_differing(context->m, &context->committed->entities, i) != 0)
+        *resting &= ~bit;
+    else
+        *resting |= bit;
+    *turns = rest == REST_TURNS ? *turns | bit : *turns & ~bit;
+}
+
+void resting_rows_settle(struct resting_rows *rows, const struct step_context *context,
+                         const struct row_block *block, const uint8_t *motion,
+                         struct neighbour_index *neighbours, struct neighbour_lists *lists)
+{
+    for (uint32_t i = row_block_next(block, block->first); i < block->end && !rows->never;
+         i = row_block_next(block, i + 1)) {
+        bool rested = has_rest(rows, i);
+        settle_row(rows, context, i, (enum motion)motion[i - block->first]);
+        if (rested || !has_rest(rows, i))
+            continue;
+        neighbour_index_rests(neighbours, i);
+        neighbour_lists_none(lists, i);
+    }
+}

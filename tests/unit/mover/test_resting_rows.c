@@ -1,0 +1,130 @@
+/* Which rows come to rest, and what wakes them. */
+#include "mover/resting_rows.h"
+#include "tests/support/fixture.h"
+#include "tests/support/steps.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define SECOND 60u
+
+static struct fixture f;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static uint32_t put(const char *kind, double z, enum behaviour behaviour)
+{
+    struct fixture_entity entity = {.kind = kind, .at = {25000.0, 100.0, z}, .force = FORCE_RED};
+    uint32_t row = fixture_put(&f, entity);
+    struct entities e = steps_rows(&f);
+    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
+    return row;
+}
+
+static bool rests(uint32_t row)
+{
+    return f.stepper.mover.resting.resting[row / 64] >> row % 64 & 1;
+}
+
+static bool has_turns(uint32_t row)
+{
+    return f.stepper.mover.resting.turns[row / 64] >> row % 64 & 1;
+}
+
+static void test_what_has_nothing_to_do_rests(void **state)
+{
+    uint32_t tank = put("tank", 25000.0, BEHAVIOUR_IDLE);
+    uint32_t looks = put("tank", 25100.0, BEHAVIOUR_IDLE);
+    uint32_t hovers = put("helicopter", 25200.0, BEHAVIOUR_IDLE);
+    uint32_t holds = put("jeep", 25300.0, BEHAVIOUR_HOLD);
+    uint32_t patrols = put("truck", 25400.0, BEHAVIOUR_PATROL);
+    uint32_t drives = fixture_put(&f, (struct fixture_entity){.kind = "jeep",
+                                                              .at = {25000.0, 100.0, 25500.0},
+                                                              .velocity = {5.0, 0.0, 0.0}});
+    (void)state;
+    steps_rows(&f).flags[looks] = ENTITY_FLAG_FIRE_AT_WILL;
+    steps_rows(&f).y[hovers] += steps_kind(&f, "helicopter")->cruise_altitude_m;
+    fixture_run(&f, 1); /* it tells mover and collider that the test has written */
+    fixture_continue(&f, 20 * SECOND);
+    while (f.stepper.mover.neighbours.tick % 6 != 1) /* nobody has just decided */
+        fixture_continue(&f, 1);
+    assert_true(rests(tank) && !has_turns(tank));
+    assert_true(rests(looks) && has_turns(looks));
+    assert_true(rests(hovers) && has_turns(hovers));
+    assert_true(rests(holds));
+    assert_false(rests(patrols));
+    assert_false(rests(drives));
+}
+
+static void test_a_restarted_mover_knows_no_row_at_rest(void **state)
+{
+    uint32_t tank = put("tank", 25000.0, BEHAVIOUR_IDLE);
+    (void)state;
+    fixture_run(&f, 1);
+    fixture_continue(&f, SECOND);
+    assert_true(rests(tank));
+    fixture_threads(&f, 1);
+    assert_false(rests(tank));
+    fixture_continue(&f, SECOND);
+    assert_true(rests(tank));
+}
+
+static void test_a_crater_wakes_what_stands_at_its_rim(void **state)
+{
+    uint32_t tank = put("tank", 25000.0, BEHAVIOUR_IDLE),
+             far = put("tank", 30000.0, BEHAVIOUR_IDLE);
+    (void)state;
+    fixture_run(&f, 1);
+    fixture_continue(&f, SECOND);
+    assert_true(rests(tank) && rests(far));
+    double before = steps_rows(&f).pitch[tank];
+    struct state now = fixture_state(&f);
+    now.craters[0] = (struct crater){25000.0, 25008.0, 6.0f, 2.0f, 1};
+    now.head->crater_count = 1;
+    fixture_continue(&f, 1);
+    assert_true(steps_rows(&f).pitch[tank] != before);
+    assert_true(rests(far));
+}
+
+static void test_a_command_wakes_the_row(void **state)
+{
+    uint32_t tank = put("tank", 25000.0, BEHAVIOUR_IDLE);
+    (void)state;
+    fixture_run(&f, 1);
+    fixture_continue(&f, SECOND);
+    steps_send(
+        &f, RING_CLIENTS,
+        (struct command){
+            .source = 1, .type = COMMAND_DRIVE, .entity = steps_rows(&f).id[tank], .value = {1.0}});
+    fixture_continue(&f, SECOND);
+    assert_false(rests(tank));
+    assert_true(steps_speed(&f, tank) > 1.0);
+}
+
+int main(void)
+{
+#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+    const struct CMUnitTest tests[] = {
+        TEST(test_what_has_nothing_to_do_rests),
+        TEST(test_a_restarted_mover_knows_no_row_at_rest),
+        TEST(test_a_crater_wakes_what_stands_at_its_rim),
+        TEST(test_a_command_wakes_the_row),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
