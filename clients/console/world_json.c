@@ -27,6 +27,7 @@ static void put_kinds(struct json_writer *json, const struct world_reader *reade
         json_writer_key_whole(json, "rounds", kind->rounds);
         json_writer_key_number(json, "fuel_l", kind->fuel_l, 1);
         json_writer_key_number(json, "max_speed_mps", kind->max_speed_mps, 1);
+        json_writer_key_number(json, "min_speed_mps", kind->min_speed_mps, 1);
         json_writer_key_number(json, "range_m", kind->range_m, 0);
         json_writer_end(json, '}');
     }

@@ -5,6 +5,7 @@
 #include "ipc/process/clock.h"
 #include "world/entity/command.h"
 #include "world/enum_names.h"
+#include "world/maths/maths.h"
 #include "world/runtime/utf8.h"
 
 #include <stdarg.h>
@@ -142,6 +143,17 @@ static bool has_lease(const struct session *session)
     return session->state == SESSION_TAKING || session->state == SESSION_DRIVING;
 }
 
+/* The lever of an aircraft begins where it keeps its speed: a jet without throttle would fall. */
+static double lever_of(const struct session *session)
+{
+    const jolon_Entity *self = session_entity(session);
+    const jolon_KindInfo *kind = self ? world_mirror_kind(session->mirror, self->kind) : NULL;
+    if (!kind || !is_aircraft(session))
+        return 0.0;
+    double speed = hypot((double)self->vx_mps, (double)self->vz_mps);
+    return maths_clamp(speed / maths_max((double)kind->max_speed_mps, 1.0), 0.0, 1.0);
+}
+
 static void take_vehicle(struct session *session, uint32_t id, uint64_t now_ns)
 {
     char label[64];
@@ -158,6 +170,7 @@ static void take_vehicle(struct session *session, uint32_t id, uint64_t now_ns)
     session->look_rad = 0.0;
     session->state = SESSION_TAKING;
     control_shaping_reset(&session->shaping, now_ns);
+    session->shaping.lever = lever_of(session);
     struct controls controls = control_shaping_controls(&session->shaping, false);
     send_drive(session, &controls, now_ns);
     session_notify(session, now_ns, "taking %s", session_label(session->mirror, id, label));

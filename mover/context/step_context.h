@@ -62,6 +62,7 @@ struct desired_motion {
     double turn;       /* -1..1 of the kind's turn rate, instead of heading_rad */
     double climb_mps;  /* aircraft, instead of altitude_m */
     double brake;      /* 0..1 of the hardest braking */
+    double power;      /* aeroplanes: 0..1 of the thrust that the throttle allows */
     double hand_brake; /* 0..1: holds the wheels that do not steer, or the tracks */
 };
 

@@ -64,6 +64,7 @@ static void take_desired(const struct step_context *context, struct aircraft *ba
     batch->climb.lane[l] = desired->climb_mps;
     batch->brake.lane[l] = desired->brake;
     batch->spool.lane[l] = desired->driven ? 1.0 - (double)m->dodge[i] : 1.0;
+    batch->power.lane[l] = desired->driven ? desired->power : 1.0;
 }
 
 bool aircraft_take(const struct step_context *context, struct aircraft *batch, uint32_t i,
@@ -170,7 +171,9 @@ static inline void push(struct airframe *f, double dt_s, f64x4 *speed, f64x4 *no
     airframe_tilt(f, &level, nose);
     f->up_mps += f->rising_mps2 * dt_s;
     snap(&f->up_mps, &f->wanted_up_mps);
-    *speed = SIMD_MAX(*speed + along * dt_s, none);
+    /* One that has no speed to fly with falls. */
+    f64x4 falls = SIMD_MAX(SIMD_NEGATIVE(f->up_mps), none);
+    *speed = SIMD_MAX(*speed + along * dt_s, falls);
     snap(speed, &f->wanted_mps);
     f64x4 high = *speed * UPRIGHT, low = SIMD_NEGATIVE(high);
     f64x4 steep = SIMD_CLAMP(f->up_mps, low, high);
@@ -287,6 +290,7 @@ static inline void take_airframe(const struct aircraft *batch, int h, struct air
     f->held = batch->held.f64x4[h];
     f->up_mps = batch->vy.f64x4[h];
     f->spool = batch->spool.f64x4[h];
+    f->power = batch->power.f64x4[h];
     /* Agents slow an aeroplane by its air brakes. */
     f->brake = SIMD_CHOOSE(f->driven, batch->brake.f64x4[h], SIMD_EVERY(1.0));
     f64x4 off = batch->wanted_heading.f64x4[h] - batch->heading.f64x4[h];

@@ -61,6 +61,7 @@ struct airframe {
     f64x4 wanted_mps, wanted_up_mps, turn; /* turn: -1..1 when driven or held, else [rad] off */
     f64x4 brake;                           /* 0..1 */
     f64x4 spool; /* 0..1: what its engine gives at most now; 1 unless driven */
+    f64x4 power; /* 0..1: what an aeroplane's throttle allows its engine to give */
     four_masks driven, held, dry;
     /* Results of airframe_lift() and airframe_turn(). */
     f64x4 lift_most; /* [g] */
@@ -162,7 +163,8 @@ static inline void airframe_push(struct airframe *f, const f64x4 *speed, double 
     f64x4 slope = g * f->up_mps / SIMD_MAX(*speed, one);
     f64x4 idle = SIMD_NEGATIVE(drag) - slope;
     f64x4 wanted = (f->wanted_mps - *speed) / AIRFRAME_SPEED_S;
-    f64x4 asked = SIMD_CHOOSE(f->dry, none, (wanted - idle) / thrust);
+    f64x4 asked = SIMD_MIN((wanted - idle) / thrust, f->power);
+    asked = SIMD_CHOOSE(f->dry, none, asked);
     airframe_spool(f, &asked, &f->aeroplane, dt_s);
     f64x4 most = idle + SIMD_CHOOSE(f->dry, none, thrust * f->spool);
     f64x4 low = idle - thrust * f->brake;

@@ -7,6 +7,7 @@
 #define LOW_SHARE     0.35 /* of full speed, in low gear */
 #define ASTERN_SHARE  0.5  /* of full speed, ships backwards */
 #define STALL_SHARE   0.3  /* of the stalling speed that the air brake takes */
+#define FULL_THRUST   0.25 /* throttle from which an aeroplane's engine may give all its thrust */
 #define HOVER_BACK    0.25 /* of full speed, helicopters backwards */
 
 /* The speed [m/s] for a throttle. full: the kind's top speed; back: the share of it backwards. */
@@ -27,7 +28,8 @@ static double geared(enum gearing gear, double throttle, double full, double bac
 }
 
 /* The throttle of a helicopter is its speed, forwards or backwards. That of a jet is its speed
- * above that at which it stalls; with the air brake it stalls. */
+ * above that at which it stalls. Below FULL_THRUST it also limits the thrust, and at 0 there is
+ * none: the jet glides. With the air brake it stalls. */
 static double airspeed(const struct kind *kind, double throttle, double brake)
 {
     throttle *= 1.0 - brake;
@@ -54,11 +56,13 @@ void driver_controls_motion(const struct step_context *context, uint32_t i,
         .hand_brake = kind->domain == DOMAIN_LAND ? maths_max(0.0, (double)m->climb[i]) : 0.0,
     };
     /* The brake overrides the throttle. */
-    if (kind->domain == DOMAIN_AIR)
+    if (kind->domain == DOMAIN_AIR) {
         desired->speed_mps = airspeed(kind, throttle, brake);
-    else
+        desired->power = maths_clamp(throttle * (1.0 - brake) / FULL_THRUST, 0.0, 1.0);
+    } else {
         desired->speed_mps = geared(gear, throttle * (1.0 - brake), kind->max_speed_mps,
                                     kind->domain == DOMAIN_SEA ? ASTERN_SHARE : REVERSE_SHARE);
+    }
 }
 
 void driver_controls_release(const struct entities *m, uint32_t i)

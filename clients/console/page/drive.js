@@ -5,11 +5,12 @@
 
 import { Refusal } from './api.js';
 import { setText, words } from './format.js';
-import { KIND } from './world.js';
+import { KIND, SPEED } from './world.js';
 
 const LEAST_MS = 33;
 const RENEW_MS = 180;
 const STEP_MS = 16;
+const LEVER_S = 1.5; // an aeroplane's throttle, from nothing to full
 const GEARS = ['automatic', 'reverse', 'neutral', 'low'];
 const clamp = (value, least, most) => Math.round(Math.min(Math.max(value, least), most) * 100) / 100;
 
@@ -33,6 +34,7 @@ export class Drive {
     this.strip = document.getElementById('driving');
     this.gear = GEARS[0];
     this.vehicle = 0;
+    this.throttle = 0;
     this.busy = false;
     this.sent = '';
     this.sentAt = 0;
@@ -52,6 +54,7 @@ export class Drive {
     if (driven !== this.vehicle) {
       this.vehicle = driven;
       this.gear = GEARS[0];
+      this.throttle = this.speedShare();
       this.sent = '';
       this.keys.rest();
       this.keys.driving = driven !== 0;
@@ -73,15 +76,32 @@ export class Drive {
       'Next: click a vehicle on the map or in the list.';
   }
 
+  /** The kind of the vehicle. */
+  kind() {
+    return this.world.kind(this.world.now.get(this.vehicle)?.[KIND]);
+  }
+
+  /** Its speed as a share of its kind's greatest. */
+  speedShare() {
+    const speed = this.world.now.get(this.vehicle)?.[SPEED] ?? 0;
+    return Math.min(speed / (this.kind().max_speed_mps || Infinity), 1);
+  }
+
+  /** The throttle of an aeroplane is a lever that stays, because without thrust it falls. */
+  lever(pull, dt) {
+    if (!(this.kind().min_speed_mps > 0)) return pull;
+    this.throttle = Math.min(Math.max(this.throttle + pull * dt / LEVER_S, 0), 1);
+    return this.throttle;
+  }
+
   /** The present controls. */
   read(dt) {
     const all = [this.keys.step(dt), this.hands.levers, this.pads.step()].filter((levers) => levers);
     const sum = (lever) => all.reduce((total, levers) => total + levers[lever], 0);
-    const entity = this.world.now.get(this.vehicle);
-    const flies = entity !== undefined && this.world.kind(entity[KIND]).domain === 'air';
+    const flies = this.kind().domain === 'air';
     const rise = clamp(sum('rise'), -1, 1);
     return {
-      throttle: clamp(sum('throttle'), -1, 1),
+      throttle: clamp(this.lever(clamp(sum('throttle'), -1, 1), dt), -1, 1),
       steer: clamp(sum('steer'), -1, 1),
       climb: flies ? rise : 0,
       traverse: clamp(sum('traverse'), -1, 1),

@@ -10,7 +10,7 @@ import { Refusal } from './api.js';
  * @typedef {[id: number, kind: number, force: number, behaviour: number, state: number, damage: number,
  *   x: number, z: number, heading: number, speed: number, turret: number, driven: number]} Entity
  */
-export const ID = 0, KIND = 1, FORCE = 2, STATE = 4, X = 6, Z = 7, HEADING = 8, TURRET = 10, DRIVEN = 11;
+export const ID = 0, KIND = 1, FORCE = 2, STATE = 4, X = 6, Z = 7, HEADING = 8, SPEED = 9, TURRET = 10, DRIVEN = 11;
 export const STATE_WRECK = 2;
 export const DRIVEN_BY_ANOTHER = 1;
 
