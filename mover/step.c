@@ -132,6 +132,13 @@ static void after_motion(const struct step_context *context, struct batches *bat
     turret_hold_fire(context, i, &solution);
 }
 
+/* Notes that a row has crossed the edge of the world. */
+static void leaves_world(const struct step_context *context, struct batches *batches, uint32_t i)
+{
+    context->m->trigger[i] = TRIGGER_LEFT_WORLD;
+    batches->motion[i - batches->block->first] = MOTION_AGENT; /* more than its motion changes */
+}
+
 /* Moves a land vehicle that is on its springs. */
 static void move_chassis(const struct step_context *context, struct batches *batches, uint32_t i,
                          const struct desired_motion *desired)
@@ -160,8 +167,11 @@ static void move_air(const struct step_context *context, struct batches *batches
 {
     struct aircraft *air = &batches->air;
     aircraft_move(context, air);
-    for (int l = 0; l < air->count; l++)
+    for (int l = 0; l < air->count; l++) {
         after_motion(context, batches, air->row[l], air->blocked.lane[l] != 0);
+        if (air->left.lane[l])
+            leaves_world(context, batches, air->row[l]);
+    }
     air->count = 0;
 }
 
@@ -232,6 +242,23 @@ static bool settle_first(const struct step_context *context, uint32_t i, struct 
     return true;
 }
 
+/* Moves a row that holds its course. */
+static void move_on(const struct step_context *context, uint32_t i, struct batches *batches)
+{
+    switch (constant_course_row(context, i)) {
+    case COURSE_GROUND:
+        if (constant_course_take(context, &batches->course, i))
+            move_course(context, batches);
+        break;
+    case COURSE_DONE:
+        turret_turn(context, i, &(struct turret_solution){0});
+        break;
+    case COURSE_LEFT_WORLD:
+        leaves_world(context, batches, i);
+        break;
+    }
+}
+
 static void move_row(const struct step_context *context, uint32_t i, struct batches *batches)
 {
     struct desired_motion desired;
@@ -247,10 +274,7 @@ static void move_row(const struct step_context *context, uint32_t i, struct batc
     case MOTION_HOLD:
         if (settle_first(context, i, batches))
             break;
-        if (!constant_course_row(context, i))
-            turret_turn(context, i, &(struct turret_solution){0});
-        else if (constant_course_take(context, &batches->course, i))
-            move_course(context, batches);
+        move_on(context, i, batches);
         break;
     case MOTION_ALONE:
         agent_direct(context, i, &desired);
@@ -392,9 +416,26 @@ static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t wo
     }
 }
 
-static void pull_trigger(struct serial_context *context, uint32_t i)
+static void tell_change(struct serial_context *context, uint32_t i, enum agent_reason because)
 {
     const struct entities *w = &context->step->committed->entities;
+    const struct entities *m = &context->moved->entities;
+    struct event *event = serial_context_intent(context, EVENT_AGENT);
+    if (event)
+        event->agent = (struct event_agent){serial_context_party(context, i), w->behaviour[i],
+                                            m->behaviour[i], (uint32_t)because};
+    context->moved->head->tally.agent_changes++;
+}
+
+/* Removes a row that has crossed the edge of the world. */
+static void leave_world(struct serial_context *context, uint32_t i)
+{
+    tell_change(context, i, REASON_LEFT_WORLD);
+    spawn_remove(context, i);
+}
+
+static void pull_trigger(struct serial_context *context, uint32_t i)
+{
     const struct entities *m = &context->moved->entities;
     uint8_t trigger = m->trigger[i];
     table_set_trigger(&context->writer, i, 0);
@@ -402,14 +443,12 @@ static void pull_trigger(struct serial_context *context, uint32_t i)
         wreck_tell_broken(context, i);
         return;
     }
-    if (trigger >> TRIGGER_REASON_SHIFT) {
-        struct event *event = serial_context_intent(context, EVENT_AGENT);
-        if (event)
-            event->agent = (struct event_agent){serial_context_party(context, i), w->behaviour[i],
-                                                m->behaviour[i],
-                                                (uint32_t)(trigger >> TRIGGER_REASON_SHIFT) - 1};
-        context->moved->head->tally.agent_changes++;
+    if (trigger == TRIGGER_LEFT_WORLD) {
+        leave_world(context, i);
+        return;
     }
+    if (trigger >> TRIGGER_REASON_SHIFT)
+        tell_change(context, i, (enum agent_reason)((trigger >> TRIGGER_REASON_SHIFT) - 1));
     if ((trigger & TRIGGER_FIRE) && entities_alive(m, m->target_slot[i], m->target_id[i]))
         fire_shoot(context, i, m->target_slot[i], KIND_NONE);
     if (trigger & TRIGGER_FIRE_AT)

@@ -21,8 +21,8 @@ _Static_assert((int)jolon_RESPONSE_DESTROYED == (int)RESPONSE_DESTROYED &&
 _Static_assert((int)jolon_STRUCK_AIR == (int)STRUCK_AIR &&
                    (int)STRUCK_COUNT == (int)jolon_STRUCK_AIR + 1,
                "what is struck in ipc/topics/status.idl");
-_Static_assert((int)jolon_REASON_ROUNDS_FIRED == (int)REASON_ROUNDS_FIRED &&
-                   (int)REASON_COUNT == (int)jolon_REASON_ROUNDS_FIRED + 1,
+_Static_assert((int)jolon_REASON_LEFT_WORLD == (int)REASON_LEFT_WORLD &&
+                   (int)REASON_COUNT == (int)jolon_REASON_LEFT_WORLD + 1,
                "agents' reasons in ipc/topics/status.idl");
 _Static_assert((int)jolon_CONTACT_END_NO_ROOM == (int)CONTACT_END_NO_ROOM &&
                    (int)CONTACT_END_REASON_COUNT == (int)jolon_CONTACT_END_NO_ROOM + 1,

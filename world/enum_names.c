@@ -25,7 +25,7 @@ WORDS(struck_name, struck, STRUCK_COUNT, "vehicle", "fixed", "ground", "water", 
 WORDS(agent_reason_name, agent_reason, REASON_COUNT, "fired upon", "target gone", "out of rounds",
       "time over", "collision", "enemy seen", "command", "out of fuel", "lost sight", "hurt",
       "outnumbered", "low fuel", "supplied", "arrived", "leader lost", "script", "lease over",
-      "suppressed", "losses", "stuck", "rounds fired")
+      "suppressed", "losses", "stuck", "rounds fired", "left the world")
 WORDS(mission_order_name, mission_order, MISSION_ORDER_COUNT, "hold", "reserve", "move", "bound",
       "attack", "defend", "withdraw", "patrol", "strike", "barrage", "resupply")
 WORDS(mission_news_name, mission_news, MISSION_NEWS_COUNT, "phase", "reaction", "objective",

@@ -155,8 +155,7 @@ static bool good_crater(const jolon_CraterEvent *event)
 static bool good_agent(jolon_AgentEvent *event)
 {
     return party(&event->agent) && event->before <= jolon_BEHAVIOUR_REPOSITION &&
-           event->after <= jolon_BEHAVIOUR_REPOSITION &&
-           event->because <= jolon_REASON_ROUNDS_FIRED;
+           event->after <= jolon_BEHAVIOUR_REPOSITION && event->because <= jolon_REASON_LEFT_WORLD;
 }
 
 static bool good_contact_end(jolon_ContactEndEvent *event)

@@ -17,8 +17,10 @@
 #define STEEP_COSINE   0.12  /* a bank or pitch beyond counts as this one, whose slope is 8 */
 #define UPRIGHT        0.97  /* sine of the steepest path */
 #define SNAP_MPS       1e-3  /* a speed so near to what is wanted is what is wanted */
-#define EDGE_M         200.0 /* an aircraft turns back so far from the edge of the world */
-#define EDGE_TURN_S    9.0   /* an aeroplane so much earlier */
+#define EDGE_M         200.0 /* an aircraft is told so far from the edge of the world */
+#define EDGE_TURN_S    9.0   /* and turns back if it would reach it within this time */
+#define EDGE_LEAST_M   50.0  /* as near as it wants to come */
+#define EDGE_TURN_RAD  0.5   /* a driven aircraft that is further off has its stick hard over */
 
 void aircraft_begin(struct aircraft *batch)
 {
@@ -39,11 +41,24 @@ static void take_kind(struct aircraft *batch, int l, const struct kind *kind)
     batch->tank.lane[l] = -(int64_t)(kind->fuel_l > 0.0);
 }
 
-/* Returns true if an aeroplane flies towards an edge of the world that is near. */
+/* Returns true if it flies towards an edge of the world that is near. */
 static bool leaves(const struct entities *m, uint32_t i)
 {
     double x = m->x[i] + m->vx[i] * EDGE_TURN_S, z = m->z[i] + m->vz[i] * EDGE_TURN_S;
-    return x < 0.0 || z < 0.0 || x > WORLD_SIDE_M || z > WORLD_SIDE_M;
+    const double first = EDGE_LEAST_M, last = WORLD_SIDE_M - EDGE_LEAST_M;
+    return x < first || z < first || x > last || z > last;
+}
+
+/* Turns it towards the middle of the world, whatever its agent or its driver wants. */
+static void turn_back(const struct entities *m, struct aircraft *batch, int l)
+{
+    uint32_t i = batch->row[l];
+    double heading = maths_heading(0.5 * WORLD_SIDE_M - m->x[i], 0.5 * WORLD_SIDE_M - m->z[i]);
+    double off = maths_wrap_half(heading - m->heading[i]);
+    batch->held.lane[l] = 0;
+    batch->wanted_heading.lane[l] = heading;
+    batch->wanted_mps.lane[l] = fabs(batch->wanted_mps.lane[l]); /* helicopters fly backwards */
+    batch->turn.lane[l] = maths_clamp(off / EDGE_TURN_RAD, -1.0, 1.0);
 }
 
 static void take_desired(const struct step_context *context, struct aircraft *batch, int l,
@@ -51,13 +66,9 @@ static void take_desired(const struct step_context *context, struct aircraft *ba
 {
     const struct entities *m = context->m;
     uint32_t i = batch->row[l];
-    bool back = !desired->driven && batch->least_mps.lane[l] > 0.0 && leaves(m, i);
-    double heading = back
-                         ? maths_heading(0.5 * WORLD_SIDE_M - m->x[i], 0.5 * WORLD_SIDE_M - m->z[i])
-                         : desired->heading_rad;
     batch->driven.lane[l] = -(int64_t)desired->driven;
-    batch->held.lane[l] = -(int64_t)(desired->held && !back);
-    batch->wanted_heading.lane[l] = heading;
+    batch->held.lane[l] = -(int64_t)desired->held;
+    batch->wanted_heading.lane[l] = desired->heading_rad;
     batch->wanted_mps.lane[l] = desired->speed_mps;
     batch->altitude.lane[l] = desired->altitude_m;
     batch->turn.lane[l] = desired->turn;
@@ -65,6 +76,8 @@ static void take_desired(const struct step_context *context, struct aircraft *ba
     batch->brake.lane[l] = desired->brake;
     batch->spool.lane[l] = desired->driven ? 1.0 - (double)m->dodge[i] : 1.0;
     batch->power.lane[l] = desired->driven ? desired->power : 1.0;
+    if (leaves(m, i))
+        turn_back(m, batch, l);
 }
 
 bool aircraft_take(const struct step_context *context, struct aircraft *batch, uint32_t i,
@@ -137,20 +150,21 @@ static inline void want(struct aircraft *batch, int h, const f64x4 *ground, doub
     f->wanted_up_mps = SIMD_CHOOSE(sinks, least, f->wanted_up_mps);
 }
 
-/* kinematics_advance() */
-static inline void advance(f64x4 *metres, f64x4 *speed_mps, double dt_s)
+/* Advances a map coordinate, and notes whether it has crossed the edge of the world. */
+static inline void advance(f64x4 *metres, const f64x4 *speed_mps, double dt_s, four_masks *left)
 {
     f64x4 to = *metres + *speed_mps * dt_s;
     *metres = SIMD_CLAMP(to, SIMD_EVERY(0.0), SIMD_EVERY(WORLD_SIDE_M));
-    *speed_mps = SIMD_CHOOSE(to != *metres, SIMD_EVERY(0.0), *speed_mps);
+    *left |= to != *metres;
 }
 
 /* Moves it, and notes whether it is near the edge. */
 static inline void change_position(struct aircraft *batch, int h, double dt_s)
 {
     const f64x4 last = SIMD_EVERY(WORLD_SIDE_M - EDGE_M);
-    advance(&batch->x.f64x4[h], &batch->vx.f64x4[h], dt_s);
-    advance(&batch->z.f64x4[h], &batch->vz.f64x4[h], dt_s);
+    batch->left.f64x4[h] = (four_masks){0};
+    advance(&batch->x.f64x4[h], &batch->vx.f64x4[h], dt_s, &batch->left.f64x4[h]);
+    advance(&batch->z.f64x4[h], &batch->vz.f64x4[h], dt_s, &batch->left.f64x4[h]);
     batch->y.f64x4[h] += batch->vy.f64x4[h] * dt_s;
     batch->blocked.f64x4[h] = (batch->x.f64x4[h] < EDGE_M) | (batch->z.f64x4[h] < EDGE_M) |
                               (batch->x.f64x4[h] > last) | (batch->z.f64x4[h] > last);

@@ -1,6 +1,7 @@
 /* Motion of aircraft, in batches of eight as for land vehicles (ground_vehicle.h), by the formulas
  * of airframe.h. Helicopters hover (min_speed_mps 0); agents keep aeroplanes above the speed at
- * which they stall. Both keep their height above the ground ahead. */
+ * which they stall. Both keep their height above the ground ahead. All turn back before the edge of
+ * the world; one that cannot crosses it. */
 #ifndef JOLON_MOVER_MOTION_AIRCRAFT_H
 #define JOLON_MOVER_MOTION_AIRCRAFT_H
 
@@ -18,7 +19,7 @@ struct aircraft {
     /* The kind. */
     union simd_lanes full_mps, least_mps, acceleration, turn_rate, climb_rate, load, burn_lps;
     union lane_masks tank;            /* it has one */
-    union lane_masks blocked;         /* result: it is at the edge of the world */
+    union lane_masks blocked, left;   /* results: it is at the edge of the world, and beyond it */
     struct terrain_cache here, ahead; /* the ground under it, and where it soon will be */
     struct terrain_cache_entry idle;  /* of free lanes */
 };

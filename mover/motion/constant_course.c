@@ -4,24 +4,28 @@
 #include "mover/motion/ground_vehicle.h"
 #include "mover/motion/kinematics.h"
 #include "mover/query/ground_marks.h"
+#include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
-bool constant_course_row(const struct step_context *context, uint32_t i)
+enum course_result constant_course_row(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
-    kinematics_advance(&m->x[i], &m->vx[i], context->dt_s);
-    kinematics_advance(&m->z[i], &m->vz[i], context->dt_s);
+    double x = m->x[i] + m->vx[i] * context->dt_s, z = m->z[i] + m->vz[i] * context->dt_s;
+    if (x < 0.0 || z < 0.0 || x > WORLD_SIDE_M || z > WORLD_SIDE_M)
+        return COURSE_LEFT_WORLD;
+    m->x[i] = x;
+    m->z[i] = z;
     if (kind->domain == DOMAIN_LAND)
-        return true;
+        return COURSE_GROUND;
     if (kind->domain == DOMAIN_AIR) {
         m->y[i] += m->vy[i] * context->dt_s;
-        return false;
+        return COURSE_DONE;
     }
-    double y = kinematics_ground(context, m->x[i], m->z[i]);
+    double y = kinematics_ground(context, x, z);
     m->vy[i] = (y - m->y[i]) / context->dt_s;
     m->y[i] = y;
-    return false;
+    return COURSE_DONE;
 }
 
 void constant_course_begin(struct constant_course *batch)

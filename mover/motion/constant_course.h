@@ -5,8 +5,14 @@
 
 #include "mover/motion/ground_pose.h"
 
-/* Moves row i by its heading and speed. True for a land vehicle, which then takes a lane. */
-bool constant_course_row(const struct step_context *context, uint32_t i);
+enum course_result {
+    COURSE_DONE,
+    COURSE_GROUND,    /* a land vehicle, which then takes a lane */
+    COURSE_LEFT_WORLD /* it has crossed the edge of the world */
+};
+
+/* Moves row i by its heading and speed. */
+enum course_result constant_course_row(const struct step_context *context, uint32_t i);
 
 struct constant_course {
     int count; /* lanes taken */

@@ -71,6 +71,7 @@ enum agent_reason {
     REASON_LOSSES,       /* half of its group is lost */
     REASON_STUCK,        /* it drove and did not get on */
     REASON_ROUNDS_FIRED, /* it has fired a salvo, and moves or leaves */
+    REASON_LEFT_WORLD,   /* it has crossed the edge of the world, and is gone */
     REASON_COUNT
 };
 

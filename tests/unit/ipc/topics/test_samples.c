@@ -128,7 +128,7 @@ static void test_events(void **state)
     collision.header.previous = 4;
     collision.normal.y = INFINITY;
     assert_false(samples_good(TOPIC_COLLISION, &collision));
-    jolon_AgentEvent agent = {.because = (jolon_AgentReason)(jolon_REASON_ROUNDS_FIRED + 1)};
+    jolon_AgentEvent agent = {.because = (jolon_AgentReason)(jolon_REASON_LEFT_WORLD + 1)};
     assert_false(samples_good(TOPIC_AGENT, &agent));
     jolon_ContactEndEvent end = {.lasted_s = 2.5};
     assert_true(samples_good(TOPIC_CONTACT_END, &end));

@@ -136,6 +136,75 @@ static void test_patrols_stay_inside_the_world(void **state)
     }
 }
 
+/* The hardest acceleration of a flight towards the edge, gravity included [g]. Fails if the
+ * aircraft leaves the world. */
+static double turns_back(const char *name, double off_m, double heading, bool driven)
+{
+    const struct kind *kind = steps_kind(&f, name);
+    double speed = 0.9 * kind->max_speed_mps, hardest = 0.0;
+    uint32_t row = put(name, 50000.0 - off_m, 25000.0, 900.0, 0.0, BEHAVIOUR_PATROL);
+    struct entities e = steps_rows(&f);
+    e.heading[row] = heading;
+    e.vx[row] = speed * sin(heading), e.vz[row] = -speed * cos(heading);
+    if (driven)
+        steps_drive(&f, row, 1.0, 0.0, 0.0);
+    for (int frame = 0; frame < (int)(40.0 * HZ); frame++) {
+        e = steps_rows(&f);
+        struct vec3 before = entities_velocity(&e, row);
+        e.goal_x[row] = 60000.0, e.goal_z[row] = 25000.0; /* its agent wants to go on */
+        fixture_run(&f, 1);
+        e = steps_rows(&f);
+        assert_int_equal(e.state[row], ENTITY_ACTIVE);
+        struct vec3 felt = vec3_scale(vec3_sub(entities_velocity(&e, row), before), HZ);
+        felt.y += GRAVITY_MPS2;
+        hardest = maths_max(hardest, vec3_length(felt) / GRAVITY_MPS2);
+    }
+    steps_empty(&f);
+    return hardest;
+}
+
+static void test_aircraft_turn_back_before_the_edge(void **state)
+{
+    static const struct {
+        const char *kind;
+        double off_m, most;
+    } limit[] = {{"jet", 2400.0, 8.0}, {"helicopter", 650.0, 3.5}, {"wishbone", 500.0, 3.5}};
+    (void)state;
+    for (int n = 0; n < 3; n++) {
+        for (int way = 0; way < 10; way++) {
+            double load = turns_back(limit[n].kind, limit[n].off_m,
+                                     HALF_PI + 0.25 * (double)(way / 2 - 2), way % 2);
+            assert_true(load < limit[n].most);
+        }
+    }
+}
+
+static void test_a_helicopter_does_not_fly_backwards_over_the_edge(void **state)
+{
+    uint32_t row = put("helicopter", 49700.0, 25000.0, 200.0, 0.0, BEHAVIOUR_IDLE);
+    (void)state;
+    steps_rows(&f).heading[row] = 1.5 * PI;
+    steps_drive(&f, row, -1.0, 0.0, 0.0);
+    fixture_run(&f, (uint32_t)(120.0 * HZ));
+    assert_int_equal(steps_rows(&f).state[row], ENTITY_ACTIVE);
+}
+
+/* A jet that is too slow to turn leaves the world without a jump. */
+static void test_what_cannot_turn_back_leaves_the_world(void **state)
+{
+    uint32_t row = put("jet", 49800.0, 25000.0, 900.0, 250.0, BEHAVIOUR_IDLE);
+    (void)state;
+    steps_drive(&f, row, 1.0, 0.0, 0.0);
+    for (double before = 250.0; steps_rows(&f).state[row] == ENTITY_ACTIVE;) {
+        assert_true(fabs(airspeed(row) - before) < 20.0 / HZ);
+        before = airspeed(row);
+        fixture_run(&f, 1);
+    }
+    assert_int_equal(
+        fixture_event(&f, EVENT_AGENT, fixture_event_count(&f, EVENT_AGENT) - 1)->agent.because,
+        REASON_LEFT_WORLD);
+}
+
 static void test_it_banks_into_its_turn(void **state)
 {
     uint32_t row = put("jet", 25000.0, 25000.0, 900.0, 250.0, BEHAVIOUR_IDLE);
@@ -249,6 +318,9 @@ int main(void)
         TEST(test_a_jet_never_stalls_by_its_agent),
         TEST(test_climbing_stays_within_the_kinds_rate),
         TEST(test_patrols_stay_inside_the_world),
+        TEST(test_aircraft_turn_back_before_the_edge),
+        TEST(test_a_helicopter_does_not_fly_backwards_over_the_edge),
+        TEST(test_what_cannot_turn_back_leaves_the_world),
         TEST(test_it_banks_into_its_turn),
         TEST(test_a_helicopter_that_hovers_burns_its_fuel_turn_by_turn),
         TEST(test_without_fuel_it_comes_down),

@@ -82,12 +82,29 @@ static void test_hold_follows_the_ground_and_asks_nothing_of_it(void **state)
     }
 }
 
-static void test_hold_ends_at_the_worlds_edge(void **state)
+/* It keeps its speed up to the edge, and then it is gone. An event tells so. */
+static void test_hold_leaves_the_world_at_its_edge(void **state)
 {
-    uint32_t row = put("jet", 300.0, 25000.0, 900.0, (struct vec3){-250.0, 0.0, 0.0});
+    static const char *const kinds[] = {"jet", "helicopter", "ship", "jeep"};
     (void)state;
-    fixture_run(&f, 120);
-    assert_true(steps_rows(&f).x[row] == 0.0 && steps_rows(&f).vx[row] == 0.0);
+    for (uint32_t n = 0; n < 4; n++) {
+        steps_empty(&f);
+        double y = n < 2 ? 900.0 : 100.0;
+        uint32_t row = put(kinds[n], 40.0, 25000.0, y, (struct vec3){-50.0, 0.0, 0.0});
+        uint32_t vehicles = fixture_state(&f).head->vehicles, frames = 0;
+        while (steps_rows(&f).state[row] != ENTITY_FREE && frames++ < 60) {
+            assert_true(steps_rows(&f).vx[row] == -50.0);
+            fixture_run(&f, 1);
+        }
+        const struct event *event = fixture_event(&f, EVENT_AGENT, 0);
+        assert_in_range(frames, 48, 49);
+        assert_int_equal(fixture_state(&f).head->vehicles, vehicles - 1);
+        assert_non_null(event);
+        assert_int_equal(event->agent.because, REASON_LEFT_WORLD);
+        assert_int_equal(event->agent.agent.id, row + 1);
+        fixture_run(&f, 60);
+        assert_int_equal(fixture_event_count(&f, EVENT_NONE), 1);
+    }
 }
 
 /* A driven vehicle that is in the air, or leans on its springs, is told to hold its course. */
@@ -131,7 +148,7 @@ int main(void)
         TEST(test_hold_keeps_heading_and_speed_to_the_bit),
         TEST(test_hold_reacts_to_nothing),
         TEST(test_hold_follows_the_ground_and_asks_nothing_of_it),
-        TEST(test_hold_ends_at_the_worlds_edge),
+        TEST(test_hold_leaves_the_world_at_its_edge),
         TEST(test_hold_begins_without_a_jump),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
