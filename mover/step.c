@@ -190,12 +190,31 @@ static void move_course(const struct step_context *context, struct batches *batc
     course->count = 0;
 }
 
+/* Notes that a ship is or was aground: more than its motion changes. */
+static void runs_aground(struct batches *batches, uint32_t i)
+{
+    batches->motion[i - batches->block->first] = MOTION_AGENT;
+    batches->harmed = true;
+}
+
+static void move_ship(const struct step_context *context, uint32_t i,
+                      const struct desired_motion *desired, struct batches *batches)
+{
+    struct ship_moved moved = ship_move(context, i, desired);
+    bool tells = context->m->trigger[i] == TRIGGER_AGROUND;
+    if (moved.touched)
+        runs_aground(batches, i);
+    after_motion(context, batches, i, moved.blocked);
+    if (tells)
+        context->m->trigger[i] = TRIGGER_AGROUND;
+}
+
 static void move_as_desired(const struct step_context *context, uint32_t i,
                             const struct desired_motion *desired, struct batches *batches)
 {
     switch ((enum domain)context->world->kinds[context->m->kind[i]].domain) {
     case DOMAIN_SEA:
-        after_motion(context, batches, i, ship_move(context, i, desired));
+        move_ship(context, i, desired, batches);
         break;
     case DOMAIN_AIR:
         if (aircraft_take(context, &batches->air, i, desired))
@@ -251,6 +270,10 @@ static void move_on(const struct step_context *context, uint32_t i, struct batch
             move_course(context, batches);
         break;
     case COURSE_DONE:
+        turret_turn(context, i, &(struct turret_solution){0});
+        break;
+    case COURSE_AGROUND:
+        runs_aground(batches, i);
         turret_turn(context, i, &(struct turret_solution){0});
         break;
     case COURSE_LEFT_WORLD:
@@ -441,6 +464,10 @@ static void pull_trigger(struct serial_context *context, uint32_t i)
     table_set_trigger(&context->writer, i, 0);
     if (trigger == TRIGGER_BROKEN) {
         wreck_tell_broken(context, i);
+        return;
+    }
+    if (trigger == TRIGGER_AGROUND) {
+        ship_tell_aground(context, i);
         return;
     }
     if (trigger == TRIGGER_LEFT_WORLD) {

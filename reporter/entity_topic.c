@@ -2,6 +2,7 @@
 #include "reporter/entity_topic.h"
 
 #include "ipc/process/clock.h"
+#include "world/entity/grounded.h"
 #include "world/entity/spool.h"
 
 #include <errno.h>
@@ -116,8 +117,10 @@ static void write_part(struct entity_topic *topic)
             continue;
         fill(&topic->entity[count], &snapshot->entities, topic->row, snapshot->head.tick,
              topic->dt_s);
-        topic->entity[count++].spool = (float)spool_of(
-            &snapshot->entities, &topic->kinds[snapshot->entities.kind[topic->row]], topic->row);
+        const struct entities *e = &snapshot->entities;
+        const struct kind *kind = &topic->kinds[e->kind[topic->row]];
+        topic->entity[count].grounded = grounded_of(e, kind, topic->row);
+        topic->entity[count++].spool = (float)spool_of(e, kind, topic->row);
     }
     topic->wire.entities._buffer = topic->entity;
     topic->wire.entities._length = topic->wire.entities._maximum = count;

@@ -2,6 +2,7 @@
 #include "clients/console/state_json.h"
 
 #include "world/entity/kind.h"
+#include "world/entity/grounded.h"
 #include "world/entity/spool.h"
 #include "world/enum_names.h"
 #include "world/terrain/gridsquare.h"
@@ -207,6 +208,7 @@ static void put_me(struct json_writer *json, const struct world_query *query, ui
     json_writer_key_word(json, "gear", gear_name(entity_gear(e->flags[row])));
     json_writer_key_number(json, "throttle", (double)e->throttle[row], 2);
     json_writer_key_number(json, "spool", spool_of(e, kind, row), 2);
+    json_writer_key_bool(json, "grounded", grounded_of(e, kind, row));
     json_writer_key_whole(
         json, "target",
         entities_alive(e, e->target_slot[row], e->target_id[row]) ? e->target_id[row] : 0);

@@ -3,6 +3,7 @@
 
 #include "mover/agent/fire_control.h"
 #include "mover/agent/mission_route.h"
+#include "mover/agent/sea_course.h"
 #include "mover/agent/script_player.h"
 #include "mover/agent/target_search.h"
 #include "mover/motion/kinematics.h"
@@ -39,17 +40,20 @@ static bool suits(const struct step_context *context, uint32_t i, double x, doub
     return kind->domain == DOMAIN_AIR || (kind->domain == DOMAIN_SEA) == water;
 }
 
-/* A random point of its area on ground that suits its kind. */
+/* A random point of its area on ground that suits its kind; ships: to which they can sail straight.
+ */
 static void patrol(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
     const struct area *area = &context->world->areas[m->order_arg[i]];
+    const bool ship = context->world->kinds[m->kind[i]].domain == DOMAIN_SEA;
     for (int draw = 0; draw < GOAL_DRAWS; draw++) {
         double u = unit(context, i, RANDOM_GOAL_X) + (double)draw * 0.618033988749895;
         double v = unit(context, i, RANDOM_GOAL_Z) + (double)draw * 0.754877666246693;
         m->goal_x[i] = area->x0 + (area->x1 - area->x0) * (u - floor(u));
         m->goal_z[i] = area->z0 + (area->z1 - area->z0) * (v - floor(v));
-        if (suits(context, i, m->goal_x[i], m->goal_z[i]))
+        if (suits(context, i, m->goal_x[i], m->goal_z[i]) &&
+            (!ship || sea_course_is_clear(context, i, m->goal_x[i], m->goal_z[i])))
             return;
     }
 }

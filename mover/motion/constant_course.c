@@ -3,6 +3,7 @@
 
 #include "mover/motion/ground_vehicle.h"
 #include "mover/motion/kinematics.h"
+#include "mover/motion/ship.h"
 #include "mover/query/ground_marks.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
@@ -11,6 +12,7 @@ enum course_result constant_course_row(const struct step_context *context, uint3
 {
     struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
+    bool aground = kind->domain == DOMAIN_SEA && ship_hold(context, i);
     double x = m->x[i] + m->vx[i] * context->dt_s, z = m->z[i] + m->vz[i] * context->dt_s;
     if (x < 0.0 || z < 0.0 || x > WORLD_SIDE_M || z > WORLD_SIDE_M)
         return COURSE_LEFT_WORLD;
@@ -25,7 +27,7 @@ enum course_result constant_course_row(const struct step_context *context, uint3
     double y = kinematics_ground(context, x, z);
     m->vy[i] = (y - m->y[i]) / context->dt_s;
     m->y[i] = y;
-    return COURSE_DONE;
+    return aground ? COURSE_AGROUND : COURSE_DONE;
 }
 
 void constant_course_begin(struct constant_course *batch)

@@ -8,6 +8,7 @@
 enum course_result {
     COURSE_DONE,
     COURSE_GROUND,    /* a land vehicle, which then takes a lane */
+    COURSE_AGROUND,   /* a ship: flags, trigger and harm_j may have changed */
     COURSE_LEFT_WORLD /* it has crossed the edge of the world */
 };
 

@@ -2,11 +2,20 @@
 #include "mover/motion/ship.h"
 
 #include "mover/motion/kinematics.h"
+#include "world/state.h"
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
 
 #define KEEL_DRAG_MPS2 2.0 /* brakes a sideways slide */
-#define SHORE_DRAG     0.7 /* share of the weight: the friction of soil under a bow that is ashore */
+
+/* A hull that runs ashore digs in: the friction is this share of its weight. The same hull rests on
+ * the shore with a small share of its weight for each length that is ashore, and that much friction
+ * holds it when it backs off. */
+#define SHORE_DRAG    0.7
+#define BORNE_SHARE   0.1
+#define SHORE_HARM    1.0 /* of the energy that the shore takes */
+#define HARMLESS_MPS  0.5
+#define ASHORE_STEP_M 1.0
 
 /* Of the rudder and of the heading that an agent wants [s]; of the speed [s]. */
 #define RUDDER_S  4.0 /* from amidships to hard over, and until the ship turns so */
@@ -19,44 +28,121 @@
 #define STILL_DRAG   0.05 /* share of the drag that grows with the speed, not with its square */
 #define STOPPED_MPS  1e-3
 
-static bool navigable(const struct step_context *context, double x, double z)
-{
-    return x >= 0.0 && z >= 0.0 && x <= WORLD_SIDE_M && z <= WORLD_SIDE_M &&
-           cover_is_water(terrain_cover(&context->world->terrain, x, z));
-}
-
 /* Heading and speeds along and across it. */
 struct course {
     double sine, cosine;       /* of the heading */
     double forward, rightward; /* [m/s] */
 };
 
-/* Returns true if the end of the hull that leads is on land, or beyond the world's edge. */
-static bool is_aground(const struct step_context *context, const struct kind *kind,
-                       const struct course *course, struct vec3 at)
+/* --- the shore ---------------------------------------------------------------------------------*/
+
+static bool in_world(double x, double z)
 {
-    double bow = (course->forward < 0.0 ? -0.5 : 0.5) * kind->length_m;
-    return !navigable(context, at.x + course->sine * bow, at.z - course->cosine * bow);
+    return x >= 0.0 && z >= 0.0 && x <= WORLD_SIDE_M && z <= WORLD_SIDE_M;
 }
 
-/* The shore stops the ship. The bow slides up the beach meanwhile. */
-static void slide_ashore(struct course *course, double dt_s)
+static bool is_land(const struct step_context *context, double x, double z)
 {
-    const double step = SHORE_DRAG * GRAVITY_MPS2 * dt_s;
+    return in_world(x, z) && !cover_is_water(terrain_cover(&context->world->terrain, x, z));
+}
+
+/* What the ends of the hull are on. */
+struct grounding {
+    double bow_m, stern_m;   /* length of the hull that is ashore there */
+    bool bow_out, stern_out; /* beyond the edge of the world */
+};
+
+/* Returns the length of the hull that is ashore at an end. sign: 1 for the bow, -1 for the stern.
+ */
+static double ashore(const struct step_context *context, const struct kind *kind,
+                     const struct course *course, struct vec3 at, double sign)
+{
+    double length = 0.0;
+    for (; length < kind->length_m; length += ASHORE_STEP_M) {
+        double way = sign * (0.5 * kind->length_m - length);
+        if (!is_land(context, at.x + course->sine * way, at.z - course->cosine * way))
+            break;
+    }
+    return maths_min(length, kind->length_m);
+}
+
+static struct grounding find_grounding(const struct step_context *context, const struct kind *kind,
+                                       const struct course *course, struct vec3 at)
+{
+    double x = 0.5 * kind->length_m * course->sine, z = -0.5 * kind->length_m * course->cosine;
+    return (struct grounding){
+        .bow_m = ashore(context, kind, course, at, 1.0),
+        .stern_m = ashore(context, kind, course, at, -1.0),
+        .bow_out = !in_world(at.x + x, at.z + z),
+        .stern_out = !in_world(at.x - x, at.z - z),
+    };
+}
+
+/* Friction [m/s2] of the shore against a motion along the heading, ahead or astern. */
+static double friction_of(const struct kind *kind, const struct grounding *grounding, bool ahead)
+{
+    double ashore_m = grounding->bow_m + grounding->stern_m;
+    bool deeper = ahead ? grounding->bow_m > 0.0 || grounding->bow_out
+                        : grounding->stern_m > 0.0 || grounding->stern_out;
+    double share = deeper ? 1.0 : BORNE_SHARE * ashore_m / maths_max(kind->length_m, 1.0);
+    return SHORE_DRAG * GRAVITY_MPS2 * share;
+}
+
+/* Lets the shore slow the ship, and adds what its hull suffers to harm_j. */
+static void scrape(const struct step_context *context, uint32_t i, struct course *course,
+                   const struct grounding *grounding)
+{
+    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    double step = friction_of(kind, grounding, course->forward >= 0.0) * context->dt_s;
+    double before = course->forward * course->forward + course->rightward * course->rightward;
     course->forward = kinematics_approach(course->forward, 0.0, step);
-    course->rightward = kinematics_approach(course->rightward, 0.0, step);
+    if (grounding->bow_m + grounding->stern_m <= 0.0)
+        return; /* the edge of the world does no harm */
+    course->rightward =
+        kinematics_approach(course->rightward, 0.0, SHORE_DRAG * GRAVITY_MPS2 * context->dt_s);
+    double after = course->forward * course->forward + course->rightward * course->rightward;
+    if (before > HARMLESS_MPS * HARMLESS_MPS)
+        context->m->harm_j[i] += 0.5 * SHORE_HARM * kind->mass_kg * (before - after);
 }
 
-/* Returns the position after the frame. */
-static struct vec3 find_ahead(const struct step_context *context, uint32_t i,
-                              const struct course *course, struct vec3 *velocity)
+/* Notes whether the shore holds the ship. Returns true if a column beside its motion has changed.
+ */
+static bool set_aground(const struct step_context *context, uint32_t i, bool aground)
 {
-    const struct entities *m = context->m;
-    *velocity =
-        (struct vec3){course->forward * course->sine + course->rightward * course->cosine, 0.0,
-                      -course->forward * course->cosine + course->rightward * course->sine};
-    return (struct vec3){m->x[i] + velocity->x * context->dt_s, m->y[i],
-                         m->z[i] + velocity->z * context->dt_s};
+    struct entities *m = context->m;
+    bool was = (m->flags[i] & ENTITY_FLAG_AGROUND) != 0;
+    if (aground && !was) {
+        m->flags[i] |= ENTITY_FLAG_AGROUND;
+        m->trigger[i] = TRIGGER_AGROUND;
+    } else if (!aground && was) {
+        m->flags[i] &= (uint8_t)~ENTITY_FLAG_AGROUND;
+    }
+    return aground || was;
+}
+
+/* Moves the ship by its course. The shore slows it meanwhile. */
+static struct ship_moved advance(const struct step_context *context, uint32_t i,
+                                 struct course *course)
+{
+    struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    struct grounding grounding = find_grounding(context, kind, course, entities_position(m, i));
+    bool aground = grounding.bow_m + grounding.stern_m > 0.0;
+    if (aground || grounding.bow_out || grounding.stern_out)
+        scrape(context, i, course, &grounding);
+    m->vx[i] = course->forward * course->sine + course->rightward * course->cosine;
+    m->vz[i] = -course->forward * course->cosine + course->rightward * course->sine;
+    kinematics_advance(&m->x[i], &m->vx[i], context->dt_s);
+    kinematics_advance(&m->z[i], &m->vz[i], context->dt_s);
+    /* a post in water has the height of its surface */
+    m->y[i] = kinematics_ground(context, m->x[i], m->z[i]);
+    m->vy[i] = 0.0;
+    bool ahead = course->forward >= 0.0;
+    return (struct ship_moved){
+        .blocked = ahead ? grounding.bow_m > 0.0 || grounding.bow_out
+                         : grounding.stern_m > 0.0 || grounding.stern_out,
+        .touched = set_aground(context, i, aground),
+    };
 }
 
 /* --- rudder and screws -------------------------------------------------------------------------*/
@@ -95,7 +181,7 @@ static double steer(const struct step_context *context, uint32_t i,
     double rudder =
         kinematics_approach(rudder_of(m->roll[i], effect), wanted, context->dt_s / RUDDER_S);
     m->roll[i] = -rudder * HEEL_RAD * effect * effect;
-    if (rudder != 0.0) {
+    if (rudder != 0.0 && !(m->flags[i] & ENTITY_FLAG_AGROUND)) {
         double turned = rudder * effect * kind->turn_rate_rps * context->dt_s;
         m->heading[i] = maths_wrap_turn(m->heading[i] + turned);
         maths_sincos(m->heading[i], &course->sine, &course->cosine);
@@ -142,29 +228,61 @@ static void sail(const struct step_context *context, uint32_t i,
     course->rightward = kinematics_approach(course->rightward, 0.0, KEEL_DRAG_MPS2 * context->dt_s);
 }
 
-bool ship_move(const struct step_context *context, uint32_t i, const struct desired_motion *desired)
+static struct course course_of(const struct step_context *context, uint32_t i)
 {
-    struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
     struct course course;
-    struct vec3 velocity;
-    maths_sincos(m->heading[i], &course.sine, &course.cosine);
-    kinematics_along(m, i, course.sine, course.cosine, &course.forward, &course.rightward);
+    maths_sincos(context->m->heading[i], &course.sine, &course.cosine);
+    kinematics_along(context->m, i, course.sine, course.cosine, &course.forward, &course.rightward);
+    return course;
+}
+
+struct ship_moved ship_move(const struct step_context *context, uint32_t i,
+                            const struct desired_motion *desired)
+{
+    struct course course = course_of(context, i);
     sail(context, i, desired, &course);
-    struct vec3 at = find_ahead(context, i, &course, &velocity);
-    bool blocked = is_aground(context, kind, &course, at);
-    if (blocked) {
-        slide_ashore(&course, context->dt_s);
-        at = find_ahead(context, i, &course, &velocity);
+    context->m->pitch[i] = 0.0;
+    return advance(context, i, &course);
+}
+
+bool ship_hold(const struct step_context *context, uint32_t i)
+{
+    struct course course = course_of(context, i);
+    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    struct grounding grounding =
+        find_grounding(context, kind, &course, entities_position(context->m, i));
+    bool aground = grounding.bow_m + grounding.stern_m > 0.0;
+    if (aground) {
+        scrape(context, i, &course, &grounding);
+        context->m->vx[i] = course.forward * course.sine + course.rightward * course.cosine;
+        context->m->vz[i] = -course.forward * course.cosine + course.rightward * course.sine;
     }
-    if (!navigable(context, at.x, at.z)) {
-        at = entities_position(m, i);
-        velocity = (struct vec3){0.0, 0.0, 0.0};
+    return set_aground(context, i, aground);
+}
+
+void ship_tell_aground(struct serial_context *context, uint32_t i)
+{
+    const struct step_context *step = context->step;
+    const struct entities *m = step->m;
+    struct vec3 before = entities_velocity(&step->committed->entities, i);
+    double sine, cosine, speed = vec3_length(before);
+    struct event *event = serial_context_intent(context, EVENT_COLLISION);
+    context->moved->head->tally.collisions++;
+    if (event == NULL)
+        return;
+    maths_sincos(m->heading[i], &sine, &cosine);
+    double end = before.x * sine - before.z * cosine < 0.0 ? -0.5 : 0.5;
+    end *= step->world->kinds[m->kind[i]].length_m;
+    struct event_collision *hit = &event->collision;
+    hit->a = serial_context_party(context, i);
+    hit->b = (struct event_party){0, KIND_NONE, 1, DAMAGE_NONE};
+    hit->point[0] = m->x[i] + end * sine;
+    hit->point[1] = m->y[i];
+    hit->point[2] = m->z[i] - end * cosine;
+    if (speed > 0.0) {
+        vec3_to_floats(hit->normal, vec3_scale(before, 1.0 / speed));
+        vec3_to_floats(hit->direction_a, vec3_scale(before, 1.0 / speed));
     }
-    at.y =
-        kinematics_ground(context, at.x, at.z); /* a post in water has the height of its surface */
-    entities_set_position(m, i, at);
-    entities_set_velocity(m, i, velocity);
-    m->pitch[i] = 0.0;
-    return blocked;
+    hit->closing_mps = (float)speed;
+    hit->response = RESPONSE_STOP;
 }

@@ -71,7 +71,8 @@ static bool is_at_rest(const struct motion_look *look, uint32_t until_tick, uint
            vec3_dot(look->spin, look->spin) == 0.0;
 }
 
-static void read_motion(struct motion_look *look, const struct state *state, uint32_t row)
+static void read_motion(struct motion_look *look, const struct state *state, uint32_t row,
+                        enum domain domain)
 {
     const struct entities *e = &state->entities;
     *look = (struct motion_look){.pose = {.at = entities_position(e, row)},
@@ -83,7 +84,8 @@ static void read_motion(struct motion_look *look, const struct state *state, uin
                                  .velocity = entities_velocity(e, row),
                                  .spin = {e->spin_x[row], e->spin_y[row], e->spin_z[row]},
                                  .wreck = e->state[row] == ENTITY_WRECK};
-    look->sprung = !look->wreck && (e->flags[row] & ENTITY_FLAG_CHASSIS) != 0;
+    look->sprung =
+        !look->wreck && domain == DOMAIN_LAND && (e->flags[row] & ENTITY_FLAG_CHASSIS) != 0;
     look->at_rest = is_at_rest(look, e->until_tick[row], state->head->tick);
 }
 
@@ -94,7 +96,7 @@ static void read_body(struct body_looks *looks, const struct world *world,
     struct body_look *body = &looks->body[looks->count];
     const struct row_memory *memory = &looks->memory[row];
     *body = (struct body_look){.row = row, .kind = &world->kinds[e->kind[row]]};
-    read_motion(&body->now, state, row);
+    read_motion(&body->now, state, row, (enum domain)body->kind->domain);
     body->named = (struct measured_body){e->id[row], false, e->kind[row], body->now.pose.at};
     body->finite = all_finite(&body->now);
     body->known = memory->id == e->id[row] && body->finite;

@@ -6,6 +6,7 @@
 #include "ipc/process/log.h"
 #include "recorder/replay/arguments.h"
 #include "ipc/json/world_json.h"
+#include "world/entity/grounded.h"
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
 #include "world/terrain/fallen.h"
@@ -36,6 +37,7 @@ static cJSON *entity_json(const struct world *world, const struct state_head *he
     json_number(object, "roll_deg", e->roll[i] * DEG_PER_RAD);
     json_number(object, "speed_mps", vec3_length(entities_velocity(e, i)));
     json_text(object, "state", entity_state_name((enum entity_state)e->state[i]));
+    json_bool(object, "grounded", grounded_of(e, &world->kinds[e->kind[i]], i));
     json_text(object, "damage", damage_name((enum damage)e->damage[i]));
     json_whole(object, "rounds", e->rounds[i]);
     json_number(object, "fuel", e->fuel_l[i]);
@@ -75,11 +77,12 @@ static void dump_entities(const struct arguments *arguments, const struct view *
     for (uint32_t i = 0; i < snapshot->head.used; i++) {
         if (e->state[i] == ENTITY_FREE)
             continue;
-        printf("%6u %-14s %-7s x %10.2f y %8.2f z %10.2f heading %5.1f %6.1f m/s %-6s %-9s %s\n",
-               e->id[i], view->world.kinds[e->kind[i]].name, force_name((enum force)e->force[i]),
-               e->x[i], e->y[i], e->z[i], e->heading[i] * DEG_PER_RAD,
-               vec3_length(entities_velocity(e, i)),
-               entity_state_name((enum entity_state)e->state[i]),
+        const struct kind *kind = &view->world.kinds[e->kind[i]];
+        const char *grounded = grounded_word(e, kind, i);
+        printf("%6u %-14s %-7s x %10.2f y %8.2f z %10.2f heading %5.1f %6.1f m/s %-7s %-9s %s\n",
+               e->id[i], kind->name, force_name((enum force)e->force[i]), e->x[i], e->y[i], e->z[i],
+               e->heading[i] * DEG_PER_RAD, vec3_length(entities_velocity(e, i)),
+               grounded ? grounded : entity_state_name((enum entity_state)e->state[i]),
                damage_name((enum damage)e->damage[i]),
                behaviour_name((enum behaviour)e->behaviour[i]));
     }

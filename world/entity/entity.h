@@ -134,6 +134,8 @@ _Static_assert(ENTITY_COLUMN_COUNT <= 64, "a set of columns is one word");
 
 #define ENTITY_FLAG_CHASSIS                                                                        \
     128u /* a land vehicle that moves as a body on its springs (mover/motion/chassis.h) */
+#define ENTITY_FLAG_AGROUND                                                                        \
+    128u /* the same bit of a ship: the shore holds it (mover/motion/ship.h) */
 
 /* How a driven vehicle's throttle acts on its wheels; a driver's choice, in flags. */
 enum gearing {

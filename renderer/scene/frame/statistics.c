@@ -1,6 +1,7 @@
 /* Reads the statistics from the columns of the snapshot. */
 #include "renderer/scene/frame/statistics.h"
 
+#include "world/entity/grounded.h"
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
 #include "world/world.h"
@@ -13,11 +14,12 @@ void statistics_of(struct statistics *statistics, const struct frame_view *frame
     const struct world *world = frame_view->world;
     const struct entities *e = frame_view->entities;
     const struct kind *kind = &world->kinds[e->kind[slot]];
+    const char *grounded = grounded_word(e, kind, slot);
     const char *own = world_entity_name(world, e->id[slot]);
     *statistics = (struct statistics){
         .kind = kind->name,
         .force = force_name((enum force)e->force[slot]),
-        .state = entity_state_name((enum entity_state)e->state[slot]),
+        .state = grounded ? grounded : entity_state_name((enum entity_state)e->state[slot]),
         .damage = damage_name((enum damage)e->damage[slot]),
         .behaviour = behaviour_name((enum behaviour)e->behaviour[slot]),
         .id = e->id[slot],

@@ -27,6 +27,7 @@ static uint32_t put(const char *kind, double x, double z, double y, struct vec3 
 
 static void test_hold_keeps_heading_and_speed_to_the_bit(void **state)
 {
+    steps_cover(&f, COVER_LAKE, 24000.0, 29000.0, 26000.0, 31000.0);
     uint32_t tank = put("tank", 25000.0, 25000.0, 100.0, (struct vec3){11.0, 0.0, -7.0});
     uint32_t jet = put("jet", 20000.0, 25000.0, 900.0, (struct vec3){200.0, 3.0, 40.0});
     uint32_t ship = put("ship", 25000.0, 30000.0, 100.0, (struct vec3){-5.0, 0.0, 0.0});
@@ -89,6 +90,7 @@ static void test_hold_leaves_the_world_at_its_edge(void **state)
     (void)state;
     for (uint32_t n = 0; n < 4; n++) {
         steps_empty(&f);
+        steps_cover(&f, n == 2 ? COVER_LAKE : COVER_GRASS, 0.0, 24000.0, 1000.0, 26000.0);
         double y = n < 2 ? 900.0 : 100.0;
         uint32_t row = put(kinds[n], 40.0, 25000.0, y, (struct vec3){-50.0, 0.0, 0.0});
         uint32_t vehicles = fixture_state(&f).head->vehicles, frames = 0;

@@ -86,6 +86,125 @@ static void test_a_ship_that_is_aground_goes_astern(void **state)
     assert_true(bow < 28000.0 && steps_rows(&f).vx[row] < -5.0);
 }
 
+/* --- aground -----------------------------------------------------------------------------------*/
+
+#define SHORE_M 28062.5 /* half way to the next post */
+
+static bool aground(uint32_t row)
+{
+    return (steps_rows(&f).flags[row] & ENTITY_FLAG_AGROUND) != 0;
+}
+
+/* Lets a ship of this speed hold its course into the shore. Returns how far its bow slides up. */
+static double run_ashore(double speed_mps, uint32_t *row)
+{
+    const double hardest = 0.7 * GRAVITY_MPS2 + 1e-9;
+    steps_empty(&f);
+    *row = put_ship(SHORE_M - 100.0, 25010.0, speed_mps);
+    double before = speed_mps;
+    for (int frame = 0; frame < (int)(30.0 * HZ); frame++) {
+        fixture_run(&f, 1);
+        assert_true(before - steps_speed(&f, *row) <= hardest / HZ);
+        before = steps_speed(&f, *row);
+    }
+    return steps_rows(&f).x[*row] + 0.5 * steps_kind(&f, "ship")->length_m - SHORE_M;
+}
+
+static void test_a_ship_on_hold_runs_aground(void **state)
+{
+    static const struct {
+        double speed_mps;
+        enum damage damage;
+    } run[] = {{5.0, DAMAGE_NONE},
+               {9.0, DAMAGE_LOW},
+               {13.0, DAMAGE_MED},
+               {17.5, DAMAGE_HIGH},
+               {24.0, DAMAGE_DESTROYED}};
+    uint32_t row;
+    (void)state;
+    for (int n = 0; n < 5; n++) {
+        double up_m = run_ashore(run[n].speed_mps, &row);
+        double way_m = run[n].speed_mps * run[n].speed_mps / (1.4 * GRAVITY_MPS2);
+        print_message("| aground with %4.1f m/s: slides up %4.1f m, damage %d |\n",
+                      run[n].speed_mps, up_m, steps_rows(&f).damage[row]);
+        assert_int_equal(steps_rows(&f).damage[row], run[n].damage);
+        assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
+        const struct event_collision *told = &fixture_event(&f, EVENT_COLLISION, 0)->collision;
+        assert_true(told->a.id == row + 1 && told->b.kind == KIND_NONE && told->b.fixed == 1);
+        assert_true(fabs(told->point[0] - SHORE_M) < 4.0);
+        assert_true(fabs((double)told->closing_mps - run[n].speed_mps) < 0.01);
+        if (run[n].damage == DAMAGE_DESTROYED)
+            continue;
+        assert_true(steps_speed(&f, row) == 0.0 && aground(row));
+        assert_true(up_m > way_m - 1.5 && up_m < way_m + 2.5);
+        fixture_run(&f, (uint32_t)(60.0 * HZ)); /* it stays */
+        assert_true(steps_speed(&f, row) == 0.0 && aground(row));
+        assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
+    }
+}
+
+/* Its screws pull it off if not more than half of it is ashore. */
+static void test_a_ship_backs_off_if_it_can(void **state)
+{
+    static const double ashore_m[2] = {15.0, 30.0};
+    const double half = 0.5 * steps_kind(&f, "ship")->length_m;
+    (void)state;
+    for (int n = 0; n < 2; n++) {
+        steps_empty(&f);
+        uint32_t row = put_ship(SHORE_M + ashore_m[n] - half, 25010.0, 0.0);
+        steps_drive(&f, row, 1.0, 0.5, 0.0); /* ahead it gets nowhere, and does not turn */
+        double heading = steps_rows(&f).heading[row];
+        fixture_run(&f, (uint32_t)(20.0 * HZ));
+        assert_true(steps_speed(&f, row) == 0.0 && aground(row));
+        assert_true(steps_rows(&f).heading[row] == heading);
+        steps_pedals(&f, row, 1.0, 0.0, GEAR_REVERSE);
+        fixture_run(&f, (uint32_t)(60.0 * HZ));
+        assert_true(aground(row) == (n == 1));
+        assert_true(n == 1 ? steps_speed(&f, row) == 0.0 : steps_rows(&f).vx[row] < -3.0);
+    }
+}
+
+/* A headland lies between the ships and where they want to go. It leaves a way in the north. */
+static void test_ships_of_agents_sail_around_a_headland(void **state)
+{
+    uint32_t row[3], there = 0;
+    bool arrived[3] = {false, false, false};
+    (void)state;
+    steps_cover(&f, COVER_GRASS, 24800.0, 24000.0, 25400.0, 28500.0);
+    for (uint32_t n = 0; n < 3; n++) {
+        row[n] = put_ship(23000.0, 23000.0 + 2000.0 * n, 10.0);
+        struct entities e = steps_rows(&f);
+        e.behaviour[row[n]] = e.order[row[n]] = BEHAVIOUR_PATROL;
+    }
+    for (int frame = 0; frame < (int)(1500.0 * HZ) && there < 3; frame++) {
+        struct entities e = steps_rows(&f);
+        for (uint32_t n = 0; n < 3; n++)
+            e.goal_x[row[n]] = 27000.0, e.goal_z[row[n]] = 25000.0 + 700.0 * n;
+        fixture_run(&f, 1);
+        e = steps_rows(&f);
+        for (uint32_t n = 0; n < 3; n++) {
+            assert_false(aground(row[n]));
+            there += !arrived[n] && e.x[row[n]] > 26900.0;
+            arrived[n] |= e.x[row[n]] > 26900.0;
+        }
+    }
+    assert_int_equal(there, 3);
+}
+
+static void test_a_ship_of_an_agent_that_is_aground_backs_off(void **state)
+{
+    uint32_t row = put_ship(SHORE_M - 10.0, 25010.0, 0.0);
+    struct entities e = steps_rows(&f);
+    (void)state;
+    e.behaviour[row] = e.order[row] = BEHAVIOUR_PATROL;
+    e.goal_x[row] = 26000.0, e.goal_z[row] = 25010.0;
+    fixture_run(&f, 2);
+    assert_true(aground(row));
+    fixture_run(&f, (uint32_t)(300.0 * HZ));
+    assert_false(aground(row));
+    assert_true(steps_rows(&f).x[row] < SHORE_M - 100.0);
+}
+
 static void tell(const char *what, double low, double high, double ours)
 {
     print_message("| %-44s | %5.1f to %5.1f | %7.2f |\n", what, low, high, ours);
@@ -210,6 +329,10 @@ int main(void)
         TEST(test_patrolling_ships_never_leave_the_water),
         TEST(test_the_shore_stops_a_ship_by_its_bow),
         TEST(test_a_ship_that_is_aground_goes_astern),
+        TEST(test_a_ship_on_hold_runs_aground),
+        TEST(test_a_ship_backs_off_if_it_can),
+        TEST(test_ships_of_agents_sail_around_a_headland),
+        TEST(test_a_ship_of_an_agent_that_is_aground_backs_off),
         TEST(test_a_ship_lies_level_and_is_slow_to_gain_speed),
         TEST(test_the_rudder_bites_with_the_ships_way),
         TEST(test_its_circle_is_that_of_a_ship),
