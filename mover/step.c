@@ -12,6 +12,7 @@
 #include "mover/motion/chassis.h"
 #include "mover/motion/constant_course.h"
 #include "mover/motion/ground_vehicle.h"
+#include "mover/motion/landing.h"
 #include "mover/motion/projectile.h"
 #include "mover/motion/ship.h"
 #include "mover/motion/wreck.h"
@@ -163,12 +164,38 @@ static void move_land(const struct step_context *context, struct batches *batche
     land->count = 0;
 }
 
+/* Notes that a ship or an aircraft is or was on the ground: more than its motion changes. */
+static void is_grounded(struct batches *batches, uint32_t i)
+{
+    batches->motion[i - batches->block->first] = MOTION_AGENT;
+    batches->harmed = true;
+}
+
+/* Sets an aircraft down that has touched the ground gently. Returns true if that is an event. */
+static bool touches_down(const struct step_context *context, struct batches *batches, int l)
+{
+    const struct aircraft *air = &batches->air;
+    uint32_t i = air->row[l];
+    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    const struct desired_motion desired = {.driven = air->driven.lane[l] != 0,
+                                           .climb_mps = air->climb.lane[l],
+                                           .altitude_m = air->altitude.lane[l]};
+    double reach_m = maths_max(kind->bound_m, kind->radius_m);
+    if (context->m->y[i] - reach_m > air->ground.lane[l] || !landing_touch(context, i, &desired))
+        return false;
+    is_grounded(batches, i);
+    return context->m->trigger[i] == TRIGGER_AGROUND;
+}
+
 static void move_air(const struct step_context *context, struct batches *batches)
 {
     struct aircraft *air = &batches->air;
     aircraft_move(context, air);
     for (int l = 0; l < air->count; l++) {
+        bool told = touches_down(context, batches, l);
         after_motion(context, batches, air->row[l], air->blocked.lane[l] != 0);
+        if (told)
+            context->m->trigger[air->row[l]] = TRIGGER_AGROUND;
         if (air->left.lane[l])
             leaves_world(context, batches, air->row[l]);
     }
@@ -190,23 +217,25 @@ static void move_course(const struct step_context *context, struct batches *batc
     course->count = 0;
 }
 
-/* Notes that a ship is or was aground: more than its motion changes. */
-static void runs_aground(struct batches *batches, uint32_t i)
-{
-    batches->motion[i - batches->block->first] = MOTION_AGENT;
-    batches->harmed = true;
-}
-
 static void move_ship(const struct step_context *context, uint32_t i,
                       const struct desired_motion *desired, struct batches *batches)
 {
     struct ship_moved moved = ship_move(context, i, desired);
     bool tells = context->m->trigger[i] == TRIGGER_AGROUND;
     if (moved.touched)
-        runs_aground(batches, i);
+        is_grounded(batches, i);
     after_motion(context, batches, i, moved.blocked);
     if (tells)
         context->m->trigger[i] = TRIGGER_AGROUND;
+}
+
+/* Moves an aircraft that is on the ground. */
+static void move_landed(const struct step_context *context, uint32_t i,
+                        const struct desired_motion *desired, struct batches *batches)
+{
+    landing_move(context, i, desired);
+    is_grounded(batches, i);
+    after_motion(context, batches, i, false);
 }
 
 static void move_as_desired(const struct step_context *context, uint32_t i,
@@ -217,7 +246,9 @@ static void move_as_desired(const struct step_context *context, uint32_t i,
         move_ship(context, i, desired, batches);
         break;
     case DOMAIN_AIR:
-        if (aircraft_take(context, &batches->air, i, desired))
+        if (landing_is_down(context, i))
+            move_landed(context, i, desired, batches);
+        else if (aircraft_take(context, &batches->air, i, desired))
             move_air(context, batches);
         break;
     default:
@@ -248,7 +279,8 @@ static bool settle_first(const struct step_context *context, uint32_t i, struct 
 {
     const struct entities *m = context->m;
     double sine, cosine;
-    if (!(m->flags[i] & ENTITY_FLAG_CHASSIS) || !chassis_takes(context, i, false))
+    if (context->world->kinds[m->kind[i]].domain != DOMAIN_LAND ||
+        !(m->flags[i] & ENTITY_FLAG_CHASSIS) || !chassis_takes(context, i, false))
         return false;
     maths_sincos(m->heading[i], &sine, &cosine);
     const struct desired_motion desired = {.heading_rad = m->heading[i],
@@ -264,6 +296,11 @@ static bool settle_first(const struct step_context *context, uint32_t i, struct 
 /* Moves a row that holds its course. */
 static void move_on(const struct step_context *context, uint32_t i, struct batches *batches)
 {
+    if (context->world->kinds[context->m->kind[i]].domain == DOMAIN_AIR &&
+        landing_is_down(context, i)) {
+        move_landed(context, i, NULL, batches);
+        return;
+    }
     switch (constant_course_row(context, i)) {
     case COURSE_GROUND:
         if (constant_course_take(context, &batches->course, i))
@@ -273,7 +310,7 @@ static void move_on(const struct step_context *context, uint32_t i, struct batch
         turret_turn(context, i, &(struct turret_solution){0});
         break;
     case COURSE_AGROUND:
-        runs_aground(batches, i);
+        is_grounded(batches, i);
         turret_turn(context, i, &(struct turret_solution){0});
         break;
     case COURSE_LEFT_WORLD:
@@ -457,6 +494,14 @@ static void leave_world(struct serial_context *context, uint32_t i)
     spawn_remove(context, i);
 }
 
+static void tell_grounded(struct serial_context *context, uint32_t i)
+{
+    if (context->step->world->kinds[context->moved->entities.kind[i]].domain == DOMAIN_SEA)
+        ship_tell_aground(context, i);
+    else
+        landing_tell_hard(context, i);
+}
+
 static void pull_trigger(struct serial_context *context, uint32_t i)
 {
     const struct entities *m = &context->moved->entities;
@@ -467,7 +512,7 @@ static void pull_trigger(struct serial_context *context, uint32_t i)
         return;
     }
     if (trigger == TRIGGER_AGROUND) {
-        ship_tell_aground(context, i);
+        tell_grounded(context, i);
         return;
     }
     if (trigger == TRIGGER_LEFT_WORLD) {

@@ -248,6 +248,7 @@ static void add_flier(const struct body_boxes *rows, struct sweep_worker *sweepe
         to.y -= lower;
     }
     if (input->entities->state[row] != ENTITY_ACTIVE ||
+        (!(tag & BIN_ROUND) && input->entities->flags[row] & ENTITY_FLAG_LANDED) ||
         (!(tag & BIN_ROUND) && input->heights &&
          square_bounds_clear(input->heights, input->craters, at, to)))
         return;

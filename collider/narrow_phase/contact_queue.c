@@ -217,7 +217,8 @@ void contact_queue_ground(struct contact_queue *contacts, const struct contact_i
     const struct entities *e = input->detect.entities;
     double toi;
     bool flies = e->behaviour[row] == BEHAVIOUR_FLIGHT ||
-                 input->detect.world->kinds[e->kind[row]].domain == DOMAIN_AIR;
+                 (input->detect.world->kinds[e->kind[row]].domain == DOMAIN_AIR &&
+                  !(e->flags[row] & ENTITY_FLAG_LANDED));
     if (flies && e->state[row] == ENTITY_ACTIVE &&
         ground_impact_row(&input->detect, input->motion, row, &toi))
         contact_queue_add_end(contacts, row, CONTACT_GROUND, toi);

@@ -49,13 +49,21 @@ static bool stands(const struct response_context *context, uint32_t row)
            at.y - terrain_height(&context->world->terrain, craters, at.x, at.z) < STANDS_M;
 }
 
+/* Returns true for an aircraft that lies on the ground as a body (mover/motion/landing.h). */
+static bool has_landed(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    return context->world->kinds[e->kind[row]].domain == DOMAIN_AIR &&
+           (e->flags[row] & ENTITY_FLAG_LANDED) != 0;
+}
+
 bool path_change_grounded(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
     enum domain domain = (enum domain)context->world->kinds[e->kind[row]].domain;
     if (domain == DOMAIN_SEA)
         return true;
-    if (e->state[row] == ENTITY_WRECK)
+    if (e->state[row] == ENTITY_WRECK || has_landed(context, row))
         return lies(context, row);
     return domain == DOMAIN_LAND &&
            (!(e->flags[row] & ENTITY_FLAG_CHASSIS) || stands(context, row));
@@ -91,7 +99,7 @@ static double yaw_of(const struct response_context *context, uint32_t row)
     const struct body_motion *motion = context->motion;
     const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
     double dt_s = world_dt_s(context->world);
-    if (n->state[row] == ENTITY_WRECK)
+    if (n->state[row] == ENTITY_WRECK || has_landed(context, row))
         return n->spin_y[row]; /* nobody steers it */
     if (motion->change[row] != 0)
         return n->spin_y[row] + body_motion_rotation(motion, row).driven_rps;

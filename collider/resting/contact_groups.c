@@ -91,7 +91,7 @@ bool contact_groups_is_piloted(const struct response_context *context, uint32_t 
 {
     const struct entities *e = &context->next->entities;
     return e->state[row] == ENTITY_ACTIVE && e->behaviour[row] != BEHAVIOUR_FLIGHT &&
-           e->behaviour[row] != BEHAVIOUR_HOLD &&
+           e->behaviour[row] != BEHAVIOUR_HOLD && !(e->flags[row] & ENTITY_FLAG_LANDED) &&
            context->world->kinds[e->kind[row]].domain == DOMAIN_AIR;
 }
 
@@ -106,7 +106,7 @@ static bool free_anyway(const struct response_context *context, uint32_t row, bo
     if (contact_groups_is_piloted(context, row))
         return body_motion_old(context->motion, row);
     if (domain == DOMAIN_SEA || !body_motion_old(context->motion, row) ||
-        !(wreck || (domain == DOMAIN_LAND && e->flags[row] & ENTITY_FLAG_CHASSIS)))
+        !(wreck || e->flags[row] & (ENTITY_FLAG_CHASSIS | ENTITY_FLAG_LANDED)))
         return false;
     *held = true;
     return wreck && tips(context, row);

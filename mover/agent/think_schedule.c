@@ -57,12 +57,12 @@ static bool is_new(const struct step_context *context, uint32_t i)
 }
 
 /* Returns true if its spin turns the row before it moves. Land vehicles that spin are bodies on
- * their springs (mover/motion/chassis.h). */
+ * their springs (mover/motion/chassis.h), and aircraft that have landed are bodies too. */
 static bool spins_first(const struct step_context *context, enum motion how, uint32_t i)
 {
     enum domain domain = (enum domain)context->world->kinds[context->m->kind[i]].domain;
-    bool sprung = (context->m->flags[i] & ENTITY_FLAG_CHASSIS) != 0;
-    return (how == MOTION_HOLD && !sprung) || (how > MOTION_HOLD && domain != DOMAIN_LAND);
+    bool body = domain != DOMAIN_SEA && (context->m->flags[i] & ENTITY_FLAG_CHASSIS) != 0;
+    return (how == MOTION_HOLD && !body) || (how > MOTION_HOLD && domain != DOMAIN_LAND && !body);
 }
 
 static void sort(const struct step_context *context, const struct row_block *block, uint8_t *motion,

@@ -73,7 +73,9 @@ struct desired_motion {
 #define TRIGGER_FIRE_AT      2u        /* at its goal, a point on the ground */
 #define TRIGGER_REASON_SHIFT 2u        /* above: enum agent_reason + 1 of a change of behaviour */
 #define TRIGGER_BROKEN       UINT8_MAX /* alone: a wreck has broken up */
-#define TRIGGER_AGROUND      (UINT8_MAX - 2) /* alone: a ship has run aground */
-#define TRIGGER_LEFT_WORLD   (UINT8_MAX - 1) /* alone: it has crossed the edge of the world */
+#define TRIGGER_AGROUND                                                                            \
+    (UINT8_MAX - 2)                        /* alone: a ship has run aground, or an aircraft has    \
+                                            * touched down hard */
+#define TRIGGER_LEFT_WORLD (UINT8_MAX - 1) /* alone: it has crossed the edge of the world */
 
 #endif

@@ -37,6 +37,7 @@ static void take_kind(struct aircraft *batch, int l, const struct kind *kind)
     batch->turn_rate.lane[l] = kind->turn_rate_rps;
     batch->climb_rate.lane[l] = kind->climb_rate_mps;
     batch->load.lane[l] = maths_max(kind->max_load, 1.0);
+    batch->low.lane[l] = kind->low_m;
     batch->burn_lps.lane[l] = kind->fuel_lps;
     batch->tank.lane[l] = -(int64_t)(kind->fuel_l > 0.0);
 }
@@ -140,7 +141,11 @@ static inline void want(struct aircraft *batch, int h, const f64x4 *ground, doub
     f->wanted_mps = SIMD_CHOOSE(f->driven, batch->wanted_mps.f64x4[h], by_agent);
     f64x4 off = (*ground + batch->altitude.f64x4[h] - batch->y.f64x4[h]) * 0.8;
     off = SIMD_CLAMP(off, least, most);
-    f->wanted_up_mps = SIMD_CHOOSE(f->driven, batch->climb.f64x4[h], off);
+    f64x4 soft = SIMD_MAX(batch->y.f64x4[h] + batch->low.f64x4[h] - *ground, none);
+    soft = SIMD_NEGATIVE(SIMD_EVERY(AIRFRAME_SOFT_MPS) + soft * AIRFRAME_SOFT_PS);
+    soft = SIMD_MAX(batch->climb.f64x4[h], soft);
+    soft = SIMD_CHOOSE(f->aeroplane, batch->climb.f64x4[h], soft);
+    f->wanted_up_mps = SIMD_CHOOSE(f->driven, soft, off);
     f64x4 share = SIMD_ABS(f->wanted_mps) / SIMD_MAX(full, SIMD_EVERY(1e-9));
     share = SIMD_CLAMP(share, SIMD_EVERY(0.2), SIMD_EVERY(1.0));
     kinematics_simd_burn(&batch->fuel.f64x4[h], &batch->burn_lps.f64x4[h], &share,
@@ -377,10 +382,10 @@ VECTOR_CLONES
 void aircraft_move(const struct step_context *context, struct aircraft *batch)
 {
     const f64x4 none = SIMD_EVERY(0.0), drag = SIMD_EVERY(SIDE_DRAG_MPS2 * context->dt_s);
-    union simd_lanes ground, sine, cosine;
+    union simd_lanes sine, cosine;
     struct moving moving;
-    find_highest(context, batch, &ground);
-    rise(context, batch, &ground, &moving);
+    find_highest(context, batch, &batch->ground);
+    rise(context, batch, &batch->ground, &moving);
     fly(context, batch, &moving);
     maths_sincos_lanes(&batch->heading, &sine, &cosine);
     for (int h = 0; h < LANE_FOURS; h++) {

@@ -17,8 +17,9 @@ struct aircraft {
     /* The row, before and after. */
     union simd_lanes x, y, z, vx, vy, vz, heading, pitch, roll, fuel;
     /* The kind. */
-    union simd_lanes full_mps, least_mps, acceleration, turn_rate, climb_rate, load, burn_lps;
+    union simd_lanes full_mps, least_mps, acceleration, turn_rate, climb_rate, load, burn_lps, low;
     union lane_masks tank;            /* it has one */
+    union simd_lanes ground;          /* the higher of the ground under it and ahead */
     union lane_masks blocked, left;   /* results: it is at the edge of the world, and beyond it */
     struct terrain_cache here, ahead; /* the ground under it, and where it soon will be */
     struct terrain_cache_entry idle;  /* of free lanes */

@@ -45,10 +45,14 @@
 #define AIRFRAME_TURN_S     1.2     /* and the heading an agent's will */
 #define AIRFRAME_PULL       1.5     /* [g] over level flight, pulled up no harder */
 #define AIRFRAME_COLLECTIVE 0.6     /* [g] the same by a helicopter's power */
-#define AIRFRAME_SPOOL_S    5.0     /* a jet's engine, from idle to full thrust (14 CFR 33.73) */
-#define AIRFRAME_SLOW_S     3.0     /* and back */
-#define AIRFRAME_GOVERNOR_S 1.5     /* a helicopter's, both ways */
-#define AIRFRAME_DOWN       -0.8    /* [g] pushed over no harder: the crew stays in its seats */
+/* Near the ground a driver's helicopter sinks no faster than AIRFRAME_SOFT_MPS, and so much more
+ * for each metre under it. */
+#define AIRFRAME_SOFT_MPS   1.0
+#define AIRFRAME_SOFT_PS    0.4
+#define AIRFRAME_SPOOL_S    5.0  /* a jet's engine, from idle to full thrust (14 CFR 33.73) */
+#define AIRFRAME_SLOW_S     3.0  /* and back */
+#define AIRFRAME_GOVERNOR_S 1.5  /* a helicopter's, both ways */
+#define AIRFRAME_DOWN       -0.8 /* [g] pushed over no harder: the crew stays in its seats */
 
 /* Four aircraft in a frame. */
 struct airframe {

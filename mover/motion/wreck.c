@@ -1,7 +1,7 @@
 /* Moves wrecks: rigid bodies over the ground, and hulls that drift on the water and sink. */
 #include "mover/motion/wreck.h"
 
-#include "mover/motion/ground_contacts.h"
+#include "mover/motion/ground_body.h"
 #include "mover/motion/kinematics.h"
 #include "mover/motion/sinking.h"
 #include "mover/motion/spin.h"
@@ -10,20 +10,11 @@
 
 #define AFLOAT_FRICTION 0.03 /* of a ship's wreck: share of the weight */
 
-/* A frame is cut into sub-steps of at most this length, in which no point moves further than this.
- * The number of sub-steps is bounded. */
-#define STEP_MAX_S (1.0 / 120.0)
-#define STEP_MAX_M 0.5
-#define STEPS_MAX  48.0
-
 /* A wreck that is slower than this for so long comes to rest, if no point is deeper. */
 #define REST_MPS     0.05
 #define REST_RPS     0.05
 #define REST_S       0.5
 #define REST_DEPTH_M 0.02
-
-/* A body that has no energy for it is lifted out of the ground only from a greater depth [m]. */
-#define LIFT_DEPTH_M (2.0 * GROUND_CONTACTS_SLOP_M)
 
 /* The ground holds a wreck at rest that its neighbours push no faster than this [m/s, rad/s]. */
 #define HELD_MPS 1e-3
@@ -72,42 +63,6 @@ static void drift(const struct step_context *context, uint32_t i)
 }
 
 /* --- rigid bodies ------------------------------------------------------------------------------*/
-
-static double sub_steps(const struct rigid_body *body, const struct body_points *points,
-                        double dt_s)
-{
-    double speed = vec3_length(body->velocity) + vec3_length(body->spin) * points->reach_m;
-    double steps = ceil(maths_max(dt_s / STEP_MAX_S, speed * dt_s / STEP_MAX_M) - 1e-9);
-    return maths_clamp(steps, 1.0, STEPS_MAX);
-}
-
-/* Moves the body for a sub-step. Free motion is exact in the height; with contacts the velocity at
- * the end counts, which never adds energy. Returns the energy that the ground took along its
- * normals [J]. */
-static double sub_step(struct ground_contacts *contacts, struct rigid_body *body, double dt_s)
-{
-    const double fall = GRAVITY_MPS2 * dt_s, energy = rigid_body_energy(body);
-    const struct rigid_body before = *body;
-    struct vec3 push = {0.0, 0.0, 0.0}, twist = {0.0, 0.0, 0.0};
-    body->velocity.y -= fall;
-    double impulse = ground_contacts_solve(contacts, body, dt_s);
-    double taken = ground_contacts_taken(contacts, body);
-    if (impulse > 0.0) {
-        ground_contacts_plough(contacts, body, impulse);
-        ground_contacts_roll(contacts, body);
-        ground_contacts_push(contacts, body, dt_s, &push, &twist);
-    } else {
-        push.y = 0.5 * fall;
-    }
-    body->centre = vec3_add(body->centre, vec3_scale(vec3_add(body->velocity, push), dt_s));
-    rigid_body_turn(body, twist, dt_s);
-    if (impulse > 0.0 && !rigid_body_limit_energy(body, energy) &&
-        ground_contacts_depth(contacts) <= LIFT_DEPTH_M) {
-        body->centre = before.centre; /* rounding alone has lifted it */
-        body->turn = before.turn;
-    }
-    return taken;
-}
 
 /* Breaks up an aircraft from which the ground took this energy at once. */
 static void break_up(const struct step_context *context, uint32_t i, double taken_j,
@@ -172,10 +127,10 @@ static void tumble(const struct step_context *context, uint32_t i)
     if (context->m->flags[i] & ENTITY_FLAG_BROKEN)
         ground_contacts_break(&contacts);
     struct rigid_body body = rigid_body_take(context, i);
-    double steps = sub_steps(&body, &points, context->dt_s), dt_s = context->dt_s / steps;
+    double steps = ground_body_steps(&body, &points, context->dt_s), dt_s = context->dt_s / steps;
     for (int n = 0; n < (int)steps; n++) {
         ground_contacts_find(&contacts, context, &points, &body, dt_s);
-        break_up(context, i, sub_step(&contacts, &body, dt_s), &contacts);
+        break_up(context, i, ground_body_step(&contacts, &body, 0.0, dt_s), &contacts);
     }
     rigid_body_put(context, i, &body);
     settle(context, i, ground_contacts_depth(&contacts));

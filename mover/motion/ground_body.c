@@ -1,0 +1,47 @@
+/* Sub-steps of a body with contacts to the ground. */
+#include "mover/motion/ground_body.h"
+
+#define STEP_MAX_S (1.0 / 120.0)
+#define STEP_MAX_M 0.5
+#define STEPS_MAX  48.0
+
+/* A body that has no energy for it is lifted out of the ground only from a greater depth [m]. */
+#define LIFT_DEPTH_M (2.0 * GROUND_CONTACTS_SLOP_M)
+
+double ground_body_steps(const struct rigid_body *body, const struct body_points *points,
+                         double dt_s)
+{
+    double speed = vec3_length(body->velocity) + vec3_length(body->spin) * points->reach_m;
+    double steps = ceil(maths_max(dt_s / STEP_MAX_S, speed * dt_s / STEP_MAX_M) - 1e-9);
+    return maths_clamp(steps, 1.0, STEPS_MAX);
+}
+
+double ground_body_step(struct ground_contacts *contacts, struct rigid_body *body, double lift_mps2,
+                        double dt_s)
+{
+    const double fall = (GRAVITY_MPS2 - lift_mps2) * dt_s;
+    double energy = rigid_body_energy(body);
+    if (lift_mps2 > 0.0)
+        energy += body->inertia.mass_kg * lift_mps2 * dt_s *
+                  (maths_max(body->velocity.y, 0.0) + lift_mps2 * dt_s);
+    const struct rigid_body before = *body;
+    struct vec3 push = {0.0, 0.0, 0.0}, twist = {0.0, 0.0, 0.0};
+    body->velocity.y -= fall;
+    double impulse = ground_contacts_solve(contacts, body, dt_s);
+    double taken = ground_contacts_taken(contacts, body);
+    if (impulse > 0.0) {
+        ground_contacts_plough(contacts, body, impulse);
+        ground_contacts_roll(contacts, body);
+        ground_contacts_push(contacts, body, dt_s, &push, &twist);
+    } else {
+        push.y = 0.5 * fall;
+    }
+    body->centre = vec3_add(body->centre, vec3_scale(vec3_add(body->velocity, push), dt_s));
+    rigid_body_turn(body, twist, dt_s);
+    if (impulse > 0.0 && !rigid_body_limit_energy(body, energy) &&
+        ground_contacts_depth(contacts) <= LIFT_DEPTH_M) {
+        body->centre = before.centre; /* rounding alone has lifted it */
+        body->turn = before.turn;
+    }
+    return taken;
+}

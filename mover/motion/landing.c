@@ -1,0 +1,195 @@
+/* Touch-down, stand, slide and take-off. */
+#include "mover/motion/landing.h"
+
+#include "mover/motion/airframe.h"
+#include "mover/motion/ground_body.h"
+#include "mover/motion/kinematics.h"
+#include "world/state.h"
+#include "world/terrain/gridsquare.h"
+#include "world/world.h"
+
+/* Faster over the ground than this, or tilted more against it, it crashes. */
+#define SKIDS_MPS   20.0 /* helicopters: 40 knots, a run-on landing */
+#define BELLY_SHARE 1.7  /* aeroplanes: of the stalling speed */
+#define BELLY_MPS   6.0  /* aeroplanes: towards the ground */
+#define LEVEL       0.94 /* cosine: 20 degrees */
+#define BELLY_HARM  0.35 /* of what destroys an aeroplane: a landing without wheels */
+
+#define CLIMBS_M 1.0 /* over the ground: an agent that wants to be higher takes off */
+#define CLEAR_M  0.1 /* and flies from here */
+
+/* A body that is slower, does not gain speed and is no deeper stays where it is. */
+#define REST_MPS     0.03
+#define REST_RPS     0.03
+#define REST_MPS2    0.5
+#define REST_DEPTH_M 0.02
+
+static bool hovers(const struct kind *kind)
+{
+    return !(kind->min_speed_mps > 0.0);
+}
+
+/* --- touch-down --------------------------------------------------------------------------------*/
+
+/* How a body meets the ground. */
+struct touch {
+    double closing_mps, along_mps;
+    double level; /* cosine between its own up and that of the ground */
+};
+
+static struct touch touch_of(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    struct vec3 velocity = entities_velocity(m, i);
+    struct vec3 normal =
+        terrain_normal(&context->world->terrain, context->craters, m->x[i], m->z[i]);
+    struct mat3 turn = rotation_matrix(rotation_of(m->heading[i], m->pitch[i], m->roll[i]));
+    const struct vec3 up = {turn.m[0][1], turn.m[1][1], turn.m[2][1]};
+    double closing = -vec3_dot(velocity, normal);
+    return (struct touch){
+        .closing_mps = closing,
+        .along_mps = vec3_length(vec3_add(velocity, vec3_scale(normal, closing))),
+        .level = vec3_dot(up, normal),
+    };
+}
+
+static bool is_gentle(const struct kind *kind, const struct touch *touch)
+{
+    if (touch->level < LEVEL)
+        return false;
+    if (hovers(kind))
+        return touch->closing_mps < LANDING_HARD_MPS && touch->along_mps < SKIDS_MPS;
+    return touch->closing_mps < BELLY_MPS && touch->along_mps < BELLY_SHARE * kind->min_speed_mps;
+}
+
+/* Returns the harm of a touch-down, as a share of what destroys the kind. */
+static double harm_of(const struct kind *kind, double closing_mps)
+{
+    const double soft = LANDING_SOFT_MPS * LANDING_SOFT_MPS,
+                 hard = LANDING_HARD_MPS * LANDING_HARD_MPS;
+    double harm = maths_max(0.0, (closing_mps * closing_mps - soft) / (hard - soft));
+    if (closing_mps <= LANDING_SOFT_MPS)
+        harm = 0.0;
+    return hovers(kind) ? harm : maths_max(harm, BELLY_HARM);
+}
+
+/* Returns the height of the lowest point of row i over the ground [m]. */
+static double clearance_of(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    struct body_points points;
+    body_points_of(context->world, m->kind[i], &points);
+    return body_points_clearance(context->world, context->craters, &points, entities_position(m, i),
+                                 rotation_of(m->heading[i], m->pitch[i], m->roll[i]));
+}
+
+bool landing_touch(const struct step_context *context, uint32_t i,
+                   const struct desired_motion *desired)
+{
+    struct entities *m = context->m;
+    const struct entities *w = &context->committed->entities;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    if (cover_is_water(terrain_cover(&context->world->terrain, m->x[i], m->z[i])) ||
+        clearance_of(context, i) > 0.0)
+        return false;
+    struct touch touch = touch_of(context, i);
+    if (!is_gentle(kind, &touch))
+        return false;
+    double harm = harm_of(kind, touch.closing_mps);
+    m->flags[i] |= ENTITY_FLAG_LANDED;
+    m->harm_j[i] += harm * kind->resistance_j;
+    entities_set_position(m, i, entities_position(w, i));
+    m->heading[i] = w->heading[i], m->pitch[i] = w->pitch[i], m->roll[i] = w->roll[i];
+    landing_move(context, i, desired);
+    if (harm > 0.0)
+        m->trigger[i] = TRIGGER_AGROUND;
+    return true;
+}
+
+/* --- on the ground -----------------------------------------------------------------------------*/
+
+static bool wants_up(const struct step_context *context, uint32_t i, const struct kind *kind,
+                     const struct desired_motion *desired)
+{
+    bool fuel = !(kind->fuel_l > 0.0) || context->m->fuel_l[i] > 0.0;
+    if (desired == NULL || !hovers(kind) || !fuel)
+        return false;
+    return desired->driven ? desired->climb_mps > 0.0 : desired->altitude_m > CLIMBS_M;
+}
+
+/* Returns the lift of the rotor [m/s2]. The engine of a driven helicopter follows the collective
+ * with a lag; it idles while that is down. */
+static double lift_of(const struct step_context *context, uint32_t i,
+                      const struct desired_motion *desired, bool up)
+{
+    const double full = (1.0 + AIRFRAME_COLLECTIVE) * GRAVITY_MPS2;
+    struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    if (desired == NULL || !hovers(kind))
+        return 0.0;
+    if (!desired->driven)
+        return up ? full : 0.0;
+    double spool = kinematics_approach(1.0 - (double)m->dodge[i], up ? 1.0 : 0.0,
+                                       context->dt_s / AIRFRAME_GOVERNOR_S);
+    m->dodge[i] = (float)(1.0 - spool);
+    return spool * full;
+}
+
+/* Moves the body for the frame. Returns false if it stays where it is. */
+static bool run(const struct step_context *context, uint32_t i, double lift_mps2,
+                struct rigid_body *body)
+{
+    struct body_points points;
+    struct ground_contacts contacts;
+    const struct vec3 before = body->velocity;
+    body_points_of(context->world, context->m->kind[i], &points);
+    ground_contacts_begin(&contacts, &context->world->kinds[context->m->kind[i]]);
+    double steps = ground_body_steps(body, &points, context->dt_s), dt_s = context->dt_s / steps;
+    for (int n = 0; n < (int)steps; n++) {
+        ground_contacts_find(&contacts, context, &points, body, dt_s);
+        (void)ground_body_step(&contacts, body, lift_mps2, dt_s);
+    }
+    return ground_contacts_depth(&contacts) > REST_DEPTH_M ||
+           vec3_length(body->velocity) > REST_MPS || vec3_length(body->spin) > REST_RPS ||
+           vec3_length(vec3_sub(body->velocity, before)) > REST_MPS2 * context->dt_s;
+}
+
+void landing_move(const struct step_context *context, uint32_t i,
+                  const struct desired_motion *desired)
+{
+    struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    bool up = wants_up(context, i, kind, desired);
+    double lift = lift_of(context, i, desired, up);
+    struct rigid_body body = rigid_body_take(context, i);
+    if (run(context, i, lift, &body)) {
+        rigid_body_put(context, i, &body);
+    } else { /* its place keeps every bit, so that heaps can sleep */
+        entities_set_velocity(m, i, (struct vec3){0.0, 0.0, 0.0});
+        m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
+    }
+    if (up && m->vy[i] > 0.0 && clearance_of(context, i) > CLEAR_M)
+        m->flags[i] &= (uint8_t)~ENTITY_FLAG_LANDED;
+}
+
+void landing_tell_hard(struct serial_context *context, uint32_t i)
+{
+    const struct step_context *step = context->step;
+    const struct entities *m = step->m;
+    struct vec3 before = entities_velocity(&step->committed->entities, i);
+    struct vec3 at = entities_position(m, i);
+    struct vec3 normal = terrain_normal(&step->world->terrain, step->craters, at.x, at.z);
+    struct event *event = serial_context_intent(context, EVENT_COLLISION);
+    context->moved->head->tally.collisions++;
+    if (event == NULL)
+        return;
+    struct event_collision *hit = &event->collision;
+    hit->a = serial_context_party(context, i);
+    hit->b = (struct event_party){0, KIND_NONE, 1, DAMAGE_NONE};
+    hit->point[0] = at.x, hit->point[1] = at.y, hit->point[2] = at.z;
+    vec3_to_floats(hit->normal, vec3_scale(normal, -1.0));
+    if (vec3_length(before) > 0.0)
+        vec3_to_floats(hit->direction_a, vec3_scale(before, 1.0 / vec3_length(before)));
+    hit->closing_mps = (float)maths_max(0.0, -vec3_dot(before, normal));
+    hit->response = RESPONSE_SLOW;
+}
