@@ -279,6 +279,8 @@ static void complete_chassis(struct kind *kind)
     set_open(&kind->travel_m, 0.07 * kind->height_m);
     set_open(&kind->heave_hz, tracked ? 1.4 : 1.6);
     set_open(&kind->ford_m, 0.3 * kind->height_m);
+    set_open(&kind->step_m, tracked ? 0.147 * kind->length_m : 0.18 * kind->height_m);
+    set_open(&kind->trench_m, (tracked ? 0.37 : 0.15) * kind->length_m);
     set_open(&kind->least_turn_m, 1.65 * kind->length_m);
     if (tracked)
         kind->least_turn_m = 0.0;

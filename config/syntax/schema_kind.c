@@ -118,6 +118,14 @@ static const struct key kind_keys[] = {
                       "middle. 0: 1.65 times the length."),
     NUMBER("ford_m", K, kind.ford_m, 0, 10, "0", .unit = "m",
            .meaning = "Land vehicles: the deepest water that they cross. 0: 0.3 of the height."),
+    NUMBER("step_m", K, kind.step_m, 0, 10, "0", .unit = "m",
+           .meaning =
+               "Land vehicles: the highest step that their wheels roll onto. Higher ones are "
+               "walls. Tracks climb at most 0.147 of the length. 0: that, or 0.18 of the "
+               "height with wheels."),
+    NUMBER("trench_m", K, kind.trench_m, 0, 100, "0", .unit = "m",
+           .meaning = "Land vehicles: the widest trench that their agents cross. 0: 0.15 of the "
+                      "length, or 0.37 with tracks."),
     NUMBER("cruise_altitude_m", K, kind.cruise_altitude_m, 0, 20000, "0", .unit = "m",
            .meaning = "Aircraft: their usual height above the ground."),
     NUMBER("climb_rate_mps", K, kind.climb_rate_mps, 0, 500, "0", .unit = "m/s",

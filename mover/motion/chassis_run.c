@@ -24,67 +24,6 @@
 #define UPRIGHT    0.95 /* cosine: a body that leans less stands on its wheels alone */
 #define NEAR_STOPS 0.7  /* share of the travel from which the shell may touch */
 
-#define UNDERSIDE   0.22 /* half length of the underside over the length */
-#define NOSE_HEIGHT 0.45 /* of the ends over the height */
-#define HARD_MPS    2.0  /* a shell that is hit more slowly takes no harm */
-
-/* --- the shell
- * -----------------------------------------------------------------------------------*/
-
-/* Finds the shell of a kind. Its underside is as high as the wheels can rise. */
-static void find_shell(const struct kind *kind, struct chassis_shell *shell)
-{
-    for (unsigned n = 0; n < CHASSIS_SHELL_POINTS; n++) {
-        unsigned layer = n / 4;
-        double length = kind->length_m * (layer == 0 ? UNDERSIDE : 0.5);
-        double height = layer == 0   ? kind->travel_m
-                        : layer == 1 ? maths_max(NOSE_HEIGHT * kind->height_m, kind->travel_m)
-                                     : kind->height_m;
-        shell->point[n] = (struct vec3){n & 1 ? length : -length, height,
-                                        n & 2 ? 0.5 * kind->width_m : -0.5 * kind->width_m};
-    }
-    double wide = 0.25 * (kind->length_m * kind->length_m + kind->width_m * kind->width_m);
-    shell->reach_m = sqrt(wide + kind->height_m * kind->height_m);
-}
-
-/* Returns the greatest speed at which a contact's point came down on the ground. */
-static double fastest(const struct ground_contacts *contacts)
-{
-    double most = 0.0;
-    for (uint32_t i = 0; i < contacts->count; i++) {
-        if (contacts->contact[i].impulse_ns[CONTACT_NORMAL] > 0.0)
-            most = maths_max(most, contacts->contact[i].closing_mps);
-    }
-    return most;
-}
-
-/* What the ground does to a shell in a sub-step. */
-struct shell_push {
-    struct vec3 velocity_mps, spin_rps; /* pseudo-velocity out of the ground */
-    double impulse_ns;                  /* along the normals; 0: the shell does not touch */
-    double hard_j;                      /* energy of the impact, if it is a hard one */
-};
-
-/* Lets the shell act on the ground: changes the body's velocity and spin. */
-static struct shell_push press_shell(struct chassis *chassis, double dt_s)
-{
-    struct rigid_body *body = &chassis->body;
-    const struct body_points points = {.point = chassis->shell.point,
-                                       .count = CHASSIS_SHELL_POINTS,
-                                       .reach_m = chassis->shell.reach_m};
-    struct shell_push push = {0};
-    struct ground_contacts contacts;
-    ground_contacts_begin(&contacts, chassis->kind);
-    ground_contacts_find(&contacts, chassis->context, &points, body, dt_s);
-    push.impulse_ns = ground_contacts_solve(&contacts, body, dt_s);
-    if (push.impulse_ns <= 0.0)
-        return push;
-    if (fastest(&contacts) > HARD_MPS)
-        push.hard_j = maths_max(0.0, ground_contacts_taken(&contacts, body));
-    ground_contacts_push(&contacts, body, dt_s, &push.velocity_mps, &push.spin_rps);
-    return push;
-}
-
 static double forward_speed(const struct chassis *chassis, const struct mat3 *turn)
 {
     const struct vec3 ahead = {turn->m[0][0], turn->m[1][0], turn->m[2][0]};
@@ -225,9 +164,12 @@ static bool shell_is_near(const struct chassis *chassis, const struct mat3 *turn
 static void move(struct chassis *chassis, const struct mat3 *turn, double load_n, double dt_s)
 {
     struct rigid_body *body = &chassis->body;
-    struct shell_push shell = {0};
+    struct chassis_shell_push shell = {0};
     if (shell_is_near(chassis, turn)) {
-        shell = press_shell(chassis, dt_s);
+        chassis_shell_follow(&chassis->shell, &chassis->suspension);
+        shell = chassis_shell_press(&chassis->shell, &chassis->context->world->terrain,
+                                    chassis->cratered ? chassis->context->craters : NULL,
+                                    chassis->kind, body, dt_s);
         chassis->fall_j += shell.hard_j;
     }
     struct vec3 push = shell.velocity_mps;
@@ -252,7 +194,7 @@ static bool ground_rises(const struct chassis *chassis, const struct mat3 *turn)
 /* Returns true if the underside is or the ends are about to touch uneven ground. */
 static bool is_scraping(const struct chassis *chassis, const struct mat3 *turn)
 {
-    for (unsigned n = 0; chassis->cratered && n < 8; n++) {
+    for (unsigned n = 0; chassis->cratered && n < CHASSIS_SHELL_ENDS; n++) {
         struct vec3 point = chassis->shell.point[n];
         point.y -= chassis->body.inertia.centre_m;
         const struct vec3 at = vec3_add(chassis->body.centre, rotation_apply(turn, point));
@@ -308,7 +250,7 @@ void chassis_run_begin(struct chassis *chassis, const struct step_context *conte
     chassis->friction = ground_grip_at(context, m->x[i], m->z[i]).friction;
     chassis->drivetrain = drivetrain_of(context, i, desired);
     suspension_of(chassis->kind, &chassis->suspension);
-    find_shell(chassis->kind, &chassis->shell);
+    chassis_shell_of(chassis->kind, &chassis->suspension, &chassis->shell);
 }
 
 void chassis_run(struct chassis *chassis)

@@ -5,17 +5,8 @@
 #ifndef JOLON_MOVER_MOTION_CHASSIS_RUN_H
 #define JOLON_MOVER_MOTION_CHASSIS_RUN_H
 
-#include "mover/motion/ground_contacts.h"
+#include "mover/motion/chassis_shell.h"
 #include "mover/motion/tyre.h"
-
-/* Four points each of the underside, of the ends and of the roof. */
-#define CHASSIS_SHELL_POINTS 12u
-
-/* The points of the body that the ground may touch. */
-struct chassis_shell {
-    struct vec3 point[CHASSIS_SHELL_POINTS]; /* [m] body axes */
-    double reach_m;
-};
 
 /* A vehicle in a frame. */
 struct chassis {

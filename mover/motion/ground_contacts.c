@@ -102,14 +102,15 @@ static double steepest_under(const struct step_context *context, const struct ri
     return bound == SQUARE_BOUNDS_NONE ? STEEPEST : bound * SQUARE_BOUNDS_SLOPE_STEP;
 }
 
-static void add(struct ground_contacts *contacts, const struct rigid_body *body,
-                const struct mat3 *inverse, const struct ground_contact *found)
+void ground_contacts_add(struct ground_contacts *contacts, const struct rigid_body *body,
+                         const struct mat3 *inverse, struct vec3 arm, struct vec3 normal,
+                         double gap_m)
 {
-    struct ground_contact *contact = place_for(contacts, found->gap_m);
+    struct ground_contact *contact = place_for(contacts, gap_m);
+    struct vec3 n = normal, along = {n.y, -n.x, 0.0};
     if (contact == NULL)
         return;
-    *contact = *found;
-    struct vec3 n = found->axis[CONTACT_NORMAL], along = {n.y, -n.x, 0.0};
+    *contact = (struct ground_contact){.gap_m = gap_m, .arm = arm};
     along = vec3_scale(along, 1.0 / vec3_length(along)); /* the ground is never vertical */
     set_axis(contact, CONTACT_NORMAL, n, body, inverse);
     set_axis(contact, CONTACT_ALONG, along, body, inverse);
@@ -139,15 +140,13 @@ void ground_contacts_find(struct ground_contacts *contacts, const struct step_co
         point.y -= body->inertia.centre_m;
         if (turn.m[1][0] * point.x + turn.m[1][1] * point.y + turn.m[1][2] * point.z > high)
             continue;
-        struct ground_contact found = {.arm = rotation_apply(&turn, point)};
-        struct vec3 at = vec3_add(body->centre, found.arm);
+        struct vec3 arm = rotation_apply(&turn, point), at = vec3_add(body->centre, arm);
         double above = at.y - terrain_height(terrain, craters, at.x, at.z);
         if (above > STEEPEST * margin)
             continue;
-        found.axis[CONTACT_NORMAL] = terrain_normal(terrain, craters, at.x, at.z);
-        found.gap_m = above * found.axis[CONTACT_NORMAL].y;
-        if (found.gap_m <= margin)
-            add(contacts, body, &inverse, &found);
+        struct vec3 normal = terrain_normal(terrain, craters, at.x, at.z);
+        if (above * normal.y <= margin)
+            ground_contacts_add(contacts, body, &inverse, arm, normal, above * normal.y);
     }
 }
 
@@ -241,6 +240,8 @@ double ground_contacts_solve(struct ground_contacts *contacts, struct rigid_body
     double sum = 0.0;
     for (uint32_t i = 0; i < contacts->count; i++) {
         struct ground_contact *contact = &contacts->contact[i];
+        for (int k = 0; k < CONTACT_AXES; k++)
+            contact->impulse_ns[k] = 0.0;
         contact->closing_mps = -speed_along(contact, CONTACT_NORMAL, body->velocity, body->spin);
         contact->least_mps = -maths_max(0.0, contact->gap_m) / dt_s;
     }

@@ -46,6 +46,13 @@ void ground_contacts_find(struct ground_contacts *contacts, const struct step_co
                           const struct body_points *points, const struct rigid_body *body,
                           double dt_s);
 
+/* Adds the contact of a point with ground of this normal (unit, n.y > 0). arm: from the centre of
+ * mass, in world axes. inverse: of the body's inertia, in world axes. A full list drops the contact
+ * with the greatest gap. */
+void ground_contacts_add(struct ground_contacts *contacts, const struct rigid_body *body,
+                         const struct mat3 *inverse, struct vec3 arm, struct vec3 normal,
+                         double gap_m);
+
 /* Changes velocity and spin so that no point goes through the ground within dt_s: impulses along
  * the normals, friction, restitution. Returns the sum of the impulses along the normals [N s]; 0:
  * the body does not touch the ground. */

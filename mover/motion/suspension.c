@@ -6,7 +6,7 @@
 
 #define DAMPING      0.35 /* share of the critical damping */
 #define BUMP_STOP    10.0 /* stiffness of the bump stop over that of the spring */
-#define BUMP_RETURN  0.5  /* share of its force that it gives back */
+#define BUMP_MOST_M  0.15 /* by which it is pressed at most; it gives nothing back */
 #define ROLL_BAR     0.75 /* of an axle: stiffness against roll over that of a spring */
 #define WHEELBASE    0.68 /* between the outer axles over the length */
 #define TRACK_LENGTH 0.58 /* of a track on the ground over the length */
@@ -18,6 +18,7 @@
 #define BOW          0.21 /* length of the end of a track over the vehicle's */
 #define BOW_RISE     0.7  /* tangent of its slope */
 #define STEEPEST     3.0  /* tangent: a wheel rolls onto an edge as onto a slope like that */
+#define LEANS_ALONG  2.0  /* tangent of the body's slope, at most */
 #define SAMPLES      9    /* points at which a wheel may touch uneven ground */
 
 /* Returns where the axle is over the distance between the outer axles: the middle of all axles is
@@ -45,6 +46,8 @@ void suspension_of(const struct kind *kind, struct suspension *suspension)
     suspension->ground_m = length;
     suspension->radius_m = WHEEL_RADIUS * kind->height_m;
     suspension->bow_m = kind->tracked ? BOW * kind->length_m : 0.0;
+    suspension->reach_m =
+        kind->tracked ? maths_min(kind->step_m, BOW_RISE * suspension->bow_m) : kind->step_m;
     for (uint32_t i = 0; i < suspension->count; i++) {
         struct wheel *wheel = &suspension->wheel[i];
         wheel->side = i & 1 ? 1.0 : -1.0;
@@ -55,6 +58,7 @@ void suspension_of(const struct kind *kind, struct suspension *suspension)
     }
     double front = suspension->wheel[0].place.x;
     suspension->wheelbase_m = front * kind->axles / (kind->axles - 1);
+    suspension->front_m = front + (kind->tracked ? suspension->bow_m : suspension->radius_m);
 }
 
 /* --- the ground --------------------------------------------------------------------------------*/
@@ -102,13 +106,21 @@ static double sample(const struct suspension *suspension, const struct wheel *wh
     return wheel->bow * bow[n] * (bow[n] < 0.0 ? suspension->radius_m : suspension->bow_m);
 }
 
-/* Finds where a wheel touches uneven ground. ahead: the body's heading on the map, unit. */
+/* How a body stands on uneven ground. */
+struct wheel_footing {
+    struct vec3 ahead; /* its heading on the map, unit */
+    double slope;      /* of its plane along the heading, as a tangent */
+};
+
+/* Finds where a wheel touches uneven ground. */
 static struct wheel_contact contact_uneven(const struct suspension *suspension,
                                            const struct wheel *wheel,
                                            const struct step_context *context, struct vec3 at,
-                                           struct vec3 ahead)
+                                           const struct wheel_footing *footing)
 {
+    const struct vec3 ahead = footing->ahead;
     double here = height_at(context, at.x, at.z), slope;
+    double wall = maths_max(here, at.y) + suspension->reach_m;
     double east = (height_at(context, at.x + SLOPE_STEP_M, at.z) - here) / SLOPE_STEP_M;
     double south = (height_at(context, at.x, at.z + SLOPE_STEP_M) - here) / SLOPE_STEP_M;
     double steep = east * ahead.x + south * ahead.z, most = 0.0;
@@ -117,9 +129,9 @@ static struct wheel_contact contact_uneven(const struct suspension *suspension,
     struct wheel_contact contact = {here, 0.0, normal_of(east, south)};
     for (int n = 0; n < SAMPLES; n++) {
         double d = sample(suspension, wheel, n);
-        double over = height_at(context, at.x + d * ahead.x, at.z + d * ahead.z) - here -
-                      steep * d - rim(suspension, wheel, d, &slope);
-        if (over <= most)
+        double height = height_at(context, at.x + d * ahead.x, at.z + d * ahead.z);
+        double over = height - here - steep * d - rim(suspension, wheel, d, &slope);
+        if (over <= most || height > wall + d * footing->slope)
             continue;
         most = over;
         slope += steep;
@@ -141,9 +153,11 @@ static struct wheel_contact contact_plane(const struct step_context *context, st
 /* Returns the force of spring, damper and bump stop; they do not pull. */
 static double force_of(const struct suspension *suspension, double squeeze_m, double closing_mps)
 {
-    double beyond = maths_max(0.0, squeeze_m - suspension->most_m);
-    beyond *= closing_mps < 0.0 ? BUMP_RETURN : 1.0;
-    return maths_max(0.0, suspension->spring_npm * (squeeze_m + BUMP_STOP * beyond) +
+    double beyond = maths_clamp(squeeze_m - suspension->most_m, 0.0, BUMP_MOST_M);
+    double pressed = maths_min(squeeze_m, suspension->most_m + beyond);
+    if (closing_mps <= 0.0)
+        pressed -= beyond, beyond = 0.0;
+    return maths_max(0.0, suspension->spring_npm * (pressed + BUMP_STOP * beyond) +
                               suspension->damper_nspm * closing_mps);
 }
 
@@ -179,12 +193,13 @@ static double roll_bars(struct suspension *suspension)
 /* Finds how far the ground presses a wheel, and its load. */
 static void press(struct suspension *suspension, struct wheel *wheel,
                   const struct step_context *context, const struct rigid_body *body,
-                  const struct mat3 *turn, const struct vec3 *level)
+                  const struct mat3 *turn, const struct wheel_footing *footing)
 {
     const struct vec3 up = {turn->m[0][1], turn->m[1][1], turn->m[2][1]};
     const struct vec3 at = vec3_add(body->centre, wheel->arm);
     const struct wheel_contact contact =
-        level ? contact_uneven(suspension, wheel, context, at, *level) : contact_plane(context, at);
+        footing ? contact_uneven(suspension, wheel, context, at, footing)
+                : contact_plane(context, at);
     double above = at.y - contact.height_m, leans = vec3_dot(up, contact.normal);
     wheel->normal = contact.normal;
     wheel->squeeze_m = wheel->load_n = wheel->stop_w = 0.0;
@@ -192,8 +207,8 @@ static void press(struct suspension *suspension, struct wheel *wheel,
         return;
     wheel->squeeze_m = -above * wheel->normal.y / leans;
     wheel->arm = vec3_add(wheel->arm, vec3_scale(up, wheel->squeeze_m));
-    if (level)
-        wheel->arm = vec3_add(wheel->arm, vec3_scale(*level, contact.ahead_m));
+    if (footing)
+        wheel->arm = vec3_add(wheel->arm, vec3_scale(footing->ahead, contact.ahead_m));
     struct vec3 speed = vec3_add(body->velocity, vec3_cross(body->spin, wheel->arm));
     double closing = -vec3_dot(speed, wheel->normal) / leans;
     wheel->load_n = force_of(suspension, wheel->squeeze_m, closing);
@@ -204,13 +219,16 @@ double suspension_load(struct suspension *suspension, const struct step_context 
                        const struct rigid_body *body, const struct mat3 *turn, bool uneven)
 {
     struct vec3 ahead = {turn->m[0][0], 0.0, turn->m[2][0]};
-    ahead = vec3_scale(ahead, 1.0 / maths_max(vec3_length(ahead), 1e-9));
+    double level = maths_max(vec3_length(ahead), 1e-9);
+    const struct wheel_footing footing = {
+        .ahead = vec3_scale(ahead, 1.0 / level),
+        .slope = maths_clamp(turn->m[1][0] / level, -LEANS_ALONG, LEANS_ALONG)};
     for (uint32_t i = 0; i < suspension->count; i++) {
         struct wheel *wheel = &suspension->wheel[i];
         struct vec3 place = wheel->place;
         place.y -= body->inertia.centre_m;
         wheel->arm = rotation_apply(turn, place);
-        press(suspension, wheel, context, body, turn, uneven ? &ahead : NULL);
+        press(suspension, wheel, context, body, turn, uneven ? &footing : NULL);
     }
     return roll_bars(suspension);
 }

@@ -2,7 +2,9 @@
  *
  * On ground that craters and earthworks make uneven a wheel is a disc: it touches the highest of
  * the points before and behind it. So it rolls over an edge. The ends of tracks rise from the first
- * and the last road wheel, so that they climb a step.
+ * and the last road wheel, so that they climb a step. Ground before a wheel that is more than
+ * reach_m higher than that under it is a wall: no wheel climbs it, and the shell
+ * (mover/motion/chassis_shell.h) stands against it.
  *
  * A road wheel of a track is a wheel like others. Springs carry the body so that its position, the
  * middle of its underside, is on the ground at rest. */
@@ -47,6 +49,8 @@ struct suspension {
     double wheelbase_m; /* from the steering axle to the middle of the others */
     double radius_m;    /* of a wheel */
     double bow_m;       /* length of the ends of tracks, which rise from the ground; 0 on wheels */
+    double reach_m;     /* over the ground under a wheel: higher ground before it is a wall */
+    double front_m;     /* from the middle to the front of the first wheel, or of the tracks */
     double ground_m;    /* length of the tracks on the ground, or between the outer axles */
 };
 

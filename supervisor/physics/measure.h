@@ -18,7 +18,7 @@
     X(HEIGHT, height, "m", 1e-6, "off the ground or the water: active land vehicles, ships")       \
     X(WRECK_HEIGHT, wreck_height, "m", 0.05, "lowest corner off the ground: wrecks at rest")       \
     X(UNDERGROUND, underground, "m", 1.5, "corner of a hull under the ground, ships excepted")     \
-    X(SHELL_UNDERGROUND, shell_underground, "m", 0.15, "corner of the shell of a sprung vehicle")  \
+    X(SHELL_UNDERGROUND, shell_underground, "m", 0.02, "corner of the shell of a sprung vehicle")  \
     X(WRECK_UNDERGROUND, wreck_underground, "m", 0.5, "the same of wrecks, where it has grown")    \
     X(OVERLAP, overlap, "m", 1e-3, "two bodies that were apart before")                            \
     X(WALL_OVERLAP, wall_overlap, "m", 1e-3, "a body and a wall that were apart before")           \
@@ -26,7 +26,7 @@
     X(OVERLAP_GROWTH, overlap_growth, "m", 2e-5, "growth of an overlap in a frame")                \
     X(OVERLAPPING, overlapping, "pairs", NO_BOUND, "overlapping pairs in one frame")               \
     X(ENERGY, energy, "J/kg", 0.01, "energy that nothing gave, of bodies that touch")              \
-    X(SPRUNG_ENERGY, sprung_energy, "J/kg", 5.0, "energy beyond the engine's: sprung vehicles")    \
+    X(SPRUNG_ENERGY, sprung_energy, "J/kg", 2.0, "energy beyond the engine's: sprung vehicles")    \
     X(FLOATING, floating, "m/s2", 0.5, "acceleration beyond weight: sprung vehicles in the air")   \
     X(ACCELERATION, acceleration, "m/s2", 50.0, "without collision, explosion or command")         \
     X(SPEED, speed, "top speeds", 2.0, "speed on the map over the kind's top speed")               \

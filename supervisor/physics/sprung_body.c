@@ -10,7 +10,8 @@
 #define SHELL        12u
 #define SLOPE_M      0.5  /* between the heights that give the slope under a wheel */
 #define AIR_M        0.05 /* wheels and shell of a vehicle in the air are higher over the ground */
-#define BUMP_STOP    10.0 /* stiffness over that of the spring */
+#define WHEEL        0.22 /* radius of a wheel over the height of its vehicle, or more */
+#define TRACK_END    0.21 /* length of the end of a track over the length */
 #define ROLL_BAR     0.75 /* the same of an axle's bar against roll */
 #define TANDEM_M     1.2  /* between the rear axles of a truck, at most */
 
@@ -24,10 +25,11 @@ static double square_of(double value)
 /* Returns point i of the shell: underside, as high as the wheels can rise, ends and roof. */
 static struct vec3 shell_point(const struct kind *kind, uint32_t i)
 {
-    double length = i < 4 ? 0.22 * kind->length_m : 0.5 * kind->length_m;
-    double height = i < 4   ? kind->travel_m
-                    : i < 8 ? maths_max(0.45 * kind->height_m, kind->travel_m)
-                            : kind->height_m;
+    const bool tracked = kind->tracked != 0;
+    double length = kind->length_m * (i >= 4 ? 0.5 : tracked ? 0.22 : 0.15);
+    double under = maths_max(kind->travel_m, tracked ? 0.0 : 0.75 * kind->step_m);
+    double nose = maths_min(0.45 * kind->height_m, tracked ? kind->step_m : kind->height_m);
+    double height = i < 4 ? under : i < 8 ? maths_max(nose, kind->travel_m) : kind->height_m;
     return (struct vec3){i & 1 ? length : -length, height,
                          i & 2 ? 0.5 * kind->width_m : -0.5 * kind->width_m};
 }
@@ -70,13 +72,26 @@ static double squeeze_of(const struct surface *surface, const struct body_look *
     return (ground - at.y) / maths_max(0.3, up.y - up.x * east - up.z * south);
 }
 
-/* Returns the energy in a spring and its bump stop over the mass [J/kg]. */
+/* Returns the energy in a spring over the mass [J/kg]. Its bump stop gives nothing back. */
 static double spring_jpkg(const struct kind *kind, double squeeze_m)
 {
     double share = 0.5 * square_of(TWO_PI * kind->heave_hz) / (2.0 * kind->axles);
-    double pressed = maths_max(0.0, squeeze_m);
-    double beyond = maths_max(0.0, pressed - sag_of(kind) - kind->travel_m);
-    return share * (square_of(pressed) + BUMP_STOP * square_of(beyond));
+    return share * square_of(maths_clamp(squeeze_m, 0.0, sag_of(kind) + kind->travel_m));
+}
+
+/* Returns how high a wheel is over the ground that its rim or the end of its track may touch. */
+static double height_of(const struct surface *surface, const struct body_look *body,
+                        struct vec3 wheel)
+{
+    const struct kind *kind = body->kind;
+    double lowest = HUGE_VAL, half = maths_max(WHEEL * kind->height_m,
+                                               kind->tracked ? TRACK_END * kind->length_m : 0.0);
+    for (int n = -2; n <= 2; n++) {
+        const struct vec3 place = {wheel.x + 0.5 * n * half, wheel.y, wheel.z};
+        const struct vec3 at = vec3_add(body->named.at, rigid_pose_out(&body->now.pose, place));
+        lowest = maths_min(lowest, at.y - surface_height(surface, at.x, at.z));
+    }
+    return lowest;
 }
 
 static void look_at_wheels(const struct surface *surface, struct body_look *body,
@@ -91,7 +106,7 @@ static void look_at_wheels(const struct surface *surface, struct body_look *body
                                        (side ? 0.5 : -0.5) * kind->track_m};
             squeeze[side] = squeeze_of(surface, body, wheel);
             look->spring_jpkg += spring_jpkg(kind, squeeze[side]);
-            look->wheel_m = maths_min(look->wheel_m, -squeeze[side]);
+            look->wheel_m = maths_min(look->wheel_m, height_of(surface, body, wheel));
         }
         look->spring_jpkg +=
             bar * square_of(maths_max(0.0, squeeze[0]) - maths_max(0.0, squeeze[1]));

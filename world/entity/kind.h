@@ -94,6 +94,8 @@ struct kind {
     double heave_hz;        /* frequency of the body on its springs */
     double least_turn_m;    /* radius of the tightest circle; tracks: 0 */
     double ford_m;          /* deepest water that it crosses */
+    double step_m;          /* highest step that its wheels roll onto; higher ones are walls */
+    double trench_m;        /* widest trench that its agent crosses */
     double length_m, width_m, height_m;
     double cruise_altitude_m; /* aircraft: above the ground */
     double climb_rate_mps;    /* aircraft */

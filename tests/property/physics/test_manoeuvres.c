@@ -124,7 +124,7 @@ static void test_the_judge_is_content(void **state)
     }
     assert_true(check.measures.of[MEASURE_OF_SHELL_UNDERGROUND].taken > 6000);
     assert_true(check.measures.of[MEASURE_OF_SHELL_UNDERGROUND].worst < LANES_SHELL_M);
-    assert_true(check.measures.of[MEASURE_OF_FLOATING].taken > 60);
+    assert_true(check.measures.of[MEASURE_OF_FLOATING].taken > 30);
 }
 
 static void test_each_vehicle_does_what_its_lane_is_for(void **state)

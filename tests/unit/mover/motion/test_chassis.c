@@ -533,8 +533,10 @@ static double lowest_corner(uint32_t row)
     struct mat3 turn = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
     double lowest = INFINITY;
     for (unsigned n = 0; n < 8; n++) {
-        struct vec3 own = {(n & 1 ? 0.22 : -0.22) * kind->length_m,
-                           n & 2 ? kind->height_m : kind->travel_m,
+        double under = kind->tracked ? 0.0 : 0.75 * kind->step_m;
+        double half = (kind->tracked ? 0.22 : 0.15) * kind->length_m;
+        struct vec3 own = {n & 1 ? half : -half,
+                           n & 2 ? kind->height_m : maths_max(kind->travel_m, under),
                            (n & 4 ? 0.5 : -0.5) * kind->width_m};
         struct vec3 at = vec3_add(entities_position(&e, row), rotation_apply(&turn, own));
         lowest = maths_min(lowest, at.y - steps_ground_at(&f, at.x, at.z));

@@ -1,0 +1,116 @@
+/* Land vehicles drive at random speeds into random works: walls up to 2.5 m, trenches up to 3 m deep,
+ * ramps with a lip, and craters. The judge looks at every frame: no corner of a shell is in the ground
+ * by more than 2 cm, and springs give back no more than they took. Prints its seed. */
+#include "supervisor/physics/physics_check.h"
+#include "tests/support/steps.h"
+#include "world/maths/random.h"
+#include "world/params.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#define LANES  24u
+#define FRAMES (12 * 60)
+#define RUNS   4u
+
+static struct fixture f;
+static struct physics_check check;
+static char text[1 << 14];
+
+static double random_of(uint64_t seed, uint32_t lane, int what, double low, double high)
+{
+    return random_between(seed, lane, (uint32_t)what, RANDOM_STUCK, low, high);
+}
+
+/* Writes a work 30 m before the start of a lane. The lanes lie 40 m apart and lead north. */
+static size_t write_work(uint64_t seed, uint32_t lane, size_t at)
+{
+    static const char *const shapes[] = {"table", "trench", "ramp"};
+    int shape = (int)random_of(seed, lane, 0, 0.0, 2.999);
+    double size = random_of(seed, lane, 1, 0.1, shape == 1 ? 3.0 : 2.5);
+    double length = random_of(seed, lane, 2, 1.0, 12.0) + 2.0 * size;
+    double edge = maths_max(random_of(seed, lane, 3, 0.13, 1.0) * size, 0.032);
+    double turn = random_of(seed, lane, 4, -25.0, 25.0);
+    return at + (size_t)snprintf(
+                    text + at, sizeof text - at,
+                    "{ shape = \"%s\"; at = [%.1f, %.2f]; heading_deg = %.1f; length_m = %.2f;"
+                    " width_m = 20.0; %s = %.3f; edge_m = %.3f; }%s\n",
+                    shapes[shape], 24000.0 + 40.0 * lane, 24970.0 - 0.5 * length, turn, length,
+                    shape == 1 ? "depth_m" : "height_m", size, edge, lane + 1 < LANES ? "," : "");
+}
+
+static void dig(uint64_t seed)
+{
+    struct state now = fixture_state(&f);
+    for (uint32_t lane = 0; lane < LANES; lane += 2) {
+        float depth = (float)random_of(seed, lane, 5, 0.3, 1.5);
+        for (int buffer = 0; buffer < 2; buffer++) {
+            struct state_head *head = f.view.w[buffer].head;
+            now.craters[head->crater_count] = (struct crater){
+                24000.0 + 40.0 * lane + random_of(seed, lane, 6, -3.0, 3.0), 24940.0,
+                depth * (float)random_of(seed, lane, 7, 2.5, 5.0), depth, 1};
+            head->crater_count++;
+        }
+    }
+}
+
+static void run(uint64_t seed)
+{
+    static const char *const kinds[] = {"tank", "carrier", "jeep", "truck", "hamburger", "flak"};
+    size_t at = (size_t)snprintf(text, sizeof text, "earthworks = (\n");
+    for (uint32_t lane = 0; lane < LANES; lane++)
+        at = write_work(seed, lane, at);
+    snprintf(text + at, sizeof text - at, ");\ncollision = { shape = \"model\"; };\n");
+    fixture_open(&f, text);
+    dig(seed);
+    for (uint32_t lane = 0; lane < LANES; lane++)
+        fixture_put(&f, (struct fixture_entity){.kind = kinds[lane % 6],
+                                                .at = {24000.0 + 40.0 * lane, 100.0, 25000.0},
+                                                .behaviour = BEHAVIOUR_DRIVEN});
+    struct state now = fixture_state(&f);
+    assert_int_equal(physics_check_begin(&check, &f.view.world, &now), 0);
+    for (int frame = 0; frame < FRAMES; frame++) {
+        const struct physics_events events = {f.view.events, f.view.world.params->event_slots};
+        for (uint32_t row = 0; frame % 60 == 0 && row < LANES; row++) {
+            if (steps_rows(&f).state[row] == ENTITY_ACTIVE)
+                steps_pedals(&f, row, random_of(seed, row, 8, 0.2, 1.0), 0.0, GEAR_AUTOMATIC);
+        }
+        fixture_run(&f, 1);
+        now = fixture_state(&f);
+        assert_int_equal(physics_check_frame(&check, &now, &events), 0);
+    }
+}
+
+static void test_shells_stay_out_of_the_ground_and_springs_give_what_they_took(void **state)
+{
+    static const enum measure_kind kinds[] = {
+        MEASURE_OF_SHELL_UNDERGROUND, MEASURE_OF_SPRUNG_ENERGY, MEASURE_OF_FLOATING};
+    (void)state;
+    for (uint64_t seed = 1; seed <= RUNS; seed++) {
+        run(seed);
+        for (int n = 0; n < 3; n++) {
+            const struct measure *measure = &check.measures.of[kinds[n]];
+            printf("seed %llu: %-18s %.4g of %.4g %s, %llu looks: vehicle %u at %.2f s\n",
+                   (unsigned long long)seed, measure_word(kinds[n]), measure->worst,
+                   measure_bound(&check.measures, kinds[n]), measure_unit(kinds[n]),
+                   (unsigned long long)measure->taken, measure->body[0].id, measure->time_s);
+            assert_true(measure_good(&check.measures, kinds[n]));
+        }
+        physics_check_free(&check);
+        fixture_close(&f);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_shells_stay_out_of_the_ground_and_springs_give_what_they_took),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
