@@ -7,15 +7,15 @@
 #define BELLY_TRACKS 0.22 /* half length of the underside over the length: on tracks */
 #define BELLY_WHEELS 0.15 /* on wheels */
 #define CLEARANCE    0.75 /* of the underside on wheels, at least, over the step that they climb */
-#define NOSE_HEIGHT 0.45 /* of the ends over the height */
-#define HARD_MPS    2.0  /* a shell that is hit more slowly takes no harm */
+#define NOSE_HEIGHT  0.45 /* of the ends over the height */
+#define HARD_MPS     2.0  /* a shell that is hit more slowly takes no harm */
 
 #define ROUNDS    3    /* of paths: impulses turn the points, and these meet other ground */
 #define HALVINGS  7    /* of a path, to find where it meets the ground */
 #define MARGIN_M  0.02 /* a point this near to the ground touches it at any speed */
 #define NORMAL_M  0.02 /* the normal is that of the heights so far to each side */
 #define STEEPEST  (EARTHWORK_STEEPEST + 1.0) /* tangent of any ground, at most */
-#define SAME_FACE 0.95 /* cosine between the normals of one face */
+#define SAME_FACE 0.95                       /* cosine between the normals of one face */
 
 void chassis_shell_of(const struct kind *kind, const struct suspension *suspension,
                       struct chassis_shell *shell)
@@ -137,8 +137,7 @@ static bool sweep(struct ground_contacts *contacts, const struct chassis_shell *
     for (uint32_t n = 0; n < shell->count; n++) {
         struct vec3 point = shell->point[n ^ order];
         point.y -= body->inertia.centre_m;
-        added |=
-            sweep_point(contacts, ground, body, &inverse, rotation_apply(&turn, point), dt_s);
+        added |= sweep_point(contacts, ground, body, &inverse, rotation_apply(&turn, point), dt_s);
     }
     return added;
 }

@@ -4,6 +4,9 @@
 #include "mover/motion/kinematics.h"
 #include "world/world.h"
 
+#define GEARS_WHEELS 1.45
+#define GEARS_TRACKS 1.16
+
 #define REACTS_S     0.2  /* in which a difference of speed is made good, if forces allow */
 #define LEAST_MPS    0.5  /* below it the drive force grows no more */
 #define HARDEST      0.95 /* share of the grip that the brakes use */
@@ -73,6 +76,11 @@ struct drivetrain drivetrain_of(const struct step_context *context, uint32_t i,
                                .neutral = desired->gear == GEAR_NEUTRAL};
 }
 
+double drivetrain_gears(const struct kind *kind)
+{
+    return kind->tracked ? GEARS_TRACKS : GEARS_WHEELS;
+}
+
 double drivetrain_power(const struct kind *kind)
 {
     return kind->power_w * (kind->tracked ? DRIVETRAIN_BY_TRACKS : DRIVETRAIN_BY_WHEELS);
@@ -86,9 +94,11 @@ static double drive(const struct kind *kind, double speed, double wanted, double
 {
     double air = AIR_DRAG * kind->width_m * kind->height_m * speed * speed;
     double faster = maths_min((wanted - speed) / REACTS_S, kind->acceleration_mps2);
-    double needed = kind->mass_kg * (faster + GRAVITY_MPS2 * rise) + rolling_n + air;
+    double resists = kind->mass_kg * GRAVITY_MPS2 * rise + rolling_n + air;
     double power = drivetrain_power(kind) / maths_max(speed, LEAST_MPS);
-    return maths_clamp(needed, 0.0, maths_min(power, grip_n));
+    if (power > resists)
+        power = resists + (power - resists) / drivetrain_gears(kind);
+    return maths_clamp(kind->mass_kg * faster + resists, 0.0, maths_min(power, grip_n));
 }
 
 /* Returns how hard brakes and engine slow a vehicle that is faster than wanted [N]. The engine's

@@ -58,6 +58,11 @@ struct drivetrain_force drivetrain_force(const struct drivetrain *drivetrain, do
 /* Returns the power of the kind that reaches the ground [W]. */
 double drivetrain_power(const struct kind *kind);
 
+/* Returns by how much less than its surplus of power gives a kind gains speed: engine, wheels and
+ * tracks gain speed as well, and a driver changes gears. Over 1. (Gillespie, Fundamentals of
+ * Vehicle Dynamics, has 1.1 to 1.5 for the rotating masses in the middle gears.) */
+double drivetrain_gears(const struct kind *kind);
+
 /* Returns the greatest lateral acceleration at which an agent drives [m/s2]: below the grip, and
  * below 0.8 of that which would overturn the vehicle. */
 double drivetrain_lateral(const struct kind *kind, double friction);

@@ -61,6 +61,7 @@ static void take_kind(struct ground_vehicle *batch, int l, const struct kind *ki
     batch->turn_rate.lane[l] = kind->turn_rate_rps;
     batch->max_slope.lane[l] = kind->max_slope_rad;
     batch->power_wpkg.lane[l] = drivetrain_power(kind) / kind->mass_kg;
+    batch->gears.lane[l] = drivetrain_gears(kind);
     batch->rolling.lane[l] = kind->tracked ? dirt.tracks : dirt.wheels;
     batch->lateral.lane[l] = LATERAL_SHARE * drivetrain_lateral(kind, dirt.friction);
     batch->curve.lane[l] = kind->least_turn_m > 0.0 ? 1.0 / kind->least_turn_m : PIVOT_PM;
@@ -195,6 +196,7 @@ static inline void power(const struct ground_vehicle *batch, int h, const f64x4 
     find_held_back(batch, h, wanted, &back);
     hardest = SIMD_MIN(hardest, grip);
     f64x4 gain = batch->power_wpkg.f64x4[h] / SIMD_MAX(speed, slow) - back;
+    gain /= batch->gears.f64x4[h];
     gain = SIMD_MAX(gain, least);
     gain = SIMD_MIN(gain, rate);
     f64x4 step = SIMD_CHOOSE(braking, hardest, gain) * dt_s;

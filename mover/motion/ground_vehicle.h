@@ -17,9 +17,9 @@ struct ground_vehicle {
     struct ground_pose pose;
     /* The kind. */
     union simd_lanes full_mps, acceleration, turn_rate, max_slope, half_length, burn_lps;
-    union simd_lanes power_wpkg, rolling, lateral, curve; /* drivetrain.h; curve: 1/m */
-    union lane_masks tank;                                /* it has one */
-    union lane_masks parked;                              /* its engine is off (kinematics.h) */
+    union simd_lanes power_wpkg, gears, rolling, lateral, curve; /* drivetrain.h; curve: 1/m */
+    union lane_masks tank;                                       /* it has one */
+    union lane_masks parked;  /* its engine is off (kinematics.h) */
     union simd_lanes debris;  /* the share of full speed that debris at its place allows */
     union lane_masks rough;   /* result: it leaves the ground that it follows */
     union lane_masks blocked; /* result: water, a slope or the edge of the world blocks it */

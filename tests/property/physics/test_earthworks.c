@@ -1,6 +1,6 @@
-/* Land vehicles drive at random speeds into random works: walls up to 2.5 m, trenches up to 3 m deep,
- * ramps with a lip, and craters. The judge looks at every frame: no corner of a shell is in the ground
- * by more than 2 cm, and springs give back no more than they took. Prints its seed. */
+/* Land vehicles drive at random speeds into random works: walls up to 2.5 m, trenches up to 3 m
+ * deep, ramps with a lip, and craters. The judge looks at every frame: no corner of a shell is in
+ * the ground by more than 2 cm, and springs give back no more than they took. Prints its seed. */
 #include "supervisor/physics/physics_check.h"
 #include "tests/support/steps.h"
 #include "world/maths/random.h"
@@ -89,8 +89,8 @@ static void run(uint64_t seed)
 
 static void test_shells_stay_out_of_the_ground_and_springs_give_what_they_took(void **state)
 {
-    static const enum measure_kind kinds[] = {
-        MEASURE_OF_SHELL_UNDERGROUND, MEASURE_OF_SPRUNG_ENERGY, MEASURE_OF_FLOATING};
+    static const enum measure_kind kinds[] = {MEASURE_OF_SHELL_UNDERGROUND,
+                                              MEASURE_OF_SPRUNG_ENERGY, MEASURE_OF_FLOATING};
     (void)state;
     for (uint64_t seed = 1; seed <= RUNS; seed++) {
         run(seed);

@@ -113,8 +113,10 @@ int main(void)
 {
 #define T(name) cmocka_unit_test_setup_teardown(name, open_world, fixture_teardown)
     const struct CMUnitTest tests[] = {
-        T(test_a_wall_stops_it_within_a_sub_step), T(test_what_hits_squarely_does_not_turn),
-        T(test_it_gains_no_energy), T(test_over_level_ground_nothing_touches),
+        T(test_a_wall_stops_it_within_a_sub_step),
+        T(test_what_hits_squarely_does_not_turn),
+        T(test_it_gains_no_energy),
+        T(test_over_level_ground_nothing_touches),
         T(test_points_rise_with_their_wheels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -31,7 +31,11 @@ static void test_power_limits_the_drive_at_speed(void **state)
 {
     struct drivetrain full = asked(30.0, 0.0);
     (void)state;
-    assert_true(fabs(drivetrain_force(&full, 20.0, &level).drive_n - 0.7 * 50e3 / 20.0) < 1e-9);
+    double resists = 400.0 + 0.48 * 1.6 * 1.7 * 20.0 * 20.0, all = 0.7 * 50e3 / 20.0;
+    double gains = drivetrain_force(&full, 20.0, &level).drive_n - resists;
+    assert_true(fabs(gains - (all - resists) / drivetrain_gears(&kind)) < 1e-9);
+    const struct drivetrain_ground steep = {0.3, 6000.0, 400.0}; /* all power against the slope */
+    assert_true(fabs(drivetrain_force(&full, 20.0, &steep).drive_n - all) < 1e-9);
     assert_true(drivetrain_force(&full, 1.0, &level).drive_n <= level.grip_n);
     assert_true(drivetrain_force(&full, 1.0, &level).drive_n > 3000.0);
 }
