@@ -137,7 +137,14 @@ static bool sweep(struct ground_contacts *contacts, const struct chassis_shell *
     for (uint32_t n = 0; n < shell->count; n++) {
         struct vec3 point = shell->point[n ^ order];
         point.y -= body->inertia.centre_m;
-        added |= sweep_point(contacts, ground, body, &inverse, rotation_apply(&turn, point), dt_s);
+        const struct vec3 arm = rotation_apply(&turn, point);
+        if (!sweep_point(contacts, ground, body, &inverse, arm, dt_s))
+            continue;
+        added = true;
+        for (uint32_t c = 0; (n ^ order) >= CHASSIS_SHELL_WHEELS && c < contacts->count; c++) {
+            if (contacts->contact[c].arm.x == arm.x && contacts->contact[c].arm.z == arm.z)
+                contacts->contact[c].friction = 0.0; /* a wheel rolls */
+        }
     }
     return added;
 }

@@ -110,7 +110,7 @@ void ground_contacts_add(struct ground_contacts *contacts, const struct rigid_bo
     struct vec3 n = normal, along = {n.y, -n.x, 0.0};
     if (contact == NULL)
         return;
-    *contact = (struct ground_contact){.gap_m = gap_m, .arm = arm};
+    *contact = (struct ground_contact){.gap_m = gap_m, .friction = contacts->friction, .arm = arm};
     along = vec3_scale(along, 1.0 / vec3_length(along)); /* the ground is never vertical */
     set_axis(contact, CONTACT_NORMAL, n, body, inverse);
     set_axis(contact, CONTACT_ALONG, along, body, inverse);
@@ -211,7 +211,7 @@ static void sweep(struct ground_contacts *contacts, struct rigid_body *body, int
             uint32_t i = s & 1 ? contacts->count - 1 - n : n;
             struct ground_contact *contact = &contacts->contact[i];
             most = maths_max(most, solve_normal(contact, inverse_mass, body));
-            solve_friction(contact, contacts->friction, inverse_mass, body);
+            solve_friction(contact, contact->friction, inverse_mass, body);
         }
         if (most < SETTLED_MPS)
             return;

@@ -16,6 +16,7 @@ enum { CONTACT_NORMAL, CONTACT_ALONG, CONTACT_ACROSS, CONTACT_AXES };
 
 struct ground_contact {
     double gap_m;                    /* along the normal; negative: a depth */
+    double friction;                 /* coefficient; the body's, unless the caller changes it */
     struct vec3 arm;                 /* [m, world axes] from the centre of mass */
     struct vec3 axis[CONTACT_AXES];  /* unit: the normal of the ground and two tangents */
     struct vec3 lever[CONTACT_AXES]; /* [m] arm x axis */
