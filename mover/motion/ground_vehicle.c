@@ -332,15 +332,24 @@ static inline void find_rough(const struct step_context *context, struct ground_
     }
 }
 
-/* Makes a row on rough ground a body on its springs, which turns as it does now. */
+/* Makes a row on rough ground a body on its springs, which goes on as before: an edge under it has
+ * lifted it by geometry, which must not become a speed. */
 static void leave_rails(const struct step_context *context, const struct ground_vehicle *batch,
                         int l, double turned_rad)
 {
     uint32_t i = batch->row[l];
+    struct entities *m = context->m;
     if (!batch->rough.lane[l])
         return;
+    double sine, cosine, pitch = batch->pitch.lane[l];
+    maths_sincos(m->heading[i], &sine, &cosine);
+    double climb = (m->vx[i] * sine - m->vz[i] * cosine) * pitch * (1.0 + pitch * pitch / 3.0);
     chassis_disturb(context, i);
-    context->m->spin_y[i] = -maths_wrap_half(turned_rad) / context->dt_s;
+    m->vy[i] = climb;
+    m->y[i] = batch->y.lane[l] + climb * context->dt_s;
+    m->pitch[i] = pitch;
+    m->roll[i] = context->committed->entities.roll[i];
+    m->spin_y[i] = -maths_wrap_half(turned_rad) / context->dt_s;
 }
 
 static void write_rows(const struct step_context *context, const struct ground_vehicle *batch)
