@@ -1,6 +1,7 @@
 /* Finds how far each direction of the fan is free, and takes the best. */
 #include "mover/agent/avoidance.h"
 
+#include "mover/agent/earthwork_obstacles.h"
 #include "mover/agent/neighbour_lists.h"
 #include "mover/motion/kinematics.h"
 #include "mover/query/ground_marks.h"
@@ -370,6 +371,24 @@ static bool surely_passable(const struct step_context *context, uint32_t i, doub
            !ground_marks_within(context->ground_marks, box, GROUND_MARKS_CRATER);
 }
 
+/* How far earthworks allow it to go in direction k. */
+static double works_free(const struct step_context *context, uint32_t i, const struct look *look,
+                         int k)
+{
+    const struct entities *m = context->m;
+    const struct earthworks *works = &context->world->terrain.earthworks;
+    const struct earthwork_way way = {.x = m->x[i],
+                                      .z = m->z[i],
+                                      .ux = look->x[k],
+                                      .uz = look->z[k],
+                                      .length_m = look->horizon_m,
+                                      .beside_m = look->half_width + look->gap,
+                                      .ahead_m = look->half_length + look->gap};
+    return look->kind->domain == DOMAIN_LAND && works->count > 0
+               ? earthwork_obstacles_free(works, look->kind, &way)
+               : look->horizon_m;
+}
+
 /* How far the ground allows it to go in direction k. Where the ground is not surely passable, two
  * points of it are tested. */
 static double ground_free(const struct step_context *context, uint32_t i, const struct look *look,
@@ -382,22 +401,23 @@ static double ground_free(const struct step_context *context, uint32_t i, const 
     if (look->kind->domain == DOMAIN_LAND && in_world(end_x, end_z) &&
         surely_passable(context, i, end_x, end_z))
         return look->horizon_m;
+    double free_m = works_free(context, i, look, k);
     for (int n = 1; n <= 2; n++) {
         double distance = 0.5 * n * look->horizon_m;
         double x = m->x[i] + distance * look->x[k], z = m->z[i] + distance * look->z[k];
         if (!in_world(x, z) || cover_is_water(terrain_cover(&context->world->terrain, x, z)) !=
                                    (look->kind->domain == DOMAIN_SEA))
-            return before_m;
+            return maths_min(before_m, free_m);
         if (look->kind->domain == DOMAIN_LAND) {
             double y = kinematics_ground(context, x, z);
             if (y > before_y &&
                 maths_atan2(y - before_y, distance - before_m) >= look->kind->max_slope_rad)
-                return before_m;
+                return maths_min(before_m, free_m);
             before_y = y;
         }
         before_m = distance;
     }
-    return look->horizon_m;
+    return free_m;
 }
 
 /* --- the choice --------------------------------------------------------------------------------*/
@@ -478,6 +498,9 @@ static void look_ahead(const struct step_context *context, uint32_t i,
     if (direction == 0 && (look.free_m[0] < look.horizon_m ||
                            (!flies && ground_free(context, i, &look, 0) < look.horizon_m)))
         direction = choose(context, i, &look, low);
+    if (direction != 0 && direction != PRESENT)
+        look.free_m[PRESENT] =
+            maths_min(look.free_m[PRESENT], works_free(context, i, &look, PRESENT));
     double free_m = look.free_m[direction];
     if (look.x[direction] * look.x[PRESENT] + look.z[direction] * look.z[PRESENT] < fan_cosine[1])
         free_m = maths_min(free_m, look.free_m[PRESENT]); /* it has not turned there yet */

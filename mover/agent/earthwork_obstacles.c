@@ -1,0 +1,88 @@
+/* Cuts a way with the rectangles of works. */
+#include "mover/agent/earthwork_obstacles.h"
+
+#include "world/maths/maths.h"
+#include "world/terrain/gridsquare.h"
+
+#include <math.h>
+
+/* Where a way comes into a work's rectangle and leaves it. */
+struct cut {
+    double from_m, to_m;       /* along the way */
+    double rise_m, fall_m;     /* length of the slope by which it comes in, and leaves */
+};
+
+/* Cuts a way with a strip about one axis of a work. at, u: the start and the direction of the way
+ * along this axis. low_m, high_m: the slopes at its ends. */
+static void cut_strip(struct cut *cut, double at, double u, double half, double low_m,
+                      double high_m)
+{
+    if (fabs(u) < 1e-9) {
+        if (fabs(at) >= half)
+            cut->to_m = -INFINITY;
+        return;
+    }
+    double from = ((u > 0.0 ? -half : half) - at) / u, to = ((u > 0.0 ? half : -half) - at) / u;
+    if (from > cut->from_m) {
+        cut->from_m = from;
+        cut->rise_m = u > 0.0 ? low_m : high_m;
+    }
+    if (to < cut->to_m) {
+        cut->to_m = to;
+        cut->fall_m = u > 0.0 ? high_m : low_m;
+    }
+}
+
+static struct cut cut_of(const struct earthwork *work, const struct earthwork_way *way)
+{
+    struct cut cut = {.from_m = -INFINITY, .to_m = INFINITY};
+    double dx = way->x - work->x, dz = way->z - work->z;
+    cut_strip(&cut, dx * work->sine - dz * work->cosine,
+              way->ux * work->sine - way->uz * work->cosine, work->half_length + way->beside_m,
+              work->back_m, work->front_m);
+    cut_strip(&cut, dx * work->cosine + dz * work->sine,
+              way->ux * work->cosine + way->uz * work->sine, work->half_width + way->beside_m,
+              work->side_m, work->side_m);
+    return cut;
+}
+
+/* Returns true if the kind can cross the work along the cut. */
+static bool crosses(const struct earthwork *work, const struct kind *kind, const struct cut *cut,
+                    double beside_m)
+{
+    double high = fabs(work->height_m), sine, cosine;
+    double water = work->shape == EARTHWORK_FORD ? -work->height_m - work->freeboard_m : 0.0;
+    maths_sincos(kind->max_slope_rad, &sine, &cosine);
+    bool steep = high * cosine > sine * maths_min(cut->rise_m, cut->fall_m);
+    if (water > kind->ford_m)
+        return false;
+    if (high <= kind->step_m || !steep || work->wave_m > 0.0)
+        return true;
+    return work->height_m < 0.0 && cut->to_m - cut->from_m - 2.0 * beside_m <= kind->trench_m;
+}
+
+double earthwork_obstacles_free(const struct earthworks *works, const struct kind *kind,
+                                const struct earthwork_way *way)
+{
+    double free_m = way->length_m, far = way->length_m + way->ahead_m;
+    double end_x = way->x + far * way->ux, end_z = way->z + far * way->uz, wide = way->beside_m;
+    struct gridsquare_box box =
+        gridsquare_box_of(maths_min(way->x, end_x) - wide, maths_min(way->z, end_z) - wide,
+                          maths_max(way->x, end_x) + wide, maths_max(way->z, end_z) + wide);
+    for (int32_t row = box.z0; row <= box.z1 && works->count > 0; row++) {
+        for (int32_t column = box.x0; column <= box.x1; column++) {
+            uint32_t count;
+            const uint32_t *items =
+                earthwork_in_square(works, gridsquare_index(column, row), &count);
+            for (uint32_t n = 0; n < count; n++) {
+                const struct earthwork *work = &works->works[items[n]];
+                const struct cut cut = cut_of(work, way);
+                if (cut.from_m < cut.to_m && cut.to_m > 0.0 && cut.from_m < far &&
+                    !earthwork_holds(work, way->x, way->z) &&
+                    !crosses(work, kind, &cut, way->beside_m))
+                    free_m = maths_min(free_m, cut.from_m + way->beside_m - way->ahead_m);
+            }
+        }
+    }
+    return maths_max(free_m, 0.0);
+}

@@ -1,0 +1,24 @@
+/* Earthworks that a land vehicle cannot cross: trenches that are wider than its kind's trench_m,
+ * faces that are steeper than its max_slope_rad and higher than its step_m, and fords that are
+ * deeper than its ford_m. Pure; any thread. */
+#ifndef JOLON_MOVER_AGENT_EARTHWORK_OBSTACLES_H
+#define JOLON_MOVER_AGENT_EARTHWORK_OBSTACLES_H
+
+#include "world/entity/kind.h"
+#include "world/terrain/earthwork.h"
+
+/* A way straight on. */
+struct earthwork_way {
+    double x, z;     /* [m] its start */
+    double ux, uz;   /* its direction, unit */
+    double length_m; /* at least 0 */
+    double beside_m; /* room that the vehicle needs to each side of its middle */
+    double ahead_m;  /* the same in front of its middle */
+};
+
+/* Returns how far the way is free of works that the kind cannot cross, 0..length_m. A work that the
+ * way starts in does not count: the vehicle has to get out of it. */
+double earthwork_obstacles_free(const struct earthworks *works, const struct kind *kind,
+                                const struct earthwork_way *way);
+
+#endif
