@@ -1,7 +1,7 @@
 /* Commands: one function for each type, and the loop over the rings. */
 #include "mover/command_apply.h"
 
-#include "mover/motion/driver_controls.h"
+#include "mover/agent/driver_controls.h"
 #include "mover/motion/kinematics.h"
 #include "mover/weapon/fire.h"
 #include "mover/weapon/spawn.h"

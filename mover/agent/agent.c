@@ -14,7 +14,7 @@
 #include "mover/agent/script_player.h"
 #include "mover/agent/smoke_screen.h"
 #include "mover/agent/target_search.h"
-#include "mover/motion/driver_controls.h"
+#include "mover/agent/driver_controls.h"
 #include "world/entity/disabled.h"
 #include "world/state.h"
 #include "world/world.h"

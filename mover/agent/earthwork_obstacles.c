@@ -8,8 +8,8 @@
 
 /* Where a way comes into a work's rectangle and leaves it. */
 struct cut {
-    double from_m, to_m;       /* along the way */
-    double rise_m, fall_m;     /* length of the slope by which it comes in, and leaves */
+    double from_m, to_m;   /* along the way */
+    double rise_m, fall_m; /* length of the slope by which it comes in, and leaves */
 };
 
 /* Cuts a way with a strip about one axis of a work. at, u: the start and the direction of the way

@@ -2,7 +2,7 @@
 #include "mover/agent/script_player.h"
 
 #include "mover/agent/perception.h"
-#include "mover/motion/driver_controls.h"
+#include "mover/agent/driver_controls.h"
 #include "mover/motion/kinematics.h"
 #include "world/entity/script.h"
 #include "world/params.h"

@@ -18,20 +18,23 @@ static struct fixture f;
 static void open_work(const char *work)
 {
     char text[400];
-    snprintf(text, sizeof text, "world = { seed = 1; capacity = 64; hz = 20.0; };\n"
-                                "earthworks = ( { %s } );", work);
+    snprintf(text, sizeof text,
+             "world = { seed = 1; capacity = 64; hz = 20.0; };\n"
+             "earthworks = ( { %s } );",
+             work);
     fixture_open(&f, text);
 }
 
-/* Sends a vehicle to the east over a work 60 m before it. Returns how far it went aside [m], or -1 if
- * it did not come across or came below the level ground by more than half a metre. */
+/* Sends a vehicle to the east over a work 60 m before it. Returns how far it went aside [m], or -1
+ * if it did not come across or came below the level ground by more than half a metre. */
 static double goes_aside(const char *work, const char *kind)
 {
     open_work(work);
-    uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kind,
-                                                           .at = {25000.0, FIXTURE_GROUND_M, 25000.0},
-                                                           .heading_rad = HALF_PI,
-                                                           .behaviour = BEHAVIOUR_PATROL});
+    uint32_t row =
+        fixture_put(&f, (struct fixture_entity){.kind = kind,
+                                                .at = {25000.0, FIXTURE_GROUND_M, 25000.0},
+                                                .heading_rad = HALF_PI,
+                                                .behaviour = BEHAVIOUR_PATROL});
     struct entities e = steps_rows(&f);
     e.behaviour[row] = e.order[row] = BEHAVIOUR_PATROL;
     e.goal_x[row] = 25200.0;

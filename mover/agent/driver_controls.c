@@ -1,5 +1,5 @@
 /* From the controls of a driven vehicle to its desired motion. */
-#include "mover/motion/driver_controls.h"
+#include "mover/agent/driver_controls.h"
 
 #include "world/world.h"
 

@@ -1,6 +1,6 @@
 /* The control columns of a row that a player or a program drives. */
-#ifndef JOLON_MOVER_MOTION_DRIVER_CONTROLS_H
-#define JOLON_MOVER_MOTION_DRIVER_CONTROLS_H
+#ifndef JOLON_MOVER_AGENT_DRIVER_CONTROLS_H
+#define JOLON_MOVER_AGENT_DRIVER_CONTROLS_H
 
 #include "mover/context/step_context.h"
 
