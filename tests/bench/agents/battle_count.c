@@ -87,25 +87,41 @@ static void take_detonation(struct battle_count *count, const struct state *befo
     tally->ended += end->struck_party.damage == DAMAGE_DESTROYED;
 }
 
-static void take_collision(struct battle_count *count, const struct state *before,
-                           const struct event *event)
+/* Counts a pair of aircraft that touches. */
+static void take_meeting(struct battle_count *count, const struct view *view,
+                         const struct state *before, const struct event_collision *hit)
+{
+    const struct kind *kinds = view->world.kinds;
+    if (!hit->begins || !was_active(count, before, &hit->a) ||
+        !was_active(count, before, &hit->b) || kinds[hit->a.kind].domain != DOMAIN_AIR ||
+        kinds[hit->b.kind].domain != DOMAIN_AIR)
+        return;
+    if (count->force[hit->a.id - 1] == count->force[hit->b.id - 1])
+        count->met_friends++;
+    else
+        count->met_others++;
+}
+
+static void take_collision(struct battle_count *count, const struct view *view,
+                           const struct state *before, const struct event *event)
 {
     const struct event_party *parties[2] = {&event->collision.a, &event->collision.b};
     count->bumps++;
+    take_meeting(count, view, before, &event->collision);
     for (int n = 0; n < 2; n++)
         count->crashes +=
             parties[n]->damage == DAMAGE_DESTROYED && was_active(count, before, parties[n]);
 }
 
-static void take_event(struct battle_count *count, const struct state *before,
-                       const struct event *event)
+static void take_event(struct battle_count *count, const struct view *view,
+                       const struct state *before, const struct event *event)
 {
     if (event->type == EVENT_FIRE)
         take_fire(count, event);
     if (event->type == EVENT_DETONATION)
         take_detonation(count, before, event);
     if (event->type == EVENT_COLLISION)
-        take_collision(count, before, event);
+        take_collision(count, view, before, event);
     if (event->type == EVENT_MISSION && count->news_count < BATTLE_NEWS_MAX)
         count->news[count->news_count++] = *event;
 }
@@ -137,7 +153,7 @@ void battle_count_frame(struct battle_count *count, const struct view *view,
                         const struct state *before, const struct state *state, uint64_t from)
 {
     for (uint64_t n = from; n < state->head->event_end; n++)
-        take_event(count, before, &view->events[n & (view->header->event_slots - 1)]);
+        take_event(count, view, before, &view->events[n & (view->header->event_slots - 1)]);
     for (uint32_t i = 0; i < state->head->used; i++)
         take_row(count, view, state, i);
 }

@@ -25,9 +25,10 @@ struct battle_count {
     uint32_t first[FORCE_COUNT][KIND_COUNT_MAX];                /* vehicles at the beginning ... */
     uint32_t lost[FORCE_COUNT][KIND_COUNT_MAX];                 /* ... and how many are wrecks */
     uint32_t bumps, crashes;                                    /* collisions; ending a vehicle */
-    uint32_t *stuck, *longest; /* frames in which a row pushed, by row; NULL: no memory */
-    uint8_t *kind, *force;     /* of the vehicles of the scenario, by row */
-    uint8_t *gone;             /* 1: it is lost */
+    uint32_t met_friends, met_others; /* pairs of aircraft that touched: of one force; others */
+    uint32_t *stuck, *longest;        /* frames in which a row pushed, by row; NULL: no memory */
+    uint8_t *kind, *force;            /* of the vehicles of the scenario, by row */
+    uint8_t *gone;                    /* 1: it is lost */
     uint32_t vehicles, news_count;
     struct event news[BATTLE_NEWS_MAX]; /* of missions */
 };

@@ -103,12 +103,23 @@ static void print_thirds(const char *what, const uint32_t by_minute[BATTLE_MINUT
     printf("\n");
 }
 
+/* Shares of all shots. */
+static void print_fifths(const struct battle_count *count, uint32_t minutes)
+{
+    uint32_t all = battle_count_sum(count->shots, 0, minutes);
+    printf("percent of the shots in every five minutes:");
+    for (uint32_t n = 0; n < minutes; n += 5)
+        printf(" %.0f", 100.0 * battle_count_sum(count->shots, n, 5) / (double)(all > 0 ? all : 1));
+    printf("\n");
+}
+
 void battle_report(const struct battle_count *count, const struct view *view, uint32_t frames)
 {
     uint32_t minutes = (uint32_t)ceil((double)frames * count->dt_s / 60.0);
     uint32_t row = longest_push(count, view);
     minutes = minutes < BATTLE_MINUTES ? minutes : BATTLE_MINUTES;
     print_thirds("shots", count->shots, minutes);
+    print_fifths(count, minutes);
     print_thirds("vehicles lost", count->losses, minutes);
     print_losses(count, view);
     print_hits(count, view);
@@ -116,6 +127,8 @@ void battle_report(const struct battle_count *count, const struct view *view, ui
     printf("longest push: %.1f s, %s of row %u; collisions: %u, by which %u vehicles ended\n",
            count->longest[row] * count->dt_s, view->world.kinds[count->kind[row]].name, row,
            count->bumps, count->crashes);
+    printf("aircraft that touched: %u pairs of one side, %u others\n", count->met_friends,
+           count->met_others);
 }
 
 /* --- bounds ------------------------------------------------------------------------------------*/

@@ -169,12 +169,42 @@ static void test_rates(void **state)
     row_of("howitzer, rounds a minute at first", 4.0, 4.0, 4.0, 60.0 / gun->reload_s);
 }
 
+/* Turns the turret of a driven vehicle for a second, and its gun as far as it goes. */
+static void turn_turret(const char *kind, double rate, double low, double high)
+{
+    steps_empty(&f);
+    uint32_t row = fixture_put(
+        &f, (struct fixture_entity){.kind = kind, .at = {25000.0, FIXTURE_GROUND_M, 25000.0}});
+    char what[64];
+    steps_drive(&f, row, 0.0, 0.0, 0.0);
+    steps_rows(&f).traverse[row] = 1.0f;
+    double before = (double)steps_rows(&f).turret[row];
+    fixture_run(&f, 60);
+    snprintf(what, sizeof what, "%s, turret turns in a second [degrees]", kind);
+    row_within(what, rate, 0.05, ((double)steps_rows(&f).turret[row] - before) / RAD_PER_DEG);
+    for (int end = 0; end < 2; end++) {
+        double real = end ? high : low;
+        steps_rows(&f).elevate[row] = end ? 1.0f : -1.0f;
+        fixture_run(&f, 300);
+        steps_rows(&f).until_tick[row] = UINT32_MAX;
+        row_of(end ? "  gun up [degrees]" : "  gun down [degrees]", real, real - 0.5, real + 0.5,
+               (double)steps_rows(&f).gun[row] / RAD_PER_DEG);
+    }
+}
+
+static void test_turrets(void **state)
+{
+    (void)state;
+    turn_turret("tank", 40.0, -10.0, 20.0);
+    turn_turret("carrier", 60.0, -10.0, 57.0);
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
         TEST(test_flight),      TEST(test_howitzer), TEST(test_dispersion),
-        TEST(test_penetration), TEST(test_rates),
+        TEST(test_penetration), TEST(test_rates),    TEST(test_turrets),
     };
     print_message("# %-46s %9s %9s\n", "quantity", "real", "ours");
     return cmocka_run_group_tests(tests, NULL, NULL);

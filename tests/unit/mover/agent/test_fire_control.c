@@ -84,6 +84,8 @@ static void test_a_tank_fires_no_round_at_a_jet(void **state)
         fixture_run(&f, 60);
         assert_int_equal(steps_rows(&f).behaviour[tank], BEHAVIOUR_IDLE);
     }
+    print_message("acceptance: | %-32s | %-12s | %6u |\n", "rounds of a tank's gun at jets", "0",
+                  steps_kind(&f, "tank")->rounds - steps_rows(&f).rounds[tank]);
     assert_int_equal(steps_rows(&f).rounds[tank], steps_kind(&f, "tank")->rounds);
 }
 
@@ -193,6 +195,10 @@ static void test_crews_reply_after_a_human_time(void **state)
             break;
     }
     assert_int_equal(count, CREWS);
+    print_message("acceptance: | %-32s | %-12s | %6.2f |\n", "flash to reply, the soonest, s",
+                  "0.7 or more", reply_s[0]);
+    print_message("acceptance: | %-32s | %-12s | %6.2f |\n", "  half of the crews, s", "3 to 8",
+                  reply_s[CREWS / 2]);
     assert_true(reply_s[0] >= FIRE_CONTROL_LEAST_S);
     if (reply_s[CREWS / 2] < 3.0 || reply_s[CREWS / 2] > 8.0)
         fail_msg("half of the crews need more than %g s", reply_s[CREWS / 2]);
