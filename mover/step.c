@@ -12,7 +12,7 @@
 #include "mover/motion/chassis.h"
 #include "mover/motion/constant_course.h"
 #include "mover/motion/ground_vehicle.h"
-#include "mover/motion/landing.h"
+#include "mover/motion/ground/landing.h"
 #include "mover/motion/projectile.h"
 #include "mover/motion/ship.h"
 #include "mover/motion/wreck.h"

@@ -49,7 +49,8 @@ static bool stands(const struct response_context *context, uint32_t row)
            at.y - terrain_height(&context->world->terrain, craters, at.x, at.z) < STANDS_M;
 }
 
-/* Returns true for an aircraft that lies on the ground as a body (mover/motion/landing.h). */
+/* Returns true for an aircraft that lies on the ground as a body (mover/motion/ground/landing.h).
+ */
 static bool has_landed(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;

@@ -12,7 +12,9 @@ static const struct key_choice behaviours[] = {
     {NULL, BEHAVIOUR_IDLE, "The vehicle stands still. It reacts when it is fired upon."},
     {NULL, BEHAVIOUR_HOLD,
      "The vehicle keeps its heading and speed and reacts to nothing. This makes planned "
-     "collisions."},
+     "collisions. "
+     "At the edge of the world it leaves the world: it is removed, with an `agent` event because it "
+     "has left the world."},
     {NULL, BEHAVIOUR_PATROL, "The vehicle goes from one random goal in its area to the next."},
     {NULL, BEHAVIOUR_ROUTE, "The vehicle goes along its route again and again."},
     {NULL, BEHAVIOUR_FOLLOW,

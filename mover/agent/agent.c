@@ -10,7 +10,7 @@
 #include "mover/agent/mission_route.h"
 #include "mover/agent/perception.h"
 #include "mover/agent/progress.h"
-#include "mover/agent/sea_course.h"
+#include "mover/agent/ship_course.h"
 #include "mover/agent/script_player.h"
 #include "mover/agent/smoke_screen.h"
 #include "mover/agent/target_search.h"
@@ -384,7 +384,7 @@ static void think(const struct step_context *context, uint32_t i, const struct k
     drive_by_behaviour(context, i, desired);
     if (kind->domain == DOMAIN_SEA && !desired->driven &&
         m->behaviour[i] != BEHAVIOUR_SCRIPT) /* a script's author has chosen the course */
-        sea_course_keep(context, i, desired);
+        ship_course_keep(context, i, desired);
     avoidance_steer(context, i, desired);
     if (kind->domain == DOMAIN_AIR && !desired->driven)
         aircraft_separation_keep(context, i, desired);

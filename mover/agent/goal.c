@@ -3,7 +3,7 @@
 
 #include "mover/agent/fire_control.h"
 #include "mover/agent/mission_route.h"
-#include "mover/agent/sea_course.h"
+#include "mover/agent/ship_course.h"
 #include "mover/agent/script_player.h"
 #include "mover/agent/target_search.h"
 #include "mover/motion/kinematics.h"
@@ -53,7 +53,7 @@ static void patrol(const struct step_context *context, uint32_t i)
         m->goal_x[i] = area->x0 + (area->x1 - area->x0) * (u - floor(u));
         m->goal_z[i] = area->z0 + (area->z1 - area->z0) * (v - floor(v));
         if (suits(context, i, m->goal_x[i], m->goal_z[i]) &&
-            (!ship || sea_course_is_clear(context, i, m->goal_x[i], m->goal_z[i])))
+            (!ship || ship_course_is_clear(context, i, m->goal_x[i], m->goal_z[i])))
             return;
     }
 }

@@ -1,7 +1,7 @@
 /* Moves wrecks: rigid bodies over the ground, and hulls that drift on the water and sink. */
 #include "mover/motion/wreck.h"
 
-#include "mover/motion/ground_body.h"
+#include "mover/motion/ground/ground_body.h"
 #include "mover/motion/kinematics.h"
 #include "mover/motion/sinking.h"
 #include "mover/motion/spin.h"

@@ -138,7 +138,8 @@ _Static_assert(ENTITY_COLUMN_COUNT <= 64, "a set of columns is one word");
     128u /* the same bit of a ship: the shore holds it (mover/motion/ship.h) */
 
 #define ENTITY_FLAG_LANDED                                                                         \
-    128u /* and of an aircraft: it stands or slides on the ground (mover/motion/landing.h) */
+    128u /* and of an aircraft: it stands or slides on the ground (mover/motion/ground/landing.h)  \
+          */
 
 /* How a driven vehicle's throttle acts on its wheels; a driver's choice, in flags. */
 enum gearing {

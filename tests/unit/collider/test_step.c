@@ -27,6 +27,7 @@ static void test_row_24_table_2_metres_a_frame_at_10_hz(void **state)
     struct fixture f;
     (void)state;
     fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 10.0; };");
+    steps_cover(&f, COVER_LAKE, 22000.0, 24000.0, 24000.0, 26000.0); /* for the ship */
     for (int n = 0; n < 3; n++)
         fixture_put(&f, (struct fixture_entity){.kind = table[n].kind,
                                                 .at = {20000.0 + 3000.0 * n, 600.0, 25000.0},

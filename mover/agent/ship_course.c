@@ -1,5 +1,5 @@
 /* Looks along courses for land and shallows. */
-#include "mover/agent/sea_course.h"
+#include "mover/agent/ship_course.h"
 
 #include "world/terrain/gridsquare.h"
 #include "world/world.h"
@@ -90,7 +90,8 @@ static void back_off(const struct entities *m, uint32_t i, const struct kind *ki
     desired->speed_mps = -ASTERN_MPS * kind->max_speed_mps;
 }
 
-void sea_course_keep(const struct step_context *context, uint32_t i, struct desired_motion *desired)
+void ship_course_keep(const struct step_context *context, uint32_t i,
+                      struct desired_motion *desired)
 {
     const struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
@@ -120,7 +121,7 @@ void sea_course_keep(const struct step_context *context, uint32_t i, struct desi
     desired->speed_mps = maths_min(desired->speed_mps, stopping_speed(kind, maths_min(clear, now)));
 }
 
-bool sea_course_is_clear(const struct step_context *context, uint32_t i, double x, double z)
+bool ship_course_is_clear(const struct step_context *context, uint32_t i, double x, double z)
 {
     const struct entities *m = context->m;
     double dx = x - m->x[i], dz = z - m->z[i];

@@ -1,5 +1,5 @@
 /* Sub-steps of a body with contacts to the ground. */
-#include "mover/motion/ground_body.h"
+#include "mover/motion/ground/ground_body.h"
 
 #define STEP_MAX_S (1.0 / 120.0)
 #define STEP_MAX_M 0.5

@@ -1,6 +1,6 @@
 /* Aircraft that touch the ground gently: they stand or slide on it as rigid bodies
- * (mover/motion/ground_body.h) while they have ENTITY_FLAG_LANDED. The collider destroys those that
- * strike it too hard.
+ * (mover/motion/ground/ground_body.h) while they have ENTITY_FLAG_LANDED. The collider destroys
+ * those that strike it too hard.
  *
  * A helicopter lands on its skids. It takes off when its driver, or its agent, wants to climb and
  * its engine gives more than its weight: the rotor's lift grows with the engine, and the flag goes

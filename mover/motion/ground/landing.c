@@ -1,8 +1,8 @@
 /* Touch-down, stand, slide and take-off. */
-#include "mover/motion/landing.h"
+#include "mover/motion/ground/landing.h"
 
 #include "mover/motion/airframe.h"
-#include "mover/motion/ground_body.h"
+#include "mover/motion/ground/ground_body.h"
 #include "mover/motion/kinematics.h"
 #include "world/state.h"
 #include "world/terrain/gridsquare.h"
@@ -32,12 +32,12 @@ static bool hovers(const struct kind *kind)
 /* --- touch-down --------------------------------------------------------------------------------*/
 
 /* How a body meets the ground. */
-struct touch {
+struct touchdown {
     double closing_mps, along_mps;
     double level; /* cosine between its own up and that of the ground */
 };
 
-static struct touch touch_of(const struct step_context *context, uint32_t i)
+static struct touchdown touchdown_of(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
     struct vec3 velocity = entities_velocity(m, i);
@@ -46,14 +46,14 @@ static struct touch touch_of(const struct step_context *context, uint32_t i)
     struct mat3 turn = rotation_matrix(rotation_of(m->heading[i], m->pitch[i], m->roll[i]));
     const struct vec3 up = {turn.m[0][1], turn.m[1][1], turn.m[2][1]};
     double closing = -vec3_dot(velocity, normal);
-    return (struct touch){
+    return (struct touchdown){
         .closing_mps = closing,
         .along_mps = vec3_length(vec3_add(velocity, vec3_scale(normal, closing))),
         .level = vec3_dot(up, normal),
     };
 }
 
-static bool is_gentle(const struct kind *kind, const struct touch *touch)
+static bool is_gentle(const struct kind *kind, const struct touchdown *touch)
 {
     if (touch->level < LEVEL)
         return false;
@@ -92,7 +92,7 @@ bool landing_touch(const struct step_context *context, uint32_t i,
     if (cover_is_water(terrain_cover(&context->world->terrain, m->x[i], m->z[i])) ||
         clearance_of(context, i) > 0.0)
         return false;
-    struct touch touch = touch_of(context, i);
+    struct touchdown touch = touchdown_of(context, i);
     if (!is_gentle(kind, &touch))
         return false;
     double harm = harm_of(kind, touch.closing_mps);
