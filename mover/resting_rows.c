@@ -4,7 +4,7 @@
 #include "mover/agent/neighbour_lists.h"
 #include "mover/agent/perception.h"
 #include "mover/motion/kinematics.h"
-#include "mover/motion/wreck.h"
+#include "mover/motion/ground/wreck.h"
 #include "world/entity/kind.h"
 #include "world/state.h"
 #include "world/terrain/crater.h"

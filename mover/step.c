@@ -15,7 +15,7 @@
 #include "mover/motion/ground/landing.h"
 #include "mover/motion/projectile.h"
 #include "mover/motion/ship.h"
-#include "mover/motion/wreck.h"
+#include "mover/motion/ground/wreck.h"
 #include "mover/weapon/fire.h"
 #include "mover/weapon/fire_mission.h"
 #include "mover/weapon/firing_table.h"

@@ -48,7 +48,8 @@ static bool wreck(struct response_context *context, uint32_t row)
     table_set_throttle(&context->writer, row, 0.0f);
     table_set_behaviour(&context->writer, row, BEHAVIOUR_IDLE);
     table_set_order(&context->writer, row, BEHAVIOUR_IDLE);
-    table_set_until_tick(&context->writer, row, 0); /* it is not at rest (mover/motion/wreck.h) */
+    table_set_until_tick(&context->writer, row,
+                         0); /* it is not at rest (mover/motion/ground/wreck.h) */
     table_set_harm_j(&context->writer, row, maths_max(e->harm_j[row], kind->resistance_j));
     set_damage(context, row, DAMAGE_DESTROYED);
     context->next->head->tally.destroyed++;

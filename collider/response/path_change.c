@@ -163,7 +163,8 @@ static struct path within_world(struct path path)
     return path;
 }
 
-/* Wakes a wreck that is displaced (mover/motion/wreck.h). Velocity and spin wake it by themselves.
+/* Wakes a wreck that is displaced (mover/motion/ground/wreck.h). Velocity and spin wake it by
+ * themselves.
  */
 static void wake(struct response_context *context, uint32_t row, struct vec3 to)
 {

@@ -54,7 +54,7 @@ static void find_rest(struct free_bodies *bodies, const struct response_context 
     }
 }
 
-/* Returns the column until_tick of a wreck (mover/motion/wreck.h). */
+/* Returns the column until_tick of a wreck (mover/motion/ground/wreck.h). */
 static uint32_t until_tick(struct free_bodies *bodies, const struct response_context *context,
                            uint32_t index)
 {

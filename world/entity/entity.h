@@ -128,7 +128,7 @@ _Static_assert(ENTITY_COLUMN_COUNT <= 64, "a set of columns is one word");
 #define ENTITY_FLAG_STAND        4u /* never flees or withdraws */
 #define ENTITY_FLAG_BURST        8u /* a charge has burst near it; its agent clears the flag */
 #define ENTITY_FLAG_BROKEN                                                                         \
-    64u /* an aircraft's wreck that the ground has broken up (mover/motion/wreck.h) */
+    64u /* an aircraft's wreck that the ground has broken up (mover/motion/ground/wreck.h) */
 #define ENTITY_FLAG_DISARMED                                                                       \
     64u /* the same bit while it is active: its gun is out of action (world/entity/disabled.h) */
 

@@ -1,5 +1,5 @@
 /* Moves wrecks: rigid bodies over the ground, and hulls that drift on the water and sink. */
-#include "mover/motion/wreck.h"
+#include "mover/motion/ground/wreck.h"
 
 #include "mover/motion/ground/ground_body.h"
 #include "mover/motion/kinematics.h"
