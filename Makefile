@@ -204,7 +204,7 @@ BASE_LIBS     = $(call pc,libs,libxxhash) -lm
 TEST_LIBS     = -Wl,--as-needed $(call pc,libs,cmocka libpng) $(RENDER_LIBS) $(HTTP_LIBS) $(DDS_LIBS) $(SANDBOX_LIBS) \
         $(JSON_LIBS) $(ARCHIVE_LIBS) $(PCAP_LIBS) $(CONFIG_LIBS) $(BASE_LIBS)
 
-PROGRAMS := $(addprefix $(BIN)/jolon,-world -mover -collider -renderer -video -intake -reporter -recorder -dis \
+PROGRAMS := $(addprefix $(BIN)/jolon,-world -mover -collider -renderer -video -intake -reporter -recorder -gateway -dis \
         $(addprefix -,$(CLIENTS)) -keeper) $(BIN)/jolon
 # The benchmarks have packages of their own, so only `make bench` and the tests build them.
 BENCH    := $(BIN)/jolon-bench
@@ -256,6 +256,8 @@ $(BIN)/jolon-harness: $(OBJ)/clients/harness/main.o $(call libraries,harness top
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-monitor: $(OBJ)/clients/monitor/main.o $(call libraries,monitor screens topics datagrams ipc world)
 	$(call link,$(DDS_LIBS) $(CURSES_LIBS) $(JSON_LIBS) $(BASE_LIBS))
+$(BIN)/jolon-gateway: $(OBJ)/gateway/main.o $(call libraries,gateway sandbox ipc world)
+	$(call link,$(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-dis: $(OBJ)/gateway/tool/main.o $(call libraries,tool gateway ipc world)
 	$(call link,$(PCAP_LIBS) $(BASE_LIBS))
 $(BENCH): $(OBJ)/tests/bench/main.o $(ENGINES) $(call libraries,bench physics renderer $(STEPS) config http ipc world)
@@ -458,7 +460,7 @@ install: all
 	sed 's|@BIN@|$(PREFIX)/bin|' supervisor/jolon@.service > $(UNITS)/jolon@.service
 	rm -rf $(SHARE) $(DOC)
 	install -d $(SHARE) $(DOC)
-	cp -R config/kinds config/models config/scenarios config/cyclonedds.xml config/dds-security ipc/topics/status.idl $(SHARE)
+	cp -R config/kinds config/models config/scenarios config/dis config/cyclonedds.xml config/dds-security ipc/topics/status.idl $(SHARE)
 	@cp --parents $(DOCUMENTS) $(DOC)
 	chmod -R u=rwX,go=rX $(SHARE) $(DOC) $(UNITS)/jolon@.service
 uninstall:

@@ -14,6 +14,7 @@
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
 
+#include <arpa/inet.h>
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,6 +36,8 @@
 #define CRATER_SLOTS       65536u
 #define DENT_SLOTS         65536u
 
+#define APPLICATION_LAST 65533u /* of DIS; higher numbers are reserved */
+
 /* A scenario while it is read. */
 struct load {
     struct scenario *scenario;
@@ -42,7 +45,7 @@ struct load {
     struct source source;
     config_t config;
     XXH3_state_t *hash;
-    struct key_place origin[64]; /* where each key of schema_scenario was last set */
+    struct key_place origin[KEY_TABLE_MAX]; /* where each key of schema_scenario was last set */
     bool objects_chosen;
     struct error_text *error;
 };
@@ -163,6 +166,26 @@ static int check_levels(const struct load *load, const struct levels *levels)
     return 0;
 }
 
+static int check_gateway(const struct load *load)
+{
+    const struct gateway_params *gateway = &load->scenario->settings->params.gateway;
+    struct in6_addr any;
+    const char *name = "gateway.address", *address = gateway->address;
+    if (inet_pton(AF_INET, address, &any) != 1 && inet_pton(AF_INET6, address, &any) != 1)
+        return key_table_refuse(
+            load->error, load->origin[key_table_find(&schema_scenario, name)], name, address,
+            "is no address in numbers; right would be: 127.0.0.1, 239.1.2.3 or ::1");
+    name = "gateway.applications";
+    if (gateway->application + gateway->applications - 1 > APPLICATION_LAST) {
+        char text[32];
+        snprintf(text, sizeof(text), "%u", gateway->applications);
+        return key_table_refuse(load->error, load->origin[key_table_find(&schema_scenario, name)],
+                                name, text, "goes beyond application %u; allowed: up to %u",
+                                APPLICATION_LAST, APPLICATION_LAST + 1 - gateway->application);
+    }
+    return 0;
+}
+
 /* Checks values that are in range but may not fit each other. */
 static int check_together(const struct load *load)
 {
@@ -175,7 +198,9 @@ static int check_together(const struct load *load)
         {"collision.figure8.mass_c1_kg", "collision.figure8.mass_c2_kg",
          "collision.figure8.mass_c3_kg"},
         {collision->mass_c1_kg, collision->mass_c2_kg, collision->mass_c3_kg}};
-    return check_levels(load, &damage) == 0 ? check_levels(load, &mass) : -1;
+    if (check_levels(load, &damage) != 0 || check_levels(load, &mass) != 0)
+        return -1;
+    return check_gateway(load);
 }
 
 static int read_lists(struct load *load)
@@ -338,7 +363,7 @@ int loader_branch(struct params *params, const char *const *overrides, int overr
             return key_table_refuse(
                 error, load.origin[index], key->name, value,
                 "cannot change in a world that exists; allowed: "
-                "world.seed, hz, frames, pace and name, collision.*, renderer.*");
+                "world.seed, hz, frames, pace and name, collision.*, renderer.*, gateway.*");
         if (key_table_set_text(key, &settings, value, load.origin[index], error) != 0)
             return -1;
         settings.params.dt_s = 1.0 / settings.params.hz;

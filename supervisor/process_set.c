@@ -6,6 +6,7 @@
 #include "ipc/process/process.h"
 #include "ipc/segment/segment_attach.h"
 #include "world/runtime/utf8.h"
+#include "world/params.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -40,10 +41,14 @@ int process_set_open(struct process_set *set, const struct plan *plan, struct er
     int count = role_order(order, false);
     for (int i = 0; i < ROLE_COUNT; i++)
         set->service[i].role = (enum role)i;
+    if (segment_attach(&set->view, plan->world, ROLE_NONE, error) != 0)
+        return -1;
     for (int i = 0; i < count; i++)
-        set->service[order[i]].wanted =
-            order[i] == ROLE_CONSOLE ? plan->console : !plan->left_out[order[i]];
-    return segment_attach(&set->view, plan->world, ROLE_NONE, error);
+        set->service[order[i]].wanted = order[i] == ROLE_CONSOLE ? plan->console
+                                        : order[i] == ROLE_GATEWAY
+                                            ? set->view.world.params->gateway.enabled != 0
+                                            : !plan->left_out[order[i]];
+    return 0;
 }
 
 uint64_t process_set_frame(const struct process_set *set)

@@ -42,6 +42,18 @@ struct renderer_params {
     uint32_t reserved;
 };
 
+/* Settings of the gateway to exercises of DIS; the simulation does not read them. */
+struct gateway_params {
+    char address[48]; /* in numbers */
+    uint32_t enabled; /* 1: a set has a gateway */
+    uint32_t port, exercise, site;
+    uint32_t application, applications; /* the first, and how many */
+    uint32_t version;                   /* of DIS: 6 or 7 */
+    uint32_t rate_ps;                   /* PDUs a second at most */
+    double latitude_deg, longitude_deg; /* of the middle of the square */
+    double undulation_m;                /* of the sea above the ellipsoid there */
+};
+
 /* The place to which vehicles of a force withdraw. */
 struct force_base {
     double x, z; /* [m] */
@@ -79,6 +91,7 @@ struct params {
     struct force_base
         base[FORCE_COUNT]; /* the scenario's, or the middle of the force's initial places */
     struct renderer_params renderer;
+    struct gateway_params gateway;
 };
 
 #endif

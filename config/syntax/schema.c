@@ -176,6 +176,35 @@ static const struct key scenario_keys[] = {
     BOOLEAN("renderer.hold", S, params.renderer.hold, STORE_U32, "true",
             .meaning = "true: a renderer that cannot keep its rate draws less detail, then smaller "
                        "pictures, and reports it. false: it draws fewer pictures."),
+    BOOLEAN("gateway.enabled", S, params.gateway.enabled, STORE_U32, "false",
+            .meaning = "true: the set has a gateway, which shows the world to other simulators by "
+                       "DIS ([dis.md](dis.md))."),
+    TEXT("gateway.address", S, params.gateway.address, "127.0.0.1",
+         .meaning = "Where PDUs are sent, in numbers: the address of a machine, of a multicast "
+                    "group or of a broadcast."),
+    WHOLE32("gateway.port", S, params.gateway.port, 1, 65535, "3000",
+            .meaning = "The port of UDP."),
+    WHOLE32("gateway.exercise", S, params.gateway.exercise, 1, 255, "1",
+            .meaning = "The exercise, by which simulators on one network tell theirs from others."),
+    WHOLE32("gateway.site", S, params.gateway.site, 1, 65533, "1991",
+            .meaning = "The site in the identifiers of our entities."),
+    WHOLE32("gateway.application", S, params.gateway.application, 1, 65533, "1",
+            .meaning = "The first application in the identifiers of our entities."),
+    WHOLE32("gateway.applications", S, params.gateway.applications, 1, 65533, "16",
+            .meaning = "How many applications our identifiers may use, from `gateway.application` "
+                       "on. Each has room for 65,533 of the ids that a world gives."),
+    WHOLE32("gateway.version", S, params.gateway.version, 6, 7, "7",
+            .meaning = "The version of DIS: 6 is IEEE 1278.1A-1998, 7 is 1278.1-2012."),
+    WHOLE32("gateway.rate", S, params.gateway.rate_ps, 1, 1000000, "5000",
+            .meaning = "How many PDUs a second are sent at most. Those that are put off are sent "
+                       "later, as they are then."),
+    NUMBER("gateway.latitude_deg", S, params.gateway.latitude_deg, -89.9, 89.9, "35.95",
+           .unit = "degrees", .meaning = "The latitude of the middle of the square, on WGS 84."),
+    NUMBER("gateway.longitude_deg", S, params.gateway.longitude_deg, -180, 180, "-121.25",
+           .unit = "degrees", .meaning = "The longitude of the middle of the square."),
+    NUMBER("gateway.undulation_m", S, params.gateway.undulation_m, -200, 200, "-33.7", .unit = "m",
+           .meaning = "The height of the sea level above the ellipsoid at the middle of the "
+                      "square. DIS has heights above the ellipsoid."),
 };
 #undef S
 const struct key_table schema_scenario = {"", scenario_keys, COUNT(scenario_keys),

@@ -182,6 +182,11 @@ static const struct rule serving[] = {
     {SCMP_SYS(getsockopt), 2, {{1, SCMP_CMP_EQ, SOL_SOCKET, 0}, {2, SCMP_CMP_EQ, SO_PEERCRED, 0}}},
 };
 
+/* Sending by sockets that are open. */
+static const struct rule sending[] = {
+    ANY(sendto),
+};
+
 /* Waiting for sockets and for a thread's wake-up descriptor. */
 static const struct rule polling[] = {
     ANY(poll),
@@ -342,6 +347,7 @@ static const struct list reporter_lists[] = {EVERY_ROLE,        ALLOW(growing), 
 static const struct list console_lists[] = {
     EVERY_ROLE,     ALLOW(growing),    ALLOW(threads),        ALLOW(serving),
     ALLOW(polling), ALLOW(commanding), ALLOW(world_watching), END};
+static const struct list gateway_lists[] = {EVERY_ROLE, ALLOW(growing), ALLOW(sending), END};
 static const struct list recorder_lists[] = {EVERY_ROLE, ALLOW(growing), ALLOW(files), END};
 
 /* Refused with EPERM instead of a trap, because libraries of a role that starts may try calls that

@@ -25,10 +25,12 @@
  * other role is there to see them; it stops first, and the roles that report what it did stop last.
  *
  * Renderers 2 to 4 are started by hand, side by side with the set's own. The console is the set's
- * own as well: further consoles are readers. */
+ * own as well: further consoles are readers. A set has a gateway when the world's parameters say
+ * so.
+ */
 #define ROLES(X)                                                                                   \
     X(MOVER, "mover", frame, ROLE_NEEDED | ROLE_MAKES_FRAMES | ROLE_RINGS, REGION_MOVED_WORD,      \
-      REGION_MOVED, 7, 1)                                                                          \
+      REGION_MOVED, 8, 1)                                                                          \
     X(COLLIDER, "collider", frame, ROLE_NEEDED | ROLE_MAKES_FRAMES | ROLE_RINGS, REGION_COMMIT,    \
       REGION_EVENTS, 1, 2)                                                                         \
     X(INTAKE, "intake", intake, ROLE_NEEDED | ROLE_RINGS, REGION_COMMANDS + RING_CLIENTS,          \
@@ -44,7 +46,8 @@
       0)                                                                                           \
     X(RENDERER_4, "renderer-4", renderer, ROLE_RINGS | ROLE_DRAWS, REGION_COUNT, REGION_COUNT, 0,  \
       0)                                                                                           \
-    X(CONSOLE, "console", console, 0, REGION_COUNT, REGION_COUNT, 6, 5)
+    X(CONSOLE, "console", console, 0, REGION_COUNT, REGION_COUNT, 6, 5)                            \
+    X(GATEWAY, "gateway", gateway, 0, REGION_COUNT, REGION_COUNT, 7, 8)
 
 enum role {
 #define X(tag, ...) ROLE_##tag,

@@ -251,6 +251,19 @@ static const struct {
     {"renderer.view=map,orbit", "renderer = { view = \"map, orbit\"; };"},
     {"renderer.backend=soft", "renderer = { backend = \"soft\"; };"},
     {"renderer.hold=false", "renderer = { hold = false; };"},
+    {"gateway.enabled=true", "gateway = { enabled = true; };"},
+    {"gateway.address=239.1.2.3", "gateway = { address = \"239.1.2.3\"; };"},
+    {"gateway.address=::1", "gateway = { address = \"::1\"; };"},
+    {"gateway.port=3001", "gateway = { port = 3001; };"},
+    {"gateway.exercise=2", "gateway = { exercise = 2; };"},
+    {"gateway.site=7", "gateway = { site = 7; };"},
+    {"gateway.application=36", "gateway = { application = 36; };"},
+    {"gateway.applications=65533", "gateway = { applications = 65533; };"},
+    {"gateway.version=6", "gateway = { version = 6; };"},
+    {"gateway.rate=100", "gateway = { rate = 100; };"},
+    {"gateway.latitude_deg=-30.5", "gateway = { latitude_deg = -30.5; };"},
+    {"gateway.longitude_deg=10.25", "gateway = { longitude_deg = 10.25; };"},
+    {"gateway.undulation_m=45.5", "gateway = { undulation_m = 45.5; };"},
 };
 
 /* Asserts that two scenarios have the same settings but for their hashes. */

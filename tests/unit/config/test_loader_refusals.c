@@ -54,7 +54,7 @@ static const struct refusal refusals[] = {
      "wind_mps, wind_from_deg"},
     {"\nwrold = { seed = 7; };", 2,
      "wrold = {...}: unknown key; allowed here: world, terrain, objects, collision, battle, "
-     "recorder, renderer"},
+     "recorder, renderer, gateway"},
     {"collision = { figure8 = { damage = 1; }; };", 1,
      "collision.figure8.damage = 1: unknown key; allowed here: fast_vehicle_mps, fast_fixed_mps, "
      "large_fixed_kg, measure, damage_high, damage_med, damage_low, mass_c1_kg, mass_c2_kg, "
@@ -425,6 +425,14 @@ static void test_override_refusals(void **state)
         {"world.seed=99999999999999999999999",
          "--set: world.seed = 99999999999999999999999: out of range; allowed: "
          "0..9007199254740991"},
+        {"gateway.address=localhost",
+         "--set: gateway.address = localhost: is no address in numbers; right would be: "
+         "127.0.0.1, 239.1.2.3 or ::1"},
+        {"gateway.applications=65533x",
+         "--set: gateway.applications = 65533x: is not a whole number; allowed: 1..65533"},
+        {"gateway.application=65533",
+         "default: gateway.applications = 16: goes beyond application 65533; allowed: up to 1"},
+        {"gateway.version=5", "--set: gateway.version = 5: out of range; allowed: 6..7"},
         {"renderer.fog=yes", "--set: renderer.fog = yes: is not a boolean; allowed: true, false"},
         {"collision.response=bounce",
          "--set: collision.response = bounce: unknown; allowed: " RESPONSE_WORDS},

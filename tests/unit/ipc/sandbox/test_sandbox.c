@@ -45,11 +45,12 @@ enum {
     I = 1 << ROLE_INTAKE,
     P = 1 << ROLE_REPORTER,
     D = 1 << ROLE_RECORDER,
-    W = 1 << ROLE_CONSOLE
+    W = 1 << ROLE_CONSOLE,
+    G = 1 << ROLE_GATEWAY
 };
 #define R    (1 << ROLE_RENDERER | 1 << ROLE_RENDERER_2 | 1 << ROLE_RENDERER_3 | 1 << ROLE_RENDERER_4)
 #define NONE 0
-#define ALL  (M | C | I | P | D | R | W)
+#define ALL  (M | C | I | P | D | R | W | G)
 
 static struct error_text error;
 
@@ -187,7 +188,7 @@ static void handle(int signal_number)
     X("listen", P, listen(-1, 1))                                                                  \
     X("accept", NONE, syscall(SYS_accept, -1, NULL, NULL))                                         \
     X("accept4", W | P | R | I, accept4(-1, NULL, NULL, 0))                                        \
-    X("sendto", W | P | R | I, sendto(-1, "", 0, 0, NULL, 0))                                      \
+    X("sendto", W | P | R | I | G, sendto(-1, "", 0, 0, NULL, 0))                                  \
     X("sendmsg", W | P | R | I, sendmsg(-1, NULL, 0))                                              \
     X("recvfrom", W | P | R | I, recvfrom(-1, NULL, 0, 0, NULL, NULL))                             \
     X("shutdown", W | R | I, shutdown(-1, SHUT_WR))                                                \
@@ -224,7 +225,7 @@ static void handle(int signal_number)
     X("mmap", R | W, map(PROT_READ, MAP_SHARED, 2))                                                \
     X("mmap", R | W, map(PROT_READ, MAP_PRIVATE, 2))                                               \
     X("mmap", R | W, map(PROT_READ, MAP_SHARED | MAP_ANONYMOUS, -1))                               \
-    X("mprotect", W | P | I | R | D, write_protect())                                              \
+    X("mprotect", W | P | I | R | D | G, write_protect())                                          \
     X("mprotect", R, make_executable())                                                            \
     X("pkey_mprotect", NONE, syscall(SYS_pkey_mprotect, NULL, 4096, PROT_EXEC, -1))                \
     X("remap_file_pages", NONE, syscall(SYS_remap_file_pages, NULL, 0, 0, 0, 0))                   \
@@ -253,7 +254,7 @@ static void handle(int signal_number)
     X("sched_setaffinity", R, waived(syscall(SYS_sched_setaffinity, 0, 0, NULL)))                  \
     X("prlimit64", NONE, syscall(SYS_prlimit64, 0, 0, NULL, NULL))                                 \
     X("", ALL, say(STDERR_FILENO))                                                                 \
-    X("mremap", W | P | I | R | D, confined_use_memory())                                          \
+    X("mremap", W | P | I | R | D | G, confined_use_memory())                                      \
     X("", ALL, sleep_shortly())                                                                    \
     X("", ALL, close(0))
 

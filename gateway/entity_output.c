@@ -1,0 +1,413 @@
+/* Entity State PDUs: what is due, and what it says. */
+#include "gateway/entity_output.h"
+
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+#include "world/entity/disabled.h"
+#include "world/maths/random.h"
+#include "world/params.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Accelerations and rates are smoothed over this time [s]: about one pass. 500 vehicles then send
+ * 286 PDUs a second; with 0 s they send 299, with 0.1 s 341, and with 0.5 s 444. */
+#define SMOOTHING_S 0.05
+
+/* Below these, a motion is uniform, or none at all. */
+#define ACCELERATION_LEAST 0.5  /* [m/s^2] */
+#define RATE_LEAST         0.03 /* [rad/s] */
+#define SPEED_LEAST        0.02 /* [m/s] */
+
+#define ACCELERATION_MOST 60.0 /* [m/s^2] an impact is no acceleration that lasts */
+#define RATE_MOST         6.0  /* [rad/s] */
+
+#define FLAMES_S         60.0 /* since the damage of a wreck last grew */
+#define HEARTBEAT_SPREAD 0.1  /* of the heartbeat, either way */
+
+/* What a pass knows of a row. */
+struct row_view {
+    uint32_t row, id;
+    struct vec3 velocity; /* [m/s] ECEF */
+    struct vec3 position; /* [m] ECEF */
+    struct mat3 matrix;   /* euler.h */
+    uint32_t appearance;
+    float turret, gun;
+    bool has_gun;
+};
+
+bool entity_output_sends(const struct kind *kind)
+{
+    return kind->domain < DOMAIN_MUNITION ||
+           (kind->domain == DOMAIN_MUNITION && kind->guidance == GUIDANCE_HOMING);
+}
+
+int entity_output_open(struct entity_output *entities, const struct view *view,
+                       struct error_text *error)
+{
+    entities->capacity = view->header->capacity;
+    entities->sent = calloc(entities->capacity, sizeof *entities->sent);
+    if (!entities->sent || snapshot_init(&entities->snapshot, view) != 0) {
+        free(entities->sent);
+        entities->sent = NULL;
+        return error_text_set(error, "entities: no memory for %u: %s", entities->capacity,
+                              strerror(errno));
+    }
+    return 0;
+}
+
+void entity_output_close(struct entity_output *entities)
+{
+    snapshot_free(&entities->snapshot);
+    free(entities->sent);
+    entities->sent = NULL;
+}
+
+uint32_t entity_output_row(const struct entity_output *entities, uint32_t id)
+{
+    const struct snapshot *snapshot = &entities->snapshot;
+    return id == 0 ? SLOT_NONE : entities_find(&snapshot->entities, snapshot->head.used, id);
+}
+
+/* --- what a row looks like ---------------------------------------------------------------------*/
+
+static uint32_t appearance_of(const struct world *world, const struct snapshot *snapshot,
+                              uint32_t row)
+{
+    static const uint8_t levels[DAMAGE_COUNT] = {0, 1, 2, 2, 3};
+    const struct entities *e = &snapshot->entities;
+    const struct kind *kind = &world->kinds[e->kind[row]];
+    uint8_t damage = e->damage[row] < DAMAGE_COUNT ? e->damage[row] : DAMAGE_DESTROYED;
+    bool wreck = e->state[row] == ENTITY_WRECK;
+    uint32_t appearance = PDU_APPEARANCE_DAMAGE(wreck ? 3 : levels[damage]);
+    if (kind->domain == DOMAIN_LAND && !wreck) {
+        appearance |= disabled_drive(kind, e, row) ? PDU_APPEARANCE_MOBILITY_KILL : 0;
+        appearance |= disabled_gun(kind, e, row) ? PDU_APPEARANCE_FIRE_KILL : 0;
+    }
+    if (wreck) {
+        double since_s =
+            (double)((uint32_t)snapshot->head.tick - e->changed_tick[row]) * world_dt_s(world);
+        appearance |= PDU_APPEARANCE_MOBILITY_KILL | PDU_APPEARANCE_FIRE_KILL;
+        appearance |= PDU_APPEARANCE_SMOKE | (since_s < FLAMES_S ? PDU_APPEARANCE_FLAMES : 0);
+        if (kind->domain != DOMAIN_LAND)
+            appearance &= ~(PDU_APPEARANCE_MOBILITY_KILL | PDU_APPEARANCE_FIRE_KILL);
+    }
+    return appearance | (snapshot->head.paused ? PDU_APPEARANCE_FROZEN : 0);
+}
+
+static struct vec3 limited(struct vec3 v, double most)
+{
+    double length = vec3_length(v);
+    return length > most ? vec3_scale(v, most / length) : v;
+}
+
+/* Returns the angular velocity that turns one attitude into another within dt_s [rad/s, body axes
+ * of DIS]. */
+static struct vec3 rates_between(const struct mat3 *from, const struct mat3 *to, double dt_s)
+{
+    /* The skew part of from^T to is the axis times the sine of the angle, which is small. */
+    double d[3][3];
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < 3; j++)
+            d[i][j] = from->m[0][i] * to->m[0][j] + from->m[1][i] * to->m[1][j] +
+                      from->m[2][i] * to->m[2][j];
+    }
+    struct vec3 body = {0.5 * (d[2][1] - d[1][2]), 0.5 * (d[0][2] - d[2][0]),
+                        0.5 * (d[1][0] - d[0][1])};
+    return vec3_scale(local_frame_body_to_dis(body), 1.0 / dt_s);
+}
+
+/* Updates the smoothed motion of a row by a new frame. */
+static void observe(struct entity_sent *sent, const struct snapshot *snapshot, uint32_t row,
+                    const struct mat3 *turn, double dt_s)
+{
+    const struct entities *e = &snapshot->entities;
+    struct vec3 velocity = entities_velocity(e, row);
+    double past_s = (double)(snapshot->head.tick - sent->seen_tick) * dt_s;
+    if (sent->seen_id != e->id[row] || past_s > 1.0) {
+        sent->acceleration = sent->rates = (struct vec3){0};
+    } else if (past_s > 0.0) {
+        double share = past_s / (SMOOTHING_S + past_s);
+        struct vec3 acceleration = limited(
+            vec3_scale(vec3_sub(velocity, sent->seen_velocity), 1.0 / past_s), ACCELERATION_MOST);
+        struct vec3 rates = limited(rates_between(&sent->seen_turn, turn, past_s), RATE_MOST);
+        sent->acceleration = vec3_lerp(sent->acceleration, acceleration, share);
+        sent->rates = vec3_lerp(sent->rates, rates, share);
+    } else {
+        return;
+    }
+    sent->seen_id = e->id[row];
+    sent->seen_tick = snapshot->head.tick;
+    sent->seen_velocity = velocity;
+    sent->seen_turn = *turn;
+}
+
+static struct row_view look_at(struct entity_output *entities, const struct world *world,
+                               uint32_t row)
+{
+    const struct snapshot *snapshot = &entities->snapshot;
+    const struct entities *e = &snapshot->entities;
+    const struct kind *kind = &world->kinds[e->kind[row]];
+    struct mat3 turn = rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+    double scale = snapshot->head.paused ? 0.0 : snapshot->head.time_scale;
+    observe(&entities->sent[row], snapshot, row, &turn, world_dt_s(world));
+    return (struct row_view){
+        .row = row,
+        .id = e->id[row],
+        .velocity = vec3_scale(
+            local_frame_ecef_direction(&entities->frame, entities_velocity(e, row)), scale),
+        .position = local_frame_ecef(&entities->frame, entities_position(e, row)),
+        .matrix = local_frame_ecef_turn(&entities->frame, &turn),
+        .appearance = appearance_of(world, snapshot, row),
+        .turret = e->turret[row],
+        .gun = e->gun[row],
+        .has_gun = kind->part_count > 0 && kind->domain != DOMAIN_MUNITION};
+}
+
+/* --- what is due -------------------------------------------------------------------------------*/
+
+static double turned(float a, float b)
+{
+    return fabs(maths_wrap_half((double)a - (double)b));
+}
+
+/* Returns true if a new Entity State is due for a row that was sent before. */
+static bool due(const struct entity_sent *sent, const struct row_view *view, uint64_t now_ns)
+{
+    struct vec3 position;
+    struct mat3 matrix;
+    if (sent->appearance != view->appearance || now_ns >= sent->heartbeat_ns)
+        return true;
+    double since_s = (double)(now_ns - sent->sent_ns) / 1e9;
+    if (since_s < ENTITY_OUTPUT_LEAST_S)
+        return false;
+    if (view->has_gun && (turned(sent->turret, view->turret) > ENTITY_OUTPUT_ANGLE_RAD ||
+                          turned(sent->gun, view->gun) > ENTITY_OUTPUT_ANGLE_RAD))
+        return true;
+    bool frozen = sent->appearance & PDU_APPEARANCE_FROZEN;
+    dead_reckoning_at(&sent->state, frozen ? 0.0 : since_s, &position, &matrix);
+    return vec3_length(vec3_sub(position, view->position)) > ENTITY_OUTPUT_POSITION_M ||
+           euler_angle_between(&matrix, &view->matrix) > ENTITY_OUTPUT_ANGLE_RAD;
+}
+
+/* The heartbeats of entities that were sent together spread over the time. */
+static uint64_t heartbeat_after(uint32_t id, uint64_t now_ns)
+{
+    double share = (double)(random_mix(id ^ now_ns) >> 11) * 0x1.0p-53;
+    double wait_s = ENTITY_OUTPUT_HEARTBEAT_S * (1.0 + HEARTBEAT_SPREAD * (2.0 * share - 1.0));
+    return now_ns + (uint64_t)(wait_s * 1e9);
+}
+
+/* --- what it says ------------------------------------------------------------------------------*/
+
+/* Selects the model of dead reckoning by the row's motion, and fills the motion. */
+static void set_motion(struct pdu_entity_state *state, const struct entity_output *entities,
+                       const struct row_view *view, const struct entity_sent *sent)
+{
+    const struct state_head *head = &entities->snapshot.head;
+    double scale = head->paused ? 0.0 : head->time_scale;
+    struct vec3 acceleration =
+        vec3_scale(local_frame_ecef_direction(&entities->frame, sent->acceleration), scale * scale);
+    struct vec3 rates = vec3_scale(sent->rates, scale);
+    bool turns = vec3_length(rates) > RATE_LEAST;
+    bool speeds = vec3_length(acceleration) > ACCELERATION_LEAST;
+    if (!turns && !speeds && vec3_length(view->velocity) < SPEED_LEAST) {
+        state->dead_reckoning = DEAD_RECKONING_STATIC;
+        return;
+    }
+    vec3_to_floats(state->velocity, view->velocity);
+    state->dead_reckoning = turns    ? DEAD_RECKONING_RVW
+                            : speeds ? DEAD_RECKONING_FVW
+                                     : DEAD_RECKONING_FPW;
+    if (turns || speeds)
+        vec3_to_floats(state->acceleration, acceleration);
+    if (turns)
+        vec3_to_floats(state->angular_velocity, rates);
+}
+
+static void set_marking(char marking[PDU_MARKING_MAX + 1], const struct world *world,
+                        const struct kind *kind, uint32_t id)
+{
+    char text[64];
+    const char *name = world_entity_name(world, id);
+    if (name[0] != '\0')
+        (void)snprintf(text, sizeof text, "%s", name);
+    else if (id < 100000)
+        (void)snprintf(text, sizeof text, "%.*s %u", id < 1000 ? 7 : 5, kind->name, id);
+    else
+        (void)snprintf(text, sizeof text, "%u", id);
+    text[PDU_MARKING_MAX] = '\0';
+    memset(marking, 0, PDU_MARKING_MAX + 1);
+    for (size_t i = 0; text[i] != '\0'; i++)
+        marking[i] = text[i] >= ' ' && text[i] <= '~' ? text[i] : '?';
+}
+
+static void set_parts(struct pdu *pdu, const struct row_view *view)
+{
+    pdu->parts = view->has_gun ? 2 : 0;
+    pdu->part[0] = (struct pdu_part){
+        .kind = PDU_PART_ARTICULATED, .type = PDU_TURRET_AZIMUTH, .value = view->turret};
+    pdu->part[1] = (struct pdu_part){.kind = PDU_PART_ARTICULATED,
+                                     .attached_to = 1,
+                                     .type = PDU_GUN_ELEVATION,
+                                     .value = view->gun};
+}
+
+static uint8_t dis_force(uint8_t force)
+{
+    return force == FORCE_BLUE  ? PDU_FORCE_FRIENDLY
+           : force == FORCE_RED ? PDU_FORCE_OPPOSING
+                                : PDU_FORCE_NEUTRAL;
+}
+
+/* Remembers what the receivers have: the numbers as the PDU rounds them. */
+static void remember(struct entity_sent *sent, const struct pdu_entity_state *state,
+                     uint64_t now_ns)
+{
+    const float *v = state->velocity, *a = state->acceleration, *w = state->angular_velocity;
+    sent->state = (struct dead_reckoning){
+        .model = state->dead_reckoning,
+        .position = {state->location[0], state->location[1], state->location[2]},
+        .velocity = {(double)v[0], (double)v[1], (double)v[2]},
+        .acceleration = {(double)a[0], (double)a[1], (double)a[2]},
+        .rates = {(double)w[0], (double)w[1], (double)w[2]},
+        .matrix = euler_matrix((struct euler){(double)state->orientation[0],
+                                              (double)state->orientation[1],
+                                              (double)state->orientation[2]})};
+    sent->appearance = state->appearance;
+    sent->sent_ns = now_ns;
+}
+
+static void send_state(struct entity_output *entities, const struct world *world,
+                       const struct row_view *view, struct pdu_id id, uint64_t now_ns)
+{
+    static struct pdu pdu;
+    const struct entities *e = &entities->snapshot.entities;
+    struct entity_sent *sent = &entities->sent[view->row];
+    uint16_t kind = e->kind[view->row];
+    uint8_t force = e->force[view->row];
+    const struct type_row *type = type_table_row(entities->types, kind, force);
+    struct euler angles = euler_of(&view->matrix);
+    pdu.header.type = PDU_ENTITY_STATE;
+    pdu.entity_state = (struct pdu_entity_state){
+        .id = id,
+        .force = dis_force(force),
+        .type = type->type,
+        .alternative_type = type->type,
+        .location = {view->position.x, view->position.y, view->position.z},
+        .appearance = view->appearance,
+        .character_set = 1};
+    vec3_to_floats(pdu.entity_state.orientation,
+                   (struct vec3){angles.psi, angles.theta, angles.phi});
+    set_motion(&pdu.entity_state, entities, view, sent);
+    set_marking(pdu.entity_state.marking, world, &world->kinds[kind], view->id);
+    set_parts(&pdu, view);
+    pdu_output_send(entities->output, &pdu);
+    remember(sent, &pdu.entity_state, now_ns);
+    sent->id = view->id;
+    sent->kind = kind;
+    sent->force = force;
+    sent->turret = view->turret;
+    sent->gun = view->gun;
+    sent->heartbeat_ns = heartbeat_after(view->id, now_ns);
+    if (type->nearest && !entities->told_kind[kind]) {
+        entities->told_kind[kind] = true;
+        log_info("%s has no DIS type of its own and is sent as that of its domain",
+                 world->kinds[kind].name);
+    }
+}
+
+/* Sends the last state of what was in a row, where its dead reckoning has it. */
+static void send_last(struct entity_output *entities, const struct world *world,
+                      struct entity_sent *sent, uint64_t now_ns)
+{
+    static struct pdu pdu;
+    struct vec3 position;
+    struct mat3 matrix;
+    dead_reckoning_at(&sent->state, (double)(now_ns - sent->sent_ns) / 1e9, &position, &matrix);
+    struct euler angles = euler_of(&matrix);
+    const struct type_row *type = type_table_row(entities->types, sent->kind, sent->force);
+    pdu.header.type = PDU_ENTITY_STATE;
+    pdu.entity_state =
+        (struct pdu_entity_state){.force = dis_force(sent->force),
+                                  .type = type->type,
+                                  .alternative_type = type->type,
+                                  .location = {position.x, position.y, position.z},
+                                  .appearance = sent->appearance | PDU_APPEARANCE_DEACTIVATED,
+                                  .dead_reckoning = DEAD_RECKONING_STATIC,
+                                  .character_set = 1};
+    (void)entity_ids_of(&entities->ids, sent->id, &pdu.entity_state.id);
+    set_marking(pdu.entity_state.marking, world, &world->kinds[sent->kind], sent->id);
+    vec3_to_floats(pdu.entity_state.orientation,
+                   (struct vec3){angles.psi, angles.theta, angles.phi});
+    pdu_output_send(entities->output, &pdu);
+    sent->id = 0;
+}
+
+/* --- a pass ------------------------------------------------------------------------------------*/
+
+/* Sends what is due of a row. Returns false when the rate is used up. */
+static bool send_row(struct entity_output *entities, const struct world *world, uint32_t row,
+                     uint64_t now_ns)
+{
+    const struct snapshot *snapshot = &entities->snapshot;
+    const struct entities *e = &snapshot->entities;
+    struct entity_sent *sent = &entities->sent[row];
+    bool here = row < snapshot->head.used && e->state[row] != ENTITY_FREE &&
+                entity_output_sends(&world->kinds[e->kind[row]]);
+    if (sent->id != 0 && (!here || sent->id != e->id[row])) {
+        if (!pdu_output_take(entities->output, now_ns))
+            return false;
+        send_last(entities, world, sent, now_ns);
+    }
+    struct pdu_id id;
+    if (!here)
+        return true;
+    if (!entity_ids_of(&entities->ids, e->id[row], &id)) {
+        entities->refused++;
+        if (!entities->told_refused)
+            log_warn("entity %u is not sent: gateway.applications = %u has room for %u ids",
+                     e->id[row], entities->ids.applications,
+                     entities->ids.applications * ENTITY_IDS_PER_APPLICATION);
+        entities->told_refused = true;
+        return true;
+    }
+    struct row_view view = look_at(entities, world, row);
+    if (sent->id != 0 && !due(sent, &view, now_ns))
+        return true;
+    if (!pdu_output_take(entities->output, now_ns)) {
+        entities->postponed++;
+        return false;
+    }
+    send_state(entities, world, &view, id, now_ns);
+    return true;
+}
+
+void entity_output_send(struct entity_output *entities, const struct view *view, uint64_t now_ns)
+{
+    if (snapshot_take(&entities->snapshot, view) != 0)
+        return; /* the next pass sees a later frame */
+    uint32_t used = entities->snapshot.head.used;
+    uint32_t rows = used > entities->known ? used : entities->known;
+    for (uint32_t i = 0; i < rows; i++) {
+        uint32_t row = (entities->next_row + i) % rows;
+        if (!send_row(entities, &view->world, row, now_ns)) {
+            entities->next_row = row;
+            entities->known = rows;
+            return;
+        }
+    }
+    entities->next_row = 0;
+    entities->known = used;
+}
+
+void entity_output_deactivate(struct entity_output *entities, const struct view *view,
+                              uint64_t now_ns)
+{
+    for (uint32_t row = 0; row < entities->known; row++) {
+        if (entities->sent[row].id != 0)
+            send_last(entities, &view->world, &entities->sent[row], now_ns);
+    }
+}

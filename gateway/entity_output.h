@@ -1,0 +1,76 @@
+/* Entity State PDUs of our vehicles and guided missiles.
+ *
+ * A receiver shows an entity where its dead reckoning has it. The gateway computes the same, and
+ * sends a new Entity State when the vehicle is more than a metre or three degrees from there, when
+ * what can be seen of it has changed, and every 5 s anyway. It remembers only what it sent last, so
+ * one that starts anew sends every entity once. */
+#ifndef JOLON_GATEWAY_ENTITY_OUTPUT_H
+#define JOLON_GATEWAY_ENTITY_OUTPUT_H
+
+#include "gateway/earth/dead_reckoning.h"
+#include "gateway/earth/local_frame.h"
+#include "gateway/entity_ids.h"
+#include "gateway/pdu_output.h"
+#include "gateway/type_table.h"
+#include "ipc/frame/snapshot.h"
+
+/* Thresholds and times of IEEE 1278.1. */
+#define ENTITY_OUTPUT_POSITION_M  1.0
+#define ENTITY_OUTPUT_ANGLE_RAD   (3.0 * RAD_PER_DEG)
+#define ENTITY_OUTPUT_HEARTBEAT_S 5.0
+
+/* The least time from one Entity State of an entity to the next, unless it comes or goes [s]. */
+#define ENTITY_OUTPUT_LEAST_S 0.1
+
+/* What was sent last of a row, and how the row moves. */
+struct entity_sent {
+    uint32_t id; /* 0: nothing was sent */
+    uint16_t kind;
+    uint8_t force;
+    uint8_t moving; /* the dead reckoning was not static */
+    uint32_t appearance;
+    float turret, gun; /* [rad] */
+    uint64_t sent_ns, heartbeat_ns;
+    struct dead_reckoning state; /* as the receivers have it */
+    /* Of the row in the last frame that was seen, smoothed: world axes, body axes of DIS. */
+    uint32_t seen_id;
+    uint64_t seen_tick;
+    struct vec3 seen_velocity, acceleration, rates;
+    struct mat3 seen_turn;
+};
+
+struct entity_output {
+    struct pdu_output *output;
+    const struct type_table *types;
+    struct entity_ids ids;
+    struct local_frame frame;
+    struct snapshot snapshot; /* the last frame that was sent from */
+    struct entity_sent *sent; /* [capacity] */
+    uint32_t capacity;
+    uint32_t next_row;  /* where the next pass begins, so that a full rate is shared */
+    uint32_t known;     /* rows with an id: 0 .. known - 1 */
+    uint64_t refused;   /* entities whose id is beyond the range of applications */
+    uint64_t postponed; /* Entity States that the rate has put off */
+    bool told_refused;
+    bool told_kind[KIND_COUNT_MAX];
+};
+
+/* Reserves memory. output, types, ids and frame are set. Returns 0, or -1 with the reason. */
+int entity_output_open(struct entity_output *entities, const struct view *view,
+                       struct error_text *error);
+void entity_output_close(struct entity_output *entities);
+
+/* Takes a new snapshot and sends what is due. now_ns is the time of the clock. */
+void entity_output_send(struct entity_output *entities, const struct view *view, uint64_t now_ns);
+
+/* Sends a last state with the bit "deactivated" for each entity that was sent. */
+void entity_output_deactivate(struct entity_output *entities, const struct view *view,
+                              uint64_t now_ns);
+
+/* Returns the row of an entity in the last snapshot, SLOT_NONE when it is gone. */
+uint32_t entity_output_row(const struct entity_output *entities, uint32_t id);
+
+/* Returns true if entities of the kind are sent: vehicles and guided missiles, no rounds. */
+bool entity_output_sends(const struct kind *kind);
+
+#endif

@@ -1,0 +1,238 @@
+/* PDUs of events. */
+#include "gateway/event_output.h"
+
+#include "world/world.h"
+
+#include <string.h>
+
+void event_output_open(struct event_output *events, const struct view *view, uint64_t before)
+{
+    struct state_head head;
+    uint64_t slots = view->header->event_slots;
+    uint64_t commit = segment_load(&view->commit->commit);
+    events->send_from_frame = before > 0 ? before + 1 : commit + 1;
+    events->frame = commit;
+    events->cursor = (struct event_cursor){0};
+    if (snapshot_head(&head, view) == 0 && head.event_end > slots)
+        events->cursor.next = head.event_end - slots;
+}
+
+/* --- who fired ---------------------------------------------------------------------------------*/
+
+static void remember_shot(struct event_output *events, const struct event_fire *fire)
+{
+    uint32_t place = fire->munition.id % EVENT_OUTPUT_SHOTS;
+    events->shot[place].munition = fire->munition.id;
+    events->shot[place].shooter = fire->shooter.id;
+}
+
+static uint32_t shooter_of(const struct event_output *events, uint32_t munition)
+{
+    uint32_t place = munition % EVENT_OUTPUT_SHOTS;
+    return munition != 0 && events->shot[place].munition == munition ? events->shot[place].shooter
+                                                                     : 0;
+}
+
+/* --- what they say -----------------------------------------------------------------------------*/
+
+static struct pdu_id id_of(const struct event_output *events, uint32_t id)
+{
+    struct pdu_id to;
+    (void)entity_ids_of(&events->entities->ids, id, &to);
+    return to;
+}
+
+/* Rounds are no entities of DIS: they have no identifier there. */
+static struct pdu_id munition_id(const struct event_output *events, const struct world *world,
+                                 struct event_party munition)
+{
+    bool sent =
+        munition.kind < world->counts.kinds && entity_output_sends(&world->kinds[munition.kind]);
+    return id_of(events, sent ? munition.id : 0);
+}
+
+/* Fixed objects are none either. */
+static struct pdu_id party_id(const struct event_output *events, struct event_party party)
+{
+    return id_of(events, party.fixed ? 0 : party.id);
+}
+
+static void set_place(double location[3], const struct event_output *events, const double point[3])
+{
+    struct vec3 ecef =
+        local_frame_ecef(&events->entities->frame, (struct vec3){point[0], point[1], point[2]});
+    location[0] = ecef.x;
+    location[1] = ecef.y;
+    location[2] = ecef.z;
+}
+
+/* Writes the velocity of an entity, which the last frame may not have. */
+static void set_velocity(float velocity[3], const struct event_output *events, uint32_t id)
+{
+    uint32_t row = entity_output_row(events->entities, id);
+    if (row == SLOT_NONE)
+        return;
+    const struct entities *e = &events->entities->snapshot.entities;
+    vec3_to_floats(velocity,
+                   local_frame_ecef_direction(&events->entities->frame, entities_velocity(e, row)));
+}
+
+/* Writes a point of the world in the body axes of an entity. */
+static void set_point(float to[3], const struct event_output *events, struct event_party party,
+                      const double point[3])
+{
+    uint32_t row = entity_output_row(events->entities, party.fixed ? 0 : party.id);
+    if (row == SLOT_NONE)
+        return;
+    const struct entities *e = &events->entities->snapshot.entities;
+    struct mat3 turn = rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+    struct vec3 from_middle =
+        vec3_sub((struct vec3){point[0], point[1], point[2]}, entities_position(e, row));
+    vec3_to_floats(to, local_frame_body_to_dis(rotation_back(&turn, from_middle)));
+}
+
+/* Munitions have one row for all forces. */
+static const struct type_row *munition_type(const struct event_output *events,
+                                            struct event_party munition)
+{
+    return type_table_row(events->entities->types, munition.kind, FORCE_NEUTRAL);
+}
+
+static void send_fire(struct event_output *events, const struct world *world,
+                      const struct event_fire *fire)
+{
+    static struct pdu pdu;
+    const struct entities *e = &events->entities->snapshot.entities;
+    const struct type_row *type = munition_type(events, fire->munition);
+    pdu.header.type = PDU_FIRE;
+    pdu.fire = (struct pdu_fire){.firer = party_id(events, fire->shooter),
+                                 .target = party_id(events, fire->target),
+                                 .munition = munition_id(events, world, fire->munition),
+                                 .event = id_of(events, fire->munition.id),
+                                 .munition_type = type->type,
+                                 .warhead = type->warhead,
+                                 .fuse = type->fuse,
+                                 .quantity = 1};
+    set_place(pdu.fire.location, events, fire->point);
+    set_velocity(pdu.fire.velocity, events, fire->munition.id);
+    uint32_t target = entity_output_row(events->entities, fire->target.fixed ? 0 : fire->target.id);
+    if (target != SLOT_NONE)
+        pdu.fire.range = (float)vec3_length(
+            vec3_sub(entities_position(e, target),
+                     (struct vec3){fire->point[0], fire->point[1], fire->point[2]}));
+    pdu_output_send(events->output, &pdu);
+}
+
+static uint8_t result_of(const struct world *world, const struct event_detonation *detonation)
+{
+    static const uint8_t results[STRUCK_COUNT] = {[STRUCK_VEHICLE] = PDU_RESULT_ENTITY_IMPACT,
+                                                  [STRUCK_FIXED] = PDU_RESULT_DETONATION,
+                                                  [STRUCK_GROUND] = PDU_RESULT_GROUND_IMPACT,
+                                                  [STRUCK_WATER] = PDU_RESULT_WATER,
+                                                  [STRUCK_AIR] = PDU_RESULT_DETONATION};
+    uint16_t kind = detonation->struck_party.kind;
+    if (detonation->struck == STRUCK_FIXED && kind < world->counts.kinds &&
+        world->kinds[kind].object_class == OBJECT_BUILDING)
+        return PDU_RESULT_BUILDING;
+    return detonation->struck < STRUCK_COUNT ? results[detonation->struck] : PDU_RESULT_OTHER;
+}
+
+static void send_detonation(struct event_output *events, const struct world *world,
+                            const struct event_detonation *detonation)
+{
+    static struct pdu pdu;
+    struct event_party munition = detonation->munition;
+    const struct type_row *type = munition_type(events, munition);
+    pdu.header.type = PDU_DETONATION;
+    pdu.parts = 0;
+    pdu.detonation = (struct pdu_detonation){
+        .firer = id_of(events, shooter_of(events, munition.id)),
+        .target = detonation->struck == STRUCK_VEHICLE ? party_id(events, detonation->struck_party)
+                                                       : id_of(events, 0),
+        .munition = munition_id(events, world, munition),
+        .event = id_of(events, munition.id),
+        .munition_type = type->type,
+        .warhead = type->warhead,
+        .fuse = type->fuse,
+        .quantity = 1,
+        .result = result_of(world, detonation)};
+    set_place(pdu.detonation.location, events, detonation->point);
+    set_velocity(pdu.detonation.velocity, events, munition.id);
+    if (detonation->struck == STRUCK_VEHICLE)
+        set_point(pdu.detonation.point, events, detonation->struck_party, detonation->point);
+    pdu_output_send(events->output, &pdu);
+}
+
+/* Sends what one of the two bodies says of their collision. */
+static void send_collision(struct event_output *events, const struct world *world,
+                           const struct event *event, struct event_party issuer,
+                           struct event_party other)
+{
+    static struct pdu pdu;
+    struct pdu_id id;
+    if (issuer.fixed || issuer.kind >= world->counts.kinds ||
+        !entity_output_sends(&world->kinds[issuer.kind]) ||
+        !entity_ids_of(&events->entities->ids, issuer.id, &id))
+        return;
+    pdu.header.type = PDU_COLLISION;
+    pdu.collision = (struct pdu_collision){.issuer = id,
+                                           .other = party_id(events, other),
+                                           .mass = (float)world->kinds[issuer.kind].mass_kg};
+    /* Events of the run are counted: the number and the issuer are not used twice within a day. */
+    pdu.collision.event = (struct pdu_id){
+        id.site, id.application, (uint16_t)(1 + event->sequence % ENTITY_IDS_PER_APPLICATION)};
+    set_velocity(pdu.collision.velocity, events, issuer.id);
+    set_point(pdu.collision.point, events, other, event->collision.point);
+    pdu_output_send(events->output, &pdu);
+}
+
+static void send_event(struct event_output *events, const struct world *world,
+                       const struct event *event)
+{
+    switch ((enum event_type)event->type) {
+    case EVENT_FIRE:
+        send_fire(events, world, &event->fire);
+        break;
+    case EVENT_DETONATION:
+        send_detonation(events, world, &event->detonation);
+        break;
+    case EVENT_COLLISION:
+        send_collision(events, world, event, event->collision.a, event->collision.b);
+        send_collision(events, world, event, event->collision.b, event->collision.a);
+        break;
+    default:
+        break;
+    }
+}
+
+/* Returns true if a PDU is sent for an event. A crater is the ground impact of its detonation. */
+static bool is_sent(const struct event_output *events, const struct event *event)
+{
+    if (event->frame < events->send_from_frame)
+        return false;
+    return event->type == EVENT_FIRE || event->type == EVENT_DETONATION ||
+           (event->type == EVENT_COLLISION &&
+            event->collision.closing_mps >= EVENT_OUTPUT_COLLISION_MPS);
+}
+
+void event_output_send(struct event_output *events, const struct view *view, uint64_t now_ns)
+{
+    uint64_t commit = segment_load(&view->commit->commit);
+    uint32_t count;
+    while ((count = events_read(view, &events->cursor, events->event, EVENT_OUTPUT_AT_ONCE)) > 0) {
+        for (uint32_t i = 0; i < count; i++) {
+            const struct event *event = &events->event[i];
+            if (event->type == EVENT_FIRE)
+                remember_shot(events, &event->fire);
+            if (!is_sent(events, event))
+                continue;
+            if (!pdu_output_take(events->output, now_ns)) {
+                events->cursor.next = event->sequence;
+                return;
+            }
+            send_event(events, &view->world, event);
+            events->frame = event->frame > 0 ? event->frame - 1 : 0;
+        }
+    }
+    events->frame = commit;
+}

@@ -1,0 +1,32 @@
+/* Sends the gateway's PDUs: fills in the header, keeps the rate, counts. */
+#ifndef JOLON_GATEWAY_PDU_OUTPUT_H
+#define JOLON_GATEWAY_PDU_OUTPUT_H
+
+#include "gateway/pdu/pdu.h"
+#include "gateway/udp/udp_address.h"
+#include "ipc/process/rate.h"
+
+#include <stdbool.h>
+
+struct pdu_output {
+    int socket;
+    struct udp_address to;
+    uint8_t version, exercise;
+    uint32_t rate_ps; /* PDUs a second */
+    struct rate rate;
+    uint64_t sent, octets, failed;
+    uint64_t failure_logged_ns;
+};
+
+/* Opens the socket. Returns 0, or -1 with the reason. */
+int pdu_output_open(struct pdu_output *output, const char *address, uint16_t port, uint32_t rate_ps,
+                    struct error_text *error);
+
+/* Returns true if the rate allows one more PDU now, and takes it from the rate. */
+bool pdu_output_take(struct pdu_output *output, uint64_t now_ns);
+
+/* Sends a PDU whose type and body are set, with the time stamp of now, in UTC. A PDU that cannot be
+ * sent is counted, as the network may lose any; the log says so once a second at most. */
+void pdu_output_send(struct pdu_output *output, struct pdu *pdu);
+
+#endif

@@ -1,0 +1,32 @@
+/* The table of DIS types for our kinds, from a text file (config/dis/types.txt, which explains its
+ * rows). It is read before the sandbox is entered. */
+#ifndef JOLON_GATEWAY_TYPE_TABLE_H
+#define JOLON_GATEWAY_TYPE_TABLE_H
+
+#include "gateway/pdu/pdu.h"
+#include "world/entity/entity.h"
+#include "world/entity/kind.h"
+#include "world/runtime/error_text.h"
+
+#include <stdbool.h>
+
+struct type_row {
+    struct pdu_entity_type type;
+    uint16_t warhead, fuse; /* munitions */
+    bool given;
+    bool nearest; /* the kind has no row: this is that of its domain */
+};
+
+struct type_table {
+    struct type_row row[KIND_COUNT_MAX][FORCE_COUNT];
+};
+
+/* Reads the file. Returns 0, or -1 with file, line and what would be right. Every kind that moves
+ * has a row then. */
+int type_table_read(struct type_table *table, const char *path, const struct kind *kinds,
+                    uint32_t kind_count, struct error_text *error);
+
+/* Returns the row of a kind and a force, and an empty one for a kind that does not exist. */
+const struct type_row *type_table_row(const struct type_table *table, uint16_t kind, uint8_t force);
+
+#endif

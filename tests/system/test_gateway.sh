@@ -1,0 +1,77 @@
+#!/usr/bin/env bash
+# The gateway: what tshark reads is what the world has, a gateway that is killed goes on with the same
+# identifiers, and no run changes because of it.
+here=$(cd "$(dirname "$0")" && pwd)
+. "$(dirname "$0")/lib.sh"
+port=$(python3 -I -S -c 'import socket
+s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+s.bind(("127.0.0.1", 0))
+print(s.getsockname()[1])')
+until_true() { for _ in {1..200}; do "$@" >/dev/null 2>&1 && return; sleep 0.05; done; return 1; }
+record() { # FILE: records what is sent until `finish`
+    "$jolon" dis record --listen "127.0.0.1:$port" "$1" 2>/dev/null &
+    recorder=$!
+    until_true grep -qi ":$(printf %04X "$port") " /proc/net/udp
+}
+finish() { sleep 0.3; kill -INT $recorder; wait $recorder; }
+count() { "$jolon" dis dump --port "$port" --summary --json "$1" | json "types.$2"; } # FILE TYPE
+
+# --- results do not change ------------------------------------------------------------------------------
+quick=(--pace max --frames 300 --without renderer --without reporter --json)
+plain=$("$jolon" run -w "$name" "${quick[@]}" --out out-plain 2>/dev/null | json digest)
+with=$("$jolon" run -w "$name" "${quick[@]}" --out out-dis --dis "127.0.0.1:$port" 2>/dev/null | json digest)
+check "a run has a digest" [ -n "$plain" ]
+check "the digest with a gateway is that without" equal "$with" "$plain"
+check "a set without the key has no gateway" eval '! grep -q gateway out-plain/jolon.log'
+
+# --- what is sent ---------------------------------------------------------------------------------------
+record run.pcap
+"$jolon" start -w "$name" --without renderer --without reporter --out out --dis "127.0.0.1:$port" >/dev/null
+check "status shows the gateway" eval '"$jolon" status -w "$name" | grep -q gateway'
+sleep 3
+check "a killed gateway is started again" eval 'before=$(pid gateway); "$jolon" kill -w "$name" gateway >/dev/null;
+    until_true eval "[ -n \"\$(pid gateway)\" ] && [ \"\$(pid gateway)\" != $before ]"'
+check "restart gateway" "$jolon" restart -w "$name" gateway
+sleep 1
+"$jolon" ctl -w "$name" pause >/dev/null
+sleep 1
+"$bin/jolon-world" dump --world "$name" --json >rows
+finish
+if command -v tshark >/dev/null; then
+    check "tshark reads the places and attitudes of the paused world" \
+        eval "python3 '$here/dis_world.py' run.pcap $port rows >compared"
+    sed 's/^/# figures: /' compared
+else
+    skip "tshark reads the places and attitudes of the paused world" "there is no tshark here"
+fi
+"$jolon" dis dump --port "$port" --json run.pcap >pdus 2>/dev/null
+check "no entity has two types" python3 -I -S -c '
+import json, sys
+types = {}
+for line in open("pdus"):
+    pdu = json.loads(line)
+    if pdu["pdu"] == "entity-state" and types.setdefault(tuple(pdu["id"]), pdu["type"]) != pdu["type"]:
+        sys.exit(f"{pdu}")
+print(len(types))
+assert len(types) >= 500'
+
+# --- the end --------------------------------------------------------------------------------------------
+"$jolon" ctl -w "$name" resume >/dev/null
+record end.pcap
+"$jolon" stop -w "$name" >/dev/null
+finish
+last=$("$jolon" dis dump --port "$port" --json --type entity-state end.pcap 2>/dev/null | python3 -I -S -c '
+import json, sys
+print(sum(json.loads(line)["appearance"] >> 23 & 1 for line in sys.stdin))')
+check "each vehicle has a last state when the world stops" [ "${last:-0}" -ge 500 ]
+check "the log says what was sent" grep -q 'gateway info .* sent [0-9]* PDUs of [0-9]* octets; 0 failed' out/jolon.log
+check "nothing was refused to the gateway by its sandbox" eval '! grep -q "forbids system call" out/jolon.log'
+
+# --- refusals -------------------------------------------------------------------------------------------
+run=("$jolon" run -w "$name" --frames 1 --out out)
+refuses "a name as an address" 1 'gateway.address = "?localhost"?.*no address in numbers' "${run[@]}" --dis localhost
+refuses "port 0" 2 'a whole number from 1 to 65535' "${run[@]}" --dis 127.0.0.1:0
+refuses "no address" 2 'must be ADDRESS or ADDRESS:PORT' "${run[@]}" --dis :3000
+refuses "too many applications" 1 'gateway.applications.*up to 65532' "${run[@]}" --set gateway.application=2 --set gateway.applications=65533
+refuses "another version" 1 'gateway.version.*5' "${run[@]}" --set gateway.version=5
+done_testing

@@ -1,0 +1,128 @@
+/* The table of types: which row holds, the shipped file, and each refusal. */
+#include "gateway/type_table.h"
+
+#include "tests/support/fixture.h"
+#include "world/params.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static const struct kind kinds[] = {{.name = "tank", .domain = DOMAIN_LAND},
+                                    {.name = "jet", .domain = DOMAIN_AIR},
+                                    {.name = "shell", .domain = DOMAIN_MUNITION},
+                                    {.name = "tree", .domain = DOMAIN_FIXED}};
+static struct type_table table;
+static struct error_text error;
+static char path[64];
+
+static int read_text(const char *text)
+{
+    snprintf(path, sizeof path, "/tmp/jolon-types.%d", (int)getpid());
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+    int result = type_table_read(&table, path, kinds, 4, &error);
+    unlink(path);
+    return result;
+}
+
+static void assert_row(uint16_t kind, uint8_t force, unsigned country, bool nearest)
+{
+    const struct type_row *row = type_table_row(&table, kind, force);
+    assert_int_equal(row->type.country, country);
+    assert_int_equal(row->nearest, nearest);
+}
+
+#define DOMAIN_ROWS                                                                                \
+    "<land> * 1.1.1.0.0.0.0\n<sea> * 1.3.2.0.0.0.0\n<munition> * 2.9.4.0.0.0.0 1 2\n"
+
+static void test_the_nearest_row_holds(void **state)
+{
+    (void)state;
+    assert_int_equal(read_text("# a comment\n\n" DOMAIN_ROWS "<air> * 1.2.3.0.0.0.0\n"
+                               "<air>\tred 1.2.33.0.0.0.0 # of the red force\n"
+                               "tank * 1.1.225.1.1.2.0\ntank red 1.1.222.1.2.1.0\n"
+                               "unknown * 1.1.9.9.9.9.9\nshell * 2.2.225.2.13.1.0 5000 1000"),
+                     0);
+    assert_row(0, FORCE_BLUE, 225, false);
+    assert_row(0, FORCE_NEUTRAL, 225, false);
+    assert_row(0, FORCE_RED, 222, false);
+    assert_row(1, FORCE_BLUE, 3, true);
+    assert_row(1, FORCE_RED, 33, true);
+    assert_int_equal(type_table_row(&table, 2, FORCE_RED)->warhead, 5000);
+    assert_int_equal(type_table_row(&table, 2, FORCE_RED)->fuse, 1000);
+    assert_row(3, FORCE_RED, 0, false); /* trees do not move */
+    assert_row(KIND_NONE, FORCE_RED, 0, false);
+    assert_row(0, 77, 0, false);
+}
+
+static void assert_refused(const char *text, const char *why)
+{
+    assert_int_equal(read_text(text), -1);
+    if (!strstr(error.text, why) || !strstr(error.text, path))
+        fail_msg("\"%s\" has no \"%s\"", error.text, why);
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    assert_refused("tank *\n", ":1: tank: must be KIND FORCE TYPE");
+    assert_refused("\ntank * 1.1.1.1.1.1.1 5\n", ":2: tank: must be KIND FORCE TYPE");
+    assert_refused("tank * 1.1.1.1.1.1.1 5 6 7\n", "must be KIND FORCE TYPE");
+    assert_refused("tank green 1.1.1.1.1.1.1\n", "blue, red, neutral or *");
+    assert_refused("tank * 1.1.1.1.1.1\n", "seven numbers");
+    assert_refused("tank * 1.1.1.1.1.1.1.1\n", "seven numbers");
+    assert_refused("tank * 1.1.1.1.1.1.256\n", "seven numbers");
+    assert_refused("tank * 1.1.65536.1.1.1.1\n", "seven numbers");
+    assert_refused("shell * 1.1.1.1.1.1.1 65536 1\n", "warhead and fuse");
+    assert_refused("tank * 1.1.1.1.1.1.1\ntank * 1.1.1.1.1.1.1\n", ":2: tank: has a row before");
+    assert_refused(DOMAIN_ROWS, "has no row of jet or <air>");
+    char line[400];
+    memset(line, ' ', sizeof line);
+    line[sizeof line - 1] = '\0';
+    assert_refused(line, ":1: a line has at most");
+    assert_int_equal(type_table_read(&table, "/nonexistent", kinds, 4, &error), -1);
+}
+
+/* Every kind that we ship has a row of its own. */
+static void test_the_shipped_table(void **state)
+{
+    struct fixture fixture;
+    char shipped[512];
+    (void)state;
+    fixture_open(&fixture, "");
+    const struct world *world = &fixture.view.world;
+    snprintf(shipped, sizeof shipped, "%s/dis/types.txt", fixture_shipped_dir());
+    if (type_table_read(&table, shipped, world->kinds, world->counts.kinds, &error) != 0)
+        fail_msg("%s", error.text);
+    for (uint16_t kind = 0; kind < world->counts.kinds; kind++) {
+        if (world->kinds[kind].domain == DOMAIN_FIXED)
+            continue;
+        for (uint8_t force = 0; force < FORCE_COUNT; force++) {
+            const struct type_row *row = type_table_row(&table, kind, force);
+            if (!row->given || row->nearest)
+                fail_msg("%s has no row of its own", world->kinds[kind].name);
+            if (world->kinds[kind].domain == DOMAIN_MUNITION)
+                assert_true(row->warhead > 0 && row->fuse > 0);
+        }
+    }
+    fixture_close(&fixture);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_the_nearest_row_holds),
+        cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_the_shipped_table),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
