@@ -12,10 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Accelerations and rates are smoothed over this time [s]: about one pass. 500 vehicles then send
- * 286 PDUs a second; with 0 s they send 299, with 0.1 s 341, and with 0.5 s 444. */
-#define SMOOTHING_S 0.05
-
 /* Below these, a motion is uniform, or none at all. */
 #define ACCELERATION_LEAST 0.5  /* [m/s^2] */
 #define RATE_LEAST         0.03 /* [rad/s] */
@@ -119,7 +115,8 @@ static struct vec3 rates_between(const struct mat3 *from, const struct mat3 *to,
     return vec3_scale(local_frame_body_to_dis(body), 1.0 / dt_s);
 }
 
-/* Updates the smoothed motion of a row by a new frame. */
+/* Updates the motion of a row by a new frame. Its acceleration and rates are those since the last
+ * pass: smoothing them over 0.05 s costs 6 % more PDUs, over 0.07 s 9 %. */
 static void observe(struct entity_sent *sent, const struct snapshot *snapshot, uint32_t row,
                     const struct mat3 *turn, double dt_s)
 {
@@ -129,12 +126,9 @@ static void observe(struct entity_sent *sent, const struct snapshot *snapshot, u
     if (sent->seen_id != e->id[row] || past_s > 1.0) {
         sent->acceleration = sent->rates = (struct vec3){0};
     } else if (past_s > 0.0) {
-        double share = past_s / (SMOOTHING_S + past_s);
-        struct vec3 acceleration = limited(
+        sent->acceleration = limited(
             vec3_scale(vec3_sub(velocity, sent->seen_velocity), 1.0 / past_s), ACCELERATION_MOST);
-        struct vec3 rates = limited(rates_between(&sent->seen_turn, turn, past_s), RATE_MOST);
-        sent->acceleration = vec3_lerp(sent->acceleration, acceleration, share);
-        sent->rates = vec3_lerp(sent->rates, rates, share);
+        sent->rates = limited(rates_between(&sent->seen_turn, turn, past_s), RATE_MOST);
     } else {
         return;
     }

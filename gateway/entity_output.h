@@ -32,7 +32,7 @@ struct entity_sent {
     float turret, gun; /* [rad] */
     uint64_t sent_ns, heartbeat_ns;
     struct dead_reckoning state; /* as the receivers have it */
-    /* Of the row in the last frame that was seen, smoothed: world axes, body axes of DIS. */
+    /* Of the row in the last frame that was seen: world axes; rates in the body axes of DIS. */
     uint32_t seen_id;
     uint64_t seen_tick;
     struct vec3 seen_velocity, acceleration, rates;

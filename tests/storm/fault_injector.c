@@ -120,7 +120,7 @@ static uint32_t draw_role(struct fault_injector *injector)
 {
     static const uint32_t roles[] = {ROLE_MOVER,    ROLE_MOVER,    ROLE_MOVER,    ROLE_COLLIDER,
                                      ROLE_COLLIDER, ROLE_COLLIDER, ROLE_RECORDER, ROLE_INTAKE,
-                                     ROLE_INTAKE,   ROLE_REPORTER, ROLE_RENDERER};
+                                     ROLE_INTAKE,   ROLE_REPORTER, ROLE_RENDERER, ROLE_GATEWAY};
     for (;;) {
         uint32_t role = roles[prng_below(&injector->prng, sizeof roles / sizeof *roles)];
         if (atomic_load(&injector->set->view.slot[role]->starts) > 0)

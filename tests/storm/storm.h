@@ -43,7 +43,7 @@ enum fault_kind {
     FAULT_COUNT
 };
 
-#define STRUCK_ROLES      (ROLE_RENDERER + 1)
+#define STRUCK_ROLES      ROLE_COUNT
 #define STRUCK_SUPERVISOR STRUCK_ROLES /* its row in the counts of strikes */
 
 /* splitmix64, the only source of randomness of the storm */
