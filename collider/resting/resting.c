@@ -6,6 +6,7 @@
 #include "collider/response/response.h"
 #include "collider/resting/ground_placement.h"
 #include "collider/resting/parting.h"
+#include "collider/resting/parting_ways.h"
 #include "collider/resting/resting_gaps.h"
 #include "world/entity/mass_properties.h"
 #include "world/params.h"
@@ -32,8 +33,9 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
     resting->moved = reserve_take(rows, sizeof *resting->moved);
     if (contact_groups_init(&resting->groups, world) == 0 &&
         parting_init(&resting->parting, rows + pairs, pairs * RESTING_POINTS_MAX) == 0 &&
-        neighbours_init(&resting->neighbours, world) == 0 && resting->gap && resting->pair &&
-        resting->point && resting->body && resting->row && resting->body_of && resting->moved)
+        neighbours_init(&resting->neighbours, world) == 0 && level_exit_init(&resting->exit) == 0 &&
+        resting->gap && resting->pair && resting->point && resting->body && resting->row &&
+        resting->body_of && resting->moved)
         return 0;
     resting_free(resting);
     errno = ENOMEM;
@@ -45,6 +47,7 @@ void resting_free(struct resting *resting)
     contact_groups_free(&resting->groups);
     parting_free(&resting->parting);
     neighbours_free(&resting->neighbours);
+    level_exit_free(&resting->exit);
     reserve_free(resting->gap);
     reserve_free(resting->pair);
     reserve_free(resting->point);
@@ -317,6 +320,7 @@ void resting_solve(struct resting *resting, struct response_context *context)
     resting->pairs = resting->points = resting->bodies = 0;
     contact_groups_find(&resting->groups, context);
     resting_gaps_measure(resting, context);
+    parting_ways_find(resting, context);
     for (uint32_t i = 0; i < resting->groups.count; i++)
         take(resting, context, &resting->groups.pair[i], &resting->gap[i]);
     level_solver_run(resting->body, resting->bodies, resting->point, resting->points);

@@ -6,12 +6,14 @@
 #ifndef JOLON_COLLIDER_RESTING_RESTING_H
 #define JOLON_COLLIDER_RESTING_RESTING_H
 
+#include "collider/geometry/level_exit.h"
 #include "collider/geometry/level_gap.h"
 #include "collider/resting/contact_groups.h"
 #include "collider/resting/level_solver.h"
 #include "collider/resting/neighbours.h"
 #include "collider/resting/parting.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 struct thread_pool;
@@ -38,6 +40,8 @@ struct resting_gap {
     uint32_t count;
     uint32_t pair;  /* index into contacts->pair, if there are gaps */
     double apart_m; /* the bodies are apart by this at least */
+    bool leaves;    /* it needs a way out (collider/resting/parting_ways.h) */
+    bool went;      /* and has been given it */
 };
 
 /* The collider's own memory, kept from frame to frame. */
@@ -46,6 +50,7 @@ struct resting {
     struct contact_groups groups;
     struct parting parting;
     struct neighbours neighbours;
+    struct level_exit exit;
     struct resting_gap *gap; /* [groups.count] */
     struct resting_pair *pair;
     uint32_t pairs, capacity;

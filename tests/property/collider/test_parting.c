@@ -21,6 +21,9 @@
 #define CROWD_FRAMES 180 /* 3 s */
 #define PILE         25
 
+#define INSIDE_FRAMES  150
+#define FRAMES_A_METRE 6.0 /* 10 m/s at 60 Hz */
+
 static struct fixture f;
 
 static void open_world(const char *objects)
@@ -167,6 +170,65 @@ static void test_row_46_a_vehicle_parts_from_an_object(void **state)
     run_object("tank", "building");
 }
 
+/* A vehicle that begins anywhere within an object of several hulls leaves it on one line, at the
+ * parting speed, and then stands. */
+static void run_inside(const char *vehicle, const char *object, uint64_t *random)
+{
+    char text[128];
+    double x = 25000.0 + fixture_uniform(random, -4.0, 4.0);
+    double z = 25000.0 + fixture_uniform(random, -4.0, 4.0), far = 0.0, way = 0.0;
+    uint32_t frames = 0;
+    snprintf(text, sizeof text, "objects = ( { kind = \"%s\"; at = [25000.0, 25000.0]; } );\n",
+             object);
+    open_world(text);
+    fixture_put(&f, (struct fixture_entity){.kind = vehicle,
+                                            .at = {x, FIXTURE_GROUND_M, z},
+                                            .heading_rad = fixture_uniform(random, 0.0, TWO_PI)});
+    look();
+    for (uint32_t frame = 1; frame <= INSIDE_FRAMES; frame++) {
+        struct entities e = steps_rows(&f);
+        double at_x = e.x[0], at_z = e.z[0];
+        fixture_continue(&f, 1);
+        e = steps_rows(&f);
+        double moved = sqrt((e.x[0] - at_x) * (e.x[0] - at_x) + (e.z[0] - at_z) * (e.z[0] - at_z));
+        double now = sqrt((e.x[0] - x) * (e.x[0] - x) + (e.z[0] - z) * (e.z[0] - z));
+        assert_true(now >= far - 1e-6);
+        far = now;
+        way += moved;
+        if (moved > 0.0)
+            frames = frame;
+    }
+    print_message("%s in a %s: %.2f m to leave it, %u frames\n", vehicle, object, far, frames);
+    assert_true(-gap_of(0, PAIR_FIXED) < OVERLAP_M);
+    assert_true(way <= far * 1.05 + 1e-3);
+    assert_true(frames <= PART_FRAMES + (uint32_t)(far * FRAMES_A_METRE));
+    fixture_close(&f);
+}
+
+static void test_row_46_a_vehicle_leaves_an_object_of_several_hulls(void **state)
+{
+    static const char *const object[] = {"building", "watertower", "bunker", "tree", "rock"};
+    uint64_t random = fixture_seed(81);
+    (void)state;
+    for (uint32_t i = 0; i < 20; i++) {
+        run_inside("jeep", object[i % 5], &random);
+        run_inside("tank", object[i % 5], &random);
+    }
+}
+
+/* Walls that stand in each other are one obstacle: the way leads out of both. */
+static void test_row_46_a_vehicle_leaves_walls_that_are_joined(void **state)
+{
+    (void)state;
+    open_world("objects = ( { kind = \"building\"; at = [25000.0, 25000.0]; },\n"
+               "            { kind = \"building\"; at = [25010.0, 25000.0]; } );\n");
+    put("jeep", 25005.0, 25001.0, 0.0, 0.0);
+    look();
+    fixture_continue(&f, INSIDE_FRAMES);
+    assert_true(-gap_of(0, PAIR_FIXED) < OVERLAP_M && -gap_of(0, PAIR_FIXED | 1) < OVERLAP_M);
+    fixture_close(&f);
+}
+
 /* --- neighbours --------------------------------------------------------------------------------*/
 
 /* The gaps of all pairs at the start: those that overlap have to part; no other may overlap. */
@@ -309,6 +371,8 @@ int main(void)
         cmocka_unit_test(test_row_46_two_that_overlap_part),
         cmocka_unit_test(test_row_46_three_in_a_row_part),
         cmocka_unit_test(test_row_46_a_vehicle_parts_from_an_object),
+        cmocka_unit_test(test_row_46_a_vehicle_leaves_an_object_of_several_hulls),
+        cmocka_unit_test(test_row_46_a_vehicle_leaves_walls_that_are_joined),
         cmocka_unit_test(test_row_46_neighbours_are_pushed_aside_not_into_each_other),
         cmocka_unit_test(test_row_46_a_pile_pushes_nobody_into_others),
         cmocka_unit_test(test_row_46_a_crowd_at_one_place_parts_in_3_s),

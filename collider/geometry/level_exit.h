@@ -1,0 +1,54 @@
+/* The shortest level way of a body out of others: out of all hulls of all of them, so that it does
+ * not lead from one hull into the next. Pure; any thread, each with a search of its own.
+ *
+ * Two hulls overlap while no face of either separates them. Where a body moves along a line they do
+ * so for one interval of its way, and the way out ends with the intervals that follow on each other
+ * from its beginning. Axes across two edges are left out, so that the way is at most longer than
+ * needed. A body that has gone a part of its way has exactly the rest of it before it. */
+#ifndef JOLON_COLLIDER_GEOMETRY_LEVEL_EXIT_H
+#define JOLON_COLLIDER_GEOMETRY_LEVEL_EXIT_H
+
+#include "collider/geometry/time_of_impact.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* A face between two hulls. */
+struct exit_plane {
+    double x, z;         /* level part of its unit normal, from the body to the other */
+    double separation_m; /* of the hulls along the normal; below 0 they overlap */
+};
+
+/* Two hulls that may overlap on a level way. */
+struct exit_hulls {
+    uint32_t first, end; /* planes */
+    bool overlaps;       /* at the beginning */
+    bool bars;           /* no way leads through them */
+};
+
+/* A search, which keeps its memory from one to the next. */
+struct level_exit {
+    struct exit_plane *plane;
+    struct exit_hulls *hulls;
+    uint64_t plane_capacity, hulls_capacity;
+    uint32_t planes, hulls_count;
+};
+
+/* Returns 0, or -1 with errno ENOMEM. */
+int level_exit_init(struct level_exit *search);
+void level_exit_free(struct level_exit *search);
+
+/* Begins a search. */
+void level_exit_begin(struct level_exit *search);
+
+/* Adds another body; both stand as they do at the beginning of the frame. bars: the way must not
+ * lead through it. */
+void level_exit_add(struct level_exit *search, const struct swept_body *body,
+                    const struct swept_body *other, bool bars);
+
+/* Returns how far the body has to move to be out of all others [m]. *normal: unit, level, against
+ * the motion. bars: heeds those that bar the way. INFINITY: the body overlaps no other, or all ways
+ * are barred. Ways along the normals of the faces are tried. */
+double level_exit_find(const struct level_exit *search, bool bars, struct vec3 *normal);
+
+#endif
