@@ -1,4 +1,4 @@
-/* A search for each body in walls. */
+/* A search for each body in walls, and for each couple of bodies. */
 #include "collider/resting/parting_ways.h"
 
 #include "collider/geometry/level_exit.h"
@@ -55,6 +55,30 @@ static double way_from_walls(struct resting *resting, struct response_context *c
     return way < INFINITY ? way : level_exit_find(&resting->exit, false, normal);
 }
 
+static double way_from_body(struct resting *resting, struct response_context *context,
+                            const struct pair *pair, struct vec3 *normal)
+{
+    struct free_turn turn_a, turn_b;
+    const struct swept_body a = body_motion_body(context->motion, pair->a, &turn_a);
+    const struct swept_body b = body_motion_side(context->motion, pair->b, &turn_b);
+    level_exit_begin(&resting->exit);
+    level_exit_add(&resting->exit, &a, &b, false);
+    return level_exit_find(&resting->exit, false, normal);
+}
+
+/* Counts for each row the pairs that need a way. */
+static void count_pairs(struct resting *resting, int change)
+{
+    for (uint32_t i = 0; i < resting->groups.count; i++) {
+        const struct pair *pair = &resting->groups.pair[i];
+        if (!resting->gap[i].leaves)
+            continue;
+        resting->leaving[pair->a] += (uint32_t)change;
+        if (!(pair->b & PAIR_FIXED))
+            resting->leaving[pair->b] += (uint32_t)change;
+    }
+}
+
 static void go(struct resting_gap *gap, double way, struct vec3 normal)
 {
     if (way == INFINITY || (way < RESTING_PARTS_M && !is_deep(gap)))
@@ -91,11 +115,16 @@ void parting_ways_find(struct resting *resting, struct response_context *context
     }
     if (!any)
         return;
+    count_pairs(resting, 1);
     for (uint32_t i = 0; i < resting->groups.count; i++) {
         const struct pair *pair = &resting->groups.pair[i];
+        struct vec3 normal = {0.0, 0.0, 0.0};
         if (!resting->gap[i].leaves || resting->gap[i].went)
             continue;
         if (pair->b & PAIR_FIXED)
             leave_walls(resting, context, i);
+        else if (resting->leaving[pair->a] == 1 && resting->leaving[pair->b] == 1)
+            go(&resting->gap[i], way_from_body(resting, context, pair, &normal), normal);
     }
+    count_pairs(resting, -1);
 }

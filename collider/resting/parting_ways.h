@@ -1,6 +1,6 @@
-/* The ways on which bodies leave walls that they overlap deeply. They are the shortest ways out of
- * all hulls, and stay the same until the bodies have parted. Bodies have the normals that
- * resting_gaps.c gives them. One caller. */
+/* The ways on which bodies leave what they overlap deeply: walls, and another body if neither is
+ * deep in a third. They are the shortest ways out of all hulls, and stay the same until the bodies
+ * have parted. Pairs of crowds have the normals that resting_gaps.c gives them. One caller. */
 #ifndef JOLON_COLLIDER_RESTING_PARTING_WAYS_H
 #define JOLON_COLLIDER_RESTING_PARTING_WAYS_H
 

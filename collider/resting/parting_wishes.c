@@ -91,11 +91,12 @@ static const struct kind *kind_of(const struct parting_input *input, uint32_t bo
     return &context->world->kinds[context->next->entities.kind[input->row[body]]];
 }
 
-/* Returns true if the bodies of the crowd need more room than the disc about them has. */
+/* Returns true if the bodies of the crowd need more room than the disc about them has. Two bodies
+ * have a way of their own (collider/resting/parting_ways.h). */
 static bool is_dense(const struct parting_body *root)
 {
     double reach = root->reach_m + sqrt(root->area_m2 / (PI * root->members));
-    return root->members > 1 && PI * reach * reach < ROOM * root->area_m2;
+    return root->members > 2 && PI * reach * reach < ROOM * root->area_m2;
 }
 
 /* Sums masses, areas and places of each crowd at its root. */

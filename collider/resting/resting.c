@@ -31,11 +31,12 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
     resting->row = reserve_take(rows + pairs, sizeof *resting->row);
     resting->body_of = calloc(rows, sizeof *resting->body_of);
     resting->moved = reserve_take(rows, sizeof *resting->moved);
+    resting->leaving = calloc(rows, sizeof *resting->leaving);
     if (contact_groups_init(&resting->groups, world) == 0 &&
         parting_init(&resting->parting, rows + pairs, pairs * RESTING_POINTS_MAX) == 0 &&
         neighbours_init(&resting->neighbours, world) == 0 && level_exit_init(&resting->exit) == 0 &&
         resting->gap && resting->pair && resting->point && resting->body && resting->row &&
-        resting->body_of && resting->moved)
+        resting->body_of && resting->moved && resting->leaving)
         return 0;
     resting_free(resting);
     errno = ENOMEM;
@@ -48,6 +49,7 @@ void resting_free(struct resting *resting)
     parting_free(&resting->parting);
     neighbours_free(&resting->neighbours);
     level_exit_free(&resting->exit);
+    free(resting->leaving);
     reserve_free(resting->gap);
     reserve_free(resting->pair);
     reserve_free(resting->point);

@@ -2,6 +2,7 @@
 #include "supervisor/physics/overlaps.h"
 
 #include "supervisor/physics/hull_overlap.h"
+#include "supervisor/physics/way_out.h"
 #include "world/entity/entity.h"
 #include "world/entity/hull.h"
 #include "world/entity/kind.h"
@@ -155,6 +156,26 @@ static double pieces_apart(const struct overlaps *overlaps, const struct pair_si
     return least;
 }
 
+static struct way_pieces pieces_of(const struct overlaps *overlaps, const struct pair_side *side,
+                                   struct rigid_pose *pose)
+{
+    struct rigid_pose part[HULL_PART_COUNT];
+    const struct kind *kind = side->kind;
+    find_parts(side, part);
+    for (uint32_t i = 0; i < kind->hull_count; i++)
+        pose[i] = part[part_of(overlaps, kind->first_hull + i)];
+    return (struct way_pieces){&overlaps->shape[kind->first_hull], pose, kind->hull_count,
+                               side->scale};
+}
+
+static double way_out(const struct overlaps *overlaps, const struct pair_side sides[2])
+{
+    struct rigid_pose pose_a[HULLS_A_MODEL], pose_b[HULLS_A_MODEL];
+    const struct way_pieces a = pieces_of(overlaps, &sides[0], pose_a);
+    const struct way_pieces b = pieces_of(overlaps, &sides[1], pose_b);
+    return way_out_find(&a, &b);
+}
+
 static double bodies_apart(const struct overlaps *overlaps, const struct pair_side *a,
                            const struct pair_side *b, double enough, struct vec3 *axis)
 {
@@ -208,19 +229,34 @@ static bool parts_from_others(const struct body_look *body, const struct overlap
     return body->parted > (last && last->since_start ? 1u : 0u);
 }
 
+/* Bodies that began in each other get deeper only if their way out gets longer, too. before: the
+ * pair's sides at the end of the last frame. */
 static void measure_growth(struct look *look, const struct overlap *pair,
-                           const struct overlap *last, const struct measured_body *a,
+                           const struct overlap *last, const struct pair_side before[2],
+                           const struct pair_side now[2], const struct measured_body *a,
                            const struct measured_body *b)
 {
-    double before = last ? last->depth_m : 0.0;
-    measure_take(look->measures, MEASURE_OF_OVERLAP_GROWTH, maths_max(0.0, pair->depth_m - before),
-                 a, b);
+    const struct overlaps *overlaps = look->overlaps;
+    double growth = maths_max(0.0, pair->depth_m - (last ? last->depth_m : 0.0));
+    if (growth > ROUNDING_M && pair->since_start && !overlaps->spheres)
+        growth = maths_clamp(way_out(overlaps, now) - way_out(overlaps, before), 0.0, growth);
+    measure_take(look->measures, MEASURE_OF_OVERLAP_GROWTH, growth, a, b);
 }
 
 static struct pair_side side_of(const struct body_look *body)
 {
     return (struct pair_side){&body->now.pose,      body->kind,       1.0,
                               body->kind->radius_m, body->now.turret, body->now.gun};
+}
+
+/* The same at the end of the last frame. */
+static struct pair_side side_before(const struct body_look *body)
+{
+    struct pair_side side = side_of(body);
+    side.pose = &body->was->pose;
+    side.turret = body->was->turret;
+    side.gun = body->was->gun;
+    return side;
 }
 
 static uint64_t key_of(uint32_t first, uint32_t second)
@@ -249,8 +285,10 @@ static int look_at_pair(struct look *look, struct body_look *a, struct body_look
         pair.depth_m = maths_max(0.0, -apart);
         pair.touch = apart < enough;
         measure_pair(look, &pair, last, !a->known || !b->known, &a->named, &b->named);
-        if (a->known && b->known && !parts_from_others(a, last) && !parts_from_others(b, last))
-            measure_growth(look, &pair, last, &a->named, &b->named);
+        if (a->known && b->known && !parts_from_others(a, last) && !parts_from_others(b, last)) {
+            const struct pair_side earlier[2] = {side_before(a), side_before(b)};
+            measure_growth(look, &pair, last, earlier, sides, &a->named, &b->named);
+        }
         a->parts += pair.since_start;
         b->parts += pair.since_start;
     }
@@ -285,8 +323,10 @@ static int look_at_wall(struct look *look, struct body_look *body, uint32_t inde
     pair.touch = apart < enough;
     body->touches |= pair.touch;
     measure_pair(look, &pair, last, !body->known, &body->named, &named);
-    if (body->known && !parts_from_others(body, last))
-        measure_growth(look, &pair, last, &body->named, &named);
+    if (body->known && !parts_from_others(body, last)) {
+        const struct pair_side earlier[2] = {side_before(body), sides[1]};
+        measure_growth(look, &pair, last, earlier, sides, &body->named, &named);
+    }
     body->parts += pair.since_start;
     return list_add(&overlaps->wall_pairs[overlaps->current], &pair);
 }

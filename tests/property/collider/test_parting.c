@@ -136,6 +136,36 @@ static void test_row_46_two_that_overlap_part(void **state)
     run_two("jeep", "jeep", 0.6, 0.8, 0.0);
 }
 
+/* Two at one place part on one line, the shortest way. */
+static void run_at_one_place(const char *first, const char *second, double way_m)
+{
+    double x = 0.0, z = 0.0, way = 0.0;
+    open_world("");
+    put(first, 25000.0, 25000.0, 0.0, 0.0);
+    put(second, 25000.0, 25000.0, 0.0, 0.0);
+    look();
+    for (uint32_t frame = 0; frame < 60; frame++) {
+        fixture_continue(&f, 1);
+        struct entities e = steps_rows(&f);
+        double dx = e.x[1] - e.x[0] - x, dz = e.z[1] - e.z[0] - z;
+        way += sqrt(dx * dx + dz * dz);
+        x += dx, z += dz;
+    }
+    print_message("%s and %s at one place: %.3f m, a way of %.3f m\n", first, second,
+                  sqrt(x * x + z * z), way);
+    assert_true(-gap_of(0, 1) < PARTED_M);
+    assert_true(way <= way_m && way <= sqrt(x * x + z * z) * 1.01);
+    fixture_close(&f);
+}
+
+static void test_row_46_two_at_one_place_part_the_shortest_way(void **state)
+{
+    (void)state;
+    run_at_one_place("tank", "tank", 3.7);
+    run_at_one_place("tank", "jeep", 3.0);
+    run_at_one_place("truck", "carrier", 3.0);
+}
+
 static void test_row_46_three_in_a_row_part(void **state)
 {
     const struct pair pair[] = {{0, 1}, {1, 2}};
@@ -369,6 +399,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_row_46_two_that_overlap_part),
+        cmocka_unit_test(test_row_46_two_at_one_place_part_the_shortest_way),
         cmocka_unit_test(test_row_46_three_in_a_row_part),
         cmocka_unit_test(test_row_46_a_vehicle_parts_from_an_object),
         cmocka_unit_test(test_row_46_a_vehicle_leaves_an_object_of_several_hulls),
