@@ -194,8 +194,8 @@ static double reach_of(const struct response_context *context, uint32_t side)
                : pair_filter_row_reach(&context->input.detect, side);
 }
 
-/* Returns true if the bodies touch or overlap at the end of the frame. */
-static bool touch_at_end(const struct response_context *context,
+/* Returns how far the bodies are apart at the end of the frame, below 0 if they overlap [m]. */
+static double gap_at_end(const struct response_context *context,
                          const struct persistent_contact *contact)
 {
     const struct body_motion *motion = context->motion;
@@ -204,10 +204,8 @@ static bool touch_at_end(const struct response_context *context,
     struct swept_body body_a = body_motion_standing(motion, e, a);
     struct swept_body body_b = body_motion_standing(motion, e, b);
     struct vec3 between = vec3_sub(body_b.path.at, body_a.path.at);
-    double gap = motion->models
-                     ? time_of_impact_gap(&body_a, &body_b, 0.0)
-                     : vec3_length(between) - reach_of(context, a) - reach_of(context, b);
-    return gap <= CONTACT_TOUCHING_M;
+    return motion->models ? time_of_impact_gap(&body_a, &body_b, 0.0)
+                          : vec3_length(between) - reach_of(context, a) - reach_of(context, b);
 }
 
 /* A body that is gone is as it was in the committed frame. */
@@ -267,14 +265,18 @@ static void keep(struct response_context *context, const struct persistent_conta
 {
     struct persistent_contact contact = *known;
     bool asks = is_old(context, known) || contact_table_lets_through(context, side_b(known));
+    double gap = INFINITY;
     if (gone(context, known)) {
         end(context, known, CONTACT_END_GONE);
         return;
     }
-    if (asks && one_moves(context, known) && touch_at_end(context, known))
+    bool moved = asks && one_moves(context, known);
+    if (moved)
+        gap = gap_at_end(context, known);
+    if (gap <= CONTACT_TOUCHING_M)
         contact.pressed_tick = (uint32_t)context->next->head->tick;
     work_done();
-    if (is_old(context, &contact) && one_moves(context, known))
+    if (moved && is_old(context, &contact) && gap > CONTACT_TABLE_PARTED_M)
         end(context, known, CONTACT_END_PARTED);
     else
         put(context, &contact);

@@ -12,6 +12,10 @@
  * another touches it more often. */
 #define CONTACT_TABLE_LASTS_S 0.25
 
+/* It has not ended while its bodies are this near [m]. At a low frame rate the way of one frame
+ * makes a body touch another, and the guard then puts it back by that way. */
+#define CONTACT_TABLE_PARTED_M 0.05
+
 /* The key of a contact as two words, in the order of the table. */
 struct contact_key {
     uint32_t a_id, b_id;

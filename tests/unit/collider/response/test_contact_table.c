@@ -222,6 +222,28 @@ static void test_bodies_that_still_touch_stay_in_contact(void **state)
     assert_int_equal(finish(1, 0)[0].pressed_tick, TICK);
 }
 
+/* Bodies that have not touched for long end their contact only when they are far enough apart. */
+static void test_bodies_that_are_near_stay_in_contact(void **state)
+{
+    uint32_t lasts = (uint32_t)(CONTACT_TABLE_LASTS_S / f.view.world.params->dt_s);
+    struct vec3 at[2];
+    (void)state;
+    steps_params(&f)->collision.shape = SHAPE_SPHERE;
+    know(0, 1, 70, TICK - lasts - 1);
+    know(2, 3, 70, TICK - lasts - 1);
+    begin();
+    double reach = 2.0 * pair_filter_row_reach(&context.input.detect, 0);
+    for (uint32_t i = 0; i < 2; i++) {
+        double gap = CONTACT_TABLE_PARTED_M + (i == 0 ? -1e-3 : 1e-3);
+        at[i] = entities_position(&context.next->entities, 2 * i);
+        context.next->entities.x[2 * i + 1] = at[i].x + reach + gap;
+        body_motion_compute(context.motion, 2 * i + 1);
+    }
+    const struct persistent_contact *contact = finish(1, 1);
+    assert_true(contact->a_id == 1 && contact->pressed_tick == TICK - lasts - 1);
+    assert_int_equal(event_of(0)->contact_end.because, CONTACT_END_PARTED);
+}
+
 static void test_a_body_that_is_gone_ends_its_contacts_at_once(void **state)
 {
     (void)state;
@@ -320,6 +342,7 @@ int main(void)
         TEST(test_known_are_the_committed),
         TEST(test_a_body_that_moves_away_ends_the_contact_after_a_time),
         TEST(test_bodies_that_still_touch_stay_in_contact),
+        TEST(test_bodies_that_are_near_stay_in_contact),
         TEST(test_a_body_that_is_gone_ends_its_contacts_at_once),
         TEST(test_an_object_that_falls_ends_its_contacts),
         TEST(test_contacts_without_room_are_told),
