@@ -29,6 +29,9 @@ struct body_pair {
     struct vec3 last;   /* the normal of the last overlap, or the line */
     struct vec3 *plane; /* [LEVEL_GAP_PLANES] normals that may separate hulls, or NULL */
     double apart_m;     /* all hulls measured so far are apart by this at least */
+    const struct level_gap_memory *before; /* where searches begin, or NULL */
+    struct level_gap_memory after;         /* where they ended */
+    uint32_t remembered;                   /* entries of after */
 };
 
 /* --- directions --------------------------------------------------------------------------------*/
@@ -157,20 +160,71 @@ static void learn(const struct body_pair *bodies, struct vec3 normal)
         bodies->plane[is_known(bodies->plane[0])] = normal;
 }
 
-/* Returns false if the hulls are farther apart than the margin. points: finds the points, too. Else
- * the gap is at least margin_m if it is not below it. */
-static bool measure(struct body_pair *bodies, const struct hull *hull_a, const struct hull *hull_b,
-                    double margin_m, bool points, struct level_gap *gap)
+/* --- memory ------------------------------------------------------------------------------------*/
+
+static bool has_vertices(const struct hull *hull, const uint8_t vertex[3], uint32_t count)
 {
+    for (uint32_t i = 0; i < count; i++) {
+        if (vertex[i] >= hull->vertex_count)
+            return false;
+    }
+    return true;
+}
+
+/* Returns where the search for the nearest points of two hulls begins. */
+static struct gjk_start start_of(const struct body_pair *bodies, uint32_t hulls,
+                                 const struct hull *hull_a, const struct hull *hull_b,
+                                 struct vec3 guess)
+{
+    struct gjk_start start = {.guess = guess};
+    for (uint32_t i = 0; bodies->before && i < PERSISTENT_CONTACT_NEAREST; i++) {
+        const struct nearest_vertices *known = &bodies->before->nearest[i];
+        if (known->count == 0 || known->count > 3 || known->hulls != hulls ||
+            !has_vertices(hull_a, known->a, known->count) ||
+            !has_vertices(hull_b, known->b, known->count))
+            continue;
+        start.count = known->count;
+        for (uint32_t k = 0; k < known->count; k++) {
+            start.a[k] = known->a[k];
+            start.b[k] = known->b[k];
+        }
+        break;
+    }
+    return start;
+}
+
+/* Remembers where a search ended, if there is room. */
+static void remember(struct body_pair *bodies, uint32_t hulls, const struct gjk_start *end)
+{
+    if (end->count == 0 || bodies->remembered == PERSISTENT_CONTACT_NEAREST)
+        return;
+    struct nearest_vertices *known = &bodies->after.nearest[bodies->remembered++];
+    *known = (struct nearest_vertices){.hulls = (uint8_t)hulls, .count = (uint8_t)end->count};
+    for (uint32_t k = 0; k < end->count; k++) {
+        known->a[k] = (uint8_t)end->a[k];
+        known->b[k] = (uint8_t)end->b[k];
+    }
+}
+
+/* --- all of two hulls --------------------------------------------------------------------------*/
+
+/* Returns false if the hulls are farther apart than the margin. points: finds the points, too. Else
+ * the gap is at least margin_m if it is not below it. hulls: their bit in box_view_near(). */
+static bool measure(struct body_pair *bodies, uint32_t hulls, double margin_m, bool points,
+                    struct level_gap *gap)
+{
+    const struct hull *hull_a = &bodies->a->hull[hulls / HULLS_A_MODEL];
+    const struct hull *hull_b = &bodies->b->hull[hulls % HULLS_A_MODEL];
     const struct relative_pose now =
         relative_pose_of(&bodies->pose_a, hull_a, &bodies->pose_b, hull_b, bodies->time);
     double radii = hull_a->radius_m * bodies->a->scale + hull_b->radius_m * bodies->b->scale;
     double near = maths_max(margin_m, 0.0);
     if (now.centres_m - radii > near || plane_separates(bodies, &now, near))
         return false;
-    struct gjk_start start = {.guess = now.towards};
-    const struct gjk gjk = gjk_distance_within(&now.a, &now.b, near, &start);
+    struct gjk_start search = start_of(bodies, hulls, hull_a, hull_b, now.towards);
+    const struct gjk gjk = gjk_distance_within(&now.a, &now.b, near, &search);
     struct vec3 normal = gjk.normal;
+    remember(bodies, hulls, &search);
     if (gjk.distance_m > near) {
         learn(bodies, gjk.normal);
         return false;
@@ -246,8 +300,7 @@ static uint32_t search(struct body_pair *bodies, double *margin_m, struct level_
     for (uint64_t near = box_view_near(&view, a, b); near != 0; near &= near - 1) {
         uint32_t bit = (uint32_t)__builtin_ctzll(near);
         struct level_gap one;
-        if (!measure(bodies, &a->hull[bit / HULLS_A_MODEL], &b->hull[bit % HULLS_A_MODEL],
-                     *margin_m, list != NULL, &one))
+        if (!measure(bodies, bit, *margin_m, list != NULL, &one))
             continue;
         if (list)
             count = keep(list, room, count, &one);
@@ -261,16 +314,20 @@ uint32_t level_gap_find(const struct swept_body *a, const struct swept_body *b, 
                         double margin_m, struct level_gap *gap)
 {
     double apart_m;
-    return level_gap_find_more(a, b, time, margin_m, gap, LEVEL_GAPS_MAX, &apart_m);
+    struct level_gap_memory none = {0};
+    return level_gap_find_more(a, b, time, margin_m, gap, LEVEL_GAPS_MAX, &apart_m, &none);
 }
 
 uint32_t level_gap_find_more(const struct swept_body *a, const struct swept_body *b, double time,
-                             double margin_m, struct level_gap *gap, uint32_t room, double *apart_m)
+                             double margin_m, struct level_gap *gap, uint32_t room, double *apart_m,
+                             struct level_gap_memory *memory)
 {
     struct body_pose pose_a = pose_at(a, time), pose_b = pose_at(b, time);
     struct body_pair bodies = body_pair_of(&pose_a, &pose_b, time);
+    bodies.before = memory;
     uint32_t count = search(&bodies, &margin_m, gap, room);
     *apart_m = bodies.apart_m;
+    *memory = bodies.after;
     return count;
 }
 
@@ -284,13 +341,14 @@ double level_gap_least(const struct swept_body *a, const struct swept_body *b, d
 }
 
 double level_gap_depth(const struct turned_body *a, const struct turned_body *b,
-                       struct vec3 plane[LEVEL_GAP_PLANES])
+                       struct vec3 plane[LEVEL_GAP_PLANES], const struct level_gap_memory *memory)
 {
     const struct body_pose pose_a = {.body = a->body, .turn = a->turn};
     const struct body_pose pose_b = {.body = b->body, .turn = b->turn};
     struct body_pair bodies = body_pair_of(&pose_a, &pose_b, 0.0);
     double gap_m = 0.0;
     bodies.plane = plane;
+    bodies.before = memory;
     search(&bodies, &gap_m, NULL, 0);
     return gap_m;
 }

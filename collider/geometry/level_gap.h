@@ -4,6 +4,7 @@
 #define JOLON_COLLIDER_GEOMETRY_LEVEL_GAP_H
 
 #include "collider/geometry/time_of_impact.h"
+#include "world/entity/persistent_contact.h"
 
 #include <stdint.h>
 
@@ -24,6 +25,12 @@ struct level_gap {
     uint32_t points;      /* 1 or 2 */
 };
 
+/* The memory of a pair of bodies: where the search for the nearest points of its near hulls ended,
+ * and where it begins the next time. Unused entries have no count. */
+struct level_gap_memory {
+    struct nearest_vertices nearest[PERSISTENT_CONTACT_NEAREST];
+};
+
 /* A body that stands still, and the matrix of its rotation. */
 struct turned_body {
     const struct swept_body *body;
@@ -39,10 +46,10 @@ uint32_t level_gap_find(const struct swept_body *a, const struct swept_body *b, 
                         double margin_m, struct level_gap *gap);
 
 /* The same, with another room in gap. Sets *apart_m to a length [m, >= 0] by which the bodies are
- * apart at least: their distance if it is within margin_m. */
+ * apart at least: their distance if it is within margin_m. memory: of this pair, and updated. */
 uint32_t level_gap_find_more(const struct swept_body *a, const struct swept_body *b, double time,
-                             double margin_m, struct level_gap *gap, uint32_t room,
-                             double *apart_m);
+                             double margin_m, struct level_gap *gap, uint32_t room, double *apart_m,
+                             struct level_gap_memory *memory);
 
 /* Returns the smallest of those gaps [m], or margin_m if all are larger. */
 double level_gap_least(const struct swept_body *a, const struct swept_body *b, double time,
@@ -51,9 +58,10 @@ double level_gap_least(const struct swept_body *a, const struct swept_body *b, d
 /* Returns the smallest of the gaps between bodies that stand still, if that is below 0, else 0: the
  * same to the bit as level_gap_least() with a margin of 0. plane: unit normals from a to b, or 0,
  * that are tried first; what a search finds is left there. Hulls that one of them separates
- * are not searched. */
+ * are not searched. memory: of this pair, or NULL. */
 double level_gap_depth(const struct turned_body *a, const struct turned_body *b,
-                       struct vec3 plane[LEVEL_GAP_PLANES]);
+                       struct vec3 plane[LEVEL_GAP_PLANES], const struct level_gap_memory *memory);
+
 /* Replaces the first of the gaps that level_gap_find() found at this time, of bodies of which
  * several pairs of hulls overlap: normal and gap become those along which the whole bodies part in
  * the shortest way. The normal is that of one of the gaps, or the line between the positions. */

@@ -36,7 +36,8 @@ uint32_t contact_pairs_add(struct contact_queue *contacts, struct pair pair)
     contacts->swept[index] = 0;
     contacts->marks[index] = 0;
     contacts->impacts[index] = (struct pair_impacts){0};
-    contacts->known[index] = (struct pair_known){.before_m = PAIR_NOT_MEASURED};
+    contacts->known[index] =
+        (struct pair_known){.before_m = PAIR_NOT_MEASURED, .version_a = UINT32_MAX};
     contacts->rest[index] = (struct rest_span){0, 0};
     link_row(contacts, pair.a, index);
     if (!(pair.b & PAIR_FIXED))

@@ -127,9 +127,13 @@ static bool sweep_pair(struct contact_queue *contacts, const struct contact_inpu
     if (contacts->marks[index] & CONTACT_PARTS ||
         (contacts->proves && contact_rests_still(contacts, input, index)))
         return false;
+    struct pair_known *known = &contacts->known[index];
     if (contacts->proves &&
-        pair_apart_stays(&contacts->apart, pair, from, SKIN_M, &contacts->known[index].plane[0]))
+        pair_apart_stays(&contacts->apart, pair, from, SKIN_M, &known->plane[0], &known->stays_m)) {
+        known->version_a = contacts->version[pair->a];
+        known->version_b = fixed ? 0 : contacts->version[pair->b];
         return false;
+    }
     *contact = (struct contact){.a = pair->a,
                                 .b = pair->b,
                                 .pair = index + 1,
@@ -138,6 +142,14 @@ static bool sweep_pair(struct contact_queue *contacts, const struct contact_inpu
     return narrow_phase_find(&input->detect, input->motion, input->through_fixed, pair, from,
                              &contact->impact) &&
            !(contacts->marks[index] & CONTACT_RESTS && contact_rests_on(input, contact));
+}
+
+bool contact_queue_stays_apart(const struct contact_queue *contacts, uint32_t pair)
+{
+    const struct pair *bodies = &contacts->pair[pair];
+    const struct pair_known *known = &contacts->known[pair];
+    return known->version_a == contacts->version[bodies->a] &&
+           (bodies->b & PAIR_FIXED || known->version_b == contacts->version[bodies->b]);
 }
 
 /* Computes what the proofs need of a row, if its path has changed. */

@@ -70,6 +70,11 @@ struct pair_known {
     double before_m; /* their gap in the committed frame, 0 if they were apart, or
                         PAIR_NOT_MEASURED */
     double apart_m;  /* they are apart by this at least when the frame begins; 0: not known */
+    struct level_gap_memory memory; /* of their near hulls */
+    /* On these versions of their paths the bodies certainly stay apart until the frame's end, by at
+     * least stays_m; version_a of UINT32_MAX: that is not known. */
+    uint32_t version_a, version_b;
+    double stays_m;
 };
 
 struct contact_link {
@@ -135,6 +140,10 @@ void contact_queue_begin(struct contact_queue *contacts, const struct pair_list 
 
 /* Resets the marks that contact_queue_begin() set. */
 void contact_queue_end(struct contact_queue *contacts);
+
+/* Returns true if the sweep has shown that the pair stays apart until the frame's end on its
+ * bodies' present paths. */
+bool contact_queue_stays_apart(const struct contact_queue *contacts, uint32_t pair);
 
 /* Returns the index of a pair in contacts->pair, and adds it if it is missing. */
 uint32_t contact_queue_pair(struct contact_queue *contacts, const struct pair *pair);

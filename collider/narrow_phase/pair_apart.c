@@ -66,7 +66,7 @@ static struct row_pose fixed_pose(const struct pair_apart *apart, uint32_t objec
 }
 
 bool pair_apart_stays(const struct pair_apart *apart, const struct pair *pair, double time,
-                      double margin_m, struct vec3 *axis)
+                      double margin_m, struct vec3 *axis, double *apart_m)
 {
     const struct row_pose *a = &apart->row[pair->a], *b = NULL;
     struct row_pose fixed;
@@ -76,11 +76,12 @@ bool pair_apart_stays(const struct pair_apart *apart, const struct pair *pair, d
     } else {
         b = &apart->row[pair->b];
     }
+    *apart_m = margin_m;
     if (spheres_stay(&a->body, &b->body, time, margin_m))
         return true;
     if (a->freely || b->freely)
         return false;
     struct axis_side side_a = axis_side_of(&a->body, &a->from, &a->to, a->rate, time);
     struct axis_side side_b = axis_side_of(&b->body, &b->from, &b->to, b->rate, time);
-    return separating_axis_find(&side_a, &side_b, margin_m, axis);
+    return separating_axis_find(&side_a, &side_b, margin_m, axis, apart_m);
 }

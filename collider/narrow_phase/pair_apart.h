@@ -35,8 +35,9 @@ void pair_apart_forget(struct pair_apart *apart, uint32_t row);
 
 /* Returns true if the hulls of the pair certainly stay farther apart than margin_m [m, >= 0] from
  * `time` to 1. False promises nothing. *axis may show it, and is kept for the next time (see
- * separating_axis_find). The rows must be prepared. Any thread. */
+ * separating_axis_find). *apart_m becomes a length by which they stay apart at least. The rows must
+ * be prepared. Any thread. */
 bool pair_apart_stays(const struct pair_apart *apart, const struct pair *pair, double time,
-                      double margin_m, struct vec3 *axis);
+                      double margin_m, struct vec3 *axis, double *apart_m);
 
 #endif

@@ -85,21 +85,28 @@ static double enough_for(const struct axis_side *a, const struct axis_side *b, d
     return margin_m + ROUNDING_M + a->bend_m + b->bend_m;
 }
 
+/* Returns the separation of the boxes along the axis, the lesser of both ends of the time, or of
+ * the hulls if that of the boxes is not enough. Less than enough is no separation. */
+static double separation(const struct axis_side *a, const struct axis_side *b, struct vec3 axis,
+                         double enough)
+{
+    const struct vec3 back = vec3_scale(axis, -1.0);
+    double least = box_separation(a, b, axis, enough);
+    if (least > enough)
+        return least;
+    int ends = a->still && b->still ? 1 : 2;
+    least = INFINITY;
+    for (int end = 0; end < ends && least > enough; end++)
+        least = maths_min(least, between(a, b, end, axis) - hull_reach(a, end, axis) -
+                                     hull_reach(b, end, back));
+    return least;
+}
+
 bool separating_axis_holds(const struct axis_side *a, const struct axis_side *b, struct vec3 axis,
                            double margin_m)
 {
-    const struct vec3 back = vec3_scale(axis, -1.0);
     double enough = enough_for(a, b, margin_m);
-    if (box_separation(a, b, axis, enough) > enough)
-        return true;
-    int ends = a->still && b->still ? 1 : 2;
-    for (int end = 0; end < ends; end++) {
-        double apart =
-            between(a, b, end, axis) - hull_reach(a, end, axis) - hull_reach(b, end, back);
-        if (!(apart > enough))
-            return false;
-    }
-    return true;
+    return separation(a, b, axis, enough) > enough;
 }
 
 static struct vec3 column(const struct mat3 *turn, int i)
@@ -107,13 +114,14 @@ static struct vec3 column(const struct mat3 *turn, int i)
     return (struct vec3){turn->m[0][i], turn->m[1][i], turn->m[2][i]};
 }
 
-/* Returns true if a box shows it. Else *best is the axis that separates the boxes most. */
-static bool find_by_boxes(const struct axis_side *a, const struct axis_side *b, double enough,
-                          struct vec3 *best)
+/* Returns the separation of the boxes along the axis that separates them most, or along the first
+ * one along which it is enough. */
+static double find_by_boxes(const struct axis_side *a, const struct axis_side *b, double enough,
+                            struct vec3 *best)
 {
     struct vec3 line = vec3_sub(b->at[0], a->at[0]);
     double length = vec3_length(line), most = -INFINITY;
-    for (int i = 0; i < CANDIDATES; i++) {
+    for (int i = 0; i < CANDIDATES && most <= enough; i++) {
         struct vec3 axis = i < 3   ? column(&a->turn[0], 2 - i)
                            : i < 6 ? column(&b->turn[0], 5 - i)
                                    : vec3_scale(line, length > 0.0 ? 1.0 / length : 0.0);
@@ -124,10 +132,8 @@ static bool find_by_boxes(const struct axis_side *a, const struct axis_side *b, 
             most = apart;
             *best = axis;
         }
-        if (most > enough)
-            return true;
     }
-    return false;
+    return most;
 }
 
 /* Returns the normal of the nearest points of the hulls at the beginning, 0 if they overlap or one
@@ -147,17 +153,24 @@ static struct vec3 nearest_normal(const struct axis_side *a, const struct axis_s
 }
 
 bool separating_axis_find(const struct axis_side *a, const struct axis_side *b, double margin_m,
-                          struct vec3 *axis)
+                          struct vec3 *axis, double *apart_m)
 {
-    struct vec3 best = {0.0, 0.0, 0.0};
-    if (vec3_dot(*axis, *axis) > 0.0 && separating_axis_holds(a, b, *axis, margin_m))
-        return true;
-    if (!find_by_boxes(a, b, enough_for(a, b, margin_m), &best) &&
-        !separating_axis_holds(a, b, best, margin_m)) {
-        best = nearest_normal(a, b);
-        if (vec3_dot(best, best) == 0.0 || !separating_axis_holds(a, b, best, margin_m))
+    struct vec3 best = *axis;
+    double enough = enough_for(a, b, margin_m), apart = -INFINITY;
+    if (vec3_dot(best, best) > 0.0)
+        apart = separation(a, b, best, enough);
+    if (!(apart > enough)) {
+        apart = find_by_boxes(a, b, enough, &best);
+        if (!(apart > enough))
+            apart = separation(a, b, best, enough);
+        if (!(apart > enough)) {
+            best = nearest_normal(a, b);
+            apart = vec3_dot(best, best) > 0.0 ? separation(a, b, best, enough) : -INFINITY;
+        }
+        if (!(apart > enough))
             return false;
     }
     *axis = best;
+    *apart_m = apart - enough + margin_m;
     return true;
 }

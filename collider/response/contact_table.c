@@ -11,6 +11,8 @@
 #include "world/terrain/fallen.h"
 #include "world/world.h"
 
+#include <string.h>
+
 int contact_table_init(struct contact_table *table, const struct world *world)
 {
     *table = (struct contact_table){.capacity = world->params->contact_slots};
@@ -143,6 +145,7 @@ static void collect(struct contact_table *table, const struct response_context *
         contact.flags = flags_of(contacts->marks[i]);
         contact.impacts = (uint16_t)impacts->count;
         contact.impulse_ns = impacts->impulse_ns;
+        memcpy(contact.nearest, contacts->known[i].memory.nearest, sizeof contact.nearest);
         table->touched[place_of(table, &contact)] = contact;
     }
 }

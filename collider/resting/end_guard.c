@@ -30,6 +30,7 @@ struct placed_body {
     struct axis_side side;
     struct vec3 moved; /* [m] from where it stood when the frame began */
     double turned_m;   /* by rotation none of its points has moved farther since then */
+    double way_m;      /* none of its points is farther than this from where its path ended */
 };
 
 int end_guard_init(struct end_guard *guard, const struct world *world, struct thread_pool *workers)
@@ -96,13 +97,27 @@ static void stand_now(struct end_guard *guard, const struct response_context *co
                                 fabs(maths_wrap_half(e->roll[row] - w->roll[row])));
 }
 
+/* Returns true if the row stands where its swept path ends, and can only go back in its whole pose
+ * from there. */
+static bool goes_straight_back(const struct end_guard *guard,
+                               const struct response_context *context, uint32_t row)
+{
+    struct vec3 drift = guard->drift[row];
+    return context->next->entities.flags[row] & ENTITY_FLAG_CHASSIS && guard->sent_back[row] == 0 &&
+           context->motion->change[row] == 0 && vec3_dot(drift, drift) == 0.0;
+}
+
 /* Finds out how the row stands at the frame's end, if that is not known. */
 static void stand_at_end(struct end_guard *guard, const struct response_context *context,
                          uint32_t row)
 {
+    struct placed_body *stands = &guard->stands[row];
     if (guard->posed[row])
         return;
     stand_now(guard, context, row);
+    stands->way_m = goes_straight_back(guard, context, row)
+                        ? vec3_length(stands->moved) + stands->turned_m
+                        : INFINITY;
     guard->posed_row[guard->posed_count++] = row;
     guard->posed[row] = 1;
 }
@@ -120,7 +135,7 @@ static double gap_of(const struct placed_body *a, const struct placed_body *b,
     if (vec3_dot(known->plane[0], known->plane[0]) > 0.0 &&
         separating_axis_holds(&a->side, &b->side, known->plane[0], 0.0))
         return 0.0;
-    return level_gap_depth(&turned_a, &turned_b, known->plane);
+    return level_gap_depth(&turned_a, &turned_b, known->plane, &known->memory);
 }
 
 /* Returns the gap of a pair at the end of the frame. */
@@ -148,10 +163,34 @@ static double gap_before(const struct response_context *context, const struct pa
     return known->before_m;
 }
 
+/* Returns true if a row ends the frame where its swept path ends: nothing has set it on the ground
+ * after an impact, or sent it back. */
+static bool on_path(const struct end_guard *guard, const struct response_context *context,
+                    uint32_t side)
+{
+    return side & PAIR_FIXED || (guard->sent_back[side] == 0 && context->motion->change[side] == 0);
+}
+
+/* Returns true if the sweep has shown that the bodies stay apart at the ends of their paths, and
+ * none has gone so far back that they may not. */
+static bool proved_apart(const struct end_guard *guard, const struct response_context *context,
+                         uint32_t index)
+{
+    const struct pair *pair = &context->contacts->pair[index];
+    if (!contact_queue_stays_apart(context->contacts, index))
+        return false;
+    if (on_path(guard, context, pair->a) && on_path(guard, context, pair->b))
+        return true;
+    double way_m = guard->stands[pair->a].way_m;
+    if (!(pair->b & PAIR_FIXED))
+        way_m += guard->stands[pair->b].way_m;
+    return way_m + APART_M < context->contacts->known[index].stays_m;
+}
+
 /* Returns true if the bodies were farther apart when the frame began than they have come since
  * then. Nothing has to be measured again. */
-static bool stays_apart(const struct end_guard *guard, const struct pair *pair,
-                        const struct pair_known *known)
+static bool far_apart(const struct end_guard *guard, const struct pair *pair,
+                      const struct pair_known *known)
 {
     const struct placed_body *a = &guard->stands[pair->a];
     struct vec3 way = a->moved;
@@ -170,7 +209,7 @@ static bool deeper(const struct end_guard *guard, const struct response_context 
 {
     const struct pair *pair = &context->contacts->pair[index];
     struct pair_known *known = &context->contacts->known[index];
-    if (stays_apart(guard, pair, known))
+    if (far_apart(guard, pair, known) || proved_apart(guard, context, index))
         return false;
     double after = gap_after(guard, context, pair, known);
     if (after >= -ROUNDING_M)

@@ -42,6 +42,7 @@ struct resting_gap {
     double apart_m; /* the bodies are apart by this at least */
     bool leaves;    /* it needs a way out (collider/resting/parting_ways.h) */
     bool went;      /* and has been given it */
+    struct level_gap_memory memory;
 };
 
 /* The collider's own memory, kept from frame to frame. */

@@ -1,12 +1,15 @@
 /* Measures pairs of the table, of new bodies and of neighbours, on all workers. */
 #include "collider/resting/resting_gaps.h"
 
+#include "collider/response/contact_table.h"
 #include "collider/resting/deep_pair.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
 #include "world/runtime/thread_pool.h"
 #include "world/runtime/work_done.h"
 #include "world/world.h"
+
+#include <string.h>
 
 /* Bodies that are farther apart at the frame's beginning, and do not come as near within it, bear
  * no load on each other [m]. */
@@ -61,18 +64,30 @@ static double margin_of(const struct gap_job *job, uint32_t index, const struct 
     return index < job->resting->groups.known ? NEAR_M + nearing(a, b) : 0.0;
 }
 
+/* Returns what the table remembers of a pair. */
+static struct level_gap_memory memory_of(const struct gap_job *job, const struct pair *pair)
+{
+    const struct persistent_contact *contact = contact_table_find(job->context, pair->a, pair->b);
+    struct level_gap_memory memory = {0};
+    if (contact)
+        memcpy(memory.nearest, contact->nearest, sizeof memory.nearest);
+    return memory;
+}
+
 static void measure_pair(const struct gap_job *job, uint32_t index)
 {
     struct free_turn turn_a, turn_b;
     const struct pair *pair = &job->resting->groups.pair[index];
     struct resting_gap *gap = &job->resting->gap[index];
     gap->apart_m = 0.0;
+    gap->memory = memory_of(job, pair);
     if (deep_pair_measure(job->context, pair, gap))
         return;
     struct swept_body a = body_motion_body(job->context->motion, pair->a, &turn_a);
     struct swept_body b = body_motion_side(job->context->motion, pair->b, &turn_b);
     gap->count = level_gap_find_more(&a, &b, 0.0, margin_of(job, index, &a, &b), gap->gap,
-                                     job->parts ? RESTING_GAPS_MAX : LEVEL_GAPS_MAX, &gap->apart_m);
+                                     job->parts ? RESTING_GAPS_MAX : LEVEL_GAPS_MAX, &gap->apart_m,
+                                     &gap->memory);
     if (is_deep(gap) && gap->count > 1) {
         level_gap_whole(&a, &b, 0.0, gap->gap, gap->count);
         gap->count = 1;
@@ -103,6 +118,7 @@ static void measure(struct resting *resting, const struct response_context *cont
             continue;
         gap->pair = contact_queue_pair(context->contacts, &resting->groups.pair[i]);
         context->contacts->known[gap->pair].apart_m = gap->apart_m;
+        context->contacts->known[gap->pair].memory = gap->memory;
     }
 }
 

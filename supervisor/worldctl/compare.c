@@ -209,7 +209,11 @@ static bool compare_contacts(const struct compared *a, const struct compared *b,
                                             CONTACT(pressed_tick),
                                             MEMBER(uint16_t, persistent_contact, flags),
                                             MEMBER(uint16_t, persistent_contact, impacts),
-                                            MEMBER(float, persistent_contact, impulse_ns)};
+                                            MEMBER(float, persistent_contact, impulse_ns),
+                                            MEMBER(uint64_t, persistent_contact, nearest[0]),
+                                            MEMBER(uint64_t, persistent_contact, nearest[1]),
+                                            MEMBER(uint64_t, persistent_contact, nearest[2]),
+                                            MEMBER(uint64_t, persistent_contact, nearest[3])};
 #undef CONTACT
     uint32_t count_a = a->state.head->contact_count, count_b = b->state.head->contact_count;
     for (uint32_t i = 0; i < count_a || i < count_b; i++) {

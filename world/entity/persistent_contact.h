@@ -22,6 +22,18 @@
 #define PERSISTENT_CONTACT_SLOTS_MIN  256u
 #define PERSISTENT_CONTACT_SLOTS_MAX  (1u << 22) /* 4 for each slot of the largest capacity */
 
+/* Between which vertices the nearest points of two hulls lay a frame ago. The search for the
+ * nearest points begins there (collider/geometry/gjk.h). The last bits of its result depend on
+ * where it begins, so these numbers are a part of the world. They are a hint: any value gives a
+ * right distance. a: the body with the lower row, and the entity beside a fixed object. */
+struct nearest_vertices {
+    uint8_t hulls;      /* HULLS_A_MODEL * hull of a + hull of b */
+    uint8_t count;      /* of vertices, at most 3; 0: not known */
+    uint8_t a[3], b[3]; /* vertices of the hulls */
+};
+
+#define PERSISTENT_CONTACT_NEAREST 4u /* pairs of hulls that a contact remembers */
+
 struct persistent_contact {
     uint32_t a_id;         /* an entity; less than b_id unless b is a fixed object */
     uint32_t b_id;         /* an entity, or PERSISTENT_CONTACT_FIXED | a fixed object's index */
@@ -31,9 +43,10 @@ struct persistent_contact {
     uint16_t flags;        /* PERSISTENT_CONTACT_OVERLAPS, _HOLDS */
     uint16_t impacts;      /* since it began, PERSISTENT_CONTACT_IMPACTS_MAX at most */
     float impulse_ns;      /* of all these impacts together */
+    struct nearest_vertices nearest[PERSISTENT_CONTACT_NEAREST];
 };
 
-_Static_assert(sizeof(struct persistent_contact) == 32, "shared layout");
+_Static_assert(sizeof(struct persistent_contact) == 64, "shared layout");
 
 /* Returns the key of a contact. The list rises strictly by it: by a_id, then b_id, fixed objects
  * last. */

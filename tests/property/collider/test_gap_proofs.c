@@ -66,13 +66,30 @@ static struct vec3 random_plane(uint64_t *random)
     return length < 0.3 ? (struct vec3){0.0, 0.0, 0.0} : vec3_scale(n, 1.0 / length);
 }
 
+/* A memory of any numbers: it is a hint, which may be of another pair or no sense at all. */
+static struct level_gap_memory random_memory(uint64_t *random)
+{
+    struct level_gap_memory memory;
+    for (uint32_t i = 0; i < PERSISTENT_CONTACT_NEAREST; i++) {
+        struct nearest_vertices *nearest = &memory.nearest[i];
+        nearest->hulls = (uint8_t)(fixture_random(random) % 4);
+        nearest->count = (uint8_t)(fixture_random(random) % 5);
+        for (uint32_t k = 0; k < 3; k++) {
+            nearest->a[k] = (uint8_t)(fixture_random(random) % 40);
+            nearest->b[k] = (uint8_t)(fixture_random(random) % 40);
+        }
+    }
+    return memory;
+}
+
 static struct axis_side side_of(const struct turned_body *turned)
 {
     return axis_side_of(turned->body, &turned->turn, &turned->turn, 0.0, 0.0);
 }
 
 /* Returns the depth of two bodies, after a comparison of all ways to find it. */
-static double compare(const struct swept_body *a, const struct swept_body *b, struct vec3 *plane)
+static double compare(const struct swept_body *a, const struct swept_body *b, struct vec3 *plane,
+                      const struct level_gap_memory *memory)
 {
     const struct turned_body turned_a = {a, rotation_matrix(a->from)};
     const struct turned_body turned_b = {b, rotation_matrix(b->from)};
@@ -81,7 +98,7 @@ static double compare(const struct swept_body *a, const struct swept_body *b, st
     bool proof = vec3_dot(plane[0], plane[0]) > 0.0 &&
                  separating_axis_holds(&side_a, &side_b, plane[0], 0.0);
     assert_false(proof && all < 0.0);
-    assert_true(level_gap_depth(&turned_a, &turned_b, plane) == all);
+    assert_true(level_gap_depth(&turned_a, &turned_b, plane, memory) == all);
     return all;
 }
 
@@ -95,7 +112,8 @@ static void test_known_planes_change_no_depth(void **state)
         struct vec3 plane[LEVEL_GAP_PLANES] = {random_plane(&random), random_plane(&random)};
         struct swept_body a = random_body(&random), b = random_body(&random);
         for (uint32_t n = 0; n < MOVES; n++) {
-            if (compare(&a, &b, plane) < 0.0)
+            struct level_gap_memory memory = random_memory(&random);
+            if (compare(&a, &b, plane, &memory) < 0.0)
                 overlap++;
             else
                 apart++;
@@ -119,11 +137,41 @@ static void test_the_distance_of_all_hulls_is_told(void **state)
         struct swept_body a = random_body(&random), b = random_body(&random);
         struct level_gap gap[LEVEL_GAPS_MAX];
         double told, exact = maths_min(margin_m, time_of_impact_gap(&a, &b, 0.0));
-        level_gap_find_more(&a, &b, 0.0, margin_m, gap, LEVEL_GAPS_MAX, &told);
+        struct level_gap_memory memory = random_memory(&random);
+        level_gap_find_more(&a, &b, 0.0, margin_m, gap, LEVEL_GAPS_MAX, &told, &memory);
         assert_true(fabs(told - exact) < 1e-9);
         apart += told > 0.0;
     }
     assert_true(apart > PAIRS / 20 && apart < PAIRS);
+    fixture_close(&f);
+}
+
+/* A search that begins where the last one ended, or anywhere, finds the same gaps. */
+static void test_a_memory_changes_no_gap(void **state)
+{
+    const double margin_m = 0.5;
+    (void)state;
+    uint64_t random = fixture_seed(16);
+    uint32_t gaps = 0, remembered = 0;
+    fixture_open(&f, "world = { seed = 1; };\ncollision = { shape = \"model\"; };\n");
+    for (uint32_t i = 0; i < PAIRS; i++) {
+        struct swept_body a = random_body(&random), b = random_body(&random);
+        struct level_gap_memory memory = random_memory(&random);
+        for (uint32_t n = 0; n < MOVES; n++, move(&random, &b)) {
+            struct level_gap cold[LEVEL_GAPS_MAX], warm[LEVEL_GAPS_MAX];
+            double apart;
+            uint32_t count = level_gap_find(&a, &b, 0.0, margin_m, cold);
+            assert_int_equal(
+                level_gap_find_more(&a, &b, 0.0, margin_m, warm, LEVEL_GAPS_MAX, &apart, &memory),
+                count);
+            for (uint32_t g = 0; g < count; g++)
+                assert_true(fabs(warm[g].gap_m - cold[g].gap_m) < 1e-6);
+            gaps += count;
+            remembered += memory.nearest[0].count > 0;
+        }
+    }
+    print_message("%u gaps, %u remembered\n", gaps, remembered);
+    assert_true(gaps > PAIRS && remembered > PAIRS / 10);
     fixture_close(&f);
 }
 
@@ -140,9 +188,11 @@ static void test_an_axis_that_is_found_holds(void **state)
         const struct turned_body turned_b = {&b, rotation_matrix(b.from)};
         struct axis_side side_a = side_of(&turned_a), side_b = side_of(&turned_b);
         struct vec3 axis = {0.0, 0.0, 0.0};
-        if (!separating_axis_find(&side_a, &side_b, 0.0, &axis))
+        double apart;
+        if (!separating_axis_find(&side_a, &side_b, 0.0, &axis, &apart))
             continue;
         found++;
+        assert_true(apart > 0.0 && apart < time_of_impact_gap(&a, &b, 0.0) + 1e-9);
         assert_true(fabs(vec3_length(axis) - 1.0) < 1e-9);
         assert_true(separating_axis_holds(&side_a, &side_b, axis, 0.0));
     }
@@ -155,6 +205,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_known_planes_change_no_depth),
         cmocka_unit_test(test_the_distance_of_all_hulls_is_told),
+        cmocka_unit_test(test_a_memory_changes_no_gap),
         cmocka_unit_test(test_an_axis_that_is_found_holds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

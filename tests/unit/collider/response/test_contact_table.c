@@ -94,7 +94,7 @@ static const struct event *event_of(uint32_t nth)
 static void test_a_pair_that_presses_begins_a_contact(void **state)
 {
     const uint16_t flags = PERSISTENT_CONTACT_OVERLAPS | PERSISTENT_CONTACT_HOLDS;
-    const struct persistent_contact right = {1, 3, 0, 2, TICK, TICK, flags, 0, 0.0f};
+    const struct persistent_contact right = {1, 3, 0, 2, TICK, TICK, flags, 0, 0.0f, {{0}}};
     (void)state;
     begin();
     press(0, 2, CONTACT_OVERLAPS | CONTACT_HOLDS);
@@ -104,11 +104,27 @@ static void test_a_pair_that_presses_begins_a_contact(void **state)
 
 static void test_a_pressed_contact_keeps_its_beginning(void **state)
 {
-    const struct persistent_contact right = {1, 2, 0, 1, 7, TICK, 0, 0, 0.0f};
+    const struct persistent_contact right = {1, 2, 0, 1, 7, TICK, 0, 0, 0.0f, {{0}}};
     (void)state;
     know(0, 1, 7, TICK - 1)->flags = PERSISTENT_CONTACT_OVERLAPS; /* no more */
     begin();
     press(0, 1, 0);
+    move(0);
+    assert_memory_equal(finish(1, 0), &right, sizeof right);
+}
+
+/* The next frame's search for the nearest points begins with what this one remembers. */
+static void test_what_the_hulls_remember_is_kept(void **state)
+{
+    const struct nearest_vertices nearest = {9, 2, {1, 2, 0}, {3, 4, 0}};
+    struct persistent_contact right = {1, 2, 0, 1, 7, TICK, 0, 0, 0.0f, {{0}}};
+    (void)state;
+    right.nearest[1] = nearest;
+    know(0, 1, 7, TICK - 1)->nearest[0] = nearest; /* of the frame before */
+    begin();
+    press(0, 1, 0);
+    context.contacts->known[contact_queue_pair(context.contacts, &(struct pair){0, 1})]
+        .memory.nearest[1] = nearest;
     move(0);
     assert_memory_equal(finish(1, 0), &right, sizeof right);
 }
@@ -134,7 +150,7 @@ static void test_the_list_is_sorted_by_the_pair(void **state)
 /* The lower id comes first, whichever row it is in. */
 static void test_reused_rows_are_sorted_by_their_ids(void **state)
 {
-    const struct persistent_contact right = {2, 50, 1, 0, TICK, TICK, 0, 0, 0.0f};
+    const struct persistent_contact right = {2, 50, 1, 0, TICK, TICK, 0, 0, 0.0f, {{0}}};
     (void)state;
     steps_rows(&f).id[0] = 50;
     begin();
@@ -144,7 +160,7 @@ static void test_reused_rows_are_sorted_by_their_ids(void **state)
 
 static void test_two_bodies_at_rest_stay_in_contact(void **state)
 {
-    const struct persistent_contact right = {1, 2, 0, 1, 7, 8, 0, 0, 0.0f};
+    const struct persistent_contact right = {1, 2, 0, 1, 7, 8, 0, 0, 0.0f, {{0}}};
     (void)state;
     know(0, 1, 7, 8);
     begin();
@@ -154,8 +170,10 @@ static void test_two_bodies_at_rest_stay_in_contact(void **state)
 static void test_impacts_add_up(void **state)
 {
     (void)state;
-    *know(0, 1, 7, TICK - 1) = (struct persistent_contact){1, 2, 0, 1, 7, TICK - 1, 0, 3, 5.0f};
-    *know(0, 3, 7, TICK - 1) = (struct persistent_contact){1, 4, 0, 3, 7, TICK - 1, 0, 65535, 0.0f};
+    *know(0, 1, 7, TICK - 1) =
+        (struct persistent_contact){1, 2, 0, 1, 7, TICK - 1, 0, 3, 5.0f, {{0}}};
+    *know(0, 3, 7, TICK - 1) =
+        (struct persistent_contact){1, 4, 0, 3, 7, TICK - 1, 0, 65535, 0.0f, {{0}}};
     begin();
     strike(0, 1, 2, 6.0f);
     strike(0, 2, 1, 7.0f);
@@ -335,6 +353,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_a_pair_that_presses_begins_a_contact),
         TEST(test_a_pressed_contact_keeps_its_beginning),
+        TEST(test_what_the_hulls_remember_is_kept),
         TEST(test_the_list_is_sorted_by_the_pair),
         TEST(test_reused_rows_are_sorted_by_their_ids),
         TEST(test_two_bodies_at_rest_stay_in_contact),

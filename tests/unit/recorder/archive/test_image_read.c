@@ -36,7 +36,7 @@ static int make_image(void **state)
         next->head->event_end += 2;
         next->head->crater_count++;
         next->entities.x[i] = 3.25 * i;
-        next->contacts[0] = (struct persistent_contact){1, 2, 0, 1, 1, 2, 0, 0, 0.0f};
+        next->contacts[0] = (struct persistent_contact){1, 2, 0, 1, 1, 2, 0, 0, 0.0f, {{0}}};
         next->head->contact_count = 1;
         next->fixed_damage[i] = 2;
         bare_view_end(&collider);
