@@ -20,6 +20,11 @@
 #define ACCELERATION_MOST 60.0 /* [m/s^2] an impact is no acceleration that lasts */
 #define RATE_MOST         6.0  /* [rad/s] */
 
+/* A pass leads the time of the frames back to the clock by this share of the difference, and at
+ * once when the difference is larger than any noise. */
+#define OFFSET_SHARE  0.1
+#define OFFSET_MOST_S 0.1
+
 #define FLAMES_S         60.0 /* since the damage of a wreck last grew */
 #define HEARTBEAT_SPREAD 0.1  /* of the heartbeat, either way */
 
@@ -168,15 +173,16 @@ static double turned(float a, float b)
 }
 
 /* Returns true if a new Entity State is due for a row that was sent before. */
-static bool due(const struct entity_sent *sent, const struct row_view *view, uint64_t now_ns)
+static bool due(const struct entity_sent *sent, const struct row_view *view, uint64_t now_ns,
+                uint64_t frame_ns)
 {
     struct vec3 position;
     struct mat3 matrix;
     if (sent->appearance != view->appearance || now_ns >= sent->heartbeat_ns)
         return true;
-    double since_s = (double)(now_ns - sent->sent_ns) / 1e9;
-    if (since_s < ENTITY_OUTPUT_LEAST_S)
+    if (now_ns - sent->sent_ns < (uint64_t)(ENTITY_OUTPUT_LEAST_S * 1e9))
         return false;
+    double since_s = frame_ns > sent->frame_ns ? (double)(frame_ns - sent->frame_ns) / 1e9 : 0.0;
     if (view->has_gun && (turned(sent->turret, view->turret) > ENTITY_OUTPUT_ANGLE_RAD ||
                           turned(sent->gun, view->gun) > ENTITY_OUTPUT_ANGLE_RAD))
         return true;
@@ -305,6 +311,7 @@ static void send_state(struct entity_output *entities, const struct world *world
     sent->force = force;
     sent->turret = view->turret;
     sent->gun = view->gun;
+    sent->frame_ns = entities->frame_ns;
     sent->heartbeat_ns = heartbeat_after(view->id, now_ns);
     if (type->nearest && !entities->told_kind[kind]) {
         entities->told_kind[kind] = true;
@@ -340,6 +347,22 @@ static void send_last(struct entity_output *entities, const struct world *world,
     sent->id = 0;
 }
 
+/* --- the time of a frame -----------------------------------------------------------------------*/
+
+/* Returns the time of the clock to which the snapshot's frame belongs. A pass finds a frame that is
+ * up to a whole frame old, in which a jet flies 4 m. The frames' own time has no such noise. It is
+ * led back to the clock, so that a world that falls behind is seen to do so. */
+static uint64_t frame_time_ns(struct entity_output *entities, const struct world *world,
+                              uint64_t now_ns)
+{
+    const struct state_head *head = &entities->snapshot.head;
+    double scale = head->time_scale > 0.0 ? head->time_scale : 1.0;
+    double frame_s = (double)head->tick * world_dt_s(world) / scale;
+    double late_s = (double)now_ns / 1e9 - frame_s - entities->offset_s;
+    entities->offset_s += fabs(late_s) > OFFSET_MOST_S ? late_s : OFFSET_SHARE * late_s;
+    return (uint64_t)((frame_s + entities->offset_s) * 1e9);
+}
+
 /* --- a pass ------------------------------------------------------------------------------------*/
 
 /* Sends what is due of a row. Returns false when the rate is used up. */
@@ -369,7 +392,7 @@ static bool send_row(struct entity_output *entities, const struct world *world, 
         return true;
     }
     struct row_view view = look_at(entities, world, row);
-    if (sent->id != 0 && !due(sent, &view, now_ns))
+    if (sent->id != 0 && !due(sent, &view, now_ns, entities->frame_ns))
         return true;
     if (!pdu_output_take(entities->output, now_ns)) {
         entities->postponed++;
@@ -383,6 +406,7 @@ void entity_output_send(struct entity_output *entities, const struct view *view,
 {
     if (snapshot_take(&entities->snapshot, view) != 0)
         return; /* the next pass sees a later frame */
+    entities->frame_ns = frame_time_ns(entities, &view->world, now_ns);
     uint32_t used = entities->snapshot.head.used;
     uint32_t rows = used > entities->known ? used : entities->known;
     for (uint32_t i = 0; i < rows; i++) {

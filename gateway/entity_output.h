@@ -29,9 +29,10 @@ struct entity_sent {
     uint8_t force;
     uint8_t moving; /* the dead reckoning was not static */
     uint32_t appearance;
-    float turret, gun; /* [rad] */
-    uint64_t sent_ns, heartbeat_ns;
-    struct dead_reckoning state; /* as the receivers have it */
+    float turret, gun;              /* [rad] */
+    uint64_t sent_ns, heartbeat_ns; /* of the clock */
+    uint64_t frame_ns;              /* the time of the frame that was sent */
+    struct dead_reckoning state;    /* as the receivers have it */
     /* Of the row in the last frame that was seen: world axes; rates in the body axes of DIS. */
     uint32_t seen_id;
     uint64_t seen_tick;
@@ -47,6 +48,8 @@ struct entity_output {
     struct snapshot snapshot; /* the last frame that was sent from */
     struct entity_sent *sent; /* [capacity] */
     uint32_t capacity;
+    uint64_t frame_ns;  /* the time of the snapshot's frame, by the clock */
+    double offset_s;    /* of the clock over the frames' own time, smoothed (frame_time_ns()) */
     uint32_t next_row;  /* where the next pass begins, so that a full rate is shared */
     uint32_t known;     /* rows with an id: 0 .. known - 1 */
     uint64_t refused;   /* entities whose id is beyond the range of applications */

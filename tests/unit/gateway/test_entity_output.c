@@ -280,6 +280,47 @@ static void test_a_pause_freezes(void **state)
     assert_int_equal(count, 0);
 }
 
+/* A pass finds a frame that is up to 16 ms old, in which a jet flies 3 m. That costs no PDU. */
+static void test_the_noise_of_the_clock(void **state)
+{
+    uint64_t random = fixture_seed(60), base_ns = now_ns;
+    int total = 0;
+    (void)state;
+    fixture_put(&world, (struct fixture_entity){.kind = "jet",
+                                                .at = {5000.0, 3000.0, 25000.0},
+                                                .velocity = {200.0, 0.0, 0.0}});
+    for (int i = 0; i < 600; i++) {
+        if (i == 0)
+            fixture_run(&world, 3);
+        else
+            fixture_continue(&world, 3);
+        base_ns += 3 * FRAME_NS;
+        now_ns = base_ns + fixture_random(&random) % 16000000u;
+        pass();
+        total += i >= 100 ? count : 0;
+    }
+    print_message("25 s of a jet's course: %d PDUs\n", total);
+    assert_true(total >= 4 && total <= 10);
+}
+
+/* A world that falls behind the clock is seen to do so: the receivers' extrapolation is too far. */
+static void test_a_world_that_falls_behind(void **state)
+{
+    int total = 0;
+    (void)state;
+    fixture_put(&world, (struct fixture_entity){.kind = "jet",
+                                                .at = {5000.0, 3000.0, 25000.0},
+                                                .velocity = {200.0, 0.0, 0.0}});
+    run(60);
+    for (int i = 0; i < 100; i++) {
+        fixture_continue(&world, 2); /* two frames in the time of three */
+        now_ns += 3 * FRAME_NS;
+        pass();
+        total += count;
+    }
+    assert_true(total > 20);
+}
+
 /* A rate that does not suffice puts states off; each vehicle has its turn. */
 static void test_the_rate(void **state)
 {
@@ -352,6 +393,8 @@ int main(void)
         TEST(test_receivers_have_it_within_the_threshold),
         TEST(test_a_missile_comes_and_goes),
         TEST(test_a_pause_freezes),
+        TEST(test_the_noise_of_the_clock),
+        TEST(test_a_world_that_falls_behind),
         TEST(test_the_rate),
         TEST(test_a_new_gateway_says_the_same),
         TEST(test_an_id_beyond_the_range),
