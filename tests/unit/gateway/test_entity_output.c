@@ -345,6 +345,53 @@ static void test_the_rate(void **state)
     assert_true(entities.postponed > 0);
 }
 
+/* A rate that never suffices is shared: no vehicle is left out. */
+static void test_a_rate_that_never_suffices(void **state)
+{
+    bool seen[41] = {false};
+    (void)state;
+    for (int i = 0; i < 40; i++)
+        put("tank", 20000.0 + 50.0 * i, 25000.0, 0.0, FORCE_BLUE);
+    output.rate_ps = 4; /* of 8 that the heartbeat needs */
+    for (int i = 0; i < 400; i++) {
+        pass();
+        for (int k = 0; k < count; k++)
+            seen[received[k].entity_state.id.entity] = true;
+        now_ns += 50000000u;
+    }
+    for (int i = 1; i <= 40; i++)
+        assert_true(seen[i]);
+}
+
+/* A turn about each axis of the body has the sign of DIS: roll to the right, nose up, clockwise. */
+static void test_angular_velocities(void **state)
+{
+    (void)state;
+    put("jet", 20000.0, 25000.0, 200.0, FORCE_BLUE);
+    for (int axis = 0; axis < 3; axis++) {
+        struct state committed = fixture_state(&world);
+        const struct entities *e = &committed.entities;
+        double *angle = axis == 0 ? e->roll : axis == 1 ? e->pitch : e->heading;
+        e->roll[0] = e->pitch[0] = e->heading[0] = 0.0;
+        for (int i = 0; i < 6; i++) { /* 0.02 rad in three frames: 0.4 rad/s */
+            angle[0] += 0.02;
+            committed.head->tick += 3;
+            state_seal(&committed, world.view.world.counts.fixed);
+            now_ns += 3 * FRAME_NS;
+            pass();
+        }
+        now_ns += 6000000000u; /* the heartbeat at the latest */
+        angle[0] += 0.02;
+        committed.head->tick += 3;
+        state_seal(&committed, world.view.world.counts.fixed);
+        pass();
+        assert_int_equal(count, 1);
+        for (int k = 0; k < 3; k++)
+            assert_true(fabs((double)received[0].entity_state.angular_velocity[k] -
+                             (k == axis ? 0.4 : 0.0)) < 0.01);
+    }
+}
+
 /* A gateway that starts anew sends the same, and what it left behind can be taken back. */
 static void test_a_new_gateway_says_the_same(void **state)
 {
@@ -396,6 +443,8 @@ int main(void)
         TEST(test_the_noise_of_the_clock),
         TEST(test_a_world_that_falls_behind),
         TEST(test_the_rate),
+        TEST(test_a_rate_that_never_suffices),
+        TEST(test_angular_velocities),
         TEST(test_a_new_gateway_says_the_same),
         TEST(test_an_id_beyond_the_range),
     };
