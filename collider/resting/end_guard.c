@@ -49,7 +49,8 @@ int end_guard_init(struct end_guard *guard, const struct world *world, struct th
     guard->marked = calloc(rows, sizeof *guard->marked);
     guard->sent_back = calloc(rows, sizeof *guard->sent_back);
     if (guard->pair && guard->stands && guard->posed && guard->posed_row && guard->row &&
-        guard->back && guard->touched && guard->listed && guard->marked && guard->sent_back)
+        guard->back && guard->touched && guard->listed && guard->marked && guard->sent_back &&
+        drift_guard_init(&guard->drifting, world) == 0)
         return 0;
     end_guard_free(guard);
     errno = ENOMEM;
@@ -58,6 +59,7 @@ int end_guard_init(struct end_guard *guard, const struct world *world, struct th
 
 void end_guard_free(struct end_guard *guard)
 {
+    drift_guard_free(&guard->drifting);
     reserve_free(guard->pair);
     reserve_free(guard->stands);
     free(guard->posed);
@@ -220,14 +222,14 @@ static bool deeper(const struct end_guard *guard, const struct response_context 
 
 /* --- rows --------------------------------------------------------------------------------------*/
 
-/* Aircraft that nobody steers are not guarded: they keep both momenta exactly. */
 static bool guarded(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
     return body_motion_old(context->motion, row) && e->state[row] != ENTITY_FREE &&
            e->behaviour[row] != BEHAVIOUR_FLIGHT &&
            (e->state[row] == ENTITY_WRECK || e->flags[row] & ENTITY_FLAG_CHASSIS ||
-            contact_groups_is_piloted(context, row) || path_change_grounded(context, row));
+            contact_groups_is_piloted(context, row) || drift_guard_drifts(context, row) ||
+            path_change_grounded(context, row));
 }
 
 /* Lists a row to be looked at. */
@@ -281,6 +283,14 @@ static void send_back(struct end_guard *guard, struct response_context *context,
 {
     const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
     double keep = ++guard->sent_back[row] <= SENT_BACK_HALF ? 0.5 : 0.0;
+    if (drift_guard_drifts(context, row)) {
+        uint32_t times = guard->sent_back[row];
+        drift_guard_send_back(context, row,
+                              times == SENT_BACK_MOST   ? -1.0
+                              : times <= SENT_BACK_HALF ? 1.0 / (1u << times)
+                                                        : 0.0);
+        return;
+    }
     struct vec3 drift = guard->drift[row];
     if (keep == 0.0 && (vec3_dot(drift, drift) == 0.0 || guard->sent_back[row] == SENT_BACK_MOST)) {
         drift = (struct vec3){0.0, 0.0, 0.0};
@@ -482,6 +492,12 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
         run_round(guard, context);
     for (uint32_t i = 0; i < guard->touched_count; i++)
         mark_holding(guard, context, guard->touched[i]);
+    for (uint32_t i = 0; i < guard->touched_count; i++) {
+        uint32_t row = guard->touched[i];
+        if (guard->sent_back[row] == SENT_BACK_MOST && drift_guard_drifts(context, row))
+            drift_guard_restore(&guard->drifting, context, row);
+    }
+    drift_guard_forget(&guard->drifting);
     for (uint32_t i = 0; i < guard->touched_count; i++)
         guard->sent_back[guard->touched[i]] = 0;
     for (uint32_t i = 0; i < guard->posed_count; i++)

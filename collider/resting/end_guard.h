@@ -5,6 +5,7 @@
 #ifndef JOLON_COLLIDER_RESTING_END_GUARD_H
 #define JOLON_COLLIDER_RESTING_END_GUARD_H
 
+#include "collider/resting/drift_guard.h"
 #include "collider/resting/free_bodies.h"
 #include "collider/resting/resting.h"
 
@@ -37,6 +38,7 @@ struct end_guard {
     uint8_t *listed;    /* [capacity of the world] 1: in row */
     uint8_t *marked;    /* [capacity of the world] 1: in back */
     uint8_t *sent_back; /* [capacity of the world] how often a row has gone back in this frame */
+    struct drift_guard drifting;
 };
 
 /* Returns 0, or -1 with errno ENOMEM. workers may be NULL and stays the caller's. */

@@ -127,6 +127,40 @@ static void shift_all(struct solver_body *bodies, const struct vec3 *shift, uint
         bodies[i].centre = vec3_add(bodies[i].centre, vec3_scale(shift[i], share));
 }
 
+/* Gives bodies at rest relative to each other, but for a rest of motion, the motion of one rigid
+ * body and as much of that rest as `left`, twice its energy, allows. */
+static void take_up(struct solver_body *bodies, uint32_t count, const struct whole *moved,
+                    double left)
+{
+    struct vec3 gained = angular_of(bodies, count, moved);
+    add_rigid(bodies, count, moved, rotation_apply(&moved->inverse, gained), -1.0);
+    double now = twice_energy(bodies, count, moved);
+    if (now > left)
+        scale_rest(bodies, count, moved, sqrt(maths_max(left, 0.0) / now));
+    add_rigid(bodies, count, moved, moved->spin, 1.0);
+}
+
+bool overlap_shift_restore(const struct solver_body *before, struct solver_body *bodies,
+                           uint32_t count)
+{
+    struct whole whole, moved;
+    find_centre(before, count, &whole);
+    find_centre(bodies, count, &moved);
+    find_inertia(bodies, count, &moved);
+    whole.angular = angular_of(before, count, &whole);
+    moved.spin = rotation_apply(&moved.inverse, whole.angular);
+    double energy = twice_energy(before, count, &whole);
+    double left = energy - vec3_dot(moved.spin, whole.angular);
+    if (left < -ROUNDING * energy)
+        return false;
+    struct vec3 change = vec3_sub(whole.velocity, moved.velocity);
+    moved.velocity = whole.velocity;
+    for (uint32_t i = 0; i < count; i++)
+        bodies[i].velocity = vec3_add(bodies[i].velocity, change);
+    take_up(bodies, count, &moved, left);
+    return true;
+}
+
 bool overlap_shift_free(struct solver_body *bodies, const struct vec3 *shift, uint32_t count)
 {
     struct whole whole = {.angular = {0.0, 0.0, 0.0}};
@@ -147,11 +181,6 @@ bool overlap_shift_free(struct solver_body *bodies, const struct vec3 *shift, ui
         add_rigid(bodies, count, &whole, whole.spin, 1.0);
         return false;
     }
-    struct vec3 gained = angular_of(bodies, count, &moved);
-    add_rigid(bodies, count, &moved, rotation_apply(&moved.inverse, gained), -1.0);
-    double now = twice_energy(bodies, count, &moved);
-    if (now > left)
-        scale_rest(bodies, count, &moved, sqrt(maths_max(left, 0.0) / now));
-    add_rigid(bodies, count, &moved, moved.spin, 1.0);
+    take_up(bodies, count, &moved, left);
     return true;
 }

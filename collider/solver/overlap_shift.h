@@ -14,4 +14,10 @@
  * mass and inertia is > 0. */
 bool overlap_shift_free(struct solver_body *bodies, const struct vec3 *shift, uint32_t count);
 
+/* Gives bodies that were put elsewhere, with other orientations, the momentum and the angular
+ * momentum about their common centre of mass that they had before. Kinetic energy does not grow
+ * over what it was before. Returns false, with nothing changed, if that is not possible. */
+bool overlap_shift_restore(const struct solver_body *before, struct solver_body *bodies,
+                           uint32_t count);
+
 #endif

@@ -1,5 +1,6 @@
-/* Aircraft that fly together and press on each other (thesis rows 36, 39, 46): they keep flying,
- * and end no frame in each other. SEED=n puts them elsewhere. */
+/* Aircraft that fly together and press on each other, and such that nobody steers and that meet
+ * (thesis rows 36, 39, 46): they keep flying, and end no frame in each other. SEED=n puts them
+ * elsewhere. */
 #include "tests/support/steps.h"
 #include "world/params.h"
 
@@ -96,10 +97,63 @@ static void test_helicopters_that_press_on_each_other_fly_on(void **state)
         run_and_look(rates_hz[n % 3], &random);
 }
 
+#define MEET         4u
+#define MEETINGS     36u
+#define MEET_SECONDS 4.0
+
+/* Helicopters that nobody steers meet over a tank. */
+static void put_meeting(double hz, uint64_t *random)
+{
+    char text[128];
+    snprintf(text, sizeof text,
+             "world = { seed = 1; hz = %g; capacity = 64; };\ncollision = { shape = \"model\"; };",
+             hz);
+    fixture_open(&f, text);
+    for (uint32_t i = 0; i < MEET; i++) {
+        double angle = HALF_PI * i + fixture_uniform(random, -0.3, 0.3), sine, cosine;
+        double way = fixture_uniform(random, 20.0, 40.0);
+        maths_sincos(angle, &sine, &cosine);
+        fixture_put(&f, (struct fixture_entity){.kind = "helicopter",
+                                                .behaviour = BEHAVIOUR_HOLD,
+                                                .at = {25000.0 + way * sine,
+                                                       103.0 + fixture_uniform(random, 0.0, 2.0),
+                                                       25000.0 - way * cosine},
+                                                .heading_rad = maths_wrap_turn(angle + PI),
+                                                .velocity = {-way * sine, 0.0, way * cosine}});
+    }
+    fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                            .behaviour = BEHAVIOUR_IDLE,
+                                            .at = {25000.0, FIXTURE_GROUND_M, 25000.0}});
+}
+
+static void test_aircraft_that_nobody_steers_end_no_frame_in_each_other(void **state)
+{
+    static const double rates_hz[] = {60.0, 10.0, 240.0};
+    uint64_t random = fixture_seed(62);
+    double worst = 0.0;
+    uint32_t met = 0;
+    (void)state;
+    for (uint32_t n = 0; n < MEETINGS; n++) {
+        double hz = rates_hz[n % 3];
+        put_meeting(hz, &random);
+        for (uint32_t frame = 0; frame < (uint32_t)(MEET_SECONDS * hz); frame++) {
+            fixture_run(&f, 1);
+            worst = maths_max(worst, steps_deepest(&f, MEET + 1));
+        }
+        met += fixture_event_count(&f, EVENT_COLLISION);
+        fixture_close(&f);
+    }
+    print_message("# figures: %u meetings, %u impacts told, overlap %.3g mm\n", MEETINGS, met,
+                  1e3 * worst);
+    assert_true(met > MEETINGS);
+    assert_true(worst <= OVERLAP_M);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_helicopters_that_press_on_each_other_fly_on),
+        cmocka_unit_test(test_aircraft_that_nobody_steers_end_no_frame_in_each_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
