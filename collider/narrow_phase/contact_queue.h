@@ -39,6 +39,7 @@
 #define CONTACT_GATHERED 8u  /* it belongs to the island that is being solved */
 #define CONTACT_PARTS    16u /* it is deep, and rests: its bodies only have to part */
 #define CONTACT_HOLDS    32u /* its bodies stand still because one keeps the other from moving */
+#define CONTACT_NO_ROOM  64u /* its bodies touched, but the table of contacts has no room for it */
 
 /* A point at which two bodies rest on each other, on the map. */
 struct rest_point {

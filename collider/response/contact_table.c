@@ -74,12 +74,38 @@ bool contact_table_lets_through(const struct response_context *context, uint32_t
 
 /* --- what touched ------------------------------------------------------------------------------*/
 
-/* Returns true if the pair touched, and both sides are still there. */
+/* Returns true in the first frame of each simulated second. */
+static bool second_begins(const struct response_context *context)
+{
+    double dt_s = context->world->params->dt_s;
+    uint64_t tick = context->next->head->tick;
+    return (uint64_t)((double)tick * dt_s) != (uint64_t)((double)(tick - 1) * dt_s);
+}
+
+bool contact_table_begins(struct response_context *context, uint32_t pair)
+{
+    uint32_t known = context->motion->committed->head->contact_count;
+    if (pair == 0)
+        return true;
+    if (known + context->begun < context->world->params->contact_slots) {
+        context->begun++;
+        return true;
+    }
+    context->contacts->marks[pair - 1] |= CONTACT_NO_ROOM;
+    context->next->head->tally.contacts_refused++;
+    if (context->without_room != 0 || !second_begins(context))
+        return false;
+    context->without_room = pair;
+    return true;
+}
+
+/* Returns true if the pair touched and has room, and both sides are still there. */
 static bool has_touched(const struct response_context *context, uint32_t index)
 {
     const struct pair *pair = &context->contacts->pair[index];
     const uint8_t *state = context->next->entities.state;
-    return context->contacts->marks[index] & CONTACT_PRESSED && state[pair->a] != ENTITY_FREE &&
+    uint8_t marks = context->contacts->marks[index];
+    return marks & CONTACT_PRESSED && !(marks & CONTACT_NO_ROOM) && state[pair->a] != ENTITY_FREE &&
            (pair->b & PAIR_FIXED || state[pair->b] != ENTITY_FREE);
 }
 
@@ -285,17 +311,18 @@ static void keep(struct response_context *context, const struct persistent_conta
         put(context, &contact);
 }
 
-/* Puts a new contact, unless the table would then have no room for the known ones that are not in
- * it yet. */
-static void begin(struct response_context *context, const struct persistent_contact *contact,
-                  uint32_t known)
+/* Ends the contact without room whose beginning was told. */
+static void end_without_room(struct response_context *context)
 {
-    if (context->next->head->contact_count + known < context->world->params->contact_slots) {
-        put(context, contact);
+    if (context->without_room == 0)
         return;
-    }
-    context->next->head->tally.contacts_refused++;
-    end(context, contact, CONTACT_END_NO_ROOM);
+    uint32_t index = context->without_room - 1;
+    const struct pair *pair = &context->contacts->pair[index];
+    const struct pair_impacts *impacts = &context->contacts->impacts[index];
+    struct persistent_contact contact = contact_of(context, pair->a, pair->b);
+    contact.impacts = (uint16_t)impacts->count;
+    contact.impulse_ns = impacts->impulse_ns;
+    end(context, &contact, CONTACT_END_NO_ROOM);
 }
 
 void contact_table_finish(struct contact_table *table, struct response_context *context)
@@ -312,10 +339,11 @@ void contact_table_finish(struct contact_table *table, struct response_context *
         if (key == known_key)
             renew(context, known, touched);
         else if (key < known_key)
-            begin(context, touched, count - old);
+            put(context, touched);
         else
             keep(context, known);
         new += key <= known_key;
         old += known_key <= key;
     }
+    end_without_room(context);
 }

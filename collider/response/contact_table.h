@@ -41,10 +41,16 @@ const struct persistent_contact *contact_table_find(const struct response_contex
  * b is a row, or a fixed object with PAIR_FIXED. */
 bool contact_table_lets_through(const struct response_context *context, uint32_t b);
 
+/* Takes room for the contact of a pair that the committed table does not know and that has not
+ * touched in this frame: pair is its index + 1 in the queue. Returns true if the beginning has to
+ * be told: there is room, or there is none for the first time in this simulated second. Room is
+ * what the committed table leaves; what ends in this frame leaves room in the next. */
+bool contact_table_begins(struct response_context *context, uint32_t pair);
+
 /* Makes the next frame's table from the committed one and the pairs that are marked as
  * CONTACT_PRESSED. Bodies that pass through each other are in contact for as long as they overlap.
- * Writes an event for each contact that has ended, and for each new one for which the table has no
- * room, which ends at once. */
+ * Writes an event for each contact that has ended, and for one without room whose beginning was
+ * told. */
 void contact_table_finish(struct contact_table *table, struct response_context *context);
 
 #endif

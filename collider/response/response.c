@@ -139,9 +139,13 @@ enum impact_role response_role(struct response_context *context, const struct im
     const struct persistent_contact *known = contact_table_find(context, impact->a, impact->b);
     bool before = has_touched(context, impact);
     remember(context, impact);
-    if (!known && !before)
-        return IMPACT_BEGINS;
-    if (impact->closing_mps < LEANS_MPS || contact_table_lets_through(context, impact->b))
+    bool slow = impact->closing_mps < LEANS_MPS || contact_table_lets_through(context, impact->b);
+    if (!known && !before) {
+        if (contact_table_begins(context, impact->pair))
+            return IMPACT_BEGINS;
+        return slow ? IMPACT_WITHIN : IMPACT_RENEWS;
+    }
+    if (slow)
         return IMPACT_LEANS;
     if (before)
         return IMPACT_WITHIN;

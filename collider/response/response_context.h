@@ -25,6 +25,8 @@ struct response_context {
     struct charges *charges;
     struct island *island;
     struct table_writer writer; /* every change of next's rows goes through this */
+    uint32_t begun;             /* contacts that began in this frame */
+    uint32_t without_room;      /* index + 1 of a pair that is told to have no room, or 0 */
 };
 
 /* A collision to resolve. */

@@ -74,8 +74,8 @@ void drift_guard_send_back(struct response_context *context, uint32_t row, doubl
     double time = path->since + (1.0 - path->since) * maths_max(share, 0.0);
     struct vec3 momentum = own_momentum(context, row);
     struct vec3 at = share < 0.0 ? entities_position(w, row) : path_at(path, time);
-    struct quat to = share < 0.0 ? pose_of(w, row)
-                                 : body_motion_orientation(context->motion, row, time);
+    struct quat to =
+        share < 0.0 ? pose_of(w, row) : body_motion_orientation(context->motion, row, time);
     double heading, pitch, roll;
     rotation_angles(to, &heading, &pitch, &roll);
     table_set_position(&context->writer, row, at);

@@ -301,7 +301,7 @@ static void mark(struct resting *resting, struct response_context *context)
         uint8_t *marks = &context->contacts->marks[pair->pair];
         bool known = contact_table_find(context, bodies->a, bodies->b) != NULL;
         bool bears = touches(resting, pair);
-        if (bears && !known)
+        if (bears && !known && contact_table_begins(context, pair->pair + 1))
             report(context, bodies, pair->gap);
         if ((bears || known) && closing(resting, pair) < CONTACT_IMPACT_MPS)
             rest(resting, context->contacts, pair);

@@ -219,15 +219,17 @@ static uint64_t run_full(uint32_t threads, struct told *told)
     *told = run(3.0);
     struct state now = fixture_state(&f);
     assert_int_equal(now.head->contact_count, 4);
-    assert_true(now.head->tally.contacts_refused > 0);
-    assert_true(told->ends >= now.head->tally.contacts_refused);
+    print_message("%u begins, %u others, %u ends, %llu without room\n", told->begins, told->others,
+                  told->ends, (unsigned long long)now.head->tally.contacts_refused);
+    assert_true(now.head->tally.contacts_refused > 100);
+    assert_true(told->begins + told->others < 60);
     uint64_t digest = fixture_digest(&f);
     fixture_close(&f);
     return digest;
 }
 
-/* What has no room is counted and told, and is the same on any number of threads. */
-static void test_a_full_table_is_told(void **state)
+/* What has no room is counted and hardly told, and is the same on any number of threads. */
+static void test_a_full_table_tells_little(void **state)
 {
     struct told one, four;
     (void)state;
@@ -241,7 +243,7 @@ int main(void)
         cmocka_unit_test(test_a_passage_has_one_beginning_and_one_end),
         cmocka_unit_test(test_the_rate_does_not_change_how_much_is_told),
         cmocka_unit_test(test_a_passage_through_an_object_is_one_contact),
-        cmocka_unit_test(test_a_full_table_is_told),
+        cmocka_unit_test(test_a_full_table_tells_little),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -16,10 +16,11 @@
 #include <cmocka.h>
 
 #define ROWS 6u
-#define TICK 100u /* of the frame being made */
+#define TICK 120u /* of the frame being made, the first of a second */
 
 static struct fixture f;
 static struct response_context context;
+static uint32_t told; /* beginnings */
 
 /* Tanks 100 m apart, and a tree. */
 static int open_world(void **state)
@@ -51,6 +52,8 @@ static struct persistent_contact *know(uint32_t a, uint32_t b, uint32_t begun, u
 static void press(uint32_t a, uint32_t b, uint8_t marks)
 {
     uint32_t index = contact_queue_pair(context.contacts, &(struct pair){a, b});
+    if (!contact_table_find(&context, a, b) && !(context.contacts->marks[index] & CONTACT_PRESSED))
+        told += contact_table_begins(&context, index + 1);
     context.contacts->marks[index] |= CONTACT_PRESSED | marks;
 }
 
@@ -70,6 +73,7 @@ static void move(uint32_t row)
 
 static void begin(void)
 {
+    told = 0;
     steps_respond(&f, &context);
     assert_int_equal(context.next->head->tick, TICK);
 }
@@ -290,29 +294,49 @@ static void test_an_object_that_falls_ends_its_contacts(void **state)
 
 /* --- room --------------------------------------------------------------------------------------*/
 
-/* Known contacts keep their room. New ones without room are counted, and end at once. */
-static void test_contacts_without_room_are_told(void **state)
+/* Two contacts are known, and there is room for a third. */
+static void press_four(void)
 {
-    (void)state;
     know(0, 5, 7, TICK - 1);
     know(2, 3, 7, TICK - 1);
     steps_params(&f)->contact_slots = 3;
     begin();
     f.stepper.collider.table.capacity = 1; /* its own lists grow */
+}
+
+/* Known contacts keep their room, and the first new one takes what is left. Those without room are
+ * counted. In the first frame of a second one of them is told. */
+static void test_contacts_without_room_are_counted(void **state)
+{
+    (void)state;
+    press_four();
     press(4, 5, 0);
+    strike(1, 5, 2, 6.0f);
     press(3, 5, 0);
     press(2, 5, 0);
     press(2, 3, 0);
-    strike(1, 5, 2, 6.0f);
     context.next->entities.damage[5] = DAMAGE_HIGH; /* in this frame */
-    const struct persistent_contact *contacts = finish(3, 3);
+    const struct persistent_contact *contacts = finish(3, 1);
     assert_int_equal(context.next->head->tally.contacts_refused, 3);
-    assert_true(contacts[0].b_id == 6 && contacts[1].a_id == 2 && contacts[2].a_id == 3);
-    for (uint32_t i = 0; i < 3; i++) {
-        assert_int_equal(event_of(i)->contact_end.because, CONTACT_END_NO_ROOM);
-        assert_true(event_of(i)->contact_end.a.id == i + 3 && event_of(i)->contact_end.b.id == 6);
-        assert_int_equal(event_of(i)->contact_end.b.damage, DAMAGE_HIGH);
-    }
+    assert_int_equal(told, 2);
+    assert_true(contacts[0].b_id == 6 && contacts[1].a_id == 3 && contacts[2].a_id == 5);
+    const struct event_contact_end *end = &event_of(0)->contact_end;
+    assert_int_equal(end->because, CONTACT_END_NO_ROOM);
+    assert_true(end->a.id == 2 && end->b.id == 6 && end->b.damage == DAMAGE_HIGH);
+    assert_true(end->impacts == 2 && end->impulse_ns == 6.0f);
+}
+
+static void test_in_the_rest_of_a_second_none_without_room_is_told(void **state)
+{
+    (void)state;
+    press_four();
+    context.next->head->tick++;
+    press(4, 5, 0);
+    press(1, 5, 0);
+    press(2, 5, 0);
+    finish(3, 0);
+    assert_int_equal(context.next->head->tally.contacts_refused, 2);
+    assert_int_equal(told, 1);
 }
 
 /* --- frames ------------------------------------------------------------------------------------*/
@@ -364,7 +388,8 @@ int main(void)
         TEST(test_bodies_that_are_near_stay_in_contact),
         TEST(test_a_body_that_is_gone_ends_its_contacts_at_once),
         TEST(test_an_object_that_falls_ends_its_contacts),
-        TEST(test_contacts_without_room_are_told),
+        TEST(test_contacts_without_room_are_counted),
+        TEST(test_in_the_rest_of_a_second_none_without_room_is_told),
         TEST(test_contacts_stay_as_they_are_while_paused),
         TEST(test_a_changed_contact_changes_the_digest_of_its_frame),
     };

@@ -4,6 +4,7 @@
 
 #include "tests/support/steps.h"
 #include "world/entity/persistent_contact.h"
+#include "world/params.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -55,6 +56,19 @@ static void test_the_first_impact_begins_the_contact(void **state)
     assert_int_equal(role_at(0.01), IMPACT_BEGINS);
     assert_int_equal(role_at(1.9), IMPACT_LEANS); /* it has touched in this frame */
     assert_int_equal(role_at(2.1), IMPACT_WITHIN);
+    steps_respond_end(&context);
+}
+
+/* Without room for the contact an impact is told if it is fast. */
+static void test_without_room_only_fast_impacts_are_told(void **state)
+{
+    (void)state;
+    steps_params(&f)->contact_slots = 0;
+    steps_respond(&f, &context);
+    assert_int_equal(role_at(1.9), IMPACT_WITHIN);
+    steps_respond_end(&context);
+    steps_respond(&f, &context);
+    assert_int_equal(role_at(2.1), IMPACT_RENEWS);
     steps_respond_end(&context);
 }
 
@@ -112,6 +126,7 @@ int main(void)
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, fixture_teardown)
     const struct CMUnitTest tests[] = {
         TEST(test_the_first_impact_begins_the_contact),
+        TEST(test_without_room_only_fast_impacts_are_told),
         TEST(test_bodies_that_have_just_touched_have_not_parted),
         TEST(test_bodies_that_have_parted_strike_again),
         TEST(test_within_a_contact_only_worse_damage_is_told),
