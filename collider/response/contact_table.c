@@ -289,10 +289,12 @@ static void renew(struct response_context *context, const struct persistent_cont
 }
 
 /* Puts a known contact without an impact or a load in this frame, or ends it. Bodies that lie still
- * beside each other are not looked at and stay in contact. */
+ * beside each other are not looked at and stay in contact. Those that overlapped in the last frame
+ * have been looked at in this one, and do no longer: their group may sleep. */
 static void keep(struct response_context *context, const struct persistent_contact *known)
 {
     struct persistent_contact contact = *known;
+    contact.flags &= (uint16_t)~PERSISTENT_CONTACT_OVERLAPS;
     bool asks = is_old(context, known) || contact_table_lets_through(context, side_b(known));
     double gap = INFINITY;
     if (gone(context, known)) {

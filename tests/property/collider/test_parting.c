@@ -21,6 +21,8 @@
 #define CROWD_FRAMES 180 /* 3 s */
 #define PILE         25
 
+#define SLEEP_FRAMES 300
+
 #define INSIDE_FRAMES  150
 #define FRAMES_A_METRE 6.0 /* 10 m/s at 60 Hz */
 
@@ -395,6 +397,23 @@ static void test_row_46_a_crowd_at_one_place_parts_in_3_s(void **state)
     run_crowd(true);
 }
 
+/* A contact that overlapped in one frame, and was apart by more than the bodies touch in the next,
+ * kept its group awake for ever. */
+static void test_row_46_bodies_that_have_parted_sleep(void **state)
+{
+    (void)state;
+    open_world("");
+    for (uint32_t i = 0; i < PILE; i++)
+        fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                                .at = {25000.0, FIXTURE_GROUND_M, 25000.0},
+                                                .heading_rad = 3.0 * i * RAD_PER_DEG});
+    fixture_continue(&f, SLEEP_FRAMES);
+    print_message("%d at one place: %u contacts are solved after %d frames\n", PILE,
+                  f.stepper.collider.resting.pairs, SLEEP_FRAMES);
+    assert_int_equal(f.stepper.collider.resting.pairs, 0);
+    fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -406,6 +425,7 @@ int main(void)
         cmocka_unit_test(test_row_46_a_vehicle_leaves_walls_that_are_joined),
         cmocka_unit_test(test_row_46_neighbours_are_pushed_aside_not_into_each_other),
         cmocka_unit_test(test_row_46_a_pile_pushes_nobody_into_others),
+        cmocka_unit_test(test_row_46_bodies_that_have_parted_sleep),
         cmocka_unit_test(test_row_46_a_crowd_at_one_place_parts_in_3_s),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
