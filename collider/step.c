@@ -8,6 +8,7 @@
 #include "world/entity/persistent_contact.h"
 #include "world/entity/table_touch.h"
 #include "world/entity/table_write.h"
+#include "world/maths/hash.h"
 #include "world/params.h"
 #include "world/runtime/work_done.h"
 #include "world/state.h"
@@ -73,12 +74,36 @@ void collider_touch(const struct collider *collider, const struct moved *moved,
 
 struct step {
     struct collider *collider;
+    const struct state *committed;
     struct table moved, next;
     uint32_t used;
     uint32_t known; /* first blocks of next that still hold what this process left */
 };
 
-_Static_assert(BROAD_PHASE_ROWS_TAKEN % CHECKSUM_ROWS == 0, "rows are taken by whole pieces");
+_Static_assert(BROAD_PHASE_ROWS_TAKEN == CHECKSUM_ROWS, "rows are taken by whole blocks");
+
+/* The columns from which the boxes of bodies, and how they turn, follow. */
+#define POSE_COLUMNS                                                                               \
+    (COLUMN_BIT(x) | COLUMN_BIT(y) | COLUMN_BIT(z) | COLUMN_BIT(heading) | COLUMN_BIT(pitch) |     \
+     COLUMN_BIT(roll) | COLUMN_BIT(turret) | COLUMN_BIT(gun) | COLUMN_BIT(id) | COLUMN_BIT(kind) | \
+     COLUMN_BIT(state) | COLUMN_BIT(behaviour))
+
+/* A block rests if its poses are those of the committed frame: then the hashes are equal. */
+static struct resting_block rest_of(const struct step *step, uint32_t block)
+{
+    const struct block_hashes *now = &step->moved.hashes[block];
+    const struct block_hashes *before = &step->committed->hashes[block];
+    uint64_t pose[ENTITY_COLUMN_COUNT], count = 0;
+    if (block >= block_count(step->committed->head->used))
+        return (struct resting_block){0};
+    for (uint64_t left = POSE_COLUMNS; left != 0; left &= left - 1) {
+        int c = __builtin_ctzll(left);
+        if (now->column[c] != before->column[c])
+            return (struct resting_block){0};
+        pose[count++] = now->column[c];
+    }
+    return (struct resting_block){XXH3_64bits(pose, count * sizeof *pose), true};
+}
 
 static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
@@ -90,10 +115,13 @@ static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t wo
     }
 }
 
-/* Copies moved rows just before detection reads them. */
-static void take_rows(void *context, uint32_t first, uint32_t end)
+/* Copies a block of moved rows just before detection reads them. */
+static struct resting_block take_rows(void *context, uint32_t first, uint32_t end)
 {
-    take_blocks(context, first / CHECKSUM_ROWS, block_count(end), 0);
+    const struct step *step = context;
+    uint32_t block = first / CHECKSUM_ROWS;
+    take_blocks(context, block, block_count(end), 0);
+    return rest_of(step, block);
 }
 
 /* Copies all moved rows. */
@@ -249,8 +277,12 @@ void collider_step(struct collider *collider, const struct state *committed,
                    const struct moved *moved, struct state *next, const struct event_ring *ring)
 {
     const struct world *world = collider->world;
-    struct step step = {collider, moved_table(moved), state_table(next), moved->head->used,
-                        known_blocks(collider, moved, next)};
+    struct step step = {.collider = collider,
+                        .committed = committed,
+                        .moved = moved_table(moved),
+                        .next = state_table(next),
+                        .used = moved->head->used,
+                        .known = known_blocks(collider, moved, next)};
     uint64_t *left = &collider->left[moved->head->frame & 1];
     /* An own buffer holds the frame before the committed one. */
     bool same_damage =

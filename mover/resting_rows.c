@@ -185,17 +185,47 @@ static void settle_row(struct resting_rows *rows, const struct step_context *con
     *turns = rest == REST_TURNS ? *turns | bit : *turns & ~bit;
 }
 
+_Static_assert(BEHAVIOUR_IDLE == 0 && MOTION_HOLD < 4 && MOTION_COURSE >= 4,
+               "may_rest() compares bytes");
+
+/* Returns false if none of eight rows rests or can begin to: all have an agent or a driver, and no
+ * behaviour is to stand. True is possible otherwise. first: a multiple of 8. */
+static bool may_rest(const struct resting_rows *rows, const struct entities *m, uint32_t first,
+                     const uint8_t *motion)
+{
+    const uint64_t ones = UINT64_C(0x0101010101010101), tops = ones << 7;
+    uint64_t how, behaviour;
+    memcpy(&how, motion, sizeof how);
+    memcpy(&behaviour, m->behaviour + first, sizeof behaviour);
+    uint64_t no_agent = (how - 4 * ones) & ~how & tops; /* a byte is below 4 */
+    uint64_t idle = (behaviour - ones) & ~behaviour & tops;
+    return (no_agent | idle | (rows->resting[first / 64] >> first % 64 & 0xff)) != 0;
+}
+
+static void settle(struct resting_rows *rows, const struct step_context *context, uint32_t i,
+                   enum motion motion, struct neighbour_index *neighbours,
+                   struct neighbour_lists *lists)
+{
+    bool rested = has_rest(rows, i);
+    settle_row(rows, context, i, motion);
+    if (rested || !has_rest(rows, i))
+        return;
+    neighbour_index_rests(neighbours, i);
+    neighbour_lists_none(lists, i);
+}
+
 void resting_rows_settle(struct resting_rows *rows, const struct step_context *context,
                          const struct row_block *block, const uint8_t *motion,
                          struct neighbour_index *neighbours, struct neighbour_lists *lists)
 {
-    for (uint32_t i = row_block_next(block, block->first); i < block->end && !rows->never;
-         i = row_block_next(block, i + 1)) {
-        bool rested = has_rest(rows, i);
-        settle_row(rows, context, i, (enum motion)motion[i - block->first]);
-        if (rested || !has_rest(rows, i))
+    uint32_t i = row_block_next(block, block->first);
+    while (i < block->end && !rows->never) {
+        uint32_t k = i - block->first;
+        if (k % 8 == 0 && i + 8 <= block->end && !may_rest(rows, context->m, i, motion + k)) {
+            i = row_block_next(block, i + 8);
             continue;
-        neighbour_index_rests(neighbours, i);
-        neighbour_lists_none(lists, i);
+        }
+        settle(rows, context, i, (enum motion)motion[k], neighbours, lists);
+        i = row_block_next(block, i + 1);
     }
 }

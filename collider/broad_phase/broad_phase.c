@@ -29,7 +29,8 @@ int broad_phase_init(struct broad_phase *broad, const struct world *world,
     broad->sweeper = calloc(broad->sweepers, sizeof *broad->sweeper);
     bool taken = broad->box && broad->sweeper &&
                  static_boxes_init(&broad->fixed_boxes, world) == 0 &&
-                 query_index_init(&broad->index, rows) == 0;
+                 query_index_init(&broad->index, rows) == 0 &&
+                 resting_blocks_init(&broad->resting, rows) == 0;
     for (uint32_t i = 0; taken && i < broad->sweepers; i++)
         taken = sweep_worker_init(&broad->sweeper[i], rows, pairs) == 0;
     if (taken)
@@ -45,6 +46,7 @@ void broad_phase_free(struct broad_phase *broad)
         sweep_worker_free(&broad->sweeper[i]);
     static_boxes_free(&broad->fixed_boxes);
     query_index_free(&broad->index);
+    resting_blocks_free(&broad->resting);
     free(broad->sweeper);
     free(broad->box);
     *broad = (struct broad_phase){0};
@@ -72,9 +74,11 @@ static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worke
     struct job *job = context;
     for (uint32_t row = first; row < end; row += BROAD_PHASE_ROWS_TAKEN) {
         uint32_t past = end - row < BROAD_PHASE_ROWS_TAKEN ? end : row + BROAD_PHASE_ROWS_TAKEN;
+        struct resting_block block = {0};
         if (job->take)
-            job->take(job->context, row, past);
-        body_boxes_bin(&job->rows, &job->broad->sweeper[worker], row, past);
+            block = job->take(job->context, row, past);
+        if (!resting_blocks_note(&job->broad->resting, row / BROAD_PHASE_ROWS_TAKEN, &block))
+            body_boxes_bin(&job->rows, &job->broad->sweeper[worker], row, past);
         work_done();
     }
 }
@@ -116,6 +120,7 @@ void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_inpu
     job.strips = (struct strips){.input = input,
                                  .motion = motion,
                                  .fixed_boxes = &broad->fixed_boxes,
+                                 .resting = broad->resting.index.built ? &broad->resting : NULL,
                                  .box = broad->box,
                                  .margin = job.margin,
                                  .sweeper = broad->sweeper,
@@ -126,8 +131,12 @@ void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_inpu
         broad->sweeper[i].fliers.count = 0;
         broad->sweeper[i].pairs.count = 0;
     }
+    resting_blocks_begin(&broad->resting, input);
     thread_pool_run(workers, bin_rows, &job, input->rows, ROWS_A_PIECE);
+    if (motion)
+        resting_blocks_add_fliers(&broad->resting, motion, &broad->sweeper[0].fliers);
     thread_pool_run(workers, meet_strips, &job, STRIP_COUNT, STRIPS_A_PIECE);
+    resting_blocks_end(&broad->resting, &job.rows);
     for (uint32_t i = 0; i < broad->sweepers; i++)
         broad->list[i] = broad->sweeper[i].pairs;
 }
@@ -203,10 +212,24 @@ static void query_bins(const struct query *query, const struct strip_bins *bins,
         query_records(query, one, chunk->record, count);
 }
 
+static void query_resting(const struct query *query, uint32_t strip, const struct bin_record *one)
+{
+    const struct resting_blocks *resting = &query->broad->resting;
+    uint32_t count;
+    const struct bin_record *record =
+        query_index_from(&resting->index, strip, one->min_x, one->max_x, &count);
+    for (uint32_t i = 0; i < count; i++) {
+        if (resting_blocks_holds(resting, &record[i]))
+            query_records(query, one, &record[i], 1);
+    }
+}
+
 static void query_strip(const struct query *query, uint32_t strip)
 {
     const struct broad_phase *broad = query->broad;
     const struct bin_record one = record_of(query->box, strip);
+    if (broad->resting.index.built)
+        query_resting(query, strip, &one);
     if (broad->index.built) {
         uint32_t count;
         const struct bin_record *record =

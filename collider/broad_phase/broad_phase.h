@@ -10,6 +10,7 @@
 #include "collider/motion/body_motion.h"
 #include "collider/broad_phase/static_boxes.h"
 #include "collider/broad_phase/query_index.h"
+#include "collider/broad_phase/resting_blocks.h"
 #include "collider/broad_phase/sweep_and_prune.h"
 #include "world/runtime/thread_pool.h"
 
@@ -24,6 +25,7 @@ struct broad_phase {
     struct static_boxes fixed_boxes;
     struct sweep_worker *sweeper; /* [sweepers] one for each worker */
     uint32_t sweepers;
+    struct resting_blocks resting;          /* whose rows are in no bin */
     struct query_index index;               /* of this frame, once many queries are expected */
     struct pair_list list[THREAD_POOL_MAX]; /* one for each worker; their order does not matter,
                                                since contacts are put in a total order */
@@ -44,11 +46,12 @@ void broad_phase_touch(const struct broad_phase *broad, uint32_t rows);
  * fixed object. The set of pairs does not depend on the number of threads; their order may. */
 void broad_phase_pairs(struct broad_phase *broad, const struct method_input *input);
 
-/* Fills rows first .. end - 1 of the entities that detection reads; first is a multiple of
- * BROAD_PHASE_ROWS_TAKEN. */
-typedef void broad_phase_take(void *context, uint32_t first, uint32_t end);
+/* Rows taken at a time: so many fit into a core's cache. */
+#define BROAD_PHASE_ROWS_TAKEN RESTING_BLOCKS_ROWS
 
-#define BROAD_PHASE_ROWS_TAKEN 1024 /* at a time: so many fit into a core's cache */
+/* Fills rows first .. end - 1 of the entities that detection reads; first is a multiple of
+ * BROAD_PHASE_ROWS_TAKEN. Returns whether this block rests. */
+typedef struct resting_block broad_phase_take(void *context, uint32_t first, uint32_t end);
 
 /* The same with paths that motion computes on demand. Only the paths of fliers and of rows in
  * several strips are computed here; the caller computes the path of every other row in a pair or a

@@ -4,6 +4,7 @@
  * end of its east edge's bucket, and the comparison looks at both edges. */
 #include "collider/broad_phase/sweep_and_prune.h"
 
+#include "collider/broad_phase/resting_blocks.h"
 #include "world/maths/cpu_dispatch.h"
 #include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
@@ -366,6 +367,25 @@ static void sweep_few(struct sweep_worker *sweeper)
     }
 }
 
+/* --- blocks that rest --------------------------------------------------------------------------*/
+
+static void meet_resting(const struct strips *strips, struct sweep_worker *sweeper, uint32_t strip)
+{
+    const struct resting_blocks *resting = strips->resting;
+    for (uint32_t i = 0; i < sweeper->count; i++) {
+        const struct bin_record *one = &sweeper->record[i];
+        uint32_t count;
+        if (one->tag & BIN_RESTS)
+            continue;
+        const struct bin_record *other =
+            query_index_from(&resting->index, strip, one->min_x, one->max_x, &count);
+        for (; count > 0; count--, other++) {
+            if (bin_meet(one, other) && resting_blocks_holds(resting, other))
+                found(sweeper, one->tag, other->tag);
+        }
+    }
+}
+
 /* --- fixed objects -----------------------------------------------------------------------------*/
 
 /* Finds the objects that one record meets. Looks at a few at a time and without branches: as a rule
@@ -438,6 +458,8 @@ VECTOR_CLONES void sweep_and_prune_pairs(const struct strips *strips, struct swe
         sort_records(sweeper);
         sweep_sorted(sweeper);
     }
+    if (strips->resting)
+        meet_resting(strips, sweeper, strip);
     take_candidates(sweeper);
     if (strips->input->world->counts.fixed > 0)
         meet_fixed(strips, sweeper, strip);

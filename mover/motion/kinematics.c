@@ -80,12 +80,6 @@ void kinematics_advance(double *metres, double *speed_mps, double dt_s)
         *speed_mps = 0.0;
 }
 
-bool kinematics_parked(const struct entities *m, uint32_t i)
-{
-    return m->behaviour[i] == BEHAVIOUR_IDLE && m->order[i] == BEHAVIOUR_IDLE &&
-           m->throttle[i] == 0.0f && m->vx[i] == 0.0 && m->vz[i] == 0.0;
-}
-
 bool kinematics_burn(const struct step_context *context, uint32_t i, double share)
 {
     struct entities *m = context->m;

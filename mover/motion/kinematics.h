@@ -43,7 +43,11 @@ void kinematics_advance(double *metres, double *speed_mps, double dt_s);
 
 /* Returns true if row i has the order to stand, and stands. The engine of a land vehicle is then
  * off. */
-bool kinematics_parked(const struct entities *m, uint32_t i);
+static inline bool kinematics_parked(const struct entities *m, uint32_t i)
+{
+    return m->behaviour[i] == BEHAVIOUR_IDLE && m->order[i] == BEHAVIOUR_IDLE &&
+           m->throttle[i] == 0.0f && m->vx[i] == 0.0 && m->vz[i] == 0.0;
+}
 
 /* Burns fuel at a share of full throttle. False when the tank is empty. A kind without a tank
  * (fuel_l 0) always has fuel. */

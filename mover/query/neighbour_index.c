@@ -24,8 +24,9 @@
 #define ROOM_SHARE 8u
 #define ROOM_LEAST 16u
 
-/* When more rows than one in so many have entered another cell, building the index is quicker than
- * to move their entries. */
+/* When more rows than one in so many are awake, building the index is quicker than to write their
+ * entries all over it. The same is true when more have entered another cell. */
+#define AWAKE_SHARE 4u
 #define MOVED_SHARE 256u
 #define MOVED_LEAST 16u
 
@@ -67,10 +68,12 @@ int neighbour_index_init(struct neighbour_index *index, uint32_t capacity)
     index->place = malloc(capacity * sizeof *index->place);
     index->moved = malloc(capacity * sizeof *index->moved);
     index->sorted = malloc(capacity * sizeof *index->sorted);
+    index->sorted_agent = malloc(capacity * sizeof *index->sorted_agent);
     index->slot = malloc(capacity * sizeof *index->slot);
     index->first = calloc(blocks_of(capacity) * (SIDE_MANY + 1), sizeof *index->first);
     if (index->start && index->entries && index->agent && index->room && index->held &&
-        index->key && index->place && index->moved && index->sorted && index->slot && index->first)
+        index->key && index->place && index->moved && index->sorted && index->sorted_agent &&
+        index->slot && index->first)
         return 0;
     neighbour_index_free(index);
     return -1;
@@ -87,6 +90,7 @@ void neighbour_index_free(struct neighbour_index *index)
     free(index->place);
     free(index->moved);
     free(index->sorted);
+    free(index->sorted_agent);
     free(index->slot);
     free(index->first);
     *index = (struct neighbour_index){0};
@@ -99,6 +103,7 @@ void neighbour_index_touch(const struct neighbour_index *index, uint32_t rows)
     prefault_own(index->key, rows * sizeof *index->key);
     prefault_own(index->place, rows * sizeof *index->place);
     prefault_own(index->sorted, rows * sizeof *index->sorted);
+    prefault_own(index->sorted_agent, rows * sizeof *index->sorted_agent);
     prefault_own(index->slot, rows * sizeof *index->slot);
     prefault_own(index->first, blocks_of(rows) * (SIDE_MANY + 1) * sizeof *index->first);
 }
@@ -122,7 +127,8 @@ static bool row_rests(const struct neighbour_index *index, uint32_t i)
 }
 
 /* The row of cells of a table row; side: none. */
-static uint32_t band_of(const struct neighbour_index *index, const struct entities *w, uint32_t i)
+static inline uint32_t band_of(const struct neighbour_index *index, const struct entities *w,
+                               uint32_t i)
 {
     if (w->state[i] == ENTITY_FREE || w->behaviour[i] == BEHAVIOUR_FLIGHT)
         return index->side;
@@ -130,7 +136,8 @@ static uint32_t band_of(const struct neighbour_index *index, const struct entiti
     return (uint32_t)cell_axis(index, (double)(float)w->z[i]);
 }
 
-static uint16_t slot_of(const struct neighbour_index *index, const struct entities *w, uint32_t i)
+static inline uint16_t slot_of(const struct neighbour_index *index, const struct entities *w,
+                               uint32_t i)
 {
     uint32_t layer = w->force[i] < FORCE_COUNT ? w->force[i] : FORCE_NEUTRAL;
     if (w->state[i] == ENTITY_WRECK)
@@ -146,7 +153,7 @@ static uint32_t key_of(const struct neighbour_index *index, const struct entitie
                                : band * slots_of(index) + slot_of(index, w, i);
 }
 
-static struct neighbour_index_entry entry_of(const struct entities *w, uint32_t i)
+static inline struct neighbour_index_entry entry_of(const struct entities *w, uint32_t i)
 {
     return (struct neighbour_index_entry){.x = (float)w->x[i],
                                           .z = (float)w->z[i],
@@ -158,7 +165,7 @@ static struct neighbour_index_entry entry_of(const struct entities *w, uint32_t 
 }
 
 /* The id of the row's agent if it decides in its turn, else 0. */
-static uint32_t agent_of(const struct neighbour_index *index, uint32_t i)
+static inline uint32_t agent_of(const struct neighbour_index *index, uint32_t i)
 {
     const struct entities *w = index->committed;
     return w->state[i] == ENTITY_ACTIVE && !row_rests(index, i) ? w->id[i] : 0;
@@ -188,13 +195,16 @@ static void sort_block(struct neighbour_index *index, uint32_t block)
     }
     for (uint32_t i = begin; i < end; i++) {
         uint32_t b = band[i - begin];
-        index->key[i] = NEIGHBOUR_INDEX_NO_KEY;
+        if (index->placed)
+            index->key[i] = NEIGHBOUR_INDEX_NO_KEY;
         if (b == index->side)
             continue;
         uint32_t at = begin + next[b]++;
         index->sorted[at] = entry_of(w, i);
+        index->sorted_agent[at] = agent_of(index, i);
         index->slot[at] = slot_of(index, w, i);
-        index->key[i] = b * slots + index->slot[at];
+        if (index->placed)
+            index->key[i] = b * slots + index->slot[at];
     }
 }
 
@@ -223,7 +233,8 @@ static void fill_band(struct neighbour_index *index, uint32_t band)
 {
     uint32_t slots = slots_of(index), blocks = blocks_of(index->used);
     uint32_t *start = index->start + band * index->stride, at = index->room[band];
-    uint32_t next[SIDE_MANY * NEIGHBOUR_INDEX_LAYERS];
+    uint32_t next[SIDE_MANY * NEIGHBOUR_INDEX_LAYERS], *layers = index->band_count[band];
+    memset(layers, 0, sizeof index->band_count[band]);
     if (index->held[band] == 0)
         return;
     count_slots(index, band, next);
@@ -231,15 +242,17 @@ static void fill_band(struct neighbour_index *index, uint32_t band)
         uint32_t count = next[s];
         start[s] = next[s] = at;
         at += count;
+        layers[s % NEIGHBOUR_INDEX_LAYERS] += count;
     }
     start[slots] = at;
     for (uint32_t p = 0; p < blocks; p++) {
         const uint32_t *first = index->first + p * (SIDE_MANY + 1) + band;
         for (uint32_t n = first[0]; n < first[1]; n++) {
-            uint32_t to = next[index->slot[n]]++, i = index->sorted[n].row;
+            uint32_t to = next[index->slot[n]]++;
             index->entries[to] = index->sorted[n];
-            index->agent[to] = agent_of(index, i);
-            index->place[i] = to;
+            index->agent[to] = index->sorted_agent[n];
+            if (index->placed)
+                index->place[index->sorted[n].row] = to;
         }
     }
     note_agent(index, band);
@@ -276,9 +289,9 @@ static void find_present(struct neighbour_index *index)
 static void count_layers(struct neighbour_index *index)
 {
     memset(index->count, 0, sizeof index->count);
-    for (uint32_t i = 0; i < index->used; i++) {
-        if (index->key[i] != NEIGHBOUR_INDEX_NO_KEY)
-            index->count[index->key[i] % NEIGHBOUR_INDEX_LAYERS]++;
+    for (uint32_t band = 0; band < index->side; band++) {
+        for (uint32_t layer = 0; layer < NEIGHBOUR_INDEX_LAYERS; layer++)
+            index->count[layer] += index->band_count[band][layer];
     }
     find_present(index);
 }
@@ -298,13 +311,13 @@ static void take_frame(struct neighbour_index *index, const struct neighbour_ind
 }
 
 void neighbour_index_build(struct neighbour_index *index, const struct neighbour_index_frame *frame,
-                           struct thread_pool *workers)
+                           bool places, struct thread_pool *workers)
 {
     take_frame(index, frame);
     index->side = side_for(index->used);
     index->cells_per_m = (double)index->side / WORLD_SIDE_M;
     index->stride = slots_of(index) + 1;
-    index->built = true;
+    index->placed = places;
     workers = index->used > NEIGHBOUR_INDEX_ALONE ? workers : NULL;
     thread_pool_run(workers, sort_blocks, index, blocks_of(index->used), 1);
     lay_out(index);
@@ -428,10 +441,19 @@ static bool move_entries(struct neighbour_index *index)
     return true;
 }
 
+static uint32_t count_awake(const struct neighbour_index_frame *frame)
+{
+    uint32_t resting = 0;
+    for (uint32_t first = 0; frame->resting && first < frame->used; first += 64)
+        resting += (uint32_t)__builtin_popcountll(frame->resting[first / 64]);
+    return frame->used - (resting < frame->used ? resting : frame->used);
+}
+
 void neighbour_index_update(struct neighbour_index *index,
                             const struct neighbour_index_frame *frame, struct thread_pool *workers)
 {
-    bool kept = index->built && index->side == side_for(frame->used);
+    bool few = count_awake(frame) <= frame->used / AWAKE_SHARE;
+    bool kept = few && index->placed && index->side == side_for(frame->used);
     if (kept) {
         change_used(index, frame->used);
         take_frame(index, frame);
@@ -441,12 +463,12 @@ void neighbour_index_update(struct neighbour_index *index,
         kept = move_entries(index);
     }
     if (!kept)
-        neighbour_index_build(index, frame, workers);
+        neighbour_index_build(index, frame, few, workers);
 }
 
 void neighbour_index_rests(struct neighbour_index *index, uint32_t row)
 {
-    if (index->key[row] != NEIGHBOUR_INDEX_NO_KEY)
+    if (index->placed && index->key[row] != NEIGHBOUR_INDEX_NO_KEY)
         index->agent[index->place[row]] = 0;
 }
 

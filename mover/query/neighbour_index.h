@@ -6,9 +6,9 @@
  * neighbour_query_next() follows from the world alone, not from the number of threads, from earlier
  * queries or from earlier frames. All threads may query at once.
  *
- * The index is kept from frame to frame. Only the entries of rows that may have changed are written
- * again; a row that enters another cell moves its entry. When many do, and when there is no index
- * yet, it is built by a counting sort. */
+ * The index is kept from frame to frame while most rows rest. Only the entries of the other rows
+ * are written again; a row that enters another cell moves its entry. Else the index is built by a
+ * counting sort, which reads and writes memory in its order. */
 #ifndef JOLON_MOVER_QUERY_NEIGHBOUR_INDEX_H
 #define JOLON_MOVER_QUERY_NEIGHBOUR_INDEX_H
 
@@ -69,9 +69,11 @@ struct neighbour_index {
     uint32_t *held;  /* [side] entries of each row of cells */
     _Atomic uint8_t decides[NEIGHBOUR_INDEX_SIDE_MOST]; /* 0: the row of cells has no agent that
                                                            decides */
-    uint32_t count[NEIGHBOUR_INDEX_LAYERS];             /* entries of each layer */
-    uint32_t present;                                   /* the layers that have an entry */
-    /* Of the rows: */
+    /* Entries of each layer: in each row of cells as it was built, and in all. */
+    uint32_t band_count[NEIGHBOUR_INDEX_SIDE_MOST][NEIGHBOUR_INDEX_LAYERS];
+    uint32_t count[NEIGHBOUR_INDEX_LAYERS];
+    uint32_t present; /* the layers that have an entry */
+    /* Of the rows, unless the index was built for one frame: */
     uint32_t *key;   /* [capacity] cell and layer, or NEIGHBOUR_INDEX_NO_KEY: in no cell */
     uint32_t *place; /* [capacity] index of entries */
     /* Of the frame: */
@@ -79,11 +81,12 @@ struct neighbour_index {
     const uint64_t *resting; /* a bit for each row whose entry has not changed; NULL: none */
     uint32_t used, tick;
     uint64_t think_divisor; /* neighbour_index_divisor() of think_frames */
-    bool built;
-    uint32_t *moved; /* [capacity] rows that have entered another cell */
+    bool placed;            /* key and place are set */
+    uint32_t *moved;        /* [capacity] rows that have entered another cell */
     _Atomic uint32_t moved_count;
     /* Used while the index is built: blocks of rows are sorted first, then each row of cells. */
     struct neighbour_index_entry *sorted; /* [capacity] by block and row of cells */
+    uint32_t *sorted_agent;               /* [capacity] of sorted */
     uint16_t *slot;  /* [capacity] of sorted: column and layer within a row of cells */
     uint32_t *first; /* [blocks][side + 1] index of sorted: where a block's row of cells begins */
 };
@@ -108,9 +111,10 @@ struct neighbour_index_frame {
     const uint64_t *resting;
 };
 
-/* Indexes all rows. workers may be NULL. */
+/* Indexes all rows. places: the index can be kept, which costs somewhat more. workers may be NULL.
+ */
 void neighbour_index_build(struct neighbour_index *index, const struct neighbour_index_frame *frame,
-                           struct thread_pool *workers);
+                           bool places, struct thread_pool *workers);
 
 /* The same for the frame after the one that is indexed. The entries of rows that rest must not have
  * changed since. */

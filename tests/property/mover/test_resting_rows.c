@@ -1,6 +1,6 @@
-/* Rows that rest are not moved, and no bit of the world differs from one in which every row is
- * moved in every frame: with shots, bombs, craters, commands, restarts and any number of threads.
- * SEED=n chooses others. */
+/* Rows that rest are not moved, and blocks that rest keep their boxes, and no bit of the world
+ * differs from one in which every row is moved and boxed in every frame: with shots, bombs,
+ * craters, commands, restarts and any number of threads. SEED=n chooses others. */
 #include "tests/support/fixture.h"
 #include "tests/support/steps.h"
 
@@ -20,6 +20,9 @@
 #define GROUP(kind, n, more)                                                                       \
     "{ kind = \"" kind "\"; count = " #n "; area = [24600.0, 24600.0, 25400.0, 25400.0]; " more    \
     " },"
+#define HERD(kind, n, more)                                                                        \
+    "{ kind = \"" kind "\"; count = " #n "; area = [24000.0, 24000.0, 26000.0, 26000.0]; " more    \
+    " },"
 #define IDLE "behaviour = \"idle\";"
 #define WORLD(shape, ground)                                                                       \
     "world = { seed = 5; capacity = 4096; }; collision = { shape = \"" shape "\"; };"              \
@@ -37,6 +40,17 @@
 
 static const char flat[] = WORLD("sphere", "source = \"flat\"; height_m = 100.0;");
 static const char shaped[] = WORLD("model", "source = \"flat\"; height_m = 100.0;");
+
+/* Blocks of 1,024 rows in which all rest, and others that drive through them and fight. */
+static const char herds[] =
+    "world = { seed = 6; capacity = 8192; }; collision = { shape = \"model\"; };"
+    "terrain = { source = \"flat\"; height_m = 100.0; };"
+    "vehicles = (" HERD("truck", 1500, IDLE) GROUP("jeep", 30, "behaviour = \"patrol\";")
+        GROUP("tank", 12, "force = \"blue\"; fire_at_will = true;")
+            GROUP("tank", 12, "force = \"red\"; fire_at_will = true;") GROUP(
+                "tank", 30, "behaviour = \"hold\"; speed_mps = 12.0;") HERD("jeep", 1000, IDLE)
+                HERD("helicopter", 1200,
+                     IDLE) "{ kind = \"jeep\"; behaviour = \"idle\"; at = [2000.0, 2000.0]; } );";
 
 #define ROWS 612u
 
@@ -69,6 +83,15 @@ static uint32_t count_resting(const struct fixture *f)
     return count;
 }
 
+static uint32_t count_kept(const struct fixture *f)
+{
+    const struct resting_blocks *resting = &f->stepper.collider.broad.resting;
+    uint32_t count = 0;
+    for (uint32_t block = 0; block < resting->blocks; block++)
+        count += resting->kept[block];
+    return count;
+}
+
 /* Drops a bomb that bursts on the ground in the next frame. */
 static void drop(struct fixture *f, double x, double z)
 {
@@ -79,13 +102,21 @@ static void drop(struct fixture *f, double x, double z)
     steps_send(f, RING_CLIENTS, command);
 }
 
-static void compare(const char *scenario, uint64_t seed)
+struct seen {
+    uint32_t most, woken; /* rows at rest at once, frames in which rows woke */
+    uint32_t kept, left;  /* frames with blocks that are kept, and in which one no longer is */
+    uint32_t craters, destroyed;
+};
+
+static struct seen compare(const char *scenario, uint64_t seed)
 {
     struct fixture rests, moves;
-    uint32_t most = 0, woken = 0, before = 0;
+    struct seen seen = {0};
+    uint32_t before = 0, kept_before = 0;
     fixture_open(&rests, scenario);
     fixture_open(&moves, scenario);
     moves.stepper.mover.resting.never = true;
+    moves.stepper.collider.broad.resting.never = true;
     for (uint64_t i = 0; i < FRAMES; i++) {
         if (i > 120 && fixture_random(&seed) % 4 == 0) {
             struct command command = random_command(&seed, i);
@@ -104,18 +135,25 @@ static void compare(const char *scenario, uint64_t seed)
         struct state a = fixture_state(&rests), b = fixture_state(&moves);
         assert_int_equal(a.head->event_digest, b.head->event_digest);
         assert_int_equal(steps_state_hash(&rests, &a), steps_state_hash(&moves, &b));
-        uint32_t count = count_resting(&rests);
-        woken += count < before;
+        uint32_t count = count_resting(&rests), kept = count_kept(&rests);
+        seen.woken += count < before;
+        seen.most = count > seen.most ? count : seen.most;
+        seen.kept += kept > 0;
+        seen.left += kept < kept_before;
         before = count;
-        most = count > most ? count : most;
-        assert_int_equal(count_resting(&moves), 0);
+        kept_before = kept;
+        assert_int_equal(count_resting(&moves) + count_kept(&moves), 0);
     }
     const struct state_head *head = fixture_state(&rests).head;
-    printf("most at rest %u, frames in which rows woke %u, craters %u, destroyed %u\n", most, woken,
-           head->crater_count, (uint32_t)head->tally.destroyed);
-    assert_true(most > 400 && woken > 50 && head->crater_count > 3 && head->tally.destroyed > 3);
+    seen.craters = head->crater_count;
+    seen.destroyed = (uint32_t)head->tally.destroyed;
+    printf("most at rest %u, frames: %u in which rows woke, %u with kept blocks, %u in which one "
+           "left; craters %u, destroyed %u\n",
+           seen.most, seen.woken, seen.kept, seen.left, seen.craters, seen.destroyed);
+    assert_true(seen.most > 400 && seen.woken > 50 && seen.craters > 3 && seen.destroyed > 3);
     fixture_close(&rests);
     fixture_close(&moves);
+    return seen;
 }
 
 static void test_rows_that_rest_change_no_bit(void **state)
@@ -132,11 +170,20 @@ static void test_bodies_that_rest_change_no_bit(void **state)
     compare(shaped, seed);
 }
 
+static void test_blocks_that_rest_change_no_bit(void **state)
+{
+    uint64_t seed = fixture_seed(16);
+    (void)state;
+    struct seen seen = compare(herds, seed);
+    assert_true(seen.kept > 60 && seen.left > 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rows_that_rest_change_no_bit),
         cmocka_unit_test(test_bodies_that_rest_change_no_bit),
+        cmocka_unit_test(test_blocks_that_rest_change_no_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
