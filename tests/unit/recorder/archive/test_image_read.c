@@ -168,7 +168,7 @@ static void test_foreign_files_are_refused(void **state)
     (void)state;
     assert_refused("#!/bin/sh\n", 10, "too small");
     REFUSED(magic, SEGMENT_MAGIC, "magic");
-    REFUSED(version, IMAGE_VERSION + 1, "version 5; this program knows 4");
+    REFUSED(version, IMAGE_VERSION + 1, "version 6; this program knows 5");
     REFUSED(layout_hash, layout_hash() ^ 1, "another build");
     REFUSED(header_bytes, sizeof(struct image_header) + 8, "another build");
 }
