@@ -15,8 +15,8 @@
 #define ROW  (CHECKSUM_ROWS + 7) /* in the second block */
 
 static struct entities rows;
-static uint64_t changed[2];
-static const struct table_writer writer = {&rows, changed};
+static uint64_t changed[2], resting[ROWS / 64];
+static const struct table_writer writer = {&rows, changed, resting};
 
 static int make(void **state)
 {
@@ -25,6 +25,7 @@ static int make(void **state)
     assert_non_null(memory);
     memset(memory, 0, entities_bytes(ROWS));
     entities_bind(&rows, ROWS, memory);
+    memset(resting, 0xff, sizeof resting);
     return 0;
 }
 
@@ -35,11 +36,15 @@ static int release(void **state)
     return 0;
 }
 
-/* Returns the columns marked since the last call; those of the other block must be none. */
+/* Returns the columns marked since the last call; those of the other block must be none. The row
+ * that was written rests no more, and all others do. */
 static uint64_t marked(void)
 {
     uint64_t columns = changed[1];
     assert_true(changed[0] == 0);
+    for (uint32_t word = 0; word < ROWS / 64; word++)
+        assert_true(resting[word] == (word == ROW / 64 ? ~((uint64_t)1 << ROW % 64) : UINT64_MAX));
+    memset(resting, 0xff, sizeof resting);
     changed[1] = 0;
     return columns;
 }
