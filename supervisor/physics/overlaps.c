@@ -2,7 +2,7 @@
 #include "supervisor/physics/overlaps.h"
 
 #include "supervisor/physics/hull_overlap.h"
-#include "supervisor/physics/way_out.h"
+#include "supervisor/physics/parting_distance.h"
 #include "world/entity/entity.h"
 #include "world/entity/hull.h"
 #include "world/entity/kind.h"
@@ -156,24 +156,24 @@ static double pieces_apart(const struct overlaps *overlaps, const struct pair_si
     return least;
 }
 
-static struct way_pieces pieces_of(const struct overlaps *overlaps, const struct pair_side *side,
-                                   struct rigid_pose *pose)
+static struct parting_pieces pieces_of(const struct overlaps *overlaps,
+                                       const struct pair_side *side, struct rigid_pose *pose)
 {
     struct rigid_pose part[HULL_PART_COUNT];
     const struct kind *kind = side->kind;
     find_parts(side, part);
     for (uint32_t i = 0; i < kind->hull_count; i++)
         pose[i] = part[part_of(overlaps, kind->first_hull + i)];
-    return (struct way_pieces){&overlaps->shape[kind->first_hull], pose, kind->hull_count,
-                               side->scale};
+    return (struct parting_pieces){&overlaps->shape[kind->first_hull], pose, kind->hull_count,
+                                   side->scale};
 }
 
-static double way_out(const struct overlaps *overlaps, const struct pair_side sides[2])
+static double parting_distance(const struct overlaps *overlaps, const struct pair_side sides[2])
 {
     struct rigid_pose pose_a[HULLS_A_MODEL], pose_b[HULLS_A_MODEL];
-    const struct way_pieces a = pieces_of(overlaps, &sides[0], pose_a);
-    const struct way_pieces b = pieces_of(overlaps, &sides[1], pose_b);
-    return way_out_find(&a, &b);
+    const struct parting_pieces a = pieces_of(overlaps, &sides[0], pose_a);
+    const struct parting_pieces b = pieces_of(overlaps, &sides[1], pose_b);
+    return parting_distance_find(&a, &b);
 }
 
 static double bodies_apart(const struct overlaps *overlaps, const struct pair_side *a,
@@ -239,7 +239,8 @@ static void measure_growth(struct look *look, const struct overlap *pair,
     const struct overlaps *overlaps = look->overlaps;
     double growth = maths_max(0.0, pair->depth_m - (last ? last->depth_m : 0.0));
     if (growth > ROUNDING_M && pair->since_start && !overlaps->spheres)
-        growth = maths_clamp(way_out(overlaps, now) - way_out(overlaps, before), 0.0, growth);
+        growth = maths_clamp(parting_distance(overlaps, now) - parting_distance(overlaps, before),
+                             0.0, growth);
     measure_take(look->measures, MEASURE_OF_OVERLAP_GROWTH, growth, a, b);
 }
 

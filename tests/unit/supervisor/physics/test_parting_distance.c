@@ -1,5 +1,5 @@
 /* Ways out of cubes by known lengths. */
-#include "supervisor/physics/way_out.h"
+#include "supervisor/physics/parting_distance.h"
 
 #include "tests/support/fixture.h"
 #include "world/entity/hull.h"
@@ -44,8 +44,8 @@ static double way(struct vec3 first, struct vec3 second)
     const struct rigid_pose own = pose_at(0.0, 0.0, 0.0);
     const struct rigid_pose others[2] = {pose_at(first.x, first.y, first.z),
                                          pose_at(second.x, second.y, second.z)};
-    const struct way_pieces a = {shape, &own, 1, 1.0}, b = {shape, others, 2, 1.0};
-    return way_out_find(&a, &b);
+    const struct parting_pieces a = {shape, &own, 1, 1.0}, b = {shape, others, 2, 1.0};
+    return parting_distance_find(&a, &b);
 }
 
 static const struct vec3 far = {100.0, 0.0, 0.0};

@@ -1,5 +1,5 @@
 /* Half-planes of the places of b at which two pieces overlap, cut by lines. */
-#include "supervisor/physics/way_out.h"
+#include "supervisor/physics/parting_distance.h"
 
 #include "supervisor/physics/hull_overlap.h"
 
@@ -55,7 +55,7 @@ static struct part_of_line cut(const struct piece_pair *pair, struct vec3 direct
 static double way_along(const struct piece_pair *pairs, uint32_t count, struct vec3 direction,
                         double most)
 {
-    struct part_of_line line[WAY_PIECES_MAX];
+    struct part_of_line line[PARTING_PIECES_MAX];
     double end = 0.0;
     for (uint32_t i = 0; i < count; i++)
         line[i] = cut(&pairs[i], direction);
@@ -77,13 +77,13 @@ static bool overlap_now(const struct piece_pair *pair)
     return true;
 }
 
-static uint32_t list_pairs(const struct way_pieces *a, const struct way_pieces *b,
+static uint32_t list_pairs(const struct parting_pieces *a, const struct parting_pieces *b,
                            struct piece_pair *pairs)
 {
     const struct vec3 up = {0.0, 1.0, 0.0}, down = {0.0, -1.0, 0.0};
     uint32_t count = 0;
     for (uint32_t i = 0; i < a->count; i++) {
-        for (uint32_t j = 0; j < b->count && count < WAY_PIECES_MAX; j++) {
+        for (uint32_t j = 0; j < b->count && count < PARTING_PIECES_MAX; j++) {
             struct piece_pair *pair = &pairs[count];
             *pair = (struct piece_pair){&a->shape[i], &b->shape[j], &a->pose[i], &b->pose[j],
                                         hull_overlap_place(&a->pose[i], &b->pose[j], b->scale)};
@@ -93,9 +93,9 @@ static uint32_t list_pairs(const struct way_pieces *a, const struct way_pieces *
     return count;
 }
 
-double way_out_find(const struct way_pieces *a, const struct way_pieces *b)
+double parting_distance_find(const struct parting_pieces *a, const struct parting_pieces *b)
 {
-    struct piece_pair pairs[WAY_PIECES_MAX];
+    struct piece_pair pairs[PARTING_PIECES_MAX];
     uint32_t count = list_pairs(a, b, pairs);
     double least = HUGE_VAL;
     for (uint32_t i = 0; i < count; i++) {
