@@ -184,14 +184,16 @@ static inline void limit(struct ground_vehicle *batch, int h, f64x4 *wanted)
     *wanted = SIMD_CLAMP(*wanted, lowest, most);
 }
 
-/* The speed along the heading after the step. Agents brake as hard as their kind can. */
+/* The speed along the heading after the step. Agents brake as hard as their kind can, and stop
+ * before they drive the other way: brakes give no speed. */
 static inline void power(const struct ground_vehicle *batch, int h, const f64x4 *wanted,
                          f64x4 *forward, double dt_s)
 {
     const f64x4 none = SIMD_EVERY(0.0), grip = SIMD_EVERY(GROUND_GRIP * GRAVITY_MPS2);
     const f64x4 slow = SIMD_EVERY(LEAST_MPS), least = SIMD_EVERY(LEAST_GAIN);
     f64x4 rate = batch->acceleration.f64x4[h], speed = SIMD_ABS(*forward);
-    four_masks braking = (SIMD_ABS(*wanted) < SIMD_ABS(*forward)) | (*wanted * *forward < none);
+    four_masks reverses = *wanted * *forward < none;
+    four_masks braking = (SIMD_ABS(*wanted) < SIMD_ABS(*forward)) | reverses;
     f64x4 hardest = BRAKES * rate, back;
     find_held_back(batch, h, wanted, &back);
     hardest = SIMD_MIN(hardest, grip);
@@ -200,7 +202,8 @@ static inline void power(const struct ground_vehicle *batch, int h, const f64x4 
     gain = SIMD_MAX(gain, least);
     gain = SIMD_MIN(gain, rate);
     f64x4 step = SIMD_CHOOSE(braking, hardest, gain) * dt_s;
-    kinematics_simd_approach(forward, wanted, &step);
+    f64x4 aim = SIMD_CHOOSE(reverses, none, *wanted);
+    kinematics_simd_approach(forward, &aim, &step);
 }
 
 /* --- lanes -------------------------------------------------------------------------------------*/

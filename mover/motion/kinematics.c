@@ -51,15 +51,6 @@ void kinematics_steer(const struct step_context *context, uint32_t i,
         *heading = kinematics_turn(*heading, desired->heading_rad, rate_rps, context->dt_s);
 }
 
-double kinematics_slowing(const struct kind *kind, const struct desired_motion *desired,
-                          double forward, double drag_mps2)
-{
-    double hardest = BRAKES * kind->acceleration_mps2;
-    if (!desired->driven || desired->speed_mps * forward < 0.0)
-        return hardest;
-    return drag_mps2 + desired->brake * maths_max(0.0, hardest - drag_mps2);
-}
-
 void kinematics_along(const struct entities *m, uint32_t i, double sine, double cosine,
                       double *forward, double *rightward)
 {

@@ -24,12 +24,6 @@ double kinematics_turn(double heading, double wanted, double rate_rps, double dt
 void kinematics_steer(const struct step_context *context, uint32_t i,
                       const struct desired_motion *desired, double rate_rps);
 
-/* Braking [m/s2] of a vehicle whose speed is forward. Agents brake as hard as their kind can, and
- * so does a driver who brakes or reverses. A driver who releases the throttle slows by drag_mps2.
- */
-double kinematics_slowing(const struct kind *kind, const struct desired_motion *desired,
-                          double forward, double drag_mps2);
-
 /* Speed [m/s] along the heading and to its right. */
 void kinematics_along(const struct entities *m, uint32_t i, double sine, double cosine,
                       double *forward, double *rightward);

@@ -6,6 +6,7 @@
 #include "mover/motion/aircraft.h"
 #include "mover/motion/chassis.h"
 #include "mover/motion/constant_course.h"
+#include "mover/motion/drivetrain.h"
 #include "mover/motion/ground_vehicle.h"
 #include "mover/motion/kinematics.h"
 #include "mover/query/ground_marks.h"
@@ -99,10 +100,12 @@ static double powered(const struct step_context *context, const struct kind *kin
     double rate = kind->acceleration_mps2;
     double gain = power_of(kind) / maths_max(fabs(forward), 0.5) -
                   held_back(kind, wanted < 0.0 ? -pitch : pitch);
+    gain /= drivetrain_gears(kind);
     gain = maths_min(maths_max(gain, 0.1), rate);
     if (braking)
         gain = maths_min(BRAKES * rate, 0.7 * GRAVITY_MPS2);
-    return kinematics_approach(forward, wanted, gain * context->dt_s);
+    return kinematics_approach(forward, wanted * forward < 0.0 ? 0.0 : wanted,
+                               gain * context->dt_s);
 }
 
 /* How fast it turns without sliding or leaning over. */
@@ -215,14 +218,19 @@ static bool drive_one(const struct step_context *context, uint32_t i,
         x = m->x[i], z = m->z[i];
         vx = vz = 0.0;
     }
-    double y = standing_height(context, i, x, z);
-    entities_set_velocity(m, i, (struct vec3){vx, (y - m->y[i]) / context->dt_s, vz});
+    double y = standing_height(context, i, x, z), before = m->y[i], roll = m->roll[i];
+    entities_set_velocity(m, i, (struct vec3){vx, (y - before) / context->dt_s, vz});
     entities_set_position(m, i, (struct vec3){x, y, z});
     stand_on_ground(context, i);
     if (fabs(m->pitch[i]) > CHASSIS_TILT_RAD || fabs(m->roll[i]) > CHASSIS_TILT_RAD ||
         forward * (pitch - m->pitch[i]) > GRAVITY_MPS2 * context->dt_s ||
         crater_step(context, i) > CHASSIS_STEP_M) {
+        double climb = (vx * sine - vz * cosine) * pitch * (1.0 + pitch * pitch / 3.0);
         chassis_disturb(context, i);
+        m->vy[i] = climb;
+        m->y[i] = before + climb * context->dt_s;
+        m->pitch[i] = pitch;
+        m->roll[i] = roll;
         m->spin_y[i] = -maths_wrap_half(m->heading[i] - heading) / context->dt_s;
     }
     return blocked;

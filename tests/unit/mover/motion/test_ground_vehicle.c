@@ -325,6 +325,28 @@ static void test_it_reverses_at_two_fifths(void **state)
         near(steps_rows(&f).vx[row], -0.4 * steps_kind(&f, "tank")->max_speed_mps, SPEED_MPS));
 }
 
+/* Brakes that work past a standstill would push: 0.6 m/s in a frame of 0.1 s. */
+static void test_an_agent_stops_before_it_backs_off(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, "world = { hz = 10.0; };");
+    steps_plane(&f, 0.0, 0.0);
+    uint32_t tank = put_tank(25010.0, 25010.0, 90.0, 0.1);
+    struct entities e = steps_rows(&f);
+    e.behaviour[tank] = BEHAVIOUR_BACK_OFF;
+    e.until_tick[tank] = 1000;
+    e.bump_heading[tank] = (float)(1.5 * HALF_PI * 2.0);
+    double least = 0.0;
+    for (int frame = 0; frame < 5; frame++) {
+        double before = steps_rows(&f).vx[tank];
+        fixture_run(&f, 1);
+        least = maths_min(least, steps_rows(&f).vx[tank]);
+        assert_true(before <= 0.0 || steps_rows(&f).vx[tank] >= 0.0);
+    }
+    assert_true(least < 0.0);
+}
+
 static void test_it_turns_as_fast_as_the_ground_holds(void **state)
 {
     double rate = steps_kind(&f, "tank")->turn_rate_rps;
@@ -541,6 +563,7 @@ int main(void)
         TEST(test_low_gear_is_slow_and_strong),
         TEST(test_no_control_makes_a_number_that_is_none_or_passes_a_limit),
         TEST(test_it_reverses_at_two_fifths),
+        TEST(test_an_agent_stops_before_it_backs_off),
         TEST(test_it_turns_as_fast_as_the_ground_holds),
         TEST(test_a_sideways_slide_is_braked_by_its_tyres),
         TEST(test_fuel_burns_with_the_throttle_and_an_empty_tank_stops_it),
