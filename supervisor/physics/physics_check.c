@@ -79,6 +79,23 @@ static int join_struck(struct physics_check *check, uint64_t end,
     return 0;
 }
 
+/* So do bodies that have pressed on each other in the frame: the guard at its end may have sent one
+ * of them back since. */
+static int join_pressed(struct physics_check *check, const struct state *state)
+{
+    for (uint32_t i = 0; i < state->head->contact_count; i++) {
+        const struct persistent_contact *contact = &state->contacts[i];
+        if (contact->pressed_tick != state->head->tick)
+            continue;
+        uint32_t a = body_looks_find(&check->looks, contact->a_id);
+        uint32_t b = body_looks_find(&check->looks, contact->b_id);
+        if (a != NO_LOOK && b != NO_LOOK &&
+            neighbour_pairs_add(&check->overlaps.touching, a, b) != 0)
+            return -1;
+    }
+    return 0;
+}
+
 static void look_at_bodies(struct physics_check *check, const struct ground_look *ground)
 {
     struct body_looks *looks = &check->looks;
@@ -123,7 +140,8 @@ static int look_at(struct physics_check *check, const struct state *state,
     body_looks_hits(&check->looks, state, check->contact, check->contact_count);
     if (overlaps_look(&check->overlaps, &check->measures, &check->looks, state->fixed_damage,
                       dt_s) != 0 ||
-        (events && join_struck(check, state->head->event_end, events) != 0))
+        (events && join_struck(check, state->head->event_end, events) != 0) ||
+        join_pressed(check, state) != 0)
         return -1;
     look_at_motion(check, &ground);
     body_looks_end(&check->looks);

@@ -644,6 +644,30 @@ static void test_a_command_an_explosion_and_a_collision_explain_it(void **state)
     assert_false(measure_good(&check.measures, MEASURE_OF_ENERGY));
 }
 
+/* One tank gives its speed to another and is sent back since, so that they are apart. */
+static void test_bodies_that_pressed_share_their_energy(void **state)
+{
+    uint32_t a = put("tank", MIDDLE, 100.0), b = put("tank", MIDDLE + 20.0, 100.0);
+    (void)state;
+    begin();
+    add_event(EVENT_COMMAND)->command.entity = a + 1;
+    now.entities.vx[a] = 5.0;
+    next();
+    now.contacts[0] = (struct persistent_contact){.a_id = a + 1,
+                                                  .b_id = b + 1,
+                                                  .a_row = a,
+                                                  .b_row = b,
+                                                  .pressed_tick = (uint32_t)now.head->tick + 1};
+    now.head->contact_count = 1;
+    now.entities.vx[a] = 2.0;
+    now.entities.vx[b] = 4.5;
+    next();
+    assert_true(measure_good(&check.measures, MEASURE_OF_ENERGY));
+    now.entities.vx[a] = 4.5;
+    next();
+    assert_false(measure_good(&check.measures, MEASURE_OF_ENERGY));
+}
+
 static void test_speed_and_spin(void **state)
 {
     uint32_t tank = put("tank", MIDDLE, 100.0);
@@ -762,6 +786,7 @@ int main(void)
         TEST(test_speed_from_nowhere),
         TEST(test_a_wreck_that_turns_over_in_the_air),
         TEST(test_a_command_an_explosion_and_a_collision_explain_it),
+        TEST(test_bodies_that_pressed_share_their_energy),
         TEST(test_speed_and_spin),
         TEST(test_a_body_that_is_thrown),
         TEST(test_a_jump),
