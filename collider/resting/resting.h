@@ -52,7 +52,7 @@ struct resting {
     struct parting parting;
     struct neighbours neighbours;
     struct level_exit exit;
-    uint32_t *leaving; /* [capacity of the world] pairs of the row that need a way out */
+    uint32_t *leaving;       /* [capacity of the world] pairs of the row that need a way out */
     struct resting_gap *gap; /* [groups.count] */
     struct resting_pair *pair;
     uint32_t pairs, capacity;

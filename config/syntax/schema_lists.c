@@ -13,7 +13,8 @@ static const struct key_choice behaviours[] = {
     {NULL, BEHAVIOUR_HOLD,
      "The vehicle keeps its heading and speed and reacts to nothing. This makes planned "
      "collisions. "
-     "At the edge of the world it leaves the world: it is removed, with an `agent` event because it "
+     "At the edge of the world it leaves the world: it is removed, with an `agent` event because "
+     "it "
      "has left the world."},
     {NULL, BEHAVIOUR_PATROL, "The vehicle goes from one random goal in its area to the next."},
     {NULL, BEHAVIOUR_ROUTE, "The vehicle goes along its route again and again."},
