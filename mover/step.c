@@ -13,6 +13,7 @@
 #include "mover/motion/constant_course.h"
 #include "mover/motion/ground_vehicle.h"
 #include "mover/motion/ground/landing.h"
+#include "mover/motion/kinematics.h"
 #include "mover/motion/projectile.h"
 #include "mover/motion/ship.h"
 #include "mover/motion/ground/wreck.h"
@@ -136,7 +137,7 @@ static void after_motion(const struct step_context *context, struct batches *bat
 /* Notes that a row has crossed the edge of the world. */
 static void leaves_world(const struct step_context *context, struct batches *batches, uint32_t i)
 {
-    context->m->trigger[i] = TRIGGER_LEFT_WORLD;
+    kinematics_tell(context, i, TRIGGER_LEFT_WORLD);
     batches->motion[i - batches->block->first] = MOTION_AGENT; /* more than its motion changes */
 }
 
@@ -195,7 +196,7 @@ static void move_air(const struct step_context *context, struct batches *batches
         bool told = touches_down(context, batches, l);
         after_motion(context, batches, air->row[l], air->blocked.lane[l] != 0);
         if (told)
-            context->m->trigger[air->row[l]] = TRIGGER_AGROUND;
+            kinematics_tell(context, air->row[l], TRIGGER_AGROUND);
         if (air->left.lane[l])
             leaves_world(context, batches, air->row[l]);
     }
@@ -226,7 +227,7 @@ static void move_ship(const struct step_context *context, uint32_t i,
         is_grounded(batches, i);
     after_motion(context, batches, i, moved.blocked);
     if (tells)
-        context->m->trigger[i] = TRIGGER_AGROUND;
+        kinematics_tell(context, i, TRIGGER_AGROUND);
 }
 
 /* Moves an aircraft that is on the ground. */

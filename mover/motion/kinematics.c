@@ -41,6 +41,11 @@ double kinematics_turn(double heading, double wanted, double rate_rps, double dt
     return maths_wrap_turn(heading + maths_clamp(off, -most, most));
 }
 
+void kinematics_tell(const struct step_context *context, uint32_t i, uint8_t trigger)
+{
+    context->m->trigger[i] = trigger;
+}
+
 void kinematics_steer(const struct step_context *context, uint32_t i,
                       const struct desired_motion *desired, double rate_rps)
 {

@@ -20,6 +20,10 @@ double kinematics_aim_height(const struct step_context *context, uint16_t kind);
 /* The heading turned towards wanted by at most rate_rps * dt_s. */
 double kinematics_turn(double heading, double wanted, double rate_rps, double dt_s);
 
+/* Sets what row i asks of the serial part of this frame: TRIGGER_* of mover/context/step_context.h.
+ */
+void kinematics_tell(const struct step_context *context, uint32_t i, uint8_t trigger);
+
 /* Turns row i as desired, by at most rate_rps. */
 void kinematics_steer(const struct step_context *context, uint32_t i,
                       const struct desired_motion *desired, double rate_rps);
