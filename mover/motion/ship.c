@@ -58,10 +58,11 @@ static double ashore(const struct step_context *context, const struct kind *kind
                      const struct course *course, struct vec3 at, double sign)
 {
     double length = 0.0;
-    for (; length < kind->length_m; length += ASHORE_STEP_M) {
+    while (length < kind->length_m) {
         double way = sign * (0.5 * kind->length_m - length);
         if (!is_land(context, at.x + course->sine * way, at.z - course->cosine * way))
             break;
+        length += ASHORE_STEP_M;
     }
     return maths_min(length, kind->length_m);
 }
