@@ -6,6 +6,7 @@
 #include "gateway/pdu/pdu_read.h"
 #include "gateway/pdu/pdu_text.h"
 #include "gateway/tool/capture.h"
+#include "gateway/tool/listener.h"
 #include "gateway/udp/udp_socket.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
@@ -150,15 +151,8 @@ static int read_capture(const char *path)
 static void read_network(void)
 {
     static uint8_t bytes[UDP_SOCKET_BYTES_MAX];
-    struct udp_address at, interface;
-    struct error_text error;
-    if (udp_address_parse(&at, given.listen, PDU_PORT, &error) != 0)
-        die_usage("--listen %s: %s", given.listen, error.text);
-    if (given.interface && udp_address_parse(&interface, given.interface, 0, &error) != 0)
-        die_usage("--interface %s: %s", given.interface, error.text);
-    int socket = udp_socket_listener(&at, given.interface ? &interface : NULL, &error);
-    if (socket < 0)
-        die_refused("%s", error.text);
+    struct udp_address at;
+    int socket = listener_open(given.listen, given.interface, &at);
     setvbuf(stdout, NULL, _IOLBF, 0);
     uint64_t until_ns =
         given.seconds > 0.0 ? clock_now_ns() + (uint64_t)(given.seconds * 1e9) : UINT64_MAX;

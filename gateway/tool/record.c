@@ -3,6 +3,7 @@
 
 #include "gateway/pdu/pdu.h"
 #include "gateway/tool/capture.h"
+#include "gateway/tool/listener.h"
 #include "gateway/udp/udp_socket.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
@@ -65,17 +66,11 @@ int record_run(int argc, char **argv)
         .usage = "[options] FILE\nWrites the datagrams that come until Ctrl-C into a new capture.",
         .rows = rows,
         .plain = 1};
-    struct udp_address at, interface;
+    struct udp_address at;
     struct error_text error;
     if (option_table_read(&table, argc, argv) != 1)
         die_usage("dis record: needs a FILE, as in: jolon dis record exercise.pcap");
-    if (udp_address_parse(&at, given.listen, PDU_PORT, &error) != 0)
-        die_usage("--listen %s: %s", given.listen, error.text);
-    if (given.interface && udp_address_parse(&interface, given.interface, 0, &error) != 0)
-        die_usage("--interface %s: %s", given.interface, error.text);
-    int socket = udp_socket_listener(&at, given.interface ? &interface : NULL, &error);
-    if (socket < 0)
-        die_refused("%s", error.text);
+    int socket = listener_open(given.listen, given.interface, &at);
     const char *path = argv[argc - 1];
     struct capture_writer *writer = capture_create(path, &error);
     if (!writer)

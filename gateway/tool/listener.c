@@ -1,0 +1,24 @@
+/* The options --listen and --interface. */
+#include "gateway/tool/listener.h"
+
+#include "gateway/pdu/pdu.h"
+#include "gateway/udp/udp_address.h"
+#include "gateway/udp/udp_socket.h"
+#include "ipc/process/log.h"
+#include "world/runtime/error_text.h"
+
+#include <stddef.h>
+
+int listener_open(const char *listen, const char *interface, struct udp_address *at)
+{
+    struct udp_address from;
+    struct error_text error;
+    if (udp_address_parse(at, listen, PDU_PORT, &error) != 0)
+        die_usage("--listen %s: %s", listen, error.text);
+    if (interface && udp_address_parse(&from, interface, 0, &error) != 0)
+        die_usage("--interface %s: %s", interface, error.text);
+    int socket = udp_socket_listener(at, interface ? &from : NULL, &error);
+    if (socket < 0)
+        die_refused("%s", error.text);
+    return socket;
+}
