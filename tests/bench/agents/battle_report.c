@@ -10,8 +10,8 @@
 
 #define MINUTES     30u
 #define SHOTS_LEAST 30u  /* in every three minutes */
-#define SHARE_LEAST 0.05 /* of all shots, in every five minutes */
-#define SHARE_MOST  0.35
+#define SHARE_LEAST 0.08 /* of all shots, in every five minutes */
+#define SHARE_MOST  0.30
 #define PUSH_LONG_S 10.0
 
 /* Shares of hits among shots, and of losses among hits, that are published for real weapons.
