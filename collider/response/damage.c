@@ -4,6 +4,7 @@
 #include "collider/response/damage.h"
 
 #include "collider/response/explosion.h"
+#include "collider/response/ground_event.h"
 #include "world/entity/kind.h"
 #include "world/params.h"
 #include "world/state.h"
@@ -73,6 +74,29 @@ void damage_overturn(struct response_context *context, uint32_t row)
     wreck(context, row);
 }
 
+/* Tells that a vehicle on its springs took harm from the ground. It closed by the velocity that it
+ * has lost in the frame. */
+static void tell_ground(struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    const struct body_motion *motion = context->motion;
+    struct vec3 at = entities_position(e, row), after = entities_velocity(e, row), before = after;
+    if (body_motion_old(motion, row))
+        before = entities_velocity(&motion->committed->entities, row);
+    struct vec3 lost = vec3_sub(before, after);
+    ground_event_write(context, row,
+                       &(struct ground_strike){
+                           .at = at,
+                           .velocity = before,
+                           .normal = terrain_normal(&context->world->terrain,
+                                                    context->input.detect.craters, at.x, at.z),
+                           .closing_mps = vec3_length(lost),
+                           .time = 1.0,
+                           .response = e->state[row] == ENTITY_WRECK ? RESPONSE_DESTROYED
+                                                                     : RESPONSE_STOP,
+                       });
+}
+
 /* The mover has added the harm of a hard landing to harm_j (mover/motion/chassis.h): it becomes
  * damage. */
 static void fall(struct response_context *context, uint32_t row)
@@ -86,6 +110,7 @@ static void fall(struct response_context *context, uint32_t row)
         wreck(context, row);
     else
         set_damage(context, row, damage);
+    tell_ground(context, row);
 }
 
 /* Returns true if a vehicle lies on its side or on its roof. */
@@ -106,10 +131,12 @@ void damage_overturned(struct response_context *context)
         for (uint32_t row = first; row < end && (eight & CHASSIS_OF_EIGHT) != 0; row++) {
             if (!(e->flags[row] & ENTITY_FLAG_CHASSIS))
                 continue;
-            if (lies_over(e, row))
-                damage_overturn(context, row);
-            else
+            if (!lies_over(e, row)) {
                 fall(context, row);
+                continue;
+            }
+            damage_overturn(context, row);
+            tell_ground(context, row);
         }
     }
 }

@@ -6,6 +6,7 @@
 #include "collider/response/contact_table.h"
 #include "collider/response/damage.h"
 #include "collider/response/explosion.h"
+#include "collider/response/ground_event.h"
 #include "collider/response/island.h"
 #include "collider/response/path_change.h"
 #include "world/entity/kind.h"
@@ -286,27 +287,22 @@ static void crash(struct response_context *context, const struct contact *contac
     uint32_t row = contact->a;
     double time = contact->impact.toi;
     struct vec3 velocity = crash_velocity(context, row, time);
-    struct event *event = event_writer_event(&context->events, EVENT_COLLISION);
     struct vec3 at = path_at(&context->path[row], time);
     struct vec3 normal =
         terrain_normal(&context->world->terrain, context->input.detect.craters, at.x, at.z);
-    context->next->head->tally.collisions++;
     /* Make it a wreck first: an aircraft that stays there would meet the ground again. The mover
      * gives the wreck the impulse of the ground, in the next frame. */
     damage_destroy(context, row, time);
     path_change_stay(context, row, time, velocity);
-    if (event) {
-        event->collision.a = party_of(context, row);
-        event->collision.b = (struct event_party){0, KIND_NONE, 1, DAMAGE_NONE};
-        put(event->collision.point, context->path[row].at);
-        vec3_to_floats(event->collision.normal, vec3_scale(normal, -1.0));
-        if (vec3_length(velocity) > 0.0)
-            vec3_to_floats(event->collision.direction_a,
-                           vec3_scale(velocity, 1.0 / vec3_length(velocity)));
-        event->collision.toi = time;
-        event->collision.closing_mps = (float)maths_max(0.0, -vec3_dot(velocity, normal));
-        event->collision.response = RESPONSE_DESTROYED;
-    }
+    ground_event_write(context, row,
+                       &(struct ground_strike){
+                           .at = at,
+                           .velocity = velocity,
+                           .normal = normal,
+                           .closing_mps = maths_max(0.0, -vec3_dot(velocity, normal)),
+                           .time = time,
+                           .response = RESPONSE_DESTROYED,
+                       });
 }
 
 static bool is_round(const struct response_context *context, uint32_t body)

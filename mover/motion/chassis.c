@@ -5,6 +5,7 @@
 #include "mover/motion/fording.h"
 #include "mover/motion/kinematics.h"
 #include "world/state.h"
+#include "world/terrain/rest_pose.h"
 #include "world/world.h"
 
 /* A body that is slower than this, and that no force makes faster, is held in its place. */
@@ -20,8 +21,11 @@
 #define CALM_RPS      0.15 /* roll and pitch */
 #define CALM_SLIP_MPS 0.4  /* to the side */
 #define CALM_LATERAL  0.8  /* share of the greatest lateral acceleration */
+#define CALM_TILT_RAD 0.06 /* from the angles of a vehicle that follows the ground */
 
-/* How much more the energy of a hard landing harms a vehicle than that of an explosion on it: axles
+/* Upright ground harms as a fixed object does (collider/response/deformation.h).
+ *
+ * How much more the energy of a hard landing harms a vehicle than that of an explosion on it: axles
  * and tracks break first. A jeep that falls from 3 m flat on its wheels is damaged, from 10 m it is
  * destroyed. */
 #define FALL_HARM 4.0
@@ -98,6 +102,19 @@ static void hold(const struct step_context *context, uint32_t i, struct rigid_bo
     m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
 }
 
+/* Returns true if row i lies as a vehicle there that follows the ground. Otherwise it would be lifted
+ * from its wheels when it follows the ground, beside a wall for one. */
+static bool lies_on_ground(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    struct rest_pose pose =
+        rest_pose_of(&context->world->terrain, context->craters, &context->world->kinds[m->kind[i]],
+                     m->x[i], m->z[i], m->heading[i]);
+    return fabs(m->y[i] - pose.y_m) <= CHASSIS_LIFT_M &&
+           fabs(maths_wrap_half(m->pitch[i] - pose.pitch_rad)) <= CALM_TILT_RAD &&
+           fabs(maths_wrap_half(m->roll[i] - pose.roll_rad)) <= CALM_TILT_RAD;
+}
+
 /* Returns true if the ground, the load and the motion are those of a vehicle that follows the
  * ground. */
 static bool is_calm(const struct chassis *chassis)
@@ -164,10 +181,10 @@ bool chassis_move(const struct step_context *context, uint32_t i,
         rigid_body_put(context, i, &chassis.body);
     if (desired->driven)
         m->dodge[i] = (float)chassis.drivetrain.wheel;
-    if (chassis.fall_j > 0.0)
-        m->harm_j[i] += FALL_HARM * chassis.fall_j;
+    if (chassis.fall_j + chassis.strike_j > 0.0)
+        m->harm_j[i] += FALL_HARM * chassis.fall_j + chassis.strike_j;
     bool blocked = stop_at_depth(context, i, x, z);
-    if (desired->driven || !is_calm(&chassis))
+    if (desired->driven || !is_calm(&chassis) || !lies_on_ground(context, i))
         m->jolt_tick[i] = (uint32_t)context->tick;
     return blocked || (desired->speed_mps != 0.0 && chassis.drivetrain.wanted_mps == 0.0);
 }

@@ -170,7 +170,8 @@ static void move(struct chassis *chassis, const struct mat3 *turn, double load_n
         shell = chassis_shell_press(&chassis->shell, &chassis->context->world->terrain,
                                     chassis->cratered ? chassis->context->craters : NULL,
                                     chassis->kind, body, dt_s);
-        chassis->fall_j += shell.hard_j;
+        chassis->fall_j += shell.hard_j - shell.strike_j;
+        chassis->strike_j += shell.strike_j;
     }
     struct vec3 push = shell.velocity_mps;
     if (load_n == 0.0 && shell.impulse_ns == 0.0)
@@ -246,7 +247,7 @@ void chassis_run_begin(struct chassis *chassis, const struct step_context *conte
     chassis->cratered = marks & GROUND_MARKS_CRATER;
     chassis->littered = marks & GROUND_MARKS_DEBRIS;
     chassis->level = true;
-    chassis->fall_j = 0.0;
+    chassis->fall_j = chassis->strike_j = 0.0;
     chassis->friction = ground_grip_at(context, m->x[i], m->z[i]).friction;
     chassis->drivetrain = drivetrain_of(context, i, desired);
     suspension_of(chassis->kind, &chassis->suspension);

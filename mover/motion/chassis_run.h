@@ -18,7 +18,8 @@ struct chassis {
     struct desired_motion desired; /* in this frame */
     double most_mps;               /* that fuel and debris allow */
     double friction;               /* mean of the ground under the wheels in the last sub-step */
-    double fall_j;                 /* energy by which stops and shell were hit hard in the frame */
+    double fall_j;   /* energy by which stops and shell were hit hard in the frame, from below */
+    double strike_j; /* the same by upright ground: a wall, a bank */
     struct chassis_shell shell;
     bool cratered, littered; /* there may be craters, debris under it */
     bool rough;              /* a wheel is on its bump stop or bears next to nothing */

@@ -162,6 +162,19 @@ static double fastest(const struct ground_contacts *contacts)
     return most;
 }
 
+/* Returns the share of the impulses that came from upright ground: a wall, a bank. */
+static double upright_share(const struct ground_contacts *contacts)
+{
+    double all = 0.0, upright = 0.0;
+    for (uint32_t i = 0; i < contacts->count; i++) {
+        double impulse = contacts->contact[i].impulse_ns[CONTACT_NORMAL];
+        double rise = contacts->contact[i].axis[CONTACT_NORMAL].y;
+        all += impulse;
+        upright += impulse * maths_max(0.0, 1.0 - rise * rise);
+    }
+    return all > 0.0 ? upright / all : 0.0;
+}
+
 /* Lets the ground act on the shell, with the points in an order: LEFT_FIRST or RIGHT_FIRST. */
 static struct chassis_shell_push press(const struct chassis_shell *shell,
                                        const struct shell_ground *ground, const struct kind *kind,
@@ -180,6 +193,7 @@ static struct chassis_shell_push press(const struct chassis_shell *shell,
         return push;
     if (fastest(&contacts) > HARD_MPS)
         push.hard_j = maths_max(0.0, ground_contacts_taken(&contacts, body));
+    push.strike_j = push.hard_j * upright_share(&contacts);
     ground_contacts_push(&contacts, body, dt_s, &push.velocity_mps, &push.spin_rps);
     return push;
 }
@@ -208,5 +222,6 @@ struct chassis_shell_push chassis_shell_press(const struct chassis_shell *shell,
     return (struct chassis_shell_push){.velocity_mps = mean(push.velocity_mps, other.velocity_mps),
                                        .spin_rps = mean(push.spin_rps, other.spin_rps),
                                        .impulse_ns = 0.5 * (push.impulse_ns + other.impulse_ns),
-                                       .hard_j = 0.5 * (push.hard_j + other.hard_j)};
+                                       .hard_j = 0.5 * (push.hard_j + other.hard_j),
+                                       .strike_j = 0.5 * (push.strike_j + other.strike_j)};
 }

@@ -26,6 +26,7 @@ struct chassis_shell_push {
     struct vec3 velocity_mps, spin_rps; /* pseudo-velocity out of the ground */
     double impulse_ns;                  /* along the normals; 0: the shell does not touch */
     double hard_j;                      /* energy of the impact, if it is a hard one */
+    double strike_j;                    /* the part of it that upright ground took */
 };
 
 /* Finds the shell of a kind. Its underside is as high as the wheels can rise, and on wheels at

@@ -93,8 +93,10 @@ static void lift(const struct step_context *context, struct ground_pose *pose)
                                                .half_width = pose->half_width.lane[l],
                                                .sine = pose->sine.lane[l],
                                                .cosine = pose->cosine.lane[l]};
-        if (pose->cratered.lane[l])
-            pose->y.lane[l] += terrain_lift(&context->world->terrain, context->craters, &footing);
+        pose->lift.lane[l] = pose->cratered.lane[l] ? terrain_lift(&context->world->terrain,
+                                                                   context->craters, &footing)
+                                                    : 0.0;
+        pose->y.lane[l] += pose->lift.lane[l];
     }
 }
 

@@ -19,6 +19,7 @@ struct ground_pose {
     union lane_masks cratered;                /* there may be craters under the body */
     union simd_lanes y, pitch, roll;          /* results */
     union simd_lanes step; /* result: by which craters differ, and works bend, under it [m] */
+    union simd_lanes lift; /* result: by which y is above the ground under the middle [m] */
 };
 
 /* Empties all lanes. */

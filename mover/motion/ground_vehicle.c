@@ -326,12 +326,13 @@ static inline void find_rough(const struct step_context *context, struct ground_
                               const union simd_lanes *forward)
 {
     const f64x4 tilt = SIMD_EVERY(CHASSIS_TILT_RAD), step = SIMD_EVERY(CHASSIS_STEP_M);
-    const f64x4 fall = SIMD_EVERY(GRAVITY_MPS2 * context->dt_s);
+    const f64x4 fall = SIMD_EVERY(GRAVITY_MPS2 * context->dt_s), lift = SIMD_EVERY(CHASSIS_LIFT_M);
     for (int h = 0; h < LANE_FOURS; h++) {
         f64x4 pitch = batch->pose.pitch.f64x4[h], roll = batch->pose.roll.f64x4[h];
         f64x4 drop = forward->f64x4[h] * (batch->pitch.f64x4[h] - pitch);
         batch->rough.f64x4[h] = (SIMD_ABS(pitch) > tilt) | (SIMD_ABS(roll) > tilt) |
-                                (batch->pose.step.f64x4[h] > step) | (drop > fall);
+                                (batch->pose.step.f64x4[h] > step) |
+                                (batch->pose.lift.f64x4[h] > lift) | (drop > fall);
     }
 }
 

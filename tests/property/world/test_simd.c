@@ -224,7 +224,8 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     stand_on_ground(context, i);
     if (fabs(m->pitch[i]) > CHASSIS_TILT_RAD || fabs(m->roll[i]) > CHASSIS_TILT_RAD ||
         forward * (pitch - m->pitch[i]) > GRAVITY_MPS2 * context->dt_s ||
-        crater_step(context, i) > CHASSIS_STEP_M) {
+        crater_step(context, i) > CHASSIS_STEP_M ||
+        y - kinematics_ground(context, x, z) > CHASSIS_LIFT_M) {
         double climb = (vx * sine - vz * cosine) * pitch * (1.0 + pitch * pitch / 3.0);
         chassis_disturb(context, i);
         m->vy[i] = climb;

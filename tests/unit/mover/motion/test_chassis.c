@@ -659,6 +659,34 @@ static void test_threads_do_not_matter(void **state)
     assert_true(digest_after(2) == one && digest_after(4) == one);
 }
 
+/* A truck that stands beside a bank of 0.3 m, with one side of its hull over it. Its wheels stand
+ * on the level ground, so it stays there, however it came. */
+static void test_an_edge_under_a_corner_does_not_lift_it(void **state)
+{
+    (void)state;
+    for (int b = 0; b < 2; b++) {
+        reopen("terrain = { source = \"flat\"; height_m = 100.0; };"
+               "earthworks = ( { shape = \"table\"; at = [24993.85, 24998.0]; length_m = 20.0;"
+               "    width_m = 10.0; height_m = 0.3; edge_m = 0.05; } );");
+        uint32_t row = fixture_put(
+            &f, (struct fixture_entity){.kind = "truck", .at = {25000.0, 100.0, 24998.0}});
+        steps_rows(&f).behaviour[row] = BEHAVIOUR_IDLE;
+        double high = -INFINITY, low = INFINITY;
+        if (b == 1)
+            steps_rows(&f).flags[row] |= ENTITY_FLAG_CHASSIS;
+        for (uint32_t frame = 0; frame < 20 * HZ; frame++) {
+            fixture_run(&f, 1);
+            if (frame < 3 * HZ)
+                continue;
+            high = maths_max(high, steps_rows(&f).y[row] - 100.0);
+            low = maths_min(low, steps_rows(&f).y[row] - 100.0);
+        }
+        printf("truck beside a bank, %s: %.6f to %.6f m over the ground\n",
+               b == 0 ? "from the ground" : "from its springs", low, high);
+        assert_true(high < 0.02 && high - low < 1e-9);
+    }
+}
+
 int main(void)
 {
 #define T(name) cmocka_unit_test_setup_teardown(name, open_world, fixture_teardown)
@@ -679,6 +707,7 @@ int main(void)
         T(test_it_keeps_every_bit_of_its_pose_at_rest),
         T(test_it_crosses_a_crater_on_its_springs),
         T(test_it_keeps_its_shell_over_the_ground_on_waves),
+        T(test_an_edge_under_a_corner_does_not_lift_it),
         T(test_10_and_60_hz_agree_on_what_turns_over),
         T(test_threads_do_not_matter),
     };

@@ -200,6 +200,36 @@ static void test_a_fall_does_damage_by_its_height(void **state)
     }
 }
 
+/* A vehicle that drives squarely into a bank of 2 m takes the harm of a building, and an event tells
+ * so. */
+static void test_a_bank_harms_as_a_building_does(void **state)
+{
+    static const struct {
+        const char *kind;
+        double mps;
+        enum damage most;
+    } rows[] = {{"truck", 8.0, DAMAGE_LOW}, {"carrier", 9.0, DAMAGE_MED}, {"jeep", 13.0, DAMAGE_MED}};
+    (void)state;
+    for (size_t n = 0; n < sizeof rows / sizeof rows[0]; n++) {
+        reopen("terrain = { source = \"flat\"; height_m = 100.0; };"
+               "earthworks = ( { shape = \"table\"; at = [25016.0, 25000.0]; heading_deg = 90.0;"
+               "    length_m = 20.0; width_m = 20.0; height_m = 2.0; edge_m = 0.25; } );");
+        uint32_t row = put(rows[n].kind, 25000.0, 25000.0, 0.0, rows[n].mps);
+        fixture_run(&f, 4 * HZ);
+        enum damage damage = (enum damage)steps_rows(&f).damage[row];
+        uint32_t told = fixture_event_count(&f, EVENT_COLLISION);
+        printf("%s into a bank at %.0f m/s: damage %d, told %u times\n", rows[n].kind, rows[n].mps,
+               damage, told);
+        assert_true(damage >= DAMAGE_LOW && damage <= rows[n].most);
+        assert_true(told >= 1 && told <= (uint32_t)damage);
+        const struct event *event = fixture_event(&f, EVENT_COLLISION, told - 1);
+        assert_true(event->collision.b.id == 0 && event->collision.b.fixed == 1);
+        assert_int_equal(event->collision.a.damage, damage);
+        assert_true(event->collision.closing_mps > 0.3f * (float)rows[n].mps);
+        assert_int_equal(event->collision.response, RESPONSE_STOP);
+    }
+}
+
 /* --- frames of different length ----------------------------------------------------------------*/
 
 /* A frame of 1/10 s is six of 1/60 s: at the same times the heights are the same. What a test that
@@ -236,6 +266,7 @@ int main(void)
         T(test_the_hand_brake_holds_a_vehicle_in_neutral_on_a_slope),
         T(test_the_wheel_takes_half_a_second_to_the_stop),
         T(test_a_fall_does_damage_by_its_height),
+        T(test_a_bank_harms_as_a_building_does),
         T(test_a_drop_is_the_same_at_10_and_60_hz),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
