@@ -1,8 +1,9 @@
-/* jolon-gateway: shows the world to simulators of other makers, by DIS (docs/dis.md). It reads the
- * world as the reporter does, and nothing waits for it. */
+/* jolon-gateway: shows the world to simulators of other makers, by DIS, and receives what they send
+ * (docs/dis.md). It reads the world as the reporter does, and nothing waits for it. */
 #include "gateway/entity_output.h"
 #include "gateway/event_output.h"
 #include "gateway/options.h"
+#include "gateway/pdu_input.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
@@ -17,12 +18,15 @@
 
 #define NICENESS  5
 #define PERIOD_NS (50 * (uint64_t)NS_PER_MS)
-#define TYPES     "dis/types.txt" /* beneath the folder of data */
+#define SLICE_NS  (5 * (uint64_t)NS_PER_MS) /* from one look at a busy socket to the next */
+#define TYPES     "dis/types.txt"           /* beneath the folder of data */
 
 struct gateway {
     struct view view;
     struct type_table types;
     struct pdu_output output;
+    struct pdu_input input;
+    uint64_t without_effect; /* PDUs that were received and that nothing here acts on */
     struct entity_output entities;
     struct event_output events;
 };
@@ -52,10 +56,46 @@ static int open_gateway(struct gateway *gateway, struct error_text *error)
             0 ||
         entity_output_open(entities, view, error) != 0)
         return -1;
+    gateway->input.exercise = output->exercise;
+    gateway->input.own = entities->ids;
+    if (pdu_input_open(&gateway->input, params->listen, error) != 0)
+        return -1;
     const struct role_slot *slot = view->slot[ROLE_GATEWAY];
     event_output_open(&gateway->events, view,
                       atomic_load_explicit(&slot->frame, memory_order_relaxed));
     return 0;
+}
+
+/* Acts on a PDU that is for us, by its type. */
+static void take_pdu(void *context, const struct pdu *pdu, const struct udp_address *from,
+                     uint64_t now_ns)
+{
+    struct gateway *gateway = context;
+    (void)from;
+    (void)now_ns;
+    switch ((enum pdu_type)pdu->header.type) {
+    default:
+        gateway->without_effect++;
+        break;
+    }
+}
+
+/* Receives until it is time to send. A busy socket is looked at each SLICE_NS, before its buffer in
+ * the system is full, and not for each datagram. */
+static void receive_until(struct gateway *gateway, uint64_t due_ns)
+{
+    uint64_t now_ns = clock_now_ns();
+    while (now_ns < due_ns && !process_stopping()) {
+        if (gateway->input.socket < 0) {
+            clock_sleep_until_ns(due_ns);
+        } else if (udp_socket_wait(gateway->input.socket, due_ns - now_ns)) {
+            now_ns = clock_now_ns();
+            (void)pdu_input_receive(&gateway->input, take_pdu, gateway, now_ns);
+            clock_sleep_until_ns(now_ns + SLICE_NS < due_ns ? now_ns + SLICE_NS : due_ns);
+        }
+        frame_protocol_beat(&gateway->view);
+        now_ns = clock_now_ns();
+    }
 }
 
 static void send_once(struct gateway *gateway)
@@ -69,6 +109,19 @@ static void send_once(struct gateway *gateway)
     log_frame(gateway->events.frame);
     atomic_store_explicit(&slot->gaps, gateway->events.cursor.gap, memory_order_relaxed);
     frame_protocol_stage_done(&gateway->view, gateway->events.frame, clock_now_ns() - begun_ns);
+}
+
+static void tell_received(const struct gateway *gateway)
+{
+    const struct pdu_input *input = &gateway->input;
+    if (input->socket < 0)
+        return;
+    log_info("received %" PRIu64 " PDUs in %" PRIu64 " datagrams; %" PRIu64 " of unknown types, "
+             "%" PRIu64 " with faults, %" PRIu64 " of other exercises, %" PRIu64
+             " of our own, %" PRIu64 " without effect",
+             input->counts.result[PDU_GOOD], input->counts.datagrams,
+             input->counts.result[PDU_SKIPPED], input->bad, input->foreign, input->echoes,
+             gateway->without_effect);
 }
 
 int main(int argc, char **argv)
@@ -95,6 +148,8 @@ int main(int argc, char **argv)
     const struct gateway_params *params = &gateway.view.world.params->gateway;
     log_info("sends DIS %u, exercise %u, to %s", params->version, params->exercise,
              udp_address_text(&gateway.output.to, to, sizeof to));
+    if (gateway.input.socket >= 0)
+        log_info("receives at %s", udp_address_text(&gateway.input.at, to, sizeof to));
     segment_ready(&gateway.view);
 
     uint64_t due_ns = clock_now_ns();
@@ -103,10 +158,7 @@ int main(int argc, char **argv)
         due_ns += PERIOD_NS;
         if (due_ns <= clock_now_ns())
             due_ns = clock_now_ns() + PERIOD_NS;
-        while (clock_now_ns() < due_ns && !process_stopping()) {
-            clock_sleep_until_ns(due_ns);
-            frame_protocol_beat(&gateway.view);
-        }
+        receive_until(&gateway, due_ns);
     }
 
     atomic_store(&gateway.view.slot[ROLE_GATEWAY]->state, ROLE_STOPPING);
@@ -116,6 +168,7 @@ int main(int argc, char **argv)
              " were put off by the rate",
              gateway.output.sent, gateway.output.octets, gateway.output.failed,
              gateway.entities.postponed);
+    tell_received(&gateway);
     entity_output_close(&gateway.entities);
     segment_detach(&gateway.view);
     return EXIT_OK;

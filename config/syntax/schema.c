@@ -184,6 +184,10 @@ static const struct key scenario_keys[] = {
                     "group or of a broadcast."),
     WHOLE32("gateway.port", S, params.gateway.port, 1, 65535, "3000",
             .meaning = "The port of UDP."),
+    TEXT("gateway.listen", S, params.gateway.listen, "none",
+         .meaning =
+             "Where PDUs are received: an address of this machine or of a multicast group in "
+             "numbers, with a port if it is not 3000. \"none\": nowhere."),
     WHOLE32("gateway.exercise", S, params.gateway.exercise, 1, 255, "1",
             .meaning = "The exercise, by which simulators on one network tell theirs from others."),
     WHOLE32("gateway.site", S, params.gateway.site, 1, 65533, "1991",

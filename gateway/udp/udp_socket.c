@@ -89,6 +89,26 @@ int udp_socket_receive(int socket, void *bytes, size_t size, struct udp_address 
     return got < 0 ? -1 : (int)got;
 }
 
+uint32_t udp_socket_receive_many(int socket, struct udp_datagram *datagrams, uint32_t count)
+{
+    struct mmsghdr message[UDP_SOCKET_AT_ONCE];
+    struct iovec place[UDP_SOCKET_AT_ONCE];
+    count = count < UDP_SOCKET_AT_ONCE ? count : UDP_SOCKET_AT_ONCE;
+    memset(message, 0, sizeof message);
+    for (uint32_t i = 0; i < count; i++) {
+        memset(&datagrams[i].from, 0, sizeof datagrams[i].from);
+        place[i] = (struct iovec){datagrams[i].bytes, datagrams[i].room};
+        message[i].msg_hdr = (struct msghdr){.msg_name = &datagrams[i].from.any,
+                                             .msg_namelen = sizeof datagrams[i].from,
+                                             .msg_iov = &place[i],
+                                             .msg_iovlen = 1};
+    }
+    int got = recvmmsg(socket, message, count, MSG_DONTWAIT, NULL);
+    for (int i = 0; i < got; i++)
+        datagrams[i].size = message[i].msg_len;
+    return got < 0 ? 0 : (uint32_t)got;
+}
+
 bool udp_socket_wait(int socket, uint64_t wait_ns)
 {
     struct pollfd ready = {.fd = socket, .events = POLLIN};

@@ -6,6 +6,7 @@
 #include "gateway/udp/udp_address.h"
 
 #define UDP_SOCKET_BYTES_MAX 65536u /* room for any datagram */
+#define UDP_SOCKET_AT_ONCE   32u    /* datagrams by one call */
 
 /* Opens a socket that sends to an address. interface: the local address by which multicast leaves;
  * NULL: the system's choice. Multicast stays within the network (TTL 1). Returns the descriptor, or
@@ -24,6 +25,18 @@ int udp_socket_send(int socket, const struct udp_address *to, const void *bytes,
 
 /* Receives a datagram into bytes. Returns its size, -1 when there is none. */
 int udp_socket_receive(int socket, void *bytes, size_t size, struct udp_address *from);
+
+/* A datagram of several that are received by one call. */
+struct udp_datagram {
+    struct udp_address from;
+    uint8_t *bytes; /* the caller's memory */
+    size_t room;    /* of it; a longer datagram is cut off there */
+    size_t size;    /* out */
+};
+
+/* Receives the datagrams that have come, at most count and UDP_SOCKET_AT_ONCE. Sets from and size
+ * of each. Returns their number. */
+uint32_t udp_socket_receive_many(int socket, struct udp_datagram *datagrams, uint32_t count);
 
 /* Waits for a datagram, at most for a time. Returns true when there is one. */
 bool udp_socket_wait(int socket, uint64_t wait_ns);

@@ -187,6 +187,11 @@ static const struct rule sending[] = {
     ANY(sendto),
 };
 
+/* Receiving from sockets that are open, many datagrams by one call. */
+static const struct rule receiving[] = {
+    ANY(recvmmsg),
+};
+
 /* Waiting for sockets and for a thread's wake-up descriptor. */
 static const struct rule polling[] = {
     ANY(poll),
@@ -347,7 +352,8 @@ static const struct list reporter_lists[] = {EVERY_ROLE,        ALLOW(growing), 
 static const struct list console_lists[] = {
     EVERY_ROLE,     ALLOW(growing),    ALLOW(threads),        ALLOW(serving),
     ALLOW(polling), ALLOW(commanding), ALLOW(world_watching), END};
-static const struct list gateway_lists[] = {EVERY_ROLE, ALLOW(growing), ALLOW(sending), END};
+static const struct list gateway_lists[] = {EVERY_ROLE,       ALLOW(growing), ALLOW(sending),
+                                            ALLOW(receiving), ALLOW(polling), END};
 static const struct list recorder_lists[] = {EVERY_ROLE, ALLOW(growing), ALLOW(files), END};
 
 /* Refused with EPERM instead of a trap, because libraries of a role that starts may try calls that

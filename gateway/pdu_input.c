@@ -1,0 +1,133 @@
+/* The gateway's ear. */
+#include "gateway/pdu_input.h"
+
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+
+#include <inttypes.h>
+#include <string.h>
+
+int pdu_input_open(struct pdu_input *input, const char *listen, struct error_text *error)
+{
+    struct error_text reason;
+    input->socket = -1;
+    if (strcmp(listen, PDU_INPUT_NONE) == 0)
+        return 0;
+    if (udp_address_parse(&input->at, listen, PDU_PORT, &reason) != 0)
+        return error_text_set(error, "gateway.listen = \"%s\": %s", listen, reason.text);
+    input->socket = udp_socket_listener(&input->at, NULL, &reason);
+    return input->socket >= 0 ? 0 : error_text_set(error, "gateway.listen: %s", reason.text);
+}
+
+/* Returns the simulation that issued a PDU, {0} for a type that Jolon does not know. */
+static struct pdu_id issuer_of(const struct pdu *pdu)
+{
+    switch ((enum pdu_type)pdu->header.type) {
+    case PDU_ENTITY_STATE:
+        return pdu->entity_state.id;
+    case PDU_FIRE:
+        return pdu->fire.firer;
+    case PDU_DETONATION:
+        return pdu->detonation.firer;
+    case PDU_COLLISION:
+        return pdu->collision.issuer;
+    case PDU_COLLISION_ELASTIC:
+        return pdu->collision_elastic.issuer;
+    case PDU_CREATE:
+    case PDU_REMOVE:
+    case PDU_START_RESUME:
+    case PDU_STOP_FREEZE:
+    case PDU_ACKNOWLEDGE:
+        return pdu->management.originator;
+    }
+    return (struct pdu_id){0, 0, 0};
+}
+
+/* The event of a Fire and of a Detonation is issued by who sends it; the firer of a shot from
+ * nowhere is 0:0:0. */
+static struct pdu_id event_of(const struct pdu *pdu)
+{
+    switch ((enum pdu_type)pdu->header.type) {
+    case PDU_FIRE:
+        return pdu->fire.event;
+    case PDU_DETONATION:
+        return pdu->detonation.event;
+    default:
+        return (struct pdu_id){0, 0, 0};
+    }
+}
+
+static bool is_own(const struct entity_ids *own, struct pdu_id id)
+{
+    return id.site == own->site && id.application >= own->application &&
+           id.application - own->application < own->applications;
+}
+
+static void take(struct pdu_input *input, const struct pdu *pdu, const struct udp_datagram *datagram,
+                 pdu_input_handler *handler, void *context, uint64_t now_ns)
+{
+    if (pdu->header.exercise != input->exercise)
+        input->foreign++;
+    else if (is_own(&input->own, issuer_of(pdu)) || is_own(&input->own, event_of(pdu)))
+        input->echoes++;
+    else
+        handler(context, pdu, &datagram->from, now_ns);
+}
+
+static void read_datagram(struct pdu_input *input, const struct udp_datagram *datagram,
+                          pdu_input_handler *handler, void *context, uint64_t now_ns)
+{
+    static struct pdu pdu;
+    struct pdu_cursor cursor = {datagram->bytes, datagram->size, 0};
+    enum pdu_result result;
+    input->counts.datagrams++;
+    input->counts.octets += datagram->size;
+    while ((result = pdu_read(&cursor, &pdu)) != PDU_END) {
+        pdu_read_count(&input->counts, result, &pdu);
+        if (result == PDU_GOOD)
+            take(input, &pdu, datagram, handler, context, now_ns);
+        else if (result != PDU_SKIPPED)
+            input->bad++;
+    }
+}
+
+/* Says how many faults there were since the last time, and by the example of the last sender. */
+static void tell_faults(struct pdu_input *input, const struct udp_datagram *datagram)
+{
+    char from[UDP_ADDRESS_TEXT];
+    enum pdu_result most = PDU_BAD_HEADER;
+    if (input->bad == input->bad_logged || !log_due(&input->fault_logged_ns, NS_PER_S))
+        return;
+    for (int i = PDU_BAD_HEADER; i < PDU_RESULTS; i++) {
+        if (input->counts.result[i] > input->counts.result[most])
+            most = (enum pdu_result)i;
+    }
+    log_warn("%" PRIu64 " more PDUs with faults were dropped, the last of a datagram from %s; most "
+             "of all have %s",
+             input->bad - input->bad_logged, udp_address_text(&datagram->from, from, sizeof from),
+             pdu_result_text(most));
+    input->bad_logged = input->bad;
+}
+
+uint32_t pdu_input_receive(struct pdu_input *input, pdu_input_handler *handler, void *context,
+                           uint64_t now_ns)
+{
+    static uint8_t bytes[UDP_SOCKET_AT_ONCE][UDP_SOCKET_BYTES_MAX];
+    static struct udp_datagram datagrams[UDP_SOCKET_AT_ONCE];
+    uint32_t total = 0, count = UDP_SOCKET_AT_ONCE;
+    if (input->socket < 0)
+        return 0;
+    for (uint32_t i = 0; i < UDP_SOCKET_AT_ONCE; i++) {
+        datagrams[i].bytes = bytes[i];
+        datagrams[i].room = sizeof bytes[i];
+    }
+    while (count == UDP_SOCKET_AT_ONCE && total < PDU_INPUT_DATAGRAMS) {
+        count = udp_socket_receive_many(input->socket, datagrams, UDP_SOCKET_AT_ONCE);
+        for (uint32_t i = 0; i < count; i++)
+            read_datagram(input, &datagrams[i], handler, context, now_ns);
+        if (count > 0)
+            tell_faults(input, &datagrams[count - 1]);
+        total += count;
+    }
+    return total;
+}
