@@ -13,6 +13,7 @@
 #include "world/entity/persistent_contact.h"
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
+#include "world/runtime/internet_address.h"
 
 #include <arpa/inet.h>
 #include <errno.h>
@@ -166,6 +167,17 @@ static int check_levels(const struct load *load, const struct levels *levels)
     return 0;
 }
 
+/* An address in numbers, with or without a port, or "none". */
+static int check_endpoint(const struct load *load, const char *name, const char *text)
+{
+    struct internet_address address;
+    struct error_text wrong;
+    if (strcmp(text, "none") == 0 || internet_address_read(&address, text, 1, &wrong) == 0)
+        return 0;
+    return key_table_refuse(load->error, load->origin[key_table_find(&schema_scenario, name)], name,
+                            text, "%s", wrong.text);
+}
+
 static int check_gateway(const struct load *load)
 {
     const struct gateway_params *gateway = &load->scenario->settings->params.gateway;
@@ -183,7 +195,9 @@ static int check_gateway(const struct load *load)
                                 name, text, "goes beyond application %u; allowed: up to %u",
                                 APPLICATION_LAST, APPLICATION_LAST + 1 - gateway->application);
     }
-    return 0;
+    if (check_endpoint(load, "gateway.listen", gateway->listen) != 0)
+        return -1;
+    return check_endpoint(load, "gateway.cot", gateway->cot);
 }
 
 /* Checks values that are in range but may not fit each other. */

@@ -1,6 +1,7 @@
 /* Entity State PDUs: what is due, and what it says. */
 #include "gateway/entity_output.h"
 
+#include "gateway/cot_event.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 #include "world/entity/disabled.h"
@@ -227,6 +228,17 @@ static void set_motion(struct pdu_entity_state *state, const struct entity_outpu
         vec3_to_floats(state->angular_velocity, rates);
 }
 
+/* Writes the name of an entity for people: the scenario's, or kind and id. */
+static void set_label(char label[COT_EVENT_TEXT], const struct world *world,
+                      const struct kind *kind, uint32_t id)
+{
+    const char *name = world_entity_name(world, id);
+    if (name[0] != '\0')
+        (void)snprintf(label, COT_EVENT_TEXT, "%s", name);
+    else
+        (void)snprintf(label, COT_EVENT_TEXT, "%s %u", kind->name, id);
+}
+
 static void set_marking(char marking[PDU_MARKING_MAX + 1], const struct world *world,
                         const struct kind *kind, uint32_t id)
 {
@@ -260,6 +272,24 @@ static uint8_t dis_force(uint8_t force)
     return force == FORCE_BLUE  ? PDU_FORCE_FRIENDLY
            : force == FORCE_RED ? PDU_FORCE_OPPOSING
                                 : PDU_FORCE_NEUTRAL;
+}
+
+/* A vehicle that is destroyed is taken off the map of Cursor on Target, for its wreck is none. */
+static bool on_map(const struct entity_sent *sent)
+{
+    return (sent->appearance & PDU_APPEARANCE_DAMAGE(3)) != PDU_APPEARANCE_DAMAGE(3);
+}
+
+static void send_cot(struct entity_output *entities, const struct world *world,
+                     const struct entity_sent *sent, struct cot_output_entity *entity, bool gone)
+{
+    char label[COT_EVENT_TEXT];
+    set_label(label, world, &world->kinds[sent->kind], sent->id);
+    (void)entity_ids_of(&entities->ids, sent->id, &entity->id);
+    entity->type = type_table_row(entities->types, sent->kind, sent->force);
+    entity->force = sent->force;
+    entity->callsign = label;
+    cot_output_send(entities->cot, entity, gone);
 }
 
 /* Remembers what the receivers have: the numbers as the PDU rounds them. */
@@ -305,6 +335,7 @@ static void send_state(struct entity_output *entities, const struct world *world
     set_marking(pdu.entity_state.marking, world, &world->kinds[kind], view->id);
     set_parts(&pdu, view);
     pdu_output_send(entities->output, &pdu);
+    bool was_on_map = sent->id != view->id || on_map(sent);
     remember(sent, &pdu.entity_state, now_ns);
     sent->id = view->id;
     sent->kind = kind;
@@ -313,6 +344,12 @@ static void send_state(struct entity_output *entities, const struct world *world
     sent->gun = view->gun;
     sent->frame_ns = entities->frame_ns;
     sent->heartbeat_ns = heartbeat_after(view->id, now_ns);
+    if (entities->cot && was_on_map)
+        send_cot(entities, world, sent,
+                 &(struct cot_output_entity){.position = view->position,
+                                             .velocity = view->velocity,
+                                             .matrix = &view->matrix},
+                 !on_map(sent));
     if (type->nearest && !entities->told_kind[kind]) {
         entities->told_kind[kind] = true;
         log_info("%s has no DIS type of its own and is sent as that of its domain",
@@ -344,6 +381,9 @@ static void send_last(struct entity_output *entities, const struct world *world,
     vec3_to_floats(pdu.entity_state.orientation,
                    (struct vec3){angles.psi, angles.theta, angles.phi});
     pdu_output_send(entities->output, &pdu);
+    if (entities->cot && on_map(sent))
+        send_cot(entities, world, sent,
+                 &(struct cot_output_entity){.position = position, .matrix = &matrix}, true);
     sent->id = 0;
 }
 

@@ -1,4 +1,4 @@
-/* Entity State PDUs of our vehicles and guided missiles.
+/* Entity State PDUs of our vehicles and guided missiles, and their events of Cursor on Target.
  *
  * A receiver shows an entity where its dead reckoning has it. The gateway computes the same, and
  * sends a new Entity State when the vehicle is more than a metre or three degrees from there, when
@@ -7,6 +7,7 @@
 #ifndef JOLON_GATEWAY_ENTITY_OUTPUT_H
 #define JOLON_GATEWAY_ENTITY_OUTPUT_H
 
+#include "gateway/cot_output.h"
 #include "gateway/earth/dead_reckoning.h"
 #include "gateway/earth/local_frame.h"
 #include "gateway/entity_ids.h"
@@ -42,6 +43,7 @@ struct entity_sent {
 
 struct entity_output {
     struct pdu_output *output;
+    struct cot_output *cot; /* NULL: no events of Cursor on Target are sent */
     const struct type_table *types;
     struct entity_ids ids;
     struct local_frame frame;

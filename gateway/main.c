@@ -1,137 +1,23 @@
 /* jolon-gateway: shows the world to simulators of other makers, by DIS, and receives what they send
  * (docs/dis.md). It reads the world as the reporter does, and nothing waits for it. */
-#include "gateway/entity_output.h"
-#include "gateway/event_output.h"
+#include "gateway/gateway.h"
 #include "gateway/options.h"
-#include "gateway/pdu_input.h"
-#include "ipc/frame/frame_protocol.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
 #include "ipc/sandbox/sandbox.h"
 #include "ipc/segment/segment_attach.h"
-#include "world/params.h"
-#include "world/terrain/gridsquare.h"
-
-#include <inttypes.h>
-#include <stdio.h>
 
 #define NICENESS  5
 #define PERIOD_NS (50 * (uint64_t)NS_PER_MS)
-#define SLICE_NS  (5 * (uint64_t)NS_PER_MS) /* from one look at a busy socket to the next */
-#define TYPES     "dis/types.txt"           /* beneath the folder of data */
-
-struct gateway {
-    struct view view;
-    struct type_table types;
-    struct pdu_output output;
-    struct pdu_input input;
-    uint64_t without_effect; /* PDUs that were received and that nothing here acts on */
-    struct entity_output entities;
-    struct event_output events;
-};
-
-static int open_gateway(struct gateway *gateway, struct error_text *error)
-{
-    const struct view *view = &gateway->view;
-    const struct gateway_params *params = &view->world.params->gateway;
-    char folder[400], path[sizeof folder + sizeof TYPES + 1];
-    struct pdu_output *output = &gateway->output;
-    struct entity_output *entities = &gateway->entities;
-    if (process_data_dir(folder, sizeof folder) != 0)
-        return error_text_set(error, "the folder of data is missing; set JOLON_DATA to it");
-    (void)snprintf(path, sizeof path, "%s/%s", folder, TYPES);
-    output->version = (uint8_t)params->version;
-    output->exercise = (uint8_t)params->exercise;
-    entities->output = gateway->events.output = output;
-    entities->types = &gateway->types;
-    entities->ids = (struct entity_ids){(uint16_t)params->site, (uint16_t)params->application,
-                                        (uint16_t)params->applications};
-    gateway->events.entities = entities;
-    local_frame_make(&entities->frame, params->latitude_deg, params->longitude_deg,
-                     params->undulation_m, 0.5 * WORLD_SIDE_M, 0.5 * WORLD_SIDE_M);
-    if (type_table_read(&gateway->types, path, view->world.kinds, view->world.counts.kinds,
-                        error) != 0 ||
-        pdu_output_open(output, params->address, (uint16_t)params->port, params->rate_ps, error) !=
-            0 ||
-        entity_output_open(entities, view, error) != 0)
-        return -1;
-    gateway->input.exercise = output->exercise;
-    gateway->input.own = entities->ids;
-    if (pdu_input_open(&gateway->input, params->listen, error) != 0)
-        return -1;
-    const struct role_slot *slot = view->slot[ROLE_GATEWAY];
-    event_output_open(&gateway->events, view,
-                      atomic_load_explicit(&slot->frame, memory_order_relaxed));
-    return 0;
-}
-
-/* Acts on a PDU that is for us, by its type. */
-static void take_pdu(void *context, const struct pdu *pdu, const struct udp_address *from,
-                     uint64_t now_ns)
-{
-    struct gateway *gateway = context;
-    (void)from;
-    (void)now_ns;
-    switch ((enum pdu_type)pdu->header.type) {
-    default:
-        gateway->without_effect++;
-        break;
-    }
-}
-
-/* Receives until it is time to send. A busy socket is looked at each SLICE_NS, before its buffer in
- * the system is full, and not for each datagram. */
-static void receive_until(struct gateway *gateway, uint64_t due_ns)
-{
-    uint64_t now_ns = clock_now_ns();
-    while (now_ns < due_ns && !process_stopping()) {
-        if (gateway->input.socket < 0) {
-            clock_sleep_until_ns(due_ns);
-        } else if (udp_socket_wait(gateway->input.socket, due_ns - now_ns)) {
-            now_ns = clock_now_ns();
-            (void)pdu_input_receive(&gateway->input, take_pdu, gateway, now_ns);
-            clock_sleep_until_ns(now_ns + SLICE_NS < due_ns ? now_ns + SLICE_NS : due_ns);
-        }
-        frame_protocol_beat(&gateway->view);
-        now_ns = clock_now_ns();
-    }
-}
-
-static void send_once(struct gateway *gateway)
-{
-    struct role_slot *slot = gateway->view.slot[ROLE_GATEWAY];
-    uint64_t begun_ns = clock_now_ns();
-    frame_protocol_beat(&gateway->view);
-    /* Entities first, so that the snapshot has those that the events name. */
-    entity_output_send(&gateway->entities, &gateway->view, begun_ns);
-    event_output_send(&gateway->events, &gateway->view, begun_ns);
-    log_frame(gateway->events.frame);
-    atomic_store_explicit(&slot->gaps, gateway->events.cursor.gap, memory_order_relaxed);
-    frame_protocol_stage_done(&gateway->view, gateway->events.frame, clock_now_ns() - begun_ns);
-}
-
-static void tell_received(const struct gateway *gateway)
-{
-    const struct pdu_input *input = &gateway->input;
-    if (input->socket < 0)
-        return;
-    log_info("received %" PRIu64 " PDUs in %" PRIu64 " datagrams; %" PRIu64 " of unknown types, "
-             "%" PRIu64 " with faults, %" PRIu64 " of other exercises, %" PRIu64
-             " of our own, %" PRIu64 " without effect",
-             input->counts.result[PDU_GOOD], input->counts.datagrams,
-             input->counts.result[PDU_SKIPPED], input->bad, input->foreign, input->echoes,
-             gateway->without_effect);
-}
 
 int main(int argc, char **argv)
 {
     static struct gateway gateway;
     struct sandbox sandbox;
     struct error_text error;
-    char to[UDP_ADDRESS_TEXT];
-    log_open("gateway");
     struct options options;
+    log_open("gateway");
     options_parse(&options, argc, argv);
     process_close_inherited();
     process_die_with_parent(options.parent);
@@ -141,35 +27,24 @@ int main(int argc, char **argv)
     if (sandbox_begin(&sandbox, ROLE_GATEWAY, options.sandbox_off, &error) != 0 ||
         segment_attach(&gateway.view, options.world, ROLE_GATEWAY, &error) != 0)
         die_refused("%s", error.text);
-    if (open_gateway(&gateway, &error) != 0 || sandbox_enter(&sandbox, &error) != 0) {
+    if (gateway_open(&gateway, &error) != 0 || sandbox_enter(&sandbox, &error) != 0) {
         segment_detach(&gateway.view);
         die_refused("%s", error.text);
     }
-    const struct gateway_params *params = &gateway.view.world.params->gateway;
-    log_info("sends DIS %u, exercise %u, to %s", params->version, params->exercise,
-             udp_address_text(&gateway.output.to, to, sizeof to));
-    if (gateway.input.socket >= 0)
-        log_info("receives at %s", udp_address_text(&gateway.input.at, to, sizeof to));
     segment_ready(&gateway.view);
 
     uint64_t due_ns = clock_now_ns();
     while (!process_stopping()) {
-        send_once(&gateway);
+        gateway_send(&gateway);
         due_ns += PERIOD_NS;
         if (due_ns <= clock_now_ns())
             due_ns = clock_now_ns() + PERIOD_NS;
-        receive_until(&gateway, due_ns);
+        gateway_receive(&gateway, due_ns);
     }
 
     atomic_store(&gateway.view.slot[ROLE_GATEWAY]->state, ROLE_STOPPING);
-    send_once(&gateway);
-    entity_output_deactivate(&gateway.entities, &gateway.view, clock_now_ns());
-    log_info("sent %" PRIu64 " PDUs of %" PRIu64 " octets; %" PRIu64 " failed, %" PRIu64
-             " were put off by the rate",
-             gateway.output.sent, gateway.output.octets, gateway.output.failed,
-             gateway.entities.postponed);
-    tell_received(&gateway);
-    entity_output_close(&gateway.entities);
+    gateway_send(&gateway);
+    gateway_close(&gateway);
     segment_detach(&gateway.view);
     return EXIT_OK;
 }

@@ -3,19 +3,16 @@
 #define JOLON_GATEWAY_PDU_OUTPUT_H
 
 #include "gateway/pdu/pdu.h"
-#include "gateway/udp/udp_address.h"
+#include "gateway/udp_output.h"
 #include "ipc/process/rate.h"
 
 #include <stdbool.h>
 
 struct pdu_output {
-    int socket;
-    struct udp_address to;
+    struct udp_output udp;
     uint8_t version, exercise;
     uint32_t rate_ps; /* PDUs a second */
     struct rate rate;
-    uint64_t sent, octets, failed;
-    uint64_t failure_logged_ns;
 };
 
 /* Opens the socket. Returns 0, or -1 with the reason. */
@@ -25,8 +22,7 @@ int pdu_output_open(struct pdu_output *output, const char *address, uint16_t por
 /* Returns true if the rate allows one more PDU now, and takes it from the rate. */
 bool pdu_output_take(struct pdu_output *output, uint64_t now_ns);
 
-/* Sends a PDU whose type and body are set, with the time stamp of now, in UTC. A PDU that cannot be
- * sent is counted, as the network may lose any; the log says so once a second at most. */
+/* Sends a PDU whose type and body are set, with the time stamp of now, in UTC. */
 void pdu_output_send(struct pdu_output *output, struct pdu *pdu);
 
 #endif

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#define WORDS_MAX  5
+#define WORDS_MAX  6
 #define LINE_BYTES 256
 #define ANY_FORCE  FORCE_COUNT
 
@@ -65,23 +65,38 @@ static bool read_type(char *word, struct pdu_entity_type *type)
     return rest == NULL;
 }
 
+/* Reads letters and digits with hyphens between them, from the letter of the dimension on. */
+static bool read_cot(const char *word, char cot[TYPE_TABLE_COT])
+{
+    static const char allowed[] = "-ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789";
+    size_t length = strlen(word);
+    if (length >= TYPE_TABLE_COT || strspn(word, allowed) != length || strstr(word, "--") ||
+        word[0] < 'A' || word[0] > 'Z' || word[length - 1] == '-')
+        return false;
+    (void)snprintf(cot, TYPE_TABLE_COT, "%s", word);
+    return true;
+}
+
 /* Reads the words of a line. Returns NULL, or what is wrong. */
 static const char *read_row(struct reading *reading, char *word[], int count,
                             const struct kind *kinds, uint32_t kind_count)
 {
     struct type_row row = {.given = true};
     uint64_t warhead = 0, fuse = 0;
-    if (count != 3 && count != 5)
-        return "must be KIND FORCE TYPE, or KIND FORCE TYPE WARHEAD FUSE";
+    if (count < 3 || count > WORDS_MAX)
+        return "must be KIND FORCE TYPE [WARHEAD FUSE] [COT]";
     int force = force_of(word[1]);
     if (force < 0)
         return "the force must be blue, red, neutral or *";
     if (!read_type(word[2], &row.type))
         return "the type must be seven numbers with dots between them: "
                "KIND.DOMAIN.COUNTRY.CATEGORY.SUBCATEGORY.SPECIFIC.EXTRA";
-    if (count == 5 && (!parse_whole(word[3], 0, UINT16_MAX, &warhead) ||
+    if (count >= 5 && (!parse_whole(word[3], 0, UINT16_MAX, &warhead) ||
                        !parse_whole(word[4], 0, UINT16_MAX, &fuse)))
         return "warhead and fuse must be whole numbers from 0 to 65535";
+    if (count % 2 == 0 && !read_cot(word[count - 1], row.cot))
+        return "the type of Cursor on Target must be letters with hyphens between them, such as "
+               "G-E-V-A-T";
     row.warhead = (uint16_t)warhead;
     row.fuse = (uint16_t)fuse;
     int subject = subject_of(word[0], kinds, kind_count);
@@ -127,7 +142,8 @@ static int read_lines(struct reading *reading, FILE *file, const char *path,
     return 0;
 }
 
-/* Selects the row of a kind and a force: its own, that of all forces, or that of its domain. */
+/* Selects the row of a kind and a force: its own, that of all forces, or that of its domain. A row
+ * without a type of Cursor on Target has that of the next of them. */
 static int choose(struct type_row *row, const struct reading *reading, const struct kind *kind,
                   uint32_t number, int force)
 {
@@ -140,6 +156,8 @@ static int choose(struct type_row *row, const struct reading *reading, const str
             continue;
         *row = *candidates[i];
         row->nearest = i >= 2;
+        for (unsigned j = i + 1; j < 4 && row->cot[0] == '\0'; j++)
+            memcpy(row->cot, candidates[j]->cot, sizeof row->cot);
         return 0;
     }
     return -1;

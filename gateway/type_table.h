@@ -1,5 +1,5 @@
-/* The table of DIS types for our kinds, from a text file (config/dis/types.txt, which explains its
- * rows). It is read before the sandbox is entered. */
+/* The table of the types of DIS and of Cursor on Target for our kinds, from a text file
+ * (config/dis/types.txt, which explains its rows). It is read before the sandbox is entered. */
 #ifndef JOLON_GATEWAY_TYPE_TABLE_H
 #define JOLON_GATEWAY_TYPE_TABLE_H
 
@@ -10,9 +10,12 @@
 
 #include <stdbool.h>
 
+#define TYPE_TABLE_COT 24u /* room for a type of Cursor on Target with its NUL */
+
 struct type_row {
     struct pdu_entity_type type;
-    uint16_t warhead, fuse; /* munitions */
+    uint16_t warhead, fuse;   /* munitions */
+    char cot[TYPE_TABLE_COT]; /* the type of Cursor on Target behind "a-f-"; "": none */
     bool given;
     bool nearest; /* the kind has no row: this is that of its domain */
 };

@@ -53,6 +53,7 @@ struct gateway_params {
     uint32_t rate_ps;                   /* PDUs a second at most */
     double latitude_deg, longitude_deg; /* of the middle of the square */
     double undulation_m;                /* of the sea above the ellipsoid there */
+    char cot[64]; /* where events of Cursor on Target are sent, "none": nowhere */
 };
 
 /* The place to which vehicles of a force withdraw. */

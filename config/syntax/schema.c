@@ -209,6 +209,9 @@ static const struct key scenario_keys[] = {
     NUMBER("gateway.undulation_m", S, params.gateway.undulation_m, -200, 200, "-33.7", .unit = "m",
            .meaning = "The height of the sea level above the ellipsoid at the middle of the "
                       "square. DIS has heights above the ellipsoid."),
+    TEXT("gateway.cot", S, params.gateway.cot, "none",
+         .meaning = "Where events of Cursor on Target are sent: an address in numbers, with a port "
+                    "if it is not 6969, such as \"239.2.3.1:6969\". \"none\": nowhere."),
 };
 #undef S
 const struct key_table schema_scenario = {"", scenario_keys, COUNT(scenario_keys),

@@ -1,55 +1,38 @@
 /* Addresses of UDP. */
 #include "gateway/udp/udp_address.h"
 
-#include "world/runtime/parse_number.h"
-
 #include <arpa/inet.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Reads the host of an address without brackets. */
-static bool host_of(struct udp_address *address, const char *host, uint16_t port)
-{
-    memset(address, 0, sizeof *address);
-    if (inet_pton(AF_INET, host, &address->v4.sin_addr) == 1) {
-        address->v4.sin_family = AF_INET;
-        address->v4.sin_port = htons(port);
-        return true;
-    }
-    memset(address, 0, sizeof *address);
-    if (inet_pton(AF_INET6, host, &address->v6.sin6_addr) != 1)
-        return false;
-    address->v6.sin6_family = AF_INET6;
-    address->v6.sin6_port = htons(port);
-    return true;
-}
-
 int udp_address_parse(struct udp_address *address, const char *text, uint16_t port,
                       struct error_text *error)
 {
-    char host[UDP_ADDRESS_TEXT];
-    if (strlen(text) < sizeof host) {
-        (void)snprintf(host, sizeof host, "%s", text);
-        if (host_of(address, host, port)) /* also IPv6 without a port */
-            return 0;
-        uint64_t number;
-        char *colon = strrchr(host, ':'), *name = host;
-        if (colon && parse_whole(colon + 1, 1, 65535, &number)) {
-            *colon = '\0';
-            port = (uint16_t)number;
-        }
-        size_t length = strlen(name);
-        bool brackets = name[0] == '[' && name[length - 1] == ']';
-        if (brackets) {
-            name[length - 1] = '\0';
-            name++;
-        }
-        /* IPv6 with a port has brackets, and IPv4 has none. */
-        if ((strchr(name, ':') != NULL) == brackets && host_of(address, name, port))
-            return 0;
+    struct internet_address read;
+    if (internet_address_read(&read, text, port, error) != 0)
+        return -1;
+    memset(address, 0, sizeof *address);
+    if (read.ipv6) {
+        address->v6.sin6_family = AF_INET6;
+        address->v6.sin6_port = htons(read.port);
+        memcpy(&address->v6.sin6_addr, read.bytes, sizeof address->v6.sin6_addr);
+    } else {
+        address->v4.sin_family = AF_INET;
+        address->v4.sin_port = htons(read.port);
+        memcpy(&address->v4.sin_addr, read.bytes, sizeof address->v4.sin_addr);
     }
-    return error_text_set(error, "must be an address in numbers with or without a port, such as "
-                                 "127.0.0.1, 127.0.0.1:3000, ::1 or [::1]:3000");
+    return 0;
+}
+
+struct internet_address udp_address_internet(const struct udp_address *address)
+{
+    struct internet_address to = {.ipv6 = address->any.sa_family == AF_INET6,
+                                  .port = udp_address_port(address)};
+    if (to.ipv6)
+        memcpy(to.bytes, &address->v6.sin6_addr, sizeof address->v6.sin6_addr);
+    else
+        memcpy(to.bytes, &address->v4.sin_addr, sizeof address->v4.sin_addr);
+    return to;
 }
 
 const char *udp_address_text(const struct udp_address *address, char *text, size_t size)

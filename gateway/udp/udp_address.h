@@ -1,9 +1,8 @@
-/* Addresses of UDP in numbers: 127.0.0.1, 127.0.0.1:3000, ::1, [::1]:3000. Names are not looked up,
- * because that takes files and sockets that a sandbox forbids. */
+/* Addresses of UDP in numbers (world/runtime/internet_address.h), as sockets take them. */
 #ifndef JOLON_GATEWAY_UDP_UDP_ADDRESS_H
 #define JOLON_GATEWAY_UDP_UDP_ADDRESS_H
 
-#include "world/runtime/error_text.h"
+#include "world/runtime/internet_address.h"
 
 #include <netinet/in.h>
 #include <stdbool.h>
@@ -27,6 +26,9 @@ int udp_address_parse(struct udp_address *address, const char *text, uint16_t po
 
 /* Writes the address and its port into text, cut where the size ends. Returns text. */
 const char *udp_address_text(const struct udp_address *address, char *text, size_t size);
+
+/* Returns the address as lists of addresses take it. */
+struct internet_address udp_address_internet(const struct udp_address *address);
 
 uint16_t udp_address_port(const struct udp_address *address);
 socklen_t udp_address_bytes(const struct udp_address *address);

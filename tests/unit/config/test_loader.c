@@ -254,6 +254,7 @@ static const struct {
     {"gateway.enabled=true", "gateway = { enabled = true; };"},
     {"gateway.address=239.1.2.3", "gateway = { address = \"239.1.2.3\"; };"},
     {"gateway.address=::1", "gateway = { address = \"::1\"; };"},
+    {"gateway.listen=[ff02::1]:3001", "gateway = { listen = \"[ff02::1]:3001\"; };"},
     {"gateway.port=3001", "gateway = { port = 3001; };"},
     {"gateway.exercise=2", "gateway = { exercise = 2; };"},
     {"gateway.site=7", "gateway = { site = 7; };"},
@@ -264,6 +265,7 @@ static const struct {
     {"gateway.latitude_deg=-30.5", "gateway = { latitude_deg = -30.5; };"},
     {"gateway.longitude_deg=10.25", "gateway = { longitude_deg = 10.25; };"},
     {"gateway.undulation_m=45.5", "gateway = { undulation_m = 45.5; };"},
+    {"gateway.cot=239.2.3.1:6969", "gateway = { cot = \"239.2.3.1:6969\"; };"},
 };
 
 /* Asserts that two scenarios have the same settings but for their hashes. */

@@ -432,6 +432,12 @@ static void test_override_refusals(void **state)
          "--set: gateway.applications = 65533x: is not a whole number; allowed: 1..65533"},
         {"gateway.application=65533",
          "default: gateway.applications = 16: goes beyond application 65533; allowed: up to 1"},
+        {"gateway.cot=tak.example:6969",
+         "--set: gateway.cot = tak.example:6969: must be an address in numbers with or without a "
+         "port, such as 127.0.0.1, 127.0.0.1:3000, ::1 or [::1]:3000"},
+        {"gateway.listen=3000",
+         "--set: gateway.listen = 3000: must be an address in numbers with or without a "
+         "port, such as 127.0.0.1, 127.0.0.1:3000, ::1 or [::1]:3000"},
         {"gateway.version=5", "--set: gateway.version = 5: out of range; allowed: 6..7"},
         {"renderer.fog=yes", "--set: renderer.fog = yes: is not a boolean; allowed: true, false"},
         {"collision.response=bounce",

@@ -58,7 +58,7 @@ static void open_output(uint32_t rate_ps)
 static void close_output(void)
 {
     entity_output_close(&entities);
-    close(output.socket);
+    close(output.udp.socket);
     close(listener);
 }
 

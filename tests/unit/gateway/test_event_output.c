@@ -62,7 +62,7 @@ static int close_world(void **state)
 {
     (void)state;
     entity_output_close(&entities);
-    close(output.socket);
+    close(output.udp.socket);
     close(listener);
     fixture_close(&world);
     return 0;

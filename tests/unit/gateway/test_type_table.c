@@ -64,6 +64,24 @@ static void test_the_nearest_row_holds(void **state)
     assert_row(0, 77, 0, false);
 }
 
+/* A row without a type of Cursor on Target has that of the next that would hold. */
+static void test_types_of_cursor_on_target(void **state)
+{
+    (void)state;
+    assert_int_equal(read_text("<land> * 1.1.1.0.0.0.0\n<sea> * 1.3.2.0.0.0.0\n"
+                               "<munition> * 2.9.4.0.0.0.0 1 2 A-W\n<air> * 1.2.3.0.0.0.0 A\n"
+                               "tank * 1.1.225.1.1.2.0 G-E-V-A-T\ntank red 1.1.222.1.2.1.0\n"
+                               "shell * 2.2.225.2.13.1.0 5000 1000\n"),
+                     0);
+    assert_string_equal(type_table_row(&table, 0, FORCE_BLUE)->cot, "G-E-V-A-T");
+    assert_string_equal(type_table_row(&table, 0, FORCE_RED)->cot, "G-E-V-A-T");
+    assert_string_equal(type_table_row(&table, 1, FORCE_RED)->cot, "A");
+    assert_string_equal(type_table_row(&table, 2, FORCE_RED)->cot, "A-W");
+    assert_int_equal(type_table_row(&table, 2, FORCE_RED)->warhead, 5000);
+    assert_int_equal(read_text(DOMAIN_ROWS "<air> * 1.2.3.0.0.0.0\n"), 0);
+    assert_string_equal(type_table_row(&table, 0, FORCE_RED)->cot, "");
+}
+
 static void assert_refused(const char *text, const char *why)
 {
     assert_int_equal(read_text(text), -1);
@@ -75,8 +93,14 @@ static void test_refusals(void **state)
 {
     (void)state;
     assert_refused("tank *\n", ":1: tank: must be KIND FORCE TYPE");
-    assert_refused("\ntank * 1.1.1.1.1.1.1 5\n", ":2: tank: must be KIND FORCE TYPE");
-    assert_refused("tank * 1.1.1.1.1.1.1 5 6 7\n", "must be KIND FORCE TYPE");
+    assert_refused("\ntank *\n", ":2: tank: must be KIND FORCE TYPE");
+    assert_refused("tank * 1.1.1.1.1.1.1 5 6 G 8\n", "must be KIND FORCE TYPE");
+    assert_refused("tank * 1.1.1.1.1.1.1 5\n", "Cursor on Target");
+    assert_refused("tank * 1.1.1.1.1.1.1 5 6 g\n", "Cursor on Target");
+    assert_refused("tank * 1.1.1.1.1.1.1 G--E\n", "Cursor on Target");
+    assert_refused("tank * 1.1.1.1.1.1.1 G-E-\n", "Cursor on Target");
+    assert_refused("tank * 1.1.1.1.1.1.1 G-<\n", "Cursor on Target");
+    assert_refused("tank * 1.1.1.1.1.1.1 G-E-V-A-T-H-E-A-V-Y-X-Y-Z\n", "Cursor on Target");
     assert_refused("tank green 1.1.1.1.1.1.1\n", "blue, red, neutral or *");
     assert_refused("tank * 1.1.1.1.1.1\n", "seven numbers");
     assert_refused("tank * 1.1.1.1.1.1.1.1\n", "seven numbers");
@@ -121,6 +145,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_nearest_row_holds),
+        cmocka_unit_test(test_types_of_cursor_on_target),
         cmocka_unit_test(test_refusals),
         cmocka_unit_test(test_the_shipped_table),
     };

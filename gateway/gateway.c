@@ -1,0 +1,148 @@
+/* The gateway: what comes in and what goes out. */
+#include "gateway/gateway.h"
+
+#include "ipc/frame/frame_protocol.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+#include "ipc/process/process.h"
+#include "world/params.h"
+#include "world/terrain/gridsquare.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#define SLICE_NS (5 * (uint64_t)NS_PER_MS) /* from one look at a busy socket to the next */
+#define TYPES    "dis/types.txt"           /* beneath the folder of data */
+
+static void tell_begin(const struct gateway *gateway)
+{
+    const struct gateway_params *params = &gateway->view.world.params->gateway;
+    char at[UDP_ADDRESS_TEXT];
+    log_info("sends DIS %u, exercise %u, to %s", params->version, params->exercise,
+             udp_address_text(&gateway->output.udp.to, at, sizeof at));
+    if (gateway->input.socket >= 0)
+        log_info("receives at %s", udp_address_text(&gateway->input.at, at, sizeof at));
+    if (gateway->entities.cot)
+        log_info("sends events of Cursor on Target to %s",
+                 udp_address_text(&gateway->cot.udp.to, at, sizeof at));
+}
+
+int gateway_open(struct gateway *gateway, struct error_text *error)
+{
+    const struct view *view = &gateway->view;
+    const struct gateway_params *params = &view->world.params->gateway;
+    char folder[400], path[sizeof folder + sizeof TYPES + 1];
+    struct pdu_output *output = &gateway->output;
+    struct entity_output *entities = &gateway->entities;
+    if (process_data_dir(folder, sizeof folder) != 0)
+        return error_text_set(error, "the folder of data is missing; set JOLON_DATA to it");
+    (void)snprintf(path, sizeof path, "%s/%s", folder, TYPES);
+    output->version = (uint8_t)params->version;
+    output->exercise = (uint8_t)params->exercise;
+    entities->output = gateway->events.output = output;
+    entities->types = &gateway->types;
+    entities->ids = (struct entity_ids){(uint16_t)params->site, (uint16_t)params->application,
+                                        (uint16_t)params->applications};
+    gateway->events.entities = entities;
+    local_frame_make(&entities->frame, params->latitude_deg, params->longitude_deg,
+                     params->undulation_m, 0.5 * WORLD_SIDE_M, 0.5 * WORLD_SIDE_M);
+    if (type_table_read(&gateway->types, path, view->world.kinds, view->world.counts.kinds,
+                        error) != 0 ||
+        pdu_output_open(output, params->address, (uint16_t)params->port, params->rate_ps, error) !=
+            0 ||
+        entity_output_open(entities, view, error) != 0)
+        return -1;
+    gateway->input.exercise = output->exercise;
+    gateway->input.own = entities->ids;
+    if (pdu_input_open(&gateway->input, params->listen, error) != 0)
+        return -1;
+    if (strcmp(params->cot, COT_OUTPUT_NONE) != 0) {
+        if (cot_output_open(&gateway->cot, params->cot, output->exercise, error) != 0)
+            return -1;
+        entities->cot = &gateway->cot;
+    }
+    const struct role_slot *slot = view->slot[ROLE_GATEWAY];
+    event_output_open(&gateway->events, view,
+                      atomic_load_explicit(&slot->frame, memory_order_relaxed));
+    tell_begin(gateway);
+    return 0;
+}
+
+/* Acts on a PDU that is for us, by its type. */
+static void take_pdu(void *context, const struct pdu *pdu, const struct udp_address *from,
+                     uint64_t now_ns)
+{
+    struct gateway *gateway = context;
+    (void)from;
+    (void)now_ns;
+    switch ((enum pdu_type)pdu->header.type) {
+    default:
+        gateway->without_effect++;
+        break;
+    }
+}
+
+/* A busy socket is looked at each SLICE_NS, before its buffer in the system is full, and not for
+ * each datagram. */
+void gateway_receive(struct gateway *gateway, uint64_t due_ns)
+{
+    uint64_t now_ns = clock_now_ns();
+    while (now_ns < due_ns && !process_stopping()) {
+        if (gateway->input.socket < 0) {
+            clock_sleep_until_ns(due_ns);
+        } else if (udp_socket_wait(gateway->input.socket, due_ns - now_ns)) {
+            now_ns = clock_now_ns();
+            (void)pdu_input_receive(&gateway->input, take_pdu, gateway, now_ns);
+            clock_sleep_until_ns(now_ns + SLICE_NS < due_ns ? now_ns + SLICE_NS : due_ns);
+        }
+        frame_protocol_beat(&gateway->view);
+        now_ns = clock_now_ns();
+    }
+}
+
+void gateway_send(struct gateway *gateway)
+{
+    struct role_slot *slot = gateway->view.slot[ROLE_GATEWAY];
+    uint64_t begun_ns = clock_now_ns();
+    frame_protocol_beat(&gateway->view);
+    /* Entities first, so that the snapshot has those that the events name. */
+    entity_output_send(&gateway->entities, &gateway->view, begun_ns);
+    event_output_send(&gateway->events, &gateway->view, begun_ns);
+    log_frame(gateway->events.frame);
+    atomic_store_explicit(&slot->gaps, gateway->events.cursor.gap, memory_order_relaxed);
+    frame_protocol_stage_done(&gateway->view, gateway->events.frame, clock_now_ns() - begun_ns);
+}
+
+static void tell_received(const struct gateway *gateway)
+{
+    const struct pdu_input *input = &gateway->input;
+    if (input->socket < 0)
+        return;
+    log_info("received %" PRIu64 " PDUs in %" PRIu64 " datagrams; %" PRIu64 " of unknown types, "
+             "%" PRIu64 " with faults, %" PRIu64 " of other exercises, %" PRIu64
+             " of our own, %" PRIu64 " without effect",
+             input->counts.result[PDU_GOOD], input->counts.datagrams,
+             input->counts.result[PDU_SKIPPED], input->bad, input->foreign, input->echoes,
+             gateway->without_effect);
+}
+
+static void tell_sent(const struct gateway *gateway)
+{
+    const struct udp_output *udp = &gateway->output.udp, *cot = &gateway->cot.udp;
+    log_info("sent %" PRIu64 " PDUs of %" PRIu64 " octets; %" PRIu64 " failed, %" PRIu64
+             " were put off by the rate",
+             udp->sent, udp->octets, udp->failed, gateway->entities.postponed);
+    if (gateway->entities.cot)
+        log_info("sent %" PRIu64 " events of Cursor on Target of %" PRIu64 " octets; %" PRIu64
+                 " failed",
+                 cot->sent, cot->octets, cot->failed);
+}
+
+void gateway_close(struct gateway *gateway)
+{
+    entity_output_deactivate(&gateway->entities, &gateway->view, clock_now_ns());
+    tell_sent(gateway);
+    tell_received(gateway);
+    entity_output_close(&gateway->entities);
+}

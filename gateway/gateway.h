@@ -1,0 +1,34 @@
+/* The gateway: the ways out and the way in, and what is done with what comes. main.c is its
+ * process. One thread. */
+#ifndef JOLON_GATEWAY_GATEWAY_H
+#define JOLON_GATEWAY_GATEWAY_H
+
+#include "gateway/entity_output.h"
+#include "gateway/event_output.h"
+#include "gateway/pdu_input.h"
+
+struct gateway {
+    struct view view;
+    struct type_table types;
+    struct pdu_output output;
+    struct pdu_input input;
+    uint64_t without_effect; /* PDUs that were received and that nothing here acts on */
+    struct cot_output cot;
+    struct entity_output entities;
+    struct event_output events;
+};
+
+/* Reads the types and opens the sockets, by the world's parameters. The view is attached. Returns
+ * 0, or -1 with the reason. */
+int gateway_open(struct gateway *gateway, struct error_text *error);
+
+/* Sends what is due, as the role's work on the last frame. */
+void gateway_send(struct gateway *gateway);
+
+/* Receives until due_ns (CLOCK_MONOTONIC), or until the process is to stop. */
+void gateway_receive(struct gateway *gateway, uint64_t due_ns);
+
+/* Sends a last state of every entity, and closes. */
+void gateway_close(struct gateway *gateway);
+
+#endif
