@@ -256,7 +256,7 @@ $(BIN)/jolon-harness: $(OBJ)/clients/harness/main.o $(call libraries,harness top
 	$(call link,$(DDS_LIBS) $(JSON_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-monitor: $(OBJ)/clients/monitor/main.o $(call libraries,monitor screens topics datagrams ipc world)
 	$(call link,$(DDS_LIBS) $(CURSES_LIBS) $(JSON_LIBS) $(BASE_LIBS))
-$(BIN)/jolon-gateway: $(OBJ)/gateway/main.o $(call libraries,gateway sandbox ipc world)
+$(BIN)/jolon-gateway: $(OBJ)/gateway/main.o $(call libraries,gateway topics sandbox ipc world)
 	$(call link,$(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon-dis: $(OBJ)/gateway/tool/main.o $(call libraries,tool gateway ipc world)
 	$(call link,$(PCAP_LIBS) $(BASE_LIBS))

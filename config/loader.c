@@ -11,9 +11,9 @@
 #include "config/syntax/source.h"
 #include "config/vehicles.h"
 #include "world/entity/persistent_contact.h"
+#include "world/gateway_lists.h"
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
-#include "world/runtime/internet_address.h"
 
 #include <arpa/inet.h>
 #include <errno.h>
@@ -178,6 +178,24 @@ static int check_endpoint(const struct load *load, const char *name, const char 
                             text, "%s", wrong.text);
 }
 
+static int check_gateway_lists(const struct load *load, const struct gateway_params *gateway)
+{
+    struct gateway_lists_peers peers;
+    struct gateway_lists_control control;
+    struct error_text wrong;
+    const char *name = "gateway.peers", *text = gateway->peers;
+    int result = gateway_lists_peers(&peers, text, &wrong);
+    if (result == 0) {
+        name = "gateway.control";
+        text = gateway->control;
+        result = gateway_lists_control(&control, text, &wrong);
+    }
+    return result == 0
+               ? 0
+               : key_table_refuse(load->error, load->origin[key_table_find(&schema_scenario, name)],
+                                  name, text, "%s", wrong.text);
+}
+
 static int check_gateway(const struct load *load)
 {
     const struct gateway_params *gateway = &load->scenario->settings->params.gateway;
@@ -197,7 +215,9 @@ static int check_gateway(const struct load *load)
     }
     if (check_endpoint(load, "gateway.listen", gateway->listen) != 0)
         return -1;
-    return check_endpoint(load, "gateway.cot", gateway->cot);
+    if (check_endpoint(load, "gateway.cot", gateway->cot) != 0)
+        return -1;
+    return check_gateway_lists(load, gateway);
 }
 
 /* Checks values that are in range but may not fit each other. */

@@ -11,6 +11,7 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 #define SLICE_NS (5 * (uint64_t)NS_PER_MS) /* from one look at a busy socket to the next */
 #define TYPES    "dis/types.txt"           /* beneath the folder of data */
@@ -28,7 +29,19 @@ static void tell_begin(const struct gateway *gateway)
                  udp_address_text(&gateway->cot.udp.to, at, sizeof at));
 }
 
-int gateway_open(struct gateway *gateway, struct error_text *error)
+/* Who may not be controlled needs no way to the intake. */
+static int open_management(struct gateway *gateway, const char *world, struct error_text *error)
+{
+    const char *control = gateway->view.world.params->gateway.control;
+    struct command_link link = {NULL, NULL};
+    gateway->commands.fd = -1;
+    if (strcmp(control, GATEWAY_LISTS_NONE) != 0)
+        link = command_socket_open(&gateway->commands, world);
+    return management_open(&gateway->management, &gateway->output, gateway->entities.ids, control,
+                           link, error);
+}
+
+int gateway_open(struct gateway *gateway, const char *world, struct error_text *error)
 {
     const struct view *view = &gateway->view;
     const struct gateway_params *params = &view->world.params->gateway;
@@ -55,7 +68,9 @@ int gateway_open(struct gateway *gateway, struct error_text *error)
         return -1;
     gateway->input.exercise = output->exercise;
     gateway->input.own = entities->ids;
-    if (pdu_input_open(&gateway->input, params->listen, error) != 0)
+    if (gateway_lists_peers(&gateway->input.peers, params->peers, error) != 0 ||
+        pdu_input_open(&gateway->input, params->listen, error) != 0 ||
+        open_management(gateway, world, error) != 0)
         return -1;
     if (strcmp(params->cot, COT_OUTPUT_NONE) != 0) {
         if (cot_output_open(&gateway->cot, params->cot, output->exercise, error) != 0)
@@ -69,14 +84,26 @@ int gateway_open(struct gateway *gateway, struct error_text *error)
     return 0;
 }
 
+static double utc_s(void)
+{
+    struct timespec utc;
+    clock_gettime(CLOCK_REALTIME, &utc);
+    return (double)utc.tv_sec + (double)utc.tv_nsec / 1e9;
+}
+
 /* Acts on a PDU that is for us, by its type. */
 static void take_pdu(void *context, const struct pdu *pdu, const struct udp_address *from,
                      uint64_t now_ns)
 {
     struct gateway *gateway = context;
     (void)from;
-    (void)now_ns;
     switch ((enum pdu_type)pdu->header.type) {
+    case PDU_CREATE:
+    case PDU_REMOVE:
+    case PDU_START_RESUME:
+    case PDU_STOP_FREEZE:
+        management_receive(&gateway->management, pdu, now_ns, utc_s());
+        break;
     default:
         gateway->without_effect++;
         break;
@@ -88,6 +115,7 @@ static void take_pdu(void *context, const struct pdu *pdu, const struct udp_addr
 void gateway_receive(struct gateway *gateway, uint64_t due_ns)
 {
     uint64_t now_ns = clock_now_ns();
+    management_poll(&gateway->management, now_ns, utc_s());
     while (now_ns < due_ns && !process_stopping()) {
         if (gateway->input.socket < 0) {
             clock_sleep_until_ns(due_ns);
@@ -119,10 +147,11 @@ static void tell_received(const struct gateway *gateway)
     const struct pdu_input *input = &gateway->input;
     if (input->socket < 0)
         return;
-    log_info("received %" PRIu64 " PDUs in %" PRIu64 " datagrams; %" PRIu64 " of unknown types, "
+    log_info("received %" PRIu64 " PDUs in %" PRIu64 " datagrams; %" PRIu64
+             " datagrams of strangers, %" PRIu64 " PDUs of unknown types, "
              "%" PRIu64 " with faults, %" PRIu64 " of other exercises, %" PRIu64
              " of our own, %" PRIu64 " without effect",
-             input->counts.result[PDU_GOOD], input->counts.datagrams,
+             input->counts.result[PDU_GOOD], input->counts.datagrams, input->strangers,
              input->counts.result[PDU_SKIPPED], input->bad, input->foreign, input->echoes,
              gateway->without_effect);
 }
@@ -145,4 +174,5 @@ void gateway_close(struct gateway *gateway)
     tell_sent(gateway);
     tell_received(gateway);
     entity_output_close(&gateway->entities);
+    command_socket_close(&gateway->commands);
 }

@@ -5,7 +5,9 @@
 
 #include "gateway/entity_output.h"
 #include "gateway/event_output.h"
+#include "gateway/management.h"
 #include "gateway/pdu_input.h"
+#include "ipc/topics/command_socket.h"
 
 struct gateway {
     struct view view;
@@ -14,13 +16,16 @@ struct gateway {
     struct pdu_input input;
     uint64_t without_effect; /* PDUs that were received and that nothing here acts on */
     struct cot_output cot;
+    struct command_socket commands; /* of management; connected when somebody may control us */
+    struct management management;
     struct entity_output entities;
     struct event_output events;
 };
 
-/* Reads the types and opens the sockets, by the world's parameters. The view is attached. Returns
+/* Reads the types and opens the sockets, by the parameters of the world of that
+ * name. The view is attached. Returns
  * 0, or -1 with the reason. */
-int gateway_open(struct gateway *gateway, struct error_text *error);
+int gateway_open(struct gateway *gateway, const char *world, struct error_text *error);
 
 /* Sends what is due, as the role's work on the last frame. */
 void gateway_send(struct gateway *gateway);

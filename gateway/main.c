@@ -27,7 +27,8 @@ int main(int argc, char **argv)
     if (sandbox_begin(&sandbox, ROLE_GATEWAY, options.sandbox_off, &error) != 0 ||
         segment_attach(&gateway.view, options.world, ROLE_GATEWAY, &error) != 0)
         die_refused("%s", error.text);
-    if (gateway_open(&gateway, &error) != 0 || sandbox_enter(&sandbox, &error) != 0) {
+    if (gateway_open(&gateway, options.world, &error) != 0 ||
+        sandbox_enter(&sandbox, &error) != 0) {
         segment_detach(&gateway.view);
         die_refused("%s", error.text);
     }

@@ -7,6 +7,8 @@
 #include <inttypes.h>
 #include <string.h>
 
+#define FOREIGN_LOG_NS (60 * (uint64_t)NS_PER_S)
+
 int pdu_input_open(struct pdu_input *input, const char *listen, struct error_text *error)
 {
     struct error_text reason;
@@ -63,15 +65,46 @@ static bool is_own(const struct entity_ids *own, struct pdu_id id)
            id.application - own->application < own->applications;
 }
 
-static void take(struct pdu_input *input, const struct pdu *pdu, const struct udp_datagram *datagram,
-                 pdu_input_handler *handler, void *context, uint64_t now_ns)
+static void tell_foreign(struct pdu_input *input, const struct pdu *pdu,
+                         const struct udp_datagram *datagram)
+{
+    char from[UDP_ADDRESS_TEXT];
+    input->foreign++;
+    if (log_due(&input->foreign_logged_ns, FOREIGN_LOG_NS))
+        log_info("%s sends PDUs of exercise %u, which are left out: ours is %u (%" PRIu64
+                 " so far of all other exercises)",
+                 udp_address_text(&datagram->from, from, sizeof from), pdu->header.exercise,
+                 input->exercise, input->foreign);
+}
+
+static void take(struct pdu_input *input, const struct pdu *pdu,
+                 const struct udp_datagram *datagram, pdu_input_handler *handler, void *context,
+                 uint64_t now_ns)
 {
     if (pdu->header.exercise != input->exercise)
-        input->foreign++;
+        tell_foreign(input, pdu, datagram);
     else if (is_own(&input->own, issuer_of(pdu)) || is_own(&input->own, event_of(pdu)))
         input->echoes++;
     else
         handler(context, pdu, &datagram->from, now_ns);
+}
+
+/* Returns true if datagrams are taken from this sender. */
+static bool from_peer(struct pdu_input *input, const struct udp_datagram *datagram)
+{
+    char from[UDP_ADDRESS_TEXT];
+    struct internet_address address = udp_address_internet(&datagram->from);
+    if (gateway_lists_has_peer(&input->peers, &address))
+        return true;
+    input->strangers++;
+    if (log_due(&input->strangers_logged_ns, NS_PER_S)) {
+        log_warn("%" PRIu64 " more datagrams of strangers were refused, the last from %s: "
+                 "gateway.peers does not name it",
+                 input->strangers - input->strangers_logged,
+                 udp_address_text(&datagram->from, from, sizeof from));
+        input->strangers_logged = input->strangers;
+    }
+    return false;
 }
 
 static void read_datagram(struct pdu_input *input, const struct udp_datagram *datagram,
@@ -123,8 +156,10 @@ uint32_t pdu_input_receive(struct pdu_input *input, pdu_input_handler *handler, 
     }
     while (count == UDP_SOCKET_AT_ONCE && total < PDU_INPUT_DATAGRAMS) {
         count = udp_socket_receive_many(input->socket, datagrams, UDP_SOCKET_AT_ONCE);
-        for (uint32_t i = 0; i < count; i++)
-            read_datagram(input, &datagrams[i], handler, context, now_ns);
+        for (uint32_t i = 0; i < count; i++) {
+            if (from_peer(input, &datagrams[i]))
+                read_datagram(input, &datagrams[i], handler, context, now_ns);
+        }
         if (count > 0)
             tell_faults(input, &datagrams[count - 1]);
         total += count;

@@ -53,7 +53,9 @@ struct gateway_params {
     uint32_t rate_ps;                   /* PDUs a second at most */
     double latitude_deg, longitude_deg; /* of the middle of the square */
     double undulation_m;                /* of the sea above the ellipsoid there */
-    char cot[64]; /* where events of Cursor on Target are sent, "none": nowhere */
+    char cot[64];      /* where events of Cursor on Target are sent, "none": nowhere */
+    char peers[256];   /* world/gateway_lists.h */
+    char control[256]; /* world/gateway_lists.h */
 };
 
 /* The place to which vehicles of a force withdraw. */

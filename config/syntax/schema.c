@@ -212,6 +212,13 @@ static const struct key scenario_keys[] = {
     TEXT("gateway.cot", S, params.gateway.cot, "none",
          .meaning = "Where events of Cursor on Target are sent: an address in numbers, with a port "
                     "if it is not 6969, such as \"239.2.3.1:6969\". \"none\": nowhere."),
+    TEXT("gateway.peers", S, params.gateway.peers, "127.0.0.0/8, ::1",
+         .meaning = "From whom packets are taken: addresses, and ranges such as \"10.1.0.0/16\", "
+                    "with commas between them. \"none\": from nobody."),
+    TEXT("gateway.control", S, params.gateway.control, "none",
+         .meaning =
+             "Whose Start/Resume and Stop/Freeze are obeyed: SITE:APPLICATION, or SITE:* for "
+             "all of a site, with commas between them. \"none\": nobody's."),
 };
 #undef S
 const struct key_table schema_scenario = {"", scenario_keys, COUNT(scenario_keys),

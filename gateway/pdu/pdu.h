@@ -65,6 +65,17 @@ struct pdu_header {
     uint8_t status;     /* version 7; else 0 */
 };
 
+/* What an Acknowledge answers, and how (SISO-REF-010 UID 69 and 70). */
+enum pdu_acknowledge {
+    PDU_ACKNOWLEDGE_CREATE = 1,
+    PDU_ACKNOWLEDGE_REMOVE = 2,
+    PDU_ACKNOWLEDGE_START = 3,
+    PDU_ACKNOWLEDGE_STOP = 4
+};
+enum pdu_response { PDU_RESPONSE_ABLE = 1, PDU_RESPONSE_UNABLE = 2 };
+
+#define PDU_ID_ALL 0xffffu /* a site, an application or an entity: all of them */
+
 /* Of an entity, or of an event. The numbers 0 (none), FFFF (all) and FFFE (request one) are
  * reserved. */
 struct pdu_id {

@@ -352,8 +352,9 @@ static const struct list reporter_lists[] = {EVERY_ROLE,        ALLOW(growing), 
 static const struct list console_lists[] = {
     EVERY_ROLE,     ALLOW(growing),    ALLOW(threads),        ALLOW(serving),
     ALLOW(polling), ALLOW(commanding), ALLOW(world_watching), END};
-static const struct list gateway_lists[] = {EVERY_ROLE,       ALLOW(growing), ALLOW(sending),
-                                            ALLOW(receiving), ALLOW(polling), END};
+static const struct list gateway_lists[] = {
+    EVERY_ROLE, ALLOW(growing), ALLOW(sending), ALLOW(receiving), ALLOW(polling), ALLOW(commanding),
+    END};
 static const struct list recorder_lists[] = {EVERY_ROLE, ALLOW(growing), ALLOW(files), END};
 
 /* Refused with EPERM instead of a trap, because libraries of a role that starts may try calls that

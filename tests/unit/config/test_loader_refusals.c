@@ -438,6 +438,12 @@ static void test_override_refusals(void **state)
         {"gateway.listen=3000",
          "--set: gateway.listen = 3000: must be an address in numbers with or without a "
          "port, such as 127.0.0.1, 127.0.0.1:3000, ::1 or [::1]:3000"},
+        {"gateway.peers=10.0.0.1, all",
+         "--set: gateway.peers = 10.0.0.1, all: \"all\" must be an address in numbers or a range, "
+         "such as 10.0.0.7, 10.1.0.0/16, ::1 or fd00::/8"},
+        {"gateway.control=7",
+         "--set: gateway.control = 7: \"7\" must be SITE:APPLICATION with numbers from 1 to 65533, "
+         "or SITE:* for all applications of a site"},
         {"gateway.version=5", "--set: gateway.version = 5: out of range; allowed: 6..7"},
         {"renderer.fog=yes", "--set: renderer.fog = yes: is not a boolean; allowed: true, false"},
         {"collision.response=bounce",

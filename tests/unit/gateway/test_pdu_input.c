@@ -1,4 +1,5 @@
-/* What the gateway takes from a socket on the loopback: PDUs for us alone, and a count of all else. */
+/* What the gateway takes from a socket on the loopback: PDUs for us alone, and a count of all else.
+ */
 #include "gateway/pdu_input.h"
 
 #include "gateway/pdu/pdu_write.h"
@@ -36,6 +37,7 @@ static int set_up(void **state)
     socklen_t length = sizeof to;
     (void)state;
     input = (struct pdu_input){.exercise = 3, .own = {1991, 10, 2}};
+    assert_int_equal(gateway_lists_peers(&input.peers, "127.0.0.0/8", &error), 0);
     taken = 0;
     /* Port 0 is refused to users, so the test takes a free one first. */
     assert_int_equal(udp_address_parse(&to, "127.0.0.1", 3000, &error), 0);
@@ -118,6 +120,25 @@ static void test_other_exercises_are_ignored(void **state)
     assert_int_equal(input.foreign, 1);
 }
 
+/* Datagrams of strangers are not read, whatever they hold. */
+static void test_strangers_are_refused(void **state)
+{
+    (void)state;
+    assert_int_equal(gateway_lists_peers(&input.peers, "10.0.0.0/8, 127.0.0.2", &error), 0);
+    send_state(3, (struct pdu_id){7, 1, 5});
+    assert_int_equal(udp_socket_send(out, &to, "junk", 4), 0);
+    assert_int_equal(receive(), 2);
+    assert_int_equal(taken, 0);
+    assert_int_equal(input.strangers, 2);
+    assert_int_equal(input.bad, 0);
+    assert_int_equal(input.counts.datagrams, 0);
+    assert_int_equal(input.strangers_logged, 1); /* of the two: one line in a second */
+    assert_int_equal(gateway_lists_peers(&input.peers, "10.0.0.0/8, 127.0.0.1", &error), 0);
+    send_state(3, (struct pdu_id){7, 1, 5});
+    assert_int_equal(receive(), 1);
+    assert_int_equal(taken, 1);
+}
+
 static void test_faults_are_counted(void **state)
 {
     uint8_t bytes[3 * PDU_WRITE_BYTES_MAX];
@@ -170,6 +191,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_pdus_for_us_are_taken, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_our_own_come_back, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_other_exercises_are_ignored, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_strangers_are_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_faults_are_counted, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_a_pass_is_bounded, set_up, tear_down),
         cmocka_unit_test(test_addresses),

@@ -175,25 +175,25 @@ static void handle(int signal_number)
     X("dup", NONE, syscall(SYS_dup, 2))                                                            \
     X("dup2", NONE, syscall(SYS_dup2, 2, 9))                                                       \
     X("fcntl", NONE, fcntl(2, F_SETFL, 0))                                                         \
-    X("openat", R | D | W | P, open("/", O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC))           \
+    X("openat", R | D | W | P | G, open("/", O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC))       \
     X("readlink", W, readlink("/", confined_output, 1))                                            \
     X("fcntl", R, fcntl(-1, F_DUPFD_CLOEXEC, 0))                                                   \
     X("socket", P, socket(AF_INET, SOCK_DGRAM, 0))                                                 \
     X("socket", P, socket(AF_INET6, SOCK_STREAM, 0))                                               \
-    X("socket", W | P, socket(AF_UNIX, SOCK_STREAM, 0))                                            \
+    X("socket", W | P | G, socket(AF_UNIX, SOCK_STREAM, 0))                                        \
     X("socket", NONE, socket(AF_NETLINK, SOCK_RAW, 0))                                             \
     X("socket", NONE, socket(AF_PACKET, SOCK_RAW, 0))                                              \
-    X("connect", W | P, connect(-1, NULL, 0))                                                      \
+    X("connect", W | P | G, connect(-1, NULL, 0))                                                  \
     X("bind", P, bind(-1, NULL, 0))                                                                \
     X("listen", P, listen(-1, 1))                                                                  \
     X("accept", NONE, syscall(SYS_accept, -1, NULL, NULL))                                         \
     X("accept4", W | P | R | I, accept4(-1, NULL, NULL, 0))                                        \
     X("sendto", W | P | R | I | G, sendto(-1, "", 0, 0, NULL, 0))                                  \
     X("sendmsg", W | P | R | I, sendmsg(-1, NULL, 0))                                              \
-    X("recvfrom", W | P | R | I, recvfrom(-1, NULL, 0, 0, NULL, NULL))                             \
+    X("recvfrom", W | P | R | I | G, recvfrom(-1, NULL, 0, 0, NULL, NULL))                         \
     X("shutdown", W | R | I, shutdown(-1, SHUT_WR))                                                \
     X("setsockopt", W | P | R | I, setsockopt(-1, IPPROTO_TCP, TCP_NODELAY, NULL, 0))              \
-    X("getsockopt", W | P | R | I, getsockopt(-1, SOL_SOCKET, SO_PEERCRED, NULL, NULL))            \
+    X("getsockopt", W | P | R | I | G, getsockopt(-1, SOL_SOCKET, SO_PEERCRED, NULL, NULL))        \
     X("getsockopt", P, getsockopt(-1, SOL_SOCKET, SO_ERROR, NULL, NULL))                           \
     X("setsockopt", P, setsockopt(-1, SOL_SOCKET, SO_BINDTODEVICE, NULL, 0))                       \
     X("sysinfo", P | R, syscall(SYS_sysinfo, confined_output))                                     \

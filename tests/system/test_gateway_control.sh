@@ -1,0 +1,112 @@
+#!/usr/bin/env bash
+# Start/Resume and Stop/Freeze of other simulations: obeyed where the scenario allows it, acknowledged, recorded, replayed; and
+# datagrams of strangers.
+. "$(dirname "$0")/lib.sh"
+free_port() { python3 -I -S -c 'import socket
+s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+s.bind(("127.0.0.1", 0))
+print(s.getsockname()[1])'; }
+port=$(free_port) in=$(free_port)
+until_true() { for _ in {1..200}; do "$@" >/dev/null 2>&1 && return; sleep 0.05; done; return 1; }
+state() { "$jolon" status -w "$name" --json | json "$1"; }
+paused() { equal "$(state paused)" True; }
+running() { equal "$(state paused)" False; }
+send() { "$jolon" dis send --to "127.0.0.1:$in" "$@"; } # OPTION... TYPE FIELD=VALUE...
+acknowledged() { # REQUEST: prints how often a request was acknowledged, and how: FLAG/RESPONSE
+    "$jolon" dis dump --port "$port" --json --type acknowledge acks.pcap 2>/dev/null | python3 -I -S -c '
+import json, sys
+found = [pdu for pdu in map(json.loads, sys.stdin) if pdu["request"] == int(sys.argv[1])]
+print(len(found), *sorted({"%d/%d" % (pdu["acknowledge"], pdu["response"]) for pdu in found}),
+      *sorted({":".join(map(str, pdu["originator"] + pdu["receiver"])) for pdu in found}))' "$1"
+}
+clock() { python3 -I -S -c 'import sys, time
+hours, past = divmod(time.time() + float(sys.argv[1]), 3600)
+print(f"{int(hours)}:{int(past / 3600 * 2**31) << 1 | 1}")' "$1"; } # SECONDS from now, as a clock of DIS
+
+"$jolon" dis record --listen "127.0.0.1:$port" acks.pcap 2>/dev/null &
+recorder=$!
+"$jolon" start -w "$name" --without renderer --without reporter --out out --dis "127.0.0.1:$port" --set "gateway.listen=127.0.0.1:$in" \
+    --set 'gateway.control=7:1, 8:*' --set gateway.version=6 >/dev/null
+check "the gateway receives" until_true grep -q "receives at 127.0.0.1:$in" out/jolon.log
+
+# --- obeyed -----------------------------------------------------------------------------------------------
+send stop-freeze originator=7:1:0 receiver=1991:1:0 reason=1 request=100
+check "Stop/Freeze of 7:1 pauses the world" until_true paused
+at=$(frame)
+send --version 6 start-resume originator=8:44:0 receiver=65535:65535:65535 request=101
+check "Start/Resume of 8:44 to all resumes it" until_true running
+check "its frames go on" until_true eval '[ "$(frame)" -gt '"$at"' ]'
+send stop-freeze originator=7:1:0 receiver=1991:1:0 request=102 real_time="$(clock 1.5)"
+sleep 0.5
+check "a stop for a later time waits for it" running
+check "and is then obeyed" until_true paused
+for _ in 1 2 3; do send start-resume originator=7:1:0 receiver=1991:1:0 request=103; done
+check "a start that comes three times resumes once" until_true running
+sleep 0.3
+
+# --- not obeyed -------------------------------------------------------------------------------------------
+for i in $(seq 20); do send stop-freeze originator=9:1:0 receiver=1991:1:0 request=$((200 + i)); done
+send stop-freeze originator=7:2:0 receiver=1991:1:0 request=300
+send stop-freeze originator=7:1:0 receiver=1992:1:0 request=301
+send --exercise 2 stop-freeze originator=7:1:0 receiver=1991:1:0 request=302
+send stop-freeze originator=7:1:0 receiver=1991:1:17 request=303
+send stop-freeze originator=7:1:0 receiver=1991:1:0 request=304 real_time="$(clock 4000)"
+sleep 0.5
+check "nobody else stops it" running
+check "who is not allowed is told of" grep -q 'gateway warning .* stop-freeze of 9:1:0 is ignored: gateway.control does not name it' out/jolon.log
+check "once a second at most" eval '[ "$(grep -c "gateway.control does not name it" out/jolon.log)" -le 2 ]'
+check "a start an hour ahead is told of, with the reason" grep -q "stop-freeze 30[34] of 7:1:0: .*" out/jolon.log
+
+# --- kills ------------------------------------------------------------------------------------------------
+before=$(pid intake)
+another_intake() { local now; now=$(pid intake); [ -n "$now" ] && [ "$now" != "$before" ]; }
+"$jolon" kill -w "$name" intake >/dev/null
+send stop-freeze originator=7:1:0 receiver=1991:1:0 request=400
+check "an intake that is killed meanwhile changes nothing" until_true paused
+check "it was another" until_true another_intake
+before=$(pid gateway)
+another_gateway() { local now; now=$(pid gateway); [ -n "$now" ] && [ "$now" != "$before" ]; }
+"$jolon" kill -w "$name" gateway >/dev/null
+check "a killed gateway is started again" until_true another_gateway
+check "and receives" until_true eval '[ "$(grep -c "receives at" out/jolon.log)" = 2 ]'
+check "the world is still paused" paused
+send start-resume originator=7:1:0 receiver=1991:1:0 request=401
+check "the new gateway obeys" until_true running
+sleep 0.3
+kill -INT $recorder
+wait $recorder
+
+# --- acknowledged -----------------------------------------------------------------------------------------
+check "the stop is acknowledged once" equal "$(acknowledged 100)" "1 4/1 1991:1:0:7:1:0"
+check "the start to all as well" equal "$(acknowledged 101)" "1 3/1 1991:1:0:8:44:0"
+check "the later stop when it came" equal "$(acknowledged 102)" "1 4/1 1991:1:0:7:1:0"
+check "each of three starts" equal "$(acknowledged 103)" "3 3/1 1991:1:0:7:1:0"
+check "the stop of one entity is answered: unable" equal "$(acknowledged 303)" "1 4/2 1991:1:0:7:1:0"
+check "the stop in an hour as well" equal "$(acknowledged 304)" "1 4/2 1991:1:0:7:1:0"
+check "the stop during the kill is acknowledged" equal "$(acknowledged 400)" "1 4/1 1991:1:0:7:1:0"
+for request in 201 220 300 301 302; do check "request $request is not" equal "$(acknowledged $request)" 0; done
+
+# --- recorded -----------------------------------------------------------------------------------------------
+"$jolon" ctl -w "$name" pause >/dev/null
+digest=$(summary digest) commands=$(summary commands)
+"$jolon" stop -w "$name" >/dev/null
+check "the world has seen seven commands" equal "$commands" 7
+check "a replay of the log ends the same" equal "$("$jolon" replay out/commands.log --json 2>/dev/null | json digest)" "$digest"
+check "nothing was refused to the gateway by its sandbox" eval '! grep -q "forbids system call" out/jolon.log'
+
+# --- strangers ----------------------------------------------------------------------------------------------
+"$jolon" start -w "$name" --without renderer --without reporter --out out2 --dis "127.0.0.1:$port" --set "gateway.listen=127.0.0.1:$in" \
+    --set 'gateway.control=7:1' --set 'gateway.peers=10.0.0.0/8, 127.0.0.2' >/dev/null
+until_true grep -q "receives at" out2/jolon.log
+for i in $(seq 20); do send stop-freeze originator=7:1:0 receiver=1991:1:0 request="$i"; done
+sleep 0.3
+check "a stranger does not stop the world" running
+check "he is told of" grep -q 'gateway warning .* datagrams of strangers were refused, the last from 127.0.0.1:[0-9]*: gateway.peers does not name it' out2/jolon.log
+check "once a second at most" eval '[ "$(grep -c "of strangers were refused" out2/jolon.log)" -le 2 ]'
+"$jolon" stop -w "$name" >/dev/null
+check "and counted" grep -q 'received 0 PDUs in 0 datagrams; 20 datagrams of strangers' out2/jolon.log
+refuses "a control without an application" 1 'gateway.control = "?7"?.*SITE:APPLICATION' \
+    "$jolon" run -w "$name" --frames 1 --out out --set gateway.control=7
+refuses "a peer without a number" 1 'gateway.peers = "?all"?.*an address in numbers or a range' \
+    "$jolon" run -w "$name" --frames 1 --out out --set gateway.peers=all
+done_testing
