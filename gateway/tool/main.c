@@ -3,6 +3,7 @@
 #include "gateway/tool/play.h"
 #include "gateway/tool/record.h"
 #include "gateway/tool/send.h"
+#include "gateway/tool/undulation.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
 
@@ -12,7 +13,11 @@
 static const struct {
     const char *name;
     int (*run)(int argc, char **argv);
-} verbs[] = {{"dump", dump_run}, {"send", send_run}, {"record", record_run}, {"play", play_run}};
+} verbs[] = {{"dump", dump_run},
+             {"send", send_run},
+             {"record", record_run},
+             {"play", play_run},
+             {"undulation", undulation_run}};
 
 static const char usage[] =
     "usage: jolon dis VERB [options]\n"
@@ -26,6 +31,8 @@ static const char usage[] =
     "    --listen ADDRESS[:PORT]  --interface ADDRESS  --count N  --seconds S\n"
     "  play FILE                      send the datagrams of a capture again\n"
     "    --to ADDRESS[:PORT]  --interface ADDRESS  --port N  --speed F|max\n"
+    "  undulation LATITUDE LONGITUDE  print gateway.undulation_m, the height of the sea there\n"
+    "    --grid FILE\n"
     "jolon dis VERB --help explains the options of a verb.\n"
     "DIS is Distributed Interactive Simulation, IEEE 1278.1. Addresses are those of this "
     "machine's\n"
@@ -49,5 +56,5 @@ int main(int argc, char **argv)
         if (strcmp(argv[1], verbs[i].name) == 0)
             return verbs[i].run(argc - 1, argv + 1);
     }
-    die_usage("%s: no such verb; there are dump, send, record, play", argv[1]);
+    die_usage("%s: no such verb; there are dump, send, record, play, undulation", argv[1]);
 }

@@ -105,14 +105,24 @@ refuses "a text as a capture" 1 'text.pcap: is no capture' "$jolon" dis play tex
 refuses "a capture that exists" 1 'five.pcap: cannot be made: File exists' "$jolon" dis record --listen "127.0.0.1:$port" five.pcap
 refuses "an address of another machine" 1 '192.0.2.1:3000: cannot receive there' "$jolon" dis record --listen 192.0.2.1 new.pcap
 refuses "a name as an address" 2 'localhost: must be an address in numbers' "$jolon" dis send --to localhost fire
-refuses "an unknown verb" 2 'there are dump, send, record, play' "$jolon" dis show
+refuses "a grid that is missing" 1 'grid.gtx: cannot be read.*proj-data' "$jolon" dis undulation --grid grid.gtx 35.95 -121.25
+refuses "a text as a grid" 1 'text.pcap: is shorter than the header of a GTX grid' "$jolon" dis undulation --grid text.pcap -35.95 121.25
+refuses "one number for a place" 2 'needs a latitude from -90 to 90' "$jolon" dis undulation -121.25
+refuses "a latitude of 91" 2 'needs a latitude from -90 to 90' "$jolon" dis undulation 91 0
+if [ -r /usr/share/proj/egm96_15.gtx ]; then
+    check "the sea is 33.7 m below the ellipsoid at Fort Hunter Liggett" equal "$("$jolon" dis undulation 35.95 -121.25)" gateway.undulation_m=-33.68
+    check "and 22.5 m above it at Sydney" equal "$("$jolon" dis undulation -33.86 151.2)" gateway.undulation_m=22.47
+else
+    skip "the sea at Fort Hunter Liggett and at Sydney" "there is no grid of PROJ here"
+fi
+refuses "an unknown verb" 2 'there are dump, send, record, play, undulation' "$jolon" dis show
 refuses "an unknown type" 2 'radio: is no type' "$jolon" dis send radio
 refuses "an unknown field" 2 'colour: no such field' "$jolon" dis send fire colour=red
 refuses "a value out of range" 2 'force=300: must be 0..255' "$jolon" dis send entity-state force=300
 refuses "record without a file" 2 'needs a FILE' "$jolon" dis record
 refuses "an unknown type to dump" 2 'is no type' "$jolon" dis dump --type radio five.pcap
 refuses "a full disk" 1 'cannot be written' sh -c '"$0" dis dump --port "$1" five.pcap >/dev/full' "$jolon" "$port"
-for verb in dump send record play; do
+for verb in dump send record play undulation; do
     check "dis $verb --help" eval "'$jolon' dis $verb --help | grep -q '^usage: jolon-dis $verb'"
 done
 done_testing
