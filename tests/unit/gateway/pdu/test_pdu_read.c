@@ -147,6 +147,43 @@ static void test_version_5(void **state)
     assert_int_equal(pdu.management.request, 99);
 }
 
+/* Writes a PDU of zeroes of a layout with a good identifier into bytes. */
+static void put_empty(const struct pdu_layout *layout, uint8_t version)
+{
+    memset(bytes, 0, layout->bytes);
+    bytes[0] = version;
+    bytes[2] = layout->type;
+    bytes[3] = layout->family;
+    octets_put_u16(bytes + 8, layout->bytes);
+    octets_put_u16(bytes + 16, 1);
+}
+
+/* Each type has the same octets in each version. The status is that of version 7 alone. */
+static void test_versions_of_every_type(void **state)
+{
+    static struct pdu first;
+    const struct pdu_layout *layout;
+    (void)state;
+    for (unsigned i = 0; (layout = pdu_layout_at(i)) != NULL; i++) {
+        for (uint8_t version = PDU_VERSION_LEAST; version <= PDU_VERSION_MOST; version++) {
+            memset(&pdu, 0, sizeof pdu);
+            put_empty(layout, version);
+            for (size_t at = 20; at < layout->bytes; at++)
+                bytes[at] = (uint8_t)(at % 61); /* small numbers, whatever their kind */
+            bytes[10] = 6;
+            if (layout->parts_at > 0)
+                bytes[layout->parts_at] = 0;
+            assert_int_equal(read_one(layout->bytes), PDU_GOOD);
+            assert_int_equal(pdu.header.version, version);
+            assert_int_equal(pdu.header.status, version == 7 ? 6 : 0);
+            if (version == PDU_VERSION_LEAST)
+                first = pdu;
+            first.header = pdu.header;
+            assert_memory_equal(&first, &pdu, sizeof pdu);
+        }
+    }
+}
+
 static void test_a_bundle(void **state)
 {
     (void)state;
@@ -301,6 +338,57 @@ static void test_numbers_that_are_not_finite(void **state)
     }
 }
 
+/* Each number of each type is checked, not only those of an Entity State. */
+static void test_every_number_of_every_type(void **state)
+{
+    const struct pdu_layout *layout;
+    unsigned numbers = 0;
+    (void)state;
+    for (unsigned i = 0; (layout = pdu_layout_at(i)) != NULL; i++) {
+        for (unsigned j = 0; j < layout->field_count; j++) {
+            const struct pdu_field *field = &layout->fields[j];
+            bool wide = field->kind == PDU_FIELD_F64;
+            if (field->kind != PDU_FIELD_F32 && !wide)
+                continue;
+            for (unsigned k = 0; k < field->count; k++, numbers++) {
+                put_empty(layout, 7);
+                assert_int_equal(read_one(layout->bytes), PDU_GOOD);
+                if (wide)
+                    octets_put_f64(bytes + field->at + 8 * k, NAN);
+                else
+                    octets_put_f32(bytes + field->at + 4 * k, NAN);
+                assert_int_equal(read_one(layout->bytes), PDU_NOT_FINITE);
+            }
+        }
+    }
+    assert_int_equal(numbers, 55);
+}
+
+/* A fault within a PDU costs that PDU; its neighbours in the datagram are read. */
+static void test_a_fault_costs_its_own_pdu(void **state)
+{
+    static const struct {
+        size_t at;
+        uint8_t octet;
+        enum pdu_result result;
+    } faults[] = {{0, 4, PDU_BAD_VERSION}, {2, 27, PDU_SKIPPED},       {3, 9, PDU_BAD_FAMILY},
+                  {19, 3, PDU_TOO_SHORT},  {36, 0x7f, PDU_NOT_FINITE}, {17, 0, PDU_BAD_ID}};
+    (void)state;
+    for (unsigned i = 0; i < sizeof faults / sizeof faults[0]; i++) {
+        size_t second = put(FIRE_6, 0);
+        size_t size = put(STOP_FREEZE_5, put(ENTITY_STATE_7, second));
+        struct pdu_cursor cursor = {bytes, size, 0};
+        bytes[second + faults[i].at] = faults[i].octet;
+        if (faults[i].at == 36)
+            bytes[second + 37] = 0x80; /* infinite */
+        assert_int_equal(pdu_read(&cursor, &pdu), PDU_GOOD);
+        assert_int_equal(pdu_read(&cursor, &pdu), faults[i].result);
+        assert_int_equal(pdu_read(&cursor, &pdu), PDU_GOOD);
+        assert_int_equal(pdu.header.type, PDU_STOP_FREEZE);
+        assert_int_equal(pdu_read(&cursor, &pdu), PDU_END);
+    }
+}
+
 static void test_reserved_ids(void **state)
 {
     static const uint16_t numbers[] = {0, 0xfffe, 0xffff};
@@ -354,6 +442,7 @@ int main(void)
         cmocka_unit_test(test_entity_state),
         cmocka_unit_test(test_fire_and_detonation),
         cmocka_unit_test(test_version_5),
+        cmocka_unit_test(test_versions_of_every_type),
         cmocka_unit_test(test_a_bundle),
         cmocka_unit_test(test_a_length_larger_than_needed),
         cmocka_unit_test(test_unknown_types_are_stepped_over_and_counted),
@@ -363,6 +452,8 @@ int main(void)
         cmocka_unit_test(test_versions_and_families),
         cmocka_unit_test(test_lengths_that_are_too_short),
         cmocka_unit_test(test_numbers_that_are_not_finite),
+        cmocka_unit_test(test_every_number_of_every_type),
+        cmocka_unit_test(test_a_fault_costs_its_own_pdu),
         cmocka_unit_test(test_reserved_ids),
         cmocka_unit_test(test_damaged_datagrams),
     };
