@@ -1,14 +1,13 @@
 /* jolon-gateway: shows the world to simulators of other makers, by DIS, and receives what they send
  * (docs/dis.md). It reads the world as the reporter does, and nothing waits for it. */
 #include "gateway/gateway.h"
-#include "gateway/options.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "ipc/process/role_options.h"
 #include "ipc/sandbox/sandbox.h"
 #include "ipc/segment/segment_attach.h"
 
-#define NICENESS  5
 #define PERIOD_NS (50 * (uint64_t)NS_PER_MS)
 
 int main(int argc, char **argv)
@@ -16,14 +15,9 @@ int main(int argc, char **argv)
     static struct gateway gateway;
     struct sandbox sandbox;
     struct error_text error;
-    struct options options;
     log_open("gateway");
-    options_parse(&options, argc, argv);
-    process_close_inherited();
-    process_die_with_parent(options.parent);
-    process_signals();
-    if (process_lower_priority(NICENESS) != 0)
-        log_warn("runs at normal priority: nice %d not allowed", NICENESS);
+    struct role_options options = role_options_read("jolon-gateway", argc, argv);
+    process_begin_beside(options.parent);
     if (sandbox_begin(&sandbox, ROLE_GATEWAY, options.sandbox_off, &error) != 0 ||
         segment_attach(&gateway.view, options.world, ROLE_GATEWAY, &error) != 0)
         die_refused("%s", error.text);

@@ -7,8 +7,6 @@
 #include "recorder/recording.h"
 #include "ipc/sandbox/sandbox.h"
 
-#include <signal.h>
-
 #define WAIT_NS (20 * (uint64_t)NS_PER_MS)
 
 /* The logs are open. Only checkpoints are still created and renamed. */
@@ -29,10 +27,8 @@ int main(int argc, char **argv)
     struct error_text error;
     log_open("recorder");
     recorder.options = options_read(argc, argv);
-    process_close_inherited();
-    process_signals();
-    signal(SIGXFSZ, SIG_IGN); /* a write beyond the file size limit then fails with EFBIG */
-    process_die_with_parent(recorder.options.parent);
+    process_begin(
+        recorder.options.parent); /* a write beyond the file size limit fails with EFBIG */
     if (sandbox_begin(&sandbox, ROLE_RECORDER, recorder.options.sandbox_off, &error) != 0 ||
         segment_attach(view, recorder.options.world, ROLE_RECORDER, &error) != 0)
         die_refused("%s", error.text);

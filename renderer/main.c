@@ -103,9 +103,7 @@ int main(int argc, char **argv)
         return back_end_list();
     bool snapping = options.snap != NULL;
     log_open(snapping ? "renderer" : role_name(options.role));
-    process_close_inherited();
-    process_signals();
-    process_die_with_parent(options.parent);
+    process_begin(options.parent);
     if (segment_attach(&view, options.world, snapping ? ROLE_NONE : options.role, &error) != 0)
         die_refused("%s", error.text);
     find_followed(&options, &view);

@@ -13,8 +13,6 @@
 #include "reporter/status_topics.h"
 #include "ipc/sandbox/sandbox.h"
 
-#define NICENESS 5
-
 /* Longest waits between two polls: idle, and with a command in progress. With either the heartbeat
  * comes at least every 25 ms. */
 #define WAIT_NS         (10 * (uint64_t)NS_PER_MS)
@@ -113,11 +111,7 @@ int main(int argc, char **argv)
     log_open("reporter");
     struct options options;
     options_parse(&options, argc, argv);
-    process_close_inherited();
-    process_die_with_parent(options.parent);
-    process_signals();
-    if (process_lower_priority(NICENESS) != 0)
-        log_warn("runs at normal priority: nice %d not allowed", NICENESS);
+    process_begin_beside(options.parent);
     if (sandbox_begin(&sandbox, ROLE_REPORTER, options.sandbox_off, &error) != 0 ||
         segment_attach(&reporter.view, options.world, ROLE_REPORTER, &error) != 0)
         die_refused("%s", error.text);

@@ -13,8 +13,6 @@
 
 #include <stdio.h>
 
-#define NICENESS 5
-
 /* Longest time between two turns of the main loop. */
 #define TURN_NS (50 * (uint64_t)NS_PER_MS)
 
@@ -82,11 +80,7 @@ int main(int argc, char **argv)
     char folder[RUNTIME_FOLDER_MAX];
     log_open("console");
     options_parse(&options, argc, argv);
-    process_close_inherited();
-    process_die_with_parent(options.parent);
-    process_signals();
-    if (process_lower_priority(NICENESS) != 0)
-        log_warn("runs at normal priority: nice %d not allowed", NICENESS);
+    process_begin_beside(options.parent);
     const struct http_listen_options where = {.address_option = "--address",
                                               .port_option = "--port",
                                               .address = options.address,

@@ -15,6 +15,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#define BESIDE_NICENESS 5
+
 static volatile sig_atomic_t stopping;
 
 static void on_stop(int signal_number)
@@ -132,6 +134,20 @@ int process_lower_priority(int steps)
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, note_niceness);
     return setpriority(PRIO_PROCESS, 0, started_niceness + steps);
+}
+
+void process_begin(int parent_pid)
+{
+    process_close_inherited();
+    process_signals();
+    process_die_with_parent(parent_pid);
+}
+
+void process_begin_beside(int parent_pid)
+{
+    process_begin(parent_pid);
+    if (process_lower_priority(BESIDE_NICENESS) != 0)
+        log_warn("runs at normal priority: nice %d not allowed", BESIDE_NICENESS);
 }
 
 char process_state(int pid)

@@ -47,6 +47,14 @@ void process_die_with_parent(int parent_pid);
  * A world started under nice keeps the order of its processes. Returns 0, or -1 with errno. */
 int process_lower_priority(int steps);
 
+/* What a role's program does first, when it has read its options: it closes inherited descriptors,
+ * takes signals, and asks to end with its parent (0: none). */
+void process_begin(int parent_pid);
+
+/* As process_begin(), for a role beside the frames: it lowers its priority, so that it yields to
+ * those that make them, and says so in the log when it may not. */
+void process_begin_beside(int parent_pid);
+
 /* Returns the state letter of a process from /proc (R, S, D, T, Z ...), '\0' when there is none. A
  * child that its parent has not waited for yet is a zombie (Z) and keeps its pid. */
 char process_state(int pid);

@@ -40,9 +40,7 @@ void stage_open(struct stage *stage, int argc, char **argv, enum role role)
     stage->options = read_options(argc, argv, role);
     const struct stage_options *options = &stage->options;
     log_open(role_name(role));
-    process_close_inherited();
-    process_signals();
-    process_die_with_parent(options->parent);
+    process_begin(options->parent);
     if (sandbox_begin(&stage->sandbox, role, options->sandbox_off, &error) != 0 ||
         (options->stand_by ? segment_stand_by : segment_attach)(&stage->view, options->world, role,
                                                                 &error) != 0)

@@ -7,27 +7,14 @@
 #include "ipc/process/clock.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/log.h"
-#include "ipc/process/option_table.h"
 #include "ipc/process/process.h"
+#include "ipc/process/role_options.h"
 #include "ipc/sandbox/sandbox.h"
 
 /* Longest waits between two polls: idle, and with a command in progress. With either the heartbeat
  * comes at least every 20 ms. */
 #define WAIT_NS      (10 * (uint64_t)NS_PER_MS)
 #define WAIT_BUSY_NS ((uint64_t)NS_PER_MS)
-
-static struct {
-    const char *world;
-    int parent; /* ends with this process; 0: none */
-    bool sandbox_off;
-} options = {.world = "default"};
-
-static const struct option_row rows[] = {OPTION_ROW_WORLD(options, NULL),
-                                         OPTION_ROW_PARENT(options), OPTION_ROW_NO_SANDBOX(options),
-                                         OPTION_ROWS_END};
-
-static const struct option_table table = {
-    .program = "jolon-intake", .usage = "[options]", .rows = rows};
 
 static void poll_once(struct command_intake *intake, struct view *view)
 {
@@ -47,10 +34,8 @@ int main(int argc, char **argv)
     struct sandbox sandbox;
     struct error_text error;
     log_open("intake");
-    option_table_read(&table, argc, argv);
-    process_close_inherited();
-    process_die_with_parent(options.parent);
-    process_signals();
+    struct role_options options = role_options_read("jolon-intake", argc, argv);
+    process_begin(options.parent);
     if (sandbox_begin(&sandbox, ROLE_INTAKE, options.sandbox_off, &error) != 0 ||
         segment_attach(&view, options.world, ROLE_INTAKE, &error) != 0)
         die_refused("%s", error.text);

@@ -1,14 +1,18 @@
-/* Priorities: each process of a world keeps its distance to the others when all run at a low one.
+/* The start of a role, and priorities: each process of a world keeps its distance to the others
+ * when all run at a low one.
  */
 #include "ipc/process/process.h"
 
 #include "tests/support/child.h"
 
+#include <fcntl.h>
 #include <pthread.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -54,10 +58,35 @@ static void test_priority_is_lowered_from_that_of_the_start(void **state)
     assert_int_equal(child_run(lower, NULL), 0);
 }
 
+/* A role begins: what it inherited is closed, it takes signals, and it yields to the frames. */
+static int begin(void *context)
+{
+    int before = niceness(), inherited = dup(1);
+    (void)context;
+    if (inherited < 3)
+        return 1;
+    process_begin_beside(getppid());
+    if (fcntl(inherited, F_GETFD) != -1)
+        return 2;
+    if (niceness() != lower_by(before, 5))
+        return 3;
+    if (process_stopping() || raise(SIGTERM) != 0 || !process_stopping())
+        return 4;
+    int death_signal = 0;
+    return prctl(PR_GET_PDEATHSIG, &death_signal) != 0 || death_signal != SIGKILL ? 5 : 0;
+}
+
+static void test_a_role_begins(void **state)
+{
+    (void)state;
+    assert_int_equal(child_run(begin, NULL), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_priority_is_lowered_from_that_of_the_start),
+        cmocka_unit_test(test_a_role_begins),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
