@@ -144,6 +144,25 @@ static void observe(struct entity_sent *sent, const struct snapshot *snapshot, u
     sent->seen_turn = *turn;
 }
 
+/* Returns true if receivers have the row exactly where it is, because it stands where it stood when
+ * it was sent. Most rows do, and need none of the mathematics then. */
+static bool stands(struct entity_sent *sent, const struct world *world,
+                   const struct snapshot *snapshot, uint32_t row, uint64_t now_ns)
+{
+    const struct entities *e = &snapshot->entities;
+    if (sent->id != e->id[row] || sent->state.model != DEAD_RECKONING_STATIC ||
+        now_ns >= sent->heartbeat_ns || sent->place.x != e->x[row] || sent->place.y != e->y[row] ||
+        sent->place.z != e->z[row] || sent->heading != e->heading[row] ||
+        sent->pitch != e->pitch[row] || sent->roll != e->roll[row] ||
+        sent->turret != e->turret[row] || sent->gun != e->gun[row] ||
+        sent->appearance != appearance_of(world, snapshot, row))
+        return false;
+    sent->seen_tick = snapshot->head.tick; /* for observe(): it stood until now */
+    sent->seen_velocity = entities_velocity(e, row);
+    sent->acceleration = sent->rates = (struct vec3){0};
+    return true;
+}
+
 static struct row_view look_at(struct entity_output *entities, const struct world *world,
                                uint32_t row)
 {
@@ -340,6 +359,10 @@ static void send_state(struct entity_output *entities, const struct world *world
     sent->id = view->id;
     sent->kind = kind;
     sent->force = force;
+    sent->place = entities_position(e, view->row);
+    sent->heading = e->heading[view->row];
+    sent->pitch = e->pitch[view->row];
+    sent->roll = e->roll[view->row];
     sent->turret = view->turret;
     sent->gun = view->gun;
     sent->frame_ns = entities->frame_ns;
@@ -431,6 +454,8 @@ static bool send_row(struct entity_output *entities, const struct world *world, 
         entities->told_refused = true;
         return true;
     }
+    if (stands(sent, world, snapshot, row, now_ns))
+        return true;
     struct row_view view = look_at(entities, world, row);
     if (sent->id != 0 && !due(sent, &view, now_ns, entities->frame_ns))
         return true;

@@ -34,6 +34,8 @@ struct entity_sent {
     uint64_t sent_ns, heartbeat_ns; /* of the clock */
     uint64_t frame_ns;              /* the time of the frame that was sent */
     struct dead_reckoning state;    /* as the receivers have it */
+    struct vec3 place;              /* [m] and attitude [rad] of the row, as they were sent */
+    double heading, pitch, roll;
     /* Of the row in the last frame that was seen: world axes; rates in the body axes of DIS. */
     uint32_t seen_id;
     uint64_t seen_tick;

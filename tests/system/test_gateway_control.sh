@@ -84,6 +84,9 @@ check "each of three starts" equal "$(acknowledged 103)" "3 3/1 1991:1:0:7:1:0"
 check "the stop of one entity is answered: unable" equal "$(acknowledged 303)" "1 4/2 1991:1:0:7:1:0"
 check "the stop in an hour as well" equal "$(acknowledged 304)" "1 4/2 1991:1:0:7:1:0"
 check "the stop during the kill is acknowledged" equal "$(acknowledged 400)" "1 4/1 1991:1:0:7:1:0"
+check "by version 6, as the scenario says" equal "$("$jolon" dis dump --port "$port" --json acks.pcap 2>/dev/null | python3 -I -S -c '
+import json, sys
+print(sorted({json.loads(line)["version"] for line in sys.stdin}))')" "[6]"
 for request in 201 220 300 301 302; do check "request $request is not" equal "$(acknowledged $request)" 0; done
 
 # --- recorded -----------------------------------------------------------------------------------------------

@@ -161,6 +161,47 @@ static void test_a_vehicle_is_sent_once(void **state)
     assert_int_equal(count, 0);
 }
 
+/* What changes of a vehicle that stands is sent at once. */
+static void test_changes_of_what_stands(void **state)
+{
+    (void)state;
+    put("tank", 26000.0, 25000.0, 0.0, FORCE_BLUE);
+    run(30);
+    for (int change = 0; change < 6; change++) {
+        now_ns += 200000000u;
+        pass(); /* it may settle */
+        now_ns += 200000000u;
+        pass();
+        assert_int_equal(count, 0);
+        struct state committed = fixture_state(&world);
+        const struct entities *e = &committed.entities;
+        switch (change) {
+        case 0:
+            e->heading[0] += 4.0 * RAD_PER_DEG;
+            break;
+        case 1:
+            e->pitch[0] += 4.0 * RAD_PER_DEG;
+            break;
+        case 2:
+            e->damage[0] = DAMAGE_MED;
+            break;
+        case 3:
+            e->y[0] += 1.1;
+            break;
+        case 4:
+            e->roll[0] += 4.0 * RAD_PER_DEG;
+            break;
+        default:
+            committed.head->paused = 1;
+        }
+        state_seal(&committed, world.view.world.counts.fixed);
+        now_ns += 200000000u;
+        pass();
+        if (count != 1)
+            fail_msg("change %d: %d PDUs", change, count);
+    }
+}
+
 static void test_the_heartbeat(void **state)
 {
     (void)state;
@@ -435,6 +476,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(test_a_vehicle_is_sent_once),
+        TEST(test_changes_of_what_stands),
         TEST(test_the_heartbeat),
         TEST(test_a_constant_course),
         TEST(test_receivers_have_it_within_the_threshold),
