@@ -22,9 +22,8 @@ struct gateway {
     struct event_output events;
 };
 
-/* Reads the types and opens the sockets, by the parameters of the world of that
- * name. The view is attached. Returns
- * 0, or -1 with the reason. */
+/* Reads the types and opens the sockets, by the parameters of the world of that name. The view is
+ * attached. Returns 0, or -1 with the reason. */
 int gateway_open(struct gateway *gateway, const char *world, struct error_text *error);
 
 /* Sends what is due, as the role's work on the last frame. */
