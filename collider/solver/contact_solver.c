@@ -46,6 +46,10 @@
 /* A tangential direction that moves less than this share of the other is held. */
 #define SLIP_LEAST 1e-12
 
+/* Several contacts that lose less than this share of the energy that some of them take are solved
+ * without restitution, too: the difference may be too great. */
+#define LOST_LEAST 0.5
+
 /* Growth of energy below this share of the work done counts as rounding. */
 #define ENERGY_SLACK 1e-13
 
@@ -167,7 +171,7 @@ struct island {
     double settled_mps;         /* a smaller change of velocity counts as none */
     double runaway_mps;         /* a greater change means divergence */
     bool rough;                 /* some contact has friction */
-    bool bouncy;                /* some contact has restitution */
+    double restitution;         /* the greatest of the contacts that close */
     double friction;            /* 0..1 of each contact's own coefficient */
 };
 
@@ -295,30 +299,6 @@ static bool sweep_all(const struct island *island, uint32_t sweeps, uint32_t upd
     }
 }
 
-/* Solves all contacts from zero impulses, with as much friction as converges. Returns true if some
- * attempt converged. */
-static bool settle(struct island *island, bool bouncing)
-{
-    for (uint32_t i = 0; i < island->count; i++) {
-        struct solver_contact *c = &island->contacts[i];
-        bool bounces = bouncing && c->closing_mps > 0.0;
-        c->state.target_mps = bounces ? c->restitution * c->closing_mps : 0.0;
-        c->state.plastic_share = bounces ? 1.0 / (1.0 + c->restitution) : 1.0;
-    }
-    island->friction = 1.0;
-    for (int n = 0; n < SLACKENINGS && island->rough; n++) {
-        take_out(island);
-        if (sweep_all(island, FRICTION_SWEEPS_MAX, FRICTION_UPDATES_MAX))
-            return true;
-        island->friction *= 0.5;
-    }
-    island->friction = 0.0;
-    take_out(island);
-    return sweep_all(island, SWEEPS_MAX, UPDATES_MAX);
-}
-
-/* --- energy ------------------------------------------------------------------------------------*/
-
 /* Work that the contact took out of the bodies [J]: force times distance, the impulse being spread
  * evenly in time. */
 static double work(const struct island *island, const struct solver_contact *c)
@@ -337,6 +317,32 @@ static double gain(const struct island *island)
     }
     return sum > ENERGY_SLACK * whole ? sum : maths_min(sum, 0.0);
 }
+
+/* Solves all contacts from zero impulses, with as much friction as converges and, without
+ * restitution, adds no energy. Returns true if some attempt converged. */
+static bool settle(struct island *island, bool bouncing)
+{
+    for (uint32_t i = 0; i < island->count; i++) {
+        struct solver_contact *c = &island->contacts[i];
+        bool bounces = bouncing && c->closing_mps > 0.0;
+        c->state.target_mps = bounces ? c->restitution * c->closing_mps : 0.0;
+        c->state.plastic_share = bounces ? 1.0 / (1.0 + c->restitution) : 1.0;
+    }
+    island->friction = 1.0;
+    for (int n = 0; n < SLACKENINGS && island->rough; n++) {
+        take_out(island);
+        bool converged = sweep_all(island, FRICTION_SWEEPS_MAX, FRICTION_UPDATES_MAX);
+        renew(island);
+        if (converged && (bouncing || !(gain(island) > 0.0)))
+            return true;
+        island->friction *= 0.5;
+    }
+    island->friction = 0.0;
+    take_out(island);
+    return sweep_all(island, SWEEPS_MAX, UPDATES_MAX);
+}
+
+/* --- energy ------------------------------------------------------------------------------------*/
 
 /* Energy is quadratic along a line; at its start it is gain0 <= 0 with this slope, at its end gain1
  * > 0. Returns the greatest share 0..1 of the line up to which it stays at most 0. */
@@ -357,15 +363,16 @@ static void set_aside(const struct island *island)
     take_out(island);
 }
 
-/* Moves from the present impulses towards the bouncy ones as far as energy does not grow. */
-static void approach(const struct island *island, double gain0, double gain1)
+/* Moves from the present impulses towards the bouncy ones as far as the gain of energy stays at
+ * most this much [J]. */
+static void approach(const struct island *island, double gain0, double gain1, double most)
 {
     double slope = 0.0;
     for (uint32_t i = 0; i < island->count; i++) {
         const struct solver_contact *c = &island->contacts[i];
         slope += vec3_dot(vec3_sub(c->state.bouncy, c->state.sum), slip(island->bodies, c));
     }
-    double share = share_of_way(gain0, slope, gain1);
+    double share = share_of_way(gain0 - most, slope, gain1 - most);
     for (uint32_t i = 0; i < island->count; i++) {
         struct solver_state *state = &island->contacts[i].state;
         state->sum = vec3_lerp(state->sum, state->bouncy, share);
@@ -382,25 +389,40 @@ static double settle_softly(struct island *island)
     double gained = gain(island);
     if (gained > 0.0) {
         set_aside(island);
-        approach(island, 0.0, gained);
+        approach(island, 0.0, gained, 0.0);
     }
     return gained;
 }
 
+/* Returns true if the bouncy solution may give the bodies more energy than restitution returns. Of
+ * several contacts some then add much of the energy that the others take: bodies that are wedged
+ * between others would be thrown out. */
+static bool is_suspect(const struct island *island, double gained)
+{
+    double taken = 0.0;
+    if (island->count == 1)
+        return gained > 0.0;
+    for (uint32_t i = 0; i < island->count; i++)
+        taken += maths_max(0.0, work(island, &island->contacts[i]));
+    return gained > -LOST_LEAST * taken;
+}
+
+/* Restitution returns at most its square of the energy that the same impact takes without it. */
 static void settle_all(struct island *island)
 {
-    if (!island->bouncy || !settle(island, true)) {
+    double e = island->restitution;
+    if (e == 0.0 || !settle(island, true)) {
         settle_softly(island);
         return;
     }
     renew(island);
     double gained = gain(island);
-    if (!(gained > 0.0))
+    if (!is_suspect(island, gained))
         return;
     set_aside(island);
     double soft = settle_softly(island);
     if (soft <= 0.0)
-        approach(island, soft, gained);
+        approach(island, soft, gained, maths_max(soft, soft * (1.0 - e * e)));
 }
 
 /* Splits the island's loss of energy among the contacts, in proportion to the work of each; some
@@ -431,7 +453,8 @@ void contact_solver_island(struct solver_body *bodies, uint32_t body_count,
     for (uint32_t i = 0; i < contact_count; i++) {
         begin_contact(bodies, &contacts[i]);
         island.rough |= contacts[i].friction > 0.0;
-        island.bouncy |= contacts[i].restitution > 0.0 && contacts[i].closing_mps > 0.0;
+        if (contacts[i].closing_mps > 0.0)
+            island.restitution = maths_max(island.restitution, contacts[i].restitution);
         closing = maths_max(closing, contacts[i].closing_mps);
         speed = maths_max(speed, vec3_length(contacts[i].state.before));
     }

@@ -64,11 +64,12 @@ struct solver_contact {
  * Comput. 26, 2010).
  *
  * Where there is no such solution, the laws are relaxed, those of energy and momentum never. An
- * island that friction jams, so that the sweeps do not converge, is solved with half of the
- * friction, a quarter of it, at last with none. An island in which not all can bounce as they
- * should (between two walls) is solved without restitution. Where restitution and friction together
- * would add energy (Kane's paradox), the solution is moved towards the one without restitution just
- * as far as necessary. */
+ * island that friction jams, so that the sweeps do not converge or friction adds energy, is solved
+ * with half of the friction, a quarter of it, at last with none. An island in which not all can
+ * bounce as they should (between two walls) is solved without restitution. Restitution e returns at
+ * most e^2 of the energy that the same impact takes without it. Where restitution and friction
+ * together would give the bodies more (Kane's paradox; a body that is wedged between two others),
+ * the solution is moved towards the one without restitution just as far as necessary. */
 void contact_solver_island(struct solver_body *bodies, uint32_t body_count,
                            struct solver_contact *contacts, uint32_t contact_count);
 
