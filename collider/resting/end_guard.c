@@ -6,6 +6,7 @@
 #include "collider/resting/held_rest.h"
 #include "collider/response/path_change.h"
 #include "world/body_points.h"
+#include "world/entity/persistent_contact.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
 #include "world/runtime/thread_pool.h"
@@ -452,6 +453,27 @@ static void look_at_met(struct end_guard *guard, const struct contact_queue *con
     }
 }
 
+/* Lists the aircraft that nobody steers and that touched another body a frame ago, and those
+ * bodies. They turn freely past each other, and may get into each other where they do not close by
+ * their velocities: that is no impact. */
+static void look_at_drifting(struct end_guard *guard, const struct response_context *context)
+{
+    const struct entities *e = &context->next->entities;
+    const struct state *committed = context->motion->committed;
+    for (uint32_t i = 0; i < committed->head->contact_count; i++) {
+        const struct persistent_contact *contact = &committed->contacts[i];
+        uint32_t a = contact->a_row, b = contact->b_row;
+        bool fixed = contact->b_id & PERSISTENT_CONTACT_FIXED;
+        if (!entities_alive(e, a, contact->a_id) ||
+            !(fixed || entities_alive(e, b, contact->b_id)) ||
+            !(drift_guard_drifts(context, a) || (!fixed && drift_guard_drifts(context, b))))
+            continue;
+        look_at(guard, a);
+        if (!fixed)
+            look_at(guard, b);
+    }
+}
+
 /* Marks the contacts that have kept a row where it began the frame. */
 static void mark_holding(const struct end_guard *guard, struct response_context *context,
                          uint32_t row)
@@ -488,6 +510,7 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
             ground_placement_put(context, row, entities_position(e, row), e->heading[row]);
     }
     look_at_met(guard, context->contacts);
+    look_at_drifting(guard, context);
     while (guard->count > 0)
         run_round(guard, context);
     for (uint32_t i = 0; i < guard->touched_count; i++)
