@@ -81,7 +81,9 @@ static void set_grip(const struct response_context *context, uint32_t row, struc
         return;
     double before = w->vx[row] * body->forward_x + w->vz[row] * body->forward_z;
     double now = e->vx[row] * body->forward_x + e->vz[row] * body->forward_z;
-    double dx = e->vx[row] - w->vx[row], dz = e->vz[row] - w->vz[row];
+    bool wreck = e->state[row] == ENTITY_WRECK; /* what pushes it takes its mean velocity on */
+    double dx = (wreck ? body->moved.x : e->vx[row]) - w->vx[row];
+    double dz = (wreck ? body->moved.z : e->vz[row]) - w->vz[row];
     double grip = GROUND_GRIP * GRAVITY_MPS2 * world_dt_s(context->world);
     double left = kind->mass_kg * maths_max(0.0, grip - sqrt(dx * dx + dz * dz));
     body->grip_along = active && fabs(now) > fabs(before) ? 0.0 : left;
@@ -233,10 +235,30 @@ static bool changed(const struct level_body *body)
            body->pushed.z != 0.0 || body->pushed.spin != 0.0;
 }
 
+/* Gives a row the velocity of its body. A wreck slows down on the ground in the course of a frame:
+ * one that is pushed has the velocity at which it went and not what the push adds to that of the
+ * frame's end, or its way would be longer than any velocity that it had. */
+static void set_velocity(struct response_context *context, uint32_t row,
+                         const struct level_body *body)
+{
+    const struct entities *e = &context->next->entities;
+    bool pushed = body->moved.x != body->wanted.x || body->moved.z != body->wanted.z ||
+                  body->moved.spin != body->wanted.spin;
+    if (e->state[row] == ENTITY_WRECK && pushed) {
+        table_set_vx(&context->writer, row, body->moved.x);
+        table_set_vz(&context->writer, row, body->moved.z);
+        table_set_spin_y(&context->writer, row, body->moved.spin);
+        return;
+    }
+    table_set_vx(&context->writer, row, e->vx[row] + body->moved.x - body->wanted.x);
+    table_set_vz(&context->writer, row, e->vz[row] + body->moved.z - body->wanted.z);
+    table_set_spin_y(&context->writer, row, spin_after(body, e->spin_y[row]));
+}
+
 /* Gives a row the motion of its body. */
 static void move(struct response_context *context, uint32_t row, const struct level_body *body)
 {
-    const struct entities *w = rows_before(context, row), *e = &context->next->entities;
+    const struct entities *w = rows_before(context, row);
     double dt_s = world_dt_s(context->world);
     struct vec3 at = context->path[row].at;
     at.x = maths_clamp(at.x + (body->moved.x + body->pushed.x) * dt_s, 0.0, WORLD_SIDE_M);
@@ -244,9 +266,7 @@ static void move(struct response_context *context, uint32_t row, const struct le
     double turn = (body->moved.spin + body->pushed.spin) * dt_s;
     context->motion->parting_rps[row] = body->pushed.spin;
     ground_placement_put(context, row, at, maths_wrap_turn(w->heading[row] - turn));
-    table_set_vx(&context->writer, row, e->vx[row] + body->moved.x - body->wanted.x);
-    table_set_vz(&context->writer, row, e->vz[row] + body->moved.z - body->wanted.z);
-    table_set_spin_y(&context->writer, row, spin_after(body, e->spin_y[row]));
+    set_velocity(context, row, body);
     body_motion_compute(context->motion, row);
 }
 

@@ -22,6 +22,7 @@
 #define STILL_M     1e-3 /* most motion of a wreck in the last second */
 #define CREEPS_M    1e-2 /* the same in a heap, and on a vehicle without brakes */
 #define HEAP_JPKG   0.05 /* growth where wrecks strike each other at up to 50 m/s */
+#define JUMP_M      0.01 /* way of a frame beyond the velocity */
 #define UNDER_M     0.1  /* of a wreck that others have struck into the ground */
 #define SEARCHES    1000 /* of a plane between two hulls */
 #define MOST        32
@@ -340,6 +341,41 @@ static void test_a_tank_pushes_a_wreck(void **state)
     }
 }
 
+/* The ground slows a wreck in the course of a frame, and a tank pushes it on: its way is not longer
+ * than by the greater of its velocities before and after. */
+static void test_a_pushed_wreck_goes_no_farther_than_its_velocity(void **state)
+{
+    static const double slow_hz[] = {5.0, 10.0, 60.0};
+    (void)state;
+    for (uint32_t n = 0; n < 3; n++) {
+        double worst = 0.0, dt_s = 1.0 / slow_hz[n];
+        open_world(slow_hz[n], "");
+        uint32_t tank = fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                                                .behaviour = BEHAVIOUR_HOLD,
+                                                                .at = middle,
+                                                                .velocity = {0.0, 0.0, -3.0}});
+        uint32_t row = put_wreck("truck", (struct vec3){0.5, 0.0, -9.0}, 1.2, 0.0, 0.0);
+        for (uint32_t frame = 0; frame < (uint32_t)(3.0 * slow_hz[n]); frame++) {
+            struct entities e = steps_rows(&f);
+            struct vec3 was = entities_position(&e, row), before = entities_velocity(&e, row);
+            uint32_t told = fixture_event_count(&f, EVENT_COLLISION);
+            e.vz[tank] = -3.0;
+            fixture_continue(&f, 1);
+            e = steps_rows(&f);
+            struct vec3 after = entities_velocity(&e, row);
+            double speed = maths_max(vec3_length(before), vec3_length(after));
+            double way = vec3_length(vec3_sub(entities_position(&e, row), was));
+            if (fixture_event_count(&f, EVENT_COLLISION) == told)
+                worst = maths_max(worst, way - speed * dt_s);
+        }
+        print_message("# figures: %g Hz: a pushed wreck went %.2f mm beyond its velocity\n",
+                      slow_hz[n], 1e3 * worst);
+        assert_true(steps_rows(&f).z[row] < middle.z - 10.0);
+        fixture_close(&f);
+        assert_true(worst <= JUMP_M);
+    }
+}
+
 static void test_a_heap_of_wrecks(void **state)
 {
     uint64_t random = fixture_seed(3);
@@ -368,6 +404,7 @@ int main(void)
         cmocka_unit_test(test_a_wreck_falls_on_a_wreck),
         cmocka_unit_test(test_a_wreck_falls_on_a_house),
         cmocka_unit_test(test_a_tank_pushes_a_wreck),
+        cmocka_unit_test(test_a_pushed_wreck_goes_no_farther_than_its_velocity),
         cmocka_unit_test(test_a_heap_of_wrecks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
