@@ -105,6 +105,7 @@ static void read_body(struct body_looks *looks, const struct world *world,
         body->touched = memory->touched;
         body->parted = memory->parted;
         body->thrown = memory->thrown;
+        body->spun = memory->spun;
     }
     if (body->known && same_angles(&body->now, body->was)) {
         body->now.pose = body->was->pose;
@@ -141,6 +142,7 @@ void body_looks_end(struct body_looks *looks)
         memory->touched = body->touches;
         memory->parted = body->parts;
         memory->thrown = body->thrown;
+        memory->spun = body->spun;
         memory->look = body->now;
     }
 }

@@ -42,6 +42,14 @@ struct motion_look {
     bool at_rest;               /* a wreck that the mover leaves as it is, or that has not moved */
 };
 
+/* Bodies that touch each other, directly or not (supervisor/physics/touch_groups.h). */
+struct touch_group {
+    uint32_t first;     /* index of its first body */
+    uint32_t impacts;   /* of each of them, in this frame: an impact of two counts twice */
+    double fastest_mps; /* of all before and after the frame */
+    bool parts;         /* one of them overlaps another or a wall since one of the two was placed */
+};
+
 struct body_look {
     uint32_t row;
     struct measured_body named;
@@ -61,6 +69,8 @@ struct body_look {
     uint32_t parts;  /* bodies and walls that it overlaps since one of the two was placed */
     uint32_t parted; /* the same in the frame before */
     bool thrown;     /* an explosion or another body made it faster than an engine does */
+    bool spun;       /* the same of its spin, by an explosion or by what one has thrown */
+    struct touch_group together;
 };
 
 /* What is kept of a row from frame to frame. */
@@ -69,6 +79,7 @@ struct row_memory {
     bool touched;    /* a body or a wall */
     uint32_t parted; /* bodies and walls that it overlapped since it was placed */
     bool thrown;     /* as in struct body_look */
+    bool spun;
     struct motion_look look;
 };
 

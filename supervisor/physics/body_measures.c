@@ -14,6 +14,9 @@
 #define BOX_CORNERS    8u
 #define FRAME_S        (1.0 / 60.0)
 #define STANCE_LEAST_M 0.5  /* a vehicle stands on half its length and width, at least on this */
+#define ONE_IMPACT     2u   /* counts of a touch group */
+#define PASSED_ON      2.0  /* a body is at most so much faster than what strikes it */
+#define PARTING_MPS    20.0 /* bodies that part push others aside no faster */
 #define LEAST_TOP      10.0 /* [m/s] top speed of kinds that hardly move by themselves */
 
 static int unfinished(struct vec3 v)
@@ -215,6 +218,10 @@ static void measure_jump(struct measures *measures, double dt_s, const struct bo
     double speed = maths_max(vec3_length(level(body->now.velocity, held)),
                              vec3_length(level(body->was->velocity, held)));
     double out = body->was->wreck ? maths_max(0.0, -body->was->lowest_m) : 0.0;
+    if (body->together.impacts > ONE_IMPACT)
+        speed = maths_max(speed, PASSED_ON * body->together.fastest_mps);
+    if (body->together.parts)
+        speed += PARTING_MPS;
     measure_take(measures, MEASURE_OF_JUMP, maths_max(0.0, vec3_length(way) - speed * dt_s - out),
                  &body->named, NULL);
     if (body->kind->domain != DOMAIN_AIR && !body->was->wreck)
@@ -261,10 +268,21 @@ static void measure_speed(struct measures *measures, struct body_look *body)
         measure_take(measures, MEASURE_OF_SPEED, share, &body->named, NULL);
 }
 
+/* Explosions spin bodies up, and so does what they have thrown. Such a body is left out until it is
+ * slow again. */
+static void measure_spin(struct measures *measures, struct body_look *body)
+{
+    double spin = vec3_length(body->now.spin);
+    bool faster = spin > measure_bound(measures, MEASURE_OF_SPIN);
+    body->spun = faster && (body->spun || body->blasts > 0 || body->thrown);
+    if (!body->spun)
+        measure_take(measures, MEASURE_OF_SPIN, spin, &body->named, NULL);
+}
+
 void body_measures_motion(struct measures *measures, double dt_s, struct body_look *body)
 {
     measure_speed(measures, body);
-    measure_take(measures, MEASURE_OF_SPIN, vec3_length(body->now.spin), &body->named, NULL);
+    measure_spin(measures, body);
     if (body->now.sprung)
         sprung_body_measure(measures, dt_s, body);
     if (!body->known || body->commanded)
