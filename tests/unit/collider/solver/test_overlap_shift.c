@@ -119,12 +119,77 @@ static void test_bodies_at_rest_are_shifted_only(void **state)
     assert_true(sums_of(bodies).energy == 0.0);
 }
 
+/* Returns the angular momentum about the common centre of mass. */
+static struct vec3 about_centre(const struct solver_body *bodies)
+{
+    struct sums sums = sums_of(bodies);
+    struct vec3 centre = {0.0, 0.0, 0.0};
+    double kg = 0.0;
+    for (int i = 0; i < BODIES; i++) {
+        kg += masses_kg[i];
+        centre = vec3_add(centre, vec3_scale(bodies[i].centre, masses_kg[i]));
+    }
+    return vec3_sub(sums.angular, vec3_cross(vec3_scale(centre, 1.0 / kg), sums.momentum));
+}
+
+/* Bodies that were put back elsewhere, and lost some of their motion on the way. */
+static void test_momenta_are_restored_elsewhere(void **state)
+{
+    uint64_t random = fixture_seed(3949);
+    double least = 1.0;
+    (void)state;
+    for (int n = 0; n < 1000; n++) {
+        struct solver_body before[BODIES], bodies[BODIES];
+        struct vec3 shift[BODIES], at[BODIES];
+        draw_bodies(before, shift, &random);
+        for (int i = 0; i < BODIES; i++) {
+            bodies[i] = before[i];
+            at[i] = bodies[i].centre = vec3_add(bodies[i].centre, draw(&random, 0.1));
+            bodies[i].velocity = vec3_add(bodies[i].velocity, draw(&random, 1.0));
+            bodies[i].spin = vec3_scale(bodies[i].spin, 0.9);
+        }
+        struct sums was = sums_of(before);
+        assert_true(overlap_shift_restore(before, bodies, BODIES));
+        struct sums now = sums_of(bodies);
+        for (int i = 0; i < BODIES; i++)
+            assert_memory_equal(&bodies[i].centre, &at[i], sizeof at[i]);
+        assert_true(vec3_length(vec3_sub(now.momentum, was.momentum)) < 1e-12 * 2e6);
+        assert_true(vec3_length(vec3_sub(about_centre(bodies), about_centre(before))) <
+                    1e-12 * 2e7);
+        assert_true(now.energy <= was.energy * (1.0 + 1e-12));
+        least = maths_min(least, now.energy / was.energy);
+    }
+    assert_true(least > 0.8); /* what moves relative to the others goes on */
+}
+
+static void test_what_would_need_energy_elsewhere_is_not_restored(void **state)
+{
+    uint64_t random = fixture_seed(3950);
+    struct solver_body before[BODIES], bodies[BODIES], kept[BODIES];
+    struct vec3 shift[BODIES];
+    const struct vec3 spin = {0.0, 2.0, 0.0};
+    (void)state;
+    draw_bodies(before, shift, &random);
+    for (int i = 0; i < BODIES; i++) { /* one rigid body that turns, and is pulled in */
+        before[i].centre = (struct vec3){5.0 * (i == 0) - 5.0 * 6.5 / 14.0 * (i == 1), 0.0, 0.0};
+        before[i].spin = spin;
+        before[i].velocity = vec3_cross(spin, before[i].centre);
+        bodies[i] = before[i];
+        bodies[i].centre = vec3_scale(before[i].centre, 0.99);
+        kept[i] = bodies[i];
+    }
+    assert_false(overlap_shift_restore(before, bodies, BODIES));
+    assert_memory_equal(bodies, kept, sizeof kept);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_shift_conserves_momentum_and_adds_no_energy),
         cmocka_unit_test(test_what_would_need_energy_stays_as_it_is),
         cmocka_unit_test(test_bodies_at_rest_are_shifted_only),
+        cmocka_unit_test(test_momenta_are_restored_elsewhere),
+        cmocka_unit_test(test_what_would_need_energy_elsewhere_is_not_restored),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
