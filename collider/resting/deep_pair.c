@@ -41,13 +41,18 @@ void deep_pair_place(const struct response_context *context, uint32_t row, doubl
     *z = at.z + far * sine;
 }
 
+/* Returns the capsule of a row as it stands when the frame begins: a body that turns fast points
+ * elsewhere at its end. */
 static struct capsule capsule_of(const struct response_context *context, uint32_t row,
                                  const struct kind *kind)
 {
+    const struct entities *e = body_motion_old(context->motion, row)
+                                   ? &context->motion->committed->entities
+                                   : &context->next->entities;
     double sine, cosine, wide = maths_min(kind->width_m, kind->length_m);
     double half = 0.5 * DEEP * (kind->length_m - wide);
     struct capsule capsule = {.radius_m = 0.5 * wide};
-    maths_sincos(context->next->entities.heading[row], &sine, &cosine);
+    maths_sincos(e->heading[row], &sine, &cosine);
     capsule.along_x = half * sine;
     capsule.along_z = -half * cosine;
     deep_pair_place(context, row, &capsule.x, &capsule.z);

@@ -57,6 +57,27 @@ static void test_long_bodies_are_deep_where_their_lines_cross(void **state)
     assert_true(fabs(measured("truck", 0.0, 0.0) + width) < 0.01);     /* at one place */
 }
 
+/* A jeep across the way of another, which it does not touch, turns by a quarter within the frame.
+ * At the end of the frame the two would be deep in each other, if they were where they began it. */
+static void test_bodies_are_measured_as_they_begin_the_frame(void **state)
+{
+    struct response_context context;
+    struct resting_gap found;
+    const struct pair pair = {0, 1};
+    (void)state;
+    fixture_open(&f, "collision = { shape = \"model\"; };");
+    for (int n = 0; n < 2; n++)
+        fixture_put(&f,
+                    (struct fixture_entity){.kind = "jeep",
+                                            .at = {25000.0, FIXTURE_GROUND_M, 25000.0 + 2.6 * n},
+                                            .heading_rad = n * HALF_PI});
+    steps_respond(&f, &context);
+    context.next->entities.heading[1] = 0.0;
+    assert_false(deep_pair_measure(&context, &pair, &found));
+    steps_respond_end(&context);
+    fixture_close(&f);
+}
+
 /* The bow of a ship is narrow: two that pass bow to bow are measured by their hulls. */
 static void test_ships_are_measured_by_their_hulls(void **state)
 {
@@ -70,6 +91,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_round_bodies_far_apart_are_not_deep),
         cmocka_unit_test(test_long_bodies_are_deep_where_their_lines_cross),
+        cmocka_unit_test(test_bodies_are_measured_as_they_begin_the_frame),
         cmocka_unit_test(test_ships_are_measured_by_their_hulls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
