@@ -166,6 +166,10 @@ static void find_pairs(struct step *step, const struct method_input *input)
     struct collider *collider = step->collider;
     const struct method_functions *method =
         method_of((enum method)collider->world->params->collision.method);
+    const struct state *committed = step->committed;
+    bool widens = collider->world->params->collision.method == METHOD_SWEPT;
+    broad_phase_widen(&collider->broad, committed->contacts,
+                      widens ? committed->head->contact_count : 0);
     broad_phase_pairs_moved(&collider->broad, input, &collider->motion, take_rows, step);
     for (uint32_t row = 0; method->test != METHOD_TESTS_NEAR && row < input->rows; row++)
         body_motion_require(&collider->motion, row);
@@ -192,6 +196,7 @@ static void collide_all(struct step *step, struct response_context *context)
         response_contact(context, &contact);
         work_done();
     }
+
     if (rest) {
         end_guard_run(&collider->guard, &collider->resting, &collider->free, context);
         turret_guard_run(context);

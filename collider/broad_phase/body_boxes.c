@@ -15,6 +15,9 @@
 #define AHEAD     (3 * BLOCK) /* rows from the prefetch of a value to its use */
 #define LONG_M    64.0        /* extent in x from which a path is clipped to its strips */
 
+/* Not all bodies whose boxes meet theirs are pairs with such rows. */
+#define NOT_ALL_FOUND (BIN_RESTS | BIN_ROUND | BIN_AIR | BIN_WIDE)
+
 typedef double four __attribute__((vector_size(4 * sizeof(double))));
 typedef int64_t four_masks __attribute__((vector_size(4 * sizeof(int64_t))));
 typedef float four_metres __attribute__((vector_size(4 * sizeof(float))));
@@ -121,6 +124,8 @@ static void take_kinds(const struct body_boxes *rows, struct block *block, uint3
     for (uint32_t k = 0; k < count; k++) {
         uint32_t kind = state[k] != ENTITY_FREE ? kinds[k] : 0;
         block->margin[k] = rows->margin[kind];
+        if (rows->wider && rows->wider[first + k] != BODY_BOX_EXACT)
+            block->margin[k] += BODY_BOX_WIDER_M;
         block->tag[k] = (first + k) | rows->flags[kind];
         if (rows->flags[kind] & BIN_AIR && rows->input->heights)
             __builtin_prefetch(&rows->input->heights->bound[gridsquare_of(x[k], z[k])]);
@@ -268,6 +273,8 @@ static void add_rows(const struct body_boxes *rows, struct sweep_worker *sweeper
         if (state[k] == ENTITY_FREE)
             continue;
         record.tag |= block->rests[k] | (behaviour[k] == BEHAVIOUR_FLIGHT ? BIN_ROUND : 0);
+        if (rows->wider && rows->wider[first + k] != BODY_BOX_EXACT)
+            rows->wider[first + k] = record.tag & NOT_ALL_FOUND ? BODY_BOX_ASKED : BODY_BOX_WIDER;
         if (block->strip[k] < STRIP_COUNT)
             strip_bins_add(&sweeper->bins, block->strip[k], record);
         else

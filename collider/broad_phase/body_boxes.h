@@ -17,7 +17,18 @@ struct body_boxes {
     struct path_box *box;       /* [rows] */
     const double *margin;       /* [kinds] from a row's path to its box [m] */
     const uint32_t *flags;      /* [kinds] bits of a record's tag */
+    uint8_t *wider;             /* [rows] enum body_box_wider, or NULL */
 };
+
+/* Collisions change the paths of some bodies after their boxes have been compared. */
+enum body_box_wider {
+    BODY_BOX_EXACT,
+    BODY_BOX_ASKED, /* in: its box is to be wider; out: another path may meet more bodies */
+    BODY_BOX_WIDER  /* out: it is wider, and all that meets it is found */
+};
+
+/* By this much on each side [m]. */
+#define BODY_BOX_WIDER_M 0.1
 
 /* Fills the boxes of rows first .. end - 1, adds their records to the worker's bins, and those that
  * may reach the ground (rounds and aircraft) to its fliers. Without motion all paths must have been

@@ -4,9 +4,11 @@
 #include "collider/broad_phase/body_boxes.h"
 #include "world/entity/entity.h"
 #include "world/entity/kind.h"
+#include "world/entity/persistent_contact.h"
 #include "world/maths/sort.h"
 #include "world/params.h"
 #include "world/runtime/prefault.h"
+#include "world/runtime/reserve.h"
 #include "world/runtime/work_done.h"
 #include "world/terrain/fixed.h"
 #include "world/world.h"
@@ -27,7 +29,9 @@ int broad_phase_init(struct broad_phase *broad, const struct world *world,
     uint32_t rows = world->params->capacity, pairs = pair_filter_pairs_first(world);
     broad->box = malloc(rows * sizeof *broad->box);
     broad->sweeper = calloc(broad->sweepers, sizeof *broad->sweeper);
-    bool taken = broad->box && broad->sweeper &&
+    broad->wider = calloc(rows, sizeof *broad->wider);
+    broad->widened = reserve_take(rows, sizeof *broad->widened);
+    bool taken = broad->box && broad->sweeper && broad->wider && broad->widened &&
                  static_boxes_init(&broad->fixed_boxes, world) == 0 &&
                  query_index_init(&broad->index, rows) == 0 &&
                  resting_blocks_init(&broad->resting, rows) == 0;
@@ -49,6 +53,8 @@ void broad_phase_free(struct broad_phase *broad)
     resting_blocks_free(&broad->resting);
     free(broad->sweeper);
     free(broad->box);
+    free(broad->wider);
+    reserve_free(broad->widened);
     *broad = (struct broad_phase){0};
 }
 
@@ -116,7 +122,8 @@ void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_inpu
                                    .motion = motion,
                                    .box = broad->box,
                                    .margin = job.margin,
-                                   .flags = job.flags};
+                                   .flags = job.flags,
+                                   .wider = broad->widened_count > 0 ? broad->wider : NULL};
     job.strips = (struct strips){.input = input,
                                  .motion = motion,
                                  .fixed_boxes = &broad->fixed_boxes,
@@ -144,6 +151,33 @@ void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_inpu
 void broad_phase_pairs(struct broad_phase *broad, const struct method_input *input)
 {
     broad_phase_pairs_moved(broad, input, NULL, NULL, NULL);
+}
+
+/* --- rows in contacts --------------------------------------------------------------------------*/
+
+static void widen(struct broad_phase *broad, uint32_t row)
+{
+    if (broad->wider[row] == BODY_BOX_EXACT)
+        broad->widened[broad->widened_count++] = row;
+    broad->wider[row] = BODY_BOX_ASKED;
+}
+
+void broad_phase_widen(struct broad_phase *broad, const struct persistent_contact *contact,
+                       uint32_t count)
+{
+    for (uint32_t i = 0; i < broad->widened_count; i++)
+        broad->wider[broad->widened[i]] = BODY_BOX_EXACT;
+    broad->widened_count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        widen(broad, contact[i].a_row);
+        if (!(contact[i].b_id & PERSISTENT_CONTACT_FIXED))
+            widen(broad, contact[i].b_row);
+    }
+}
+
+bool broad_phase_has_all(const struct broad_phase *broad, uint32_t row)
+{
+    return broad->wider[row] == BODY_BOX_WIDER;
 }
 
 /* --- queries -----------------------------------------------------------------------------------*/

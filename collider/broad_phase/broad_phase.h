@@ -16,12 +16,16 @@
 
 #include <stdint.h>
 
+struct persistent_contact;
 struct world;
 
 struct broad_phase {
     const struct world *world;
     struct thread_pool *workers;
     struct path_box *box; /* [capacity] of every used row */
+    uint8_t *wider;       /* [capacity] enum body_box_wider */
+    uint32_t *widened;    /* rows that are not BODY_BOX_EXACT */
+    uint32_t widened_count;
     struct static_boxes fixed_boxes;
     struct sweep_worker *sweeper; /* [sweepers] one for each worker */
     uint32_t sweepers;
@@ -59,6 +63,15 @@ typedef struct resting_block broad_phase_take(void *context, uint32_t first, uin
  * read; NULL: the rows are complete. */
 void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_input *input,
                              struct body_motion *motion, broad_phase_take *take, void *context);
+
+/* Before broad_phase_pairs_moved: the boxes of the rows in these contacts are to be wider in this
+ * frame, because collisions will change their paths. contact: NULL for none. */
+void broad_phase_widen(struct broad_phase *broad, const struct persistent_contact *contact,
+                       uint32_t count);
+
+/* Returns true if the lists have all pairs of the row with bodies that meet its box, on which its
+ * path has not been looked at yet. */
+bool broad_phase_has_all(const struct broad_phase *broad, uint32_t row);
 
 /* Returns how many pairs a list must have room for if both queries add to it for one row. */
 uint64_t broad_phase_found_most(const struct world *world);

@@ -19,6 +19,9 @@
 /* Of more pairs of hulls that overlap, only so many count when whole bodies part. */
 #define OVERLAPS_MAX 16u
 
+/* The ends of so many searches are known, until those that are remembered are chosen. */
+#define SEARCHES_MAX 16u
+
 /* The two bodies at one time. */
 struct body_pair {
     const struct swept_body *a, *b;
@@ -29,9 +32,9 @@ struct body_pair {
     struct vec3 last;   /* the normal of the last overlap, or the line */
     struct vec3 *plane; /* [LEVEL_GAP_PLANES] normals that may separate hulls, or NULL */
     double apart_m;     /* all hulls measured so far are apart by this at least */
-    const struct level_gap_memory *before; /* where searches begin, or NULL */
-    struct level_gap_memory after;         /* where they ended */
-    uint32_t remembered;                   /* entries of after */
+    const struct level_gap_memory *before;       /* where searches begin, or NULL */
+    struct nearest_vertices after[SEARCHES_MAX]; /* where they ended */
+    uint32_t remembered;                         /* entries of after */
 };
 
 /* --- directions --------------------------------------------------------------------------------*/
@@ -196,14 +199,47 @@ static struct gjk_start start_of(const struct body_pair *bodies, uint32_t hulls,
 /* Remembers where a search ended, if there is room. */
 static void remember(struct body_pair *bodies, uint32_t hulls, const struct gjk_start *end)
 {
-    if (end->count == 0 || bodies->remembered == PERSISTENT_CONTACT_NEAREST)
+    if (end->count == 0 || bodies->remembered == SEARCHES_MAX)
         return;
-    struct nearest_vertices *known = &bodies->after.nearest[bodies->remembered++];
+    struct nearest_vertices *known = &bodies->after[bodies->remembered++];
     *known = (struct nearest_vertices){.hulls = (uint8_t)hulls, .count = (uint8_t)end->count};
     for (uint32_t k = 0; k < end->count; k++) {
         known->a[k] = (uint8_t)end->a[k];
         known->b[k] = (uint8_t)end->b[k];
     }
+}
+
+static struct nearest_vertices recall(const struct body_pair *bodies, uint32_t hulls)
+{
+    for (uint32_t i = 0; i < bodies->remembered; i++) {
+        if (bodies->after[i].hulls == hulls)
+            return bodies->after[i];
+    }
+    return (struct nearest_vertices){.hulls = (uint8_t)hulls};
+}
+
+static bool is_listed(const struct level_gap *list, uint32_t count, uint32_t hulls)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (list[i].hulls == hulls)
+            return true;
+    }
+    return false;
+}
+
+/* Returns where the searches ended, those of the listed gaps first. */
+static struct level_gap_memory memory_of(const struct body_pair *bodies,
+                                         const struct level_gap *list, uint32_t count)
+{
+    struct level_gap_memory memory = {0};
+    uint32_t kept = 0;
+    for (; kept < count && kept < PERSISTENT_CONTACT_NEAREST; kept++)
+        memory.nearest[kept] = recall(bodies, list[kept].hulls);
+    for (uint32_t i = 0; i < bodies->remembered && kept < PERSISTENT_CONTACT_NEAREST; i++) {
+        if (!is_listed(list, count, bodies->after[i].hulls))
+            memory.nearest[kept++] = bodies->after[i];
+    }
+    return memory;
 }
 
 /* --- all of two hulls --------------------------------------------------------------------------*/
@@ -219,6 +255,7 @@ static bool measure(struct body_pair *bodies, uint32_t hulls, double margin_m, b
         relative_pose_of(&bodies->pose_a, hull_a, &bodies->pose_b, hull_b, bodies->time);
     double radii = hull_a->radius_m * bodies->a->scale + hull_b->radius_m * bodies->b->scale;
     double near = maths_max(margin_m, 0.0);
+    gap->hulls = hulls;
     if (now.centres_m - radii > near || plane_separates(bodies, &now, near))
         return false;
     struct gjk_start search = start_of(bodies, hulls, hull_a, hull_b, now.towards);
@@ -327,7 +364,7 @@ uint32_t level_gap_find_more(const struct swept_body *a, const struct swept_body
     bodies.before = memory;
     uint32_t count = search(&bodies, &margin_m, gap, room);
     *apart_m = bodies.apart_m;
-    *memory = bodies.after;
+    *memory = memory_of(&bodies, gap, count);
     return count;
 }
 

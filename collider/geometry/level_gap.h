@@ -23,10 +23,12 @@ struct level_gap {
     double gap_m;         /* along the normal; below 0 the depth of the overlap */
     struct vec3 point[2]; /* [m, world] the ends of the contact, across the normal */
     uint32_t points;      /* 1 or 2 */
+    uint32_t hulls;       /* HULLS_A_MODEL * hull of a + hull of b */
 };
 
 /* The memory of a pair of bodies: where the search for the nearest points of its near hulls ended,
- * and where it begins the next time. Unused entries have no count. */
+ * and where it begins the next time. The first entries are those of the gaps, in their order; one
+ * of them without a count names the hulls and knows no vertices. */
 struct level_gap_memory {
     struct nearest_vertices nearest[PERSISTENT_CONTACT_NEAREST];
 };

@@ -87,6 +87,16 @@ static struct path_box box_union(const struct path_box *a, const struct path_box
     };
 }
 
+/* Pairs the row with those rows that have left their boxes. */
+static void meet_strayed(struct contact_queue *contacts, const struct contact_input *input,
+                         uint32_t row, const struct path_box *box, bool resting)
+{
+    for (uint32_t i = 0; i < contacts->stray_count; i++) {
+        if (pair_filter_boxes_meet(box, &input->broad->box[contacts->strayed[i]]))
+            meet(contacts, input, row, contacts->strayed[i], resting);
+    }
+}
+
 void contact_pairs_look(struct contact_queue *contacts, const struct contact_input *input,
                         uint32_t row, bool resting, float wider_m)
 {
@@ -96,6 +106,10 @@ void contact_pairs_look(struct contact_queue *contacts, const struct contact_inp
     box.min_z -= wider_m, box.max_z += wider_m;
     bool strays = !box_within(&box, known);
     contacts->near.count = 0;
+    if (!strays && broad_phase_has_all(input->broad, row)) {
+        meet_strayed(contacts, input, row, &box, resting);
+        return;
+    }
     broad_phase_query(input->broad, &input->detect, &box, &contacts->near);
     uint32_t rows = contacts->near.count;
     broad_phase_query_fixed(input->broad, &input->detect, &box, &contacts->near);
@@ -103,10 +117,7 @@ void contact_pairs_look(struct contact_queue *contacts, const struct contact_inp
         const struct pair *near = &contacts->near.pair[i];
         meet(contacts, input, row, i < rows ? near->a : near->b, resting);
     }
-    for (uint32_t i = 0; i < contacts->stray_count; i++) {
-        if (pair_filter_boxes_meet(&box, &input->broad->box[contacts->strayed[i]]))
-            meet(contacts, input, row, contacts->strayed[i], resting);
-    }
+    meet_strayed(contacts, input, row, &box, resting);
     if (!strays)
         return;
     if (!contacts->strays[row])

@@ -172,6 +172,7 @@ static void collect(struct contact_table *table, const struct response_context *
         contact.impacts = (uint16_t)impacts->count;
         contact.impulse_ns = impacts->impulse_ns;
         memcpy(contact.nearest, contacts->known[i].memory.nearest, sizeof contact.nearest);
+        memcpy(contact.load, contacts->known[i].load, sizeof contact.load);
         table->touched[place_of(table, &contact)] = contact;
     }
 }
@@ -295,6 +296,7 @@ static void keep(struct response_context *context, const struct persistent_conta
 {
     struct persistent_contact contact = *known;
     contact.flags &= (uint16_t)~PERSISTENT_CONTACT_OVERLAPS;
+    memset(contact.load, 0, sizeof contact.load);
     bool asks = is_old(context, known) || contact_table_lets_through(context, side_b(known));
     double gap = INFINITY;
     if (gone(context, known)) {

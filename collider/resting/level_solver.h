@@ -4,9 +4,11 @@
  * No contact point closes by more than its gap within the frame: the speed along the normal is at
  * least -(gap - skin) / dt (a speculative contact). Friction acts across the normal, within the
  * friction cone. The ground resists what would move a body away from its mover's motion, within
- * its grip. The impulses of a frame begin at 0 (cold start), and the points are swept a fixed
- * number of times, in turn forwards and backwards: E. Catto, "Iterative Dynamics with Temporal
- * Coherence", GDC 2005.
+ * its grip. The impulses of a frame begin where the caller says, which is a share of those of the
+ * frame before (warm start), and the points are swept in turn forwards and backwards, until they
+ * have come to rest or a fixed number of times: E. Catto, "Iterative Dynamics with Temporal
+ * Coherence", GDC 2005. A warm start can end with more energy than the bodies began with. Then all
+ * is solved again with impulses that begin at 0 (cold start), by which energy never grows.
  *
  * Overlaps are recovered by a second set of velocities that moves bodies and leaves their momentum
  * alone (split impulses). So recovery adds no energy. Pure; any thread. */
@@ -15,7 +17,15 @@
 
 #include <stdint.h>
 
-#define LEVEL_SOLVER_SWEEPS 30
+/* Sweeps at most, from impulses of the frame before and from 0. */
+#define LEVEL_SOLVER_WARM_SWEEPS 8
+#define LEVEL_SOLVER_COLD_SWEEPS 30
+
+/* Sweeps at most that recover overlaps. */
+#define LEVEL_SOLVER_PART_SWEEPS 20
+
+/* A sweep in which no point changes its speed by more is the last one [m/s]. */
+#define LEVEL_SOLVER_ENOUGH_MPS 1e-7
 
 /* Motion in the plane: velocities [m/s], and the spin about the vertical [rad/s], upwards by the
  * right hand. */
@@ -43,10 +53,14 @@ struct level_contact {
     double least_mps;          /* speed along the normal afterwards, at least; below 0: may close */
     double apart_mps;          /* speed at which an overlap is recovered, > 0; 0: no overlap */
     double friction;           /* Coulomb's coefficient */
-    double normal_ns;          /* out [N s]: impulse along the normal, >= 0 */
-    double friction_ns;        /* out [N s]: impulse across it */
+    double normal_ns;          /* [N s] impulse along the normal, >= 0; in: where it begins */
+    double friction_ns;        /* [N s] impulse across it; in: where it begins */
     double apart_ns;           /* the solver's own */
-    double normal_kg, across_kg; /* the solver's own: effective masses */
+    /* The solver's own: effective masses [kg], levers about the centres [m], and the speeds before
+     * the contacts [m/s], along the normal and across it. */
+    double normal_kg, across_kg;
+    double normal_lever_a, normal_lever_b, across_lever_a, across_lever_b;
+    double normal_before_mps, across_before_mps;
 };
 
 /* Solves the contacts. Linear and angular momentum change only by the ground's grip. The result

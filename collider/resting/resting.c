@@ -19,6 +19,9 @@
 
 #define ROUNDING_M 1e-6 /* smaller overlaps of the skins are rounding */
 
+/* The share of a point's impulses of the last frame with which it begins. */
+#define WARM_SHARE 0.97
+
 int resting_init(struct resting *resting, const struct world *world, struct thread_pool *workers)
 {
     uint32_t rows = world->params->capacity;
@@ -185,6 +188,41 @@ static void report(struct response_context *context, const struct pair *pair,
 
 /* --- pairs -------------------------------------------------------------------------------------*/
 
+/* Lets the points of a gap begin with a share of the impulses that its hulls bore a frame ago.
+ * Where two points have become one, it bears both. */
+static void warm(const struct resting_gap *found, const struct level_gap *gap,
+                 struct level_contact *point)
+{
+    const struct persistent_contact *known = found->known;
+    for (uint32_t i = 0; known && i < PERSISTENT_CONTACT_NEAREST; i++) {
+        const struct contact_load *load = &known->load[i];
+        if (known->nearest[i].hulls != gap->hulls)
+            continue;
+        for (uint32_t p = 0; p < 2; p++) {
+            struct level_contact *of = &point[gap->points == 2 ? p : 0];
+            of->normal_ns += WARM_SHARE * (double)load->normal_ns[p];
+            of->friction_ns += WARM_SHARE * (double)load->friction_ns[p];
+        }
+        return;
+    }
+}
+
+/* Keeps the impulses that the hulls of a pair bear, for the next frame. */
+static void keep_loads(const struct resting *resting, struct contact_queue *contacts,
+                       const struct resting_pair *pair)
+{
+    const struct level_contact *point = &resting->point[pair->first];
+    if (pair->gap_m <= -RESTING_PARTS_M)
+        return; /* along which normal they part does not last */
+    for (uint32_t g = 0; g < pair->gaps && g < PERSISTENT_CONTACT_NEAREST; g++) {
+        struct contact_load *load = &contacts->known[pair->pair].load[g];
+        for (uint32_t p = 0; p < pair->gap[g].points; p++, point++) {
+            load->normal_ns[p] = (float)point->normal_ns;
+            load->friction_ns[p] = (float)point->friction_ns;
+        }
+    }
+}
+
 /* Takes a pair whose bodies are near and do not close as fast as in an impact. */
 static void take(struct resting *resting, struct response_context *context, const struct pair *pair,
                  const struct resting_gap *found)
@@ -194,17 +232,22 @@ static void take(struct resting *resting, struct response_context *context, cons
     uint32_t bodies = resting->bodies;
     if (gaps == 0)
         return;
-    struct resting_pair taken = {
-        .first = resting->points, .gap_m = gap[0].gap_m, .gap = gap, .pair = found->pair};
+    struct resting_pair taken = {.first = resting->points,
+                                 .gaps = gaps,
+                                 .gap_m = gap[0].gap_m,
+                                 .gap = gap,
+                                 .pair = found->pair};
     uint32_t body_a = body_for(resting, context, pair->a);
     uint32_t body_b =
         pair->b & PAIR_FIXED ? fixed_body(resting) : body_for(resting, context, pair->b);
     for (uint32_t g = 0; g < gaps; g++) {
+        struct level_contact *point = &resting->point[taken.first + taken.count];
         for (uint32_t p = 0; p < gap[g].points; p++) {
-            struct level_contact *point = &resting->point[taken.first + taken.count++];
-            *point = point_of(context, pair, &gap[g], gap[g].point[p]);
-            point->a = body_a, point->b = body_b;
+            point[p] = point_of(context, pair, &gap[g], gap[g].point[p]);
+            point[p].a = body_a, point[p].b = body_b;
         }
+        warm(found, &gap[g], point);
+        taken.count += gap[g].points;
     }
     if (closing(resting, &taken) >= CONTACT_IMPACT_MPS) {
         forget_bodies(resting, bodies);
@@ -321,6 +364,7 @@ static void mark(struct resting *resting, struct response_context *context)
         uint8_t *marks = &context->contacts->marks[pair->pair];
         bool known = contact_table_find(context, bodies->a, bodies->b) != NULL;
         bool bears = touches(resting, pair);
+        keep_loads(resting, context->contacts, pair);
         if (bears && !known && contact_table_begins(context, pair->pair + 1))
             report(context, bodies, pair->gap);
         if ((bears || known) && closing(resting, pair) < CONTACT_IMPACT_MPS)

@@ -28,8 +28,9 @@ struct thread_pool;
 
 /* Two bodies in a contact that lasts. */
 struct resting_pair {
-    uint32_t pair;               /* index into contacts->pair */
-    uint32_t first, count;       /* its points */
+    uint32_t pair;         /* index into contacts->pair */
+    uint32_t first, count; /* its points, those of each gap in turn */
+    uint32_t gaps;
     const struct level_gap *gap; /* the smallest, until the next frame */
     double gap_m;                /* the smallest, at the frame's beginning; below 0: overlap */
 };
@@ -43,6 +44,7 @@ struct resting_gap {
     bool leaves;    /* it needs a way out (collider/resting/parting_ways.h) */
     bool went;      /* and has been given it */
     struct level_gap_memory memory;
+    const struct persistent_contact *known; /* the pair's row in the committed table, or NULL */
 };
 
 /* The collider's own memory, kept from frame to frame. */

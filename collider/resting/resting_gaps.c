@@ -64,14 +64,13 @@ static double margin_of(const struct gap_job *job, uint32_t index, const struct 
     return index < job->resting->groups.known ? NEAR_M + nearing(a, b) : 0.0;
 }
 
-/* Returns what the table remembers of a pair. */
-static struct level_gap_memory memory_of(const struct gap_job *job, const struct pair *pair)
+/* Finds what the table remembers of a pair. */
+static void recall(const struct gap_job *job, const struct pair *pair, struct resting_gap *gap)
 {
-    const struct persistent_contact *contact = contact_table_find(job->context, pair->a, pair->b);
-    struct level_gap_memory memory = {0};
-    if (contact)
-        memcpy(memory.nearest, contact->nearest, sizeof memory.nearest);
-    return memory;
+    gap->known = contact_table_find(job->context, pair->a, pair->b);
+    gap->memory = (struct level_gap_memory){0};
+    if (gap->known)
+        memcpy(gap->memory.nearest, gap->known->nearest, sizeof gap->memory.nearest);
 }
 
 static void measure_pair(const struct gap_job *job, uint32_t index)
@@ -80,7 +79,7 @@ static void measure_pair(const struct gap_job *job, uint32_t index)
     const struct pair *pair = &job->resting->groups.pair[index];
     struct resting_gap *gap = &job->resting->gap[index];
     gap->apart_m = 0.0;
-    gap->memory = memory_of(job, pair);
+    recall(job, pair, gap);
     if (deep_pair_measure(job->context, pair, gap))
         return;
     struct swept_body a = body_motion_body(job->context->motion, pair->a, &turn_a);

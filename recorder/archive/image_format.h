@@ -17,7 +17,7 @@
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "images are little-endian");
 
 #define IMAGE_MAGIC   0x314d494c4f4a0a1au /* "\x1a\nJOLIM1" */
-#define IMAGE_VERSION 5u
+#define IMAGE_VERSION 6u
 
 struct image_header {
     uint64_t magic;

@@ -203,6 +203,11 @@ static bool compare_contacts(const struct compared *a, const struct compared *b,
                              struct difference *difference)
 {
 #define CONTACT(name) MEMBER(uint32_t, persistent_contact, name)
+#define LOAD(i)                                                                                    \
+    MEMBER(float, persistent_contact, load[i].normal_ns[0]),                                       \
+        MEMBER(float, persistent_contact, load[i].normal_ns[1]),                                   \
+        MEMBER(float, persistent_contact, load[i].friction_ns[0]),                                 \
+        MEMBER(float, persistent_contact, load[i].friction_ns[1])
     static const struct member members[] = {CONTACT(a_row),
                                             CONTACT(b_row),
                                             CONTACT(begin_tick),
@@ -213,8 +218,13 @@ static bool compare_contacts(const struct compared *a, const struct compared *b,
                                             MEMBER(uint64_t, persistent_contact, nearest[0]),
                                             MEMBER(uint64_t, persistent_contact, nearest[1]),
                                             MEMBER(uint64_t, persistent_contact, nearest[2]),
-                                            MEMBER(uint64_t, persistent_contact, nearest[3])};
+                                            MEMBER(uint64_t, persistent_contact, nearest[3]),
+                                            LOAD(0),
+                                            LOAD(1),
+                                            LOAD(2),
+                                            LOAD(3)};
 #undef CONTACT
+#undef LOAD
     uint32_t count_a = a->state.head->contact_count, count_b = b->state.head->contact_count;
     for (uint32_t i = 0; i < count_a || i < count_b; i++) {
         const struct persistent_contact *p = &a->state.contacts[i], *q = &b->state.contacts[i];

@@ -28,11 +28,18 @@
  * right distance. a: the body with the lower row, and the entity beside a fixed object. */
 struct nearest_vertices {
     uint8_t hulls;      /* HULLS_A_MODEL * hull of a + hull of b */
-    uint8_t count;      /* of vertices, at most 3; 0: not known */
+    uint8_t count;      /* of vertices, at most 3; 0: they are not known */
     uint8_t a[3], b[3]; /* vertices of the hulls */
 };
 
 #define PERSISTENT_CONTACT_NEAREST 4u /* pairs of hulls that a contact remembers */
+
+/* The impulses that two hulls bore at the two ends of their contact, of which a short contact has
+ * only the first. The solver begins there in the next frame (collider/resting/level_solver.h). */
+struct contact_load {
+    float normal_ns[2];   /* along the normal, >= 0 */
+    float friction_ns[2]; /* across it, to the left of the normal from a to b */
+};
 
 struct persistent_contact {
     uint32_t a_id;         /* an entity; less than b_id unless b is a fixed object */
@@ -44,9 +51,10 @@ struct persistent_contact {
     uint16_t impacts;      /* since it began, PERSISTENT_CONTACT_IMPACTS_MAX at most */
     float impulse_ns;      /* of all these impacts together */
     struct nearest_vertices nearest[PERSISTENT_CONTACT_NEAREST];
+    struct contact_load load[PERSISTENT_CONTACT_NEAREST]; /* of the pairs of hulls in nearest */
 };
 
-_Static_assert(sizeof(struct persistent_contact) == 64, "shared layout");
+_Static_assert(sizeof(struct persistent_contact) == 128, "shared layout");
 
 /* Returns the key of a contact. The list rises strictly by it: by a_id, then b_id, fixed objects
  * last. */

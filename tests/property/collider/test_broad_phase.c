@@ -2,8 +2,10 @@
  * rows 3, 17, 37). SEED=n runs another set. */
 #include "collider/broad_phase/broad_phase.h"
 
+#include "collider/broad_phase/body_boxes.h"
 #include "tests/support/fixture.h"
 #include "tests/support/spread.h"
+#include "world/entity/persistent_contact.h"
 #include "world/params.h"
 #include "world/terrain/fixed_index.h"
 #include "world/terrain/gridsquare.h"
@@ -291,6 +293,66 @@ static void test_every_pair_is_found_exactly_once(void **state)
     end(&w);
 }
 
+/* --- rows in contacts --------------------------------------------------------------------------*/
+
+/* Checks that each body whose box meets the wider one of a row is a pair with it. */
+static void check_wider(const struct small_world *w, const struct broad_phase *broad, uint32_t row,
+                        const struct found *found)
+{
+    struct method_input input = input_of(w);
+    struct path_box exact = pair_filter_box(&input, row);
+    const struct path_box *box = &broad->box[row];
+    assert_true(fabs((double)(exact.min_x - box->min_x) - BODY_BOX_WIDER_M) < 0.02 &&
+                fabs((double)(box->max_z - exact.max_z) - BODY_BOX_WIDER_M) < 0.02);
+    for (uint32_t other = 0; broad_phase_has_all(broad, row) && other < w->rows; other++) {
+        uint32_t a = row < other ? row : other, b = row < other ? other : row;
+        if (other != row && pair_filter_there(&input, other) && !is_long(w, other) &&
+            !pair_same_shooter(&w->e, a, b) && pair_filter_boxes_meet(box, &broad->box[other]))
+            assert_int_equal(found->moving[a][b], 1);
+    }
+    for (uint32_t i = 0; broad_phase_has_all(broad, row) && i < w->world.counts.fixed; i++) {
+        if (pair_filter_stands(&input, i) && pair_filter_box_meets_fixed(&input, box, &w->fixed[i]))
+            assert_int_equal(found->fixed[row][i], 1);
+    }
+}
+
+static void test_rows_in_contacts_have_all_pairs_of_wider_boxes(void **state)
+{
+    static struct small_world w;
+    static struct found found;
+    static struct persistent_contact contact[ROWS_MAX / 4];
+    struct broad_phase broad;
+    uint64_t random = fixture_seed(40);
+    uint32_t all = 0;
+    (void)state;
+    begin(&w, ROWS_MAX);
+    for (int world = 0; world < WORLDS / 3; world++) {
+        draw_world(&w, &random);
+        const struct method_input input = input_of(&w);
+        uint32_t count = w.rows / 4;
+        for (uint32_t i = 0; i < count; i++)
+            contact[i] = (struct persistent_contact){
+                .a_row = i, .b_row = i + 1, .b_id = i % 5 == 0 ? PERSISTENT_CONTACT_FIXED : 1};
+        assert_int_equal(broad_phase_init(&broad, &w.world, NULL), 0);
+        broad_phase_widen(&broad, contact, count);
+        broad_phase_pairs(&broad, &input);
+        collect(&broad, &found);
+        for (uint32_t i = 0; i < count; i++) {
+            if (!pair_filter_there(&input, i))
+                continue;
+            check_wider(&w, &broad, i, &found);
+            all += broad_phase_has_all(&broad, i);
+        }
+        broad_phase_widen(&broad, NULL, 0);
+        broad_phase_pairs(&broad, &input);
+        same_boxes(&w, &broad);
+        broad_phase_free(&broad);
+        drop_world(&w);
+    }
+    assert_true(all > 1000);
+    end(&w);
+}
+
 /* --- queries -----------------------------------------------------------------------------------*/
 
 static struct path_box draw_box(const struct spread *place, uint64_t *random)
@@ -465,6 +527,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_pair_is_found_exactly_once),
+        cmocka_unit_test(test_rows_in_contacts_have_all_pairs_of_wider_boxes),
         cmocka_unit_test(test_a_query_finds_every_row_and_object_once_in_order),
         cmocka_unit_test(test_a_crowd_has_the_same_pairs_on_any_threads),
     };

@@ -332,7 +332,8 @@ static void collide_again(struct fixture *f)
 static void put_contact(struct fixture *f)
 {
     struct state now = fixture_state(f);
-    now.contacts[0] = (struct persistent_contact){1, 2, 0, 1, 0, 0, 0, 0, 0.0f, {{0}}};
+    now.contacts[0] =
+        (struct persistent_contact){1, 2, 0, 1, 0, 0, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}};
     now.head->contact_count = 1;
     state_seal(&now, f->view.world.counts.fixed);
 }

@@ -46,7 +46,8 @@ static int open_world(void **state)
     now.craters[0] = (struct crater){1.0, 2.0, 3.0f, 4.0f, 5};
     now.craters[1] = now.craters[0];
     now.head->crater_count = 1;
-    now.contacts[0] = (struct persistent_contact){1, 2, 0, 1, 3, 4, 0, 0, 0.0f, {{0}}};
+    now.contacts[0] =
+        (struct persistent_contact){1, 2, 0, 1, 3, 4, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}};
     now.contacts[1] = now.contacts[0];
     now.head->contact_count = 1;
     return 0;

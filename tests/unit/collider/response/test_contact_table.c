@@ -98,7 +98,8 @@ static const struct event *event_of(uint32_t nth)
 static void test_a_pair_that_presses_begins_a_contact(void **state)
 {
     const uint16_t flags = PERSISTENT_CONTACT_OVERLAPS | PERSISTENT_CONTACT_HOLDS;
-    const struct persistent_contact right = {1, 3, 0, 2, TICK, TICK, flags, 0, 0.0f, {{0}}};
+    const struct persistent_contact right = {1,     3, 0,    2,     TICK,        TICK,
+                                             flags, 0, 0.0f, {{0}}, {{{0}, {0}}}};
     (void)state;
     begin();
     press(0, 2, CONTACT_OVERLAPS | CONTACT_HOLDS);
@@ -108,7 +109,7 @@ static void test_a_pair_that_presses_begins_a_contact(void **state)
 
 static void test_a_pressed_contact_keeps_its_beginning(void **state)
 {
-    const struct persistent_contact right = {1, 2, 0, 1, 7, TICK, 0, 0, 0.0f, {{0}}};
+    const struct persistent_contact right = {1, 2, 0, 1, 7, TICK, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}};
     (void)state;
     know(0, 1, 7, TICK - 1)->flags = PERSISTENT_CONTACT_OVERLAPS; /* no more */
     begin();
@@ -121,7 +122,7 @@ static void test_a_pressed_contact_keeps_its_beginning(void **state)
 static void test_what_the_hulls_remember_is_kept(void **state)
 {
     const struct nearest_vertices nearest = {9, 2, {1, 2, 0}, {3, 4, 0}};
-    struct persistent_contact right = {1, 2, 0, 1, 7, TICK, 0, 0, 0.0f, {{0}}};
+    struct persistent_contact right = {1, 2, 0, 1, 7, TICK, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}};
     (void)state;
     right.nearest[1] = nearest;
     know(0, 1, 7, TICK - 1)->nearest[0] = nearest; /* of the frame before */
@@ -131,6 +132,24 @@ static void test_what_the_hulls_remember_is_kept(void **state)
         .memory.nearest[1] = nearest;
     move(0);
     assert_memory_equal(finish(1, 0), &right, sizeof right);
+}
+
+/* The next frame's solver begins with the impulses of this one, and with none of earlier ones. */
+static void test_what_the_hulls_bear_is_kept_for_a_frame(void **state)
+{
+    const struct contact_load load = {{3.0f, 4.0f}, {-1.0f, 2.0f}};
+    const struct contact_load none = {{0.0f, 0.0f}, {0.0f, 0.0f}};
+    (void)state;
+    know(0, 1, 7, TICK - 1)->load[1] = load;
+    know(2, 3, 7, TICK - 1)->load[0] = load;
+    begin();
+    press(0, 1, 0);
+    context.contacts->known[contact_queue_pair(context.contacts, &(struct pair){0, 1})].load[2] =
+        load;
+    const struct persistent_contact *contacts = finish(2, 0);
+    assert_memory_equal(&contacts[0].load[1], &none, sizeof none);
+    assert_memory_equal(&contacts[0].load[2], &load, sizeof load);
+    assert_memory_equal(&contacts[1].load[0], &none, sizeof none);
 }
 
 static void test_the_list_is_sorted_by_the_pair(void **state)
@@ -154,7 +173,8 @@ static void test_the_list_is_sorted_by_the_pair(void **state)
 /* The lower id comes first, whichever row it is in. */
 static void test_reused_rows_are_sorted_by_their_ids(void **state)
 {
-    const struct persistent_contact right = {2, 50, 1, 0, TICK, TICK, 0, 0, 0.0f, {{0}}};
+    const struct persistent_contact right = {2, 50, 1,    0,     TICK,        TICK,
+                                             0, 0,  0.0f, {{0}}, {{{0}, {0}}}};
     (void)state;
     steps_rows(&f).id[0] = 50;
     begin();
@@ -164,7 +184,7 @@ static void test_reused_rows_are_sorted_by_their_ids(void **state)
 
 static void test_two_bodies_at_rest_stay_in_contact(void **state)
 {
-    const struct persistent_contact right = {1, 2, 0, 1, 7, 8, 0, 0, 0.0f, {{0}}};
+    const struct persistent_contact right = {1, 2, 0, 1, 7, 8, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}};
     (void)state;
     know(0, 1, 7, 8);
     begin();
@@ -175,9 +195,9 @@ static void test_impacts_add_up(void **state)
 {
     (void)state;
     *know(0, 1, 7, TICK - 1) =
-        (struct persistent_contact){1, 2, 0, 1, 7, TICK - 1, 0, 3, 5.0f, {{0}}};
+        (struct persistent_contact){1, 2, 0, 1, 7, TICK - 1, 0, 3, 5.0f, {{0}}, {{{0}, {0}}}};
     *know(0, 3, 7, TICK - 1) =
-        (struct persistent_contact){1, 4, 0, 3, 7, TICK - 1, 0, 65535, 0.0f, {{0}}};
+        (struct persistent_contact){1, 4, 0, 3, 7, TICK - 1, 0, 65535, 0.0f, {{0}}, {{{0}, {0}}}};
     begin();
     strike(0, 1, 2, 6.0f);
     strike(0, 2, 1, 7.0f);
@@ -378,6 +398,7 @@ int main(void)
         TEST(test_a_pair_that_presses_begins_a_contact),
         TEST(test_a_pressed_contact_keeps_its_beginning),
         TEST(test_what_the_hulls_remember_is_kept),
+        TEST(test_what_the_hulls_bear_is_kept_for_a_frame),
         TEST(test_the_list_is_sorted_by_the_pair),
         TEST(test_reused_rows_are_sorted_by_their_ids),
         TEST(test_two_bodies_at_rest_stay_in_contact),

@@ -99,6 +99,60 @@ static void test_momentum_is_conserved_and_energy_never_grows(void **state)
     }
 }
 
+/* Whatever impulses the points begin with. */
+static void test_a_warm_start_adds_no_energy(void **state)
+{
+    uint64_t random = fixture_seed(132);
+    (void)state;
+    for (int round = 0; round < ROUNDS; round++) {
+        draw(&random);
+        for (int i = 0; i < CONTACTS; i++) {
+            contact[i].normal_ns = fixture_uniform(&random, 0.0, 2e5);
+            contact[i].friction_ns = fixture_uniform(&random, -2e5, 2e5);
+        }
+        struct sums before = sums_of(body);
+        level_solver_run(body, BODIES, contact, CONTACTS);
+        struct sums after = sums_of(body);
+        double scale = 1e-12 * 4e5 * 9.0 * 10.0 * BODIES;
+        assert_true(fabs(after.x - before.x) < scale && fabs(after.z - before.z) < scale);
+        assert_true(fabs(after.angular - before.angular) < scale);
+        assert_true(after.energy <= before.energy * (1.0 + 1e-12));
+        for (int i = 0; i < CONTACTS; i++)
+            assert_true(contact[i].normal_ns >= 0.0);
+    }
+}
+
+/* A long row of bodies against a wall, each of which pushes: from 0 the sweeps do not suffice. */
+#define ROW 40
+
+/* Returns the greatest speed at which two still close after so many frames. */
+static double left_in_row(int frames, bool warm)
+{
+    static struct level_body row[ROW + 1];
+    static struct level_contact between[ROW];
+    double most = 0.0;
+    for (uint32_t i = 0; i < ROW; i++)
+        between[i] = touch(i, i + 1);
+    for (int frame = 0; frame < frames; frame++) {
+        for (uint32_t i = 0; i < ROW; i++)
+            row[i] = put(1000.0, 0.1, 0.0);
+        row[ROW] = (struct level_body){.forward_x = 1.0};
+        for (uint32_t i = 0; i < ROW; i++)
+            between[i].normal_ns = warm ? between[i].normal_ns : 0.0;
+        level_solver_run(row, ROW + 1, between, ROW);
+    }
+    for (uint32_t i = 0; i < ROW; i++)
+        most = maths_max(most, level_solver_closing(row, &between[i]));
+    return most;
+}
+
+static void test_a_warm_start_goes_on_where_the_last_frame_ended(void **state)
+{
+    (void)state;
+    double cold = left_in_row(60, false);
+    assert_true(cold > 0.01 && left_in_row(60, true) < 0.3 * cold);
+}
+
 static void test_friction_stays_within_its_cone(void **state)
 {
     (void)state;
@@ -207,6 +261,7 @@ static void test_grip_is_by_direction_and_holds_the_heading(void **state)
     assert_true(fabs(body[1].moved.x) < 1e-6 && fabs(body[1].moved.spin) > 0.01);
     body[0].moved = (struct level_motion){0.1, 0.0, 0.0};
     body[1].moved = (struct level_motion){0.0, 0.0, 0.0};
+    contact[0].normal_ns = contact[0].friction_ns = 0.0;
     body[1].grip_turn = 400.0;
     level_solver_run(body, 2, contact, 1);
     assert_true(fabs(body[1].moved.x) < 1e-6 && fabs(body[1].moved.spin) < 1e-6);
@@ -247,6 +302,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_momentum_is_conserved_and_energy_never_grows),
+        cmocka_unit_test(test_a_warm_start_adds_no_energy),
+        cmocka_unit_test(test_a_warm_start_goes_on_where_the_last_frame_ended),
         cmocka_unit_test(test_friction_stays_within_its_cone),
         cmocka_unit_test(test_a_chain_of_pushed_bodies_does_not_close),
         cmocka_unit_test(test_bodies_may_close_a_gap_but_not_more),

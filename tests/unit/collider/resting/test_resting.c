@@ -11,6 +11,7 @@
 #include <stddef.h>
 #include <setjmp.h>
 #include <stdint.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -99,6 +100,49 @@ static void test_a_truck_pushes_two_others_on(void **state)
     assert_int_equal(marks(0, 1), CONTACT_RESTS | CONTACT_PRESSED);
     assert_int_equal(resting->moved_count, 3);
     assert_true(fabs(context.path[2].along.x - e->vx[2] * world_dt_s(&f.view.world)) < 1e-9);
+}
+
+/* Returns the loads that the hulls of a pair bear. */
+static const struct contact_load *loads(uint32_t a)
+{
+    uint32_t pair = contact_queue_pair(context.contacts, &(struct pair){a, a + 1});
+    return context.contacts->known[pair].load;
+}
+
+static double sum_of(const struct contact_load *load)
+{
+    double sum = 0.0;
+    for (uint32_t i = 0; i < PERSISTENT_CONTACT_NEAREST; i++)
+        sum += (double)load[i].normal_ns[0] + (double)load[i].normal_ns[1];
+    return sum;
+}
+
+/* The pair remembers the impulses of its hulls, and the next frame begins with them. */
+static void test_impulses_are_kept_for_the_next_frame(void **state)
+{
+    double mass = steps_kind(&f, "truck")->mass_kg, speed;
+    struct persistent_contact *contact = know(0);
+    (void)state;
+    begin();
+    drive(0, 0.9);
+    resting_solve(resting, &context);
+    speed = context.next->entities.vx[1];
+    assert_true(fabs(sum_of(loads(0)) - mass * speed) < 1e-4 * mass);
+    uint32_t pair = contact_queue_pair(context.contacts, &(struct pair){0, 1});
+    memcpy(contact->load, context.contacts->known[pair].load, sizeof contact->load);
+    memcpy(contact->nearest, context.contacts->known[pair].memory.nearest, sizeof contact->nearest);
+    steps_respond_end(&context);
+    steps_rows(&f).vx[0] = 0.0;
+    begin();
+    resting_solve(resting, &context); /* nothing pushes: nothing may begin to move */
+    assert_int_equal(resting->moved_count, 0);
+    steps_respond_end(&context);
+    begin();
+    drive(0, 0.9);
+    resting_solve(resting, &context);
+    assert_true(resting->point[0].normal_ns > 0.0);
+    assert_true(fabs(context.next->entities.vx[1] - speed) < 1e-3);
+    assert_true(context.next->entities.vx[1] != speed); /* it came from elsewhere */
 }
 
 static void test_an_impact_is_left_to_the_search(void **state)
@@ -239,6 +283,7 @@ int main(void)
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
         TEST(test_a_truck_pushes_two_others_on),
+        TEST(test_impulses_are_kept_for_the_next_frame),
         TEST(test_an_impact_is_left_to_the_search),
         TEST(test_brakes_hold_against_a_push),
         TEST(test_bodies_that_are_far_do_not_press),

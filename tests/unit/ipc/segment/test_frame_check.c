@@ -30,10 +30,13 @@ static int make_view(void **state)
     bare_view_make(&view, &sizes);
     struct state *now = &view.w[0];
     now->head->used = 3;
-    now->contacts[0] = (struct persistent_contact){1, 9, 0, 2, 1, 1, 0, 0, 0.0f, {{0}}};
+    now->contacts[0] =
+        (struct persistent_contact){1, 9, 0, 2, 1, 1, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}};
     now->contacts[1] = (struct persistent_contact){
-        1, PERSISTENT_CONTACT_FIXED | (FIXED - 1), 0, SLOT_NONE, 1, 1, 0, 0, 0.0f, {{0}}};
-    now->contacts[2] = (struct persistent_contact){4, 9, 1, 2, 1, 1, 0, 0, 0.0f, {{0}}};
+        1,           PERSISTENT_CONTACT_FIXED | (FIXED - 1), 0, SLOT_NONE, 1, 1, 0, 0, 0.0f, {{0}},
+        {{{0}, {0}}}};
+    now->contacts[2] =
+        (struct persistent_contact){4, 9, 1, 2, 1, 1, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}};
     now->head->contact_count = 3;
     return 0;
 }
@@ -129,26 +132,30 @@ static void test_contacts_that_make_no_sense_are_refused(void **state)
         struct persistent_contact contact;
         const char *says;
     } rows[] = {
-        {0, {1, 9, 3, 2, 1, 1, 0, 0, 0.0f, {{0}}}, "world A: contact 0: a_row = 3; used = 3"},
-        {0, {1, 9, 0, 3, 1, 1, 0, 0, 0.0f, {{0}}}, "contact 0: b_row = 3; used = 3"},
         {0,
-         {1, 9, 0, SLOT_NONE, 1, 1, 0, 0, 0.0f, {{0}}},
+         {1, 9, 3, 2, 1, 1, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}},
+         "world A: contact 0: a_row = 3; used = 3"},
+        {0, {1, 9, 0, 3, 1, 1, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}}, "contact 0: b_row = 3; used = 3"},
+        {0,
+         {1, 9, 0, SLOT_NONE, 1, 1, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}},
          "contact 0: b_row = 4294967295; used = 3"},
-        {0, {0, 9, 0, 2, 1, 1, 0, 0, 0.0f, {{0}}}, "contact 0: a_id = 0; b_id = 9"},
-        {0, {9, 9, 0, 2, 1, 1, 0, 0, 0.0f, {{0}}}, "contact 0: a_id = 9; b_id = 9"},
-        {0, {9, 1, 2, 0, 1, 1, 0, 0, 0.0f, {{0}}}, "contact 0: a_id = 9; b_id = 1"},
+        {0, {0, 9, 0, 2, 1, 1, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}}, "contact 0: a_id = 0; b_id = 9"},
+        {0, {9, 9, 0, 2, 1, 1, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}}, "contact 0: a_id = 9; b_id = 9"},
+        {0, {9, 1, 2, 0, 1, 1, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}}, "contact 0: a_id = 9; b_id = 1"},
         {0,
-         {FIXED_ID(1), FIXED_ID(2), 0, SLOT_NONE, 1, 1, 0, 0, 0.0f, {{0}}},
+         {FIXED_ID(1), FIXED_ID(2), 0, SLOT_NONE, 1, 1, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}},
          "contact 0: a_id = 2147483649"},
         {1,
-         {1, FIXED_ID(FIXED), 0, SLOT_NONE, 1, 1, 0, 0, 0.0f, {{0}}},
+         {1, FIXED_ID(FIXED), 0, SLOT_NONE, 1, 1, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}},
          "contact 1: b_id = fixed object 5; fixed objects = 5"},
         {1,
-         {1, FIXED_ID(4), 0, 2, 1, 1, 0, 0, 0.0f, {{0}}},
+         {1, FIXED_ID(4), 0, 2, 1, 1, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}},
          "contact 1: b_row = 2; a fixed object has none"},
-        {1, {1, 9, 0, 2, 1, 1, 0, 0, 0.0f, {{0}}}, "contact 1: not in the order of ids"},
+        {1,
+         {1, 9, 0, 2, 1, 1, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}},
+         "contact 1: not in the order of ids"},
         {2,
-         {1, FIXED_ID(3), 0, SLOT_NONE, 1, 1, 0, 0, 0.0f, {{0}}},
+         {1, FIXED_ID(3), 0, SLOT_NONE, 1, 1, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}},
          "contact 2: not in the order of ids"},
     };
 #undef FIXED_ID

@@ -140,8 +140,8 @@ static void put_contacts(void)
     first.hashes = (void *)place(first.hashes);
     first.contacts = (void *)place(first.contacts);
     for (uint32_t i = 0; i < CONTACTS; i++)
-        first.contacts[i] =
-            (struct persistent_contact){i + 1, i + 2, i, i + 1, 1, 2, 0, 0, 0.0f, {{0}}};
+        first.contacts[i] = (struct persistent_contact){i + 1, i + 2, i,    i + 1, 1,           2,
+                                                        0,     0,     0.0f, {{0}}, {{{0}, {0}}}};
     first.head->contact_count = CONTACTS;
     state_seal(&first, look.header->counts.fixed);
 }

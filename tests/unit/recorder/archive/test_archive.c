@@ -93,8 +93,8 @@ static void test_contacts_are_in_the_image(void **state)
     fixture_run(&f, 3);
     struct state now = fixture_state(&f);
     const struct persistent_contact contacts[] = {
-        {1, 2, 0, 1, 1, 2, 0, 0, 0.0f, {{0}}},
-        {3, PERSISTENT_CONTACT_FIXED | 1, 2, SLOT_NONE, 2, 2, 0, 0, 0.0f, {{0}}}};
+        {1, 2, 0, 1, 1, 2, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}},
+        {3, PERSISTENT_CONTACT_FIXED | 1, 2, SLOT_NONE, 2, 2, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}}};
     memcpy(now.contacts, contacts, sizeof contacts);
     now.head->contact_count = 2;
     state_seal(&now, f.view.world.counts.fixed);

@@ -36,7 +36,8 @@ static int make_image(void **state)
         next->head->event_end += 2;
         next->head->crater_count++;
         next->entities.x[i] = 3.25 * i;
-        next->contacts[0] = (struct persistent_contact){1, 2, 0, 1, 1, 2, 0, 0, 0.0f, {{0}}};
+        next->contacts[0] =
+            (struct persistent_contact){1, 2, 0, 1, 1, 2, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}};
         next->head->contact_count = 1;
         next->fixed_damage[i] = 2;
         bare_view_end(&collider);
@@ -168,7 +169,7 @@ static void test_foreign_files_are_refused(void **state)
     (void)state;
     assert_refused("#!/bin/sh\n", 10, "too small");
     REFUSED(magic, SEGMENT_MAGIC, "magic");
-    REFUSED(version, IMAGE_VERSION + 1, "version 6; this program knows 5");
+    REFUSED(version, IMAGE_VERSION + 1, "version 7; this program knows 6");
     REFUSED(layout_hash, layout_hash() ^ 1, "another build");
     REFUSED(header_bytes, sizeof(struct image_header) + 8, "another build");
 }

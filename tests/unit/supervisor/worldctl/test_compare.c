@@ -124,10 +124,12 @@ static void test_craters_dents_and_the_head_are_compared(void **state)
 static void put_contacts(const struct fixture *fixture)
 {
     struct state now = fixture_state(fixture);
-    now.contacts[0] = (struct persistent_contact){1, 2, 0, 1, 5, 9, 0, 0, 0.0f, {{0}}};
-    now.contacts[1] = (struct persistent_contact){2, 4, 1, 3, 6, 9, 0, 0, 0.0f, {{0}}};
+    now.contacts[0] =
+        (struct persistent_contact){1, 2, 0, 1, 5, 9, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}};
+    now.contacts[1] =
+        (struct persistent_contact){2, 4, 1, 3, 6, 9, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}};
     now.contacts[2] = (struct persistent_contact){
-        2, PERSISTENT_CONTACT_FIXED | 6, 1, SLOT_NONE, 7, 9, 0, 0, 0.0f, {{0}}};
+        2, PERSISTENT_CONTACT_FIXED | 6, 1, SLOT_NONE, 7, 9, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}};
     now.head->contact_count = 3;
 }
 

@@ -11,10 +11,10 @@
 #include <cmocka.h>
 
 static struct persistent_contact contacts[] = {
-    {1, 2, 0, 1, 5, 9, 0, 0, 0.0f, {{0}}},
-    {1, 4, 0, 3, 6, 8, 0, 0, 0.0f, {{0}}},
-    {2, 4, 1, 3, 7, 7, 0, 0, 0.0f, {{0}}},
-    {2, PERSISTENT_CONTACT_FIXED | 6, 1, SLOT_NONE, 4, 9, 0, 0, 0.0f, {{0}}},
+    {1, 2, 0, 1, 5, 9, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}},
+    {1, 4, 0, 3, 6, 8, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}},
+    {2, 4, 1, 3, 7, 7, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}},
+    {2, PERSISTENT_CONTACT_FIXED | 6, 1, SLOT_NONE, 4, 9, 0, 0, 0.0f, {{0}}, {{{0}, {0}}}},
 };
 
 static void check(const struct contact_chains *chains, uint32_t row, const char *text)
