@@ -18,7 +18,7 @@
 #include <stdint.h>
 
 /* Sweeps at most, from impulses of the frame before and from 0. */
-#define LEVEL_SOLVER_WARM_SWEEPS 8
+#define LEVEL_SOLVER_WARM_SWEEPS 10
 #define LEVEL_SOLVER_COLD_SWEEPS 30
 
 /* Sweeps at most that recover overlaps. */

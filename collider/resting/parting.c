@@ -194,7 +194,7 @@ void parting_run(struct parting *parting, const struct parting_input *input)
     part_others(parting, input);
     if (!any) {
         for (uint32_t i = 0; i < input->bodies; i++)
-            parting_wishes_limit(&input->body[i].pushed);
+            parting_wishes_limit(input, &input->body[i].pushed);
         return;
     }
     parting_wishes_make(parting, input);

@@ -9,6 +9,9 @@
 #define PUSHED_MOST_MPS 10.0
 #define PUSHED_MOST_RPS 0.2
 
+/* So far at most is a body moved in a frame by the recovery of shallow overlaps [m]. */
+#define RECOVERED_MOST_M 0.006
+
 /* The edge of a dense crowd spreads so fast, until its bodies have this share of the room that they
  * cover. */
 #define SPREAD_MPS 20.0
@@ -139,13 +142,18 @@ static void spread(const struct parting_input *input, const struct parting_body 
     body->wish_z = rate * (body->z - root->centre_z / root->mass_kg);
 }
 
-void parting_wishes_limit(struct level_motion *pushed)
+static void limit(struct level_motion *pushed, double most_mps)
 {
     double speed = sqrt(pushed->x * pushed->x + pushed->z * pushed->z);
-    double keep = speed > PUSHED_MOST_MPS ? PUSHED_MOST_MPS / speed : 1.0;
+    double keep = speed > most_mps ? most_mps / speed : 1.0;
     pushed->x *= keep;
     pushed->z *= keep;
     pushed->spin = maths_clamp(pushed->spin, -PUSHED_MOST_RPS, PUSHED_MOST_RPS);
+}
+
+void parting_wishes_limit(const struct parting_input *input, struct level_motion *pushed)
+{
+    limit(pushed, maths_min(PUSHED_MOST_MPS, RECOVERED_MOST_M / world_dt_s(input->context->world)));
 }
 
 /* Those that are deep in each other in a dense crowd do not bound each other: spreading parts them
@@ -202,8 +210,11 @@ static void make_wishes(struct parting *parting, const struct parting_input *inp
 {
     for (uint32_t i = 0; i < input->bodies; i++) {
         struct parting_body *body = &parting->body[i];
-        parting_wishes_limit(&input->body[i].pushed);
         body->goes = !is_fixed(input, i) && parting_wishes_parts(parting, i);
+        if (body->goes)
+            limit(&input->body[i].pushed, PUSHED_MOST_MPS);
+        else
+            parting_wishes_limit(input, &input->body[i].pushed);
         if (!body->goes || parting->body[i].spreads)
             continue;
         body->wish_x = input->body[i].pushed.x;

@@ -17,8 +17,9 @@ bool parting_wishes_parts(struct parting *parting, uint32_t body);
 /* Returns how fast the pair's deepest point has to part [m/s], 0 if none overlaps. */
 double parting_wishes_speed(const struct parting_input *input, const struct resting_pair *pair);
 
-/* Limits a speed at which bodies are moved apart, and its spin. */
-void parting_wishes_limit(struct level_motion *pushed);
+/* Limits how far a body whose group has no bodies that have to part is moved aside in a frame, and
+ * its spin. */
+void parting_wishes_limit(const struct parting_input *input, struct level_motion *pushed);
 
 /* Sets goes, spreads and the wishes of all bodies that have been grouped. */
 void parting_wishes_make(struct parting *parting, const struct parting_input *input);

@@ -123,13 +123,28 @@ static void test_shallow_overlaps_are_the_solvers(void **state)
     assert_true(fabs(apart_mps(0, 1) - 0.3) < 1e-6); /* its share, not the whole depth */
 }
 
+/* A body of a row that presses on it may have many overlaps behind it. */
+static void test_recovery_moves_nobody_far_in_a_frame(void **state)
+{
+    (void)state;
+    pair[0].gap_m = -0.9 * RESTING_PARTS_M;
+    point[0].apart_mps = 2.0;
+    level_solver_run(body, 2, point, 1);
+    parting_run(&parting, &input);
+    assert_true(fabs(body[0].pushed.x * world_dt_s(&f.view.world) + 0.006) < 1e-9);
+    assert_true(fabs(body[1].pushed.x * world_dt_s(&f.view.world) - 0.006) < 1e-9);
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
-        TEST(test_the_whole_depth_parts_in_a_frame), TEST(test_a_wall_does_not_give_way),
-        TEST(test_a_neighbour_is_pushed_on),         TEST(test_nobody_is_pushed_into_a_wall),
+        TEST(test_the_whole_depth_parts_in_a_frame),
+        TEST(test_a_wall_does_not_give_way),
+        TEST(test_a_neighbour_is_pushed_on),
+        TEST(test_nobody_is_pushed_into_a_wall),
         TEST(test_shallow_overlaps_are_the_solvers),
+        TEST(test_recovery_moves_nobody_far_in_a_frame),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
