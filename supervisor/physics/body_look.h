@@ -42,8 +42,8 @@ struct motion_look {
     bool at_rest;               /* a wreck that the mover leaves as it is, or that has not moved */
 };
 
-/* Bodies that touch each other, directly or not (supervisor/physics/touch_groups.h). */
-struct touch_group {
+/* Bodies that touch each other, directly or not (supervisor/physics/joined_bodies.h). */
+struct joined_bodies {
     uint32_t first;     /* index of its first body */
     uint32_t impacts;   /* of each of them, in this frame: an impact of two counts twice */
     double fastest_mps; /* of all before and after the frame */
@@ -70,7 +70,7 @@ struct body_look {
     uint32_t parted; /* the same in the frame before */
     bool thrown;     /* an explosion or another body made it faster than an engine does */
     bool spun;       /* the same of its spin, by an explosion or by what one has thrown */
-    struct touch_group together;
+    struct joined_bodies together;
 };
 
 /* What is kept of a row from frame to frame. */

@@ -3,7 +3,7 @@
 
 #include "supervisor/physics/body_measures.h"
 #include "supervisor/physics/hull_shape.h"
-#include "supervisor/physics/touch_groups.h"
+#include "supervisor/physics/joined_bodies.h"
 #include "world/entity/event.h"
 #include "world/entity/hull.h"
 #include "world/entity/kind.h"
@@ -144,7 +144,7 @@ static int look_at(struct physics_check *check, const struct state *state,
         (events && join_struck(check, state->head->event_end, events) != 0) ||
         join_pressed(check, state) != 0)
         return -1;
-    touch_groups_find(&check->looks, &check->overlaps.touching);
+    joined_bodies_find(&check->looks, &check->overlaps.touching);
     look_at_motion(check, &ground);
     body_looks_end(&check->looks);
     keep_contacts(check, state);

@@ -1,5 +1,5 @@
 /* Bodies that touch: what happens to one of them explains a way of the others (row 46). */
-#include "supervisor/physics/touch_groups.h"
+#include "supervisor/physics/joined_bodies.h"
 
 #include "supervisor/physics/body_measures.h"
 #include "world/entity/kind.h"
@@ -42,7 +42,7 @@ static void find(struct neighbour_pair *pair, uint32_t count)
 {
     struct body_looks looks = {.body = body, .count = BODIES};
     const struct neighbour_pairs touching = {.pair = pair, .count = count};
-    touch_groups_find(&looks, &touching);
+    joined_bodies_find(&looks, &touching);
 }
 
 static double jump_of(uint32_t index, double way_m)

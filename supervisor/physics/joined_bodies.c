@@ -1,5 +1,5 @@
 /* Union-find; the sums of a group are kept at its first body, and then copied. */
-#include "supervisor/physics/touch_groups.h"
+#include "supervisor/physics/joined_bodies.h"
 
 static uint32_t root_of(struct body_look *body, uint32_t index)
 {
@@ -11,7 +11,7 @@ static uint32_t root_of(struct body_look *body, uint32_t index)
 static void begin(struct body_look *body, uint32_t index)
 {
     double before = body->known ? vec3_length(body->was->velocity) : 0.0;
-    body->together = (struct touch_group){
+    body->together = (struct joined_bodies){
         .first = index,
         .impacts = body->struck > body->hits ? body->struck : body->hits,
         .fastest_mps = body->finite ? maths_max(before, vec3_length(body->now.velocity)) : 0.0,
@@ -24,21 +24,22 @@ static void join(struct body_look *body, const struct neighbour_pair *pair)
     uint32_t a = root_of(body, pair->a), b = root_of(body, pair->b);
     if (a == b)
         return;
-    struct touch_group *of = &body[a < b ? a : b].together, *other = &body[a < b ? b : a].together;
+    struct joined_bodies *of = &body[a < b ? a : b].together,
+                         *other = &body[a < b ? b : a].together;
     other->first = a < b ? a : b;
     of->impacts += other->impacts;
     of->fastest_mps = maths_max(of->fastest_mps, other->fastest_mps);
     of->parts |= other->parts;
 }
 
-void touch_groups_find(struct body_looks *looks, const struct neighbour_pairs *touching)
+void joined_bodies_find(struct body_looks *looks, const struct neighbour_pairs *touching)
 {
     for (uint32_t i = 0; i < looks->count; i++)
         begin(&looks->body[i], i);
     for (uint32_t i = 0; i < touching->count; i++)
         join(looks->body, &touching->pair[i]);
     for (uint32_t i = 0; i < looks->count; i++) {
-        const struct touch_group group = looks->body[root_of(looks->body, i)].together;
+        const struct joined_bodies group = looks->body[root_of(looks->body, i)].together;
         looks->body[i].together = group;
     }
 }
