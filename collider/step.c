@@ -1,6 +1,7 @@
 /* The collider's step, from top to bottom. */
 #include "collider/step.h"
 
+#include "collider/remote_rows.h"
 #include "collider/resting/turret_guard.h"
 #include "collider/response/damage.h"
 #include "collider/response/debris_push.h"
@@ -203,6 +204,7 @@ static void collide_all(struct step *step, struct response_context *context)
     }
     if (context->functions->joint)
         debris_push_step(context);
+    remote_rows_restore(context, step->moved.entities);
     damage_overturned(context);
     contact_table_finish(&collider->table, context);
 }

@@ -375,7 +375,8 @@ static bool changeable(const struct key *key)
     _Static_assert(offsetof(struct scenario_settings, params) == 0, "keys of params come first");
     return key->offset < sizeof(struct params) &&
            key->offset != offsetof(struct scenario_settings, params.capacity) &&
-           key->offset != offsetof(struct scenario_settings, params.contact_slots);
+           key->offset != offsetof(struct scenario_settings, params.contact_slots) &&
+           key->offset != offsetof(struct scenario_settings, params.remotes_max);
 }
 
 int loader_branch(struct params *params, const char *const *overrides, int override_count,

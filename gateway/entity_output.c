@@ -5,6 +5,7 @@
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 #include "world/entity/disabled.h"
+#include "world/entity/remote.h"
 #include "world/maths/random.h"
 #include "world/params.h"
 
@@ -25,6 +26,8 @@
  * once when the difference is larger than any noise. */
 #define OFFSET_SHARE  0.1
 #define OFFSET_MOST_S 0.1
+
+#define LAST_AT_ONCE 32u /* last states within a millisecond */
 
 #define FLAMES_S         60.0 /* since the damage of a wreck last grew */
 #define HEARTBEAT_SPREAD 0.1  /* of the heartbeat, either way */
@@ -436,7 +439,7 @@ static bool send_row(struct entity_output *entities, const struct world *world, 
     const struct entities *e = &snapshot->entities;
     struct entity_sent *sent = &entities->sent[row];
     bool here = row < snapshot->head.used && e->state[row] != ENTITY_FREE &&
-                entity_output_sends(&world->kinds[e->kind[row]]);
+                entity_output_sends(&world->kinds[e->kind[row]]) && !remote_is(e, row);
     if (sent->id != 0 && (!here || sent->id != e->id[row])) {
         if (!pdu_output_take(entities->output, now_ns))
             return false;
@@ -489,8 +492,12 @@ void entity_output_send(struct entity_output *entities, const struct view *view,
 void entity_output_deactivate(struct entity_output *entities, const struct view *view,
                               uint64_t now_ns)
 {
+    uint32_t sent = 0;
     for (uint32_t row = 0; row < entities->known; row++) {
-        if (entities->sent[row].id != 0)
-            send_last(entities, &view->world, &entities->sent[row], now_ns);
+        if (entities->sent[row].id == 0)
+            continue;
+        send_last(entities, &view->world, &entities->sent[row], now_ns);
+        if (++sent % LAST_AT_ONCE == 0) /* receivers have small buffers, and no second chance */
+            clock_sleep_until_ns(clock_now_ns() + NS_PER_MS);
     }
 }

@@ -8,12 +8,12 @@
 #define JOLON_GATEWAY_ENTITY_OUTPUT_H
 
 #include "gateway/cot_output.h"
-#include "gateway/earth/dead_reckoning.h"
 #include "gateway/earth/local_frame.h"
 #include "gateway/entity_ids.h"
 #include "gateway/pdu_output.h"
 #include "gateway/type_table.h"
 #include "ipc/frame/snapshot.h"
+#include "world/maths/dead_reckoning.h"
 
 /* Thresholds and times of IEEE 1278.1. */
 #define ENTITY_OUTPUT_POSITION_M  1.0

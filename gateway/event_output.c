@@ -1,6 +1,7 @@
 /* PDUs of events. */
 #include "gateway/event_output.h"
 
+#include "world/entity/remote.h"
 #include "world/world.h"
 
 #include <string.h>
@@ -35,10 +36,22 @@ static uint32_t shooter_of(const struct event_output *events, uint32_t munition)
 
 /* --- what they say -----------------------------------------------------------------------------*/
 
+static bool is_remote(const struct event_output *events, uint32_t id)
+{
+    uint32_t row = entity_output_row(events->entities, id);
+    return row != SLOT_NONE && remote_is(&events->entities->snapshot.entities, row);
+}
+
+/* An entity of another simulator has the identifier by which its owner knows it. */
 static struct pdu_id id_of(const struct event_output *events, uint32_t id)
 {
     struct pdu_id to;
     (void)entity_ids_of(&events->entities->ids, id, &to);
+    if (is_remote(events, id)) {
+        uint32_t row = entity_output_row(events->entities, id);
+        uint64_t remote = events->entities->snapshot.entities.driver[row];
+        to = (struct pdu_id){(uint16_t)(remote >> 32), (uint16_t)(remote >> 16), (uint16_t)remote};
+    }
     return to;
 }
 
@@ -172,7 +185,7 @@ static void send_collision(struct event_output *events, const struct world *worl
     struct pdu_id id;
     if (issuer.fixed || issuer.kind >= world->counts.kinds ||
         !entity_output_sends(&world->kinds[issuer.kind]) ||
-        !entity_ids_of(&events->entities->ids, issuer.id, &id))
+        !entity_ids_of(&events->entities->ids, issuer.id, &id) || is_remote(events, issuer.id))
         return;
     pdu.header.type = PDU_COLLISION;
     pdu.collision = (struct pdu_collision){.issuer = id,
@@ -210,7 +223,9 @@ static bool is_sent(const struct event_output *events, const struct event *event
 {
     if (event->frame < events->send_from_frame)
         return false;
-    return event->type == EVENT_FIRE || event->type == EVENT_DETONATION ||
+    /* What another simulator told is not told again: its shots have no munition here. */
+    return (event->type == EVENT_FIRE && event->fire.munition.id != 0) ||
+           (event->type == EVENT_DETONATION && !event->detonation.remote) ||
            (event->type == EVENT_COLLISION &&
             event->collision.closing_mps >= EVENT_OUTPUT_COLLISION_MPS);
 }
@@ -222,7 +237,7 @@ void event_output_send(struct event_output *events, const struct view *view, uin
     while ((count = events_read(view, &events->cursor, events->event, EVENT_OUTPUT_AT_ONCE)) > 0) {
         for (uint32_t i = 0; i < count; i++) {
             const struct event *event = &events->event[i];
-            if (event->type == EVENT_FIRE)
+            if (event->type == EVENT_FIRE && event->fire.munition.id != 0)
                 remember_shot(events, &event->fire);
             if (!is_sent(events, event))
                 continue;

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <time.h>
 
-#define SLICE_NS (5 * (uint64_t)NS_PER_MS) /* from one look at a busy socket to the next */
+#define SLICE_NS (2 * (uint64_t)NS_PER_MS) /* from one look at a busy socket to the next */
 #define TYPES    "dis/types.txt"           /* beneath the folder of data */
 
 static void tell_begin(const struct gateway *gateway)
@@ -66,6 +66,13 @@ int gateway_open(struct gateway *gateway, const char *world, struct error_text *
             0 ||
         entity_output_open(entities, view, error) != 0)
         return -1;
+    gateway->remotes.types = &gateway->types;
+    gateway->remotes.frame = &entities->frame;
+    gateway->remotes.own = entities->ids;
+    gateway->remotes.clamp = params->clamp != 0;
+    gateway->remotes.timeout_ns = (uint64_t)(params->timeout_s * 1e9);
+    if (remote_input_open(&gateway->remotes, view, error) != 0)
+        return -1;
     gateway->input.exercise = output->exercise;
     gateway->input.own = entities->ids;
     if (gateway_lists_peers(&gateway->input.peers, params->peers, error) != 0 ||
@@ -96,7 +103,6 @@ static void take_pdu(void *context, const struct pdu *pdu, const struct udp_addr
                      uint64_t now_ns)
 {
     struct gateway *gateway = context;
-    (void)from;
     switch ((enum pdu_type)pdu->header.type) {
     case PDU_CREATE:
     case PDU_REMOVE:
@@ -105,7 +111,8 @@ static void take_pdu(void *context, const struct pdu *pdu, const struct udp_addr
         management_receive(&gateway->management, pdu, now_ns, utc_s());
         break;
     default:
-        gateway->without_effect++;
+        if (!remote_input_take(&gateway->remotes, &gateway->view, pdu, from, now_ns))
+            gateway->without_effect++;
         break;
     }
 }
@@ -122,6 +129,7 @@ void gateway_receive(struct gateway *gateway, uint64_t due_ns)
         } else if (udp_socket_wait(gateway->input.socket, due_ns - now_ns)) {
             now_ns = clock_now_ns();
             (void)pdu_input_receive(&gateway->input, take_pdu, gateway, now_ns);
+            remote_input_tell(&gateway->remotes, &gateway->view, now_ns);
             clock_sleep_until_ns(now_ns + SLICE_NS < due_ns ? now_ns + SLICE_NS : due_ns);
         }
         frame_protocol_beat(&gateway->view);
@@ -136,6 +144,8 @@ void gateway_send(struct gateway *gateway)
     frame_protocol_beat(&gateway->view);
     /* Entities first, so that the snapshot has those that the events name. */
     entity_output_send(&gateway->entities, &gateway->view, begun_ns);
+    remote_input_see(&gateway->remotes, &gateway->view, &gateway->entities.snapshot, begun_ns);
+    remote_input_tell(&gateway->remotes, &gateway->view, begun_ns);
     event_output_send(&gateway->events, &gateway->view, begun_ns);
     log_frame(gateway->events.frame);
     atomic_store_explicit(&slot->gaps, gateway->events.cursor.gap, memory_order_relaxed);
@@ -154,6 +164,10 @@ static void tell_received(const struct gateway *gateway)
              input->counts.result[PDU_GOOD], input->counts.datagrams, input->strangers,
              input->counts.result[PDU_SKIPPED], input->bad, input->foreign, input->echoes,
              gateway->without_effect);
+    log_info("told the world %" PRIu64 " tracks, %" PRIu64 " losses, %" PRIu64 " shots and %" PRIu64
+             " detonations of other simulators; %u entities are known",
+             gateway->remotes.tracks, gateway->remotes.lost, gateway->remotes.fires,
+             gateway->remotes.struck, gateway->remotes.table.count);
 }
 
 static void tell_sent(const struct gateway *gateway)
@@ -173,6 +187,7 @@ void gateway_close(struct gateway *gateway)
     entity_output_deactivate(&gateway->entities, &gateway->view, clock_now_ns());
     tell_sent(gateway);
     tell_received(gateway);
+    remote_input_close(&gateway->remotes);
     entity_output_close(&gateway->entities);
     command_socket_close(&gateway->commands);
 }

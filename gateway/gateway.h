@@ -7,6 +7,7 @@
 #include "gateway/event_output.h"
 #include "gateway/management.h"
 #include "gateway/pdu_input.h"
+#include "gateway/remote_input.h"
 #include "ipc/topics/command_socket.h"
 
 struct gateway {
@@ -14,6 +15,7 @@ struct gateway {
     struct type_table types;
     struct pdu_output output;
     struct pdu_input input;
+    struct remote_input remotes;
     uint64_t without_effect; /* PDUs that were received and that nothing here acts on */
     struct cot_output cot;
     struct command_socket commands; /* of management; connected when somebody may control us */

@@ -12,7 +12,7 @@
 #define PDU_INPUT_NONE "none" /* of gateway.listen */
 
 /* Datagrams that one call of pdu_input_receive() reads at most. */
-#define PDU_INPUT_DATAGRAMS 512u
+#define PDU_INPUT_DATAGRAMS 256u
 
 /* Takes a PDU that is good, of our exercise and not our own. from: the sender's address. now_ns:
  * the time of the clock at which it was read. */

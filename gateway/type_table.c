@@ -10,6 +10,7 @@
 #define WORDS_MAX  6
 #define LINE_BYTES 256
 #define ANY_FORCE  FORCE_COUNT
+#define LIFE_FORM  3 /* kind of a type of DIS */
 
 static const char *const forces[] = {
     [FORCE_NEUTRAL] = "neutral", [FORCE_BLUE] = "blue", [FORCE_RED] = "red", [ANY_FORCE] = "*"};
@@ -175,6 +176,7 @@ int type_table_read(struct type_table *table, const char *path, const struct kin
     int result = read_lines(&reading, file, path, kinds, kind_count, error);
     (void)fclose(file);
     for (uint32_t i = 0; i < kind_count && i < KIND_COUNT_MAX && result == 0; i++) {
+        table->munition[i] = kinds[i].domain == DOMAIN_MUNITION;
         for (int force = 0; force < FORCE_COUNT && kinds[i].domain < DOMAINS; force++) {
             if (choose(&table->row[i][force], &reading, &kinds[i], i, force) != 0)
                 return error_text_set(error, "%s: has no row of %s or %s", path, kinds[i].name,
@@ -188,4 +190,42 @@ const struct type_row *type_table_row(const struct type_table *table, uint16_t k
 {
     static const struct type_row none;
     return kind < KIND_COUNT_MAX && force < FORCE_COUNT ? &table->row[kind][force] : &none;
+}
+
+/* Returns how much a row has in common with a type, 0 when it does not fit. */
+static unsigned likeness(const struct type_row *row, struct pdu_entity_type type)
+{
+    const struct pdu_entity_type *own = &row->type;
+    if (!row->given || row->nearest || own->kind != type.kind || own->domain != type.domain)
+        return 0;
+    /* Category 0 says nothing. An animal or a soldier is like none of another category. */
+    bool alike = own->category == type.category && own->category != 0;
+    if (own->kind == LIFE_FORM && !alike)
+        return 0;
+    unsigned common = 1;
+    common += alike ? 64 : 0;
+    common += alike && own->subcategory == type.subcategory ? 32 : 0;
+    common += own->country == type.country ? 16 : 0;
+    common += own->specific == type.specific ? 8 : 0;
+    common += own->extra == type.extra ? 4 : 0;
+    return common;
+}
+
+uint16_t type_table_kind(const struct type_table *table, struct pdu_entity_type type, bool munition,
+                         bool *same)
+{
+    unsigned best = 0;
+    uint16_t kind = KIND_NONE;
+    *same = false;
+    for (uint32_t i = 0; i < KIND_COUNT_MAX; i++) {
+        for (int force = 0; force < FORCE_COUNT && table->munition[i] == munition; force++) {
+            unsigned common = likeness(&table->row[i][force], type);
+            if (common > best) {
+                best = common;
+                kind = (uint16_t)i;
+                *same = memcmp(&table->row[i][force].type, &type, sizeof type) == 0;
+            }
+        }
+    }
+    return kind;
 }

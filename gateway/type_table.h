@@ -22,6 +22,7 @@ struct type_row {
 
 struct type_table {
     struct type_row row[KIND_COUNT_MAX][FORCE_COUNT];
+    bool munition[KIND_COUNT_MAX];
 };
 
 /* Reads the file. Returns 0, or -1 with file, line and what would be right. Every kind that moves
@@ -31,5 +32,13 @@ int type_table_read(struct type_table *table, const char *path, const struct kin
 
 /* Returns the row of a kind and a force, and an empty one for a kind that does not exist. */
 const struct type_row *type_table_row(const struct type_table *table, uint16_t kind, uint8_t force);
+
+/* Returns the kind that a type of DIS is shown as, KIND_NONE when none fits: kind and domain of the
+ * type must be those of a row. Of the rows that fit, the one is chosen that has most of category,
+ * subcategory, country and specific in common, in this order of importance, and of equal ones the
+ * first kind. munition: whether the type is one of munitions. *same: the whole type is in the
+ * table. */
+uint16_t type_table_kind(const struct type_table *table, struct pdu_entity_type type, bool munition,
+                         bool *same);
 
 #endif

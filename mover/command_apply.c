@@ -3,6 +3,7 @@
 
 #include "mover/agent/driver_controls.h"
 #include "mover/motion/kinematics.h"
+#include "mover/remote_apply.h"
 #include "mover/weapon/fire.h"
 #include "mover/weapon/spawn.h"
 #include "mover/weapon/turret.h"
@@ -77,6 +78,8 @@ static enum command_result drive(struct serial_context *context, const struct co
     uint32_t row = vehicle_row(context, *entity);
     if (row == SLOT_NONE)
         return COMMAND_NO_SUCH_ENTITY;
+    if (remote_is(m, row))
+        return COMMAND_REMOTE;
     if (m->state[row] != ENTITY_ACTIVE)
         return COMMAND_CANNOT;
     if (taken(context, row, command))
@@ -111,6 +114,8 @@ static enum command_result release(struct serial_context *context, const struct 
     uint32_t row = vehicle_row(context, *entity);
     if (row == SLOT_NONE)
         return COMMAND_NO_SUCH_ENTITY;
+    if (remote_is(m, row))
+        return COMMAND_REMOTE;
     if (m->behaviour[row] != BEHAVIOUR_DRIVEN)
         return COMMAND_CANNOT;
     if (command->amount == 0 && taken(context, row, command))
@@ -145,6 +150,8 @@ static enum command_result fire(struct serial_context *context, const struct com
     uint32_t row = vehicle_row(context, *entity), target = SLOT_NONE;
     if (row == SLOT_NONE)
         return COMMAND_NO_SUCH_ENTITY;
+    if (remote_is(m, row))
+        return COMMAND_REMOTE;
     if (command->target != 0) {
         target = vehicle_row(context, command->target);
         if (target == SLOT_NONE)
@@ -241,6 +248,8 @@ static enum command_result remove_vehicle(struct serial_context *context,
     uint32_t row = vehicle_row(context, *entity);
     if (row == SLOT_NONE)
         return COMMAND_NO_SUCH_ENTITY;
+    if (remote_is(&context->moved->entities, row))
+        return COMMAND_REMOTE;
     spawn_remove(context, row);
     return COMMAND_DONE;
 }
@@ -339,9 +348,18 @@ static void apply_ring(struct serial_context *context, const struct command_sour
     uint32_t most = params->intents_per_frame < params->events_per_frame ? params->intents_per_frame
                                                                          : params->events_per_frame;
     uint64_t *cursor = &head->command_cursor[ring];
-    for (int n = 0; n < COMMANDS_A_FRAME && *cursor < source->end; n++) {
+    struct remote_inputs inputs = {.most = most, .ring = (uint8_t)ring};
+    for (int n = 0; n < COMMANDS_A_FRAME && *cursor < source->end;) {
         /* A copy, because the ring's writer could change the slot between a check and its use. */
         const struct command command = source->slot[*cursor & (source->slots - 1)];
+        if (ring == RING_GATEWAY && remote_is_record(command.type)) {
+            if (!remote_apply(context, &inputs, &command))
+                return;
+            ++*cursor;
+            continue;
+        }
+        inputs.event = NULL; /* the records after it have an event of their own, in their order */
+        n++;
         /* The answer needs room in the frame, and so does the command's own event. Without room the
          * command stays in its ring, so that every command taken is answered. */
         if (head->intent_count + 2 > most)

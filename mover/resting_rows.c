@@ -160,6 +160,7 @@ static enum rest rest_of(const struct step_context *context, uint32_t i, enum mo
                    : REST_TURNS;
     case MOTION_FLIGHT:
     case MOTION_ALONE:
+    case MOTION_REMOTE:
         break;
     }
     return REST_NONE;

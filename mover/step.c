@@ -15,6 +15,7 @@
 #include "mover/motion/ground/landing.h"
 #include "mover/motion/kinematics.h"
 #include "mover/motion/projectile.h"
+#include "mover/motion/remote_motion.h"
 #include "mover/motion/ship.h"
 #include "mover/motion/ground/wreck.h"
 #include "mover/weapon/fire.h"
@@ -344,6 +345,10 @@ static void move_row(const struct step_context *context, uint32_t i, struct batc
     case MOTION_COURSE:
     case MOTION_AGENT:
         move_held(context, i, batches);
+        break;
+    case MOTION_REMOTE:
+        if (!remote_motion_move(context, i))
+            leaves_world(context, batches, i);
         break;
     }
 }

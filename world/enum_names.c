@@ -15,7 +15,7 @@ WORDS(damage_name, damage, DAMAGE_COUNT, "none", "low", "med", "high", "destroye
 WORDS(entity_state_name, entity_state, ENTITY_STATE_COUNT, "free", "active", "wreck")
 WORDS(behaviour_name, behaviour, BEHAVIOUR_COUNT, "idle", "hold", "patrol", "route", "attack",
       "flee", "back_off", "driven", "flight", "follow", "script", "withdraw", "resupply",
-      "reposition")
+      "reposition", "remote")
 WORDS(formation_shape_name, formation_shape, FORMATION_SHAPE_COUNT, "column", "line", "wedge",
       "echelon-left", "echelon-right")
 WORDS(gear_name, gearing, GEAR_COUNT, "automatic", "reverse", "neutral", "low")
@@ -32,9 +32,13 @@ WORDS(mission_news_name, mission_news, MISSION_NEWS_COUNT, "phase", "reaction", 
       "result", "again")
 WORDS(contact_end_reason_name, contact_end_reason, CONTACT_END_REASON_COUNT, "parted", "gone",
       "no room")
-WORDS(command_ring_name, command_ring, COMMAND_RING_COUNT, "clients", "recorder")
+WORDS(command_ring_name, command_ring, COMMAND_RING_COUNT, "clients", "recorder",
+      "gateway")
 WORDS(command_type_name, command_type, COMMAND_TYPE_COUNT, "none", "pause", "resume", "step",
       "scale", "drive", "release", "fire", "spawn", "remove", "quit")
 WORDS(command_result_name, command_result, COMMAND_RESULT_COUNT, "done", "no such entity",
       "no such kind", "value out of range", "table full", "cannot do that now", "unknown command",
-      "somebody else drives it")
+      "somebody else drives it", "another simulator owns it")
+WORDS(remote_refusal_name, remote_refusal, REMOTE_REFUSAL_COUNT, "taken",
+      "not a record, or a value out of range", "no such kind", "world.remotes_max are there",
+      "table full", "it would jump", "no such entity")

@@ -9,6 +9,7 @@
 #include "world/entity/formation.h"
 #include "world/entity/kind.h"
 #include "world/entity/mission.h"
+#include "world/entity/remote.h"
 #include "world/terrain/terrain.h"
 
 const char *cover_name(enum cover cover);
@@ -31,5 +32,6 @@ const char *contact_end_reason_name(enum contact_end_reason reason);
 const char *command_ring_name(enum command_ring ring);
 const char *command_type_name(enum command_type type);
 const char *command_result_name(enum command_result result);
+const char *remote_refusal_name(enum remote_refusal refusal);
 
 #endif

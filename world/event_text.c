@@ -130,6 +130,20 @@ static void mission_text(char *text, const struct event *event, const char *cons
     }
 }
 
+static void input_text(char *text, const struct event *event, const char *const *kind)
+{
+    const struct event_input *input = &event->input;
+    (void)kind;
+    if (input->refused == 0)
+        (void)snprintf(text, EVENT_TEXT_MAX, "%u records of other simulators", input->count);
+    else
+        (void)snprintf(text, EVENT_TEXT_MAX,
+                       "%u records of other simulators, %u refused: of %u:%u:%u, %s", input->count,
+                       input->refused, (unsigned)(input->remote >> 32 & 0xffff),
+                       (unsigned)(input->remote >> 16 & 0xffff), (unsigned)(input->remote & 0xffff),
+                       remote_refusal_name((enum remote_refusal)input->because));
+}
+
 static const struct event_row {
     const char *word;
     void (*text)(char *text, const struct event *event, const char *const *kind);
@@ -168,6 +182,7 @@ void event_text_parties(const struct event *event,
     case EVENT_CRATER:
     case EVENT_COMMAND:
     case EVENT_MISSION:
+    case EVENT_INPUT:
     case EVENT_TYPE_COUNT:
         break;
     }

@@ -51,6 +51,9 @@ struct gateway_params {
     uint32_t application, applications; /* the first, and how many */
     uint32_t version;                   /* of DIS: 6 or 7 */
     uint32_t rate_ps;                   /* PDUs a second at most */
+    uint32_t clamp;                     /* 1: land vehicles of others are set on our ground */
+    uint32_t reserved;
+    double timeout_s;                   /* without an Entity State an entity of others is lost */
     double latitude_deg, longitude_deg; /* of the middle of the square */
     double undulation_m;                /* of the sea above the ellipsoid there */
     char cot[64];      /* where events of Cursor on Target are sent, "none": nowhere */
@@ -82,11 +85,11 @@ struct params {
     uint32_t event_slots;       /* power of two */
     uint32_t events_per_frame;  /* at most; 1 .. event_slots / 2, the loader sets / 8 */
     uint32_t intents_per_frame; /* at most */
-    uint32_t command_slots;     /* power of two, of each ring */
+    uint32_t command_slots;     /* power of two, of each ring but the gateway's */
     uint32_t crater_slots;
     uint32_t dent_slots;
     uint32_t contact_slots; /* persistent contacts at most, in each world buffer */
-    uint32_t reserved;
+    uint32_t remotes_max;   /* rows of remote entities at most (world/entity/remote.h) */
     uint32_t when_full; /* enum when_full */
     uint32_t initial_entities;
     double wind_mps, wind_from_rad; /* the air's speed, and the bearing from which it comes */

@@ -36,6 +36,7 @@ struct state_head {
     uint64_t event_end;    /* events of the run so far */
     uint64_t event_digest; /* over all of them, in order */
     uint64_t command_cursor[COMMAND_RING_COUNT]; /* commands taken from each ring */
+    /* Behind the cursor of the last ring, RING_GATEWAY: see state_digest(). */
     double time_scale; /* simulated seconds a second of the clock; pacing only */
     uint32_t paused;
     uint32_t steps_left; /* frames to advance while paused */
@@ -86,6 +87,8 @@ struct moved {
     struct block_hashes *hashes; /* as in struct state */
     struct event *intents; /* [params.intents_per_frame]; sequence, frame, index not yet set */
 };
+
+_Static_assert(RING_GATEWAY == COMMAND_RING_COUNT - 1, "its cursor is the last");
 
 /* Simulated time of a state [s]. */
 double state_time_s(const struct world *world, const struct state_head *head);

@@ -79,6 +79,7 @@ static const double *point_of(const struct event *event)
     case EVENT_CONTACT_END:
     case EVENT_COMMAND:
     case EVENT_MISSION:
+    case EVENT_INPUT:
     case EVENT_TYPE_COUNT:
         break;
     }

@@ -66,6 +66,10 @@ static void explain(struct http_answer *answer, const struct command_text *order
                           "wait until it is released, or take another one", "%s drives %u",
                           driver ? driver->name : "another client", command->entity);
         break;
+    case COMMAND_REMOTE:
+        http_answer_error(answer, HTTP_ANSWER_CONFLICT, "take a vehicle of this world",
+                          "another simulator owns %u", command->entity);
+        break;
     case COMMAND_CANNOT:
         explain_cannot(answer, order);
         break;

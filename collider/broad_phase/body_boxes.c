@@ -272,7 +272,8 @@ static void add_rows(const struct body_boxes *rows, struct sweep_worker *sweeper
         struct bin_record record = block->record[k];
         if (state[k] == ENTITY_FREE)
             continue;
-        record.tag |= block->rests[k] | (behaviour[k] == BEHAVIOUR_FLIGHT ? BIN_ROUND : 0);
+        record.tag |= block->rests[k] | (behaviour[k] == BEHAVIOUR_FLIGHT ? BIN_ROUND : 0) |
+                      (behaviour[k] == BEHAVIOUR_REMOTE ? BIN_REMOTE : 0);
         if (rows->wider && rows->wider[first + k] != BODY_BOX_EXACT)
             rows->wider[first + k] = record.tag & NOT_ALL_FOUND ? BODY_BOX_ASKED : BODY_BOX_WIDER;
         if (block->strip[k] < STRIP_COUNT)

@@ -23,6 +23,7 @@
 #define BIN_AIR    0x00400000u /* an aircraft: pair_filter_tests_fixed must be asked */
 #define BIN_LONG   0x00800000u /* a long path: in each strip it is narrower than its box */
 #define BIN_WIDE   0x01000000u /* wider than BIN_WIDE_STEPS, or long */
+#define BIN_REMOTE 0x02000000u /* a remote entity: no other one meets it */
 #define BIN_OBJECT 0x7fffffffu /* of a fixed object's tag: its index */
 #define BIN_SPANS  0x80000000u /* the body is in several strips */
 

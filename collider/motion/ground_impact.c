@@ -49,6 +49,8 @@ static bool vertices_meet(const struct method_input *input, const struct body_mo
 bool ground_impact_row(const struct method_input *input, const struct body_motion *motion,
                        uint32_t row, double *toi)
 {
+    if (input->entities->behaviour[row] == BEHAVIOUR_REMOTE)
+        return false; /* its owner knows where it touches down */
     if (!motion->models || input->entities->behaviour[row] == BEHAVIOUR_FLIGHT)
         return pair_filter_ground(input, &input->path[row], toi);
     return reaches(input, &input->path[row], row) && vertices_meet(input, motion, row, toi);

@@ -2,6 +2,7 @@
 #include "collider/motion/pair_filter.h"
 
 #include "world/entity/kind.h"
+#include "world/entity/remote.h"
 #include "world/params.h"
 #include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
@@ -123,9 +124,14 @@ bool pair_same_shooter(const struct entities *e, uint32_t a, uint32_t b)
     return round_a && round_b && e->owner_id[a] != 0 && e->owner_id[a] == e->owner_id[b];
 }
 
+bool pair_never_meets(const struct entities *e, uint32_t a, uint32_t b)
+{
+    return pair_same_shooter(e, a, b) || (remote_is(e, a) && remote_is(e, b));
+}
+
 bool pair_excluded(const struct method_input *input, uint32_t a, uint32_t b)
 {
-    if (pair_same_shooter(input->entities, a, b))
+    if (pair_never_meets(input->entities, a, b))
         return true;
     return pair_filter_rests(&input->path[a]) && pair_filter_rests(&input->path[b]);
 }

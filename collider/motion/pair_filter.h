@@ -118,7 +118,10 @@ static inline bool pair_filter_stands(const struct method_input *input, uint32_t
 /* Returns true for a round and its shooter, or two rounds of one shooter. They never collide. */
 bool pair_same_shooter(const struct entities *entities, uint32_t a, uint32_t b);
 
-/* Returns true for two rows that never collide: see pair_same_shooter, and two that rest. */
+/* The same, and for two remote entities: their owners tell what becomes of them. */
+bool pair_never_meets(const struct entities *entities, uint32_t a, uint32_t b);
+
+/* Returns true for two rows that do not collide: see pair_never_meets, and two that rest. */
 bool pair_excluded(const struct method_input *input, uint32_t a, uint32_t b);
 
 static inline bool pair_filter_boxes_meet(const struct path_box *a, const struct path_box *b)

@@ -66,7 +66,7 @@ static void meet(struct contact_queue *contacts, const struct contact_input *inp
         return;
     if (!fixed)
         body_motion_require(input->motion, other);
-    if (fixed || (resting ? !pair_same_shooter(input->detect.entities, pair.a, pair.b)
+    if (fixed || (resting ? !pair_never_meets(input->detect.entities, pair.a, pair.b)
                           : !pair_excluded(&input->detect, pair.a, pair.b)))
         contact_pairs_add(contacts, pair);
 }

@@ -6,6 +6,7 @@
 #include "collider/response/explosion.h"
 #include "collider/response/ground_event.h"
 #include "world/entity/kind.h"
+#include "world/entity/remote.h"
 #include "world/params.h"
 #include "world/state.h"
 #include "world/terrain/fallen.h"
@@ -41,7 +42,7 @@ static bool wreck(struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
     const struct kind *kind = &context->world->kinds[e->kind[row]];
-    if (e->state[row] != ENTITY_ACTIVE)
+    if (e->state[row] != ENTITY_ACTIVE || remote_is(e, row))
         return false;
     table_set_state(&context->writer, row, ENTITY_WRECK);
     table_set_flags(&context->writer, row,
@@ -145,8 +146,8 @@ void damage_row(struct response_context *context, uint32_t row, double joules, d
 {
     const struct entities *e = &context->next->entities;
     const struct kind *kind = &context->world->kinds[e->kind[row]];
-    if (e->state[row] != ENTITY_ACTIVE || !(joules > 0.0))
-        return;
+    if (e->state[row] != ENTITY_ACTIVE || !(joules > 0.0) || remote_is(e, row))
+        return; /* the owner of a remote entity decides what a hit does to it */
     table_set_harm_j(&context->writer, row, e->harm_j[row] + joules);
     enum damage damage = level(e->harm_j[row] / kind->resistance_j);
     if (damage == DAMAGE_DESTROYED)

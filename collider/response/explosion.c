@@ -411,6 +411,7 @@ void explosion_munition(struct response_context *context, uint32_t row, uint32_t
         event->detonation.point[2] = point.z;
         event->detonation.explosive_kg = (float)charge.explosive_kg;
         event->detonation.struck = what;
+        event->detonation.remote = e->order[row] == BEHAVIOUR_REMOTE;
     }
     bool buried = what == STRUCK_GROUND && e->flags[row] == FUZE_DELAY;
     if (what == STRUCK_GROUND && kind->craters)

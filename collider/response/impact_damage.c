@@ -5,6 +5,7 @@
 #include "collider/response/damage.h"
 #include "collider/response/deformation.h"
 #include "world/entity/dent.h"
+#include "world/entity/remote.h"
 #include "world/params.h"
 #include "world/state.h"
 #include "world/world.h"
@@ -56,7 +57,8 @@ static struct deformation deform(struct response_context *context, uint32_t row,
     struct deformation deformation = deformation_of(kind, joules);
     if (spring)
         dent_of_spring(kind, spring, &deformation);
-    if (deformation.plastic_m + deformation.elastic_m >= DEFORMATION_DENT_LEAST_M)
+    if (deformation.plastic_m + deformation.elastic_m >= DEFORMATION_DENT_LEAST_M &&
+        !remote_is(&context->next->entities, row))
         dent(context, row, impact, vec3_scale(impact->normal, side), &deformation);
     return deformation;
 }

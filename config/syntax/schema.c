@@ -2,6 +2,7 @@
 #include "config/syntax/schema_internal.h"
 #include "world/entity/entity.h"
 #include "world/entity/persistent_contact.h"
+#include "world/entity/remote.h"
 #include "world/making/scenario_settings.h"
 #include "world/param_values.h"
 #include "world/view_mode.h"
@@ -56,6 +57,9 @@ static const struct key scenario_keys[] = {
             .unset = "4 times `world.capacity`, at least 256",
             .meaning = "How many pairs of bodies can press on each other at one time. The world "
                        "counts the contacts for which there is no room, as `contacts_refused`."),
+    WHOLE32("world.remotes_max", S, params.remotes_max, 0, REMOTE_ROWS_MAX, "0",
+            .meaning = "How many vehicles of other simulators the world takes in at most "
+                       "([dis.md](dis.md)). They need room in `world.capacity`."),
     WHOLE64("world.frames", S, params.frame_limit, 0, SCHEMA_WHOLE_MAX, "0",
             .meaning = "The run ends with this frame. 0: the run has no last frame."),
     CHOICE("world.pace", S, params.pace, STORE_U32, WORDS(paces), "real",
@@ -202,6 +206,12 @@ static const struct key scenario_keys[] = {
     WHOLE32("gateway.rate", S, params.gateway.rate_ps, 1, 1000000, "5000",
             .meaning = "How many PDUs a second are sent at most. Those that are put off are sent "
                        "later, as they are then."),
+    BOOLEAN("gateway.clamp", S, params.gateway.clamp, STORE_U32, "true",
+            .meaning = "true: a land vehicle of another simulator is set on our ground where that "
+                       "is within 30 m of its place."),
+    NUMBER("gateway.timeout_s", S, params.gateway.timeout_s, 1, 3600, "12", .unit = "s",
+           .meaning = "An entity of another simulator is removed when no Entity State of it came "
+                      "for so long."),
     NUMBER("gateway.latitude_deg", S, params.gateway.latitude_deg, -89.9, 89.9, "35.95",
            .unit = "degrees", .meaning = "The latitude of the middle of the square, on WGS 84."),
     NUMBER("gateway.longitude_deg", S, params.gateway.longitude_deg, -180, 180, "-121.25",

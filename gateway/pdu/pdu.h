@@ -53,6 +53,7 @@ enum pdu_detonation_result {
     PDU_RESULT_GROUND_IMPACT = 3,
     PDU_RESULT_GROUND_PROXIMATE = 4,
     PDU_RESULT_DETONATION = 5,
+    PDU_RESULT_DUD = 6,
     PDU_RESULT_WATER = 14,
     PDU_RESULT_AIR_HIT = 17,
     PDU_RESULT_BUILDING = 18
@@ -101,7 +102,7 @@ struct pdu_entity_state {
     double location[3];   /* [m] ECEF */
     float orientation[3]; /* psi, theta, phi [rad]: gateway/earth/euler.h */
     uint32_t appearance;
-    uint8_t dead_reckoning;            /* gateway/earth/dead_reckoning.h */
+    uint8_t dead_reckoning;            /* world/maths/dead_reckoning.h */
     float acceleration[3];             /* [m/s^2] axes as for velocity */
     float angular_velocity[3];         /* [rad/s] body axes */
     uint8_t character_set;             /* 1: ASCII */

@@ -18,11 +18,38 @@ static bool command_known(const struct command_ring_words *words, const struct c
     return false;
 }
 
+/* Writes the next command. It counts from the store of the head on. */
+static void put(struct command_ring_words *words, uint64_t slots, uint64_t end,
+                const struct command *command)
+{
+    struct command *slot = &words->slot[end & (slots - 1)];
+    CRASH_POINT("command");
+    *slot = *command;
+    CRASH_POINT("command's sequence");
+    slot->sequence = end;
+    CRASH_POINT("command ring's head");
+    atomic_store_explicit(&words->head, end + 1, memory_order_release);
+}
+
+int command_append(struct view *view, enum command_ring ring, const struct command *command,
+                   uint64_t taken)
+{
+    struct command_ring_words *words = view->commands[ring];
+    uint64_t slots = layout_ring_slots(view->header, (int)ring);
+    uint64_t end = atomic_load_explicit(&words->head, memory_order_relaxed);
+    if (end - taken >= slots) {
+        errno = ENOBUFS;
+        return -1;
+    }
+    put(words, slots, end, command);
+    return 0;
+}
+
 int command_put(struct view *view, enum command_ring ring, const struct command *command)
 {
     struct command_ring_words *words = view->commands[ring];
     struct state_head head;
-    uint64_t slots = view->header->command_slots;
+    uint64_t slots = layout_ring_slots(view->header, (int)ring);
     uint64_t end = atomic_load_explicit(&words->head, memory_order_relaxed);
     bool full = snapshot_head(&head, view) != 0 || end - head.command_cursor[ring] >= slots;
     /* While there is room, the next slot is not searched. A writer that was killed before it stored
@@ -36,13 +63,7 @@ int command_put(struct view *view, enum command_ring ring, const struct command 
         errno = ENOBUFS;
         return -1;
     }
-    struct command *slot = &words->slot[end & (slots - 1)];
-    CRASH_POINT("command");
-    *slot = *command;
-    CRASH_POINT("command's sequence");
-    slot->sequence = end;
-    CRASH_POINT("command ring's head");
-    atomic_store_explicit(&words->head, end + 1, memory_order_release);
+    put(words, slots, end, command);
     doorbell_ring(view->doorbells, ROLE_MOVER);
     CRASH_POINT("after a command");
     return 0;

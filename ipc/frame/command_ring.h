@@ -9,4 +9,11 @@
  * the ring is full. */
 int command_put(struct view *view, enum command_ring ring, const struct command *command);
 
+/* Adds a record or command without looking for a repetition: for a writer of thousands a second
+ * that may say a thing twice. taken: a number up to which the mover has certainly taken the ring's
+ * commands, such as the cursor of a snapshot. Rings nobody. Returns 0, or -1 with ENOBUFS when the
+ * ring is full. */
+int command_append(struct view *view, enum command_ring ring, const struct command *command,
+                   uint64_t taken);
+
 #endif

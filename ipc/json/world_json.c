@@ -221,6 +221,20 @@ static void add_mission(cJSON *object, const struct event_mission *mission, cons
     }
 }
 
+static void add_input(cJSON *object, const struct event_input *input, const char *const *kind)
+{
+    (void)kind;
+    json_text(object, "ring", command_ring_name((enum command_ring)input->ring));
+    json_whole(object, "first", input->first);
+    json_whole(object, "count", input->count);
+    json_hex(object, "hash", input->hash);
+    json_whole(object, "refused", input->refused);
+    if (input->refused == 0)
+        return;
+    json_hex(object, "remote", input->remote);
+    json_text(object, "because", remote_refusal_name((enum remote_refusal)input->because));
+}
+
 void json_event_members(cJSON *object, const struct event *event,
                         const char *const kind[EVENT_TEXT_PARTIES])
 {

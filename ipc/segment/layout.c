@@ -24,6 +24,11 @@
 
 _Static_assert(sizeof(struct state_head) <= LAYOUT_HEAD_BYTES, "columns begin after the head");
 
+/* Records of a remote entity that fit into the ring: at one a second, so many seconds of the
+ * recorder are bridged. */
+#define INPUTS_PER_REMOTE 8u
+#define INPUT_SLOTS_MAX   (1u << 17)
+
 /* Bounds for a forged header; each is far above what a world needs. */
 #define POSTS_SIDE_MAX 4097u
 #define PART_MAX       (1u << 26)
@@ -69,6 +74,7 @@ static const char *const region_names[REGION_COUNT] = {
     [REGION_MOVED] = "moved table",
     [REGION_COMMANDS + RING_CLIENTS] = "commands (clients)",
     [REGION_COMMANDS + RING_RECORDER] = "commands (recorder)",
+    [REGION_COMMANDS + RING_GATEWAY] = "commands (gateway)",
     [REGION_DOORS] = "doorbells",
 };
 
@@ -88,6 +94,14 @@ size_t layout_contacts_offset(uint32_t capacity, uint32_t fixed)
 {
     size_t bytes = layout_table_bytes(capacity) + fixed;
     return (bytes + COLUMN_ALIGN - 1) / COLUMN_ALIGN * COLUMN_ALIGN;
+}
+
+uint32_t layout_input_slots(uint32_t command_slots, uint32_t remotes_max)
+{
+    uint32_t slots = command_slots;
+    while (slots < INPUT_SLOTS_MAX && slots < (uint64_t)INPUTS_PER_REMOTE * remotes_max)
+        slots *= 2;
+    return slots;
 }
 
 static bool power_of_two(uint32_t value)
@@ -114,6 +128,7 @@ static bool plausible(const struct segment_header *h)
     return h->capacity >= 1 && h->capacity <= CAPACITY_MAX && n->posts_side >= 2 &&
            n->posts_side <= POSTS_SIDE_MAX && power_of_two(h->event_slots) &&
            power_of_two(h->command_slots) && h->command_slots <= (1u << 20) &&
+           power_of_two(h->input_slots) && h->input_slots <= (1u << 20) &&
            h->crater_slots <= CRATER_SLOTS_MAX &&
            h->contact_slots <= PERSISTENT_CONTACT_SLOTS_MAX && n->missions <= MISSIONS_MAX &&
            n->objectives <= OBJECTIVES_MAX;
@@ -168,7 +183,7 @@ int layout_compute(struct layout *layout, const struct segment_header *h)
     b[REGION_MOVED] = layout_table_bytes(h->capacity) + h->intents_per_frame * sizeof(struct event);
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
         b[REGION_COMMANDS + i] =
-            sizeof(struct command_ring_words) + h->command_slots * sizeof(struct command);
+            sizeof(struct command_ring_words) + layout_ring_slots(h, i) * sizeof(struct command);
     b[REGION_DOORS] = sizeof(struct doorbells);
     for (int i = 0; i < ROLE_COUNT; i++)
         b[REGION_SLOTS + i] = ROLE_SLOT_BYTES;

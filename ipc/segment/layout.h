@@ -81,12 +81,22 @@ struct segment_header {
     struct counts counts;
     uint32_t capacity, event_slots, intents_per_frame, command_slots, crater_slots;
     uint32_t dent_slots, contact_slots;
-    uint32_t reserved;
+    uint32_t input_slots; /* of the gateway's ring */
     uint64_t made;        /* random number of this creation, also in its images */
     uint64_t origin;      /* hash of the image it was made from (image_segment()); 0: none */
     uint64_t first_event; /* the first event of the ring: 0, or the image's next event */
     uint64_t head_hash;   /* XXH3 over the words above but magic */
 };
+
+/* Returns the number of slots of a command ring, a power of two. */
+static inline uint32_t layout_ring_slots(const struct segment_header *header, int ring)
+{
+    return ring == RING_GATEWAY ? header->input_slots : header->command_slots;
+}
+
+/* Returns how many slots the gateway's ring has in a world for so many remote entities: records of
+ * some seconds. */
+uint32_t layout_input_slots(uint32_t command_slots, uint32_t remotes_max);
 
 struct layout {
     size_t offset[REGION_COUNT];

@@ -47,7 +47,8 @@
     X(RENDERER_4, "renderer-4", renderer, ROLE_RINGS | ROLE_DRAWS, REGION_COUNT, REGION_COUNT, 0,  \
       0)                                                                                           \
     X(CONSOLE, "console", console, 0, REGION_COUNT, REGION_COUNT, 6, 5)                            \
-    X(GATEWAY, "gateway", gateway, 0, REGION_COUNT, REGION_COUNT, 7, 8)
+    X(GATEWAY, "gateway", gateway, ROLE_RINGS, REGION_COMMANDS + RING_GATEWAY,                     \
+      REGION_COMMANDS + RING_GATEWAY, 7, 8)
 
 enum role {
 #define X(tag, ...) ROLE_##tag,

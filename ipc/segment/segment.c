@@ -101,14 +101,16 @@ void segment_bind(struct view *view)
 
 struct segment_header segment_header_for(const struct params *params, const struct counts *counts)
 {
-    return (struct segment_header){.counts = *counts,
-                                   .capacity = params->capacity,
-                                   .event_slots = params->event_slots,
-                                   .intents_per_frame = params->intents_per_frame,
-                                   .command_slots = params->command_slots,
-                                   .crater_slots = params->crater_slots,
-                                   .dent_slots = params->dent_slots,
-                                   .contact_slots = params->contact_slots};
+    return (struct segment_header){
+        .counts = *counts,
+        .capacity = params->capacity,
+        .event_slots = params->event_slots,
+        .intents_per_frame = params->intents_per_frame,
+        .command_slots = params->command_slots,
+        .crater_slots = params->crater_slots,
+        .dent_slots = params->dent_slots,
+        .contact_slots = params->contact_slots,
+        .input_slots = layout_input_slots(params->command_slots, params->remotes_max)};
 }
 
 static int reserve(int fd, size_t bytes, struct error_text *error)

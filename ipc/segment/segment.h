@@ -39,7 +39,7 @@ struct moved_word {                      /* only writer: mover */
 
 struct command_ring_words {             /* only writer: the ring's process */
     _Alignas(64) _Atomic uint64_t head; /* commands ever written */
-    _Alignas(64) struct command slot[]; /* [command_slots] */
+    _Alignas(64) struct command slot[]; /* [layout_ring_slots()] */
 };
 
 /* Loads a frame word or a ring's head with acquire order. */

@@ -118,7 +118,8 @@ int segment_params_fit(const struct params *params, const struct segment_header 
         params->intents_per_frame != header->intents_per_frame ||
         params->command_slots != header->command_slots ||
         params->crater_slots != header->crater_slots || params->dent_slots != header->dent_slots ||
-        params->contact_slots != header->contact_slots)
+        params->contact_slots != header->contact_slots ||
+        layout_input_slots(params->command_slots, params->remotes_max) != header->input_slots)
         return error_text_set(error, "%s: params: do not fit the header", path);
     if (params->events_per_frame == 0 || params->events_per_frame > params->event_slots / 2)
         return error_text_set(

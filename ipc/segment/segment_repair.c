@@ -54,11 +54,11 @@ static int commands_kept(const struct view *view, uint64_t frame, struct error_t
     for (int i = 0; i < COMMAND_RING_COUNT; i++) {
         uint64_t cursor = view->w[frame & 1].head->command_cursor[i];
         uint64_t head = atomic_load(&view->commands[i]->head);
-        if (head - cursor > view->header->command_slots)
+        if (head - cursor > layout_ring_slots(view->header, i))
             return error_text_set(report,
                                   "ring %d holds the last %u commands, and %" PRIu64
                                   " came since frame %" PRIu64,
-                                  i, view->header->command_slots, head - cursor, frame);
+                                  i, layout_ring_slots(view->header, i), head - cursor, frame);
     }
     return 0;
 }

@@ -438,6 +438,8 @@ const char *command_text_advice(const struct command_text *order, jolon_CommandR
         return order->command.type == jolon_COMMAND_RELEASE
                    ? "; release it anyway, or wait until its driver lets go"
                    : "; wait until its driver lets go, or take it from him: release anyway";
+    case jolon_RESULT_REMOTE:
+        return "; it came by the gateway, and only its owner moves, fires or removes it";
     case jolon_RESULT_OUT_OF_RANGE:
         return order->command.type == jolon_COMMAND_SPAWN
                    ? "; a ship needs water, what drives needs land, and all of them a place on the "

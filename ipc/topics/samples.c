@@ -93,7 +93,7 @@ static bool good_entity(const jolon_Entity *entity)
         entity->fuel_l,    entity->throttle, entity->spool,      entity->reload_s,
     };
     bool good = entity->state <= jolon_ENTITY_WRECK && entity->force <= jolon_FORCE_RED &&
-                entity->behaviour <= jolon_BEHAVIOUR_REPOSITION &&
+                entity->behaviour <= jolon_BEHAVIOUR_REMOTE &&
                 entity->damage <= jolon_DAMAGE_DESTROYED && entity->gear <= jolon_GEAR_LOW &&
                 number(entity->x_m) && number(entity->y_m) && number(entity->z_m);
     for (size_t i = 0; good && i < sizeof numbers / sizeof numbers[0]; i++)
@@ -154,8 +154,8 @@ static bool good_crater(const jolon_CraterEvent *event)
 
 static bool good_agent(jolon_AgentEvent *event)
 {
-    return party(&event->agent) && event->before <= jolon_BEHAVIOUR_REPOSITION &&
-           event->after <= jolon_BEHAVIOUR_REPOSITION && event->because <= jolon_REASON_LEFT_WORLD;
+    return party(&event->agent) && event->before <= jolon_BEHAVIOUR_REMOTE &&
+           event->after <= jolon_BEHAVIOUR_REMOTE && event->because <= jolon_REASON_LEFT_WORLD;
 }
 
 static bool good_contact_end(jolon_ContactEndEvent *event)

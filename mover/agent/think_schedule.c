@@ -36,6 +36,8 @@ static enum motion motion_of(const struct step_context *context, uint32_t i)
     const struct entities *m = context->m;
     if (m->state[i] == ENTITY_FREE)
         return MOTION_NONE;
+    if (m->behaviour[i] == BEHAVIOUR_REMOTE)
+        return MOTION_REMOTE;
     if (m->state[i] == ENTITY_WRECK)
         return MOTION_WRECK;
     if (m->behaviour[i] == BEHAVIOUR_FLIGHT)
@@ -62,7 +64,8 @@ static bool spins_first(const struct step_context *context, enum motion how, uin
 {
     enum domain domain = (enum domain)context->world->kinds[context->m->kind[i]].domain;
     bool body = domain != DOMAIN_SEA && (context->m->flags[i] & ENTITY_FLAG_CHASSIS) != 0;
-    return (how == MOTION_HOLD && !body) || (how > MOTION_HOLD && domain != DOMAIN_LAND && !body);
+    return (how == MOTION_HOLD && !body) ||
+           (how > MOTION_HOLD && how != MOTION_REMOTE && domain != DOMAIN_LAND && !body);
 }
 
 static void sort(const struct step_context *context, const struct row_block *block, uint8_t *motion,

@@ -16,6 +16,7 @@ enum motion {
     MOTION_COURSE, /* an agent that has not decided: by its controls */
     MOTION_AGENT,  /* an agent that has decided: also by its controls */
     MOTION_ALONE,  /* on a script or driven: it decides as it moves */
+    MOTION_REMOTE, /* by dead reckoning: another simulator owns it */
 };
 
 #define ROW_BLOCK_WORDS (CHECKSUM_ROWS / 64u)

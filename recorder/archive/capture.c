@@ -23,7 +23,7 @@ int capture_init(struct capture *capture, const struct view *view)
         return -1;
     bool complete = true;
     for (int i = 0; i < COMMAND_RING_COUNT; i++) {
-        capture->ring[i].slot = calloc(header->command_slots, sizeof(struct command));
+        capture->ring[i].slot = calloc(layout_ring_slots(header, i), sizeof(struct command));
         complete = complete && capture->ring[i].slot;
     }
     capture->memory = aligned_alloc(COLUMN_ALIGN, entities_bytes(header->capacity));
@@ -77,7 +77,7 @@ static bool take_ring(struct capture *capture, const struct view *view, int ring
 {
     const struct command_ring_words *words = view->commands[ring];
     struct command *slot = capture->ring[ring].slot;
-    uint64_t slots = view->header->command_slots, mask = slots - 1;
+    uint64_t slots = layout_ring_slots(view->header, ring), mask = slots - 1;
     uint64_t cursor = capture->snapshot.head.command_cursor[ring];
     uint64_t first = end > slots ? end - slots : 0;
     struct state_head now;

@@ -12,7 +12,7 @@ struct capture {
     struct snapshot snapshot;
     struct {
         uint64_t first, end;  /* slot holds the commands first .. end - 1 */
-        struct command *slot; /* [command_slots] */
+        struct command *slot; /* [layout_ring_slots()] */
     } ring[COMMAND_RING_COUNT];
     bool inputs; /* moved belongs to the frame after the snapshot's */
     struct state_head moved_head;

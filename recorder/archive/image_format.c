@@ -59,7 +59,7 @@ uint32_t image_parts(const struct image_header *header, const struct image_table
     add(&list, view->w[0].craters, header->craters * sizeof(struct crater));
     add(&list, view->w[0].dents, header->dents * sizeof(struct dent));
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
-        add_ring(&list, tables->ring[i], segment->command_slots, header->ring_first[i],
+        add_ring(&list, tables->ring[i], layout_ring_slots(segment, i), header->ring_first[i],
                  header->ring_end[i]);
     if (header->inputs) {
         add(&list, tables->moved.head, sizeof *tables->moved.head);

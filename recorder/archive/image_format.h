@@ -44,7 +44,7 @@ struct image_tables {
     const struct view *view;                  /* for its static regions, craters and dents */
     struct state state;                       /* the committed frame */
     struct moved moved;                       /* used only if the header has inputs */
-    struct command *ring[COMMAND_RING_COUNT]; /* [command_slots]: command n at n & (slots - 1) */
+    struct command *ring[COMMAND_RING_COUNT]; /* [layout_ring_slots()]: command n at n & (slots - 1) */
 };
 
 struct image_part {

@@ -51,7 +51,7 @@ static bool counts_fit(const struct image_header *header, struct layout *layout)
         return false;
     for (int i = 0; i < COMMAND_RING_COUNT; i++) {
         if (header->ring_first[i] > header->ring_end[i] ||
-            header->ring_end[i] - header->ring_first[i] > segment->command_slots)
+            header->ring_end[i] - header->ring_first[i] > layout_ring_slots(segment, i))
             return false;
     }
     return true;

@@ -8,6 +8,7 @@
 #include "ipc/process/log.h"
 #include "ipc/json/world_json.h"
 #include "ipc/segment/segment_check.h"
+#include "world/entity/remote.h"
 #include "world/params.h"
 #include "world/provenance.h"
 
@@ -162,6 +163,41 @@ static void put_command(struct command_log *log, const struct event *event)
     put(log, &record);
 }
 
+/* Copies records from their ring. Returns false if the ring has gone round since: their hash is
+ * that which the frame has noted. */
+static bool take_inputs(struct command *to, const struct view *view,
+                        const struct event_input *input)
+{
+    const struct command_ring_words *words = view->commands[input->ring];
+    uint64_t slots = layout_ring_slots(view->header, input->ring), hash = 0;
+    for (uint32_t i = 0; i < input->count; i++) {
+        to[i] = words->slot[(input->first + i) & (slots - 1)];
+        hash = remote_record_hash(&to[i], hash);
+    }
+    return hash == input->hash;
+}
+
+/* Writes the records of other simulators that a frame has taken. */
+static void put_inputs(struct command_log *log, const struct view *view, const struct event *event)
+{
+    static struct command inputs[COMMAND_RECORD_INPUTS_MAX];
+    const struct event_input *input = &event->input;
+    struct command_record record = {.type = RECORD_INPUTS,
+                                    .at = {event->frame, event->sequence + 1, log->at.commands},
+                                    .inputs = inputs,
+                                    .input_count = input->count,
+                                    .input_ring = input->ring};
+    bool whole = input->ring < COMMAND_RING_COUNT && input->count > 0 &&
+                 input->count <= COMMAND_RECORD_INPUTS_MAX && take_inputs(inputs, view, input);
+    if (!whole) {
+        log_warn("%u inputs of other simulators lost: their ring had gone round; the run cannot be "
+                 "replayed beyond frame %" PRIu64,
+                 input->count, log->at.frame);
+        record.type = RECORD_GAP;
+    }
+    put(log, &record);
+}
+
 static void put_mark(struct command_log *log)
 {
     put_gap(log, &log->mark.at);
@@ -204,6 +240,8 @@ bool command_log_append(struct command_log *log, const struct view *view)
             put_mark(log);
         if (events[i].type == EVENT_COMMAND)
             put_command(log, &events[i]);
+        else if (events[i].type == EVENT_INPUT)
+            put_inputs(log, view, &events[i]);
     }
     if (log->marking && log->cursor.next >= log->mark.at.events)
         put_mark(log);

@@ -6,12 +6,13 @@
 #include "world/enum_names.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const names[RECORD_TYPE_COUNT] = {"begin", "command", "mark",
-                                                     "end",   "resumed", "gap"};
+static const char *const names[RECORD_TYPE_COUNT] = {"begin",   "command", "mark",  "end",
+                                                     "resumed", "gap",     "inputs"};
 
 const char *record_type_name(enum record_type type)
 {
@@ -60,6 +61,30 @@ static void put_command(cJSON *object, const struct event_command *command)
     json_text(object, "result", command_result_name((enum command_result)command->result));
 }
 
+/* What is written of an input: all but its number in the ring. */
+#define INPUT_AT     offsetof(struct command, source)
+#define INPUT_BYTES  (sizeof(struct command) - INPUT_AT)
+#define INPUT_DIGITS (2 * INPUT_BYTES)
+
+static void put_inputs(cJSON *object, const struct command_record *record)
+{
+    static const char digit[] = "0123456789abcdef";
+    char *text = malloc((size_t)record->input_count * INPUT_DIGITS + 1), *to = text;
+    json_text(object, "ring", command_ring_name((enum command_ring)record->input_ring));
+    json_whole(object, "count", record->input_count);
+    for (uint32_t i = 0; text && i < record->input_count; i++) {
+        const unsigned char *bytes = (const unsigned char *)&record->inputs[i];
+        for (size_t b = INPUT_AT; b < sizeof(struct command); b++) {
+            *to++ = digit[bytes[b] >> 4];
+            *to++ = digit[bytes[b] & 15];
+        }
+    }
+    if (text)
+        *to = '\0';
+    json_text(object, "records", text ? text : "");
+    free(text);
+}
+
 cJSON *command_record_json(const struct command_record *record)
 {
     cJSON *object = cJSON_CreateObject();
@@ -77,6 +102,9 @@ cJSON *command_record_json(const struct command_record *record)
         break;
     case RECORD_GAP:
         json_whole(object, "lost", record->lost);
+        break;
+    case RECORD_INPUTS:
+        put_inputs(object, record);
         break;
     default:
         break;
@@ -140,6 +168,48 @@ static bool read_ring(const cJSON *object, uint8_t *ring)
     return false;
 }
 
+/* Returns the value of a lower-case hex digit, -1 for another character. */
+static int digit_value(char digit)
+{
+    if (digit >= '0' && digit <= '9')
+        return digit - '0';
+    return digit >= 'a' && digit <= 'f' ? digit - 'a' + 10 : -1;
+}
+
+static bool read_input(struct command *input, const char *text)
+{
+    unsigned char *bytes = (unsigned char *)input + INPUT_AT;
+    input->sequence = 0;
+    for (size_t i = 0; i < INPUT_BYTES; i++) {
+        int high = digit_value(text[2 * i]), low = digit_value(text[2 * i + 1]);
+        if (high < 0 || low < 0)
+            return false;
+        bytes[i] = (unsigned char)(high << 4 | low);
+    }
+    return true;
+}
+
+static bool read_inputs(struct command_record *record, const cJSON *object)
+{
+    const cJSON *item = cJSON_GetObjectItemCaseSensitive(object, "records");
+    uint64_t count;
+    if (!record_whole(object, "count", COMMAND_RECORD_INPUTS_MAX, &count) || count == 0 ||
+        !read_ring(object, &record->input_ring) || !cJSON_IsString(item) ||
+        strlen(item->valuestring) != count * INPUT_DIGITS)
+        return false;
+    record->inputs = malloc((size_t)count * sizeof *record->inputs);
+    bool good = record->inputs != NULL;
+    for (uint32_t i = 0; good && i < count; i++)
+        good = read_input(&record->inputs[i], item->valuestring + i * INPUT_DIGITS);
+    if (!good) {
+        free(record->inputs);
+        record->inputs = NULL;
+        return false;
+    }
+    record->input_count = (uint32_t)count;
+    return true;
+}
+
 static bool read_command(struct event_command *command, const cJSON *object)
 {
     uint64_t code, entity, target, amount, kind, force;
@@ -191,6 +261,8 @@ bool command_record_read(struct command_record *record, const cJSON *object)
         return record_hex(object, "event_digest", &record->event_digest);
     case RECORD_GAP:
         return record_whole(object, "lost", RECORD_WHOLE_MAX, &record->lost);
+    case RECORD_INPUTS:
+        return read_inputs(record, object);
     default:
         return true;
     }

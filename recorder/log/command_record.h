@@ -23,7 +23,8 @@ enum record_type {
     RECORD_MARK,    /* the run has reached this frame */
     RECORD_END,     /* the recorder ended as asked: the last mark */
     RECORD_RESUMED, /* a recorder continued the log after its end */
-    RECORD_GAP,     /* commands are lost */
+    RECORD_GAP,     /* commands or inputs are lost */
+    RECORD_INPUTS,  /* records of other simulators, applied in that frame one after the other */
     RECORD_TYPE_COUNT
 };
 
@@ -40,14 +41,20 @@ struct command_record {
     struct event_command command;  /* RECORD_COMMAND */
     uint64_t digest, event_digest; /* RECORD_MARK, RECORD_END */
     bool digested;                 /* digest is known, not only event_digest */
-    uint64_t lost;                 /* RECORD_GAP */
+    uint64_t lost;                 /* RECORD_GAP: commands; 0 if inputs are lost */
+    struct command *inputs;        /* RECORD_INPUTS [input_count], without their sequence */
+    uint32_t input_count;
+    uint8_t input_ring; /* enum command_ring */
 };
+
+/* Records of other simulators in one record of the log, at most. */
+#define COMMAND_RECORD_INPUTS_MAX 4096u
 
 /* Returns the record as a JSON object, which the caller deletes. Not for RECORD_BEGIN. */
 cJSON *command_record_json(const struct command_record *record);
 
 /* Reads a record; of RECORD_BEGIN only type and position. Returns false if the object is not a
- * record. */
+ * record, or if there is no memory for its inputs, which the caller frees. */
 bool command_record_read(struct command_record *record, const cJSON *object);
 
 /* Reads the value of 16 hex digits called key. Returns false if the object has none. */

@@ -43,7 +43,8 @@ void frame_stepper_sources(const struct view *view,
                            struct command_source sources[COMMAND_RING_COUNT])
 {
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
-        sources[i] = (struct command_source){view->commands[i]->slot, view->header->command_slots,
+        sources[i] = (struct command_source){view->commands[i]->slot,
+                                             layout_ring_slots(view->header, i),
                                              atomic_load(&view->commands[i]->head)};
 }
 

@@ -92,6 +92,12 @@ static int read_begin(struct log_replay *replay, const char *line, struct error_
     return 0;
 }
 
+/* Returns true for what a frame takes from a ring. */
+static bool is_input(const struct command_record *record)
+{
+    return record->type == RECORD_COMMAND || record->type == RECORD_INPUTS;
+}
+
 /* Returns true if the record can follow the position before. */
 static bool follows(const struct record_position *before, const struct command_record *record)
 {
@@ -104,7 +110,7 @@ static bool follows(const struct record_position *before, const struct command_r
     if (record->type == RECORD_GAP)
         commands += record->lost;
     return at->frame >= before->frame && at->events >= before->events && at->commands == commands &&
-           (record->type != RECORD_COMMAND || at->frame > 0);
+           (!is_input(record) || at->frame > 0);
 }
 
 /* The log's last command may be followed by further commands of the same frame that a kill kept out
@@ -113,7 +119,7 @@ static void note_known(struct log_replay *replay, const struct command_record *r
 {
     replay->gap |= record->type == RECORD_GAP;
     if (!replay->gap)
-        replay->known_frame = record->at.frame - (record->type == RECORD_COMMAND);
+        replay->known_frame = record->at.frame - is_input(record);
 }
 
 static int add_record(struct log_replay *replay, uint32_t *capacity, const char *line,
@@ -178,6 +184,8 @@ err:
 void log_replay_close(struct log_replay *replay)
 {
     free(replay->text);
+    for (uint32_t i = 0; i < replay->count; i++)
+        free(replay->record[i].inputs);
     free(replay->record);
     cJSON_Delete(replay->begin);
     *replay = (struct log_replay){0};
@@ -219,12 +227,18 @@ static void empty_rings(const struct view *view, const struct state_head *head)
         atomic_store(&view->commands[i]->head, head->command_cursor[i]);
 }
 
+static void put_slot(const struct view *view, uint8_t ring, struct command command)
+{
+    struct command_ring_words *words = view->commands[ring];
+    uint64_t at = atomic_load(&words->head);
+    command.sequence = at;
+    words->slot[at & (layout_ring_slots(view->header, ring) - 1)] = command;
+    atomic_store(&words->head, at + 1);
+}
+
 static void put_command(const struct view *view, const struct event_command *given)
 {
-    struct command_ring_words *words = view->commands[given->ring];
-    uint64_t at = atomic_load(&words->head);
-    struct command command = {.sequence = at,
-                              .source = given->source,
+    struct command command = {.source = given->source,
                               .source_sequence = given->sequence,
                               .type = given->type,
                               .entity = given->given,
@@ -233,8 +247,7 @@ static void put_command(const struct view *view, const struct event_command *giv
                               .kind = given->kind,
                               .force = given->force};
     memcpy(command.value, given->value, sizeof command.value);
-    words->slot[at & (view->header->command_slots - 1)] = command;
-    atomic_store(&words->head, at + 1);
+    put_slot(view, given->ring, command);
 }
 
 /* Puts the frame's commands into the rings and returns their number. */
@@ -243,9 +256,12 @@ static uint32_t put_commands(struct log_replay *replay, const struct view *view,
     uint32_t count = 0;
     for (; replay->next < replay->count; replay->next++, count++) {
         const struct command_record *record = &replay->record[replay->next];
-        if (record->type != RECORD_COMMAND || record->at.frame != frame)
+        if (!is_input(record) || record->at.frame != frame)
             break;
-        put_command(view, &record->command);
+        if (record->type == RECORD_COMMAND)
+            put_command(view, &record->command);
+        for (uint32_t i = 0; i < record->input_count; i++)
+            put_slot(view, record->input_ring, record->inputs[i]);
     }
     return count;
 }

@@ -12,13 +12,13 @@
 _Static_assert((int)jolon_COMMAND_QUIT == (int)COMMAND_QUIT &&
                    (int)COMMAND_TYPE_COUNT == (int)jolon_COMMAND_QUIT + 1,
                "command types in ipc/topics/status.idl");
-_Static_assert((int)jolon_RESULT_TAKEN == (int)COMMAND_TAKEN &&
-                   (int)COMMAND_RESULT_COUNT == (int)jolon_RESULT_TAKEN + 1,
+_Static_assert((int)jolon_RESULT_REMOTE == (int)COMMAND_REMOTE &&
+                   (int)COMMAND_RESULT_COUNT == (int)jolon_RESULT_REMOTE + 1,
                "command results in ipc/topics/status.idl");
 _Static_assert((int)jolon_FORCE_RED == (int)FORCE_RED && (int)FORCE_COUNT == FORCE_RED + 1,
                "forces in ipc/topics/status.idl");
-_Static_assert((int)jolon_BEHAVIOUR_REPOSITION == (int)BEHAVIOUR_REPOSITION &&
-                   (int)BEHAVIOUR_COUNT == (int)jolon_BEHAVIOUR_REPOSITION + 1,
+_Static_assert((int)jolon_BEHAVIOUR_REMOTE == (int)BEHAVIOUR_REMOTE &&
+                   (int)BEHAVIOUR_COUNT == (int)jolon_BEHAVIOUR_REMOTE + 1,
                "behaviours in ipc/topics/status.idl");
 _Static_assert((int)jolon_GEAR_LOW == (int)GEAR_LOW && (int)GEAR_COUNT == (int)jolon_GEAR_LOW + 1,
                "gears in ipc/topics/status.idl");

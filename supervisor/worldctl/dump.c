@@ -6,6 +6,7 @@
 #include "ipc/process/log.h"
 #include "recorder/replay/arguments.h"
 #include "ipc/json/world_json.h"
+#include "world/entity/remote.h"
 #include "world/entity/grounded.h"
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
@@ -18,6 +19,15 @@
 static double reload_s(const struct world *world, const struct state_head *head, uint32_t tick)
 {
     return tick > head->tick ? (double)(tick - head->tick) * world_dt_s(world) : 0.0;
+}
+
+/* Adds the identifier of an entity at its owner. */
+static void add_remote(cJSON *object, uint64_t remote)
+{
+    char text[24];
+    (void)snprintf(text, sizeof text, "%u:%u:%u", (unsigned)(remote >> 32 & 0xffff),
+                   (unsigned)(remote >> 16 & 0xffff), (unsigned)(remote & 0xffff));
+    json_text(object, "remote", text);
 }
 
 static cJSON *entity_json(const struct world *world, const struct state_head *head,
@@ -47,6 +57,8 @@ static cJSON *entity_json(const struct world *world, const struct state_head *he
     json_number(object, "throttle", (double)e->throttle[i]);
     json_text(object, "gear", gear_name(entity_gear(e->flags[i])));
     json_text(object, "behaviour", behaviour_name((enum behaviour)e->behaviour[i]));
+    if (remote_is(e, i))
+        add_remote(object, e->driver[i]);
     return object;
 }
 

@@ -25,7 +25,7 @@ static int run_mover(struct view *view)
     while (frame_protocol_mover_begin(&frame, view) == 0) {
         for (int i = 0; i < COMMAND_RING_COUNT; i++)
             sources[i] = (struct command_source){
-                view->commands[i]->slot, view->header->command_slots, frame.command_head[i]};
+                view->commands[i]->slot, layout_ring_slots(view->header, i), frame.command_head[i]};
         mover_step(&mover, &view->w[(frame.number - 1) & 1], &view->m, sources);
         frame_protocol_mover_end(&frame, view);
     }

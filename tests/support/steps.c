@@ -138,7 +138,7 @@ void steps_send(struct fixture *fixture, enum command_ring ring, struct command 
     struct command_ring_words *words = fixture->view.commands[ring];
     uint64_t head = atomic_load(&words->head);
     command.sequence = head;
-    words->slot[head & (fixture->view.header->command_slots - 1)] = command;
+    words->slot[head & (layout_ring_slots(fixture->view.header, (int)ring) - 1)] = command;
     atomic_store(&words->head, head + 1);
 }
 

@@ -10,6 +10,7 @@
 enum command_ring {
     RING_CLIENTS,  /* of all clients of the command socket */
     RING_RECORDER, /* pauses and resumes, as recorder.when_full requests */
+    RING_GATEWAY,  /* what other simulators say (remote.h), and commands of the gateway */
     COMMAND_RING_COUNT
 };
 
@@ -42,6 +43,7 @@ enum command_result {
     COMMAND_CANNOT,  /* no rounds, destroyed, still reloading, not paused; the spot is crowded */
     COMMAND_UNKNOWN, /* not a type */
     COMMAND_TAKEN,   /* another source drives it */
+    COMMAND_REMOTE,  /* another simulator owns it (remote.h) */
     COMMAND_RESULT_COUNT
 };
 

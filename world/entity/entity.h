@@ -40,6 +40,7 @@ enum behaviour {
     BEHAVIOUR_WITHDRAW,   /* to its force's base, for rounds or fuel, or hurt */
     BEHAVIOUR_RESUPPLY,   /* there, until it has them */
     BEHAVIOUR_REPOSITION, /* to another place from which it can fire at its target */
+    BEHAVIOUR_REMOTE,     /* as its owner, another simulator, tells (remote.h) */
     BEHAVIOUR_COUNT
 };
 

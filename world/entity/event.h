@@ -13,7 +13,7 @@
  * ipc/topics/samples.c and read_WORD() in event_reading.c. The topics are
  * in the order of their rows.
  * An answer to a command has no topic here: the reporter publishes it as a CommandReply. Missions
- * have none, as status has their state. */
+ * have none, as status has their state. Inputs have none, as they are for the recorder. */
 #define EVENT_TYPES_WITH_TOPIC(X)                                                                  \
     X(COLLISION, collision)                                                                        \
     X(FIRE, fire)                                                                                  \
@@ -21,7 +21,8 @@
     X(CRATER, crater)                                                                              \
     X(AGENT, agent)                                                                                \
     X(CONTACT_END, contact_end)
-#define EVENT_TYPES(X) EVENT_TYPES_WITH_TOPIC(X) X(COMMAND, command) X(MISSION, mission)
+#define EVENT_TYPES(X)                                                                             \
+    EVENT_TYPES_WITH_TOPIC(X) X(COMMAND, command) X(MISSION, mission) X(INPUT, input)
 
 enum event_type {
     EVENT_NONE,
@@ -124,7 +125,9 @@ struct event_detonation {
     struct event_party munition, struck_party;
     double point[3];
     float explosive_kg;
-    uint32_t struck; /* enum struck */
+    uint32_t struck;   /* enum struck */
+    uint32_t remote;   /* 1: another simulator said that it detonates here (remote.h) */
+    uint32_t reserved; /* 0 */
 };
 
 struct event_crater {
@@ -163,6 +166,20 @@ struct event_command {
     uint32_t number; /* commands of the run before it, modulo 2^32 */
 };
 
+/* A frame has taken records of the gateway's ring (remote.h). The records themselves are in the
+ * ring, which the recorder reads: with 10,000 of them a second, an event for each would drown the
+ * others. */
+struct event_input {
+    uint64_t first;  /* number of the first record in its ring */
+    uint64_t hash;   /* remote_record_hash() of all of them, one after the other */
+    uint64_t remote; /* remote_id() of the first that was refused, 0: none */
+    uint32_t count;
+    uint32_t refused; /* of them */
+    uint32_t because; /* enum remote_refusal of the first that was refused */
+    uint8_t ring;     /* enum command_ring */
+    uint8_t reserved[3];
+};
+
 #define EVENT_NAME_MAX 24
 
 struct event_mission {
@@ -194,6 +211,8 @@ _Static_assert(sizeof(struct event_collision) == 96, "shared layout");
 _Static_assert(sizeof(struct event_contact_end) == 40, "shared layout");
 _Static_assert(sizeof(struct event_command) == 96, "shared layout");
 _Static_assert(sizeof(struct event_mission) == 88, "shared layout");
+_Static_assert(sizeof(struct event_input) == 40, "shared layout");
+_Static_assert(sizeof(struct event_detonation) == 56, "shared layout");
 _Static_assert(sizeof(struct event) == 128, "two cache lines a slot");
 
 #endif

@@ -6,7 +6,7 @@ import { KIND } from './world.js';
 const SHOWN = 200;
 
 const byId = (id) => document.getElementById(id);
-const TYPES = ['fire', 'detonation', 'collision', 'crater', 'agent', 'contact_end', 'command', 'mission'];
+const TYPES = ['fire', 'detonation', 'collision', 'crater', 'agent', 'contact_end', 'command', 'mission', 'input'];
 
 export class Feed {
   /**

@@ -64,9 +64,10 @@ static void test_same_values_keep_the_hash(void **state)
 
 static void test_other_keys_are_refused_by_name(void **state)
 {
-    static const char *const fixed[] = {"world.capacity=128",       "world.contacts=999",
-                                        "terrain.source=generated", "terrain.spacing_m=125",
-                                        "terrain.height_m=5",       "objects.source=none"};
+    static const char *const fixed[] = {"world.capacity=128",    "world.contacts=999",
+                                        "world.remotes_max=9",   "terrain.source=generated",
+                                        "terrain.spacing_m=125", "terrain.height_m=5",
+                                        "objects.source=none"};
     struct params params;
     char name[64];
     (void)state;

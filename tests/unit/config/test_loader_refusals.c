@@ -50,7 +50,8 @@ static const char response_words[] = RESPONSE_MODELS(X);
 static const struct refusal refusals[] = {
     /* Unknown keys. */
     {"world = {\n sede = 7; };", 2,
-     "world.sede = 7: unknown key; allowed here: name, seed, hz, capacity, contacts, frames, pace, "
+     "world.sede = 7: unknown key; allowed here: name, seed, hz, capacity, contacts, remotes_max, "
+     "frames, pace, "
      "wind_mps, wind_from_deg"},
     {"\nwrold = { seed = 7; };", 2,
      "wrold = {...}: unknown key; allowed here: world, terrain, objects, collision, battle, "

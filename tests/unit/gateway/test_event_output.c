@@ -4,7 +4,7 @@
 
 #include "gateway/pdu/pdu_read.h"
 #include "gateway/udp/udp_socket.h"
-#include "tests/support/fixture.h"
+#include "tests/support/remotes.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -226,6 +226,76 @@ static void test_the_rate(void **state)
     assert_int_equal(events.frame, fixture_state(&world).head->frame);
 }
 
+#define REMOTE_ID remote_id(7, 1, 9)
+
+static int count_of(uint8_t type)
+{
+    int found = 0;
+    for (int i = 0; i < count; i++)
+        found += received[i].header.type == type;
+    return found;
+}
+
+/* Of another simulator's tank we tell what our shell does to it, by its own identifier. */
+static void test_a_hit_on_a_remote_entity(void **state)
+{
+    static const char text[] =
+        "world = { seed = 1; capacity = 64; remotes_max = 4; };"
+        "vehicles = ({ kind = \"tank\"; at = [25000.0, 25000.0]; heading_deg = 90.0;"
+        "  behaviour = \"hold\"; force = \"blue\"; });";
+    (void)state;
+    open_world(text);
+    remotes_send(&world, remotes_track(&world, REMOTE_ID, (struct vec3){25300.0, 100.0, 25000.0}));
+    fixture_run(&world, 1);
+    pass(PDU_ENTITY_STATE);
+    assert_int_equal(count, 1); /* of ours alone */
+    steps_aim(&world, 0, remotes_row(&world, REMOTE_ID));
+    steps_send(&world, RING_CLIENTS,
+               (struct command){.type = COMMAND_FIRE, .entity = 1, .target = 2});
+    run_until(PDU_FIRE);
+    assert_int_equal(received[0].fire.target.site, 7);
+    assert_int_equal(received[0].fire.target.application, 1);
+    assert_int_equal(received[0].fire.target.entity, 9);
+    run_until(PDU_DETONATION);
+    if (received[0].detonation.result == PDU_RESULT_ENTITY_IMPACT)
+        assert_int_equal(received[0].detonation.target.entity, 9);
+}
+
+static void test_a_collision_with_a_remote_entity(void **state)
+{
+    static const char text[] =
+        "world = { seed = 1; capacity = 64; remotes_max = 4; };"
+        "vehicles = ({ kind = \"tank\"; at = [25000.0, 25000.0]; heading_deg = 90.0;"
+        "  speed_mps = 15.0; behaviour = \"hold\"; force = \"blue\"; });";
+    (void)state;
+    open_world(text);
+    remotes_send(&world, remotes_track(&world, REMOTE_ID, (struct vec3){25020.0, 100.0, 25000.0}));
+    run_until(PDU_COLLISION);
+    assert_int_equal(count, 1); /* theirs is told by its owner */
+    assert_int_equal(received[0].collision.issuer.site, 1991);
+    assert_int_equal(received[0].collision.other.site, 7);
+    assert_int_equal(received[0].collision.other.entity, 9);
+}
+
+static void test_what_others_told_is_not_told_again(void **state)
+{
+    (void)state;
+    open_world("world = { seed = 1; capacity = 64; remotes_max = 4; }; vehicles = ();");
+    struct remote_record record =
+        remotes_track(&world, REMOTE_ID, (struct vec3){25020.0, 100.0, 25000.0});
+    remotes_send(&world, record);
+    record.type = REMOTE_FIRE;
+    record.kind = fixture_kind(&world, "artillery");
+    remotes_send(&world, record);
+    record.type = REMOTE_STRUCK;
+    remotes_send(&world, record);
+    fixture_run(&world, 5);
+    assert_int_equal(fixture_event_count(&world, EVENT_FIRE), 1);
+    assert_int_equal(fixture_event_count(&world, EVENT_DETONATION), 1);
+    pass(PDU_FIRE);
+    assert_int_equal(count_of(PDU_FIRE) + count_of(PDU_DETONATION) + count, 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -233,6 +303,9 @@ int main(void)
         cmocka_unit_test_teardown(test_a_collision_of_two, close_world),
         cmocka_unit_test_teardown(test_a_new_gateway, close_world),
         cmocka_unit_test_teardown(test_the_rate, close_world),
+        cmocka_unit_test_teardown(test_a_hit_on_a_remote_entity, close_world),
+        cmocka_unit_test_teardown(test_a_collision_with_a_remote_entity, close_world),
+        cmocka_unit_test_teardown(test_what_others_told_is_not_told_again, close_world),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -116,6 +116,29 @@ static void test_refusals(void **state)
     assert_int_equal(type_table_read(&table, "/nonexistent", kinds, 4, &error), -1);
 }
 
+static void assert_kind(struct pdu_entity_type type, bool munition, uint16_t kind, bool same)
+{
+    bool is_same;
+    assert_int_equal(type_table_kind(&table, type, munition, &is_same), kind);
+    assert_int_equal(is_same, same);
+}
+
+static void test_the_nearest_kind(void **state)
+{
+    (void)state;
+    assert_int_equal(read_text(DOMAIN_ROWS "<air> * 1.2.3.0.0.0.0\ntank * 1.1.225.1.1.2.0\n"
+                                           "tank red 1.1.222.1.2.1.0\njet * 1.2.225.1.3.3.0\n"
+                                           "shell * 2.2.225.2.13.1.0 1 2\n"),
+                     0);
+    assert_kind((struct pdu_entity_type){1, 1, 222, 1, 2, 1, 0}, false, 0, true);
+    assert_kind((struct pdu_entity_type){1, 1, 222, 1, 2, 1, 5}, false, 0, false);
+    assert_kind((struct pdu_entity_type){1, 2, 71, 9, 9, 9, 9}, false, 1, false);
+    assert_kind((struct pdu_entity_type){1, 3, 2, 0, 0, 0, 0}, false, KIND_NONE, false);
+    assert_kind((struct pdu_entity_type){2, 2, 225, 2, 13, 1, 0}, true, 2, true);
+    assert_kind((struct pdu_entity_type){2, 2, 225, 2, 13, 1, 0}, false, KIND_NONE, false);
+    assert_kind((struct pdu_entity_type){3, 1, 225, 1, 1, 2, 0}, false, KIND_NONE, false);
+}
+
 /* Every kind that we ship has a row of its own. */
 static void test_the_shipped_table(void **state)
 {
@@ -147,6 +170,7 @@ int main(void)
         cmocka_unit_test(test_the_nearest_row_holds),
         cmocka_unit_test(test_types_of_cursor_on_target),
         cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_the_nearest_kind),
         cmocka_unit_test(test_the_shipped_table),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -4,7 +4,7 @@
 #include "recorder/log/event_log.h"
 #include "recorder/replay/log_replay.h"
 #include "tests/support/child.h"
-#include "tests/support/steps.h"
+#include "tests/support/remotes.h"
 #include "world/params.h"
 
 #include <fcntl.h>
@@ -54,7 +54,7 @@ static int close_folder(void **state)
 
 static void begin_world(struct fixture *fixture)
 {
-    fixture_open(fixture, "");
+    fixture_open(fixture, "world = { seed = 1; capacity = 64; remotes_max = 6; };");
     fixture_put(fixture, (struct fixture_entity){.kind = "tank",
                                                  .at = {25000.0, FIXTURE_GROUND_M, 25000.0}});
     fixture_put(fixture, (struct fixture_entity){.kind = "truck",
@@ -77,10 +77,14 @@ static int open_small_ring(void **state)
     return 0;
 }
 
-/* Draws a command that is possible often, but not always. */
+/* Draws a command, or a record of another simulator, that is possible often, but not always. */
 static void send_any(uint64_t *random, uint64_t number)
 {
     struct command command = {.source = 7, .source_sequence = number};
+    if (fixture_random(random) % 2 == 0) {
+        remotes_send(&f, remotes_any(&f, random));
+        return;
+    }
     switch (fixture_random(random) % 6) {
     case 0:
         command.type = COMMAND_DRIVE;

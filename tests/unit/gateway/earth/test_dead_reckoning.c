@@ -1,6 +1,6 @@
 /* Dead reckoning: the worked case, each model against small steps of its differential equation, and
  * slow turns (SEED=n draws others). */
-#include "gateway/earth/dead_reckoning.h"
+#include "world/maths/dead_reckoning.h"
 
 #include "gateway/earth/euler.h"
 #include "tests/support/fixture.h"

@@ -18,6 +18,7 @@ static struct segment_header header_of(uint32_t fixed, uint32_t contacts)
                                    .capacity = 16,
                                    .event_slots = 64,
                                    .command_slots = 4,
+                                   .input_slots = 4,
                                    .contact_slots = contacts};
 }
 

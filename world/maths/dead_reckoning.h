@@ -1,8 +1,8 @@
 /* Dead reckoning: where a simulator that receives an Entity State shows the entity until the next.
  * The models are 1 to 9 of IEEE 1278.1-2012 annex E; other numbers are treated as 1. Pure; any
  * thread. */
-#ifndef JOLON_GATEWAY_EARTH_DEAD_RECKONING_H
-#define JOLON_GATEWAY_EARTH_DEAD_RECKONING_H
+#ifndef JOLON_WORLD_MATHS_DEAD_RECKONING_H
+#define JOLON_WORLD_MATHS_DEAD_RECKONING_H
 
 #include "world/maths/rotation.h"
 
@@ -22,11 +22,11 @@ enum dead_reckoning_model {
 
 struct dead_reckoning {
     uint8_t model;
-    struct vec3 position;     /* [m] ECEF */
-    struct vec3 velocity;     /* [m/s] ECEF; body axes for models 6 to 9 */
+    struct vec3 position;     /* [m] axes that do not turn: of DIS those of the earth (ECEF) */
+    struct vec3 velocity;     /* [m/s] the same; body axes for models 6 to 9 */
     struct vec3 acceleration; /* [m/s^2] axes as for velocity */
-    struct vec3 rates;        /* [rad/s] angular velocity, body axes of DIS */
-    struct mat3 matrix;       /* world = matrix * body (euler.h) */
+    struct vec3 rates;        /* [rad/s] angular velocity, body axes */
+    struct mat3 matrix;       /* from body axes to those of the position */
 };
 
 /* Writes position and attitude time_s after the state. A turn of more than 1e5 rad, which no

@@ -2,7 +2,7 @@
  * the rotation since the state is R = f1 a a^T + cos(x) I + f2 [a], where [a] b = a x b, and the
  * integrals of R that bring body velocity and body acceleration into the axes of the state have the
  * same form. For small x the factors are their series. */
-#include "gateway/earth/dead_reckoning.h"
+#include "world/maths/dead_reckoning.h"
 
 #include <stdbool.h>
 

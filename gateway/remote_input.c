@@ -1,0 +1,463 @@
+/* From PDUs to records. */
+#include "gateway/remote_input.h"
+
+#include "gateway/earth/euler.h"
+#include "ipc/frame/command_ring.h"
+#include "ipc/process/clock.h"
+#include "ipc/process/log.h"
+#include "world/maths/dead_reckoning.h"
+#include "world/params.h"
+#include "world/terrain/gridsquare.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <string.h>
+
+#define HEIGHT_MOST_M          50000.0
+#define SPEED_MOST_MPS         10000.0
+#define ACCELERATION_MOST_MPS2 1000.0
+#define RATE_MOST_RPS          20.0
+#define DRY_M                  1e7 /* no place on the earth is further from our square */
+
+#define SHOTS_A_SECOND 1000u
+#define GONE_NS        (2 * (uint64_t)NS_PER_S) /* told, and no row for so long: it was refused */
+
+#define PLATFORM  1 /* kinds of types of DIS */
+#define LIFE_FORM 3
+
+/* --- opening -----------------------------------------------------------------------------------*/
+
+static bool has_heard(const struct remote_input *input, uint64_t event, uint32_t type)
+{
+    uint32_t count =
+        input->heard_count < REMOTE_INPUT_EVENTS ? input->heard_count : REMOTE_INPUT_EVENTS;
+    for (uint32_t i = 0; i < count; i++) {
+        if (input->heard[i].event == event && input->heard[i].type == type)
+            return true;
+    }
+    return false;
+}
+
+static void note_heard(struct remote_input *input, uint64_t event, uint32_t type)
+{
+    uint32_t at = input->heard_count++ & (REMOTE_INPUT_EVENTS - 1);
+    input->heard[at].event = event;
+    input->heard[at].type = type;
+}
+
+/* A gateway that was killed has left its last shots in the ring. */
+static void find_heard(struct remote_input *input, const struct view *view)
+{
+    const struct command_ring_words *words = view->commands[RING_GATEWAY];
+    uint64_t slots = layout_ring_slots(view->header, RING_GATEWAY),
+             end = segment_load(&words->head);
+    for (uint64_t i = end > slots ? end - slots : 0; i < end; i++) {
+        struct remote_record record = remote_record_of(&words->slot[i & (slots - 1)]);
+        if ((record.type == REMOTE_STRUCK || record.type == REMOTE_FIRE) && record.event != 0)
+            note_heard(input, record.event, record.type);
+    }
+}
+
+int remote_input_open(struct remote_input *input, const struct view *view, struct error_text *error)
+{
+    if (remote_table_open(&input->table, view->world.params->remotes_max) != 0)
+        return error_text_set(error, "remote entities: no memory for %u: %s",
+                              view->world.params->remotes_max, strerror(errno));
+    find_heard(input, view);
+    return 0;
+}
+
+void remote_input_close(struct remote_input *input)
+{
+    remote_table_close(&input->table);
+}
+
+/* --- numbers -----------------------------------------------------------------------------------*/
+
+static bool within(struct vec3 v, double most)
+{
+    return vec3_length(v) <= most; /* false for NaN */
+}
+
+static bool in_world(struct vec3 at)
+{
+    return at.x >= 0.0 && at.x <= WORLD_SIDE_M && at.z >= 0.0 && at.z <= WORLD_SIDE_M &&
+           fabs(at.y) <= HEIGHT_MOST_M;
+}
+
+/* Returns a place of the world. One that is nowhere near is outside the square. */
+static struct vec3 world_place(const struct remote_input *input, const double location[3])
+{
+    struct vec3 ecef = {location[0], location[1], location[2]};
+    if (!within(vec3_sub(ecef, input->frame->origin), DRY_M))
+        return (struct vec3){-1.0, 0.0, -1.0};
+    return local_frame_world(input->frame, ecef);
+}
+
+static struct vec3 vec3_of(const float value[3])
+{
+    return (struct vec3){(double)value[0], (double)value[1], (double)value[2]};
+}
+
+static struct vec3 limited(struct vec3 v, double most)
+{
+    double length = vec3_length(v);
+    return length <= most ? v : length < 1e30 ? vec3_scale(v, most / length) : (struct vec3){0};
+}
+
+static int16_t angle_units(double angle_rad)
+{
+    return fabs(angle_rad) < 1e6 ? (int16_t)lrint(maths_wrap_half(angle_rad) / PI * 32767.0) : 0;
+}
+
+static uint64_t id_of(struct pdu_id id)
+{
+    return remote_id(id.site, id.application, id.entity);
+}
+
+/* --- saying what is refused --------------------------------------------------------------------*/
+
+static void tell_refusals(struct remote_input *input, uint64_t now_ns)
+{
+    uint64_t total = input->refused_full + input->refused_place + input->refused_jump +
+                     input->refused_twin + input->refused_ring;
+    (void)now_ns;
+    if (total == input->logged || !log_due(&input->logged_ns, NS_PER_S))
+        return;
+    log_warn("refused so far: %" PRIu64 " Entity States beyond world.remotes_max = %u, %" PRIu64
+             " outside the square, %" PRIu64 " that jump, %" PRIu64
+             " of an identifier that another sender has, %" PRIu64 " without room in the ring",
+             input->refused_full, input->table.capacity, input->refused_place, input->refused_jump,
+             input->refused_twin, input->refused_ring);
+    input->logged = total;
+}
+
+/* Says once what a type is shown as that is not in the table. */
+static void tell_type(struct remote_input *input, const struct world *world,
+                      struct pdu_entity_type type, uint16_t kind)
+{
+    for (uint32_t i = 0; i < input->told_count; i++) {
+        if (memcmp(&input->told[i], &type, sizeof type) == 0)
+            return;
+    }
+    if (input->told_count == REMOTE_INPUT_TOLD)
+        return;
+    input->told[input->told_count++] = type;
+    log_info("type %u.%u.%u.%u.%u.%u.%u is not in the table of types: %s%s", type.kind, type.domain,
+             type.country, type.category, type.subcategory, type.specific, type.extra,
+             kind == KIND_NONE ? "left out" : "shown as ",
+             kind == KIND_NONE ? "" : world->kinds[kind].name);
+}
+
+static uint16_t kind_of(struct remote_input *input, const struct world *world,
+                        struct pdu_entity_type type, bool munition)
+{
+    bool same;
+    uint16_t kind = type_table_kind(input->types, type, munition, &same);
+    if (!same)
+        tell_type(input, world, type, kind);
+    return kind;
+}
+
+/* --- Entity State ------------------------------------------------------------------------------*/
+
+static uint8_t force_of(uint8_t force)
+{
+    return force == PDU_FORCE_FRIENDLY   ? FORCE_BLUE
+           : force == PDU_FORCE_OPPOSING ? FORCE_RED
+                                         : FORCE_NEUTRAL;
+}
+
+static uint8_t damage_of(uint32_t appearance)
+{
+    static const uint8_t levels[4] = {DAMAGE_NONE, DAMAGE_LOW, DAMAGE_HIGH, DAMAGE_DESTROYED};
+    return levels[appearance >> 3 & 3];
+}
+
+/* Fills the motion: all of it in the axes of the world. */
+static void set_motion(struct remote_record *track, const struct remote_input *input,
+                       const struct pdu_entity_state *state)
+{
+    const struct euler angles = {(double)state->orientation[0], (double)state->orientation[1],
+                                 (double)state->orientation[2]};
+    bool sane = fabs(angles.psi) < 1e3 && fabs(angles.theta) < 1e3 && fabs(angles.phi) < 1e3;
+    struct mat3 matrix = euler_matrix(sane ? angles : (struct euler){0.0, 0.0, 0.0});
+    struct mat3 turn = local_frame_world_turn(input->frame, &matrix);
+    double heading, pitch, roll;
+    local_frame_angles(&turn, &heading, &pitch, &roll);
+    vec3_to_floats(track->attitude, (struct vec3){heading, pitch, roll});
+    uint8_t model = state->dead_reckoning;
+    if (model < DEAD_RECKONING_STATIC || model > DEAD_RECKONING_FVB ||
+        state->appearance & PDU_APPEARANCE_FROZEN)
+        model = DEAD_RECKONING_STATIC;
+    track->model = model;
+    struct vec3 velocity = limited(vec3_of(state->velocity), SPEED_MOST_MPS);
+    struct vec3 acceleration = limited(vec3_of(state->acceleration), ACCELERATION_MOST_MPS2);
+    struct vec3 rates = limited(vec3_of(state->angular_velocity), RATE_MOST_RPS);
+    if (model >= DEAD_RECKONING_FPB) {
+        velocity = rotation_apply(&matrix, velocity);
+        acceleration = rotation_apply(&matrix, acceleration);
+    }
+    rates = rotation_apply(&matrix, rates);
+    vec3_to_floats(track->velocity, local_frame_world_direction(input->frame, velocity));
+    vec3_to_floats(track->acceleration, local_frame_world_direction(input->frame, acceleration));
+    vec3_to_floats(track->rates, local_frame_world_direction(input->frame, rates));
+}
+
+static void set_parts(struct remote_record *track, const struct pdu *pdu)
+{
+    for (uint32_t i = 0; i < pdu->parts; i++) {
+        const struct pdu_part *part = &pdu->part[i];
+        if (part->kind != PDU_PART_ARTICULATED)
+            continue;
+        if (part->type == PDU_TURRET_AZIMUTH)
+            track->turret = angle_units((double)part->value);
+        if (part->type == PDU_GUN_ELEVATION)
+            track->gun = angle_units((double)part->value);
+    }
+}
+
+static void put_lost(struct remote_input *input, struct view *view, struct remote_entry *entry)
+{
+    struct remote_record record = {
+        .remote = entry->remote, .type = REMOTE_LOST, .slot = entry->track.slot};
+    struct command slot = remote_record_slot(&record);
+    if (command_append(view, RING_GATEWAY, &slot, input->taken) != 0) {
+        input->refused_ring++; /* its row is seen again, and lost later */
+        return;
+    }
+    input->lost++;
+    remote_table_remove(&input->table, entry);
+}
+
+/* Returns the entry that may be told of this place, or NULL and counts why not. */
+static struct remote_entry *admit(struct remote_input *input, uint64_t remote, struct vec3 place,
+                                  const struct udp_address *from, uint64_t now_ns)
+{
+    struct remote_entry *entry = remote_table_find(&input->table, remote);
+    if (!in_world(place)) {
+        input->refused_place++;
+        return NULL;
+    }
+    if (!entry && !(entry = remote_table_add(&input->table, remote, now_ns))) {
+        input->refused_full++;
+        return NULL;
+    }
+    if (entry->from_known && (!udp_address_same_host(&entry->from, from) ||
+                              udp_address_port(&entry->from) != udp_address_port(from))) {
+        input->refused_twin++;
+        return NULL;
+    }
+    if (entry->placed && vec3_length(vec3_sub(place, entry->place)) > 0.9 * REMOTE_JUMP_M) {
+        input->refused_jump++;
+        return NULL;
+    }
+    entry->from = *from;
+    entry->from_known = true;
+    return entry;
+}
+
+static void take_state(struct remote_input *input, struct view *view, const struct pdu *pdu,
+                       const struct udp_address *from, uint64_t now_ns)
+{
+    const struct pdu_entity_state *state = &pdu->entity_state;
+    uint64_t remote = id_of(state->id);
+    struct remote_entry *entry = remote_table_find(&input->table, remote);
+    if (state->appearance & PDU_APPEARANCE_DEACTIVATED) {
+        if (entry && entry->from_known && udp_address_same_host(&entry->from, from))
+            put_lost(input, view, entry);
+        return;
+    }
+    bool shown = state->type.kind == PLATFORM || state->type.kind == LIFE_FORM;
+    uint16_t kind = shown ? kind_of(input, &view->world, state->type, false) : KIND_NONE;
+    if (kind == KIND_NONE) {
+        input->refused_type++;
+        return;
+    }
+    struct vec3 place = world_place(input, state->location);
+    if (!(entry = admit(input, remote, place, from, now_ns)))
+        return;
+    struct remote_record *track = &entry->track;
+    *track = (struct remote_record){.remote = remote,
+                                    .type = REMOTE_TRACK,
+                                    .slot = track->slot,
+                                    .damage = damage_of(state->appearance),
+                                    .flags = input->clamp ? REMOTE_FLAG_CLAMPED : 0,
+                                    .kind = kind,
+                                    .force = force_of(state->force),
+                                    .position = {place.x, place.y, place.z}};
+    set_motion(track, input, state);
+    set_parts(track, pdu);
+    memcpy(track->marking, state->marking, PDU_MARKING_MAX);
+    entry->place = place;
+    entry->placed = true;
+    entry->heard_ns = now_ns;
+    remote_table_wait(&input->table, entry);
+}
+
+/* --- Fire and Detonation -----------------------------------------------------------------------*/
+
+static void put_shot(struct remote_input *input, struct view *view,
+                     const struct remote_record *record, uint64_t now_ns)
+{
+    struct command slot = remote_record_slot(record);
+    if (record->event != 0 && has_heard(input, record->event, record->type)) {
+        input->repeated++;
+        return;
+    }
+    if (!rate_take(&input->shots, SHOTS_A_SECOND, SHOTS_A_SECOND, now_ns) ||
+        command_append(view, RING_GATEWAY, &slot, input->taken) != 0) {
+        input->refused_ring++;
+        return;
+    }
+    if (record->event != 0)
+        note_heard(input, record->event, record->type);
+    if (record->type == REMOTE_FIRE)
+        input->fires++;
+    else
+        input->struck++;
+}
+
+static uint32_t slot_of(const struct remote_input *input, uint64_t remote)
+{
+    const struct remote_entry *entry = remote ? remote_table_find(&input->table, remote) : NULL;
+    return entry ? entry->track.slot : SLOT_NONE;
+}
+
+static void take_fire(struct remote_input *input, struct view *view, const struct pdu *pdu,
+                      uint64_t now_ns)
+{
+    const struct pdu_fire *fire = &pdu->fire;
+    struct vec3 place = world_place(input, fire->location);
+    uint16_t kind = kind_of(input, &view->world, fire->munition_type, true);
+    struct remote_record record = {.remote = id_of(fire->firer),
+                                   .event = id_of(fire->event),
+                                   .type = REMOTE_FIRE,
+                                   .slot = slot_of(input, id_of(fire->firer)),
+                                   .entity = entity_ids_back(&input->own, fire->target),
+                                   .kind = kind,
+                                   .position = {place.x, place.y, place.z}};
+    if (kind == KIND_NONE)
+        input->refused_type++;
+    else if (!in_world(place))
+        input->refused_place++;
+    else
+        put_shot(input, view, &record, now_ns);
+}
+
+static void take_detonation(struct remote_input *input, struct view *view, const struct pdu *pdu,
+                            uint64_t now_ns)
+{
+    const struct pdu_detonation *detonation = &pdu->detonation;
+    uint16_t kind = kind_of(input, &view->world, detonation->munition_type, true);
+    struct vec3 place = world_place(input, detonation->location);
+    struct remote_record record = {.remote = id_of(detonation->firer),
+                                   .event = id_of(detonation->event),
+                                   .type = REMOTE_STRUCK,
+                                   .slot = slot_of(input, id_of(detonation->firer)),
+                                   .entity = entity_ids_back(&input->own, detonation->target),
+                                   .kind = kind};
+    bool hits = record.entity != 0 && detonation->result == PDU_RESULT_ENTITY_IMPACT;
+    if (detonation->result == PDU_RESULT_DUD)
+        return;
+    if (kind == KIND_NONE) {
+        input->refused_type++;
+        return;
+    }
+    if (!in_world(place)) {
+        input->refused_place++;
+        return;
+    }
+    /* Where it is in the body of our vehicle holds also if we have the vehicle elsewhere. */
+    if (hits)
+        place = local_frame_body_from_dis(limited(vec3_of(detonation->point), 1e3));
+    else
+        record.entity = 0;
+    record.position[0] = place.x;
+    record.position[1] = place.y;
+    record.position[2] = place.z;
+    vec3_to_floats(record.velocity,
+                   local_frame_world_direction(
+                       input->frame, limited(vec3_of(detonation->velocity), SPEED_MOST_MPS)));
+    put_shot(input, view, &record, now_ns);
+}
+
+bool remote_input_take(struct remote_input *input, struct view *view, const struct pdu *pdu,
+                       const struct udp_address *from, uint64_t now_ns)
+{
+    if (input->table.capacity == 0)
+        return false;
+    switch ((enum pdu_type)pdu->header.type) {
+    case PDU_ENTITY_STATE:
+        take_state(input, view, pdu, from, now_ns);
+        break;
+    case PDU_FIRE:
+        take_fire(input, view, pdu, now_ns);
+        break;
+    case PDU_DETONATION:
+        take_detonation(input, view, pdu, now_ns);
+        break;
+    default:
+        return false;
+    }
+    tell_refusals(input, now_ns);
+    return true;
+}
+
+/* --- passes ------------------------------------------------------------------------------------*/
+
+/* Tells the track of an entry if it is time. Returns false if the entry still waits. */
+static bool tell_entry(struct remote_input *input, struct view *view, struct remote_entry *entry,
+                       uint64_t now_ns)
+{
+    struct command slot = remote_record_slot(&entry->track);
+    if (!entry->waits)
+        return true;
+    if (now_ns - entry->told_ns < (uint64_t)(REMOTE_INPUT_LEAST_S * 1e9))
+        return false;
+    if (command_append(view, RING_GATEWAY, &slot, input->taken) != 0) {
+        input->refused_ring++;
+        return false;
+    }
+    entry->waits = false;
+    entry->told_ns = now_ns;
+    input->tracks++;
+    return true;
+}
+
+void remote_input_tell(struct remote_input *input, struct view *view, uint64_t now_ns)
+{
+    struct remote_table *table = &input->table;
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < table->waiting_count; i++) {
+        uint32_t index = table->waiting[i];
+        struct remote_entry *entry = &table->entry[index];
+        if (tell_entry(input, view, entry, now_ns))
+            entry->listed = false;
+        else
+            table->waiting[kept++] = index;
+    }
+    table->waiting_count = kept;
+}
+
+void remote_input_see(struct remote_input *input, struct view *view,
+                      const struct snapshot *snapshot, uint64_t now_ns)
+{
+    struct remote_table *table = &input->table;
+    if (table->capacity == 0)
+        return;
+    input->taken = snapshot->head.command_cursor[RING_GATEWAY];
+    remote_table_see(table, snapshot, now_ns);
+    for (uint32_t i = 0; i < table->used; i++) {
+        struct remote_entry *entry = &table->entry[i];
+        if (entry->remote == 0)
+            continue;
+        bool here = entry->seen_ns == now_ns;
+        if (!here)
+            entry->track.slot = SLOT_NONE;
+        if (here && now_ns - entry->heard_ns > input->timeout_ns)
+            put_lost(input, view, entry);
+        else if (!here && now_ns - entry->seen_ns > GONE_NS)
+            remote_table_remove(table, entry); /* it has left the world, or was refused */
+    }
+}

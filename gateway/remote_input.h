@@ -1,0 +1,67 @@
+/* What other simulators tell of their entities, as records in the gateway's ring
+ * (world/entity/remote.h): Entity State is TRACK or LOST, Fire is FIRE, Detonation is STRUCK.
+ *
+ * Places on the earth become places of the world here, so that the step of the mover has no result
+ * of them. Times are those of arrival: what the sender says of the time is not used. */
+#ifndef JOLON_GATEWAY_REMOTE_INPUT_H
+#define JOLON_GATEWAY_REMOTE_INPUT_H
+
+#include "gateway/earth/local_frame.h"
+#include "gateway/entity_ids.h"
+#include "gateway/remote_table.h"
+#include "gateway/type_table.h"
+#include "ipc/process/rate.h"
+
+#define REMOTE_INPUT_EVENTS 4096u /* shots and detonations that are remembered; a power of two */
+#define REMOTE_INPUT_TOLD   64u   /* unknown types of which the log has told */
+
+/* An entity is told at most this often [s]; what comes in between is told by what comes last. */
+#define REMOTE_INPUT_LEAST_S 0.02
+
+struct remote_input {
+    const struct type_table *types;
+    const struct local_frame *frame;
+    struct entity_ids own;
+    bool clamp;
+    uint64_t timeout_ns;
+    struct remote_table table;
+    struct rate shots;
+    struct {
+        uint64_t event;
+        uint32_t type;            /* enum remote_type */
+    } heard[REMOTE_INPUT_EVENTS]; /* the last shots and detonations, to know them again */
+    uint32_t heard_count;
+    struct pdu_entity_type told[REMOTE_INPUT_TOLD];
+    uint32_t told_count;
+    uint64_t taken; /* of the ring, as the last snapshot has it */
+    /* Counts. */
+    uint64_t tracks, lost, fires, struck;
+    uint64_t refused_full;  /* Entity States beyond world.remotes_max */
+    uint64_t refused_place; /* outside the square, or not on the earth */
+    uint64_t refused_jump;
+    uint64_t refused_twin; /* of an id that another sender has */
+    uint64_t refused_type; /* of no type that can be shown */
+    uint64_t refused_ring; /* the ring was full */
+    uint64_t repeated;     /* shots and detonations that came before */
+    uint64_t logged_ns, logged;
+};
+
+/* Reserves memory; types, frame, own, clamp and timeout_ns are set. Finds the shots that a
+ * predecessor has written. Returns 0, or -1 with the reason. */
+int remote_input_open(struct remote_input *input, const struct view *view,
+                      struct error_text *error);
+void remote_input_close(struct remote_input *input);
+
+/* Takes a PDU. Returns false if it is of a type that is none of these, or if the world has no room
+ * for remote entities. */
+bool remote_input_take(struct remote_input *input, struct view *view, const struct pdu *pdu,
+                       const struct udp_address *from, uint64_t now_ns);
+
+/* Writes what waits into the ring. */
+void remote_input_tell(struct remote_input *input, struct view *view, uint64_t now_ns);
+
+/* Learns the rows from a new snapshot, and removes entities that were not heard of for too long. */
+void remote_input_see(struct remote_input *input, struct view *view,
+                      const struct snapshot *snapshot, uint64_t now_ns);
+
+#endif

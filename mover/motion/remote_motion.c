@@ -1,0 +1,129 @@
+/* Dead reckoning of remote entities. */
+#include "mover/motion/remote_motion.h"
+
+#include "mover/motion/kinematics.h"
+#include "world/entity/kind.h"
+#include "world/entity/remote.h"
+#include "world/maths/dead_reckoning.h"
+#include "world/maths/rotation.h"
+#include "world/terrain/gridsquare.h"
+#include "world/world.h"
+
+static const struct mat3 identity = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+
+static unsigned model_of(const struct entities *m, uint32_t i)
+{
+    return m->order_arg[i] & REMOTE_MODEL_MASK;
+}
+
+static bool turns(unsigned model)
+{
+    return model == DEAD_RECKONING_RPW || model == DEAD_RECKONING_RVW ||
+           model == DEAD_RECKONING_RPB || model == DEAD_RECKONING_RVB;
+}
+
+static bool accelerates(unsigned model)
+{
+    return model == DEAD_RECKONING_RVW || model == DEAD_RECKONING_FVW ||
+           model == DEAD_RECKONING_RVB || model == DEAD_RECKONING_FVB;
+}
+
+static struct vec3 spin_of(const struct entities *m, uint32_t i)
+{
+    return (struct vec3){m->spin_x[i], m->spin_y[i], m->spin_z[i]};
+}
+
+bool remote_motion_clamp(const struct step_context *context, uint16_t kind, struct vec3 *at)
+{
+    if (context->world->kinds[kind].domain != DOMAIN_LAND)
+        return false;
+    double ground = kinematics_ground(context, at->x, at->z);
+    if (!(fabs(at->y - ground) <= REMOTE_MOTION_CLAMP_M))
+        return false;
+    at->y = ground;
+    return true;
+}
+
+/* The owner has been silent for too long to be extrapolated. */
+static void stop(struct entities *m, uint32_t i)
+{
+    m->order_arg[i] = (m->order_arg[i] & ~REMOTE_MODEL_MASK) | DEAD_RECKONING_STATIC;
+    entities_set_velocity(m, i, (struct vec3){0.0, 0.0, 0.0});
+    m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
+    m->climb[i] = m->traverse[i] = m->elevate[i] = 0.0f;
+}
+
+static void set_acceleration(struct entities *m, uint32_t i, struct vec3 acceleration)
+{
+    m->climb[i] = (float)acceleration.x;
+    m->traverse[i] = (float)acceleration.y;
+    m->elevate[i] = (float)acceleration.z;
+}
+
+/* Leads the row to the model's state one frame later, and returns the place. The body axes of the
+ * formula are those of the world at the frame's beginning. */
+static struct vec3 extrapolate(const struct step_context *context, uint32_t i, unsigned model)
+{
+    struct entities *m = context->m;
+    struct dead_reckoning state = {.model = (uint8_t)model,
+                                   .position = entities_position(m, i),
+                                   .velocity = entities_velocity(m, i),
+                                   .acceleration = remote_acceleration(m, i),
+                                   .rates = spin_of(m, i),
+                                   .matrix = identity};
+    struct vec3 at, velocity = state.velocity;
+    struct mat3 since;
+    dead_reckoning_at(&state, context->dt_s, &at, &since);
+    if (accelerates(model))
+        velocity = vec3_add(velocity, vec3_scale(state.acceleration, context->dt_s));
+    if (model == DEAD_RECKONING_RPB || model == DEAD_RECKONING_RVB) {
+        velocity = rotation_apply(&since, velocity);
+        set_acceleration(m, i, rotation_apply(&since, state.acceleration));
+    }
+    entities_set_velocity(m, i, velocity);
+    return at;
+}
+
+static void turn(const struct step_context *context, uint32_t i, struct vec3 rates_rps)
+{
+    struct entities *m = context->m;
+    if (vec3_dot(rates_rps, rates_rps) == 0.0)
+        return;
+    struct quat now = rotation_of(m->heading[i], m->pitch[i], m->roll[i]);
+    rotation_angles(rotation_spun(now, rates_rps, context->dt_s), &m->heading[i], &m->pitch[i],
+                    &m->roll[i]);
+}
+
+static bool is_inside(struct vec3 at)
+{
+    return at.x >= 0.0 && at.x <= WORLD_SIDE_M && at.z >= 0.0 && at.z <= WORLD_SIDE_M;
+}
+
+bool remote_motion_move(const struct step_context *context, uint32_t i)
+{
+    struct entities *m = context->m;
+    uint32_t tick = (uint32_t)context->tick;
+    bool corrects = (int32_t)(m->until_tick[i] - tick) >= 0;
+    struct vec3 at = entities_position(m, i), rates = {0.0, 0.0, 0.0};
+    if (model_of(m, i) != DEAD_RECKONING_STATIC &&
+        (double)(tick - m->seen_tick[i]) * context->dt_s > REMOTE_TRUST_S)
+        stop(m, i);
+    unsigned model = model_of(m, i);
+    if (model == DEAD_RECKONING_STATIC && !corrects)
+        return true;
+    if (turns(model))
+        rates = spin_of(m, i);
+    if (model != DEAD_RECKONING_STATIC)
+        at = extrapolate(context, i, model);
+    if (corrects) {
+        at = vec3_add(at, vec3_scale(remote_drift(m, i), context->dt_s));
+        rates = vec3_add(rates, remote_turn(m, i));
+    }
+    turn(context, i, rates);
+    if (!is_inside(at))
+        return false;
+    if (m->order_arg[i] >> REMOTE_FLAGS_SHIFT & REMOTE_FLAG_CLAMPED)
+        (void)remote_motion_clamp(context, m->kind[i], &at);
+    entities_set_position(m, i, at);
+    return true;
+}

@@ -1,0 +1,465 @@
+/* What each record of another simulator does. Its values may come from a log that anybody has
+ * written, so they are checked here whatever the gateway has checked. */
+#include "mover/remote_apply.h"
+
+#include "mover/motion/kinematics.h"
+#include "mover/motion/remote_motion.h"
+#include "mover/weapon/spawn.h"
+#include "world/entity/event.h"
+#include "world/entity/kind.h"
+#include "world/maths/dead_reckoning.h"
+#include "world/maths/rotation.h"
+#include "world/params.h"
+#include "world/state.h"
+#include "world/terrain/gridsquare.h"
+#include "world/world.h"
+
+#define HEIGHT_MOST_M          50000.0
+#define SPEED_MOST_MPS         10000.0
+#define ACCELERATION_MOST_MPS2 10000.0
+#define RATE_MOST_RPS          100.0
+#define ANGLE_MOST_RAD         7.0 /* a whole turn either way */
+
+/* Larger errors of place and attitude do not vanish smoothly, but at once. */
+#define SNAP_M   50.0
+#define SNAP_RAD 1.0
+
+/* Smaller ones are left. */
+#define SAME_M   1e-6
+#define SAME_RAD 1e-6
+
+#define TURN_UNIT_RAD (PI / 32768.0) /* of turret and gun */
+
+/* A munition that strikes the ground is sent down from so high above it, and this steeply. */
+#define DROP_M        2.0
+#define STEEP_SINE    0.1
+#define NEAR_GROUND_M REMOTE_MOTION_CLAMP_M
+
+/* --- values ------------------------------------------------------------------------------------*/
+
+static bool within(double value, double most)
+{
+    return value >= -most && value <= most; /* false for NaN */
+}
+
+static bool all_within(const float value[3], double most)
+{
+    return within((double)value[0], most) && within((double)value[1], most) &&
+           within((double)value[2], most);
+}
+
+static struct vec3 vec3_of(const float value[3])
+{
+    return (struct vec3){(double)value[0], (double)value[1], (double)value[2]};
+}
+
+static struct vec3 place_of(const struct remote_record *record)
+{
+    return (struct vec3){record->position[0], record->position[1], record->position[2]};
+}
+
+static bool in_world(struct vec3 place)
+{
+    return place.x >= 0.0 && place.x <= WORLD_SIDE_M && place.z >= 0.0 && place.z <= WORLD_SIDE_M &&
+           within(place.y, HEIGHT_MOST_M);
+}
+
+static bool track_is_good(const struct remote_record *record)
+{
+    return record->remote != 0 && in_world(place_of(record)) &&
+           all_within(record->velocity, SPEED_MOST_MPS) &&
+           all_within(record->acceleration, ACCELERATION_MOST_MPS2) &&
+           all_within(record->rates, RATE_MOST_RPS) &&
+           all_within(record->attitude, ANGLE_MOST_RAD) && record->force < FORCE_COUNT &&
+           record->damage < DAMAGE_COUNT && record->model >= DEAD_RECKONING_STATIC &&
+           record->model <= DEAD_RECKONING_FVB;
+}
+
+static const struct kind *kind_of(const struct serial_context *context, uint16_t kind)
+{
+    const struct world *world = context->step->world;
+    return kind < world->counts.kinds ? &world->kinds[kind] : NULL;
+}
+
+/* --- rows --------------------------------------------------------------------------------------*/
+
+/* Writes a cell if it changes: a column of a block that is written is hashed again, and most
+ * records of an entity at rest say what is known. */
+#define PUT(context, row, name, value)                                                             \
+    do {                                                                                           \
+        if ((context)->moved->entities.name[row] != (value))                                       \
+            table_set_##name(&(context)->writer, row, value);                                      \
+    } while (0)
+
+/* Returns the row of a remote entity, SLOT_NONE when there is none. The sender may have seen where
+ * it is; else all rows are searched, and *count is set to the number of remote rows. */
+static uint32_t find(const struct serial_context *context, uint64_t remote, uint32_t slot,
+                     uint32_t *count)
+{
+    const struct entities *m = &context->moved->entities;
+    uint32_t used = context->moved->head->used;
+    *count = 0;
+    if (slot < used && remote_is(m, slot) && m->driver[slot] == remote)
+        return slot;
+    for (uint32_t row = 0; row < used; row++) {
+        if (!remote_is(m, row))
+            continue;
+        if (m->driver[row] == remote)
+            return row;
+        ++*count;
+    }
+    return SLOT_NONE;
+}
+
+static void set_state(struct serial_context *context, uint32_t row,
+                      const struct remote_record *record)
+{
+    const struct entities *m = &context->moved->entities;
+    bool destroyed = record->damage == DAMAGE_DESTROYED;
+    if (record->damage > m->damage[row])
+        PUT(context, row, changed_tick, (uint32_t)context->step->tick);
+    PUT(context, row, damage, record->damage);
+    PUT(context, row, state, destroyed ? ENTITY_WRECK : ENTITY_ACTIVE);
+    PUT(context, row, kind, record->kind);
+    PUT(context, row, force, record->force);
+    PUT(context, row, turret, (float)(record->turret * TURN_UNIT_RAD));
+    PUT(context, row, gun, (float)(record->gun * TURN_UNIT_RAD));
+}
+
+/* clamped: it moves on our ground. */
+static void set_motion(struct serial_context *context, uint32_t row,
+                       const struct remote_record *record, bool clamped)
+{
+    bool moves = record->model != DEAD_RECKONING_STATIC;
+    const struct vec3 none = {0.0, 0.0, 0.0};
+    uint32_t flags = clamped ? REMOTE_FLAG_CLAMPED << REMOTE_FLAGS_SHIFT : 0;
+    PUT(context, row, order_arg, record->model | flags);
+    PUT(context, row, seen_tick, (uint32_t)context->step->tick);
+    const struct vec3 velocity = moves ? vec3_of(record->velocity) : none;
+    const struct vec3 spin = moves ? vec3_of(record->rates) : none;
+    PUT(context, row, vx, velocity.x);
+    PUT(context, row, vy, velocity.y);
+    PUT(context, row, vz, velocity.z);
+    PUT(context, row, spin_x, spin.x);
+    PUT(context, row, spin_y, spin.y);
+    PUT(context, row, spin_z, spin.z);
+    PUT(context, row, climb, moves ? record->acceleration[0] : 0.0f);
+    PUT(context, row, traverse, moves ? record->acceleration[1] : 0.0f);
+    PUT(context, row, elevate, moves ? record->acceleration[2] : 0.0f);
+}
+
+/* Sets the velocity and the rates by which errors vanish within so many seconds. */
+static void set_errors(struct serial_context *context, uint32_t row, struct vec3 drift,
+                       struct vec3 turn, double time_s)
+{
+    double share = 1.0 / time_s;
+    PUT(context, row, goal_x, drift.x * share);
+    PUT(context, row, ease, (float)(drift.y * share));
+    PUT(context, row, goal_z, drift.z * share);
+    PUT(context, row, steer, (float)(turn.x * share));
+    PUT(context, row, brake, (float)(turn.y * share));
+    PUT(context, row, dodge, (float)(turn.z * share));
+}
+
+/* Returns the rotation that leads from one attitude to another, as an axis times the angle [rad].
+ */
+static struct vec3 turn_between(struct quat from, struct quat to)
+{
+    struct quat q = rotation_product(to, rotation_inverse(from));
+    double sign = q.w < 0.0 ? -1.0 : 1.0;
+    struct vec3 axis = {sign * q.x, sign * q.y, sign * q.z};
+    double sine = vec3_length(axis);
+    double angle = 2.0 * maths_atan2(sine, sign * q.w);
+    return sine > 1e-12 ? vec3_scale(axis, angle / sine) : (struct vec3){0.0, 0.0, 0.0};
+}
+
+static void set_attitude(struct serial_context *context, uint32_t row, struct quat attitude)
+{
+    double heading, pitch, roll;
+    rotation_angles(attitude, &heading, &pitch, &roll);
+    PUT(context, row, heading, heading);
+    PUT(context, row, pitch, pitch);
+    PUT(context, row, roll, roll);
+}
+
+/* Leads the row to a place and an attitude: smoothly, or at once when it is new or far away. */
+static void set_place(struct serial_context *context, uint32_t row,
+                      const struct remote_record *record, struct vec3 to, bool is_new)
+{
+    const struct entities *m = &context->moved->entities;
+    const struct vec3 none = {0.0, 0.0, 0.0};
+    double dt_s = context->step->dt_s;
+    uint32_t frames = (uint32_t)maths_max(1.0, REMOTE_MOTION_SMOOTH_S / dt_s + 0.5);
+    struct quat attitude = rotation_of((double)record->attitude[0], (double)record->attitude[1],
+                                       (double)record->attitude[2]);
+    struct quat now = rotation_of(m->heading[row], m->pitch[row], m->roll[row]);
+    struct vec3 drift = vec3_sub(to, entities_position(m, row)), turn = turn_between(now, attitude);
+    if (is_new || vec3_length(drift) > SNAP_M) {
+        table_set_position(&context->writer, row, to);
+        drift = none;
+    }
+    if (is_new || vec3_length(turn) > SNAP_RAD) {
+        set_attitude(context, row, attitude);
+        turn = none;
+    }
+    if (vec3_length(drift) < SAME_M)
+        drift = none;
+    if (vec3_length(turn) < SAME_RAD)
+        turn = none;
+    set_errors(context, row, drift, turn, frames * dt_s);
+    if (vec3_dot(drift, drift) > 0.0 || vec3_dot(turn, turn) > 0.0)
+        PUT(context, row, until_tick, (uint32_t)context->step->tick + frames - 1);
+}
+
+/* --- the records -------------------------------------------------------------------------------*/
+
+static enum remote_refusal new_row(struct serial_context *context,
+                                   const struct remote_record *record, uint32_t count,
+                                   uint32_t *row)
+{
+    if (count >= context->step->world->params->remotes_max)
+        return REMOTE_TOO_MANY;
+    *row = spawn_entity(context, record->kind, record->force);
+    if (*row == SLOT_NONE)
+        return REMOTE_NO_ROW;
+    table_set_behaviour(&context->writer, *row, BEHAVIOUR_REMOTE);
+    table_set_order(&context->writer, *row, BEHAVIOUR_REMOTE);
+    table_set_driver(&context->writer, *row, record->remote);
+    return REMOTE_TAKEN;
+}
+
+static enum remote_refusal track(struct serial_context *context, const struct remote_record *record)
+{
+    const struct entities *m = &context->moved->entities;
+    const struct kind *kind = kind_of(context, record->kind);
+    uint32_t count;
+    if (!track_is_good(record))
+        return REMOTE_UNKNOWN;
+    if (!kind || kind->domain > DOMAIN_AIR)
+        return REMOTE_NO_KIND;
+    uint32_t row = find(context, record->remote, record->slot, &count);
+    bool is_new = row == SLOT_NONE;
+    if (is_new) {
+        enum remote_refusal refusal = new_row(context, record, count, &row);
+        if (refusal != REMOTE_TAKEN)
+            return refusal;
+    } else if (vec3_length(vec3_sub(place_of(record), entities_position(m, row))) > REMOTE_JUMP_M) {
+        return REMOTE_JUMPS;
+    }
+    struct vec3 to = place_of(record);
+    /* A place high above the ground, such as on a bridge, stays so until the next record. */
+    bool clamped = (record->flags & REMOTE_FLAG_CLAMPED) &&
+                   remote_motion_clamp(context->step, record->kind, &to);
+    set_state(context, row, record);
+    set_motion(context, row, record, clamped);
+    set_place(context, row, record, to, is_new);
+    return REMOTE_TAKEN;
+}
+
+static enum remote_refusal lost(struct serial_context *context, const struct remote_record *record)
+{
+    uint32_t count, row = find(context, record->remote, record->slot, &count);
+    if (record->remote == 0 || row == SLOT_NONE)
+        return REMOTE_NOBODY;
+    spawn_remove(context, row);
+    return REMOTE_TAKEN;
+}
+
+/* Returns the row of our own vehicle of this id, SLOT_NONE when there is none. */
+static uint32_t own_row(const struct serial_context *context, uint32_t id)
+{
+    const struct entities *m = &context->moved->entities;
+    uint32_t row = id == 0 ? SLOT_NONE : entities_find(m, context->moved->head->used, id);
+    return row == SLOT_NONE || m->behaviour[row] == BEHAVIOUR_FLIGHT || remote_is(m, row)
+               ? SLOT_NONE
+               : row;
+}
+
+/* Returns the row of the entity that fired, SLOT_NONE when nobody here is known to have. */
+static uint32_t firer_row(const struct serial_context *context, const struct remote_record *record)
+{
+    uint32_t count;
+    return record->remote == 0 ? SLOT_NONE : find(context, record->remote, record->slot, &count);
+}
+
+static bool shot_is_good(const struct serial_context *context, const struct remote_record *record)
+{
+    const struct kind *kind = kind_of(context, record->kind);
+    return kind && kind->domain == DOMAIN_MUNITION;
+}
+
+/* A shot is seen and alarms its target. Where its round comes down is its owner's to say. */
+static enum remote_refusal tell_fire(struct serial_context *context,
+                                     const struct remote_record *record)
+{
+    const struct entities *m = &context->moved->entities;
+    if (!in_world(place_of(record)))
+        return REMOTE_UNKNOWN;
+    if (!shot_is_good(context, record))
+        return REMOTE_NO_KIND;
+    uint32_t firer = firer_row(context, record), target = own_row(context, record->entity);
+    struct event *event = serial_context_intent(context, EVENT_FIRE);
+    if (event) {
+        event->fire.munition = (struct event_party){.kind = record->kind};
+        event->fire.shooter = (struct event_party){.kind = KIND_NONE};
+        event->fire.target = (struct event_party){.kind = KIND_NONE};
+        if (firer != SLOT_NONE)
+            event->fire.shooter = serial_context_party(context, firer);
+        if (target != SLOT_NONE)
+            event->fire.target = serial_context_party(context, target);
+        for (int i = 0; i < 3; i++)
+            event->fire.point[i] = record->position[i];
+    }
+    context->moved->head->tally.fires++;
+    if (firer != SLOT_NONE && target != SLOT_NONE)
+        table_set_threat(&context->writer, target, firer, m->id[firer]);
+    return REMOTE_TAKEN;
+}
+
+/* How a munition gets from where it appears to what it strikes. */
+struct approach {
+    struct vec3 from, velocity;
+    bool in_air; /* it bursts at once, where it is */
+};
+
+static struct vec3 direction_of(struct vec3 velocity, struct vec3 fallback)
+{
+    double speed = vec3_length(velocity);
+    return speed > 1.0 ? vec3_scale(velocity, 1.0 / speed) : fallback;
+}
+
+/* It flies at the vehicle through the point of its body that was struck. */
+static struct approach approach_vehicle(const struct serial_context *context,
+                                        const struct remote_record *record, uint32_t target)
+{
+    const struct entities *m = &context->moved->entities;
+    const struct kind *vehicle = &context->step->world->kinds[m->kind[target]];
+    const struct kind *round = &context->step->world->kinds[record->kind];
+    struct mat3 turn =
+        rotation_matrix(rotation_of(m->heading[target], m->pitch[target], m->roll[target]));
+    double reach = maths_max(vehicle->bound_m, vehicle->radius_m);
+    struct vec3 point = place_of(record), at = entities_position(m, target);
+    if (vec3_length(point) > reach)
+        point = vec3_scale(point, reach / vec3_length(point));
+    point = vec3_add(at, rotation_apply(&turn, point));
+    struct vec3 velocity = vec3_of(record->velocity);
+    struct vec3 along = direction_of(velocity, (struct vec3){0.0, -1.0, 0.0});
+    double speed = maths_max(vec3_length(velocity), 1.0);
+    if (speed <= 1.0)
+        speed = round->max_speed_mps;
+    struct vec3 from = vec3_sub(point, vec3_scale(along, 2.0 * reach + round->radius_m + DROP_M));
+    double ground = kinematics_ground(context->step, from.x, from.z);
+    if (from.y < ground + round->radius_m + DROP_M) {
+        from.y = ground + round->radius_m + DROP_M;
+        struct vec3 way = vec3_sub(point, from);
+        along = vec3_scale(way, 1.0 / maths_max(vec3_length(way), 1e-3));
+    }
+    return (struct approach){.from = from, .velocity = vec3_scale(along, speed)};
+}
+
+/* It comes down on the ground there, or bursts above it. */
+static struct approach approach_place(const struct serial_context *context,
+                                      const struct remote_record *record)
+{
+    const struct kind *round = &context->step->world->kinds[record->kind];
+    struct vec3 point = place_of(record), velocity = vec3_of(record->velocity);
+    double ground = kinematics_ground(context->step, point.x, point.z);
+    if (point.y > ground + NEAR_GROUND_M)
+        return (struct approach){.from = point, .in_air = true};
+    const struct vec3 down = {0.0, -1.0, 0.0};
+    struct vec3 along = direction_of(velocity, down);
+    if (along.y > -STEEP_SINE)
+        along = down;
+    double speed = vec3_length(velocity) > 1.0 ? vec3_length(velocity) : round->max_speed_mps;
+    point.y = ground;
+    return (struct approach){
+        .from = vec3_sub(point, vec3_scale(along, (DROP_M + round->radius_m) / -along.y)),
+        .velocity = vec3_scale(along, speed)};
+}
+
+/* A munition of another simulator detonates: one of ours appears in front of what it strikes, and
+ * does there what our rules say. */
+static enum remote_refusal struck(struct serial_context *context,
+                                  const struct remote_record *record)
+{
+    const struct entities *m = &context->moved->entities;
+    const struct table_writer *writer = &context->writer;
+    uint32_t target = own_row(context, record->entity);
+    struct vec3 place = place_of(record);
+    if (!all_within(record->velocity, SPEED_MOST_MPS) || !within(place.x, 2.0 * WORLD_SIDE_M) ||
+        !within(place.y, HEIGHT_MOST_M) || !within(place.z, 2.0 * WORLD_SIDE_M) ||
+        (record->entity == 0 && !in_world(place)))
+        return REMOTE_UNKNOWN;
+    if (!shot_is_good(context, record))
+        return REMOTE_NO_KIND;
+    if (record->entity != 0 && target == SLOT_NONE)
+        return REMOTE_NOBODY;
+    struct approach approach = target != SLOT_NONE ? approach_vehicle(context, record, target)
+                                                   : approach_place(context, record);
+    uint32_t row = spawn_entity(context, record->kind, FORCE_NEUTRAL);
+    if (row == SLOT_NONE)
+        return REMOTE_NO_ROW;
+    table_set_position(writer, row, approach.from);
+    table_set_velocity(writer, row, approach.velocity);
+    table_set_heading(writer, row, maths_heading(approach.velocity.x, approach.velocity.z));
+    table_set_order(writer, row, BEHAVIOUR_REMOTE); /* its detonation is told as another's */
+    if (approach.in_air)
+        table_set_until_tick(writer, row, (uint32_t)context->step->tick);
+    uint32_t firer = firer_row(context, record);
+    if (firer != SLOT_NONE) {
+        table_set_owner_slot(writer, row, firer);
+        table_set_owner_id(writer, row, m->id[firer]);
+    }
+    return REMOTE_TAKEN;
+}
+
+static enum remote_refusal apply_one(struct serial_context *context,
+                                     const struct remote_record *record)
+{
+    switch ((enum remote_type)record->type) {
+    case REMOTE_TRACK:
+        return track(context, record);
+    case REMOTE_LOST:
+        return lost(context, record);
+    case REMOTE_STRUCK:
+        return struck(context, record);
+    case REMOTE_FIRE:
+        return tell_fire(context, record);
+    case REMOTE_TYPE_END:
+        break;
+    }
+    return REMOTE_UNKNOWN;
+}
+
+/* --- their event -------------------------------------------------------------------------------*/
+
+/* Begins the event of the records that follow one another. */
+static void begin(struct serial_context *context, struct remote_inputs *inputs)
+{
+    inputs->event = serial_context_intent(context, EVENT_INPUT);
+    if (inputs->event) {
+        inputs->event->input.first = context->moved->head->command_cursor[inputs->ring];
+        inputs->event->input.ring = inputs->ring;
+    }
+}
+
+bool remote_apply(struct serial_context *context, struct remote_inputs *inputs,
+                  const struct command *slot)
+{
+    struct remote_record record = remote_record_of(slot);
+    /* The records' own event needs room, and so does what the record may tell. */
+    if (context->moved->head->intent_count + 2 > inputs->most || inputs->taken >= REMOTE_APPLY_MOST)
+        return false;
+    if (!inputs->event)
+        begin(context, inputs);
+    struct event_input *told = &inputs->event->input;
+    enum remote_refusal refusal = apply_one(context, &record);
+    inputs->taken++;
+    told->hash = remote_record_hash(slot, told->hash);
+    told->count++;
+    if (refusal != REMOTE_TAKEN && told->refused++ == 0) {
+        told->remote = record.remote;
+        told->because = (uint32_t)refusal;
+    }
+    return true;
+}

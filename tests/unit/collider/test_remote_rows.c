@@ -1,0 +1,136 @@
+/* Bodies of other simulators in the collider: ours feel them, nothing here moves or damages them.
+ */
+#include "collider/remote_rows.h"
+
+#include "tests/support/remotes.h"
+#include "world/params.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define REMOTE remote_id(7, 1, 9)
+
+static struct fixture f;
+static const struct vec3 there = {25030.0, FIXTURE_GROUND_M, 25000.0};
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 64; remotes_max = 8; }; vehicles = ();"
+                     "collision = { shape = \"model\"; };");
+    return 0;
+}
+
+static uint32_t put_track(uint64_t remote, struct vec3 at, const char *kind)
+{
+    struct remote_record record = remotes_track(&f, remote, at);
+    record.kind = fixture_kind(&f, kind);
+    remotes_send(&f, record);
+    fixture_run(&f, 1);
+    return remotes_row(&f, remote);
+}
+
+static void test_our_vehicle_collides_and_theirs_stays(void **state)
+{
+    uint32_t own =
+        fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                                .at = {25000.0, FIXTURE_GROUND_M, 25000.0},
+                                                .velocity = {15.0, 0.0, 0.0}});
+    (void)state;
+    uint32_t row = put_track(REMOTE, there, "tank");
+    for (int i = 0; i < 240; i++) {
+        fixture_run(&f, 1);
+        const struct state now = fixture_state(&f);
+        const struct entities *e = &now.entities;
+        assert_true(e->x[row] == there.x && e->y[row] == there.y && e->z[row] == there.z);
+        assert_true(e->vx[row] == 0.0 && e->spin_y[row] == 0.0 && e->heading[row] < 1e-12);
+        assert_int_equal(e->damage[row], DAMAGE_NONE);
+        assert_true(e->harm_j[row] == 0.0 && e->flags[row] == 0 && e->bumped[row] == 0);
+    }
+    const struct event_collision *collision = &fixture_event(&f, EVENT_COLLISION, 0)->collision;
+    uint32_t ids = collision->a.id + collision->b.id;
+    assert_int_equal(ids, steps_rows(&f).id[own] + steps_rows(&f).id[row]);
+    assert_true(collision->impulse_ns > 1e5f); /* two masses of 54 t share 15 m/s */
+    assert_true(steps_rows(&f).harm_j[own] > 0.0);
+    assert_true(steps_speed(&f, own) < 8.0);
+}
+
+static void test_a_round_detonates_on_them(void **state)
+{
+    uint32_t row = put_track(REMOTE, there, "truck");
+    (void)state;
+    fixture_put(&f, (struct fixture_entity){.kind = "shell",
+                                            .at = {25000.0, FIXTURE_GROUND_M + 1.5, 25000.0},
+                                            .velocity = {1000.0, 0.0, 0.0}});
+    fixture_run(&f, 10);
+    const struct event_detonation *detonation = &fixture_event(&f, EVENT_DETONATION, 0)->detonation;
+    assert_int_equal(detonation->struck, STRUCK_VEHICLE);
+    assert_int_equal(detonation->struck_party.id, steps_rows(&f).id[row]);
+    assert_int_equal(detonation->remote, 0); /* we are the ones who tell it */
+    assert_int_equal(steps_rows(&f).damage[row], DAMAGE_NONE);
+    assert_int_equal(steps_rows(&f).state[row], ENTITY_ACTIVE);
+    assert_true(steps_rows(&f).x[row] == there.x);
+    assert_int_equal(fixture_state(&f).head->tally.destroyed, 0);
+}
+
+static void test_a_blast_moves_ours_alone(void **state)
+{
+    uint32_t own = fixture_put(
+        &f, (struct fixture_entity){.kind = "jeep", .at = {25030.0, FIXTURE_GROUND_M, 25008.0}});
+    uint32_t row = put_track(REMOTE, there, "jeep");
+    (void)state;
+    fixture_put(&f, (struct fixture_entity){.kind = "bomb",
+                                            .at = {25030.0, FIXTURE_GROUND_M + 5.0, 25004.0},
+                                            .velocity = {0.0, -200.0, 0.0}});
+    fixture_run(&f, 30);
+    assert_int_equal(steps_rows(&f).state[own], ENTITY_WRECK);
+    assert_int_equal(steps_rows(&f).state[row], ENTITY_ACTIVE);
+    assert_true(steps_rows(&f).x[row] == there.x && steps_rows(&f).z[row] == there.z);
+}
+
+static void test_two_of_theirs_pass(void **state)
+{
+    struct remote_record record = remotes_track(&f, REMOTE, there);
+    (void)state;
+    put_track(remote_id(7, 1, 1), (struct vec3){25060.0, FIXTURE_GROUND_M, 25000.0}, "tank");
+    record.model = DEAD_RECKONING_FPW;
+    record.velocity[0] = 20.0f;
+    remotes_send(&f, record);
+    fixture_run(&f, 180);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+    assert_true(fabs(steps_rows(&f).x[remotes_row(&f, REMOTE)] - (there.x + 20.0 * 179 / 60)) <
+                1e-6);
+}
+
+static void test_an_aircraft_may_fly_into_our_ground(void **state)
+{
+    struct remote_record record =
+        remotes_track(&f, REMOTE, (struct vec3){25000.0, FIXTURE_GROUND_M + 10.0, 25000.0});
+    (void)state;
+    record.kind = fixture_kind(&f, "jet");
+    record.model = DEAD_RECKONING_FPW;
+    record.velocity[1] = -10.0f;
+    remotes_send(&f, record);
+    fixture_run(&f, 121);
+    uint32_t row = remotes_row(&f, REMOTE);
+    assert_int_equal(steps_rows(&f).state[row], ENTITY_ACTIVE);
+    assert_true(fabs(steps_rows(&f).y[row] - (FIXTURE_GROUND_M - 10.0)) < 1e-6);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+}
+
+int main(void)
+{
+#define TEST(test) cmocka_unit_test_prestate_setup_teardown(test, open_world, fixture_teardown, &f)
+    const struct CMUnitTest tests[] = {
+        TEST(test_our_vehicle_collides_and_theirs_stays),
+        TEST(test_a_round_detonates_on_them),
+        TEST(test_a_blast_moves_ours_alone),
+        TEST(test_two_of_theirs_pass),
+        TEST(test_an_aircraft_may_fly_into_our_ground),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

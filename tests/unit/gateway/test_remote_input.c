@@ -1,0 +1,407 @@
+/* From PDUs to rows: a small world takes what the gateway has written into its ring. The test has
+ * its own clock. */
+#include "gateway/remote_input.h"
+
+#include "gateway/earth/euler.h"
+#include "ipc/process/clock.h"
+#include "tests/support/remotes.h"
+#include "world/params.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+static struct fixture f;
+static struct remote_input input;
+static struct type_table types;
+static struct local_frame frame;
+static struct snapshot snapshot;
+static struct error_text error;
+static struct udp_address peer, other;
+static uint64_t now_ns;
+
+static void open_input(void)
+{
+    char path[512];
+    const struct world *world = &f.view.world;
+    memset(&input, 0, sizeof input);
+    snprintf(path, sizeof path, "%s/dis/types.txt", fixture_shipped_dir());
+    assert_int_equal(type_table_read(&types, path, world->kinds, world->counts.kinds, &error), 0);
+    input.types = &types;
+    input.frame = &frame;
+    input.own = (struct entity_ids){1991, 10, 2};
+    input.clamp = true;
+    input.timeout_ns = 12 * (uint64_t)NS_PER_S;
+    assert_int_equal(remote_input_open(&input, &f.view, &error), 0);
+}
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 64; remotes_max = 4; }; vehicles = ();");
+    fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                            .at = {25000.0, FIXTURE_GROUND_M, 25000.0},
+                                            .force = FORCE_BLUE});
+    local_frame_make(&frame, 35.95, -121.25, -33.7, 25000.0, 25000.0);
+    assert_int_equal(snapshot_init(&snapshot, &f.view), 0);
+    assert_int_equal(udp_address_parse(&peer, "127.0.0.1:40000", 0, &error), 0);
+    assert_int_equal(udp_address_parse(&other, "127.0.0.1:40001", 0, &error), 0);
+    now_ns = 1000 * (uint64_t)NS_PER_S;
+    open_input();
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    remote_input_close(&input);
+    snapshot_free(&snapshot);
+    return fixture_teardown(state);
+}
+
+/* Lets the world take what was told, and the gateway see it. */
+static void pass(double seconds)
+{
+    remote_input_tell(&input, &f.view, now_ns);
+    fixture_run(&f, 2);
+    now_ns += (uint64_t)(seconds * 1e9);
+    assert_int_equal(snapshot_take(&snapshot, &f.view), 0);
+    remote_input_see(&input, &f.view, &snapshot, now_ns);
+    remote_input_tell(&input, &f.view, now_ns);
+    fixture_run(&f, 1);
+}
+
+static struct pdu state_of(uint16_t entity, struct vec3 at)
+{
+    static struct pdu pdu;
+    struct vec3 ecef = local_frame_ecef(&frame, at);
+    struct mat3 turn = rotation_matrix(rotation_of(1.0, 0.1, -0.2));
+    struct mat3 matrix = local_frame_ecef_turn(&frame, &turn);
+    struct euler angles = euler_of(&matrix);
+    memset(&pdu, 0, sizeof pdu);
+    pdu.header.type = PDU_ENTITY_STATE;
+    pdu.entity_state = (struct pdu_entity_state){.id = {7, 1, entity},
+                                                 .force = PDU_FORCE_OPPOSING,
+                                                 .type = {1, 1, 222, 1, 2, 1, 0}, /* T-72 */
+                                                 .location = {ecef.x, ecef.y, ecef.z},
+                                                 .dead_reckoning = DEAD_RECKONING_STATIC,
+                                                 .marking = "T72"};
+    vec3_to_floats(pdu.entity_state.orientation,
+                   (struct vec3){angles.psi, angles.theta, angles.phi});
+    return pdu;
+}
+
+static void take(const struct pdu *pdu, const struct udp_address *from)
+{
+    assert_true(remote_input_take(&input, &f.view, pdu, from, now_ns));
+}
+
+static uint32_t row_of(uint16_t entity)
+{
+    return remotes_row(&f, remote_id(7, 1, entity));
+}
+
+static void test_an_entity_state_becomes_a_row(void **state)
+{
+    struct pdu pdu = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M + 3.0, 24900.0});
+    struct vec3 velocity = local_frame_ecef_direction(&frame, (struct vec3){4.0, 0.0, -3.0});
+    (void)state;
+    pdu.entity_state.dead_reckoning = DEAD_RECKONING_FPW;
+    pdu.entity_state.appearance = PDU_APPEARANCE_DAMAGE(1);
+    vec3_to_floats(pdu.entity_state.velocity, velocity);
+    pdu.parts = 2;
+    pdu.part[0] = (struct pdu_part){.type = PDU_TURRET_AZIMUTH, .value = -1.5f};
+    pdu.part[1] = (struct pdu_part){.type = PDU_GUN_ELEVATION, .value = 0.25f};
+    take(&pdu, &peer);
+    remote_input_tell(&input, &f.view, now_ns);
+    fixture_run(&f, 1);
+    uint32_t row = row_of(5);
+    const struct state now = fixture_state(&f);
+    const struct entities *e = &now.entities;
+    assert_int_equal(row, 1);
+    assert_int_equal(e->kind[row], fixture_kind(&f, "tank"));
+    assert_int_equal(e->force[row], FORCE_RED);
+    assert_int_equal(e->damage[row], DAMAGE_LOW);
+    assert_true(fabs(e->x[row] - 25100.0) < 1e-6 && fabs(e->z[row] - 24900.0) < 1e-6);
+    assert_true(fabs(e->y[row] - FIXTURE_GROUND_M) < 1e-6); /* clamped */
+    assert_true(fabs(e->vx[row] - 4.0) < 1e-5 && fabs(e->vz[row] + 3.0) < 1e-5);
+    assert_true(fabs(e->heading[row] - 1.0) < 1e-5 && fabs(e->pitch[row] - 0.1) < 1e-5 &&
+                fabs(e->roll[row] + 0.2) < 1e-5);
+    assert_true(fabs((double)e->turret[row] + 1.5) < 1e-3);
+    assert_true(fabs((double)e->gun[row] - 0.25) < 1e-3);
+    struct remote_record record = remote_record_of(&f.view.commands[RING_GATEWAY]->slot[0]);
+    assert_string_equal(record.marking, "T72");
+}
+
+/* Body axes: what a PDU of models 6 to 9 says is the same motion as in those of the world. */
+static void test_body_axes(void **state)
+{
+    struct pdu pdu = state_of(5, (struct vec3){25100.0, 900.0, 24900.0});
+    (void)state;
+    pdu.entity_state.type = (struct pdu_entity_type){1, 2, 222, 1, 2, 1, 0};
+    pdu.entity_state.dead_reckoning = DEAD_RECKONING_RVB;
+    vec3_to_floats(pdu.entity_state.velocity, (struct vec3){60.0, 0.0, 0.0});        /* forward */
+    vec3_to_floats(pdu.entity_state.angular_velocity, (struct vec3){0.0, 0.0, 0.5}); /* right */
+    take(&pdu, &peer);
+    remote_input_tell(&input, &f.view, now_ns);
+    fixture_run(&f, 1);
+    const struct state now = fixture_state(&f);
+    const struct entities *e = &now.entities;
+    struct mat3 turn = rotation_matrix(rotation_of(1.0, 0.1, -0.2));
+    struct vec3 forward = rotation_apply(&turn, (struct vec3){60.0, 0.0, 0.0});
+    struct vec3 down = rotation_apply(&turn, (struct vec3){0.0, -0.5, 0.0});
+    assert_true(vec3_length(vec3_sub(entities_velocity(e, 1), forward)) < 1e-4);
+    assert_true(fabs(e->spin_x[1] - down.x) + fabs(e->spin_y[1] - down.y) +
+                    fabs(e->spin_z[1] - down.z) <
+                1e-5);
+    double before = e->heading[1];
+    fixture_run(&f, 30);
+    assert_true(steps_rows(&f).heading[1] - before > 0.2); /* it turns to the right */
+}
+
+static void test_it_is_lost(void **state)
+{
+    struct pdu pdu = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
+    (void)state;
+    take(&pdu, &peer);
+    for (int i = 0; i < 10; i++) {
+        pass(2.0);
+        take(&pdu, &peer);
+    }
+    assert_int_equal(row_of(5), 1);
+    assert_int_equal(steps_rows(&f).id[1], 2); /* the row of the first one */
+    pass(11.0);
+    assert_int_equal(row_of(5), 1);
+    pass(2.0); /* 13 s after the last */
+    assert_int_equal(row_of(5), SLOT_NONE);
+    assert_int_equal(input.lost, 1);
+    pass(3.0);
+    assert_int_equal(input.table.count, 0);
+    take(&pdu, &peer);
+    pass(1.0);
+    assert_int_not_equal(row_of(5), SLOT_NONE);
+    pdu.entity_state.appearance = PDU_APPEARANCE_DEACTIVATED;
+    take(&pdu, &peer);
+    pass(1.0);
+    assert_int_equal(row_of(5), SLOT_NONE);
+    assert_int_equal(input.lost, 2);
+}
+
+static void test_a_gateway_that_starts_anew(void **state)
+{
+    struct pdu pdu = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
+    struct pdu shot = {.header.type = PDU_DETONATION};
+    struct vec3 ecef = local_frame_ecef(&frame, (struct vec3){25500.0, 100.0, 25000.0});
+    (void)state;
+    shot.detonation = (struct pdu_detonation){.firer = {7, 1, 5},
+                                              .event = {7, 1, 77},
+                                              .munition_type = {2, 9, 225, 2, 14, 2, 0},
+                                              .location = {ecef.x, ecef.y, ecef.z},
+                                              .result = PDU_RESULT_GROUND_IMPACT};
+    take(&pdu, &peer);
+    take(&shot, &peer);
+    pass(0.1);
+    uint32_t row = row_of(5);
+    assert_int_not_equal(row, SLOT_NONE);
+    remote_input_close(&input);
+    open_input();
+    pass(0.1);
+    assert_int_equal(input.table.count, 1); /* from the rows */
+    take(&pdu, &other);                     /* whoever comes first is its owner */
+    take(&pdu, &peer);
+    assert_int_equal(input.refused_twin, 1);
+    take(&shot, &peer);
+    assert_int_equal(input.repeated, 1); /* from the ring */
+    pass(0.1);
+    assert_int_equal(row_of(5), row);
+    assert_int_equal(fixture_event_count(&f, EVENT_DETONATION), 1);
+}
+
+static void test_a_stranger_with_too_many(void **state)
+{
+    (void)state;
+    for (uint16_t i = 1; i <= 1000; i++) {
+        struct pdu pdu = state_of(i, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
+        take(&pdu, &peer);
+    }
+    assert_int_equal(input.refused_full, 996);
+    pass(0.1);
+    assert_int_equal(fixture_state(&f).head->vehicles, 5);
+    assert_int_equal(fixture_event_count(&f, EVENT_INPUT), 1);
+    assert_int_equal(fixture_event(&f, EVENT_INPUT, 0)->input.refused, 0);
+}
+
+static void test_places_that_are_none(void **state)
+{
+    struct pdu pdu = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0}), far = pdu;
+    (void)state;
+    take(&pdu, &peer);
+    pass(0.1);
+    far = state_of(5, (struct vec3){1000.0, FIXTURE_GROUND_M, 49000.0});
+    take(&far, &peer);
+    assert_int_equal(input.refused_jump, 1);
+    far = state_of(6, (struct vec3){-100.0, FIXTURE_GROUND_M, 24900.0});
+    take(&far, &peer);
+    far.entity_state.location[0] = far.entity_state.location[1] = far.entity_state.location[2] =
+        1.0; /* the middle of the earth */
+    take(&far, &peer);
+    far.entity_state.location[0] = 1e30;
+    take(&far, &peer);
+    assert_int_equal(input.refused_place, 3);
+    pass(0.1);
+    assert_true(fabs(steps_rows(&f).x[1] - 25100.0) < 1e-6);
+    assert_int_equal(fixture_state(&f).head->used, 2);
+}
+
+static void test_absurd_motion(void **state)
+{
+    struct pdu pdu = state_of(5, (struct vec3){25100.0, 500.0, 24900.0});
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        pdu.entity_state.velocity[i] = 1e30f;
+        pdu.entity_state.acceleration[i] = -1e30f;
+        pdu.entity_state.angular_velocity[i] = 1e20f;
+        pdu.entity_state.orientation[i] = 1e25f;
+    }
+    pdu.entity_state.dead_reckoning = 77; /* static */
+    pdu.parts = 1;
+    pdu.part[0] = (struct pdu_part){.type = PDU_TURRET_AZIMUTH, .value = 1e29f};
+    take(&pdu, &peer);
+    pass(0.1);
+    assert_int_equal(row_of(5), 1);
+    assert_true(steps_speed(&f, 1) == 0.0);
+    pdu.entity_state.dead_reckoning = DEAD_RECKONING_RVW;
+    take(&pdu, &peer);
+    pass(0.1);
+    assert_int_equal(fixture_event(&f, EVENT_INPUT, 1)->input.refused, 0);
+}
+
+static void test_types(void **state)
+{
+    static const struct {
+        struct pdu_entity_type type;
+        const char *kind; /* NULL: left out */
+    } cases[] = {
+        {{1, 1, 225, 1, 1, 3, 0}, "tank"}, /* M1A2, which the table does not have */
+        {{1, 1, 222, 2, 9, 9, 0}, "carrier"}, {{1, 1, 71, 7, 0, 0, 0}, "truck"},
+        {{1, 1, 222, 28, 12, 1, 0}, "flak"},  {{1, 2, 225, 20, 0, 0, 0}, "helicopter"},
+        {{1, 3, 225, 5, 0, 0, 0}, "ship"},    {{3, 1, 225, 1, 3, 0, 0}, NULL}, /* a soldier */
+        {{2, 2, 225, 2, 13, 1, 0}, NULL}, /* a munition in flight */
+        {{5, 1, 0, 2, 0, 0, 0}, NULL},    /* a building */
+        {{1, 5, 225, 1, 0, 0, 0}, NULL},  /* a satellite */
+    };
+    (void)state;
+    for (uint16_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct pdu pdu = state_of(5, (struct vec3){25100.0, 500.0, 24900.0});
+        uint64_t left_out = input.refused_type;
+        pdu.entity_state.type = cases[i].type;
+        take(&pdu, &peer);
+        take(&pdu, &peer);
+        assert_int_equal(input.refused_type - left_out, cases[i].kind ? 0 : 2);
+        if (!cases[i].kind)
+            continue;
+        pass(0.1);
+        if (steps_rows(&f).kind[1] != fixture_kind(&f, cases[i].kind))
+            fail_msg("case %u is a %s", i, f.view.world.kinds[steps_rows(&f).kind[1]].name);
+    }
+    assert_in_range(input.told_count, 5, 10); /* each type once */
+}
+
+static void test_often_told_is_told_seldom(void **state)
+{
+    (void)state;
+    for (int i = 0; i < 1000; i++) { /* an entity that sends 1,000 a second */
+        struct pdu pdu = state_of(5, (struct vec3){25100.0 + i, FIXTURE_GROUND_M, 24900.0});
+        take(&pdu, &peer);
+        now_ns += NS_PER_MS;
+        remote_input_tell(&input, &f.view, now_ns);
+    }
+    assert_in_range(input.tracks, 45, 51);
+}
+
+static void test_a_full_ring(void **state)
+{
+    (void)state;
+    uint64_t slots = layout_ring_slots(f.view.header, RING_GATEWAY);
+    for (uint64_t i = 0; i < slots + 10; i++) {
+        struct pdu pdu = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
+        take(&pdu, &peer);
+        now_ns += NS_PER_S;
+        remote_input_tell(&input, &f.view, now_ns);
+    }
+    assert_int_equal(input.tracks, slots); /* the world has not taken one */
+    assert_int_equal(input.refused_ring, 10);
+    pass(0.1);
+    assert_int_equal(row_of(5), 1);
+}
+
+static void test_shots(void **state)
+{
+    struct pdu fire = {.header.type = PDU_FIRE}, hit = {.header.type = PDU_DETONATION};
+    struct vec3 ecef = local_frame_ecef(&frame, (struct vec3){25001.0, 101.0, 25000.0});
+    struct vec3 velocity = local_frame_ecef_direction(&frame, (struct vec3){-1200.0, 0.0, 0.0});
+    (void)state;
+    fire.fire = (struct pdu_fire){.firer = {7, 1, 5},
+                                  .target = {1991, 10, 1},
+                                  .event = {7, 1, 3},
+                                  .munition_type = {2, 2, 225, 2, 13, 1, 0},
+                                  .location = {ecef.x, ecef.y, ecef.z}};
+    hit.detonation = (struct pdu_detonation){.firer = {7, 1, 5},
+                                             .target = {1991, 10, 1},
+                                             .event = {7, 1, 3},
+                                             .munition_type = {2, 2, 225, 2, 13, 1, 0},
+                                             .location = {ecef.x, ecef.y, ecef.z},
+                                             .point = {1.0f, 0.0f, -1.0f},
+                                             .result = PDU_RESULT_ENTITY_IMPACT};
+    vec3_to_floats(hit.detonation.velocity, velocity);
+    take(&fire, &peer);
+    take(&fire, &peer);
+    take(&hit, &peer);
+    take(&hit, &peer);
+    assert_int_equal(input.fires, 1);
+    assert_int_equal(input.struck, 1);
+    assert_int_equal(input.repeated, 2);
+    fixture_run(&f, 3);
+    assert_int_equal(fixture_event(&f, EVENT_FIRE, 0)->fire.target.id, 1);
+    assert_int_equal(fixture_event(&f, EVENT_DETONATION, 0)->detonation.struck_party.id, 1);
+    assert_true(steps_rows(&f).harm_j[0] > 0.0);
+    hit.detonation.result = PDU_RESULT_DUD;
+    hit.detonation.event.entity = 4;
+    take(&hit, &peer);
+    assert_int_equal(input.struck, 1);
+}
+
+static void test_a_world_without_room_takes_nothing(void **state)
+{
+    struct pdu pdu = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
+    (void)state;
+    remote_input_close(&input);
+    assert_int_equal(remote_table_open(&input.table, 0), 0);
+    assert_false(remote_input_take(&input, &f.view, &pdu, &peer, now_ns));
+    pdu.header.type = PDU_ACKNOWLEDGE;
+    assert_false(remote_input_take(&input, &f.view, &pdu, &peer, now_ns));
+}
+
+int main(void)
+{
+#define TEST(test) cmocka_unit_test_prestate_setup_teardown(test, open_world, close_world, &f)
+    const struct CMUnitTest tests[] = {
+        TEST(test_an_entity_state_becomes_a_row),
+        TEST(test_body_axes),
+        TEST(test_it_is_lost),
+        TEST(test_a_gateway_that_starts_anew),
+        TEST(test_a_stranger_with_too_many),
+        TEST(test_places_that_are_none),
+        TEST(test_absurd_motion),
+        TEST(test_types),
+        TEST(test_often_told_is_told_seldom),
+        TEST(test_a_full_ring),
+        TEST(test_shots),
+        TEST(test_a_world_without_room_takes_nothing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

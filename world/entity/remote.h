@@ -1,0 +1,140 @@
+/* Remote entities: vehicles that another simulator owns and tells us of (docs/dis.md).
+ *
+ * A remote entity is a row like any other, with BEHAVIOUR_REMOTE. Records of its owner reach the
+ * mover through the gateway's ring, and are recorded with the run. Between two of them the mover
+ * extrapolates the row by dead reckoning. The collider neither moves nor damages it. */
+#ifndef JOLON_WORLD_ENTITY_REMOTE_H
+#define JOLON_WORLD_ENTITY_REMOTE_H
+
+#include "world/entity/command.h"
+#include "world/entity/entity.h"
+#include "world/maths/dead_reckoning.h"
+
+#include <string.h>
+
+#define REMOTE_MARKING_MAX 12u
+
+/* Rows of remote entities at most, of CAPACITY_MAX. */
+#define REMOTE_ROWS_MAX 131072u
+
+/* The types of records. They share the ring of the gateway's commands, so no number is one of
+ * enum command_type. */
+enum remote_type {
+    REMOTE_TRACK = 256, /* where an entity is and how it moves; makes its row at first */
+    REMOTE_LOST,        /* the entity is gone, or its owner was not heard of for too long */
+    REMOTE_STRUCK,      /* a munition of another simulator detonates here */
+    REMOTE_FIRE,        /* an entity of another simulator fires */
+    REMOTE_TYPE_END
+};
+
+#define REMOTE_FLAG_CLAMPED 1u /* a land vehicle is set on our ground where that is near */
+
+/* A record in the gateway's ring, in a slot of the size of a command. Everything is in the axes of
+ * the world, also the velocity, acceleration and rates of models 6 to 9, whose axes turn with the
+ * body. */
+struct remote_record {
+    uint64_t sequence; /* as in struct command */
+    uint64_t remote;   /* remote_id() of the entity; STRUCK: of the firer, 0: none */
+    uint64_t event;    /* FIRE, STRUCK: remote_id() of the event */
+    uint32_t type;     /* enum remote_type */
+    uint32_t slot;     /* where the sender has seen the entity's row; SLOT_NONE: nowhere */
+    union {
+        uint32_t entity;    /* FIRE, STRUCK: our vehicle that is the target, 0: none */
+        struct {            /* TRACK */
+            uint8_t damage; /* enum damage */
+            uint8_t flags;  /* REMOTE_FLAG_* */
+            uint8_t unused[2];
+        };
+    };
+    uint16_t kind;                    /* TRACK: of the row; FIRE, STRUCK: of the munition */
+    uint8_t force;                    /* enum force */
+    uint8_t model;                    /* TRACK: enum dead_reckoning_model */
+    double position[3];               /* [m]; STRUCK with a target: in its body axes */
+    float velocity[3];                /* [m/s] */
+    float acceleration[3];            /* [m/s^2] TRACK */
+    float rates[3];                   /* [rad/s] TRACK: angular velocity */
+    float attitude[3];                /* [rad] TRACK: heading, pitch, roll */
+    int16_t turret, gun;              /* [pi / 32768 rad] TRACK */
+    char marking[REMOTE_MARKING_MAX]; /* TRACK: for people; the rest is NUL */
+};
+_Static_assert(sizeof(struct remote_record) == sizeof(struct command), "a record is in a slot");
+
+/* Why a record is refused. */
+enum remote_refusal {
+    REMOTE_TAKEN,    /* it is not */
+    REMOTE_UNKNOWN,  /* not a type, or values out of range */
+    REMOTE_NO_KIND,  /* the kind does not exist, or does not fit */
+    REMOTE_TOO_MANY, /* world.remotes_max entities are there */
+    REMOTE_NO_ROW,   /* the table is full */
+    REMOTE_JUMPS,    /* it would jump further than an entity can */
+    REMOTE_NOBODY,   /* there is no such entity */
+    REMOTE_REFUSAL_COUNT
+};
+
+/* A TRACK further from where the row is than this is refused [m]. */
+#define REMOTE_JUMP_M 10000.0
+
+/* Without a TRACK for this long an entity is no longer extrapolated [s of simulation]. */
+#define REMOTE_TRUST_S 30.0
+
+/* The number by which the owner's simulation knows an entity or an event. Never 0 for an entity. */
+static inline uint64_t remote_id(uint16_t site, uint16_t application, uint16_t entity)
+{
+    return (uint64_t)site << 32 | (uint64_t)application << 16 | entity;
+}
+
+static inline struct remote_record remote_record_of(const struct command *slot)
+{
+    struct remote_record record;
+    memcpy(&record, slot, sizeof record);
+    return record;
+}
+
+static inline struct command remote_record_slot(const struct remote_record *record)
+{
+    struct command slot;
+    memcpy(&slot, record, sizeof slot);
+    return slot;
+}
+
+/* Adds the record in a slot to the hash of those before it, 0 before the first. Its number in the
+ * ring is left out: a log that is played again gives it another. */
+uint64_t remote_record_hash(const struct command *slot, uint64_t before);
+
+static inline bool remote_is_record(uint32_t type)
+{
+    return type >= REMOTE_TRACK && type < REMOTE_TYPE_END;
+}
+
+static inline bool remote_is(const struct entities *e, uint32_t i)
+{
+    return e->behaviour[i] == BEHAVIOUR_REMOTE;
+}
+
+/* A remote row has no agent and no driver, so it uses their columns:
+ *   driver                        remote_id()
+ *   order_arg                     enum dead_reckoning_model | REMOTE_FLAG_* << REMOTE_FLAGS_SHIFT
+ *   seen_tick                     when its last TRACK came
+ *   climb, traverse, elevate      acceleration [m/s^2, world axes]
+ *   goal_x, ease, goal_z          velocity by which an error of its place vanishes [m/s]
+ *   steer, brake, dodge           rates by which one of its attitude vanishes [rad/s, world axes]
+ *   until_tick                    when both have vanished */
+#define REMOTE_FLAGS_SHIFT 8u
+#define REMOTE_MODEL_MASK  0xffu
+
+static inline struct vec3 remote_acceleration(const struct entities *e, uint32_t i)
+{
+    return (struct vec3){(double)e->climb[i], (double)e->traverse[i], (double)e->elevate[i]};
+}
+
+static inline struct vec3 remote_drift(const struct entities *e, uint32_t i)
+{
+    return (struct vec3){e->goal_x[i], (double)e->ease[i], e->goal_z[i]};
+}
+
+static inline struct vec3 remote_turn(const struct entities *e, uint32_t i)
+{
+    return (struct vec3){(double)e->steer[i], (double)e->brake[i], (double)e->dodge[i]};
+}
+
+#endif
