@@ -230,6 +230,13 @@ static void put_lost(struct remote_input *input, struct view *view, struct remot
     remote_table_remove(&input->table, entry);
 }
 
+/* Who comes first with an identifier is its owner, also for a gateway that starts anew. */
+static bool is_owner(const struct remote_entry *entry, const struct udp_address *from)
+{
+    return !entry->from_known || (udp_address_same_host(&entry->from, from) &&
+                                  udp_address_port(&entry->from) == udp_address_port(from));
+}
+
 /* Returns the entry that may be told of this place, or NULL and counts why not. */
 static struct remote_entry *admit(struct remote_input *input, uint64_t remote, struct vec3 place,
                                   const struct udp_address *from, uint64_t now_ns)
@@ -243,8 +250,7 @@ static struct remote_entry *admit(struct remote_input *input, uint64_t remote, s
         input->refused_full++;
         return NULL;
     }
-    if (entry->from_known && (!udp_address_same_host(&entry->from, from) ||
-                              udp_address_port(&entry->from) != udp_address_port(from))) {
+    if (!is_owner(entry, from)) {
         input->refused_twin++;
         return NULL;
     }
@@ -264,7 +270,7 @@ static void take_state(struct remote_input *input, struct view *view, const stru
     uint64_t remote = id_of(state->id);
     struct remote_entry *entry = remote_table_find(&input->table, remote);
     if (state->appearance & PDU_APPEARANCE_DEACTIVATED) {
-        if (entry && entry->from_known && udp_address_same_host(&entry->from, from))
+        if (entry && is_owner(entry, from))
             put_lost(input, view, entry);
         return;
     }

@@ -219,6 +219,17 @@ static void test_a_gateway_that_starts_anew(void **state)
     pass(0.1);
     assert_int_equal(row_of(5), row);
     assert_int_equal(fixture_event_count(&f, EVENT_DETONATION), 1);
+    /* One that has not heard its owner yet takes its word that the entity is gone. */
+    pdu.entity_state.appearance = PDU_APPEARANCE_DEACTIVATED;
+    take(&pdu, &peer); /* this gateway has */
+    pass(0.1);
+    assert_int_equal(row_of(5), row);
+    remote_input_close(&input);
+    open_input();
+    pass(0.1);
+    take(&pdu, &peer);
+    pass(0.1);
+    assert_int_equal(row_of(5), SLOT_NONE);
 }
 
 static void test_a_stranger_with_too_many(void **state)
