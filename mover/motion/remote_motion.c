@@ -60,9 +60,9 @@ static void set_acceleration(struct entities *m, uint32_t i, struct vec3 acceler
     m->elevate[i] = (float)acceleration.z;
 }
 
-/* Leads the row to the model's state one frame later, and returns the place. The body axes of the
+/* Leads a row whose axes turn with the body to its state one frame later. The body axes of the
  * formula are those of the world at the frame's beginning. */
-static struct vec3 extrapolate(const struct step_context *context, uint32_t i, unsigned model)
+static struct vec3 extrapolate_body(const struct step_context *context, uint32_t i, unsigned model)
 {
     struct entities *m = context->m;
     struct dead_reckoning state = {.model = (uint8_t)model,
@@ -76,12 +76,24 @@ static struct vec3 extrapolate(const struct step_context *context, uint32_t i, u
     dead_reckoning_at(&state, context->dt_s, &at, &since);
     if (accelerates(model))
         velocity = vec3_add(velocity, vec3_scale(state.acceleration, context->dt_s));
-    if (model == DEAD_RECKONING_RPB || model == DEAD_RECKONING_RVB) {
-        velocity = rotation_apply(&since, velocity);
-        set_acceleration(m, i, rotation_apply(&since, state.acceleration));
-    }
-    entities_set_velocity(m, i, velocity);
+    entities_set_velocity(m, i, rotation_apply(&since, velocity));
+    set_acceleration(m, i, rotation_apply(&since, state.acceleration));
     return at;
+}
+
+/* Leads the row to the model's state one frame later, and returns the place. */
+static struct vec3 extrapolate(const struct step_context *context, uint32_t i, unsigned model)
+{
+    struct entities *m = context->m;
+    if (model == DEAD_RECKONING_RPB || model == DEAD_RECKONING_RVB)
+        return extrapolate_body(context, i, model);
+    struct vec3 velocity = entities_velocity(m, i);
+    struct vec3 at = vec3_add(entities_position(m, i), vec3_scale(velocity, context->dt_s));
+    if (!accelerates(model))
+        return at;
+    struct vec3 gain = vec3_scale(remote_acceleration(m, i), context->dt_s);
+    entities_set_velocity(m, i, vec3_add(velocity, gain));
+    return vec3_add(at, vec3_scale(gain, 0.5 * context->dt_s));
 }
 
 static void turn(const struct step_context *context, uint32_t i, struct vec3 rates_rps)
