@@ -26,7 +26,8 @@ int resting_rows_init(struct resting_rows *rows, uint32_t capacity)
 {
     *rows = (struct resting_rows){.resting = calloc(words_of(capacity), sizeof *rows->resting),
                                   .turns = calloc(words_of(capacity), sizeof *rows->turns)};
-    if (rows->resting && rows->turns)
+    if (rows->resting && rows->turns &&
+        hover_watch_init(&rows->hovering, (uint32_t)words_of(capacity)) == 0)
         return 0;
     resting_rows_free(rows);
     return -1;
@@ -36,6 +37,7 @@ void resting_rows_free(struct resting_rows *rows)
 {
     free(rows->resting);
     free(rows->turns);
+    hover_watch_free(&rows->hovering);
     *rows = (struct resting_rows){0};
 }
 
@@ -87,6 +89,11 @@ void resting_rows_wake_craters(struct resting_rows *rows, const struct step_cont
     rows->craters = count;
 }
 
+void resting_rows_wake_hovering(struct resting_rows *rows, const struct step_context *context)
+{
+    hover_watch_wake(&rows->hovering, rows->resting, context);
+}
+
 /* --- this frame's rows -------------------------------------------------------------------------*/
 
 /* Returns those of the rows of a word that decide in this frame. */
@@ -103,6 +110,7 @@ static uint64_t due_of(const struct step_context *context, uint32_t first, uint6
 uint32_t resting_rows_awake(const struct resting_rows *rows, const struct step_context *context,
                             struct row_block *block)
 {
+    bool burns = kinematics_hover_burns(context, block->first);
     uint32_t count = 0;
     for (uint32_t w = 0; w < ROW_BLOCK_WORDS; w++) {
         uint32_t row = block->first + w * 64;
@@ -111,7 +119,9 @@ uint32_t resting_rows_awake(const struct resting_rows *rows, const struct step_c
             continue;
         uint64_t there = UINT64_MAX >> (block->end - row < 64 ? 64 - (block->end - row) : 0);
         uint64_t resting = rows->resting[row / 64], turns = rows->turns[row / 64];
-        block->awake[w] = there & (~resting | due_of(context, row, there & resting & turns));
+        uint64_t due = due_of(context, row, there & resting & turns);
+        due |= burns ? rows->hovering.hovers[row / 64] : 0;
+        block->awake[w] = there & (~resting | due);
         count += (uint32_t)__builtin_popcountll(block->awake[w]);
     }
     block->all = count == block->end - block->first;
@@ -136,10 +146,38 @@ static bool is_at_ease(const struct step_context *context, uint32_t i)
            !perception_hurt_soon(context, i);
 }
 
-enum rest { REST_NONE, REST_TURNS, REST_ALL };
+enum rest { REST_NONE, REST_TURNS, REST_HOVERS, REST_ALL };
+
+static bool has_rest(const struct resting_rows *rows, uint32_t i)
+{
+    return rows->resting[i / 64] >> i % 64 & 1;
+}
+
+/* Returns true if row i is at rest in the air, and moves only because it burns fuel. */
+static bool only_burns(const struct resting_rows *rows, uint32_t i)
+{
+    return has_rest(rows, i) && hover_watch_hovers(&rows->hovering, i);
+}
+
+/* Returns how an agent rests that is at ease. decided: in this frame. */
+static enum rest rest_of_agent(const struct resting_rows *rows, const struct step_context *context,
+                               uint32_t i, bool decided)
+{
+    bool flies = context->world->kinds[context->m->kind[i]].domain == DOMAIN_AIR;
+    if (!decided && !only_burns(rows, i))
+        return REST_TURNS;
+    if (!perception_settled(context, i))
+        return REST_TURNS;
+    if (!flies)
+        return REST_ALL;
+    return !(context->m->flags[i] & ENTITY_FLAG_LANDED) && hover_watch_alone(context, i)
+               ? REST_HOVERS
+               : REST_TURNS;
+}
 
 /* Returns how row i rests if moving it has changed nothing. */
-static enum rest rest_of(const struct step_context *context, uint32_t i, enum motion motion)
+static enum rest rest_of(const struct resting_rows *rows, const struct step_context *context,
+                         uint32_t i, enum motion motion)
 {
     const struct entities *m = context->m;
     switch (motion) {
@@ -150,14 +188,9 @@ static enum rest rest_of(const struct step_context *context, uint32_t i, enum mo
     case MOTION_HOLD: /* a gun with a target is laid in the row's turn */
         return is_still(m, i) && m->trigger[i] == 0 && m->target_id[i] == 0 ? REST_ALL : REST_NONE;
     case MOTION_COURSE:
-        return is_at_ease(context, i) ? REST_TURNS : REST_NONE;
     case MOTION_AGENT:
-        if (!is_at_ease(context, i))
-            return REST_NONE;
-        return context->world->kinds[m->kind[i]].domain != DOMAIN_AIR &&
-                       perception_settled(context, i)
-                   ? REST_ALL
-                   : REST_TURNS;
+        return is_at_ease(context, i) ? rest_of_agent(rows, context, i, motion == MOTION_AGENT)
+                                      : REST_NONE;
     case MOTION_FLIGHT:
     case MOTION_ALONE:
     case MOTION_REMOTE:
@@ -166,9 +199,14 @@ static enum rest rest_of(const struct step_context *context, uint32_t i, enum mo
     return REST_NONE;
 }
 
-static bool has_rest(const struct resting_rows *rows, uint32_t i)
+/* Returns true if moving row i has changed something that may go on to change. */
+static bool has_changed(const struct resting_rows *rows, const struct step_context *context,
+                        uint32_t i, enum rest rest)
 {
-    return rows->resting[i / 64] >> i % 64 & 1;
+    uint64_t columns = entities_differing(context->m, &context->committed->entities, i);
+    if (rest == REST_HOVERS && only_burns(rows, i))
+        columns &= ~COLUMN_BIT(fuel_l);
+    return columns != 0;
 }
 
 static void settle_row(struct resting_rows *rows, const struct step_context *context, uint32_t i,
@@ -176,16 +214,18 @@ static void settle_row(struct resting_rows *rows, const struct step_context *con
 {
     const uint64_t bit = (uint64_t)1 << i % 64;
     uint64_t *resting = &rows->resting[i / 64], *turns = &rows->turns[i / 64];
-    enum rest rest = rest_of(context, i, motion);
+    enum rest rest = rest_of(rows, context, i, motion);
     if (rest == REST_NONE && !(*resting & bit))
         return;
-    if (rest == REST_NONE || entities_differing(context->m, &context->committed->entities, i) != 0)
+    if (rest == REST_NONE || has_changed(rows, context, i, rest))
         *resting &= ~bit;
     else
         *resting |= bit;
+    hover_watch_note(&rows->hovering, context, i, rest == REST_HOVERS);
     *turns = rest == REST_TURNS ? *turns | bit : *turns & ~bit;
 }
 
+_Static_assert(KINEMATICS_HOVER_ROWS == CHECKSUM_ROWS, "a block burns its fuel in one frame");
 _Static_assert(BEHAVIOUR_IDLE == 0 && MOTION_HOLD < 4 && MOTION_COURSE >= 4,
                "may_rest() compares bytes");
 

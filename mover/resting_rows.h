@@ -4,16 +4,18 @@
  * This is a cache of one process. It is empty after a start, and no bit of a result depends on it.
  * A row begins to rest in a frame in which it was moved and nothing in it changed, if it can only
  * change by an event: a wreck at rest, a vehicle that holds its course and stands, and an agent
- * that stands by its order and has nothing to decide. An agent that has something to look for, and
- * an aircraft that hovers, rest between their turns to decide.
+ * that stands by its order and has nothing to decide. An agent that has something to look for rests
+ * between its turns to decide. An aircraft that hovers is moved in the frames in which it burns
+ * fuel.
  *
  * A row wakes when anything writes to it: a command, a shot, a response of the collider, or when a
- * crater is dug near it. */
+ * crater is dug near it. One that hovers also wakes when an aircraft moves near it. */
 #ifndef JOLON_MOVER_RESTING_ROWS_H
 #define JOLON_MOVER_RESTING_ROWS_H
 
 #include "mover/agent/think_schedule.h"
 #include "mover/context/step_context.h"
+#include "mover/hover_watch.h"
 #include "world/checksum.h"
 
 struct neighbour_lists;
@@ -21,8 +23,9 @@ struct neighbour_lists;
 struct resting_rows {
     uint64_t *resting; /* [capacity / 64] a bit for each row that rests */
     uint64_t *turns;   /* [capacity / 64] of these, the rows that are moved when they decide */
-    uint32_t craters;  /* that have woken the rows near them */
-    bool never;        /* for tests: no row rests */
+    struct hover_watch hovering;
+    uint32_t craters; /* that have woken the rows near them */
+    bool never;       /* for tests: no row rests */
 };
 
 /* No row rests. 0, or -1 with errno ENOMEM. */
@@ -39,6 +42,10 @@ void resting_rows_wake_differing(struct resting_rows *rows, struct table moved,
 /* Wakes the rows near the craters that are new in the committed world. The index of neighbours is
  * that of this frame. */
 void resting_rows_wake_craters(struct resting_rows *rows, const struct step_context *context);
+
+/* Wakes the rows that hover near an aircraft that moves. The index of neighbours is that of this
+ * frame. */
+void resting_rows_wake_hovering(struct resting_rows *rows, const struct step_context *context);
 
 /* Sets which rows of a block are moved in this frame, and returns how many they are. */
 uint32_t resting_rows_awake(const struct resting_rows *rows, const struct step_context *context,

@@ -398,8 +398,9 @@ static uint64_t still_blank(const struct rows *rows, const struct batches *batch
 }
 
 /* Moves the rows of the block that are awake, and finds out which rest from now on. Returns the
- * columns that have not changed. *harmed: set if harm_j has changed. */
-static uint64_t move_block(const struct rows *rows, const struct row_block *block, bool *harmed)
+ * columns that have not changed (few: none). *harmed: set if harm_j has changed. */
+static uint64_t move_block(const struct rows *rows, const struct row_block *block, bool few,
+                           bool *harmed)
 {
     const struct step_context *context = rows->context;
     struct batches batches;
@@ -416,7 +417,7 @@ static uint64_t move_block(const struct rows *rows, const struct row_block *bloc
     *harmed = batches.harmed;
     resting_rows_settle(&rows->mover->resting, context, block, batches.motion,
                         &rows->mover->neighbours, &rows->mover->neighbour_lists);
-    return still_blank(rows, &batches);
+    return few ? 0 : still_blank(rows, &batches);
 }
 
 /* Returns the columns that are different from those of the committed block: of a few rows. */
@@ -438,8 +439,9 @@ static void move_awake(const struct rows *rows, struct row_block *block, uint32_
     bool harmed;
     block->changed = *changed;
     block->blank = ~*changed & table_blank(rows->committed, number, used, rows->blank);
-    uint64_t same = move_block(rows, block, &harmed);
-    if (awake <= FEW_AWAKE && rows->known)
+    bool few = awake <= FEW_AWAKE && rows->known;
+    uint64_t same = move_block(rows, block, few, &harmed);
+    if (few)
         *changed |= differing(rows, block);
     else
         *changed |= COLUMNS_ALL & ~STILL_COLUMNS & ~same;
@@ -459,8 +461,10 @@ static void move_rows(void *context, uint32_t first, uint32_t end, uint32_t work
         struct row_block block = {.first = first,
                                   .end = end - first < CHECKSUM_ROWS ? end : first + CHECKSUM_ROWS};
         uint32_t awake = resting_rows_awake(&rows->mover->resting, rows->context, &block);
-        if (awake > 0)
-            move_awake(rows, &block, awake);
+        if (awake == 0)
+            continue;
+        atomic_fetch_add_explicit(&rows->mover->moved_rows, awake, memory_order_relaxed);
+        move_awake(rows, &block, awake);
     }
 }
 
@@ -636,6 +640,7 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
                         .blank = &mover->blank,
                         .known = is_own(mover, committed, moved)};
     uint32_t used = committed->head->used;
+    mover->moved_rows = 0;
     crater_index_update(&mover->craters, committed->head->crater_count);
     begin_head(moved, committed->head);
     if (!rows.known)
@@ -651,6 +656,7 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
         mover->line_of_sight.fixed_damage = committed->fixed_damage;
         ground_marks_update(&mover->ground_marks, mover->world, committed);
         resting_rows_wake_craters(&mover->resting, &context);
+        resting_rows_wake_hovering(&mover->resting, &context);
         thread_pool_run(mover->workers, move_rows, &rows, used, ROWS_A_WORKER);
         scenario_fires_run(&serial_context);
         fire_mission_run(&serial_context);

@@ -41,6 +41,7 @@ struct mover {
     uint64_t changed[CHECKSUM_BLOCKS]; /* columns of each block that must be hashed again */
     struct block_hashes blank;         /* of a block that is all zero */
     uint64_t left;                     /* checksum that the last step left; 0: none */
+    _Atomic uint32_t moved_rows;       /* rows that the last step has moved */
 };
 
 /* craters: the world's list. workers may be NULL and stays the caller's. 0, or -1 with errno

@@ -7,18 +7,20 @@
 #include "world/state.h"
 #include "world/world.h"
 
-#define AHEAD_S      4.0   /* how far ahead it looks for conflicts */
-#define SAMPLE_S     0.5   /* between two of the times at which it compares the courses */
-#define STEEPEST_RAD 1.4   /* a steeper bank counts as this one */
-#define BESIDE_M     8.0   /* gap at the sides */
-#define OVER_M       14.0  /* gap above and below */
-#define NEARING_S    1.5   /* the gap is larger by their nearing in this time */
-#define SPREAD       0.15  /* how far courses stray, as a share of the way until they meet */
-#define LEAD_S       0.5   /* who will be higher after this time is the higher one */
-#define LEVEL_M      0.5   /* at the same height to this, the lower row is the higher one */
-#define FAR_M        150.0 /* aircraft that are further above or below are in nobody's way */
-#define LOW_SHARE    0.6   /* of its usual height, which it keeps above the ground */
-#define GROUND_S     3.0   /* flight keeps its height above the ground here and after this time */
+#define AHEAD_S       4.0   /* how far ahead it looks for conflicts */
+#define SAMPLE_S      0.5   /* between two of the times at which it compares the courses */
+#define STEEPEST_RAD  1.4   /* a steeper bank counts as this one */
+#define BESIDE_M      8.0   /* gap at the sides */
+#define OVER_M        14.0  /* gap above and below */
+#define NEARING_S     1.5   /* the gap is larger by their nearing in this time */
+#define SPREAD        0.15  /* how far courses stray, as a share of the way until they meet */
+#define LEAD_S        0.5   /* who will be higher after this time is the higher one */
+#define LEVEL_M       0.5   /* at the same height to this, the lower row is the higher one */
+#define FAR_M         150.0 /* aircraft that are further above or below are in nobody's way */
+#define LOW_SHARE     0.6   /* of its usual height, which it keeps above the ground */
+#define HOVER_LEVEL_M 0.25  /* between the heights at which those on hold are kept from others */
+#define HOVER_ROUNDED 0.1   /* of that: so far from a height they are at it */
+#define GROUND_S      3.0   /* flight keeps its height above the ground here and after this time */
 
 /* The heights [m] between which row i may fly, and when [s] it meets whom they keep it from. */
 struct clearance {
@@ -88,12 +90,17 @@ static void keep_from(const struct step_context *context, uint32_t i, uint32_t o
     }
 }
 
+double aircraft_separation_reach(const struct step_context *context, uint32_t kind,
+                                 double speed_mps)
+{
+    return 2.0 * AHEAD_S * speed_mps + 2.0 * context->avoidance->reach_m[kind] + AHEAD_S * BESIDE_M;
+}
+
 static void look_around(const struct step_context *context, uint32_t i, struct clearance *clear)
 {
     const struct entities *w = &context->committed->entities;
     double speed = sqrt(w->vx[i] * w->vx[i] + w->vz[i] * w->vz[i]);
-    double radius =
-        2.0 * AHEAD_S * speed + 2.0 * context->avoidance->reach_m[w->kind[i]] + AHEAD_S * BESIDE_M;
+    double radius = aircraft_separation_reach(context, w->kind[i], speed);
     const struct course own = course_of(w, i);
     float x = (float)w->x[i], y = (float)w->y[i], z = (float)w->z[i];
     float square = (float)(radius * radius);
@@ -107,6 +114,14 @@ static void look_around(const struct step_context *context, uint32_t i, struct c
                 keep_from(context, i, at->row, &own, clear);
         }
     }
+}
+
+/* Two that hover see each other where they are, with small errors. Without levels they would follow
+ * these for ever. */
+static void keep_levels(struct clearance *clear)
+{
+    clear->low = -floor(HOVER_ROUNDED - clear->low / HOVER_LEVEL_M) * HOVER_LEVEL_M;
+    clear->high = floor(clear->high / HOVER_LEVEL_M + HOVER_ROUNDED) * HOVER_LEVEL_M;
 }
 
 /* The ground [m] above which it holds its height. */
@@ -125,6 +140,8 @@ void aircraft_separation_keep(const struct step_context *context, uint32_t i,
     look_around(context, i, &clear);
     if (clear.low == -INFINITY && clear.high == INFINITY)
         return;
+    if (kinematics_parked(context->m, i))
+        keep_levels(&clear);
     double usual = context->world->kinds[context->m->kind[i]].cruise_altitude_m;
     double ground = ground_under(context, i), height = desired->altitude_m;
     if (clear.low_s < clear.high_s) /* of two the one that it meets first */

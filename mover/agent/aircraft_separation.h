@@ -14,4 +14,8 @@
 void aircraft_separation_keep(const struct step_context *context, uint32_t i,
                               struct desired_motion *desired);
 
+/* Returns the radius [m] in which one of a kind at this speed is kept from others. */
+double aircraft_separation_reach(const struct step_context *context, uint32_t kind,
+                                 double speed_mps);
+
 #endif

@@ -17,6 +17,7 @@
 #define STEEP_COSINE   0.12  /* a bank or pitch beyond counts as this one, whose slope is 8 */
 #define UPRIGHT        0.97  /* sine of the steepest path */
 #define SNAP_MPS       1e-3  /* a speed so near to what is wanted is what is wanted */
+#define HOVER_MPS      4e-3  /* a climb that would bring one on hold to its height to 5 mm */
 #define EDGE_M         200.0 /* an aircraft is told so far from the edge of the world */
 #define EDGE_TURN_S    9.0   /* and turns back if it would reach it within this time */
 #define EDGE_LEAST_M   50.0  /* as near as it wants to come */
@@ -101,9 +102,10 @@ bool aircraft_take(const struct step_context *context, struct aircraft *batch, u
     batch->roll.lane[l] = m->roll[i];
     batch->fuel.lane[l] = m->fuel_l[i];
     take_kind(batch, l, &context->world->kinds[m->kind[i]]);
-    if (kinematics_parked(m, i)) /* it hovers, and burns the fuel of a turn at once */
+    batch->parked.lane[l] = -(int64_t)kinematics_parked(m, i);
+    if (batch->parked.lane[l]) /* it hovers, and burns the fuel of many frames at once */
         batch->burn_lps.lane[l] *=
-            step_context_thinks(context, i) ? (double)context->think_frames : 0.0;
+            kinematics_hover_burns(context, i) ? (double)kinematics_hover_frames(context) : 0.0;
     take_desired(context, batch, l, desired);
     return batch->count == LANE_COUNT;
 }
@@ -141,6 +143,8 @@ static inline void want(struct aircraft *batch, int h, const f64x4 *ground, doub
     f->wanted_mps = SIMD_CHOOSE(f->driven, batch->wanted_mps.f64x4[h], by_agent);
     f64x4 off = (*ground + batch->altitude.f64x4[h] - batch->y.f64x4[h]) * 0.8;
     off = SIMD_CLAMP(off, least, most);
+    four_masks level = batch->parked.f64x4[h] & (SIMD_ABS(off) < HOVER_MPS);
+    off = SIMD_CHOOSE(level, none, off);
     f64x4 soft = SIMD_MAX(batch->y.f64x4[h] + batch->low.f64x4[h] - *ground, none);
     soft = SIMD_NEGATIVE(SIMD_EVERY(AIRFRAME_SOFT_MPS) + soft * AIRFRAME_SOFT_PS);
     soft = SIMD_MAX(batch->climb.f64x4[h], soft);

@@ -12,7 +12,7 @@ struct aircraft {
     int count; /* lanes taken */
     uint32_t row[LANE_COUNT];
     /* The desired motion. */
-    union lane_masks driven, held;
+    union lane_masks driven, held, parked;
     union simd_lanes wanted_heading, wanted_mps, altitude, turn, climb, brake, spool, power;
     /* The row, before and after. */
     union simd_lanes x, y, z, vx, vy, vz, heading, pitch, roll, fuel;

@@ -47,6 +47,24 @@ static inline bool kinematics_parked(const struct entities *m, uint32_t i)
            m->throttle[i] == 0.0f && m->vx[i] == 0.0 && m->vz[i] == 0.0;
 }
 
+/* Helicopters with the order to stand burn the fuel of so many seconds at once while they hover. */
+#define KINEMATICS_HOVER_S    10.0
+#define KINEMATICS_HOVER_ROWS 1024u
+
+/* Frames from one such time to the next. */
+static inline uint32_t kinematics_hover_frames(const struct step_context *context)
+{
+    return (uint32_t)maths_max(1.0, KINEMATICS_HOVER_S / context->dt_s);
+}
+
+/* Returns true if row i burns that fuel in this frame. KINEMATICS_HOVER_ROWS rows, beginning with a
+ * multiple of this number, burn it in the same frame. */
+static inline bool kinematics_hover_burns(const struct step_context *context, uint32_t i)
+{
+    uint32_t block = i / KINEMATICS_HOVER_ROWS;
+    return ((uint32_t)context->tick + block) % kinematics_hover_frames(context) == 0;
+}
+
 /* Burns fuel at a share of full throttle. False when the tank is empty. A kind without a tank
  * (fuel_l 0) always has fuel. */
 bool kinematics_burn(const struct step_context *context, uint32_t i, double share);

@@ -22,6 +22,7 @@
 /* Of each frame [ms]: wall time of the stages and of both, and processor time of all threads. */
 struct times {
     double *mover_ms, *collider_ms, *frame_ms, *cpu_ms;
+    double *woken; /* rows that were moved */
     uint32_t frames;
 };
 
@@ -29,6 +30,7 @@ struct result {
     double mover_ms, collider_ms, frame_ms, slow_ms, cpu_ms; /* medians, and a p99 */
     double first_ms, first_cpu_ms;                           /* the first frame */
     double second_ms, second_worst_ms; /* frames of the first simulated second: sum and worst */
+    double woken;                      /* rows moved in a frame, median */
 };
 
 struct burst {
@@ -64,6 +66,7 @@ static void run(struct frame_stepper *stepper, const struct times *times)
         times->collider_ms[i] = (double)(t2 - t1) / 1e6;
         times->frame_ms[i] = (double)(t2 - t0) / 1e6;
         times->cpu_ms[i] = cpu_now_ms() - cpu;
+        times->woken[i] = (double)stepper->mover.moved_rows;
     }
 }
 
@@ -80,6 +83,7 @@ static struct result result_of(const struct times *times, double dt_s)
     result.collider_ms = bench_quantile(times->collider_ms, times->frames, 0.5);
     result.cpu_ms = bench_quantile(times->cpu_ms, times->frames, 0.5);
     result.frame_ms = bench_quantile(times->frame_ms, times->frames, 0.5);
+    result.woken = bench_quantile(times->woken, times->frames, 0.5);
     result.slow_ms = bench_quantile(times->frame_ms, times->frames, 0.99);
     return result;
 }
@@ -131,11 +135,12 @@ static void print_json(const struct bench_options *options, const struct result 
 {
     printf("{\"vehicles\":%u,\"mode\":\"%s\",\"threads\":%u,\"frames\":%u,\"mover_ms\":%.6f,"
            "\"collider_ms\":%.6f,\"frame_ms\":%.6f,\"frame_p99_ms\":%.6f,\"cpu_ms\":%.6f,"
-           "\"first_ms\":%.6f,\"first_cpu_ms\":%.6f,\"second_ms\":%.6f,\"second_worst_ms\":%.6f,",
+           "\"first_ms\":%.6f,\"first_cpu_ms\":%.6f,\"second_ms\":%.6f,\"second_worst_ms\":%.6f,"
+           "\"woken\":%.0f,",
            options->vehicles, bench_mode_word((enum bench_mode)options->mode), options->threads,
            options->frames, result->mover_ms, result->collider_ms, result->frame_ms,
            result->slow_ms, result->cpu_ms, result->first_ms, result->first_cpu_ms,
-           result->second_ms, result->second_worst_ms);
+           result->second_ms, result->second_worst_ms, result->woken);
     if (options->burst > 0)
         printf("\"burst\":%u,\"burst_frames\":%u,\"burst_worst_ms\":%.6f,\"after_ms\":%.6f,"
                "\"after_cpu_ms\":%.6f,\"rows\":%u,\"rows_after\":%u,",
@@ -149,16 +154,16 @@ static void print_json(const struct bench_options *options, const struct result 
 static void print_text(const struct bench_options *options, const struct result *result,
                        const struct burst *burst, const struct counters *tally)
 {
-    printf(
-        "%u vehicles, %s, %u thread(s), %u frames: mover %.3f ms, collider %.3f ms, frame %.3f "
-        "ms (p99 %.3f), processor time %.3f ms; first frame %.3f ms (%.3f), first second %.3f ms "
-        "(worst frame %.3f); %llu collisions, %llu shots, %llu changes of mind, %llu destroyed",
-        options->vehicles, bench_mode_word((enum bench_mode)options->mode), options->threads,
-        options->frames, result->mover_ms, result->collider_ms, result->frame_ms, result->slow_ms,
-        result->cpu_ms, result->first_ms, result->first_cpu_ms, result->second_ms,
-        result->second_worst_ms, (unsigned long long)tally->collisions,
-        (unsigned long long)tally->fires, (unsigned long long)tally->agent_changes,
-        (unsigned long long)tally->destroyed);
+    printf("%u vehicles, %s, %u thread(s), %u frames: mover %.3f ms, collider %.3f ms, frame %.3f "
+           "ms (p99 %.3f), processor time %.3f ms, %.0f rows moved; first frame %.3f ms (%.3f), "
+           "first second %.3f ms "
+           "(worst frame %.3f); %llu collisions, %llu shots, %llu changes of mind, %llu destroyed",
+           options->vehicles, bench_mode_word((enum bench_mode)options->mode), options->threads,
+           options->frames, result->mover_ms, result->collider_ms, result->frame_ms,
+           result->slow_ms, result->cpu_ms, result->woken, result->first_ms, result->first_cpu_ms,
+           result->second_ms, result->second_worst_ms, (unsigned long long)tally->collisions,
+           (unsigned long long)tally->fires, (unsigned long long)tally->agent_changes,
+           (unsigned long long)tally->destroyed);
     if (options->burst > 0)
         printf("; %u bombs in %u frames (worst %.3f ms), then frame %.3f ms, processor time %.3f "
                "ms; rows in use %u before, %u after",
@@ -178,10 +183,14 @@ int bench_frame(struct bench_options options)
     if (options.driven)
         drive_all(&view);
     size_t frames = options.frames;
-    double *values = calloc(frames * 4, sizeof *values);
+    double *values = calloc(frames * 5, sizeof *values);
     if (!values)
         die_refused("out of memory");
-    const struct times times = {values, values + frames, values + 2 * frames, values + 3 * frames,
+    const struct times times = {values,
+                                values + frames,
+                                values + 2 * frames,
+                                values + 3 * frames,
+                                values + 4 * frames,
                                 options.frames};
     begin(&stepper, &view, options.threads);
     run(&stepper, &times);

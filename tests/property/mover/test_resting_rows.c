@@ -23,36 +23,42 @@
 #define HERD(kind, n, more)                                                                        \
     "{ kind = \"" kind "\"; count = " #n "; area = [24000.0, 24000.0, 26000.0, 26000.0]; " more    \
     " },"
-#define IDLE "behaviour = \"idle\";"
+#define IDLE   "behaviour = \"idle\";"
+#define PATROL "behaviour = \"patrol\";"
+#define FAR    "{ kind = \"jeep\"; behaviour = \"idle\"; at = [2000.0, 2000.0]; }"
+#define STANDING                                                                                   \
+    GROUP("tank", 200, IDLE)                                                                       \
+    GROUP("truck", 200, IDLE)                                                                      \
+    GROUP("jeep", 60, IDLE "force = \"red\"; fire_at_will = true;")                                \
+    GROUP("tank", 20, IDLE "force = \"blue\";")                                                    \
+    GROUP("helicopter", 40, IDLE)                                                                  \
+    GROUP("howitzer", 10, IDLE "force = \"blue\";")
+#define OTHERS                                                                                     \
+    GROUP("tank", 12, "force = \"blue\"; fire_at_will = true;")                                    \
+    GROUP("jeep", 30, "behaviour = \"hold\"; speed_mps = 0.0;")                                    \
+    GROUP("jeep", 10, "behaviour = \"hold\"; speed_mps = 9.0;")                                    \
+    GROUP("truck", 30, PATROL)                                                                     \
+    GROUP("helicopter", 16, PATROL)
 #define WORLD(shape, ground)                                                                       \
     "world = { seed = 5; capacity = 4096; }; collision = { shape = \"" shape "\"; };"              \
-    "terrain = { " ground " };"                                                                    \
-    "vehicles = (" GROUP("tank", 200, IDLE) GROUP("truck", 200, IDLE)                              \
-        GROUP("jeep", 60, IDLE "force = \"red\"; fire_at_will = true;")                            \
-            GROUP("tank", 20, IDLE "force = \"blue\";") GROUP("helicopter", 40, IDLE)              \
-                GROUP("howitzer", 10, IDLE "force = \"blue\";")                                    \
-                    GROUP("tank", 12, "force = \"blue\"; fire_at_will = true;")                    \
-                        GROUP("jeep", 30, "behaviour = \"hold\"; speed_mps = 0.0;")                \
-                            GROUP("jeep", 10, "behaviour = \"hold\"; speed_mps = 9.0;") GROUP(     \
-                                "truck", 30,                                                       \
-                                "behaviour = \"patrol\";") "{ kind = \"jeep\"; behaviour = "       \
-                                                           "\"idle\"; at = [2000.0, 2000.0]; } );"
+    "terrain = { " ground " }; vehicles = (" STANDING OTHERS FAR " );"
 
 static const char flat[] = WORLD("sphere", "source = \"flat\"; height_m = 100.0;");
 static const char shaped[] = WORLD("model", "source = \"flat\"; height_m = 100.0;");
 
-/* Blocks of 1,024 rows in which all rest, and others that drive through them and fight. */
+/* Blocks of 1,024 rows in which all rest, and others that drive and fly through them and fight. */
+#define FIGHTERS                                                                                   \
+    GROUP("jeep", 30, PATROL)                                                                      \
+    GROUP("tank", 12, "force = \"blue\"; fire_at_will = true;")                                    \
+    GROUP("tank", 12, "force = \"red\"; fire_at_will = true;")                                     \
+    GROUP("tank", 30, "behaviour = \"hold\"; speed_mps = 12.0;")
 static const char herds[] =
     "world = { seed = 6; capacity = 8192; }; collision = { shape = \"model\"; };"
     "terrain = { source = \"flat\"; height_m = 100.0; };"
-    "vehicles = (" HERD("truck", 1500, IDLE) GROUP("jeep", 30, "behaviour = \"patrol\";")
-        GROUP("tank", 12, "force = \"blue\"; fire_at_will = true;")
-            GROUP("tank", 12, "force = \"red\"; fire_at_will = true;") GROUP(
-                "tank", 30, "behaviour = \"hold\"; speed_mps = 12.0;") HERD("jeep", 1000, IDLE)
-                HERD("helicopter", 1200,
-                     IDLE) "{ kind = \"jeep\"; behaviour = \"idle\"; at = [2000.0, 2000.0]; } );";
+    "vehicles = (" HERD("truck", 1500, IDLE) FIGHTERS HERD("jeep", 1000, IDLE)
+        HERD("helicopter", 1200, IDLE) HERD("helicopter", 20, PATROL) FAR " );";
 
-#define ROWS 612u
+#define ROWS 629u
 
 static struct command random_command(uint64_t *random, uint64_t number)
 {
@@ -83,6 +89,15 @@ static uint32_t count_resting(const struct fixture *f)
     return count;
 }
 
+static uint32_t count_hovering(const struct fixture *f)
+{
+    const struct resting_rows *rows = &f->stepper.mover.resting;
+    uint32_t count = 0, used = fixture_state(f).head->used;
+    for (uint32_t i = 0; i < used; i++)
+        count += (rows->resting[i / 64] & rows->hovering.hovers[i / 64]) >> i % 64 & 1;
+    return count;
+}
+
 static uint32_t count_kept(const struct fixture *f)
 {
     const struct resting_blocks *resting = &f->stepper.collider.broad.resting;
@@ -104,6 +119,7 @@ static void drop(struct fixture *f, double x, double z)
 
 struct seen {
     uint32_t most, woken; /* rows at rest at once, frames in which rows woke */
+    uint32_t left_hover;  /* frames in which rows woke that hovered alone */
     uint32_t kept, left;  /* frames with blocks that are kept, and in which one no longer is */
     uint32_t craters, destroyed;
 };
@@ -112,7 +128,7 @@ static struct seen compare(const char *scenario, uint64_t seed)
 {
     struct fixture rests, moves;
     struct seen seen = {0};
-    uint32_t before = 0, kept_before = 0;
+    uint32_t before = 0, kept_before = 0, hovering_before = 0;
     fixture_open(&rests, scenario);
     fixture_open(&moves, scenario);
     moves.stepper.mover.resting.never = true;
@@ -136,6 +152,9 @@ static struct seen compare(const char *scenario, uint64_t seed)
         assert_int_equal(a.head->event_digest, b.head->event_digest);
         assert_int_equal(steps_state_hash(&rests, &a), steps_state_hash(&moves, &b));
         uint32_t count = count_resting(&rests), kept = count_kept(&rests);
+        uint32_t hovering = count_hovering(&rests);
+        seen.left_hover += hovering < hovering_before;
+        hovering_before = hovering;
         seen.woken += count < before;
         seen.most = count > seen.most ? count : seen.most;
         seen.kept += kept > 0;
@@ -147,10 +166,13 @@ static struct seen compare(const char *scenario, uint64_t seed)
     const struct state_head *head = fixture_state(&rests).head;
     seen.craters = head->crater_count;
     seen.destroyed = (uint32_t)head->tally.destroyed;
-    printf("most at rest %u, frames: %u in which rows woke, %u with kept blocks, %u in which one "
+    printf("most at rest %u, frames: %u in which rows woke, %u in which rows that hovered did, %u "
+           "with kept blocks, %u in which one "
            "left; craters %u, destroyed %u\n",
-           seen.most, seen.woken, seen.kept, seen.left, seen.craters, seen.destroyed);
-    assert_true(seen.most > 400 && seen.woken > 50 && seen.craters > 3 && seen.destroyed > 3);
+           seen.most, seen.woken, seen.left_hover, seen.kept, seen.left, seen.craters,
+           seen.destroyed);
+    assert_true(seen.most > 400 && seen.woken > 50 && seen.left_hover > 5 && seen.craters > 3 &&
+                seen.destroyed > 3);
     fixture_close(&rests);
     fixture_close(&moves);
     return seen;

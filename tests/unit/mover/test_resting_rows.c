@@ -66,7 +66,7 @@ static void test_what_has_nothing_to_do_rests(void **state)
         fixture_continue(&f, 1);
     assert_true(rests(tank) && !has_turns(tank));
     assert_true(rests(looks) && has_turns(looks));
-    assert_true(rests(hovers) && has_turns(hovers));
+    assert_true(rests(hovers) && !has_turns(hovers));
     assert_true(rests(holds));
     assert_false(rests(patrols));
     assert_false(rests(drives));

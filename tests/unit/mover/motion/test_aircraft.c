@@ -220,8 +220,8 @@ static void test_it_banks_into_its_turn(void **state)
     assert_true(fabs(steps_rows(&f).roll[row]) < 1e-6);
 }
 
-/* It burns a fifth of full throttle, by its turns to decide. */
-static void test_a_helicopter_that_hovers_burns_its_fuel_turn_by_turn(void **state)
+/* It burns a fifth of full throttle, every ten seconds. */
+static void test_a_helicopter_that_hovers_burns_its_fuel_at_times(void **state)
 {
     const struct kind *kind = steps_kind(&f, "helicopter");
     uint32_t row =
@@ -230,14 +230,14 @@ static void test_a_helicopter_that_hovers_burns_its_fuel_turn_by_turn(void **sta
     (void)state;
     fixture_run(&f, (uint32_t)HZ);
     double before = steps_rows(&f).fuel_l[row];
-    for (int frame = 0; frame < (int)HZ; frame++) {
+    for (int frame = 0; frame < 20 * (int)HZ; frame++) {
         double last = steps_rows(&f).fuel_l[row];
         fixture_run(&f, 1);
         changes += steps_rows(&f).fuel_l[row] != last;
     }
     double burnt = before - steps_rows(&f).fuel_l[row];
-    assert_int_equal(changes, 10);
-    assert_true(fabs(burnt - 0.2 * kind->fuel_lps) < 1e-9);
+    assert_int_equal(changes, 2);
+    assert_true(fabs(burnt - 20.0 * 0.2 * kind->fuel_lps) < 1e-9);
 }
 
 static void test_without_fuel_it_comes_down(void **state)
@@ -322,7 +322,7 @@ int main(void)
         TEST(test_a_helicopter_does_not_fly_backwards_over_the_edge),
         TEST(test_what_cannot_turn_back_leaves_the_world),
         TEST(test_it_banks_into_its_turn),
-        TEST(test_a_helicopter_that_hovers_burns_its_fuel_turn_by_turn),
+        TEST(test_a_helicopter_that_hovers_burns_its_fuel_at_times),
         TEST(test_without_fuel_it_comes_down),
         TEST(test_a_driven_helicopter_follows_stick_and_collective),
         TEST(test_a_jets_throttle_is_above_its_least_speed_and_its_brake_slows_it),
