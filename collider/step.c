@@ -83,27 +83,28 @@ struct step {
 
 _Static_assert(BROAD_PHASE_ROWS_TAKEN == CHECKSUM_ROWS, "rows are taken by whole blocks");
 
-/* The columns from which the boxes of bodies, and how they turn, follow. */
+/* The columns from which the records of bodies follow. */
 #define POSE_COLUMNS                                                                               \
     (COLUMN_BIT(x) | COLUMN_BIT(y) | COLUMN_BIT(z) | COLUMN_BIT(heading) | COLUMN_BIT(pitch) |     \
      COLUMN_BIT(roll) | COLUMN_BIT(turret) | COLUMN_BIT(gun) | COLUMN_BIT(id) | COLUMN_BIT(kind) | \
-     COLUMN_BIT(state) | COLUMN_BIT(behaviour))
+     COLUMN_BIT(state) | COLUMN_BIT(behaviour) | COLUMN_BIT(flags))
 
-/* A block rests if its poses are those of the committed frame: then the hashes are equal. */
-static struct resting_block rest_of(const struct step *step, uint32_t block)
+/* Rows of a block that may move before they are taken for all. */
+#define FEW_MOVE (CHECKSUM_ROWS / 4)
+
+/* Finds the rows of a block whose pose is not that of the committed frame. */
+static void find_moving(const struct step *step, uint32_t block, struct moving_rows *moving)
 {
-    const struct block_hashes *now = &step->moved.hashes[block];
-    const struct block_hashes *before = &step->committed->hashes[block];
-    uint64_t pose[ENTITY_COLUMN_COUNT], count = 0;
-    if (block >= block_count(step->committed->head->used))
-        return (struct resting_block){0};
-    for (uint64_t left = POSE_COLUMNS; left != 0; left &= left - 1) {
-        int c = __builtin_ctzll(left);
-        if (now->column[c] != before->column[c])
-            return (struct resting_block){0};
-        pose[count++] = now->column[c];
-    }
-    return (struct resting_block){XXH3_64bits(pose, count * sizeof *pose), true};
+    const struct table committed = state_table(step->committed);
+    uint32_t first = block * CHECKSUM_ROWS, old = step->committed->head->used;
+    uint32_t both = old < step->used ? old : step->used;
+    *moving = (struct moving_rows){.all = first >= both};
+    if (!moving->all)
+        moving->all = !table_differing(step->moved, committed, block, both, POSE_COLUMNS, FEW_MOVE,
+                                       moving->row);
+    for (uint32_t row = both; !moving->all && row < step->used && row < first + CHECKSUM_ROWS;
+         row++)
+        moving->row[(row - first) / 64] |= (uint64_t)1 << (row - first) % 64;
 }
 
 static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t worker)
@@ -117,12 +118,25 @@ static void take_blocks(void *context, uint32_t first, uint32_t end, uint32_t wo
 }
 
 /* Copies a block of moved rows just before detection reads them. */
-static struct resting_block take_rows(void *context, uint32_t first, uint32_t end)
+static void take_rows(void *context, uint32_t first, uint32_t end, struct moving_rows *moving)
 {
     const struct step *step = context;
     uint32_t block = first / CHECKSUM_ROWS;
     take_blocks(context, block, block_count(end), 0);
-    return rest_of(step, block);
+    find_moving(step, block, moving);
+}
+
+/* Notes which rows commands have changed in a frame in which time does not advance. */
+static void note_moving(const struct step *step, const struct method_input *input)
+{
+    struct resting_records *resting = &step->collider->broad.resting;
+    uint64_t bin[RESTING_RECORDS_WORDS];
+    resting_records_begin(resting, input);
+    for (uint32_t block = 0; block < block_count(step->used); block++) {
+        struct moving_rows moving;
+        find_moving(step, block, &moving);
+        resting_records_note(resting, block, &moving, bin);
+    }
 }
 
 /* Copies all moved rows. */
@@ -276,7 +290,8 @@ struct response_context collider_response_context(struct collider *collider, str
         .path = collider->motion.path,
         .charges = &collider->charges,
         .island = &collider->island,
-        .writer = {.entities = &next->entities, .changed = collider->changed},
+        .unsprung = collider->unsprung,
+        .writer = {&next->entities, collider->changed, collider->broad.resting.same},
     };
 }
 
@@ -294,6 +309,9 @@ void collider_step(struct collider *collider, const struct state *committed,
     /* An own buffer holds the frame before the committed one. */
     bool same_damage =
         step.known > 0 && next->head->tally.fixed_damaged == committed->head->tally.fixed_damaged;
+    /* Else rows have changed that this process has not seen. */
+    if (committed->head->checksum != collider->left[committed->head->frame & 1])
+        resting_records_forget(&collider->broad.resting);
     uint32_t held = step.known > 0 ? next->head->used : next->entities.capacity;
     table_clear_unused(&next->entities, step.used, held);
     crater_index_update(&collider->craters, committed->head->crater_count);
@@ -316,6 +334,7 @@ void collider_step(struct collider *collider, const struct state *committed,
         contact_queue_end(&collider->contacts);
     } else {
         take_all(&step);
+        note_moving(&step, &context.input.detect);
         copy_contacts(committed, next);
     }
     next->head->event_end = context.events.first + context.events.count;

@@ -48,7 +48,8 @@ struct collider {
     uint64_t fixed_hash, fixed_hash_frame;
     struct list_hashes lists; /* of the committed craters and dents */
     uint64_t left[2];         /* checksums of the two buffers as this process left them; 0: none */
-    uint64_t changed[CHECKSUM_BLOCKS]; /* columns that responses changed in this frame */
+    uint64_t unsprung[CHECKSUM_BLOCKS]; /* of damage_overturned() */
+    uint64_t changed[CHECKSUM_BLOCKS];  /* columns that responses changed in this frame */
 };
 
 /* Where the frame's events go: the ring, from the committed end on. */

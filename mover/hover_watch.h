@@ -1,5 +1,5 @@
-/* The rows that rest in the air: helicopters that hover by their order to stand, alone, so that they
- * have nothing to decide until an aircraft comes near them or something happens to them.
+/* The rows that rest in the air: helicopters that hover by their order to stand, alone, so that
+ * they have nothing to decide until an aircraft comes near them or something happens to them.
  *
  * This is a part of the cache of rows that rest (resting_rows.h). Agents keep aircraft apart. A
  * helicopter that has an aircraft in the reach of this rule is not alone, and decides in its turns.
@@ -19,7 +19,7 @@
 struct hover_watch {
     uint64_t *hovers; /* [capacity / 64] of the rows that rest, those that hover */
     double reach_m;   /* those that hover are woken by an aircraft that is so near */
-    uint32_t frames; /* since the squares were found */
+    uint32_t frames;  /* since the squares were found */
     /* A bit for each square in which a row hovers, or has hovered since. */
     _Atomic uint64_t squares[HOVER_WATCH_SIDE * HOVER_WATCH_SIDE / 64];
 };

@@ -62,7 +62,7 @@ void resting_rows_wake_differing(struct resting_rows *rows, struct table moved,
     if (any == 0 ||
         memcmp(&moved.hashes[block], &committed.hashes[block], sizeof *moved.hashes) == 0)
         return;
-    table_differing(moved, committed, block, used, differ);
+    table_differing(moved, committed, block, used, COLUMNS_ALL, CHECKSUM_ROWS, differ);
     for (uint32_t w = 0; w < ROW_BLOCK_WORDS; w++)
         resting[w] &= ~differ[w];
 }

@@ -538,18 +538,33 @@ static void pull_trigger(struct serial_context *context, uint32_t i)
 }
 
 /* Few rows have a trigger; rows without one are skipped eight at a time. */
-static void pull_triggers(struct serial_context *context)
+static void pull_triggers_of(struct serial_context *context, uint32_t first, uint32_t end)
 {
     const uint8_t *trigger = context->moved->entities.trigger;
-    uint32_t used = context->step->committed->head->used;
-    for (uint32_t first = 0; first < used; first += 8) {
-        uint32_t end = used - first < 8 ? used : first + 8;
+    for (; first < end; first += 8) {
+        uint32_t past = end - first < 8 ? end : first + 8;
         uint64_t eight = 0;
-        memcpy(&eight, trigger + first, end - first);
-        for (uint32_t i = first; i < end && eight != 0; i++) {
+        memcpy(&eight, trigger + first, past - first);
+        for (uint32_t i = first; i < past && eight != 0; i++) {
             if (trigger[i] != 0)
                 pull_trigger(context, i);
         }
+    }
+}
+
+/* A block whose column of triggers has the hash of zeros is passed over, unless the serial part has
+ * written to it. */
+static void pull_triggers(struct serial_context *context, const struct rows *rows)
+{
+    uint32_t used = context->step->committed->head->used;
+    for (uint32_t first = 0; first < used; first += CHECKSUM_ROWS) {
+        uint32_t block = first / CHECKSUM_ROWS;
+        bool blank =
+            used - first >= CHECKSUM_ROWS &&
+            rows->moved.hashes[block].column[COLUMN_trigger] == rows->blank->column[COLUMN_trigger];
+        if (!blank || rows->changed[block] & COLUMN_BIT(trigger))
+            pull_triggers_of(context, first,
+                             used - first < CHECKSUM_ROWS ? used : first + CHECKSUM_ROWS);
     }
 }
 
@@ -660,7 +675,7 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
         thread_pool_run(mover->workers, move_rows, &rows, used, ROWS_A_WORKER);
         scenario_fires_run(&serial_context);
         fire_mission_run(&serial_context);
-        pull_triggers(&serial_context);
+        pull_triggers(&serial_context, &rows);
         mission_step(&serial_context);
         spawn_fall_back(&serial_context);
     }

@@ -141,10 +141,12 @@ uint64_t table_zero(struct table table, uint64_t columns, const uint32_t *rows, 
 
 void table_take(struct table to, struct table from, uint32_t block, uint32_t used, bool known)
 {
-    const struct cells into = cells_of(to.entities, block);
-    const struct cells source = cells_of(from.entities, block);
     struct block_hashes *has = &to.hashes[block];
     const struct block_hashes *wants = &from.hashes[block];
+    if (known && memcmp(has, wants, sizeof *has) == 0)
+        return;
+    const struct cells into = cells_of(to.entities, block);
+    const struct cells source = cells_of(from.entities, block);
     uint32_t rows = block_rows(block, used);
     for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++) {
         if (!known || has->column[c] != wants->column[c])
@@ -153,18 +155,38 @@ void table_take(struct table to, struct table from, uint32_t block, uint32_t use
     *has = *wants;
 }
 
-void table_differing(struct table a, struct table b, uint32_t block, uint32_t used, uint64_t *rows)
+/* Returns a bit for each of up to 64 cells that differ. */
+static uint64_t cells_differing(const uint8_t *p, const uint8_t *q, size_t bytes, uint32_t count)
+{
+    uint64_t differ = 0;
+    if (memcmp(p, q, count * bytes) == 0)
+        return 0;
+    for (uint32_t i = 0; i < count; i++)
+        differ |= (uint64_t)(memcmp(p + i * bytes, q + i * bytes, bytes) != 0) << i;
+    return differ;
+}
+
+bool table_differing(struct table a, struct table b, uint32_t block, uint32_t used,
+                     uint64_t columns, uint32_t most, uint64_t *rows)
 {
     const struct cells one = cells_of(a.entities, block), other = cells_of(b.entities, block);
     uint32_t count = block_rows(block, used);
-    for (uint32_t c = 0; c < ENTITY_COLUMN_COUNT; c++) {
+    for (; columns != 0; columns &= columns - 1) {
+        int c = __builtin_ctzll(columns);
         const uint8_t *p = one.column[c], *q = other.column[c];
         size_t bytes = cell_bytes[c];
+        uint32_t set = 0;
         if (a.hashes[block].column[c] == b.hashes[block].column[c])
             continue;
-        for (uint32_t i = 0; i < count; i++)
-            rows[i / 64] |= (uint64_t)(memcmp(p + i * bytes, q + i * bytes, bytes) != 0) << i % 64;
+        for (uint32_t i = 0; i < count; i += 64) {
+            rows[i / 64] |= cells_differing(p + i * bytes, q + i * bytes, bytes,
+                                            count - i < 64 ? count - i : 64);
+            set += (uint32_t)__builtin_popcountll(rows[i / 64]);
+        }
+        if (set > most)
+            return false;
     }
+    return true;
 }
 
 /* Bits, not values: two zeros of different signs differ. */

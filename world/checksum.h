@@ -65,9 +65,11 @@ uint64_t table_zero(struct table table, uint64_t columns, const uint32_t *rows, 
  * copied. Two different columns have the same hash with a probability of 2^-64. */
 void table_take(struct table to, struct table from, uint32_t block, uint32_t used, bool known);
 
-/* Sets the bits of the rows of a block in which the two tables differ, in columns whose hashes
- * differ. rows: CHECKSUM_ROWS bits, to which these are added. */
-void table_differing(struct table a, struct table b, uint32_t block, uint32_t used, uint64_t *rows);
+/* Sets the bits of the rows of a block in which the two tables differ, in those of these columns
+ * whose hashes differ. rows: CHECKSUM_ROWS bits, to which these are added. used: rows of both.
+ * Stops after the column with which more than `most` bits are set, and returns false. */
+bool table_differing(struct table a, struct table b, uint32_t block, uint32_t used,
+                     uint64_t columns, uint32_t most, uint64_t *rows);
 
 /* Returns the columns in which row i of the two differs, bit by bit. */
 uint64_t entities_differing(const struct entities *a, const struct entities *b, uint32_t i);

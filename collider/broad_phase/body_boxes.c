@@ -30,6 +30,7 @@ typedef uint32_t four_words __attribute__((vector_size(4 * sizeof(uint32_t))));
 
 #define SHUFFLE(a, b, ...) __builtin_shufflevector(a, b, __VA_ARGS__)
 
+_Static_assert(BLOCK == 64, "a word has a bit for each row of a block");
 _Static_assert(sizeof(struct path_box) == 6 * sizeof(float), "a box is its six bounds");
 
 struct block {
@@ -264,13 +265,13 @@ static void add_flier(const struct body_boxes *rows, struct sweep_worker *sweepe
 
 static void add_rows(const struct body_boxes *rows, struct sweep_worker *sweeper,
                      const struct block *block, const struct ends *ends, uint32_t first,
-                     uint32_t count)
+                     uint64_t some)
 {
     const struct entities *e = rows->input->entities;
     const uint8_t *state = e->state + first, *behaviour = e->behaviour + first;
-    for (uint32_t k = 0; k < count; k++) {
+    for (uint32_t k = 0; k < BLOCK && some >> k != 0; k++) {
         struct bin_record record = block->record[k];
-        if (state[k] == ENTITY_FREE)
+        if (state[k] == ENTITY_FREE || !(some >> k & 1))
             continue;
         record.tag |= block->rests[k] | (behaviour[k] == BEHAVIOUR_FLIGHT ? BIN_ROUND : 0) |
                       (behaviour[k] == BEHAVIOUR_REMOTE ? BIN_REMOTE : 0);
@@ -286,8 +287,9 @@ static void add_rows(const struct body_boxes *rows, struct sweep_worker *sweeper
 }
 
 static void bin_block(const struct body_boxes *rows, struct block *block,
-                      struct sweep_worker *sweeper, uint32_t first, uint32_t count)
+                      struct sweep_worker *sweeper, uint32_t first, uint64_t some)
 {
+    uint32_t left = rows->input->rows - first, count = left < BLOCK ? left : BLOCK;
     struct path_box *box = rows->box + first, *to = count < BLOCK ? block->box : box;
     struct ends ends;
     take_kinds(rows, block, first, count);
@@ -301,13 +303,22 @@ static void bin_block(const struct body_boxes *rows, struct block *block,
     }
     if (count < BLOCK)
         memcpy(box, block->box, count * sizeof *box);
-    add_rows(rows, sweeper, block, &ends, first, count);
+    add_rows(rows, sweeper, block, &ends, first, some);
 }
 
 VECTOR_CLONES void body_boxes_bin(const struct body_boxes *rows, struct sweep_worker *sweeper,
                                   uint32_t first, uint32_t end)
 {
     struct block block = {0};
-    for (uint32_t row = first; row < end; row += BLOCK)
-        bin_block(rows, &block, sweeper, row, end - row < BLOCK ? end - row : BLOCK);
+    for (uint32_t row = first; row < end; row += BLOCK) {
+        uint64_t all = UINT64_MAX >> (end - row < BLOCK ? BLOCK - (end - row) : 0);
+        bin_block(rows, &block, sweeper, row, all);
+    }
+}
+
+VECTOR_CLONES void body_boxes_bin_some(const struct body_boxes *rows, struct sweep_worker *sweeper,
+                                       uint32_t first, uint64_t some)
+{
+    struct block block = {0};
+    bin_block(rows, &block, sweeper, first, some);
 }

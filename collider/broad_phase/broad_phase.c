@@ -34,7 +34,7 @@ int broad_phase_init(struct broad_phase *broad, const struct world *world,
     bool taken = broad->box && broad->sweeper && broad->wider && broad->widened &&
                  static_boxes_init(&broad->fixed_boxes, world) == 0 &&
                  query_index_init(&broad->index, rows) == 0 &&
-                 resting_blocks_init(&broad->resting, rows) == 0;
+                 resting_records_init(&broad->resting, rows) == 0;
     for (uint32_t i = 0; taken && i < broad->sweepers; i++)
         taken = sweep_worker_init(&broad->sweeper[i], rows, pairs) == 0;
     if (taken)
@@ -50,7 +50,7 @@ void broad_phase_free(struct broad_phase *broad)
         sweep_worker_free(&broad->sweeper[i]);
     static_boxes_free(&broad->fixed_boxes);
     query_index_free(&broad->index);
-    resting_blocks_free(&broad->resting);
+    resting_records_free(&broad->resting);
     free(broad->sweeper);
     free(broad->box);
     free(broad->wider);
@@ -75,16 +75,32 @@ struct job {
     void *context;
 };
 
+/* Makes the records of the rows of a block that are not kept. */
+static void bin_block(struct job *job, struct sweep_worker *sweeper, uint32_t first, uint32_t end,
+                      const struct moving_rows *moving)
+{
+    uint64_t bin[RESTING_RECORDS_WORDS];
+    uint32_t count =
+        resting_records_note(&job->broad->resting, first / BROAD_PHASE_ROWS_TAKEN, moving, bin);
+    if (count == end - first) {
+        body_boxes_bin(&job->rows, sweeper, first, end);
+        return;
+    }
+    for (uint32_t w = 0; w < RESTING_RECORDS_WORDS; w++) {
+        if (bin[w] != 0)
+            body_boxes_bin_some(&job->rows, sweeper, first + w * 64, bin[w]);
+    }
+}
+
 static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     struct job *job = context;
     for (uint32_t row = first; row < end; row += BROAD_PHASE_ROWS_TAKEN) {
         uint32_t past = end - row < BROAD_PHASE_ROWS_TAKEN ? end : row + BROAD_PHASE_ROWS_TAKEN;
-        struct resting_block block = {0};
+        struct moving_rows moving = {.all = true};
         if (job->take)
-            block = job->take(job->context, row, past);
-        if (!resting_blocks_note(&job->broad->resting, row / BROAD_PHASE_ROWS_TAKEN, &block))
-            body_boxes_bin(&job->rows, &job->broad->sweeper[worker], row, past);
+            job->take(job->context, row, past, &moving);
+        bin_block(job, &job->broad->sweeper[worker], row, past, &moving);
         work_done();
     }
 }
@@ -138,12 +154,10 @@ void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_inpu
         broad->sweeper[i].fliers.count = 0;
         broad->sweeper[i].pairs.count = 0;
     }
-    resting_blocks_begin(&broad->resting, input);
+    resting_records_begin(&broad->resting, input);
     thread_pool_run(workers, bin_rows, &job, input->rows, ROWS_A_PIECE);
-    if (motion)
-        resting_blocks_add_fliers(&broad->resting, motion, &broad->sweeper[0].fliers);
     thread_pool_run(workers, meet_strips, &job, STRIP_COUNT, STRIPS_A_PIECE);
-    resting_blocks_end(&broad->resting, &job.rows);
+    resting_records_end(&broad->resting, &job.rows);
     for (uint32_t i = 0; i < broad->sweepers; i++)
         broad->list[i] = broad->sweeper[i].pairs;
 }
@@ -248,12 +262,12 @@ static void query_bins(const struct query *query, const struct strip_bins *bins,
 
 static void query_resting(const struct query *query, uint32_t strip, const struct bin_record *one)
 {
-    const struct resting_blocks *resting = &query->broad->resting;
+    const struct resting_records *resting = &query->broad->resting;
     uint32_t count;
     const struct bin_record *record =
         query_index_from(&resting->index, strip, one->min_x, one->max_x, &count);
     for (uint32_t i = 0; i < count; i++) {
-        if (resting_blocks_holds(resting, &record[i]))
+        if (resting_records_holds(resting, &record[i]))
             query_records(query, one, &record[i], 1);
     }
 }

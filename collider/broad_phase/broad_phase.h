@@ -10,7 +10,7 @@
 #include "collider/motion/body_motion.h"
 #include "collider/broad_phase/static_boxes.h"
 #include "collider/broad_phase/query_index.h"
-#include "collider/broad_phase/resting_blocks.h"
+#include "collider/broad_phase/resting_records.h"
 #include "collider/broad_phase/sweep_and_prune.h"
 #include "world/runtime/thread_pool.h"
 
@@ -29,7 +29,7 @@ struct broad_phase {
     struct static_boxes fixed_boxes;
     struct sweep_worker *sweeper; /* [sweepers] one for each worker */
     uint32_t sweepers;
-    struct resting_blocks resting;          /* whose rows are in no bin */
+    struct resting_records resting;         /* whose rows are in no bin */
     struct query_index index;               /* of this frame, once many queries are expected */
     struct pair_list list[THREAD_POOL_MAX]; /* one for each worker; their order does not matter,
                                                since contacts are put in a total order */
@@ -51,11 +51,12 @@ void broad_phase_touch(const struct broad_phase *broad, uint32_t rows);
 void broad_phase_pairs(struct broad_phase *broad, const struct method_input *input);
 
 /* Rows taken at a time: so many fit into a core's cache. */
-#define BROAD_PHASE_ROWS_TAKEN RESTING_BLOCKS_ROWS
+#define BROAD_PHASE_ROWS_TAKEN RESTING_RECORDS_ROWS
 
 /* Fills rows first .. end - 1 of the entities that detection reads; first is a multiple of
- * BROAD_PHASE_ROWS_TAKEN. Returns whether this block rests. */
-typedef struct resting_block broad_phase_take(void *context, uint32_t first, uint32_t end);
+ * BROAD_PHASE_ROWS_TAKEN. Sets which of them move. */
+typedef void broad_phase_take(void *context, uint32_t first, uint32_t end,
+                              struct moving_rows *moving);
 
 /* The same with paths that motion computes on demand. Only the paths of fliers and of rows in
  * several strips are computed here; the caller computes the path of every other row in a pair or a

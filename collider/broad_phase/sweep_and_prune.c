@@ -4,7 +4,7 @@
  * end of its east edge's bucket, and the comparison looks at both edges. */
 #include "collider/broad_phase/sweep_and_prune.h"
 
-#include "collider/broad_phase/resting_blocks.h"
+#include "collider/broad_phase/resting_records.h"
 #include "world/maths/cpu_dispatch.h"
 #include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
@@ -368,11 +368,11 @@ static void sweep_few(struct sweep_worker *sweeper)
     }
 }
 
-/* --- blocks that rest --------------------------------------------------------------------------*/
+/* --- bodies that rest --------------------------------------------------------------------------*/
 
 static void meet_resting(const struct strips *strips, struct sweep_worker *sweeper, uint32_t strip)
 {
-    const struct resting_blocks *resting = strips->resting;
+    const struct resting_records *resting = strips->resting;
     for (uint32_t i = 0; i < sweeper->count; i++) {
         const struct bin_record *one = &sweeper->record[i];
         uint32_t count;
@@ -381,7 +381,7 @@ static void meet_resting(const struct strips *strips, struct sweep_worker *sweep
         const struct bin_record *other =
             query_index_from(&resting->index, strip, one->min_x, one->max_x, &count);
         for (; count > 0; count--, other++) {
-            if (bin_meet(one, other) && resting_blocks_holds(resting, other))
+            if (bin_meet(one, other) && resting_records_holds(resting, other))
                 found(sweeper, one->tag, other->tag);
         }
     }

@@ -10,7 +10,7 @@
 
 #include <stdint.h>
 
-struct resting_blocks;
+struct resting_records;
 struct strips;
 
 #define SWEEP_AND_PRUNE_CANDIDATES 4096u
@@ -40,10 +40,10 @@ struct strips {
     const struct method_input *input;
     struct body_motion *motion; /* computes the paths; NULL: they are in input->path */
     const struct static_boxes *fixed_boxes;
-    const struct resting_blocks *resting; /* NULL: none */
-    const struct path_box *box;           /* [rows] */
-    const double *margin;                 /* [kinds] from a row's path to its box [m] */
-    struct sweep_worker *sweeper;         /* [sweepers] whose bins make up the strips */
+    const struct resting_records *resting; /* NULL: none */
+    const struct path_box *box;            /* [rows] */
+    const double *margin;                  /* [kinds] from a row's path to its box [m] */
+    struct sweep_worker *sweeper;          /* [sweepers] whose bins make up the strips */
     uint32_t sweepers;
 };
 

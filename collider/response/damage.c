@@ -5,6 +5,7 @@
 
 #include "collider/response/explosion.h"
 #include "collider/response/ground_event.h"
+#include "world/checksum.h"
 #include "world/entity/kind.h"
 #include "world/entity/remote.h"
 #include "world/params.h"
@@ -121,17 +122,19 @@ static bool lies_over(const struct entities *e, uint32_t row)
            maths_cos(e->pitch[row]) * maths_cos(e->roll[row]) < OVERTURNED_COSINE;
 }
 
-void damage_overturned(struct response_context *context)
+/* Returns true if any of rows first .. end - 1 is on its springs. */
+static bool overturned_rows(struct response_context *context, uint32_t first, uint32_t end)
 {
     const struct entities *e = &context->next->entities;
-    uint32_t used = context->next->head->used;
-    for (uint32_t first = 0; first < used; first += 8) {
-        uint32_t end = used - first < 8 ? used : first + 8;
+    bool sprung = false;
+    for (; first < end; first += 8) {
+        uint32_t past = end - first < 8 ? end : first + 8;
         uint64_t eight = 0;
-        memcpy(&eight, e->flags + first, end - first);
-        for (uint32_t row = first; row < end && (eight & CHASSIS_OF_EIGHT) != 0; row++) {
+        memcpy(&eight, e->flags + first, past - first);
+        for (uint32_t row = first; row < past && (eight & CHASSIS_OF_EIGHT) != 0; row++) {
             if (!(e->flags[row] & ENTITY_FLAG_CHASSIS))
                 continue;
+            sprung = true;
             if (!lies_over(e, row)) {
                 fall(context, row);
                 continue;
@@ -139,6 +142,23 @@ void damage_overturned(struct response_context *context)
             damage_overturn(context, row);
             tell_ground(context, row);
         }
+    }
+    return sprung;
+}
+
+void damage_overturned(struct response_context *context)
+{
+    uint32_t used = context->next->head->used;
+    for (uint32_t first = 0; first < used; first += CHECKSUM_ROWS) {
+        uint32_t block = first / CHECKSUM_ROWS;
+        uint64_t hash = context->next->hashes[block].column[COLUMN_flags];
+        if (context->writer.changed[block] & COLUMN_BIT(flags))
+            hash = 0; /* it is that of other flags */
+        if (hash != 0 && context->unsprung[block] == hash)
+            continue;
+        bool sprung = overturned_rows(context, first,
+                                      used - first < CHECKSUM_ROWS ? used : first + CHECKSUM_ROWS);
+        context->unsprung[block] = sprung ? 0 : hash;
     }
 }
 

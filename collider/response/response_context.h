@@ -24,6 +24,7 @@ struct response_context {
     struct event_writer events;
     struct charges *charges;
     struct island *island;
+    uint64_t *unsprung;         /* [CHECKSUM_BLOCKS] of damage_overturned() */
     struct table_writer writer; /* every change of next's rows goes through this */
     uint32_t begun;             /* contacts that began in this frame */
     uint32_t without_room;      /* index + 1 of a pair that is told to have no room, or 0 */

@@ -17,6 +17,7 @@
 #include <string.h>
 #include <time.h>
 
+#define MOTION_FRAMES 60u /* in which changes of controls are counted; even */
 #define SETTLE_FRAMES 60u /* after a burst, before frames are measured again */
 
 /* Of each frame [ms]: wall time of the stages and of both, and processor time of all threads. */
@@ -26,11 +27,17 @@ struct times {
     uint32_t frames;
 };
 
+/* The controls of each row in the last frame: while they are the same, its motion is. */
+struct controls {
+    float throttle, steer, climb;
+};
+
 struct result {
     double mover_ms, collider_ms, frame_ms, slow_ms, cpu_ms; /* medians, and a p99 */
     double first_ms, first_cpu_ms;                           /* the first frame */
     double second_ms, second_worst_ms; /* frames of the first simulated second: sum and worst */
     double woken;                      /* rows moved in a frame, median */
+    double motion_frames;              /* for which a vehicle's controls stay the same, mean */
 };
 
 struct burst {
@@ -53,6 +60,20 @@ static void begin(struct frame_stepper *stepper, struct view *view, uint32_t thr
         die_refused("cannot begin: %s", strerror(errno));
 }
 
+/* Returns how many vehicles have other controls than before, and notes these. */
+static double count_changes(const struct frame_stepper *stepper, struct controls *controls)
+{
+    const struct state *state = &stepper->view->w[frame_stepper_frame(stepper) & 1];
+    const struct entities *e = &state->entities;
+    double count = 0.0;
+    for (uint32_t i = 0; i < state->head->used; i++) {
+        const struct controls now = {e->throttle[i], e->steer[i], e->climb[i]};
+        count += memcmp(&controls[i], &now, sizeof now) != 0;
+        controls[i] = now;
+    }
+    return count;
+}
+
 static void run(struct frame_stepper *stepper, const struct times *times)
 {
     for (uint32_t i = 0; i < times->frames; i++) {
@@ -68,6 +89,24 @@ static void run(struct frame_stepper *stepper, const struct times *times)
         times->cpu_ms[i] = cpu_now_ms() - cpu;
         times->woken[i] = (double)stepper->mover.moved_rows;
     }
+}
+
+/* Returns the mean life of a motion [frame]. Runs MOTION_FRAMES frames, which are not timed,
+ * because looking at the rows between two frames would slow them. */
+static double motion_frames(struct frame_stepper *stepper)
+{
+    const struct state *state = &stepper->view->w[frame_stepper_frame(stepper) & 1];
+    double rows = state->head->used, changes = 0.0;
+    struct controls *controls = calloc(stepper->view->world.params->capacity, sizeof *controls);
+    if (!controls)
+        die_refused("out of memory");
+    count_changes(stepper, controls);
+    for (uint32_t i = 0; i < MOTION_FRAMES; i++) {
+        frame_stepper_step(stepper, NULL);
+        changes += count_changes(stepper, controls);
+    }
+    free(controls);
+    return rows * MOTION_FRAMES / (changes > 0.0 ? changes : 1.0);
 }
 
 /* Sorts the times. */
@@ -136,11 +175,11 @@ static void print_json(const struct bench_options *options, const struct result 
     printf("{\"vehicles\":%u,\"mode\":\"%s\",\"threads\":%u,\"frames\":%u,\"mover_ms\":%.6f,"
            "\"collider_ms\":%.6f,\"frame_ms\":%.6f,\"frame_p99_ms\":%.6f,\"cpu_ms\":%.6f,"
            "\"first_ms\":%.6f,\"first_cpu_ms\":%.6f,\"second_ms\":%.6f,\"second_worst_ms\":%.6f,"
-           "\"woken\":%.0f,",
+           "\"woken\":%.0f,\"motion_frames\":%.1f,",
            options->vehicles, bench_mode_word((enum bench_mode)options->mode), options->threads,
            options->frames, result->mover_ms, result->collider_ms, result->frame_ms,
            result->slow_ms, result->cpu_ms, result->first_ms, result->first_cpu_ms,
-           result->second_ms, result->second_worst_ms, result->woken);
+           result->second_ms, result->second_worst_ms, result->woken, result->motion_frames);
     if (options->burst > 0)
         printf("\"burst\":%u,\"burst_frames\":%u,\"burst_worst_ms\":%.6f,\"after_ms\":%.6f,"
                "\"after_cpu_ms\":%.6f,\"rows\":%u,\"rows_after\":%u,",
@@ -194,9 +233,10 @@ int bench_frame(struct bench_options options)
                                 options.frames};
     begin(&stepper, &view, options.threads);
     run(&stepper, &times);
-    frame_stepper_free(&stepper);
     const struct counters tally = view.w[options.frames & 1].head->tally;
-    const struct result result = result_of(&times, world_dt_s(&view.world));
+    struct result result = result_of(&times, world_dt_s(&view.world));
+    result.motion_frames = motion_frames(&stepper);
+    frame_stepper_free(&stepper);
     if (options.burst > 0)
         run_burst(&view, &options, &times, &burst);
     (options.json ? print_json : print_text)(&options, &result, &burst, &tally);

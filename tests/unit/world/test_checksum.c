@@ -81,6 +81,22 @@ static void test_a_table_takes_differing_columns(void **state)
     assert_true(same());
 }
 
+static void test_differing_rows_are_found_by_columns(void **state)
+{
+    uint64_t rows[CHECKSUM_ROWS / 64] = {0};
+    (void)state;
+    a.rows.x[CHECKSUM_ROWS + 3] += 1.0;
+    a.rows.kind[CHECKSUM_ROWS + 70]++;
+    a.rows.trigger[CHECKSUM_ROWS + 900]++;
+    a.rows.x[5] += 1.0; /* another block */
+    table_hash(table_of(&a), ROWS, NULL, NULL);
+    assert_true(table_differing(table_of(&a), table_of(&b), 1, ROWS,
+                                COLUMN_BIT(x) | COLUMN_BIT(kind), CHECKSUM_ROWS, rows));
+    for (uint32_t w = 0; w < CHECKSUM_ROWS / 64; w++)
+        assert_int_equal(rows[w], w == 0 ? 1u << 3 : w == 1 ? 1u << 6 : 0u);
+    assert_false(table_differing(table_of(&a), table_of(&b), 1, ROWS, COLUMNS_ALL, 1, rows));
+}
+
 static void test_what_is_known_to_be_the_same_is_not_copied(void **state)
 {
     (void)state;
@@ -208,6 +224,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TABLES(test_a_table_takes_differing_columns),
+        TABLES(test_differing_rows_are_found_by_columns),
         TABLES(test_what_is_known_to_be_the_same_is_not_copied),
         TABLES(test_only_the_columns_named_are_hashed),
         TABLES(test_the_hash_ends_with_the_rows_in_use),
