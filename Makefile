@@ -6,7 +6,7 @@ MAKEFLAGS += --no-builtin-rules
 
 # All processors build, unless -j says how many. Goals that do more than build run one after another
 # when several are named (`make clean all`), and tests/lint calls make for itself.
-BUILDING := all tests examples fuzzers crash build/%
+BUILDING := all ground tests examples fuzzers crash build/%
 ifeq ($(MAKELEVEL)$(filter lint,$(MAKECMDGOALS))$(if $(filter-out $(BUILDING),$(MAKECMDGOALS)),$(word 2,$(MAKECMDGOALS))),0)
 ifeq ($(filter -j% --jobserver%,$(MAKEFLAGS)),)
 MAKEFLAGS += -j$(shell nproc)
@@ -104,6 +104,11 @@ $(BENCH_STAMP): tests/bench/packages.txt supervisor/install-packages | $(STAMP)
 	@supervisor/install-packages $< $@
 	@mkdir -p $(@D) && touch $@
 
+GROUND_STAMP := build/.packages-ground
+$(GROUND_STAMP): supervisor/ground/packages.txt supervisor/install-packages | $(STAMP)
+	@supervisor/install-packages $< $@
+	@mkdir -p $(@D) && touch $@
+
 # --- sources ------------------------------------------------------------------------------------
 # Each folder's objects without its main go into a library below $(BUILD)/lib, of which the linker
 # takes what a program or a test uses.
@@ -130,7 +135,7 @@ SUPPORT_SRC  := $(call sources,tests/support)
 BENCH_SRC    := $(filter-out tests/bench/peer_%,$(call sources,tests/bench tests/bench/*))
 # Only jolon-bench needs the engines that it measures: tests of its parts do not.
 ENGINES      := $(patsubst %,$(OBJ)/%.o,$(basename $(wildcard tests/bench/peer_*)))
-FUZZ_SRC     := $(call sources,tests/fuzz)
+FUZZ_SRC     := $(call sources,tests/fuzz tests/fuzz/shared)
 PLACES       := unit/* unit/*/* unit/*/*/* property/*
 UNIT_SRC     := $(filter tests/unit/%,$(wildcard $(addprefix tests/,$(addsuffix /test_*.c,$(PLACES)))))
 PROPERTY_SRC := $(wildcard tests/property/*/test_*.c tests/property/*/*/test_*.c)
@@ -169,6 +174,7 @@ $(eval $(call library,intake,$(call sources,reporter/intake)))
 $(eval $(call library,reporter,$(call sources,reporter)))
 $(eval $(call library,supervisor,$(KEEPER_SRC)))
 $(eval $(call library,physics,$(call sources,supervisor/physics)))
+$(eval $(call library,ground,$(call sources,supervisor/ground)))
 $(eval $(call library,worldctl,$(call sources,supervisor/worldctl)))
 $(foreach client,$(CLIENTS),$(eval $(call library,$(client),$(call sources,clients/$(client)),$(if $(filter console,$(client)),$(PAGE)))))
 $(eval $(call library,screens,$(call sources,clients)))
@@ -199,6 +205,9 @@ SANDBOX_LIBS  = -Wl,-Bstatic $(call pc,libs,libseccomp) -Wl,-Bdynamic
 # The engines that jolon-bench measures us beside; their headers are not held to our warnings.
 PEER_CFLAGS   = $(patsubst -I%,-isystem %,$(call pc,cflags,bullet))
 PEER_LIBS     = $(call pc,libs,ode) $(filter-out -lBulletSoftBody,$(call pc,libs,bullet)) -lstdc++
+# jolon-ground alone needs these, and they are not held to our warnings.
+GROUND_CFLAGS = $(patsubst -I%,-isystem %,$(call pc,cflags,gdal) $(call pc,cflags,proj))
+GROUND_LIBS   = $(call pc,libs,gdal) $(call pc,libs,proj)
 BASE_LIBS     = $(call pc,libs,libxxhash) -lm
 # For tests, which use what they happen to test.
 TEST_LIBS     = -Wl,--as-needed $(call pc,libs,cmocka libpng) $(RENDER_LIBS) $(HTTP_LIBS) $(DDS_LIBS) $(SANDBOX_LIBS) \
@@ -208,6 +217,10 @@ PROGRAMS := $(addprefix $(BIN)/jolon,-world -mover -collider -renderer -video -i
         $(addprefix -,$(CLIENTS)) -keeper) $(BIN)/jolon
 # The benchmarks have packages of their own, so only `make bench` and the tests build them.
 BENCH    := $(BIN)/jolon-bench
+# The maker of ground files has packages of its own, too: `make` builds it where they are installed, `make
+# ground` and the tests install them.
+GROUND   := $(BIN)/jolon-ground
+GROUND_HERE := $(if $(shell pkg-config --exists gdal proj 2>/dev/null && echo yes),$(GROUND))
 # Of the build with crash points: what their tests run.
 CRASH_PROGRAMS := $(addprefix $(BIN)/jolon,-world -mover -collider -intake -recorder -keeper) $(BIN)/jolon \
         $(BUILD)/tests/crash/test_crash
@@ -222,8 +235,13 @@ LAG            := $(BUILD)/tests/lag/lag
 FLOOD          := $(BUILD)/tests/flood/flood
 VIDEO_PROBE    := $(BUILD)/tests/video_probe/video_probe
 
-.PHONY: all run test tests check examples figures docs game rtps storm crash fuzz fuzzers model bench bench-render install uninstall format lint clean help
-all: $(if $(CRASHPOINTS),$(CRASH_PROGRAMS),$(PROGRAMS))
+.PHONY: all ground run test tests check examples figures docs game rtps storm crash fuzz fuzzers model bench bench-render install uninstall format lint clean help
+all: $(if $(CRASHPOINTS),$(CRASH_PROGRAMS),$(PROGRAMS) $(GROUND_HERE))
+ifeq ($(GROUND_HERE)$(CRASHPOINTS)$(COUNTING),)
+all:
+	@echo 'jolon-ground, which makes ground files, is left out: GDAL and PROJ are missing; make ground installs them'
+endif
+ground: $(GROUND)
 
 # --- programs -----------------------------------------------------------------------------------
 link = @mkdir -p $(@D); $(call say,LD $@); $(CC) $(LDFLAGS_ALL) -o $@ $(filter %.o,$^) \
@@ -261,8 +279,14 @@ $(BIN)/jolon-gateway: $(OBJ)/gateway/main.o $(call libraries,gateway topics sand
 $(BIN)/jolon-dis: $(OBJ)/gateway/tool/main.o $(call libraries,tool gateway ipc world)
 	$(call link,$(PCAP_LIBS) $(BASE_LIBS))
 $(BENCH): $(OBJ)/tests/bench/main.o $(ENGINES) $(call libraries,bench physics renderer $(STEPS) config http ipc world)
-	$(call link,$(RENDER_LIBS) $(HTTP_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(PEER_LIBS) $(BASE_LIBS))
+	$(call link,$(RENDER_LIBS) $(HTTP_LIBS) $(CONFIG_LIBS) $(JSON_LIBS) $(ARCHIVE_LIBS) $(PEER_LIBS) $(BASE_LIBS))
 $(ENGINES): | $(BENCH_STAMP)
+$(GROUND): $(OBJ)/supervisor/ground/main.o $(call libraries,ground ipc world)
+	$(call link,$(GROUND_LIBS) $(JSON_LIBS) $(ARCHIVE_LIBS) $(BASE_LIBS))
+# The writer of ground files uses no library of maps, so its test and the fuzz harness need none.
+GROUND_WRITER := $(call objects,$(addprefix supervisor/ground/,ground_write.c progress.c))
+$(filter-out $(GROUND_WRITER),$(call objects,$(call sources,supervisor/ground))): | $(GROUND_STAMP)
+$(call objects,$(call sources,supervisor/ground)): CFLAGS_EXTRA = $(GROUND_CFLAGS)
 $(BIN)/jolon-keeper: $(OBJ)/supervisor/main.o $(call libraries,supervisor sandbox ipc world)
 	$(call link,$(SANDBOX_LIBS) $(BASE_LIBS))
 $(BIN)/jolon: supervisor/jolon
@@ -325,6 +349,7 @@ $(BUILD)/tests/unit/supervisor/%: $(call libraries,sandbox)
 $(filter $(BUILD)/tests/unit/gateway/%,$(UNIT_TESTS)): $(call libraries,gateway)
 $(addprefix $(BUILD)/tests/unit/ipc/topics/test_,dds_datagrams samples command_text): $(call libraries,datagrams)
 $(BUILD)/tests/unit/config/syntax/test_schema: $(OBJ)/docs/keys/key_tables.o
+$(addprefix $(BUILD)/tests/unit/,supervisor/ground/test_ground_write config/test_ground_source): $(GROUND_WRITER)
 $(BUILD)/tests/unit/docs/figures/test_palette: $(OBJ)/docs/figures/palette.o
 $(BUILD)/tests/crash/test_crash: $(call objects,$(call sources,tests/crash))
 $(GOLDEN_TESTS): $(call libraries,bench)
@@ -364,7 +389,7 @@ check: $(UNIT_TESTS) $(PROPERTY_TESTS)
 # Crash points are tried unsanitized: a sanitizer has its own handler for faults.
 # Builds what `make test` runs. The fuzz harnesses are compiled, but not linked: that takes clang.
 tests: $(call objects,$(FUZZ_SRC))
-tests: all $(BENCH) $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(PEER) $(LAG) $(FLOOD) $(VIDEO_PROBE) $(EXAMPLES) $(BUILD)/docs/keys $(if $(SAN),,crash)
+tests: all $(BENCH) $(GROUND) $(UNIT_TESTS) $(PROPERTY_TESTS) $(GOLDEN_TESTS) $(FAILING) $(STORM) $(LISTENER) $(PEER) $(LAG) $(FLOOD) $(VIDEO_PROBE) $(EXAMPLES) $(BUILD)/docs/keys $(if $(SAN),,crash)
 test: tests
 	@tests/run --build $(BUILD) $(if $(SAN),--sanitizer $(SAN)) unit property golden system $(if $(SAN),,crash)
 
@@ -382,6 +407,7 @@ $(BIN)/fuzz_ctl $(BIN)/fuzz_log: FUZZ_LINK = $(call FUZZ_WRAP,exit)
 $(BIN)/fuzz_ctl: $(call libraries,ctl)
 $(BIN)/fuzz_command: $(call libraries,intake)
 $(BIN)/fuzz_console: $(call libraries,console)
+$(BIN)/fuzz_ground: $(GROUND_WRITER)
 $(BIN)/fuzz_pdu: $(call libraries,gateway)
 $(BIN)/fuzz_samples $(BIN)/fuzz_filter: $(call libraries,monitor)
 $(addprefix $(BIN)/fuzz_,command_text samples filter): $(call libraries,datagrams)
@@ -444,9 +470,9 @@ DOC   = $(DESTDIR)$(PREFIX)/share/doc/jolon
 MAN1  = $(DESTDIR)$(PREFIX)/share/man/man1
 COMPLETIONS = $(DESTDIR)$(PREFIX)/share/bash-completion/completions
 UNITS = $(DESTDIR)$(PREFIX)/lib/systemd/system
-# jolon-bench is installed when it has been built.
-INSTALLED = $(PROGRAMS) $(wildcard $(BENCH))
-PAGES = $(filter-out $(if $(wildcard $(BENCH)),,%/jolon-bench.1),$(wildcard docs/man/*.1))
+# jolon-bench and jolon-ground are installed when they have been built.
+INSTALLED = $(PROGRAMS) $(wildcard $(BENCH) $(GROUND))
+PAGES = $(filter-out $(if $(wildcard $(BENCH)),,%/jolon-bench.1) $(if $(wildcard $(GROUND)),,%/jolon-ground.1),$(wildcard docs/man/*.1))
 # In the folders in which they lie here, so that their links hold.
 DOCUMENTS = LICENSE $(sort $(wildcard *.md */README.md) $(shell find docs -type f \
         '(' -name '*.md' -o -name '*.png' -o -name '*.svg' -o -path 'docs/examples/*' ')'))
@@ -460,11 +486,11 @@ install: all
 	sed 's|@BIN@|$(PREFIX)/bin|' supervisor/jolon@.service > $(UNITS)/jolon@.service
 	rm -rf $(SHARE) $(DOC)
 	install -d $(SHARE) $(DOC)
-	cp -R config/kinds config/models config/scenarios config/dis config/cyclonedds.xml config/dds-security ipc/topics/status.idl $(SHARE)
+	cp -R config/kinds config/models config/scenarios config/dis config/ground config/cyclonedds.xml config/dds-security ipc/topics/status.idl $(SHARE)
 	@cp --parents $(DOCUMENTS) $(DOC)
 	chmod -R u=rwX,go=rX $(SHARE) $(DOC) $(UNITS)/jolon@.service
 uninstall:
-	rm -f $(addprefix $(DESTDIR)$(PREFIX)/bin/,$(notdir $(PROGRAMS) $(BENCH)))
+	rm -f $(addprefix $(DESTDIR)$(PREFIX)/bin/,$(notdir $(PROGRAMS) $(BENCH) $(GROUND)))
 	rm -f $(addprefix $(MAN1)/,$(notdir $(wildcard docs/man/*.1)) jolon-start.1) $(COMPLETIONS)/jolon $(UNITS)/jolon@.service
 	rm -rf $(SHARE) $(DOC)
 
@@ -505,6 +531,7 @@ help:
 	@echo 'make model [MODEL=short|usual|full]      check the frame protocol with spin'
 	@echo 'make bench                              build jolon-bench, measure; results in tests/bench/results/'
 	@echo 'make bench-render                       what pictures cost, alone'
+	@echo 'make ground                             build jolon-ground, which makes ground files; installs GDAL'
 	@echo 'make install PREFIX=/usr/local DESTDIR= make uninstall'
 	@echo 'make figures                            the pictures of docs/ again (A.1 to A.9 of the thesis)'
 	@echo 'make docs                               the tables of keys in docs/scenario.md again'

@@ -3,6 +3,7 @@
 #include "config/loader.h"
 
 #include "config/earthworks.h"
+#include "config/ground_source.h"
 #include "config/kinds.h"
 #include "config/missions.h"
 #include "config/scripts.h"
@@ -17,6 +18,7 @@
 
 #include <arpa/inet.h>
 #include <errno.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -141,7 +143,9 @@ static int apply_override(struct load *load, const char *text)
         return -1;
     if (strcmp(schema_scenario.keys[index].name, "objects.source") == 0)
         load->objects_chosen = true;
-    XXH3_64bits_update(load->hash, text, strlen(text) + 1);
+    /* The path of a ground file may change: the hash of its ground counts. */
+    if (strcmp(schema_scenario.keys[index].name, GROUND_SOURCE_KEY) != 0)
+        XXH3_64bits_update(load->hash, text, strlen(text) + 1);
     return key_table_set_text(&schema_scenario.keys[index], load->scenario->settings, value,
                               load->origin[index], load->error);
 }
@@ -308,16 +312,50 @@ static void derive(struct load *load)
 /* Notes the file and the overrides, from which the same scenario can be read again. */
 static int write_recipe(const struct load *load, const char *const *overrides, int override_count)
 {
+    const struct scenario_settings *settings = load->scenario->settings;
     char *absolute = realpath(load->source.path, NULL);
     int result = provenance_add(&load->scenario->recipe, "scenario",
                                 absolute ? absolute : load->source.path);
     free(absolute);
-    for (int i = 0; i < override_count && result == 0; i++)
-        result = provenance_add(&load->scenario->recipe, "set", overrides[i]);
+    for (int i = 0; i < override_count && result == 0; i++) {
+        char text[sizeof GROUND_SOURCE_KEY + GROUND_FILE_TEXT_MAX];
+        bool file = strncmp(overrides[i], GROUND_SOURCE_KEY "=", sizeof GROUND_SOURCE_KEY) == 0;
+        snprintf(text, sizeof text, "%s=%s", GROUND_SOURCE_KEY, settings->ground_file);
+        result = provenance_add(&load->scenario->recipe, "set", file ? text : overrides[i]);
+    }
+    if (result == 0 && settings->terrain == TERRAIN_FILE) {
+        char text[32 + GROUND_FILE_TEXT_MAX];
+        snprintf(text, sizeof text, "%016" PRIx64 " %s", settings->ground_hash,
+                 settings->ground_file);
+        result = provenance_add(&load->scenario->recipe, "ground", text);
+    }
     if (result != 0)
         return key_table_refuse(
             load->error, (struct key_place){load->source.path, 0}, NULL, NULL,
             "no memory to note what it was made from, or overrides that are too long");
+    return 0;
+}
+
+/* Finds the ground file, and takes its place on the earth for the gateway unless that is given. */
+static int read_ground(struct load *load)
+{
+    struct scenario_settings *settings = load->scenario->settings;
+    struct gateway_params *gateway = &settings->params.gateway;
+    const char *const places[] = {"gateway.latitude_deg", "gateway.longitude_deg",
+                                  "gateway.undulation_m"};
+    double *const values[] = {&gateway->latitude_deg, &gateway->longitude_deg,
+                              &gateway->undulation_m};
+    double found[3];
+    struct key_place place = load->origin[key_table_find(&schema_scenario, GROUND_SOURCE_KEY)];
+    if (ground_source_read(settings, load->source.path, load->data_dir, place, found,
+                           load->error) != 0)
+        return -1;
+    for (int i = 0; i < 3 && settings->terrain == TERRAIN_FILE; i++) {
+        if (strcmp(load->origin[key_table_find(&schema_scenario, places[i])].file, "default") == 0)
+            *values[i] = found[i];
+    }
+    if (settings->terrain == TERRAIN_FILE)
+        XXH3_64bits_update(load->hash, &settings->ground_hash, sizeof settings->ground_hash);
     return 0;
 }
 
@@ -333,7 +371,7 @@ static int read_scenario(struct load *load, const char *const *overrides, int ov
         if (apply_override(load, overrides[i]) != 0)
             return -1;
     }
-    if (check_together(load) != 0 ||
+    if (check_together(load) != 0 || read_ground(load) != 0 ||
         kinds_read(load->scenario, load->data_dir, load->hash, load->error) != 0 ||
         read_lists(load) != 0)
         return -1;

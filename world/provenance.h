@@ -6,6 +6,7 @@
  *     image      or the path of the image from which it was resumed, absolute,
  *     frame, commands   with that image's frame and the number of commands until then
  *     set        an override, "world.seed=7", in the order given
+ *     ground     of a world on a ground file: the hash of its ground, a blank and its path
  *     seconds    how long it runs, if that was given */
 #ifndef JOLON_WORLD_PROVENANCE_H
 #define JOLON_WORLD_PROVENANCE_H

@@ -11,8 +11,10 @@ _Static_assert(sizeof(enum terrain_source) == sizeof(uint32_t), "choices store 3
 _Static_assert(sizeof(enum object_source) == sizeof(uint32_t), "choices store 32-bit words");
 
 static const struct key_choice paces[] = {{"real", PACE_REAL, NULL}, {"max", PACE_MAX, NULL}};
-static const struct key_choice terrains[] = {
-    {"generated", TERRAIN_GENERATED, NULL}, {"flat", TERRAIN_FLAT, NULL}, {"dem", KEY_LATER, NULL}};
+static const struct key_choice terrains[] = {{"generated", TERRAIN_GENERATED, NULL},
+                                             {"flat", TERRAIN_FLAT, NULL},
+                                             {"file", TERRAIN_FILE, NULL},
+                                             {"dem", KEY_LATER, NULL}};
 static const struct key_choice spacings[] = {
     {"125", 0, NULL}, {"62.5", 0, NULL}, {"31.25", 0, NULL}};
 static const struct key_choice object_sources[] = {{"table1", OBJECTS_TABLE1, NULL},
@@ -73,14 +75,20 @@ static const struct key scenario_keys[] = {
            .unit = "degrees", .meaning = "From where the wind blows, clockwise from north."),
     CHOICE("terrain.source", S, terrain, STORE_U32, WORDS(terrains), "generated",
            .meaning = "`generated`: Fort Hunter Liggett, made from its real places, with hills "
-                      "that follow from the seed. `flat`: level grass."),
+                      "that follow from the seed. `flat`: level grass. `file`: a ground file, made "
+                      "from maps of any place on Earth ([ground.md](ground.md))."),
+    TEXT("terrain.file", S, ground_file, NULL, .unset = "none",
+         .meaning = "The ground file of `file`: a path, from the scenario's folder or the current "
+                    "one, or the name of one of `grounds/` in the folder of the data. Its hash is "
+                    "a part of the scenario, so a log is not replayed on another ground."),
     NUMBER("terrain.height_m", S, flat_height_m, -400, 8000, "0", .unit = "m",
            .meaning = "The height of `flat` ground."),
     ROW("terrain.spacing_m", KEY_NUMBER, STORE_DOUBLE, S, spacing_m, .scale = 1.0, .low = 31.25,
         .high = 125, .fallback = "31.25", WORDS(spacings), .unit = "m",
-        .meaning = "The distance between neighbouring posts, the points whose height is known."),
+        .meaning = "The distance between neighbouring posts, the points whose height is known. A "
+                   "ground file has its own."),
     CHOICE("objects.source", S, objects, STORE_U32, WORDS(object_sources), NULL,
-           .unset = "table1 on generated ground, none on flat",
+           .unset = "table1 on generated ground, else none",
            .meaning = "`table1`: the objects of the thesis's Table 1. `none`: no objects. "
                       "`objects` is either this group or a list of objects."),
     CHOICE("collision.method", S, params.collision.method, STORE_U32, SOME(methods, method_name),

@@ -82,6 +82,17 @@ static void check_hash(const struct log_replay *replay, const struct params *par
                     replay->path, replay->scenario_hash, params->scenario_hash, from);
 }
 
+/* Names the ground file if that is what has changed. */
+static void check_ground(const struct log_replay *replay, const struct scenario *scenario)
+{
+    const char *was = log_replay_provenance(replay, "ground");
+    const char *is = provenance_find(scenario->recipe.text, scenario->recipe.bytes, "ground");
+    const int hash = 16; /* digits, before the path */
+    if (was && is && strncmp(was, is, (size_t)hash) != 0)
+        die_refused("%s: was recorded on the ground %s; %s now has another: its hash is %.*s",
+                    replay->path, was, scenario->settings->ground_file, hash, is);
+}
+
 static void from_scenario(struct view *view, const struct log_replay *replay,
                           const struct arguments *arguments)
 {
@@ -89,6 +100,7 @@ static void from_scenario(struct view *view, const struct log_replay *replay,
     struct world_build built;
     struct error_text error;
     scenario_load(arguments, &scenario);
+    check_ground(replay, &scenario);
     check_hash(replay, &scenario.settings->params, arguments->path);
     memset(scenario.settings->params.scenario, 0,
            sizeof scenario.settings->params.scenario); /* the static hash covers every byte */

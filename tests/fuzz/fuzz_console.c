@@ -1,6 +1,6 @@
 /* Requests to a console: libmicrohttpd's parser, names, rates, routes, query keys, bodies. Commands
  * reach the command queue, where the harness answers them. */
-#include "tests/fuzz/http_client.h"
+#include "tests/fuzz/shared/http_client.h"
 #include "tests/fuzz/support.h"
 
 #include "clients/console/request.h"

@@ -3,7 +3,7 @@
 #include "tests/fuzz/support.h"
 
 #include "clients/ctl/parse.h"
-#include "tests/fuzz/ending.h"
+#include "tests/fuzz/shared/ending.h"
 #include "world/runtime/check.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
 #include "recorder/log/command_log.h"
 #include "recorder/log/event_log.h"
 #include "recorder/replay/log_replay.h"
-#include "tests/fuzz/ending.h"
+#include "tests/fuzz/shared/ending.h"
 #include "world/runtime/check.h"
 
 #include <fcntl.h>

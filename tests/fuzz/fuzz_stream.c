@@ -1,6 +1,6 @@
 /* Requests to a live stream: libmicrohttpd's parser, names, routes, and query keys of pictures and
  * maps. The harness draws the requested pictures. */
-#include "tests/fuzz/http_client.h"
+#include "tests/fuzz/shared/http_client.h"
 #include "tests/fuzz/support.h"
 
 #include "renderer/output/stream_internal.h"

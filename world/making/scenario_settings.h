@@ -7,14 +7,18 @@
 
 #include <stdint.h>
 
-enum terrain_source { TERRAIN_GENERATED, TERRAIN_FLAT };
+#define GROUND_FILE_TEXT_MAX 1024
+
+enum terrain_source { TERRAIN_GENERATED, TERRAIN_FLAT, TERRAIN_FILE };
 enum object_source { OBJECTS_TABLE1, OBJECTS_NONE, OBJECTS_LIST };
 
 struct scenario_settings {
     struct params params;
     enum terrain_source terrain;
     double flat_height_m;
-    double spacing_m; /* between posts: 125, 62.5 or 31.25 */
+    double spacing_m; /* between posts of other ground than a file's: 125, 62.5 or 31.25 */
+    char ground_file[GROUND_FILE_TEXT_MAX]; /* TERRAIN_FILE: its path, absolute */
+    uint64_t ground_hash;                   /* the same: of the ground in it */
     enum object_source objects;
 };
 

@@ -1,4 +1,5 @@
 /* The loader: defaults, overrides, derived parameters, and the shipped kinds and scenarios. */
+#include "config/ground_source.h"
 #include "config/loader.h"
 
 #include "config/syntax/schema.h"
@@ -312,7 +313,7 @@ static void test_every_key_is_overridden(void **state)
     (void)state;
     for (uint32_t key = 0; key < schema_scenario.count; key++) {
         const char *name = schema_scenario.keys[key].name;
-        bool tried = false;
+        bool tried = strcmp(name, GROUND_SOURCE_KEY) == 0; /* test_ground_source.c has a file */
 
         for (size_t i = 0; i < COUNT(set_and_text); i++)
             tried |= strncmp(set_and_text[i].override, name, strlen(name)) == 0;

@@ -179,7 +179,7 @@ static const struct refusal refusals[] = {
     /* Words, and words of later versions. */
     {"world = { pace = \"fast\"; };", 1, "world.pace = \"fast\": unknown; allowed: real, max"},
     {"terrain = { source = \"dem\"; };", 1,
-     "terrain.source = \"dem\": not in this version; allowed: generated, flat"},
+     "terrain.source = \"dem\": not in this version; allowed: generated, flat, file"},
     {"collision = { method = \"best\"; };", 1,
      "collision.method = \"best\": unknown; allowed: " METHOD_WORDS},
     {"collision = { shape = \"box\"; };", 1,
@@ -450,7 +450,7 @@ static void test_override_refusals(void **state)
         {"collision.response=bounce",
          "--set: collision.response = bounce: unknown; allowed: " RESPONSE_WORDS},
         {"terrain.source=dem",
-         "--set: terrain.source = dem: not in this version; allowed: generated, flat"},
+         "--set: terrain.source = dem: not in this version; allowed: generated, flat, file"},
         {"collision.figure8.mass_c3_kg=9000",
          "--set: collision.figure8.mass_c3_kg = 9000: is not below the next higher level; "
          "allowed: below 8000"},

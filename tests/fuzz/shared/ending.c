@@ -1,5 +1,5 @@
 /* Replaces exit() of the C library. */
-#include "tests/fuzz/ending.h"
+#include "tests/fuzz/shared/ending.h"
 
 #include "ipc/process/log.h"
 #include "world/runtime/check.h"

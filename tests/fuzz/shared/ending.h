@@ -5,8 +5,8 @@
  *         may_call_exit();
  *     ending_done();
  */
-#ifndef JOLON_TESTS_FUZZ_ENDING_H
-#define JOLON_TESTS_FUZZ_ENDING_H
+#ifndef JOLON_TESTS_FUZZ_SHARED_ENDING_H
+#define JOLON_TESTS_FUZZ_SHARED_ENDING_H
 
 #include <setjmp.h>
 

@@ -1,5 +1,5 @@
 /* One connection for each input. */
-#include "tests/fuzz/http_client.h"
+#include "tests/fuzz/shared/http_client.h"
 #include "world/runtime/check.h"
 
 #include <poll.h>

@@ -1,7 +1,7 @@
 /* A client for the harnesses of console and live stream. It sends an input unchanged and checks the
  * answer. */
-#ifndef JOLON_TESTS_FUZZ_HTTP_CLIENT_H
-#define JOLON_TESTS_FUZZ_HTTP_CLIENT_H
+#ifndef JOLON_TESTS_FUZZ_SHARED_HTTP_CLIENT_H
+#define JOLON_TESTS_FUZZ_SHARED_HTTP_CLIENT_H
 
 #include "ipc/http/listen.h"
 

@@ -1,0 +1,272 @@
+/* The verb make: rasters in, a ground file out. */
+#include "supervisor/ground/make.h"
+
+#include "ipc/process/log.h"
+#include "ipc/process/option_table.h"
+#include "ipc/process/process.h"
+#include "supervisor/ground/ground_write.h"
+#include "supervisor/ground/heights.h"
+#include "supervisor/ground/cover_map.h"
+#include "supervisor/ground/progress.h"
+#include "world/runtime/parse_number.h"
+#include "world/runtime/thread_pool.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#define COVERS_MAX    64
+#define INPUTS_MAX    4096
+#define METRES_A_FOOT 0.3048
+
+static struct {
+    double latitude_deg, longitude_deg, side_m, spacing_m, undulation_m;
+    bool placed, feet;
+    const char *out, *classes, *licence;
+    const char *covers[COVERS_MAX];
+    uint32_t cover_count, threads;
+} given = {.spacing_m = 31.25, .classes = "worldcover"};
+
+/* What is made. */
+struct making {
+    struct post_grid grid;
+    struct raster **rasters; /* of heights */
+    uint32_t count;
+    struct raster *covers[COVERS_MAX];
+    struct cover_map_table *table;
+    struct thread_pool *pool;
+    float *posts;
+    uint8_t *cover;
+    char *text; /* sources and licences */
+    size_t text_used;
+    struct heights_counts counts;
+    uint64_t guessed;
+};
+
+static int take_center(const char *value, struct error_text *error)
+{
+    char latitude[64];
+    const char *comma = strchr(value, ',');
+    snprintf(latitude, sizeof latitude, "%.*s", comma ? (int)(comma - value) : 0, value);
+    if (!comma || !parse_real(latitude, -90.0, 90.0, &given.latitude_deg) ||
+        !parse_real(comma + 1, -180.0, 180.0, &given.longitude_deg))
+        return error_text_set(error, "must be LATITUDE,LONGITUDE in degrees, south and west "
+                                     "negative, as 44.27,-71.30");
+    if (fabs(given.latitude_deg) > PROJECTION_LATITUDE_MAX_DEG)
+        return error_text_set(error, "is too near the pole; allowed: latitudes up to %g degrees",
+                              PROJECTION_LATITUDE_MAX_DEG);
+    given.placed = true;
+    return 0;
+}
+
+static int take_cover(const char *value, struct error_text *error)
+{
+    if (given.cover_count == COVERS_MAX)
+        return error_text_set(error, "is one too many; at most %d are allowed", COVERS_MAX);
+    given.covers[given.cover_count++] = value;
+    return 0;
+}
+
+static void check_sides(void)
+{
+    double posts = given.side_m / given.spacing_m;
+    if (fmod(given.side_m, GROUND_SIDE_OF_M) != 0.0)
+        die_usage("ground make: --side %g: must be a multiple of %g m", given.side_m,
+                  GROUND_SIDE_OF_M);
+    if (posts != floor(posts) || posts < GROUND_POSTS_SIDE_MIN - 1 ||
+        posts > GROUND_POSTS_SIDE_MAX - 1)
+        die_usage("ground make: --posts %g: the side, %g m, must be %u to %u times that, a whole "
+                  "number of times",
+                  given.spacing_m, given.side_m, GROUND_POSTS_SIDE_MIN - 1,
+                  GROUND_POSTS_SIDE_MAX - 1);
+}
+
+static int read_options(int argc, char **argv)
+{
+    static const char *center, *cover;
+    static const struct option_row rows[] = {
+        {"center", "LAT,LON", "the middle of the square, in degrees of WGS 84", .text = &center,
+         .take = take_center},
+        {"side", "METRES", "the side of the square: 1000 to 500000, a multiple of 125",
+         .real = &given.side_m, .low = GROUND_SIDE_MIN_M, .high = GROUND_SIDE_MAX_M},
+        {"posts", "METRES", "between neighbouring posts (default 31.25)", .real = &given.spacing_m,
+         .low = 0.5, .high = 10000.0},
+        {"out", "FILE", "the ground file", .text = &given.out},
+        {"cover", "FILE", "a raster of classes of cover; repeat it for more, the finest counts",
+         .text = &cover, .take = take_cover},
+        {"classes", "TABLE",
+         "what these classes become: worldcover (default), nlcd, corine, or a file",
+         .text = &given.classes},
+        {"feet", NULL, "heights are in feet", .flag = &given.feet},
+        {"undulation", "METRES", "of the sea level above the ellipsoid at the middle",
+         .real = &given.undulation_m, .low = -200.0, .high = 200.0},
+        {"licence", "TEXT", "a line about the licence, which the file keeps",
+         .text = &given.licence},
+        {"threads", "N", "threads (default: processors)", .u32 = &given.threads, .least = 1,
+         .most = THREAD_POOL_MAX},
+        OPTION_ROWS_END};
+    static const struct option_table table = {
+        .program = "jolon-ground make",
+        .usage = "--center LAT,LON --side METRES --out FILE INPUT...\n"
+                 "Makes a ground file. INPUT: rasters of heights that GDAL reads, in any order.",
+        .rows = rows,
+        .plain = INPUTS_MAX};
+    int inputs = option_table_read(&table, argc, argv);
+    if (!given.placed || given.side_m == 0.0 || !given.out || inputs == 0)
+        die_usage(
+            "ground make: needs --center, --side, --out and a raster of heights, as in: jolon "
+            "ground make --center 44.27,-71.30 --side 50000 --out x.ground N44W072.hgt");
+    check_sides();
+    return inputs;
+}
+
+static void __attribute__((format(printf, 2, 3))) note(struct making *m, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    int more =
+        vsnprintf(m->text + m->text_used, GROUND_TEXT_BYTES_MAX - m->text_used, format, arguments);
+    va_end(arguments);
+    /* A list that is too long is cut. */
+    m->text_used += more > 0 ? (size_t)more : 0;
+    if (m->text_used >= GROUND_TEXT_BYTES_MAX)
+        m->text_used = GROUND_TEXT_BYTES_MAX - 1;
+}
+
+static void open_rasters(struct making *m, char **paths, uint32_t count)
+{
+    struct error_text error;
+    m->rasters = calloc(count, sizeof(struct raster *));
+    m->counts.from = calloc(count, sizeof *m->counts.from);
+    if (!m->rasters || !m->counts.from)
+        die_refused("no memory for %u rasters", count);
+    for (; m->count < count; m->count++) {
+        m->rasters[m->count] = raster_open(paths[m->count], RASTER_OF_HEIGHTS, &m->grid,
+                                           given.feet ? METRES_A_FOOT : 0.0, &error);
+        if (!m->rasters[m->count])
+            die_refused("%s", error.text);
+    }
+    qsort(m->rasters, count, sizeof(struct raster *), raster_order);
+    raster_join(m->rasters, count);
+    for (uint32_t i = 0; i < given.cover_count; i++) {
+        m->covers[i] = raster_open(given.covers[i], RASTER_OF_CLASSES, &m->grid, 1.0, &error);
+        if (!m->covers[i])
+            die_refused("%s", error.text);
+    }
+    qsort(m->covers, given.cover_count, sizeof(struct raster *), raster_order);
+    if (cover_map_table(m->table, given.classes, &error) != 0)
+        die_refused("%s", error.text);
+}
+
+static void note_raster(struct making *m, const struct raster *raster, const char *use)
+{
+    char line[512];
+    const char *licence = raster_licence(raster);
+    raster_describe(raster, line, sizeof line);
+    note(m, "%s: %s\n", use, line);
+    if (licence)
+        note(m, "licence: %s\n", licence);
+}
+
+static void tell_sources(struct making *m)
+{
+    for (uint32_t i = 0; i < m->count; i++) {
+        if (m->counts.from[i] == 0)
+            log_warn(
+                "%s: no post has its height from it: it lies elsewhere, or finer ones cover it",
+                raster_path(m->rasters[i]));
+        else
+            note_raster(m, m->rasters[i], "heights");
+    }
+    for (uint32_t i = 0; i < given.cover_count; i++)
+        note_raster(m, m->covers[i], "cover");
+    if (given.licence)
+        note(m, "licence: %s\n", given.licence);
+    if (m->counts.filled > 0)
+        note(m, "voids: %" PRIu64 " posts interpolated\n", m->counts.filled);
+    if (m->guessed > 0)
+        note(m, "cover: guessed from slope and height at %" PRIu64 " posts\n", m->guessed);
+}
+
+static void fill(struct making *m)
+{
+    struct error_text error;
+    if (heights_fill(m->posts, &m->grid, m->rasters, m->count, m->pool, &m->counts, &error) != 0 ||
+        cover_map_fill(m->cover, m->posts, &m->grid, m->covers, given.cover_count, m->table,
+                       &m->guessed, &error) != 0) {
+        progress_end();
+        die_refused("%s", error.text);
+    }
+    tell_sources(m);
+}
+
+static void begin(struct making *m)
+{
+    uint32_t side = (uint32_t)(given.side_m / given.spacing_m) + 1;
+    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    size_t posts = (size_t)side * side;
+    if (given.threads == 0)
+        given.threads = (uint32_t)fmin(fmax((double)processors, 1.0), THREAD_POOL_MAX);
+    m->grid = (struct post_grid){
+        .longitude_deg = given.longitude_deg, .side = side, .spacing_m = given.spacing_m};
+    projection_make(&m->grid.projection, given.latitude_deg, given.longitude_deg, given.side_m);
+    m->pool = thread_pool_create(given.threads);
+    m->posts = malloc(posts * sizeof *m->posts);
+    m->cover = malloc(posts);
+    m->text = calloc(GROUND_TEXT_BYTES_MAX, 1);
+    m->table = malloc(sizeof *m->table);
+    if (!m->pool || !m->posts || !m->cover || !m->text || !m->table)
+        die_refused("no memory for %u x %u posts", side, side);
+}
+
+static void finish(struct making *m)
+{
+    for (uint32_t i = 0; i < m->count; i++)
+        raster_close(m->rasters[i]);
+    for (uint32_t i = 0; i < given.cover_count; i++)
+        raster_close(m->covers[i]);
+    thread_pool_destroy(m->pool);
+    free(m->rasters);
+    free(m->counts.from);
+    free(m->posts);
+    free(m->cover);
+    free(m->text);
+    free(m->table);
+}
+
+int make_run(int argc, char **argv)
+{
+    struct making m = {0};
+    struct error_text error;
+    int inputs = read_options(argc, argv);
+    begin(&m);
+    open_rasters(&m, argv + argc - inputs, (uint32_t)inputs);
+    fill(&m);
+    struct ground_header header = {.flags = m.guessed > 0 ? GROUND_COVER_GUESSED : 0,
+                                   .latitude_deg = given.latitude_deg,
+                                   .longitude_deg = given.longitude_deg,
+                                   .side_m = given.side_m,
+                                   .spacing_m = given.side_m / (m.grid.side - 1),
+                                   .undulation_m = given.undulation_m,
+                                   .posts_side = m.grid.side};
+    int result = ground_write(given.out, &header, m.posts, m.cover, m.text, m.pool, &error);
+    progress_end();
+    if (result != 0)
+        die_refused("%s", error.text);
+    if (m.counts.filled > 0)
+        log_warn("%" PRIu64 " posts without a height were interpolated", m.counts.filled);
+    if (m.guessed > 0)
+        log_warn("no map of cover for %" PRIu64 " of %" PRIu64
+                 " posts: their cover is guessed from "
+                 "slope and height",
+                 m.guessed, (uint64_t)m.grid.side * m.grid.side);
+    printf("%s  %016" PRIx64 "  %g km, %u x %u posts, %g to %g m\n", given.out, header.hash,
+           given.side_m / 1000.0, header.posts_side, header.posts_side, (double)header.lowest_m,
+           (double)header.highest_m);
+    finish(&m);
+    return EXIT_OK;
+}

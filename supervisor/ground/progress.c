@@ -1,0 +1,28 @@
+/* Progress on a terminal. */
+#include "supervisor/ground/progress.h"
+
+#include "ipc/process/clock.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+#include <unistd.h>
+
+static uint64_t shown_ns;
+static bool shown;
+
+void progress_show(const char *step, uint32_t done, uint32_t of)
+{
+    uint64_t now_ns = clock_now_ns();
+    if (now_ns - shown_ns < NS_PER_S / 10 || !isatty(STDERR_FILENO))
+        return;
+    shown_ns = now_ns;
+    shown = true;
+    (void)fprintf(stderr, "\r%s: %u %%\033[K", step, (uint32_t)((uint64_t)done * 100 / of));
+}
+
+void progress_end(void)
+{
+    if (shown)
+        (void)fputs("\r\033[K", stderr);
+    shown = false;
+}

@@ -1,0 +1,270 @@
+/* Opens, checks and orders rasters. raster_sample.c reads and samples them. */
+#include "supervisor/ground/raster.h"
+
+#include "supervisor/ground/raster_internal.h"
+#include "world/maths/maths.h"
+
+#include <cpl_error.h>
+#include <gdal.h>
+#include <ogr_srs_api.h>
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define METRES_PER_FOOT        0.3048
+#define METRES_PER_SURVEY_FOOT (1200.0 / 3937.0)
+
+static const char *last_error(void)
+{
+    const char *text = CPLGetLastErrorMsg();
+    return text[0] != '\0' ? text : "GDAL gives no reason";
+}
+
+static int check_band(struct raster *r, enum raster_use use, struct error_text *error)
+{
+    int bands = GDALGetRasterCount(r->dataset);
+    if (bands != 1)
+        return error_text_set(error,
+                              "%s: has %d bands; a raster of heights or classes has one. Right "
+                              "would be: gdal_translate -b 1 %s ONE.tif, if band 1 has them",
+                              r->path, bands, r->path);
+    r->band = GDALGetRasterBand(r->dataset, 1);
+    if (use == RASTER_OF_HEIGHTS && GDALGetRasterColorTable(r->band) != NULL)
+        return error_text_set(error, "%s: is a picture with a table of colours, not heights",
+                              r->path);
+    if (r->columns < 2 || r->rows < 2)
+        return error_text_set(error, "%s: has %d x %d pixels; at least 2 x 2 are needed", r->path,
+                              r->columns, r->rows);
+    if (GDALDataTypeIsComplex(GDALGetRasterDataType(r->band)))
+        return error_text_set(error, "%s: has complex numbers", r->path);
+    return 0;
+}
+
+/* Sets how heights become metres. */
+static int read_unit(struct raster *r, double to_metres, struct error_text *error)
+{
+    int given;
+    const char *unit = GDALGetRasterUnitType(r->band);
+    double scale = GDALGetRasterScale(r->band, &given);
+    r->nodata = GDALGetRasterNoDataValue(r->band, &r->has_nodata);
+    r->factor = given ? scale : 1.0;
+    r->offset = GDALGetRasterOffset(r->band, &given);
+    r->offset = given ? r->offset : 0.0;
+    if (to_metres == 0.0) {
+        to_metres = 1.0;
+        if (strcasecmp(unit, "ft") == 0 || strcasecmp(unit, "feet") == 0 ||
+            strcasecmp(unit, "foot") == 0)
+            to_metres = METRES_PER_FOOT;
+        else if (strcasecmp(unit, "US survey foot") == 0 || strcasecmp(unit, "us-ft") == 0)
+            to_metres = METRES_PER_SURVEY_FOOT;
+        else if (unit[0] != '\0' && strcasecmp(unit, "m") != 0 && strcasecmp(unit, "metre") != 0 &&
+                 strcasecmp(unit, "meter") != 0 && strcasecmp(unit, "metres") != 0 &&
+                 strcasecmp(unit, "meters") != 0)
+            return error_text_set(error, "%s: has heights in \"%s\"; metres and feet are known",
+                                  r->path, unit);
+    }
+    r->factor *= to_metres;
+    r->offset *= to_metres;
+    return 0;
+}
+
+/* Sets the way from places on WGS 84 to the raster's coordinates. */
+static int find_place(struct raster *r, struct error_text *error)
+{
+    OGRSpatialReferenceH earth = OSRNewSpatialReference(NULL);
+    OGRSpatialReferenceH given = GDALGetSpatialRef(r->dataset), own = NULL;
+    OGRCoordinateTransformationOptionsH options = OCTNewCoordinateTransformationOptions();
+    int result = 0;
+    if (given == NULL) {
+        result = error_text_set(error,
+                                "%s: does not say its projection; right would be: gdal_translate "
+                                "-a_srs EPSG:4326 %s PLACED.tif, if it has degrees of WGS 84",
+                                r->path, r->path);
+    } else {
+        OSRImportFromEPSG(earth, 4326);
+        own = OSRClone(given);
+        OSRStripVertical(own);
+        OSRSetAxisMappingStrategy(earth, OAMS_TRADITIONAL_GIS_ORDER);
+        OSRSetAxisMappingStrategy(own, OAMS_TRADITIONAL_GIS_ORDER);
+        r->geographic = OSRIsGeographic(own) != 0;
+        OCTCoordinateTransformationOptionsSetBallparkAllowed(options, 0);
+        r->from_earth = OCTNewCoordinateTransformationEx(earth, own, options);
+        r->to_earth = OCTNewCoordinateTransformationEx(own, earth, options);
+        if (r->from_earth == NULL || r->to_earth == NULL)
+            result = error_text_set(error,
+                                    "%s: its projection cannot be converted to WGS 84: %s; right "
+                                    "would be: gdalwarp -t_srs EPSG:4326 %s WARPED.tif",
+                                    r->path, last_error(), r->path);
+    }
+    OCTDestroyCoordinateTransformationOptions(options);
+    OSRDestroySpatialReference(earth);
+    if (own != NULL)
+        OSRDestroySpatialReference(own);
+    return result;
+}
+
+static int check_place(struct raster *r, struct error_text *error)
+{
+    if (GDALGetGeoTransform(r->dataset, r->transform) != CE_None ||
+        !GDALInvGeoTransform(r->transform, r->inverse))
+        return error_text_set(error,
+                              "%s: does not say where on the earth it lies; right would be a file "
+                              "with a geotransform, as a GeoTIFF or a name like N44W072.hgt",
+                              r->path);
+    if (find_place(r, error) != 0)
+        return -1;
+    /* Around the edge, since a rotated raster has its extremes at any corner. */
+    double *e = r->extent;
+    e[0] = e[1] = HUGE_VAL;
+    e[2] = e[3] = -HUGE_VAL;
+    for (int i = 0; i < 64; i++) {
+        double share = (i & 15) / 15.0, columns = r->columns, rows = r->rows;
+        double c = i < 32 ? share * columns : i < 48 ? 0.0 : columns;
+        double w = i < 16 ? 0.0 : i < 32 ? rows : share * rows;
+        double x = r->transform[0] + c * r->transform[1] + w * r->transform[2];
+        double y = r->transform[3] + c * r->transform[4] + w * r->transform[5];
+        if (!OCTTransform(r->to_earth, 1, &x, &y, NULL) || !(fabs(y) <= 90.5) ||
+            !(fabs(x) <= 540.5))
+            return error_text_set(error,
+                                  "%s: its corner (%g, %g) lies nowhere on the earth: its "
+                                  "projection is not that of its numbers",
+                                  r->path, r->transform[0], r->transform[3]);
+        e[0] = fmin(e[0], y);
+        e[1] = fmin(e[1], x);
+        e[2] = fmax(e[2], y);
+        e[3] = fmax(e[3], x);
+    }
+    return 0;
+}
+
+/* Sets the resolution [m], and as how many coarser pixels a fine raster is read. */
+static void set_resolution(struct raster *r, enum raster_use use)
+{
+    double across = hypot(r->transform[1], r->transform[4]);
+    double down = hypot(r->transform[2], r->transform[5]);
+    double unit = 1.0, middle = 0.5 * (r->extent[0] + r->extent[2]);
+    if (r->geographic)
+        unit = DEGREE_M;
+    r->resolution_m = down * unit;
+    double width_m = across * unit * (r->geographic ? cos(middle * RAD_PER_DEG) : 1.0);
+    double finer = fmin(r->resolution_m, width_m);
+    r->coarser = 1;
+    if (use == RASTER_OF_HEIGHTS && finer > 0.0 && r->grid.spacing_m >= 2.0 * finer)
+        r->coarser =
+            (int)fmin(floor(r->grid.spacing_m / finer), floor(0.5 * fmin(r->columns, r->rows)));
+    r->columns /= r->coarser;
+    r->rows /= r->coarser;
+}
+
+static int fill(struct raster *r, enum raster_use use, double to_metres, struct error_text *error)
+{
+    r->columns = GDALGetRasterXSize(r->dataset);
+    r->rows = GDALGetRasterYSize(r->dataset);
+    if (check_band(r, use, error) != 0 || check_place(r, error) != 0 ||
+        read_unit(r, to_metres, error) != 0)
+        return -1;
+    set_resolution(r, use);
+    return 0;
+}
+
+struct raster *raster_open(const char *path, enum raster_use use, const struct post_grid *grid,
+                           double to_metres, struct error_text *error)
+{
+    struct raster *r = calloc(1, sizeof *r);
+    if (!r) {
+        error_text_memory(error);
+        return NULL;
+    }
+    r->grid = *grid;
+    r->path = path;
+    CPLErrorReset();
+    r->dataset = GDALOpenEx(path, GDAL_OF_RASTER | GDAL_OF_READONLY, NULL, NULL, NULL);
+    if (r->dataset == NULL)
+        error_text_set(error, "%s: GDAL cannot read it as a raster: %s", path, last_error());
+    else if (fill(r, use, to_metres, error) == 0)
+        return r;
+    raster_close(r);
+    return NULL;
+}
+
+void raster_close(struct raster *r)
+{
+    if (r->from_earth != NULL)
+        OCTDestroyCoordinateTransformation(r->from_earth);
+    if (r->to_earth != NULL)
+        OCTDestroyCoordinateTransformation(r->to_earth);
+    if (r->dataset != NULL)
+        GDALClose(r->dataset);
+    free(r->neighbours);
+    free(r->window);
+    free(r->nodes);
+    free(r);
+}
+
+const char *raster_path(const struct raster *r)
+{
+    return r->path;
+}
+
+void raster_describe(const struct raster *r, char *text, uint32_t bytes)
+{
+    const char *name = strrchr(r->path, '/');
+    snprintf(text, bytes, "%s: %s, %d x %d pixels of %.4g m", name ? name + 1 : r->path,
+             GDALGetDriverLongName(GDALGetDatasetDriver(r->dataset)),
+             GDALGetRasterXSize(r->dataset), GDALGetRasterYSize(r->dataset), r->resolution_m);
+}
+
+const char *raster_licence(const struct raster *r)
+{
+    const char *tiff = GDALGetMetadataItem(r->dataset, "TIFFTAG_COPYRIGHT", NULL);
+    return tiff ? tiff : GDALGetMetadataItem(r->dataset, "COPYRIGHT", NULL);
+}
+
+void raster_extent(const struct raster *r, double extent[4])
+{
+    memcpy(extent, r->extent, sizeof r->extent);
+}
+
+int raster_order(const void *a, const void *b)
+{
+    const struct raster *p = *(struct raster *const *)a, *q = *(struct raster *const *)b;
+    /* Tiles of one product differ in the last digits. */
+    double finer = p->resolution_m / q->resolution_m;
+    if (finer < 0.999 || finer > 1.001)
+        return finer < 1.0 ? -1 : 1;
+    for (int i = 0; i < 4; i++) {
+        if (p->extent[i] != q->extent[i])
+            return p->extent[i] < q->extent[i] ? -1 : 1;
+    }
+    return strcmp(p->path, q->path);
+}
+
+/* Returns true if both have one grid of pixels: the same projection, and pixels of the same size.
+ */
+static bool same_pixels(const struct raster *p, const struct raster *q)
+{
+    if (p->coarser != q->coarser ||
+        !OSRIsSame(GDALGetSpatialRef(p->dataset), GDALGetSpatialRef(q->dataset)))
+        return false;
+    for (int i = 1; i < 6; i++) {
+        double pixel = fabs(p->transform[1]) + fabs(p->transform[2]);
+        if (i != 3 && fabs(p->transform[i] - q->transform[i]) > 1e-6 * pixel)
+            return false;
+    }
+    return true;
+}
+
+void raster_join(struct raster **rasters, uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        struct raster *r = rasters[i];
+        r->neighbours = calloc(count, sizeof *r->neighbours);
+        for (uint32_t k = 0; r->neighbours && k < count; k++) {
+            if (k != i && same_pixels(r, rasters[k]))
+                r->neighbours[r->neighbour_count++] = rasters[k];
+        }
+    }
+}

@@ -1,0 +1,181 @@
+#!/usr/bin/env bash
+# Ground files: made from a real tile of heights and from maps that are wrong, compared with the tile,
+# and run: digests on 1, 2 and 4 threads, replay, another file refused.
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/lib.sh"
+ground=$bin/jolon-ground
+mkdir -m 700 "$JOLON_RUNTIME_DIR"
+if [ ! -x "$ground" ]; then
+    skip "ground files" "there is no jolon-ground here; make ground builds it"
+    done_testing
+fi
+make() { "$ground" make --center "$center" --side "${side:-50000}" --posts "${posts:-125}" --out "${out:-x.ground}" "$@"; }
+hash_of() { "$ground" info --json "$1" | json hash; }
+# refuses_map NAME PATTERN ARGUMENT...: make refuses in one line, and leaves no file.
+refuses_map() {
+    local what=$1 pattern=$2
+    shift 2
+    rm -f x.ground
+    refuses "$what" 1 "$pattern" make "$@"
+    check "$what: nothing is left" [ -z "$(find . -name "*ground*")" ]
+}
+
+# --- maps that are made here, and are wrong ---------------------------------------------------------------
+# map FILE WEST NORTH EAST SOUTH [OPTION...]: a raster of one value, at 0.001 degrees
+map() {
+    local file=$1 size
+    size=$(awk "BEGIN { printf \"%.0f %.0f\", ($4 - $2) * 1000, ($3 - $5) * 1000 }")
+    local place=(-a_ullr "$2" "$3" "$4" "$5")
+    shift 5
+    # shellcheck disable=SC2086 # two numbers
+    gdal_create -q -outsize $size "${place[@]}" -a_srs EPSG:4326 "$@" "$file" 2>/dev/null
+}
+if command -v gdal_create >/dev/null; then
+    side=1000 posts=125 center=10.5,20.5
+    map level.tif 20 11 21 10 -ot Float32 -burn 300
+    check "a level map becomes a level ground" eval 'make level.tif 2>err && "$ground" info --json x.ground | tee info | json lowest_m | grep -qx -- 300'
+    check "without a map of cover, the file says that its cover is guessed" eval '[ "$(json cover_guessed <info)" = True ] && grep -q "guessed from slope" err'
+    check "the warning counts the posts" grep -q '81 of 81 posts' err
+
+    map sea.tif 20 11 21 10 -ot Int16 -burn -430
+    check "ground below the sea level is kept" eval 'make sea.tif 2>/dev/null && "$ground" info --json x.ground | json highest_m | grep -qx -- -430'
+    map feet.tif 20 11 21 10 -ot Int16 -burn 14505
+    refuses_map "heights above 9,000 m" 'feet.tif: has the height 14505 m in column [0-9]+, row [0-9]+.*--feet' feet.tif
+    check "heights in feet become metres" eval 'make --feet feet.tif 2>/dev/null && "$ground" info --json x.ground | json highest_m | grep -q "^4421.1"'
+    map huge.tif 20 11 21 10 -ot Float32 -burn 1e38
+    refuses_map "a map of 1e38" 'no height at latitude 10\.50.* 81 of 81 posts' huge.tif
+    map nan.tif 20 11 21 10 -ot Float32 -burn nan
+    refuses_map "a map of NaN" 'no height at latitude 10\.50.* 81 of 81 posts' nan.tif
+    check "voids are filled from a coarser map" eval 'make nan.tif level.tif 2>/dev/null && "$ground" info --json x.ground | json lowest_m | grep -qx -- 300'
+    map void.tif 20 11 21 10 -ot Int16 -burn -32768 -a_nodata -32768
+    refuses_map "a map of voids" 'no height at' void.tif
+    map away.tif 40 11 41 10 -ot Int16 -burn 5
+    refuses_map "a map that lies elsewhere" 'away.tif.*the files have latitude 10.0000 to 11.0000, longitude 40.0000 to 41.0000' away.tif
+    center=10.999,20.5
+    refuses_map "a map of half of the square" 'level.tif.*nor within 500 m' level.tif
+    center=10.5,20.5
+    map colours.tif 20 11 21 10 -ot Byte -bands 3 -burn 1 -burn 2 -burn 3
+    refuses_map "a picture" 'colours.tif: has 3 bands' colours.tif
+    gdal_create -q -outsize 100 100 -burn 5 nowhere.tif
+    refuses_map "a map without a place" 'nowhere.tif: does not say where on the earth' nowhere.tif
+    gdal_create -q -outsize 100 100 -a_ullr 500000 200000 600000 100000 -a_srs EPSG:4326 -burn 5 metres.tif
+    refuses_map "metres that are called degrees" 'metres.tif: its corner .* lies nowhere on the earth' metres.tif
+    gdal_create -q -outsize 100 100 -a_ullr 20 11 21 10 -burn 5 bare.tif
+    refuses_map "a map without a projection" 'bare.tif: does not say its projection.*-a_srs' bare.tif
+    gdal_create -q -outsize 1 1 -a_ullr 20 11 21 10 -a_srs EPSG:4326 -burn 5 one.tif
+    refuses_map "a map of one pixel" 'one.tif: has 1 x 1 pixels' one.tif
+    echo text >words.txt
+    refuses_map "a text" 'words.txt: GDAL cannot read it' words.txt
+    refuses_map "no file" 'missing.tif: GDAL cannot read it' missing.tif
+    head -c 30000 level.tif >cut.tif
+    refuses_map "a map that is cut off" 'cut.tif: ' cut.tif
+
+    # The same heights in another projection, and beyond the date line.
+    gdal_create -q -outsize 100 100 -a_ullr -6000000 6000000 6000000 -6000000 -a_srs '+proj=laea +lat_0=90 +datum=WGS84' -ot Int16 -burn 77 pole.tif
+    center=83,-179.9
+    check "a map around the pole" eval 'make pole.tif 2>/dev/null && "$ground" info --json x.ground | json lowest_m | grep -qx -- 77'
+    center=90,0 refuses "a square at the pole" 2 'too near the pole' make pole.tif
+    map west.tif 179.5 1 180 -1 -ot Int16 -burn 40
+    map east.tif -180 1 -179.5 -1 -ot Int16 -burn 40
+    center=0,179.9999
+    check "a square across the date line" eval 'side=20000 make west.tif east.tif 2>err && "$ground" info --json x.ground | json highest_m | grep -qx -- 40'
+    check "both maps count there" eval '! grep -q "no post" err && [ "$("$ground" info x.ground | grep -c ^heights:)" = 2 ]'
+
+    # Classes of cover.
+    center=10.5,20.5
+    map water.tif 20 11 21 10 -ot Byte -burn 80
+    check "classes become cover" eval 'make --cover water.tif level.tif 2>err && "$ground" check x.ground | grep -q "lake 100.0 %" && [ ! -s err ]'
+    map strange.tif 20 11 21 10 -ot Byte -burn 77
+    refuses_map "a class that the table does not know" 'strange.tif: has class 77 at latitude 10\.5.*--classes' --cover strange.tif level.tif
+    echo '77 forest # of my own' >own.txt
+    check "a table of one's own" eval 'make --cover strange.tif --classes ./own.txt level.tif && "$ground" check x.ground | grep -q "forest 100.0 %"'
+    echo '77 wood' >own.txt
+    refuses_map "a table with a wrong word" 'own.txt:1: wood: no such cover; allowed: grass' --cover strange.tif --classes ./own.txt level.tif
+    refuses_map "no table" 'nolist: no such table' --cover strange.tif --classes nolist level.tif
+    rm -f ./*.ground
+else
+    skip "maps that are wrong" "no gdal_create here"
+fi
+center=44,7
+side=50001 refuses "a side that is no multiple of 125 m" 2 'side 50001: must be a multiple of 125 m' make x.tif
+side=1000 posts=300 refuses "posts that do not divide the side" 2 'posts 300: the side, 1000 m' make x.tif
+side=900 refuses "a side that is too short" 2 '1000 to 500000|1000..500000' make x.tif
+refuses "a place that is none" 2 'center' "$ground" make --center 44 --side 1000 --out x.ground x.tif
+
+# --- a real tile -------------------------------------------------------------------------------------------
+find_source_dir
+tile=$source_dir/../shared/data/terrain/N44W072.hgt
+[ -e "$tile" ] || tile=$source_dir/../../shared/data/terrain/N44W072.hgt
+if [ ! -e "$tile" ]; then
+    skip "a ground from a real tile" "the tile of heights N44W072.hgt is not here"
+    done_testing
+fi
+center=44.45,-71.45 side=50000 posts=31.25
+for threads in 1 2 4; do
+    out=t$threads.ground make --threads $threads "$tile" >/dev/null 2>&1
+done
+check "the file is the same on 1, 2 and 4 threads" eval 'cmp t1.ground t2.ground && cmp t1.ground t4.ground'
+gdal_translate -q "$tile" tile.tif
+gdal_translate -q -outsize 50% 50% -r average "$tile" coarse.tif
+out=tif.ground make tile.tif >/dev/null 2>&1
+check "a GeoTIFF of the same heights gives the same hash" equal "$(hash_of tif.ground)" "$(hash_of t1.ground)"
+out=both.ground make coarse.tif "$tile" >/dev/null 2>&1
+check "the finest map counts" equal "$(hash_of both.ground)" "$(hash_of t1.ground)"
+out=turned.ground make "$tile" coarse.tif >/dev/null 2>&1
+check "the order of the files does not matter" equal "$(hash_of turned.ground)" "$(hash_of both.ground)"
+gdal_translate -q -srcwin 0 0 700 1201 "$tile" half-west.tif
+gdal_translate -q -srcwin 700 0 501 1201 "$tile" half-east.tif
+out=halves.ground make half-east.tif half-west.tif >/dev/null 2>&1
+check "two halves of a map join without a seam" equal "$(hash_of halves.ground)" "$(hash_of t1.ground)"
+check "every block is good" "$ground" check t1.ground
+head -c 1000000 t1.ground >cut.ground
+refuses "a file that is cut off" 1 'cut.ground: has 1000000 bytes, and its header says' "$ground" check cut.ground
+
+"$ground" export t1.ground t1.tif && gdal_translate -q -of ENVI t1.tif t1.raw
+python3 "$here/ground.py" heights "$tile" t1.raw $side 1601 44.45 -71.45 >spread
+# Between posts a plane stands for the map's curved surface; at posts the step of 1/64 m is left.
+check "heights are those of the tile: rms below 0.5 m" awk 'NR == 1 { exit !($1 < 0.5) }' spread
+check "at the posts they are the same within 2 cm" awk 'NR == 2 { exit !($2 < 0.02) }' spread
+sed 's/^/# root of the mean square, largest difference [m]: /' spread
+"$ground" show --grey --size 1601 t1.ground grey.png
+gdaldem hillshade -q t1.tif hill.tif
+gdal_translate -q -of ENVI grey.png grey.raw
+gdal_translate -q -of ENVI hill.tif hill.raw
+check "the shade is that of gdaldem hillshade, within 1 of 255" python3 -c '
+a, b = (open(name, "rb").read() for name in ("grey.raw", "hill.raw"))
+side = 1601
+inner = [i for i in range(side * side) if 0 < i % side < side - 1 and 0 < i // side < side - 1]
+worst = max(abs(a[i] - b[i]) for i in inner)
+print(worst)
+raise SystemExit(worst > 1)'
+
+# --- a world on it -----------------------------------------------------------------------------------------
+cat >scene.cfg <<'TEXT'
+world = { name = "white-mountains"; seed = 7; };
+terrain = { source = "file"; file = "x.ground"; };
+vehicles = ( { kind = "tank"; count = 60; force = "blue"; behaviour = "patrol"; area = [20000, 20000, 24000, 24000]; },
+             { kind = "jeep"; count = 60; force = "red"; behaviour = "patrol"; area = [20000, 20000, 24000, 24000]; },
+             { kind = "helicopter"; count = 10; force = "red"; behaviour = "patrol"; area = [20000, 20000, 24000, 24000]; } );
+TEXT
+mv t1.ground x.ground
+run() { "$jolon" run -w "$name" --frames 600 --pace max --without renderer --json "$@" scene.cfg 2>/dev/null; }
+for threads in 1 2 4; do
+    run --threads $threads --out out$threads >told$threads
+done
+check "the digest is the same on 1, 2 and 4 threads" eval \
+    '[ -s told1 ] && [ "$(json digest <told1)" = "$(json digest <told2)" ] && [ "$(json digest <told1)" = "$(json digest <told4)" ]'
+check "a replay has the same digest" eval '"$jolon" replay out1/commands.log | grep -q "equal to the run"'
+check "every frame is sound" "$jolon" replay out1/commands.log --physics
+check "the log has the hash of the ground" grep -q "\"ground=$(hash_of x.ground) $PWD/x.ground\"" out1/commands.log
+check "a path from the command line" eval 'mv x.ground y.ground && run --set terrain.file=y.ground --out out5 >told5 && [ -s told5 ]'
+check "another name is the same ground" equal "$(json digest <told5)" "$(json digest <told1)"
+refuses "the replay without the file" 1 'terrain.file = x.ground: no such file' "$jolon" replay out1/commands.log
+out=x.ground make --posts 62.5 "$tile" >/dev/null 2>&1
+refuses "a replay on another ground" 1 "was recorded on the ground $(hash_of y.ground) .*x.ground now has another" "$jolon" replay out1/commands.log
+side=60000 posts=125 center=44.5,-71.5 out=x.ground make "$tile" >/dev/null 2>&1
+refuses "a world on a square of another side" 1 'scene.cfg:2: terrain.file = x.ground: its square has a side of 60 km' "$jolon" run -w "$name" scene.cfg
+mv cut.ground x.ground
+refuses "a world on a file that is cut off" 1 'x.ground: has 1000000 bytes' "$jolon" run -w "$name" scene.cfg
+refuses "a file without its source" 1 'terrain.file = y.ground: needs terrain.source = "file"' \
+    "$jolon" run -w "$name" --set terrain.source=flat --set terrain.file=y.ground scene.cfg
+done_testing

@@ -1,0 +1,142 @@
+/* Scenarios on ground files: which file is meant, what of it counts, and what is refused. */
+#include "config/ground_source.h"
+
+#include "supervisor/ground/ground_write.h"
+#include "tests/support/quick_config.h"
+#include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
+#include "world/making/world_build.h"
+#include "world/terrain/ground_tile.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#define SIDE 401u
+#define TEXT "terrain = { source = \"file\"; file = \"x.ground\"; };"
+
+static float posts[SIDE * SIDE];
+static uint8_t cover[SIDE * SIDE];
+static char path[96];
+static struct error_text error;
+
+/* Writes a ground with a slope to the east beside the scenario. Returns its hash. */
+static uint64_t put_ground(double side_m, double rise_m)
+{
+    struct ground_header header = {.latitude_deg = 44.5,
+                                   .longitude_deg = -71.25,
+                                   .side_m = side_m,
+                                   .spacing_m = side_m / (SIDE - 1),
+                                   .undulation_m = -28.5,
+                                   .posts_side = SIDE};
+    for (uint32_t i = 0; i < SIDE * SIDE; i++)
+        posts[i] = ground_tile_round(rise_m * (i % SIDE));
+    snprintf(path, sizeof path, "%s/x.ground", quick_config.folder);
+    assert_int_equal(ground_write(path, &header, posts, cover, "", NULL, &error), 0);
+    return header.hash;
+}
+
+static void must_load(struct scenario *scenario, const char *text, const char *override)
+{
+    if (quick_config_load(scenario, text, override, &error) != 0)
+        fail_msg("refused: %s", error.text);
+}
+
+static void refused(const char *text, const char *override, const char *because)
+{
+    struct scenario s;
+    assert_int_equal(quick_config_load(&s, text, override, &error), -1);
+    if (!strstr(error.text, because))
+        fail_msg("\"%s\" does not say \"%s\"", error.text, because);
+}
+
+static void test_a_world_has_the_posts_of_its_file(void **state)
+{
+    struct scenario s;
+    struct world_build built;
+    (void)state;
+    uint64_t hash = put_ground(50000.0, 0.5);
+    must_load(&s, TEXT, NULL);
+    assert_true(s.settings->ground_hash == hash);
+    assert_int_equal(s.settings->objects, OBJECTS_NONE);
+    assert_int_equal(world_build_make(&built, &s, &error), 0);
+    assert_int_equal(built.counts.posts_side, SIDE);
+    assert_memory_equal(built.posts, posts, sizeof posts);
+    assert_memory_equal(built.cover, cover, sizeof cover);
+    world_build_free(&built);
+    /* The file becomes another one between the two readings. */
+    put_ground(50000.0, 0.25);
+    assert_int_equal(world_build_make(&built, &s, &error), -1);
+    assert_non_null(strstr(error.text, "has changed since the scenario was read"));
+    scenario_free(&s);
+}
+
+static void test_the_hash_of_the_ground_is_a_part_of_the_scenario(void **state)
+{
+    struct scenario one, other, named;
+    char set[128], kept[160];
+    (void)state;
+    put_ground(50000.0, 0.5);
+    must_load(&one, TEXT, NULL);
+    snprintf(set, sizeof set, "terrain.file=%s", path);
+    must_load(&named, TEXT, set);
+    uint64_t hash = put_ground(50000.0, 0.25);
+    must_load(&other, TEXT, NULL);
+    assert_true(one.settings->params.scenario_hash == named.settings->params.scenario_hash);
+    assert_true(one.settings->params.scenario_hash != other.settings->params.scenario_hash);
+    snprintf(kept, sizeof kept, "%016lx %s", (unsigned long)hash, path);
+    assert_string_equal(provenance_find(other.recipe.text, other.recipe.bytes, "ground"), kept);
+    assert_string_equal(provenance_find(named.recipe.text, named.recipe.bytes, "set"), set);
+    scenario_free(&one);
+    scenario_free(&other);
+    scenario_free(&named);
+}
+
+static void test_the_gateway_is_where_the_ground_is(void **state)
+{
+    struct scenario s;
+    (void)state;
+    put_ground(50000.0, 0.5);
+    must_load(&s, TEXT, NULL);
+    assert_true(s.settings->params.gateway.latitude_deg == 44.5);
+    assert_true(s.settings->params.gateway.longitude_deg == -71.25);
+    assert_true(s.settings->params.gateway.undulation_m == -28.5);
+    scenario_free(&s);
+    must_load(&s, TEXT "gateway = { latitude_deg = 10.0; };", "gateway.undulation_m=3");
+    assert_true(s.settings->params.gateway.latitude_deg == 10.0);
+    assert_true(s.settings->params.gateway.longitude_deg == -71.25);
+    assert_true(s.settings->params.gateway.undulation_m == 3.0);
+    scenario_free(&s);
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    unlink(path);
+    refused(TEXT, NULL, "battle.cfg:1: terrain.file = x.ground: no such file");
+    refused("terrain = { source = \"file\"; };", NULL, "needs the path of a ground file");
+    refused("terrain = { file = \"x.ground\"; };", NULL, "needs terrain.source = \"file\"");
+    put_ground(60000.0, 0.5);
+    refused(TEXT, NULL, "its square has a side of 60 km; this version runs squares of 50 km");
+    quick_config_write(path, "nonsense");
+    refused(TEXT, NULL, "is no ground file");
+    unlink(path);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_world_has_the_posts_of_its_file),
+        cmocka_unit_test(test_the_hash_of_the_ground_is_a_part_of_the_scenario),
+        cmocka_unit_test(test_the_gateway_is_where_the_ground_is),
+        cmocka_unit_test(test_refusals),
+    };
+    return cmocka_run_group_tests(tests, quick_config_make, quick_config_remove);
+}

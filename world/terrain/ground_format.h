@@ -1,0 +1,79 @@
+/* The layout of a ground file, as docs/ground.md describes it: a header, a directory of blocks, and
+ * the blocks. All numbers are little-endian. Each block is a zstd frame of its own, so that a tile
+ * can be read without the others. The file is written once and renamed; nothing changes it. */
+#ifndef JOLON_WORLD_TERRAIN_GROUND_FORMAT_H
+#define JOLON_WORLD_TERRAIN_GROUND_FORMAT_H
+
+#include <stdint.h>
+
+#define GROUND_MAGIC   "JOLONGRD"
+#define GROUND_VERSION 1u
+
+/* Sides of squares, and what they are a multiple of [m]. */
+#define GROUND_SIDE_MIN_M 1000.0
+#define GROUND_SIDE_MAX_M 500000.0
+#define GROUND_SIDE_OF_M  125.0
+
+#define GROUND_POSTS_SIDE_MIN 9u
+#define GROUND_POSTS_SIDE_MAX 20001u
+
+/* A world has room for so many along an edge (ipc/segment/layout.c refuses more). */
+#define GROUND_WORLD_POSTS_MAX 4097u
+
+/* Posts along one edge of a tile; the last tiles of a row or column have fewer. */
+#define GROUND_TILE_POSTS 256u
+
+/* Heights are whole numbers of this, so that they are the same floats everywhere [m]. */
+#define GROUND_STEP_M (1.0 / 64.0)
+
+/* Heights of the ground above the sea level [m]. */
+#define GROUND_LOWEST_M  (-1000.0)
+#define GROUND_HIGHEST_M 9000.0
+
+enum ground_block_kind {
+    GROUND_BLOCK_TEXT, /* sources and licences: UTF-8, lines */
+    GROUND_BLOCK_TILE, /* posts and their cover */
+    GROUND_BLOCK_KINDS
+};
+
+/* What the file says of itself. */
+enum ground_flag {
+    GROUND_COVER_GUESSED = 1 /* cover follows from slope and height: no map of cover was given */
+};
+
+struct ground_header {
+    char magic[8];
+    uint32_t version;
+    uint32_t flags;                     /* enum ground_flag */
+    uint64_t hash;                      /* of the ground: ground_file_hash() */
+    double latitude_deg, longitude_deg; /* of the middle; WGS 84 */
+    double side_m, spacing_m;
+    double undulation_m; /* of the sea level above the ellipsoid at the middle; 0: not known */
+    float lowest_m, highest_m;
+    uint32_t posts_side;  /* side_m / spacing_m + 1 */
+    uint32_t block_count; /* the directory follows the header */
+    uint64_t bytes;       /* of the file */
+    uint64_t directory_hash;
+    uint64_t header_hash; /* of everything before */
+};
+
+struct ground_block {
+    uint32_t kind;   /* enum ground_block_kind */
+    uint32_t number; /* of tiles: row by row from the north-west */
+    uint64_t offset; /* in the file */
+    uint32_t packed_bytes, content_bytes;
+    uint64_t content_hash; /* of the unpacked bytes */
+};
+
+_Static_assert(sizeof(struct ground_header) == 104 && sizeof(struct ground_block) == 32,
+               "no padding");
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the file has the machine's own order");
+
+#define GROUND_TEXT_BYTES_MAX (1u << 20)
+
+static inline uint32_t ground_tiles_side(uint32_t posts_side)
+{
+    return (posts_side + GROUND_TILE_POSTS - 1) / GROUND_TILE_POSTS;
+}
+
+#endif
