@@ -64,6 +64,7 @@ static void print_json(const struct ground_file *file, const char *text)
     json_number(object, "stretch_edge", projection_stretch(0.5 * h->side_m));
     json_bool(object, "runs", h->side_m == WORLD_SIDE_M);
     json_whole(object, "bytes", h->bytes);
+    json_whole(object, "road_points", file->road_points);
     json_text(object, "sources", text);
     json_print(object);
 }
@@ -85,6 +86,7 @@ static void print(const struct ground_file *file, const char *text)
     printf("cover        %s\n", h->flags & GROUND_COVER_GUESSED
                                     ? "guessed from slope and height, at least in part"
                                     : "from a map");
+    printf("roads        %u points\n", file->road_points);
     if (h->undulation_m != 0.0)
         printf("undulation   the sea level is %g m above the ellipsoid\n", h->undulation_m);
     else
@@ -133,6 +135,12 @@ int describe_check(int argc, char **argv)
     struct error_text error;
     open_file(&file, &table, argc, argv);
     free(read_text(&file));
+    struct ground_road_point *roads = malloc((file.road_points + 1) * sizeof *roads);
+    if (!roads)
+        die_refused("%s: no memory for its roads", file.path);
+    if (ground_file_roads(&file, roads, &error) != 0)
+        die_refused("%s", error.text);
+    free(roads);
     for (uint32_t i = 0; i < file.tiles; i++) {
         if (ground_file_tile(&file, i, posts, cover, GROUND_TILE_POSTS, &error) != 0)
             die_refused("%s", error.text);

@@ -124,18 +124,20 @@ static int put_tiles(struct writing *w, const float *posts, const uint8_t *cover
     return result;
 }
 
-static int put_text(struct writing *w, const char *text, struct error_text *error)
+/* Packs and writes a block that is no tile. */
+static int put_block(struct writing *w, enum ground_block_kind kind, const void *content,
+                     size_t bytes, struct error_text *error)
 {
-    size_t bytes = strlen(text), room = ZSTD_compressBound(bytes);
+    size_t room = ZSTD_compressBound(bytes);
     void *packed = malloc(room);
     if (!packed)
         return error_text_memory(error);
-    size_t count = ZSTD_compress(packed, room, text, bytes, PACK_LEVEL);
-    struct ground_block block = {.kind = GROUND_BLOCK_TEXT,
+    size_t count = ZSTD_compress(packed, room, content, bytes, PACK_LEVEL);
+    struct ground_block block = {.kind = kind,
                                  .offset = w->bytes,
                                  .packed_bytes = (uint32_t)count,
                                  .content_bytes = (uint32_t)bytes,
-                                 .content_hash = XXH3_64bits(text, bytes)};
+                                 .content_hash = XXH3_64bits(content, bytes)};
     int result = ZSTD_isError(count) ? error_text_memory(error) : put(w, packed, count, error);
     w->blocks[w->used++] = block;
     free(packed);
@@ -189,19 +191,22 @@ static int open_aside(struct writing *w, struct error_text *error)
 }
 
 int ground_write(const char *path, struct ground_header *header, const float *posts,
-                 const uint8_t *cover, const char *text, struct thread_pool *pool,
-                 struct error_text *error)
+                 const uint8_t *cover, const char *text, const struct ground_road_point *roads,
+                 uint32_t road_points, struct thread_pool *pool, struct error_text *error)
 {
     uint32_t tiles = ground_tiles_side(header->posts_side);
     struct writing w = {.path = path, .header = header};
-    w.blocks = calloc((size_t)tiles * tiles + 1, sizeof *w.blocks);
+    w.blocks = calloc((size_t)tiles * tiles + 2, sizeof *w.blocks);
     if (!w.blocks)
         return error_text_memory(error);
     int result = open_aside(&w, error);
     if (result == 0) {
-        w.bytes = sizeof *header + ((uint64_t)tiles * tiles + 1) * sizeof *w.blocks;
+        w.bytes = sizeof *header + ((uint64_t)tiles * tiles + 2) * sizeof *w.blocks;
         find_range(header, posts);
-        if (put_tiles(&w, posts, cover, pool, error) != 0 || put_text(&w, text, error) != 0 ||
+        if (put_tiles(&w, posts, cover, pool, error) != 0 ||
+            put_block(&w, GROUND_BLOCK_TEXT, text, strlen(text), error) != 0 ||
+            (road_points > 0 &&
+             put_block(&w, GROUND_BLOCK_ROADS, roads, road_points * sizeof *roads, error) != 0) ||
             put_beginning(&w, error) != 0)
             result = -1;
         if (close(w.fd) != 0 && result == 0)

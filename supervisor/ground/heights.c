@@ -128,7 +128,7 @@ static int fill_voids(float *posts, const struct post_grid *grid, struct raster 
     size_t first_bad = all;
     uint64_t bad = 0;
     /* From known heights alone: none that is filled here is used for another. */
-    float *values = malloc(voids * sizeof *values);
+    float *values = calloc(voids, sizeof *values);
     if (!values)
         return error_text_memory(error);
     for (size_t i = 0; i < all; i++) {

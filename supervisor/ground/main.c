@@ -25,7 +25,7 @@ static const char usage[] =
     "usage: jolon ground VERB [options]\n"
     "  make INPUT...                  make a ground file from rasters of heights\n"
     "    --center LAT,LON  --side METRES  --posts METRES  --out FILE  --cover FILE\n"
-    "    --classes TABLE  --feet  --undulation METRES  --licence TEXT  --threads N\n"
+    "    --classes TABLE  --roads FILE  --feet  --undulation METRES  --licence TEXT  --threads N\n"
     "  info FILE                      say what a ground file holds, and what it was made from\n"
     "    --json\n"
     "  check FILE                     read all of a ground file and check it\n"

@@ -8,6 +8,7 @@
 #include "supervisor/ground/heights.h"
 #include "supervisor/ground/cover_map.h"
 #include "supervisor/ground/progress.h"
+#include "supervisor/ground/road_map.h"
 #include "world/runtime/parse_number.h"
 #include "world/runtime/thread_pool.h"
 
@@ -28,7 +29,8 @@ static struct {
     bool placed, feet;
     const char *out, *classes, *licence;
     const char *covers[COVERS_MAX];
-    uint32_t cover_count, threads;
+    char *roads[COVERS_MAX];
+    uint32_t cover_count, road_count, threads;
 } given = {.spacing_m = 31.25, .classes = "worldcover"};
 
 /* What is made. */
@@ -44,6 +46,7 @@ struct making {
     char *text; /* sources and licences */
     size_t text_used;
     struct heights_counts counts;
+    struct road_map roads;
     uint64_t guessed;
 };
 
@@ -71,6 +74,14 @@ static int take_cover(const char *value, struct error_text *error)
     return 0;
 }
 
+static int take_roads(const char *value, struct error_text *error)
+{
+    if (given.road_count == COVERS_MAX)
+        return error_text_set(error, "is one too many; at most %d are allowed", COVERS_MAX);
+    given.roads[given.road_count++] = (char *)(uintptr_t)value;
+    return 0;
+}
+
 static void check_sides(void)
 {
     double posts = given.side_m / given.spacing_m;
@@ -87,7 +98,7 @@ static void check_sides(void)
 
 static int read_options(int argc, char **argv)
 {
-    static const char *center, *cover;
+    static const char *center, *cover, *roads;
     static const struct option_row rows[] = {
         {"center", "LAT,LON", "the middle of the square, in degrees of WGS 84", .text = &center,
          .take = take_center},
@@ -101,6 +112,8 @@ static int read_options(int argc, char **argv)
         {"classes", "TABLE",
          "what these classes become: worldcover (default), nlcd, corine, or a file",
          .text = &given.classes},
+        {"roads", "FILE", "a map of lines of which roads are made; repeat it for more",
+         .text = &roads, .take = take_roads},
         {"feet", NULL, "heights are in feet", .flag = &given.feet},
         {"undulation", "METRES", "of the sea level above the ellipsoid at the middle",
          .real = &given.undulation_m, .low = -200.0, .high = 200.0},
@@ -184,6 +197,13 @@ static void tell_sources(struct making *m)
     }
     for (uint32_t i = 0; i < given.cover_count; i++)
         note_raster(m, m->covers[i], "cover");
+    for (uint32_t i = 0; i < given.road_count; i++) {
+        const char *name = strrchr(given.roads[i], '/');
+        note(m, "roads: %s\n", name ? name + 1 : given.roads[i]);
+    }
+    if (given.road_count > 0)
+        note(m, "roads: %u, %.1f of %.1f km\n", m->roads.roads, m->roads.kept_m / 1000.0,
+             m->roads.all_m / 1000.0);
     if (given.licence)
         note(m, "licence: %s\n", given.licence);
     if (m->counts.filled > 0)
@@ -197,10 +217,19 @@ static void fill(struct making *m)
     struct error_text error;
     if (heights_fill(m->posts, &m->grid, m->rasters, m->count, m->pool, &m->counts, &error) != 0 ||
         cover_map_fill(m->cover, m->posts, &m->grid, m->covers, given.cover_count, m->table,
-                       &m->guessed, &error) != 0) {
+                       &m->guessed, &error) != 0 ||
+        road_map_read(&m->roads, given.roads, given.road_count, &m->grid, &error) != 0) {
         progress_end();
         die_refused("%s", error.text);
     }
+    road_map_pave(&m->roads, &m->grid, m->cover);
+    if (m->roads.bad > 0)
+        log_warn("%u lines of one point, or with a place that is none, are no roads", m->roads.bad);
+    if (m->roads.left_out > 0)
+        log_warn("a ground has room for %u points of roads: %u less important roads are left out, "
+                 "%.1f of %.1f km",
+                 GROUND_ROAD_POINTS_MAX, m->roads.left_out,
+                 (m->roads.all_m - m->roads.kept_m) / 1000.0, m->roads.all_m / 1000.0);
     tell_sources(m);
 }
 
@@ -230,6 +259,7 @@ static void finish(struct making *m)
     for (uint32_t i = 0; i < given.cover_count; i++)
         raster_close(m->covers[i]);
     thread_pool_destroy(m->pool);
+    road_map_free(&m->roads);
     free(m->rasters);
     free(m->counts.from);
     free(m->posts);
@@ -253,7 +283,8 @@ int make_run(int argc, char **argv)
                                    .spacing_m = given.side_m / (m.grid.side - 1),
                                    .undulation_m = given.undulation_m,
                                    .posts_side = m.grid.side};
-    int result = ground_write(given.out, &header, m.posts, m.cover, m.text, m.pool, &error);
+    int result = ground_write(given.out, &header, m.posts, m.cover, m.text, m.roads.points,
+                              m.roads.count, m.pool, &error);
     progress_end();
     if (result != 0)
         die_refused("%s", error.text);

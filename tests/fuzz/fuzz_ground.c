@@ -36,6 +36,7 @@ static void make_good(void)
                                    .side_m = 1000.0,
                                    .spacing_m = 125.0,
                                    .posts_side = SIDE};
+    const struct ground_road_point roads[] = {{5, 6, 0}, {70, 80, 0}, {9, 10, 1}, {11, 12, 1}};
     struct error_text error;
     char path[PATH_MAX];
     for (uint32_t i = 0; i < SIDE * SIDE; i++) {
@@ -44,7 +45,7 @@ static void make_good(void)
     }
     (void)support_data_dir();
     support_path(path, sizeof path, "models/k.obj");
-    CHECK(ground_write(path, &header, posts, cover, "heights: a\n", NULL, &error) == 0);
+    CHECK(ground_write(path, &header, posts, cover, "heights: a\n", roads, 4, NULL, &error) == 0);
     int fd = open(path, O_RDONLY | O_CLOEXEC);
     ssize_t bytes = fd >= 0 ? read(fd, good, sizeof good) : -1;
     CHECK(bytes > 0 && bytes < (ssize_t)sizeof good);
@@ -77,7 +78,7 @@ static void change(unsigned char *file, size_t bytes, const uint8_t change[4])
     size_t at = ((size_t)change[0] << 8 | change[1]) % bytes;
     /* Most changes are to the header and the directory. */
     if (change[2] & 1)
-        at %= sizeof(struct ground_header) + 2 * sizeof(struct ground_block);
+        at %= sizeof(struct ground_header) + 3 * sizeof(struct ground_block);
     file[at] = change[3];
 }
 
@@ -85,7 +86,7 @@ static void seal(unsigned char *file)
 {
     struct ground_header *h = (struct ground_header *)(void *)file;
     const struct ground_block *blocks = (const struct ground_block *)(const void *)(h + 1);
-    if (h->block_count <= 2) {
+    if (h->block_count <= 3) {
         h->directory_hash = XXH3_64bits(blocks, h->block_count * sizeof *blocks);
         h->hash = ground_file_hash(h, blocks);
     }
@@ -114,6 +115,11 @@ static void read_all(const char *path)
     } else {
         support_check_line(&error);
     }
+    struct ground_road_point *roads = malloc((file.road_points + 1) * sizeof *roads);
+    CHECK(roads);
+    if (ground_file_roads(&file, roads, &error) == 0)
+        CHECK(file.road_points == 0 || roads[0].road == 0);
+    free(roads);
     if (ground_file_text(&file, text, &error) == 0)
         CHECK(strlen(text) <= file.text_bytes);
     free(heights);

@@ -2,7 +2,9 @@
 by other code than Jolon's, and places are converted by PROJ.
 
 usage: ground.py heights TILE.hgt GROUND.raw SIDE_M POSTS LAT LON      (GROUND.raw: rows of little-endian floats)
-Prints the root of the mean square and the largest difference [m]."""
+       ground.py convoy DUMP.jsonl ROADS.osm LAT LON SIDE_M MOST_M     (is every vehicle that near to a road, and moving?)
+The first prints the root of the mean square and the largest difference [m]."""
+import json
 import math
 import random
 import re
@@ -66,5 +68,37 @@ def heights(tile_path, raw_path, side, count, latitude, longitude):
     spread([posts[r * count + c] - tile_height(tile, south, west, *place) for (c, r), place in zip(posts_at, places)])
 
 
+def world_places(places, latitude, longitude, side):
+    """Converts latitudes and longitudes to world coordinates."""
+    projection = f"+proj=tmerc +lat_0={latitude} +lon_0={longitude} +k=1 +datum=WGS84 +units=m"
+    text = "".join(f"{place[1]:.9f} {place[0]:.9f}\n" for place in places)
+    done = subprocess.run(["gdaltransform", "-output_xy", "-s_srs", "EPSG:4326", "-t_srs", projection], input=text,
+                          capture_output=True, text=True, check=True)
+    rows = [list(map(float, line.split())) for line in done.stdout.splitlines()]
+    return [(east + side / 2, side / 2 - north) for east, north in rows]
+
+
+def distance(point, a, b):
+    dx, dz = b[0] - a[0], b[1] - a[1]
+    share = max(0.0, min(1.0, ((point[0] - a[0]) * dx + (point[1] - a[1]) * dz) / (dx * dx + dz * dz or 1.0)))
+    return math.hypot(point[0] - a[0] - dx * share, point[1] - a[1] - dz * share)
+
+
+def convoy(dump_path, osm_path, latitude, longitude, side, most):
+    with open(osm_path, encoding="utf-8") as file:
+        text = file.read()
+    nodes = re.findall(r'<node id="(\d+)" lat="([-.\d]+)" lon="([-.\d]+)"', text)
+    points = dict(zip([node[0] for node in nodes],
+                      world_places([tuple(map(float, node[1:])) for node in nodes], latitude, longitude, float(side))))
+    ways = [re.findall(r'ref="(\d+)"', way) for way in re.findall(r"<way.*?</way>", text)]
+    segments = [(points[a], points[b]) for way in ways for a, b in zip(way, way[1:]) if a in points and b in points]
+    with open(dump_path, encoding="utf-8") as file:
+        vehicles = [json.loads(line) for line in file]
+    off = [min(distance((v["position"][0], v["position"][2]), *segment) for segment in segments) for v in vehicles]
+    moved = [v["speed_mps"] for v in vehicles]
+    print("metres from a road:", [round(value, 1) for value in off], "speeds:", moved)
+    raise SystemExit(not vehicles or max(off) > float(most) or min(moved) < 1.0)
+
+
 if __name__ == "__main__":
-    {"heights": heights}[sys.argv[1]](*sys.argv[2:])
+    {"heights": heights, "convoy": convoy}[sys.argv[1]](*sys.argv[2:])

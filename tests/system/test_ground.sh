@@ -149,6 +149,42 @@ worst = max(abs(a[i] - b[i]) for i in inner)
 print(worst)
 raise SystemExit(worst > 1)'
 
+# --- roads ---------------------------------------------------------------------------------------------------
+# A road to the east, a road to the south through a node of it, a footway, a way of one node, and one with a
+# node that is missing.
+python3 - >roads.osm <<'TEXT'
+east = [(1 + k, 44.45 + 0.002 * (k * 7 % 3 - 1), -71.75 + 0.006 * k) for k in range(101)]
+south = [(201 + k, 44.25 + 0.004 * k, -71.45 + 0.001 * (k * 5 % 3 - 1)) for k in range(101)]
+south[50] = east[50]
+ways = [(east, "primary"), (south, "secondary"), (east[:3], "footway"), (east[7:8], "primary"),
+        ([east[8], (9999, 0, 0), east[9]], "tertiary")]
+print('<osm version="0.6">')
+for number, latitude, longitude in sorted(set(east + south)):
+    print(f'<node id="{number}" lat="{latitude:.7f}" lon="{longitude:.7f}" version="1"/>')
+for number, (way, word) in enumerate(ways):
+    nodes = "".join(f'<nd ref="{node[0]}"/>' for node in way)
+    print(f'<way id="{number + 1}" version="1">{nodes}<tag k="highway" v="{word}"/></way>')
+print("</osm>")
+TEXT
+out=roads.ground make --roads roads.osm "$tile" >/dev/null 2>&1
+check "roads of OpenStreetMap are kept, footways are not" eval '"$ground" info roads.ground | grep -q "^roads: 3, 103.3 of 103.3 km"'
+check "posts beside them are road" eval '"$ground" check roads.ground | grep -q "road 0.2 %"'
+ogr2ogr -f GeoJSON roads.geojson roads.osm lines >/dev/null 2>&1
+out=lines.ground make --roads roads.geojson "$tile" >/dev/null 2>&1
+check "GeoJSON with the same lines gives the same hash" equal "$(hash_of lines.ground)" "$(hash_of roads.ground)"
+out=none.ground refuses "roads from a text" 1 'words.txt: GDAL cannot read it as a map of lines' make --roads words.txt "$tile"
+cat >convoy.cfg <<'TEXT'
+world = { name = "white-mountains"; seed = 7; };
+terrain = { source = "file"; file = "roads.ground"; };
+vehicles = ( { kind = "jeep"; count = 4; force = "blue"; formation = "column"; roads = true;
+               route = ( [24000.0, 25000.0], [26500.0, 25000.0], [25000.0, 27000.0] ); } );
+TEXT
+"$jolon" run -w "$name" --frames 6000 --pace max --without renderer --out convoy --checkpoint convoy.img convoy.cfg >/dev/null 2>&1
+"$bin/jolon-world" create --world "$name" --set world.frames=0 --from convoy.img >/dev/null 2>&1
+"$bin/jolon-world" dump --json --world "$name" >places
+"$bin/jolon-world" remove --world "$name" >/dev/null 2>&1
+check "a convoy is on a road after 100 s" python3 "$here/ground.py" convoy places roads.osm 44.45 -71.45 50000 12
+
 # --- a world on it -----------------------------------------------------------------------------------------
 cat >scene.cfg <<'TEXT'
 world = { name = "white-mountains"; seed = 7; };

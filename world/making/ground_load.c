@@ -11,6 +11,26 @@
 #include <inttypes.h>
 #include <stdlib.h>
 
+static int load_roads(struct world_build *built, const struct ground_file *file,
+                      struct error_text *error)
+{
+    uint32_t count = file->road_points;
+    struct ground_road_point *points = calloc(count + 1, sizeof *points);
+    built->roads = calloc(count + 1, sizeof *built->roads);
+    if (!points || !built->roads) {
+        free(points);
+        return error_text_memory(error);
+    }
+    int result = ground_file_roads(file, points, error);
+    for (uint32_t i = 0; i < count; i++)
+        built->roads[i] = (struct road_point){.x = (float)(points[i].x_mm / 1000.0),
+                                              .z = (float)(points[i].z_mm / 1000.0),
+                                              .road = points[i].road};
+    built->counts.road_points = count;
+    free(points);
+    return result;
+}
+
 static int load(struct world_build *built, const struct ground_file *file, struct error_text *error)
 {
     const struct scenario_settings *settings = built->scenario->settings;
@@ -30,7 +50,9 @@ static int load(struct world_build *built, const struct ground_file *file, struc
     built->cover = malloc(posts);
     if (!built->posts || !built->cover)
         return error_text_memory(error);
-    return ground_file_posts(file, built->posts, built->cover, error);
+    return ground_file_posts(file, built->posts, built->cover, error) == 0
+               ? load_roads(built, file, error)
+               : -1;
 }
 
 int ground_load(struct world_build *built, struct error_text *error)

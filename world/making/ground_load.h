@@ -5,8 +5,8 @@
 struct error_text;
 struct world_build;
 
-/* Fills built's posts and cover from the scenario's ground file. 0, or -1 with the reason: the file
- * is damaged, or is no longer the one that the scenario was read with. */
+/* Fills built's posts, cover and roads from the scenario's ground file. 0, or -1 with the reason:
+ * the file is damaged, or is no longer the one that the scenario was read with. */
 int ground_load(struct world_build *built, struct error_text *error);
 
 #endif

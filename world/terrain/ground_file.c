@@ -29,7 +29,7 @@ uint64_t ground_file_hash(const struct ground_header *header, const struct groun
                                  header->spacing_m,    header->undulation_m,  header->flags};
     uint64_t hash = XXH3_64bits(&place, sizeof place);
     for (uint32_t i = 0; i < header->block_count; i++) {
-        if (blocks[i].kind == GROUND_BLOCK_TILE)
+        if (blocks[i].kind != GROUND_BLOCK_TEXT)
             hash =
                 XXH3_64bits_withSeed(&blocks[i].content_hash, sizeof blocks[i].content_hash, hash);
     }
@@ -66,7 +66,7 @@ static int check_header(const struct ground_file *file, uint64_t bytes, struct e
     if (!(fabs(h->latitude_deg) <= PROJECTION_LATITUDE_MAX_DEG) ||
         !(fabs(h->longitude_deg) <= 180.0) || !(fabs(h->undulation_m) <= 200.0))
         return refuse(file, error, "its header has a place that cannot be");
-    if (h->block_count < tiles * tiles || h->block_count > tiles * tiles + 1)
+    if (h->block_count < tiles * tiles || h->block_count > tiles * tiles + 2)
         return refuse(file, error, "its header has a number of blocks that cannot be");
     if (bytes < sizeof *h + h->block_count * sizeof(struct ground_block))
         return refuse(file, error, "its directory is cut off");
@@ -80,7 +80,11 @@ static bool block_fits(const struct ground_file *file, const struct ground_block
     struct ground_tile tile;
     if (block->offset > end || block->packed_bytes > end - block->offset)
         return false;
-    if (number >= file->tiles)
+    if (number == file->tiles + 1)
+        return block->kind == GROUND_BLOCK_ROADS && block->number == 0 &&
+               block->content_bytes % sizeof(struct ground_road_point) == 0 &&
+               block->content_bytes <= GROUND_ROAD_POINTS_MAX * sizeof(struct ground_road_point);
+    if (number == file->tiles)
         return block->kind == GROUND_BLOCK_TEXT && block->number == 0 &&
                block->content_bytes <= GROUND_TEXT_BYTES_MAX;
     tile = ground_tile_of(file->header.posts_side, number);
@@ -102,6 +106,9 @@ static int check_directory(struct ground_file *file, struct error_text *error)
     }
     if (h->block_count > file->tiles)
         file->text_bytes = file->blocks[file->tiles].content_bytes;
+    if (h->block_count > file->tiles + 1)
+        file->road_points = file->blocks[file->tiles + 1].content_bytes /
+                            (uint32_t)sizeof(struct ground_road_point);
     if (h->hash != ground_file_hash(h, file->blocks))
         return refuse(file, error, "its hash is not that of its ground");
     return 0;
@@ -196,6 +203,35 @@ int ground_file_posts(const struct ground_file *file, float *posts, uint8_t *cov
             return -1;
     }
     return 0;
+}
+
+/* Returns true if the points lie within the square and are the roads 0, 1, 2 ... of two points or
+ * more. */
+static bool roads_fit(const struct ground_road_point *points, uint32_t count, double side_m)
+{
+    double side_mm = side_m * 1000.0;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct ground_road_point *p = &points[i];
+        bool begins = i == 0 || p->road != p[-1].road,
+             ends = i + 1 == count || p->road != p[1].road;
+        uint32_t expected = i == 0 ? 0 : p[-1].road + begins;
+        if (p->road != expected || (begins && ends) || p->x_mm < 0 || p->z_mm < 0 ||
+            p->x_mm > side_mm || p->z_mm > side_mm)
+            return false;
+    }
+    return true;
+}
+
+int ground_file_roads(const struct ground_file *file, struct ground_road_point *points,
+                      struct error_text *error)
+{
+    if (file->road_points == 0)
+        return 0;
+    if (unpack(file, file->tiles + 1, points, error) != 0)
+        return -1;
+    return roads_fit(points, file->road_points, file->header.side_m)
+               ? 0
+               : error_text_set(error, "%s: has roads that cannot be", file->path);
 }
 
 int ground_file_text(const struct ground_file *file, char *text, struct error_text *error)

@@ -20,13 +20,14 @@ struct ground_file {
     char path[PATH_MAX];
     const unsigned char *mapped; /* [header.bytes] */
     const struct ground_block *blocks;
-    uint32_t tiles;      /* the first blocks are the tiles, in order */
-    uint32_t text_bytes; /* of the block of text, 0: none */
+    uint32_t tiles;       /* the first blocks are the tiles, in order */
+    uint32_t text_bytes;  /* of the block of text */
+    uint32_t road_points; /* 0: the file has no roads */
 };
 
-/* The hash of a ground: of its place, size and posts with their cover, but not of its sources and
- * licences. Equal grounds have equal hashes, whatever they were made from. blocks: the directory,
- * whose tiles alone count. */
+/* The hash of a ground: of its place, size, roads, and posts with their cover, but not of its
+ * sources and licences. Equal grounds have equal hashes, whatever they were made from. blocks: the
+ * directory, whose text does not count. */
 uint64_t ground_file_hash(const struct ground_header *header, const struct ground_block *blocks);
 
 /* Opens a file and checks its header and its directory. 0, or -1 with the reason. */
@@ -40,6 +41,10 @@ int ground_file_tile(const struct ground_file *file, uint32_t number, float *pos
 
 /* Reads all posts and their cover [posts_side * posts_side]. 0, or -1 with the reason. */
 int ground_file_posts(const struct ground_file *file, float *posts, uint8_t *cover,
+                      struct error_text *error);
+
+/* Reads the roads into points [road_points] and checks them. 0, or -1 with the reason. */
+int ground_file_roads(const struct ground_file *file, struct ground_road_point *points,
                       struct error_text *error);
 
 /* Reads the text of sources and licences into text [text_bytes + 1], and ends it with a NUL.

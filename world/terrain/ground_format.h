@@ -31,8 +31,9 @@
 #define GROUND_HIGHEST_M 9000.0
 
 enum ground_block_kind {
-    GROUND_BLOCK_TEXT, /* sources and licences: UTF-8, lines */
-    GROUND_BLOCK_TILE, /* posts and their cover */
+    GROUND_BLOCK_TEXT,  /* sources and licences: UTF-8, lines */
+    GROUND_BLOCK_TILE,  /* posts and their cover */
+    GROUND_BLOCK_ROADS, /* struct ground_road_point */
     GROUND_BLOCK_KINDS
 };
 
@@ -70,6 +71,15 @@ _Static_assert(sizeof(struct ground_header) == 104 && sizeof(struct ground_block
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the file has the machine's own order");
 
 #define GROUND_TEXT_BYTES_MAX (1u << 20)
+
+/* A point of a road, within the square. The points of a road follow each other, two or more; roads
+ * are numbered from 0. */
+struct ground_road_point {
+    int32_t x_mm, z_mm;
+    uint32_t road;
+};
+
+#define GROUND_ROAD_POINTS_MAX 16384u
 
 static inline uint32_t ground_tiles_side(uint32_t posts_side)
 {

@@ -39,7 +39,7 @@ static uint64_t put_ground(double side_m, double rise_m)
     for (uint32_t i = 0; i < SIDE * SIDE; i++)
         posts[i] = ground_tile_round(rise_m * (i % SIDE));
     snprintf(path, sizeof path, "%s/x.ground", quick_config.folder);
-    assert_int_equal(ground_write(path, &header, posts, cover, "", NULL, &error), 0);
+    assert_int_equal(ground_write(path, &header, posts, cover, "", NULL, 0, NULL, &error), 0);
     return header.hash;
 }
 

@@ -55,7 +55,7 @@ static uint64_t write_ground(const char *to, const char *text, uint32_t threads)
     struct ground_header header = header_of();
     struct thread_pool *pool = thread_pool_create(threads);
     assert_non_null(pool);
-    assert_int_equal(ground_write(to, &header, posts, cover, text, pool, &error), 0);
+    assert_int_equal(ground_write(to, &header, posts, cover, text, NULL, 0, pool, &error), 0);
     thread_pool_destroy(pool);
     return header.hash;
 }
@@ -80,6 +80,47 @@ static void test_what_is_read_is_what_was_written(void **state)
     assert_int_equal(ground_file_text(&file, text, &error), 0);
     assert_string_equal(text, "heights: a\nlicence:  [31mb\n");
     ground_file_close(&file);
+}
+
+static int read_copy(void);
+
+/* Writes a ground with roads to copy, and reads all of it. */
+static int with_roads(const struct ground_road_point *roads, uint32_t count)
+{
+    struct ground_header header = header_of();
+    assert_int_equal(ground_write(copy, &header, posts, cover, "", roads, count, NULL, &error), 0);
+    return read_copy();
+}
+
+static void test_roads_are_read_and_checked(void **state)
+{
+    const struct ground_road_point good[] = {
+        {0, 0, 0}, {64250000, 64250000, 0}, {5, 6, 1}, {7, 8, 1}, {9, 10, 1}};
+    const struct ground_road_point wrong[][5] = {
+        {{0, 0, 1}, {1, 1, 1}, {5, 6, 2}, {7, 8, 2}, {9, 10, 2}},
+        {{0, 0, 0}, {1, 1, 0}, {5, 6, 2}, {7, 8, 2}, {9, 10, 2}},
+        {{0, 0, 0}, {1, 1, 0}, {5, 6, 1}, {7, 8, 1}, {9, 10, 0}},
+        {{0, 0, 0}, {1, 1, 0}, {5, 6, 0}, {7, 8, 0}, {9, 10, 1}},
+        {{0, 0, 0}, {-1, 1, 0}, {5, 6, 1}, {7, 8, 1}, {9, 10, 1}},
+        {{0, 0, 0}, {1, 64250001, 0}, {5, 6, 1}, {7, 8, 1}, {9, 10, 1}},
+    };
+    struct ground_road_point back[5];
+    struct ground_file file;
+    (void)state;
+    roughen(fixture_seed(5));
+    assert_int_equal(with_roads(good, 5), 0);
+    assert_int_equal(ground_file_open(&file, copy, &error), 0);
+    assert_int_equal(file.road_points, 5);
+    assert_int_equal(ground_file_roads(&file, back, &error), 0);
+    assert_memory_equal(back, good, sizeof good);
+    uint64_t hash = file.header.hash;
+    ground_file_close(&file);
+    assert_true(write_ground(path, "", 1) != hash);
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        if (with_roads(wrong[i], 5) == 0)
+            fail_msg("roads %zu were believed", i);
+        assert_non_null(strstr(error.text, "has roads that cannot be"));
+    }
 }
 
 static void test_hash_is_of_the_ground_alone(void **state)
@@ -141,6 +182,10 @@ static int read_copy(void)
         if (result == 0 && file.text_bytes < 1000) {
             char text[1001];
             result = ground_file_text(&file, text, &error);
+        }
+        if (result == 0 && file.road_points < 100) {
+            struct ground_road_point roads[100];
+            result = ground_file_roads(&file, roads, &error);
         }
         ground_file_close(&file);
     }
@@ -293,7 +338,7 @@ static void test_a_file_that_cannot_be_written_leaves_the_old_one(void **state)
     char wrong[128], stale[128];
     (void)state;
     snprintf(wrong, sizeof wrong, "%s/no/x.ground", folder);
-    assert_int_equal(ground_write(wrong, &header, posts, cover, "", NULL, &error), -1);
+    assert_int_equal(ground_write(wrong, &header, posts, cover, "", NULL, 0, NULL, &error), -1);
     /* What a killed writer left aside is removed by the next. */
     snprintf(stale, sizeof stale, "%s/.a.ground.99999999", folder);
     int fd = open(stale, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
@@ -326,6 +371,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_what_is_read_is_what_was_written),
+        cmocka_unit_test(test_roads_are_read_and_checked),
         cmocka_unit_test(test_hash_is_of_the_ground_alone),
         cmocka_unit_test(test_heights_are_rounded_to_the_nearest_step),
         cmocka_unit_test(test_every_changed_byte_is_noticed),

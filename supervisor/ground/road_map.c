@@ -1,0 +1,372 @@
+/* Lines of maps become roads. */
+#include "supervisor/ground/road_map.h"
+
+#include "world/maths/maths.h"
+#include "world/terrain/terrain.h"
+
+#include <cpl_error.h>
+#include <gdal.h>
+#include <ogr_api.h>
+#include <ogr_srs_api.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define SIMPLIFY_M 2.0
+
+/* Roads keep so far from the edge of the square, which ends the world. */
+#define EDGE_M 1.0
+
+/* A post's cover is as wide as the posts' spacing; wider spaced ones show no roads. */
+#define PAVE_SPACING_M 40.0
+#define PAVE_HALF_M    20.0
+
+/* OpenStreetMap's words, the more important first. */
+static const char *const words[] = {
+    "motorway",     "motorway_link", "trunk",       "trunk_link",     "primary",
+    "primary_link", "secondary",     "tertiary",    "secondary_link", "tertiary_link",
+    "unclassified", "residential",   "road",        "living_street",  "service",
+    "track",        "track_grade1",  "track_grade2"};
+#define WORDS (sizeof words / sizeof words[0])
+
+struct line {
+    struct ground_road_point *points; /* [count] of its own */
+    uint32_t count, rank;
+    double length_m;
+};
+
+struct reading {
+    const struct post_grid *grid;
+    OGRCoordinateTransformationH to_earth;
+    struct line *lines;
+    uint32_t used, room;
+    double (*track)[2]; /* of the line that is read [m] */
+    uint32_t track_room;
+    uint32_t bad;
+    bool no_memory;
+};
+
+static double between(const double a[2], const double b[2])
+{
+    return sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]));
+}
+
+/* Distance of p from the segment a b. */
+static double off(const double p[2], const double a[2], const double b[2])
+{
+    double dx = b[0] - a[0], dz = b[1] - a[1], square = dx * dx + dz * dz;
+    double share = square > 0.0 ? ((p[0] - a[0]) * dx + (p[1] - a[1]) * dz) / square : 0.0;
+    share = maths_clamp(share, 0.0, 1.0);
+    const double foot[2] = {a[0] + dx * share, a[1] + dz * share};
+    return between(p, foot);
+}
+
+/* Keeps of track[0..count - 1] the points that are needed to stay within SIMPLIFY_M of it: from
+ * each kept point it reaches as far as it can. Returns their number. */
+static uint32_t simplify(double (*track)[2], uint32_t count)
+{
+    uint32_t kept = 1, from = 0;
+    while (from + 1 < count) {
+        uint32_t to = from + 1;
+        bool good = true;
+        while (good && to + 1 < count && to - from < 200) {
+            for (uint32_t i = from + 1; i <= to && good; i++)
+                good = off(track[i], track[from], track[to + 1]) <= SIMPLIFY_M;
+            to += good;
+        }
+        from = to;
+        /* What is kept never passes what is read. */
+        track[kept][0] = track[to][0];
+        track[kept++][1] = track[to][1];
+    }
+    return kept;
+}
+
+/* Adds the points of one stretch within the square as a line. */
+static void add_line(struct reading *r, double (*track)[2], uint32_t count, uint32_t rank)
+{
+    double length = 0.0;
+    if (r->used == r->room) {
+        uint32_t room = r->room * 2 + 1024;
+        struct line *lines = realloc(r->lines, room * sizeof *lines);
+        r->no_memory |= !lines;
+        if (!lines)
+            return;
+        r->lines = lines;
+        r->room = room;
+    }
+    struct line line = {.rank = rank, .points = calloc(count, sizeof *line.points)};
+    r->no_memory |= !line.points;
+    if (!line.points)
+        return;
+    for (uint32_t i = 0; i < count; i++) {
+        length += i > 0 ? between(track[i - 1], track[i]) : 0.0;
+        struct ground_road_point point = {(int32_t)floor(track[i][0] * 1000.0 + 0.5),
+                                          (int32_t)floor(track[i][1] * 1000.0 + 0.5), 0};
+        if (line.count == 0 || point.x_mm != line.points[line.count - 1].x_mm ||
+            point.z_mm != line.points[line.count - 1].z_mm)
+            line.points[line.count++] = point;
+    }
+    line.length_m = length;
+    if (line.count < 2)
+        free(line.points);
+    else
+        r->lines[r->used++] = line;
+}
+
+/* Cuts the segment a b to the square. Returns false if it lies outside. */
+static bool cut(const struct reading *r, double a[2], double b[2])
+{
+    double low = EDGE_M, high = 2.0 * r->grid->projection.middle_m - EDGE_M, from = 0.0, to = 1.0;
+    double way[2] = {b[0] - a[0], b[1] - a[1]}, first[2] = {a[0], a[1]};
+    for (int k = 0; k < 2; k++) {
+        if (way[k] == 0.0) {
+            if (a[k] < low || a[k] > high)
+                return false;
+            continue;
+        }
+        double in = (low - a[k]) / way[k], out = (high - a[k]) / way[k];
+        from = maths_max(from, maths_min(in, out));
+        to = maths_min(to, maths_max(in, out));
+    }
+    if (from >= to)
+        return false;
+    for (int k = 0; k < 2; k++) {
+        a[k] = from > 0.0 ? maths_clamp(first[k] + way[k] * from, low, high) : first[k];
+        b[k] = to < 1.0 ? maths_clamp(first[k] + way[k] * to, low, high) : b[k];
+    }
+    return true;
+}
+
+/* Adds what of a line lies within the square: one line or several. */
+static void add_cut(struct reading *r, uint32_t count, uint32_t rank)
+{
+    double(*track)[2] = r->track;
+    uint32_t kept = 0;
+    count = simplify(track, count);
+    double last[2] = {track[0][0], track[0][1]};
+    for (uint32_t i = 1; i < count; i++) {
+        double a[2] = {last[0], last[1]}, b[2] = {track[i][0], track[i][1]};
+        memcpy(last, b, sizeof last);
+        bool inside = cut(r, a, b);
+        bool goes_on =
+            inside && kept > 0 && a[0] == track[kept - 1][0] && a[1] == track[kept - 1][1];
+        if (kept > 0 && !goes_on) {
+            add_line(r, track, kept, rank);
+            kept = 0;
+        }
+        if (!inside)
+            continue;
+        /* A stretch that begins anew has its beginning in place of the point before. */
+        if (kept == 0)
+            memcpy(track[kept++], a, sizeof a);
+        memcpy(track[kept++], b, sizeof b);
+    }
+    if (kept > 1)
+        add_line(r, track, kept, rank);
+}
+
+/* Reads the places of a line into r->track. Returns their number, 0 if the line is bad. */
+static uint32_t read_track(struct reading *r, OGRGeometryH line)
+{
+    int count = OGR_G_GetPointCount(line);
+    if (count < 2)
+        return 0;
+    if ((uint32_t)count > r->track_room) {
+        double(*track)[2] = realloc(r->track, (size_t)count * sizeof *track);
+        r->no_memory |= !track;
+        if (!track)
+            return 0;
+        r->track = track;
+        r->track_room = (uint32_t)count;
+    }
+    for (int i = 0; i < count; i++) {
+        double x = OGR_G_GetX(line, i), y = OGR_G_GetY(line, i);
+        if (!isfinite(x) || !isfinite(y) ||
+            (r->to_earth && !OCTTransform(r->to_earth, 1, &x, &y, NULL)) || !(fabs(y) <= 90.0) ||
+            !(fabs(x) <= 540.0)) {
+            CPLErrorReset(); /* the line is counted as bad, and the map goes on */
+            return 0;
+        }
+        projection_world(&r->grid->projection, y, x, &r->track[i][0], &r->track[i][1]);
+    }
+    return (uint32_t)count;
+}
+
+static void add_geometry(struct reading *r, OGRGeometryH geometry, uint32_t rank)
+{
+    OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(geometry));
+    if (type == wkbLineString) {
+        uint32_t count = read_track(r, geometry);
+        r->bad += count == 0;
+        if (count > 0)
+            add_cut(r, count, rank);
+    } else if (type == wkbMultiLineString) {
+        for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
+            add_geometry(r, OGR_G_GetGeometryRef(geometry, i), rank);
+    }
+}
+
+/* Returns the rank of a feature's word, WORDS if it is no road. */
+static uint32_t rank_of(OGRFeatureH feature, int field)
+{
+    if (field < 0)
+        return 0;
+    const char *word = OGR_F_GetFieldAsString(feature, field);
+    uint32_t rank = 0;
+    while (rank < WORDS && strcmp(word, words[rank]) != 0)
+        rank++;
+    return rank;
+}
+
+static int read_layer(struct reading *r, OGRLayerH layer, const char *path,
+                      struct error_text *error)
+{
+    OGRSpatialReferenceH given = OGR_L_GetSpatialRef(layer), earth = OSRNewSpatialReference(NULL);
+    OGRFeatureDefnH fields = OGR_L_GetLayerDefn(layer);
+    int field = OGR_FD_GetFieldIndex(fields, "highway");
+    field = field >= 0 ? field : OGR_FD_GetFieldIndex(fields, "fclass");
+    if (given) {
+        OGRSpatialReferenceH own = OSRClone(given);
+        OSRImportFromEPSG(earth, 4326);
+        OSRSetAxisMappingStrategy(earth, OAMS_TRADITIONAL_GIS_ORDER);
+        OSRSetAxisMappingStrategy(own, OAMS_TRADITIONAL_GIS_ORDER);
+        r->to_earth = OCTNewCoordinateTransformation(own, earth);
+        OSRDestroySpatialReference(own);
+    }
+    OSRDestroySpatialReference(earth);
+    if (!r->to_earth)
+        return error_text_set(error,
+                              "%s: its projection is not known; right would be: ogr2ogr -a_srs "
+                              "EPSG:4326 PLACED.gpkg %s, if it has degrees of WGS 84",
+                              path, path);
+    for (OGRFeatureH f = OGR_L_GetNextFeature(layer); f; f = OGR_L_GetNextFeature(layer)) {
+        OGRGeometryH geometry = OGR_F_GetGeometryRef(f);
+        uint32_t rank = rank_of(f, field);
+        if (geometry && rank < WORDS)
+            add_geometry(r, geometry, rank);
+        OGR_F_Destroy(f);
+    }
+    OCTDestroyCoordinateTransformation(r->to_earth);
+    r->to_earth = NULL;
+    return 0;
+}
+
+static int read_map(struct reading *r, const char *path, struct error_text *error)
+{
+    CPLErrorReset();
+    GDALDatasetH map = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
+    int result = 0, lines = 0;
+    if (!map)
+        return error_text_set(error, "%s: GDAL cannot read it as a map of lines: %s", path,
+                              CPLGetLastErrorMsg());
+    /* Of OpenStreetMap's layers the others would fill the memory; its relations of lines are the
+     * same lines once more. */
+    bool osm = strcmp(GDALGetDriverShortName(GDALGetDatasetDriver(map)), "OSM") == 0;
+    if (osm)
+        GDALDatasetReleaseResultSet(
+            map, GDALDatasetExecuteSQL(map, "SET interest_layers = lines", NULL, NULL));
+    for (int i = 0; i < GDALDatasetGetLayerCount(map) && result == 0; i++) {
+        OGRLayerH layer = GDALDatasetGetLayer(map, i);
+        if (osm && strcmp(OGR_L_GetName(layer), "lines") != 0)
+            continue;
+        OGRwkbGeometryType type = wkbFlatten(OGR_L_GetGeomType(layer));
+        if (type != wkbLineString && type != wkbMultiLineString && type != wkbUnknown)
+            continue;
+        lines++;
+        result = read_layer(r, layer, path, error);
+    }
+    if (result == 0 && CPLGetLastErrorType() >= CE_Failure)
+        result = error_text_set(error, "%s: cannot be read: %s", path, CPLGetLastErrorMsg());
+    else if (result == 0 && lines == 0)
+        result = error_text_set(error, "%s: has no lines, of which roads could be made", path);
+    GDALClose(map);
+    return result;
+}
+
+/* The order does not depend on that of the maps or of their lines. */
+static int by_importance(const void *a, const void *b)
+{
+    const struct line *p = a, *q = b;
+    if (p->rank != q->rank)
+        return p->rank < q->rank ? -1 : 1;
+    if (p->length_m != q->length_m)
+        return p->length_m > q->length_m ? -1 : 1;
+    if (p->count != q->count)
+        return p->count < q->count ? -1 : 1;
+    return memcmp(p->points, q->points, p->count * sizeof *p->points);
+}
+
+static int keep(struct road_map *map, struct reading *r, struct error_text *error)
+{
+    if (r->used > 0)
+        qsort(r->lines, r->used, sizeof *r->lines, by_importance);
+    map->points = calloc(GROUND_ROAD_POINTS_MAX, sizeof *map->points);
+    if (!map->points || r->no_memory)
+        return error_text_memory(error);
+    for (uint32_t i = 0; i < r->used; i++) {
+        const struct line *line = &r->lines[i];
+        /* Two maps may have the same road. */
+        if (i > 0 && by_importance(line - 1, line) == 0)
+            continue;
+        map->all_m += line->length_m;
+        if (map->left_out > 0 || line->count > GROUND_ROAD_POINTS_MAX - map->count) {
+            map->left_out++;
+            continue;
+        }
+        for (uint32_t k = 0; k < line->count; k++) {
+            map->points[map->count] = line->points[k];
+            map->points[map->count++].road = map->roads;
+        }
+        map->kept_m += line->length_m;
+        map->roads++;
+    }
+    return 0;
+}
+
+int road_map_read(struct road_map *map, char *const *paths, uint32_t count,
+                  const struct post_grid *grid, struct error_text *error)
+{
+    struct reading r = {.grid = grid};
+    int result = 0;
+    memset(map, 0, sizeof *map);
+    for (uint32_t i = 0; i < count && result == 0; i++)
+        result = read_map(&r, paths[i], error);
+    if (result == 0)
+        result = keep(map, &r, error);
+    map->bad = r.bad;
+    for (uint32_t i = 0; i < r.used; i++)
+        free(r.lines[i].points);
+    free(r.lines);
+    free(r.track);
+    return result;
+}
+
+void road_map_free(struct road_map *map)
+{
+    free(map->points);
+    map->points = NULL;
+}
+
+void road_map_pave(const struct road_map *map, const struct post_grid *grid, uint8_t *cover)
+{
+    for (uint32_t i = 0; i + 1 < map->count && grid->spacing_m <= PAVE_SPACING_M; i++) {
+        const struct ground_road_point *p = &map->points[i], *q = p + 1;
+        const double a[2] = {p->x_mm / 1000.0, p->z_mm / 1000.0};
+        const double b[2] = {q->x_mm / 1000.0, q->z_mm / 1000.0};
+        if (p->road != q->road)
+            continue;
+        int steps = (int)(between(a, b) / (0.25 * grid->spacing_m)) + 1;
+        for (int n = 0; n <= steps; n++) {
+            double x = a[0] + (b[0] - a[0]) * n / steps, z = a[1] + (b[1] - a[1]) * n / steps;
+            uint32_t column = (uint32_t)(x / grid->spacing_m + 0.5);
+            uint32_t row = (uint32_t)(z / grid->spacing_m + 0.5);
+            const double here[2] = {x, z};
+            const double post[2] = {column * grid->spacing_m, row * grid->spacing_m};
+            uint8_t *at = &cover[(size_t)row * grid->side + column];
+            if (between(here, post) < PAVE_HALF_M && !cover_is_water((enum cover) * at))
+                *at = COVER_ROAD;
+        }
+    }
+}
