@@ -131,6 +131,22 @@ check "every block is good" "$ground" check t1.ground
 head -c 1000000 t1.ground >cut.ground
 refuses "a file that is cut off" 1 'cut.ground: has 1000000 bytes, and its header says' "$ground" check cut.ground
 
+# A kill leaves the old file, whenever it comes; the next make removes what the killed one left aside.
+cp t1.ground old.ground
+killed=0
+for after in 0.05 0.2 0.4 0.8 1.6; do
+    posts=12.5 out=old.ground
+    "$ground" make --center $center --side $side --posts $posts --out $out "$tile" >/dev/null 2>&1 &
+    sleep $after
+    kill -KILL $! 2>/dev/null && killed=$((killed + 1))
+    wait $! 2>/dev/null
+    [ "$(hash_of old.ground)" = "$(hash_of t1.ground)" ] || break
+done
+posts=31.25
+check "a kill leaves the old file" eval "cmp old.ground t1.ground && [ $killed -gt 1 ]"
+out=old.ground make "$tile" >/dev/null 2>&1
+check "nothing is left aside" [ -z "$(find . -name '.old.ground*')" ]
+
 "$ground" export t1.ground t1.tif && gdal_translate -q -of ENVI t1.tif t1.raw
 python3 "$here/ground.py" heights "$tile" t1.raw $side 1601 44.45 -71.45 >spread
 # Between posts a plane stands for the map's curved surface; at posts the step of 1/64 m is left.
