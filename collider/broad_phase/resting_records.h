@@ -1,4 +1,4 @@
-/* The records of bodies that rest, from frame to frame (docs/decisions/044-hovering-rows.md).
+/* The records of bodies that rest, from frame to frame (docs/decisions/047-hovering-rows.md).
  *
  * The record of a body that neither moves nor turns is the same in each frame. When a body has been
  * so for some frames, its record goes into an index of its own, in which it stays until the body
