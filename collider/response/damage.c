@@ -76,11 +76,13 @@ void damage_overturn(struct response_context *context, uint32_t row)
     wreck(context, row);
 }
 
-/* Tells that a vehicle on its springs took harm from the ground. It closed by the velocity that it
- * has lost in the frame. */
+/* Tells that a land vehicle took harm from the ground. It closed by the velocity that it has lost in
+ * the frame. The mover tells of ships and aircraft when they touch the ground. */
 static void tell_ground(struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
+    if (context->world->kinds[e->kind[row]].domain != DOMAIN_LAND)
+        return;
     const struct body_motion *motion = context->motion;
     struct vec3 at = entities_position(e, row), after = entities_velocity(e, row), before = after;
     if (body_motion_old(motion, row))

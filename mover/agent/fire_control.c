@@ -1,7 +1,6 @@
 /* Which targets suit a munition, and the times of reaction. */
 #include "mover/agent/fire_control.h"
 
-#include "world/entity/armour.h"
 #include "world/maths/random.h"
 #include "world/params.h"
 #include "world/state.h"
@@ -31,13 +30,9 @@ bool fire_control_suits(const struct step_context *context, uint32_t i, uint32_t
     const struct kind *kinds = context->world->kinds;
     uint16_t munition = kinds[context->m->kind[i]].munition;
     const struct kind *other = &kinds[context->committed->entities.kind[target]];
-    if (munition == KIND_NONE)
-        return true;
-    if (kinds[munition].delivery == DELIVERY_ARC)
+    if (munition != KIND_NONE && kinds[munition].delivery == DELIVERY_ARC)
         return false; /* howitzers fire by missions */
-    if (!armour_may_be_penetrated(other, &kinds[munition]))
-        return false;
-    if (other->domain != DOMAIN_AIR)
+    if (munition == KIND_NONE || other->domain != DOMAIN_AIR)
         return true;
     switch ((enum aircraft_targets)kinds[munition].air_targets) {
     case AIR_TARGETS_NONE:

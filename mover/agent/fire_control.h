@@ -9,8 +9,8 @@
  * a shot [s]: the reaction of an alerted driver (Green 2000). */
 #define FIRE_CONTROL_LEAST_S 0.7
 
-/* Returns true if the munition of row i is meant for vehicles such as the committed row target, and
- * may penetrate them somewhere. An unarmed row has no munition, and minds every enemy. */
+/* Returns true if the munition of row i is meant for vehicles such as the committed row target. An
+ * unarmed row has no munition, and minds every enemy. */
 bool fire_control_suits(const struct step_context *context, uint32_t i, uint32_t target);
 
 /* Returns the range at which row i fires at the committed row target [m]: the range of its gun

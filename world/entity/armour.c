@@ -55,15 +55,6 @@ double armour_penetration(const struct kind *round, double flown_m)
     return maths_max(0.0, round->penetration_mm - 0.001 * flown_m * round->penetration_loss);
 }
 
-bool armour_may_be_penetrated(const struct kind *vehicle, const struct kind *round)
-{
-    double thinnest = vehicle->armour_mm[0];
-    for (int a = 1; a < ASPECT_COUNT; a++)
-        thinnest = maths_min(thinnest, vehicle->armour_mm[a]);
-    return !(round->penetration_mm > 0.0) || thinnest < ARMOUR_LEAST_MM ||
-           round->penetration_mm > RAMP_FROM * thinnest;
-}
-
 enum armour_effect armour_effect_of(const struct kind *vehicle, const struct kind *round,
                                     const struct armour_hit *hit, double luck)
 {

@@ -43,11 +43,6 @@ struct armour_hit armour_hit_of(const struct kind *vehicle, double penetration_m
 /* Returns what the round still penetrates after flown_m [mm]. */
 double armour_penetration(const struct kind *round, double flown_m);
 
-/* Returns true if the round may harm the vehicle: at the muzzle it penetrates the thinnest of the
- * vehicle's sides with a probability above 0, or there is a side without armour, or the energy of
- * the round counts. */
-bool armour_may_be_penetrated(const struct kind *vehicle, const struct kind *round);
-
 /* luck: uniform in [0, 1). */
 enum armour_effect armour_effect_of(const struct kind *vehicle, const struct kind *round,
                                     const struct armour_hit *hit, double luck);

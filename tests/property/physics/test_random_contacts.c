@@ -12,9 +12,9 @@
 
 #include <cmocka.h>
 
-#define SCENES   24u
-#define VEHICLES 18u
-#define SECONDS  5.0
+#define SCENES   12u
+#define VEHICLES 15u
+#define SECONDS  4.0
 #define MIDDLE_M 25000.0
 
 /* A body between two others may recover up to 1 cm of overlap from each in a frame, without a

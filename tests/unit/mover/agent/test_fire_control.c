@@ -69,20 +69,6 @@ static void test_no_tank_gun_suits_a_jet(void **state)
     assert_false(suits("tank", "helicopter"));
 }
 
-static void test_a_gun_that_penetrates_no_side_does_not_suit(void **state)
-{
-    (void)state;
-    assert_false(suits("jeep", "tank"));
-    assert_false(suits("wishbone", "tank"));
-    assert_false(suits("flak", "tank"));
-    assert_true(suits("jeep", "carrier"));
-    assert_true(suits("carrier", "tank")); /* from the side */
-    steps_kind(&f, "bullet")->penetration_mm = 31.0;
-    assert_true(suits("jeep", "tank"));
-    steps_kind(&f, "bullet")->penetration_mm = 0.0; /* its energy counts */
-    assert_true(suits("jeep", "tank"));
-}
-
 /* A jet circles over a tank that fires at will, and even fires at it. */
 static void test_a_tank_fires_no_round_at_a_jet(void **state)
 {
@@ -223,7 +209,6 @@ int main(void)
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
         TEST(test_no_tank_gun_suits_a_jet),
-        TEST(test_a_gun_that_penetrates_no_side_does_not_suit),
         TEST(test_a_tank_fires_no_round_at_a_jet),
         TEST(test_a_fast_helicopter_is_no_target_for_a_tank_gun),
         TEST(test_rounds_are_kept_for_targets_that_can_be_hit),

@@ -56,20 +56,6 @@ static void test_penetration_by_range_and_aspect(void **state)
     row("HEAT, 3 km, M1 front at 30 deg", &m1, &heat, 3000.0, 30.0, bow, 0.0, 0.0);
 }
 
-static void test_what_no_side_lets_through_does_no_harm(void **state)
-{
-    (void)state;
-    static const struct kind bullet = {.penetration_mm = 20.0, .penetration_loss = 8.0};
-    static const struct kind cannon = {.penetration_mm = 28.0}, charge = {.explosive_kg = 1.0};
-    static const struct kind jeep = {.resistance_j = 1e5};
-    static const struct kind open_top = {.armour_mm = {375.0, 70.0, 40.0, 9.0}};
-    assert_false(armour_may_be_penetrated(&m1, &bullet));
-    assert_true(armour_may_be_penetrated(&m1, &cannon)); /* 28 mm of 30 mm: now and then */
-    assert_true(armour_may_be_penetrated(&m1, &charge));
-    assert_true(armour_may_be_penetrated(&jeep, &bullet));
-    assert_true(armour_may_be_penetrated(&open_top, &bullet));
-}
-
 static void test_the_struck_side_is_the_one_that_the_round_comes_from(void **state)
 {
     const struct vec3 bow_plate = {0.4, 0.9165, 0.0}; /* as steep as that of an M1 */
@@ -251,7 +237,6 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_penetration_by_range_and_aspect),
-        cmocka_unit_test(test_what_no_side_lets_through_does_no_harm),
         cmocka_unit_test(test_the_struck_side_is_the_one_that_the_round_comes_from),
         cmocka_unit_test(test_rounds_glance_off_at_72_degrees_and_charges_do_not),
         cmocka_unit_test(test_thin_skins_and_rounds_without_a_figure_have_no_rule),
