@@ -111,7 +111,7 @@ static void test_a_row_that_is_struck_is_kept_no_longer(void **state)
         run(1);
     assert_false(is_kept(SIDE));
     assert_true(is_kept(SIDE + 8) && is_kept(8 * SIDE)); /* others of its block are */
-    run(900);                                            /* it comes to rest again */
+    run(1800);                                           /* it comes to rest again */
     assert_true(is_kept(SIDE));
     assert_true(fixture_state(&keeps).head->tally.collisions > 0);
 }
