@@ -32,8 +32,7 @@ WORDS(mission_news_name, mission_news, MISSION_NEWS_COUNT, "phase", "reaction", 
       "result", "again")
 WORDS(contact_end_reason_name, contact_end_reason, CONTACT_END_REASON_COUNT, "parted", "gone",
       "no room")
-WORDS(command_ring_name, command_ring, COMMAND_RING_COUNT, "clients", "recorder",
-      "gateway")
+WORDS(command_ring_name, command_ring, COMMAND_RING_COUNT, "clients", "recorder", "gateway")
 WORDS(command_type_name, command_type, COMMAND_TYPE_COUNT, "none", "pause", "resume", "step",
       "scale", "drive", "release", "fire", "spawn", "remove", "quit")
 WORDS(command_result_name, command_result, COMMAND_RESULT_COUNT, "done", "no such entity",

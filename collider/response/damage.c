@@ -76,8 +76,8 @@ void damage_overturn(struct response_context *context, uint32_t row)
     wreck(context, row);
 }
 
-/* Tells that a land vehicle took harm from the ground. It closed by the velocity that it has lost in
- * the frame. The mover tells of ships and aircraft when they touch the ground. */
+/* Tells that a land vehicle took harm from the ground. It closed by the velocity that it has lost
+ * in the frame. The mover tells of ships and aircraft when they touch the ground. */
 static void tell_ground(struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
@@ -88,17 +88,17 @@ static void tell_ground(struct response_context *context, uint32_t row)
     if (body_motion_old(motion, row))
         before = entities_velocity(&motion->committed->entities, row);
     struct vec3 lost = vec3_sub(before, after);
-    ground_event_write(context, row,
-                       &(struct ground_strike){
-                           .at = at,
-                           .velocity = before,
-                           .normal = terrain_normal(&context->world->terrain,
-                                                    context->input.detect.craters, at.x, at.z),
-                           .closing_mps = vec3_length(lost),
-                           .time = 1.0,
-                           .response = e->state[row] == ENTITY_WRECK ? RESPONSE_DESTROYED
-                                                                     : RESPONSE_STOP,
-                       });
+    ground_event_write(
+        context, row,
+        &(struct ground_strike){
+            .at = at,
+            .velocity = before,
+            .normal =
+                terrain_normal(&context->world->terrain, context->input.detect.craters, at.x, at.z),
+            .closing_mps = vec3_length(lost),
+            .time = 1.0,
+            .response = e->state[row] == ENTITY_WRECK ? RESPONSE_DESTROYED : RESPONSE_STOP,
+        });
 }
 
 /* The mover has added the harm of a hard landing to harm_j (mover/motion/chassis.h): it becomes

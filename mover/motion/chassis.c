@@ -102,8 +102,8 @@ static void hold(const struct step_context *context, uint32_t i, struct rigid_bo
     m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
 }
 
-/* Returns true if row i lies as a vehicle there that follows the ground. Otherwise it would be lifted
- * from its wheels when it follows the ground, beside a wall for one. */
+/* Returns true if row i lies as a vehicle there that follows the ground. Otherwise it would be
+ * lifted from its wheels when it follows the ground, beside a wall for one. */
 static bool lies_on_ground(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;

@@ -41,10 +41,11 @@ struct image_header {
 
 /* The memory that the parts are written from or read into. */
 struct image_tables {
-    const struct view *view;                  /* for its static regions, craters and dents */
-    struct state state;                       /* the committed frame */
-    struct moved moved;                       /* used only if the header has inputs */
-    struct command *ring[COMMAND_RING_COUNT]; /* [layout_ring_slots()]: command n at n & (slots - 1) */
+    const struct view *view; /* for its static regions, craters and dents */
+    struct state state;      /* the committed frame */
+    struct moved moved;      /* used only if the header has inputs */
+    struct command
+        *ring[COMMAND_RING_COUNT]; /* [layout_ring_slots()]: command n at n & (slots - 1) */
 };
 
 struct image_part {

@@ -43,9 +43,9 @@ void frame_stepper_sources(const struct view *view,
                            struct command_source sources[COMMAND_RING_COUNT])
 {
     for (int i = 0; i < COMMAND_RING_COUNT; i++)
-        sources[i] = (struct command_source){view->commands[i]->slot,
-                                             layout_ring_slots(view->header, i),
-                                             atomic_load(&view->commands[i]->head)};
+        sources[i] =
+            (struct command_source){view->commands[i]->slot, layout_ring_slots(view->header, i),
+                                    atomic_load(&view->commands[i]->head)};
 }
 
 uint64_t frame_stepper_frame(const struct frame_stepper *stepper)

@@ -200,15 +200,16 @@ static void test_a_fall_does_damage_by_its_height(void **state)
     }
 }
 
-/* A vehicle that drives squarely into a bank of 2 m takes the harm of a building, and an event tells
- * so. */
+/* A vehicle that drives squarely into a bank of 2 m takes the harm of a building, and an event
+ * tells so. */
 static void test_a_bank_harms_as_a_building_does(void **state)
 {
     static const struct {
         const char *kind;
         double mps;
         enum damage most;
-    } rows[] = {{"truck", 8.0, DAMAGE_LOW}, {"carrier", 9.0, DAMAGE_MED}, {"jeep", 13.0, DAMAGE_MED}};
+    } rows[] = {
+        {"truck", 8.0, DAMAGE_LOW}, {"carrier", 9.0, DAMAGE_MED}, {"jeep", 13.0, DAMAGE_MED}};
     (void)state;
     for (size_t n = 0; n < sizeof rows / sizeof rows[0]; n++) {
         reopen("terrain = { source = \"flat\"; height_m = 100.0; };"
