@@ -11,10 +11,8 @@ static void restore_block(struct response_context *context, const struct entitie
 {
     const struct entities *e = &context->next->entities;
     for (uint32_t row = first; row < end; row++) {
-        if (!remote_is(moved, row) || entities_differing(e, moved, row) == 0)
-            continue;
-        table_row_changes(&context->writer, row);
-        entities_copy(e, moved, row, 1);
+        if (remote_is(moved, row) && entities_differing(e, moved, row) != 0)
+            table_copy_row(&context->writer, moved, row);
     }
 }
 

@@ -90,6 +90,14 @@ static inline void table_clear_row(const struct table_writer *writer, uint32_t r
     entities_clear(writer->entities, row);
 }
 
+/* Makes the row what it is in another table. */
+static inline void table_copy_row(const struct table_writer *writer, const struct entities *from,
+                                  uint32_t row)
+{
+    table_row_changes(writer, row);
+    entities_copy(writer->entities, from, row, 1);
+}
+
 /* Sets rows first .. end - 1 to zero where they hold something, so that a reference to one of them
  * is void. For rows beyond those in use: they are in no checksum, so nothing is noted. Nothing to
  * do if end <= first. */
