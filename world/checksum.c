@@ -191,7 +191,9 @@ bool table_differing(struct table a, struct table b, uint32_t block, uint32_t us
 
 /* Bits, not values: two zeros of different signs differ. */
 #define DIFFERS(type, name)                                                                        \
-    columns |= (uint64_t)(memcmp(&a->name[i], &b->name[i], sizeof(type)) != 0) << COLUMN_##name;
+    columns |= (uint64_t)(memcmp((const unsigned char *)&a->name[i],                               \
+                                 (const unsigned char *)&b->name[i], sizeof(type)) != 0)           \
+               << COLUMN_##name;
 
 uint64_t entities_differing(const struct entities *a, const struct entities *b, uint32_t i)
 {

@@ -68,7 +68,9 @@ static double count_changes(const struct frame_stepper *stepper, struct controls
     double count = 0.0;
     for (uint32_t i = 0; i < state->head->used; i++) {
         const struct controls now = {e->throttle[i], e->steer[i], e->climb[i]};
-        count += memcmp(&controls[i], &now, sizeof now) != 0;
+        const struct controls *before = &controls[i];
+        count += before->throttle != now.throttle || before->steer != now.steer ||
+                 before->climb != now.climb;
         controls[i] = now;
     }
     return count;
