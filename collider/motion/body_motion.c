@@ -208,8 +208,7 @@ void body_motion_aim(const struct body_motion *motion, uint32_t row, double turr
 /* Makes turret and gun point as they did when the frame began. */
 static void aim_as_before(const struct body_motion *motion, uint32_t row, struct swept_body *body)
 {
-    const struct entities *e =
-        body_motion_old(motion, row) ? &motion->committed->entities : &motion->next->entities;
+    const struct entities *e = body_motion_before(motion, row);
     body_motion_aim(motion, row, (double)e->turret[row], (double)e->gun[row], 0.0, 0.0, body);
 }
 

@@ -73,6 +73,14 @@ static inline bool body_motion_old(const struct body_motion *motion, uint32_t ro
            motion->committed->entities.id[row] == motion->next->entities.id[row];
 }
 
+/* Returns the table in which the row begins the frame: a body that is new in this frame has no
+ * committed row. */
+static inline const struct entities *body_motion_before(const struct body_motion *motion,
+                                                        uint32_t row)
+{
+    return body_motion_old(motion, row) ? &motion->committed->entities : &motion->next->entities;
+}
+
 /* Returns true if the mover rotated the row. */
 static inline bool body_motion_rotated(const struct body_motion *motion, uint32_t row)
 {

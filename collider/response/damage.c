@@ -83,11 +83,8 @@ static void tell_ground(struct response_context *context, uint32_t row)
     const struct entities *e = &context->next->entities;
     if (context->world->kinds[e->kind[row]].domain != DOMAIN_LAND)
         return;
-    const struct body_motion *motion = context->motion;
-    struct vec3 at = entities_position(e, row), after = entities_velocity(e, row), before = after;
-    if (body_motion_old(motion, row))
-        before = entities_velocity(&motion->committed->entities, row);
-    struct vec3 lost = vec3_sub(before, after);
+    struct vec3 at = entities_position(e, row);
+    struct vec3 before = entities_velocity(body_motion_before(context->motion, row), row);
     ground_event_write(
         context, row,
         &(struct ground_strike){
@@ -95,7 +92,7 @@ static void tell_ground(struct response_context *context, uint32_t row)
             .velocity = before,
             .normal =
                 terrain_normal(&context->world->terrain, context->input.detect.craters, at.x, at.z),
-            .closing_mps = vec3_length(lost),
+            .closing_mps = vec3_length(vec3_sub(before, entities_velocity(e, row))),
             .time = 1.0,
             .response = e->state[row] == ENTITY_WRECK ? RESPONSE_DESTROYED : RESPONSE_STOP,
         });

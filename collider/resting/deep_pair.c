@@ -46,9 +46,7 @@ void deep_pair_place(const struct response_context *context, uint32_t row, doubl
 static struct capsule capsule_of(const struct response_context *context, uint32_t row,
                                  const struct kind *kind)
 {
-    const struct entities *e = body_motion_old(context->motion, row)
-                                   ? &context->motion->committed->entities
-                                   : &context->next->entities;
+    const struct entities *e = body_motion_before(context->motion, row);
     double sine, cosine, wide = maths_min(kind->width_m, kind->length_m);
     double half = 0.5 * DEEP * (kind->length_m - wide);
     struct capsule capsule = {.radius_m = 0.5 * wide};

@@ -65,19 +65,12 @@ void resting_free(struct resting *resting)
 
 /* --- bodies ------------------------------------------------------------------------------------*/
 
-/* Returns the table in which the row begins the frame: a body that is new in this frame has no
- * committed row. */
-static const struct entities *rows_before(const struct response_context *context, uint32_t row)
-{
-    return body_motion_old(context->motion, row) ? &context->motion->committed->entities
-                                                 : &context->next->entities;
-}
-
 /* Sets what tyres, tracks or the weight can hold in this frame, less what the mover has used of it.
  * An engine that drives is no brake. A vehicle that only holds its course has no brakes. */
 static void set_grip(const struct response_context *context, uint32_t row, struct level_body *body)
 {
-    const struct entities *w = rows_before(context, row), *e = &context->next->entities;
+    const struct entities *w = body_motion_before(context->motion, row),
+                          *e = &context->next->entities;
     const struct kind *kind = &context->world->kinds[e->kind[row]];
     bool active = e->state[row] == ENTITY_ACTIVE;
     if (kind->domain != DOMAIN_LAND || (active && e->behaviour[row] == BEHAVIOUR_HOLD))
@@ -97,7 +90,8 @@ static void set_grip(const struct response_context *context, uint32_t row, struc
 void resting_level_body(const struct response_context *context, uint32_t row,
                         struct level_body *body)
 {
-    const struct entities *w = rows_before(context, row), *e = &context->next->entities;
+    const struct entities *w = body_motion_before(context->motion, row),
+                          *e = &context->next->entities;
     const struct mass_properties mass = mass_properties_of(&context->world->kinds[e->kind[row]]);
     double hz = 1.0 / world_dt_s(context->world);
     struct vec3 along = context->path[row].along;
@@ -301,7 +295,7 @@ static void set_velocity(struct response_context *context, uint32_t row,
 /* Gives a row the motion of its body. */
 static void move(struct response_context *context, uint32_t row, const struct level_body *body)
 {
-    const struct entities *w = rows_before(context, row);
+    const struct entities *w = body_motion_before(context->motion, row);
     double dt_s = world_dt_s(context->world);
     struct vec3 at = context->path[row].at;
     at.x = maths_clamp(at.x + (body->moved.x + body->pushed.x) * dt_s, 0.0, WORLD_SIDE_M);

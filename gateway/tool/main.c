@@ -6,18 +6,16 @@
 #include "gateway/tool/undulation.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "ipc/process/program_verbs.h"
 
-#include <stdio.h>
-#include <string.h>
+#include <stddef.h>
 
-static const struct {
-    const char *name;
-    int (*run)(int argc, char **argv);
-} verbs[] = {{"dump", dump_run},
-             {"send", send_run},
-             {"record", record_run},
-             {"play", play_run},
-             {"undulation", undulation_run}};
+static const struct program_verb verbs[] = {{"dump", dump_run},
+                                            {"send", send_run},
+                                            {"record", record_run},
+                                            {"play", play_run},
+                                            {"undulation", undulation_run},
+                                            {NULL, NULL}};
 
 static const char usage[] =
     "usage: jolon dis VERB [options]\n"
@@ -43,18 +41,5 @@ int main(int argc, char **argv)
     log_open("dis");
     process_guard();
     process_signals();
-    if (argc < 2) {
-        fputs(usage, stderr);
-        return EXIT_USAGE;
-    }
-    if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0 ||
-        strcmp(argv[1], "-h") == 0) {
-        fputs(usage, stdout);
-        return EXIT_OK;
-    }
-    for (unsigned i = 0; i < sizeof verbs / sizeof verbs[0]; i++) {
-        if (strcmp(argv[1], verbs[i].name) == 0)
-            return verbs[i].run(argc - 1, argv + 1);
-    }
-    die_usage("%s: no such verb; there are dump, send, record, play, undulation", argv[1]);
+    return program_verbs_find(verbs, usage, argc, argv)->run(argc - 1, argv + 1);
 }

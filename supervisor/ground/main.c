@@ -2,6 +2,7 @@
  * only program that links GDAL and PROJ. */
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "ipc/process/program_verbs.h"
 #include "supervisor/ground/describe.h"
 #include "supervisor/ground/make.h"
 #include "supervisor/ground/picture.h"
@@ -9,17 +10,11 @@
 #include <cpl_error.h>
 #include <gdal.h>
 
-#include <stdio.h>
-#include <string.h>
+#include <stddef.h>
 
-static const struct {
-    const char *name;
-    int (*run)(int argc, char **argv);
-} verbs[] = {{"make", make_run},
-             {"info", describe_info},
-             {"check", describe_check},
-             {"show", picture_show},
-             {"export", picture_export}};
+static const struct program_verb verbs[] = {{"make", make_run},         {"info", describe_info},
+                                            {"check", describe_check},  {"show", picture_show},
+                                            {"export", picture_export}, {NULL, NULL}};
 
 static const char usage[] =
     "usage: jolon ground VERB [options]\n"
@@ -40,22 +35,9 @@ int main(int argc, char **argv)
 {
     log_open("ground");
     process_guard();
-    if (argc < 2) {
-        fputs(usage, stderr);
-        return EXIT_USAGE;
-    }
-    if (strcmp(argv[1], "help") == 0 || strcmp(argv[1], "--help") == 0 ||
-        strcmp(argv[1], "-h") == 0) {
-        fputs(usage, stdout);
-        return EXIT_OK;
-    }
-    for (unsigned i = 0; i < sizeof verbs / sizeof verbs[0]; i++) {
-        if (strcmp(argv[1], verbs[i].name) != 0)
-            continue;
-        /* Refusals name GDAL's last error themselves. */
-        CPLPushErrorHandler(CPLQuietErrorHandler);
-        GDALAllRegister();
-        return verbs[i].run(argc - 1, argv + 1);
-    }
-    die_usage("%s: no such verb; there are make, info, check, show, export", argv[1]);
+    const struct program_verb *verb = program_verbs_find(verbs, usage, argc, argv);
+    /* Refusals name GDAL's last error themselves. */
+    CPLPushErrorHandler(CPLQuietErrorHandler);
+    GDALAllRegister();
+    return verb->run(argc - 1, argv + 1);
 }
