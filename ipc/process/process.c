@@ -165,6 +165,14 @@ char process_state(int pid)
     return end && end[1] == ' ' ? end[2] : '\0';
 }
 
+bool process_has_ended(int pid)
+{
+    if (kill(pid, 0) != 0 && errno == ESRCH)
+        return true;
+    char state = process_state(pid);
+    return state == 'Z' || state == 'X';
+}
+
 static bool holds_kinds(const char *directory)
 {
     char path[512];

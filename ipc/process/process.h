@@ -59,6 +59,11 @@ void process_begin_beside(int parent_pid);
  * child that its parent has not waited for yet is a zombie (Z) and keeps its pid. */
 char process_state(int pid);
 
+/* Returns true when no process has this pid, or when the one that has it is a zombie, which does
+ * nothing any more. It tells so also inside a sandbox that forbids signals to that process, where
+ * kill() fails with EPERM. */
+bool process_has_ended(int pid);
+
 /* Finds config/ from $JOLON_DATA or from the path of the running program, in the build tree or
  * installed. Returns 0, or -1 with errno. */
 int process_data_dir(char *path, size_t bytes);

@@ -5,21 +5,9 @@
 #include "ipc/process/process.h"
 
 #include <dirent.h>
-#include <errno.h>
-#include <signal.h>
-#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-/* A zombie still has its pid, but writes nothing any more. */
-static bool has_ended(pid_t pid)
-{
-    if (kill(pid, 0) != 0)
-        return errno == ESRCH;
-    char state = process_state(pid);
-    return state == 'Z' || state == 'X';
-}
 
 void stale_files_sweep(const char *folder, const char *prefix)
 {
@@ -35,7 +23,7 @@ void stale_files_sweep(const char *folder, const char *prefix)
         if (*end != '\0' || pid <= 0)
             continue;
         /* A file with our own pid was left by an earlier process. */
-        if (pid != getpid() && !has_ended((pid_t)pid))
+        if (pid != getpid() && !process_has_ended((int)pid))
             continue;
         CRASH_POINT("swept temporary");
         unlinkat(dirfd(directory), entry->d_name, 0);

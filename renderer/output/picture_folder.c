@@ -1,13 +1,13 @@
 /* Writing PNG files, and removing the oldest. */
 #include "renderer/output/picture_folder.h"
 
+#include "ipc/process/process.h"
 #include "renderer/image/png.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <fnmatch.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -101,7 +101,7 @@ static void sweep_temporaries(int folder)
     for (int i = 0; i < count; i++) {
         const char *number = strstr(found[i]->d_name, ".png.") + strlen(".png.");
         long pid = strtol(number, NULL, 10);
-        if (pid > 0 && kill((pid_t)pid, 0) != 0 && errno == ESRCH)
+        if (pid > 0 && process_has_ended((int)pid))
             unlinkat(folder, found[i]->d_name, 0);
         free(found[i]);
     }

@@ -1,6 +1,5 @@
-/* The start of a role, and priorities: each process of a world keeps its distance to the others
- * when all run at a low one.
- */
+/* The start of a role, its end as others see it, and priorities: each process of a world keeps its
+ * distance to the others when all run at a low one. */
 #include "ipc/process/process.h"
 
 #include "tests/support/child.h"
@@ -14,6 +13,7 @@
 #include <stdint.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -82,11 +82,29 @@ static void test_a_role_begins(void **state)
     assert_int_equal(child_run(begin, NULL), 0);
 }
 
+static void test_a_process_has_ended_as_a_zombie_too(void **state)
+{
+    siginfo_t info;
+    (void)state;
+    pid_t child = fork();
+    if (child == 0) {
+        pause();
+        _exit(0);
+    }
+    assert_false(process_has_ended(child));
+    assert_int_equal(kill(child, SIGKILL), 0);
+    assert_int_equal(waitid(P_PID, (id_t)child, &info, WEXITED | WNOWAIT), 0);
+    assert_true(process_has_ended(child));
+    assert_int_equal(waitpid(child, NULL, 0), child);
+    assert_true(process_has_ended(child));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_priority_is_lowered_from_that_of_the_start),
         cmocka_unit_test(test_a_role_begins),
+        cmocka_unit_test(test_a_process_has_ended_as_a_zombie_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
