@@ -160,13 +160,21 @@ static bool shell_is_near(const struct chassis *chassis, const struct mat3 *turn
     return false;
 }
 
+/* Returns the shell of the body. Most vehicles need none in a frame. */
+static struct chassis_shell *shell_of(struct chassis *chassis)
+{
+    if (chassis->shell.count == 0)
+        chassis_shell_of(chassis->kind, &chassis->suspension, &chassis->shell);
+    return &chassis->shell;
+}
+
 /* Lets the shell of the body act on the ground, and moves the body. load_n: of the wheels. */
 static void move(struct chassis *chassis, const struct mat3 *turn, double load_n, double dt_s)
 {
     struct rigid_body *body = &chassis->body;
     struct chassis_shell_push shell = {0};
     if (shell_is_near(chassis, turn)) {
-        chassis_shell_follow(&chassis->shell, &chassis->suspension);
+        chassis_shell_follow(shell_of(chassis), &chassis->suspension);
         shell = chassis_shell_press(&chassis->shell, &chassis->context->world->terrain,
                                     chassis->cratered ? chassis->context->craters : NULL,
                                     chassis->kind, body, dt_s);
@@ -193,10 +201,10 @@ static bool ground_rises(const struct chassis *chassis, const struct mat3 *turn)
 }
 
 /* Returns true if the underside is or the ends are about to touch uneven ground. */
-static bool is_scraping(const struct chassis *chassis, const struct mat3 *turn)
+static bool is_scraping(struct chassis *chassis, const struct mat3 *turn)
 {
     for (unsigned n = 0; chassis->cratered && n < CHASSIS_SHELL_ENDS; n++) {
-        struct vec3 point = chassis->shell.point[n];
+        struct vec3 point = shell_of(chassis)->point[n];
         point.y -= chassis->body.inertia.centre_m;
         const struct vec3 at = vec3_add(chassis->body.centre, rotation_apply(turn, point));
         if (at.y - kinematics_ground(chassis->context, at.x, at.z) < SCRAPE_M)
@@ -251,7 +259,7 @@ void chassis_run_begin(struct chassis *chassis, const struct step_context *conte
     chassis->friction = ground_grip_at(context, m->x[i], m->z[i]).friction;
     chassis->drivetrain = drivetrain_of(context, i, desired);
     suspension_of(chassis->kind, &chassis->suspension);
-    chassis_shell_of(chassis->kind, &chassis->suspension, &chassis->shell);
+    chassis->shell.count = 0;
 }
 
 void chassis_run(struct chassis *chassis)

@@ -82,8 +82,10 @@ bool rigid_body_limit_energy(struct rigid_body *body, double most_j)
 
 void rigid_body_turn(struct rigid_body *body, struct vec3 extra_rps, double dt_s)
 {
-    double before = rotation_j(body);
     free_rotation_turn(body->inertia.moment, &body->turn, &body->spin, dt_s);
+    if (extra_rps.x == 0.0 && extra_rps.y == 0.0 && extra_rps.z == 0.0)
+        return;
+    double before = rotation_j(body);
     body->turn = rotation_spun(body->turn, extra_rps, dt_s);
     double after = rotation_j(body);
     if (after > before)

@@ -24,14 +24,20 @@ static struct vec3 rolling_axis(const struct wheel *wheel, const struct mat3 *tu
     return vec3_scale(ahead, 1.0 / vec3_length(ahead));
 }
 
+/* How a body answers impulses. */
+struct response {
+    struct rigid_body *body;
+    const struct mat3 *inverse; /* of the moments of inertia on world axes [1/(kg m2)] */
+    double per_kg;              /* 1 over its mass */
+};
+
 static void set_axis(struct wheel *wheel, int k, struct vec3 axis, struct vec3 arm,
-                     const struct rigid_body *body, const struct mat3 *inverse)
+                     const struct response *response)
 {
     wheel->axis[k] = axis;
     wheel->lever[k] = vec3_cross(arm, axis);
-    wheel->twist[k] = rotation_apply(inverse, wheel->lever[k]);
-    wheel->mass_kg[k] =
-        1.0 / (1.0 / body->inertia.mass_kg + vec3_dot(wheel->lever[k], wheel->twist[k]));
+    wheel->twist[k] = rotation_apply(response->inverse, wheel->lever[k]);
+    wheel->mass_kg[k] = 1.0 / (response->per_kg + vec3_dot(wheel->lever[k], wheel->twist[k]));
     wheel->impulse_ns[k] = 0.0;
 }
 
@@ -40,10 +46,12 @@ static inline double speed_along(const struct wheel *wheel, int k, const struct 
     return vec3_dot(body->velocity, wheel->axis[k]) + vec3_dot(body->spin, wheel->lever[k]);
 }
 
-static inline void apply(const struct wheel *wheel, int k, double impulse, struct rigid_body *body)
+static inline void apply(const struct wheel *wheel, int k, double impulse,
+                         const struct response *response)
 {
+    struct rigid_body *body = response->body;
     body->velocity =
-        vec3_add(body->velocity, vec3_scale(wheel->axis[k], impulse / body->inertia.mass_kg));
+        vec3_add(body->velocity, vec3_scale(wheel->axis[k], impulse * response->per_kg));
     body->spin = vec3_add(body->spin, vec3_scale(wheel->twist[k], impulse));
 }
 
@@ -77,16 +85,17 @@ static void pull_hand_brake(struct wheel *wheel, double share, double slip)
 }
 
 /* Sets the axes of a wheel that touches, and the most that its impulses can be. */
-static void prepare(struct wheel *wheel, struct rigid_body *body, const struct mat3 *turn,
-                    const struct mat3 *inverse, const struct tyre_demand *demand, double steer)
+static void prepare(struct wheel *wheel, const struct response *response, const struct mat3 *turn,
+                    const struct tyre_demand *demand, double steer)
 {
+    const struct rigid_body *body = response->body;
     const bool tracked = demand->drivetrain->kind->tracked;
     const struct vec3 right = {turn->m[0][2], turn->m[1][2], turn->m[2][2]};
     struct vec3 along = rolling_axis(wheel, turn, steer), arm = wheel->arm;
     /* The tracks' difference of speed is their own. */
     struct vec3 level = vec3_sub(arm, vec3_scale(right, vec3_dot(arm, right)));
-    set_axis(wheel, WHEEL_ALONG, along, tracked ? level : arm, body, inverse);
-    set_axis(wheel, WHEEL_ACROSS, vec3_cross(along, wheel->normal), arm, body, inverse);
+    set_axis(wheel, WHEEL_ALONG, along, tracked ? level : arm, response);
+    set_axis(wheel, WHEEL_ACROSS, vec3_cross(along, wheel->normal), arm, response);
     double rolls = fabs(speed_along(wheel, WHEEL_ALONG, body));
     double slip = fabs(speed_along(wheel, WHEEL_ACROSS, body)) / maths_max(rolls, SLOW_MPS);
     double share = wheel->friction * wheel->load_n / demand->grip_n;
@@ -100,28 +109,42 @@ static void prepare(struct wheel *wheel, struct rigid_body *body, const struct m
         maths_clamp(demand->force.drive_n * share * demand->dt_s, -wheel->grip_ns, wheel->grip_ns);
     if (!wheel->steers && demand->drivetrain->hand_brake > 0.0)
         pull_hand_brake(wheel, demand->drivetrain->hand_brake, slip);
-    apply(wheel, WHEEL_ALONG, wheel->drive_ns, body);
+    apply(wheel, WHEEL_ALONG, wheel->drive_ns, response);
 }
 
-/* Ends the slip of the wheel, as far as brakes, brush and grip allow. */
-static void solve_wheel(struct wheel *wheel, struct rigid_body *body)
+/* Returns the impulse of an axis that ends its slip, as far as its bound allows. */
+static inline double end_slip(const struct wheel *wheel, int k, const struct rigid_body *body)
+{
+    if (wheel->most_ns[k] == 0.0)
+        return 0.0; /* a wheel that rolls freely */
+    return maths_clamp(wheel->impulse_ns[k] - wheel->mass_kg[k] * speed_along(wheel, k, body),
+                       -wheel->most_ns[k], wheel->most_ns[k]);
+}
+
+/* Ends the slip of the wheel, as far as brakes, brush and grip allow. Returns true if its impulses
+ * have changed. */
+static bool solve_wheel(struct wheel *wheel, const struct response *response)
 {
     double after[WHEEL_AXES];
+    bool changed = false;
     for (int k = 0; k < WHEEL_AXES; k++)
-        after[k] =
-            maths_clamp(wheel->impulse_ns[k] - wheel->mass_kg[k] * speed_along(wheel, k, body),
-                        -wheel->most_ns[k], wheel->most_ns[k]);
+        after[k] = end_slip(wheel, k, response->body);
     double along = after[WHEEL_ALONG] + wheel->drive_ns;
-    double whole = sqrt(along * along + after[WHEEL_ACROSS] * after[WHEEL_ACROSS]);
-    if (whole > wheel->grip_ns) {
-        double share = wheel->grip_ns / whole;
+    double square = along * along + after[WHEEL_ACROSS] * after[WHEEL_ACROSS];
+    if (square > wheel->grip_ns * wheel->grip_ns) {
+        double share = wheel->grip_ns / sqrt(square);
         after[WHEEL_ALONG] = along * share - wheel->drive_ns;
         after[WHEEL_ACROSS] *= share;
     }
     for (int k = 0; k < WHEEL_AXES; k++) {
-        apply(wheel, k, after[k] - wheel->impulse_ns[k], body);
+        double change = after[k] - wheel->impulse_ns[k];
+        if (change == 0.0)
+            continue;
+        apply(wheel, k, change, response);
         wheel->impulse_ns[k] = after[k];
+        changed = true;
     }
+    return changed;
 }
 
 /* The tracks turn the body about its upward axis. */
@@ -144,19 +167,24 @@ static struct skid skid_of(const struct mat3 *turn, const struct mat3 *inverse,
     return skid;
 }
 
-static void solve_skid(struct skid *skid, struct rigid_body *body)
+/* Returns true if the moment has changed. */
+static bool solve_skid(struct skid *skid, struct rigid_body *body)
 {
     double off = skid->wanted_rps - vec3_dot(body->spin, skid->up);
     double after =
         maths_clamp(skid->impulse_nms + off * skid->inertia_kgm2, -skid->most_nms, skid->most_nms);
+    if (after == skid->impulse_nms)
+        return false;
     body->spin = vec3_add(body->spin, vec3_scale(skid->twist, after - skid->impulse_nms));
     skid->impulse_nms = after;
+    return true;
 }
 
 void tyre_solve(struct suspension *suspension, struct rigid_body *body, const struct mat3 *turn,
                 const struct mat3 *inverse, const struct tyre_demand *demand)
 {
     const struct kind *kind = demand->drivetrain->kind;
+    const struct response response = {body, inverse, 1.0 / body->inertia.mass_kg};
     struct skid skid = skid_of(turn, inverse, demand);
     double curve = demand->drivetrain->curve, half = suspension->wheel[0].place.x;
     double base = suspension->wheelbase_m, rear = base - half; /* of the middle over the rear */
@@ -164,14 +192,16 @@ void tyre_solve(struct suspension *suspension, struct rigid_body *body, const st
     double steer = base * curve / sqrt(maths_max(1.0 - curve * curve * rear * rear, 0.1));
     for (uint32_t i = 0; i < suspension->count; i++) {
         if (suspension->wheel[i].load_n > 0.0)
-            prepare(&suspension->wheel[i], body, turn, inverse, demand, steer);
+            prepare(&suspension->wheel[i], &response, turn, demand, steer);
     }
-    for (int sweep = 0; sweep < SWEEPS; sweep++) {
+    bool changed = true;
+    for (int sweep = 0; sweep < SWEEPS && changed; sweep++) {
+        changed = false;
         for (uint32_t i = 0; i < suspension->count; i++) {
             if (suspension->wheel[i].load_n > 0.0)
-                solve_wheel(&suspension->wheel[i], body);
+                changed |= solve_wheel(&suspension->wheel[i], &response);
         }
         if (kind->tracked)
-            solve_skid(&skid, body);
+            changed |= solve_skid(&skid, body);
     }
 }

@@ -1,21 +1,15 @@
-/* The kinetic energy is a sum of one term for each body axis. Under one term alone the body turns
- * about that axis at a constant rate, and its angular momentum, in body axes, turns back by the
- * same angle. A symmetric sequence of such turns (x/2 y/2 z y/2 x/2) is of second order, and five
- * of them make one step of fourth order (Suzuki 1990). Each turn conserves the angular momentum in
- * the world exactly. At the end a small turn puts the body back on its energy. */
+/* A step turns the body by one vector, which is the Magnus expansion of its spin in body axes to
+ * the fourth order (Blanes, Casas, Oteo, Ros 2009); the derivatives of the spin follow from Euler's
+ * equations. The angular momentum in the world is conserved exactly, because only the body turns.
+ * At the end a small turn puts the body back on its energy. */
 #include "world/entity/free_rotation.h"
 
-#define STEP_RAD  0.15 /* turned in one step; half as much divides the error by 16 */
-#define STEPS_MAX 512u /* bounds the time of a call */
+#define STEP_RAD  0.05  /* turned in one step; half as much divides the error by 16 */
+#define STEPS_MAX 1280u /* bounds the time of a call */
 
 /* Without this share of |L| |spin| between them, momentum and spin are parallel: the body turns
  * about a principal axis, where no small turn changes the energy. */
 #define PARALLEL 1e-6
-
-/* Suzuki's fourth order: two of the first, one of the second, two of the first; 4 OUTER + INNER is
- * 1. */
-#define OUTER 0.41449077179437573714
-#define INNER (-0.65796308717750294857)
 
 /* The body within the computation. */
 struct spinning_body {
@@ -37,52 +31,17 @@ static double rate_most(const struct free_rotation *r)
     return sqrt(twice_j / maths_min(r->moment.x, maths_min(r->moment.y, r->moment.z)));
 }
 
-/* Half the angle's tangent, nearly: the turn by it is exact, and its angle is right to within 1e-7
- * of a quarter radian. */
-static double half_tangent(double angle)
+/* Turns the body by a vector [rad, body axes], whose half is the tangent of half the angle. The
+ * momentum in body axes turns the other way. */
+static void turn_by(struct spinning_body *b, struct vec3 half)
 {
-    double square = angle * angle;
-    return angle * (0.5 + square * (1.0 / 24.0 + square * (1.0 / 240.0)));
-}
-
-static void turn_x(struct spinning_body *b, double angle)
-{
-    double t = half_tangent(angle), k = 2.0 / (1.0 + t * t), c = k - 1.0, s = k * t;
+    double k = 2.0 / (1.0 + vec3_dot(half, half));
+    struct vec3 once = vec3_cross(b->momentum, half);
+    b->momentum = vec3_add(b->momentum, vec3_scale(vec3_add(once, vec3_cross(once, half)), k));
     struct quat q = b->q;
-    double y = b->momentum.y, z = b->momentum.z;
-    b->momentum.y = c * y + s * z;
-    b->momentum.z = c * z - s * y;
-    b->q = (struct quat){q.w - t * q.x, q.x + t * q.w, q.y + t * q.z, q.z - t * q.y};
-}
-
-static void turn_y(struct spinning_body *b, double angle)
-{
-    double t = half_tangent(angle), k = 2.0 / (1.0 + t * t), c = k - 1.0, s = k * t;
-    struct quat q = b->q;
-    double z = b->momentum.z, x = b->momentum.x;
-    b->momentum.z = c * z + s * x;
-    b->momentum.x = c * x - s * z;
-    b->q = (struct quat){q.w - t * q.y, q.x - t * q.z, q.y + t * q.w, q.z + t * q.x};
-}
-
-static void turn_z(struct spinning_body *b, double angle)
-{
-    double t = half_tangent(angle), k = 2.0 / (1.0 + t * t), c = k - 1.0, s = k * t;
-    struct quat q = b->q;
-    double x = b->momentum.x, y = b->momentum.y;
-    b->momentum.x = c * x + s * y;
-    b->momentum.y = c * y - s * x;
-    b->q = (struct quat){q.w - t * q.z, q.x + t * q.y, q.y - t * q.x, q.z + t * q.w};
-}
-
-/* One step of second order; per_moment: its time over each moment. */
-static void step2(struct spinning_body *b, struct vec3 per_moment)
-{
-    turn_x(b, 0.5 * per_moment.x * b->momentum.x);
-    turn_y(b, 0.5 * per_moment.y * b->momentum.y);
-    turn_z(b, per_moment.z * b->momentum.z);
-    turn_y(b, 0.5 * per_moment.y * b->momentum.y);
-    turn_x(b, 0.5 * per_moment.x * b->momentum.x);
+    struct vec3 v = {q.x, q.y, q.z}, axis = vec3_cross(v, half);
+    b->q = (struct quat){q.w - vec3_dot(v, half), q.x + q.w * half.x + axis.x,
+                         q.y + q.w * half.y + axis.y, q.z + q.w * half.z + axis.z};
 }
 
 static void normalise(struct spinning_body *b)
@@ -92,15 +51,30 @@ static void normalise(struct spinning_body *b)
     b->q = (struct quat){q.w * s, q.x * s, q.y * s, q.z * s};
 }
 
-static void step4(struct spinning_body *b, struct vec3 per_moment)
+static struct vec3 times(struct vec3 a, struct vec3 b)
 {
-    const struct vec3 outer = vec3_scale(per_moment, OUTER), inner = vec3_scale(per_moment, INNER);
-    step2(b, outer);
-    step2(b, outer);
-    step2(b, inner);
-    step2(b, outer);
-    step2(b, outer);
-    normalise(b);
+    return (struct vec3){a.x * b.x, a.y * b.y, a.z * b.z};
+}
+
+/* One step. m, m1 ...: the momentum in body axes and its derivatives; w, w1 ... of the spin. */
+static void step(struct spinning_body *b, struct vec3 per_moment, double dt_s)
+{
+    const struct vec3 m = b->momentum, w = times(m, per_moment);
+    const struct vec3 m1 = vec3_cross(m, w), w1 = times(m1, per_moment);
+    const struct vec3 m2 = vec3_add(vec3_cross(m1, w), vec3_cross(m, w1)),
+                      w2 = times(m2, per_moment);
+    const struct vec3 m3 = vec3_add(vec3_add(vec3_cross(m2, w), vec3_cross(m, w2)),
+                                    vec3_scale(vec3_cross(m1, w1), 2.0));
+    const struct vec3 w3 = times(m3, per_moment);
+    struct vec3 fourth = vec3_scale(vec3_add(w3, vec3_cross(w, w2)), dt_s / 24.0);
+    struct vec3 third =
+        vec3_add(vec3_scale(w2, 1.0 / 6.0), vec3_scale(vec3_cross(w, w1), 1.0 / 12.0));
+    struct vec3 turn = vec3_scale(vec3_add(third, fourth), dt_s);
+    turn = vec3_scale(vec3_add(vec3_scale(w1, 0.5), turn), dt_s);
+    turn = vec3_scale(vec3_add(w, turn), dt_s);
+    /* The tangent of half the angle over the angle, by its series: to 1e-11 of STEP_RAD. */
+    double square = vec3_dot(turn, turn);
+    turn_by(b, vec3_scale(turn, 0.5 + square * (1.0 / 24.0 + square * (1.0 / 240.0))));
 }
 
 /* Turns the body slightly, about the axis across momentum and spin, to where its energy is half of
@@ -113,14 +87,7 @@ static void restore_energy(const struct free_rotation *r, struct spinning_body *
         return;
     /* The body turns by this vector, the momentum in body axes the other way. */
     struct vec3 turn = vec3_scale(across, 0.5 * (vec3_dot(m, spin) - twice_j) / length2);
-    struct vec3 half = vec3_scale(turn, 0.5);
-    double k = 2.0 / (1.0 + vec3_dot(half, half));
-    struct vec3 once = vec3_cross(m, half);
-    b->momentum = vec3_add(m, vec3_scale(vec3_add(once, vec3_cross(once, half)), k));
-    struct quat q = b->q;
-    struct vec3 v = {q.x, q.y, q.z}, axis = vec3_cross(v, half);
-    b->q = (struct quat){q.w - vec3_dot(v, half), q.x + q.w * half.x + axis.x,
-                         q.y + q.w * half.y + axis.y, q.z + q.w * half.z + axis.z};
+    turn_by(b, vec3_scale(turn, 0.5));
     normalise(b);
 }
 
@@ -162,12 +129,13 @@ struct quat free_rotation_at(const struct free_rotation *rotation, double share)
         return rotation_spun(rotation->from, over(rotation->momentum, moment),
                              share * rotation->duration_s);
     const struct mat3 turn = rotation_matrix(rotation->from);
+    const struct vec3 per_moment = over((struct vec3){1.0, 1.0, 1.0}, moment);
     double dt_s = share * rotation->duration_s / rotation->steps;
-    const struct vec3 per_moment = over((struct vec3){dt_s, dt_s, dt_s}, moment);
     struct spinning_body b = {rotation->from, rotation_back(&turn, rotation->momentum)};
     double twice_j = vec3_dot(b.momentum, over(b.momentum, moment));
     for (uint32_t i = 0; i < rotation->steps; i++)
-        step4(&b, per_moment);
+        step(&b, per_moment, dt_s);
+    normalise(&b);
     restore_energy(rotation, &b, twice_j);
     restore_energy(rotation, &b, twice_j);
     return b.q;

@@ -143,7 +143,7 @@ static void test_absurd_spins_stay_finite_and_conserve(void **state)
     struct vec3 spin = {3e5, 4e5, -5e5}, momentum = free_rotation_momentum(moment, turned, spin);
     (void)state;
     struct free_rotation rotation = free_rotation_of(moment, turned, spin, 1.0);
-    assert_true(rotation.steps <= 512 && rotation.duration_s < 1e-3);
+    assert_true(rotation.steps <= 1280 && rotation.duration_s < 1e-3);
     free_rotation_turn(moment, &turned, &spin, 1.0);
     assert_true(difference(free_rotation_momentum(moment, turned, spin), momentum) <=
                 1e-9 * vec3_length(momentum));
