@@ -21,9 +21,9 @@ struct chassis {
     double fall_j;   /* energy by which stops and shell were hit hard in the frame, from below */
     double strike_j; /* the same by upright ground: a wall, a bank */
     struct chassis_shell shell; /* of no points until it is needed */
-    bool cratered, littered; /* there may be craters, debris under it */
-    bool rough;              /* a wheel is on its bump stop or bears next to nothing */
-    bool level;              /* every wheel bears in every sub-step */
+    bool cratered, littered;    /* there may be craters, debris under it */
+    bool rough;                 /* a wheel is on its bump stop or bears next to nothing */
+    bool level;                 /* every wheel bears in every sub-step */
 };
 
 /* Prepares row i for a frame with this desired motion. The fuel of the row is not burnt. */
