@@ -12,10 +12,12 @@ struct box {
     double middle[3], half[3]; /* [m] */
 };
 
-/* One body's hulls in its own axes, and as seen in the other's. */
+/* One body's hulls that are near the box around the other body: in its own axes, and as seen in the
+ * other's. */
 struct box_list {
     struct box own[HULLS_A_MODEL], seen[HULLS_A_MODEL];
-    struct box seen_all; /* around all that are seen */
+    uint32_t hull[HULLS_A_MODEL];
+    uint32_t count;
 };
 
 /* --- views -------------------------------------------------------------------------------------*/
@@ -77,11 +79,28 @@ static struct box box_of(const struct swept_body *body, const struct hull *hull)
                                                   : scaled(hull->centre, hull->half, body->scale);
 }
 
+/* Returns the box around the boxes of all hulls, of a body that has no outer hull. */
+static struct box around_all(const struct swept_body *body)
+{
+    struct box all;
+    for (int k = 0; k < 3; k++) {
+        double low = INFINITY, high = -INFINITY;
+        for (uint32_t i = 0; i < body->hull_count; i++) {
+            struct box box = box_of(body, &body->hull[i]);
+            low = maths_min(low, box.middle[k] - box.half[k]);
+            high = maths_max(high, box.middle[k] + box.half[k]);
+        }
+        all.middle[k] = 0.5 * (low + high);
+        all.half[k] = 0.5 * (high - low);
+    }
+    return all;
+}
+
 /* Returns the box around all hulls of the body. */
 static struct box outer_box_of(const struct swept_body *body)
 {
     if (body->turret.outers == 0)
-        return box_of(body, body->outer);
+        return body->outer ? box_of(body, body->outer) : around_all(body);
     const struct hull_box box = turret_path_box_all(&body->turret);
     return scaled(box.middle, box.half, body->scale);
 }
@@ -121,21 +140,6 @@ static bool apart(const struct box *p, const struct box *q, const double slack[3
     return false;
 }
 
-static struct box around(const struct box *box, uint32_t count)
-{
-    struct box all;
-    for (int k = 0; k < 3; k++) {
-        double low = INFINITY, high = -INFINITY;
-        for (uint32_t i = 0; i < count; i++) {
-            low = maths_min(low, box[i].middle[k] - box[i].half[k]);
-            high = maths_max(high, box[i].middle[k] + box[i].half[k]);
-        }
-        all.middle[k] = 0.5 * (low + high);
-        all.half[k] = 0.5 * (high - low);
-    }
-    return all;
-}
-
 /* Returns true if a box of a and a box of b are certainly not near. */
 static bool both_apart(const struct box_view *view, const struct box *box_a,
                        const struct box *box_b)
@@ -147,14 +151,45 @@ static bool both_apart(const struct box_view *view, const struct box *box_a,
     return apart(box_b, &seen, view->slack_b);
 }
 
-/* Returns true if the boxes around all hulls of the bodies are certainly not near. */
-static bool outers_apart(const struct box_view *view, const struct swept_body *a,
-                         const struct swept_body *b)
+/* Keeps a hull if the box around the other body is near it, by the axes of its own body and by
+ * those of the other. */
+static void keep_near(struct box_list *list, uint32_t hull, const struct box *own,
+                      const struct box *seen, bool near)
 {
-    if (!a->outer || !b->outer)
-        return false;
-    struct box box_a = outer_box_of(a), box_b = outer_box_of(b);
-    return both_apart(view, &box_a, &box_b);
+    list->own[list->count] = *own;
+    list->seen[list->count] = *seen;
+    list->hull[list->count] = hull;
+    list->count += near;
+}
+
+/* Lists the hulls of a that are near the box around b. outer: that box in b's axes, and in a's. */
+static void list_near_a(const struct box_view *view, const struct swept_body *a,
+                        const struct box *outer, const struct box *outer_seen,
+                        struct box_list *list)
+{
+    list->count = 0;
+    for (uint32_t i = 0; i < a->hull_count; i++) {
+        struct box own = box_of(a, &a->hull[i]);
+        if (apart(&own, outer_seen, view->slack_a))
+            continue;
+        struct box seen = seen_by_b(view, &own);
+        keep_near(list, i, &own, &seen, !apart(outer, &seen, view->slack_b));
+    }
+}
+
+/* The same for the hulls of b. outer: the box around a in a's axes, and in b's. */
+static void list_near_b(const struct box_view *view, const struct swept_body *b,
+                        const struct box *outer, const struct box *outer_seen,
+                        struct box_list *list)
+{
+    list->count = 0;
+    for (uint32_t i = 0; i < b->hull_count; i++) {
+        struct box own = box_of(b, &b->hull[i]);
+        if (apart(&own, outer_seen, view->slack_b))
+            continue;
+        struct box seen = seen_by_a(view, &own);
+        keep_near(list, i, &own, &seen, !apart(outer, &seen, view->slack_a));
+    }
 }
 
 /* --- public ------------------------------------------------------------------------------------*/
@@ -172,25 +207,19 @@ uint64_t box_view_near(const struct box_view *view, const struct swept_body *a,
 {
     struct box_list list_a, list_b;
     uint64_t near = 0;
-    if (outers_apart(view, a, b))
+    struct box outer_a = outer_box_of(a), outer_b = outer_box_of(b);
+    struct box seen_a = seen_by_b(view, &outer_a), seen_b = seen_by_a(view, &outer_b);
+    if (apart(&outer_a, &seen_b, view->slack_a) || apart(&outer_b, &seen_a, view->slack_b))
         return 0;
-    for (uint32_t i = 0; i < a->hull_count; i++) {
-        list_a.own[i] = box_of(a, &a->hull[i]);
-        list_a.seen[i] = seen_by_b(view, &list_a.own[i]);
-    }
-    for (uint32_t j = 0; j < b->hull_count; j++) {
-        list_b.own[j] = box_of(b, &b->hull[j]);
-        list_b.seen[j] = seen_by_a(view, &list_b.own[j]);
-    }
-    list_a.seen_all = around(list_a.seen, a->hull_count);
-    list_b.seen_all = around(list_b.seen, b->hull_count);
-    for (uint32_t i = 0; i < a->hull_count; i++) {
-        if (apart(&list_a.own[i], &list_b.seen_all, view->slack_a))
-            continue;
-        for (uint32_t j = 0; j < b->hull_count; j++) {
+    list_near_a(view, a, &outer_b, &seen_b, &list_a);
+    if (list_a.count == 0)
+        return 0;
+    list_near_b(view, b, &outer_a, &seen_a, &list_b);
+    for (uint32_t i = 0; i < list_a.count; i++) {
+        for (uint32_t j = 0; j < list_b.count; j++) {
             if (!apart(&list_a.own[i], &list_b.seen[j], view->slack_a) &&
                 !apart(&list_b.own[j], &list_a.seen[i], view->slack_b))
-                near |= 1ull << (HULLS_A_MODEL * i + j);
+                near |= 1ull << (HULLS_A_MODEL * list_a.hull[i] + list_b.hull[j]);
         }
     }
     return near;

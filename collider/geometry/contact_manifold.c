@@ -2,8 +2,11 @@
  * outline clipped by the other (Sutherland and Hodgman 1974), which is widened by the slack. */
 #include "collider/geometry/contact_manifold.h"
 
-#define MERGE_M   1e-6 /* nearer vertices are merged: an edge between them has no direction */
-#define LINES_MAX (CONTACT_MANIFOLD_POINTS_MAX + 4)
+#include "world/entity/hull.h"
+
+#define MERGE_M    1e-6 /* nearer vertices are merged: an edge between them has no direction */
+#define ROUNDING_M 1e-9 /* of a vertex's reach, for bodies of up to 100 m */
+#define LINES_MAX  (CONTACT_MANIFOLD_POINTS_MAX + 4)
 
 struct uv {
     double u, v;
@@ -48,17 +51,29 @@ static void add(struct outline *outline, struct uv p)
 }
 
 /* Collects the vertices within slack_m of the foremost in a direction, projected relative to
- * origin. *reach is the extent of the foremost in that direction [m]. */
+ * origin. *reach is the extent of the foremost in that direction [m]. Most vertices are far behind
+ * it, which their reach in the body's own axes shows without turning them. */
 static void foremost(const struct convex *convex, struct vec3 origin, const struct view *view,
                      double side, double slack_m, double *reach, struct outline *outline)
 {
-    struct vec3 direction = vec3_scale(view->normal, side), most;
-    gjk_support(convex, direction, &most);
+    struct vec3 direction = vec3_scale(view->normal, side);
+    struct vec3 own = rotation_back(&convex->turn, direction);
+    double ahead[HULL_VERTICES_MAX];
+    uint32_t best = 0;
+    for (uint32_t i = 0; i < convex->count; i++) {
+        ahead[i] = vec3_dot(convex->vertex[i], own);
+        if (ahead[i] > ahead[best])
+            best = i;
+    }
+    struct vec3 most = gjk_vertex(convex, best);
     double edge = vec3_dot(most, direction) - slack_m;
+    double least = ahead[best] - (slack_m + ROUNDING_M) / convex->scale;
     struct vec3 at = vec3_sub(convex->at, origin);
     outline->count = 0;
     for (uint32_t i = 0; i < convex->count; i++) {
-        struct vec3 p = rotation_apply(&convex->turn, vec3_scale(convex->vertex[i], convex->scale));
+        if (ahead[i] < least)
+            continue;
+        struct vec3 p = gjk_vertex(convex, i);
         if (vec3_dot(p, direction) < edge)
             continue;
         p = vec3_add(p, at);

@@ -295,7 +295,7 @@ static uint32_t keep(struct level_gap *list, uint32_t room, uint32_t count,
     return count < room ? count + 1 : count;
 }
 
-static struct body_pose pose_at(const struct swept_body *body, double time)
+struct mat3 level_gap_turn(const struct swept_body *body, double time)
 {
     double left = 1.0 - body->path.since, share = left > 0.0 ? 1.0 / left : 0.0;
     double t = maths_clamp((time - body->path.since) * share, 0.0, 1.0);
@@ -305,7 +305,12 @@ static struct body_pose pose_at(const struct swept_body *body, double time)
         free_turn_at(body->turn, t, &turned, &spin);
     else if (rotation_rate(body->from, body->to) > 0.0)
         turned = rotation_between(body->from, body->to, t);
-    return (struct body_pose){.body = body, .turn = rotation_matrix(turned)};
+    return rotation_matrix(turned);
+}
+
+static struct body_pose pose_at(const struct swept_body *body, double time)
+{
+    return (struct body_pose){.body = body, .turn = level_gap_turn(body, time)};
 }
 
 static struct body_pair body_pair_of(const struct body_pose *a, const struct body_pose *b,
@@ -347,25 +352,34 @@ static uint32_t search(struct body_pair *bodies, double *margin_m, struct level_
     return count;
 }
 
-uint32_t level_gap_find(const struct swept_body *a, const struct swept_body *b, double time,
-                        double margin_m, struct level_gap *gap)
+static uint32_t find(const struct body_pose *a, const struct body_pose *b, double time,
+                     double margin_m, struct level_gap *gap, uint32_t room, double *apart_m,
+                     struct level_gap_memory *memory)
 {
-    double apart_m;
-    struct level_gap_memory none = {0};
-    return level_gap_find_more(a, b, time, margin_m, gap, LEVEL_GAPS_MAX, &apart_m, &none);
-}
-
-uint32_t level_gap_find_more(const struct swept_body *a, const struct swept_body *b, double time,
-                             double margin_m, struct level_gap *gap, uint32_t room, double *apart_m,
-                             struct level_gap_memory *memory)
-{
-    struct body_pose pose_a = pose_at(a, time), pose_b = pose_at(b, time);
-    struct body_pair bodies = body_pair_of(&pose_a, &pose_b, time);
+    struct body_pair bodies = body_pair_of(a, b, time);
     bodies.before = memory;
     uint32_t count = search(&bodies, &margin_m, gap, room);
     *apart_m = bodies.apart_m;
     *memory = memory_of(&bodies, gap, count);
     return count;
+}
+
+uint32_t level_gap_find(const struct swept_body *a, const struct swept_body *b, double time,
+                        double margin_m, struct level_gap *gap)
+{
+    double apart_m;
+    struct level_gap_memory none = {0};
+    struct body_pose pose_a = pose_at(a, time), pose_b = pose_at(b, time);
+    return find(&pose_a, &pose_b, time, margin_m, gap, LEVEL_GAPS_MAX, &apart_m, &none);
+}
+
+uint32_t level_gap_find_more(const struct turned_body *a, const struct turned_body *b,
+                             double margin_m, struct level_gap *gap, uint32_t room, double *apart_m,
+                             struct level_gap_memory *memory)
+{
+    const struct body_pose pose_a = {.body = a->body, .turn = a->turn};
+    const struct body_pose pose_b = {.body = b->body, .turn = b->turn};
+    return find(&pose_a, &pose_b, 0.0, margin_m, gap, room, apart_m, memory);
 }
 
 double level_gap_least(const struct swept_body *a, const struct swept_body *b, double time,

@@ -33,7 +33,7 @@ struct level_gap_memory {
     struct nearest_vertices nearest[PERSISTENT_CONTACT_NEAREST];
 };
 
-/* A body that stands still, and the matrix of its rotation. */
+/* A body, and the matrix of its rotation at one time. */
 struct turned_body {
     const struct swept_body *body;
     struct mat3 turn;
@@ -47,9 +47,13 @@ struct turned_body {
 uint32_t level_gap_find(const struct swept_body *a, const struct swept_body *b, double time,
                         double margin_m, struct level_gap *gap);
 
-/* The same, with another room in gap. Sets *apart_m to a length [m, >= 0] by which the bodies are
- * apart at least: their distance if it is within margin_m. memory: of this pair, and updated. */
-uint32_t level_gap_find_more(const struct swept_body *a, const struct swept_body *b, double time,
+/* Returns how the body is turned at a time in [path.since, 1]. */
+struct mat3 level_gap_turn(const struct swept_body *body, double time);
+
+/* The same at the time 0, for bodies whose turns there are known, and with another room in gap.
+ * Sets *apart_m to a length [m, >= 0] by which the bodies are apart at least: their distance if it
+ * is within margin_m. memory: of this pair, and updated. */
+uint32_t level_gap_find_more(const struct turned_body *a, const struct turned_body *b,
                              double margin_m, struct level_gap *gap, uint32_t room, double *apart_m,
                              struct level_gap_memory *memory);
 

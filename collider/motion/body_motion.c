@@ -26,8 +26,9 @@ int body_motion_init(struct body_motion *motion, const struct world *world)
     motion->row = reserve_take(capacity, sizeof *motion->row);
     motion->parting_rps = calloc(capacity, sizeof *motion->parting_rps);
     motion->fall = calloc(capacity, sizeof *motion->fall);
+    motion->pose = reserve_take(2 * (uint64_t)capacity, sizeof *motion->pose);
     if (!motion->path || !motion->computed || !motion->change || !motion->changed || !motion->row ||
-        !motion->parting_rps || !motion->fall) {
+        !motion->parting_rps || !motion->fall || !motion->pose) {
         body_motion_free(motion);
         return -1;
     }
@@ -43,6 +44,7 @@ void body_motion_free(struct body_motion *motion)
     reserve_free(motion->row);
     free(motion->parting_rps);
     free(motion->fall);
+    reserve_free(motion->pose);
     *motion = (struct body_motion){0};
 }
 
@@ -87,9 +89,38 @@ void body_motion_compute(struct body_motion *motion, uint32_t row)
 
 static const struct quat no_turn = {1.0, 0.0, 0.0, 0.0};
 
-static struct quat pose(const struct entities *e, uint32_t row)
+/* Returns where the rotation of a row of a table is kept. Each world buffer has a place, so that
+ * what ends a frame is known when the next one begins. */
+static struct known_pose *place_of(const struct body_motion *motion, const struct entities *e,
+                                   uint32_t row)
 {
-    return rotation_of(e->heading[row], e->pitch[row], e->roll[row]);
+    bool before = e == &motion->committed->entities;
+    const struct state *state = before ? motion->committed : motion->next;
+    return &motion->pose[2 * (uint64_t)row + (state->head->frame & 1)];
+}
+
+/* Returns the rotation of a row of a table. */
+static struct quat pose(const struct body_motion *motion, const struct entities *e, uint32_t row)
+{
+    const struct known_pose *known = place_of(motion, e, row);
+    const double angle[3] = {e->heading[row], e->pitch[row], e->roll[row]};
+    if (known->known && memcmp(known->angle, angle, sizeof angle) == 0)
+        return known->turn;
+    return rotation_of(angle[0], angle[1], angle[2]);
+}
+
+static void note_pose(struct body_motion *motion, const struct entities *e, uint32_t row)
+{
+    struct quat turn = pose(motion, e, row);
+    *place_of(motion, e, row) =
+        (struct known_pose){{e->heading[row], e->pitch[row], e->roll[row]}, turn, 1};
+}
+
+void body_motion_note_poses(struct body_motion *motion, uint32_t row)
+{
+    note_pose(motion, &motion->next->entities, row);
+    if (body_motion_old(motion, row))
+        note_pose(motion, &motion->committed->entities, row);
 }
 
 /* Returns the spin by which the mover turns the row: freely in the air, about the vertical on the
@@ -127,10 +158,10 @@ struct rotation_path body_motion_rotation(const struct body_motion *motion, uint
     if (motion->change[row] != 0)
         return motion->changed[motion->change[row] - 1];
     const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
-    struct quat to = pose(n, row);
+    struct quat to = pose(motion, n, row);
     if (!body_motion_rotated(motion, row))
         return (struct rotation_path){.from = to, .to = to};
-    struct rotation_path rotation = {.from = pose(w, row), .to = to};
+    struct rotation_path rotation = {.from = pose(motion, w, row), .to = to};
     find_turn(motion, row, &rotation);
     return rotation;
 }
@@ -252,7 +283,7 @@ struct swept_body body_motion_standing(const struct body_motion *motion,
         return body_motion_fixed(motion->world, side & ~PAIR_FIXED);
     struct swept_body body = shape_of(motion->world, entities->kind[side], 1.0);
     body.path.at = entities_position(entities, side);
-    body.from = body.to = pose(entities, side);
+    body.from = body.to = pose(motion, entities, side);
     aim_as_before(motion, side, &body);
     return body;
 }

@@ -22,6 +22,13 @@ struct rotation_path {
                               tyres */
 };
 
+/* The rotation of three angles. */
+struct known_pose {
+    double angle[3]; /* heading, pitch and roll [rad] */
+    struct quat turn;
+    uint64_t known; /* 1: it has been computed */
+};
+
 struct body_motion {
     const struct world *world;
     const struct state *committed;
@@ -38,6 +45,9 @@ struct body_motion {
     double *parting_rps;
     uint8_t *fall; /* [capacity] whether a row falls freely (collider/motion/free_fall.h); 0: not
                       known yet */
+    /* [2 * capacity] of each row in both world buffers, kept from frame to frame. The angles are
+     * compared, so that it saves work and changes no result. */
+    struct known_pose *pose;
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */
@@ -116,6 +126,10 @@ static inline bool body_motion_rotates(const struct body_motion *motion, uint32_
 {
     return motion->models && (body_motion_rotated(motion, row) || body_motion_aimed(motion, row));
 }
+
+/* Keeps the rotations of the row at both ends of the frame, so that what follows does not compute
+ * them from their angles again. Any thread, for different rows. */
+void body_motion_note_poses(struct body_motion *motion, uint32_t row);
 
 struct rotation_path body_motion_rotation(const struct body_motion *motion, uint32_t row);
 

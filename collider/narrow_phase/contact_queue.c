@@ -155,8 +155,10 @@ bool contact_queue_stays_apart(const struct contact_queue *contacts, uint32_t pa
 /* Computes what the proofs need of a row, if its path has changed. */
 static void prepare(struct contact_queue *contacts, const struct contact_input *input, uint32_t row)
 {
-    if (contacts->proves && !(row & PAIR_FIXED))
-        pair_apart_prepare(&contacts->apart, input->motion, row);
+    if (!contacts->proves || row & PAIR_FIXED || pair_apart_knows(&contacts->apart, row))
+        return;
+    body_motion_note_poses(input->motion, row);
+    pair_apart_prepare(&contacts->apart, input->motion, row);
 }
 
 struct job {

@@ -24,8 +24,6 @@ void pair_apart_prepare(struct pair_apart *apart, const struct body_motion *moti
 {
     struct row_pose *pose = &apart->row[row];
     struct free_turn turn;
-    if (pose->known)
-        return;
     pose->body = body_motion_body(motion, row, &turn);
     pose->freely = pose->body.turn != NULL;
     pose->body.turn = NULL; /* it points to this function's memory */

@@ -26,8 +26,13 @@ struct pair_apart {
 int pair_apart_init(struct pair_apart *apart, const struct world *world);
 void pair_apart_free(struct pair_apart *apart);
 
-/* Computes the row's pose from its present path, if that is not known. Any thread, for different
- * rows. */
+/* Returns true if the row's pose is that of its present path. */
+static inline bool pair_apart_knows(const struct pair_apart *apart, uint32_t row)
+{
+    return apart->row[row].known;
+}
+
+/* Computes the row's pose from its present path. Any thread, for different rows. */
 void pair_apart_prepare(struct pair_apart *apart, const struct body_motion *motion, uint32_t row);
 
 /* The row's path has changed, or the frame is over. */

@@ -92,6 +92,7 @@ static void stand_now(struct end_guard *guard, const struct response_context *co
 {
     const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
     struct placed_body *stands = &guard->stands[row];
+    body_motion_note_poses(context->motion, row);
     stand(context->motion, e, row, stands);
     stands->moved = vec3_sub(entities_position(e, row), entities_position(w, row));
     stands->turned_m =

@@ -126,12 +126,11 @@ static double solve_point(struct level_body *a, struct level_body *b, struct lev
 static double part_point(struct level_body *a, struct level_body *b, struct level_contact *c)
 {
     double along = speed_normal(&a->pushed, &b->pushed, c);
-    double least = c->apart_mps;
-    if (least == 0.0)
-        least = c->least_mps - speed_normal(&a->moved, &b->moved, c);
-    double step = add_within(&c->apart_ns, (least - along) * c->normal_kg, 0.0, INFINITY);
+    double step = add_within(&c->apart_ns, (c->part_mps - along) * c->normal_kg, 0.0, INFINITY);
+    if (step == 0.0)
+        return 0.0;
     push_normal(a, b, &a->pushed, &b->pushed, c, step);
-    return c->normal_kg > 0.0 ? fabs(step) / c->normal_kg : 0.0;
+    return fabs(step) / c->normal_kg;
 }
 
 /* --- the ground --------------------------------------------------------------------------------*/
@@ -243,6 +242,12 @@ void level_solver_part(struct level_body *body, struct level_contact *contact, u
 {
     if (!any_overlap(contact, contacts))
         return;
+    for (uint32_t i = 0; i < contacts; i++) {
+        struct level_contact *c = &contact[i];
+        c->part_mps = c->apart_mps != 0.0
+                          ? c->apart_mps
+                          : c->least_mps - speed_normal(&body[c->a].moved, &body[c->b].moved, c);
+    }
     double change = INFINITY;
     for (uint32_t sweep = 0; sweep < LEVEL_SOLVER_PART_SWEEPS && change > LEVEL_SOLVER_ENOUGH_MPS;
          sweep++) {

@@ -55,7 +55,7 @@ struct level_contact {
     double friction;           /* Coulomb's coefficient */
     double normal_ns;          /* [N s] impulse along the normal, >= 0; in: where it begins */
     double friction_ns;        /* [N s] impulse across it; in: where it begins */
-    double apart_ns;           /* the solver's own */
+    double apart_ns, part_mps; /* the solver's own: of the second velocities */
     /* The solver's own: effective masses [kg], levers about the centres [m], and the speeds before
      * the contacts [m/s], along the normal and across it. */
     double normal_kg, across_kg;

@@ -36,6 +36,7 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
     resting->moved = reserve_take(rows, sizeof *resting->moved);
     resting->leaving = calloc(rows, sizeof *resting->leaving);
     if (contact_groups_init(&resting->groups, world) == 0 &&
+        begun_bodies_init(&resting->begun, world) == 0 &&
         parting_init(&resting->parting, rows + pairs, pairs * RESTING_POINTS_MAX) == 0 &&
         neighbours_init(&resting->neighbours, world) == 0 && level_exit_init(&resting->exit) == 0 &&
         resting->gap && resting->pair && resting->point && resting->body && resting->row &&
@@ -49,6 +50,7 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
 void resting_free(struct resting *resting)
 {
     contact_groups_free(&resting->groups);
+    begun_bodies_free(&resting->begun);
     parting_free(&resting->parting);
     neighbours_free(&resting->neighbours);
     level_exit_free(&resting->exit);

@@ -8,6 +8,7 @@
 
 #include "collider/geometry/level_exit.h"
 #include "collider/geometry/level_gap.h"
+#include "collider/resting/begun_bodies.h"
 #include "collider/resting/contact_groups.h"
 #include "collider/resting/level_solver.h"
 #include "collider/resting/neighbours.h"
@@ -51,6 +52,7 @@ struct resting_gap {
 struct resting {
     struct thread_pool *workers;
     struct contact_groups groups;
+    struct begun_bodies begun;
     struct parting parting;
     struct neighbours neighbours;
     struct level_exit exit;

@@ -35,10 +35,10 @@ static void make_room(struct resting *resting, const struct world *world, uint32
 }
 
 /* Returns how much nearer two bodies can come within the frame, at most [m]. */
-static double nearing(const struct swept_body *a, const struct swept_body *b)
+static double nearing(const struct begun_body *a, const struct begun_body *b)
 {
-    return vec3_length(vec3_sub(a->path.along, b->path.along)) +
-           rotation_rate(a->from, a->to) * a->bound_m + rotation_rate(b->from, b->to) * b->bound_m;
+    return vec3_length(vec3_sub(a->body.path.along, b->body.path.along)) +
+           a->rate * a->body.bound_m + b->rate * b->body.bound_m;
 }
 
 static bool is_deep(const struct resting_gap *gap)
@@ -56,8 +56,8 @@ struct gap_job {
 
 /* Returns how near two bodies of a pair have to be. One that is not in the table, nor in a
  * neighbourhood, is near only if it overlaps [m]. */
-static double margin_of(const struct gap_job *job, uint32_t index, const struct swept_body *a,
-                        const struct swept_body *b)
+static double margin_of(const struct gap_job *job, uint32_t index, const struct begun_body *a,
+                        const struct begun_body *b)
 {
     if (job->parts)
         return NEAR_M + nearing(a, b) + 2.0 * PARTING_MPS * world_dt_s(job->context->world);
@@ -75,20 +75,23 @@ static void recall(const struct gap_job *job, const struct pair *pair, struct re
 
 static void measure_pair(const struct gap_job *job, uint32_t index)
 {
-    struct free_turn turn_a, turn_b;
+    const struct body_motion *motion = job->context->motion;
     const struct pair *pair = &job->resting->groups.pair[index];
     struct resting_gap *gap = &job->resting->gap[index];
+    struct begun_body fixed;
+    const struct begun_body *a, *b;
     gap->apart_m = 0.0;
     recall(job, pair, gap);
     if (deep_pair_measure(job->context, pair, gap))
         return;
-    struct swept_body a = body_motion_body(job->context->motion, pair->a, &turn_a);
-    struct swept_body b = body_motion_side(job->context->motion, pair->b, &turn_b);
-    gap->count = level_gap_find_more(&a, &b, 0.0, margin_of(job, index, &a, &b), gap->gap,
+    begun_bodies_side(&job->resting->begun, motion, pair->a, &fixed, &a);
+    begun_bodies_side(&job->resting->begun, motion, pair->b, &fixed, &b);
+    const struct turned_body turned_a = {&a->body, a->began}, turned_b = {&b->body, b->began};
+    gap->count = level_gap_find_more(&turned_a, &turned_b, margin_of(job, index, a, b), gap->gap,
                                      job->parts ? RESTING_GAPS_MAX : LEVEL_GAPS_MAX, &gap->apart_m,
                                      &gap->memory);
     if (is_deep(gap) && gap->count > 1) {
-        level_gap_whole(&a, &b, 0.0, gap->gap, gap->count);
+        level_gap_whole(&a->body, &b->body, 0.0, gap->gap, gap->count);
         gap->count = 1;
     }
 }
@@ -109,6 +112,12 @@ static void measure(struct resting *resting, const struct response_context *cont
 {
     struct gap_job job = {resting, context, first, parts};
     make_room(resting, context->world, first, resting->groups.count);
+    for (uint32_t i = first; i < resting->groups.count; i++) {
+        const struct pair *pair = &resting->groups.pair[i];
+        begun_bodies_find(&resting->begun, context->motion, pair->a);
+        if (!(pair->b & PAIR_FIXED))
+            begun_bodies_find(&resting->begun, context->motion, pair->b);
+    }
     thread_pool_run(resting->workers, measure_some, &job, resting->groups.count - first,
                     PAIRS_A_PIECE);
     for (uint32_t i = first; i < resting->groups.count; i++) {
@@ -158,4 +167,5 @@ void resting_gaps_measure(struct resting *resting, struct response_context *cont
     }
     if (resting->neighbours.count > 0)
         measure_neighbours(resting, context);
+    begun_bodies_forget(&resting->begun);
 }

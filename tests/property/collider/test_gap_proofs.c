@@ -138,7 +138,9 @@ static void test_the_distance_of_all_hulls_is_told(void **state)
         struct level_gap gap[LEVEL_GAPS_MAX];
         double told, exact = maths_min(margin_m, time_of_impact_gap(&a, &b, 0.0));
         struct level_gap_memory memory = random_memory(&random);
-        level_gap_find_more(&a, &b, 0.0, margin_m, gap, LEVEL_GAPS_MAX, &told, &memory);
+        const struct turned_body turned_a = {&a, rotation_matrix(a.from)};
+        const struct turned_body turned_b = {&b, rotation_matrix(b.from)};
+        level_gap_find_more(&turned_a, &turned_b, margin_m, gap, LEVEL_GAPS_MAX, &told, &memory);
         assert_true(fabs(told - exact) < 1e-9);
         apart += told > 0.0;
     }
@@ -160,10 +162,12 @@ static void test_a_memory_changes_no_gap(void **state)
         for (uint32_t n = 0; n < MOVES; n++, move(&random, &b)) {
             struct level_gap cold[LEVEL_GAPS_MAX], warm[LEVEL_GAPS_MAX];
             double apart;
+            const struct turned_body turned_a = {&a, level_gap_turn(&a, 0.0)};
+            const struct turned_body turned_b = {&b, level_gap_turn(&b, 0.0)};
             uint32_t count = level_gap_find(&a, &b, 0.0, margin_m, cold);
-            assert_int_equal(
-                level_gap_find_more(&a, &b, 0.0, margin_m, warm, LEVEL_GAPS_MAX, &apart, &memory),
-                count);
+            assert_int_equal(level_gap_find_more(&turned_a, &turned_b, margin_m, warm,
+                                                 LEVEL_GAPS_MAX, &apart, &memory),
+                             count);
             for (uint32_t g = 0; g < count; g++)
                 assert_true(fabs(warm[g].gap_m - cold[g].gap_m) < 1e-6);
             gaps += count;

@@ -75,6 +75,29 @@ static void test_who_is_new_has_not_moved(void **state)
     assert_true(motion->path[ROWS - 1].at.x == next->entities.x[ROWS - 1]);
 }
 
+static bool same_turn(struct quat p, struct quat q)
+{
+    return p.w == q.w && p.x == q.x && p.y == q.y && p.z == q.z;
+}
+
+/* What is kept is right only for the angles of which it was computed. */
+static void test_a_pose_that_is_kept_follows_its_angles(void **state)
+{
+    (void)state;
+    begin();
+    struct rotation_path unknown = body_motion_rotation(motion, 0);
+    body_motion_note_poses(motion, 0);
+    struct rotation_path known = body_motion_rotation(motion, 0);
+    assert_true(same_turn(known.from, unknown.from) && same_turn(known.to, unknown.to));
+    next->entities.heading[0] += 0.2;
+    next->entities.roll[0] -= 0.1;
+    struct quat turned =
+        rotation_of(next->entities.heading[0], next->entities.pitch[0], next->entities.roll[0]);
+    assert_true(same_turn(body_motion_rotation(motion, 0).to, turned));
+    assert_true(same_turn(body_motion_standing(motion, &next->entities, 0).to, turned));
+    assert_true(same_turn(body_motion_rotation(motion, 0).from, unknown.from));
+}
+
 static void test_changed_rotations_are_kept_for_the_frame_only(void **state)
 {
     (void)state;
@@ -198,6 +221,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_a_row_goes_from_the_committed_pose_to_the_moved_one),
         TEST(test_who_is_new_has_not_moved),
+        TEST(test_a_pose_that_is_kept_follows_its_angles),
         TEST(test_changed_rotations_are_kept_for_the_frame_only),
         TEST(test_a_path_that_begins_at_the_end_has_its_last_rotation),
         TEST(test_who_spins_freely_takes_its_real_path),

@@ -1,0 +1,40 @@
+/* How bodies lie when the frame begins. A body has several contacts, so this is found once for all
+ * of its pairs. The collider's own memory. */
+#ifndef JOLON_COLLIDER_RESTING_BEGUN_BODIES_H
+#define JOLON_COLLIDER_RESTING_BEGUN_BODIES_H
+
+#include "collider/geometry/level_gap.h"
+#include "collider/motion/body_motion.h"
+
+struct world;
+
+struct begun_body {
+    struct swept_body body; /* on its path */
+    struct free_turn turn;  /* what body.turn points to */
+    struct mat3 began;      /* its rotation when the frame begins */
+    double rate;            /* rotation_rate() of body.from and body.to */
+};
+
+struct begun_bodies {
+    struct begun_body *body; /* [capacity of the world] */
+    uint8_t *known;          /* [capacity of the world] 1: the row's body has been found */
+    uint32_t *row;           /* the rows of which it has */
+    uint32_t count;
+};
+
+/* Returns 0, or -1 with errno ENOMEM. */
+int begun_bodies_init(struct begun_bodies *bodies, const struct world *world);
+void begun_bodies_free(struct begun_bodies *bodies);
+
+/* Finds the row's body on its present path, unless it is known. One thread. */
+void begun_bodies_find(struct begun_bodies *bodies, struct body_motion *motion, uint32_t row);
+
+/* Forgets all: paths change. */
+void begun_bodies_forget(struct begun_bodies *bodies);
+
+/* Sets *body to one side of a pair: a row that has been found, or a fixed object with PAIR_FIXED.
+ * Any thread. */
+void begun_bodies_side(const struct begun_bodies *bodies, const struct body_motion *motion,
+                       uint32_t side, struct begun_body *room, const struct begun_body **body);
+
+#endif
