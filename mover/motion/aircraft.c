@@ -324,7 +324,7 @@ static inline void take_airframe(const struct aircraft *batch, int h, struct air
 /* The lanes between the steps of a move. */
 struct moving {
     struct airframe flight[LANE_FOURS];
-    union simd_lanes speed, rightward;
+    union simd_lanes speed, rightward, through;
     struct lean lean;
 };
 
@@ -346,12 +346,16 @@ static inline void rise(const struct step_context *context, struct aircraft *bat
         f->bank_cosine = bank_cosine.f64x4[h];
         f->nose_slope = nose_slope.f64x4[h];
         moving->speed.f64x4[h] = f->forward_mps * f->forward_mps + f->up_mps * f->up_mps;
+        airframe_inflow(f, &moving->through.f64x4[h]);
     }
     roots(&moving->speed);
+    roots(&moving->through);
     for (int h = 0; h < LANE_FOURS; h++) {
         struct airframe *f = &moving->flight[h];
         want(batch, h, &ground->f64x4[h], context->dt_s, f);
+        airframe_power(f, &moving->through.f64x4[h]);
         airframe_climb(f, &moving->speed.f64x4[h]);
+        airframe_lift_off(f);
         airframe_lift(f, context->dt_s);
         moving->lean.bank.f64x4[h] = f->turn_slope;
     }

@@ -10,7 +10,10 @@
  * than the weight: it sinks, its nose drops, and it gains speed.
  *
  * Helicopter. Its thrust is along the mast, which follows the stick with a lag. It tilts by at most
- * TILT_SLOPE forward or back, and banks by at most 60 degrees.
+ * TILT_SLOPE forward or back, and banks by at most 60 degrees. Its engine has a power, and what a
+ * load n and the speed leave of it climbs or gains speed (airframe_power()). So turns and climbs
+ * cost speed. Below the speed of least power there is no speed to trade, and it banks and climbs
+ * only as far as the engine can go on with.
  *
  * Engine. What the engine of a driven aircraft gives follows what is asked of it: the thrust of an
  * aeroplane, and the lift by which a helicopter climbs. Less is given at once. */
@@ -45,6 +48,29 @@
 #define AIRFRAME_TURN_S     1.2     /* and the heading an agent's will */
 #define AIRFRAME_PULL       1.5     /* [g] over level flight, pulled up no harder */
 #define AIRFRAME_COLLECTIVE 0.6     /* [g] the same by a helicopter's power */
+
+/* The power of a helicopter, as shares of its weight times its top speed V. With u = v / V
+ *
+ *     needed = PROFILE (1 - BLADE + BLADE n^2) (1 + u^2 / 2)    the drag of the blades
+ *            + DRAG_SLOPE u^3                                   of the fuselage
+ *            + WAKE INFLOW n^2 / sqrt(u^2 + w^2)                the air that lift pushes down
+ *
+ * by momentum theory (Leishman, Principles of Helicopter Aerodynamics, chapters 2 and 5), where w
+ * is the inflow. The figures are those of an AH-64 of 6.5 t: an inflow of 12.5 m/s at a hover, and
+ * 60 W/kg for the blades, whose drag grows with their load. AIRFRAME_POWER is available, 0.9 of
+ * which holds the top speed; or more, if the kind's climb_rate needs it at the speed of least
+ * power. */
+#define AIRFRAME_INFLOW      0.02778 /* square of the inflow at a hover: V / 6 */
+#define AIRFRAME_WAKE        1.15    /* over the inflow of an ideal rotor */
+#define AIRFRAME_PROFILE     0.08
+#define AIRFRAME_BLADE       0.25
+#define AIRFRAME_POWER       0.364
+#define AIRFRAME_LEAST_POWER 0.175 /* what level flight needs at AIRFRAME_BUCKET */
+#define AIRFRAME_BUCKET      0.45  /* u of the speed of least power */
+#define AIRFRAME_ZOOM        0.5 /* climb over V, for each u over AIRFRAME_BUCKET, by speed lost */
+#define AIRFRAME_TRADE       5.0 /* n^2 over the sustained, for the same */
+#define AIRFRAME_HOVERS      0.2 /* u up to which power limits the acceleration as at this u */
+
 /* Near the ground a driver's helicopter sinks no faster than AIRFRAME_SOFT_MPS, and so much more
  * for each metre under it. */
 #define AIRFRAME_SOFT_MPS   1.0
@@ -67,6 +93,11 @@ struct airframe {
     f64x4 spool; /* 0..1: what its engine gives at most now; 1 unless driven */
     f64x4 power; /* 0..1: what an aeroplane's throttle allows its engine to give */
     four_masks driven, held, dry;
+    /* Results of airframe_power(), for helicopters: shares as above. */
+    f64x4 share;      /* u */
+    f64x4 free_power; /* what no load leaves of the power */
+    f64x4 per_load;   /* what each n^2 takes */
+    f64x4 per_climb;  /* and each climb_mps / V */
     /* Results of airframe_lift() and airframe_turn(). */
     f64x4 lift_most; /* [g] */
     f64x4 rising_mps2, weight_mps2, turn_slope, turning_rps;
@@ -99,6 +130,42 @@ static inline void airframe_govern(struct airframe *f, f64x4 *rise, double dt_s)
     *rise = SIMD_CHOOSE(f->driven & helicopter, SIMD_MIN(*rise, most), *rise);
 }
 
+/* Returns u^2 + w^2, of which airframe_power() takes the root. The inflow w is that of a load of
+ * 1, which is 3 % off at most. */
+static inline void airframe_inflow(struct airframe *f, f64x4 *square)
+{
+    const f64x4 one = SIMD_EVERY(1.0), hover = SIMD_EVERY(AIRFRAME_INFLOW);
+    f->share = SIMD_ABS(f->forward_mps) / SIMD_MAX(f->full_mps, one);
+    f64x4 along = f->share * f->share;
+    *square = along + hover * hover / (along + hover);
+}
+
+/* Computes the power of a helicopter. through: the root of what airframe_inflow() returned. */
+static inline void airframe_power(struct airframe *f, const f64x4 *through)
+{
+    const f64x4 one = SIMD_EVERY(1.0), hover = SIMD_EVERY(AIRFRAME_INFLOW);
+    f64x4 along = f->share * f->share, blades = AIRFRAME_PROFILE * (one + 0.5 * along);
+    f64x4 climbs = AIRFRAME_LEAST_POWER + f->climb_mps / SIMD_MAX(f->full_mps, one);
+    f->free_power = SIMD_MAX(climbs, SIMD_EVERY(AIRFRAME_POWER)) - (1.0 - AIRFRAME_BLADE) * blades -
+                    AIRFRAME_DRAG_SLOPE * along * f->share;
+    f->per_load = AIRFRAME_BLADE * blades + AIRFRAME_WAKE * AIRFRAME_INFLOW / *through;
+    /* A climb lessens the inflow: at a hover it costs half. */
+    f->per_climb = one - 0.5 * hover / (along + hover);
+}
+
+/* Returns what the bank leaves of a helicopter's power. */
+static inline void airframe_spare(const struct airframe *f, f64x4 *spare)
+{
+    f64x4 slope = SIMD_MIN(SIMD_ABS(f->bank_slope), SIMD_EVERY(AIRFRAME_BANK_SLOPE));
+    *spare = f->free_power - f->per_load * (1.0 + slope * slope);
+}
+
+/* Returns how far u is over AIRFRAME_BUCKET. */
+static inline void airframe_over(const struct airframe *f, f64x4 *over)
+{
+    *over = SIMD_MAX(f->share - AIRFRAME_BUCKET, SIMD_EVERY(0.0));
+}
+
 /* Computes the lift: the vertical acceleration, and the weight that a bank has to carry. */
 static inline void airframe_lift(struct airframe *f, double dt_s)
 {
@@ -116,8 +183,12 @@ static inline void airframe_lift(struct airframe *f, double dt_s)
     /* The bank is limited by what it wants, so that the lift is there when it has levelled out. */
     f64x4 carried = one + SIMD_MAX(rise, none) / g;
     f64x4 slope = f->lift_most / carried;
-    slope = SIMD_MAX(slope * slope - one, none);
-    f->turn_slope = slope; /* its square root is taken by lanes */
+    slope = slope * slope - one;
+    f64x4 over, held;
+    airframe_over(f, &over);
+    held = f->free_power / f->per_load + AIRFRAME_TRADE * over - one;
+    slope = SIMD_CHOOSE(f->aeroplane, slope, SIMD_MIN(slope, held));
+    f->turn_slope = SIMD_MAX(slope, none); /* its square root is taken by lanes */
     f64x4 high = (f->lift_most * SIMD_MAX(f->bank_cosine, none) - one) * g;
     f->rising_mps2 = SIMD_MIN(rise, high);
     f->weight_mps2 = SIMD_MAX(g + f->rising_mps2, g * 0.05);
@@ -175,6 +246,20 @@ static inline void airframe_push(struct airframe *f, const f64x4 *speed, double 
     *push = SIMD_CLAMP(wanted, low, most);
 }
 
+/* The rate of climb [m/s] that a helicopter may want: what its power gives, and more while it is
+ * fast. */
+static inline void airframe_lift_off(struct airframe *f)
+{
+    f64x4 spare, over;
+    airframe_spare(f, &spare);
+    airframe_over(f, &over);
+    f64x4 most = (spare / f->per_climb + AIRFRAME_ZOOM * over) * f->full_mps;
+    most =
+        SIMD_MAX(most, SIMD_EVERY(0.0)); /* a bank that is rolled out too slowly costs no height */
+    most = SIMD_MIN(f->wanted_up_mps, most);
+    f->wanted_up_mps = SIMD_CHOOSE(f->aeroplane, f->wanted_up_mps, most);
+}
+
 /* The rate of climb [m/s] that an aeroplane may want: what its thrust gives, more while it is fast,
  * and a glide without fuel. */
 static inline void airframe_climb(struct airframe *f, const f64x4 *speed)
@@ -192,6 +277,21 @@ static inline void airframe_climb(struct airframe *f, const f64x4 *speed)
     f->wanted_up_mps = SIMD_CHOOSE(limited, most, f->wanted_up_mps);
 }
 
+/* Limits a helicopter's wanted acceleration [m/s2] to what turn and climb leave of its power, along
+ * the way that it flies. */
+static inline void airframe_hasten(const struct airframe *f, f64x4 *low, f64x4 *high)
+{
+    const f64x4 one = SIMD_EVERY(1.0), slow = SIMD_EVERY(AIRFRAME_HOVERS);
+    f64x4 spare;
+    four_masks backwards = f->forward_mps < 0.0;
+    airframe_spare(f, &spare);
+    spare -= f->per_climb * f->up_mps / SIMD_MAX(f->full_mps, one);
+    f64x4 most = SIMD_MAX(spare * GRAVITY_MPS2 / SIMD_MAX(f->share, slow), *low);
+    f64x4 back = SIMD_MAX(*low, SIMD_NEGATIVE(most));
+    *high = SIMD_CHOOSE(backwards, *high, SIMD_MIN(*high, most));
+    *low = SIMD_CHOOSE(backwards, back, *low);
+}
+
 /* Returns a helicopter's acceleration along its heading by its present pitch, and the slope of the
  * pitch that it wants. */
 static inline void airframe_tilt(const struct airframe *f, f64x4 *push, f64x4 *nose)
@@ -200,6 +300,7 @@ static inline void airframe_tilt(const struct airframe *f, f64x4 *push, f64x4 *n
                 flattest = SIMD_EVERY(-AIRFRAME_TILT_SLOPE);
     const f64x4 g = SIMD_EVERY(GRAVITY_MPS2), one = SIMD_EVERY(1.0);
     f64x4 high = f->thrust_mps2 * (1.0 + f->brake), low = SIMD_NEGATIVE(high);
+    airframe_hasten(f, &low, &high);
     f64x4 full = SIMD_MAX(f->full_mps * f->full_mps, one);
     f64x4 drag = g * AIRFRAME_DRAG_SLOPE * f->forward_mps * SIMD_ABS(f->forward_mps) / full;
     f64x4 wanted = (f->wanted_mps - f->forward_mps) / AIRFRAME_HOVER_S;

@@ -128,8 +128,8 @@ static void test_a_turn_follows_from_the_load(void **state)
     steps_drive(&f, helicopter, 0.8, 1.0, 0.0);
     rate = turn_hard(helicopter, 3.0, &speed, &bank);
     tell("helicopter, 2 g at 60 m/s: bank", 60.0, bank * DEG_PER_RAD, 0.01);
-    tell("  degrees/s", 16.2, rate * DEG_PER_RAD, 0.03);
-    tell("  radius m", 212.0, speed / rate, 0.03);
+    tell("  degrees/s, if it kept its speed", 16.2, rate * DEG_PER_RAD * speed / 60.0, 0.03);
+    tell("  radius m, if it kept its speed", 212.0, speed / rate * 3600.0 / speed / speed, 0.03);
 }
 
 static void test_a_hard_turn_costs_speed(void **state)
@@ -180,6 +180,59 @@ static void test_thrust_limits_the_climb(void **state)
     tell("helicopter, climb m/s", 12.0, velocity_of(helicopter).y, 0.01);
 }
 
+/* --- power -------------------------------------------------------------------------------------*/
+
+/* A flight with controls that stay as they are: what it comes to. */
+struct steady {
+    double speed_mps, climb_mps, load;
+};
+
+static struct steady fly_steadily(const char *kind, double speed_mps, double turn, double climb,
+                                  double time_s)
+{
+    uint32_t row = put(kind, 2000.0, speed_mps, BEHAVIOUR_IDLE);
+    steps_drive(&f, row, 1.0, turn, climb);
+    seconds(time_s);
+    struct steady found = {0};
+    for (int frame = 0; frame < (int)hz; frame++) {
+        found.load += load_in_a_frame(row) / hz;
+        found.climb_mps += velocity_of(row).y / hz;
+        found.speed_mps += vec3_length(velocity_of(row)) / hz;
+    }
+    print_message("%s, turn %.0f, climb %.0f, after %3.0f s: %5.1f m/s, climbs %5.1f m/s, %.2f g\n",
+                  kind, turn, climb, time_s, found.speed_mps, found.climb_mps, found.load);
+    steps_empty(&f);
+    return found;
+}
+
+static void test_a_helicopter_pays_for_turns_and_climbs_with_speed(void **state)
+{
+    (void)state;
+    struct steady level = fly_steadily("helicopter", 60.0, 0.0, 0.0, 60.0);
+    struct steady climbs = fly_steadily("helicopter", 75.0, 0.0, 1.0, 60.0);
+    struct steady enters = fly_steadily("helicopter", 75.0, 1.0, 0.0, 5.0);
+    struct steady turns = fly_steadily("helicopter", 75.0, 1.0, 0.0, 60.0);
+    struct steady both = fly_steadily("helicopter", 75.0, 1.0, 1.0, 60.0);
+    struct steady rises = fly_steadily("helicopter", 0.0, 0.0, 1.0, 20.0);
+    assert_true(fabs(level.speed_mps - 75.0) < 0.1);
+    assert_true(climbs.climb_mps > 11.5 && climbs.speed_mps < 60.0 && climbs.speed_mps > 40.0);
+    assert_true(enters.load > 1.9 && enters.speed_mps < 72.0);
+    tell("helicopter, load that it sustains, g", 1.75, turns.load, 0.1); /* 1.6 to 1.9 */
+    assert_true(turns.speed_mps < 45.0 && turns.speed_mps > 25.0 && fabs(turns.climb_mps) < 1.0);
+    assert_true(both.climb_mps < 4.0 && both.speed_mps < 45.0);
+    assert_true(rises.climb_mps > 8.0 && rises.speed_mps < 30.0);
+}
+
+/* A jet turns harder than it can go on turning. */
+static void test_a_jet_sustains_less_than_it_pulls(void **state)
+{
+    (void)state;
+    struct steady pulls = fly_steadily("jet", 277.8, 1.0, 0.0, 1.0);
+    struct steady holds = fly_steadily("jet", 220.0, 1.0, 0.0, 90.0);
+    assert_true(pulls.load > 6.5 && pulls.speed_mps < 275.0);
+    assert_true(holds.load > 2.8 && holds.load < 4.5 && holds.speed_mps < 150.0);
+}
+
 static void test_without_fuel_an_aeroplane_glides(void **state)
 {
     (void)state;
@@ -200,7 +253,7 @@ static void test_a_helicopter_leans_before_it_gains_speed(void **state)
     uint32_t row = put("helicopter", 300.0, 0.0, BEHAVIOUR_IDLE);
     steps_drive(&f, row, 1.0, 0.0, 0.0);
     double tilt = 0.0;
-    for (int frame = 0; frame < (int)(30.0 * hz); frame++) {
+    for (int frame = 0; frame < (int)(60.0 * hz); frame++) {
         double before = velocity_of(row).x;
         fixture_run(&f, 1);
         if (frame == (int)(3.0 * hz))
@@ -366,6 +419,8 @@ int main(void)
         TEST(test_a_hard_turn_costs_speed),
         TEST(test_below_its_stalling_speed_an_aeroplane_falls_until_it_is_faster),
         TEST(test_thrust_limits_the_climb),
+        TEST(test_a_helicopter_pays_for_turns_and_climbs_with_speed),
+        TEST(test_a_jet_sustains_less_than_it_pulls),
         TEST(test_without_fuel_an_aeroplane_glides),
         TEST(test_a_helicopter_leans_before_it_gains_speed),
         TEST(test_a_jet_engine_takes_five_seconds_to_full_thrust),
