@@ -238,6 +238,10 @@ static const struct key kind_keys[] = {
            .meaning = "The fuel of a full tank. 0: the vehicle needs none."),
     NUMBER("fuel_lps", K, kind.fuel_lps, 0, 1000, "0", .unit = "l/s",
            .meaning = "The fuel burnt at full speed."),
+    NUMBER("idle_share", K, kind.idle_share, 0, 1, "0.07",
+           .meaning =
+               "Land vehicles: the share of `fuel_lps` that the engine burns while the vehicle "
+               "stands. A gas turbine burns twice that of a piston engine."),
     WHOLE32("rounds", K, kind.rounds, 0, 1000000, "0",
             .meaning = "The rounds of its munition at the start."),
 };

@@ -161,7 +161,8 @@ static bool burn(const struct step_context *context, uint32_t i, const struct ki
                  const struct desired_motion *desired)
 {
     double full = maths_max(kind->max_speed_mps, 1e-9);
-    return kinematics_burn(context, i, maths_max(DRIVETRAIN_IDLE, fabs(desired->speed_mps) / full));
+    return kinematics_burn(context, i,
+                           maths_max(kind->idle_share, fabs(desired->speed_mps) / full));
 }
 
 bool chassis_move(const struct step_context *context, uint32_t i,

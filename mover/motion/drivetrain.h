@@ -10,9 +10,6 @@
 #define DRIVETRAIN_BY_TRACKS 0.55
 #define DRIVETRAIN_BY_WHEELS 0.7
 
-/* Of the fuel at full throttle, an engine at rest burns this share. */
-#define DRIVETRAIN_IDLE 0.15
-
 /* A driver turns the steering wheel, or pulls the levers of tracks, at this rate [1/s]: from the
  * middle to the stop in half a second. */
 #define DRIVETRAIN_WHEEL_PS 2.0

@@ -67,6 +67,7 @@ static void take_kind(struct ground_vehicle *batch, int l, const struct kind *ki
     batch->curve.lane[l] = kind->least_turn_m > 0.0 ? 1.0 / kind->least_turn_m : PIVOT_PM;
     batch->half_length.lane[l] = kind->length_m * 0.5;
     batch->burn_lps.lane[l] = kind->fuel_lps;
+    batch->idle_share.lane[l] = kind->idle_share;
     batch->tank.lane[l] = -(int64_t)(kind->fuel_l > 0.0);
 }
 
@@ -145,9 +146,8 @@ static inline void steer(struct ground_vehicle *batch, int h, const f64x4 *forwa
 static inline void burn(struct ground_vehicle *batch, int h, f64x4 *wanted, double dt_s)
 {
     const f64x4 none = SIMD_EVERY(0.0), least = SIMD_EVERY(1e-9);
-    const f64x4 idle = SIMD_EVERY(DRIVETRAIN_IDLE);
     f64x4 share = SIMD_ABS(*wanted) / SIMD_MAX(batch->full_mps.f64x4[h], least);
-    share = SIMD_MAX(share, idle);
+    share = SIMD_MAX(share, batch->idle_share.f64x4[h]);
     share = SIMD_CHOOSE(batch->parked.f64x4[h], none, share);
     four_masks dry;
     kinematics_simd_burn(&batch->fuel.f64x4[h], &batch->burn_lps.f64x4[h], &share,

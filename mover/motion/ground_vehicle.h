@@ -16,7 +16,8 @@ struct ground_vehicle {
     union simd_lanes y, vx, vz, heading, pitch, fuel;
     struct ground_pose pose;
     /* The kind. */
-    union simd_lanes full_mps, acceleration, turn_rate, max_slope, half_length, burn_lps;
+    union simd_lanes full_mps, acceleration, turn_rate, max_slope, half_length, burn_lps,
+        idle_share;
     union simd_lanes power_wpkg, gears, rolling, lateral, curve; /* drivetrain.h; curve: 1/m */
     union lane_masks tank;                                       /* it has one */
     union lane_masks parked;  /* its engine is off (kinematics.h) */

@@ -136,6 +136,7 @@ struct kind {
     double armour_mm[ASPECT_COUNT];   /* vehicles: of steel, along a line square to the side */
     double courage;                   /* 0..1: probability of returning fire rather than fleeing */
     double fuel_l, fuel_lps;          /* tank, and burnt at full throttle a second */
+    double idle_share;                /* land vehicles: of fuel_lps, burnt while the engine idles */
     uint32_t rounds;
     /* These follow from the model's hulls. */
     uint32_t first_hull, hull_count; /* index into the world's hulls: body, then turret, gun */

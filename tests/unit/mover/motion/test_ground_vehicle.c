@@ -391,9 +391,39 @@ static void test_fuel_burns_with_the_throttle_and_an_empty_tank_stops_it(void **
     steps_drive(&f, idles, 0.0, 0.0, 0.0);
     fixture_run(&f, (uint32_t)(5.0 * HZ));
     assert_true(near(steps_rows(&f).fuel_l[runs], 0.5, 0.01));
-    assert_true(near(steps_rows(&f).fuel_l[idles], 1.0 - 0.15 * 0.2 * 5.0, 0.01));
+    assert_true(near(steps_rows(&f).fuel_l[idles], 1.0 - 0.15 * 0.2 * 5.0, 0.001));
     fixture_run(&f, (uint32_t)(12.0 * HZ));
     assert_true(steps_rows(&f).fuel_l[runs] == 0.0 && steps_speed(&f, runs) < 0.05);
+}
+
+/* Litres an hour that a kind burns while its engine idles, on its wheels and on its springs. */
+static void idle_lph(const char *name, double real_lph)
+{
+    uint32_t follows =
+        fixture_put(&f, (struct fixture_entity){.kind = name, .at = {25000.0, 100.0, 25500.0}});
+    uint32_t springs =
+        fixture_put(&f, (struct fixture_entity){.kind = name, .at = {25000.0, 100.0, 25900.0}});
+    struct entities e = steps_rows(&f);
+    e.behaviour[follows] = e.order[follows] = BEHAVIOUR_FLEE; /* and is in its place */
+    e.goal_x[follows] = e.x[follows], e.goal_z[follows] = e.z[follows];
+    e.until_tick[follows] = UINT32_MAX;
+    steps_drive(&f, springs, 0.0, 0.0, 0.0);
+    double before[2] = {steps_rows(&f).fuel_l[follows], steps_rows(&f).fuel_l[springs]};
+    fixture_run(&f, (uint32_t)(4.0 * HZ));
+    double lph[2] = {(before[0] - steps_rows(&f).fuel_l[follows]) * 900.0,
+                     (before[1] - steps_rows(&f).fuel_l[springs]) * 900.0};
+    print_message("acceptance: | %s idles, l/h | %.0f | %.1f |\n", name, real_lph, lph[1]);
+    assert_true(near(lph[0], lph[1], 0.05) && near(lph[1], real_lph, 0.1 * real_lph));
+    steps_empty(&f);
+}
+
+static void test_an_engine_that_idles_burns_what_those_of_its_sort_burn(void **state)
+{
+    (void)state;
+    idle_lph("tank", 38.0);
+    idle_lph("carrier", 8.0);
+    idle_lph("truck", 2.0);
+    idle_lph("jeep", 1.0);
 }
 
 static void test_the_engine_is_off_where_a_vehicle_has_the_order_to_stand(void **state)
@@ -567,6 +597,7 @@ int main(void)
         TEST(test_it_turns_as_fast_as_the_ground_holds),
         TEST(test_a_sideways_slide_is_braked_by_its_tyres),
         TEST(test_fuel_burns_with_the_throttle_and_an_empty_tank_stops_it),
+        TEST(test_an_engine_that_idles_burns_what_those_of_its_sort_burn),
         TEST(test_the_engine_is_off_where_a_vehicle_has_the_order_to_stand),
         TEST(test_debris_slows_vehicles),
         TEST(test_debris_keeps_to_its_share),
