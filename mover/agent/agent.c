@@ -59,7 +59,7 @@ static void begin_attack(const struct step_context *context, uint32_t i,
     uint32_t target = notice->threat != SLOT_NONE ? notice->threat : notice->enemy;
     if (before == BEHAVIOUR_REPOSITION) /* it turns to its target again */
         target = m->target_slot[i];
-    if (target == SLOT_NONE || !fire_control_suits(context, i, target) ||
+    if (target == SLOT_NONE || !fire_control_fights(context, i, target) ||
         (before == BEHAVIOUR_ATTACK && perception_in_sight(context, i)))
         return; /* it keeps its target */
     goal_target(context, i, target, w->id[target]);

@@ -152,7 +152,8 @@ bool attack_ready(const struct step_context *context, uint32_t i)
         return false;
     const struct entities *w = &context->committed->entities;
     uint32_t target = m->target_slot[i];
-    if (!entities_alive(w, target, m->target_id[i]) || w->state[target] != ENTITY_ACTIVE)
+    if (!entities_alive(w, target, m->target_id[i]) || w->state[target] != ENTITY_ACTIVE ||
+        !fire_control_harms(context, i, target))
         return false;
     double range = rocket_reach_m(context, i, fire_control_reach_m(context, i, target)) + NEARLY_M;
     double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];

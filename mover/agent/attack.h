@@ -14,8 +14,8 @@ void attack_motion(const struct step_context *context, uint32_t i,
 /* The number of frames from one attempt to fire to the next. */
 uint32_t attack_aim_frames(const struct params *params);
 
-/* Returns true if it is about to fire: it attacks, the target is in sight and nearly in range, and
- * the gun is loaded. turret_hold_fire() then checks the gun's direction. */
+/* Returns true if it is about to fire: it attacks, the target is in sight and nearly in range, its
+ * rounds may harm it, and the gun is loaded. turret_hold_fire() then checks the gun's direction. */
 bool attack_ready(const struct step_context *context, uint32_t i);
 
 #endif

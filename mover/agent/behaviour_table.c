@@ -98,8 +98,16 @@
 #define LEAVES ROW(B(ATTACK), P(ROUNDS_FIRED), P(STAND), TO(WITHDRAW), AS(ROUNDS_FIRED), 0)
 
 #define SEES_ENEMY                                                                                 \
-    ROW(B(IDLE) | B(PATROL) | B(ROUTE) | B(FOLLOW), P(ENEMY) | P(ARMED) | P(AT_WILL), 0,           \
-        TO(ATTACK), AS(ENEMY_SEEN), BEHAVIOUR_TABLE_FIGHT_S)
+    ROW(B(IDLE) | B(PATROL) | B(ROUTE) | B(FOLLOW), P(ENEMY) | P(ARMED) | P(AT_WILL),              \
+        P(OUTGUNNED), TO(ATTACK), AS(ENEMY_SEEN), BEHAVIOUR_TABLE_FIGHT_S)
+
+/* It takes cover from whom its rounds cannot harm. */
+#define OUTGUNNED(time_s)                                                                          \
+    ROW(CALM | B(ATTACK) | B(REPOSITION) | B(RESUPPLY) | B(BACK_OFF), P(SHOT) | P(OUTGUNNED),      \
+        P(STAND), TO(FLEE), AS(FIRED_UPON), time_s),                                               \
+        ROW(B(IDLE) | B(PATROL) | B(ROUTE) | B(FOLLOW),                                            \
+            P(ENEMY) | P(ARMED) | P(AT_WILL) | P(OUTGUNNED), P(STAND), TO(FLEE), AS(ENEMY_SEEN),   \
+            DASH_S)
 
 /* When its courage fails it withdraws, or flees for a while. */
 #define HURT_GOES_HOME                                                                             \
@@ -115,6 +123,7 @@ static const struct behaviour_table_row armour[] = {
     ROW(B(ATTACK), P(HURT), P(BRAVE) | P(STAND) | P(BUMP), TO(FLEE), AS(HURT), FLEE_S),
     LOSSES_END_IT,
     SUPPRESSES(P(BRAVE), COVER_S),
+    OUTGUNNED(FLEE_S),
     COVERS,
     SHOT_AT(FLEE, FLEE_S),
     ODDS(FLEE, FLEE_S),
@@ -130,6 +139,7 @@ static const struct behaviour_table_row flak[] = {
     SUPPLIES(RESUPPLY_S),
     LOSSES_END_IT,
     SUPPRESSES(P(BRAVE), COVER_S),
+    OUTGUNNED(FLEE_S),
     COVERS,
     SHOT_AT(FLEE, FLEE_S),
     ODDS(FLEE, FLEE_S),
@@ -146,6 +156,7 @@ static const struct behaviour_table_row light[] = {
     ROW(CALM | B(ATTACK) | B(FLEE), P(HURT), P(STAND) | P(BUMP), TO(WITHDRAW), AS(HURT), 0),
     LOSSES_END_IT,
     SUPPRESSES(0, COVER_S),
+    OUTGUNNED(FLEE_S),
     COVERS,
     SHOT_AT(FLEE, FLEE_S),
     ODDS(WITHDRAW, 0),
@@ -160,6 +171,7 @@ static const struct behaviour_table_row soft[] = {
     FIGHTS_END,
     SUPPLIES(RESUPPLY_S),
     ROW(CALM | B(FLEE), P(HURT), P(STAND) | P(BUMP), TO(WITHDRAW), AS(HURT), 0),
+    OUTGUNNED(FLEE_S),
     SHOT_AT(FLEE, FLEE_S),
     ROW(B(PATROL) | B(ROUTE), P(ENEMY), P(STAND) | P(AT_WILL), TO(FLEE), AS(ENEMY_SEEN), DASH_S),
     BUMPS,
@@ -174,6 +186,7 @@ static const struct behaviour_table_row helicopter[] = {
     HURT_GOES_HOME,
     LOSSES_END_IT,
     SUPPRESSES(0, COVER_S),
+    OUTGUNNED(DASH_S),
     SHOT_AT(FLEE, DASH_S),
     ODDS(FLEE, DASH_S),
     BUMPS,
@@ -208,6 +221,7 @@ static const struct behaviour_table_row beast[] = {
     ROW(B(ATTACK), P(TIME_OVER), 0, ORDER, AS(LOST_SIGHT), 0),
     ROW(CALM | B(ATTACK), P(SHOT) | P(BRAVE), 0, TO(ATTACK), AS(FIRED_UPON),
         BEHAVIOUR_TABLE_FIGHT_S),
+    OUTGUNNED(FLEE_S),
     ROW(CALM | B(FLEE), P(SHOT), P(STAND), TO(FLEE), AS(FIRED_UPON), FLEE_S),
     BUMPS,
     SEES_ENEMY,

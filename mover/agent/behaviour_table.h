@@ -34,6 +34,7 @@ enum perceived {
     PERCEPT_STALLED,      /* event: it has driven for some time and not got on */
     PERCEPT_ROUNDS_FIRED, /* its salvo or its pass is over */
     PERCEPT_LOSSES,       /* it is fired upon, and half of its group, or its gun, is lost */
+    PERCEPT_OUTGUNNED,    /* *its rounds cannot harm the enemy that fires at it or that it sees */
     PERCEPT_COVER,        /* it is fired upon, and a place near by hides it from the shooter */
     PERCEPT_BRAVE,        /* its courage holds: drawn at random when an event tests it */
     PERCEPT_COUNT

@@ -1,6 +1,8 @@
 /* Which targets suit a munition, and the times of reaction. */
 #include "mover/agent/fire_control.h"
 
+#include "mover/agent/behaviour_table.h"
+#include "world/entity/armour.h"
 #include "world/maths/random.h"
 #include "world/params.h"
 #include "world/state.h"
@@ -43,6 +45,32 @@ bool fire_control_suits(const struct step_context *context, uint32_t i, uint32_t
     default:
         return true;
     }
+}
+
+bool fire_control_harms(const struct step_context *context, uint32_t i, uint32_t target)
+{
+    const struct kind *kinds = context->world->kinds;
+    const struct kind *kind = &kinds[context->m->kind[i]];
+    const struct kind *other = &kinds[context->committed->entities.kind[target]];
+    uint16_t munition = kind_munition_at(kind, other);
+    return munition == KIND_NONE ||
+           armour_yields(other, &kinds[munition], kind->domain == DOMAIN_AIR);
+}
+
+/* Returns true if row i drives into what it attacks. An aircraft that charges flies over it. */
+static bool rams(const struct step_context *context, uint32_t i, uint32_t target)
+{
+    const struct kind *kinds = context->world->kinds;
+    const struct kind *kind = &kinds[context->m->kind[i]];
+    return behaviour_tables[kind->doctrine].manner == MANNER_CHARGE &&
+           kind->domain == DOMAIN_LAND &&
+           kinds[context->committed->entities.kind[target]].domain == DOMAIN_LAND;
+}
+
+bool fire_control_fights(const struct step_context *context, uint32_t i, uint32_t target)
+{
+    return fire_control_suits(context, i, target) &&
+           (fire_control_harms(context, i, target) || rams(context, i, target));
 }
 
 bool fire_control_air_defence(const struct step_context *context, uint32_t i)

@@ -13,6 +13,14 @@
  * unarmed row has no munition, and minds every enemy. */
 bool fire_control_suits(const struct step_context *context, uint32_t i, uint32_t target);
 
+/* Returns true if a round of row i may harm the committed row target: if it penetrates any side of
+ * it. A crew fires at nothing else. */
+bool fire_control_harms(const struct step_context *context, uint32_t i, uint32_t target);
+
+/* Returns true if row i fights the committed row target: its munition suits and may harm it, or it
+ * rams what it attacks. It takes cover from others. */
+bool fire_control_fights(const struct step_context *context, uint32_t i, uint32_t target);
+
 /* Returns the range at which row i fires at the committed row target [m]: the range of its gun
  * where a hit is likely, less at aircraft, and less when the rounds are low. */
 double fire_control_reach_m(const struct step_context *context, uint32_t i, uint32_t target);

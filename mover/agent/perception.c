@@ -240,12 +240,13 @@ static void fight_on(const struct step_context *context, uint32_t i, uint32_t en
         (uint32_t)(context->tick + (uint64_t)(BEHAVIOUR_TABLE_FIGHT_S / context->dt_s));
 }
 
-/* Returns true if it is still worth the rounds to fire at the other row. */
+/* Returns true if it fights the other row, and it is still worth the rounds to fire at it. */
 static bool in_reach(const struct step_context *context, uint32_t i, uint32_t other)
 {
     const struct entities *w = &context->committed->entities;
     double dx = w->x[other] - w->x[i], dz = w->z[other] - w->z[i];
-    return fire_control_worth(context, i, other, dx * dx + dz * dz);
+    return fire_control_worth(context, i, other, dx * dx + dz * dz) &&
+           fire_control_fights(context, i, other);
 }
 
 /* In a fight: looks for its target, and for another enemy if it does not see the target. */
@@ -293,6 +294,8 @@ static void notice_look(const struct step_context *context, uint32_t i, struct n
         notice->enemy = target_search(context, i, TARGET_SEARCH_CALM);
         if (notice->enemy != SLOT_NONE)
             notice->percepts |= PERCEPTION_BIT(ENEMY);
+        if (notice->enemy != SLOT_NONE && !fire_control_fights(context, i, notice->enemy))
+            notice->percepts |= PERCEPTION_BIT(OUTGUNNED);
     }
 }
 
@@ -301,6 +304,14 @@ static bool is_on_surface(const struct step_context *context, uint32_t row)
 {
     return row != SLOT_NONE &&
            context->world->kinds[context->committed->entities.kind[row]].domain != DOMAIN_AIR;
+}
+
+/* Returns true if it backs off in its flight from a target that it does not fight. */
+static bool fled_from(const struct step_context *context, uint32_t i, uint32_t percepts)
+{
+    return context->m->behaviour[i] == BEHAVIOUR_BACK_OFF &&
+           (percepts & PERCEPTION_BIT(TARGET)) != 0 &&
+           !fire_control_fights(context, i, context->m->target_slot[i]);
 }
 
 struct notice perception_notice(const struct step_context *context, uint32_t i)
@@ -320,8 +331,13 @@ struct notice perception_notice(const struct step_context *context, uint32_t i)
         matters(context, i, notice.percepts, PERCEPTION_BIT(LOSSES)) &&
         (losses_half(context, i) || is_disarmed(context, i)))
         notice.percepts |= PERCEPTION_BIT(LOSSES);
-    if (notice.threat != SLOT_NONE && !fire_control_suits(context, i, notice.threat))
+    if (notice.threat != SLOT_NONE && !fire_control_fights(context, i, notice.threat)) {
+        if (fire_control_suits(context, i, notice.threat))
+            notice.percepts |= PERCEPTION_BIT(OUTGUNNED);
         return notice; /* it cannot fire back */
+    }
+    if (fled_from(context, i, notice.percepts))
+        return notice;
     if ((notice.percepts & TESTS) && matters(context, i, notice.percepts, PERCEPTION_BIT(BRAVE)) &&
         ((notice.percepts & PERCEPTION_BIT(STAND)) || brave(context, i)))
         notice.percepts |= PERCEPTION_BIT(BRAVE);

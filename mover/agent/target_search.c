@@ -107,7 +107,7 @@ static double preference(const struct step_context *context, uint32_t i, uint32_
 }
 
 static void gather(const struct step_context *context, uint32_t i, const struct sector *view,
-                   double radius, struct candidates *c)
+                   double radius, enum target_search how, struct candidates *c)
 {
     const struct entities *w = &context->committed->entities;
     const struct neighbour_index_entry *entry;
@@ -118,7 +118,8 @@ static void gather(const struct step_context *context, uint32_t i, const struct 
     while ((entry = neighbour_query_next(&query))) {
         double dx = (double)entry->x - query.x, dz = (double)entry->z - query.z;
         double square = dx * dx + dz * dz;
-        if (in_view(view, dx, dz) && fire_control_worth(context, i, entry->row, square))
+        if (in_view(view, dx, dz) && fire_control_worth(context, i, entry->row, square) &&
+            (how == TARGET_SEARCH_CALM || fire_control_fights(context, i, entry->row)))
             consider(c, entry->row, square * preference(context, i, entry->row));
     }
 }
@@ -159,7 +160,7 @@ uint32_t target_search(const struct step_context *context, uint32_t i, enum targ
         return SLOT_NONE;
     struct sector view = sector_of(context, i);
     for (double radius = 0.25 * sight;; radius = maths_min(2.0 * radius, sight)) {
-        gather(context, i, &view, radius, &c);
+        gather(context, i, &view, radius, how, &c);
         if (c.count == CANDIDATES || radius >= sight)
             break;
     }

@@ -8,7 +8,7 @@
 /* How a crew looks for enemies. */
 enum target_search {
     TARGET_SEARCH_CALM, /* it finds an enemy in its view after a random time */
-    TARGET_SEARCH_ALERT /* in a fight: it finds the enemy at once */
+    TARGET_SEARCH_ALERT /* in a fight: it finds at once an enemy that its rounds may harm */
 };
 
 /* Returns a row: an enemy that row i sees and would fire at, or SLOT_NONE. The time to find one is

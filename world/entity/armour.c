@@ -50,6 +50,16 @@ struct armour_hit armour_hit_of(const struct kind *vehicle, double penetration_m
     return hit;
 }
 
+bool armour_yields(const struct kind *vehicle, const struct kind *round, bool from_above)
+{
+    double thinnest = maths_min(vehicle->armour_mm[ASPECT_FRONT], vehicle->armour_mm[ASPECT_SIDE]);
+    thinnest = maths_min(thinnest, vehicle->armour_mm[ASPECT_REAR]);
+    if (from_above)
+        thinnest = maths_min(thinnest, vehicle->armour_mm[ASPECT_TOP]);
+    return !(round->penetration_mm > 0.0) || thinnest < ARMOUR_LEAST_MM ||
+           round->penetration_mm > RAMP_FROM * thinnest;
+}
+
 double armour_penetration(const struct kind *round, double flown_m)
 {
     return maths_max(0.0, round->penetration_mm - 0.001 * flown_m * round->penetration_loss);

@@ -40,6 +40,11 @@ struct armour_hit {
 struct armour_hit armour_hit_of(const struct kind *vehicle, double penetration_mm,
                                 struct vec3 flight, struct vec3 outwards);
 
+/* Returns true if the round may get through a side of the vehicle, from the best range. Without
+ * penetration_mm its energy counts, and it always may. from_above: it comes from an aircraft, which
+ * also sees the top. */
+bool armour_yields(const struct kind *vehicle, const struct kind *round, bool from_above);
+
 /* Returns what the round still penetrates after flown_m [mm]. */
 double armour_penetration(const struct kind *round, double flown_m);
 

@@ -111,7 +111,7 @@ static void test_row_9_courage_says_whether_it_fights_or_flees(void **state)
 
 static void test_row_9_some_of_the_half_brave_fight_and_some_flee(void **state)
 {
-    uint32_t enemy = put("tank", 25000.0, 23000.0, FORCE_RED, BEHAVIOUR_HOLD), row[50];
+    uint32_t enemy = put("truck", 25000.0, 23000.0, FORCE_RED, BEHAVIOUR_HOLD), row[50];
     int fights = 0;
     (void)state;
     steps_kind(&f, "jeep")->courage = 0.5;

@@ -20,7 +20,7 @@ static const char *const names[PERCEPT_COUNT] = {
     "no fuel",  "shot",    "bump",       "hurt",  "time over",   "target",
     "gone",     "arrived", "lease over", "enemy", "outnumbered", "no rounds",
     "low fuel", "armed",   "at will",    "stand", "suppressed",  "stalled",
-    "salvo",    "losses",  "cover",      "brave"};
+    "salvo",    "losses",  "outgunned",  "cover", "brave"};
 
 static const char *said(uint32_t percepts)
 {

@@ -104,6 +104,90 @@ static void test_a_fast_helicopter_is_no_target_for_a_tank_gun(void **state)
     assert_true(fire_control_suits(&step, a, b));
 }
 
+/* --- armour ------------------------------------------------------------------------------------*/
+
+static bool harms(const char *shooter, const char *target)
+{
+    uint32_t a = put(shooter, (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t b = put(target, (struct vec3){25000.0, 100.0, 25500.0}, FORCE_RED, BEHAVIOUR_IDLE);
+    struct step_context step;
+    struct serial_context context;
+    steps_serial_context(&f, &step, &context);
+    bool does = fire_control_harms(&step, a, b);
+    steps_empty(&f);
+    return does;
+}
+
+static void test_a_round_harms_what_it_may_penetrate(void **state)
+{
+    (void)state;
+    assert_false(harms("jeep", "tank") || harms("jeep", "carrier") || harms("flak", "tank"));
+    assert_false(harms("wishbone", "tank") || harms("attack-tomato", "tank"));
+    assert_true(harms("jeep", "jeep") && harms("jeep", "truck") && harms("jeep", "helicopter"));
+    assert_true(harms("wishbone", "carrier")); /* through its roof */
+    assert_true(harms("tank", "tank") && harms("carrier", "tank") && harms("helicopter", "tank"));
+    assert_true(harms("missile-carrier", "tank") && harms("jet", "tank"));
+    assert_true(harms("truck", "tank")); /* unarmed */
+}
+
+/* A vehicle meets a tank that holds its fire, 600 m away. Returns the rounds that it fires in a
+ * minute. behaviour: its first after it has seen the tank or was shot at. */
+static uint32_t rounds_at_a_tank(const char *kind, bool shot, uint8_t flags,
+                                 enum behaviour *behaviour)
+{
+    uint32_t row = put(kind, (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t tank = put("tank", (struct vec3){25000.0, 100.0, 24400.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    struct entities e = steps_rows(&f);
+    uint32_t before = e.rounds[row];
+    if (steps_kind(&f, kind)->domain == DOMAIN_AIR)
+        e.y[row] = 125.0;
+    e.flags[row] |= flags;
+    *behaviour = BEHAVIOUR_IDLE;
+    for (int frame = 0; frame < (int)(60.0 * HZ); frame++) {
+        e = steps_rows(&f);
+        if (shot && frame % 120 == 60)
+            e.threat_slot[row] = tank, e.threat_id[row] = e.id[tank];
+        fixture_run(&f, 1);
+        if (*behaviour == BEHAVIOUR_IDLE)
+            *behaviour = (enum behaviour)steps_rows(&f).behaviour[row];
+        if (shot && frame == 61)
+            assert_true((flags & ENTITY_FLAG_STAND) || *behaviour != BEHAVIOUR_IDLE);
+    }
+    uint32_t fired = before - steps_rows(&f).rounds[row];
+    steps_empty(&f);
+    return fired;
+}
+
+static void test_row_9_who_cannot_harm_a_tank_takes_cover_and_does_not_fire(void **state)
+{
+    static const char *const kinds[] = {"jeep", "wishbone", "flak"};
+    enum behaviour behaviour;
+    (void)state;
+    for (size_t n = 0; n < sizeof kinds / sizeof kinds[0]; n++) {
+        for (int shot = 0; shot < 2; shot++) {
+            assert_int_equal(rounds_at_a_tank(kinds[n], shot, ENTITY_FLAG_FIRE_AT_WILL, &behaviour),
+                             0);
+            assert_int_equal(behaviour, BEHAVIOUR_FLEE);
+        }
+        assert_int_equal(rounds_at_a_tank(kinds[n], true, 0, &behaviour), 0);
+        assert_int_equal(behaviour, BEHAVIOUR_FLEE);
+        assert_int_equal(rounds_at_a_tank(kinds[n], true,
+                                          ENTITY_FLAG_FIRE_AT_WILL | ENTITY_FLAG_STAND, &behaviour),
+                         0);
+        assert_int_equal(behaviour, BEHAVIOUR_IDLE);
+    }
+}
+
+/* A tomato rams the tank, and keeps its rounds. */
+static void test_a_tomato_charges_at_a_tank_without_a_shot(void **state)
+{
+    enum behaviour behaviour;
+    (void)state;
+    assert_int_equal(rounds_at_a_tank("attack-tomato", true, ENTITY_FLAG_FIRE_AT_WILL, &behaviour),
+                     0);
+    assert_int_equal(behaviour, BEHAVIOUR_ATTACK);
+}
+
 /* Returns the reach over the range of the gun. */
 static double reach(const char *shooter, const char *target, double rounds_left)
 {
@@ -209,6 +293,9 @@ int main(void)
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
     const struct CMUnitTest tests[] = {
         TEST(test_no_tank_gun_suits_a_jet),
+        TEST(test_a_round_harms_what_it_may_penetrate),
+        TEST(test_row_9_who_cannot_harm_a_tank_takes_cover_and_does_not_fire),
+        TEST(test_a_tomato_charges_at_a_tank_without_a_shot),
         TEST(test_a_tank_fires_no_round_at_a_jet),
         TEST(test_a_fast_helicopter_is_no_target_for_a_tank_gun),
         TEST(test_rounds_are_kept_for_targets_that_can_be_hit),

@@ -123,7 +123,7 @@ static bool sees_at(double bearing_deg, double turret_deg)
     maths_sincos(bearing_deg * RAD_PER_DEG, &sine, &cosine);
     uint32_t row =
         put("jeep", MIDDLE, MIDDLE, FORCE_BLUE, BEHAVIOUR_IDLE, ENTITY_FLAG_FIRE_AT_WILL);
-    put("tank", MIDDLE + 600.0 * sine, MIDDLE - 600.0 * cosine, FORCE_RED, BEHAVIOUR_HOLD, 0);
+    put("jeep", MIDDLE + 600.0 * sine, MIDDLE - 600.0 * cosine, FORCE_RED, BEHAVIOUR_HOLD, 0);
     for (int frame = 0; frame < (int)(60 * HZ) && behaviour_of(row) != BEHAVIOUR_ATTACK; frame++) {
         steps_rows(&f).turret[row] = (float)(turret_deg * RAD_PER_DEG);
         fixture_run(&f, 1);
