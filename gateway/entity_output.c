@@ -19,6 +19,10 @@
 #define RATE_LEAST         0.03 /* [rad/s] */
 #define SPEED_LEAST        0.02 /* [m/s] */
 
+/* Rates that die away are taken as they will be so much later, because receivers extrapolate them
+ * as constants: that saves 4 % of all PDUs. Rates that grow are taken as they are [s]. */
+#define RATES_LEAD_S 0.15
+
 #define ACCELERATION_MOST 60.0 /* [m/s^2] an impact is no acceleration that lasts */
 #define RATE_MOST         6.0  /* [rad/s] */
 
@@ -30,7 +34,7 @@
 #define LAST_AT_ONCE 32u /* last states within a millisecond */
 
 #define FLAMES_S         60.0 /* since the damage of a wreck last grew */
-#define HEARTBEAT_SPREAD 0.1  /* of the heartbeat, either way */
+#define HEARTBEAT_SPREAD 0.1  /* of the heartbeat, which is so much longer at most */
 
 /* What a pass knows of a row. */
 struct row_view {
@@ -124,6 +128,16 @@ static struct vec3 rates_between(const struct mat3 *from, const struct mat3 *to,
     return vec3_scale(local_frame_body_to_dis(body), 1.0 / dt_s);
 }
 
+/* Returns the rates that a receiver should extrapolate of a row that now turns by these. */
+static struct vec3 lasting_rates(struct vec3 rates, struct vec3 before, double past_s)
+{
+    double square = vec3_dot(rates, rates);
+    double growth = vec3_dot(rates, vec3_sub(rates, before)); /* per past_s, times the square */
+    if (!(square > 0.0) || growth >= 0.0)
+        return rates;
+    return vec3_scale(rates, maths_max(0.0, 1.0 + RATES_LEAD_S / past_s * growth / square));
+}
+
 /* Updates the motion of a row by a new frame. Its acceleration and rates are those since the last
  * pass: smoothing them over 0.05 s costs 6 % more PDUs, over 0.07 s 9 %. */
 static void observe(struct entity_sent *sent, const struct snapshot *snapshot, uint32_t row,
@@ -133,11 +147,13 @@ static void observe(struct entity_sent *sent, const struct snapshot *snapshot, u
     struct vec3 velocity = entities_velocity(e, row);
     double past_s = (double)(snapshot->head.tick - sent->seen_tick) * dt_s;
     if (sent->seen_id != e->id[row] || past_s > 1.0) {
-        sent->acceleration = sent->rates = (struct vec3){0};
+        sent->acceleration = sent->rates = sent->seen_rates = (struct vec3){0};
     } else if (past_s > 0.0) {
         sent->acceleration = limited(
             vec3_scale(vec3_sub(velocity, sent->seen_velocity), 1.0 / past_s), ACCELERATION_MOST);
-        sent->rates = limited(rates_between(&sent->seen_turn, turn, past_s), RATE_MOST);
+        struct vec3 rates = limited(rates_between(&sent->seen_turn, turn, past_s), RATE_MOST);
+        sent->rates = lasting_rates(rates, sent->seen_rates, past_s);
+        sent->seen_rates = rates;
     } else {
         return;
     }
@@ -154,15 +170,15 @@ static bool stands(struct entity_sent *sent, const struct world *world,
 {
     const struct entities *e = &snapshot->entities;
     if (sent->id != e->id[row] || sent->state.model != DEAD_RECKONING_STATIC ||
-        now_ns >= sent->heartbeat_ns || sent->place.x != e->x[row] || sent->place.y != e->y[row] ||
-        sent->place.z != e->z[row] || sent->heading != e->heading[row] ||
-        sent->pitch != e->pitch[row] || sent->roll != e->roll[row] ||
-        sent->turret != e->turret[row] || sent->gun != e->gun[row] ||
+        now_ns >= sent->heartbeat_ns || sent->before_ns != 0 || sent->place.x != e->x[row] ||
+        sent->place.y != e->y[row] || sent->place.z != e->z[row] ||
+        sent->heading != e->heading[row] || sent->pitch != e->pitch[row] ||
+        sent->roll != e->roll[row] || sent->turret != e->turret[row] || sent->gun != e->gun[row] ||
         sent->appearance != appearance_of(world, snapshot, row))
         return false;
     sent->seen_tick = snapshot->head.tick; /* for observe(): it stood until now */
     sent->seen_velocity = entities_velocity(e, row);
-    sent->acceleration = sent->rates = (struct vec3){0};
+    sent->acceleration = sent->rates = sent->seen_rates = (struct vec3){0};
     return true;
 }
 
@@ -195,6 +211,29 @@ static double turned(float a, float b)
     return fabs(maths_wrap_half((double)a - (double)b));
 }
 
+/* Returns where a receiver of an Entity State of the frame at sent_ns has the row now. */
+static void receivers_have(const struct dead_reckoning *state, uint32_t appearance,
+                           uint64_t sent_ns, uint64_t frame_ns, struct vec3 *position,
+                           struct mat3 *matrix)
+{
+    double since_s = frame_ns > sent_ns ? (double)(frame_ns - sent_ns) / 1e9 : 0.0;
+    dead_reckoning_at(state, appearance & PDU_APPEARANCE_FROZEN ? 0.0 : since_s, position, matrix);
+}
+
+/* Returns true if a receiver that has lost the last Entity State has the row too far off. */
+static bool lost_is_off(const struct entity_sent *sent, const struct row_view *view,
+                        uint64_t frame_ns)
+{
+    struct vec3 position;
+    struct mat3 matrix;
+    if (sent->before_ns == 0)
+        return false;
+    receivers_have(&sent->before, sent->before_appearance, sent->before_ns, frame_ns, &position,
+                   &matrix);
+    return vec3_length(vec3_sub(position, view->position)) >
+           ENTITY_OUTPUT_POSITION_M + ENTITY_OUTPUT_LOST_S * vec3_length(view->velocity);
+}
+
 /* Returns true if a new Entity State is due for a row that was sent before. */
 static bool due(const struct entity_sent *sent, const struct row_view *view, uint64_t now_ns,
                 uint64_t frame_ns)
@@ -203,23 +242,24 @@ static bool due(const struct entity_sent *sent, const struct row_view *view, uin
     struct mat3 matrix;
     if (sent->appearance != view->appearance || now_ns >= sent->heartbeat_ns)
         return true;
-    if (now_ns - sent->sent_ns < (uint64_t)(ENTITY_OUTPUT_LEAST_S * 1e9))
+    uint64_t since_ns = now_ns - sent->sent_ns;
+    if (since_ns < (uint64_t)(ENTITY_OUTPUT_LEAST_S * 1e9))
         return false;
-    double since_s = frame_ns > sent->frame_ns ? (double)(frame_ns - sent->frame_ns) / 1e9 : 0.0;
-    if (view->has_gun && (turned(sent->turret, view->turret) > ENTITY_OUTPUT_ANGLE_RAD ||
-                          turned(sent->gun, view->gun) > ENTITY_OUTPUT_ANGLE_RAD))
+    receivers_have(&sent->state, sent->appearance, sent->frame_ns, frame_ns, &position, &matrix);
+    if (vec3_length(vec3_sub(position, view->position)) > ENTITY_OUTPUT_POSITION_M ||
+        lost_is_off(sent, view, frame_ns))
         return true;
-    bool frozen = sent->appearance & PDU_APPEARANCE_FROZEN;
-    dead_reckoning_at(&sent->state, frozen ? 0.0 : since_s, &position, &matrix);
-    return vec3_length(vec3_sub(position, view->position)) > ENTITY_OUTPUT_POSITION_M ||
-           euler_angle_between(&matrix, &view->matrix) > ENTITY_OUTPUT_ANGLE_RAD;
+    return since_ns >= (uint64_t)(ENTITY_OUTPUT_TURNS_S * 1e9) &&
+           (euler_angle_between(&matrix, &view->matrix) > ENTITY_OUTPUT_ANGLE_RAD ||
+            (view->has_gun && (turned(sent->turret, view->turret) > ENTITY_OUTPUT_ANGLE_RAD ||
+                               turned(sent->gun, view->gun) > ENTITY_OUTPUT_ANGLE_RAD)));
 }
 
 /* The heartbeats of entities that were sent together spread over the time. */
 static uint64_t heartbeat_after(uint32_t id, uint64_t now_ns)
 {
     double share = (double)(random_mix(id ^ now_ns) >> 11) * 0x1.0p-53;
-    double wait_s = ENTITY_OUTPUT_HEARTBEAT_S * (1.0 + HEARTBEAT_SPREAD * (2.0 * share - 1.0));
+    double wait_s = ENTITY_OUTPUT_HEARTBEAT_S * (1.0 + HEARTBEAT_SPREAD * share);
     return now_ns + (uint64_t)(wait_s * 1e9);
 }
 
@@ -314,10 +354,20 @@ static void send_cot(struct entity_output *entities, const struct world *world,
     cot_output_send(entities->cot, entity, gone);
 }
 
-/* Remembers what the receivers have: the numbers as the PDU rounds them. */
-static void remember(struct entity_sent *sent, const struct pdu_entity_state *state,
+/* Returns true if two Entity States have the row at rest at the same place. */
+static bool rests(const struct dead_reckoning *before, const struct dead_reckoning *state)
+{
+    return before->model == DEAD_RECKONING_STATIC && state->model == DEAD_RECKONING_STATIC &&
+           vec3_length(vec3_sub(state->position, before->position)) < ENTITY_OUTPUT_POSITION_M;
+}
+
+/* Remembers what the receivers have: the numbers as the PDU rounds them; and what those have that
+ * lose it, unless that is the same. */
+static void remember(struct entity_sent *sent, uint32_t id, const struct pdu_entity_state *state,
                      uint64_t now_ns)
 {
+    sent->before = sent->state;
+    sent->before_appearance = sent->appearance;
     const float *v = state->velocity, *a = state->acceleration, *w = state->angular_velocity;
     sent->state = (struct dead_reckoning){
         .model = state->dead_reckoning,
@@ -328,6 +378,7 @@ static void remember(struct entity_sent *sent, const struct pdu_entity_state *st
         .matrix = euler_matrix((struct euler){(double)state->orientation[0],
                                               (double)state->orientation[1],
                                               (double)state->orientation[2]})};
+    sent->before_ns = sent->id == id && !rests(&sent->before, &sent->state) ? sent->frame_ns : 0;
     sent->appearance = state->appearance;
     sent->sent_ns = now_ns;
 }
@@ -358,7 +409,7 @@ static void send_state(struct entity_output *entities, const struct world *world
     set_parts(&pdu, view);
     pdu_output_send(entities->output, &pdu);
     bool was_on_map = sent->id != view->id || on_map(sent);
-    remember(sent, &pdu.entity_state, now_ns);
+    remember(sent, view->id, &pdu.entity_state, now_ns);
     sent->id = view->id;
     sent->kind = kind;
     sent->force = force;

@@ -20,8 +20,17 @@
 #define ENTITY_OUTPUT_ANGLE_RAD   (3.0 * RAD_PER_DEG)
 #define ENTITY_OUTPUT_HEARTBEAT_S 5.0
 
-/* The least time from one Entity State of an entity to the next, unless it comes or goes [s]. */
+/* The least time from one Entity State of an entity to the next, unless it comes or goes [s]: for a
+ * place that is off, and for an attitude or a turret. Helicopters that manoeuvre roll through three
+ * degrees in less than a tenth of a second, and are half of all PDUs. */
 #define ENTITY_OUTPUT_LEAST_S 0.1
+#define ENTITY_OUTPUT_TURNS_S 0.2
+
+/* A receiver that has lost the last Entity State still extrapolates the one before. When that is
+ * further off than the threshold and what the entity moves in this time, the next one goes out [s].
+ * Without it 1.4 % of the places of moving vehicles are too far off behind a network that loses
+ * 5 %. Shorter times need more PDUs: 0.1 s 9 %, 0.2 s 6 %, 0.3 s 4 %. */
+#define ENTITY_OUTPUT_LOST_S 0.2
 
 /* What was sent last of a row, and how the row moves. */
 struct entity_sent {
@@ -34,12 +43,15 @@ struct entity_sent {
     uint64_t sent_ns, heartbeat_ns; /* of the clock */
     uint64_t frame_ns;              /* the time of the frame that was sent */
     struct dead_reckoning state;    /* as the receivers have it */
-    struct vec3 place;              /* [m] and attitude [rad] of the row, as they were sent */
+    uint64_t before_ns;             /* the same of the Entity State before; 0: there was none */
+    struct dead_reckoning before;   /* as receivers have it that lost the last one */
+    uint32_t before_appearance;
+    struct vec3 place; /* [m] and attitude [rad] of the row, as they were sent */
     double heading, pitch, roll;
     /* Of the row in the last frame that was seen: world axes; rates in the body axes of DIS. */
     uint32_t seen_id;
     uint64_t seen_tick;
-    struct vec3 seen_velocity, acceleration, rates;
+    struct vec3 seen_velocity, seen_rates, acceleration, rates;
     struct mat3 seen_turn;
 };
 

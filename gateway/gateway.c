@@ -165,9 +165,10 @@ static void tell_received(const struct gateway *gateway)
              input->counts.result[PDU_SKIPPED], input->bad, input->foreign, input->echoes,
              gateway->without_effect);
     log_info("told the world %" PRIu64 " tracks, %" PRIu64 " losses, %" PRIu64 " shots and %" PRIu64
-             " detonations of other simulators; %u entities are known",
+             " detonations of other simulators; %" PRIu64
+             " Entity States came late or twice; %u entities are known",
              gateway->remotes.tracks, gateway->remotes.lost, gateway->remotes.fires,
-             gateway->remotes.struck, gateway->remotes.table.count);
+             gateway->remotes.struck, gateway->remotes.late, gateway->remotes.table.count);
 }
 
 static void tell_sent(const struct gateway *gateway)

@@ -2,6 +2,7 @@
 #include "gateway/remote_input.h"
 
 #include "gateway/earth/euler.h"
+#include "gateway/pdu/timestamp.h"
 #include "ipc/frame/command_ring.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
@@ -263,6 +264,59 @@ static struct remote_entry *admit(struct remote_input *input, uint64_t remote, s
     return entry;
 }
 
+/* Returns how much older a PDU is than what came at heard_ns with a time stamp [s], below 0 when it
+ * is younger. 0 when the stamps or the time that has passed say nothing about the order. */
+static double older_by(uint32_t stamp, uint64_t heard_ns, const struct pdu *pdu, uint64_t now_ns)
+{
+    double older_s = timestamp_between(pdu->header.timestamp, stamp);
+    bool recent = now_ns - heard_ns < (uint64_t)(REMOTE_INPUT_LATE_S * 1e9);
+    bool comparable = timestamp_absolute(stamp) == timestamp_absolute(pdu->header.timestamp);
+    return recent && comparable && fabs(older_s) <= REMOTE_INPUT_LATE_S ? older_s : 0.0;
+}
+
+/* Returns true if the PDU is of an entity that has left since it was sent. */
+static bool is_gone(const struct remote_input *input, uint64_t remote, const struct pdu *pdu,
+                    uint64_t now_ns)
+{
+    uint32_t count = input->gone_count < REMOTE_INPUT_GONE ? input->gone_count : REMOTE_INPUT_GONE;
+    for (uint32_t i = 0; i < count; i++) {
+        if (input->gone[i].remote == remote &&
+            older_by(input->gone[i].stamp, input->gone[i].heard_ns, pdu, now_ns) > 0.0)
+            return true;
+    }
+    return false;
+}
+
+static void take_last(struct remote_input *input, struct view *view, const struct pdu *pdu,
+                      const struct udp_address *from, uint64_t now_ns)
+{
+    uint64_t remote = id_of(pdu->entity_state.id);
+    struct remote_entry *entry = remote_table_find(&input->table, remote);
+    if (!entry || !is_owner(entry, from))
+        return;
+    uint32_t at = input->gone_count++ % REMOTE_INPUT_GONE;
+    input->gone[at].remote = remote;
+    input->gone[at].heard_ns = now_ns;
+    input->gone[at].stamp = pdu->header.timestamp;
+    put_lost(input, view, entry);
+}
+
+/* Returns true if the entry has come this far already: by an Entity State that was sent later, or
+ * by the same one. track: what the PDU says. */
+static bool is_late(struct remote_input *input, struct remote_entry *entry,
+                    const struct remote_record *track, const struct pdu *pdu, uint64_t now_ns)
+{
+    if (entry->track.remote == 0)
+        return false; /* the first that comes */
+    double older_s = older_by(entry->stamp, entry->heard_ns, pdu, now_ns);
+    bool copy =
+        entry->stamp == pdu->header.timestamp && memcmp(&entry->track, track, sizeof *track) == 0;
+    if (copy) /* what stands may say the same for ever, by a clock that stands */
+        entry->heard_ns = now_ns;
+    input->late += copy || older_s > 0.0;
+    return copy || older_s > 0.0;
+}
+
 static void take_state(struct remote_input *input, struct view *view, const struct pdu *pdu,
                        const struct udp_address *from, uint64_t now_ns)
 {
@@ -270,8 +324,7 @@ static void take_state(struct remote_input *input, struct view *view, const stru
     uint64_t remote = id_of(state->id);
     struct remote_entry *entry = remote_table_find(&input->table, remote);
     if (state->appearance & PDU_APPEARANCE_DEACTIVATED) {
-        if (entry && is_owner(entry, from))
-            put_lost(input, view, entry);
+        take_last(input, view, pdu, from, now_ns);
         return;
     }
     bool shown = state->type.kind == PLATFORM || state->type.kind == LIFE_FORM;
@@ -281,20 +334,24 @@ static void take_state(struct remote_input *input, struct view *view, const stru
         return;
     }
     struct vec3 place = world_place(input, state->location);
-    if (!(entry = admit(input, remote, place, from, now_ns)))
+    if ((!entry && is_gone(input, remote, pdu, now_ns)) ||
+        !(entry = admit(input, remote, place, from, now_ns)))
         return;
-    struct remote_record *track = &entry->track;
-    *track = (struct remote_record){.remote = remote,
-                                    .type = REMOTE_TRACK,
-                                    .slot = track->slot,
-                                    .damage = damage_of(state->appearance),
-                                    .flags = input->clamp ? REMOTE_FLAG_CLAMPED : 0,
-                                    .kind = kind,
-                                    .force = force_of(state->force),
-                                    .position = {place.x, place.y, place.z}};
-    set_motion(track, input, state);
-    set_parts(track, pdu);
-    memcpy(track->marking, state->marking, PDU_MARKING_MAX);
+    struct remote_record track = {.remote = remote,
+                                  .type = REMOTE_TRACK,
+                                  .slot = entry->track.slot,
+                                  .damage = damage_of(state->appearance),
+                                  .flags = input->clamp ? REMOTE_FLAG_CLAMPED : 0,
+                                  .kind = kind,
+                                  .force = force_of(state->force),
+                                  .position = {place.x, place.y, place.z}};
+    set_motion(&track, input, state);
+    set_parts(&track, pdu);
+    memcpy(track.marking, state->marking, PDU_MARKING_MAX);
+    if (is_late(input, entry, &track, pdu, now_ns))
+        return;
+    entry->track = track;
+    entry->stamp = pdu->header.timestamp;
     entry->place = place;
     entry->placed = true;
     entry->heard_ns = now_ns;

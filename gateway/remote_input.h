@@ -2,7 +2,8 @@
  * (world/entity/remote.h): Entity State is TRACK or LOST, Fire is FIRE, Detonation is STRUCK.
  *
  * Places on the earth become places of the world here, so that the step of the mover has no result
- * of them. Times are those of arrival: what the sender says of the time is not used. */
+ * of them. Times are those of arrival. Time stamps only tell an Entity State that the network has
+ * delayed or repeated from the next one. */
 #ifndef JOLON_GATEWAY_REMOTE_INPUT_H
 #define JOLON_GATEWAY_REMOTE_INPUT_H
 
@@ -18,6 +19,13 @@
 /* An entity is told at most this often [s]; what comes in between is told by what comes last. */
 #define REMOTE_INPUT_LEAST_S 0.02
 
+/* What networks delay and repeat is known by its time stamp, when it is at most this much older
+ * than what came this long ago at most [s]. Other differences are those of wrong clocks. */
+#define REMOTE_INPUT_LATE_S 1.0
+
+/* The last entities that were deactivated, of which Entity States may come late. */
+#define REMOTE_INPUT_GONE 256u
+
 struct remote_input {
     const struct type_table *types;
     const struct local_frame *frame;
@@ -31,6 +39,11 @@ struct remote_input {
         uint32_t type;            /* enum remote_type */
     } heard[REMOTE_INPUT_EVENTS]; /* the last shots and detonations, to know them again */
     uint32_t heard_count;
+    struct {
+        uint64_t remote, heard_ns;
+        uint32_t stamp;
+    } gone[REMOTE_INPUT_GONE]; /* deactivated entities */
+    uint32_t gone_count;
     struct pdu_entity_type told[REMOTE_INPUT_TOLD];
     uint32_t told_count;
     uint64_t taken; /* of the ring, as the last snapshot has it */
@@ -43,6 +56,7 @@ struct remote_input {
     uint64_t refused_type; /* of no type that can be shown */
     uint64_t refused_ring; /* the ring was full */
     uint64_t repeated;     /* shots and detonations that came before */
+    uint64_t late;         /* Entity States that are older than what came before, or copies */
     uint64_t logged_ns, logged;
 };
 

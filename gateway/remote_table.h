@@ -17,6 +17,7 @@ struct remote_entry {
     uint64_t seen_ns;        /* when a snapshot last had its row */
     struct vec3 place;       /* [m] where its owner had it last */
     struct udp_address from; /* its owner */
+    uint32_t stamp;          /* of the last Entity State that was taken, from heard_ns on */
     bool from_known, placed;
     bool waits;    /* track is to be told */
     bool listed;   /* the table's list of those that wait has it */

@@ -3,10 +3,12 @@
 #include "gateway/remote_input.h"
 
 #include "gateway/earth/euler.h"
+#include "gateway/pdu/timestamp.h"
 #include "ipc/process/clock.h"
 #include "tests/support/remotes.h"
 #include "world/params.h"
 
+#include <inttypes.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -334,12 +336,70 @@ static void test_often_told_is_told_seldom(void **state)
     assert_in_range(input.tracks, 45, 51);
 }
 
+/* What the network has delayed or repeated is known by its time stamp, and no clock is trusted
+ * further than that. */
+static void test_late_and_twice(void **state)
+{
+    static const struct {
+        double stamp_s, after_s; /* of the second, and how long after the first it comes */
+        bool absolute, same, taken;
+    } cases[] = {
+        {1000.06, 0.05, true, false, true}, /* the next */
+        {999.95, 0.05, true, false, false}, /* it has been overtaken */
+        {1000.0, 0.05, true, true, false},  /* a copy */
+        {1000.0, 0.05, true, false, true},  /* a clock that stands */
+        {999.95, 2.0, true, false, true},   /* nothing is so long on its way */
+        {990.0, 0.05, true, false, true},   /* a clock that was set back */
+        {3400.0, 0.05, true, false, true},  /* one that is wrong */
+        {999.95, 0.05, false, false, true}, /* another clock */
+    };
+    (void)state;
+    for (unsigned i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        uint16_t entity = (uint16_t)(20 + i);
+        struct vec3 at = {25100.0, FIXTURE_GROUND_M, 24000.0 + 20.0 * i};
+        struct pdu pdu = state_of(entity, at);
+        pdu.header.timestamp = timestamp_of(1000.0, true);
+        take(&pdu, &peer);
+        pass(0.5);
+        pdu = state_of(entity, at);
+        pdu.header.timestamp = timestamp_of(1000.0, true);
+        take(&pdu, &peer);
+        at.x += cases[i].same ? 0.0 : 1.0;
+        pdu = state_of(entity, at);
+        pdu.header.timestamp = timestamp_of(cases[i].stamp_s, cases[i].absolute);
+        now_ns += (uint64_t)(cases[i].after_s * 1e9);
+        uint64_t late = input.late;
+        take(&pdu, &peer);
+        if ((input.late == late) != cases[i].taken)
+            fail_msg("case %u: %" PRIu64 " late", i, input.late - late);
+        pdu.entity_state.appearance = PDU_APPEARANCE_DEACTIVATED; /* it makes room */
+        take(&pdu, &peer);
+        pass(0.5);
+    }
+    /* What comes after its last state does not bring it back. */
+    struct pdu pdu = state_of(60, (struct vec3){26000.0, FIXTURE_GROUND_M, 24000.0});
+    pdu.header.timestamp = timestamp_of(3599.99, true);
+    take(&pdu, &peer);
+    pdu.entity_state.appearance = PDU_APPEARANCE_DEACTIVATED;
+    pdu.header.timestamp = timestamp_of(0.05, true); /* the hour has ended */
+    take(&pdu, &peer);
+    pdu.entity_state.appearance = 0;
+    pdu.header.timestamp = timestamp_of(0.0, true);
+    uint32_t known = input.table.count;
+    take(&pdu, &peer);
+    assert_int_equal(input.table.count, known);
+    pdu.header.timestamp = timestamp_of(0.1, true); /* it comes again */
+    take(&pdu, &peer);
+    assert_int_equal(input.table.count, known + 1);
+}
+
 static void test_a_full_ring(void **state)
 {
     (void)state;
     uint64_t slots = layout_ring_slots(f.view.header, RING_GATEWAY);
     for (uint64_t i = 0; i < slots + 10; i++) {
-        struct pdu pdu = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
+        struct pdu pdu =
+            state_of(5, (struct vec3){25100.0 + 0.01 * (double)i, FIXTURE_GROUND_M, 24900.0});
         take(&pdu, &peer);
         now_ns += NS_PER_S;
         remote_input_tell(&input, &f.view, now_ns);
@@ -410,6 +470,7 @@ int main(void)
         TEST(test_absurd_motion),
         TEST(test_types),
         TEST(test_often_told_is_told_seldom),
+        TEST(test_late_and_twice),
         TEST(test_a_full_ring),
         TEST(test_shots),
         TEST(test_a_world_without_room_takes_nothing),

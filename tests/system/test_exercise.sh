@@ -1,0 +1,106 @@
+#!/usr/bin/env bash
+# Two worlds in one exercise, each with vehicles of its own, and each shows those of the other: in two network namespaces that a veth
+# pair joins, where the kernel lets the test make them, else on the loopback; then behind a bad network in both directions
+# (tests/relay). At p99 each vehicle is within the threshold and what it drives in the delay, in both worlds. SEED=n loses others.
+# Alone: on a busy machine a world falls behind the clock, and what the other extrapolates is wrong
+here=$(cd "$(dirname "$0")" && pwd)
+. "$(dirname "$0")/lib.sh"
+seed=${SEED:-$RANDOM} seconds=${SECONDS_OF_PLAY:-20} holders=()
+until_true() { for _ in {1..200}; do "$@" >/dev/null 2>&1 && return; sleep 0.05; done; return 1; }
+leave() { [ ${#holders[@]} = 0 ] || kill "${holders[@]}" 2>/dev/null; at_end; }
+trap leave EXIT
+
+# --- the network ----------------------------------------------------------------------------------------
+# in_net a|b COMMAND...: runs a command in the network of that world. With hold=exec a subshell becomes the command.
+hold=
+in_net() { shift; $hold "$@"; }
+at_a=127.0.0.1 at_b=127.0.0.1 peers=127.0.0.1 network="the loopback (no network namespaces may be made here)"
+holder() { # Sets $1 to a process in a network namespace of its own
+    unshare --net -- sleep 1000 2>/dev/null &
+    until_true eval "[ \"\$(readlink /proc/$!/ns/net)\" != \"\$(readlink /proc/self/ns/net)\" ]" || return 1
+    holders+=($!)
+    printf -v "$1" %s $!
+}
+join() { # WHICH DEVICE ADDRESS: gives the device of a namespace its address
+    in_net "$1" ip address add "$3/24" dev "$2" && in_net "$1" ip link set "$2" up && in_net "$1" ip link set lo up
+}
+namespaces() {
+    command -v ip >/dev/null && unshare --net true || return 1
+    holder net_a && holder net_b || return 1
+    ip link add "ja$$" netns "$net_a" type veth peer name "jb$$" netns "$net_b" || return 1
+    in_net() { local pid=net_$1; shift; $hold nsenter --net="/proc/${!pid}/ns/net" -- "$@"; }
+    join a "ja$$" 10.91.7.1 && join b "jb$$" 10.91.7.2 && in_net a ping -c 1 -W 2 10.91.7.2 >/dev/null 2>&1 ||
+        in_net a bash -c 'exec 3<>/dev/udp/10.91.7.2/9' || return 1
+}
+if namespaces 2>why; then
+    at_a=10.91.7.1 at_b=10.91.7.2 peers='10.91.7.0/24, 127.0.0.1' network="two network namespaces, joined by veth"
+else
+    in_net() { shift; $hold "$@"; }
+fi
+echo "# figures: the network is $network"
+port=$(python3 -I -S -c 'import socket
+s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+s.bind(("127.0.0.1", 0))
+print(s.getsockname()[1] // 8 * 8)') # the next four are free in a namespace, and most likely on the loopback
+in_a=$port in_b=$((port + 1)) bad_a=$((port + 2)) bad_b=$((port + 3))
+
+# --- the worlds -----------------------------------------------------------------------------------------
+cat >guests.cfg <<'END'
+# Vehicles of every speed, far from the battle of the other world.
+world = { seed = 7; capacity = 2048; };
+terrain = { source = "generated"; };
+objects = { source = "none"; };
+vehicles = (
+    { kind = "tank"; count = 50; force = "blue"; behaviour = "patrol"; area = [36000.0, 6000.0, 40000.0, 10000.0]; },
+    { kind = "jeep"; count = 50; force = "blue"; behaviour = "patrol"; area = [36000.0, 10000.0, 42000.0, 14000.0]; },
+    { kind = "truck"; count = 30; behaviour = "patrol"; area = [40000.0, 6000.0, 46000.0, 12000.0]; },
+    { kind = "helicopter"; count = 15; force = "blue"; behaviour = "patrol"; area = [34000.0, 4000.0, 46000.0, 14000.0]; },
+    { kind = "jet"; count = 5; force = "blue"; behaviour = "patrol"; area = [30000.0, 3000.0, 47000.0, 14000.0]; }
+);
+END
+begin() { # a|b FOLDER LISTEN TO SITE [OPTION]...
+    local which=$1 folder=$2 listen=$3 to=$4 site=$5
+    shift 5
+    in_net "$which" "$jolon" start -w "$name-$which" --without renderer --without reporter --out "$folder" --dis "$to" \
+        --set "gateway.listen=$listen" --set "gateway.peers=$peers" --set "gateway.site=$site" \
+        --set world.remotes_max=800 --set gateway.clamp=false "$@" >/dev/null
+}
+stop_both() { "$jolon" stop -w "$name-a" >/dev/null; "$jolon" stop -w "$name-b" >/dev/null; }
+replays() { "$jolon" replay "$1/commands.log" | grep 'equal to the run that was recorded'; }
+compare() { python3 -I "$here/exercise_compare.py" "$bin/jolon-world" "$name-a:10" "$name-b:20" "$seconds" "$1"; } # DELAY-MS
+
+# --- a good network -------------------------------------------------------------------------------------
+begin a out-a "$at_a:$in_a" "$at_b:$in_b" 10
+begin b out-b "$at_b:$in_b" "$at_a:$in_a" 20 guests.cfg
+compare 0 >good
+check "each vehicle is within the threshold and the delay in the other world" equal $? 0
+sed 's/^/# figures: /' good
+stop_both
+check "both runs replay" eval 'replays out-a && replays out-b'
+
+# --- a bad one ------------------------------------------------------------------------------------------
+(hold=exec; in_net a python3 -I "$here/../relay/relay.py" --listen "$at_a:$bad_a" --to "$at_a:$in_a" --seed "$seed" >relayed-a) &
+relay_a=$!
+(hold=exec; in_net b python3 -I "$here/../relay/relay.py" --listen "$at_b:$bad_b" --to "$at_b:$in_b" --seed $((seed + 1)) >relayed-b) &
+relay_b=$!
+until_true in_net a grep -qi ":$(printf %04X "$bad_a") " /proc/net/udp
+until_true in_net b grep -qi ":$(printf %04X "$bad_b") " /proc/net/udp
+begin a bad-a "$at_a:$in_a" "$at_b:$bad_b" 10
+begin b bad-b "$at_b:$in_b" "$at_a:$bad_a" 20 guests.cfg
+compare 130 >bad
+check "so it is behind a network that loses, delays, reorders and repeats" equal $? 0
+sed 's/^/# figures: /' bad
+stop_both
+kill -TERM $relay_a $relay_b
+wait $relay_a $relay_b
+echo "# figures: relays: $(cat relayed-a) $(cat relayed-b) SEED=$seed"
+check "both runs replay" eval 'replays bad-a && replays bad-b'
+for which in a b; do
+    check "the network to $which was bad" python3 -I -S -c '
+import json, sys
+done = json.load(open(sys.argv[1]))
+assert done["came"] > 1000 and done["lost"] > 0.03 * done["came"] and done["overtook"] > 0.1 * done["sent"] and done["twice"] > 0, done' relayed-$which
+    check "copies and older ones are known as such" grep -q '[1-9][0-9]* Entity States came late or twice' "bad-$which/jolon.log"
+done
+check "nothing was refused to a gateway by its sandbox" eval '! grep -q "forbids system call" */jolon.log'
+done_testing
