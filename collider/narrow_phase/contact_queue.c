@@ -20,6 +20,9 @@
 #define PAIRS_A_PIECE  16
 #define FLIERS_A_PIECE 128
 
+/* Of so many searches that find no axis between two bodies, one looks for their nearest points. */
+#define FAILED_A_SEARCH 8u
+
 /* Room for the points of resting pairs. A pair for which there is none is swept always. */
 #define REST_POINTS_A_SLOT 8u
 
@@ -50,6 +53,7 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
         contacts->marks && contacts->impacts && contacts->known && contacts->rest &&
         contacts->rest_point && contacts->link && contacts->head && contacts->version &&
         contacts->strayed && contacts->strays && pair_apart_init(&contacts->apart, world) == 0 &&
+        axis_memory_init(&contacts->axes, world) == 0 &&
         pair_list_init(&contacts->near, broad_phase_found_most(world)) == 0)
         return 0;
     contact_queue_free(contacts);
@@ -69,6 +73,7 @@ void contact_queue_free(struct contact_queue *contacts)
     reserve_free(contacts->rest);
     reserve_free(contacts->rest_point);
     pair_apart_free(&contacts->apart);
+    axis_memory_free(&contacts->axes);
     reserve_free(contacts->link);
     free(contacts->head);
     free(contacts->version);
@@ -97,10 +102,21 @@ void contact_queue_begin(struct contact_queue *contacts, const struct pair_list 
     }
 }
 
+/* Remembers what a dear search has found that keeps a pair apart, or that it has found nothing. */
+static void remember(struct contact_queue *contacts, uint32_t index)
+{
+    const struct pair_known *known = &contacts->known[index];
+    if (known->searched > 0)
+        axis_memory_keep(&contacts->axes, &(struct remembered_axis){.pair = contacts->pair[index],
+                                                                    .axis = known->plane[0],
+                                                                    .failed = known->searched - 1});
+}
+
 void contact_queue_end(struct contact_queue *contacts)
 {
     for (uint32_t i = 0; i < contacts->pair_count; i++) {
         struct pair pair = contacts->pair[i];
+        remember(contacts, i);
         contacts->head[pair.a] = 0;
         pair_apart_forget(&contacts->apart, pair.a);
         if (pair.b & PAIR_FIXED)
@@ -111,6 +127,37 @@ void contact_queue_end(struct contact_queue *contacts)
 }
 
 /* --- finding -----------------------------------------------------------------------------------*/
+
+/* Returns true if the nearest points of two bodies show an axis that keeps them apart, or that
+ * which was found in the last frame does. Where no search has found one lately, most are left out.
+ */
+static bool search_axis(struct contact_queue *contacts, uint32_t index, double from)
+{
+    const struct pair *pair = &contacts->pair[index];
+    struct pair_known *known = &contacts->known[index];
+    struct remembered_axis last = axis_memory_recall(&contacts->axes, pair);
+    bool nearest = last.failed % FAILED_A_SEARCH == 0;
+    bool found = pair_apart_stays(&contacts->apart, pair, from, SKIN_M, nearest, &last.axis,
+                                  &known->stays_m);
+    if (found)
+        known->plane[0] = last.axis;
+    known->searched = found ? 1 : last.failed + 2;
+    return found;
+}
+
+/* Returns true if the bodies of a pair certainly stay apart from a time on. */
+static bool stays_apart(struct contact_queue *contacts, uint32_t index, double from)
+{
+    const struct pair *pair = &contacts->pair[index];
+    struct pair_known *known = &contacts->known[index];
+    if (!pair_apart_stays(&contacts->apart, pair, from, SKIN_M, false, &known->plane[0],
+                          &known->stays_m) &&
+        !search_axis(contacts, index, from))
+        return false;
+    known->version_a = contacts->version[pair->a];
+    known->version_b = pair->b & PAIR_FIXED ? 0 : contacts->version[pair->b];
+    return true;
+}
 
 /* Sweeps one pair from a time on. Returns true, with the contact, if there is one. Bodies that rest
  * on each other touch all the time: they are swept only if they may get into each other. */
@@ -127,13 +174,8 @@ static bool sweep_pair(struct contact_queue *contacts, const struct contact_inpu
     if (contacts->marks[index] & CONTACT_PARTS ||
         (contacts->proves && contact_rests_still(contacts, input, index)))
         return false;
-    struct pair_known *known = &contacts->known[index];
-    if (contacts->proves &&
-        pair_apart_stays(&contacts->apart, pair, from, SKIN_M, &known->plane[0], &known->stays_m)) {
-        known->version_a = contacts->version[pair->a];
-        known->version_b = fixed ? 0 : contacts->version[pair->b];
+    if (contacts->proves && stays_apart(contacts, index, from))
         return false;
-    }
     *contact = (struct contact){.a = pair->a,
                                 .b = pair->b,
                                 .pair = index + 1,

@@ -5,6 +5,7 @@
 
 #include "collider/broad_phase/broad_phase.h"
 #include "collider/geometry/level_gap.h"
+#include "collider/narrow_phase/axis_memory.h"
 #include "collider/narrow_phase/narrow_phase.h"
 #include "collider/narrow_phase/pair_apart.h"
 
@@ -77,6 +78,8 @@ struct pair_known {
      * least stays_m; version_a of UINT32_MAX: that is not known. */
     uint32_t version_a, version_b;
     double stays_m;
+    uint32_t searched; /* dear searches for an axis (axis_memory.h) since one has found it, and 1;
+                          0: the frame needed none */
 };
 
 struct contact_link {
@@ -119,6 +122,7 @@ struct contact_queue {
     uint32_t stray_count;
     struct pair_list near; /* result of a query */
     struct pair_apart apart;
+    struct axis_memory axes;
     bool proves; /* pairs that certainly stay apart are not swept: bodies are hulls */
 };
 

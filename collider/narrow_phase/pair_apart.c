@@ -64,7 +64,7 @@ static struct row_pose fixed_pose(const struct pair_apart *apart, uint32_t objec
 }
 
 bool pair_apart_stays(const struct pair_apart *apart, const struct pair *pair, double time,
-                      double margin_m, struct vec3 *axis, double *apart_m)
+                      double margin_m, bool nearest, struct vec3 *axis, double *apart_m)
 {
     const struct row_pose *a = &apart->row[pair->a], *b = NULL;
     struct row_pose fixed;
@@ -81,5 +81,5 @@ bool pair_apart_stays(const struct pair_apart *apart, const struct pair *pair, d
         return false;
     struct axis_side side_a = axis_side_of(&a->body, &a->from, &a->to, a->rate, time);
     struct axis_side side_b = axis_side_of(&b->body, &b->from, &b->to, b->rate, time);
-    return separating_axis_find(&side_a, &side_b, margin_m, axis, apart_m);
+    return separating_axis_find(&side_a, &side_b, margin_m, nearest, axis, apart_m);
 }

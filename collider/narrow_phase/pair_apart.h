@@ -43,6 +43,6 @@ void pair_apart_forget(struct pair_apart *apart, uint32_t row);
  * separating_axis_find). *apart_m becomes a length by which they stay apart at least. The rows must
  * be prepared. Any thread. */
 bool pair_apart_stays(const struct pair_apart *apart, const struct pair *pair, double time,
-                      double margin_m, struct vec3 *axis, double *apart_m);
+                      double margin_m, bool nearest, struct vec3 *axis, double *apart_m);
 
 #endif

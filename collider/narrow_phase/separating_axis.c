@@ -153,7 +153,7 @@ static struct vec3 nearest_normal(const struct axis_side *a, const struct axis_s
 }
 
 bool separating_axis_find(const struct axis_side *a, const struct axis_side *b, double margin_m,
-                          struct vec3 *axis, double *apart_m)
+                          bool nearest, struct vec3 *axis, double *apart_m)
 {
     struct vec3 best = *axis;
     double enough = enough_for(a, b, margin_m), apart = -INFINITY;
@@ -163,7 +163,7 @@ bool separating_axis_find(const struct axis_side *a, const struct axis_side *b, 
         apart = find_by_boxes(a, b, enough, &best);
         if (!(apart > enough))
             apart = separation(a, b, best, enough);
-        if (!(apart > enough)) {
+        if (!(apart > enough) && nearest) {
             best = nearest_normal(a, b);
             apart = vec3_dot(best, best) > 0.0 ? separation(a, b, best, enough) : -INFINITY;
         }

@@ -38,8 +38,9 @@ bool separating_axis_holds(const struct axis_side *a, const struct axis_side *b,
 /* Finds an axis along which the outer hulls stay farther apart than margin_m [m, >= 0] all the
  * time. Returns false if it finds none: the bodies may touch or not. *axis is tried first, unless
  * it is 0, and becomes the axis found. *apart_m becomes a length by which they stay apart at least,
- * above margin_m. */
+ * above margin_m. nearest: also searches the nearest points of the outer hulls for an axis, which
+ * costs most. */
 bool separating_axis_find(const struct axis_side *a, const struct axis_side *b, double margin_m,
-                          struct vec3 *axis, double *apart_m);
+                          bool nearest, struct vec3 *axis, double *apart_m);
 
 #endif

@@ -193,7 +193,7 @@ static void test_an_axis_that_is_found_holds(void **state)
         struct axis_side side_a = side_of(&turned_a), side_b = side_of(&turned_b);
         struct vec3 axis = {0.0, 0.0, 0.0};
         double apart;
-        if (!separating_axis_find(&side_a, &side_b, 0.0, &axis, &apart))
+        if (!separating_axis_find(&side_a, &side_b, 0.0, true, &axis, &apart))
             continue;
         found++;
         assert_true(apart > 0.0 && apart < time_of_impact_gap(&a, &b, 0.0) + 1e-9);

@@ -71,7 +71,7 @@ static void test_row_23_what_is_not_swept_does_not_touch(void **state)
         struct axis_side side_a = side_of(&a, time), side_b = side_of(&b, time);
         bool touch = time_of_impact_find(&a, &b, time, &impact);
         double least;
-        bool proof = separating_axis_find(&side_a, &side_b, SKIN_M, &axis, &least);
+        bool proof = separating_axis_find(&side_a, &side_b, SKIN_M, true, &axis, &least);
         assert_false(touch && proof);
         assert_false(proof && least > time_of_impact_gap(&a, &b, time) + 1e-9);
         assert_false(proof && least > time_of_impact_gap(&a, &b, 1.0) + 1e-9);

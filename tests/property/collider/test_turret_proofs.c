@@ -126,7 +126,7 @@ static bool plane_between(const struct swept_body *a, const struct swept_body *b
     struct mat3 b0 = rotation_matrix(b->from), b1 = rotation_matrix(b->to);
     struct axis_side side_a = axis_side_of(a, &a0, &a1, rotation_rate(a->from, a->to), 0.0);
     struct axis_side side_b = axis_side_of(b, &b0, &b1, rotation_rate(b->from, b->to), 0.0);
-    return separating_axis_find(&side_a, &side_b, SKIN_M, &axis, &apart);
+    return separating_axis_find(&side_a, &side_b, SKIN_M, true, &axis, &apart);
 }
 
 /* How many of the pairs of bodies, and of their hulls, are far, and how many are ruled out. */
