@@ -127,7 +127,8 @@ static const struct key script_keys[] = {
         BOOLEAN("react", C, react, STORE_U32, "false",
                 .meaning = "true: a vehicle that is fired upon, damaged or out of rounds does what "
                            "its kind does, and then goes on with the script. false: only a "
-                           "collision or an empty fuel tank interrupts the script."),
+                           "collision, being stuck or an empty fuel tank interrupts the "
+                           "script."),
 };
 KEY_TABLE(schema_script, "scripts", script_keys, C, SCRIPT_KEY_COUNT);
 #undef C

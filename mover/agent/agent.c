@@ -319,6 +319,11 @@ static double settle_s(const struct kind *kind)
                                         : 0;
 }
 
+static float throttle_for(const struct kind *kind, const struct desired_motion *desired)
+{
+    return (float)(desired->speed_mps / maths_max(kind->max_speed_mps, 1e-9));
+}
+
 /* Sets the steering so that the turn is complete at its next decision. The climb of an agent is its
  * height over the usual one, less 1. */
 static void set_controls(const struct step_context *context, uint32_t i, const struct kind *kind,
@@ -329,7 +334,7 @@ static void set_controls(const struct step_context *context, uint32_t i, const s
     double turn = kind->turn_rate_rps * time_s;
     double off = maths_wrap_half(desired->heading_rad - m->heading[i]);
     m->steer[i] = (float)maths_clamp(off / maths_max(turn, 1e-9), -1.0, 1.0);
-    m->throttle[i] = (float)(desired->speed_mps / maths_max(kind->max_speed_mps, 1e-9));
+    m->throttle[i] = throttle_for(kind, desired);
     m->climb[i] =
         (float)maths_clamp(desired->altitude_m / maths_max(kind->cruise_altitude_m, 1e-9) - 1.0,
                            -1.0, 1.0) *
@@ -400,6 +405,8 @@ void agent_think(const struct step_context *context, uint32_t i, struct desired_
     think(context, i, kind, desired);
     if (!agent_thinks_each_frame((enum behaviour)context->m->behaviour[i]))
         set_controls(context, i, kind, desired);
+    else if (context->m->behaviour[i] == BEHAVIOUR_SCRIPT && !desired->driven)
+        context->m->throttle[i] = throttle_for(kind, desired); /* progress.c compares with it */
 }
 
 void agent_direct(const struct step_context *context, uint32_t i, struct desired_motion *desired)

@@ -29,6 +29,7 @@
 #define YIELDS         0.1   /* fixed kinds with less rigidity bend aside */
 #define TURN_COST      0.25  /* of each radian of turning, in shares of the horizon */
 #define CHANGE_COST    0.10  /* of each radian off the last dodge, against wavering */
+#define SWEEP_COST     0.10  /* of a turn of 90 degrees off the present heading, at full speed */
 #define LEFT_COST      0.03  /* of turning left, so that two vehicles that meet both turn right */
 #define SHARP_SHARE    0.25  /* share of its speed in turns of 90 degrees and more */
 #define STRAYS         0.05  /* how far bodies leave their course, as a share of the distance */
@@ -422,13 +423,17 @@ static double ground_free(const struct step_context *context, uint32_t i, const 
 
 /* --- the choice --------------------------------------------------------------------------------*/
 
+/* The way to a direction on the other side may lead through what it is to go around, so that
+ * turning far costs more the faster it is. */
 static int best(const struct look *look, double dodge_rad)
 {
     int found = 0;
     double most = -INFINITY;
+    double sweep = SWEEP_COST * maths_min(1.0, look->present_mps / look->desired_mps);
     for (int k = 0; k < FAN; k++) {
+        double cosine = look->x[k] * look->x[PRESENT] + look->z[k] * look->z[PRESENT];
         double score = look->free_m[k] / look->horizon_m - TURN_COST * fabs(fan_rad[k]) -
-                       CHANGE_COST * fabs(fan_rad[k] - dodge_rad) -
+                       CHANGE_COST * fabs(fan_rad[k] - dodge_rad) - sweep * (1.0 - cosine) -
                        (fan_rad[k] < 0.0 ? LEFT_COST : 0.0);
         if (score > most) {
             most = score;

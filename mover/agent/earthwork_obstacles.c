@@ -33,15 +33,17 @@ static void cut_strip(struct cut *cut, double at, double u, double half, double 
     }
 }
 
-static struct cut cut_of(const struct earthwork *work, const struct earthwork_way *way)
+/* beside_m: by so much the rectangle is wider. */
+static struct cut cut_of(const struct earthwork *work, const struct earthwork_way *way,
+                         double beside_m)
 {
     struct cut cut = {.from_m = -INFINITY, .to_m = INFINITY};
     double dx = way->x - work->x, dz = way->z - work->z;
     cut_strip(&cut, dx * work->sine - dz * work->cosine,
-              way->ux * work->sine - way->uz * work->cosine, work->half_length + way->beside_m,
+              way->ux * work->sine - way->uz * work->cosine, work->half_length + beside_m,
               work->back_m, work->front_m);
     cut_strip(&cut, dx * work->cosine + dz * work->sine,
-              way->ux * work->cosine + way->uz * work->sine, work->half_width + way->beside_m,
+              way->ux * work->cosine + way->uz * work->sine, work->half_width + beside_m,
               work->side_m, work->side_m);
     return cut;
 }
@@ -61,6 +63,20 @@ static bool crosses(const struct earthwork *work, const struct kind *kind, const
     return work->height_m < 0.0 && cut->to_m - cut->from_m - 2.0 * beside_m <= kind->trench_m;
 }
 
+/* Returns true if the way leads over the work. A vehicle that stands beside the work, or with a
+ * part of it on its edge, may leave it or go along it. */
+static bool leads_over(const struct earthwork *work, const struct earthwork_way *way,
+                       struct cut *cut)
+{
+    *cut = cut_of(work, way, way->beside_m);
+    if (!(cut->from_m < cut->to_m) || cut->to_m <= 0.0 || earthwork_holds(work, way->x, way->z))
+        return false;
+    if (cut->from_m > 0.0)
+        return true;
+    const struct cut narrow = cut_of(work, way, 0.0);
+    return narrow.from_m < narrow.to_m && narrow.to_m > 0.0;
+}
+
 double earthwork_obstacles_free(const struct earthworks *works, const struct kind *kind,
                                 const struct earthwork_way *way)
 {
@@ -76,9 +92,8 @@ double earthwork_obstacles_free(const struct earthworks *works, const struct kin
                 earthwork_in_square(works, gridsquare_index(column, row), &count);
             for (uint32_t n = 0; n < count; n++) {
                 const struct earthwork *work = &works->works[items[n]];
-                const struct cut cut = cut_of(work, way);
-                if (cut.from_m < cut.to_m && cut.to_m > 0.0 && cut.from_m < far &&
-                    !earthwork_holds(work, way->x, way->z) &&
+                struct cut cut;
+                if (leads_over(work, way, &cut) && cut.from_m < far &&
                     !crosses(work, kind, &cut, way->beside_m))
                     free_m = maths_min(free_m, cut.from_m + way->beside_m - way->ahead_m);
             }

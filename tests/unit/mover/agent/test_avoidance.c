@@ -145,6 +145,62 @@ static void test_it_stops_before_obstacles_that_it_cannot_pass(void **state)
     }
 }
 
+/* A row of parked tanks stands across the way of two that go around it, one of which may cross the
+ * way of the other. */
+static void test_nobody_rams_a_row_of_parked_friends(void **state)
+{
+    static const char *const kinds[] = {"tank", "jeep", "carrier", "truck"};
+    uint64_t random = fixture_seed(14);
+    int hits = 0;
+    double hardest = 0.0;
+    (void)state;
+    for (int round = 0; round < 48; round++) {
+        steps_empty(&f);
+        for (int n = 0; n < 9; n++)
+            fixture_put(
+                &f, (struct fixture_entity){.kind = "tank",
+                                            .at = {25200.0, FIXTURE_GROUND_M, 24960.0 + 9.0 * n}});
+        double z = fixture_uniform(&random, 24950.0, 25045.0);
+        send(kinds[round % 4], 25000.0, z, 25400.0, z);
+        z = fixture_uniform(&random, 24950.0, 25045.0);
+        send(kinds[round / 4 % 4], 24960.0, z, 25400.0, z);
+        for (int frame = 0; frame < 45 * HZ; frame++) {
+            fixture_run(&f, 1);
+            for (uint32_t n = 0; n < fixture_event_count(&f, EVENT_COLLISION); n++) {
+                const struct event *event = fixture_event(&f, EVENT_COLLISION, n);
+                hits++;
+                hardest = maths_max(hardest, (double)event->collision.closing_mps);
+            }
+        }
+    }
+    print_message("48 rounds: %d collisions, the hardest at %.1f m/s\n", hits, hardest);
+    assert_true(hardest < 1.0);
+}
+
+/* Two on routes go around the same end of the row, and the first crosses the way of the second. */
+static void test_who_must_give_way_does_not_turn_into_a_parked_friend(void **state)
+{
+    static char text[1600];
+    int length = snprintf(text, sizeof text,
+                          "world = { seed = 77; capacity = 64; hz = 60.0; };\n"
+                          "terrain = { source = \"flat\"; height_m = 100.0; }; vehicles = (");
+    (void)state;
+    for (int n = 0; n < 9; n++)
+        length += snprintf(text + length, sizeof text - (size_t)length,
+                           "{ kind = \"tank\"; at = [31200.0, %d.0]; behaviour = \"idle\"; },\n",
+                           24960 + 9 * n);
+    for (int n = 0; n < 2; n++)
+        length += snprintf(text + length, sizeof text - (size_t)length,
+                           "{ kind = \"%s\"; at = [31000.0, %d.0]; heading_deg = 90.0;"
+                           " route = ([31000.0, %d.0], [31400.0, %d.0]); }%s\n",
+                           n ? "tank" : "jeep", 24996 + 9 * n, 24996 + 9 * n, 24996 + 9 * n,
+                           n ? ");" : ",");
+    fixture_close(&f);
+    fixture_open(&f, text);
+    fixture_run(&f, 60 * 60);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+}
+
 static void test_a_driver_is_left_alone(void **state)
 {
     uint32_t row = send("tank", 25000.0, 25000.0, 25500.0, 25000.0);
@@ -186,6 +242,8 @@ int main(void)
         TEST(test_head_on_they_pass_each_other_on_the_right),
         TEST(test_crossing_traffic_does_not_meet),
         TEST(test_it_stops_before_obstacles_that_it_cannot_pass),
+        TEST(test_nobody_rams_a_row_of_parked_friends),
+        TEST(test_who_must_give_way_does_not_turn_into_a_parked_friend),
         TEST(test_a_driver_is_left_alone),
         TEST(test_the_same_on_any_number_of_threads),
     };

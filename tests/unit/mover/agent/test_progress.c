@@ -111,6 +111,47 @@ static void test_a_truck_gives_up_against_what_it_does_not_see(void **state)
         fail_msg("pushed for %g s", (double)longest / HZ);
 }
 
+/* --- trenches ----------------------------------------------------------------------------------*/
+
+#define TRENCH                                                                                     \
+    "earthworks = ( { shape = \"trench\"; at = [25000.0, 24998.0]; length_m = 3.2;"                \
+    " width_m = 60.0; depth_m = 1.2; edge_m = 0.2; } );"
+
+/* A vehicle in a trench that is wider than it can cross is told to go north. Returns how far north
+ * of the trench it is after half a minute [m]. */
+static double out_of_trench(const char *kind, const char *how, double *push_s)
+{
+    char text[700];
+    (void)snprintf(text, sizeof text,
+                   WORLD TRENCH
+                   "scripts = ( { name = \"north\"; steps = ( { go = [25000.0, 24850.0]; } );"
+                   " } ); vehicles = ( { kind = \"%s\"; at = [25000.0, 24998.0];"
+                   " heading_deg = 0.0; %s } );",
+                   kind, how);
+    fixture_open(&f, text);
+    *push_s = longest_push(1, 30);
+    double north = 24996.4 - steps_rows(&f).z[0];
+    fixture_close(&f);
+    return north;
+}
+
+/* Its tail is in the trench when its middle is out of it: the trench is no obstacle then. A jeep is
+ * too short to reach the edge, and does not push for ever. */
+static void test_a_vehicle_drives_out_of_a_trench_or_gives_up(void **state)
+{
+    static const char *const kinds[] = {"tank", "carrier", "truck", "jeep"};
+    static const char *const how[] = {"script = \"north\";",
+                                      "route = ( [25000.0, 24998.0], [25000.0, 24700.0] );"};
+    (void)state;
+    for (int n = 0; n < 8; n++) {
+        double push_s, north = out_of_trench(kinds[n / 2], how[n % 2], &push_s);
+        print_message("%s, %s: %.0f m out of the trench, pushed for %.1f s\n", kinds[n / 2],
+                      n % 2 ? "route" : "script", north, push_s);
+        assert_true(push_s <= PUSH_S && (n >= 6 || north > 40.0));
+    }
+    fixture_open(&f, WORLD);
+}
+
 /* --- the count itself --------------------------------------------------------------------------*/
 
 static uint32_t decisions_until_stalled(float throttle, double speed)
@@ -183,6 +224,7 @@ int main(void)
         TEST(test_a_truck_gives_up_against_a_house),
         TEST(test_a_column_behind_a_blocked_truck_does_not_push),
         TEST(test_a_truck_gives_up_against_what_it_does_not_see),
+        TEST(test_a_vehicle_drives_out_of_a_trench_or_gives_up),
         TEST(test_it_is_stuck_when_it_drives_for_three_seconds_in_vain),
         TEST(test_who_is_stuck_again_rests),
         TEST(test_the_way_out_is_to_the_back),

@@ -321,6 +321,7 @@ static void test_it_goes_on_by_the_clock_after_an_interruption(void **state)
     struct state state_now = fixture_state(&f);
     state_now.entities.behaviour[0] = BEHAVIOUR_DRIVEN;
     state_now.entities.driver[0] = 99;
+    state_now.entities.throttle[0] = 0.0f;
     state_now.entities.until_tick[0] = 36 * HZ; /* a lease */
     run_s(27.0);
     assert_int_equal(now()->behaviour[0], BEHAVIOUR_SCRIPT);
