@@ -2,6 +2,7 @@
 #include "gateway/event_output.h"
 
 #include "world/entity/remote.h"
+#include "world/state.h"
 #include "world/world.h"
 
 #include <string.h>
@@ -20,11 +21,45 @@ void event_output_open(struct event_output *events, const struct view *view, uin
 
 /* --- who fired ---------------------------------------------------------------------------------*/
 
-static void remember_shot(struct event_output *events, const struct event_fire *fire)
+static void remember_shot(struct event_output *events, const struct event *event)
 {
+    const struct event_fire *fire = &event->fire;
     uint32_t place = fire->munition.id % EVENT_OUTPUT_SHOTS;
     events->shot[place].munition = fire->munition.id;
     events->shot[place].shooter = fire->shooter.id;
+    events->shot[place].tick = event->tick;
+    events->shot[place].muzzle = (struct vec3){fire->point[0], fire->point[1], fire->point[2]};
+    events->shot[place].velocity = (struct vec3){0.0, 0.0, 0.0};
+}
+
+/* Remembers how the munitions fly, as those that have detonated have no row. */
+static void remember_flights(struct event_output *events)
+{
+    const struct snapshot *snapshot = &events->entities->snapshot;
+    const struct entities *e = &snapshot->entities;
+    for (uint32_t row = 0; row < snapshot->head.used; row++) {
+        uint32_t place = e->id[row] % EVENT_OUTPUT_SHOTS;
+        if (e->behaviour[row] == BEHAVIOUR_FLIGHT && e->state[row] != ENTITY_FREE &&
+            events->shot[place].munition == e->id[row])
+            events->shot[place].velocity = entities_velocity(e, row);
+    }
+}
+
+/* Returns the velocity at which a munition has come to a point [m/s]: that of its last frame that
+ * was seen, or the mean of its flight. */
+static struct vec3 flight_velocity(const struct event_output *events, const struct world *world,
+                                   uint32_t munition, const double point[3], uint64_t tick)
+{
+    uint32_t place = munition % EVENT_OUTPUT_SHOTS;
+    const struct vec3 none = {0.0, 0.0, 0.0};
+    if (munition == 0 || events->shot[place].munition != munition)
+        return none;
+    if (vec3_length(events->shot[place].velocity) > 0.0)
+        return events->shot[place].velocity;
+    struct vec3 way =
+        vec3_sub((struct vec3){point[0], point[1], point[2]}, events->shot[place].muzzle);
+    double time_s = (double)(tick - events->shot[place].tick) * world_dt_s(world);
+    return time_s > 0.0 ? vec3_scale(way, 1.0 / time_s) : none;
 }
 
 static uint32_t shooter_of(const struct event_output *events, uint32_t munition)
@@ -151,9 +186,10 @@ static uint8_t result_of(const struct world *world, const struct event_detonatio
 }
 
 static void send_detonation(struct event_output *events, const struct world *world,
-                            const struct event_detonation *detonation)
+                            const struct event *event)
 {
     static struct pdu pdu;
+    const struct event_detonation *detonation = &event->detonation;
     struct event_party munition = detonation->munition;
     const struct type_row *type = munition_type(events, munition);
     pdu.header.type = PDU_DETONATION;
@@ -170,7 +206,10 @@ static void send_detonation(struct event_output *events, const struct world *wor
         .quantity = 1,
         .result = result_of(world, detonation)};
     set_place(pdu.detonation.location, events, detonation->point);
-    set_velocity(pdu.detonation.velocity, events, munition.id);
+    vec3_to_floats(pdu.detonation.velocity,
+                   local_frame_ecef_direction(&events->entities->frame,
+                                              flight_velocity(events, world, munition.id,
+                                                              detonation->point, event->tick)));
     if (detonation->struck == STRUCK_VEHICLE)
         set_point(pdu.detonation.point, events, detonation->struck_party, detonation->point);
     pdu_output_send(events->output, &pdu);
@@ -207,7 +246,7 @@ static void send_event(struct event_output *events, const struct world *world,
         send_fire(events, world, &event->fire);
         break;
     case EVENT_DETONATION:
-        send_detonation(events, world, &event->detonation);
+        send_detonation(events, world, event);
         break;
     case EVENT_COLLISION:
         send_collision(events, world, event, event->collision.a, event->collision.b);
@@ -226,8 +265,23 @@ static bool is_sent(const struct event_output *events, const struct event *event
     /* What another simulator told is not told again: its shots have no munition here. */
     return (event->type == EVENT_FIRE && event->fire.munition.id != 0) ||
            (event->type == EVENT_DETONATION && !event->detonation.remote) ||
-           (event->type == EVENT_COLLISION &&
+           (event->type == EVENT_COLLISION && !event->collision.remote &&
             event->collision.closing_mps >= EVENT_OUTPUT_COLLISION_MPS);
+}
+
+/* Tells the way in which collisions of remote entities our own collider has had. */
+static void note_met(const struct event_output *events, const struct event_collision *collision,
+                     uint64_t now_ns)
+{
+    const struct event_party *own[2] = {&collision->a, &collision->b};
+    for (int i = 0; i < 2 && events->remotes; i++) {
+        const struct event_party *other = own[1 - i];
+        if (own[i]->fixed || other->fixed || !is_remote(events, other->id))
+            continue;
+        uint32_t row = entity_output_row(events->entities, other->id);
+        remote_input_met(events->remotes, own[i]->id,
+                         events->entities->snapshot.entities.driver[row], now_ns);
+    }
 }
 
 void event_output_send(struct event_output *events, const struct view *view, uint64_t now_ns)
@@ -238,7 +292,10 @@ void event_output_send(struct event_output *events, const struct view *view, uin
         for (uint32_t i = 0; i < count; i++) {
             const struct event *event = &events->event[i];
             if (event->type == EVENT_FIRE && event->fire.munition.id != 0)
-                remember_shot(events, &event->fire);
+                remember_shot(events, event);
+            if (event->type == EVENT_COLLISION && !event->collision.remote &&
+                event->frame + EVENT_OUTPUT_RECENT >= commit)
+                note_met(events, &event->collision, now_ns);
             if (!is_sent(events, event))
                 continue;
             if (!pdu_output_take(events->output, now_ns)) {
@@ -249,5 +306,6 @@ void event_output_send(struct event_output *events, const struct view *view, uin
             events->frame = event->frame > 0 ? event->frame - 1 : 0;
         }
     }
+    remember_flights(events);
     events->frame = commit;
 }

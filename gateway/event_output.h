@@ -7,11 +7,15 @@
 #define JOLON_GATEWAY_EVENT_OUTPUT_H
 
 #include "gateway/entity_output.h"
+#include "gateway/remote_input.h"
 #include "ipc/frame/event_cursor.h"
 #include "world/entity/event.h"
 
 #define EVENT_OUTPUT_AT_ONCE 64u
 #define EVENT_OUTPUT_SHOTS   8192u /* power of two */
+
+/* The collisions of so many frames are told to the way in. */
+#define EVENT_OUTPUT_RECENT 120u
 
 /* A contact whose closing speed is below this is no Collision (IEEE 1278.1) [m/s]. */
 #define EVENT_OUTPUT_COLLISION_MPS 0.1f
@@ -19,12 +23,15 @@
 struct event_output {
     struct pdu_output *output;
     const struct entity_output *entities; /* its snapshot has the bodies */
+    struct remote_input *remotes;         /* is told of their collisions; NULL: nobody is */
     struct event_cursor cursor;
     uint64_t send_from_frame; /* earlier events were sent by a predecessor */
     uint64_t frame;           /* all events up to this frame are sent */
     struct event event[EVENT_OUTPUT_AT_ONCE];
     struct {
         uint32_t munition, shooter;
+        uint64_t tick;                /* of the shot */
+        struct vec3 muzzle, velocity; /* [m], and [m/s] when it was seen last */
     } shot[EVENT_OUTPUT_SHOTS];
 };
 

@@ -58,6 +58,7 @@ int gateway_open(struct gateway *gateway, const char *world, struct error_text *
     entities->ids = (struct entity_ids){(uint16_t)params->site, (uint16_t)params->application,
                                         (uint16_t)params->applications};
     gateway->events.entities = entities;
+    gateway->events.remotes = &gateway->remotes;
     local_frame_make(&entities->frame, params->latitude_deg, params->longitude_deg,
                      params->undulation_m, 0.5 * WORLD_SIDE_M, 0.5 * WORLD_SIDE_M);
     if (type_table_read(&gateway->types, path, view->world.kinds, view->world.counts.kinds,
@@ -165,10 +166,12 @@ static void tell_received(const struct gateway *gateway)
              input->counts.result[PDU_SKIPPED], input->bad, input->foreign, input->echoes,
              gateway->without_effect);
     log_info("told the world %" PRIu64 " tracks, %" PRIu64 " losses, %" PRIu64 " shots and %" PRIu64
-             " detonations of other simulators; %" PRIu64
+             " detonations and collisions of other simulators; %" PRIu64
+             " collisions were known, %" PRIu64
              " Entity States came late or twice; %u entities are known",
              gateway->remotes.tracks, gateway->remotes.lost, gateway->remotes.fires,
-             gateway->remotes.struck, gateway->remotes.late, gateway->remotes.table.count);
+             gateway->remotes.struck, gateway->remotes.collisions, gateway->remotes.late,
+             gateway->remotes.table.count);
 }
 
 static void tell_sent(const struct gateway *gateway)

@@ -24,26 +24,40 @@
 #define GONE_NS        (2 * (uint64_t)NS_PER_S) /* told, and no row for so long: it was refused */
 
 #define PLATFORM  1 /* kinds of types of DIS */
+#define MUNITION  2
 #define LIFE_FORM 3
+
+#define MASS_MOST_KG 1e9f
+
+/* Collisions and munitions number their events apart. */
+#define COLLISION_EVENT ((uint64_t)1 << 48)
 
 /* --- opening -----------------------------------------------------------------------------------*/
 
-static bool has_heard(const struct remote_input *input, uint64_t event, uint32_t type)
+/* Returns the index of a shot or detonation among those that are remembered, or their number. */
+static uint32_t find_event(const struct remote_input *input, uint64_t event, uint32_t type)
 {
     uint32_t count =
         input->heard_count < REMOTE_INPUT_EVENTS ? input->heard_count : REMOTE_INPUT_EVENTS;
     for (uint32_t i = 0; i < count; i++) {
         if (input->heard[i].event == event && input->heard[i].type == type)
-            return true;
+            return i;
     }
-    return false;
+    return REMOTE_INPUT_EVENTS;
 }
 
-static void note_heard(struct remote_input *input, uint64_t event, uint32_t type)
+static bool has_heard(const struct remote_input *input, uint64_t event, uint32_t type)
+{
+    return find_event(input, event, type) < REMOTE_INPUT_EVENTS;
+}
+
+static void note_heard(struct remote_input *input, const struct remote_record *record)
 {
     uint32_t at = input->heard_count++ & (REMOTE_INPUT_EVENTS - 1);
-    input->heard[at].event = event;
-    input->heard[at].type = type;
+    input->heard[at].event = record->event;
+    input->heard[at].type = record->type;
+    input->heard[at].place =
+        (struct vec3){record->position[0], record->position[1], record->position[2]};
 }
 
 /* A gateway that was killed has left its last shots in the ring. */
@@ -55,7 +69,7 @@ static void find_heard(struct remote_input *input, const struct view *view)
     for (uint64_t i = end > slots ? end - slots : 0; i < end; i++) {
         struct remote_record record = remote_record_of(&words->slot[i & (slots - 1)]);
         if ((record.type == REMOTE_STRUCK || record.type == REMOTE_FIRE) && record.event != 0)
-            note_heard(input, record.event, record.type);
+            note_heard(input, &record);
     }
 }
 
@@ -121,15 +135,17 @@ static uint64_t id_of(struct pdu_id id)
 static void tell_refusals(struct remote_input *input, uint64_t now_ns)
 {
     uint64_t total = input->refused_full + input->refused_place + input->refused_jump +
-                     input->refused_twin + input->refused_ring;
+                     input->refused_twin + input->refused_ring + input->refused_body;
     (void)now_ns;
     if (total == input->logged || !log_due(&input->logged_ns, NS_PER_S))
         return;
     log_warn("refused so far: %" PRIu64 " Entity States beyond world.remotes_max = %u, %" PRIu64
              " outside the square, %" PRIu64 " that jump, %" PRIu64
-             " of an identifier that another sender has, %" PRIu64 " without room in the ring",
+             " of an identifier that another sender has, %" PRIu64
+             " without room in the ring, %" PRIu64
+             " Collisions without a mass or beyond %u at once",
              input->refused_full, input->table.capacity, input->refused_place, input->refused_jump,
-             input->refused_twin, input->refused_ring);
+             input->refused_twin, input->refused_ring, input->refused_body, REMOTE_INPUT_BODIES);
     input->logged = total;
 }
 
@@ -327,8 +343,9 @@ static void take_state(struct remote_input *input, struct view *view, const stru
         take_last(input, view, pdu, from, now_ns);
         return;
     }
-    bool shown = state->type.kind == PLATFORM || state->type.kind == LIFE_FORM;
-    uint16_t kind = shown ? kind_of(input, &view->world, state->type, false) : KIND_NONE;
+    bool flies = state->type.kind == MUNITION;
+    bool shown = flies || state->type.kind == PLATFORM || state->type.kind == LIFE_FORM;
+    uint16_t kind = shown ? kind_of(input, &view->world, state->type, flies) : KIND_NONE;
     if (kind == KIND_NONE) {
         input->refused_type++;
         return;
@@ -374,7 +391,7 @@ static void put_shot(struct remote_input *input, struct view *view,
         return;
     }
     if (record->event != 0)
-        note_heard(input, record->event, record->type);
+        note_heard(input, record);
     if (record->type == REMOTE_FIRE)
         input->fires++;
     else
@@ -408,8 +425,30 @@ static void take_fire(struct remote_input *input, struct view *view, const struc
         put_shot(input, view, &record, now_ns);
 }
 
+/* Returns how far a munition has flown, by the Fire of its event, or from who fired it. 0 when
+ * neither is known: it is then taken for one from a muzzle right here. */
+static double flown_of(const struct remote_input *input, uint64_t event, uint64_t firer,
+                       struct vec3 to)
+{
+    uint32_t shot = event != 0 ? find_event(input, event, REMOTE_FIRE) : REMOTE_INPUT_EVENTS;
+    const struct remote_entry *entry = firer ? remote_table_find(&input->table, firer) : NULL;
+    if (shot < REMOTE_INPUT_EVENTS)
+        return vec3_length(vec3_sub(to, input->heard[shot].place));
+    return entry && entry->placed ? vec3_length(vec3_sub(to, entry->place)) : 0.0;
+}
+
+/* A munition that detonates is no longer in flight. */
+static void end_flight(struct remote_input *input, struct view *view, uint64_t munition,
+                       const struct udp_address *from)
+{
+    struct remote_entry *entry = munition ? remote_table_find(&input->table, munition) : NULL;
+    if (entry && is_owner(entry, from) &&
+        view->world.kinds[entry->track.kind].domain == DOMAIN_MUNITION && entry->track.remote != 0)
+        put_lost(input, view, entry);
+}
+
 static void take_detonation(struct remote_input *input, struct view *view, const struct pdu *pdu,
-                            uint64_t now_ns)
+                            const struct udp_address *from, uint64_t now_ns)
 {
     const struct pdu_detonation *detonation = &pdu->detonation;
     uint16_t kind = kind_of(input, &view->world, detonation->munition_type, true);
@@ -420,6 +459,8 @@ static void take_detonation(struct remote_input *input, struct view *view, const
                                    .slot = slot_of(input, id_of(detonation->firer)),
                                    .entity = entity_ids_back(&input->own, detonation->target),
                                    .kind = kind};
+    end_flight(input, view, id_of(detonation->munition), from);
+    record.flown_m = (float)flown_of(input, record.event, record.remote, place);
     bool hits = record.entity != 0 && detonation->result == PDU_RESULT_ENTITY_IMPACT;
     if (detonation->result == PDU_RESULT_DUD)
         return;
@@ -445,6 +486,113 @@ static void take_detonation(struct remote_input *input, struct view *view, const
     put_shot(input, view, &record, now_ns);
 }
 
+/* --- Collision ---------------------------------------------------------------------------------*/
+
+void remote_input_met(struct remote_input *input, uint32_t entity, uint64_t remote, uint64_t now_ns)
+{
+    uint32_t at = input->met_count++ % REMOTE_INPUT_BODIES;
+    input->met[at].entity = entity;
+    input->met[at].remote = remote;
+    input->met[at].heard_ns = now_ns;
+}
+
+static bool has_met(const struct remote_input *input, const struct remote_record *record,
+                    uint64_t heard_ns)
+{
+    for (uint32_t i = 0; i < REMOTE_INPUT_BODIES; i++) {
+        if (input->met[i].entity == record->entity && input->met[i].remote == record->remote &&
+            input->met[i].heard_ns + (uint64_t)(REMOTE_INPUT_BEFORE_S * 1e9) > heard_ns)
+            return true;
+    }
+    return false;
+}
+
+/* Lets a collision wait for our own collider. A free place has no time. */
+static void await_collider(struct remote_input *input, const struct remote_record *record,
+                           uint64_t now_ns)
+{
+    for (uint32_t i = 0; i < REMOTE_INPUT_BODIES; i++) {
+        if (input->bodies[i].heard_ns != 0)
+            continue;
+        input->bodies[i].heard_ns = now_ns;
+        input->bodies[i].record = *record;
+        return;
+    }
+    input->refused_body++;
+}
+
+/* What a Collision and a Collision-Elastic say alike. */
+struct body {
+    struct pdu_id issuer, other, event;
+    const float *velocity, *point;
+    float mass_kg, restitution;
+};
+
+static struct body body_of(const struct pdu *pdu)
+{
+    const struct pdu_collision *c = &pdu->collision;
+    const struct pdu_collision_elastic *e = &pdu->collision_elastic;
+    if (pdu->header.type == PDU_COLLISION)
+        return (struct body){c->issuer,
+                             c->other,
+                             c->event,
+                             c->velocity,
+                             c->point,
+                             c->mass,
+                             c->collision_type == 1 ? 1.0f : 0.0f};
+    return (struct body){e->issuer, e->other, e->event,      e->velocity,
+                         e->point,  e->mass,  e->restitution};
+}
+
+/* A collision of two of others is theirs. */
+static void take_collision(struct remote_input *input, const struct pdu *pdu, uint64_t now_ns)
+{
+    struct body body = body_of(pdu);
+    struct remote_record record = {.remote = id_of(body.issuer),
+                                   .event =
+                                       id_of(body.event) ? id_of(body.event) | COLLISION_EVENT : 0,
+                                   .type = REMOTE_STRUCK,
+                                   .slot = slot_of(input, id_of(body.issuer)),
+                                   .entity = entity_ids_back(&input->own, body.other),
+                                   .kind = KIND_NONE,
+                                   .mass_kg = body.mass_kg,
+                                   .restitution = body.restitution};
+    if (record.entity == 0)
+        return;
+    if (!(body.mass_kg > 0.0f && body.mass_kg <= MASS_MOST_KG)) {
+        input->refused_body++;
+        return;
+    }
+    if (!(body.restitution >= 0.0f && body.restitution <= 1.0f))
+        record.restitution = body.restitution > 1.0f ? 1.0f : 0.0f;
+    struct vec3 point = local_frame_body_from_dis(limited(vec3_of(body.point), 1e3));
+    record.position[0] = point.x;
+    record.position[1] = point.y;
+    record.position[2] = point.z;
+    vec3_to_floats(
+        record.velocity,
+        local_frame_world_direction(input->frame, limited(vec3_of(body.velocity), SPEED_MOST_MPS)));
+    await_collider(input, &record, now_ns);
+}
+
+/* Tells of the collisions that our collider has not told of in time. */
+static void tell_bodies(struct remote_input *input, struct view *view, uint64_t now_ns)
+{
+    for (uint32_t i = 0; i < REMOTE_INPUT_BODIES; i++) {
+        uint64_t heard_ns = input->bodies[i].heard_ns;
+        if (heard_ns == 0)
+            continue;
+        bool met = has_met(input, &input->bodies[i].record, heard_ns);
+        if (!met && now_ns - heard_ns < (uint64_t)(REMOTE_INPUT_AFTER_S * 1e9))
+            continue;
+        if (met)
+            input->collisions++;
+        else
+            put_shot(input, view, &input->bodies[i].record, now_ns);
+        input->bodies[i].heard_ns = 0;
+    }
+}
+
 bool remote_input_take(struct remote_input *input, struct view *view, const struct pdu *pdu,
                        const struct udp_address *from, uint64_t now_ns)
 {
@@ -458,7 +606,11 @@ bool remote_input_take(struct remote_input *input, struct view *view, const stru
         take_fire(input, view, pdu, now_ns);
         break;
     case PDU_DETONATION:
-        take_detonation(input, view, pdu, now_ns);
+        take_detonation(input, view, pdu, from, now_ns);
+        break;
+    case PDU_COLLISION:
+    case PDU_COLLISION_ELASTIC:
+        take_collision(input, pdu, now_ns);
         break;
     default:
         return false;
@@ -492,6 +644,7 @@ void remote_input_tell(struct remote_input *input, struct view *view, uint64_t n
 {
     struct remote_table *table = &input->table;
     uint32_t kept = 0;
+    tell_bodies(input, view, now_ns);
     for (uint32_t i = 0; i < table->waiting_count; i++) {
         uint32_t index = table->waiting[i];
         struct remote_entry *entry = &table->entry[index];

@@ -1,5 +1,6 @@
 /* What other simulators tell of their entities, as records in the gateway's ring
- * (world/entity/remote.h): Entity State is TRACK or LOST, Fire is FIRE, Detonation is STRUCK.
+ * (world/entity/remote.h): Entity State is TRACK or LOST, Fire is FIRE, Detonation is STRUCK,
+ * and so is a Collision of which our own collider has not told.
  *
  * Places on the earth become places of the world here, so that the step of the mover has no result
  * of them. Times are those of arrival. Time stamps only tell an Entity State that the network has
@@ -23,6 +24,12 @@
  * than what came this long ago at most [s]. Other differences are those of wrong clocks. */
 #define REMOTE_INPUT_LATE_S 1.0
 
+/* Collisions of others with our vehicles. Our collider has most of them itself: what it tells from
+ * so long before to so long after they come is the same collision [s]. */
+#define REMOTE_INPUT_BODIES   256u
+#define REMOTE_INPUT_BEFORE_S 2.0
+#define REMOTE_INPUT_AFTER_S  0.3
+
 /* The last entities that were deactivated, of which Entity States may come late. */
 #define REMOTE_INPUT_GONE 256u
 
@@ -37,6 +44,7 @@ struct remote_input {
     struct {
         uint64_t event;
         uint32_t type;            /* enum remote_type */
+        struct vec3 place;        /* [m] of a FIRE: where it was */
     } heard[REMOTE_INPUT_EVENTS]; /* the last shots and detonations, to know them again */
     uint32_t heard_count;
     struct {
@@ -44,11 +52,22 @@ struct remote_input {
         uint32_t stamp;
     } gone[REMOTE_INPUT_GONE]; /* deactivated entities */
     uint32_t gone_count;
+    struct {
+        uint64_t heard_ns; /* 0: the place is free */
+        struct remote_record record;
+    } bodies[REMOTE_INPUT_BODIES]; /* collisions that wait for our own collider */
+    struct {
+        uint64_t remote, heard_ns;
+        uint32_t entity;
+    } met[REMOTE_INPUT_BODIES]; /* the last collisions that our collider has told of */
+    uint32_t met_count;
     struct pdu_entity_type told[REMOTE_INPUT_TOLD];
     uint32_t told_count;
     uint64_t taken; /* of the ring, as the last snapshot has it */
     /* Counts. */
     uint64_t tracks, lost, fires, struck;
+    uint64_t collisions;    /* of others with ours, of which our collider has told, too */
+    uint64_t refused_body;  /* collisions without a mass, or more than can wait */
     uint64_t refused_full;  /* Entity States beyond world.remotes_max */
     uint64_t refused_place; /* outside the square, or not on the earth */
     uint64_t refused_jump;
@@ -70,6 +89,10 @@ void remote_input_close(struct remote_input *input);
  * for remote entities. */
 bool remote_input_take(struct remote_input *input, struct view *view, const struct pdu *pdu,
                        const struct udp_address *from, uint64_t now_ns);
+
+/* Notes that our collider has told of a collision of one of our vehicles with a remote entity. */
+void remote_input_met(struct remote_input *input, uint32_t entity, uint64_t remote,
+                      uint64_t now_ns);
 
 /* Writes what waits into the ring. */
 void remote_input_tell(struct remote_input *input, struct view *view, uint64_t now_ns);

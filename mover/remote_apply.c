@@ -4,6 +4,7 @@
 
 #include "mover/motion/kinematics.h"
 #include "mover/motion/remote_motion.h"
+#include "mover/remote_impact.h"
 #include "mover/weapon/spawn.h"
 #include "world/entity/event.h"
 #include "world/entity/kind.h"
@@ -29,6 +30,8 @@
 #define SAME_RAD 1e-6
 
 #define TURN_UNIT_RAD (PI / 32768.0) /* of turret and gun */
+
+#define FLOWN_MOST_M 200000.0 /* no munition flies further */
 
 /* A munition that strikes the ground is sent down from so high above it, and this steeply. */
 #define DROP_M        2.0
@@ -115,7 +118,8 @@ static void set_state(struct serial_context *context, uint32_t row,
                       const struct remote_record *record)
 {
     const struct entities *m = &context->moved->entities;
-    bool destroyed = record->damage == DAMAGE_DESTROYED;
+    bool flies = m->behaviour[row] == BEHAVIOUR_FLIGHT;
+    bool destroyed = record->damage == DAMAGE_DESTROYED && !flies;
     if (record->damage > m->damage[row])
         PUT(context, row, changed_tick, (uint32_t)context->step->tick);
     PUT(context, row, damage, record->damage);
@@ -124,6 +128,16 @@ static void set_state(struct serial_context *context, uint32_t row,
     PUT(context, row, force, record->force);
     PUT(context, row, turret, (float)(record->turret * TURN_UNIT_RAD));
     PUT(context, row, gun, (float)(record->gun * TURN_UNIT_RAD));
+}
+
+static void set_marking(struct serial_context *context, uint32_t row,
+                        const struct remote_record *record)
+{
+    uint32_t part[3];
+    memcpy(part, record->marking, sizeof part);
+    PUT(context, row, leg, part[0]);
+    PUT(context, row, jolt_tick, part[1]);
+    PUT(context, row, target_slot, part[2]);
 }
 
 /* clamped: it moves on our ground. */
@@ -222,7 +236,8 @@ static enum remote_refusal new_row(struct serial_context *context,
     *row = spawn_entity(context, record->kind, record->force);
     if (*row == SLOT_NONE)
         return REMOTE_NO_ROW;
-    table_set_behaviour(&context->writer, *row, BEHAVIOUR_REMOTE);
+    if (context->moved->entities.behaviour[*row] != BEHAVIOUR_FLIGHT)
+        table_set_behaviour(&context->writer, *row, BEHAVIOUR_REMOTE);
     table_set_order(&context->writer, *row, BEHAVIOUR_REMOTE);
     table_set_driver(&context->writer, *row, record->remote);
     return REMOTE_TAKEN;
@@ -235,10 +250,12 @@ static enum remote_refusal track(struct serial_context *context, const struct re
     uint32_t count;
     if (!track_is_good(record))
         return REMOTE_UNKNOWN;
-    if (!kind || kind->domain > DOMAIN_AIR)
+    if (!kind || kind->domain > DOMAIN_MUNITION)
         return REMOTE_NO_KIND;
     uint32_t row = find(context, record->remote, record->slot, &count);
     bool is_new = row == SLOT_NONE;
+    if (!is_new && remote_is_munition(m, row) != (kind->domain == DOMAIN_MUNITION))
+        return REMOTE_NO_KIND; /* no vehicle becomes a munition */
     if (is_new) {
         enum remote_refusal refusal = new_row(context, record, count, &row);
         if (refusal != REMOTE_TAKEN)
@@ -251,6 +268,7 @@ static enum remote_refusal track(struct serial_context *context, const struct re
     bool clamped = (record->flags & REMOTE_FLAG_CLAMPED) &&
                    remote_motion_clamp(context->step, record->kind, &to);
     set_state(context, row, record);
+    set_marking(context, row, record);
     set_motion(context, row, record, clamped);
     set_place(context, row, record, to, is_new);
     return REMOTE_TAKEN;
@@ -377,18 +395,29 @@ static struct approach approach_place(const struct serial_context *context,
         .velocity = vec3_scale(along, speed)};
 }
 
+/* Returns when a munition was born that has flown this far at the mean of its speeds at the muzzle
+ * and now: what it still penetrates goes by that (collider/response/explosion.c). */
+static uint32_t born_of(const struct step_context *step, const struct kind *round, double speed_mps,
+                        double flown_m)
+{
+    double mean = 0.5 * (round->max_speed_mps + speed_mps);
+    double frames = mean > 1.0 ? flown_m / (mean * step->dt_s) : 0.0;
+    return (uint32_t)step->tick - (uint32_t)(maths_min(frames, 1e6) + 0.5);
+}
+
 /* A munition of another simulator detonates: one of ours appears in front of what it strikes, and
  * does there what our rules say. */
-static enum remote_refusal struck(struct serial_context *context,
-                                  const struct remote_record *record)
+static enum remote_refusal detonates(struct serial_context *context,
+                                     const struct remote_record *record)
 {
     const struct entities *m = &context->moved->entities;
     const struct table_writer *writer = &context->writer;
     uint32_t target = own_row(context, record->entity);
     struct vec3 place = place_of(record);
-    if (!all_within(record->velocity, SPEED_MOST_MPS) || !within(place.x, 2.0 * WORLD_SIDE_M) ||
-        !within(place.y, HEIGHT_MOST_M) || !within(place.z, 2.0 * WORLD_SIDE_M) ||
-        (record->entity == 0 && !in_world(place)))
+    if (!all_within(record->velocity, SPEED_MOST_MPS) ||
+        !within((double)record->flown_m, FLOWN_MOST_M) || record->flown_m < 0.0f ||
+        !within(place.x, 2.0 * WORLD_SIDE_M) || !within(place.y, HEIGHT_MOST_M) ||
+        !within(place.z, 2.0 * WORLD_SIDE_M) || (record->entity == 0 && !in_world(place)))
         return REMOTE_UNKNOWN;
     if (!shot_is_good(context, record))
         return REMOTE_NO_KIND;
@@ -403,6 +432,9 @@ static enum remote_refusal struck(struct serial_context *context,
     table_set_velocity(writer, row, approach.velocity);
     table_set_heading(writer, row, maths_heading(approach.velocity.x, approach.velocity.z));
     table_set_order(writer, row, BEHAVIOUR_REMOTE); /* its detonation is told as another's */
+    table_set_born_tick(writer, row,
+                        born_of(context->step, &context->step->world->kinds[record->kind],
+                                vec3_length(approach.velocity), (double)record->flown_m));
     if (approach.in_air)
         table_set_until_tick(writer, row, (uint32_t)context->step->tick);
     uint32_t firer = firer_row(context, record);
@@ -411,6 +443,16 @@ static enum remote_refusal struck(struct serial_context *context,
         table_set_owner_id(writer, row, m->id[firer]);
     }
     return REMOTE_TAKEN;
+}
+
+static enum remote_refusal struck(struct serial_context *context,
+                                  const struct remote_record *record)
+{
+    uint32_t target = own_row(context, record->entity);
+    if (record->kind != KIND_NONE)
+        return detonates(context, record);
+    return target == SLOT_NONE ? REMOTE_NOBODY
+                               : remote_impact(context, record, target, firer_row(context, record));
 }
 
 static enum remote_refusal apply_one(struct serial_context *context,

@@ -33,7 +33,7 @@ struct reporter {
     struct remote_commands remote;
     bool takes_commands;
     struct entity_topic entities;
-    uint64_t frame_due_ns;
+    uint64_t frame_due_ns, names_due_ns;
 };
 
 static int open_topics(struct reporter *reporter, struct error_text *error)
@@ -76,6 +76,10 @@ static bool poll_once(struct reporter *reporter)
         !event_topics_publish(&reporter->events, &reporter->view, begun_ns + EVENTS_LIMIT_NS);
     publish_status(reporter, begun_ns);
     more |= entity_topic_publish(&reporter->entities, &reporter->view, clock_now_ns());
+    if (begun_ns >= reporter->names_due_ns) {
+        reporter->names_due_ns = begun_ns + NS_PER_S;
+        status_topics_markings(&reporter->status, &reporter->view, &reporter->entities.snapshot);
+    }
     uint64_t stage_ns = clock_now_ns() - begun_ns;
     log_frame(reporter->events.frame);
     atomic_store_explicit(&slot->gaps, reporter->events.gaps, memory_order_relaxed);

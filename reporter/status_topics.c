@@ -8,6 +8,8 @@
 #include "ipc/topics/name_table.h"
 #include "world/entity/kind.h"
 #include "world/param_values.h"
+#include "world/entity/remote.h"
+#include "world/maths/hash.h"
 #include "world/params.h"
 #include "world/terrain/gridsquare.h"
 
@@ -111,18 +113,57 @@ int status_topics_world(struct status_topics *topics, const struct view *view,
     return code < 0 ? error_text_set(error, "world info: %s", dds_strretcode(code)) : 0;
 }
 
+static int write_names(const struct status_topics *topics, const struct name_table *names)
+{
+    jolon_EntityNames wire = {.run = topics->run};
+    wire.names._buffer = names->entry;
+    wire.names._length = wire.names._maximum = names->count;
+    return dds_write(topics->names, &wire);
+}
+
 int status_topics_names(const struct status_topics *topics, const struct view *view,
                         struct error_text *error)
 {
     struct name_table names = {0};
     if (!name_table_read_world(&names, &view->world, topics->run))
         return error_text_set(error, "entity names: %s", strerror(errno));
-    jolon_EntityNames wire = {.run = topics->run};
-    wire.names._buffer = names.entry;
-    wire.names._length = wire.names._maximum = names.count;
-    dds_return_t code = dds_write(topics->names, &wire);
+    int code = write_names(topics, &names);
     name_table_close(&names);
     return code < 0 ? error_text_set(error, "entity names: %s", dds_strretcode(code)) : 0;
+}
+
+/* Hashes which remote entities there are and how they are called, 0 for none. */
+static uint64_t hash_markings(const struct snapshot *snapshot)
+{
+    const struct entities *e = &snapshot->entities;
+    uint64_t hash = 0;
+    for (uint32_t row = 0; row < snapshot->head.used; row++) {
+        struct {
+            uint32_t id;
+            char marking[REMOTE_MARKING_MAX + 4];
+        } of = {.id = e->id[row]};
+        if (e->state[row] == ENTITY_FREE || !remote_is(e, row))
+            continue;
+        remote_marking(e, row, of.marking);
+        hash = XXH3_64bits_withSeed(&of, sizeof of, hash);
+    }
+    return hash;
+}
+
+void status_topics_markings(struct status_topics *topics, const struct view *view,
+                            const struct snapshot *snapshot)
+{
+    struct name_table names = {0};
+    if (view->world.params->remotes_max == 0)
+        return;
+    uint64_t markings = hash_markings(snapshot);
+    if (markings == topics->markings)
+        return;
+    if (name_table_read_world(&names, &view->world, topics->run) &&
+        name_table_add_markings(&names, &snapshot->entities, snapshot->head.used) &&
+        write_names(topics, &names) >= 0)
+        topics->markings = markings; /* else it is tried again */
+    name_table_close(&names);
 }
 
 static double to_ms(uint64_t ns)

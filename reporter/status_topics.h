@@ -1,9 +1,10 @@
-/* The status topics: WorldInfo and EntityNames once, ProcessStatus of each role on change and once
- * a second, FrameStatus as often as the caller asks. Reads the segment and writes only DDS
- * samples. */
+/* The status topics: WorldInfo once, EntityNames when they change, ProcessStatus of each role on
+ * change and once a second, FrameStatus as often as the caller asks. Reads the segment and writes
+ * only DDS samples. */
 #ifndef JOLON_REPORTER_STATUS_TOPICS_H
 #define JOLON_REPORTER_STATUS_TOPICS_H
 
+#include "ipc/frame/snapshot.h"
 #include "ipc/topics/dds_topics.h"
 
 #include "status.h"
@@ -15,6 +16,7 @@
 struct status_topics {
     dds_entity_t world, names, process, frame; /* writers */
     uint64_t run;                              /* of the world that view shows */
+    uint64_t markings;                         /* hash of those that were written */
     struct {
         jolon_ProcessState state;
         uint32_t pid;
@@ -40,6 +42,12 @@ int status_topics_world(struct status_topics *topics, const struct view *view,
 /* Writes EntityNames. Returns 0, or -1 with the reason. */
 int status_topics_names(const struct status_topics *topics, const struct view *view,
                         struct error_text *error);
+
+/* Writes EntityNames again, with the markings of remote entities (world/entity/remote.h), when
+ * those of the snapshot differ from those that were written; to be called once a second. Does
+ * nothing in a world without room for remote entities. */
+void status_topics_markings(struct status_topics *topics, const struct view *view,
+                            const struct snapshot *snapshot);
 
 /* Writes the ProcessStatus of each role that has changed, or was not written for a second. */
 void status_topics_processes(struct status_topics *topics, const struct view *view,

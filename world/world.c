@@ -2,6 +2,7 @@
 #include "world/world.h"
 
 #include "world/entity/entity.h"
+#include "world/entity/remote.h"
 #include "world/params.h"
 
 #include <string.h>
@@ -14,6 +15,15 @@ double world_dt_s(const struct world *world)
 const char *world_entity_name(const struct world *world, uint32_t id)
 {
     return id > 0 && id <= world->counts.names ? world->names[id - 1].text : "";
+}
+
+const char *world_row_name(const struct world *world, const struct entities *e, uint32_t row,
+                           char *marking)
+{
+    if (!remote_is(e, row))
+        return world_entity_name(world, e->id[row]);
+    remote_marking(e, row, marking);
+    return marking;
 }
 
 uint32_t world_entity_named(const struct world *world, const char *name)

@@ -7,6 +7,7 @@
 
 #include <stdint.h>
 
+struct entities;
 struct entity_name;
 struct fixed_object;
 struct formation;
@@ -107,6 +108,12 @@ double world_dt_s(const struct world *world);
 
 /* Returns the name that the scenario gave the entity with this id, or "". */
 const char *world_entity_name(const struct world *world, uint32_t id);
+
+/* Returns the name of the entity in a row for people: that of the scenario, or the marking of one
+ * of another simulator, which is written to marking (REMOTE_MARKING_MAX + 1 characters). "" for
+ * none. */
+const char *world_row_name(const struct world *world, const struct entities *e, uint32_t row,
+                           char *marking);
 
 /* Returns the id of the entity with this name in the scenario, 0 if there is none. */
 uint32_t world_entity_named(const struct world *world, const char *name);

@@ -3,8 +3,10 @@
 
 #include "world/entity/kind.h"
 #include "world/entity/grounded.h"
+#include "world/entity/remote.h"
 #include "world/entity/spool.h"
 #include "world/enum_names.h"
+#include "world/params.h"
 #include "world/terrain/gridsquare.h"
 
 #include <math.h>
@@ -163,6 +165,29 @@ static void put_entities(struct json_writer *json, const struct world_query *que
     json_writer_key_whole(json, "left_out", count - put);
 }
 
+/* In a world with room for remote entities: the markings of those in the area, by their ids. */
+static void put_markings(struct json_writer *json, const struct world_query *query,
+                         const struct area_asked *area)
+{
+    const struct snapshot *snapshot = &query->reader->snapshot;
+    const struct entities *e = &snapshot->entities;
+    uint64_t put = 0;
+    if (query->reader->view.world.params->remotes_max == 0)
+        return;
+    json_writer_key(json, "markings");
+    json_writer_begin(json, '{');
+    for (uint32_t row = 0; row < snapshot->head.used && put < area->most; row++) {
+        char marking[REMOTE_MARKING_MAX + 1], id[16];
+        if (!within(area, e, row) || !remote_is(e, row))
+            continue;
+        (void)snprintf(id, sizeof id, "%u", e->id[row]);
+        remote_marking(e, row, marking);
+        json_writer_key_word(json, id, marking);
+        put++;
+    }
+    json_writer_end(json, '}');
+}
+
 static void put_where(struct json_writer *json, const struct world_query *query, uint32_t row)
 {
     const struct entities *e = &query->reader->snapshot.entities;
@@ -188,12 +213,13 @@ static void put_me(struct json_writer *json, const struct world_query *query, ui
     const struct entities *e = &reader->snapshot.entities;
     const struct world *world = &reader->view.world;
     const struct kind *kind = &world->kinds[e->kind[row]];
+    char marking[REMOTE_MARKING_MAX + 1];
     double reload_s =
         ((double)e->reload_tick[row] - (double)reader->snapshot.head.tick) * world_dt_s(world);
     json_writer_key(json, "me");
     json_writer_begin(json, '{');
     json_writer_key_whole(json, "id", e->id[row]);
-    json_writer_key_word(json, "name", world_entity_name(world, e->id[row]));
+    json_writer_key_word(json, "name", world_row_name(world, e, row, marking));
     json_writer_key_word(json, "kind", kind->name);
     json_writer_key_word(json, "force", force_name((enum force)e->force[row]));
     json_writer_key_word(json, "behaviour", behaviour_name((enum behaviour)e->behaviour[row]));
@@ -279,6 +305,7 @@ void state_json(const struct world_query *query, struct http_answer *answer)
     put_head(json, query);
     put_battle(json, &query->reader->view.world, &query->reader->snapshot.head);
     put_entities(json, query, &area);
+    put_markings(json, query, &area);
     put_players(json, query);
     put_missions(json, query->queue);
     if (row != SLOT_NONE)

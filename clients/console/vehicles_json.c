@@ -3,6 +3,7 @@
 #include "clients/console/vehicles_json.h"
 
 #include "world/entity/kind.h"
+#include "world/entity/remote.h"
 #include "world/enum_names.h"
 #include "world/terrain/gridsquare.h"
 
@@ -41,7 +42,8 @@ struct list_query {
 /* A row and its sort key. */
 struct entry {
     double key;
-    const char *word; /* sort key of text columns, else "" */
+    const char *word;                     /* sort key of text columns, else "" */
+    char marking[REMOTE_MARKING_MAX + 1]; /* the sort key instead of it, or "" */
     uint32_t row, id;
 };
 
@@ -114,7 +116,7 @@ static bool matches(const struct world_query *query, const struct list_query *li
 {
     const struct entities *e = &query->reader->snapshot.entities;
     const struct world *world = &query->reader->view.world;
-    char id[16];
+    char id[16], marking[REMOTE_MARKING_MAX + 1];
     uint32_t kind = e->kind[row];
     if (e->state[row] == ENTITY_FREE || kind >= world->counts.kinds ||
         world->kinds[kind].domain == DOMAIN_MUNITION ||
@@ -122,7 +124,7 @@ static bool matches(const struct world_query *query, const struct list_query *li
         (list->kind != KIND_NONE && kind != list->kind))
         return false;
     if (list->kind_found[kind] ||
-        strcasestr(world_entity_name(world, e->id[row]), list->search) != NULL)
+        strcasestr(world_row_name(world, e, row, marking), list->search) != NULL)
         return true;
     (void)snprintf(id, sizeof id, "%u", e->id[row]);
     return strncmp(id, list->search, strlen(list->search)) == 0;
@@ -139,7 +141,9 @@ static struct entry entry_of(const struct world_query *query, const struct list_
     switch (list->sort) {
     case SORT_NAME:
         entry.word = world_entity_name(world, entry.id);
-        if (entry.word[0] == '\0') /* vehicles without a name come last in both directions */
+        remote_marking(e, row, entry.marking);
+        if (entry.word[0] == '\0' &&
+            entry.marking[0] == '\0') /* vehicles without a name come last in both directions */
             entry.key = list->descending ? -1.0 : 1.0;
         break;
     case SORT_KIND:
@@ -174,7 +178,7 @@ static int compare(const struct entry *a, const struct entry *b, bool descending
 {
     int order = (a->key > b->key) - (a->key < b->key);
     if (order == 0)
-        order = strcmp(a->word, b->word);
+        order = strcmp(a->marking[0] ? a->marking : a->word, b->marking[0] ? b->marking : b->word);
     if (order != 0)
         return descending ? -order : order;
     return (a->id > b->id) - (a->id < b->id);
@@ -239,7 +243,8 @@ static void put_row(struct json_writer *json, const struct world_query *query, u
     const struct player *player = players_driver_of(query->players, e->id[row]);
     json_writer_begin(json, '{');
     json_writer_key_whole(json, "id", e->id[row]);
-    json_writer_key_word(json, "name", world_entity_name(world, e->id[row]));
+    char marking[REMOTE_MARKING_MAX + 1];
+    json_writer_key_word(json, "name", world_row_name(world, e, row, marking));
     json_writer_key_word(json, "kind", world->kinds[e->kind[row]].name);
     json_writer_key_word(json, "force", force_name((enum force)e->force[row]));
     json_writer_key_word(json, "behaviour", behaviour_name((enum behaviour)e->behaviour[row]));

@@ -6,6 +6,7 @@
 #include "collider/motion/ground_impact.h"
 #include "world/maths/cpu_dispatch.h"
 #include "world/entity/entity.h"
+#include "world/entity/remote.h"
 #include "world/state.h"
 
 #include <string.h>
@@ -275,6 +276,8 @@ static void add_rows(const struct body_boxes *rows, struct sweep_worker *sweeper
             continue;
         record.tag |= block->rests[k] | (behaviour[k] == BEHAVIOUR_FLIGHT ? BIN_ROUND : 0) |
                       (behaviour[k] == BEHAVIOUR_REMOTE ? BIN_REMOTE : 0);
+        if (behaviour[k] == BEHAVIOUR_FLIGHT && remote_is_munition(e, first + k))
+            record.tag |= BIN_REMOTE | BIN_AIR;
         if (rows->wider && rows->wider[first + k] != BODY_BOX_EXACT)
             rows->wider[first + k] = record.tag & NOT_ALL_FOUND ? BODY_BOX_ASKED : BODY_BOX_WIDER;
         if (block->strip[k] < STRIP_COUNT)

@@ -17,10 +17,11 @@
 #define STRIP_COUNT GRIDSQUARE_PER_SIDE
 
 /* A record's tag: the row or the fixed object, and the bits that comparisons need. */
-#define BIN_ROW    (CAPACITY_MAX - 1u)
-#define BIN_RESTS  0x00100000u /* its path has no length */
-#define BIN_ROUND  0x00200000u /* a munition: pair_same_shooter must be asked */
-#define BIN_AIR    0x00400000u /* an aircraft: pair_filter_tests_fixed must be asked */
+#define BIN_ROW   (CAPACITY_MAX - 1u)
+#define BIN_RESTS 0x00100000u /* its path has no length */
+#define BIN_ROUND 0x00200000u /* a munition: pair_never_meets must be asked */
+#define BIN_AIR                                                                                    \
+    0x00400000u /* an aircraft, or a remote munition: pair_filter_tests_fixed must be asked */
 #define BIN_LONG   0x00800000u /* a long path: in each strip it is narrower than its box */
 #define BIN_WIDE   0x01000000u /* wider than BIN_WIDE_STEPS, or long */
 #define BIN_REMOTE 0x02000000u /* a remote entity: no other one meets it */

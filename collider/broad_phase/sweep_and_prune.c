@@ -139,7 +139,7 @@ static void take_moving(const struct strips *strips, struct sweep_worker *sweepe
     if (!pair_filter_boxes_meet(&strips->box[a], &strips->box[b]) ||
         (tags.a & tags.b & BIN_SPANS && met_before(strips, tags.a, tags.b, strip)) ||
         (tags.a & tags.b & BIN_REMOTE) ||
-        ((tags.a | tags.b) & BIN_ROUND && pair_same_shooter(strips->input->entities, a, b)))
+        ((tags.a | tags.b) & BIN_ROUND && pair_never_meets(strips->input->entities, a, b)))
         return;
     pair_list_add(&sweeper->pairs, a, b);
 }

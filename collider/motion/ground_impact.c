@@ -3,6 +3,7 @@
 
 #include "world/body_points.h"
 #include "world/entity/kind.h"
+#include "world/entity/remote.h"
 #include "world/world.h"
 
 static bool reaches(const struct method_input *input, const struct path *path, uint32_t row)
@@ -49,7 +50,7 @@ static bool vertices_meet(const struct method_input *input, const struct body_mo
 bool ground_impact_row(const struct method_input *input, const struct body_motion *motion,
                        uint32_t row, double *toi)
 {
-    if (input->entities->behaviour[row] == BEHAVIOUR_REMOTE)
+    if (remote_is(input->entities, row))
         return false; /* its owner knows where it touches down */
     if (!motion->models || input->entities->behaviour[row] == BEHAVIOUR_FLIGHT)
         return pair_filter_ground(input, &input->path[row], toi);

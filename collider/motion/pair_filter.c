@@ -110,6 +110,7 @@ bool pair_filter_tests_fixed(const struct method_input *input, uint32_t row)
     const struct path *path = &input->path[row];
     const struct kind *kind = &input->world->kinds[input->entities->kind[row]];
     return input->world->counts.fixed > 0 && !pair_filter_rests(path) &&
+           !remote_is_munition(input->entities, row) &&
            !(kind->domain == DOMAIN_AIR && above_threshold(input, path));
 }
 
@@ -126,7 +127,8 @@ bool pair_same_shooter(const struct entities *e, uint32_t a, uint32_t b)
 
 bool pair_never_meets(const struct entities *e, uint32_t a, uint32_t b)
 {
-    return pair_same_shooter(e, a, b) || (remote_is(e, a) && remote_is(e, b));
+    return pair_same_shooter(e, a, b) || (remote_is(e, a) && remote_is(e, b)) ||
+           remote_is_munition(e, a) || remote_is_munition(e, b);
 }
 
 bool pair_excluded(const struct method_input *input, uint32_t a, uint32_t b)

@@ -7,6 +7,7 @@
 #include "collider/narrow_phase/contact_pairs.h"
 #include "collider/narrow_phase/contact_rests.h"
 #include "world/entity/kind.h"
+#include "world/entity/remote.h"
 #include "world/params.h"
 #include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
@@ -289,7 +290,8 @@ static void find_end(struct job *job, uint32_t row)
         contact = end_of(job->contacts, row, CONTACT_GROUND, toi);
         note(job, &contact);
     }
-    if (e->behaviour[row] != BEHAVIOUR_FLIGHT || job->tick < e->until_tick[row])
+    if (e->behaviour[row] != BEHAVIOUR_FLIGHT || remote_is(e, row) ||
+        job->tick < e->until_tick[row])
         return;
     contact = end_of(job->contacts, row, CONTACT_AIR, 1.0);
     note(job, &contact);

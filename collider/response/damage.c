@@ -98,6 +98,21 @@ static void tell_ground(struct response_context *context, uint32_t row)
         });
 }
 
+/* Returns true if the mover has told by an event what harmed the row: a body of another simulator
+ * (mover/remote_impact.h). */
+static bool told_by_mover(const struct response_context *context, uint32_t row)
+{
+    const struct event_writer *events = &context->events;
+    uint32_t id = context->next->entities.id[row];
+    for (uint64_t i = 0; i < events->count; i++) {
+        const struct event *event = &events->slot[(events->first + i) & (events->slots - 1)];
+        if (event->type == EVENT_COLLISION && event->collision.remote &&
+            event->collision.a.id == id)
+            return true;
+    }
+    return false;
+}
+
 /* The mover has added the harm of a hard landing to harm_j (mover/motion/chassis.h): it becomes
  * damage. */
 static void fall(struct response_context *context, uint32_t row)
@@ -111,7 +126,8 @@ static void fall(struct response_context *context, uint32_t row)
         wreck(context, row);
     else
         set_damage(context, row, damage);
-    tell_ground(context, row);
+    if (!told_by_mover(context, row))
+        tell_ground(context, row);
 }
 
 /* Returns true if a vehicle lies on its side or on its roof. */

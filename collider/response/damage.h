@@ -3,10 +3,11 @@
 #define JOLON_COLLIDER_RESPONSE_DAMAGE_H
 
 #include "collider/response/response_context.h"
+#include "world/entity/impact_harm.h"
 
 /* A body's levels of damage as shares of resistance_j; those in between only show how much is
  * left. */
-#define DAMAGE_SHARE_HIGH 0.6
+#define DAMAGE_SHARE_HIGH IMPACT_HARM_SHARE_HIGH
 #define DAMAGE_SHARE_MED  0.3
 #define DAMAGE_SHARE_LOW  0.1
 

@@ -303,7 +303,8 @@ static double flown_of(const struct response_context *context, uint32_t round, d
                        double time)
 {
     const struct entities *e = &context->next->entities;
-    double frames = (double)(context->next->head->tick - e->born_tick[round]) - 1.0 + time;
+    uint32_t since = (uint32_t)context->next->head->tick - e->born_tick[round];
+    double frames = (double)since - 1.0 + time;
     double first = context->world->kinds[e->kind[round]].max_speed_mps;
     return maths_max(frames, 0.0) * context->world->params->dt_s * 0.5 * (first + speed_mps);
 }

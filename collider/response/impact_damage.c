@@ -41,13 +41,6 @@ static void dent_of_spring(const struct kind *kind, const struct contact_spring_
     deformation->elastic_m = gives * spring->depth_m - deformation->plastic_m;
 }
 
-double impact_damage_harm(const struct kind *kind, double harm_j, double joules)
-{
-    double room = maths_max(0.0, DAMAGE_SHARE_HIGH * kind->resistance_j - harm_j);
-    double outside = maths_min(joules, room / IMPACT_DAMAGE_OUTSIDE);
-    return IMPACT_DAMAGE_OUTSIDE * outside + IMPACT_DAMAGE_INSIDE * (joules - outside);
-}
-
 /* Makes the dent of an impact by which the skin takes this energy. */
 static struct deformation deform(struct response_context *context, uint32_t row,
                                  const struct impact *impact, double side, double joules,
@@ -77,7 +70,7 @@ void impact_damage_vehicle(struct response_context *context, uint32_t row,
     const struct entities *e = &context->next->entities;
     const struct kind *kind = &context->world->kinds[e->kind[row]];
     struct deformation deformation =
-        deform(context, row, impact, side, joules * IMPACT_DAMAGE_OUTSIDE, spring);
-    double lost = deformation.harm_j / IMPACT_DAMAGE_OUTSIDE;
-    damage_row(context, row, impact_damage_harm(kind, e->harm_j[row], lost), impact->time);
+        deform(context, row, impact, side, joules * IMPACT_HARM_OUTSIDE, spring);
+    double lost = deformation.harm_j / IMPACT_HARM_OUTSIDE;
+    damage_row(context, row, impact_harm(kind, e->harm_j[row], lost), impact->time);
 }

@@ -139,6 +139,8 @@ static void add_collision(cJSON *object, const struct event_collision *collision
     json_single(object, "angle_deg", collision->angle_deg);
     json_single(object, "impulse_ns", collision->impulse_ns);
     json_text(object, "response", response_name((enum response)collision->response));
+    if (collision->remote)
+        json_bool(object, "remote", true);
     json_text(object, "damage_a", damage_name((enum damage)collision->a.damage));
     json_text(object, "damage_b", damage_name((enum damage)collision->b.damage));
     json_bool(object, "begins", collision->begins != 0);
@@ -162,6 +164,8 @@ static void add_detonation(cJSON *object, const struct event_detonation *detonat
     json_text(object, "kind", kind[EVENT_TEXT_FIRST]);
     json_text(object, "damage", damage_name((enum damage)detonation->struck_party.damage));
     json_single(object, "explosive_kg", detonation->explosive_kg);
+    if (detonation->remote)
+        json_bool(object, "remote", true);
 }
 
 static void add_crater(cJSON *object, const struct event_crater *crater, const char *const *kind)

@@ -1,6 +1,7 @@
 /* Names of vehicles, sorted by id. */
 #include "ipc/topics/name_table.h"
 
+#include "world/entity/remote.h"
 #include "world/world.h"
 
 #include <stdlib.h>
@@ -47,6 +48,39 @@ bool name_table_read_world(struct name_table *names, const struct world *world, 
     names->entry = entry;
     names->run = run;
     names->known = true;
+    return true;
+}
+
+static int by_id(const void *a, const void *b)
+{
+    const jolon_EntityName *first = a, *second = b;
+    return (first->id > second->id) - (first->id < second->id);
+}
+
+bool name_table_add_markings(struct name_table *names, const struct entities *e, uint32_t used)
+{
+    uint32_t most = names->count;
+    for (uint32_t row = 0; row < used && most < jolon_NAMES_MAX; row++)
+        most += e->state[row] != ENTITY_FREE && remote_is(e, row);
+    jolon_EntityName *entry = calloc(most + 1, sizeof *entry);
+    if (!entry)
+        return false;
+    if (names->count > 0)
+        memcpy(entry, names->entry, names->count * sizeof *entry);
+    free(names->entry);
+    names->entry = entry;
+    for (uint32_t row = 0; row < used && names->count < most; row++) {
+        char marking[REMOTE_MARKING_MAX + 1];
+        if (e->state[row] == ENTITY_FREE || !remote_is(e, row))
+            continue;
+        remote_marking(e, row, marking);
+        if (marking[0] == '\0')
+            continue;
+        jolon_EntityName *to = &entry[names->count++];
+        to->id = e->id[row];
+        (void)stpncpy(to->name, marking, sizeof to->name - 1);
+    }
+    qsort(entry, names->count, sizeof *entry, by_id);
     return true;
 }
 

@@ -1,5 +1,5 @@
-/* The names that a world's scenario gave its vehicles, from the topic EntityNames or from the
- * world.
+/* The names that a world's scenario gave its vehicles, and the markings of remote ones, from the
+ * topic EntityNames or from the world.
  *
  * A spawned vehicle has none. One thread at a time. */
 #ifndef JOLON_IPC_TOPICS_NAME_TABLE_H
@@ -10,6 +10,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+struct entities;
 struct world;
 
 struct name_table {
@@ -28,6 +29,10 @@ bool name_table_copy(struct name_table *names, const jolon_EntityNames *sample);
 /* Reads the names of a mapped world. run is the creation's number (header->made). If there are more
  * than jolon_NAMES_MAX, it takes the first. Returns false without memory. */
 bool name_table_read_world(struct name_table *names, const struct world *world, uint64_t run);
+
+/* Adds the markings of remote entities (world/entity/remote.h), as far as there is room for names.
+ * Returns false without memory. */
+bool name_table_add_markings(struct name_table *names, const struct entities *e, uint32_t used);
 
 /* Returns the name of an entity, "" when it has none. */
 const char *name_table_of(const struct name_table *names, uint32_t id);

@@ -6,6 +6,7 @@
 #include "mover/agent/perception.h"
 #include "mover/motion/spin.h"
 #include "world/entity/formation.h"
+#include "world/entity/remote.h"
 #include "world/state.h"
 #include "world/world.h"
 
@@ -36,7 +37,7 @@ static enum motion motion_of(const struct step_context *context, uint32_t i)
     const struct entities *m = context->m;
     if (m->state[i] == ENTITY_FREE)
         return MOTION_NONE;
-    if (m->behaviour[i] == BEHAVIOUR_REMOTE)
+    if (remote_is(m, i))
         return MOTION_REMOTE;
     if (m->state[i] == ENTITY_WRECK)
         return MOTION_WRECK;

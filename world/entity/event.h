@@ -113,7 +113,7 @@ struct event_collision {
     float direction_a[3]; /* unit direction of travel, 0 when at rest (thesis row 34) */
     uint32_t response;    /* enum response */
     uint32_t begins;      /* 1: a contact begins with it, which a contact_end will end */
-    uint32_t reserved;    /* 0 */
+    uint32_t remote;      /* 1: another simulator told of it (remote.h) */
 };
 
 struct event_fire {

@@ -9,3 +9,17 @@ uint64_t remote_record_hash(const struct command *slot, uint64_t before)
     copy.sequence = 0;
     return XXH3_64bits_withSeed(&copy, sizeof copy, before);
 }
+
+void remote_marking(const struct entities *e, uint32_t i, char marking[REMOTE_MARKING_MAX + 1])
+{
+    memset(marking, 0, REMOTE_MARKING_MAX + 1);
+    if (!remote_is(e, i))
+        return;
+    memcpy(marking, &e->leg[i], 4);
+    memcpy(marking + 4, &e->jolt_tick[i], 4);
+    memcpy(marking + 8, &e->target_slot[i], 4);
+    for (unsigned k = 0; k < REMOTE_MARKING_MAX && marking[k] != '\0'; k++) {
+        if (marking[k] < ' ' || marking[k] > '~') /* a log that anybody has written */
+            marking[k] = '?';
+    }
+}

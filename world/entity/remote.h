@@ -1,8 +1,9 @@
 /* Remote entities: vehicles that another simulator owns and tells us of (docs/dis.md).
  *
- * A remote entity is a row like any other, with BEHAVIOUR_REMOTE. Records of its owner reach the
- * mover through the gateway's ring, and are recorded with the run. Between two of them the mover
- * extrapolates the row by dead reckoning. The collider neither moves nor damages it. */
+ * A remote entity is a row like any other, with BEHAVIOUR_REMOTE, or a munition. Records of its
+ * owner reach the mover through the gateway's ring, and are recorded with the run. Between two of
+ * them the mover extrapolates the row by dead reckoning. The collider neither moves nor damages it.
+ */
 #ifndef JOLON_WORLD_ENTITY_REMOTE_H
 #define JOLON_WORLD_ENTITY_REMOTE_H
 
@@ -22,7 +23,7 @@
 enum remote_type {
     REMOTE_TRACK = 256, /* where an entity is and how it moves; makes its row at first */
     REMOTE_LOST,        /* the entity is gone, or its owner was not heard of for too long */
-    REMOTE_STRUCK,      /* a munition of another simulator detonates here */
+    REMOTE_STRUCK,      /* a munition of another simulator detonates here, or a body strikes ours */
     REMOTE_FIRE,        /* an entity of another simulator fires */
     REMOTE_TYPE_END
 };
@@ -34,7 +35,7 @@ enum remote_type {
  * body. */
 struct remote_record {
     uint64_t sequence; /* as in struct command */
-    uint64_t remote;   /* remote_id() of the entity; STRUCK: of the firer, 0: none */
+    uint64_t remote;   /* remote_id() of the entity; STRUCK: of the firer or of the body, 0: none */
     uint64_t event;    /* FIRE, STRUCK: remote_id() of the event */
     uint32_t type;     /* enum remote_type */
     uint32_t slot;     /* where the sender has seen the entity's row; SLOT_NONE: nowhere */
@@ -46,12 +47,20 @@ struct remote_record {
             uint8_t unused[2];
         };
     };
-    uint16_t kind;                    /* TRACK: of the row; FIRE, STRUCK: of the munition */
-    uint8_t force;                    /* enum force */
-    uint8_t model;                    /* TRACK: enum dead_reckoning_model */
-    double position[3];               /* [m]; STRUCK with a target: in its body axes */
-    float velocity[3];                /* [m/s] */
-    float acceleration[3];            /* [m/s^2] TRACK */
+    uint16_t kind;      /* TRACK: of the row; FIRE, STRUCK: of the munition. STRUCK:
+                           KIND_NONE for a body, such as a vehicle that drives into ours */
+    uint8_t force;      /* enum force */
+    uint8_t model;      /* TRACK: enum dead_reckoning_model */
+    double position[3]; /* [m]; STRUCK with a target: in its body axes */
+    float velocity[3];  /* [m/s] */
+    union {
+        float acceleration[3]; /* [m/s^2] TRACK */
+        struct {               /* STRUCK */
+            float flown_m;     /* how far the munition has flown, 0: from a muzzle right here */
+            float mass_kg;     /* of a body */
+            float restitution; /* of a body: 0 inelastic, 1 elastic */
+        };
+    };
     float rates[3];                   /* [rad/s] TRACK: angular velocity */
     float attitude[3];                /* [rad] TRACK: heading, pitch, roll */
     int16_t turret, gun;              /* [pi / 32768 rad] TRACK */
@@ -106,21 +115,32 @@ static inline bool remote_is_record(uint32_t type)
     return type >= REMOTE_TRACK && type < REMOTE_TYPE_END;
 }
 
-static inline bool remote_is(const struct entities *e, uint32_t i)
+/* A munition in flight has BEHAVIOUR_FLIGHT whoever owns it, so that it is drawn and listed among
+ * munitions and no agent takes it for a vehicle. Ours have no driver. */
+static inline bool remote_is_munition(const struct entities *e, uint32_t i)
 {
-    return e->behaviour[i] == BEHAVIOUR_REMOTE;
+    return e->behaviour[i] == BEHAVIOUR_FLIGHT && e->driver[i] != 0;
 }
 
-/* A remote row has no agent and no driver, so it uses their columns:
+static inline bool remote_is(const struct entities *e, uint32_t i)
+{
+    return e->behaviour[i] == BEHAVIOUR_REMOTE || remote_is_munition(e, i);
+}
+
+/* A remote row has no agent and no driver, and a munition no target here, so it uses their columns:
  *   driver                        remote_id()
  *   order_arg                     enum dead_reckoning_model | REMOTE_FLAG_* << REMOTE_FLAGS_SHIFT
  *   seen_tick                     when its last TRACK came
  *   climb, traverse, elevate      acceleration [m/s^2, world axes]
  *   goal_x, ease, goal_z          velocity by which an error of its place vanishes [m/s]
  *   steer, brake, dodge           rates by which one of its attitude vanishes [rad/s, world axes]
- *   until_tick                    when both have vanished */
+ *   until_tick                    when both have vanished
+ *   leg, jolt_tick, target_slot   its marking, four characters each (target_id is 0) */
 #define REMOTE_FLAGS_SHIFT 8u
 #define REMOTE_MODEL_MASK  0xffu
+
+/* Writes the marking of a remote row, "" of every other. Ends it with a NUL. */
+void remote_marking(const struct entities *e, uint32_t i, char marking[REMOTE_MARKING_MAX + 1]);
 
 static inline struct vec3 remote_acceleration(const struct entities *e, uint32_t i)
 {

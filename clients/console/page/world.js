@@ -127,9 +127,9 @@ export class World extends EventTarget {
     return this.info?.kinds[kind] ?? { name: 'unknown', domain: 'land', length_m: 5 };
   }
 
-  /** @param {number} id @returns {string} its name, or its kind and number */
+  /** @param {number} id @returns {string} its name or marking, or its kind and number */
   name(id) {
-    const given = this.info?.names?.[id];
+    const given = this.info?.names?.[id] || this.state?.markings?.[id];
     if (given) return given;
     const entity = this.now.get(id);
     return entity ? `${this.kind(entity[KIND]).name} ${id}` : `number ${id}`;

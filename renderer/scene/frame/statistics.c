@@ -3,6 +3,7 @@
 
 #include "world/entity/grounded.h"
 #include "world/entity/kind.h"
+#include "world/entity/remote.h"
 #include "world/enum_names.h"
 #include "world/world.h"
 
@@ -15,7 +16,8 @@ void statistics_of(struct statistics *statistics, const struct frame_view *frame
     const struct entities *e = frame_view->entities;
     const struct kind *kind = &world->kinds[e->kind[slot]];
     const char *grounded = grounded_word(e, kind, slot);
-    const char *own = world_entity_name(world, e->id[slot]);
+    char marking[REMOTE_MARKING_MAX + 1];
+    const char *own = world_row_name(world, e, slot, marking);
     *statistics = (struct statistics){
         .kind = kind->name,
         .force = force_name((enum force)e->force[slot]),

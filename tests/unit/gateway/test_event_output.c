@@ -140,6 +140,11 @@ static void test_a_shot_and_its_detonation(void **state)
     assert_memory_equal(&detonation->event, &fire.event, sizeof fire.event);
     assert_int_equal(detonation->firer.entity, 1);
     assert_int_equal(detonation->fuse, 1000);
+    struct vec3 speed = local_frame_world_direction(&entities.frame,
+                                                    (struct vec3){(double)detonation->velocity[0],
+                                                                  (double)detonation->velocity[1],
+                                                                  (double)detonation->velocity[2]});
+    assert_true(speed.x > 1000.0 && fabs(speed.z) < 50.0); /* the round itself is gone */
     event = fixture_event(&world, EVENT_DETONATION, 0);
     struct vec3 place = world_of(detonation->location);
     assert_true(fabs(place.x - event->detonation.point[0]) < 1e-6);
@@ -270,7 +275,12 @@ static void test_a_collision_with_a_remote_entity(void **state)
     (void)state;
     open_world(text);
     remotes_send(&world, remotes_track(&world, REMOTE_ID, (struct vec3){25020.0, 100.0, 25000.0}));
+    static struct remote_input remotes;
+    memset(&remotes, 0, sizeof remotes);
+    events.remotes = &remotes;
     run_until(PDU_COLLISION);
+    assert_true(remotes.met_count > 0); /* the way in knows of it */
+    assert_true(remotes.met[0].remote == REMOTE_ID && remotes.met[0].entity == 1);
     assert_int_equal(count, 1); /* theirs is told by its owner */
     assert_int_equal(received[0].collision.issuer.site, 1991);
     assert_int_equal(received[0].collision.other.site, 7);
@@ -280,7 +290,8 @@ static void test_a_collision_with_a_remote_entity(void **state)
 static void test_what_others_told_is_not_told_again(void **state)
 {
     (void)state;
-    open_world("world = { seed = 1; capacity = 64; remotes_max = 4; }; vehicles = ();");
+    open_world("world = { seed = 1; capacity = 64; remotes_max = 4; };"
+               "vehicles = ({ kind = \"tank\"; at = [26000.0, 25000.0]; heading_deg = 90.0; });");
     struct remote_record record =
         remotes_track(&world, REMOTE_ID, (struct vec3){25020.0, 100.0, 25000.0});
     remotes_send(&world, record);
@@ -289,11 +300,22 @@ static void test_what_others_told_is_not_told_again(void **state)
     remotes_send(&world, record);
     record.type = REMOTE_STRUCK;
     remotes_send(&world, record);
+    struct remote_record body = {.remote = REMOTE_ID,
+                                 .type = REMOTE_STRUCK,
+                                 .slot = SLOT_NONE,
+                                 .entity = 1,
+                                 .kind = KIND_NONE,
+                                 .velocity = {-20.0f, 0.0f, 0.0f},
+                                 .position = {2.0, 0.0, 0.0},
+                                 .mass_kg = 1000.0f};
+    remotes_send(&world, body);
     fixture_run(&world, 5);
+    assert_true(fixture_event_count(&world, EVENT_COLLISION) > 0);
     assert_int_equal(fixture_event_count(&world, EVENT_FIRE), 1);
     assert_int_equal(fixture_event_count(&world, EVENT_DETONATION), 1);
     pass(PDU_FIRE);
-    assert_int_equal(count_of(PDU_FIRE) + count_of(PDU_DETONATION) + count, 0);
+    assert_int_equal(
+        count_of(PDU_FIRE) + count_of(PDU_DETONATION) + count_of(PDU_COLLISION) + count, 0);
 }
 
 int main(void)

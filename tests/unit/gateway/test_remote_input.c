@@ -102,6 +102,14 @@ static void take(const struct pdu *pdu, const struct udp_address *from)
     assert_true(remote_input_take(&input, &f.view, pdu, from, now_ns));
 }
 
+/* Returns the last record that was written into the ring. */
+static struct remote_record last_record(void)
+{
+    const struct command_ring_words *words = f.view.commands[RING_GATEWAY];
+    uint64_t slots = layout_ring_slots(f.view.header, RING_GATEWAY);
+    return remote_record_of(&words->slot[(segment_load(&words->head) - 1) & (slots - 1)]);
+}
+
 static uint32_t row_of(uint16_t entity)
 {
     return remotes_row(&f, remote_id(7, 1, entity));
@@ -303,9 +311,9 @@ static void test_types(void **state)
         {{1, 1, 222, 2, 9, 9, 0}, "carrier"}, {{1, 1, 71, 7, 0, 0, 0}, "truck"},
         {{1, 1, 222, 28, 12, 1, 0}, "flak"},  {{1, 2, 225, 20, 0, 0, 0}, "helicopter"},
         {{1, 3, 225, 5, 0, 0, 0}, "ship"},    {{3, 1, 225, 1, 3, 0, 0}, NULL}, /* a soldier */
-        {{2, 2, 225, 2, 13, 1, 0}, NULL}, /* a munition in flight */
-        {{5, 1, 0, 2, 0, 0, 0}, NULL},    /* a building */
-        {{1, 5, 225, 1, 0, 0, 0}, NULL},  /* a satellite */
+        {{2, 7, 225, 9, 9, 9, 0}, NULL}, /* a munition whose domain the table does not have */
+        {{5, 1, 0, 2, 0, 0, 0}, NULL},   /* a building */
+        {{1, 5, 225, 1, 0, 0, 0}, NULL}, /* a satellite */
     };
     (void)state;
     for (uint16_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
@@ -446,6 +454,124 @@ static void test_shots(void **state)
     assert_int_equal(input.struck, 1);
 }
 
+/* How far a round has flown goes by its Fire, or by who fired it. */
+static void test_how_far_a_round_has_flown(void **state)
+{
+    struct vec3 at = {25000.0, FIXTURE_GROUND_M, 25000.0};
+    struct vec3 muzzle = {23000.0, FIXTURE_GROUND_M, 25000.0};
+    struct pdu pdu = state_of(5, (struct vec3){25000.0, FIXTURE_GROUND_M, 24000.0});
+    struct vec3 from = local_frame_ecef(&frame, muzzle), to = local_frame_ecef(&frame, at);
+    (void)state;
+    take(&pdu, &peer);
+    pass(0.1);
+    for (int known = 0; known < 2; known++) {
+        memset(&pdu, 0, sizeof pdu);
+        pdu.header.type = PDU_FIRE;
+        pdu.fire = (struct pdu_fire){.firer = {7, 1, 5},
+                                     .event = {7, 1, 3},
+                                     .munition_type = {2, 2, 225, 2, 13, 1, 0},
+                                     .location = {from.x, from.y, from.z}};
+        if (known)
+            take(&pdu, &peer);
+        memset(&pdu, 0, sizeof pdu);
+        pdu.header.type = PDU_DETONATION;
+        pdu.detonation = (struct pdu_detonation){.firer = {7, 1, 5},
+                                                 .event = {7, 1, (uint16_t)(known ? 3 : 2)},
+                                                 .munition_type = {2, 2, 225, 2, 13, 1, 0},
+                                                 .location = {to.x, to.y, to.z},
+                                                 .result = PDU_RESULT_GROUND_IMPACT};
+        take(&pdu, &peer);
+        assert_true(fabs((double)last_record().flown_m - (known ? 2000.0 : 1000.0)) < 1.0);
+    }
+}
+
+static struct pdu collision_of(uint16_t event, float mass_kg)
+{
+    struct pdu pdu;
+    memset(&pdu, 0, sizeof pdu);
+    pdu.header.type = PDU_COLLISION;
+    pdu.collision = (struct pdu_collision){.issuer = {7, 1, 5},
+                                           .other = {1991, 10, 1},
+                                           .event = {7, 1, event},
+                                           .mass = mass_kg,
+                                           .point = {2.0f, 1.0f, 0.5f}};
+    vec3_to_floats(pdu.collision.velocity,
+                   local_frame_ecef_direction(&frame, (struct vec3){0.0, 0.0, 15.0}));
+    return pdu;
+}
+
+/* A Collision is told when our own collider has not told of it within REMOTE_INPUT_AFTER_S. */
+static void test_collisions(void **state)
+{
+    struct pdu pdu = collision_of(1, 50000.0f);
+    (void)state;
+    take(&pdu, &peer);
+    take(&pdu, &peer); /* the network repeats it */
+    remote_input_tell(&input, &f.view, now_ns);
+    assert_int_equal(input.struck, 0);
+    now_ns += (uint64_t)(REMOTE_INPUT_AFTER_S * 1e9) + 1;
+    remote_input_tell(&input, &f.view, now_ns);
+    assert_int_equal(input.struck, 1);
+    assert_int_equal(input.repeated, 1);
+    struct remote_record record = last_record();
+    assert_int_equal(record.type, REMOTE_STRUCK);
+    assert_int_equal(record.kind, KIND_NONE);
+    assert_int_equal(record.entity, 1);
+    assert_true(record.mass_kg == 50000.0f && record.restitution == 0.0f);
+    assert_true(fabs(record.position[0] - 2.0) < 1e-6 && fabs(record.position[1] + 0.5) < 1e-6 &&
+                fabs(record.position[2] - 1.0) < 1e-6); /* forward, up, right */
+    assert_true(fabs((double)record.velocity[2] - 15.0) < 1e-4);
+    pdu = collision_of(2, 50000.0f);
+    take(&pdu, &peer);
+    remote_input_met(&input, 1, remote_id(7, 1, 5), now_ns + 1000); /* ours comes later */
+    remote_input_tell(&input, &f.view, now_ns + 2000);
+    assert_int_equal(input.collisions, 1);
+    pdu = collision_of(3, 50000.0f); /* ours came before */
+    take(&pdu, &peer);
+    remote_input_tell(&input, &f.view, now_ns + 2000);
+    assert_int_equal(input.collisions, 2);
+    assert_int_equal(input.struck, 1);
+    pdu = collision_of(4, 0.0f);
+    take(&pdu, &peer);
+    pdu = collision_of(5, NAN);
+    take(&pdu, &peer);
+    pdu = collision_of(6, -5.0f);
+    take(&pdu, &peer);
+    assert_int_equal(input.refused_body, 3);
+    for (uint16_t i = 0; i < REMOTE_INPUT_BODIES + 7; i++) {
+        pdu = collision_of((uint16_t)(100 + i), 1.0f);
+        pdu.collision.issuer.entity = 6;
+        take(&pdu, &peer);
+    }
+    assert_int_equal(input.refused_body, 10);
+}
+
+static void test_a_munition_in_flight(void **state)
+{
+    struct pdu pdu = state_of(8, (struct vec3){25100.0, FIXTURE_GROUND_M + 50.0, 24900.0});
+    (void)state;
+    pdu.entity_state.type = (struct pdu_entity_type){2, 2, 225, 1, 3, 1, 0}; /* AGM-114 */
+    take(&pdu, &peer);
+    pass(0.1);
+    uint32_t row = row_of(8);
+    assert_true(row != SLOT_NONE);
+    assert_int_equal(steps_rows(&f).behaviour[row], BEHAVIOUR_FLIGHT);
+    assert_int_equal(fixture_state(&f).head->munitions, 1);
+    struct vec3 at = local_frame_ecef(&frame, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
+    memset(&pdu, 0, sizeof pdu);
+    pdu.header.type = PDU_DETONATION;
+    pdu.detonation = (struct pdu_detonation){.munition = {7, 1, 8},
+                                             .event = {7, 1, 9},
+                                             .munition_type = {2, 2, 225, 1, 3, 1, 0},
+                                             .location = {at.x, at.y, at.z},
+                                             .result = PDU_RESULT_GROUND_IMPACT};
+    take(&pdu, &peer); /* its flight is over */
+    fixture_run(&f, 3);
+    assert_int_equal(row_of(8), SLOT_NONE);
+    assert_int_equal(fixture_event_count(&f, EVENT_DETONATION), 1);
+    assert_int_equal(fixture_state(&f).head->munitions, 0);
+}
+
 static void test_a_world_without_room_takes_nothing(void **state)
 {
     struct pdu pdu = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
@@ -473,6 +599,9 @@ int main(void)
         TEST(test_late_and_twice),
         TEST(test_a_full_ring),
         TEST(test_shots),
+        TEST(test_how_far_a_round_has_flown),
+        TEST(test_collisions),
+        TEST(test_a_munition_in_flight),
         TEST(test_a_world_without_room_takes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

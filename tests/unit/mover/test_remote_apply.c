@@ -134,7 +134,6 @@ static void test_bad_tracks_are_refused(void **state)
     REFUSES(model, 10, REMOTE_UNKNOWN);
     REFUSES(remote, 0, REMOTE_UNKNOWN);
     REFUSES(kind, KIND_NONE, REMOTE_NO_KIND);
-    REFUSES(kind, fixture_kind(&f, "shell"), REMOTE_NO_KIND);
     REFUSES(kind, fixture_kind(&f, "tree"), REMOTE_NO_KIND);
     assert_int_equal(remotes_row(&f, REMOTE), SLOT_NONE);
     assert_int_equal(fixture_state(&f).head->used, 1);
@@ -249,6 +248,122 @@ static void test_a_shell_digs_a_crater(void **state)
     assert_true(fabs(fixture_event(&f, EVENT_DETONATION, 1)->detonation.point[1] - 300.0) < 1.0);
 }
 
+/* What a round still penetrates goes by how far it has flown, not by where it appears: the harm of
+ * a round from so far away is that of the one that our rules make after as long a flight. */
+static double harm_after(float flown_m)
+{
+    struct remote_record record = {.remote = REMOTE,
+                                   .type = REMOTE_STRUCK,
+                                   .slot = SLOT_NONE,
+                                   .entity = 1,
+                                   .kind = fixture_kind(&f, "shell"),
+                                   .velocity = {0.0f, 0.0f, 1500.0f}, /* at its front */
+                                   .position = {0.0, 1.0, 0.0},
+                                   .flown_m = flown_m};
+    steps_rows(&f).harm_j[own] = 0.0;
+    steps_rows(&f).damage[own] = DAMAGE_NONE;
+    steps_rows(&f).state[own] = ENTITY_ACTIVE;
+    steps_rows(&f).born_tick[own] = 0;
+    assert_int_equal(does(record), REMOTE_TAKEN);
+    fixture_run(&f, 2);
+    return steps_rows(&f).harm_j[own];
+}
+
+static void test_a_far_round_pierces_less(void **state)
+{
+    (void)state;
+    struct kind *kinds = (struct kind *)(uintptr_t)f.view.world.kinds;
+    struct kind *shell = &kinds[fixture_kind(&f, "shell")];
+    const double armour_mm = kinds[fixture_kind(&f, "tank")].armour_mm[0];
+    shell->penetration_mm = 2.0 * armour_mm;
+    shell->penetration_loss = 0.5 * armour_mm; /* half of it is left after two kilometres */
+    double near_j = harm_after(0.0f), far_j = harm_after(3000.0f);
+    print_message("harm of a round: %.0f J at the muzzle, %.0f J after 3 km\n", near_j, far_j);
+    assert_true(near_j > 2.0 * far_j);
+    assert_true(far_j > 0.0);
+}
+
+/* A Collision of which only the other simulator knows: the tank gets the impulse of two masses. */
+static void test_a_body_strikes(void **state)
+{
+    struct remote_record body = {.remote = REMOTE,
+                                 .type = REMOTE_STRUCK,
+                                 .slot = SLOT_NONE,
+                                 .entity = 1,
+                                 .kind = KIND_NONE,
+                                 .velocity = {0.0f, 0.0f, 20.0f}, /* from the north */
+                                 .position = {3.0, 0.0, 0.0}}; /* at its front: it points north */
+    (void)state;
+    const struct kind *tank = &f.view.world.kinds[fixture_kind(&f, "tank")];
+    body.mass_kg = (float)tank->mass_kg;
+    assert_int_equal(does(body), REMOTE_TAKEN);
+    struct entities e = steps_rows(&f);
+    assert_true(fabs(e.vz[own] - 10.0) < 0.5); /* inelastic, and as heavy */
+    assert_true(e.harm_j[own] > 0.0);
+    const struct event_collision *told = &fixture_event(&f, EVENT_COLLISION, 0)->collision;
+    assert_int_equal(told->a.id, 1);
+    assert_int_equal(told->remote, 1);
+    assert_true(fabs((double)told->closing_mps - 20.0) < 0.5);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
+    /* What parts already is struck no more. */
+    body.velocity[2] = 5.0f;
+    double vz = steps_rows(&f).vz[own];
+    assert_int_equal(does(body), REMOTE_TAKEN);
+    assert_true(steps_rows(&f).vz[own] <= vz);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
+    body.mass_kg = 0.0f;
+    assert_int_equal(does(body), REMOTE_UNKNOWN);
+    body.mass_kg = 1.0f;
+    body.entity = 77;
+    assert_int_equal(does(body), REMOTE_NOBODY);
+}
+
+/* A guided missile of another simulator flies here, meets nothing, and is no vehicle. */
+static void test_a_munition_flies(void **state)
+{
+    struct remote_record record = remotes_track(&f, REMOTE, (struct vec3){25000.0, 101.0, 24800.0});
+    (void)state;
+    record.kind = fixture_kind(&f, "missile");
+    record.model = DEAD_RECKONING_FPW;
+    record.velocity[2] = 200.0f; /* through our tank */
+    memcpy(record.marking, "HELLFIRE", 8);
+    assert_int_equal(does(record), REMOTE_TAKEN);
+    uint32_t row = remotes_row(&f, REMOTE);
+    char marking[REMOTE_MARKING_MAX + 1];
+    struct entities e = steps_rows(&f);
+    remote_marking(&e, row, marking);
+    assert_string_equal(marking, "HELLFIRE");
+    assert_int_equal(e.behaviour[row], BEHAVIOUR_FLIGHT);
+    assert_int_equal(fixture_state(&f).head->munitions, 1);
+    assert_int_equal(fixture_state(&f).head->vehicles, 1);
+    fixture_run(&f, 120);
+    e = steps_rows(&f);
+    assert_int_equal(remotes_row(&f, REMOTE), row);
+    assert_true(fabs(e.z[row] - (24800.0 + 200.0 * 121.0 / 60.0)) < 5.0);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+    assert_int_equal(fixture_event_count(&f, EVENT_DETONATION), 0);
+    assert_true(e.harm_j[own] == 0.0);
+    record.kind = fixture_kind(&f, "tank"); /* no munition becomes a vehicle */
+    assert_int_equal(does(record), REMOTE_NO_KIND);
+    record.type = REMOTE_LOST;
+    assert_int_equal(does(record), REMOTE_TAKEN);
+    assert_int_equal(fixture_state(&f).head->munitions, 0);
+    assert_int_equal(fixture_state(&f).head->vehicles, 1);
+}
+
+static void test_a_marking_is_its_name(void **state)
+{
+    struct remote_record record = remotes_track(&f, REMOTE, there);
+    char marking[REMOTE_MARKING_MAX + 1];
+    (void)state;
+    memcpy(record.marking, "ABRAMS 1\x01%n", 11);
+    assert_int_equal(does(record), REMOTE_TAKEN);
+    struct entities e = steps_rows(&f);
+    uint32_t row = remotes_row(&f, REMOTE);
+    assert_string_equal(world_row_name(&f.view.world, &e, row, marking), "ABRAMS 1?%n");
+    assert_string_equal(world_row_name(&f.view.world, &e, own, marking), "");
+}
+
 static void test_a_frame_without_room_waits(void **state)
 {
     (void)state;
@@ -281,6 +396,10 @@ int main(void)
         TEST(test_a_shot_alarms_its_target),
         TEST(test_a_hit_harms_by_our_rules),
         TEST(test_a_shell_digs_a_crater),
+        TEST(test_a_far_round_pierces_less),
+        TEST(test_a_body_strikes),
+        TEST(test_a_munition_flies),
+        TEST(test_a_marking_is_its_name),
         TEST(test_a_frame_without_room_waits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

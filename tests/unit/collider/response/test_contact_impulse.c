@@ -69,7 +69,7 @@ static void test_a_head_on_impact_follows_newton(void **state)
     assert_true(fabs(collision()->toi - 0.5) < 1e-9);
     assert_int_equal(collision()->response, RESPONSE_BOUNCE);
     /* Lost: half the reduced mass of 750 times 64 times 1 - e^2, the jeep three quarters of it. */
-    const double jeep_j = 13500.0 * IMPACT_DAMAGE_OUTSIDE, tank_j = 4500.0 * IMPACT_DAMAGE_OUTSIDE;
+    const double jeep_j = 13500.0 * IMPACT_HARM_OUTSIDE, tank_j = 4500.0 * IMPACT_HARM_OUTSIDE;
     assert_true(fabs(e.harm_j[jeep] - deformation_of(steps_kind(&f, "jeep"), jeep_j).harm_j) <
                 1e-6);
     assert_true(fabs(e.harm_j[tank] - deformation_of(steps_kind(&f, "tank"), tank_j).harm_j) <
@@ -175,7 +175,7 @@ static void test_half_of_the_work_of_friction_is_heat(void **state)
     double impulse = 1000.0 * (e.vx[jeep] * 0.8 + e.vz[jeep] * 0.6);
     double along = 0.5 * impulse * 8.0 * 0.8 * (1.0 - 0.5), rubbed = lost - along;
     assert_true(rubbed > 0.02 * lost);
-    double jeep_j = 0.75 * (along + 0.5 * rubbed) * IMPACT_DAMAGE_OUTSIDE;
+    double jeep_j = 0.75 * (along + 0.5 * rubbed) * IMPACT_HARM_OUTSIDE;
     double harm = deformation_of(steps_kind(&f, "jeep"), jeep_j).harm_j;
     assert_true(fabs(e.harm_j[jeep] - harm) < 1e-3 * harm);
 }

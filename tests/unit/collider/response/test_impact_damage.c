@@ -118,18 +118,16 @@ static void test_a_wreck_is_dented_and_not_harmed(void **state)
 static void test_what_is_outside_breaks_before_the_frame(void **state)
 {
     struct kind kind = {.resistance_j = 1e6};
-    double room = 0.6e6 / IMPACT_DAMAGE_OUTSIDE, harm = 0.0;
+    double room = 0.6e6 / IMPACT_HARM_OUTSIDE, harm = 0.0;
     (void)state;
-    assert_true(fabs(impact_damage_harm(&kind, 0.0, 1000.0) - 1000.0 * IMPACT_DAMAGE_OUTSIDE) <
+    assert_true(fabs(impact_harm(&kind, 0.0, 1000.0) - 1000.0 * IMPACT_HARM_OUTSIDE) < 1e-6);
+    assert_true(fabs(impact_harm(&kind, 0.0, room + 1000.0) - 0.6e6 - 1000.0 * IMPACT_HARM_INSIDE) <
                 1e-6);
-    assert_true(fabs(impact_damage_harm(&kind, 0.0, room + 1000.0) - 0.6e6 -
-                     1000.0 * IMPACT_DAMAGE_INSIDE) < 1e-6);
-    assert_true(fabs(impact_damage_harm(&kind, 0.7e6, 1000.0) - 1000.0 * IMPACT_DAMAGE_INSIDE) <
-                1e-6);
+    assert_true(fabs(impact_harm(&kind, 0.7e6, 1000.0) - 1000.0 * IMPACT_HARM_INSIDE) < 1e-6);
     for (int n = 0; n < 100; n++) /* many small impacts are as bad as one of the same energy */
-        harm += impact_damage_harm(&kind, harm, 2.0 * room / 100.0);
-    assert_true(fabs(harm - impact_damage_harm(&kind, 0.0, 2.0 * room)) < 1e-3);
-    assert_true(impact_damage_harm(&kind, 0.0, 0.0) == 0.0);
+        harm += impact_harm(&kind, harm, 2.0 * room / 100.0);
+    assert_true(fabs(harm - impact_harm(&kind, 0.0, 2.0 * room)) < 1e-3);
+    assert_true(impact_harm(&kind, 0.0, 0.0) == 0.0);
 }
 
 int main(void)

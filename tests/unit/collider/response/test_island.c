@@ -222,7 +222,7 @@ static void test_rows_33_47_a_blow_leaves_a_dent_where_it_struck(void **state)
     fixture_run(&f, 1);
     struct state now = fixture_state(&f);
     double half = 0.5 * 0.5 * (0.5 * kind->mass_kg) * 3600.0; /* half of what is lost */
-    struct deformation crush = deformation_of(kind, half * IMPACT_DAMAGE_OUTSIDE);
+    struct deformation crush = deformation_of(kind, half * IMPACT_HARM_OUTSIDE);
     assert_int_equal(now.head->dent_count, 2);
     assert_int_equal(now.dents[0].id, one + 1);
     assert_int_equal(now.dents[1].id, two + 1);
