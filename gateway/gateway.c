@@ -1,6 +1,7 @@
 /* The gateway: what comes in and what goes out. */
 #include "gateway/gateway.h"
 
+#include "gateway/earth/geoid_grid.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
@@ -10,6 +11,7 @@
 
 #include <inttypes.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
@@ -41,6 +43,26 @@ static int open_management(struct gateway *gateway, const char *world, struct er
                            link, error);
 }
 
+/* A world without the grid has one undulation, and says so. */
+static void read_undulation(struct gateway *gateway)
+{
+    const struct gateway_params *params = &gateway->view.world.params->gateway;
+    const char *folder = getenv("PROJ_DATA");
+    char path[400];
+    struct error_text error;
+    if (!params->undulation_grid)
+        return;
+    (void)snprintf(path, sizeof path, "%s/" GEOID_GRID_NAME, folder ? folder : GEOID_GRID_FOLDER);
+    if (local_frame_read_undulation(&gateway->entities.frame, path, params->undulation_m, &error) !=
+        0)
+        log_warn(
+            "%s; all heights are by gateway.undulation_m = %.2f (Debian's package proj-data has "
+            "the grid, and PROJ_DATA names its folder)",
+            error.text, params->undulation_m);
+    else
+        log_info("takes the height of the sea at each place from %s", path);
+}
+
 int gateway_open(struct gateway *gateway, const char *world, struct error_text *error)
 {
     const struct view *view = &gateway->view;
@@ -61,6 +83,7 @@ int gateway_open(struct gateway *gateway, const char *world, struct error_text *
     gateway->events.remotes = &gateway->remotes;
     local_frame_make(&entities->frame, params->latitude_deg, params->longitude_deg,
                      params->undulation_m, 0.5 * WORLD_SIDE_M, 0.5 * WORLD_SIDE_M);
+    read_undulation(gateway);
     if (type_table_read(&gateway->types, path, view->world.kinds, view->world.counts.kinds,
                         error) != 0 ||
         pdu_output_open(output, params->address, (uint16_t)params->port, params->rate_ps, error) !=

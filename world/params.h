@@ -52,7 +52,7 @@ struct gateway_params {
     uint32_t version;                   /* of DIS: 6 or 7 */
     uint32_t rate_ps;                   /* PDUs a second at most */
     uint32_t clamp;                     /* 1: land vehicles of others are set on our ground */
-    uint32_t reserved;
+    uint32_t undulation_grid;           /* 1: the undulation of each place, from PROJ's grid */
     double timeout_s;                   /* without an Entity State an entity of others is lost */
     double latitude_deg, longitude_deg; /* of the middle of the square */
     double undulation_m;                /* of the sea above the ellipsoid there */

@@ -1,6 +1,8 @@
 /* The world's plane on the earth. */
 #include "gateway/earth/local_frame.h"
 
+#include "gateway/earth/geoid_grid.h"
+
 #define STRAIGHT                                                                                   \
     1e-12 /* as a share of its length, the level part of a nose straight up or down                \
            */
@@ -18,6 +20,45 @@ void local_frame_make(struct local_frame *frame, double latitude_deg, double lon
                                  {0.0, sin_lat, -cos_lat}}};
     frame->middle_x = middle_x;
     frame->middle_z = middle_z;
+    frame->uneven = false;
+}
+
+int local_frame_read_undulation(struct local_frame *frame, const char *path, double undulation_m,
+                                struct error_text *error)
+{
+    struct local_frame read = *frame;
+    read.uneven = false;
+    for (int i = 0; i < LOCAL_FRAME_NODES; i++) {
+        for (int j = 0; j < LOCAL_FRAME_NODES; j++) {
+            double step = 2.0 / (LOCAL_FRAME_NODES - 1), there_m;
+            struct vec3 at = {j * step * frame->middle_x, 0.0, i * step * frame->middle_z};
+            struct geodesy_place place = geodesy_place_of(local_frame_ecef(&read, at));
+            if (geoid_grid_read(path, place.latitude_rad * DEG_PER_RAD,
+                                place.longitude_rad * DEG_PER_RAD, &there_m, error) != 0)
+                return -1;
+            read.above[i][j] = (float)(there_m - undulation_m);
+        }
+    }
+    read.uneven = true;
+    *frame = read;
+    return 0;
+}
+
+/* Returns how far the sea at a place is above that of the point of reference [m], linear between
+ * the corners around it. Beyond the square it is that of its edge. */
+static double sea_above(const struct local_frame *frame, double x, double z)
+{
+    const int last = LOCAL_FRAME_NODES - 1;
+    if (!frame->uneven)
+        return 0.0;
+    double east = maths_min(maths_max(0.5 * x / frame->middle_x, 0.0), 1.0) * last;
+    double south = maths_min(maths_max(0.5 * z / frame->middle_z, 0.0), 1.0) * last;
+    int j = east < last ? (int)east : last - 1, i = south < last ? (int)south : last - 1;
+    double right = east - j, down = south - i;
+    const float *north = frame->above[i], *next = frame->above[i + 1];
+    double upper = (double)north[j] + right * (double)(north[j + 1] - north[j]);
+    double lower = (double)next[j] + right * (double)(next[j + 1] - next[j]);
+    return upper + down * (lower - upper);
 }
 
 struct vec3 local_frame_ecef_direction(const struct local_frame *frame, struct vec3 world)
@@ -32,14 +73,16 @@ struct vec3 local_frame_world_direction(const struct local_frame *frame, struct 
 
 struct vec3 local_frame_ecef(const struct local_frame *frame, struct vec3 world)
 {
-    struct vec3 local = {world.x - frame->middle_x, world.y, world.z - frame->middle_z};
+    struct vec3 local = {world.x - frame->middle_x, world.y + sea_above(frame, world.x, world.z),
+                         world.z - frame->middle_z};
     return vec3_add(frame->origin, local_frame_ecef_direction(frame, local));
 }
 
 struct vec3 local_frame_world(const struct local_frame *frame, struct vec3 ecef)
 {
     struct vec3 local = local_frame_world_direction(frame, vec3_sub(ecef, frame->origin));
-    return (struct vec3){local.x + frame->middle_x, local.y, local.z + frame->middle_z};
+    double x = local.x + frame->middle_x, z = local.z + frame->middle_z;
+    return (struct vec3){x, local.y - sea_above(frame, x, z), z};
 }
 
 struct mat3 local_frame_ecef_turn(const struct local_frame *frame, const struct mat3 *turn)

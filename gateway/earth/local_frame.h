@@ -1,11 +1,14 @@
 /* The world on the earth. Jolon's world has the axes x east, y up and z south [m], heights above
  * sea level, and lies on the plane that touches the earth at one point of reference. DIS has ECEF
- * places on the WGS 84 ellipsoid. Pure; any thread. */
+ * places on the WGS 84 ellipsoid. Pure but for what reads a file; any thread. */
 #ifndef JOLON_GATEWAY_EARTH_LOCAL_FRAME_H
 #define JOLON_GATEWAY_EARTH_LOCAL_FRAME_H
 
 #include "gateway/earth/euler.h"
 #include "gateway/earth/geodesy.h"
+#include "world/runtime/error_text.h"
+
+#include <stdbool.h>
 
 /* The default point of reference: the middle of the square of Fort Hunter Liggett, where the sea
  * level (EGM96) is 33.7 m below the ellipsoid. */
@@ -13,16 +16,31 @@
 #define LOCAL_FRAME_LONGITUDE_DEG (-121.25)
 #define LOCAL_FRAME_UNDULATION_M  (-33.7)
 
+/* Corners of the parts of the square whose undulation is known, along a side. */
+#define LOCAL_FRAME_NODES 33
+
 struct local_frame {
     struct vec3 origin;        /* [m] ECEF of the point of reference at sea level */
     struct mat3 axes;          /* columns: east, up and south in ECEF */
     double middle_x, middle_z; /* [m] world coordinates of the point of reference */
+    /* How far the sea is above that of the point of reference, at the corners of equal parts of the
+     * square [m]: rows from north to south, each from west to east. All 0: one undulation is that
+     * of the whole square. */
+    bool uneven;
+    float above[LOCAL_FRAME_NODES][LOCAL_FRAME_NODES];
 };
 
 /* latitude, longitude [deg] of the world's point (middle_x, middle_z). undulation_m: height of the
  * sea level above the ellipsoid there. */
 void local_frame_make(struct local_frame *frame, double latitude_deg, double longitude_deg,
                       double undulation_m, double middle_x, double middle_z);
+
+/* Takes the undulation of each part of the square, whose middle is the point of reference and whose
+ * sides have 2 middle_x, from a grid (geoid_grid.h), instead of one for all. Reads the file; for
+ * the start. undulation_m is the one of local_frame_make(). Returns 0, or -1 with the reason; the
+ * frame is then as before. */
+int local_frame_read_undulation(struct local_frame *frame, const char *path, double undulation_m,
+                                struct error_text *error);
 
 /* World to ECEF, and back: places, and velocities or directions. */
 struct vec3 local_frame_ecef(const struct local_frame *frame, struct vec3 world);

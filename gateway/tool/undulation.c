@@ -1,7 +1,7 @@
 /* The verb undulation. */
 #include "gateway/tool/undulation.h"
 
-#include "gateway/tool/geoid_grid.h"
+#include "gateway/earth/geoid_grid.h"
 #include "ipc/process/log.h"
 #include "ipc/process/option_table.h"
 #include "world/runtime/parse_number.h"

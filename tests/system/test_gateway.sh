@@ -67,6 +67,18 @@ check "each vehicle has a last state when the world stops" [ "${last:-0}" -ge 50
 check "the log says what was sent" grep -q 'gateway info .* sent [0-9]* PDUs of [0-9]* octets; 0 failed' out/jolon.log
 check "nothing was refused to the gateway by its sandbox" eval '! grep -q "forbids system call" out/jolon.log'
 
+# --- heights --------------------------------------------------------------------------------------------
+grid() { "$jolon" run -w "$name" "${quick[@]}" --out "$1" --dis "127.0.0.1:$port" --set gateway.undulation_grid=true >/dev/null 2>&1; }
+PROJ_DATA=/nowhere grid out-without
+check "where PROJ's grid is missing, the log says so in one line" \
+    grep -q 'gateway warning .*/nowhere/egm96_15.gtx: cannot be read.*all heights are by gateway.undulation_m = -33.70' out-without/jolon.log
+if [ -r /usr/share/proj/egm96_15.gtx ]; then
+    grid out-grid
+    check "where it is, it is taken" grep -q 'takes the height of the sea at each place from /usr/share/proj/egm96_15.gtx' out-grid/jolon.log
+else
+    skip "where it is, it is taken" "there is no proj-data here"
+fi
+
 # --- refusals -------------------------------------------------------------------------------------------
 run=("$jolon" run -w "$name" --frames 1 --out out)
 refuses "a name as an address" 1 'gateway.address = "?localhost"?.*no address in numbers' "${run[@]}" --dis localhost

@@ -1,5 +1,5 @@
 /* Grids of the undulation. */
-#include "gateway/tool/geoid_grid.h"
+#include "gateway/earth/geoid_grid.h"
 
 #include "gateway/pdu/octets.h"
 

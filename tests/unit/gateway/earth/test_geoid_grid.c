@@ -1,6 +1,8 @@
 /* Grids of the undulation: between nodes, over the date line, outside, damaged files, and PROJ's
  * own grid where it is installed. */
-#include "gateway/tool/geoid_grid.h"
+#include "gateway/earth/geoid_grid.h"
+
+#include "gateway/earth/local_frame.h"
 
 #include "gateway/pdu/octets.h"
 
@@ -125,6 +127,41 @@ static void test_damaged_grids(void **state)
     assert_refused(0.5, 0.5, "cannot be read");
 }
 
+/* The height of the sea at each place of a square: what is sent lies that far above the ellipsoid,
+ * and comes back to the same place. */
+static void test_a_square_with_a_grid(void **state)
+{
+    static const float nodes[] = {-40.0f, -20.0f, -36.0f, -16.0f}; /* 20 m a degree to the east */
+    struct local_frame frame, even;
+    double worst_m = 0.0;
+    (void)state;
+    write_grid((struct header){35.0, -122.0, 2.0, 1.0, 2, 2}, nodes, 4);
+    local_frame_make(&even, 35.95, -121.5, -28.1, 25000.0, 25000.0);
+    frame = even;
+    assert_int_equal(local_frame_read_undulation(&frame, path, -28.1, &error), 0);
+    for (double x = 0.0; x <= 50000.0; x += 1250.0) {
+        for (double z = 0.0; z <= 50000.0; z += 1250.0) {
+            struct vec3 at = {x, 312.0, z};
+            struct vec3 ecef = local_frame_ecef(&frame, at);
+            struct geodesy_place place = geodesy_place_of(ecef);
+            struct geodesy_place flat = geodesy_place_of(local_frame_ecef(&even, at));
+            double right_m;
+            assert_int_equal(geoid_grid_read(path, place.latitude_rad * DEG_PER_RAD,
+                                             place.longitude_rad * DEG_PER_RAD, &right_m, &error),
+                             0);
+            double off_m = fabs(place.height_m - flat.height_m - (right_m + 28.1));
+            worst_m = off_m > worst_m ? off_m : worst_m;
+            assert_true(vec3_length(vec3_sub(local_frame_world(&frame, ecef), at)) < 1e-6);
+        }
+    }
+    print_message("%.2e m off the grid at most\n", worst_m);
+    assert_true(worst_m < 2e-3);
+    /* Without the grid all is as before. */
+    unlink(path);
+    assert_int_equal(local_frame_read_undulation(&even, path, -28.1, &error), -1);
+    assert_false(even.uneven);
+}
+
 /* 33.7 m below the ellipsoid, as cs2cs says for EPSG:4326+5773 to EPSG:4979. */
 static void test_projs_own_grid(void **state)
 {
@@ -141,6 +178,7 @@ int main(void)
         cmocka_unit_test_teardown(test_between_nodes, remove_file),
         cmocka_unit_test_teardown(test_around_the_earth, remove_file),
         cmocka_unit_test_teardown(test_damaged_grids, remove_file),
+        cmocka_unit_test(test_a_square_with_a_grid),
         cmocka_unit_test(test_projs_own_grid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
