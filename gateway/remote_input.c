@@ -333,6 +333,14 @@ static bool is_late(struct remote_input *input, struct remote_entry *entry,
     return copy || older_s > 0.0;
 }
 
+/* Returns true if the world has the entity at rest as the track says, so that it need not be told.
+ */
+static bool stands(const struct remote_entry *entry, const struct remote_record *track)
+{
+    return !entry->waits && track->slot != SLOT_NONE && track->model == DEAD_RECKONING_STATIC &&
+           memcmp(&entry->track, track, sizeof *track) == 0;
+}
+
 static void take_state(struct remote_input *input, struct view *view, const struct pdu *pdu,
                        const struct udp_address *from, uint64_t now_ns)
 {
@@ -367,11 +375,14 @@ static void take_state(struct remote_input *input, struct view *view, const stru
     memcpy(track.marking, state->marking, PDU_MARKING_MAX);
     if (is_late(input, entry, &track, pdu, now_ns))
         return;
+    bool same = stands(entry, &track);
     entry->track = track;
     entry->stamp = pdu->header.timestamp;
     entry->place = place;
     entry->placed = true;
     entry->heard_ns = now_ns;
+    if (same)
+        return;
     remote_table_wait(&input->table, entry);
 }
 

@@ -228,9 +228,10 @@ static const struct key scenario_keys[] = {
            .meaning = "The height of the sea level above the ellipsoid at the middle of the "
                       "square. DIS has heights above the ellipsoid."),
     BOOLEAN("gateway.undulation_grid", S, params.gateway.undulation_grid, STORE_U32, "false",
-            .meaning = "true: the height of the sea level at each place, from PROJ's grid of EGM96, "
-                       "instead of `gateway.undulation_m` for the whole square. Where the grid is "
-                       "missing the log says so, and it is as with false."),
+            .meaning =
+                "true: the height of the sea level at each place, from PROJ's grid of EGM96, "
+                "instead of `gateway.undulation_m` for the whole square. Where the grid is "
+                "missing the log says so, and it is as with false."),
     TEXT("gateway.cot", S, params.gateway.cot, "none",
          .meaning = "Where events of Cursor on Target are sent: an address in numbers, with a port "
                     "if it is not 6969, such as \"239.2.3.1:6969\". \"none\": nowhere."),

@@ -401,6 +401,27 @@ static void test_late_and_twice(void **state)
     assert_int_equal(input.table.count, known + 1);
 }
 
+/* Heartbeats of what stands cost the world and its log nothing, and keep it there. */
+static void test_what_stands_is_told_once(void **state)
+{
+    struct pdu pdu = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
+    (void)state;
+    for (int i = 0; i < 30; i++) {
+        pdu.header.timestamp = timestamp_of(100.0 + i, true);
+        take(&pdu, &peer);
+        pass(1.0);
+    }
+    assert_int_equal(input.tracks, 1);
+    assert_int_equal(input.lost, 0);
+    assert_int_equal(row_of(5), 1);
+    pdu.entity_state.appearance = PDU_APPEARANCE_DAMAGE(1);
+    pdu.header.timestamp = timestamp_of(131.0, true);
+    take(&pdu, &peer);
+    pass(1.0);
+    assert_int_equal(input.tracks, 2);
+    assert_int_equal(steps_rows(&f).damage[1], DAMAGE_LOW);
+}
+
 static void test_a_full_ring(void **state)
 {
     (void)state;
@@ -597,6 +618,7 @@ int main(void)
         TEST(test_types),
         TEST(test_often_told_is_told_seldom),
         TEST(test_late_and_twice),
+        TEST(test_what_stands_is_told_once),
         TEST(test_a_full_ring),
         TEST(test_shots),
         TEST(test_how_far_a_round_has_flown),
