@@ -391,6 +391,21 @@ double level_gap_least(const struct swept_body *a, const struct swept_body *b, d
     return margin_m;
 }
 
+bool level_gap_is_deeper(const struct swept_body *a, const struct swept_body *b, double time,
+                         double depth_m)
+{
+    struct body_pose pose_a = pose_at(a, time), pose_b = pose_at(b, time);
+    struct body_pair bodies = body_pair_of(&pose_a, &pose_b, time);
+    struct box_view view = box_view_of(&pose_a.turn, &pose_b.turn, bodies.between, 0.0);
+    for (uint64_t near = box_view_near(&view, a, b); near != 0; near &= near - 1) {
+        struct level_gap one;
+        uint32_t bit = (uint32_t)__builtin_ctzll(near);
+        if (measure(&bodies, bit, -depth_m, false, &one) && one.gap_m < -depth_m)
+            return true;
+    }
+    return false;
+}
+
 double level_gap_depth(const struct turned_body *a, const struct turned_body *b,
                        struct vec3 plane[LEVEL_GAP_PLANES], const struct level_gap_memory *memory)
 {

@@ -6,6 +6,7 @@
 #include "collider/geometry/time_of_impact.h"
 #include "world/entity/persistent_contact.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* Pairs of hulls of two bodies that are considered, the nearest first. */
@@ -60,6 +61,10 @@ uint32_t level_gap_find_more(const struct turned_body *a, const struct turned_bo
 /* Returns the smallest of those gaps [m], or margin_m if all are larger. */
 double level_gap_least(const struct swept_body *a, const struct swept_body *b, double time,
                        double margin_m);
+
+/* Returns true if one of those gaps is below -depth_m [m, > 0]. It ends at the first. */
+bool level_gap_is_deeper(const struct swept_body *a, const struct swept_body *b, double time,
+                         double depth_m);
 
 /* Returns the smallest of the gaps between bodies that stand still, if that is below 0, else 0: the
  * same to the bit as level_gap_least() with a margin of 0. plane: unit normals from a to b, or 0,

@@ -189,11 +189,15 @@ void body_looks_hits(struct body_looks *looks, const struct state *state,
             next++;
         bool known = next < count && persistent_contact_key(&before[next]) == key;
         uint32_t hits = now->impacts - (known ? before[next].impacts : 0u);
-        uint32_t a = body_looks_find(looks, now->a_id), b = body_looks_find(looks, now->b_id);
-        if (a != NO_LOOK)
-            looks->body[a].hits += hits;
-        if (b != NO_LOOK)
-            looks->body[b].hits += hits;
+        uint32_t presses = now->pressed_tick == (uint32_t)state->head->tick;
+        const uint32_t side[2] = {body_looks_find(looks, now->a_id),
+                                  body_looks_find(looks, now->b_id)};
+        for (int n = 0; n < 2; n++) {
+            if (side[n] == NO_LOOK)
+                continue;
+            looks->body[side[n]].hits += hits;
+            looks->body[side[n]].presses += presses;
+        }
     }
 }
 

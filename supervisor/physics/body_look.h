@@ -46,6 +46,7 @@ struct motion_look {
 struct joined_bodies {
     uint32_t first;     /* index of its first body */
     uint32_t impacts;   /* of each of them, in this frame: an impact of two counts twice */
+    uint32_t presses;   /* contacts of each of them that bore a load in this frame, as many times */
     double fastest_mps; /* of all before and after the frame */
     bool parts;         /* one of them overlaps another or a wall since one of the two was placed */
 };
@@ -60,16 +61,17 @@ struct body_look {
     bool still;                    /* known, and its pose and its turret are the same to the bit */
     bool finite;                   /* all its numbers are */
     /* What may explain a change of its velocity. */
-    bool commanded;  /* a command named it */
-    uint32_t blasts; /* explosions near */
-    uint32_t struck; /* collisions in this frame */
-    uint32_t hits;   /* impacts in this frame of contacts that the table of contacts has */
-    bool touches;    /* it touches a body or a wall */
-    bool touched;    /* the same in the frame before */
-    uint32_t parts;  /* bodies and walls that it overlaps since one of the two was placed */
-    uint32_t parted; /* the same in the frame before */
-    bool thrown;     /* an explosion or another body made it faster than an engine does */
-    bool spun;       /* the same of its spin, by an explosion or by what one has thrown */
+    bool commanded;   /* a command named it */
+    uint32_t blasts;  /* explosions near */
+    uint32_t struck;  /* collisions in this frame */
+    uint32_t hits;    /* impacts in this frame of contacts that the table of contacts has */
+    uint32_t presses; /* contacts of the table that bore a load in this frame */
+    bool touches;     /* it touches a body or a wall */
+    bool touched;     /* the same in the frame before */
+    uint32_t parts;   /* bodies and walls that it overlaps since one of the two was placed */
+    uint32_t parted;  /* the same in the frame before */
+    bool thrown;      /* an explosion or another body made it faster than an engine does */
+    bool spun;        /* the same of its spin, by an explosion or by what one has thrown */
     struct joined_bodies together;
 };
 
@@ -112,8 +114,9 @@ uint32_t body_looks_find(const struct body_looks *looks, uint32_t id);
 /* Marks what an event explains. Explosions explain changes within their reach. */
 void body_looks_explain(struct body_looks *looks, const struct event *event);
 
-/* Marks the impacts that contacts have had since the frame before, told or not: those of a contact
- * that has begun, too. before: [count] the contacts of that frame, sorted by their keys. */
+/* Marks the contacts that bore a load in this frame, and the impacts that contacts have had since
+ * the frame before, told or not: those of a contact that has begun, too. before: [count] the
+ * contacts of that frame, sorted by their keys. */
 void body_looks_hits(struct body_looks *looks, const struct state *state,
                      const struct persistent_contact *before, uint32_t count);
 

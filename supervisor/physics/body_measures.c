@@ -211,6 +211,14 @@ static struct vec3 level(struct vec3 v, bool held)
     return (struct vec3){v.x, held ? 0.0 : v.y, v.z};
 }
 
+/* Returns true if an impact may have been passed on within the frame: by another impact, or by a
+ * contact beside that of the impact. A body that leans on the next one strikes it slowly, which is
+ * no impact. */
+static bool passes_on(const struct joined_bodies *group)
+{
+    return group->impacts > ONE_IMPACT || (group->impacts > 0 && group->presses > ONE_IMPACT);
+}
+
 static void measure_jump(struct measures *measures, double dt_s, const struct body_look *body)
 {
     bool held = body_measures_held(body);
@@ -218,7 +226,7 @@ static void measure_jump(struct measures *measures, double dt_s, const struct bo
     double speed = maths_max(vec3_length(level(body->now.velocity, held)),
                              vec3_length(level(body->was->velocity, held)));
     double out = body->was->wreck ? maths_max(0.0, -body->was->lowest_m) : 0.0;
-    if (body->together.impacts > ONE_IMPACT)
+    if (passes_on(&body->together))
         speed = maths_max(speed, PASSED_ON * body->together.fastest_mps);
     if (body->together.parts)
         speed += PARTING_MPS;

@@ -14,6 +14,7 @@ static void begin(struct body_look *body, uint32_t index)
     body->together = (struct joined_bodies){
         .first = index,
         .impacts = body->struck > body->hits ? body->struck : body->hits,
+        .presses = body->presses,
         .fastest_mps = body->finite ? maths_max(before, vec3_length(body->now.velocity)) : 0.0,
         .parts = body->parts > 0 || body->parted > 0};
 }
@@ -28,6 +29,7 @@ static void join(struct body_look *body, const struct neighbour_pair *pair)
                          *other = &body[a < b ? b : a].together;
     other->first = a < b ? a : b;
     of->impacts += other->impacts;
+    of->presses += other->presses;
     of->fastest_mps = maths_max(of->fastest_mps, other->fastest_mps);
     of->parts |= other->parts;
 }

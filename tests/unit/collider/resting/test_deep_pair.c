@@ -78,6 +78,27 @@ static void test_bodies_are_measured_as_they_begin_the_frame(void **state)
     fixture_close(&f);
 }
 
+/* The bonnet of a truck is narrower than its bed: where it meets another truck slantwise their
+ * capsules overlap by a tenth, while the trucks are apart. */
+static void test_bodies_that_are_apart_are_not_deep(void **state)
+{
+    static const double x[] = {25003.52765, 24999.55356}, z[] = {24997.35202, 24998.71763};
+    static const double heading[] = {3.80719, 0.68683};
+    struct response_context context;
+    struct resting_gap found;
+    const struct pair pair = {0, 1};
+    (void)state;
+    fixture_open(&f, "collision = { shape = \"model\"; };");
+    for (int n = 0; n < 2; n++)
+        fixture_put(&f, (struct fixture_entity){.kind = "truck",
+                                                .at = {x[n], FIXTURE_GROUND_M, z[n]},
+                                                .heading_rad = heading[n]});
+    steps_respond(&f, &context);
+    assert_false(deep_pair_measure(&context, &pair, &found));
+    steps_respond_end(&context);
+    fixture_close(&f);
+}
+
 /* The bow of a ship is narrow: two that pass bow to bow are measured by their hulls. */
 static void test_ships_are_measured_by_their_hulls(void **state)
 {
@@ -92,6 +113,7 @@ int main(void)
         cmocka_unit_test(test_round_bodies_far_apart_are_not_deep),
         cmocka_unit_test(test_long_bodies_are_deep_where_their_lines_cross),
         cmocka_unit_test(test_bodies_are_measured_as_they_begin_the_frame),
+        cmocka_unit_test(test_bodies_that_are_apart_are_not_deep),
         cmocka_unit_test(test_ships_are_measured_by_their_hulls),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -95,6 +95,24 @@ static void test_impacts_are_passed_on(void **state)
     assert_true(fabs(jump_of(0, 0.19) - 0.19) < 1e-12);
 }
 
+/* A body is struck, and strikes the next one, against which it leans: slowly, so no impact. */
+static void test_an_impact_is_passed_on_to_what_the_body_leans_on(void **state)
+{
+    struct neighbour_pair pair[] = {{0, 1}, {1, 2}};
+    (void)state;
+    body[1].now.velocity.x = 6.0;
+    body[0].hits = body[1].hits = 1;
+    body[0].presses = body[1].presses = 1;
+    find(pair, 2);
+    assert_true(fabs(jump_of(0, 0.19) - 0.19) < 1e-12);
+    body[1].presses = 2, body[2].presses = 1;
+    find(pair, 2);
+    assert_true(jump_of(0, 0.19) == 0.0);
+    body[0].hits = body[1].hits = 0;
+    find(pair, 2);
+    assert_true(fabs(jump_of(0, 0.19) - 0.19) < 1e-12);
+}
+
 /* Returns the worst spin that was taken, or 0. */
 static double spin_of(double spin_rps)
 {
@@ -124,6 +142,7 @@ int main(void)
         TEST(test_groups_are_joined_and_summed),
         TEST(test_a_body_beside_others_that_part_is_pushed_aside),
         TEST(test_impacts_are_passed_on),
+        TEST(test_an_impact_is_passed_on_to_what_the_body_leans_on),
         TEST(test_a_body_that_an_explosion_spins_is_left_out_until_it_is_slow),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
