@@ -119,11 +119,27 @@ static double fall_left_mps(const struct response_context *context, uint32_t row
     return fall > 0.0 && path_change_grounded(context, row) ? 0.0 : fall;
 }
 
+/* A push on a body on the ground leaves it no spin but that about the vertical. Returns the
+ * velocity that the position of a wreck on the ground gets by losing the rest of its spin [m/s]:
+ * that of its centre of mass stays, so that no energy is gained. */
+static struct vec3 rolling_velocity(const struct response_context *context, uint32_t row,
+                                    double time)
+{
+    const struct entities *e = &context->next->entities;
+    const struct kind *kind = &context->world->kinds[e->kind[row]];
+    struct vec3 up = {0.0, mass_properties_of(kind).centre_m, 0.0};
+    struct vec3 spin = {e->spin_x[row], 0.0, e->spin_z[row]};
+    if (vec3_dot(spin, spin) == 0.0 || !path_change_grounded(context, row))
+        return (struct vec3){0.0, 0.0, 0.0};
+    struct mat3 axes = rotation_matrix(body_motion_orientation(context->motion, row, time));
+    return vec3_cross(spin, rotation_apply(&axes, up));
+}
+
 struct vec3 path_change_velocity(const struct response_context *context, uint32_t row, double time)
 {
     struct vec3 velocity = entities_velocity(&context->next->entities, row);
     velocity.y += fall_left_mps(context, row, time);
-    return velocity;
+    return vec3_add(velocity, rolling_velocity(context, row, time));
 }
 
 struct vec3 path_change_spin(const struct response_context *context, uint32_t row, double time)
@@ -237,20 +253,6 @@ static void spin_on(const struct response_context *context, uint32_t row, bool g
     *spin_rps = free_rotation_spin(moment, rotation->to, freely.momentum);
 }
 
-/* A push on a body on the ground leaves it no spin but that about the vertical. Returns the
- * velocity that the position of a wreck on the ground gets by losing the rest of its spin [m/s]:
- * that of its centre of mass stays, so that no energy is gained. */
-static struct vec3 rolling_velocity(const struct response_context *context, uint32_t row,
-                                    struct quat turned)
-{
-    const struct entities *e = &context->next->entities;
-    const struct kind *kind = &context->world->kinds[e->kind[row]];
-    struct vec3 up = {0.0, mass_properties_of(kind).centre_m, 0.0};
-    struct mat3 axes = rotation_matrix(turned);
-    return vec3_cross((struct vec3){e->spin_x[row], 0.0, e->spin_z[row]},
-                      rotation_apply(&axes, up));
-}
-
 void path_change_leave(struct response_context *context, uint32_t row, double time, struct vec3 at,
                        struct vec3 velocity, struct vec3 spin_rps, bool stays)
 {
@@ -270,8 +272,6 @@ void path_change_leave(struct response_context *context, uint32_t row, double ti
         spin_on(context, row, grounded, (1.0 - time) * dt_s, &rotation, &spin_rps);
     spin_rps.y -= rotation.driven_rps;
     velocity.y -= fall;
-    if (grounded)
-        velocity = vec3_add(velocity, rolling_velocity(context, row, turned));
     table_set_spin(&context->writer, row, spin_rps);
     take_path(context, row, &path, &rotation, velocity);
     disturb(context, row);

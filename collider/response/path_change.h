@@ -24,7 +24,8 @@ void path_change_swept(struct response_context *context, const uint32_t *rows, u
                        double time);
 
 /* Returns the row's velocity at a time in [path.since, 1]: without the speed that one that falls
- * freely will have by its weight afterwards. */
+ * freely will have by its weight afterwards, and without the rolling of one on the ground, which
+ * an answer ends. */
 struct vec3 path_change_velocity(const struct response_context *context, uint32_t row, double time);
 
 /* Returns the row's rotation at a time in [path.since, 1] [rad/s, world axes]. On the ground: its

@@ -245,13 +245,25 @@ static void take(struct resting *resting, struct response_context *context, cons
         warm(found, &gap[g], point);
         taken.count += gap[g].points;
     }
-    if (closing(resting, &taken) >= CONTACT_IMPACT_MPS) {
+    if (taken.gap_m > -RESTING_PARTS_M && closing(resting, &taken) >= CONTACT_IMPACT_MPS) {
         forget_bodies(resting, bodies);
         return;
     }
     context->contacts->known[taken.pair].plane[0] = gap[0].normal;
     resting->points += taken.count;
     resting->pair[resting->pairs++] = taken;
+}
+
+/* Stops the bodies that are deep in walls: only the shortest way leads out, and any other motion
+ * may bring them deeper into another hull of the wall. */
+static void stop_in_walls(const struct resting *resting, const struct response_context *context)
+{
+    for (uint32_t i = 0; i < resting->pairs; i++) {
+        const struct resting_pair *pair = &resting->pair[i];
+        if (pair->gap_m <= -RESTING_PARTS_M && context->contacts->pair[pair->pair].b & PAIR_FIXED)
+            resting->body[resting->point[pair->first].a].moved =
+                (struct level_motion){0.0, 0.0, 0.0};
+    }
 }
 
 /* --- motion ------------------------------------------------------------------------------------*/
@@ -386,6 +398,7 @@ void resting_solve(struct resting *resting, struct response_context *context)
     for (uint32_t i = 0; i < resting->groups.count; i++)
         take(resting, context, &resting->groups.pair[i], &resting->gap[i]);
     level_solver_run(resting->body, resting->bodies, resting->point, resting->points);
+    stop_in_walls(resting, context);
     parting_run(&resting->parting, &(struct parting_input){.context = context,
                                                            .row = resting->row,
                                                            .body = resting->body,
