@@ -38,7 +38,7 @@
 #define CONTACT_PRESSED  2u  /* its bodies touched in this frame */
 #define CONTACT_OVERLAPS 4u  /* they overlap, and have to part in the next frame */
 #define CONTACT_GATHERED 8u  /* it belongs to the island that is being solved */
-#define CONTACT_PARTS    16u /* it is deep, and rests: its bodies only have to part */
+#define CONTACT_PARTS    16u /* it is deep: its bodies only have to part */
 #define CONTACT_HOLDS    32u /* its bodies stand still because one keeps the other from moving */
 #define CONTACT_NO_ROOM  64u /* its bodies touched, but the table of contacts has no room for it */
 

@@ -206,6 +206,15 @@ static bool far_apart(const struct end_guard *guard, const struct pair *pair,
     return least > 0.0 && vec3_dot(way, way) < least * least;
 }
 
+/* Returns true if the ground holds both sides of a pair. Those of them that are deep have been
+ * found before, and part. A depth of others along level normals says nothing: a gun that slants
+ * into an edge by 1 mm is 0.2 m deep by the normals of the faces. */
+static bool held(const struct response_context *context, const struct pair *pair)
+{
+    return path_change_grounded(context, pair->a) &&
+           (pair->b & PAIR_FIXED || path_change_grounded(context, pair->b));
+}
+
 /* Returns true if the pair ends the frame deeper in each other than it began it. Pairs are measured
  * on all workers, each by one. */
 static bool deeper(const struct end_guard *guard, const struct response_context *context,
@@ -219,7 +228,7 @@ static bool deeper(const struct end_guard *guard, const struct response_context 
     if (after >= -ROUNDING_M)
         return false;
     double before = gap_before(context, pair, known);
-    return before > -RESTING_PARTS_M && after < before - EXACT_M;
+    return (before > -RESTING_PARTS_M || held(context, pair)) && after < before - EXACT_M;
 }
 
 /* --- rows --------------------------------------------------------------------------------------*/
@@ -299,6 +308,7 @@ static void send_back(struct end_guard *guard, struct response_context *context,
         guard->sent_back[row] = SENT_BACK_MOST;
     }
     struct vec3 from = entities_position(w, row), to = entities_position(e, row);
+    held_rest_keep_springs(context, row);
     if (e->state[row] == ENTITY_WRECK || e->flags[row] & ENTITY_FLAG_CHASSIS ||
         contact_groups_is_piloted(context, row)) {
         send_body_back(context, row, drift, keep);

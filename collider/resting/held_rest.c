@@ -29,15 +29,24 @@ bool held_rest_stays(const struct response_context *context, uint32_t row)
     const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
     double dt_s = world_dt_s(context->world);
     return body_motion_old(context->motion, row) && e->state[row] == ENTITY_ACTIVE &&
-           e->flags[row] & ENTITY_FLAG_CHASSIS && is_still(w, row) &&
+           w->flags[row] & ENTITY_FLAG_CHASSIS && is_still(w, row) &&
            vec3_length(entities_velocity(e, row)) <= DRIVEN_MPS2 * dt_s &&
            fabs(e->spin_y[row]) <= TURNED_RPS2 * dt_s &&
            fabs(e->spin_x[row]) + fabs(e->spin_z[row]) <= TILTED_RPS2 * dt_s;
 }
 
+void held_rest_keep_springs(struct response_context *context, uint32_t row)
+{
+    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    uint8_t flag = w->flags[row] & ENTITY_FLAG_CHASSIS;
+    if (e->state[row] == ENTITY_ACTIVE && flag != 0 && !(e->flags[row] & ENTITY_FLAG_CHASSIS))
+        table_set_flags(&context->writer, row, e->flags[row] | flag);
+}
+
 void held_rest_put_back(struct response_context *context, uint32_t row)
 {
     const struct entities *w = &context->motion->committed->entities;
+    held_rest_keep_springs(context, row);
     table_set_position(&context->writer, row, entities_position(w, row));
     table_set_heading(&context->writer, row, w->heading[row]);
     table_set_pitch(&context->writer, row, w->pitch[row]);

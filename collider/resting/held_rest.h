@@ -18,4 +18,8 @@ bool held_rest_stays(const struct response_context *context, uint32_t row);
 /* Puts a row back to where it began the frame. Nothing of the frame must have been solved yet. */
 void held_rest_put_back(struct response_context *context, uint32_t row);
 
+/* A vehicle that leaves its springs takes the pose of one that stands. Where a contact keeps it in
+ * the pose that it had, it stays on them. */
+void held_rest_keep_springs(struct response_context *context, uint32_t row);
+
 #endif

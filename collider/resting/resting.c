@@ -379,7 +379,7 @@ static void mark(struct resting *resting, struct response_context *context)
             rest(resting, context->contacts, pair);
         if (bears)
             *marks |= CONTACT_PRESSED;
-        if (pair->gap_m <= -RESTING_PARTS_M && *marks & CONTACT_RESTS)
+        if (pair->gap_m <= -RESTING_PARTS_M)
             *marks |= CONTACT_PARTS;
         if (pair->gap_m < -ROUNDING_M)
             *marks |= CONTACT_OVERLAPS;

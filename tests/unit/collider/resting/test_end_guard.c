@@ -233,13 +233,33 @@ static void test_an_overlap_may_last_but_not_grow(void **state)
     assert_true(next()->x[0] == WEST_M - 0.005);
 }
 
+/* Level normals overstate how deep a slanted gun is: a pair that does not part is held. */
 static void test_deep_overlaps_have_to_part_first(void **state)
 {
     (void)state;
     overlap(2.0 * RESTING_PARTS_M);
     move(0, 0.005);
     run(1, (uint32_t[]){0});
+    assert_true(next()->x[0] == WEST_M);
+    context.contacts->marks[0] |= CONTACT_PARTS;
+    move(0, 0.005);
+    run(1, (uint32_t[]){0});
     assert_true(next()->x[0] == WEST_M + 0.005);
+}
+
+/* A tank leaves its springs: it loses the pitch that they gave it, and drives into its neighbour.
+ * The guard puts it back onto them. */
+static void test_a_vehicle_that_goes_back_stays_on_its_springs(void **state)
+{
+    struct entities before = steps_rows(&f);
+    (void)state;
+    pair(0, 1);
+    before.flags[0] |= ENTITY_FLAG_CHASSIS;
+    before.pitch[0] = 0.0004;
+    move(0, 1.5);
+    run(1, (uint32_t[]){0});
+    assert_true(next()->flags[0] & ENTITY_FLAG_CHASSIS);
+    assert_true(next()->x[0] == WEST_M && next()->pitch[0] == 0.0004);
 }
 
 /* The second tank is deep in the first, which gives way, but not into the house. */
@@ -249,6 +269,7 @@ static void test_a_body_that_parts_from_another_is_stopped_by_a_wall(void **stat
     (void)state;
     assert_true(free_m > 0.1 && free_m < 8.0);
     overlap(2.0 * RESTING_PARTS_M);
+    context.contacts->marks[0] |= CONTACT_PARTS;
     pair(0, PAIR_FIXED);
     move(0, -free_m - 0.1);
     run(1, (uint32_t[]){0});
@@ -308,6 +329,7 @@ int main(void)
         TEST(test_a_driver_who_holds_the_course_keeps_its_speed),
         TEST(test_an_overlap_may_last_but_not_grow),
         TEST(test_deep_overlaps_have_to_part_first),
+        TEST(test_a_vehicle_that_goes_back_stays_on_its_springs),
         TEST(test_a_body_that_parts_from_another_is_stopped_by_a_wall),
         TEST(test_a_new_body_is_not_sent_back),
         TEST(test_the_order_of_rows_and_pairs_does_not_matter),
