@@ -13,7 +13,7 @@
  * withstands more. With these weights the thesis's cases (p. 14) come true: two tanks at 20 mph are
  * highly damaged and live, crossing or head on, and a jeep that a tank hits at 40 mph is destroyed.
  */
-#define IMPACT_HARM_OUTSIDE 23.0
+#define IMPACT_HARM_OUTSIDE 25.0
 #define IMPACT_HARM_INSIDE  2.0
 
 /* Returns the harm [J] by this energy of a collision to a vehicle that has this harm already [J].

@@ -69,6 +69,9 @@ static void test_two_tanks_at_20_mph_and_a_severe_angle_are_highly_damaged(void 
         for (double off = -3.0; off <= 3.0; off += 0.5) {
             uint32_t row[2];
             cross(20.0, angles[a], off, row);
+            const struct event *first = fixture_event(&f, EVENT_COLLISION, 0);
+            if (off == 0.0) /* their fronts meet; else a corner scrapes along the other first */
+                assert_int_equal(first->collision.a.damage, DAMAGE_HIGH);
             for (int n = 0; n < 2; n++) {
                 assert_int_equal(damage_of(row[n]), DAMAGE_HIGH);
                 assert_int_equal(steps_rows(&f).state[row[n]], ENTITY_ACTIVE);
