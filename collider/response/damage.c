@@ -17,6 +17,8 @@
 
 /* A vehicle that leans more lies on its side [cosine of 80 degrees]. */
 #define OVERTURNED_COSINE 0.17364817766693033
+/* One that leans less both lengthwise and sideways does not: cos(1)^2 is 0.29 [rad]. */
+#define UPRIGHT_RAD 1.0
 
 /* ENTITY_FLAG_CHASSIS in each of eight flags. */
 #define CHASSIS_OF_EIGHT (ENTITY_FLAG_CHASSIS * UINT64_C(0x0101010101010101))
@@ -133,7 +135,8 @@ static void fall(struct response_context *context, uint32_t row)
 /* Returns true if a vehicle lies on its side or on its roof. */
 static bool lies_over(const struct entities *e, uint32_t row)
 {
-    return e->state[row] == ENTITY_ACTIVE &&
+    bool upright = fabs(e->pitch[row]) < UPRIGHT_RAD && fabs(e->roll[row]) < UPRIGHT_RAD;
+    return e->state[row] == ENTITY_ACTIVE && !upright &&
            maths_cos(e->pitch[row]) * maths_cos(e->roll[row]) < OVERTURNED_COSINE;
 }
 

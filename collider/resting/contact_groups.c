@@ -273,6 +273,29 @@ static bool are_there(const struct response_context *context,
             entities_alive(e, contact->b_row, contact->b_id));
 }
 
+/* Returns true if a body of the contact moves, or if they have to part. */
+static bool is_stirred(struct response_context *context, const struct persistent_contact *contact)
+{
+    struct pair pair = pair_of(contact);
+    /* Both are asked in any case, because that computes their paths. */
+    bool a_moves = body_motion_moves(context->motion, pair.a);
+    bool b_moves = !(pair.b & PAIR_FIXED) && body_motion_moves(context->motion, pair.b);
+    return a_moves || b_moves || contact->flags & PERSISTENT_CONTACT_OVERLAPS;
+}
+
+/* Returns true if a contact of the table is stirred. In a world whose heaps are all at rest none
+ * is, and then the paths of all their bodies are known. */
+static bool any_stirred(struct response_context *context)
+{
+    const struct state *committed = context->motion->committed;
+    for (uint32_t i = 0; i < committed->head->contact_count; i++) {
+        const struct persistent_contact *contact = &committed->contacts[i];
+        if (are_there(context, contact) && is_stirred(context, contact))
+            return true;
+    }
+    return false;
+}
+
 /* Joins all contacts of the table, whether they bear loads or not, and marks the rows with motion.
  */
 static void stir(struct contact_groups *groups, struct response_context *context)
@@ -284,10 +307,7 @@ static void stir(struct contact_groups *groups, struct response_context *context
         if (!are_there(context, contact))
             continue;
         join_pair(groups, pair);
-        /* Both are asked in any case, because that computes their paths. */
-        bool a_moves = body_motion_moves(context->motion, pair.a);
-        bool b_moves = !(pair.b & PAIR_FIXED) && body_motion_moves(context->motion, pair.b);
-        if (a_moves || b_moves || contact->flags & PERSISTENT_CONTACT_OVERLAPS)
+        if (is_stirred(context, contact))
             groups->awake[pair.a] = 1;
     }
     for (uint32_t i = 0; i < committed->head->contact_count; i++) {
@@ -302,8 +322,10 @@ static void stir(struct contact_groups *groups, struct response_context *context
 static void list_stirred(struct contact_groups *groups, struct response_context *context)
 {
     const struct state *committed = context->motion->committed;
-    stir(groups, context);
     groups->stirred_count = 0;
+    if (!any_stirred(context))
+        return;
+    stir(groups, context);
     for (uint32_t i = 0; i < committed->head->contact_count; i++) {
         const struct persistent_contact *contact = &committed->contacts[i];
         if (are_there(context, contact) && groups->awake[root_of(groups, pair_of(contact).a)])
