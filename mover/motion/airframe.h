@@ -186,7 +186,10 @@ static inline void airframe_lift(struct airframe *f, double dt_s)
     slope = slope * slope - one;
     f64x4 over, held;
     airframe_over(f, &over);
-    held = f->free_power / f->per_load + AIRFRAME_TRADE * over - one;
+    /* An agent climbs first: over what is before it, and away from others. */
+    f64x4 climbs = f->per_climb * SIMD_MAX(f->wanted_up_mps, none) / SIMD_MAX(f->full_mps, one);
+    climbs = SIMD_CHOOSE(f->driven, none, climbs);
+    held = (f->free_power - climbs) / f->per_load + AIRFRAME_TRADE * over - one;
     slope = SIMD_CHOOSE(f->aeroplane, slope, SIMD_MIN(slope, held));
     f->turn_slope = SIMD_MAX(slope, none); /* its square root is taken by lanes */
     f64x4 high = (f->lift_most * SIMD_MAX(f->bank_cosine, none) - one) * g;

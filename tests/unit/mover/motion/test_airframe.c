@@ -223,6 +223,18 @@ static void test_a_helicopter_pays_for_turns_and_climbs_with_speed(void **state)
     assert_true(rises.climb_mps > 8.0 && rises.speed_mps < 30.0);
 }
 
+/* An agent that has to turn back and to rise by 35 m rises first. */
+static void test_an_agent_climbs_before_it_banks(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 10.0, 45.0, BEHAVIOUR_PATROL);
+    steps_rows(&f).goal_x[row] = 15000.0, steps_rows(&f).goal_z[row] = 25000.0;
+    seconds(2.5);
+    print_message("in a turn of %.0f degrees of bank an agent climbs %.1f m/s\n",
+                  fabs(steps_rows(&f).roll[row]) * DEG_PER_RAD, velocity_of(row).y);
+    assert_true(velocity_of(row).y > 8.0 && fabs(steps_rows(&f).roll[row]) > 0.1);
+}
+
 /* A jet turns harder than it can go on turning. */
 static void test_a_jet_sustains_less_than_it_pulls(void **state)
 {
@@ -420,6 +432,7 @@ int main(void)
         TEST(test_below_its_stalling_speed_an_aeroplane_falls_until_it_is_faster),
         TEST(test_thrust_limits_the_climb),
         TEST(test_a_helicopter_pays_for_turns_and_climbs_with_speed),
+        TEST(test_an_agent_climbs_before_it_banks),
         TEST(test_a_jet_sustains_less_than_it_pulls),
         TEST(test_without_fuel_an_aeroplane_glides),
         TEST(test_a_helicopter_leans_before_it_gains_speed),

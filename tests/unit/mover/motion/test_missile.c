@@ -190,6 +190,20 @@ static void test_missiles_hit_as_often_as_real_ones(void **state)
     }
 }
 
+/* The same 200 shots with and without flares. */
+static void test_flares_save_every_fourth_jet_or_more(void **state)
+{
+    struct kind *missile = steps_kind(&f, "missile");
+    (void)state;
+    steps_params(&f)->collision.response = MODEL_NONE;
+    int with = hits_of(&alert_jet, 200, 21);
+    missile->decoyed = 0.0;
+    int without = hits_of(&alert_jet, 200, 21);
+    print_message("of 200 missiles %d strike an alert jet with flares, %d one without\n", with,
+                  without);
+    assert_true(4 * with < 3 * without && with >= 60 && without <= 180);
+}
+
 static void test_perfect_missiles_miss_little(void **state)
 {
     (void)state;
@@ -287,6 +301,7 @@ int main(void)
         TEST(test_a_missile_reaches_a_crossing_jet),
         TEST(test_what_leaves_the_seekers_cone_is_lost_for_good),
         TEST(test_missiles_hit_as_often_as_real_ones),
+        TEST(test_flares_save_every_fourth_jet_or_more),
         TEST(test_perfect_missiles_miss_little),
         TEST(test_the_motor_burns_and_then_drag_slows_it),
         TEST(test_its_turns_stay_within_its_load),
