@@ -5,7 +5,7 @@
 # Alone: on a busy machine a world falls behind the clock, and what the other extrapolates is wrong
 here=$(cd "$(dirname "$0")" && pwd)
 . "$(dirname "$0")/lib.sh"
-seed=${SEED:-$RANDOM} seconds=${SECONDS_OF_PLAY:-20} holders=()
+seed=${SEED:-$RANDOM} seconds=${SECONDS_OF_PLAY:-20} holders=() net_a='' net_b=''
 until_true() { for _ in {1..200}; do "$@" >/dev/null 2>&1 && return; sleep 0.05; done; return 1; }
 leave() { [ ${#holders[@]} = 0 ] || kill "${holders[@]}" 2>/dev/null; at_end; }
 trap leave EXIT
@@ -79,9 +79,9 @@ stop_both
 check "both runs replay" eval 'replays out-a && replays out-b'
 
 # --- a bad one ------------------------------------------------------------------------------------------
-(hold=exec; in_net a python3 -I "$here/../relay/relay.py" --listen "$at_a:$bad_a" --to "$at_a:$in_a" --seed "$seed" >relayed-a) &
+(hold='exec'; in_net a python3 -I "$here/../relay/relay.py" --listen "$at_a:$bad_a" --to "$at_a:$in_a" --seed "$seed" >relayed-a) &
 relay_a=$!
-(hold=exec; in_net b python3 -I "$here/../relay/relay.py" --listen "$at_b:$bad_b" --to "$at_b:$in_b" --seed $((seed + 1)) >relayed-b) &
+(hold='exec'; in_net b python3 -I "$here/../relay/relay.py" --listen "$at_b:$bad_b" --to "$at_b:$in_b" --seed $((seed + 1)) >relayed-b) &
 relay_b=$!
 until_true in_net a grep -qi ":$(printf %04X "$bad_a") " /proc/net/udp
 until_true in_net b grep -qi ":$(printf %04X "$bad_b") " /proc/net/udp
