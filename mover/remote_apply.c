@@ -401,7 +401,7 @@ static uint32_t born_of(const struct step_context *step, const struct kind *roun
                         double flown_m)
 {
     double mean = 0.5 * (round->max_speed_mps + speed_mps);
-    double frames = mean > 1.0 ? flown_m / (mean * step->dt_s) : 0.0;
+    double frames = mean > 1.0 ? maths_max(flown_m, 0.0) / (mean * step->dt_s) : 0.0;
     return (uint32_t)step->tick - (uint32_t)(maths_min(frames, 1e6) + 0.5);
 }
 
@@ -415,9 +415,9 @@ static enum remote_refusal detonates(struct serial_context *context,
     uint32_t target = own_row(context, record->entity);
     struct vec3 place = place_of(record);
     if (!all_within(record->velocity, SPEED_MOST_MPS) ||
-        !within((double)record->flown_m, FLOWN_MOST_M) || record->flown_m < 0.0f ||
-        !within(place.x, 2.0 * WORLD_SIDE_M) || !within(place.y, HEIGHT_MOST_M) ||
-        !within(place.z, 2.0 * WORLD_SIDE_M) || (record->entity == 0 && !in_world(place)))
+        !within((double)record->flown_m, FLOWN_MOST_M) || !within(place.x, 2.0 * WORLD_SIDE_M) ||
+        !within(place.y, HEIGHT_MOST_M) || !within(place.z, 2.0 * WORLD_SIDE_M) ||
+        (record->entity == 0 && !in_world(place)))
         return REMOTE_UNKNOWN;
     if (!shot_is_good(context, record))
         return REMOTE_NO_KIND;
