@@ -2,6 +2,7 @@
 """Runs programs whose nth call fails, for test_failing.sh and in its folder. Prints TAP."""
 import os
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -16,6 +17,9 @@ shm = f"/dev/shm/jolon.{os.getuid()}.{name}.{0:032x}"
 number = 0
 
 HANGS = 1000  # instead of an exit code
+
+# A refusal begins with the program's name. A role that has started writes warnings in its log.
+BEGINS = re.compile(r"jolon-|[0-9.]+ [a-z]+ warning frame [0-9]+: ")
 
 
 def program(what, *args):
@@ -98,7 +102,7 @@ def judge(case, fail, right):
         wrong = "hangs" if code == HANGS else f"ends with {code}"
     elif len(lines) != 1:
         wrong = f"writes {len(lines)} lines"
-    elif not lines[0].startswith("jolon-"):
+    elif not BEGINS.match(lines[0]):
         wrong = "writes a line that does not begin with its name"
     if not wrong and code == 1 and not case.keeps_world and leftovers():
         wrong = f"leaves {leftovers()}"

@@ -196,7 +196,7 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     maths_sincos(m->heading[i], &sine, &cosine);
 
     double wanted = desired->speed_mps;
-    double share = maths_max(fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9), 0.15);
+    double share = maths_max(fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9), kind->idle_share);
     if (!kinematics_burn(context, i, kinematics_parked(m, i) ? 0.0 : share))
         wanted = 0.0;
     double limit = slope_speed(kind, wanted < 0.0 ? -pitch : pitch);
