@@ -120,7 +120,8 @@ uint32_t resting_rows_awake(const struct resting_rows *rows, const struct step_c
         uint64_t there = UINT64_MAX >> (block->end - row < 64 ? 64 - (block->end - row) : 0);
         uint64_t resting = rows->resting[row / 64], turns = rows->turns[row / 64];
         uint64_t due = due_of(context, row, there & resting & turns);
-        due |= burns ? rows->hovering.hovers[row / 64] : 0;
+        /* An aircraft that rests only between its turns hovers as well. */
+        due |= burns ? rows->hovering.hovers[row / 64] | turns : 0;
         block->awake[w] = there & (~resting | due);
         count += (uint32_t)__builtin_popcountll(block->awake[w]);
     }
