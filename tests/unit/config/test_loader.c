@@ -270,6 +270,7 @@ static const struct {
     {"gateway.latitude_deg=-30.5", "gateway = { latitude_deg = -30.5; };"},
     {"gateway.longitude_deg=10.25", "gateway = { longitude_deg = 10.25; };"},
     {"gateway.undulation_m=45.5", "gateway = { undulation_m = 45.5; };"},
+    {"gateway.undulation_grid=true", "gateway = { undulation_grid = true; };"},
     {"gateway.peers=10.0.0.0/8", "gateway = { peers = \"10.0.0.0/8\"; };"},
     {"gateway.control=7:1, 8:*", "gateway = { control = \"7:1, 8:*\"; };"},
     {"gateway.cot=239.2.3.1:6969", "gateway = { cot = \"239.2.3.1:6969\"; };"},
