@@ -139,7 +139,7 @@ check "another set continues from the last checkpoint" grep -q 'frame [1-9][0-9]
 check "that set ends with the digests of the undisturbed run" \
     equal "$(json digest <set.json) $(json event_digest <set.json) frame 900" "$calm"
 kill $parent
-check "that set removes the images that killed processes did not finish" equal "$(ls | grep -F .new-)" ""
+check "that set removes the images that killed processes did not finish" equal "$(find . -name "*.new-*")" ""
 check "that set writes checkpoints of its own" grep -aq 'checkpoint set.image: frame' out/jolon.log
 
 # --- kills while a checkpoint is written ------------------------------------------------------------
