@@ -317,6 +317,12 @@ static void take_last(struct remote_input *input, struct view *view, const struc
     put_lost(input, view, entry);
 }
 
+/* Returns true if two records say the same, byte by byte. Records have no padding. */
+static bool says_the_same(const struct remote_record *a, const struct remote_record *b)
+{
+    return memcmp((const unsigned char *)a, (const unsigned char *)b, sizeof *a) == 0;
+}
+
 /* Returns true if the entry has come this far already: by an Entity State that was sent later, or
  * by the same one. track: what the PDU says. */
 static bool is_late(struct remote_input *input, struct remote_entry *entry,
@@ -325,8 +331,7 @@ static bool is_late(struct remote_input *input, struct remote_entry *entry,
     if (entry->track.remote == 0)
         return false; /* the first that comes */
     double older_s = older_by(entry->stamp, entry->heard_ns, pdu, now_ns);
-    bool copy =
-        entry->stamp == pdu->header.timestamp && memcmp(&entry->track, track, sizeof *track) == 0;
+    bool copy = entry->stamp == pdu->header.timestamp && says_the_same(&entry->track, track);
     if (copy) /* what stands may say the same for ever, by a clock that stands */
         entry->heard_ns = now_ns;
     input->late += copy || older_s > 0.0;
@@ -338,7 +343,7 @@ static bool is_late(struct remote_input *input, struct remote_entry *entry,
 static bool stands(const struct remote_entry *entry, const struct remote_record *track)
 {
     return !entry->waits && track->slot != SLOT_NONE && track->model == DEAD_RECKONING_STATIC &&
-           memcmp(&entry->track, track, sizeof *track) == 0;
+           says_the_same(&entry->track, track);
 }
 
 static void take_state(struct remote_input *input, struct view *view, const struct pdu *pdu,

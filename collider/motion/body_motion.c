@@ -104,7 +104,9 @@ static struct quat pose(const struct body_motion *motion, const struct entities 
 {
     const struct known_pose *known = place_of(motion, e, row);
     const double angle[3] = {e->heading[row], e->pitch[row], e->roll[row]};
-    if (known->known && memcmp(known->angle, angle, sizeof angle) == 0)
+    /* Bit by bit: a rotation by -0 has other signs of zero than one by 0. */
+    if (known->known && memcmp((const unsigned char *)known->angle, (const unsigned char *)angle,
+                               sizeof angle) == 0)
         return known->turn;
     return rotation_of(angle[0], angle[1], angle[2]);
 }
