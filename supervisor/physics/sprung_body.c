@@ -10,6 +10,7 @@
 #define SHELL        12u
 #define SLOPE_M      0.5  /* between the heights that give the slope under a wheel */
 #define AIR_M        0.05 /* wheels and shell of a vehicle in the air are higher over the ground */
+#define STEEPEST     2.0  /* the height over a wall falls so much faster than the way to it */
 #define WHEEL        0.22 /* radius of a wheel over the height of its vehicle, or more */
 #define TRACK_END    0.21 /* length of the end of a track over the length */
 #define ROLL_BAR     0.75 /* the same of an axle's bar against roll */
@@ -142,9 +143,28 @@ static double energy_jpkg(const struct body_look *body, const struct motion_look
     return 0.5 * vec3_dot(v, v) + turning + GRAVITY_MPS2 * risen + look->springs.spring_jpkg;
 }
 
-static bool is_in_air(const struct motion_look *look)
+/* Returns how high the lowest of wheels and shell is over the ground [m]. */
+static double lowest_of(const struct motion_look *look)
 {
-    return look->springs.wheel_m > AIR_M && look->springs.shell_m > AIR_M;
+    return maths_min(look->springs.wheel_m, look->springs.shell_m);
+}
+
+/* Returns how fast a point of the body is at most [m/s]. */
+static double fastest_of(const struct motion_look *look, const struct kind *kind)
+{
+    const struct vec3 sides = {kind->length_m, kind->height_m, kind->width_m};
+    return vec3_length(motion_look_centre_velocity(look, kind)) +
+           vec3_length(look->spin) * 0.5 * vec3_length(sides);
+}
+
+/* Returns true if the body is in the air now and before, and too high to have touched the ground in
+ * between: a fast one can come down on a wall and leave it within a frame. */
+static bool stays_in_air(const struct body_look *body, double dt_s)
+{
+    double before = lowest_of(body->was), now = lowest_of(&body->now);
+    double fastest =
+        maths_max(fastest_of(body->was, body->kind), fastest_of(&body->now, body->kind));
+    return before > AIR_M && now > AIR_M && before + now > STEEPEST * fastest * dt_s;
 }
 
 void sprung_body_measure(struct measures *measures, double dt_s, const struct body_look *body)
@@ -159,7 +179,7 @@ void sprung_body_measure(struct measures *measures, double dt_s, const struct bo
     const struct vec3 after = motion_look_centre_velocity(&body->now, kind);
     struct vec3 push = vec3_scale(vec3_sub(after, before), 1.0 / dt_s);
     push.y += GRAVITY_MPS2;
-    if (is_in_air(&body->now) && is_in_air(body->was))
+    if (stays_in_air(body, dt_s))
         measure_take(measures, MEASURE_OF_FLOATING, vec3_length(push), &body->named, NULL);
     double engine = kind->power_w / kind->mass_kg * dt_s;
     measure_take(
