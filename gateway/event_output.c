@@ -38,9 +38,10 @@ static void remember_flights(struct event_output *events)
     const struct snapshot *snapshot = &events->entities->snapshot;
     const struct entities *e = &snapshot->entities;
     for (uint32_t row = 0; row < snapshot->head.used; row++) {
+        if (e->behaviour[row] != BEHAVIOUR_FLIGHT || e->state[row] == ENTITY_FREE)
+            continue;
         uint32_t place = e->id[row] % EVENT_OUTPUT_SHOTS;
-        if (e->behaviour[row] == BEHAVIOUR_FLIGHT && e->state[row] != ENTITY_FREE &&
-            events->shot[place].munition == e->id[row])
+        if (events->shot[place].munition == e->id[row])
             events->shot[place].velocity = entities_velocity(e, row);
     }
 }

@@ -162,33 +162,25 @@ static void keep_near(struct box_list *list, uint32_t hull, const struct box *ow
     list->count += near;
 }
 
-/* Lists the hulls of a that are near the box around b. outer: that box in b's axes, and in a's. */
-static void list_near_a(const struct box_view *view, const struct swept_body *a,
-                        const struct box *outer, const struct box *outer_seen,
-                        struct box_list *list)
-{
-    list->count = 0;
-    for (uint32_t i = 0; i < a->hull_count; i++) {
-        struct box own = box_of(a, &a->hull[i]);
-        if (apart(&own, outer_seen, view->slack_a))
-            continue;
-        struct box seen = seen_by_b(view, &own);
-        keep_near(list, i, &own, &seen, !apart(outer, &seen, view->slack_b));
-    }
-}
+/* How one body sees the other. */
+struct looking {
+    const struct swept_body *body;
+    const struct box *outer, *outer_seen; /* around the other body, in its axes and in the body's */
+    struct box (*seen)(const struct box_view *view, const struct box *own); /* by the other body */
+    const double *slack, *slack_seen; /* of the body's axes and of the other's */
+};
 
-/* The same for the hulls of b. outer: the box around a in a's axes, and in b's. */
-static void list_near_b(const struct box_view *view, const struct swept_body *b,
-                        const struct box *outer, const struct box *outer_seen,
-                        struct box_list *list)
+/* Lists the hulls of a body that are near the box around the other one. */
+static void list_near(const struct box_view *view, const struct looking *looking,
+                      struct box_list *list)
 {
     list->count = 0;
-    for (uint32_t i = 0; i < b->hull_count; i++) {
-        struct box own = box_of(b, &b->hull[i]);
-        if (apart(&own, outer_seen, view->slack_b))
+    for (uint32_t i = 0; i < looking->body->hull_count; i++) {
+        struct box own = box_of(looking->body, &looking->body->hull[i]);
+        if (apart(&own, looking->outer_seen, looking->slack))
             continue;
-        struct box seen = seen_by_a(view, &own);
-        keep_near(list, i, &own, &seen, !apart(outer, &seen, view->slack_a));
+        struct box seen = looking->seen(view, &own);
+        keep_near(list, i, &own, &seen, !apart(looking->outer, &seen, looking->slack_seen));
     }
 }
 
@@ -211,10 +203,14 @@ uint64_t box_view_near(const struct box_view *view, const struct swept_body *a,
     struct box seen_a = seen_by_b(view, &outer_a), seen_b = seen_by_a(view, &outer_b);
     if (apart(&outer_a, &seen_b, view->slack_a) || apart(&outer_b, &seen_a, view->slack_b))
         return 0;
-    list_near_a(view, a, &outer_b, &seen_b, &list_a);
+    list_near(view,
+              &(struct looking){a, &outer_b, &seen_b, seen_by_b, view->slack_a, view->slack_b},
+              &list_a);
     if (list_a.count == 0)
         return 0;
-    list_near_b(view, b, &outer_a, &seen_a, &list_b);
+    list_near(view,
+              &(struct looking){b, &outer_a, &seen_a, seen_by_a, view->slack_b, view->slack_a},
+              &list_b);
     for (uint32_t i = 0; i < list_a.count; i++) {
         for (uint32_t j = 0; j < list_b.count; j++) {
             if (!apart(&list_a.own[i], &list_b.seen[j], view->slack_a) &&

@@ -50,14 +50,13 @@ void begun_bodies_forget(struct begun_bodies *bodies)
     bodies->count = 0;
 }
 
-void begun_bodies_side(const struct begun_bodies *bodies, const struct body_motion *motion,
-                       uint32_t side, struct begun_body *room, const struct begun_body **body)
+const struct begun_body *begun_bodies_side(const struct begun_bodies *bodies,
+                                           const struct body_motion *motion, uint32_t side,
+                                           struct begun_body *room)
 {
-    if (!(side & PAIR_FIXED)) {
-        *body = &bodies->body[side];
-        return;
-    }
+    if (!(side & PAIR_FIXED))
+        return &bodies->body[side];
     *room = (struct begun_body){.body = body_motion_fixed(motion->world, side & ~PAIR_FIXED)};
     room->began = level_gap_turn(&room->body, 0.0);
-    *body = room;
+    return room;
 }

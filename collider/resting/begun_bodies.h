@@ -32,9 +32,10 @@ void begun_bodies_find(struct begun_bodies *bodies, struct body_motion *motion, 
 /* Forgets all: paths change. */
 void begun_bodies_forget(struct begun_bodies *bodies);
 
-/* Sets *body to one side of a pair: a row that has been found, or a fixed object with PAIR_FIXED.
- * Any thread. */
-void begun_bodies_side(const struct begun_bodies *bodies, const struct body_motion *motion,
-                       uint32_t side, struct begun_body *room, const struct begun_body **body);
+/* Returns one side of a pair: a row that has been found, or a fixed object with PAIR_FIXED, which
+ * is made in room; a row needs none (NULL). Any thread. */
+const struct begun_body *begun_bodies_side(const struct begun_bodies *bodies,
+                                           const struct body_motion *motion, uint32_t side,
+                                           struct begun_body *room);
 
 #endif

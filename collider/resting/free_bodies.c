@@ -42,6 +42,7 @@
 int free_bodies_init(struct free_bodies *bodies, const struct world *world)
 {
     uint32_t rows = world->params->capacity;
+    /* A wreck among bushes has more pairs than the table of contacts keeps. */
     uint64_t pairs = 2 * (uint64_t)world->params->contact_slots;
     *bodies = (struct free_bodies){.contact_capacity = (uint32_t)pairs * 8u + FREE_POINTS_MAX,
                                    .pair_capacity = (uint32_t)pairs};

@@ -79,13 +79,13 @@ static void measure_pair(const struct gap_job *job, uint32_t index)
     const struct pair *pair = &job->resting->groups.pair[index];
     struct resting_gap *gap = &job->resting->gap[index];
     struct begun_body fixed;
-    const struct begun_body *a, *b;
     gap->apart_m = 0.0;
     recall(job, pair, gap);
     if (deep_pair_measure(job->context, pair, gap))
         return;
-    begun_bodies_side(&job->resting->begun, motion, pair->a, &fixed, &a);
-    begun_bodies_side(&job->resting->begun, motion, pair->b, &fixed, &b);
+    const struct begun_bodies *begun = &job->resting->begun;
+    const struct begun_body *a = begun_bodies_side(begun, motion, pair->a, NULL);
+    const struct begun_body *b = begun_bodies_side(begun, motion, pair->b, &fixed);
     const struct turned_body turned_a = {&a->body, a->began}, turned_b = {&b->body, b->began};
     gap->count = level_gap_find_more(&turned_a, &turned_b, margin_of(job, index, a, b), gap->gap,
                                      job->parts ? RESTING_GAPS_MAX : LEVEL_GAPS_MAX, &gap->apart_m,

@@ -37,7 +37,6 @@ static cJSON *entity_json(const struct world *world, const struct state_head *he
     json_whole(object, "id", e->id[i]);
     json_text(object, "kind", world->kinds[e->kind[i]].name);
     const char *name = world_entity_name(world, e->id[i]);
-    char marking[REMOTE_MARKING_MAX + 1];
     if (name[0] != '\0')
         json_text(object, "name", name);
     json_text(object, "force", force_name((enum force)e->force[i]));
@@ -59,6 +58,7 @@ static cJSON *entity_json(const struct world *world, const struct state_head *he
     json_text(object, "gear", gear_name(entity_gear(e->flags[i])));
     json_text(object, "behaviour", behaviour_name((enum behaviour)e->behaviour[i]));
     if (remote_is(e, i)) {
+        char marking[REMOTE_MARKING_MAX + 1];
         remote_marking(e, i, marking);
         add_remote(object, e->driver[i]);
         json_text(object, "marking", marking);

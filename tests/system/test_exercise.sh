@@ -69,14 +69,19 @@ stop_both() { "$jolon" stop -w "$name-a" >/dev/null; "$jolon" stop -w "$name-b" 
 replays() { "$jolon" replay "$1/commands.log" | grep 'equal to the run that was recorded'; }
 compare() { python3 -I "$here/exercise_compare.py" "$bin/jolon-world" "$name-a:10" "$name-b:20" "$seconds" "$1"; } # DELAY-MS
 
+# Runs both worlds, which send to these ports of each other, and compares them.
+exchange() { # NETWORK PORT-OF-A PORT-OF-B DELAY-MS NAME
+    begin a "$1-a" "$at_a:$in_a" "$at_b:$3" 10
+    begin b "$1-b" "$at_b:$in_b" "$at_a:$2" 20 guests.cfg
+    compare "$4" >"$1"
+    check "$5" equal $? 0
+    sed 's/^/# figures: /' "$1"
+    stop_both
+}
+
 # --- a good network -------------------------------------------------------------------------------------
-begin a out-a "$at_a:$in_a" "$at_b:$in_b" 10
-begin b out-b "$at_b:$in_b" "$at_a:$in_a" 20 guests.cfg
-compare 0 >good
-check "each vehicle is within the threshold and the delay in the other world" equal $? 0
-sed 's/^/# figures: /' good
-stop_both
-check "both runs replay" eval 'replays out-a && replays out-b'
+exchange good "$in_a" "$in_b" 0 "each vehicle is within the threshold and the delay in the other world"
+check "both runs replay" eval 'replays good-a && replays good-b'
 
 # --- a bad one ------------------------------------------------------------------------------------------
 (hold='exec'; in_net a python3 -I "$here/../relay/relay.py" --listen "$at_a:$bad_a" --to "$at_a:$in_a" --seed "$seed" >relayed-a) &
@@ -85,12 +90,7 @@ relay_a=$!
 relay_b=$!
 until_true in_net a grep -qi ":$(printf %04X "$bad_a") " /proc/net/udp
 until_true in_net b grep -qi ":$(printf %04X "$bad_b") " /proc/net/udp
-begin a bad-a "$at_a:$in_a" "$at_b:$bad_b" 10
-begin b bad-b "$at_b:$in_b" "$at_a:$bad_a" 20 guests.cfg
-compare 130 >bad
-check "so it is behind a network that loses, delays, reorders and repeats" equal $? 0
-sed 's/^/# figures: /' bad
-stop_both
+exchange bad "$bad_a" "$bad_b" 130 "so it is behind a network that loses, delays, reorders and repeats"
 kill -TERM $relay_a $relay_b
 wait $relay_a $relay_b
 echo "# figures: relays: $(cat relayed-a) $(cat relayed-b) SEED=$seed"

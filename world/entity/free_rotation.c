@@ -31,7 +31,7 @@ static double rate_most(const struct free_rotation *r)
     return sqrt(twice_j / maths_min(r->moment.x, maths_min(r->moment.y, r->moment.z)));
 }
 
-/* Turns the body by a vector [rad, body axes], whose half is the tangent of half the angle. The
+/* Turns the body about an axis in body axes. half is as long as the tangent of half the angle. The
  * momentum in body axes turns the other way. */
 static void turn_by(struct spinning_body *b, struct vec3 half)
 {

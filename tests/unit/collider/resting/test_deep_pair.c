@@ -57,25 +57,35 @@ static void test_long_bodies_are_deep_where_their_lines_cross(void **state)
     assert_true(fabs(measured("truck", 0.0, 0.0) + width) < 0.01);     /* at one place */
 }
 
-/* A jeep across the way of another, which it does not touch, turns by a quarter within the frame.
- * At the end of the frame the two would be deep in each other, if they were where they began it. */
-static void test_bodies_are_measured_as_they_begin_the_frame(void **state)
+/* Puts two vehicles on the ground that begin a frame like this, and end it with turned as the
+ * heading of the second. Returns true if they are deep in each other. */
+static bool deep(const char *kind, const double x[2], const double z[2], const double heading[2],
+                 double turned)
 {
     struct response_context context;
     struct resting_gap found;
     const struct pair pair = {0, 1};
-    (void)state;
     fixture_open(&f, "collision = { shape = \"model\"; };");
     for (int n = 0; n < 2; n++)
-        fixture_put(&f,
-                    (struct fixture_entity){.kind = "jeep",
-                                            .at = {25000.0, FIXTURE_GROUND_M, 25000.0 + 2.6 * n},
-                                            .heading_rad = n * HALF_PI});
+        fixture_put(&f, (struct fixture_entity){.kind = kind,
+                                                .at = {x[n], FIXTURE_GROUND_M, z[n]},
+                                                .heading_rad = heading[n]});
     steps_respond(&f, &context);
-    context.next->entities.heading[1] = 0.0;
-    assert_false(deep_pair_measure(&context, &pair, &found));
+    context.next->entities.heading[1] = turned;
+    bool are = deep_pair_measure(&context, &pair, &found);
     steps_respond_end(&context);
     fixture_close(&f);
+    return are;
+}
+
+/* A jeep across the way of another, which it does not touch, turns by a quarter within the frame.
+ * At the end of the frame the two would be deep in each other, if they were where they began it. */
+static void test_bodies_are_measured_as_they_begin_the_frame(void **state)
+{
+    static const double x[] = {25000.0, 25000.0}, z[] = {25000.0, 25002.6};
+    static const double heading[] = {0.0, HALF_PI};
+    (void)state;
+    assert_false(deep("jeep", x, z, heading, 0.0));
 }
 
 /* The bonnet of a truck is narrower than its bed: where it meets another truck slantwise their
@@ -84,19 +94,8 @@ static void test_bodies_that_are_apart_are_not_deep(void **state)
 {
     static const double x[] = {25003.52765, 24999.55356}, z[] = {24997.35202, 24998.71763};
     static const double heading[] = {3.80719, 0.68683};
-    struct response_context context;
-    struct resting_gap found;
-    const struct pair pair = {0, 1};
     (void)state;
-    fixture_open(&f, "collision = { shape = \"model\"; };");
-    for (int n = 0; n < 2; n++)
-        fixture_put(&f, (struct fixture_entity){.kind = "truck",
-                                                .at = {x[n], FIXTURE_GROUND_M, z[n]},
-                                                .heading_rad = heading[n]});
-    steps_respond(&f, &context);
-    assert_false(deep_pair_measure(&context, &pair, &found));
-    steps_respond_end(&context);
-    fixture_close(&f);
+    assert_false(deep("truck", x, z, heading, heading[1]));
 }
 
 /* The bow of a ship is narrow: two that pass bow to bow are measured by their hulls. */

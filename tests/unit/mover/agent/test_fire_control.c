@@ -43,16 +43,24 @@ static uint32_t put(const char *kind, struct vec3 at, enum force force, enum beh
 
 /* --- targets -----------------------------------------------------------------------------------*/
 
-static bool suits(const char *shooter, const char *target)
+/* Puts a shooter and a target that is so far above and behind it, and asks about them. */
+static bool ask(bool (*question)(const struct step_context *, uint32_t, uint32_t),
+                const char *shooter, const char *target, double above_m, double behind_m)
 {
+    const struct vec3 at = {25000.0, 100.0 + above_m, 25000.0 + behind_m};
     uint32_t a = put(shooter, (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
-    uint32_t b = put(target, (struct vec3){25000.0, 400.0, 26000.0}, FORCE_RED, BEHAVIOUR_IDLE);
+    uint32_t b = put(target, at, FORCE_RED, BEHAVIOUR_IDLE);
     struct step_context step;
     struct serial_context context;
     steps_serial_context(&f, &step, &context);
-    bool does = fire_control_suits(&step, a, b);
+    bool does = question(&step, a, b);
     steps_empty(&f);
     return does;
+}
+
+static bool suits(const char *shooter, const char *target)
+{
+    return ask(fire_control_suits, shooter, target, 300.0, 1000.0);
 }
 
 static void test_no_tank_gun_suits_a_jet(void **state)
@@ -108,14 +116,7 @@ static void test_a_fast_helicopter_is_no_target_for_a_tank_gun(void **state)
 
 static bool harms(const char *shooter, const char *target)
 {
-    uint32_t a = put(shooter, (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
-    uint32_t b = put(target, (struct vec3){25000.0, 100.0, 25500.0}, FORCE_RED, BEHAVIOUR_IDLE);
-    struct step_context step;
-    struct serial_context context;
-    steps_serial_context(&f, &step, &context);
-    bool does = fire_control_harms(&step, a, b);
-    steps_empty(&f);
-    return does;
+    return ask(fire_control_harms, shooter, target, 0.0, 500.0);
 }
 
 static void test_a_round_harms_what_it_may_penetrate(void **state)
@@ -273,7 +274,7 @@ static void test_crews_reply_after_a_human_time(void **state)
     }
     for (int frame = 0; frame < 30 * 60; frame++) {
         fixture_run(&f, 1);
-        for (const struct event *event; (event = fixture_event(&f, EVENT_FIRE, count)) != NULL;)
+        while (fixture_event(&f, EVENT_FIRE, count) != NULL)
             reply_s[count++] = frame / HZ;
         if (count == CREWS)
             break;
