@@ -218,7 +218,7 @@ static void collide_all(struct step *step, struct response_context *context)
     }
     if (context->functions->joint)
         debris_push_step(context);
-    remote_rows_restore(context, step->moved.entities);
+    remote_rows_settle(context, step->moved.entities);
     damage_overturned(context);
     contact_table_finish(&collider->table, context);
 }

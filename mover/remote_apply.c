@@ -13,6 +13,7 @@
 #include "world/params.h"
 #include "world/state.h"
 #include "world/terrain/gridsquare.h"
+#include "world/terrain/ground_clamp.h"
 #include "world/world.h"
 
 #define HEIGHT_MOST_M          50000.0
@@ -21,7 +22,8 @@
 #define RATE_MOST_RPS          100.0
 #define ANGLE_MOST_RAD         7.0 /* a whole turn either way */
 
-/* Larger errors of place and attitude do not vanish smoothly, but at once. */
+/* An error of place or attitude vanishes in this time [s], a larger one at once. */
+#define SMOOTH_S 0.25
 #define SNAP_M   50.0
 #define SNAP_RAD 1.0
 
@@ -33,10 +35,14 @@
 
 #define FLOWN_MOST_M 200000.0 /* no munition flies further */
 
+/* A munition of a struck target flies there at least this fast, as a slow one would fall short:
+ * simulators also tell the speed of the target, or nothing that a munition can have [m/s]. */
+#define STRIKE_LEAST_MPS 100.0
+
 /* A munition that strikes the ground is sent down from so high above it, and this steeply. */
 #define DROP_M        2.0
 #define STEEP_SINE    0.1
-#define NEAR_GROUND_M REMOTE_MOTION_CLAMP_M
+#define NEAR_GROUND_M REMOTE_CLAMP_M
 
 /* --- values ------------------------------------------------------------------------------------*/
 
@@ -196,26 +202,25 @@ static void set_attitude(struct serial_context *context, uint32_t row, struct qu
     PUT(context, row, roll, roll);
 }
 
-/* Leads the row to a place and an attitude: smoothly, or at once when it is new or far away. */
+/* Leads the row to a place and an attitude: a new one at once, another by what the collider
+ * corrects at the end of the next frames. */
 static void set_place(struct serial_context *context, uint32_t row,
                       const struct remote_record *record, struct vec3 to, bool is_new)
 {
     const struct entities *m = &context->moved->entities;
     const struct vec3 none = {0.0, 0.0, 0.0};
     double dt_s = context->step->dt_s;
-    uint32_t frames = (uint32_t)maths_max(1.0, REMOTE_MOTION_SMOOTH_S / dt_s + 0.5);
     struct quat attitude = rotation_of((double)record->attitude[0], (double)record->attitude[1],
                                        (double)record->attitude[2]);
+    if (is_new) {
+        table_set_position(&context->writer, row, to);
+        set_attitude(context, row, attitude);
+        return;
+    }
     struct quat now = rotation_of(m->heading[row], m->pitch[row], m->roll[row]);
     struct vec3 drift = vec3_sub(to, entities_position(m, row)), turn = turn_between(now, attitude);
-    if (is_new || vec3_length(drift) > SNAP_M) {
-        table_set_position(&context->writer, row, to);
-        drift = none;
-    }
-    if (is_new || vec3_length(turn) > SNAP_RAD) {
-        set_attitude(context, row, attitude);
-        turn = none;
-    }
+    bool at_once = vec3_length(drift) > SNAP_M || vec3_length(turn) > SNAP_RAD;
+    uint32_t frames = at_once ? 1 : (uint32_t)maths_max(1.0, SMOOTH_S / dt_s + 0.5);
     if (vec3_length(drift) < SAME_M)
         drift = none;
     if (vec3_length(turn) < SAME_RAD)
@@ -265,8 +270,9 @@ static enum remote_refusal track(struct serial_context *context, const struct re
     }
     struct vec3 to = place_of(record);
     /* A place high above the ground, such as on a bridge, stays so until the next record. */
-    bool clamped = (record->flags & REMOTE_FLAG_CLAMPED) &&
-                   remote_motion_clamp(context->step, record->kind, &to);
+    bool clamped =
+        record->flags & REMOTE_FLAG_CLAMPED && kind->domain == DOMAIN_LAND &&
+        ground_clamp(&context->step->world->terrain, context->step->craters, REMOTE_CLAMP_M, &to);
     set_state(context, row, record);
     set_marking(context, row, record);
     set_motion(context, row, record, clamped);
@@ -346,6 +352,13 @@ static struct vec3 direction_of(struct vec3 velocity, struct vec3 fallback)
     return speed > 1.0 ? vec3_scale(velocity, 1.0 / speed) : fallback;
 }
 
+/* Returns how fast a munition comes of which this velocity is told: at rest means unknown. */
+static double strike_speed(const struct kind *round, struct vec3 velocity)
+{
+    double told = vec3_length(velocity);
+    return maths_max(told > 1.0 ? told : round->max_speed_mps, STRIKE_LEAST_MPS);
+}
+
 /* It flies at the vehicle through the point of its body that was struck. */
 static struct approach approach_vehicle(const struct serial_context *context,
                                         const struct remote_record *record, uint32_t target)
@@ -362,9 +375,6 @@ static struct approach approach_vehicle(const struct serial_context *context,
     point = vec3_add(at, rotation_apply(&turn, point));
     struct vec3 velocity = vec3_of(record->velocity);
     struct vec3 along = direction_of(velocity, (struct vec3){0.0, -1.0, 0.0});
-    double speed = maths_max(vec3_length(velocity), 1.0);
-    if (speed <= 1.0)
-        speed = round->max_speed_mps;
     struct vec3 from = vec3_sub(point, vec3_scale(along, 2.0 * reach + round->radius_m + DROP_M));
     double ground = kinematics_ground(context->step, from.x, from.z);
     if (from.y < ground + round->radius_m + DROP_M) {
@@ -372,7 +382,8 @@ static struct approach approach_vehicle(const struct serial_context *context,
         struct vec3 way = vec3_sub(point, from);
         along = vec3_scale(way, 1.0 / maths_max(vec3_length(way), 1e-3));
     }
-    return (struct approach){.from = from, .velocity = vec3_scale(along, speed)};
+    return (struct approach){.from = from,
+                             .velocity = vec3_scale(along, strike_speed(round, velocity))};
 }
 
 /* It comes down on the ground there, or bursts above it. */
@@ -388,11 +399,10 @@ static struct approach approach_place(const struct serial_context *context,
     struct vec3 along = direction_of(velocity, down);
     if (along.y > -STEEP_SINE)
         along = down;
-    double speed = vec3_length(velocity) > 1.0 ? vec3_length(velocity) : round->max_speed_mps;
     point.y = ground;
     return (struct approach){
         .from = vec3_sub(point, vec3_scale(along, (DROP_M + round->radius_m) / -along.y)),
-        .velocity = vec3_scale(along, speed)};
+        .velocity = vec3_scale(along, strike_speed(round, velocity))};
 }
 
 /* Returns when a munition was born that has flown this far at the mean of its speeds at the muzzle

@@ -4,6 +4,7 @@
 #include "collider/response/response.h"
 #include "world/entity/event.h"
 #include "world/entity/persistent_contact.h"
+#include "world/entity/remote.h"
 #include "world/maths/sort.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
@@ -203,11 +204,18 @@ static uint32_t side_b(const struct persistent_contact *contact)
     return contact->b_id & PERSISTENT_CONTACT_FIXED ? contact->b_id : contact->b_row;
 }
 
-static bool one_moves(const struct response_context *context,
-                      const struct persistent_contact *contact)
+/* Returns true if a row moves, or was moved after the contacts of an earlier frame: a remote entity
+ * that is corrected. */
+static bool may_part(const struct response_context *context, uint32_t row)
+{
+    return moves(context, row) || remote_is(&context->next->entities, row);
+}
+
+static bool one_may_part(const struct response_context *context,
+                         const struct persistent_contact *contact)
 {
     bool fixed = contact->b_id & PERSISTENT_CONTACT_FIXED;
-    return moves(context, contact->a_row) || (!fixed && moves(context, contact->b_row));
+    return may_part(context, contact->a_row) || (!fixed && may_part(context, contact->b_row));
 }
 
 /* Returns true if the bodies have not touched for so long that their contact ends. */
@@ -303,7 +311,7 @@ static void keep(struct response_context *context, const struct persistent_conta
         end(context, known, CONTACT_END_GONE);
         return;
     }
-    bool moved = asks && one_moves(context, known);
+    bool moved = asks && one_may_part(context, known);
     if (moved)
         gap = gap_at_end(context, known);
     if (gap <= CONTACT_TOUCHING_M)

@@ -2,10 +2,12 @@
 #include "collider/resting/contact_groups.h"
 
 #include "collider/narrow_phase/narrow_phase.h"
+#include "collider/response/contact_table.h"
 #include "collider/response/path_change.h"
 #include "collider/resting/held_rest.h"
 #include "world/checksum.h"
 #include "world/entity/persistent_contact.h"
+#include "world/entity/remote.h"
 #include "world/maths/sort.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
@@ -43,9 +45,20 @@ void contact_groups_free(struct contact_groups *groups)
     *groups = (struct contact_groups){0};
 }
 
+/* Returns true if the row is one of a remote entity that was corrected after the contacts of the
+ * frame before: it may now be in another body. */
+static bool is_corrected(const struct response_context *context, uint32_t row)
+{
+    const struct state *committed = context->motion->committed;
+    return context->world->params->remotes_max != 0 && body_motion_old(context->motion, row) &&
+           remote_is_corrected(&committed->entities, row, (uint32_t)committed->head->tick);
+}
+
+/* Returns true if bodies may overlap the row without a contact in the table. */
 static bool is_new(const struct response_context *context, uint32_t row)
 {
-    return context->next->head->tick == 1 || !body_motion_old(context->motion, row);
+    return context->next->head->tick == 1 || !body_motion_old(context->motion, row) ||
+           is_corrected(context, row);
 }
 
 /* --- pairs of the table ------------------------------------------------------------------------*/
@@ -236,8 +249,9 @@ static void note_holding(struct contact_groups *groups, const struct pair *pair)
 static bool moves(const struct contact_groups *groups, struct response_context *context,
                   uint32_t row)
 {
-    return body_motion_moves(context->motion, row) &&
-           !(groups->ground[row] & HELD && held_rest_stays(context, row));
+    return (body_motion_moves(context->motion, row) &&
+            !(groups->ground[row] & HELD && held_rest_stays(context, row))) ||
+           is_corrected(context, row);
 }
 
 /* Wakes the groups in which a row moves, or of which a pair overlaps and has to part. */
@@ -280,7 +294,9 @@ static bool is_stirred(struct response_context *context, const struct persistent
     /* Both are asked in any case, because that computes their paths. */
     bool a_moves = body_motion_moves(context->motion, pair.a);
     bool b_moves = !(pair.b & PAIR_FIXED) && body_motion_moves(context->motion, pair.b);
-    return a_moves || b_moves || contact->flags & PERSISTENT_CONTACT_OVERLAPS;
+    return a_moves || b_moves || contact->flags & PERSISTENT_CONTACT_OVERLAPS ||
+           is_corrected(context, pair.a) ||
+           (!(pair.b & PAIR_FIXED) && is_corrected(context, pair.b));
 }
 
 /* Returns true if a contact of the table is stirred. In a world whose heaps are all at rest none
@@ -394,7 +410,7 @@ static void add_pairs_of(struct contact_groups *groups, struct response_context 
                           : !(other < row && is_new(context, other)) &&
                                 path_change_grounded(context, other) &&
                                 context->next->entities.behaviour[other] != BEHAVIOUR_FLIGHT;
-        if (counts)
+        if (counts && !contact_table_find(context, pair->a, pair->b))
             contact_groups_add(groups, pair);
     }
 }
@@ -414,12 +430,13 @@ static void add_new(struct contact_groups *groups, struct response_context *cont
     }
 }
 
-/* Blocks with the same ids as in the committed frame have no new body. In the first frame all are
- * new. */
+/* Blocks with the same ids as in the committed frame have no new body, where no other simulator
+ * corrects any. In the first frame all are new. */
 static bool may_be_new(const struct response_context *context, uint32_t block)
 {
     const struct state *committed = context->motion->committed, *next = context->next;
-    return next->head->tick == 1 || block >= block_count(committed->head->used) ||
+    return next->head->tick == 1 || context->world->params->remotes_max != 0 ||
+           block >= block_count(committed->head->used) ||
            committed->hashes[block].column[COLUMN_id] != next->hashes[block].column[COLUMN_id];
 }
 

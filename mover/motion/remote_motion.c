@@ -7,6 +7,7 @@
 #include "world/maths/dead_reckoning.h"
 #include "world/maths/rotation.h"
 #include "world/terrain/gridsquare.h"
+#include "world/terrain/ground_clamp.h"
 #include "world/world.h"
 
 static const struct mat3 identity = {{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
@@ -31,17 +32,6 @@ static bool accelerates(unsigned model)
 static struct vec3 spin_of(const struct entities *m, uint32_t i)
 {
     return (struct vec3){m->spin_x[i], m->spin_y[i], m->spin_z[i]};
-}
-
-bool remote_motion_clamp(const struct step_context *context, uint16_t kind, struct vec3 *at)
-{
-    if (context->world->kinds[kind].domain != DOMAIN_LAND)
-        return false;
-    double ground = kinematics_ground(context, at->x, at->z);
-    if (!(fabs(at->y - ground) <= REMOTE_MOTION_CLAMP_M))
-        return false;
-    at->y = ground;
-    return true;
 }
 
 /* The owner has been silent for too long to be extrapolated. */
@@ -115,27 +105,23 @@ bool remote_motion_move(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
     uint32_t tick = (uint32_t)context->tick;
-    bool corrects = (int32_t)(m->until_tick[i] - tick) >= 0;
-    struct vec3 at = entities_position(m, i), rates = {0.0, 0.0, 0.0};
-    if (model_of(m, i) != DEAD_RECKONING_STATIC &&
-        (double)(tick - m->seen_tick[i]) * context->dt_s > REMOTE_TRUST_S)
-        stop(m, i);
+    struct vec3 at;
+    double silent_s = (double)(tick - m->seen_tick[i]) * context->dt_s;
     unsigned model = model_of(m, i);
-    if (model == DEAD_RECKONING_STATIC && !corrects)
+    if (model == DEAD_RECKONING_STATIC)
         return true;
-    if (turns(model))
-        rates = spin_of(m, i);
-    if (model != DEAD_RECKONING_STATIC)
-        at = extrapolate(context, i, model);
-    if (corrects) {
-        at = vec3_add(at, vec3_scale(remote_drift(m, i), context->dt_s));
-        rates = vec3_add(rates, remote_turn(m, i));
+    if (silent_s > REMOTE_TRUST_S ||
+        silent_s * vec3_length(entities_velocity(m, i)) > REMOTE_TRUST_M) {
+        stop(m, i);
+        return true;
     }
-    turn(context, i, rates);
+    at = extrapolate(context, i, model);
+    if (turns(model))
+        turn(context, i, spin_of(m, i));
     if (!is_inside(at))
         return false;
     if (m->order_arg[i] >> REMOTE_FLAGS_SHIFT & REMOTE_FLAG_CLAMPED)
-        (void)remote_motion_clamp(context, m->kind[i], &at);
+        (void)ground_clamp(&context->world->terrain, context->craters, REMOTE_CLAMP_M, &at);
     entities_set_position(m, i, at);
     return true;
 }

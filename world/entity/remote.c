@@ -1,4 +1,4 @@
-/* The hash of records. */
+/* The hash of records, and markings. */
 #include "world/entity/remote.h"
 
 #include "world/maths/hash.h"

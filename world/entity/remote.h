@@ -2,8 +2,9 @@
  *
  * A remote entity is a row like any other, with BEHAVIOUR_REMOTE, or a munition. Records of its
  * owner reach the mover through the gateway's ring, and are recorded with the run. Between two of
- * them the mover extrapolates the row by dead reckoning. The collider neither moves nor damages it.
- */
+ * them the mover extrapolates the row by dead reckoning. The collider does not let contacts move or
+ * damage it. It corrects the row by what its owner has told: the correction lies between two frames
+ * and is no motion, so nothing is struck by it. */
 #ifndef JOLON_WORLD_ENTITY_REMOTE_H
 #define JOLON_WORLD_ENTITY_REMOTE_H
 
@@ -83,8 +84,11 @@ enum remote_refusal {
 /* A TRACK further from where the row is than this is refused [m]. */
 #define REMOTE_JUMP_M 10000.0
 
-/* Without a TRACK for this long an entity is no longer extrapolated [s of simulation]. */
+/* Without a TRACK for this long, or over this way, an entity is no longer extrapolated [s of
+ * simulation, m]. The way is well below a jump, so that a TRACK of an owner who has gone on in
+ * another direction, or at another rate of time, is not refused. */
 #define REMOTE_TRUST_S 30.0
+#define REMOTE_TRUST_M (0.5 * REMOTE_JUMP_M)
 
 /* The number by which the owner's simulation knows an entity or an event. Never 0 for an entity. */
 static inline uint64_t remote_id(uint16_t site, uint16_t application, uint16_t entity)
@@ -134,10 +138,13 @@ static inline bool remote_is(const struct entities *e, uint32_t i)
  *   climb, traverse, elevate      acceleration [m/s^2, world axes]
  *   goal_x, ease, goal_z          velocity by which an error of its place vanishes [m/s]
  *   steer, brake, dodge           rates by which one of its attitude vanishes [rad/s, world axes]
- *   until_tick                    when both have vanished
+ *   until_tick                    the last step at whose end both are corrected
  *   leg, jolt_tick, target_slot   its marking, four characters each (target_id is 0) */
 #define REMOTE_FLAGS_SHIFT 8u
 #define REMOTE_MODEL_MASK  0xffu
+
+/* A clamped land vehicle is set on our ground if it is this near [m]. */
+#define REMOTE_CLAMP_M 30.0
 
 /* Writes the marking of a remote row, "" of every other. Ends it with a NUL. */
 void remote_marking(const struct entities *e, uint32_t i, char marking[REMOTE_MARKING_MAX + 1]);
@@ -155,6 +162,12 @@ static inline struct vec3 remote_drift(const struct entities *e, uint32_t i)
 static inline struct vec3 remote_turn(const struct entities *e, uint32_t i)
 {
     return (struct vec3){(double)e->steer[i], (double)e->brake[i], (double)e->dodge[i]};
+}
+
+/* Returns true if the row is corrected at the end of the step of this tick. */
+static inline bool remote_is_corrected(const struct entities *e, uint32_t i, uint32_t tick)
+{
+    return remote_is(e, i) && (int32_t)(e->until_tick[i] - tick) >= 0;
 }
 
 #endif

@@ -122,6 +122,60 @@ static void test_an_aircraft_may_fly_into_our_ground(void **state)
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
 }
 
+/* Its owner has it elsewhere, at rest, on the other side of our vehicle or in it. */
+static uint32_t correct(double from_x, double to_x, uint32_t own)
+{
+    struct remote_record record = remotes_track(&f, REMOTE, there);
+    record.position[0] = from_x;
+    remotes_send(&f, record);
+    fixture_run(&f, 10);
+    record.slot = remotes_row(&f, REMOTE);
+    record.position[0] = to_x;
+    remotes_send(&f, record);
+    fixture_run(&f, 120);
+    assert_true(fabs(steps_rows(&f).x[record.slot] - to_x) < 1e-4);
+    assert_true(steps_rows(&f).harm_j[own] == 0.0);
+    assert_int_equal(steps_rows(&f).damage[own], DAMAGE_NONE);
+    assert_true(steps_speed(&f, own) < 0.1);
+    return record.slot;
+}
+
+static uint32_t put_own(const char *kind)
+{
+    return fixture_put(
+        &f, (struct fixture_entity){.kind = kind, .at = {25000.0, FIXTURE_GROUND_M, 25000.0}});
+}
+
+static void test_what_is_corrected_at_once_passes(void **state)
+{
+    (void)state;
+    uint32_t own = put_own("tank");
+    correct(24900.0, 25100.0, own);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+    assert_true(steps_rows(&f).x[own] == 25000.0);
+}
+
+static void test_what_is_corrected_has_no_speed_by_it(void **state)
+{
+    (void)state;
+    uint32_t own = put_own("jeep");
+    correct(24976.0, 25024.0, own); /* 48 m within a quarter of a second: 192 m/s */
+    for (uint32_t i = 0; i < fixture_event_count(&f, EVENT_COLLISION); i++)
+        assert_true(fixture_event(&f, EVENT_COLLISION, i)->collision.closing_mps < 0.1f);
+    assert_int_equal(fixture_event_count(&f, EVENT_CONTACT_END),
+                     fixture_event_count(&f, EVENT_COLLISION));
+}
+
+static void test_what_is_corrected_into_ours_parts_from_it(void **state)
+{
+    (void)state;
+    uint32_t own = put_own("jeep");
+    uint32_t row = correct(24990.0, 25001.0, own);
+    const struct entities e = steps_rows(&f);
+    assert_true(hypot(e.x[own] - e.x[row], e.z[own] - e.z[row]) > 1.5);
+    assert_true(e.y[own] < FIXTURE_GROUND_M + 0.1); /* on the ground, not on the tank */
+}
+
 int main(void)
 {
 #define TEST(test) cmocka_unit_test_prestate_setup_teardown(test, open_world, fixture_teardown, &f)
@@ -131,6 +185,9 @@ int main(void)
         TEST(test_a_blast_moves_ours_alone),
         TEST(test_two_of_theirs_pass),
         TEST(test_an_aircraft_may_fly_into_our_ground),
+        TEST(test_what_is_corrected_at_once_passes),
+        TEST(test_what_is_corrected_has_no_speed_by_it),
+        TEST(test_what_is_corrected_into_ours_parts_from_it),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -229,6 +229,29 @@ static void test_a_hit_harms_by_our_rules(void **state)
     assert_int_equal(does(record), REMOTE_NOBODY);
 }
 
+/* A sender that tells the target's speed, or that of a thrown charge: it still strikes whom it
+ * names, and not the ground before it. */
+static void test_a_slow_round_strikes_whom_it_names(void **state)
+{
+    static const float speeds_mps[] = {0.0f, 1.5f, 6.0f, 40.0f, 99.0f};
+    (void)state;
+    for (unsigned i = 0; i < sizeof speeds_mps / sizeof *speeds_mps; i++) {
+        struct remote_record record = {.remote = REMOTE,
+                                       .type = REMOTE_STRUCK,
+                                       .slot = SLOT_NONE,
+                                       .entity = 1,
+                                       .kind = fixture_kind(&f, "shell"),
+                                       .velocity = {-speeds_mps[i], 0.0f, 0.0f},
+                                       .position = {0.0, 1.0, 0.0}};
+        assert_int_equal(does(record), REMOTE_TAKEN);
+        fixture_run(&f, 30);
+        const struct event_detonation *detonation =
+            &fixture_event(&f, EVENT_DETONATION, i)->detonation;
+        assert_int_equal(detonation->struck, STRUCK_VEHICLE);
+        assert_int_equal(detonation->struck_party.id, 1);
+    }
+}
+
 static void test_a_shell_digs_a_crater(void **state)
 {
     struct remote_record record = remotes_track(&f, 0, there);
@@ -395,6 +418,7 @@ int main(void)
         TEST(test_commands_and_records_keep_their_order),
         TEST(test_a_shot_alarms_its_target),
         TEST(test_a_hit_harms_by_our_rules),
+        TEST(test_a_slow_round_strikes_whom_it_names),
         TEST(test_a_shell_digs_a_crater),
         TEST(test_a_far_round_pierces_less),
         TEST(test_a_body_strikes),

@@ -164,6 +164,23 @@ static void test_what_is_silent_stops(void **state)
     assert_true(at.x > start.x + 119.0);
 }
 
+/* Else its owner, who has slowed down meanwhile, would be refused for jumping. */
+static void test_what_is_silent_and_fast_stops_sooner(void **state)
+{
+    struct remote_record record = moving(DEAD_RECKONING_FPW);
+    (void)state;
+    record.position[0] = 5000.0;
+    vec3_to_floats(record.velocity, (struct vec3){600.0, 0.0, 0.0});
+    remotes_send(&f, record);
+    fixture_run(&f, 20 * 60);
+    assert_true(place().x > 5000.0 + 0.99 * REMOTE_TRUST_M);
+    assert_true(place().x < 5000.0 + 1.01 * REMOTE_TRUST_M);
+    record.position[0] -= 0.49 * REMOTE_JUMP_M;
+    remotes_send(&f, record);
+    fixture_run(&f, 1);
+    assert_true(fabs(place().x - record.position[0]) < 600.0 / 60.0 + 1e-3);
+}
+
 static void test_it_leaves_the_world_at_its_edge(void **state)
 {
     struct remote_record record = moving(DEAD_RECKONING_FPW);
@@ -179,9 +196,13 @@ int main(void)
 {
 #define TEST(test) cmocka_unit_test_prestate_setup_teardown(test, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
-        TEST(test_every_model_is_its_formula),     TEST(test_an_error_vanishes_smoothly),
-        TEST(test_a_large_error_is_taken_at_once), TEST(test_land_vehicles_follow_our_ground),
-        TEST(test_what_is_silent_stops),           TEST(test_it_leaves_the_world_at_its_edge),
+        TEST(test_every_model_is_its_formula),
+        TEST(test_an_error_vanishes_smoothly),
+        TEST(test_a_large_error_is_taken_at_once),
+        TEST(test_land_vehicles_follow_our_ground),
+        TEST(test_what_is_silent_stops),
+        TEST(test_what_is_silent_and_fast_stops_sooner),
+        TEST(test_it_leaves_the_world_at_its_edge),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
