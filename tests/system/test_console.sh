@@ -2,7 +2,7 @@
 # The console with real processes: what it shows, the commands it takes, what it refuses. Hostile
 # clients of the console and of the live stream must not affect other clients. SEED=n and FUZZ=n
 # choose other hostile bytes and their number.
-# Alone: new clients have 10 s for a picture beside 500 slow connections.
+# Quiet: new clients have 10 s for a picture beside 500 slow connections.
 here=$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")
 . "$here/lib.sh"
 

@@ -2,7 +2,7 @@
 # Two worlds in one exercise, each with vehicles of its own, and each shows those of the other: in two network namespaces that a veth
 # pair joins, where the kernel lets the test make them, else on the loopback; then behind a bad network in both directions
 # (tests/relay). At p99 each vehicle is within the threshold and what it drives in the delay, in both worlds. SEED=n loses others.
-# Alone: on a busy machine a world falls behind the clock, and what the other extrapolates is wrong
+# Quiet: on a busy machine a world falls behind the clock, and what the other extrapolates is wrong
 here=$(cd "$(dirname "$0")" && pwd)
 . "$(dirname "$0")/lib.sh"
 seed=${SEED:-$RANDOM} seconds=${SECONDS_OF_PLAY:-20} holders=() net_a='' net_b=''

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # 100,000 junk datagrams a second come to the gateway's ear: it lives, the frames go on, it sends as before, and its log has one line
 # a second at most. SEED=n draws others.
-# Alone: it judges frames beside a sender that takes a processor
+# Quiet: it judges frames beside a sender that takes a processor
 . "$(dirname "$0")/lib.sh"
 seed=${SEED:-$RANDOM}
 free_port() { python3 -I -S -c 'import socket

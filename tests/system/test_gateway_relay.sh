@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A receiver behind a bad network (tests/relay: loss 5 %, delay 100 ms +- 30, other orders, copies) shows each vehicle within the
 # threshold and what it drives in the delay, at p99. SEED=n loses others.
-# Alone: on a busy machine the world falls behind the clock, and what receivers extrapolate is wrong
+# Quiet: on a busy machine the world falls behind the clock, and what receivers extrapolate is wrong
 here=$(cd "$(dirname "$0")" && pwd)
 . "$(dirname "$0")/lib.sh"
 seed=${SEED:-$RANDOM}

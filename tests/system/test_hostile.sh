@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # A hostile peer writes samples on a world's topics that no reporter would write. Monitors print
 # only well-formed lines meanwhile, and the true state afterwards. SEED=n chooses other samples.
-# Alone: it gives the monitors a few seconds to print the state after hostile samples.
+# Quiet: it gives the monitors a few seconds to print the state after hostile samples.
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/lib.sh"
 peer=$bin/../tests/rtps/peer

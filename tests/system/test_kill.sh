@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Alone: it kills sixty times in ten seconds of a world that runs in real time.
+# Quiet: it kills sixty times in ten seconds of a world that runs in real time.
 # Random SIGKILLs of every role during a run: it ends with the digests of an undisturbed run.
 # KILLS=n and SEED=n choose others.
 . "$(dirname "$0")/lib.sh"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # tests/relay, the bad network that tests of the gateway use: losses, delays, order and copies are what it says, and the same for
 # the same seed.
-# Alone: it judges delays
+# Quiet: it judges delays
 here=$(cd "$(dirname "$0")" && pwd)
 . "$(dirname "$0")/lib.sh"
 relay=$here/../relay/relay.py

@@ -3,7 +3,7 @@
 # with the digest of a run without a renderer. The memory of a living renderer does not grow.
 # KILLS=n sets the number of kills, and SECONDS_FLAT=s how long the memory is observed (600 for a
 # release).
-# Alone: the next picture after a kill has a second, and the memory has seconds to become steady.
+# Quiet: the next picture after a kill has a second, and the memory has seconds to become steady.
 . "$(dirname "$0")/lib.sh"
 kills=${KILLS:-$([ -n "${JOLON_SANITIZER-}" ] && echo 5 || echo 100)}
 flat_s=${SECONDS_FLAT:-12}

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Views, their switches, and pictures of a running world: none of them changes the world, a picture
 # shows the frame that it names, and wrong requests are refused with a helpful message.
-# Alone: it waits for pictures of a world that runs in real time.
+# Quiet: it waits for pictures of a world that runs in real time.
 . "$(dirname "$0")/lib.sh"
 
 renderer=$bin/jolon-renderer
