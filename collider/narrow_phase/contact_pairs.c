@@ -20,6 +20,7 @@ static void more_pairs(struct contact_queue *contacts)
     contacts->marks = reserve_grow(contacts->marks, held, more, sizeof *contacts->marks);
     contacts->impacts = reserve_grow(contacts->impacts, held, more, sizeof *contacts->impacts);
     contacts->known = reserve_grow(contacts->known, held, more, sizeof *contacts->known);
+    contacts->due = reserve_grow(contacts->due, contacts->due_count, more, sizeof *contacts->due);
     contacts->rest = reserve_grow(contacts->rest, held, more, sizeof *contacts->rest);
     contacts->link = reserve_grow(contacts->link, contacts->link_count, 2 * (uint64_t)more,
                                   sizeof *contacts->link);

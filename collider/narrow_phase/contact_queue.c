@@ -20,6 +20,8 @@
 
 #define PAIRS_A_PIECE  16
 #define FLIERS_A_PIECE 128
+#define DUE_A_PIECE    8 /* pairs of a change, most of which are near */
+#define ROWS_A_PIECE   16
 
 /* Of so many searches that find no axis between two bodies, one looks for their nearest points. */
 #define FAILED_A_SEARCH 8u
@@ -46,14 +48,17 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
     contacts->proves = world->params->collision.shape == SHAPE_MODEL &&
                        !method_discrete((enum method)world->params->collision.method);
     contacts->link = reserve_take(2 * (uint64_t)pairs, sizeof *contacts->link);
+    contacts->due = reserve_take(pairs, sizeof *contacts->due);
+    contacts->due_row = reserve_take(rows, sizeof *contacts->due_row);
     contacts->head = calloc(rows, sizeof *contacts->head);
     contacts->version = calloc(rows, sizeof *contacts->version);
     contacts->strayed = reserve_take(rows, sizeof *contacts->strayed);
     contacts->strays = calloc(rows, sizeof *contacts->strays);
     if (contacts->heap.contact && contacts->pair && contacts->met && contacts->swept &&
         contacts->marks && contacts->impacts && contacts->known && contacts->rest &&
-        contacts->rest_point && contacts->link && contacts->head && contacts->version &&
-        contacts->strayed && contacts->strays && pair_apart_init(&contacts->apart, world) == 0 &&
+        contacts->rest_point && contacts->due && contacts->due_row && contacts->link &&
+        contacts->head && contacts->version && contacts->strayed && contacts->strays &&
+        pair_apart_init(&contacts->apart, world) == 0 &&
         axis_memory_init(&contacts->axes, world) == 0 &&
         pair_list_init(&contacts->near, broad_phase_found_most(world)) == 0)
         return 0;
@@ -75,6 +80,8 @@ void contact_queue_free(struct contact_queue *contacts)
     reserve_free(contacts->rest_point);
     pair_apart_free(&contacts->apart);
     axis_memory_free(&contacts->axes);
+    reserve_free(contacts->due);
+    reserve_free(contacts->due_row);
     reserve_free(contacts->link);
     free(contacts->head);
     free(contacts->version);
@@ -97,6 +104,7 @@ void contact_queue_begin(struct contact_queue *contacts, const struct pair_list 
     contacts->stray_count = 0;
     contacts->change = 0;
     contacts->rest_points = 0;
+    contacts->due_count = contacts->due_rows = 0;
     for (uint32_t i = 0; i < list_count; i++) {
         for (uint32_t n = 0; n < lists[i].count; n++)
             contact_pairs_add(contacts, lists[i].pair[n]);
@@ -195,21 +203,45 @@ bool contact_queue_stays_apart(const struct contact_queue *contacts, uint32_t pa
            (bodies->b & PAIR_FIXED || known->version_b == contacts->version[bodies->b]);
 }
 
-/* Computes what the proofs need of a row, if its path has changed. */
-static void prepare(struct contact_queue *contacts, const struct contact_input *input, uint32_t row)
+/* Lists a row of which the proofs need something, if its path has changed. */
+static void list_row(struct contact_queue *contacts, uint32_t row)
 {
-    if (!contacts->proves || row & PAIR_FIXED || pair_apart_knows(&contacts->apart, row))
-        return;
-    body_motion_note_poses(input->motion, row);
-    pair_apart_prepare(&contacts->apart, input->motion, row);
+    if (contacts->proves && !(row & PAIR_FIXED) && pair_apart_claims(&contacts->apart, row))
+        contacts->due_row[contacts->due_rows++] = row;
+}
+
+static void list_rows(struct contact_queue *contacts, uint32_t pair)
+{
+    list_row(contacts, contacts->pair[pair].a);
+    list_row(contacts, contacts->pair[pair].b);
 }
 
 struct job {
     struct contact_queue *contacts;
     const struct contact_input *input;
     uint64_t tick;
+    double from;
     _Atomic uint32_t found; /* contacts in the heap's array, unordered */
 };
+
+static void prepare_some(void *context, uint32_t first, uint32_t end, uint32_t worker)
+{
+    const struct job *job = context;
+    (void)worker;
+    for (uint32_t i = first; i < end; i++) {
+        uint32_t row = job->contacts->due_row[i];
+        body_motion_note_poses(job->input->motion, row);
+        pair_apart_prepare(&job->contacts->apart, job->input->motion, row);
+    }
+}
+
+/* Computes what the proofs need of the listed rows. */
+static void prepare_rows(struct job *job)
+{
+    struct contact_queue *contacts = job->contacts;
+    thread_pool_run(contacts->workers, prepare_some, job, contacts->due_rows, ROWS_A_PIECE);
+    contacts->due_rows = 0;
+}
 
 static void note(struct job *job, const struct contact *contact)
 {
@@ -248,10 +280,9 @@ static void find_all(struct job *job, thread_pool_function *find, uint32_t count
 void contact_queue_find(struct contact_queue *contacts, const struct contact_input *input)
 {
     struct job job = {.contacts = contacts, .input = input};
-    for (uint32_t i = 0; i < contacts->pair_count; i++) {
-        prepare(contacts, input, contacts->pair[i].a);
-        prepare(contacts, input, contacts->pair[i].b);
-    }
+    for (uint32_t i = 0; i < contacts->pair_count; i++)
+        list_rows(contacts, i);
+    prepare_rows(&job);
     find_all(&job, find_some, contacts->pair_count, 1, PAIRS_A_PIECE);
 }
 
@@ -386,29 +417,37 @@ void contact_queue_look_wider(struct contact_queue *contacts, const struct conta
         contact_pairs_look(contacts, input, row, true, (float)wider_m);
 }
 
-/* Sweeps the row's pairs, except those that this change has already swept from the other row. */
-static void sweep_row(struct contact_queue *contacts, const struct contact_input *input,
-                      uint32_t row, double time)
+/* Lists the row's pairs, except those that this change has already listed from the other row. */
+static void list_pairs(struct contact_queue *contacts, uint32_t row)
 {
-    struct contact contact;
     for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
         uint32_t pair = contacts->link[link - 1].pair;
         if (contacts->swept[pair] == contacts->change)
             continue;
         contacts->swept[pair] = contacts->change;
-        prepare(contacts, input, contacts->pair[pair].a);
-        prepare(contacts, input, contacts->pair[pair].b);
-        if (sweep_pair(contacts, input, pair, time, &contact))
-            contact_heap_push(contacts, &contact);
+        contacts->due[contacts->due_count++].pair = pair;
+        list_rows(contacts, pair);
     }
-    contact_queue_ground(contacts, input, row);
+}
+
+static void sweep_due(void *context, uint32_t first, uint32_t end, uint32_t worker)
+{
+    const struct job *job = context;
+    (void)worker;
+    for (uint32_t i = first; i < end; i++) {
+        struct due_pair *due = &job->contacts->due[i];
+        due->meets = sweep_pair(job->contacts, job->input, due->pair, job->from, &due->contact);
+    }
+    work_done();
 }
 
 void contact_queue_change(struct contact_queue *contacts, const struct contact_input *input,
                           const uint32_t *rows, uint32_t count, double time)
 {
     enum method method = (enum method)input->detect.world->params->collision.method;
+    struct job job = {.contacts = contacts, .input = input, .from = time};
     contacts->change++;
+    contacts->due_count = 0;
     for (uint32_t i = 0; i < count; i++) {
         contacts->version[rows[i]]++;
         pair_apart_forget(&contacts->apart, rows[i]);
@@ -416,9 +455,17 @@ void contact_queue_change(struct contact_queue *contacts, const struct contact_i
     for (uint32_t i = 0; i < count; i++) {
         if (!method_discrete(method))
             contact_pairs_look(contacts, input, rows[i], false, 0.0f);
-        sweep_row(contacts, input, rows[i], time);
+        list_pairs(contacts, rows[i]);
         work_done();
     }
+    prepare_rows(&job);
+    thread_pool_run(contacts->workers, sweep_due, &job, contacts->due_count, DUE_A_PIECE);
+    for (uint32_t i = 0; i < contacts->due_count; i++) {
+        if (contacts->due[i].meets)
+            contact_heap_push(contacts, &contacts->due[i].contact);
+    }
+    for (uint32_t i = 0; i < count; i++)
+        contact_queue_ground(contacts, input, rows[i]);
 }
 
 void contact_queue_drop(struct contact_queue *contacts, uint32_t row)

@@ -92,6 +92,13 @@ struct rest_span {
     uint32_t first, count;
 };
 
+/* A pair that a change of paths sweeps, and what it finds. */
+struct due_pair {
+    uint32_t pair; /* index */
+    bool meets;
+    struct contact contact; /* if they do */
+};
+
 struct contact_list {
     struct contact *contact;
     uint32_t count, capacity;
@@ -120,6 +127,10 @@ struct contact_queue {
     uint32_t *strayed; /* rows whose path has left the box that the broad phase has */
     uint8_t *strays;   /* [capacity of the world] 1: the row is in strayed */
     uint32_t stray_count;
+    struct due_pair *due; /* [pair_capacity] */
+    uint32_t due_count;
+    uint32_t *due_row; /* [capacity of the world] rows that have to be prepared */
+    uint32_t due_rows;
     struct pair_list near; /* result of a query */
     struct pair_apart apart;
     struct axis_memory axes;
@@ -197,7 +208,8 @@ bool contact_queue_next(struct contact_queue *contacts, const struct contact_inp
 void contact_queue_skip_pair(struct contact_queue *contacts, const struct contact *contact);
 
 /* The rows' paths have changed at this time. Makes their contacts void, looks up what their new
- * paths may meet, and sweeps them against all of that and the ground, each pair once. */
+ * paths may meet, and sweeps them against all of that and the ground, each pair once, on all
+ * workers. */
 void contact_queue_change(struct contact_queue *contacts, const struct contact_input *input,
                           const uint32_t *rows, uint32_t count, double time);
 

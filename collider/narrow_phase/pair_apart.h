@@ -26,10 +26,13 @@ struct pair_apart {
 int pair_apart_init(struct pair_apart *apart, const struct world *world);
 void pair_apart_free(struct pair_apart *apart);
 
-/* Returns true if the row's pose is that of its present path. */
-static inline bool pair_apart_knows(const struct pair_apart *apart, uint32_t row)
+/* Returns true if the row's pose is not that of its present path, and takes it for known: the
+ * caller has to prepare the row before anything asks for it. */
+static inline bool pair_apart_claims(struct pair_apart *apart, uint32_t row)
 {
-    return apart->row[row].known;
+    bool known = apart->row[row].known;
+    apart->row[row].known = true;
+    return !known;
 }
 
 /* Computes the row's pose from its present path. Any thread, for different rows. */

@@ -32,9 +32,10 @@ int island_init(struct island *island, const struct world *world)
     island->solve_of = reserve_take(solved, sizeof *island->solve_of);
     island->contact = reserve_take(most, sizeof *island->contact);
     island->shift = reserve_take(rows, sizeof *island->shift);
+    island->gap = reserve_take(ISLAND_RESTING_MOST, sizeof *island->gap);
     if (pair_list_init(&island->near, 2 * (uint64_t)most) == 0 && island->met && island->body &&
         island->row && island->body_of && island->solve && island->solve_of && island->contact &&
-        island->shift)
+        island->shift && island->gap)
         return 0;
     island_free(island);
     errno = ENOMEM;
@@ -52,6 +53,7 @@ void island_free(struct island *island)
     reserve_free(island->contact);
     pair_list_free(&island->near);
     reserve_free(island->shift);
+    reserve_free(island->gap);
     *island = (struct island){0};
 }
 

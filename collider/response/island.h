@@ -2,6 +2,7 @@
 #ifndef JOLON_COLLIDER_RESPONSE_ISLAND_H
 #define JOLON_COLLIDER_RESPONSE_ISLAND_H
 
+#include "collider/geometry/level_gap.h"
 #include "collider/response/response.h"
 #include "collider/solver/contact_solver.h"
 #include "collider/solver/contact_spring.h"
@@ -19,6 +20,9 @@ struct island_contact {
 };
 
 #define BODY_FIXED UINT32_MAX
+
+/* An island takes so many contacts that last. */
+#define ISLAND_RESTING_MOST 64u
 
 /* A row with contacts in this moment. */
 struct island_body {
@@ -49,7 +53,8 @@ struct island {
     struct solver_contact *contact; /* [met_capacity] */
     struct vec3 *shift;             /* [capacity of the world] of each body of solve */
     struct pair_list near;          /* contacts that last, of the island's bodies */
-    uint32_t rows;                  /* capacity of the world */
+    struct level_gap *gap; /* [ISLAND_RESTING_MOST] of these contacts; points: 0 for none */
+    uint32_t rows;         /* capacity of the world */
 };
 
 /* 0, or -1 with errno ENOMEM. */

@@ -7,14 +7,16 @@
 #include "collider/response/response.h"
 #include "world/maths/sort.h"
 #include "world/runtime/reserve.h"
+#include "world/runtime/thread_pool.h"
 #include "world/runtime/work_done.h"
 #include "world/state.h"
 #include "world/world.h"
 
-/* Of the contacts that last, an island takes those of bodies so many contacts away from an impact,
- * and at most so many. */
-#define HOPS         2
-#define RESTING_MOST 64u
+/* Of the contacts that last, an island takes those of bodies so many contacts away from an impact.
+ */
+#define HOPS 2
+
+#define BEHIND_A_PIECE 2u /* contacts that one worker measures at a time */
 
 /* --- the contacts of one moment ----------------------------------------------------------------*/
 
@@ -175,28 +177,77 @@ static void take_point(struct response_context *context, const struct contact *c
     island->met_count++;
 }
 
+struct behind_job {
+    const struct response_context *context;
+    const struct pair *behind;
+    double time;
+};
+
+/* Measures how the bodies of contacts first .. end - 1 lie at this time. */
+static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t worker)
+{
+    const struct behind_job *job = argument;
+    const struct body_motion *motion = job->context->motion;
+    const struct island *island = job->context->island;
+    (void)worker;
+    for (uint32_t i = first; i < end; i++) {
+        struct level_gap gap[LEVEL_GAPS_MAX];
+        struct free_turn turn_a, turn_b;
+        const struct pair *pair = &job->behind[i];
+        struct swept_body a = body_motion_body(motion, pair->a, &turn_a);
+        struct swept_body b = body_motion_side(motion, pair->b, &turn_b);
+        uint32_t gaps = level_gap_find(&a, &b, job->time, CONTACT_TOUCHING_M, gap);
+        island->gap[i] = gaps > 0 ? gap[0] : (struct level_gap){.points = 0};
+    }
+    work_done();
+}
+
 /* Takes the contact between two bodies that rest on each other, if they touch at this time. */
-static void take_resting(struct response_context *context, const struct pair *pair, double time)
+static void take_resting(struct response_context *context, const struct pair *pair,
+                         const struct level_gap *gap, double time)
 {
     struct contact_queue *contacts = context->contacts;
     uint32_t index = contact_queue_pair(contacts, pair);
-    struct free_turn turn_a, turn_b;
-    struct level_gap gap[LEVEL_GAPS_MAX];
-    if (contacts->marks[index] & CONTACT_GATHERED)
-        return;
-    struct swept_body a = body_motion_body(context->motion, pair->a, &turn_a);
-    struct swept_body b = body_motion_side(context->motion, pair->b, &turn_b);
-    if (level_gap_find(&a, &b, time, CONTACT_TOUCHING_M, gap) == 0)
+    if (gap->points == 0 || contacts->marks[index] & CONTACT_GATHERED)
         return;
     contacts->marks[index] |= CONTACT_GATHERED | CONTACT_PRESSED;
-    for (uint32_t i = 0; i < gap[0].points; i++) {
+    for (uint32_t i = 0; i < gap->points; i++) {
         const struct contact contact = {
             .a = pair->a,
             .b = pair->b,
             .pair = index + 1,
-            .impact = {.toi = time, .point = gap[0].point[i], .normal = gap[0].normal}};
+            .impact = {.toi = time, .point = gap->point[i], .normal = gap->normal}};
         take_point(context, &contact);
     }
+}
+
+/* Takes the listed contacts, until the island has so many. They are measured on all workers, at
+ * most as many as there is room for if all of them touch at one point. */
+static void take_near(struct response_context *context, uint32_t most, double time)
+{
+    struct island *island = context->island;
+    for (uint32_t done = 0; done < island->near.count && island->met_count < most;) {
+        uint32_t left = island->near.count - done, room = most - island->met_count;
+        uint32_t some = left < room ? left : room;
+        struct behind_job job = {context, &island->near.pair[done], time};
+        thread_pool_run(context->contacts->workers, measure_some, &job, some, BEHIND_A_PIECE);
+        for (uint32_t i = 0; i < some && island->met_count < most; i++)
+            take_resting(context, &job.behind[i], &island->gap[i], time);
+        done += some;
+    }
+}
+
+/* Removes the pairs that both of their bodies have listed. */
+static void list_once(struct pair_list *list)
+{
+    uint32_t kept = 0;
+    sort_words(list->pair, list->count);
+    for (uint32_t i = 0; i < list->count; i++) {
+        struct pair pair = list->pair[i];
+        if (kept == 0 || pair.a != list->pair[kept - 1].a || pair.b != list->pair[kept - 1].b)
+            list->pair[kept++] = pair;
+    }
+    list->count = kept;
 }
 
 /* Lists the row's contacts that last and are not in the island. The order of the list is that of
@@ -224,11 +275,8 @@ static void gather_resting(struct response_context *context, double time)
         island->near.count = 0;
         for (uint32_t end = island->bodies; first < end; first++)
             add_resting(island, contacts, island->row[first]);
-        sort_words(island->near.pair, island->near.count);
-        for (uint32_t i = 0; i < island->near.count; i++) {
-            if (island->met_count < impacts + RESTING_MOST)
-                take_resting(context, &island->near.pair[i], time);
-        }
+        list_once(&island->near);
+        take_near(context, impacts + ISLAND_RESTING_MOST, time);
     }
     for (uint32_t i = 0; i < island->met_count; i++)
         contacts->marks[island->met[i].contact.pair - 1] &= (uint8_t)~CONTACT_GATHERED;

@@ -92,18 +92,63 @@ static void set_tangents(struct solver_contact *c)
 
 /* --- bodies ------------------------------------------------------------------------------------*/
 
-/* Velocity of b relative to a at the point, on the contact's axes. */
-static struct vec3 slip(const struct solver_body *bodies, const struct solver_contact *c)
+struct island {
+    struct solver_body *bodies;
+    struct solver_contact *contacts;
+    uint32_t body_count, count; /* count: of contacts */
+    double settled_mps;         /* a smaller change of velocity counts as none */
+    double runaway_mps;         /* a greater change means divergence */
+    bool rough;                 /* some contact has friction */
+    bool level;                 /* bodies move horizontally and turn about the vertical alone */
+    double restitution;         /* the greatest of the contacts that close */
+    double friction;            /* 0..1 of each contact's own coefficient */
+};
+
+/* The same as slip() in a level island: the terms that are left out are 0. */
+static struct vec3 slip_level(const struct solver_body *bodies, const struct solver_contact *c)
 {
     const struct solver_body *a = &bodies[c->a], *b = &bodies[c->b];
+    const struct solver_state *s = &c->state;
+    double x = (b->velocity.x + b->spin.y * s->arm_b.z) - (a->velocity.x + a->spin.y * s->arm_a.z);
+    double z = (b->velocity.z - b->spin.y * s->arm_b.x) - (a->velocity.z - a->spin.y * s->arm_a.x);
+    return (struct vec3){x * c->normal.x + z * c->normal.z,
+                         x * s->tangent[0].x + z * s->tangent[0].z, 0.0};
+}
+
+/* The same as push() in a level island. */
+static void push_level(struct solver_body *bodies, const struct solver_contact *c,
+                       struct vec3 impulse)
+{
+    struct solver_body *a = &bodies[c->a], *b = &bodies[c->b];
+    const struct solver_state *s = &c->state;
+    double x = c->normal.x * impulse.x + s->tangent[0].x * impulse.y;
+    double z = c->normal.z * impulse.x + s->tangent[0].z * impulse.y;
+    a->velocity.x -= a->inverse_mass.x * x;
+    a->velocity.z -= a->inverse_mass.z * z;
+    b->velocity.x += b->inverse_mass.x * x;
+    b->velocity.z += b->inverse_mass.z * z;
+    a->spin.y -= a->inverse_inertia.m[1][1] * (s->arm_a.z * x - s->arm_a.x * z);
+    b->spin.y += b->inverse_inertia.m[1][1] * (s->arm_b.z * x - s->arm_b.x * z);
+}
+
+/* Velocity of b relative to a at the point, on the contact's axes. */
+static struct vec3 slip(const struct island *island, const struct solver_contact *c)
+{
+    const struct solver_body *a = &island->bodies[c->a], *b = &island->bodies[c->b];
+    if (island->level)
+        return slip_level(island->bodies, c);
     struct vec3 va = vec3_add(a->velocity, vec3_cross(a->spin, c->state.arm_a));
     struct vec3 vb = vec3_add(b->velocity, vec3_cross(b->spin, c->state.arm_b));
     return to_axes(c, vec3_sub(vb, va));
 }
 
-static void push(struct solver_body *bodies, const struct solver_contact *c, struct vec3 impulse)
+static void push(const struct island *island, const struct solver_contact *c, struct vec3 impulse)
 {
-    struct solver_body *a = &bodies[c->a], *b = &bodies[c->b];
+    struct solver_body *a = &island->bodies[c->a], *b = &island->bodies[c->b];
+    if (island->level) {
+        push_level(island->bodies, c, impulse);
+        return;
+    }
     struct vec3 p = to_world(c, impulse);
     a->velocity = vec3_sub(a->velocity, times(a->inverse_mass, p));
     b->velocity = vec3_add(b->velocity, times(b->inverse_mass, p));
@@ -144,8 +189,9 @@ static void set_slip_mass(struct solver_state *state)
     state->slip_mass[0][1] = state->slip_mass[1][0] = k * (one_way ? s12 : -s12);
 }
 
-static void begin_contact(const struct solver_body *bodies, struct solver_contact *c)
+static void begin_contact(const struct island *island, struct solver_contact *c)
 {
+    const struct solver_body *bodies = island->bodies;
     struct solver_state *state = &c->state;
     *state = (struct solver_state){.arm_a = vec3_sub(c->point, bodies[c->a].centre),
                                    .arm_b = vec3_sub(c->point, bodies[c->b].centre)};
@@ -158,22 +204,11 @@ static void begin_contact(const struct solver_body *bodies, struct solver_contac
             (struct mat3){{{n.x, n.y, n.z}, {n.y, first.y, first.z}, {n.z, first.z, second.z}}};
         set_slip_mass(state);
     }
-    state->before = slip(bodies, c);
+    state->before = slip(island, c);
     c->closing_mps = -state->before.x;
     c->impulse = (struct vec3){0.0, 0.0, 0.0};
     c->lost_j = 0.0;
 }
-
-struct island {
-    struct solver_body *bodies;
-    struct solver_contact *contacts;
-    uint32_t body_count, count; /* count: of contacts */
-    double settled_mps;         /* a smaller change of velocity counts as none */
-    double runaway_mps;         /* a greater change means divergence */
-    bool rough;                 /* some contact has friction */
-    double restitution;         /* the greatest of the contacts that close */
-    double friction;            /* 0..1 of each contact's own coefficient */
-};
 
 /* --- one contact -------------------------------------------------------------------------------*/
 
@@ -200,18 +235,53 @@ static struct vec3 alone(const struct solver_contact *c, double friction, struct
     return (struct vec3){normal + share * beside, share * t1, share * t2};
 }
 
+/* The same as alone() in a level island. */
+static struct vec3 alone_level(const struct solver_contact *c, double friction, double without_n,
+                               double without_t)
+{
+    const struct solver_state *state = &c->state;
+    const double *n = state->mobility.m[0];
+    double normal = (state->target_mps - without_n) / n[0];
+    if (!(normal > 0.0))
+        return (struct vec3){0.0, 0.0, 0.0};
+    double plastic = normal * state->plastic_share;
+    double across = -(state->slip_mass[0][0] * (without_t + n[1] * plastic));
+    double beside = -(n[1] * across) / n[0];
+    double share = 1.0, length = fabs(across);
+    if (length > friction * (normal + beside))
+        share = friction * normal / (length - friction * beside);
+    return (struct vec3){normal + share * beside, share * across, 0.0};
+}
+
+/* The same as update() in a level island. */
+static double update_level(const struct island *island, struct solver_contact *c)
+{
+    struct solver_state *state = &c->state;
+    const double(*m)[3] = (const double(*)[3])state->mobility.m;
+    struct vec3 now = slip_level(island->bodies, c);
+    struct vec3 sum = alone_level(c, c->friction * island->friction,
+                                  now.x - (m[0][0] * state->sum.x + m[0][1] * state->sum.y),
+                                  now.y - (m[1][0] * state->sum.x + m[1][1] * state->sum.y));
+    state->step = (struct vec3){sum.x - state->sum.x, sum.y - state->sum.y, 0.0};
+    state->sum = sum;
+    push_level(island->bodies, c, state->step);
+    return m[0][0] * sqrt(state->step.x * state->step.x + state->step.y * state->step.y);
+}
+
 /* Solves a contact against the present velocities; returns the change of speed. */
 static double update(const struct island *island, struct solver_contact *c)
 {
     struct solver_state *state = &c->state;
     if (state->mobility.m[0][0] == 0.0)
         return 0.0;
+    if (island->level)
+        return update_level(island, c);
     struct vec3 own = turned(&state->mobility, state->sum);
-    struct vec3 without = vec3_sub(slip(island->bodies, c), own);
+    struct vec3 without = vec3_sub(slip(island, c), own);
     struct vec3 sum = alone(c, c->friction * island->friction, without);
     state->step = vec3_sub(sum, state->sum);
     state->sum = sum;
-    push(island->bodies, c, state->step);
+    push(island, c, state->step);
     return state->mobility.m[0][0] * vec3_length(state->step);
 }
 
@@ -246,7 +316,7 @@ static void search(const struct island *island, double keep)
         struct vec3 further = vec3_scale(state->search, keep);
         if (keep > 0.0) {
             state->sum = vec3_add(state->sum, further);
-            push(island->bodies, c, further);
+            push(island, c, further);
         }
         state->search = vec3_add(further, state->step);
     }
@@ -262,7 +332,7 @@ static void renew(const struct island *island)
         body->spin = body->spin_before;
     }
     for (uint32_t i = 0; i < island->count; i++)
-        push(island->bodies, &island->contacts[i], island->contacts[i].state.sum);
+        push(island, &island->contacts[i], island->contacts[i].state.sum);
 }
 
 static void take_out(const struct island *island)
@@ -303,7 +373,7 @@ static bool sweep_all(const struct island *island, uint32_t sweeps, uint32_t upd
  * evenly in time. */
 static double work(const struct island *island, const struct solver_contact *c)
 {
-    struct vec3 twice = vec3_add(c->state.before, slip(island->bodies, c));
+    struct vec3 twice = vec3_add(c->state.before, slip(island, c));
     return -0.5 * vec3_dot(c->state.sum, twice);
 }
 
@@ -370,7 +440,7 @@ static void approach(const struct island *island, double gain0, double gain1, do
     double slope = 0.0;
     for (uint32_t i = 0; i < island->count; i++) {
         const struct solver_contact *c = &island->contacts[i];
-        slope += vec3_dot(vec3_sub(c->state.bouncy, c->state.sum), slip(island->bodies, c));
+        slope += vec3_dot(vec3_sub(c->state.bouncy, c->state.sum), slip(island, c));
     }
     double share = share_of_way(gain0 - most, slope, gain1 - most);
     for (uint32_t i = 0; i < island->count; i++) {
@@ -439,19 +509,39 @@ static void share_loss(const struct island *island)
     }
 }
 
+/* Returns true if the bodies can only move horizontally and turn about the vertical, and the
+ * normals are level. A third of the arithmetic then gives the same bits. */
+static bool is_level(const struct island *island)
+{
+    for (uint32_t i = 0; i < island->body_count; i++) {
+        const struct solver_body *body = &island->bodies[i];
+        const double(*m)[3] = (const double(*)[3])body->inverse_inertia.m;
+        if (body->inverse_mass.y != 0.0 || body->velocity.y != 0.0 || body->spin.x != 0.0 ||
+            body->spin.z != 0.0 || m[0][0] != 0.0 || m[0][1] != 0.0 || m[0][2] != 0.0 ||
+            m[1][2] != 0.0 || m[2][2] != 0.0)
+            return false;
+    }
+    for (uint32_t i = 0; i < island->count; i++) {
+        if (island->contacts[i].normal.y != 0.0)
+            return false;
+    }
+    return true;
+}
+
 void contact_solver_island(struct solver_body *bodies, uint32_t body_count,
                            struct solver_contact *contacts, uint32_t contact_count)
 {
     struct island island = {
         .bodies = bodies, .contacts = contacts, .body_count = body_count, .count = contact_count};
     double closing = 0.0, speed = 0.0;
+    island.level = is_level(&island);
     for (uint32_t i = 0; i < body_count; i++) {
         speed = maths_max(speed, vec3_length(bodies[i].velocity));
         bodies[i].velocity_before = bodies[i].velocity;
         bodies[i].spin_before = bodies[i].spin;
     }
     for (uint32_t i = 0; i < contact_count; i++) {
-        begin_contact(bodies, &contacts[i]);
+        begin_contact(&island, &contacts[i]);
         island.rough |= contacts[i].friction > 0.0;
         if (contacts[i].closing_mps > 0.0)
             island.restitution = maths_max(island.restitution, contacts[i].restitution);

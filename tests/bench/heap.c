@@ -29,15 +29,17 @@ static void print_row(const char *name, const struct heap_result *result)
 static void print_member(const char *name, const struct heap_result *result)
 {
     printf("{\"engine\":\"%s\",\"threads\":%u,\"cpu_ms\":%.6f,\"cpu_p99_ms\":%.6f,"
-           "\"cpu_worst_ms\":%.6f,\"wall_ms\":%.6f,\"rest_ms\":%.6f,\"impact_mm\":%.4f,"
-           "\"steady_mm\":%.4f,\"end_mm\":%.4f,\"pairs\":%u,"
-           "\"begins\":%llu,\"begins_a_pair\":%.4f,"
-           "\"collisions\":%llu,\"collisions_a_pair\":%.4f,\"fastest_mps\":%.6f,\"at_rest\":%s}",
+           "\"cpu_worst_ms\":%.6f,\"wall_ms\":%.6f,\"caller_ms\":%.6f,\"rest_ms\":%.6f,"
+           "\"impact_mm\":%.4f,\"steady_mm\":%.4f,\"end_mm\":%.4f,\"pairs\":%u,",
            name, result->threads, result->cpu_ms, result->cpu_p99_ms, result->cpu_worst_ms,
-           result->wall_ms, result->rest_ms, 1e3 * result->impact_m, 1e3 * result->steady_m,
-           1e3 * result->end_m, result->pairs, (unsigned long long)result->begins,
-           a_pair(result, result->begins), (unsigned long long)result->collisions,
-           a_pair(result, result->collisions), result->fastest_mps,
+           result->wall_ms, result->caller_ms, result->rest_ms, 1e3 * result->impact_m,
+           1e3 * result->steady_m, 1e3 * result->end_m, result->pairs);
+    printf("\"begins\":%llu,\"begins_a_pair\":%.4f,\"collisions\":%llu,"
+           "\"collisions_a_pair\":%.4f,\"fastest_mps\":%.6f,\"checksum\":\"%016llx\","
+           "\"at_rest\":%s}",
+           (unsigned long long)result->begins, a_pair(result, result->begins),
+           (unsigned long long)result->collisions, a_pair(result, result->collisions),
+           result->fastest_mps, (unsigned long long)result->checksum,
            result->at_rest ? "true" : "false");
 }
 

@@ -58,7 +58,8 @@ struct heap_look {
     struct heap_body *body; /* [tanks] */
     struct heap_pair *pair; /* tanks in contact */
     size_t pairs, capacity;
-    uint64_t told; /* collisions that the engine has told so far, if it tells them */
+    uint64_t told;     /* collisions that the engine has told so far, if it tells them */
+    uint64_t checksum; /* of the whole state, by an engine that has one; else 0 */
 };
 
 /* Adds a pair in contact. Ends the process when memory is out. */

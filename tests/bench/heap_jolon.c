@@ -86,6 +86,7 @@ static void jolon_look(void *handle, struct heap_look *look)
     for (uint32_t i = 0; i < now->head->contact_count; i++)
         heap_look_add(look, now->contacts[i].a_row, now->contacts[i].b_row);
     look->told = now->head->tally.collisions;
+    look->checksum = now->head->checksum;
 }
 
 const struct heap_engine heap_jolon = {.name = "jolon",

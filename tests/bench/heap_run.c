@@ -16,7 +16,7 @@ struct run {
     struct heap_pair *before;
     size_t pairs_before, before_capacity;
     uint64_t begun;
-    double *cpu_ms, *wall_ms;
+    double *cpu_ms, *wall_ms, *caller_ms;
 };
 
 static void *grown(void *memory, size_t bytes)
@@ -93,7 +93,9 @@ static void look_at(struct run *run, void *self)
 static void time_step(struct run *run, void *self, uint32_t frame)
 {
     double wall = now_ms(CLOCK_MONOTONIC), cpu = now_ms(CLOCK_PROCESS_CPUTIME_ID);
+    double caller = now_ms(CLOCK_THREAD_CPUTIME_ID);
     run->engine->step(self);
+    run->caller_ms[frame] = now_ms(CLOCK_THREAD_CPUTIME_ID) - caller;
     run->cpu_ms[frame] = now_ms(CLOCK_PROCESS_CPUTIME_ID) - cpu;
     run->wall_ms[frame] = now_ms(CLOCK_MONOTONIC) - wall;
 }
@@ -127,6 +129,7 @@ static void set_times(struct run *run, struct heap_result *result)
     result->cpu_p99_ms = bench_quantile(run->cpu_ms, pushed, 0.99);
     result->cpu_worst_ms = bench_quantile(run->cpu_ms, pushed, 1.0);
     result->wall_ms = bench_quantile(run->wall_ms, pushed, 0.5);
+    result->caller_ms = bench_quantile(run->caller_ms, pushed, 0.5);
 }
 
 static void run_frames(struct run *run, void *self, struct heap_result *result)
@@ -149,6 +152,7 @@ static void run_frames(struct run *run, void *self, struct heap_result *result)
     }
     result->end_m = deepest(run, 0.0);
     result->fastest_mps = fastest(run);
+    result->checksum = run->look.checksum;
     result->at_rest = result->fastest_mps < HEAP_REST_MPS;
 }
 
@@ -160,7 +164,8 @@ struct heap_result heap_run(const struct heap_engine *engine, const struct heap_
     struct run run = {.engine = engine,
                       .scene = scene,
                       .cpu_ms = grown(NULL, frames * sizeof(double)),
-                      .wall_ms = grown(NULL, frames * sizeof(double))};
+                      .wall_ms = grown(NULL, frames * sizeof(double)),
+                      .caller_ms = grown(NULL, frames * sizeof(double))};
     run.look.body = grown(NULL, scene->tanks.count * sizeof *run.look.body);
     void *self = engine->open(&scene->tanks, result.threads);
     run_frames(&run, self, &result);
@@ -171,5 +176,6 @@ struct heap_result heap_run(const struct heap_engine *engine, const struct heap_
     free(run.before);
     free(run.cpu_ms);
     free(run.wall_ms);
+    free(run.caller_ms);
     return result;
 }

@@ -14,6 +14,7 @@ struct heap_result {
     uint32_t threads, frames;
     double cpu_ms, cpu_p99_ms, cpu_worst_ms; /* processor time of a step, of all threads, */
     double wall_ms;                          /* and its median length, while the tanks push */
+    double caller_ms;    /* the median of the calling thread's processor time in a step */
     double rest_ms;      /* median processor time in the last ninth of the frames */
     double impact_m;     /* deepest overlap at the end of a frame of the first phase, */
     double steady_m;     /* of the frames in which the tanks push after that, */
@@ -23,6 +24,7 @@ struct heap_result {
     uint64_t collisions; /* told until then, by an engine that tells them; else as many */
     bool at_rest;        /* at the end */
     double fastest_mps;  /* at the end */
+    uint64_t checksum;   /* of the last frame; 0: the engine has none */
 };
 
 /* Runs so many frames. The tanks push for two thirds of them. */

@@ -95,6 +95,41 @@ static void test_rows_36_46_rings_press_without_overlap(void **state)
     push_rings(90, 60.0, 4.0, seed);
 }
 
+/* --- threads -----------------------------------------------------------------------------------*/
+
+#define THREAD_FRAMES 150
+
+/* Runs a heap that strikes together, and keeps the digest of each frame. */
+static void run_on_threads(uint32_t threads, uint64_t seed, uint64_t digest[THREAD_FRAMES])
+{
+    open_world(60.0);
+    put_rings(90, fixture_uniform(&seed, 0.0, 1.0));
+    fixture_threads(&f, threads);
+    let_push(90);
+    for (uint32_t frame = 0; frame < THREAD_FRAMES; frame++) {
+        fixture_continue(&f, 1);
+        digest[frame] = fixture_digest(&f);
+    }
+    assert_true(fixture_state(&f).head->contact_count >= 60);
+    fixture_close(&f);
+}
+
+/* Pairs of contacts that last, of impacts and of the guard are measured on all threads. */
+static void test_a_heap_goes_the_same_way_on_any_number_of_threads(void **state)
+{
+    static uint64_t digest[2][THREAD_FRAMES];
+    (void)state;
+    uint64_t seed = fixture_seed(37);
+    run_on_threads(1, seed, digest[0]);
+    for (uint32_t threads = 2; threads <= 4; threads++) {
+        run_on_threads(threads, seed, digest[1]);
+        for (uint32_t frame = 0; frame < THREAD_FRAMES; frame++) {
+            if (digest[0][frame] != digest[1][frame])
+                fail_msg("frame %u differs on %u threads", frame + 1, threads);
+        }
+    }
+}
+
 /* --- ends --------------------------------------------------------------------------------------*/
 
 /* A tank runs into another, pushes it and drives back: one contact ends. */
@@ -126,6 +161,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rows_36_46_rings_press_without_overlap),
+        cmocka_unit_test(test_a_heap_goes_the_same_way_on_any_number_of_threads),
         cmocka_unit_test(test_the_end_of_a_contact_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -342,6 +342,73 @@ static void test_a_great_pile_ends_without_anybody_nearing(void **state)
     assert_true(after < before && fabs(before - after - lost) < 1e-9 * before);
 }
 
+/* --- bodies on the ground ----------------------------------------------------------------------*/
+
+#define ROW 6u
+
+static struct solver_body grounded(double mass_kg, struct vec3 centre, struct vec3 velocity)
+{
+    return (struct solver_body){.inverse_mass = {1.0 / mass_kg, 0.0, 1.0 / mass_kg},
+                                .inverse_inertia = diagonal(0.0, 0.3 / mass_kg, 0.0),
+                                .centre = centre,
+                                .velocity = velocity};
+}
+
+static double drawn(uint64_t *seed, double most)
+{
+    return fixture_uniform(seed, -most, most);
+}
+
+/* Bodies in a row against a wall, with level normals that are not quite along the row. */
+static void lay_row(struct solver_body *b, struct solver_contact *c, uint64_t *seed)
+{
+    b[0] = wall();
+    for (uint32_t i = 1; i < ROW; i++)
+        b[i] = grounded(1000.0 * i, (struct vec3){4.0 * i, drawn(seed, 0.5), drawn(seed, 1.0)},
+                        (struct vec3){drawn(seed, 9.0), 0.0, drawn(seed, 3.0)});
+    for (uint32_t i = 0; i + 1 < ROW; i++) {
+        double sine, cosine;
+        maths_sincos(drawn(seed, 0.5), &sine, &cosine);
+        c[i] = (struct solver_contact){
+            .a = i,
+            .b = i + 1,
+            .point = {4.0 * i + 2.0, drawn(seed, 1.0), drawn(seed, 1.5)},
+            .normal = {cosine, 0.0, sine},
+            .restitution = i % 2 ? 0.3 : 0.0,
+            .friction = 0.5,
+        };
+    }
+}
+
+/* Bodies that cannot leave the ground are solved by less arithmetic. A body in the air, which
+ * nothing touches, makes the solver use all of it. */
+static void test_bodies_on_the_ground_have_the_same_bits(void **state)
+{
+    (void)state;
+    uint64_t seed = fixture_seed(12);
+    for (uint32_t n = 0; n < 200; n++) {
+        struct solver_body level[ROW], whole[ROW + 1];
+        struct solver_contact c[2][ROW - 1];
+        lay_row(level, c[0], &seed);
+        for (uint32_t i = 0; i < ROW; i++)
+            whole[i] = level[i];
+        for (uint32_t i = 0; i + 1 < ROW; i++)
+            c[1][i] = c[0][i];
+        whole[ROW] = ball(1.0, (struct vec3){0.0, 50.0, 0.0}, (struct vec3){0.0, 0.0, 0.0});
+        contact_solver_island(level, ROW, c[0], ROW - 1);
+        contact_solver_island(whole, ROW + 1, c[1], ROW - 1);
+        for (uint32_t i = 0; i < ROW; i++) {
+            assert_true(level[i].velocity.x == whole[i].velocity.x);
+            assert_true(level[i].velocity.y == 0.0 && whole[i].velocity.y == 0.0);
+            assert_true(level[i].velocity.z == whole[i].velocity.z);
+            assert_true(level[i].spin.y == whole[i].spin.y);
+        }
+        for (uint32_t i = 0; i + 1 < ROW; i++)
+            assert_true(c[0][i].lost_j == c[1][i].lost_j &&
+                        vec3_length(vec3_sub(c[0][i].impulse, c[1][i].impulse)) == 0.0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -359,6 +426,7 @@ int main(void)
         cmocka_unit_test(test_a_parting_contact_is_pressed_by_the_island),
         cmocka_unit_test(test_a_body_without_room_to_bounce_stops),
         cmocka_unit_test(test_a_great_pile_ends_without_anybody_nearing),
+        cmocka_unit_test(test_bodies_on_the_ground_have_the_same_bits),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
