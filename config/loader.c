@@ -171,6 +171,13 @@ static int check_levels(const struct load *load, const struct levels *levels)
     return 0;
 }
 
+/* Says what to write instead of "fe80::1%eth0". */
+static int refuse_zone(const struct load *load, const char *name, const char *text)
+{
+    return key_table_refuse(load->error, load->origin[key_table_find(&schema_scenario, name)], name,
+                            text, "an address has no %%zone here; name it by gateway.interface");
+}
+
 /* An address in numbers, with or without a port, or "none". */
 static int check_endpoint(const struct load *load, const char *name, const char *text)
 {
@@ -178,6 +185,8 @@ static int check_endpoint(const struct load *load, const char *name, const char 
     struct error_text wrong;
     if (strcmp(text, "none") == 0 || internet_address_read(&address, text, 1, &wrong) == 0)
         return 0;
+    if (strchr(text, '%') != NULL)
+        return refuse_zone(load, name, text);
     return key_table_refuse(load->error, load->origin[key_table_find(&schema_scenario, name)], name,
                             text, "%s", wrong.text);
 }
@@ -205,6 +214,8 @@ static int check_gateway(const struct load *load)
     const struct gateway_params *gateway = &load->scenario->settings->params.gateway;
     struct in6_addr any;
     const char *name = "gateway.address", *address = gateway->address;
+    if (strchr(address, '%') != NULL)
+        return refuse_zone(load, name, address);
     if (inet_pton(AF_INET, address, &any) != 1 && inet_pton(AF_INET6, address, &any) != 1)
         return key_table_refuse(
             load->error, load->origin[key_table_find(&schema_scenario, name)], name, address,
@@ -224,6 +235,22 @@ static int check_gateway(const struct load *load)
     return check_gateway_lists(load, gateway);
 }
 
+/* Vehicles of other simulators are rows like others. */
+static int check_remotes(const struct load *load)
+{
+    const struct params *params = &load->scenario->settings->params;
+    const char *name = "world.remotes_max";
+    char text[32];
+    if (params->remotes_max <= params->capacity)
+        return 0;
+    snprintf(text, sizeof(text), "%u", params->remotes_max);
+    return key_table_refuse(load->error, load->origin[key_table_find(&schema_scenario, name)], name,
+                            text,
+                            "world.capacity = %u has no rows for so many; allowed: up to %u, or a "
+                            "larger world.capacity",
+                            params->capacity, params->capacity);
+}
+
 /* Checks values that are in range but may not fit each other. */
 static int check_together(const struct load *load)
 {
@@ -238,7 +265,7 @@ static int check_together(const struct load *load)
         {collision->mass_c1_kg, collision->mass_c2_kg, collision->mass_c3_kg}};
     if (check_levels(load, &damage) != 0 || check_levels(load, &mass) != 0)
         return -1;
-    return check_gateway(load);
+    return check_remotes(load) != 0 ? -1 : check_gateway(load);
 }
 
 static int read_lists(struct load *load)

@@ -12,11 +12,11 @@
 /* The place is that of the frame; the receiver's map needs no better. */
 #define ERROR_M 1.0
 
-int cot_output_open(struct cot_output *cot, const char *address, uint8_t exercise,
-                    struct error_text *error)
+int cot_output_open(struct cot_output *cot, const char *address, unsigned interface,
+                    uint8_t exercise, struct error_text *error)
 {
     cot->exercise = exercise;
-    return udp_output_open(&cot->udp, "gateway.cot", address, COT_OUTPUT_PORT,
+    return udp_output_open(&cot->udp, "gateway.cot", address, COT_OUTPUT_PORT, interface,
                            "events of Cursor on Target", error);
 }
 

@@ -29,9 +29,10 @@ struct cot_output_entity {
     const struct mat3 *matrix; /* euler.h; gives the course of what stands */
 };
 
-/* Opens the way out to gateway.cot. Returns 0, or -1 with the reason. */
-int cot_output_open(struct cot_output *cot, const char *address, uint8_t exercise,
-                    struct error_text *error);
+/* Opens the way out to gateway.cot, by an interface (udp_interface.h). Returns 0, or -1 with the
+ * reason. */
+int cot_output_open(struct cot_output *cot, const char *address, unsigned interface,
+                    uint8_t exercise, struct error_text *error);
 
 /* Sends where the entity is; gone: that it is not there any more. The time is the clock's. A type
  * without a row for Cursor on Target is not sent. */

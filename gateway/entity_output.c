@@ -492,8 +492,10 @@ static bool send_row(struct entity_output *entities, const struct world *world, 
     bool here = row < snapshot->head.used && e->state[row] != ENTITY_FREE &&
                 entity_output_sends(&world->kinds[e->kind[row]]) && !remote_is(e, row);
     if (sent->id != 0 && (!here || sent->id != e->id[row])) {
-        if (!pdu_output_take(entities->output, now_ns))
+        if (!pdu_output_take(entities->output, PDU_OUTPUT_STATE, now_ns)) {
+            entities->postponed++;
             return false;
+        }
         send_last(entities, world, sent, now_ns);
     }
     struct pdu_id id;
@@ -513,7 +515,7 @@ static bool send_row(struct entity_output *entities, const struct world *world, 
     struct row_view view = look_at(entities, world, row);
     if (sent->id != 0 && !due(sent, &view, now_ns, entities->frame_ns))
         return true;
-    if (!pdu_output_take(entities->output, now_ns)) {
+    if (!pdu_output_take(entities->output, PDU_OUTPUT_STATE, now_ns)) {
         entities->postponed++;
         return false;
     }
@@ -521,11 +523,16 @@ static bool send_row(struct entity_output *entities, const struct world *world, 
     return true;
 }
 
-void entity_output_send(struct entity_output *entities, const struct view *view, uint64_t now_ns)
+bool entity_output_look(struct entity_output *entities, const struct view *view, uint64_t now_ns)
 {
     if (snapshot_take(&entities->snapshot, view) != 0)
-        return; /* the next pass sees a later frame */
+        return false; /* the next pass sees a later frame */
     entities->frame_ns = frame_time_ns(entities, &view->world, now_ns);
+    return true;
+}
+
+void entity_output_send(struct entity_output *entities, const struct view *view, uint64_t now_ns)
+{
     uint32_t used = entities->snapshot.head.used;
     uint32_t rows = used > entities->known ? used : entities->known;
     for (uint32_t i = 0; i < rows; i++) {

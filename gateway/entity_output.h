@@ -69,7 +69,7 @@ struct entity_output {
     uint32_t next_row;  /* where the next pass begins, so that a full rate is shared */
     uint32_t known;     /* rows with an id: 0 .. known - 1 */
     uint64_t refused;   /* entities whose id is beyond the range of applications */
-    uint64_t postponed; /* Entity States that the rate has put off */
+    uint64_t postponed; /* passes in which the rate has put Entity States off */
     bool told_refused;
     bool told_kind[KIND_COUNT_MAX];
 };
@@ -79,7 +79,11 @@ int entity_output_open(struct entity_output *entities, const struct view *view,
                        struct error_text *error);
 void entity_output_close(struct entity_output *entities);
 
-/* Takes a new snapshot and sends what is due. now_ns is the time of the clock. */
+/* Takes a new snapshot. now_ns is the time of the clock. Returns false if there is none now; the
+ * last one stays. */
+bool entity_output_look(struct entity_output *entities, const struct view *view, uint64_t now_ns);
+
+/* Sends what is due by the snapshot. */
 void entity_output_send(struct entity_output *entities, const struct view *view, uint64_t now_ns);
 
 /* Sends a last state with the bit "deactivated" for each entity that was sent. */

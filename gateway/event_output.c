@@ -285,21 +285,40 @@ static void note_met(const struct event_output *events, const struct event_colli
     }
 }
 
+/* Tells the way in what the world has refused of it. */
+static void note_refused(const struct event_output *events, const struct event_input *input)
+{
+    if (events->remotes && input->refused > 0)
+        remote_input_world_refused(events->remotes, input->remote, input->refused, input->because);
+}
+
+/* Returns how many events wait from this one on, as far as the snapshot knows. */
+static uint64_t waiting_from(const struct event_output *events, uint64_t sequence)
+{
+    uint64_t end = events->entities->snapshot.head.event_end;
+    return end > sequence ? end - sequence : 1;
+}
+
 void event_output_send(struct event_output *events, const struct view *view, uint64_t now_ns)
 {
     uint64_t commit = segment_load(&view->commit->commit);
     uint32_t count;
+    events->waiting = 0;
     while ((count = events_read(view, &events->cursor, events->event, EVENT_OUTPUT_AT_ONCE)) > 0) {
         for (uint32_t i = 0; i < count; i++) {
             const struct event *event = &events->event[i];
             if (event->type == EVENT_FIRE && event->fire.munition.id != 0)
                 remember_shot(events, event);
+            if (event->type == EVENT_INPUT && event->frame >= events->send_from_frame)
+                note_refused(events, &event->input);
             if (event->type == EVENT_COLLISION && !event->collision.remote &&
                 event->frame + EVENT_OUTPUT_RECENT >= commit)
                 note_met(events, &event->collision, now_ns);
             if (!is_sent(events, event))
                 continue;
-            if (!pdu_output_take(events->output, now_ns)) {
+            if (!pdu_output_take(events->output, PDU_OUTPUT_EVENT, now_ns)) {
+                events->waiting = waiting_from(events, event->sequence);
+                events->postponed++;
                 events->cursor.next = event->sequence;
                 return;
             }

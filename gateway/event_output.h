@@ -27,6 +27,8 @@ struct event_output {
     struct event_cursor cursor;
     uint64_t send_from_frame; /* earlier events were sent by a predecessor */
     uint64_t frame;           /* all events up to this frame are sent */
+    uint64_t postponed;       /* passes in which the rate has put events off */
+    uint64_t waiting;         /* events of all types that wait since the last pass */
     struct event event[EVENT_OUTPUT_AT_ONCE];
     struct {
         uint32_t munition, shooter;

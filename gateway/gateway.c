@@ -2,10 +2,14 @@
 #include "gateway/gateway.h"
 
 #include "gateway/earth/geoid_grid.h"
+#include "gateway/remote_notices.h"
+#include "gateway/udp/udp_interface.h"
 #include "ipc/frame/frame_protocol.h"
 #include "ipc/process/clock.h"
+#include "ipc/process/crash_point.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
+#include "ipc/segment/role_notes.h"
 #include "world/params.h"
 #include "world/terrain/gridsquare.h"
 
@@ -18,6 +22,18 @@
 #define SLICE_NS (2 * (uint64_t)NS_PER_MS) /* from one look at a busy socket to the next */
 #define TYPES    "dis/types.txt"           /* beneath the folder of data */
 
+/* What a gateway leaves to the next one. Receivers may know us by the port from which we send. */
+struct gateway_notes {
+    struct management_notes requests;
+    uint16_t sender_port; /* 0: none */
+};
+_Static_assert(sizeof(struct gateway_notes) <= ROLE_NOTES_BYTES, "the notes have room");
+
+static struct gateway_notes *notes_of(const struct gateway *gateway)
+{
+    return role_notes(gateway->view.slot[ROLE_GATEWAY]);
+}
+
 static void tell_begin(const struct gateway *gateway)
 {
     const struct gateway_params *params = &gateway->view.world.params->gateway;
@@ -26,9 +42,28 @@ static void tell_begin(const struct gateway *gateway)
              udp_address_text(&gateway->output.udp.to, at, sizeof at));
     if (gateway->input.socket >= 0)
         log_info("receives at %s", udp_address_text(&gateway->input.at, at, sizeof at));
+    if (!pdu_input_hears(&gateway->input, &gateway->output.udp.to))
+        log_warn("gateway.listen = %s does not hear what others send to %s, where we send: listen "
+                 "there%s",
+                 params->listen, udp_address_text(&gateway->output.udp.to, at, sizeof at),
+                 udp_address_multicast(&gateway->output.udp.to) ? "" : ", or at 0.0.0.0");
     if (gateway->entities.cot)
         log_info("sends events of Cursor on Target to %s",
                  udp_address_text(&gateway->cot.udp.to, at, sizeof at));
+}
+
+/* A world may have fewer free rows than it allows entities of others. */
+static void tell_room(const struct gateway *gateway)
+{
+    const struct params *params = gateway->view.world.params;
+    struct state_head head;
+    if (params->remotes_max > 0 && snapshot_head(&head, &gateway->view) == 0 &&
+        head.vehicles > params->capacity - params->remotes_max)
+        log_warn(
+            "world.capacity = %u has %u vehicles now, so not all of world.remotes_max = %u fit: "
+            "a capacity of %u and some for munitions would do",
+            params->capacity, head.vehicles, params->remotes_max,
+            head.vehicles + params->remotes_max);
 }
 
 /* Who may not be controlled needs no way to the intake. */
@@ -40,7 +75,7 @@ static int open_management(struct gateway *gateway, const char *world, struct er
     if (strcmp(control, GATEWAY_LISTS_NONE) != 0)
         link = command_socket_open(&gateway->commands, world);
     return management_open(&gateway->management, &gateway->output, gateway->entities.ids, control,
-                           link, error);
+                           link, &notes_of(gateway)->requests, error);
 }
 
 /* A world without the grid has one undulation, and says so. */
@@ -63,6 +98,75 @@ static void read_undulation(struct gateway *gateway)
         log_info("takes the height of the sea at each place from %s", path);
 }
 
+static bool tell_types(void *subject, uint64_t now_ns)
+{
+    struct gateway *gateway = subject;
+    (void)now_ns;
+    return remote_notices_types(&gateway->remotes, gateway->view.world.kinds);
+}
+
+/* Says what the rate puts off, and what was lost because it waited too long. */
+static bool tell_rate(void *subject, uint64_t now_ns)
+{
+    struct gateway *gateway = subject;
+    const struct event_output *events = &gateway->events;
+    uint64_t states = gateway->entities.postponed, total = states + events->postponed,
+             gaps = events->cursor.gap;
+    (void)now_ns;
+    if (total == gateway->postponed_told && gaps == gateway->gaps_told)
+        return false;
+    log_warn("gateway.rate = %u PDUs a second is less than the world needs: it has put off Entity "
+             "States in %" PRIu64 " and events in %" PRIu64 " of the gateway's passes, %" PRIu64
+             " events wait, and %" PRIu64 " are lost",
+             gateway->output.rate_ps, states, events->postponed, events->waiting, gaps);
+    gateway->postponed_told = total;
+    gateway->gaps_told = gaps;
+    return true;
+}
+
+static void add_notices(struct gateway *gateway)
+{
+    struct notices *notices = &gateway->notices;
+    notices_add(notices, management_tell_done, &gateway->management);
+    notices_add(notices, management_tell_refused, &gateway->management);
+    notices_add(notices, pdu_input_tell_twins, &gateway->input);
+    notices_add(notices, pdu_input_tell_strangers, &gateway->input);
+    notices_add(notices, pdu_input_tell_faults, &gateway->input);
+    notices_add(notices, pdu_input_tell_foreign, &gateway->input);
+    notices_add(notices, remote_notices_refusals, &gateway->remotes);
+    notices_add(notices, remote_notices_world, &gateway->remotes);
+    notices_add(notices, tell_types, gateway);
+    notices_add(notices, udp_output_tell, &gateway->output.udp);
+    notices_add(notices, udp_output_tell, &gateway->cot.udp);
+    notices_add(notices, tell_rate, gateway);
+}
+
+/* Opens the way in, by settings that the way out has. */
+static int open_receiving(struct gateway *gateway, const char *world, unsigned interface,
+                          struct error_text *error)
+{
+    const struct gateway_params *params = &gateway->view.world.params->gateway;
+    struct remote_input *remotes = &gateway->remotes;
+    struct pdu_input *input = &gateway->input;
+    remotes->types = &gateway->types;
+    remotes->frame = &gateway->entities.frame;
+    remotes->own = gateway->entities.ids;
+    remotes->clamp = params->clamp != 0;
+    remotes->timeout_ns = (uint64_t)(params->timeout_s * 1e9);
+    if (remote_input_open(remotes, &gateway->view, clock_now_ns(), error) != 0)
+        return -1;
+    input->exercise = gateway->output.exercise;
+    input->own = gateway->entities.ids;
+    input->sender_port =
+        udp_socket_port(gateway->output.udp.socket, notes_of(gateway)->sender_port);
+    CRASH_POINT("note of the port");
+    notes_of(gateway)->sender_port = input->sender_port;
+    if (gateway_lists_peers(&input->peers, params->peers, error) != 0 ||
+        pdu_input_open(input, params->listen, interface, error) != 0)
+        return -1;
+    return open_management(gateway, world, error);
+}
+
 int gateway_open(struct gateway *gateway, const char *world, struct error_text *error)
 {
     const struct view *view = &gateway->view;
@@ -70,6 +174,11 @@ int gateway_open(struct gateway *gateway, const char *world, struct error_text *
     char folder[400], path[sizeof folder + sizeof TYPES + 1];
     struct pdu_output *output = &gateway->output;
     struct entity_output *entities = &gateway->entities;
+    unsigned interface;
+    struct error_text reason;
+    if (udp_interface_find(&interface, params->interface, &reason) != 0)
+        return error_text_set(error, "gateway.interface = \"%s\": %s", params->interface,
+                              reason.text);
     if (process_data_dir(folder, sizeof folder) != 0)
         return error_text_set(error, "the folder of data is missing; set JOLON_DATA to it");
     (void)snprintf(path, sizeof path, "%s/%s", folder, TYPES);
@@ -86,32 +195,23 @@ int gateway_open(struct gateway *gateway, const char *world, struct error_text *
     read_undulation(gateway);
     if (type_table_read(&gateway->types, path, view->world.kinds, view->world.counts.kinds,
                         error) != 0 ||
-        pdu_output_open(output, params->address, (uint16_t)params->port, params->rate_ps, error) !=
-            0 ||
+        pdu_output_open(output, params->address, (uint16_t)params->port, interface, params->rate_ps,
+                        error) != 0 ||
         entity_output_open(entities, view, error) != 0)
         return -1;
-    gateway->remotes.types = &gateway->types;
-    gateway->remotes.frame = &entities->frame;
-    gateway->remotes.own = entities->ids;
-    gateway->remotes.clamp = params->clamp != 0;
-    gateway->remotes.timeout_ns = (uint64_t)(params->timeout_s * 1e9);
-    if (remote_input_open(&gateway->remotes, view, error) != 0)
-        return -1;
-    gateway->input.exercise = output->exercise;
-    gateway->input.own = entities->ids;
-    if (gateway_lists_peers(&gateway->input.peers, params->peers, error) != 0 ||
-        pdu_input_open(&gateway->input, params->listen, error) != 0 ||
-        open_management(gateway, world, error) != 0)
+    if (open_receiving(gateway, world, interface, error) != 0)
         return -1;
     if (strcmp(params->cot, COT_OUTPUT_NONE) != 0) {
-        if (cot_output_open(&gateway->cot, params->cot, output->exercise, error) != 0)
+        if (cot_output_open(&gateway->cot, params->cot, interface, output->exercise, error) != 0)
             return -1;
         entities->cot = &gateway->cot;
     }
     const struct role_slot *slot = view->slot[ROLE_GATEWAY];
     event_output_open(&gateway->events, view,
                       atomic_load_explicit(&slot->frame, memory_order_relaxed));
+    add_notices(gateway);
     tell_begin(gateway);
+    tell_room(gateway);
     return 0;
 }
 
@@ -158,6 +258,7 @@ void gateway_receive(struct gateway *gateway, uint64_t due_ns)
         }
         frame_protocol_beat(&gateway->view);
         now_ns = clock_now_ns();
+        notices_tell(&gateway->notices, now_ns);
     }
 }
 
@@ -166,11 +267,14 @@ void gateway_send(struct gateway *gateway)
     struct role_slot *slot = gateway->view.slot[ROLE_GATEWAY];
     uint64_t begun_ns = clock_now_ns();
     frame_protocol_beat(&gateway->view);
-    /* Entities first, so that the snapshot has those that the events name. */
-    entity_output_send(&gateway->entities, &gateway->view, begun_ns);
+    /* The snapshot first, so that it has the entities that the events name; then the events, which
+     * no crowd of entities delays. */
+    bool seen = entity_output_look(&gateway->entities, &gateway->view, begun_ns);
+    event_output_send(&gateway->events, &gateway->view, begun_ns);
+    if (seen)
+        entity_output_send(&gateway->entities, &gateway->view, begun_ns);
     remote_input_see(&gateway->remotes, &gateway->view, &gateway->entities.snapshot, begun_ns);
     remote_input_tell(&gateway->remotes, &gateway->view, begun_ns);
-    event_output_send(&gateway->events, &gateway->view, begun_ns);
     log_frame(gateway->events.frame);
     atomic_store_explicit(&slot->gaps, gateway->events.cursor.gap, memory_order_relaxed);
     frame_protocol_stage_done(&gateway->view, gateway->events.frame, clock_now_ns() - begun_ns);
@@ -188,21 +292,26 @@ static void tell_received(const struct gateway *gateway)
              input->counts.result[PDU_GOOD], input->counts.datagrams, input->strangers,
              input->counts.result[PDU_SKIPPED], input->bad, input->foreign, input->echoes,
              gateway->without_effect);
+    const struct remote_input *remotes = &gateway->remotes;
+    char refused[700];
     log_info("told the world %" PRIu64 " tracks, %" PRIu64 " losses, %" PRIu64 " shots and %" PRIu64
              " detonations and collisions of other simulators; %" PRIu64
              " collisions were known, %" PRIu64
              " Entity States came late or twice; %u entities are known",
-             gateway->remotes.tracks, gateway->remotes.lost, gateway->remotes.fires,
-             gateway->remotes.struck, gateway->remotes.collisions, gateway->remotes.late,
-             gateway->remotes.table.count);
+             remotes->tracks, remotes->lost, remotes->fires, remotes->struck, remotes->collisions,
+             remotes->late, remotes->table.count);
+    if (remote_notices_text(remotes, refused, sizeof refused))
+        log_info("refused in all: %s; %u types of other simulators are not in the table of types",
+                 refused, remotes->unknown.count);
 }
 
 static void tell_sent(const struct gateway *gateway)
 {
     const struct udp_output *udp = &gateway->output.udp, *cot = &gateway->cot.udp;
     log_info("sent %" PRIu64 " PDUs of %" PRIu64 " octets; %" PRIu64 " failed, %" PRIu64
-             " were put off by the rate",
-             udp->sent, udp->octets, udp->failed, gateway->entities.postponed);
+             " were put off by the rate, %" PRIu64 " events were lost",
+             udp->sent, udp->octets, udp->failed,
+             gateway->entities.postponed + gateway->events.postponed, gateway->events.cursor.gap);
     if (gateway->entities.cot)
         log_info("sent %" PRIu64 " events of Cursor on Target of %" PRIu64 " octets; %" PRIu64
                  " failed",

@@ -6,6 +6,7 @@
 #include "gateway/entity_output.h"
 #include "gateway/event_output.h"
 #include "gateway/management.h"
+#include "gateway/notices.h"
 #include "gateway/pdu_input.h"
 #include "gateway/remote_input.h"
 #include "ipc/topics/command_socket.h"
@@ -22,6 +23,8 @@ struct gateway {
     struct management management;
     struct entity_output entities;
     struct event_output events;
+    struct notices notices;
+    uint64_t postponed_told, gaps_told;
 };
 
 /* Reads the types and opens the sockets, by the parameters of the world of that name. The view is

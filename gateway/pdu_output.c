@@ -8,19 +8,27 @@
 
 #define STATUS_CONSTRUCTIVE 6u /* version 7: live, virtual or constructive: 3 in bits 1 and 2 */
 
-/* PDUs at once, as a share of a second's. */
+/* Events and Entity States at once, as a share of a second's, and what of these is kept for events.
+ * As much is added for answers. */
 #define BURST_SHARE 4u
+#define KEPT_SHARE  4u
 
-int pdu_output_open(struct pdu_output *output, const char *address, uint16_t port, uint32_t rate_ps,
-                    struct error_text *error)
+int pdu_output_open(struct pdu_output *output, const char *address, uint16_t port,
+                    unsigned interface, uint32_t rate_ps, struct error_text *error)
 {
     output->rate_ps = rate_ps;
-    return udp_output_open(&output->udp, "gateway.address", address, port, "PDUs", error);
+    return udp_output_open(&output->udp, "gateway.address", address, port, interface, "PDUs",
+                           error);
 }
 
-bool pdu_output_take(struct pdu_output *output, uint64_t now_ns)
+bool pdu_output_take(struct pdu_output *output, enum pdu_output_weight weight, uint64_t now_ns)
 {
-    return rate_take(&output->rate, output->rate_ps, output->rate_ps / BURST_SHARE + 1, now_ns);
+    uint32_t events = output->rate_ps / BURST_SHARE + 1, kept = events / KEPT_SHARE + 1;
+    uint32_t burst = weight == PDU_OUTPUT_ANSWER  ? events + kept
+                     : weight == PDU_OUTPUT_EVENT ? events
+                     : events > kept              ? events - kept
+                                                  : 1;
+    return rate_take(&output->rate, output->rate_ps, burst, now_ns);
 }
 
 void pdu_output_send(struct pdu_output *output, struct pdu *pdu)

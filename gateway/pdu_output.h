@@ -8,6 +8,12 @@
 
 #include <stdbool.h>
 
+/* What is sent when the rate does not allow all, the last first. Each keeps something back for
+ * those behind it, so that a crowd of entities does not delay what happens, and nothing delays
+ * answers.
+ */
+enum pdu_output_weight { PDU_OUTPUT_STATE, PDU_OUTPUT_EVENT, PDU_OUTPUT_ANSWER };
+
 struct pdu_output {
     struct udp_output udp;
     uint8_t version, exercise;
@@ -15,12 +21,13 @@ struct pdu_output {
     struct rate rate;
 };
 
-/* Opens the socket. Returns 0, or -1 with the reason. */
-int pdu_output_open(struct pdu_output *output, const char *address, uint16_t port, uint32_t rate_ps,
-                    struct error_text *error);
+/* Opens the socket. interface: by which multicast leaves (udp_interface.h). Returns 0, or -1 with
+ * the reason. */
+int pdu_output_open(struct pdu_output *output, const char *address, uint16_t port,
+                    unsigned interface, uint32_t rate_ps, struct error_text *error);
 
-/* Returns true if the rate allows one more PDU now, and takes it from the rate. */
-bool pdu_output_take(struct pdu_output *output, uint64_t now_ns);
+/* Returns true if the rate allows one more PDU of this weight now, and takes it from the rate. */
+bool pdu_output_take(struct pdu_output *output, enum pdu_output_weight weight, uint64_t now_ns);
 
 /* Sends a PDU whose type and body are set, with the time stamp of now, in UTC. */
 void pdu_output_send(struct pdu_output *output, struct pdu *pdu);

@@ -5,16 +5,15 @@
 #include "gateway/pdu/timestamp.h"
 #include "ipc/frame/command_ring.h"
 #include "ipc/process/clock.h"
-#include "ipc/process/log.h"
 #include "world/maths/dead_reckoning.h"
 #include "world/params.h"
 #include "world/terrain/gridsquare.h"
 
 #include <errno.h>
-#include <inttypes.h>
 #include <string.h>
 
 #define HEIGHT_MOST_M          50000.0
+#define HEIGHT_LEAST_M         -1000.0 /* no ground and no submarine is deeper */
 #define SPEED_MOST_MPS         10000.0
 #define ACCELERATION_MOST_MPS2 1000.0
 #define RATE_MOST_RPS          20.0
@@ -34,51 +33,57 @@
 
 /* --- opening -----------------------------------------------------------------------------------*/
 
-/* Returns the index of a shot or detonation among those that are remembered, or their number. */
-static uint32_t find_event(const struct remote_input *input, uint64_t event, uint32_t type)
-{
-    uint32_t count =
-        input->heard_count < REMOTE_INPUT_EVENTS ? input->heard_count : REMOTE_INPUT_EVENTS;
-    for (uint32_t i = 0; i < count; i++) {
-        if (input->heard[i].event == event && input->heard[i].type == type)
-            return i;
-    }
-    return REMOTE_INPUT_EVENTS;
-}
-
-static bool has_heard(const struct remote_input *input, uint64_t event, uint32_t type)
-{
-    return find_event(input, event, type) < REMOTE_INPUT_EVENTS;
-}
-
-static void note_heard(struct remote_input *input, const struct remote_record *record)
-{
-    uint32_t at = input->heard_count++ & (REMOTE_INPUT_EVENTS - 1);
-    input->heard[at].event = record->event;
-    input->heard[at].type = record->type;
-    input->heard[at].place =
-        (struct vec3){record->position[0], record->position[1], record->position[2]};
-}
-
 /* A gateway that was killed has left its last shots in the ring. */
-static void find_heard(struct remote_input *input, const struct view *view)
+static void note_old_shot(struct remote_input *input, const struct remote_record *record,
+                          uint64_t now_ns)
+{
+    struct shot shot = shot_memory_of(record, now_ns);
+    shot.placed = record->type == REMOTE_FIRE || record->entity == 0; /* else it is in a body */
+    shot.place = (struct vec3){record->position[0], record->position[1], record->position[2]};
+    shot_memory_note(&input->heard, &shot);
+}
+
+/* It has left who owns the entities, too. An entity without a row is forgotten soon. */
+static void note_old_owner(struct remote_input *input, const struct remote_record *record,
+                           uint64_t at, uint64_t now_ns)
+{
+    struct remote_entry *entry = remote_table_find(&input->table, record->remote);
+    if (record->type == REMOTE_LOST) {
+        if (entry)
+            remote_table_remove(&input->table, entry);
+        return;
+    }
+    if (!entry)
+        entry = remote_table_add(&input->table, record->remote, now_ns);
+    if (!entry)
+        return;
+    entry->owner = record->event;
+    entry->told_at = at;
+}
+
+static void read_ring(struct remote_input *input, const struct view *view, uint64_t now_ns)
 {
     const struct command_ring_words *words = view->commands[RING_GATEWAY];
     uint64_t slots = layout_ring_slots(view->header, RING_GATEWAY),
              end = segment_load(&words->head);
     for (uint64_t i = end > slots ? end - slots : 0; i < end; i++) {
         struct remote_record record = remote_record_of(&words->slot[i & (slots - 1)]);
-        if ((record.type == REMOTE_STRUCK || record.type == REMOTE_FIRE) && record.event != 0)
-            note_heard(input, &record);
+        if (record.type == REMOTE_STRUCK || record.type == REMOTE_FIRE)
+            note_old_shot(input, &record, now_ns);
+        if (record.type == REMOTE_TRACK || record.type == REMOTE_LOST)
+            note_old_owner(input, &record, i, now_ns);
     }
 }
 
-int remote_input_open(struct remote_input *input, const struct view *view, struct error_text *error)
+int remote_input_open(struct remote_input *input, const struct view *view, uint64_t now_ns,
+                      struct error_text *error)
 {
     if (remote_table_open(&input->table, view->world.params->remotes_max) != 0)
         return error_text_set(error, "remote entities: no memory for %u: %s",
                               view->world.params->remotes_max, strerror(errno));
-    find_heard(input, view);
+    input->world_capacity = view->header->capacity;
+    input->grace_ns = now_ns + (uint64_t)(REMOTE_INPUT_GRACE_S * 1e9);
+    read_ring(input, view, now_ns);
     return 0;
 }
 
@@ -94,10 +99,20 @@ static bool within(struct vec3 v, double most)
     return vec3_length(v) <= most; /* false for NaN */
 }
 
-static bool in_world(struct vec3 at)
+static bool in_square(struct vec3 at)
 {
-    return at.x >= 0.0 && at.x <= WORLD_SIDE_M && at.z >= 0.0 && at.z <= WORLD_SIDE_M &&
-           fabs(at.y) <= HEIGHT_MOST_M;
+    return at.x >= 0.0 && at.x <= WORLD_SIDE_M && at.z >= 0.0 && at.z <= WORLD_SIDE_M;
+}
+
+/* Returns true if a place is one of the world, and else counts why not. */
+static bool in_world(struct remote_input *input, struct vec3 at)
+{
+    bool high = at.y >= HEIGHT_LEAST_M && at.y <= HEIGHT_MOST_M; /* false for NaN */
+    if (!in_square(at))
+        input->refused[REMOTE_INPUT_PLACE]++;
+    else if (!high)
+        input->refused[REMOTE_INPUT_HEIGHT]++;
+    return in_square(at) && high;
 }
 
 /* Returns a place of the world. One that is nowhere near is outside the square. */
@@ -130,49 +145,14 @@ static uint64_t id_of(struct pdu_id id)
     return remote_id(id.site, id.application, id.entity);
 }
 
-/* --- saying what is refused --------------------------------------------------------------------*/
+/* --- types -------------------------------------------------------------------------------------*/
 
-static void tell_refusals(struct remote_input *input, uint64_t now_ns)
-{
-    uint64_t total = input->refused_full + input->refused_place + input->refused_jump +
-                     input->refused_twin + input->refused_ring + input->refused_body;
-    (void)now_ns;
-    if (total == input->logged || !log_due(&input->logged_ns, NS_PER_S))
-        return;
-    log_warn("refused so far: %" PRIu64 " Entity States beyond world.remotes_max = %u, %" PRIu64
-             " outside the square, %" PRIu64 " that jump, %" PRIu64
-             " of an identifier that another sender has, %" PRIu64
-             " without room in the ring, %" PRIu64
-             " Collisions without a mass or beyond %u at once",
-             input->refused_full, input->table.capacity, input->refused_place, input->refused_jump,
-             input->refused_twin, input->refused_ring, input->refused_body, REMOTE_INPUT_BODIES);
-    input->logged = total;
-}
-
-/* Says once what a type is shown as that is not in the table. */
-static void tell_type(struct remote_input *input, const struct world *world,
-                      struct pdu_entity_type type, uint16_t kind)
-{
-    for (uint32_t i = 0; i < input->told_count; i++) {
-        if (memcmp(&input->told[i], &type, sizeof type) == 0)
-            return;
-    }
-    if (input->told_count == REMOTE_INPUT_TOLD)
-        return;
-    input->told[input->told_count++] = type;
-    log_info("type %u.%u.%u.%u.%u.%u.%u is not in the table of types: %s%s", type.kind, type.domain,
-             type.country, type.category, type.subcategory, type.specific, type.extra,
-             kind == KIND_NONE ? "left out" : "shown as ",
-             kind == KIND_NONE ? "" : world->kinds[kind].name);
-}
-
-static uint16_t kind_of(struct remote_input *input, const struct world *world,
-                        struct pdu_entity_type type, bool munition)
+static uint16_t kind_of(struct remote_input *input, struct pdu_entity_type type, bool munition)
 {
     bool same;
     uint16_t kind = type_table_kind(input->types, type, munition, &same);
     if (!same)
-        tell_type(input, world, type, kind);
+        type_notices_note(&input->unknown, type, kind);
     return kind;
 }
 
@@ -240,18 +220,32 @@ static void put_lost(struct remote_input *input, struct view *view, struct remot
         .remote = entry->remote, .type = REMOTE_LOST, .slot = entry->track.slot};
     struct command slot = remote_record_slot(&record);
     if (command_append(view, RING_GATEWAY, &slot, input->taken) != 0) {
-        input->refused_ring++; /* its row is seen again, and lost later */
+        input->refused[REMOTE_INPUT_RING]++; /* its row is seen again, and lost later */
         return;
     }
     input->lost++;
     remote_table_remove(&input->table, entry);
 }
 
-/* Who comes first with an identifier is its owner, also for a gateway that starts anew. */
-static bool is_owner(const struct remote_entry *entry, const struct udp_address *from)
+/* Who comes first with an identifier is its owner. An address may have several simulators, one a
+ * port. One that starts anew there, on another port, gets the entities that its predecessor no
+ * longer sends. */
+static bool is_owner(const struct remote_input *input, const struct remote_entry *entry,
+                     const struct udp_address *from, uint64_t now_ns)
 {
-    return !entry->from_known || (udp_address_same_host(&entry->from, from) &&
-                                  udp_address_port(&entry->from) == udp_address_port(from));
+    uint64_t sender = remote_table_owner(from);
+    bool same_host = (entry->owner ^ sender) >> REMOTE_TABLE_PORT_BITS == 0;
+    bool silent = now_ns - entry->heard_ns > input->timeout_ns / 2;
+    return entry->owner == 0 || entry->owner == sender || (same_host && silent);
+}
+
+/* Returns true if a sender can be the owner of an entity that has a row, and whose owner nobody
+ * knows. */
+static bool continues(const struct remote_input *input, const struct remote_entry *entry,
+                      struct vec3 place, uint64_t now_ns)
+{
+    return entry->owner != 0 || !entry->placed || now_ns >= input->grace_ns ||
+           vec3_length(vec3_sub(place, entry->place)) <= REMOTE_INPUT_GRACE_M;
 }
 
 /* Returns the entry that may be told of this place, or NULL and counts why not. */
@@ -259,24 +253,23 @@ static struct remote_entry *admit(struct remote_input *input, uint64_t remote, s
                                   const struct udp_address *from, uint64_t now_ns)
 {
     struct remote_entry *entry = remote_table_find(&input->table, remote);
-    if (!in_world(place)) {
-        input->refused_place++;
+    if (!in_world(input, place))
         return NULL;
-    }
     if (!entry && !(entry = remote_table_add(&input->table, remote, now_ns))) {
-        input->refused_full++;
+        input->refused[REMOTE_INPUT_FULL]++;
         return NULL;
     }
-    if (!is_owner(entry, from)) {
-        input->refused_twin++;
+    if (!is_owner(input, entry, from, now_ns) || !continues(input, entry, place, now_ns)) {
+        input->refused[REMOTE_INPUT_TWIN]++;
+        input->twin = remote;
+        input->twin_from = *from;
         return NULL;
     }
     if (entry->placed && vec3_length(vec3_sub(place, entry->place)) > 0.9 * REMOTE_JUMP_M) {
-        input->refused_jump++;
+        input->refused[REMOTE_INPUT_JUMP]++;
         return NULL;
     }
-    entry->from = *from;
-    entry->from_known = true;
+    entry->owner = remote_table_owner(from);
     return entry;
 }
 
@@ -308,7 +301,7 @@ static void take_last(struct remote_input *input, struct view *view, const struc
 {
     uint64_t remote = id_of(pdu->entity_state.id);
     struct remote_entry *entry = remote_table_find(&input->table, remote);
-    if (!entry || !is_owner(entry, from))
+    if (!entry || !is_owner(input, entry, from, now_ns))
         return;
     uint32_t at = input->gone_count++ % REMOTE_INPUT_GONE;
     input->gone[at].remote = remote;
@@ -358,9 +351,9 @@ static void take_state(struct remote_input *input, struct view *view, const stru
     }
     bool flies = state->type.kind == MUNITION;
     bool shown = flies || state->type.kind == PLATFORM || state->type.kind == LIFE_FORM;
-    uint16_t kind = shown ? kind_of(input, &view->world, state->type, flies) : KIND_NONE;
+    uint16_t kind = shown ? kind_of(input, state->type, flies) : KIND_NONE;
     if (kind == KIND_NONE) {
-        input->refused_type++;
+        input->refused[REMOTE_INPUT_TYPE]++;
         return;
     }
     struct vec3 place = world_place(input, state->location);
@@ -370,6 +363,7 @@ static void take_state(struct remote_input *input, struct view *view, const stru
     struct remote_record track = {.remote = remote,
                                   .type = REMOTE_TRACK,
                                   .slot = entry->track.slot,
+                                  .event = entry->owner,
                                   .damage = damage_of(state->appearance),
                                   .flags = input->clamp ? REMOTE_FLAG_CLAMPED : 0,
                                   .kind = kind,
@@ -393,21 +387,27 @@ static void take_state(struct remote_input *input, struct view *view, const stru
 
 /* --- Fire and Detonation -----------------------------------------------------------------------*/
 
+/* Writes the record of a shot. place: where it was in the world, NULL: nobody knows. */
 static void put_shot(struct remote_input *input, struct view *view,
-                     const struct remote_record *record, uint64_t now_ns)
+                     const struct remote_record *record, const struct vec3 *place, uint64_t now_ns)
 {
     struct command slot = remote_record_slot(record);
-    if (record->event != 0 && has_heard(input, record->event, record->type)) {
+    struct shot shot = shot_memory_of(record, now_ns);
+    shot.placed = place != NULL;
+    shot.place = place ? *place : (struct vec3){0};
+    if (shot_memory_has(&input->heard, &shot)) {
         input->repeated++;
         return;
     }
-    if (!rate_take(&input->shots, SHOTS_A_SECOND, SHOTS_A_SECOND, now_ns) ||
-        command_append(view, RING_GATEWAY, &slot, input->taken) != 0) {
-        input->refused_ring++;
+    if (!rate_take(&input->shots, SHOTS_A_SECOND, SHOTS_A_SECOND, now_ns)) {
+        input->refused[REMOTE_INPUT_SHOTS]++;
         return;
     }
-    if (record->event != 0)
-        note_heard(input, record);
+    if (command_append(view, RING_GATEWAY, &slot, input->taken) != 0) {
+        input->refused[REMOTE_INPUT_RING]++;
+        return;
+    }
+    shot_memory_note(&input->heard, &shot);
     if (record->type == REMOTE_FIRE)
         input->fires++;
     else
@@ -425,7 +425,7 @@ static void take_fire(struct remote_input *input, struct view *view, const struc
 {
     const struct pdu_fire *fire = &pdu->fire;
     struct vec3 place = world_place(input, fire->location);
-    uint16_t kind = kind_of(input, &view->world, fire->munition_type, true);
+    uint16_t kind = kind_of(input, fire->munition_type, true);
     struct remote_record record = {.remote = id_of(fire->firer),
                                    .event = id_of(fire->event),
                                    .type = REMOTE_FIRE,
@@ -434,31 +434,29 @@ static void take_fire(struct remote_input *input, struct view *view, const struc
                                    .kind = kind,
                                    .position = {place.x, place.y, place.z}};
     if (kind == KIND_NONE)
-        input->refused_type++;
-    else if (!in_world(place))
-        input->refused_place++;
-    else
-        put_shot(input, view, &record, now_ns);
+        input->refused[REMOTE_INPUT_TYPE]++;
+    else if (in_world(input, place))
+        put_shot(input, view, &record, &place, now_ns);
 }
 
 /* Returns how far a munition has flown, by the Fire of its event, or from who fired it. 0 when
  * neither is known: it is then taken for one from a muzzle right here. */
 static double flown_of(const struct remote_input *input, uint64_t event, uint64_t firer,
-                       struct vec3 to)
+                       struct vec3 to, uint64_t now_ns)
 {
-    uint32_t shot = event != 0 ? find_event(input, event, REMOTE_FIRE) : REMOTE_INPUT_EVENTS;
+    const struct shot *fire = shot_memory_fire(&input->heard, event, firer, now_ns);
     const struct remote_entry *entry = firer ? remote_table_find(&input->table, firer) : NULL;
-    if (shot < REMOTE_INPUT_EVENTS)
-        return vec3_length(vec3_sub(to, input->heard[shot].place));
+    if (fire)
+        return vec3_length(vec3_sub(to, fire->place));
     return entry && entry->placed ? vec3_length(vec3_sub(to, entry->place)) : 0.0;
 }
 
 /* A munition that detonates is no longer in flight. */
 static void end_flight(struct remote_input *input, struct view *view, uint64_t munition,
-                       const struct udp_address *from)
+                       const struct udp_address *from, uint64_t now_ns)
 {
     struct remote_entry *entry = munition ? remote_table_find(&input->table, munition) : NULL;
-    if (entry && is_owner(entry, from) &&
+    if (entry && is_owner(input, entry, from, now_ns) &&
         view->world.kinds[entry->track.kind].domain == DOMAIN_MUNITION && entry->track.remote != 0)
         put_lost(input, view, entry);
 }
@@ -467,7 +465,7 @@ static void take_detonation(struct remote_input *input, struct view *view, const
                             const struct udp_address *from, uint64_t now_ns)
 {
     const struct pdu_detonation *detonation = &pdu->detonation;
-    uint16_t kind = kind_of(input, &view->world, detonation->munition_type, true);
+    uint16_t kind = kind_of(input, detonation->munition_type, true);
     struct vec3 place = world_place(input, detonation->location);
     struct remote_record record = {.remote = id_of(detonation->firer),
                                    .event = id_of(detonation->event),
@@ -475,19 +473,18 @@ static void take_detonation(struct remote_input *input, struct view *view, const
                                    .slot = slot_of(input, id_of(detonation->firer)),
                                    .entity = entity_ids_back(&input->own, detonation->target),
                                    .kind = kind};
-    end_flight(input, view, id_of(detonation->munition), from);
-    record.flown_m = (float)flown_of(input, record.event, record.remote, place);
+    end_flight(input, view, id_of(detonation->munition), from, now_ns);
+    record.flown_m = (float)flown_of(input, record.event, record.remote, place, now_ns);
     bool hits = record.entity != 0 && detonation->result == PDU_RESULT_ENTITY_IMPACT;
     if (detonation->result == PDU_RESULT_DUD)
         return;
     if (kind == KIND_NONE) {
-        input->refused_type++;
+        input->refused[REMOTE_INPUT_TYPE]++;
         return;
     }
-    if (!in_world(place)) {
-        input->refused_place++;
+    if (!in_world(input, place))
         return;
-    }
+    struct vec3 at = place;
     /* Where it is in the body of our vehicle holds also if we have the vehicle elsewhere. */
     if (hits)
         place = local_frame_body_from_dis(limited(vec3_of(detonation->point), 1e3));
@@ -499,7 +496,7 @@ static void take_detonation(struct remote_input *input, struct view *view, const
     vec3_to_floats(record.velocity,
                    local_frame_world_direction(
                        input->frame, limited(vec3_of(detonation->velocity), SPEED_MOST_MPS)));
-    put_shot(input, view, &record, now_ns);
+    put_shot(input, view, &record, &at, now_ns);
 }
 
 /* --- Collision ---------------------------------------------------------------------------------*/
@@ -534,7 +531,7 @@ static void await_collider(struct remote_input *input, const struct remote_recor
         input->bodies[i].record = *record;
         return;
     }
-    input->refused_body++;
+    input->refused[REMOTE_INPUT_BODY]++;
 }
 
 /* What a Collision and a Collision-Elastic say alike. */
@@ -576,7 +573,7 @@ static void take_collision(struct remote_input *input, const struct pdu *pdu, ui
     if (record.entity == 0)
         return;
     if (!(body.mass_kg > 0.0f && body.mass_kg <= MASS_MOST_KG)) {
-        input->refused_body++;
+        input->refused[REMOTE_INPUT_BODY]++;
         return;
     }
     if (!(body.restitution >= 0.0f && body.restitution <= 1.0f))
@@ -604,7 +601,7 @@ static void tell_bodies(struct remote_input *input, struct view *view, uint64_t 
         if (met)
             input->collisions++;
         else
-            put_shot(input, view, &input->bodies[i].record, now_ns);
+            put_shot(input, view, &input->bodies[i].record, NULL, now_ns);
         input->bodies[i].heard_ns = 0;
     }
 }
@@ -631,8 +628,14 @@ bool remote_input_take(struct remote_input *input, struct view *view, const stru
     default:
         return false;
     }
-    tell_refusals(input, now_ns);
     return true;
+}
+
+void remote_input_world_refused(struct remote_input *input, uint64_t remote, uint32_t count,
+                                uint32_t because)
+{
+    input->world_refused[because < REMOTE_REFUSAL_COUNT ? because : REMOTE_UNKNOWN] += count;
+    input->world_refused_remote = remote;
 }
 
 /* --- passes ------------------------------------------------------------------------------------*/
@@ -647,11 +650,12 @@ static bool tell_entry(struct remote_input *input, struct view *view, struct rem
     if (now_ns - entry->told_ns < (uint64_t)(REMOTE_INPUT_LEAST_S * 1e9))
         return false;
     if (command_append(view, RING_GATEWAY, &slot, input->taken) != 0) {
-        input->refused_ring++;
+        input->refused[REMOTE_INPUT_RING]++;
         return false;
     }
     entry->waits = false;
     entry->told_ns = now_ns;
+    entry->told_at = segment_load(&view->commands[RING_GATEWAY]->head) - 1;
     input->tracks++;
     return true;
 }
@@ -672,6 +676,17 @@ void remote_input_tell(struct remote_input *input, struct view *view, uint64_t n
     table->waiting_count = kept;
 }
 
+/* Tells what stands again before the ring goes round, so that the ring always has its owner. */
+static void keep_owner(struct remote_input *input, const struct view *view,
+                       struct remote_entry *entry)
+{
+    uint64_t slots = layout_ring_slots(view->header, RING_GATEWAY);
+    uint64_t since = segment_load(&view->commands[RING_GATEWAY]->head) - entry->told_at;
+    if (since > slots / 2 && entry->track.remote != 0 &&
+        entry->track.model == DEAD_RECKONING_STATIC)
+        remote_table_wait(&input->table, entry);
+}
+
 void remote_input_see(struct remote_input *input, struct view *view,
                       const struct snapshot *snapshot, uint64_t now_ns)
 {
@@ -689,7 +704,9 @@ void remote_input_see(struct remote_input *input, struct view *view,
             entry->track.slot = SLOT_NONE;
         if (here && now_ns - entry->heard_ns > input->timeout_ns)
             put_lost(input, view, entry);
-        else if (!here && now_ns - entry->seen_ns > GONE_NS)
+        else if (here)
+            keep_owner(input, view, entry);
+        else if (now_ns - entry->seen_ns > GONE_NS)
             remote_table_remove(table, entry); /* it has left the world, or was refused */
     }
 }

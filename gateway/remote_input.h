@@ -11,11 +11,10 @@
 #include "gateway/earth/local_frame.h"
 #include "gateway/entity_ids.h"
 #include "gateway/remote_table.h"
+#include "gateway/shot_memory.h"
+#include "gateway/type_notices.h"
 #include "gateway/type_table.h"
 #include "ipc/process/rate.h"
-
-#define REMOTE_INPUT_EVENTS 4096u /* shots and detonations that are remembered; a power of two */
-#define REMOTE_INPUT_TOLD   64u   /* unknown types of which the log has told */
 
 /* An entity is told at most this often [s]; what comes in between is told by what comes last. */
 #define REMOTE_INPUT_LEAST_S 0.02
@@ -33,6 +32,26 @@
 /* The last entities that were deactivated, of which Entity States may come late. */
 #define REMOTE_INPUT_GONE 256u
 
+/* Who had an entity before a gateway that starts anew is read from the records in the ring. Where
+ * they no longer say it, a sender becomes the owner who has the entity near its row, in the time in
+ * which the former owner must send again (a heartbeat); then whoever comes first. */
+#define REMOTE_INPUT_GRACE_S 6.0
+#define REMOTE_INPUT_GRACE_M 500.0
+
+/* Why something is refused. */
+enum remote_input_refusal {
+    REMOTE_INPUT_FULL,   /* beyond world.remotes_max */
+    REMOTE_INPUT_PLACE,  /* outside the square, or not on the earth */
+    REMOTE_INPUT_HEIGHT, /* below any ground, or above any flight */
+    REMOTE_INPUT_JUMP,   /* too far from where the entity was */
+    REMOTE_INPUT_TWIN,   /* of an identifier that another sender has */
+    REMOTE_INPUT_RING,   /* the ring was full */
+    REMOTE_INPUT_SHOTS,  /* shots, detonations and collisions beyond 1,000 a second */
+    REMOTE_INPUT_BODY,   /* collisions without a mass, or more than can wait */
+    REMOTE_INPUT_TYPE,   /* of no type that can be shown, whose types are told instead */
+    REMOTE_INPUT_REFUSALS
+};
+
 struct remote_input {
     const struct type_table *types;
     const struct local_frame *frame;
@@ -41,12 +60,7 @@ struct remote_input {
     uint64_t timeout_ns;
     struct remote_table table;
     struct rate shots;
-    struct {
-        uint64_t event;
-        uint32_t type;            /* enum remote_type */
-        struct vec3 place;        /* [m] of a FIRE: where it was */
-    } heard[REMOTE_INPUT_EVENTS]; /* the last shots and detonations, to know them again */
-    uint32_t heard_count;
+    struct shot_memory heard;
     struct {
         uint64_t remote, heard_ns;
         uint32_t stamp;
@@ -61,27 +75,26 @@ struct remote_input {
         uint32_t entity;
     } met[REMOTE_INPUT_BODIES]; /* the last collisions that our collider has told of */
     uint32_t met_count;
-    struct pdu_entity_type told[REMOTE_INPUT_TOLD];
-    uint32_t told_count;
-    uint64_t taken; /* of the ring, as the last snapshot has it */
+    struct type_notices unknown;
+    uint64_t taken;    /* of the ring, as the last snapshot has it */
+    uint64_t grace_ns; /* of REMOTE_INPUT_GRACE_S: its end */
     /* Counts. */
     uint64_t tracks, lost, fires, struck;
-    uint64_t collisions;    /* of others with ours, of which our collider has told, too */
-    uint64_t refused_body;  /* collisions without a mass, or more than can wait */
-    uint64_t refused_full;  /* Entity States beyond world.remotes_max */
-    uint64_t refused_place; /* outside the square, or not on the earth */
-    uint64_t refused_jump;
-    uint64_t refused_twin; /* of an id that another sender has */
-    uint64_t refused_type; /* of no type that can be shown */
-    uint64_t refused_ring; /* the ring was full */
-    uint64_t repeated;     /* shots and detonations that came before */
-    uint64_t late;         /* Entity States that are older than what came before, or copies */
-    uint64_t logged_ns, logged;
+    uint64_t collisions; /* of others with ours, of which our collider has told, too */
+    uint64_t refused[REMOTE_INPUT_REFUSALS];
+    uint64_t twin; /* remote_id() of the last twin, and who sent it */
+    struct udp_address twin_from;
+    uint64_t repeated; /* shots and detonations that came before */
+    uint64_t late;     /* Entity States that are older than what came before, or copies */
+    /* Records that the world has refused (enum remote_refusal), and the entity of the last. */
+    uint64_t world_refused[REMOTE_REFUSAL_COUNT], world_refused_remote;
+    uint64_t refused_told, world_refused_told;
+    uint32_t world_capacity;
 };
 
 /* Reserves memory; types, frame, own, clamp and timeout_ns are set. Finds the shots that a
- * predecessor has written. Returns 0, or -1 with the reason. */
-int remote_input_open(struct remote_input *input, const struct view *view,
+ * predecessor has written, and who owns which entity. Returns 0, or -1 with the reason. */
+int remote_input_open(struct remote_input *input, const struct view *view, uint64_t now_ns,
                       struct error_text *error);
 void remote_input_close(struct remote_input *input);
 
@@ -93,6 +106,11 @@ bool remote_input_take(struct remote_input *input, struct view *view, const stru
 /* Notes that our collider has told of a collision of one of our vehicles with a remote entity. */
 void remote_input_met(struct remote_input *input, uint32_t entity, uint64_t remote,
                       uint64_t now_ns);
+
+/* Notes that the world has refused some records of a frame, the first of this entity. because: enum
+ * remote_refusal. */
+void remote_input_world_refused(struct remote_input *input, uint64_t remote, uint32_t count,
+                                uint32_t because);
 
 /* Writes what waits into the ring. */
 void remote_input_tell(struct remote_input *input, struct view *view, uint64_t now_ns);

@@ -76,6 +76,15 @@ void remote_table_remove(struct remote_table *table, struct remote_entry *entry)
     table->count--;
 }
 
+uint64_t remote_table_owner(const struct udp_address *from)
+{
+    struct internet_address address = udp_address_internet(from);
+    uint64_t half[2];
+    memcpy(half, address.bytes, sizeof half);
+    uint64_t host = random_mix(half[0] ^ random_mix(half[1] ^ random_mix(address.ipv6)));
+    return host << REMOTE_TABLE_PORT_BITS | (address.port != 0 ? address.port : 1);
+}
+
 void remote_table_wait(struct remote_table *table, struct remote_entry *entry)
 {
     entry->waits = true;
@@ -95,7 +104,7 @@ void remote_table_see(struct remote_table *table, const struct snapshot *snapsho
             entry = remote_table_add(table, e->driver[row], now_ns);
         if (!entry)
             continue;
-        if (!entry->placed)
+        if (!entry->placed || entry->owner == 0)
             entry->place = entities_position(e, row);
         entry->placed = true;
         entry->seen_ns = now_ns;

@@ -11,14 +11,15 @@
 #define REMOTE_TABLE_NONE UINT32_MAX
 
 struct remote_entry {
-    uint64_t remote;         /* remote_id(), 0: the entry is free */
-    uint64_t heard_ns;       /* when its last Entity State came */
-    uint64_t told_ns;        /* when the world was last told */
-    uint64_t seen_ns;        /* when a snapshot last had its row */
-    struct vec3 place;       /* [m] where its owner had it last */
-    struct udp_address from; /* its owner */
-    uint32_t stamp;          /* of the last Entity State that was taken, from heard_ns on */
-    bool from_known, placed;
+    uint64_t remote;   /* remote_id(), 0: the entry is free */
+    uint64_t heard_ns; /* when its last Entity State came */
+    uint64_t told_ns;  /* when the world was last told */
+    uint64_t seen_ns;  /* when a snapshot last had its row */
+    struct vec3 place; /* [m] where its owner had it last */
+    uint64_t owner;    /* remote_table_owner() of its owner, 0: nobody knows */
+    uint64_t told_at;  /* the number of the record in the ring that told the world last */
+    uint32_t stamp;    /* of the last Entity State that was taken, from heard_ns on */
+    bool placed;
     bool waits;    /* track is to be told */
     bool listed;   /* the table's list of those that wait has it */
     uint32_t next; /* in its bucket, or in the list of free entries */
@@ -45,6 +46,12 @@ struct remote_entry *remote_table_find(const struct remote_table *table, uint64_
 struct remote_entry *remote_table_add(struct remote_table *table, uint64_t remote, uint64_t now_ns);
 
 void remote_table_remove(struct remote_table *table, struct remote_entry *entry);
+
+/* Returns a number for an address and its port, never 0, by which owners are told apart. It is in
+ * the records of the ring, so that a gateway that starts anew knows the owners. The upper 48 bits
+ * are those of the address. */
+uint64_t remote_table_owner(const struct udp_address *from);
+#define REMOTE_TABLE_PORT_BITS 16u
 
 /* Notes that the entry's track is to be told. */
 void remote_table_wait(struct remote_table *table, struct remote_entry *entry);

@@ -2,7 +2,6 @@
 #include "gateway/udp_output.h"
 
 #include "gateway/udp/udp_socket.h"
-#include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 
 #include <errno.h>
@@ -10,14 +9,15 @@
 #include <string.h>
 
 int udp_output_open(struct udp_output *output, const char *key, const char *address, uint16_t port,
-                    const char *what, struct error_text *error)
+                    unsigned interface, const char *what, struct error_text *error)
 {
     struct error_text reason;
     *output = (struct udp_output){.socket = -1, .what = what};
     if (udp_address_parse(&output->to, address, port, &reason) != 0)
         return error_text_set(error, "%s = \"%s\": %s", key, address, reason.text);
-    output->socket = udp_socket_sender(&output->to, NULL, error);
-    return output->socket < 0 ? -1 : 0;
+    udp_address_scope(&output->to, interface);
+    output->socket = udp_socket_sender(&output->to, interface, &reason);
+    return output->socket >= 0 ? 0 : error_text_set(error, "%s: %s", key, reason.text);
 }
 
 void udp_output_send(struct udp_output *output, const void *bytes, size_t size)
@@ -27,9 +27,18 @@ void udp_output_send(struct udp_output *output, const void *bytes, size_t size)
         output->octets += size;
         return;
     }
-    int cause = errno;
+    output->cause = size > 0 ? errno : 0;
     output->failed++;
-    if (log_due(&output->failure_logged_ns, NS_PER_S))
-        log_warn("%" PRIu64 " %s could not be sent: %s", output->failed, output->what,
-                 size > 0 ? strerror(cause) : "too long");
+}
+
+bool udp_output_tell(void *subject, uint64_t now_ns)
+{
+    struct udp_output *output = subject;
+    (void)now_ns;
+    if (output->failed == output->failed_told)
+        return false;
+    log_warn("%" PRIu64 " %s could not be sent: %s", output->failed, output->what,
+             output->cause != 0 ? strerror(output->cause) : "too long");
+    output->failed_told = output->failed;
+    return true;
 }

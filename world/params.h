@@ -44,9 +44,10 @@ struct renderer_params {
 
 /* Settings of the gateway to exercises of DIS; the simulation does not read them. */
 struct gateway_params {
-    char address[48]; /* in numbers */
-    char listen[64];  /* where PDUs are received, "none": nowhere */
-    uint32_t enabled; /* 1: a set has a gateway */
+    char address[48];   /* in numbers */
+    char listen[64];    /* where PDUs are received, "none": nowhere */
+    char interface[48]; /* of multicast: a name or an address of this machine, "any" */
+    uint32_t enabled;   /* 1: a set has a gateway */
     uint32_t port, exercise, site;
     uint32_t application, applications; /* the first, and how many */
     uint32_t version;                   /* of DIS: 6 or 7 */

@@ -61,7 +61,8 @@ static const struct key scenario_keys[] = {
                        "counts the contacts for which there is no room, as `contacts_refused`."),
     WHOLE32("world.remotes_max", S, params.remotes_max, 0, REMOTE_ROWS_MAX, "0",
             .meaning = "How many vehicles of other simulators the world takes in at most "
-                       "([dis.md](dis.md)). They need room in `world.capacity`."),
+                       "([dis.md](dis.md)). They need room in `world.capacity`, which has to be as "
+                       "large at least."),
     WHOLE64("world.frames", S, params.frame_limit, 0, SCHEMA_WHOLE_MAX, "0",
             .meaning = "The run ends with this frame. 0: the run has no last frame."),
     CHOICE("world.pace", S, params.pace, STORE_U32, WORDS(paces), "real",
@@ -198,8 +199,12 @@ static const struct key scenario_keys[] = {
             .meaning = "The port of UDP."),
     TEXT("gateway.listen", S, params.gateway.listen, "none",
          .meaning =
-             "Where PDUs are received: an address of this machine or of a multicast group in "
-             "numbers, with a port if it is not 3000. \"none\": nowhere."),
+             "Where PDUs are received: an address of this machine, of a multicast group or of a "
+             "broadcast in numbers, with a port if it is not 3000; \"0.0.0.0\" is any address of "
+             "this machine and its broadcasts. \"none\": nowhere."),
+    TEXT("gateway.interface", S, params.gateway.interface, "any",
+         .meaning = "The interface of multicast and of link-local addresses: its name, such as "
+                    "\"eth0\", or an address that it has. \"any\": the system's choice."),
     WHOLE32("gateway.exercise", S, params.gateway.exercise, 1, 255, "1",
             .meaning = "The exercise, by which simulators on one network tell theirs from others."),
     WHOLE32("gateway.site", S, params.gateway.site, 1, 65533, "1991",

@@ -121,9 +121,12 @@ static bool read_parts(const uint8_t *at, uint8_t count, struct pdu *pdu)
     return true;
 }
 
-static bool reserved(uint16_t number)
+/* Returns true for numbers that mean no entity, or several: 0 none, FFFF all, and FFFE one that is
+ * to be given a number. */
+static bool reserved(struct pdu_id id)
 {
-    return number == 0 || number >= 0xfffe;
+    return id.site == 0 || id.site == PDU_ID_ALL || id.application == 0 ||
+           id.application == PDU_ID_ALL || id.entity == 0 || id.entity >= 0xfffe;
 }
 
 /* Reads the body of a PDU whose header is set. */
@@ -150,7 +153,7 @@ static enum pdu_result read_body(const uint8_t *bytes, struct pdu *pdu)
     good &= read_parts(bytes + layout->bytes, parts, pdu);
     if (!good)
         return PDU_NOT_FINITE;
-    if (pdu->header.type == PDU_ENTITY_STATE && reserved(pdu->entity_state.id.entity))
+    if (pdu->header.type == PDU_ENTITY_STATE && reserved(pdu->entity_state.id))
         return PDU_BAD_ID;
     return PDU_GOOD;
 }

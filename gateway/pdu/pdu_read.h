@@ -19,7 +19,7 @@ enum pdu_result {
     PDU_BAD_FAMILY,  /* the family is not that of the type */
     PDU_TOO_SHORT,   /* the length has no room for the fields, or for the variable parameters */
     PDU_NOT_FINITE,  /* a number is infinite or not a number, or larger than 1e30 */
-    PDU_BAD_ID,      /* an Entity State of a reserved number: 0, FFFE, FFFF */
+    PDU_BAD_ID,      /* an Entity State of a reserved number: 0, FFFF, entity FFFE */
     PDU_RESULTS
 };
 

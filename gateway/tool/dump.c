@@ -233,7 +233,7 @@ int dump_run(int argc, char **argv)
     static const struct option_row rows[] = {
         {"listen", "ADDRESS[:PORT]", "without FILE: where PDUs come (default 127.0.0.1:3000)",
          .text = &given.listen},
-        {"interface", "ADDRESS", "the local address by which a group of multicast is joined",
+        {"interface", "NAME", "the interface by which a group is joined, or an address that it has",
          .text = &given.interface},
         {"port", "N", "with FILE: only datagrams to this port; 0: to any (default 3000)",
          .u32 = &given.port, .most = 65535},

@@ -3,6 +3,7 @@
 
 #include "gateway/pdu/pdu.h"
 #include "gateway/tool/capture.h"
+#include "gateway/tool/listener.h"
 #include "gateway/udp/udp_socket.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
@@ -61,7 +62,7 @@ int play_run(int argc, char **argv)
 {
     static const struct option_row rows[] = {
         {"to", "ADDRESS[:PORT]", "where to send (default 127.0.0.1:3000)", .text = &given.to},
-        {"interface", "ADDRESS", "the local address by which multicast leaves",
+        {"interface", "NAME", "the interface by which multicast leaves, or an address that it has",
          .text = &given.interface},
         {"port", "N", "only datagrams that went to this port; 0: to any (default 3000)",
          .u32 = &given.port, .most = 65535},
@@ -73,7 +74,7 @@ int play_run(int argc, char **argv)
         .usage = "[options] FILE\nSends the datagrams of a capture again, as they are.",
         .rows = rows,
         .plain = 1};
-    struct udp_address to, interface;
+    struct udp_address to;
     struct error_text error;
     struct capture_datagram datagram;
     uint64_t sent = 0, others = 0, first_us = 0, begun_ns = 0;
@@ -81,10 +82,10 @@ int play_run(int argc, char **argv)
         die_usage("dis play: needs a FILE, as in: jolon dis play exercise.pcap");
     if (udp_address_parse(&to, given.to, PDU_PORT, &error) != 0)
         die_usage("--to %s: %s", given.to, error.text);
-    if (given.interface && udp_address_parse(&interface, given.interface, 0, &error) != 0)
-        die_usage("--interface %s: %s", given.interface, error.text);
+    unsigned interface = listener_interface(given.interface);
+    udp_address_scope(&to, interface);
     struct capture_reader *reader = capture_open(argv[argc - 1], &error);
-    int socket = reader ? udp_socket_sender(&to, given.interface ? &interface : NULL, &error) : -1;
+    int socket = reader ? udp_socket_sender(&to, interface, &error) : -1;
     if (socket < 0)
         die_refused("%s", error.text);
     int result;

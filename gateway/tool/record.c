@@ -56,7 +56,7 @@ int record_run(int argc, char **argv)
     static const struct option_row rows[] = {
         {"listen", "ADDRESS[:PORT]", "where datagrams come (default 127.0.0.1:3000)",
          .text = &given.listen},
-        {"interface", "ADDRESS", "the local address by which a group of multicast is joined",
+        {"interface", "NAME", "the interface by which a group is joined, or an address that it has",
          .text = &given.interface},
         {"count", "N", "end after N datagrams", .u64 = &given.count, .least = 1, .most = INT64_MAX},
         {"seconds", "S", "end after S seconds", .real = &given.seconds, .low = 0.001, .high = 1e6},

@@ -6,6 +6,7 @@
 #include "gateway/pdu/timestamp.h"
 #include "gateway/tool/capture.h"
 #include "gateway/tool/field_words.h"
+#include "gateway/tool/listener.h"
 #include "gateway/udp/udp_socket.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
@@ -41,7 +42,7 @@ static uint64_t now_us(void)
 
 static const struct option_row rows[] = {
     {"to", "ADDRESS[:PORT]", "where to send (default 127.0.0.1:3000)", .text = &given.to},
-    {"interface", "ADDRESS", "the local address by which multicast leaves",
+    {"interface", "NAME", "the interface by which multicast leaves, or an address that it has",
      .text = &given.interface},
     {"file", "FILE", "write a capture instead of sending", .text = &given.file},
     {"version", "N", "6 or 7 (default 7)", .u32 = &given.version, .least = 6, .most = 7},
@@ -58,7 +59,17 @@ static const struct option_row rows[] = {
 
 static const struct option_table table = {
     .program = "jolon-dis send",
-    .usage = "[options] TYPE [FIELD=VALUE ...]\nSends one PDU. Fields that are not named are 0.",
+    .usage =
+        "[options] TYPE [FIELD=VALUE ...]\n"
+        "Sends one PDU, or with --count the same several times. Fields that are not named are\n"
+        "0; those of a type are listed by: jolon dis send --fields TYPE. As in:\n"
+        "  jolon dis send entity-state id=1:1:7 type=1.1.225.1.1.2.0 force=1 \\\n"
+        "    place=35.95,-121.25,300 attitude=90,0,0 marking=TANK\n"
+        "  jolon dis send stop-freeze originator=7:1:0 receiver=1991:1:0 request=1\n"
+        "An id is SITE:APPLICATION:ENTITY, a type of an entity has seven numbers, a vector has\n"
+        "commas, place is latitude, longitude [deg] and height above the ellipsoid [m], and\n"
+        "attitude is heading, pitch and roll [deg]. Each run sends from another port, so a\n"
+        "gateway takes a second one that says the same id for another simulator.",
     .ending = "The types are entity-state, fire, detonation, collision, collision-elastic,\n"
               "create-entity, remove-entity, start-resume, stop-freeze, acknowledge.",
     .rows = rows,
@@ -92,8 +103,7 @@ static void write_capture(struct pdu *pdu, const struct udp_address *to)
         die_refused("%s: cannot be written: %s", given.file, strerror(errno));
 }
 
-static void send_all(struct pdu *pdu, const struct udp_address *to,
-                     const struct udp_address *interface)
+static void send_all(struct pdu *pdu, const struct udp_address *to, unsigned interface)
 {
     static uint8_t bytes[PDU_BYTES_MAX];
     struct error_text error;
@@ -114,7 +124,7 @@ static void send_all(struct pdu *pdu, const struct udp_address *to,
 int send_run(int argc, char **argv)
 {
     static struct pdu pdu;
-    struct udp_address to, interface;
+    struct udp_address to;
     struct error_text error;
     int plain = option_table_read(&table, argc, argv);
     char **word = argv + argc - plain;
@@ -130,8 +140,8 @@ int send_run(int argc, char **argv)
     }
     if (udp_address_parse(&to, given.to, PDU_PORT, &error) != 0)
         die_usage("--to %s: %s", given.to, error.text);
-    if (given.interface && udp_address_parse(&interface, given.interface, 0, &error) != 0)
-        die_usage("--interface %s: %s", given.interface, error.text);
+    unsigned interface = listener_interface(given.interface);
+    udp_address_scope(&to, interface);
     pdu.header = (struct pdu_header){.version = (uint8_t)given.version,
                                      .exercise = (uint8_t)given.exercise,
                                      .type = layout->type,
@@ -147,6 +157,6 @@ int send_run(int argc, char **argv)
     if (given.file)
         write_capture(&pdu, &to);
     else
-        send_all(&pdu, &to, given.interface ? &interface : NULL);
+        send_all(&pdu, &to, interface);
     return EXIT_OK;
 }

@@ -65,6 +65,27 @@ bool udp_address_multicast(const struct udp_address *address)
     return IN_MULTICAST(ntohl(address->v4.sin_addr.s_addr));
 }
 
+bool udp_address_link_local(const struct udp_address *address)
+{
+    const struct in6_addr *v6 = &address->v6.sin6_addr;
+    return address->any.sa_family == AF_INET6 &&
+           (IN6_IS_ADDR_LINKLOCAL(v6) || IN6_IS_ADDR_MC_LINKLOCAL(v6) ||
+            IN6_IS_ADDR_MC_NODELOCAL(v6));
+}
+
+void udp_address_scope(struct udp_address *address, unsigned interface)
+{
+    if (udp_address_link_local(address))
+        address->v6.sin6_scope_id = interface;
+}
+
+bool udp_address_wildcard(const struct udp_address *address)
+{
+    if (address->any.sa_family == AF_INET6)
+        return IN6_IS_ADDR_UNSPECIFIED(&address->v6.sin6_addr);
+    return address->v4.sin_addr.s_addr == htonl(INADDR_ANY);
+}
+
 bool udp_address_loopback(const struct udp_address *address)
 {
     if (address->any.sa_family == AF_INET6)

@@ -33,6 +33,16 @@ struct internet_address udp_address_internet(const struct udp_address *address);
 uint16_t udp_address_port(const struct udp_address *address);
 socklen_t udp_address_bytes(const struct udp_address *address);
 bool udp_address_multicast(const struct udp_address *address);
+/* Returns true for an address of IPv6 that means something on one link alone, and needs an
+ * interface: fe80::/10, ff01::/16 and ff02::/16. */
+bool udp_address_link_local(const struct udp_address *address);
+
+/* Gives such an address its interface, by its number. Leaves others as they are. */
+void udp_address_scope(struct udp_address *address, unsigned interface);
+
+/* Returns true for 0.0.0.0 and ::, all addresses of this machine. */
+bool udp_address_wildcard(const struct udp_address *address);
+
 bool udp_address_loopback(const struct udp_address *address);
 
 /* Returns true if both have the same host; the ports may differ. */

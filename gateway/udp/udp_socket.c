@@ -18,8 +18,12 @@ static int refused(int socket, const struct udp_address *address, const char *wh
     int cause = errno;
     if (socket >= 0)
         close(socket);
-    return error_text_set(error, "%s: cannot %s: %s", udp_address_text(address, text, sizeof text),
-                          what, strerror(cause));
+    return error_text_set(
+        error, "%s: cannot %s: %s", udp_address_text(address, text, sizeof text), what,
+        cause == EADDRINUSE ? "another program does (ss -lunp lists them); what is sent to an "
+                              "address of this machine has one receiver, so take another port, "
+                              "or a group of multicast"
+                            : strerror(cause));
 }
 
 static int set(int socket, int level, int name, int value)
@@ -27,43 +31,96 @@ static int set(int socket, int level, int name, int value)
     return setsockopt(socket, level, name, &value, sizeof value);
 }
 
-int udp_socket_sender(const struct udp_address *to, const struct udp_address *interface,
-                      struct error_text *error)
+/* An address of a link without its interface means nothing. */
+static int unscoped(const struct udp_address *address, struct error_text *error)
 {
+    char text[UDP_ADDRESS_TEXT];
+    return error_text_set(error,
+                          "%s: is an address of one link, and needs an interface: set "
+                          "gateway.interface, or --interface of jolon dis, to its name",
+                          udp_address_text(address, text, sizeof text));
+}
+
+/* Selects the interface by which multicast leaves. */
+static int leave_by(int out, const struct udp_address *to, unsigned interface)
+{
+    struct ip_mreqn by = {.imr_ifindex = (int)interface};
+    if (interface == 0 || !udp_address_multicast(to))
+        return 0;
+    if (to->any.sa_family == AF_INET6)
+        return set(out, IPPROTO_IPV6, IPV6_MULTICAST_IF, (int)interface);
+    return setsockopt(out, IPPROTO_IP, IP_MULTICAST_IF, &by, sizeof by);
+}
+
+int udp_socket_sender(const struct udp_address *to, unsigned interface, struct error_text *error)
+{
+    if (udp_address_link_local(to) && !udp_address_multicast(to) && interface == 0)
+        return unscoped(to, error);
     int out = socket(to->any.sa_family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (out < 0)
         return refused(out, to, "make a socket", error);
     if (to->any.sa_family == AF_INET && set(out, SOL_SOCKET, SO_BROADCAST, 1) != 0)
         return refused(out, to, "broadcast", error);
-    if (interface && interface->any.sa_family == AF_INET && udp_address_multicast(to) &&
-        setsockopt(out, IPPROTO_IP, IP_MULTICAST_IF, &interface->v4.sin_addr,
-                   sizeof interface->v4.sin_addr) != 0)
-        return refused(out, interface, "send multicast by this interface", error);
+    if (leave_by(out, to, interface) != 0)
+        return refused(out, to, "send by this interface", error);
     return out;
 }
 
-static int join(int in, const struct udp_address *at, const struct udp_address *interface)
+bool udp_socket_broadcast(const struct udp_address *address)
+{
+    if (address->any.sa_family != AF_INET)
+        return false;
+    int out = socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+    if (out < 0)
+        return false;
+    /* The system refuses a broadcast to a socket without SO_BROADCAST, and knows its networks. */
+    bool is = connect(out, &address->any, udp_address_bytes(address)) != 0 && errno == EACCES;
+    close(out);
+    return is;
+}
+
+uint16_t udp_socket_port(int socket, uint16_t wanted)
+{
+    struct udp_address own = {0};
+    socklen_t length = sizeof own;
+    if (getsockname(socket, &own.any, &length) != 0)
+        return 0;
+    if (own.any.sa_family == AF_INET6)
+        own.v6.sin6_port = htons(wanted);
+    else
+        own.v4.sin_port = htons(wanted);
+    if (bind(socket, &own.any, length) != 0)
+        return wanted != 0 ? udp_socket_port(socket, 0) : 0;
+    return getsockname(socket, &own.any, &length) == 0 ? udp_address_port(&own) : 0;
+}
+
+static int join(int in, const struct udp_address *at, unsigned interface)
 {
     if (at->any.sa_family == AF_INET6) {
-        struct ipv6_mreq group = {.ipv6mr_multiaddr = at->v6.sin6_addr};
+        struct ipv6_mreq group = {.ipv6mr_multiaddr = at->v6.sin6_addr,
+                                  .ipv6mr_interface = interface};
         return setsockopt(in, IPPROTO_IPV6, IPV6_ADD_MEMBERSHIP, &group, sizeof group);
     }
-    struct ip_mreq group = {.imr_multiaddr = at->v4.sin_addr};
-    if (interface && interface->any.sa_family == AF_INET)
-        group.imr_interface = interface->v4.sin_addr;
+    struct ip_mreqn group = {.imr_multiaddr = at->v4.sin_addr, .imr_ifindex = (int)interface};
     return setsockopt(in, IPPROTO_IP, IP_ADD_MEMBERSHIP, &group, sizeof group);
 }
 
-int udp_socket_listener(const struct udp_address *at, const struct udp_address *interface,
-                        struct error_text *error)
+int udp_socket_listener(const struct udp_address *at, unsigned interface, struct error_text *error)
 {
+    struct udp_address scoped = *at;
+    bool group = udp_address_multicast(at);
+    udp_address_scope(&scoped, interface);
+    if (udp_address_link_local(at) && interface == 0)
+        return unscoped(at, error);
     int in = socket(at->any.sa_family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (in < 0)
         return refused(in, at, "make a socket", error);
     (void)set(in, SOL_SOCKET, SO_RCVBUF, RECEIVE_BUFFER);
-    if (set(in, SOL_SOCKET, SO_REUSEADDR, 1) != 0 || bind(in, &at->any, udp_address_bytes(at)) != 0)
+    if ((group || udp_socket_broadcast(at)) && set(in, SOL_SOCKET, SO_REUSEADDR, 1) != 0)
+        return refused(in, at, "share the address", error);
+    if (bind(in, &scoped.any, udp_address_bytes(at)) != 0)
         return refused(in, at, "receive there", error);
-    if (udp_address_multicast(at) && join(in, at, interface) != 0)
+    if (group && join(in, at, interface) != 0)
         return refused(in, at, "join the group", error);
     return in;
 }

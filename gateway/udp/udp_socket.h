@@ -8,16 +8,23 @@
 #define UDP_SOCKET_BYTES_MAX 65536u /* room for any datagram */
 #define UDP_SOCKET_AT_ONCE   32u    /* datagrams by one call */
 
-/* Opens a socket that sends to an address. interface: the local address by which multicast leaves;
- * NULL: the system's choice. Multicast stays within the network (TTL 1). Returns the descriptor, or
- * -1 with the reason in error. */
-int udp_socket_sender(const struct udp_address *to, const struct udp_address *interface,
-                      struct error_text *error);
+/* Opens a socket that sends to an address. interface: the number of the interface by which
+ * multicast leaves; 0: the system's choice. Multicast stays within the network (TTL 1). Returns the
+ * descriptor, or -1 with the reason in error. */
+int udp_socket_sender(const struct udp_address *to, unsigned interface, struct error_text *error);
 
-/* Opens a socket that receives what is sent to an address of this machine, or to a group of
- * multicast, which it joins. Other sockets of this machine may receive the same. */
-int udp_socket_listener(const struct udp_address *at, const struct udp_address *interface,
-                        struct error_text *error);
+/* Opens a socket that receives what is sent to an address of this machine, to a broadcast, or to a
+ * group of multicast, which it joins by the interface. What is sent to an address of this machine
+ * has one receiver: it is refused when another program has it. Groups and broadcasts may have
+ * several. */
+int udp_socket_listener(const struct udp_address *at, unsigned interface, struct error_text *error);
+
+/* Returns true if an address is that of a broadcast on a network of this machine. */
+bool udp_socket_broadcast(const struct udp_address *address);
+
+/* Gives a new socket the port from which it sends: this one, or another where that is 0 or is in
+ * use. Returns the port, 0 when there is none. */
+uint16_t udp_socket_port(int socket, uint16_t wanted);
 
 /* Sends a datagram. Returns 0, or -1 with errno. A host that says that nobody receives is no error.
  */

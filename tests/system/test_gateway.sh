@@ -3,10 +3,11 @@
 # identifiers, and no run changes because of it.
 here=$(cd "$(dirname "$0")" && pwd)
 . "$(dirname "$0")/lib.sh"
-port=$(python3 -I -S -c 'import socket
+free_port() { python3 -I -S -c 'import socket
 s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
 s.bind(("127.0.0.1", 0))
-print(s.getsockname()[1])')
+print(s.getsockname()[1])'; }
+port=$(free_port)
 until_true() { for _ in {1..200}; do "$@" >/dev/null 2>&1 && return; sleep 0.05; done; return 1; }
 record() { # FILE: records what is sent until `finish`
     "$jolon" dis record --listen "127.0.0.1:$port" "$1" 2>/dev/null &
@@ -79,11 +80,58 @@ else
     skip "where it is, it is taken" "there is no proj-data here"
 fi
 
+refused() { # WORDS COMMAND...: the command is refused in these words, beside a world that runs
+    local words=$1
+    shift
+    "$@" >refused 2>&1
+    [ $? = 1 ] && grep -q "$words" refused
+}
+
+# --- two receivers, and a broken table -------------------------------------------------------------------
+in=$(free_port) data=$PWD/data
+cp -r "${JOLON_DATA:-$here/../../config}" "$data"
+JOLON_DATA=$data "$jolon" start -w "$name" --without renderer --without reporter --out out-in --dis "127.255.255.255:$port" \
+    --set "gateway.listen=127.0.0.1:$in" >/dev/null
+check "the gateway receives" until_true grep -q "receives at" out-in/jolon.log
+check "and warns that it does not hear the broadcast to which it sends" \
+    grep -q "gateway.listen = 127.0.0.1:$in does not hear what others send to 127.255.255.255:$port" out-in/jolon.log
+check "a second receiver at its address is refused" refused "127.0.0.1:$in: cannot receive there: another program does" \
+    "$jolon" dis dump --listen "127.0.0.1:$in" --seconds 1
+sed -i 's/1\.1\.225\.1\.1\.2\.0/1.1.225.1.1.2/' "$data/dis/types.txt"
+SECONDS=0
+check "a restart with a broken table of types is refused" refused 'gateway refused: .*types.txt:[0-9]*: .*seven numbers' "$jolon" restart -w "$name" gateway
+check "another one as well" refused 'gateway refused: .*types.txt:[0-9]*: .*seven numbers' "$jolon" restart -w "$name" gateway
+check "neither takes 20 s" [ $SECONDS -lt 18 ]
+cp "$here/../../config/dis/types.txt" "$data/dis/types.txt"
+check "and with a good one it runs" "$jolon" restart -w "$name" gateway
+"$jolon" stop -w "$name" >/dev/null
+
+# --- a rate that does not suffice ------------------------------------------------------------------------
+record rate.pcap
+"$jolon" start -w "$name" --without renderer --without reporter --out out-rate --dis "127.0.0.1:$port" --set "gateway.listen=127.0.0.1:$in" \
+    --set gateway.rate=60 --set 'gateway.control=7:1' >/dev/null
+check "it receives" until_true grep -q "receives at" out-rate/jolon.log
+sleep 6
+"$jolon" dis send --to "127.0.0.1:$in" stop-freeze originator=7:1:0 receiver=1991:1:0 request=5
+sleep 3
+"$jolon" dis send --to "127.0.0.1:$in" start-resume originator=7:1:0 receiver=1991:1:0 request=6
+for k in 1 2 3 4 5; do "$jolon" ctl -w "$name" fire --munition artillery --at "$((20000 + k * 100)),20000" >/dev/null; done
+sleep 8
+finish
+"$jolon" stop -w "$name" >/dev/null
+check "a stop and a start are acknowledged at 60 PDUs a second" equal "$(count rate.pcap 15)" 2
+check "and shots and detonations are sent among 500 vehicles" [ "$(count rate.pcap 3)" -ge 5 ]
+check "the log says that the rate is low" grep -q 'gateway warning .*gateway.rate = 60 PDUs a second is less than the world needs: .* and 0 are lost' out-rate/jolon.log
+
 # --- refusals -------------------------------------------------------------------------------------------
 run=("$jolon" run -w "$name" --frames 1 --out out)
-refuses "a name as an address" 1 'gateway.address = "?localhost"?.*no address in numbers' "${run[@]}" --dis localhost
+refuses "a name as an address" 2 'jolon: --dis localhost: must be an address in numbers' "${run[@]}" --dis localhost
+refuses "a name by the key" 1 'gateway.address = "?localhost"?.*no address in numbers' "${run[@]}" --set gateway.address=localhost
+refuses "more remote entities than rows" 1 'world.remotes_max = 65: world.capacity = 64 has no rows for so many; allowed: up to 64' \
+    "${run[@]}" --set world.remotes_max=65 --set world.capacity=64
+refuses "a zone" 1 'an address has no %zone here; name it by gateway.interface' "${run[@]}" --set 'gateway.listen=[ff02::1%lo]:3000'
 refuses "port 0" 2 'a whole number from 1 to 65535' "${run[@]}" --dis 127.0.0.1:0
-refuses "no address" 2 'must be ADDRESS or ADDRESS:PORT' "${run[@]}" --dis :3000
+refuses "no address" 2 'must be an address in numbers' "${run[@]}" --dis :3000
 refuses "too many applications" 1 'gateway.applications.*up to 65532' "${run[@]}" --set gateway.application=2 --set gateway.applications=65533
 refuses "another version" 1 'gateway.version.*5' "${run[@]}" --set gateway.version=5
 done_testing

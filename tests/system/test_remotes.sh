@@ -151,4 +151,18 @@ import json
 roles = json.load(open("status"))["roles"]
 assert all(r["restarts"] == 0 for r in roles), roles'
 check "the run replays" replays out-crowd
+check "they are in the end's summary, too" grep -q 'gateway info .* refused in all: [1-9][0-9]* Entity States beyond' out-crowd/jolon.log
+
+# --- no rows --------------------------------------------------------------------------------------------
+cat >full.cfg <<'END'
+world = { capacity = 64; remotes_max = 64; };
+terrain = { source = "flat"; height_m = 300.0; };
+objects = { source = "none"; };
+vehicles = ({ kind = "tank"; count = 40; area = [24000.0, 24000.0, 26000.0, 26000.0]; behaviour = "idle"; });
+END
+begin "$name" out-full "$in_a" "$in_b" 10 full.cfg
+python3 -I -S "$here/dis_crowd.py" "127.0.0.1:$in_a" 60 1 3 resting >/dev/null
+"$jolon" stop -w "$name" >/dev/null
+check "the start warns of too few rows" grep -q 'gateway warning .*world.capacity = 64 has 40 vehicles now, so not all of world.remotes_max = 64 fit' out-full/jolon.log
+check "what the world has no rows for is told" grep -q 'gateway warning .*the world has refused so far: [1-9][0-9]* because: table full (world.capacity = 64)' out-full/jolon.log
 done_testing

@@ -255,6 +255,7 @@ static const struct {
     {"gateway.enabled=true", "gateway = { enabled = true; };"},
     {"gateway.address=239.1.2.3", "gateway = { address = \"239.1.2.3\"; };"},
     {"gateway.address=::1", "gateway = { address = \"::1\"; };"},
+    {"gateway.interface=eth0", "gateway = { interface = \"eth0\"; };"},
     {"gateway.listen=[ff02::1]:3001", "gateway = { listen = \"[ff02::1]:3001\"; };"},
     {"gateway.port=3001", "gateway = { port = 3001; };"},
     {"gateway.exercise=2", "gateway = { exercise = 2; };"},

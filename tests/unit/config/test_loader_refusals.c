@@ -71,6 +71,16 @@ static const struct refusal refusals[] = {
      "rounds, adjust, fuze, high, bearing_deg"},
     {"objects = ( { kind = \"tree\"; at = [1, 2]; size = 2; } );", 1,
      "objects[0].size = 2: unknown key; allowed here: kind, at, heading_deg"},
+    /* Values that do not fit each other. */
+    {"world = { capacity = 64;\n remotes_max = 65; };", 2,
+     "world.remotes_max = 65: world.capacity = 64 has no rows for so many; allowed: up to 64, or a "
+     "larger world.capacity"},
+    {"gateway = { listen = \"[ff02::1%eth0]:3000\"; };", 1,
+     "gateway.listen = [ff02::1%eth0]:3000: an address has no %zone here; name it by "
+     "gateway.interface"},
+    {"gateway = {\n address = \"fe80::1%eth0\"; };", 2,
+     "gateway.address = fe80::1%eth0: an address has no %zone here; name it by "
+     "gateway.interface"},
     /* Types. */
     {"world = 7;", 1, "world = 7: is not a group; allowed: { key = value; ... }"},
     {"world = { name = 7; };", 1,

@@ -45,11 +45,11 @@ static int set_up(void **state)
     output = (struct pdu_output){.version = 7, .exercise = 3};
     assert_int_equal(udp_address_parse(&at, "127.0.0.1", 3000, &error), 0);
     at.v4.sin_port = 0;
-    listener = udp_socket_listener(&at, NULL, &error);
+    listener = udp_socket_listener(&at, 0, &error);
     assert_true(listener >= 0);
     assert_int_equal(getsockname(listener, &at.any, &length), 0);
-    assert_int_equal(cot_output_open(&cot, udp_address_text(&at, to, sizeof to), 3, &error), 0);
-    assert_int_equal(pdu_output_open(&output, "127.0.0.1", 9, 100000, &error), 0);
+    assert_int_equal(cot_output_open(&cot, udp_address_text(&at, to, sizeof to), 0, 3, &error), 0);
+    assert_int_equal(pdu_output_open(&output, "127.0.0.1", 9, 0, 100000, &error), 0);
     snprintf(path, sizeof path, "%s/dis/types.txt", fixture_shipped_dir());
     assert_int_equal(type_table_read(&types, path, w->kinds, w->counts.kinds, &error), 0);
     entities.output = &output;
@@ -86,6 +86,7 @@ static void receive(void)
 
 static void pass(void)
 {
+    assert_true(entity_output_look(&entities, &world.view, now_ns));
     entity_output_send(&entities, &world.view, now_ns);
     receive();
 }

@@ -41,10 +41,10 @@ static void open_world(const char *text)
     output = (struct pdu_output){.version = 6, .exercise = 1};
     assert_int_equal(udp_address_parse(&at, "127.0.0.1", 3000, &error), 0);
     at.v4.sin_port = 0;
-    listener = udp_socket_listener(&at, NULL, &error);
+    listener = udp_socket_listener(&at, 0, &error);
     assert_int_equal(getsockname(listener, &at.any, &length), 0);
-    assert_int_equal(pdu_output_open(&output, "127.0.0.1", udp_address_port(&at), 100000, &error),
-                     0);
+    assert_int_equal(
+        pdu_output_open(&output, "127.0.0.1", udp_address_port(&at), 0, 100000, &error), 0);
     snprintf(path, sizeof path, "%s/dis/types.txt", fixture_shipped_dir());
     assert_int_equal(type_table_read(&types, path, world.view.world.kinds,
                                      world.view.world.counts.kinds, &error),
@@ -75,6 +75,7 @@ static void pass(uint8_t type)
     struct udp_address from;
     int size;
     now_ns += PERIOD_NS;
+    assert_true(entity_output_look(&entities, &world.view, now_ns));
     entity_output_send(&entities, &world.view, now_ns);
     event_output_send(&events, &world.view, now_ns);
     count = 0;
@@ -211,17 +212,18 @@ static void test_the_rate(void **state)
     uint64_t before = events.frame;
     for (int i = 0; i < 3; i++) { /* uses the rate up */
         now_ns += PERIOD_NS;
-        while (pdu_output_take(&output, now_ns))
+        while (pdu_output_take(&output, PDU_OUTPUT_EVENT, now_ns))
             continue;
     }
     for (int i = 0; i < 40; i++) {
         fixture_run(&world, 3);
-        while (pdu_output_take(&output, now_ns + PERIOD_NS))
+        while (pdu_output_take(&output, PDU_OUTPUT_EVENT, now_ns + PERIOD_NS))
             continue;
         pass(PDU_DETONATION);
         total += count;
     }
     assert_int_equal(total, 0);
+    assert_true(events.postponed > 30 && events.waiting > 0); /* which the log tells */
     assert_true(events.frame >= before);
     assert_true(events.frame < fixture_state(&world).head->frame);
     output.rate_ps = 1000;
@@ -229,6 +231,24 @@ static void test_the_rate(void **state)
     pass(PDU_DETONATION);
     assert_int_equal(count, 1);
     assert_int_equal(events.frame, fixture_state(&world).head->frame);
+}
+
+/* Entity States that have used their share up leave some for events, and those for answers. */
+static void test_what_is_sent_first(void **state)
+{
+    static const uint32_t rates[] = {1, 60, 5000};
+    (void)state;
+    for (unsigned i = 0; i < 3; i++) {
+        struct pdu_output one = {.rate_ps = rates[i]};
+        unsigned count_of[3] = {0, 0, 0};
+        for (int weight = PDU_OUTPUT_STATE; weight <= PDU_OUTPUT_ANSWER; weight++) {
+            while (pdu_output_take(&one, (enum pdu_output_weight)weight, now_ns))
+                count_of[weight]++;
+        }
+        assert_true(count_of[PDU_OUTPUT_STATE] > 0 && count_of[PDU_OUTPUT_ANSWER] > 0);
+        assert_true(rates[i] == 1 || count_of[PDU_OUTPUT_EVENT] > 0);
+        assert_in_range(count_of[0] + count_of[1] + count_of[2], 1, rates[i] / 3 + 2);
+    }
 }
 
 #define REMOTE_ID remote_id(7, 1, 9)
@@ -325,6 +345,7 @@ int main(void)
         cmocka_unit_test_teardown(test_a_collision_of_two, close_world),
         cmocka_unit_test_teardown(test_a_new_gateway, close_world),
         cmocka_unit_test_teardown(test_the_rate, close_world),
+        cmocka_unit_test(test_what_is_sent_first),
         cmocka_unit_test_teardown(test_a_hit_on_a_remote_entity, close_world),
         cmocka_unit_test_teardown(test_a_collision_with_a_remote_entity, close_world),
         cmocka_unit_test_teardown(test_what_others_told_is_not_told_again, close_world),

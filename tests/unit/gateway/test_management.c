@@ -21,6 +21,7 @@
 #define UTC_S        1795838582.0
 
 static struct management management;
+static struct management_notes notes;
 static struct pdu_output output;
 static struct error_text error;
 static jolon_Command sent[COMMANDS_MAX];
@@ -72,6 +73,15 @@ static void answer(int i, jolon_CommandResult result)
     replies = true;
 }
 
+/* A gateway that starts, or that starts anew and finds the notes of the one before. */
+static void open_management(void)
+{
+    assert_int_equal(management_open(&management, &output, (struct entity_ids){1991, 36, 2},
+                                     "7:1, 8:*", (struct command_link){&transport, NULL}, &notes,
+                                     &error),
+                     0);
+}
+
 static int set_up(void **state)
 {
     struct udp_address at;
@@ -83,14 +93,13 @@ static int set_up(void **state)
     output = (struct pdu_output){.version = 7, .exercise = 3};
     assert_int_equal(udp_address_parse(&at, "127.0.0.1", 3000, &error), 0);
     at.v4.sin_port = 0;
-    listener = udp_socket_listener(&at, NULL, &error);
+    listener = udp_socket_listener(&at, 0, &error);
     assert_true(listener >= 0);
     assert_int_equal(getsockname(listener, &at.any, &length), 0);
-    assert_int_equal(pdu_output_open(&output, "127.0.0.1", udp_address_port(&at), 100000, &error),
-                     0);
-    assert_int_equal(management_open(&management, &output, (struct entity_ids){1991, 36, 2},
-                                     "7:1, 8:*", (struct command_link){&transport, NULL}, &error),
-                     0);
+    assert_int_equal(
+        pdu_output_open(&output, "127.0.0.1", udp_address_port(&at), 0, 100000, &error), 0);
+    memset(&notes, 0, sizeof notes);
+    open_management();
     return 0;
 }
 
@@ -239,6 +248,63 @@ static void test_repetitions(void **state)
     assert_int_equal(commands, 3);
 }
 
+/* Gives a request, and expects that the world is asked and has done it. */
+static void assert_done(const struct pdu *pdu, int command_type)
+{
+    int before = commands;
+    give(pdu);
+    assert_int_equal(commands, before + 1);
+    assert_int_equal(sent[before].type, command_type);
+    answer(before, jolon_RESULT_DONE);
+    poll_at(UTC_S);
+    assert_int_equal(count, 1);
+    assert_int_equal(received[0].management.response, PDU_RESPONSE_ABLE);
+}
+
+/* A simulation that always says the same number, or that starts anew and counts from the beginning
+ * again, is obeyed: by its time stamps at once, and without a clock when the network has no more
+ * copies. */
+static void test_a_number_is_used_again(void **state)
+{
+    struct pdu stop = request_of(PDU_STOP_FREEZE, 0), start = request_of(PDU_START_RESUME, 0);
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        now_ns += 500000000u;
+        stop.header.timestamp = timestamp_of(100.0 + i, true);
+        start.header.timestamp = timestamp_of(100.5 + i, true);
+        assert_done(&stop, jolon_COMMAND_PAUSE);
+        assert_done(&start, jolon_COMMAND_RESUME);
+    }
+    stop.header.timestamp = start.header.timestamp = 0;
+    for (int i = 0; i < 3; i++) {
+        now_ns += (uint64_t)(MANAGEMENT_NETWORK_S * 1e9);
+        assert_done(&stop, jolon_COMMAND_PAUSE);
+        assert_done(&start, jolon_COMMAND_RESUME);
+    }
+}
+
+/* What the network has doubled or delayed does not stop a world that was started since. */
+static void test_overtaken(void **state)
+{
+    struct pdu stop = request_of(PDU_STOP_FREEZE, 1), start = request_of(PDU_START_RESUME, 2),
+               late = request_of(PDU_STOP_FREEZE, 3);
+    (void)state;
+    stop.header.timestamp = timestamp_of(100.0, true);
+    late.header.timestamp = timestamp_of(100.2, true);
+    start.header.timestamp = timestamp_of(100.4, true);
+    assert_done(&stop, jolon_COMMAND_PAUSE);
+    assert_done(&start, jolon_COMMAND_RESUME);
+    give(&stop); /* a copy: acknowledged again */
+    assert_int_equal(count, 1);
+    assert_acknowledged(0, PDU_ACKNOWLEDGE_STOP, PDU_RESPONSE_ABLE, 1);
+    give(&late); /* sent before the start, and never done */
+    assert_int_equal(count, 1);
+    assert_acknowledged(0, PDU_ACKNOWLEDGE_STOP, PDU_RESPONSE_UNABLE, 3);
+    assert_int_equal(commands, 2);
+    late.header.timestamp = timestamp_of(100.6, true); /* repeated because it was refused */
+    assert_done(&late, jolon_COMMAND_PAUSE);
+}
+
 static struct pdu_clock clock_of(double utc_s)
 {
     double hours = floor(utc_s / 3600.0);
@@ -274,6 +340,99 @@ static void test_the_time_of_a_start(void **state)
     assert_int_equal(commands, 2);
     assert_int_equal(count, 1);
     assert_acknowledged(0, PDU_ACKNOWLEDGE_START, PDU_RESPONSE_UNABLE, 11);
+}
+
+/* What was acknowledged is done also by a gateway that starts anew, once. */
+static void test_a_kill_before_the_time(void **state)
+{
+    struct pdu stop = request_of(PDU_STOP_FREEZE, 50);
+    (void)state;
+    stop.management.real_time = clock_of(UTC_S + 4.0);
+    give(&stop);
+    assert_int_equal(count, 1);
+    open_management();
+    poll_at(UTC_S + 3.9);
+    give(&stop); /* a copy: acknowledged, and not another request */
+    assert_int_equal(count, 1);
+    assert_acknowledged(0, PDU_ACKNOWLEDGE_STOP, PDU_RESPONSE_ABLE, 50);
+    assert_int_equal(commands, 0);
+    poll_at(UTC_S + 4.0);
+    assert_int_equal(commands, 1);
+    open_management(); /* killed before the world has answered: asked again */
+    poll_at(UTC_S + 4.1);
+    assert_int_equal(commands, 2);
+    answer(1, jolon_RESULT_DONE);
+    poll_at(UTC_S + 4.2);
+    open_management();
+    poll_at(UTC_S + 5.0);
+    assert_int_equal(commands, 2);
+}
+
+/* Half a note, of a gateway that was killed while it wrote, is none. */
+static void test_half_a_note(void **state)
+{
+    struct pdu stop = request_of(PDU_STOP_FREEZE, 50);
+    struct management_note note;
+    (void)state;
+    stop.management.real_time = clock_of(UTC_S + 4.0);
+    give(&stop);
+    assert_true(management_notes_get(&notes, 0, &note));
+    assert_int_equal(note.number, 50);
+    notes.place[0].note.number = 51;
+    assert_false(management_notes_get(&notes, 0, &note));
+    open_management();
+    poll_at(UTC_S + 5.0);
+    assert_int_equal(commands, 0);
+}
+
+/* Others do not push out a request that waits. */
+static void test_waiting_among_many(void **state)
+{
+    struct pdu stop = request_of(PDU_STOP_FREEZE, 1000);
+    (void)state;
+    stop.management.real_time = clock_of(UTC_S + 10.0);
+    give(&stop);
+    for (uint32_t i = 0; i < 2 * MANAGEMENT_REQUESTS; i++) {
+        struct pdu start = request_of(PDU_START_RESUME, i);
+        assert_done(&start, jolon_COMMAND_RESUME);
+    }
+    int before = commands;
+    poll_at(UTC_S + 10.0);
+    assert_int_equal(commands, before + 1);
+    assert_int_equal(sent[before].type, jolon_COMMAND_PAUSE);
+    answer(before, jolon_RESULT_DONE);
+    poll_at(UTC_S + 10.0);
+    for (uint32_t i = 0; i < MANAGEMENT_REQUESTS; i++) { /* no place is left */
+        stop.management.request = 2000 + i;
+        stop.management.real_time = clock_of(UTC_S + 100.0);
+        give(&stop);
+        assert_acknowledged(0, PDU_ACKNOWLEDGE_STOP, PDU_RESPONSE_ABLE, 2000 + i);
+    }
+    stop.management.request = 3000;
+    give(&stop);
+    assert_acknowledged(0, PDU_ACKNOWLEDGE_STOP, PDU_RESPONSE_UNABLE, 3000);
+    assert_int_equal(management.full, 1);
+}
+
+/* What the rate puts off is acknowledged later. */
+static void test_acknowledgements_wait(void **state)
+{
+    struct pdu create = request_of(PDU_CREATE, 0);
+    int acknowledged = 0;
+    (void)state;
+    output.rate_ps = 4; /* three answers at once */
+    for (uint32_t i = 0; i < 6; i++) {
+        create.management.request = i;
+        give(&create);
+        acknowledged += count;
+    }
+    assert_int_equal(acknowledged, 3);
+    for (int i = 0; i < 10; i++) {
+        now_ns += 250000000u;
+        poll_at(UTC_S);
+        acknowledged += count;
+    }
+    assert_int_equal(acknowledged, 6);
 }
 
 static void test_what_cannot_be_done(void **state)
@@ -341,9 +500,20 @@ static void test_many_requests(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_stop_and_start), TEST(test_who_is_allowed),      TEST(test_who_is_meant),
-        TEST(test_repetitions),    TEST(test_the_time_of_a_start), TEST(test_what_cannot_be_done),
-        TEST(test_no_answer),      TEST(test_many_requests),
+        TEST(test_stop_and_start),
+        TEST(test_who_is_allowed),
+        TEST(test_who_is_meant),
+        TEST(test_repetitions),
+        TEST(test_the_time_of_a_start),
+        TEST(test_what_cannot_be_done),
+        TEST(test_no_answer),
+        TEST(test_many_requests),
+        TEST(test_a_number_is_used_again),
+        TEST(test_overtaken),
+        TEST(test_a_kill_before_the_time),
+        TEST(test_half_a_note),
+        TEST(test_waiting_among_many),
+        TEST(test_acknowledgements_wait),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -43,10 +43,10 @@ static int set_up(void **state)
     assert_int_equal(udp_address_parse(&to, "127.0.0.1", 3000, &error), 0);
     to.v4.sin_port = 0;
     input.at = to;
-    input.socket = udp_socket_listener(&to, NULL, &error);
+    input.socket = udp_socket_listener(&to, 0, &error);
     assert_true(input.socket >= 0);
     assert_int_equal(getsockname(input.socket, &to.any, &length), 0);
-    out = udp_socket_sender(&to, NULL, &error);
+    out = udp_socket_sender(&to, 0, &error);
     assert_true(out >= 0);
     return 0;
 }
@@ -120,6 +120,30 @@ static void test_other_exercises_are_ignored(void **state)
     assert_int_equal(input.foreign, 1);
 }
 
+/* Our own numbers from another port are those of another simulator, which is told once a minute. */
+static void test_others_with_our_numbers(void **state)
+{
+    struct udp_address self;
+    socklen_t length = sizeof self;
+    (void)state;
+    send_state(3, (struct pdu_id){1991, 10, 5});
+    assert_int_equal(getsockname(out, &self.any, &length), 0);
+    input.sender_port = udp_address_port(&self);
+    assert_int_equal(receive(), 1);
+    assert_false(pdu_input_tell_twins(&input, 77));
+    input.sender_port = (uint16_t)(udp_address_port(&self) ^ 1);
+    send_state(3, (struct pdu_id){1991, 10, 5});
+    assert_int_equal(receive(), 1);
+    assert_int_equal(input.echoes, 2);
+    assert_int_equal(input.twins, 1);
+    assert_true(pdu_input_tell_twins(&input, 77));
+    send_state(3, (struct pdu_id){1991, 10, 5});
+    assert_int_equal(receive(), 1);
+    assert_false(pdu_input_tell_twins(&input, 77 + 59000000000u));
+    assert_true(pdu_input_tell_twins(&input, 77 + 60000000000u));
+    assert_int_equal(taken, 0);
+}
+
 /* Datagrams of strangers are not read, whatever they hold. */
 static void test_strangers_are_refused(void **state)
 {
@@ -132,7 +156,8 @@ static void test_strangers_are_refused(void **state)
     assert_int_equal(input.strangers, 2);
     assert_int_equal(input.bad, 0);
     assert_int_equal(input.counts.datagrams, 0);
-    assert_int_equal(input.strangers_logged, 1); /* of the two: one line in a second */
+    assert_true(pdu_input_tell_strangers(&input, 77)); /* one line of both */
+    assert_false(pdu_input_tell_strangers(&input, 77));
     assert_int_equal(gateway_lists_peers(&input.peers, "10.0.0.0/8, 127.0.0.1", &error), 0);
     send_state(3, (struct pdu_id){7, 1, 5});
     assert_int_equal(receive(), 1);
@@ -176,13 +201,37 @@ static void test_addresses(void **state)
 {
     struct pdu_input none = {.socket = 5};
     (void)state;
-    assert_int_equal(pdu_input_open(&none, "none", &error), 0);
+    assert_int_equal(pdu_input_open(&none, "none", 0, &error), 0);
     assert_int_equal(none.socket, -1);
     assert_int_equal(pdu_input_receive(&none, handler, &taken, 77), 0);
-    assert_int_equal(pdu_input_open(&none, "localhost", &error), -1);
+    assert_int_equal(pdu_input_open(&none, "localhost", 0, &error), -1);
     assert_non_null(strstr(error.text, "gateway.listen = \"localhost\""));
-    assert_int_equal(pdu_input_open(&none, "198.51.100.7:3001", &error), -1); /* not of here */
+    assert_int_equal(pdu_input_open(&none, "198.51.100.7:3001", 0, &error), -1); /* not of here */
     assert_non_null(strstr(error.text, "198.51.100.7:3001"));
+}
+
+/* What others send to the group or the broadcast to which we send is not heard everywhere. */
+static void test_what_is_heard(void **state)
+{
+    static const struct {
+        const char *listen, *to;
+        bool heard;
+    } rows[] = {{"127.0.0.1:3000", "127.0.0.1:3000", true},
+                {"127.0.0.1:3000", "239.1.2.3:3000", false},
+                {"239.1.2.3:3000", "239.1.2.3:3000", true},
+                {"239.1.2.3:3001", "239.1.2.3:3000", false},
+                {"0.0.0.0:3000", "239.1.2.3:3000", false},
+                {"127.0.0.1:3000", "127.255.255.255:3000", false},
+                {"127.255.255.255:3000", "127.255.255.255:3000", true},
+                {"0.0.0.0:3000", "127.255.255.255:3000", true}};
+    (void)state;
+    for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        struct udp_address other;
+        assert_int_equal(udp_address_parse(&input.at, rows[i].listen, 0, &error), 0);
+        assert_int_equal(udp_address_parse(&other, rows[i].to, 0, &error), 0);
+        if (pdu_input_hears(&input, &other) != rows[i].heard)
+            fail_msg("%s, %s", rows[i].listen, rows[i].to);
+    }
 }
 
 int main(void)
@@ -192,8 +241,10 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_our_own_come_back, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_other_exercises_are_ignored, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_strangers_are_refused, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_others_with_our_numbers, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_faults_are_counted, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_a_pass_is_bounded, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_what_is_heard, set_up, tear_down),
         cmocka_unit_test(test_addresses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

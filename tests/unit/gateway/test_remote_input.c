@@ -2,6 +2,8 @@
  * its own clock. */
 #include "gateway/remote_input.h"
 
+#include "gateway/remote_notices.h"
+
 #include "gateway/earth/euler.h"
 #include "gateway/pdu/timestamp.h"
 #include "ipc/process/clock.h"
@@ -39,7 +41,7 @@ static void open_input(void)
     input.own = (struct entity_ids){1991, 10, 2};
     input.clamp = true;
     input.timeout_ns = 12 * (uint64_t)NS_PER_S;
-    assert_int_equal(remote_input_open(&input, &f.view, &error), 0);
+    assert_int_equal(remote_input_open(&input, &f.view, now_ns, &error), 0);
 }
 
 static int open_world(void **state)
@@ -220,26 +222,102 @@ static void test_a_gateway_that_starts_anew(void **state)
     remote_input_close(&input);
     open_input();
     pass(0.1);
-    assert_int_equal(input.table.count, 1); /* from the rows */
-    take(&pdu, &other);                     /* whoever comes first is its owner */
+    assert_int_equal(input.table.count, 1);
+    take(&pdu, &other); /* it comes first, and is not the owner by the ring */
+    assert_int_equal(input.refused[REMOTE_INPUT_TWIN], 1);
     take(&pdu, &peer);
-    assert_int_equal(input.refused_twin, 1);
+    assert_int_equal(input.refused[REMOTE_INPUT_TWIN], 1);
     take(&shot, &peer);
     assert_int_equal(input.repeated, 1); /* from the ring */
     pass(0.1);
     assert_int_equal(row_of(5), row);
     assert_int_equal(fixture_event_count(&f, EVENT_DETONATION), 1);
-    /* One that has not heard its owner yet takes its word that the entity is gone. */
     pdu.entity_state.appearance = PDU_APPEARANCE_DEACTIVATED;
-    take(&pdu, &peer); /* this gateway has */
+    take(&pdu, &other); /* only the owner says that it is gone */
     pass(0.1);
     assert_int_equal(row_of(5), row);
     remote_input_close(&input);
     open_input();
     pass(0.1);
+    take(&pdu, &other);
+    pass(0.1);
+    assert_int_equal(row_of(5), row);
     take(&pdu, &peer);
     pass(0.1);
     assert_int_equal(row_of(5), SLOT_NONE);
+}
+
+/* Other entities do not write the owner of one that stands out of the ring. */
+static void test_an_owner_stays_in_the_ring(void **state)
+{
+    struct pdu still = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
+    uint64_t slots = layout_ring_slots(f.view.header, RING_GATEWAY);
+    (void)state;
+    take(&still, &peer);
+    for (uint64_t i = 0; i < 3 * slots; i++) {
+        double x = 25200.0 + 0.1 * (double)(i % 1000);
+        struct pdu pdu = state_of(6, (struct vec3){x, FIXTURE_GROUND_M, 24900.0});
+        take(&pdu, &peer);
+        now_ns += 25 * (uint64_t)NS_PER_MS;
+        pass(0.0);
+        if (i % 100 == 0)
+            take(&still, &peer);
+    }
+    assert_in_range(input.tracks, 3 * slots + 5, 3 * slots + 8);
+    remote_input_close(&input);
+    open_input();
+    pass(0.1);
+    take(&still, &other);
+    assert_int_equal(input.refused[REMOTE_INPUT_TWIN], 1);
+    take(&still, &peer);
+    assert_int_equal(input.refused[REMOTE_INPUT_TWIN], 1);
+}
+
+/* A simulator that starts anew on another port gets what its predecessor no longer sends, before it
+ * has timed out. One on another address does not. */
+static void test_an_owner_that_starts_anew(void **state)
+{
+    struct pdu pdu = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
+    struct udp_address elsewhere;
+    (void)state;
+    assert_int_equal(udp_address_parse(&elsewhere, "127.0.0.2:40000", 0, &error), 0);
+    take(&pdu, &peer);
+    pass(5.9);
+    take(&pdu, &other);
+    assert_int_equal(input.refused[REMOTE_INPUT_TWIN], 1);
+    pass(0.2);
+    take(&pdu, &elsewhere);
+    assert_int_equal(input.refused[REMOTE_INPUT_TWIN], 2);
+    take(&pdu, &other);
+    assert_int_equal(input.refused[REMOTE_INPUT_TWIN], 2);
+    take(&pdu, &peer);
+    assert_int_equal(input.refused[REMOTE_INPUT_TWIN], 3);
+    assert_int_equal(row_of(5), 1);
+}
+
+/* An owner whom nobody knows is who has the entity where it is, for a while. */
+static void test_an_owner_is_told_by_the_place(void **state)
+{
+    struct pdu pdu = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
+    struct pdu far = state_of(5, (struct vec3){27100.0, FIXTURE_GROUND_M, 24900.0});
+    (void)state;
+    take(&pdu, &peer);
+    pass(0.1);
+    remote_input_close(&input);
+    open_input();
+    remote_table_find(&input.table, remote_id(7, 1, 5))->owner = 0;
+    pass(0.1);
+    take(&far, &other);
+    assert_int_equal(input.refused[REMOTE_INPUT_TWIN], 1);
+    take(&pdu, &peer);
+    take(&far, &other);
+    assert_int_equal(input.refused[REMOTE_INPUT_TWIN], 2);
+    remote_input_close(&input);
+    open_input();
+    remote_table_find(&input.table, remote_id(7, 1, 5))->owner = 0;
+    pass(REMOTE_INPUT_GRACE_S);
+    take(&far, &other); /* then whoever comes first */
+    assert_int_equal(input.refused[REMOTE_INPUT_TWIN], 0);
 }
 
 static void test_a_stranger_with_too_many(void **state)
@@ -249,7 +327,7 @@ static void test_a_stranger_with_too_many(void **state)
         struct pdu pdu = state_of(i, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
         take(&pdu, &peer);
     }
-    assert_int_equal(input.refused_full, 996);
+    assert_int_equal(input.refused[REMOTE_INPUT_FULL], 996);
     pass(0.1);
     assert_int_equal(fixture_state(&f).head->vehicles, 5);
     assert_int_equal(fixture_event_count(&f, EVENT_INPUT), 1);
@@ -264,7 +342,7 @@ static void test_places_that_are_none(void **state)
     pass(0.1);
     far = state_of(5, (struct vec3){1000.0, FIXTURE_GROUND_M, 49000.0});
     take(&far, &peer);
-    assert_int_equal(input.refused_jump, 1);
+    assert_int_equal(input.refused[REMOTE_INPUT_JUMP], 1);
     far = state_of(6, (struct vec3){-100.0, FIXTURE_GROUND_M, 24900.0});
     take(&far, &peer);
     far.entity_state.location[0] = far.entity_state.location[1] = far.entity_state.location[2] =
@@ -272,10 +350,32 @@ static void test_places_that_are_none(void **state)
     take(&far, &peer);
     far.entity_state.location[0] = 1e30;
     take(&far, &peer);
-    assert_int_equal(input.refused_place, 3);
+    assert_int_equal(input.refused[REMOTE_INPUT_PLACE], 2);
+    assert_int_equal(input.refused[REMOTE_INPUT_HEIGHT], 1);
     pass(0.1);
     assert_true(fabs(steps_rows(&f).x[1] - 25100.0) < 1e-6);
     assert_int_equal(fixture_state(&f).head->used, 2);
+}
+
+/* Heights of which there is nothing are counted by themselves. */
+static void test_heights_that_are_none(void **state)
+{
+    static const double heights[] = {-40000.0, -1001.0, 50001.0, 1e5};
+    char text[700];
+    (void)state;
+    assert_false(remote_notices_refusals(&input, now_ns));
+    for (unsigned i = 0; i < 4; i++) {
+        struct pdu pdu = state_of(5, (struct vec3){25100.0, heights[i], 24900.0});
+        take(&pdu, &peer);
+        assert_int_equal(input.refused[REMOTE_INPUT_HEIGHT], i + 1);
+    }
+    assert_int_equal(input.refused[REMOTE_INPUT_PLACE], 0);
+    assert_true(remote_notices_text(&input, text, sizeof text));
+    assert_string_equal(text, "4 below -1 km or above 50 km");
+    assert_true(remote_notices_refusals(&input, now_ns)); /* one line of the four */
+    assert_false(remote_notices_refusals(&input, now_ns));
+    pass(0.1);
+    assert_int_equal(row_of(5), SLOT_NONE);
 }
 
 static void test_absurd_motion(void **state)
@@ -318,18 +418,18 @@ static void test_types(void **state)
     (void)state;
     for (uint16_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct pdu pdu = state_of(5, (struct vec3){25100.0, 500.0, 24900.0});
-        uint64_t left_out = input.refused_type;
+        uint64_t left_out = input.refused[REMOTE_INPUT_TYPE];
         pdu.entity_state.type = cases[i].type;
         take(&pdu, &peer);
         take(&pdu, &peer);
-        assert_int_equal(input.refused_type - left_out, cases[i].kind ? 0 : 2);
+        assert_int_equal(input.refused[REMOTE_INPUT_TYPE] - left_out, cases[i].kind ? 0 : 2);
         if (!cases[i].kind)
             continue;
         pass(0.1);
         if (steps_rows(&f).kind[1] != fixture_kind(&f, cases[i].kind))
             fail_msg("case %u is a %s", i, f.view.world.kinds[steps_rows(&f).kind[1]].name);
     }
-    assert_in_range(input.told_count, 5, 10); /* each type once */
+    assert_in_range(input.unknown.count, 5, 10); /* each type once */
 }
 
 static void test_often_told_is_told_seldom(void **state)
@@ -434,7 +534,7 @@ static void test_a_full_ring(void **state)
         remote_input_tell(&input, &f.view, now_ns);
     }
     assert_int_equal(input.tracks, slots); /* the world has not taken one */
-    assert_int_equal(input.refused_ring, 10);
+    assert_int_equal(input.refused[REMOTE_INPUT_RING], 10);
     pass(0.1);
     assert_int_equal(row_of(5), 1);
 }
@@ -473,6 +573,71 @@ static void test_shots(void **state)
     hit.detonation.event.entity = 4;
     take(&hit, &peer);
     assert_int_equal(input.struck, 1);
+}
+
+static struct pdu burst_of(uint16_t target, uint8_t category, struct vec3 at)
+{
+    struct vec3 ecef = local_frame_ecef(&frame, at);
+    struct pdu pdu;
+    memset(&pdu, 0, sizeof pdu);
+    pdu.header.type = PDU_DETONATION;
+    pdu.detonation = (struct pdu_detonation){.firer = {7, 1, 5},
+                                             .target = {target ? 1991 : 0, target ? 10 : 0, target},
+                                             .event = {7, 1, 77},
+                                             .munition_type = {2, 9, 225, category, 14, 2, 0},
+                                             .location = {ecef.x, ecef.y, ecef.z},
+                                             .result = target ? PDU_RESULT_ENTITY_IMPACT
+                                                              : PDU_RESULT_GROUND_IMPACT};
+    return pdu;
+}
+
+/* A number is the same event for a short time, and of the same munition, target and place. */
+static void test_a_number_of_an_event_again(void **state)
+{
+    struct vec3 at = {25500.0, FIXTURE_GROUND_M, 25000.0}, near = at, next = at;
+    struct pdu pdu = burst_of(0, 2, at);
+    (void)state;
+    near.x += 0.9 * SHOT_MEMORY_COPY_M;
+    next.x += 5.0;
+    take(&pdu, &peer);
+    assert_int_equal(input.struck, 1);
+    take(&pdu, &peer);
+    pdu = burst_of(0, 2, near); /* a gateway that starts anew may have it a little elsewhere */
+    take(&pdu, &peer);
+    assert_int_equal(input.struck, 1);
+    assert_int_equal(input.repeated, 2);
+    pdu = burst_of(0, 2, next); /* the next round of a burst */
+    take(&pdu, &peer);
+    assert_int_equal(input.struck, 2);
+    pdu = burst_of(1, 2, at); /* another target */
+    take(&pdu, &peer);
+    assert_int_equal(input.struck, 3);
+    pdu = burst_of(0, 2, at);
+    pdu.detonation.munition_type = (struct pdu_entity_type){2, 2, 225, 2, 13, 1, 0};
+    take(&pdu, &peer); /* another munition */
+    assert_int_equal(input.struck, 4);
+    pdu = burst_of(0, 2, at);
+    pdu.detonation.firer.entity = 6;
+    take(&pdu, &peer); /* of another */
+    assert_int_equal(input.struck, 5);
+    pdu = burst_of(0, 2, at);
+    now_ns += (uint64_t)(SHOT_MEMORY_COPY_S * 1e9) + 1;
+    take(&pdu, &peer); /* so late there are no copies */
+    assert_int_equal(input.struck, 6);
+    assert_int_equal(input.repeated, 2);
+}
+
+/* What the world refuses is counted and told, too. */
+static void test_a_world_that_is_full(void **state)
+{
+    (void)state;
+    assert_false(remote_notices_world(&input, now_ns));
+    remote_input_world_refused(&input, remote_id(7, 1, 5), 3, REMOTE_NO_ROW);
+    remote_input_world_refused(&input, remote_id(7, 1, 6), 1, REMOTE_JUMPS);
+    remote_input_world_refused(&input, remote_id(7, 1, 6), 1, 12345);
+    assert_int_equal(input.world_refused[REMOTE_NO_ROW], 3);
+    assert_true(remote_notices_world(&input, now_ns));
+    assert_false(remote_notices_world(&input, now_ns));
 }
 
 /* How far a round has flown goes by its Fire, or by who fired it. */
@@ -558,13 +723,13 @@ static void test_collisions(void **state)
     take(&pdu, &peer);
     pdu = collision_of(6, -5.0f);
     take(&pdu, &peer);
-    assert_int_equal(input.refused_body, 3);
+    assert_int_equal(input.refused[REMOTE_INPUT_BODY], 3);
     for (uint16_t i = 0; i < REMOTE_INPUT_BODIES + 7; i++) {
         pdu = collision_of((uint16_t)(100 + i), 1.0f);
         pdu.collision.issuer.entity = 6;
         take(&pdu, &peer);
     }
-    assert_int_equal(input.refused_body, 10);
+    assert_int_equal(input.refused[REMOTE_INPUT_BODY], 10);
 }
 
 static void test_a_munition_in_flight(void **state)
@@ -613,7 +778,11 @@ int main(void)
         TEST(test_it_is_lost),
         TEST(test_a_gateway_that_starts_anew),
         TEST(test_a_stranger_with_too_many),
+        TEST(test_an_owner_stays_in_the_ring),
+        TEST(test_an_owner_that_starts_anew),
+        TEST(test_an_owner_is_told_by_the_place),
         TEST(test_places_that_are_none),
+        TEST(test_heights_that_are_none),
         TEST(test_absurd_motion),
         TEST(test_types),
         TEST(test_often_told_is_told_seldom),
@@ -621,6 +790,8 @@ int main(void)
         TEST(test_what_stands_is_told_once),
         TEST(test_a_full_ring),
         TEST(test_shots),
+        TEST(test_a_number_of_an_event_again),
+        TEST(test_a_world_that_is_full),
         TEST(test_how_far_a_round_has_flown),
         TEST(test_collisions),
         TEST(test_a_munition_in_flight),

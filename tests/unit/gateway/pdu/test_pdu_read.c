@@ -155,7 +155,8 @@ static void put_empty(const struct pdu_layout *layout, uint8_t version)
     bytes[2] = layout->type;
     bytes[3] = layout->family;
     octets_put_u16(bytes + 8, layout->bytes);
-    octets_put_u16(bytes + 16, 1);
+    for (unsigned at = 12; at < 18; at += 2) /* a good id */
+        octets_put_u16(bytes + at, 1);
 }
 
 /* Each type has the same octets in each version. The status is that of version 7 alone. */
@@ -301,7 +302,8 @@ static void test_lengths_that_are_too_short(void **state)
         bytes[0] = 6;
         bytes[2] = layout->type;
         bytes[3] = layout->family;
-        octets_put_u16(bytes + 16, 1); /* a good id */
+        for (unsigned at = 12; at < 18; at += 2) /* a good id */
+            octets_put_u16(bytes + at, 1);
         for (uint16_t length = PDU_HEADER_BYTES; length <= layout->bytes; length++) {
             octets_put_u16(bytes + 8, length);
             assert_int_equal(read_one(sizeof bytes > length ? length : 0),
@@ -391,12 +393,19 @@ static void test_a_fault_costs_its_own_pdu(void **state)
 
 static void test_reserved_ids(void **state)
 {
-    static const uint16_t numbers[] = {0, 0xfffe, 0xffff};
+    static const struct {
+        unsigned at;
+        uint16_t number;
+        enum pdu_result result;
+    } rows[] = {{12, 0, PDU_BAD_ID},   {12, 0xffff, PDU_BAD_ID}, {12, 0xfffe, PDU_GOOD},
+                {14, 0, PDU_BAD_ID},   {14, 0xffff, PDU_BAD_ID}, {14, 0xfffe, PDU_GOOD},
+                {16, 0, PDU_BAD_ID},   {16, 0xffff, PDU_BAD_ID}, {16, 0xfffe, PDU_BAD_ID},
+                {16, 0xfffd, PDU_GOOD}};
     (void)state;
-    for (unsigned i = 0; i < 3; i++) {
+    for (unsigned i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         size_t size = put(ENTITY_STATE_7, 0);
-        octets_put_u16(bytes + 16, numbers[i]);
-        assert_int_equal(read_one(size), PDU_BAD_ID);
+        octets_put_u16(bytes + rows[i].at, rows[i].number);
+        assert_int_equal(read_one(size), rows[i].result);
     }
 }
 
