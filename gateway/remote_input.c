@@ -37,10 +37,10 @@
 static void note_old_shot(struct remote_input *input, const struct remote_record *record,
                           uint64_t now_ns)
 {
-    struct shot shot = shot_memory_of(record, now_ns);
+    struct told_event shot = event_memory_of(record, now_ns);
     shot.placed = record->type == REMOTE_FIRE || record->entity == 0; /* else it is in a body */
     shot.place = (struct vec3){record->position[0], record->position[1], record->position[2]};
-    shot_memory_note(&input->heard, &shot);
+    event_memory_note(&input->heard, &shot);
 }
 
 /* It has left who owns the entities, too. An entity without a row is forgotten soon. */
@@ -392,10 +392,10 @@ static void put_shot(struct remote_input *input, struct view *view,
                      const struct remote_record *record, const struct vec3 *place, uint64_t now_ns)
 {
     struct command slot = remote_record_slot(record);
-    struct shot shot = shot_memory_of(record, now_ns);
+    struct told_event shot = event_memory_of(record, now_ns);
     shot.placed = place != NULL;
     shot.place = place ? *place : (struct vec3){0};
-    if (shot_memory_has(&input->heard, &shot)) {
+    if (event_memory_has(&input->heard, &shot)) {
         input->repeated++;
         return;
     }
@@ -407,7 +407,7 @@ static void put_shot(struct remote_input *input, struct view *view,
         input->refused[REMOTE_INPUT_RING]++;
         return;
     }
-    shot_memory_note(&input->heard, &shot);
+    event_memory_note(&input->heard, &shot);
     if (record->type == REMOTE_FIRE)
         input->fires++;
     else
@@ -444,7 +444,7 @@ static void take_fire(struct remote_input *input, struct view *view, const struc
 static double flown_of(const struct remote_input *input, uint64_t event, uint64_t firer,
                        struct vec3 to, uint64_t now_ns)
 {
-    const struct shot *fire = shot_memory_fire(&input->heard, event, firer, now_ns);
+    const struct told_event *fire = event_memory_fire(&input->heard, event, firer, now_ns);
     const struct remote_entry *entry = firer ? remote_table_find(&input->table, firer) : NULL;
     if (fire)
         return vec3_length(vec3_sub(to, fire->place));

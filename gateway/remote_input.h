@@ -11,7 +11,7 @@
 #include "gateway/earth/local_frame.h"
 #include "gateway/entity_ids.h"
 #include "gateway/remote_table.h"
-#include "gateway/shot_memory.h"
+#include "gateway/event_memory.h"
 #include "gateway/type_notices.h"
 #include "gateway/type_table.h"
 #include "ipc/process/rate.h"
@@ -60,7 +60,7 @@ struct remote_input {
     uint64_t timeout_ns;
     struct remote_table table;
     struct rate shots;
-    struct shot_memory heard;
+    struct event_memory heard;
     struct {
         uint64_t remote, heard_ns;
         uint32_t stamp;

@@ -597,7 +597,7 @@ static void test_a_number_of_an_event_again(void **state)
     struct vec3 at = {25500.0, FIXTURE_GROUND_M, 25000.0}, near = at, next = at;
     struct pdu pdu = burst_of(0, 2, at);
     (void)state;
-    near.x += 0.9 * SHOT_MEMORY_COPY_M;
+    near.x += 0.9 * EVENT_MEMORY_COPY_M;
     next.x += 5.0;
     take(&pdu, &peer);
     assert_int_equal(input.struck, 1);
@@ -621,7 +621,7 @@ static void test_a_number_of_an_event_again(void **state)
     take(&pdu, &peer); /* of another */
     assert_int_equal(input.struck, 5);
     pdu = burst_of(0, 2, at);
-    now_ns += (uint64_t)(SHOT_MEMORY_COPY_S * 1e9) + 1;
+    now_ns += (uint64_t)(EVENT_MEMORY_COPY_S * 1e9) + 1;
     take(&pdu, &peer); /* so late there are no copies */
     assert_int_equal(input.struck, 6);
     assert_int_equal(input.repeated, 2);

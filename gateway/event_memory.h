@@ -3,25 +3,25 @@
  * where a round was fired. Events have 16 bits a simulation, simulations that start anew count from
  * the beginning again, and a burst may have one number for all its rounds. So a number is the same
  * event only for a short time, and only of the same munition, target and place. One thread. */
-#ifndef JOLON_GATEWAY_SHOT_MEMORY_H
-#define JOLON_GATEWAY_SHOT_MEMORY_H
+#ifndef JOLON_GATEWAY_EVENT_MEMORY_H
+#define JOLON_GATEWAY_EVENT_MEMORY_H
 
 #include "world/entity/remote.h"
 #include "world/maths/maths.h"
 
 #include <stdbool.h>
 
-#define SHOT_MEMORY_EVENTS 4096u /* a power of two */
+#define EVENT_MEMORY_EVENTS 4096u /* a power of two */
 
 /* A copy comes within this time [s], and is of a place at most this far away [m]. A gateway that
  * was killed tells its last events again when it has started: within some seconds. */
-#define SHOT_MEMORY_COPY_S 5.0
-#define SHOT_MEMORY_COPY_M 1.0
+#define EVENT_MEMORY_COPY_S 5.0
+#define EVENT_MEMORY_COPY_M 1.0
 
 /* No munition is in flight for longer [s]. */
-#define SHOT_MEMORY_FLIGHT_S 300.0
+#define EVENT_MEMORY_FLIGHT_S 300.0
 
-struct shot {
+struct told_event {
     uint64_t event; /* remote_id() of the event and more; 0: it has no number */
     uint64_t firer; /* remote_id() */
     uint32_t type;  /* enum remote_type */
@@ -32,21 +32,21 @@ struct shot {
     uint64_t heard_ns;
 };
 
-struct shot_memory {
-    struct shot shot[SHOT_MEMORY_EVENTS];
+struct event_memory {
+    struct told_event shot[EVENT_MEMORY_EVENTS];
     uint32_t count; /* that were ever noted */
 };
 
 /* Returns what a record says of a shot, without its place. */
-struct shot shot_memory_of(const struct remote_record *record, uint64_t now_ns);
+struct told_event event_memory_of(const struct remote_record *record, uint64_t now_ns);
 
-void shot_memory_note(struct shot_memory *memory, const struct shot *shot);
+void event_memory_note(struct event_memory *memory, const struct told_event *shot);
 
 /* Returns true if the shot has come before. */
-bool shot_memory_has(const struct shot_memory *memory, const struct shot *shot);
+bool event_memory_has(const struct event_memory *memory, const struct told_event *shot);
 
 /* Returns the last FIRE of an event by this firer, NULL when none is remembered. */
-const struct shot *shot_memory_fire(const struct shot_memory *memory, uint64_t event,
-                                    uint64_t firer, uint64_t now_ns);
+const struct told_event *event_memory_fire(const struct event_memory *memory, uint64_t event,
+                                           uint64_t firer, uint64_t now_ns);
 
 #endif
