@@ -332,8 +332,14 @@ double time_of_impact_gap(const struct swept_body *a, const struct swept_body *b
     return least_gap(a, b, time, INFINITY);
 }
 
+double time_of_impact_gap_up_to(const struct swept_body *a, const struct swept_body *b, double time,
+                                double most_m)
+{
+    return least_gap(a, b, time, most_m + GJK_OVERLAP_M);
+}
+
 bool time_of_impact_within(const struct swept_body *a, const struct swept_body *b, double time,
                            double gap_m)
 {
-    return least_gap(a, b, time, gap_m + GJK_OVERLAP_M) <= gap_m;
+    return time_of_impact_gap_up_to(a, b, time, gap_m) <= gap_m;
 }

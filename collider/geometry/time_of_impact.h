@@ -79,6 +79,10 @@ bool time_of_impact_excluded(const struct swept_body *a, const struct swept_body
 /* Returns the gap between the bodies at a time [m], 0 if they overlap. */
 double time_of_impact_gap(const struct swept_body *a, const struct swept_body *b, double time);
 
+/* Returns that gap if it is at most most_m [m, >= 0], else a greater number. Costs less. */
+double time_of_impact_gap_up_to(const struct swept_body *a, const struct swept_body *b, double time,
+                                double most_m);
+
 /* Returns true if that gap is at most gap_m [m, >= 0]. Costs less than finding it. */
 bool time_of_impact_within(const struct swept_body *a, const struct swept_body *b, double time,
                            double gap_m);

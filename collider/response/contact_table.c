@@ -232,7 +232,8 @@ static double reach_of(const struct response_context *context, uint32_t side)
                : pair_filter_row_reach(&context->input.detect, side);
 }
 
-/* Returns how far the bodies are apart at the end of the frame, below 0 if they overlap [m]. */
+/* Returns how far the bodies are apart at the end of the frame, below 0 if they overlap [m]. Beyond
+ * the gap at which a contact ends it says only that. */
 static double gap_at_end(const struct response_context *context,
                          const struct persistent_contact *contact)
 {
@@ -242,7 +243,7 @@ static double gap_at_end(const struct response_context *context,
     struct swept_body body_a = body_motion_standing(motion, e, a);
     struct swept_body body_b = body_motion_standing(motion, e, b);
     struct vec3 between = vec3_sub(body_b.path.at, body_a.path.at);
-    return motion->models ? time_of_impact_gap(&body_a, &body_b, 0.0)
+    return motion->models ? time_of_impact_gap_up_to(&body_a, &body_b, 0.0, CONTACT_TABLE_PARTED_M)
                           : vec3_length(between) - reach_of(context, a) - reach_of(context, b);
 }
 

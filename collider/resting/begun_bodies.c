@@ -4,10 +4,13 @@
 #include "collider/motion/pair_filter.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
+#include "world/runtime/thread_pool.h"
 #include "world/world.h"
 
 #include <errno.h>
 #include <stdlib.h>
+
+#define ROWS_A_PIECE 16u
 
 int begun_bodies_init(struct begun_bodies *bodies, const struct world *world)
 {
@@ -30,24 +33,46 @@ void begun_bodies_free(struct begun_bodies *bodies)
     *bodies = (struct begun_bodies){0};
 }
 
-void begun_bodies_find(struct begun_bodies *bodies, struct body_motion *motion, uint32_t row)
+void begun_bodies_list(struct begun_bodies *bodies, uint32_t row)
 {
-    struct begun_body *body = &bodies->body[row];
-    if (bodies->known[row])
-        return;
-    body_motion_note_poses(motion, row);
-    body->body = body_motion_body(motion, row, &body->turn);
-    body->began = level_gap_turn(&body->body, 0.0);
-    body->rate = rotation_rate(body->body.from, body->body.to);
+    if (!bodies->known[row])
+        bodies->row[bodies->count++] = row;
     bodies->known[row] = 1;
-    bodies->row[bodies->count++] = row;
+}
+
+struct job {
+    struct begun_bodies *bodies;
+    struct body_motion *motion;
+    uint32_t first; /* of the listed rows */
+};
+
+static void find_some(void *context, uint32_t first, uint32_t end, uint32_t worker)
+{
+    const struct job *job = context;
+    (void)worker;
+    for (uint32_t i = job->first + first; i < job->first + end; i++) {
+        uint32_t row = job->bodies->row[i];
+        struct begun_body *body = &job->bodies->body[row];
+        body_motion_note_poses(job->motion, row);
+        body->body = body_motion_body(job->motion, row, &body->turn);
+        body->began = level_gap_turn(&body->body, 0.0);
+        body->rate = rotation_rate(body->body.from, body->body.to);
+    }
+}
+
+void begun_bodies_find(struct begun_bodies *bodies, struct body_motion *motion,
+                       struct thread_pool *workers)
+{
+    struct job job = {bodies, motion, bodies->found};
+    thread_pool_run(workers, find_some, &job, bodies->count - bodies->found, ROWS_A_PIECE);
+    bodies->found = bodies->count;
 }
 
 void begun_bodies_forget(struct begun_bodies *bodies)
 {
     for (uint32_t i = 0; i < bodies->count; i++)
         bodies->known[bodies->row[i]] = 0;
-    bodies->count = 0;
+    bodies->count = bodies->found = 0;
 }
 
 const struct begun_body *begun_bodies_side(const struct begun_bodies *bodies,

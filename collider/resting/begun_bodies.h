@@ -7,6 +7,7 @@
 #include "collider/motion/body_motion.h"
 
 struct world;
+struct thread_pool;
 
 struct begun_body {
     struct swept_body body; /* on its path */
@@ -19,15 +20,19 @@ struct begun_bodies {
     struct begun_body *body; /* [capacity of the world] */
     uint8_t *known;          /* [capacity of the world] 1: the row's body has been found */
     uint32_t *row;           /* the rows of which it has */
-    uint32_t count;
+    uint32_t count, found;   /* rows, and those of which the body has been found */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */
 int begun_bodies_init(struct begun_bodies *bodies, const struct world *world);
 void begun_bodies_free(struct begun_bodies *bodies);
 
-/* Finds the row's body on its present path, unless it is known. One thread. */
-void begun_bodies_find(struct begun_bodies *bodies, struct body_motion *motion, uint32_t row);
+/* Lists a row whose body has to be found, unless it is known. One thread. */
+void begun_bodies_list(struct begun_bodies *bodies, uint32_t row);
+
+/* Finds the bodies of the listed rows on their present paths, on all workers (NULL: one thread). */
+void begun_bodies_find(struct begun_bodies *bodies, struct body_motion *motion,
+                       struct thread_pool *workers);
 
 /* Forgets all: paths change. */
 void begun_bodies_forget(struct begun_bodies *bodies);

@@ -21,6 +21,7 @@
 #define EXACT_M        1e-8 /* error of a depth: less is no deepening of a greater depth */
 #define SINKS_M        0.02 /* as deep may a wreck at rest be in the ground */
 #define PAIRS_A_PIECE  8u
+#define ROWS_A_PIECE   16u
 #define SENT_BACK_HALF 3u /* so often a row goes back by half, the next time all the way */
 #define SENT_BACK_MOST 5u /* aircraft that go together go back among themselves before */
 
@@ -111,19 +112,23 @@ static bool goes_straight_back(const struct end_guard *guard,
            context->motion->change[row] == 0 && vec3_dot(drift, drift) == 0.0;
 }
 
-/* Finds out how the row stands at the frame's end, if that is not known. */
+/* Lists a row of which it has to be found out how it stands at the frame's end. */
+static void list_pose(struct end_guard *guard, uint32_t row)
+{
+    if (!guard->posed[row])
+        guard->posed_row[guard->posed_count++] = row;
+    guard->posed[row] = 1;
+}
+
+/* Finds out how a row stands at the frame's end. */
 static void stand_at_end(struct end_guard *guard, const struct response_context *context,
                          uint32_t row)
 {
     struct placed_body *stands = &guard->stands[row];
-    if (guard->posed[row])
-        return;
     stand_now(guard, context, row);
     stands->way_m = goes_straight_back(guard, context, row)
                         ? vec3_length(stands->moved) + stands->turned_m
                         : INFINITY;
-    guard->posed_row[guard->posed_count++] = row;
-    guard->posed[row] = 1;
 }
 
 /* Returns the gap of two bodies: below 0 if they overlap, else 0 [m]. Spheres and the plane between
@@ -352,18 +357,17 @@ static void mark(struct end_guard *guard, const struct response_context *context
 }
 
 /* Lists a pair to be measured in this round. */
-static void add_pair(struct end_guard *guard, const struct response_context *context,
-                     uint32_t index)
+static void add_pair(struct end_guard *guard, const struct contact_queue *contacts, uint32_t index)
 {
-    const struct pair *pair = &context->contacts->pair[index];
+    const struct pair *pair = &contacts->pair[index];
     if (guard->pair_count == guard->pair_capacity) {
         uint32_t more = 2 * guard->pair_capacity + 1;
         guard->pair = reserve_grow(guard->pair, guard->pair_count, more, sizeof *guard->pair);
         guard->pair_capacity = more;
     }
-    stand_at_end(guard, context, pair->a);
+    list_pose(guard, pair->a);
     if (!(pair->b & PAIR_FIXED))
-        stand_at_end(guard, context, pair->b);
+        list_pose(guard, pair->b);
     guard->pair[guard->pair_count++] = (struct guard_pair){.pair = index};
 }
 
@@ -383,14 +387,23 @@ static void add_pairs_of(struct end_guard *guard, const struct response_context 
         if (fixed ? !contact_groups_is_wall(context, other & ~PAIR_FIXED)
                   : (guard->listed[other] && other < row) || !guarded(context, other))
             continue;
-        add_pair(guard, context, index);
+        add_pair(guard, contacts, index);
     }
 }
 
 struct round {
     struct end_guard *guard;
     const struct response_context *context;
+    uint32_t posed; /* listed rows that were known before */
 };
+
+static void stand_some(void *argument, uint32_t first, uint32_t end, uint32_t worker)
+{
+    const struct round *round = argument;
+    (void)worker;
+    for (uint32_t i = round->posed + first; i < round->posed + end; i++)
+        stand_at_end(round->guard, round->context, round->guard->posed_row[i]);
+}
 
 /* Measures pairs first .. end - 1. */
 static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t worker)
@@ -427,13 +440,15 @@ static void mark_deeper(struct end_guard *guard, const struct response_context *
  * next. */
 static void run_round(struct end_guard *guard, struct response_context *context)
 {
+    struct round round = {guard, context, guard->posed_count};
     guard->back_count = guard->pair_count = 0;
     for (uint32_t i = 0; i < guard->count; i++) {
         if (guarded(context, guard->row[i]))
             add_pairs_of(guard, context, guard->row[i]);
     }
-    thread_pool_run(guard->workers, measure_some, &(struct round){guard, context},
-                    guard->pair_count, PAIRS_A_PIECE);
+    thread_pool_run(guard->workers, stand_some, &round, guard->posed_count - round.posed,
+                    ROWS_A_PIECE);
+    thread_pool_run(guard->workers, measure_some, &round, guard->pair_count, PAIRS_A_PIECE);
     mark_deeper(guard, context);
     for (uint32_t i = 0; i < guard->count; i++)
         guard->listed[guard->row[i]] = 0;

@@ -114,10 +114,11 @@ static void measure(struct resting *resting, const struct response_context *cont
     make_room(resting, context->world, first, resting->groups.count);
     for (uint32_t i = first; i < resting->groups.count; i++) {
         const struct pair *pair = &resting->groups.pair[i];
-        begun_bodies_find(&resting->begun, context->motion, pair->a);
+        begun_bodies_list(&resting->begun, pair->a);
         if (!(pair->b & PAIR_FIXED))
-            begun_bodies_find(&resting->begun, context->motion, pair->b);
+            begun_bodies_list(&resting->begun, pair->b);
     }
+    begun_bodies_find(&resting->begun, context->motion, resting->workers);
     thread_pool_run(resting->workers, measure_some, &job, resting->groups.count - first,
                     PAIRS_A_PIECE);
     for (uint32_t i = first; i < resting->groups.count; i++) {

@@ -97,6 +97,8 @@ static void test_they_do_not_reach_each_other_in_the_frame(void **state)
     assert_true(time_of_impact_excluded(&a, &b, 0.0));
     assert_true(time_of_impact_within(&a, &b, 1.0, 0.0101));
     assert_false(time_of_impact_within(&a, &b, 1.0, 0.0099));
+    assert_true(time_of_impact_gap_up_to(&a, &b, 1.0, 0.0101) == time_of_impact_gap(&a, &b, 1.0));
+    assert_true(time_of_impact_gap_up_to(&a, &b, 1.0, 0.0099) > 0.0099);
 }
 
 static void test_a_path_that_began_in_mid_frame(void **state)
