@@ -81,7 +81,7 @@ bool remote_notices_world(void *subject, uint64_t now_ns)
             (void)snprintf(more, sizeof more, " (world.capacity = %u)", input->world_capacity);
         int length =
             snprintf(text + at, sizeof text - at, "%s%" PRIu64 " because: %s%s", at > 0 ? ", " : "",
-                     input->world_refused[i], remote_refusal_name(i), more);
+                     input->world_refused[i], remote_refusal_name((enum remote_refusal)i), more);
         at += length > 0 ? (size_t)length : 0;
     }
     log_warn("the world has refused so far: %s; the last is %u:%u:%u", text,

@@ -37,7 +37,8 @@ enum remote_type {
 struct remote_record {
     uint64_t sequence; /* as in struct command */
     uint64_t remote;   /* remote_id() of the entity; STRUCK: of the firer or of the body, 0: none */
-    uint64_t event;    /* FIRE, STRUCK: remote_id() of the event */
+    uint64_t event;    /* FIRE, STRUCK: remote_id() of the event. TRACK: a number of who sent it,
+                          for a gateway that starts anew; it means nothing to the world */
     uint32_t type;     /* enum remote_type */
     uint32_t slot;     /* where the sender has seen the entity's row; SLOT_NONE: nowhere */
     union {
