@@ -34,6 +34,11 @@
 #define SETTLE_AIR_S 1.2
 #define SETTLE_SEA_S 6.0
 
+/* A driver who travels corrects the course and the speed only when they are further off than this.
+ * So a decision that confirms them leaves the controls as they are. */
+#define COURSE_OFF_RAD 0.005 /* 5 m beside a goal a kilometre ahead */
+#define SPEED_OFF      0.01f /* of full speed */
+
 static uint32_t after(const struct step_context *context, double seconds)
 {
     return (uint32_t)(context->tick + (uint64_t)(seconds / context->dt_s));
@@ -324,6 +329,14 @@ static float throttle_for(const struct kind *kind, const struct desired_motion *
     return (float)(desired->speed_mps / maths_max(kind->max_speed_mps, 1e-9));
 }
 
+/* Returns true if a land vehicle is on its way, and neither fights nor has to stop at a place. */
+static bool travels(const struct entities *m, uint32_t i, const struct kind *kind)
+{
+    return kind->domain == DOMAIN_LAND &&
+           (m->behaviour[i] == BEHAVIOUR_PATROL || m->behaviour[i] == BEHAVIOUR_ROUTE ||
+            m->behaviour[i] == BEHAVIOUR_WITHDRAW);
+}
+
 /* Sets the steering so that the turn is complete at its next decision. The climb of an agent is its
  * height over the usual one, less 1. */
 static void set_controls(const struct step_context *context, uint32_t i, const struct kind *kind,
@@ -333,8 +346,13 @@ static void set_controls(const struct step_context *context, uint32_t i, const s
     double time_s = maths_max(context->dt_s * (double)context->think_frames, settle_s(kind));
     double turn = kind->turn_rate_rps * time_s;
     double off = maths_wrap_half(desired->heading_rad - m->heading[i]);
+    float throttle = throttle_for(kind, desired);
+    bool holds = travels(m, i, kind) && throttle != 0.0f;
+    if (holds && fabs(off) <= COURSE_OFF_RAD)
+        off = 0.0;
     m->steer[i] = (float)maths_clamp(off / maths_max(turn, 1e-9), -1.0, 1.0);
-    m->throttle[i] = throttle_for(kind, desired);
+    if (!holds || fabsf(throttle - m->throttle[i]) > SPEED_OFF)
+        m->throttle[i] = throttle;
     m->climb[i] =
         (float)maths_clamp(desired->altitude_m / maths_max(kind->cruise_altitude_m, 1e-9) - 1.0,
                            -1.0, 1.0) *

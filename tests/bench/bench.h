@@ -24,8 +24,9 @@ const char *bench_mode_word(enum bench_mode mode);
 
 struct bench_options {
     uint32_t vehicles, threads, frames;
-    int mode;       /* enum bench_mode */
-    uint32_t burst; /* bombs */
+    int mode;        /* enum bench_mode */
+    uint32_t burst;  /* bombs */
+    uint32_t settle; /* frames before those that are measured */
     bool json, peers, agents, driven, gl, beside, all;
     struct option_size size; /* of one picture */
     double seconds;

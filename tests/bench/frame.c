@@ -27,9 +27,16 @@ struct times {
     uint32_t frames;
 };
 
-/* The controls of each row in the last frame: while they are the same, its motion is. */
+/* The controls and the course of each row in the last frame. While its controls are the same, its
+ * motion is. While its course is too, it goes straight on at a constant speed, or rests. */
 struct controls {
     float throttle, steer, climb;
+    double heading, vx, vz;
+};
+
+/* Rows whose controls have changed, and rows whose course has not. */
+struct changes {
+    double controls, steady;
 };
 
 struct result {
@@ -38,6 +45,7 @@ struct result {
     double second_ms, second_worst_ms; /* frames of the first simulated second: sum and worst */
     double woken;                      /* rows moved in a frame, median */
     double motion_frames;              /* for which a vehicle's controls stay the same, mean */
+    double steady; /* share of the rows that keep heading and level velocity in a frame, percent */
 };
 
 struct burst {
@@ -60,20 +68,22 @@ static void begin(struct frame_stepper *stepper, struct view *view, uint32_t thr
         die_refused("cannot begin: %s", strerror(errno));
 }
 
-/* Returns how many vehicles have other controls than before, and notes these. */
-static double count_changes(const struct frame_stepper *stepper, struct controls *controls)
+/* Adds what has changed since the rows were noted, and notes them. */
+static void count_changes(const struct frame_stepper *stepper, struct controls *controls,
+                          struct changes *changes)
 {
     const struct state *state = &stepper->view->w[frame_stepper_frame(stepper) & 1];
     const struct entities *e = &state->entities;
-    double count = 0.0;
     for (uint32_t i = 0; i < state->head->used; i++) {
-        const struct controls now = {e->throttle[i], e->steer[i], e->climb[i]};
+        const struct controls now = {e->throttle[i], e->steer[i], e->climb[i],
+                                     e->heading[i],  e->vx[i],    e->vz[i]};
         const struct controls *before = &controls[i];
-        count += before->throttle != now.throttle || before->steer != now.steer ||
-                 before->climb != now.climb;
+        changes->controls += before->throttle != now.throttle || before->steer != now.steer ||
+                             before->climb != now.climb;
+        changes->steady +=
+            before->heading == now.heading && before->vx == now.vx && before->vz == now.vz;
         controls[i] = now;
     }
-    return count;
 }
 
 static void run(struct frame_stepper *stepper, const struct times *times)
@@ -93,22 +103,25 @@ static void run(struct frame_stepper *stepper, const struct times *times)
     }
 }
 
-/* Returns the mean life of a motion [frame]. Runs MOTION_FRAMES frames, which are not timed,
- * because looking at the rows between two frames would slow them. */
-static double motion_frames(struct frame_stepper *stepper)
+/* Finds the mean life of a motion, and how many rows go on as they did. Runs MOTION_FRAMES frames,
+ * which are not timed, because looking at the rows between two frames would slow them. */
+static void find_motions(struct frame_stepper *stepper, struct result *result)
 {
     const struct state *state = &stepper->view->w[frame_stepper_frame(stepper) & 1];
-    double rows = state->head->used, changes = 0.0;
+    double rows = state->head->used * (double)MOTION_FRAMES;
     struct controls *controls = calloc(stepper->view->world.params->capacity, sizeof *controls);
+    struct changes changes = {0};
     if (!controls)
         die_refused("out of memory");
-    count_changes(stepper, controls);
+    count_changes(stepper, controls, &changes);
+    changes = (struct changes){0};
     for (uint32_t i = 0; i < MOTION_FRAMES; i++) {
         frame_stepper_step(stepper, NULL);
-        changes += count_changes(stepper, controls);
+        count_changes(stepper, controls, &changes);
     }
     free(controls);
-    return rows * MOTION_FRAMES / (changes > 0.0 ? changes : 1.0);
+    result->motion_frames = rows / (changes.controls > 0.0 ? changes.controls : 1.0);
+    result->steady = 100.0 * changes.steady / rows;
 }
 
 /* Sorts the times. */
@@ -134,7 +147,7 @@ static void run_burst(struct view *view, const struct bench_options *options,
                       const struct times *times, struct burst *burst)
 {
     struct frame_stepper stepper;
-    burst->rows = view->w[options->frames & 1].head->used;
+    burst->rows = view->w[(options->settle + options->frames) & 1].head->used;
     burst_drop(view, options->burst);
     begin(&stepper, view, options->threads);
     for (uint32_t munitions = 1; munitions > 0; burst->frames++) {
@@ -177,11 +190,12 @@ static void print_json(const struct bench_options *options, const struct result 
     printf("{\"vehicles\":%u,\"mode\":\"%s\",\"threads\":%u,\"frames\":%u,\"mover_ms\":%.6f,"
            "\"collider_ms\":%.6f,\"frame_ms\":%.6f,\"frame_p99_ms\":%.6f,\"cpu_ms\":%.6f,"
            "\"first_ms\":%.6f,\"first_cpu_ms\":%.6f,\"second_ms\":%.6f,\"second_worst_ms\":%.6f,"
-           "\"woken\":%.0f,\"motion_frames\":%.1f,",
+           "\"woken\":%.0f,\"motion_frames\":%.1f,\"steady\":%.1f,",
            options->vehicles, bench_mode_word((enum bench_mode)options->mode), options->threads,
            options->frames, result->mover_ms, result->collider_ms, result->frame_ms,
            result->slow_ms, result->cpu_ms, result->first_ms, result->first_cpu_ms,
-           result->second_ms, result->second_worst_ms, result->woken, result->motion_frames);
+           result->second_ms, result->second_worst_ms, result->woken, result->motion_frames,
+           result->steady);
     if (options->burst > 0)
         printf("\"burst\":%u,\"burst_frames\":%u,\"burst_worst_ms\":%.6f,\"after_ms\":%.6f,"
                "\"after_cpu_ms\":%.6f,\"rows\":%u,\"rows_after\":%u,",
@@ -234,10 +248,12 @@ int bench_frame(struct bench_options options)
                                 values + 4 * frames,
                                 options.frames};
     begin(&stepper, &view, options.threads);
+    for (uint32_t i = 0; i < options.settle; i++)
+        frame_stepper_step(&stepper, NULL);
     run(&stepper, &times);
-    const struct counters tally = view.w[options.frames & 1].head->tally;
+    const struct counters tally = view.w[frame_stepper_frame(&stepper) & 1].head->tally;
     struct result result = result_of(&times, world_dt_s(&view.world));
-    result.motion_frames = motion_frames(&stepper);
+    find_motions(&stepper, &result);
     frame_stepper_free(&stepper);
     if (options.burst > 0)
         run_burst(&view, &options, &times, &burst);

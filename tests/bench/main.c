@@ -32,9 +32,10 @@ static const struct bench {
      {.size = {1280, 720}, .frames = 120}},
     {"frame",
      bench_frame,
-     "[--vehicles N] [--mode MODE] [--agents] [--driven] [--burst N] [--threads T] [--frames F] "
-     "[--json]     the steps of a frame; MODE: scenario, idle, patrol, war or dense; --agents: as "
-     "--mode war; --driven: all land vehicles on their springs; --burst: again after N bombs",
+     "[--vehicles N] [--mode MODE] [--agents] [--driven] [--burst N] [--settle F] [--threads T] "
+     "[--frames F] [--json]     the steps of a frame; MODE: scenario, idle, patrol, war or dense; "
+     "--agents: as --mode war; --driven: all land vehicles on their springs; --burst: again after "
+     "N bombs; --settle: after F frames",
      {.vehicles = BENCH_SCENARIO_VEHICLES, .threads = 1, .frames = 1200}},
     {"heap",
      bench_heap,
@@ -75,6 +76,7 @@ static const struct option_row rows[] = {
     {"frames", "F", NULL, .u32 = &given.frames, .least = 1, .most = 10000000},
     {"mode", BENCH_MODE_WORDS, NULL, .choice = &given.mode},
     {"burst", "N", NULL, .u32 = &given.burst, .most = 500000},
+    {"settle", "F", NULL, .u32 = &given.settle, .most = 1000000},
     {"size", "WxH", NULL, .size = &given.size, .least = 64, .most = 4096},
     {"seconds", "S", NULL, .real = &given.seconds, .high = 3600.0},
     {"follow", "ID", NULL, .u32 = &given.follow, .most = UINT32_MAX},

@@ -376,6 +376,38 @@ static void test_a_patrol_stays_in_its_area(void **state)
     assert_true(way > 12 * 1000.0);
 }
 
+/* A tank and a jeep drive to goals that are far from their headings. */
+static void test_a_decision_that_confirms_the_course_leaves_the_controls(void **state)
+{
+    static const char *const kinds[] = {"tank", "jeep"};
+    (void)state;
+    for (size_t n = 0; n < sizeof kinds / sizeof kinds[0]; n++) {
+        double from_z = 25000.0 + 500.0 * (double)n;
+        uint32_t row = put(kinds[n], 25000.0, from_z, FORCE_BLUE, BEHAVIOUR_PATROL);
+        struct entities e = steps_rows(&f);
+        e.goal_x[row] = 27000.0;
+        e.goal_z[row] = from_z + 1000.0;
+        fixture_run(&f, (uint32_t)(15.0 * HZ)); /* it turns */
+        e = steps_rows(&f);
+        const float throttle = e.throttle[row];
+        const double heading = e.heading[row];
+        assert_true(throttle > 0.7f);
+        for (uint32_t frame = 0; frame < (uint32_t)(30.0 * HZ); frame++) {
+            fixture_run(&f, 1);
+            e = steps_rows(&f);
+            assert_true(e.steer[row] == 0.0f && e.throttle[row] == throttle);
+            assert_true(e.heading[row] == heading);
+        }
+        double beside = 0.5 * (e.x[row] - 25000.0) - (e.z[row] - from_z);
+        assert_true(fabs(beside) < 10.0);
+        for (uint32_t frame = 0; e.goal_x[row] == 27000.0; frame++) { /* and it arrives */
+            assert_true(frame < (uint32_t)(200.0 * HZ));
+            fixture_run(&f, 1);
+            e = steps_rows(&f);
+        }
+    }
+}
+
 static const char route_text[] = "world = { seed = 1; capacity = 64; hz = 20.0; };\n"
                                  "vehicles = ( { kind = \"jeep\"; at = [25000.0, 25000.0];\n"
                                  "  route = ( [25200.0, 25000.0], [25200.0, 25200.0], [25000.0, "
@@ -444,6 +476,7 @@ int main(void)
         TEST(test_fire_at_will_sees_an_enemy_in_range_and_none_beyond),
         TEST(test_fire_at_will_takes_the_nearest_living_enemy),
         TEST(test_a_patrol_stays_in_its_area),
+        TEST(test_a_decision_that_confirms_the_course_leaves_the_controls),
         TEST(test_a_route_is_driven_in_its_order_again_and_again),
         TEST(test_an_interrupted_route_goes_on_to_the_point_it_was_heading_for),
     };
