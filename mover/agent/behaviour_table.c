@@ -244,14 +244,32 @@ const struct behaviour_table behaviour_tables[DOCTRINE_COUNT] = {
     [DOCTRINE_FLAK] = TABLE(flak, MANNER_STAND_OFF, 0.8, RESUPPLY_S),
 };
 
+static bool applies(const struct behaviour_table_row *row, uint32_t percepts)
+{
+    return (percepts & row->when) == row->when && !(percepts & row->unless);
+}
+
 const struct behaviour_table_row *behaviour_table_next(const struct behaviour_table *table,
                                                        enum behaviour behaviour, uint32_t percepts)
 {
     for (uint32_t n = 0; n < table->rows; n++) {
         const struct behaviour_table_row *row = &table->row[n];
-        if ((row->from >> behaviour & 1u) && (percepts & row->when) == row->when &&
-            !(percepts & row->unless))
+        if ((row->from >> behaviour & 1u) && applies(row, percepts))
             return row;
     }
     return NULL;
+}
+
+bool behaviour_table_differs(const struct behaviour_table *table, enum behaviour behaviour,
+                             uint32_t percepts, uint32_t also)
+{
+    for (uint32_t n = 0; n < table->rows; n++) {
+        const struct behaviour_table_row *row = &table->row[n];
+        if (!(row->from >> behaviour & 1u) || ((percepts | also) & row->when) != row->when)
+            continue; /* it applies neither way */
+        bool without = applies(row, percepts), with = applies(row, percepts | also);
+        if (without || with)
+            return without != with;
+    }
+    return false;
 }

@@ -9,6 +9,7 @@
 #include "world/entity/event.h"
 #include "world/entity/kind.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 /* What an agent perceives (perception.c). Events last for one frame, states as long as they are
@@ -76,5 +77,9 @@ extern const struct behaviour_table behaviour_tables[DOCTRINE_COUNT];
 /* The row that applies to a behaviour and percepts; NULL: none does. */
 const struct behaviour_table_row *behaviour_table_next(const struct behaviour_table *table,
                                                        enum behaviour behaviour, uint32_t percepts);
+
+/* Returns true if another row applies with the percepts `also` added. */
+bool behaviour_table_differs(const struct behaviour_table *table, enum behaviour behaviour,
+                             uint32_t percepts, uint32_t also);
 
 #endif

@@ -225,10 +225,8 @@ static void notice_events(const struct step_context *context, uint32_t i, struct
 static bool matters(const struct step_context *context, uint32_t i, uint32_t percepts,
                     uint32_t also)
 {
-    const struct behaviour_table *table = table_of(context, i);
-    enum behaviour behaviour = (enum behaviour)context->m->behaviour[i];
-    return behaviour_table_next(table, behaviour, percepts | also) !=
-           behaviour_table_next(table, behaviour, percepts);
+    return behaviour_table_differs(table_of(context, i), (enum behaviour)context->m->behaviour[i],
+                                   percepts, also);
 }
 
 static void fight_on(const struct step_context *context, uint32_t i, uint32_t enemy)
@@ -341,8 +339,9 @@ struct notice perception_notice(const struct step_context *context, uint32_t i)
     if ((notice.percepts & TESTS) && matters(context, i, notice.percepts, PERCEPTION_BIT(BRAVE)) &&
         ((notice.percepts & PERCEPTION_BIT(STAND)) || brave(context, i)))
         notice.percepts |= PERCEPTION_BIT(BRAVE);
-    if (matters(context, i, notice.percepts, PERCEPTION_BIT(COVER)) &&
-        is_on_surface(context, notice.threat) && goal_cover_near(context, i, notice.threat))
+    if (is_on_surface(context, notice.threat) &&
+        matters(context, i, notice.percepts, PERCEPTION_BIT(COVER)) &&
+        goal_cover_near(context, i, notice.threat))
         notice.percepts |= PERCEPTION_BIT(COVER);
     return notice;
 }
