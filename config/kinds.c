@@ -208,7 +208,7 @@ static int check_kind(const struct kind *kind, const struct key_reading *keys, c
 
 /* The stiffness [N/m] of a skin that takes up resistance_j when it is pressed in by d, a quarter of
  * the body's smallest side: k d^2 / 2 = resistance_j. */
-static double stiffness_of(const struct kind *kind)
+double kinds_stiffness(const struct kind *kind)
 {
     double depth = 0.25 * fmin(kind->length_m, fmin(kind->width_m, kind->height_m));
     return 2.0 * kind->resistance_j / (depth * depth);
@@ -286,8 +286,7 @@ static void complete_chassis(struct kind *kind)
         kind->least_turn_m = 0.0;
 }
 
-static void take_hulls(struct kind *kind, const struct scenario *scenario,
-                       const struct hulls *hulls)
+void kinds_take_hulls(struct kind *kind, const struct scenario *scenario, const struct hulls *hulls)
 {
     kind->first_hull = hulls->first;
     kind->hull_count = hulls->count;
@@ -348,13 +347,13 @@ static int read_kind(struct reading *reading, struct kind *kind, const char *nam
     *kind = entry.kind;
     kind->model = (uint16_t)model;
     if (kind->stiffness_npm <= 0)
-        kind->stiffness_npm = stiffness_of(kind);
+        kind->stiffness_npm = kinds_stiffness(kind);
     complete_load(kind);
     if (kind->domain <= DOMAIN_AIR && !keys.given[key_table_find(&schema_kind, "armour_mm")])
         complete_armour(kind);
     complete_chassis(kind);
     complete_mind(kind, keys.given[key_table_find(&schema_kind, "doctrine")]);
-    take_hulls(kind, models->scenario, &models->hulls[model]);
+    kinds_take_hulls(kind, models->scenario, &models->hulls[model]);
     kind->munition = KIND_NONE;
     memcpy(reading->munition, entry.munition, sizeof(entry.munition));
     reading->munition_line = keys.line[key_table_find(&schema_kind, "munition")];

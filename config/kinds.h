@@ -6,6 +6,8 @@
 
 #include <xxhash.h>
 
+struct hulls;
+struct kind;
 struct scenario;
 
 /* Reads every kind into the scenario, in order of their names, and adds their files to the hash. 0;
@@ -13,5 +15,13 @@ struct scenario;
  * other, an unknown model or munition. */
 int kinds_read(struct scenario *scenario, const char *data_dir, XXH3_state_t *hash,
                struct error_text *error);
+
+/* Returns the stiffness of a kind whose file gives none: its skin takes up its resistance over a
+ * quarter of its smallest side [N/m]. */
+double kinds_stiffness(const struct kind *kind);
+
+/* Sets the members of a kind that follow from its hulls. */
+void kinds_take_hulls(struct kind *kind, const struct scenario *scenario,
+                      const struct hulls *hulls);
 
 #endif

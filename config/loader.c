@@ -3,6 +3,7 @@
 #include "config/loader.h"
 
 #include "config/earthworks.h"
+#include "config/ground_objects.h"
 #include "config/ground_source.h"
 #include "config/kinds.h"
 #include "config/missions.h"
@@ -277,8 +278,10 @@ static int read_lists(struct load *load)
     const config_setting_t *fires = config_setting_get_member(root, "fires");
     const char *file = load->source.path;
     if (!load->objects_chosen)
-        scenario->settings->objects =
-            scenario->settings->terrain == TERRAIN_GENERATED ? OBJECTS_TABLE1 : OBJECTS_NONE;
+        scenario->settings->objects = scenario->settings->terrain == TERRAIN_GENERATED
+                                          ? OBJECTS_TABLE1
+                                      : scenario->settings->terrain == TERRAIN_FILE ? OBJECTS_FILE
+                                                                                    : OBJECTS_NONE;
     if (objects != NULL && objects->type != CONFIG_TYPE_LIST)
         objects = NULL;
     if (scripts_read(scenario, config_setting_get_member(root, "scripts"), file, load->hash,
@@ -294,6 +297,12 @@ static int read_lists(struct load *load)
     /* A list is checked even when an override replaces it. */
     if (scenario->settings->objects != OBJECTS_LIST)
         scenario->object_count = 0;
+    if (scenario->settings->objects == OBJECTS_FILE) {
+        const char *key =
+            scenario->settings->terrain == TERRAIN_FILE ? GROUND_SOURCE_KEY : "objects.source";
+        return ground_objects_read(scenario, load->origin[key_table_find(&schema_scenario, key)],
+                                   load->error);
+    }
     return 0;
 }
 

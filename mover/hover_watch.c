@@ -133,7 +133,7 @@ static void wake_around(struct hover_watch *watch, uint64_t *resting,
 static double reach_of(const struct step_context *context)
 {
     double reach_m = 0.0;
-    for (uint32_t kind = 0; kind < context->world->counts.kinds; kind++) {
+    for (uint32_t kind = 0; kind < context->world->counts.kinds && kind < KIND_COUNT_MAX; kind++) {
         if (context->world->kinds[kind].domain == DOMAIN_AIR)
             reach_m = maths_max(reach_m, aircraft_separation_reach(context, kind, 0.0));
     }

@@ -26,7 +26,7 @@ struct mover {
     /* What follows from the static world. */
     struct avoidance avoidance;
     struct square_bounds slopes;
-    struct firing_table *firing_tables; /* [kind_count] */
+    struct firing_table *firing_tables; /* [kinds of files] */
     /* Of the committed world, changed in each frame. */
     struct neighbour_index neighbours;
     struct neighbour_lists neighbour_lists;

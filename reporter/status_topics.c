@@ -80,12 +80,12 @@ int status_topics_world(struct status_topics *topics, const struct view *view,
                         struct error_text *error)
 {
     const struct params *params = view->world.params;
-    uint32_t kinds = view->world.counts.kinds;
+    uint32_t kinds = kind_of_files(view->world.kinds, view->world.counts.kinds);
     jolon_KindInfo kind[KIND_COUNT_MAX] = {0};
     jolon_WorldInfo *info = calloc(1, sizeof *info);
     if (!info)
         return error_text_set(error, "world info: %s", strerror(errno));
-    for (uint32_t i = 0; i < kinds && i < KIND_COUNT_MAX; i++) {
+    for (uint32_t i = 0; i < kinds; i++) {
         copy_text(kind[i].name, sizeof kind[i].name, view->world.kinds[i].name);
         kind[i].domain = (jolon_Domain)view->world.kinds[i].domain;
         kind[i].length_m = (float)view->world.kinds[i].length_m;
@@ -106,7 +106,7 @@ int status_topics_world(struct status_topics *topics, const struct view *view,
     info->frame_limit = params->frame_limit;
     info->real_time = params->pace == PACE_REAL;
     info->kinds._buffer = kind;
-    info->kinds._length = info->kinds._maximum = kinds < KIND_COUNT_MAX ? kinds : KIND_COUNT_MAX;
+    info->kinds._length = info->kinds._maximum = kinds;
     fill_map(info, &view->world.terrain);
     dds_return_t code = dds_write(topics->world, info);
     free(info);

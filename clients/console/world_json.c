@@ -15,9 +15,10 @@
 static void put_kinds(struct json_writer *json, const struct world_reader *reader)
 {
     const struct world *world = &reader->view.world;
+    uint32_t kinds = kind_of_files(world->kinds, world->counts.kinds);
     json_writer_key(json, "kinds");
     json_writer_begin(json, '[');
-    for (uint32_t i = 0; i < world->counts.kinds; i++) {
+    for (uint32_t i = 0; i < kinds; i++) {
         const struct kind *kind = &world->kinds[i];
         json_writer_begin(json, '{');
         json_writer_key_word(json, "name", kind->name);

@@ -52,7 +52,8 @@ static void note_turrets(struct world_reader *reader)
 {
     const struct world *world = &reader->view.world;
     memset(reader->turret, 0, sizeof reader->turret);
-    for (uint32_t i = 0; i < world->counts.kinds && i < KIND_COUNT_MAX; i++) {
+    uint32_t kinds = kind_of_files(world->kinds, world->counts.kinds);
+    for (uint32_t i = 0; i < kinds; i++) {
         const struct model *model = &world->models[world->kinds[i].model];
         if (world->kinds[i].domain == DOMAIN_MUNITION || world->kinds[i].domain == DOMAIN_FIXED)
             continue;

@@ -130,7 +130,7 @@ void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_inpu
     struct job job = {.broad = broad, .take = take, .context = context};
     struct thread_pool *workers = input->rows > ALONE_MOST ? broad->workers : NULL;
     const struct world *world = input->world;
-    for (uint32_t i = 0; i < world->counts.kinds; i++) {
+    for (uint32_t i = 0; i < world->counts.kinds && i < KIND_COUNT_MAX; i++) {
         job.margin[i] = pair_filter_margin(world, &world->kinds[i]);
         job.flags[i] = world->kinds[i].domain == DOMAIN_AIR ? BIN_AIR : 0;
     }

@@ -478,3 +478,43 @@ int hulls_build(struct hulls *hulls, struct scenario *scenario, const struct mod
     free(pieces);
     return result == 0 ? 0 : refuse(place, error, code);
 }
+
+static int fill_pieces(struct connected_pieces *pieces, const struct vec3 *point,
+                       const uint32_t *end, uint32_t count)
+{
+    uint32_t first = 0;
+    for (uint32_t i = 0; i < count; first = end[i++]) {
+        struct piece *piece = &pieces->piece[pieces->count];
+        *piece = (struct piece){.count = end[i] - first, .part = HULL_PART_BODY};
+        piece->point = malloc(piece->count * sizeof(*piece->point));
+        if (piece->point == NULL)
+            return -1;
+        pieces->count++;
+        memcpy(piece->point, point + first, piece->count * sizeof(*piece->point));
+        if (convex_hull_points(&piece->hull, piece->point, piece->count) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+int hulls_of_points(struct hulls *hulls, struct scenario *scenario, const struct vec3 *point,
+                    const uint32_t *end, uint32_t count)
+{
+    struct connected_pieces *pieces = malloc(sizeof(*pieces));
+    struct shell outer = {.vertex = NULL};
+    int result = -1;
+    if (pieces == NULL)
+        return -1;
+    pieces->count = 0;
+    if (fill_pieces(pieces, point, end, count) == 0 &&
+        outer_make(&outer, pieces, UINT32_MAX) == 0 && add_pieces(hulls, scenario, pieces) == 0) {
+        hulls->outer = scenario->hull_count;
+        result = add_hull(scenario, &outer, HULL_PART_BODY);
+    }
+    int code = errno;
+    shell_free(&outer);
+    connected_pieces_free(pieces);
+    free(pieces);
+    errno = code;
+    return result;
+}

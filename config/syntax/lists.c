@@ -7,6 +7,7 @@
 #include "world/entity/kind.h"
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
+#include "world/maths/maths.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,8 +33,13 @@ int lists_objects(struct scenario *scenario, const config_setting_t *list, const
         uint16_t kind = entry_kind(&entry, OBJECT_KEY_KIND, object.kind, DOMAIN_BIT(DOMAIN_FIXED));
         if (kind == KIND_NONE)
             return -1;
-        scenario->object_list[scenario->object_count++] =
-            (struct scenario_object){kind, object.at[0], object.at[1], object.heading_rad};
+        scenario->object_list[scenario->object_count++] = (struct scenario_object){
+            .kind = kind,
+            .turn = (uint16_t)(maths_wrap_turn(object.heading_rad) * (65536.0 / TWO_PI)),
+            .size = 1.0f,
+            .x = object.at[0],
+            .z = object.at[1],
+        };
     }
     return 0;
 }

@@ -17,8 +17,8 @@ static const struct key_choice terrains[] = {{"generated", TERRAIN_GENERATED, NU
                                              {"dem", KEY_LATER, NULL}};
 static const struct key_choice spacings[] = {
     {"125", 0, NULL}, {"62.5", 0, NULL}, {"31.25", 0, NULL}};
-static const struct key_choice object_sources[] = {{"table1", OBJECTS_TABLE1, NULL},
-                                                   {"none", OBJECTS_NONE, NULL}};
+static const struct key_choice object_sources[] = {
+    {"table1", OBJECTS_TABLE1, NULL}, {"none", OBJECTS_NONE, NULL}, {"file", OBJECTS_FILE, NULL}};
 #define X(name, value, word, test, text) {NULL, METHOD_##name, text},
 static const struct key_choice methods[] = {METHODS(X)};
 #undef X
@@ -89,9 +89,10 @@ static const struct key scenario_keys[] = {
         .meaning = "The distance between neighbouring posts, the points whose height is known. A "
                    "ground file has its own."),
     CHOICE("objects.source", S, objects, STORE_U32, WORDS(object_sources), NULL,
-           .unset = "table1 on generated ground, else none",
-           .meaning = "`table1`: the objects of the thesis's Table 1. `none`: no objects. "
-                      "`objects` is either this group or a list of objects."),
+           .unset = "table1 on generated ground, file on that of a file, else none",
+           .meaning = "`table1`: the objects of the thesis's Table 1. `none`: no objects. `file`: "
+                      "the buildings, woods and poles of the ground file. `objects` is either this "
+                      "group or a list of objects."),
     CHOICE("collision.method", S, params.collision.method, STORE_U32, SOME(methods, method_name),
            "swept", .meaning = "How collisions are found: see below."),
     CHOICE("collision.shape", S, params.collision.shape, STORE_U32, SOME(shapes, shape_name),

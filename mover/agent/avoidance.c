@@ -22,6 +22,7 @@
 #define FARTHEST_M     600.0
 #define TALL_M         3.0   /* parts above this height are no obstacle for land vehicles */
 #define GAP_M          1.0   /* gap to obstacles at the sides and ahead */
+#define DISCS_MAX      16.0  /* along the longer side of a hull */
 #define AIR_GAP_M      8.0   /* the same in the air, and above and below */
 #define LOW_FLIGHT_M   40.0  /* above this height no fixed object is an obstacle */
 #define BRAKE_SHARE    0.8   /* share of the hardest braking that it relies on */
@@ -133,11 +134,12 @@ static double slope_of(const struct kind *kind)
 void avoidance_init(struct avoidance *avoidance, const struct world *world)
 {
     *avoidance = (struct avoidance){.reach_m = {0.0}};
-    for (uint32_t k = 0; k < world->counts.kinds; k++) {
+    uint32_t kinds = kind_of_files(world->kinds, world->counts.kinds);
+    for (uint32_t k = 0; k < kinds; k++) {
         const struct kind *kind = &world->kinds[k];
         if (kind->domain == DOMAIN_FIXED)
             avoidance->reach_m[k] = reach_of(world, kind);
-        for (uint32_t o = 0; o < world->counts.kinds && kind->domain != DOMAIN_FIXED; o++) {
+        for (uint32_t o = 0; o < kinds && kind->domain != DOMAIN_FIXED; o++) {
             if (world->kinds[o].domain == DOMAIN_FIXED && does_no_harm(kind, &world->kinds[o]))
                 avoidance->harmless[k] |= UINT64_C(1) << o;
         }
@@ -274,6 +276,30 @@ static void limit_by_moving(struct look *look, double dx, double dz, double vx, 
 
 /* --- obstacles ---------------------------------------------------------------------------------*/
 
+/* Limits the directions by the hulls of a building: each by discs along its longer side, which
+ * cover it, so that the street beside a long building stays free. */
+static void limit_by_outline(struct look *look, const struct world *world,
+                             const struct fixed_object *object, double dx, double dz)
+{
+    const struct kind *kind = &world->kinds[object->kind];
+    double sine, cosine;
+    maths_sincos(fixed_heading(object), &sine, &cosine);
+    for (uint32_t h = 0; h < kind->hull_count; h++) {
+        const struct hull *hull = &world->hulls[kind->first_hull + h];
+        bool forward = hull->half.x >= hull->half.z;
+        double half = forward ? hull->half.x : hull->half.z;
+        double across = forward ? hull->half.z : hull->half.x;
+        double discs = maths_clamp(floor(half / maths_max(across, 1.0)), 1.0, DISCS_MAX);
+        double reach = sqrt(across * across + half * half / (discs * discs));
+        for (double n = 0.0; n < discs; n += 1.0) {
+            double off = half * ((2.0 * n + 1.0) / discs - 1.0);
+            double x = hull->centre.x + (forward ? off : 0.0);
+            double z = hull->centre.z + (forward ? 0.0 : off);
+            limit_by_standing(look, dx + x * sine + z * cosine, dz - x * cosine + z * sine, reach);
+        }
+    }
+}
+
 static void see_square(const struct step_context *context, uint32_t i, struct look *look,
                        uint32_t square)
 {
@@ -288,13 +314,20 @@ static void see_square(const struct step_context *context, uint32_t i, struct lo
         const struct fixed_object *object = &world->fixed[objects[n]];
         double dx = object->x - m->x[i], dz = object->z - m->z[i];
         double most = look->horizon_m + (double)object->radius_m;
+        const struct kind *kind = &world->kinds[object->kind];
         if (dx * dx + dz * dz > most * most || damage[objects[n]] >= DAMAGE_HIGH ||
-            harmless >> object->kind & 1u)
+            (kind->outline ? does_no_harm(look->kind, kind) : harmless >> object->kind & 1u))
             continue;
         if (flies &&
             (double)object->y + (double)object->height_m + 0.5 * look->kind->height_m < m->y[i])
             continue;
-        const struct kind *kind = &world->kinds[object->kind];
+        if (kind->outline) {
+            if (world->params->collision.shape == SHAPE_MODEL)
+                limit_by_outline(look, world, object, dx, dz);
+            else
+                limit_by_standing(look, dx, dz, (double)object->radius_m);
+            continue;
+        }
         limit_by_standing(look, dx, dz,
                           flies ? fixed_index_of_fixed(object, world->kinds)
                                 : context->avoidance->reach_m[object->kind] *

@@ -19,7 +19,8 @@ struct avoidance {
     /* [m] Radius of the obstacle that a body of a kind is; of a fixed object, at the height of land
      * vehicles: a tree's trunk, not its crown. */
     double reach_m[KIND_COUNT_MAX];
-    /* Of vehicle kinds: a bit for each fixed kind that does not damage it. */
+    /* Of vehicle kinds: a bit for each fixed kind that does not damage it. Kinds with an outline
+     * are looked at one by one. */
     uint64_t harmless[KIND_COUNT_MAX];
     /* Of vehicle kinds: the tangent of the slope that is too steep. */
     double slope[KIND_COUNT_MAX];

@@ -31,7 +31,7 @@ struct step_context {
     const struct ground_marks *ground_marks;
     const struct square_bounds *slopes;
     const struct avoidance *avoidance;
-    const struct firing_table *firing_tables; /* [kind_count] */
+    const struct firing_table *firing_tables; /* [kinds of files] */
     /* [capacity] Caches of the ground: about row i's position, and where an aircraft soon will be.
      * Written with row i. */
     struct terrain_cache_entry *terrain_entries, *terrain_entries_ahead;

@@ -65,6 +65,8 @@ static void print_json(const struct ground_file *file, const char *text)
     json_bool(object, "runs", h->side_m == WORLD_SIDE_M);
     json_whole(object, "bytes", h->bytes);
     json_whole(object, "road_points", file->road_points);
+    json_whole(object, "buildings", file->buildings);
+    json_whole(object, "objects", file->objects);
     json_text(object, "sources", text);
     json_print(object);
 }
@@ -87,6 +89,7 @@ static void print(const struct ground_file *file, const char *text)
                                     ? "guessed from slope and height, at least in part"
                                     : "from a map");
     printf("roads        %u points\n", file->road_points);
+    printf("objects      %u buildings, %u plants and poles\n", file->buildings, file->objects);
     if (h->undulation_m != 0.0)
         printf("undulation   the sea level is %g m above the ellipsoid\n", h->undulation_m);
     else
@@ -119,6 +122,26 @@ int describe_info(int argc, char **argv)
     return EXIT_OK;
 }
 
+/* Checks roads, objects and buildings. */
+static void check_lists(const struct ground_file *file)
+{
+    struct error_text error;
+    struct ground_road_point *roads = malloc((file->road_points + 1) * sizeof *roads);
+    struct ground_object *objects = malloc((file->objects + 1) * sizeof *objects);
+    struct ground_building *buildings = malloc((file->buildings + 1) * sizeof *buildings);
+    struct ground_corner *corners = malloc((file->corners + 1) * sizeof *corners);
+    if (!roads || !objects || !buildings || !corners)
+        die_refused("%s: no memory for its roads and objects", file->path);
+    if (ground_file_roads(file, roads, &error) != 0 ||
+        ground_file_objects(file, objects, &error) != 0 ||
+        ground_file_buildings(file, buildings, corners, &error) != 0)
+        die_refused("%s", error.text);
+    free(roads);
+    free(objects);
+    free(buildings);
+    free(corners);
+}
+
 int describe_check(int argc, char **argv)
 {
     static const struct option_table table = {
@@ -135,12 +158,7 @@ int describe_check(int argc, char **argv)
     struct error_text error;
     open_file(&file, &table, argc, argv);
     free(read_text(&file));
-    struct ground_road_point *roads = malloc((file.road_points + 1) * sizeof *roads);
-    if (!roads)
-        die_refused("%s: no memory for its roads", file.path);
-    if (ground_file_roads(&file, roads, &error) != 0)
-        die_refused("%s", error.text);
-    free(roads);
+    check_lists(&file);
     for (uint32_t i = 0; i < file.tiles; i++) {
         if (ground_file_tile(&file, i, posts, cover, GROUND_TILE_POSTS, &error) != 0)
             die_refused("%s", error.text);

@@ -190,24 +190,46 @@ static int open_aside(struct writing *w, struct error_text *error)
                : error_text_set(error, "%s: cannot be written: %s", w->path, strerror(errno));
 }
 
-int ground_write(const char *path, struct ground_header *header, const float *posts,
-                 const uint8_t *cover, const char *text, const struct ground_road_point *roads,
-                 uint32_t road_points, struct thread_pool *pool, struct error_text *error)
+/* Puts what is not in tiles: the text, and of the rest what there is. */
+static int put_lists(struct writing *w, const struct ground_content *c, struct error_text *error)
+{
+    const struct {
+        enum ground_block_kind kind;
+        const void *rows;
+        size_t bytes;
+    } lists[] = {
+        {GROUND_BLOCK_TEXT, c->text, strlen(c->text)},
+        {GROUND_BLOCK_ROADS, c->roads, c->road_points * sizeof *c->roads},
+        {GROUND_BLOCK_OBJECTS, c->objects, c->object_count * sizeof *c->objects},
+        {GROUND_BLOCK_BUILDINGS, c->buildings, c->building_count * sizeof *c->buildings},
+        {GROUND_BLOCK_CORNERS, c->corners, c->corner_count * sizeof *c->corners},
+    };
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
+        if ((i == 0 || lists[i].bytes > 0) &&
+            put_block(w, lists[i].kind, lists[i].rows, lists[i].bytes, error) != 0)
+            return -1;
+    }
+    return 0;
+}
+
+int ground_write(const char *path, struct ground_header *header,
+                 const struct ground_content *content, struct thread_pool *pool,
+                 struct error_text *error)
 {
     uint32_t tiles = ground_tiles_side(header->posts_side);
+    size_t blocks = (size_t)tiles * tiles + 1 + (content->road_points > 0) +
+                    (content->object_count > 0) + (content->building_count > 0) +
+                    (content->corner_count > 0);
     struct writing w = {.path = path, .header = header};
-    w.blocks = calloc((size_t)tiles * tiles + 2, sizeof *w.blocks);
+    w.blocks = calloc(blocks, sizeof *w.blocks);
     if (!w.blocks)
         return error_text_memory(error);
     int result = open_aside(&w, error);
     if (result == 0) {
-        w.bytes = sizeof *header + ((uint64_t)tiles * tiles + 2) * sizeof *w.blocks;
-        find_range(header, posts);
-        if (put_tiles(&w, posts, cover, pool, error) != 0 ||
-            put_block(&w, GROUND_BLOCK_TEXT, text, strlen(text), error) != 0 ||
-            (road_points > 0 &&
-             put_block(&w, GROUND_BLOCK_ROADS, roads, road_points * sizeof *roads, error) != 0) ||
-            put_beginning(&w, error) != 0)
+        w.bytes = sizeof *header + blocks * sizeof *w.blocks;
+        find_range(header, content->posts);
+        if (put_tiles(&w, content->posts, content->cover, pool, error) != 0 ||
+            put_lists(&w, content, error) != 0 || put_beginning(&w, error) != 0)
             result = -1;
         if (close(w.fd) != 0 && result == 0)
             result = error_text_set(error, "%s: cannot be written: %s", path, strerror(errno));

@@ -7,15 +7,25 @@
 
 struct thread_pool;
 
+/* What a ground has beside its header. Rows of a count of 0 may be NULL. */
+struct ground_content {
+    const float *posts;   /* [posts_side * posts_side], rounded by ground_tile_round() */
+    const uint8_t *cover; /* the same number */
+    const char *text;     /* sources and licences */
+    const struct ground_road_point *roads;
+    const struct ground_object *objects;
+    const struct ground_building *buildings;
+    const struct ground_corner *corners;
+    uint32_t road_points, object_count, building_count, corner_count;
+};
+
 /* Writes a ground into the file at path. The header has flags, place, sides and undulation; the
- * rest is filled in. posts, cover: [posts_side * posts_side], heights rounded by
- * ground_tile_round(). text: sources and licences.
- * roads: of the square, NULL with a count of 0.
+ * rest is filled in.
  *
  * The file is written aside, brought to the disk and renamed: a process that is killed leaves the
  * old one. Files that killed writers left are removed. 0, or -1 with the reason. */
-int ground_write(const char *path, struct ground_header *header, const float *posts,
-                 const uint8_t *cover, const char *text, const struct ground_road_point *roads,
-                 uint32_t road_points, struct thread_pool *pool, struct error_text *error);
+int ground_write(const char *path, struct ground_header *header,
+                 const struct ground_content *content, struct thread_pool *pool,
+                 struct error_text *error);
 
 #endif

@@ -4,13 +4,16 @@
 #include "ipc/process/log.h"
 #include "ipc/process/option_table.h"
 #include "ipc/process/process.h"
+#include "supervisor/ground/features.h"
 #include "supervisor/ground/ground_write.h"
 #include "supervisor/ground/heights.h"
 #include "supervisor/ground/cover_map.h"
+#include "supervisor/ground/land_cover.h"
 #include "supervisor/ground/progress.h"
 #include "supervisor/ground/road_map.h"
 #include "world/runtime/parse_number.h"
 #include "world/runtime/thread_pool.h"
+#include "world/terrain/terrain.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -23,15 +26,17 @@
 #define COVERS_MAX    64
 #define INPUTS_MAX    4096
 #define METRES_A_FOOT 0.3048
+#define TREES_MAX     10000.0 /* a hectare */
 
 static struct {
-    double latitude_deg, longitude_deg, side_m, spacing_m, undulation_m;
+    double latitude_deg, longitude_deg, side_m, spacing_m, undulation_m, trees_per_ha;
     bool placed, feet;
     const char *out, *classes, *licence;
     const char *covers[COVERS_MAX];
-    char *roads[COVERS_MAX];
-    uint32_t cover_count, road_count, threads;
-} given = {.spacing_m = 31.25, .classes = "worldcover"};
+    char *roads[COVERS_MAX], *features[COVERS_MAX];
+    uint32_t cover_count, road_count, feature_count, threads;
+    uint64_t seed;
+} given = {.spacing_m = 31.25, .trees_per_ha = 25.0, .classes = "worldcover", .seed = 1991};
 
 /* What is made. */
 struct making {
@@ -47,6 +52,8 @@ struct making {
     size_t text_used;
     struct heights_counts counts;
     struct road_map roads;
+    struct features features;
+    struct land_plants plants;
     uint64_t guessed;
 };
 
@@ -74,12 +81,22 @@ static int take_cover(const char *value, struct error_text *error)
     return 0;
 }
 
+static int take_map(char **maps, uint32_t *count, const char *value, struct error_text *error)
+{
+    if (*count == COVERS_MAX)
+        return error_text_set(error, "is one too many; at most %d are allowed", COVERS_MAX);
+    maps[(*count)++] = (char *)(uintptr_t)value;
+    return 0;
+}
+
 static int take_roads(const char *value, struct error_text *error)
 {
-    if (given.road_count == COVERS_MAX)
-        return error_text_set(error, "is one too many; at most %d are allowed", COVERS_MAX);
-    given.roads[given.road_count++] = (char *)(uintptr_t)value;
-    return 0;
+    return take_map(given.roads, &given.road_count, value, error);
+}
+
+static int take_features(const char *value, struct error_text *error)
+{
+    return take_map(given.features, &given.feature_count, value, error);
 }
 
 static void check_sides(void)
@@ -98,7 +115,7 @@ static void check_sides(void)
 
 static int read_options(int argc, char **argv)
 {
-    static const char *center, *cover, *roads;
+    static const char *center, *cover, *roads, *features;
     static const struct option_row rows[] = {
         {"center", "LAT,LON", "the middle of the square, in degrees of WGS 84", .text = &center,
          .take = take_center},
@@ -114,6 +131,12 @@ static int read_options(int argc, char **argv)
          .text = &given.classes},
         {"roads", "FILE", "a map of lines of which roads are made; repeat it for more",
          .text = &roads, .take = take_roads},
+        {"features", "FILE", "a map of buildings, woods, water and poles; repeat it for more",
+         .text = &features, .take = take_features},
+        {"trees", "N", "of a hectare of wood, and bushes of one of scrub (default 25)",
+         .real = &given.trees_per_ha, .low = 0.0, .high = TREES_MAX},
+        {"seed", "N", "of the places of trees (default 1991)", .u64 = &given.seed,
+         .most = INT64_MAX},
         {"feet", NULL, "heights are in feet", .flag = &given.feet},
         {"undulation", "METRES", "of the sea level above the ellipsoid at the middle",
          .real = &given.undulation_m, .low = -200.0, .high = 200.0},
@@ -204,6 +227,13 @@ static void tell_sources(struct making *m)
     if (given.road_count > 0)
         note(m, "roads: %u, %.1f of %.1f km\n", m->roads.roads, m->roads.kept_m / 1000.0,
              m->roads.all_m / 1000.0);
+    for (uint32_t i = 0; i < given.feature_count; i++) {
+        const char *name = strrchr(given.features[i], '/');
+        note(m, "features: %s\n", name ? name + 1 : given.features[i]);
+    }
+    if (given.feature_count > 0)
+        note(m, "features: %u buildings, %u plants and poles, %u areas, %u rivers\n",
+             m->features.buildings.count, m->plants.count, m->features.areas, m->features.lines);
     if (given.licence)
         note(m, "licence: %s\n", given.licence);
     if (m->counts.filled > 0)
@@ -212,17 +242,64 @@ static void tell_sources(struct making *m)
         note(m, "cover: guessed from slope and height at %" PRIu64 " posts\n", m->guessed);
 }
 
+/* Lakes come before roads, which end at them, and rivers after, which roads cross. */
+static void shape(struct making *m)
+{
+    const struct terrain terrain = {.posts = m->posts,
+                                    .cover = m->cover,
+                                    .side = m->grid.side,
+                                    .spacing_m = given.side_m / (m->grid.side - 1)};
+    int result = land_cover_areas(&m->features, &m->grid, m->posts, m->cover);
+    road_map_pave(&m->roads, &m->grid, m->cover);
+    if (result == 0)
+        result = land_cover_rivers(&m->features, &m->grid, m->cover);
+    if (result == 0)
+        result = buildings_found(&m->features.buildings, &terrain);
+    if (result == 0)
+        result = land_cover_plant(&m->plants, &m->features, &m->grid, &terrain, m->roads.points,
+                                  m->roads.count, given.trees_per_ha, given.seed);
+    if (result != 0)
+        die_refused("no memory for the features of the maps");
+}
+
+static void tell_features(const struct making *m)
+{
+    const struct buildings *b = &m->features.buildings;
+    for (int i = 0; i < FEATURE_TROUBLES; i++) {
+        if (m->features.trouble[i].count > 0)
+            log_warn("%s: %u %s; the first at latitude %.5f, longitude %.5f",
+                     m->features.trouble[i].map, m->features.trouble[i].count,
+                     features_trouble_text((enum feature_trouble)i),
+                     m->features.trouble[i].latitude_deg, m->features.trouble[i].longitude_deg);
+    }
+    if (b->lost_m2 > 0.0)
+        log_warn("%.3f of %.0f m2 of buildings are left out: parts narrower than %d mm", b->lost_m2,
+                 b->area_m2, GROUND_PART_WIDTH_MM);
+    if (b->left_out > 0)
+        log_warn("a ground has room for %u buildings: the %u smallest are left out",
+                 GROUND_BUILDINGS_MAX, b->left_out);
+    if (m->plants.planted_per_ha < given.trees_per_ha)
+        log_warn("a ground has room for %u objects: woods and scrub have %.2f plants a hectare, "
+                 "not %g",
+                 GROUND_OBJECTS_MAX, m->plants.planted_per_ha, given.trees_per_ha);
+    if (m->plants.left_out > 0)
+        log_warn("a ground has room for %u objects: %u plants are left out", GROUND_OBJECTS_MAX,
+                 m->plants.left_out);
+}
+
 static void fill(struct making *m)
 {
     struct error_text error;
     if (heights_fill(m->posts, &m->grid, m->rasters, m->count, m->pool, &m->counts, &error) != 0 ||
         cover_map_fill(m->cover, m->posts, &m->grid, m->covers, given.cover_count, m->table,
                        &m->guessed, &error) != 0 ||
-        road_map_read(&m->roads, given.roads, given.road_count, &m->grid, &error) != 0) {
+        road_map_read(&m->roads, given.roads, given.road_count, &m->grid, &error) != 0 ||
+        features_read(&m->features, given.features, given.feature_count, &m->grid, &error) != 0) {
         progress_end();
         die_refused("%s", error.text);
     }
-    road_map_pave(&m->roads, &m->grid, m->cover);
+    shape(m);
+    tell_features(m);
     if (m->roads.bad > 0)
         log_warn("%u lines of one point, or with a place that is none, are no roads", m->roads.bad);
     if (m->roads.left_out > 0)
@@ -260,6 +337,8 @@ static void finish(struct making *m)
         raster_close(m->covers[i]);
     thread_pool_destroy(m->pool);
     road_map_free(&m->roads);
+    features_free(&m->features);
+    land_plants_free(&m->plants);
     free(m->rasters);
     free(m->counts.from);
     free(m->posts);
@@ -283,8 +362,18 @@ int make_run(int argc, char **argv)
                                    .spacing_m = given.side_m / (m.grid.side - 1),
                                    .undulation_m = given.undulation_m,
                                    .posts_side = m.grid.side};
-    int result = ground_write(given.out, &header, m.posts, m.cover, m.text, m.roads.points,
-                              m.roads.count, m.pool, &error);
+    const struct ground_content content = {.posts = m.posts,
+                                           .cover = m.cover,
+                                           .text = m.text,
+                                           .roads = m.roads.points,
+                                           .road_points = m.roads.count,
+                                           .objects = m.plants.object,
+                                           .object_count = m.plants.count,
+                                           .buildings = m.features.buildings.made,
+                                           .building_count = m.features.buildings.count,
+                                           .corners = m.features.buildings.corner,
+                                           .corner_count = m.features.buildings.corners};
+    int result = ground_write(given.out, &header, &content, m.pool, &error);
     progress_end();
     if (result != 0)
         die_refused("%s", error.text);

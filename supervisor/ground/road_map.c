@@ -1,13 +1,9 @@
 /* Lines of maps become roads. */
 #include "supervisor/ground/road_map.h"
 
+#include "supervisor/ground/vector_map.h"
 #include "world/maths/maths.h"
 #include "world/terrain/terrain.h"
-
-#include <cpl_error.h>
-#include <gdal.h>
-#include <ogr_api.h>
-#include <ogr_srs_api.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -38,11 +34,9 @@ struct line {
 
 struct reading {
     const struct post_grid *grid;
-    OGRCoordinateTransformationH to_earth;
     struct line *lines;
     uint32_t used, room;
-    double (*track)[2]; /* of the line that is read [m] */
-    uint32_t track_room;
+    struct vector_map_track track; /* of the line that is read */
     uint32_t bad;
     bool no_memory;
 };
@@ -140,11 +134,10 @@ static bool cut(const struct reading *r, double a[2], double b[2])
 }
 
 /* Adds what of a line lies within the square: one line or several. */
-static void add_cut(struct reading *r, uint32_t count, uint32_t rank)
+static void add_cut(struct reading *r, uint32_t rank)
 {
-    double(*track)[2] = r->track;
-    uint32_t kept = 0;
-    count = simplify(track, count);
+    double(*track)[2] = r->track.place;
+    uint32_t kept = 0, count = simplify(track, r->track.count);
     double last[2] = {track[0][0], track[0][1]};
     for (uint32_t i = 1; i < count; i++) {
         double a[2] = {last[0], last[1]}, b[2] = {track[i][0], track[i][1]};
@@ -167,122 +160,41 @@ static void add_cut(struct reading *r, uint32_t count, uint32_t rank)
         add_line(r, track, kept, rank);
 }
 
-/* Reads the places of a line into r->track. Returns their number, 0 if the line is bad. */
-static uint32_t read_track(struct reading *r, OGRGeometryH line)
-{
-    int count = OGR_G_GetPointCount(line);
-    if (count < 2)
-        return 0;
-    if ((uint32_t)count > r->track_room) {
-        double(*track)[2] = realloc(r->track, (size_t)count * sizeof *track);
-        r->no_memory |= !track;
-        if (!track)
-            return 0;
-        r->track = track;
-        r->track_room = (uint32_t)count;
-    }
-    for (int i = 0; i < count; i++) {
-        double x = OGR_G_GetX(line, i), y = OGR_G_GetY(line, i);
-        if (!isfinite(x) || !isfinite(y) ||
-            (r->to_earth && !OCTTransform(r->to_earth, 1, &x, &y, NULL)) || !(fabs(y) <= 90.0) ||
-            !(fabs(x) <= 540.0)) {
-            CPLErrorReset(); /* the line is counted as bad, and the map goes on */
-            return 0;
-        }
-        projection_world(&r->grid->projection, y, x, &r->track[i][0], &r->track[i][1]);
-    }
-    return (uint32_t)count;
-}
-
-static void add_geometry(struct reading *r, OGRGeometryH geometry, uint32_t rank)
+static void add_geometry(struct reading *r, struct vector_map *map, OGRGeometryH geometry,
+                         uint32_t rank)
 {
     OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(geometry));
     if (type == wkbLineString) {
-        uint32_t count = read_track(r, geometry);
-        r->bad += count == 0;
-        if (count > 0)
-            add_cut(r, count, rank);
+        bool good = vector_map_track(map, geometry, &r->track) && r->track.count > 1;
+        r->bad += !good;
+        if (good)
+            add_cut(r, rank);
     } else if (type == wkbMultiLineString) {
         for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-            add_geometry(r, OGR_G_GetGeometryRef(geometry, i), rank);
+            add_geometry(r, map, OGR_G_GetGeometryRef(geometry, i), rank);
     }
 }
 
 /* Returns the rank of a feature's word, WORDS if it is no road. */
-static uint32_t rank_of(OGRFeatureH feature, int field)
+static uint32_t rank_of(OGRFeatureH feature)
 {
+    int field = OGR_F_GetFieldIndex(feature, "highway");
+    uint32_t rank = 0;
+    field = field >= 0 ? field : OGR_F_GetFieldIndex(feature, "fclass");
     if (field < 0)
         return 0;
     const char *word = OGR_F_GetFieldAsString(feature, field);
-    uint32_t rank = 0;
     while (rank < WORDS && strcmp(word, words[rank]) != 0)
         rank++;
     return rank;
 }
 
-static int read_layer(struct reading *r, OGRLayerH layer, const char *path,
-                      struct error_text *error)
+static void take_feature(void *context, struct vector_map *map, OGRFeatureH feature,
+                         OGRGeometryH geometry)
 {
-    OGRSpatialReferenceH given = OGR_L_GetSpatialRef(layer), earth = OSRNewSpatialReference(NULL);
-    OGRFeatureDefnH fields = OGR_L_GetLayerDefn(layer);
-    int field = OGR_FD_GetFieldIndex(fields, "highway");
-    field = field >= 0 ? field : OGR_FD_GetFieldIndex(fields, "fclass");
-    if (given) {
-        OGRSpatialReferenceH own = OSRClone(given);
-        OSRImportFromEPSG(earth, 4326);
-        OSRSetAxisMappingStrategy(earth, OAMS_TRADITIONAL_GIS_ORDER);
-        OSRSetAxisMappingStrategy(own, OAMS_TRADITIONAL_GIS_ORDER);
-        r->to_earth = OCTNewCoordinateTransformation(own, earth);
-        OSRDestroySpatialReference(own);
-    }
-    OSRDestroySpatialReference(earth);
-    if (!r->to_earth)
-        return error_text_set(error,
-                              "%s: its projection is not known; right would be: ogr2ogr -a_srs "
-                              "EPSG:4326 PLACED.gpkg %s, if it has degrees of WGS 84",
-                              path, path);
-    for (OGRFeatureH f = OGR_L_GetNextFeature(layer); f; f = OGR_L_GetNextFeature(layer)) {
-        OGRGeometryH geometry = OGR_F_GetGeometryRef(f);
-        uint32_t rank = rank_of(f, field);
-        if (geometry && rank < WORDS)
-            add_geometry(r, geometry, rank);
-        OGR_F_Destroy(f);
-    }
-    OCTDestroyCoordinateTransformation(r->to_earth);
-    r->to_earth = NULL;
-    return 0;
-}
-
-static int read_map(struct reading *r, const char *path, struct error_text *error)
-{
-    CPLErrorReset();
-    GDALDatasetH map = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
-    int result = 0, lines = 0;
-    if (!map)
-        return error_text_set(error, "%s: GDAL cannot read it as a map of lines: %s", path,
-                              CPLGetLastErrorMsg());
-    /* Of OpenStreetMap's layers the others would fill the memory; its relations of lines are the
-     * same lines once more. */
-    bool osm = strcmp(GDALGetDriverShortName(GDALGetDatasetDriver(map)), "OSM") == 0;
-    if (osm)
-        GDALDatasetReleaseResultSet(
-            map, GDALDatasetExecuteSQL(map, "SET interest_layers = lines", NULL, NULL));
-    for (int i = 0; i < GDALDatasetGetLayerCount(map) && result == 0; i++) {
-        OGRLayerH layer = GDALDatasetGetLayer(map, i);
-        if (osm && strcmp(OGR_L_GetName(layer), "lines") != 0)
-            continue;
-        OGRwkbGeometryType type = wkbFlatten(OGR_L_GetGeomType(layer));
-        if (type != wkbLineString && type != wkbMultiLineString && type != wkbUnknown)
-            continue;
-        lines++;
-        result = read_layer(r, layer, path, error);
-    }
-    if (result == 0 && CPLGetLastErrorType() >= CE_Failure)
-        result = error_text_set(error, "%s: cannot be read: %s", path, CPLGetLastErrorMsg());
-    else if (result == 0 && lines == 0)
-        result = error_text_set(error, "%s: has no lines, of which roads could be made", path);
-    GDALClose(map);
-    return result;
+    uint32_t rank = rank_of(feature);
+    if (rank < WORDS)
+        add_geometry(context, map, geometry, rank);
 }
 
 /* The order does not depend on that of the maps or of their lines. */
@@ -332,14 +244,15 @@ int road_map_read(struct road_map *map, char *const *paths, uint32_t count,
     int result = 0;
     memset(map, 0, sizeof *map);
     for (uint32_t i = 0; i < count && result == 0; i++)
-        result = read_map(&r, paths[i], error);
+        result = vector_map_read(paths[i], grid, VECTOR_MAP_LINES,
+                                 "lines, of which roads could be made", take_feature, &r, error);
     if (result == 0)
         result = keep(map, &r, error);
     map->bad = r.bad;
     for (uint32_t i = 0; i < r.used; i++)
         free(r.lines[i].points);
     free(r.lines);
-    free(r.track);
+    vector_map_track_free(&r.track);
     return result;
 }
 

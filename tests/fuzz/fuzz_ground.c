@@ -17,11 +17,13 @@
 
 #define SIDE     9u
 #define FILE_MAX 4096u
+#define BLOCKS   6u /* of the good file */
 
 enum how {
     HOW_HASHED = 1,  /* the hashes are corrected */
     HOW_CUT = 2,     /* the last change gives the number of missing bytes */
-    HOW_CONTENT = 4, /* the changes apply to the unpacked tile */
+    HOW_CONTENT = 4, /* the changes apply to an unpacked block ... */
+    HOW_BLOCK = 8,   /* ... which the higher bits number */
 };
 
 static unsigned char good[FILE_MAX];
@@ -37,6 +39,13 @@ static void make_good(void)
                                    .spacing_m = 125.0,
                                    .posts_side = SIDE};
     const struct ground_road_point roads[] = {{5, 6, 0}, {70, 80, 0}, {9, 10, 1}, {11, 12, 1}};
+    const struct ground_object objects[] = {{5, 6, GROUND_TREE, 90, 3},
+                                            {7, 8, GROUND_POLE, 250, 4}};
+    const struct ground_building buildings[] = {{500000, 500000, -500, 5000, 7000, 9, 1},
+                                                {600000, 500000, -500, 5000, 5000, 9, 2}};
+    const struct ground_corner corners[] = {
+        {-5000, -4000, 0}, {5000, -4000, 0}, {5000, 4000, 0}, {-5000, 4000, 0}, {-5000, -5000, 1},
+        {5000, -5000, 1},  {5000, 0, 1},     {-5000, 0, 2},   {0, 0, 2},        {0, 5000, 2}};
     struct error_text error;
     char path[PATH_MAX];
     for (uint32_t i = 0; i < SIDE * SIDE; i++) {
@@ -45,7 +54,18 @@ static void make_good(void)
     }
     (void)support_data_dir();
     support_path(path, sizeof path, "models/k.obj");
-    CHECK(ground_write(path, &header, posts, cover, "heights: a\n", roads, 4, NULL, &error) == 0);
+    const struct ground_content content = {.posts = posts,
+                                           .cover = cover,
+                                           .text = "heights: a\n",
+                                           .roads = roads,
+                                           .road_points = 4,
+                                           .objects = objects,
+                                           .object_count = 2,
+                                           .buildings = buildings,
+                                           .building_count = 2,
+                                           .corners = corners,
+                                           .corner_count = 10};
+    CHECK(ground_write(path, &header, &content, NULL, &error) == 0);
     int fd = open(path, O_RDONLY | O_CLOEXEC);
     ssize_t bytes = fd >= 0 ? read(fd, good, sizeof good) : -1;
     CHECK(bytes > 0 && bytes < (ssize_t)sizeof good);
@@ -53,22 +73,23 @@ static void make_good(void)
     close(fd);
 }
 
-/* Packs a changed tile behind the end, and points the directory to it. */
+/* Packs a changed block behind the end, and points the directory to it. */
 static size_t put_content(unsigned char *file, size_t bytes, const uint8_t *data, size_t size)
 {
     unsigned char content[GROUND_TILE_BYTES_A_POST * SIDE * SIDE];
     struct ground_header *h = (struct ground_header *)(void *)file;
-    struct ground_block *block = (struct ground_block *)(void *)(h + 1);
+    struct ground_block *block =
+        (struct ground_block *)(void *)(h + 1) + (data[0] / HOW_BLOCK) % h->block_count;
     size_t unpacked =
         ZSTD_decompress(content, sizeof content, file + block->offset, block->packed_bytes);
-    CHECK(unpacked == sizeof content);
+    CHECK(unpacked == block->content_bytes);
     for (size_t at = 1; at + 4 <= size; at += 4)
-        content[((size_t)data[at] << 8 | data[at + 1]) % sizeof content] = data[at + 3];
-    size_t packed = ZSTD_compress(file + bytes, FILE_MAX - bytes, content, sizeof content, 1);
+        content[((size_t)data[at] << 8 | data[at + 1]) % unpacked] = data[at + 3];
+    size_t packed = ZSTD_compress(file + bytes, FILE_MAX - bytes, content, unpacked, 1);
     CHECK(!ZSTD_isError(packed));
     block->offset = bytes;
     block->packed_bytes = (uint32_t)packed;
-    block->content_hash = XXH3_64bits(content, sizeof content);
+    block->content_hash = XXH3_64bits(content, unpacked);
     h->bytes = bytes + packed;
     return bytes + packed;
 }
@@ -78,7 +99,7 @@ static void change(unsigned char *file, size_t bytes, const uint8_t change[4])
     size_t at = ((size_t)change[0] << 8 | change[1]) % bytes;
     /* Most changes are to the header and the directory. */
     if (change[2] & 1)
-        at %= sizeof(struct ground_header) + 3 * sizeof(struct ground_block);
+        at %= sizeof(struct ground_header) + BLOCKS * sizeof(struct ground_block);
     file[at] = change[3];
 }
 
@@ -86,7 +107,7 @@ static void seal(unsigned char *file)
 {
     struct ground_header *h = (struct ground_header *)(void *)file;
     const struct ground_block *blocks = (const struct ground_block *)(const void *)(h + 1);
-    if (h->block_count <= 3) {
+    if (h->block_count <= BLOCKS) {
         h->directory_hash = XXH3_64bits(blocks, h->block_count * sizeof *blocks);
         h->hash = ground_file_hash(h, blocks);
     }
@@ -120,6 +141,25 @@ static void read_all(const char *path)
     if (ground_file_roads(&file, roads, &error) == 0)
         CHECK(file.road_points == 0 || roads[0].road == 0);
     free(roads);
+    struct ground_object *objects = malloc((file.objects + 1) * sizeof *objects);
+    struct ground_building *buildings = malloc((file.buildings + 1) * sizeof *buildings);
+    struct ground_corner *corners = malloc((file.corners + 1) * sizeof *corners);
+    CHECK(objects && buildings && corners);
+    if (ground_file_objects(&file, objects, &error) == 0)
+        CHECK(file.objects == 0 || objects[0].type < GROUND_OBJECT_TYPES);
+    else
+        support_check_line(&error);
+    if (ground_file_buildings(&file, buildings, corners, &error) == 0) {
+        uint32_t parts = 0;
+        for (uint32_t i = 0; i < file.buildings; i++)
+            parts += buildings[i].parts;
+        CHECK(parts == (file.corners > 0 ? corners[file.corners - 1].part + 1 : 0));
+    } else {
+        support_check_line(&error);
+    }
+    free(objects);
+    free(buildings);
+    free(corners);
     if (ground_file_text(&file, text, &error) == 0)
         CHECK(strlen(text) <= file.text_bytes);
     free(heights);

@@ -258,7 +258,7 @@ void support_check_scenario(const struct scenario *s)
     for (uint32_t i = 0; i < s->object_count; i++) {
         const struct scenario_object *object = &s->object_list[i];
         CHECK(object->kind < s->kind_count && s->kinds[object->kind].domain == DOMAIN_FIXED);
-        CHECK(isfinite(object->heading_rad));
+        CHECK(object->size == 1.0f);
         check_on_map(object->x, object->z);
     }
     for (uint32_t i = 0; i < s->fire_count; i++) {

@@ -188,7 +188,7 @@ check "posts beside them are road" eval '"$ground" check roads.ground | grep -q 
 ogr2ogr -f GeoJSON roads.geojson roads.osm lines >/dev/null 2>&1
 out=lines.ground make --roads roads.geojson "$tile" >/dev/null 2>&1
 check "GeoJSON with the same lines gives the same hash" equal "$(hash_of lines.ground)" "$(hash_of roads.ground)"
-out=none.ground refuses "roads from a text" 1 'words.txt: GDAL cannot read it as a map of lines' make --roads words.txt "$tile"
+out=none.ground refuses "roads from a text" 1 'words.txt: GDAL cannot read it as a map of points, lines and areas' make --roads words.txt "$tile"
 cat >convoy.cfg <<'TEXT'
 world = { name = "white-mountains"; seed = 7; };
 terrain = { source = "file"; file = "roads.ground"; };

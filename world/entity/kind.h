@@ -86,6 +86,7 @@ struct kind {
     double max_slope_rad;     /* steepest ground a land vehicle climbs */
     /* The chassis of a land vehicle (mover/motion/chassis.h). */
     uint8_t tracked;        /* 1: tracks, which turn it on the spot; 0: wheels */
+    uint8_t outline;        /* 1: of one building, from its outline (config/ground_objects.h) */
     uint32_t axles;         /* pairs of wheels, 2..CHASSIS_AXLES_MAX */
     double power_w;         /* of the engine */
     double track_m;         /* between the middles of left and right wheels */
@@ -160,6 +161,19 @@ static inline uint16_t kind_munition_at(const struct kind *kind, const struct ki
     bool light = kind->light_munition != 0 && target->domain != DOMAIN_AIR &&
                  target->armour_mm[ASPECT_SIDE] < KIND_LIGHT_MM;
     return light ? (uint16_t)(kind->light_munition - 1u) : kind->munition;
+}
+
+/* Most kinds of a world: those of files, KIND_COUNT_MAX at most, and behind them one for each
+ * building of a ground file. Vehicles and munitions are of the former. */
+#define KIND_ALL_MAX 65472u
+
+/* Returns how many of the first kinds are of files. */
+static inline uint32_t kind_of_files(const struct kind *kinds, uint32_t count)
+{
+    uint32_t files = 0;
+    while (files < count && files < KIND_COUNT_MAX && !kinds[files].outline)
+        files++;
+    return files;
 }
 
 /* Index of the kind called name, KIND_NONE when there is none. */

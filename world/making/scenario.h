@@ -82,7 +82,9 @@ struct scenario_mission {
 
 struct scenario_object {
     uint16_t kind;
-    double x, z, heading_rad;
+    uint16_t turn; /* heading, 65536 for a full turn */
+    float size;    /* relative to its kind's */
+    double x, z;
 };
 
 struct scenario_fire {

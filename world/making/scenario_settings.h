@@ -10,7 +10,7 @@
 #define GROUND_FILE_TEXT_MAX 1024
 
 enum terrain_source { TERRAIN_GENERATED, TERRAIN_FLAT, TERRAIN_FILE };
-enum object_source { OBJECTS_TABLE1, OBJECTS_NONE, OBJECTS_LIST };
+enum object_source { OBJECTS_TABLE1, OBJECTS_NONE, OBJECTS_FILE, OBJECTS_LIST };
 
 struct scenario_settings {
     struct params params;

@@ -86,10 +86,10 @@ static void list_objects(struct world_build *built, const struct terrain *terrai
             .x = from->x,
             .z = from->z,
             .y = (float)terrain_base_height(terrain, from->x, from->z),
-            .radius_m = (float)kind->radius_m,
-            .height_m = (float)kind->height_m,
+            .radius_m = (float)(kind->radius_m * (double)from->size),
+            .height_m = (float)(kind->height_m * (double)from->size),
             .kind = from->kind,
-            .turn = (uint16_t)(maths_wrap_turn(from->heading_rad) * (65536.0 / TWO_PI)),
+            .turn = from->turn,
         };
     }
     qsort(built->fixed, scenario->object_count, sizeof *built->fixed, by_square);
@@ -100,13 +100,12 @@ static int build_objects(struct world_build *built, struct error_text *error)
     const struct scenario *scenario = built->scenario;
     struct terrain terrain = world_build_terrain(built);
     uint32_t count = scenario->settings->objects == OBJECTS_TABLE1 ? GENERATE_TABLE1_TOTAL
-                     : scenario->settings->objects == OBJECTS_LIST ? scenario->object_count
-                                                                   : 0;
+                                                                   : scenario->object_count;
     built->counts.fixed = count;
     built->fixed = calloc(count + 1, sizeof *built->fixed);
     if (!built->fixed)
         return error_text_memory(error);
-    if (scenario->settings->objects == OBJECTS_LIST)
+    if (scenario->settings->objects != OBJECTS_TABLE1)
         list_objects(built, &terrain);
     if (scenario->settings->objects == OBJECTS_TABLE1 &&
         generate_table1_objects(built->fixed, &terrain, scenario->kinds, scenario->kind_count,

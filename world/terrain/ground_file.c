@@ -66,30 +66,49 @@ static int check_header(const struct ground_file *file, uint64_t bytes, struct e
     if (!(fabs(h->latitude_deg) <= PROJECTION_LATITUDE_MAX_DEG) ||
         !(fabs(h->longitude_deg) <= 180.0) || !(fabs(h->undulation_m) <= 200.0))
         return refuse(file, error, "its header has a place that cannot be");
-    if (h->block_count < tiles * tiles || h->block_count > tiles * tiles + 2)
+    if (h->block_count < tiles * tiles || h->block_count > tiles * tiles + GROUND_BLOCK_KINDS - 1)
         return refuse(file, error, "its header has a number of blocks that cannot be");
     if (bytes < sizeof *h + h->block_count * sizeof(struct ground_block))
         return refuse(file, error, "its directory is cut off");
     return 0;
 }
 
+/* Of the blocks behind the tiles: bytes of a row, and most rows. */
+static const struct {
+    uint32_t bytes, most;
+} rows[GROUND_BLOCK_KINDS] = {
+    [GROUND_BLOCK_TEXT] = {1, GROUND_TEXT_BYTES_MAX},
+    [GROUND_BLOCK_ROADS] = {sizeof(struct ground_road_point), GROUND_ROAD_POINTS_MAX},
+    [GROUND_BLOCK_OBJECTS] = {sizeof(struct ground_object), GROUND_OBJECTS_MAX},
+    [GROUND_BLOCK_BUILDINGS] = {sizeof(struct ground_building), GROUND_BUILDINGS_MAX},
+    [GROUND_BLOCK_CORNERS] = {sizeof(struct ground_corner), GROUND_CORNERS_MAX},
+};
+
 static bool block_fits(const struct ground_file *file, const struct ground_block *block,
                        uint32_t number)
 {
     uint64_t end = file->header.bytes;
-    struct ground_tile tile;
     if (block->offset > end || block->packed_bytes > end - block->offset)
         return false;
-    if (number == file->tiles + 1)
-        return block->kind == GROUND_BLOCK_ROADS && block->number == 0 &&
-               block->content_bytes % sizeof(struct ground_road_point) == 0 &&
-               block->content_bytes <= GROUND_ROAD_POINTS_MAX * sizeof(struct ground_road_point);
-    if (number == file->tiles)
-        return block->kind == GROUND_BLOCK_TEXT && block->number == 0 &&
-               block->content_bytes <= GROUND_TEXT_BYTES_MAX;
-    tile = ground_tile_of(file->header.posts_side, number);
-    return block->kind == GROUND_BLOCK_TILE && block->number == number &&
-           block->content_bytes == ground_tile_bytes(&tile);
+    if (number < file->tiles) {
+        struct ground_tile tile = ground_tile_of(file->header.posts_side, number);
+        return block->kind == GROUND_BLOCK_TILE && block->number == number &&
+               block->content_bytes == ground_tile_bytes(&tile);
+    }
+    /* The text is first, and the others follow in the order of their kinds. */
+    bool first = number == file->tiles;
+    if (block->kind >= GROUND_BLOCK_KINDS || block->number != 0 ||
+        first != (block->kind == GROUND_BLOCK_TEXT) || (!first && block->kind <= block[-1].kind))
+        return false;
+    return rows[block->kind].bytes > 0 && block->content_bytes % rows[block->kind].bytes == 0 &&
+           block->content_bytes / rows[block->kind].bytes <= rows[block->kind].most;
+}
+
+/* Returns how many rows the block of a kind has. */
+static uint32_t rows_of(const struct ground_file *file, enum ground_block_kind kind)
+{
+    uint32_t block = file->block[kind];
+    return block > 0 ? file->blocks[block].content_bytes / rows[kind].bytes : 0;
 }
 
 static int check_directory(struct ground_file *file, struct error_text *error)
@@ -104,11 +123,15 @@ static int check_directory(struct ground_file *file, struct error_text *error)
         if (!block_fits(file, &file->blocks[i], i))
             return error_text_set(error, "%s: block %u of its directory cannot be", file->path, i);
     }
-    if (h->block_count > file->tiles)
-        file->text_bytes = file->blocks[file->tiles].content_bytes;
-    if (h->block_count > file->tiles + 1)
-        file->road_points = file->blocks[file->tiles + 1].content_bytes /
-                            (uint32_t)sizeof(struct ground_road_point);
+    for (uint32_t i = file->tiles; i < h->block_count; i++)
+        file->block[file->blocks[i].kind] = i;
+    file->text_bytes = rows_of(file, GROUND_BLOCK_TEXT);
+    file->road_points = rows_of(file, GROUND_BLOCK_ROADS);
+    file->objects = rows_of(file, GROUND_BLOCK_OBJECTS);
+    file->buildings = rows_of(file, GROUND_BLOCK_BUILDINGS);
+    file->corners = rows_of(file, GROUND_BLOCK_CORNERS);
+    if (file->objects > GROUND_OBJECTS_MAX - file->buildings)
+        return refuse(file, error, "it has too many objects");
     if (h->hash != ground_file_hash(h, file->blocks))
         return refuse(file, error, "its hash is not that of its ground");
     return 0;
@@ -127,9 +150,10 @@ static int read_header(struct ground_file *file, int fd, uint64_t *bytes, struct
         memcmp(h->magic, GROUND_MAGIC, sizeof h->magic) != 0)
         return error_text_set(error, "%s: is no ground file; jolon ground make makes one",
                               file->path);
-    if (h->version != GROUND_VERSION)
-        return error_text_set(error, "%s: has version %u of ground files; this build reads %u",
-                              file->path, h->version, GROUND_VERSION);
+    if (h->version < GROUND_VERSION_OLDEST || h->version > GROUND_VERSION)
+        return error_text_set(error,
+                              "%s: has version %u of ground files; this build reads %u to %u",
+                              file->path, h->version, GROUND_VERSION_OLDEST, GROUND_VERSION);
     return check_header(file, *bytes, error);
 }
 
@@ -227,16 +251,116 @@ int ground_file_roads(const struct ground_file *file, struct ground_road_point *
 {
     if (file->road_points == 0)
         return 0;
-    if (unpack(file, file->tiles + 1, points, error) != 0)
+    if (unpack(file, file->block[GROUND_BLOCK_ROADS], points, error) != 0)
         return -1;
     return roads_fit(points, file->road_points, file->header.side_m)
                ? 0
                : error_text_set(error, "%s: has roads that cannot be", file->path);
 }
 
+static bool objects_fit(const struct ground_object *object, uint32_t count, double side_m)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const struct ground_object *o = &object[i], *before = i > 0 ? o - 1 : NULL;
+        if (o->x_mm < 0 || o->z_mm < 0 || o->x_mm > side_m * 1000.0 || o->z_mm > side_m * 1000.0 ||
+            o->type >= GROUND_OBJECT_TYPES || o->size_percent < GROUND_SIZE_MIN)
+            return false;
+        if (before &&
+            (before->x_mm > o->x_mm || (before->x_mm == o->x_mm && before->z_mm >= o->z_mm)))
+            return false;
+    }
+    return true;
+}
+
+int ground_file_objects(const struct ground_file *file, struct ground_object *objects,
+                        struct error_text *error)
+{
+    if (file->objects == 0)
+        return 0;
+    if (unpack(file, file->block[GROUND_BLOCK_OBJECTS], objects, error) != 0)
+        return -1;
+    return objects_fit(objects, file->objects, file->header.side_m)
+               ? 0
+               : error_text_set(error, "%s: has objects that cannot be", file->path);
+}
+
+bool ground_file_part_fits(const struct ground_corner *corner, uint32_t count)
+{
+    int64_t area = 0;
+    double longest = 0.0;
+    if (count < 3 || count > GROUND_PART_CORNERS_MAX)
+        return false;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct ground_corner *a = &corner[i], *b = &corner[(i + 1) % count],
+                                   *c = &corner[(i + 2) % count];
+        if (a->x_mm < -GROUND_BUILDING_REACH_MM || a->x_mm > GROUND_BUILDING_REACH_MM ||
+            a->z_mm < -GROUND_BUILDING_REACH_MM || a->z_mm > GROUND_BUILDING_REACH_MM)
+            return false;
+        int64_t abx = (int64_t)b->x_mm - a->x_mm, abz = (int64_t)b->z_mm - a->z_mm;
+        int64_t bcx = (int64_t)c->x_mm - b->x_mm, bcz = (int64_t)c->z_mm - b->z_mm;
+        /* Clockwise on a map whose z goes down is a positive turn. */
+        if (abx * bcz - abz * bcx <= 0)
+            return false;
+        area += (int64_t)a->x_mm * b->z_mm - (int64_t)a->z_mm * b->x_mm;
+        double length = sqrt((double)(abx * abx + abz * abz));
+        longest = length > longest ? length : longest;
+    }
+    /* Turns of one sign alone might go around twice; then the area counts twice, and the distance
+     * of a corner from the others has no meaning. The sum of the turns tells. */
+    uint32_t downs = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        int32_t now = corner[(i + 1) % count].x_mm - corner[i].x_mm;
+        int32_t next = corner[(i + 2) % count].x_mm - corner[(i + 1) % count].x_mm;
+        downs += now >= 0 && next < 0;
+    }
+    return downs == 1 && (double)area >= GROUND_PART_WIDTH_MM * longest;
+}
+
+static bool building_fits(const struct ground_building *b, double side_m)
+{
+    return b->x_mm >= 0 && b->z_mm >= 0 && b->x_mm <= side_m * 1000.0 &&
+           b->z_mm <= side_m * 1000.0 && b->foot_mm >= GROUND_BUILDING_FOOT_MM && b->foot_mm <= 0 &&
+           b->eaves_mm >= GROUND_BUILDING_EAVES_MM && b->top_mm >= b->eaves_mm &&
+           b->top_mm <= GROUND_BUILDING_TOP_MM && b->parts >= 1 &&
+           b->parts <= GROUND_BUILDING_PARTS_MAX;
+}
+
+/* Returns true if the corners are the parts 0, 1, 2 ... that the buildings have. */
+static bool buildings_fit(const struct ground_file *file, const struct ground_building *buildings,
+                          const struct ground_corner *corners)
+{
+    uint32_t at = 0, part = 0;
+    for (uint32_t i = 0; i < file->buildings; i++) {
+        const struct ground_building *b = &buildings[i];
+        if (!building_fits(b, file->header.side_m))
+            return false;
+        for (uint32_t end = part + b->parts; part < end; part++) {
+            uint32_t first = at;
+            while (at < file->corners && corners[at].part == part)
+                at++;
+            if (!ground_file_part_fits(corners + first, at - first) ||
+                (b->top_mm > b->eaves_mm && (b->parts != 1 || at - first != 4)))
+                return false;
+        }
+    }
+    return at == file->corners;
+}
+
+int ground_file_buildings(const struct ground_file *file, struct ground_building *buildings,
+                          struct ground_corner *corners, struct error_text *error)
+{
+    if ((file->buildings > 0 &&
+         unpack(file, file->block[GROUND_BLOCK_BUILDINGS], buildings, error) != 0) ||
+        (file->corners > 0 && unpack(file, file->block[GROUND_BLOCK_CORNERS], corners, error) != 0))
+        return -1;
+    return buildings_fit(file, buildings, corners)
+               ? 0
+               : error_text_set(error, "%s: has buildings that cannot be", file->path);
+}
+
 int ground_file_text(const struct ground_file *file, char *text, struct error_text *error)
 {
-    if (file->text_bytes > 0 && unpack(file, file->tiles, text, error) != 0)
+    if (file->text_bytes > 0 && unpack(file, file->block[GROUND_BLOCK_TEXT], text, error) != 0)
         return -1;
     for (uint32_t i = 0; i < file->text_bytes; i++) {
         unsigned char c = (unsigned char)text[i];

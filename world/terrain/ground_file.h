@@ -12,6 +12,7 @@
 #include "world/terrain/ground_tile.h"
 
 #include <limits.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -20,14 +21,15 @@ struct ground_file {
     char path[PATH_MAX];
     const unsigned char *mapped; /* [header.bytes] */
     const struct ground_block *blocks;
-    uint32_t tiles;       /* the first blocks are the tiles, in order */
-    uint32_t text_bytes;  /* of the block of text */
-    uint32_t road_points; /* 0: the file has no roads */
+    uint32_t tiles;                     /* the first blocks are the tiles, in order */
+    uint32_t block[GROUND_BLOCK_KINDS]; /* of each kind behind them; 0: the file has none */
+    uint32_t text_bytes;
+    uint32_t road_points, objects, buildings, corners;
 };
 
-/* The hash of a ground: of its place, size, roads, and posts with their cover, but not of its
- * sources and licences. Equal grounds have equal hashes, whatever they were made from. blocks: the
- * directory, whose text does not count. */
+/* The hash of a ground: of its place, size, roads, objects, and posts with their cover, but not of
+ * its sources and licences. Equal grounds have equal hashes, whatever they were made from. blocks:
+ * the directory, whose text does not count. */
 uint64_t ground_file_hash(const struct ground_header *header, const struct ground_block *blocks);
 
 /* Opens a file and checks its header and its directory. 0, or -1 with the reason. */
@@ -46,6 +48,18 @@ int ground_file_posts(const struct ground_file *file, float *posts, uint8_t *cov
 /* Reads the roads into points [road_points] and checks them. 0, or -1 with the reason. */
 int ground_file_roads(const struct ground_file *file, struct ground_road_point *points,
                       struct error_text *error);
+
+/* Reads the objects into objects [file->objects] and checks them. 0, or -1 with the reason. */
+int ground_file_objects(const struct ground_file *file, struct ground_object *objects,
+                        struct error_text *error);
+
+/* Reads the buildings [file->buildings] and their corners [file->corners], and checks them. 0, or
+ * -1 with the reason. */
+int ground_file_buildings(const struct ground_file *file, struct ground_building *buildings,
+                          struct ground_corner *corners, struct error_text *error);
+
+/* Returns true if the corners are those of a convex part as the format asks for. */
+bool ground_file_part_fits(const struct ground_corner *corner, uint32_t count);
 
 /* Reads the text of sources and licences into text [text_bytes + 1], and ends it with a NUL.
  * Control characters but newlines become blanks. 0, or -1 with the reason. */

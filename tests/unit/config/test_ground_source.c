@@ -39,7 +39,8 @@ static uint64_t put_ground(double side_m, double rise_m)
     for (uint32_t i = 0; i < SIDE * SIDE; i++)
         posts[i] = ground_tile_round(rise_m * (i % SIDE));
     snprintf(path, sizeof path, "%s/x.ground", quick_config.folder);
-    assert_int_equal(ground_write(path, &header, posts, cover, "", NULL, 0, NULL, &error), 0);
+    const struct ground_content content = {.posts = posts, .cover = cover, .text = ""};
+    assert_int_equal(ground_write(path, &header, &content, NULL, &error), 0);
     return header.hash;
 }
 
@@ -65,7 +66,7 @@ static void test_a_world_has_the_posts_of_its_file(void **state)
     uint64_t hash = put_ground(50000.0, 0.5);
     must_load(&s, TEXT, NULL);
     assert_true(s.settings->ground_hash == hash);
-    assert_int_equal(s.settings->objects, OBJECTS_NONE);
+    assert_int_equal(s.settings->objects, OBJECTS_FILE);
     assert_int_equal(world_build_make(&built, &s, &error), 0);
     assert_int_equal(built.counts.posts_side, SIDE);
     assert_memory_equal(built.posts, posts, sizeof posts);

@@ -55,7 +55,8 @@ static uint64_t write_ground(const char *to, const char *text, uint32_t threads)
     struct ground_header header = header_of();
     struct thread_pool *pool = thread_pool_create(threads);
     assert_non_null(pool);
-    assert_int_equal(ground_write(to, &header, posts, cover, text, NULL, 0, pool, &error), 0);
+    const struct ground_content content = {.posts = posts, .cover = cover, .text = text};
+    assert_int_equal(ground_write(to, &header, &content, pool, &error), 0);
     thread_pool_destroy(pool);
     return header.hash;
 }
@@ -83,12 +84,19 @@ static void test_what_is_read_is_what_was_written(void **state)
 }
 
 static int read_copy(void);
+static void take_file(void);
+static void put_file(const void *from, size_t count);
+static void seal(void);
+static unsigned char *bytes;
+static size_t size;
 
 /* Writes a ground with roads to copy, and reads all of it. */
 static int with_roads(const struct ground_road_point *roads, uint32_t count)
 {
     struct ground_header header = header_of();
-    assert_int_equal(ground_write(copy, &header, posts, cover, "", roads, count, NULL, &error), 0);
+    const struct ground_content content = {
+        .posts = posts, .cover = cover, .text = "", .roads = roads, .road_points = count};
+    assert_int_equal(ground_write(copy, &header, &content, NULL, &error), 0);
     return read_copy();
 }
 
@@ -123,6 +131,150 @@ static void test_roads_are_read_and_checked(void **state)
     }
 }
 
+#define MIDDLE 30000000
+
+/* A house with a ridge, and an angled building of two parts. */
+static const struct ground_building good_buildings[] = {
+    {MIDDLE, MIDDLE, -500, 5000, 7000, 16384, 1}, {MIDDLE, MIDDLE + 90000, -700, 5000, 5000, 0, 2}};
+static const struct ground_corner good_corners[] = {
+    {-5000, -4000, 0}, {5000, -4000, 0}, {5000, 4000, 0}, {-5000, 4000, 0},
+    {-5000, -5000, 1}, {5000, -5000, 1}, {5000, 0, 1},    {-5000, 0, 1},
+    {-5000, 0, 2},     {0, 0, 2},        {0, 5000, 2}};
+#define CORNERS 11u
+static const struct ground_object good_objects[] = {{0, 0, GROUND_TREE, 80, 7},
+                                                    {0, 1, GROUND_POLE, 250, 65535},
+                                                    {64250000, 0, GROUND_WATERTOWER, 100, 0}};
+
+/* Writes a ground with these objects to copy, and reads all of it. */
+static int with_objects(const struct ground_object *objects,
+                        const struct ground_building *buildings,
+                        const struct ground_corner *corners, uint32_t corner_count)
+{
+    struct ground_header header = header_of();
+    const struct ground_content content = {.posts = posts,
+                                           .cover = cover,
+                                           .text = "",
+                                           .objects = objects,
+                                           .object_count = 3,
+                                           .buildings = buildings,
+                                           .building_count = 2,
+                                           .corners = corners,
+                                           .corner_count = corner_count};
+    assert_int_equal(ground_write(copy, &header, &content, NULL, &error), 0);
+    return read_copy();
+}
+
+static void test_objects_and_buildings_are_read(void **state)
+{
+    struct ground_object objects[3];
+    struct ground_building buildings[2];
+    struct ground_corner corners[CORNERS];
+    struct ground_file file;
+    (void)state;
+    roughen(fixture_seed(6));
+    assert_int_equal(with_objects(good_objects, good_buildings, good_corners, CORNERS), 0);
+    assert_int_equal(ground_file_open(&file, copy, &error), 0);
+    assert_int_equal(file.objects, 3);
+    assert_int_equal(file.buildings, 2);
+    assert_int_equal(file.corners, CORNERS);
+    assert_int_equal(file.road_points, 0);
+    assert_int_equal(ground_file_objects(&file, objects, &error), 0);
+    assert_int_equal(ground_file_buildings(&file, buildings, corners, &error), 0);
+    assert_memory_equal(objects, good_objects, sizeof objects);
+    assert_memory_equal(buildings, good_buildings, sizeof buildings);
+    assert_memory_equal(corners, good_corners, sizeof corners);
+    uint64_t hash = file.header.hash;
+    ground_file_close(&file);
+    objects[1].size_percent = 249;
+    assert_int_equal(with_objects(objects, good_buildings, good_corners, CORNERS), 0);
+    assert_int_equal(ground_file_open(&file, copy, &error), 0);
+    assert_true(file.header.hash != hash);
+    ground_file_close(&file);
+}
+
+static void test_objects_that_cannot_be_are_refused(void **state)
+{
+    const struct ground_object wrong[][3] = {
+        {{0, 0, 0, 80, 0}, {0, 0, 0, 80, 0}, {9, 9, 0, 80, 0}},
+        {{1, 0, 0, 80, 0}, {0, 0, 0, 80, 0}, {9, 9, 0, 80, 0}},
+        {{-1, 0, 0, 80, 0}, {0, 0, 0, 80, 0}, {9, 9, 0, 80, 0}},
+        {{0, 0, 0, 80, 0}, {1, 0, 0, 80, 0}, {9, 64250001, 0, 80, 0}},
+        {{0, 0, GROUND_OBJECT_TYPES, 80, 0}, {1, 0, 0, 80, 0}, {9, 9, 0, 80, 0}},
+        {{0, 0, 0, GROUND_SIZE_MIN - 1, 0}, {1, 0, 0, 80, 0}, {9, 9, 0, 80, 0}},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        if (with_objects(wrong[i], good_buildings, good_corners, CORNERS) == 0)
+            fail_msg("objects %zu were believed", i);
+        assert_non_null(strstr(error.text, "has objects that cannot be"));
+    }
+}
+
+static void building_refused(const char *what, const struct ground_building *buildings,
+                             const struct ground_corner *corners, uint32_t count)
+{
+    if (with_objects(good_objects, buildings, corners, count) == 0)
+        fail_msg("%s was believed", what);
+    assert_non_null(strstr(error.text, "has buildings that cannot be"));
+}
+
+static void test_buildings_that_cannot_be_are_refused(void **state)
+{
+    struct ground_building b[2];
+    struct ground_corner c[CORNERS + 1];
+    (void)state;
+#define WRONG_BUILDING(what, member, value)                                                        \
+    memcpy(b, good_buildings, sizeof b);                                                           \
+    b[1].member = (value);                                                                         \
+    building_refused(what, b, good_corners, CORNERS)
+    WRONG_BUILDING("a middle beyond the square", x_mm, 64250001);
+    WRONG_BUILDING("a foot in the air", foot_mm, 1);
+    WRONG_BUILDING("a deep foot", foot_mm, GROUND_BUILDING_FOOT_MM - 1);
+    WRONG_BUILDING("eaves in the ground", eaves_mm, 0);
+    WRONG_BUILDING("a roof below its eaves", top_mm, 4999);
+    WRONG_BUILDING("a ridge over two parts", top_mm, 5001);
+    WRONG_BUILDING("a tower of a kilometre", top_mm, 1000000);
+    WRONG_BUILDING("no parts", parts, 0);
+    WRONG_BUILDING("more parts than there are", parts, 3);
+    WRONG_BUILDING("fewer parts than there are", parts, 1);
+#define WRONG_CORNER(what, at, ...)                                                                \
+    memcpy(c, good_corners, sizeof good_corners);                                                  \
+    c[at] = (struct ground_corner)__VA_ARGS__;                                                     \
+    building_refused(what, good_buildings, c, CORNERS)
+    WRONG_CORNER("a corner on a straight line", 1, {0, 0, 0});
+    WRONG_CORNER("a hollow corner", 1, {-4000, 0, 0});
+    WRONG_CORNER("a corner of another part", 1, {5000, -4000, 1});
+    WRONG_CORNER("a corner far away", 1, {GROUND_BUILDING_REACH_MM + 1, -4000, 0});
+    WRONG_CORNER("a part of a hair's width", 10, {0, 5, 2});
+    WRONG_CORNER("a turn the other way", 10, {0, -5000, 2});
+    building_refused("a missing corner", good_buildings, good_corners, CORNERS - 1);
+    memcpy(c, good_corners, sizeof good_corners);
+    c[CORNERS] = (struct ground_corner){0, 0, 3};
+    building_refused("a corner too many", good_buildings, c, CORNERS + 1);
+}
+
+static void test_a_star_that_turns_one_way_is_no_part(void **state)
+{
+    /* All of its turns are to one side, and it goes around twice. */
+    const struct ground_corner star[] = {
+        {0, -10000, 0}, {5878, 8090, 0}, {-9511, -3090, 0}, {9511, -3090, 0}, {-5878, 8090, 0}};
+    (void)state;
+    assert_false(ground_file_part_fits(star, 5));
+    assert_true(ground_file_part_fits(good_corners, 4));
+}
+
+static void test_files_of_the_first_version_are_read(void **state)
+{
+    (void)state;
+    write_ground(path, "sources", 1);
+    take_file();
+    ((struct ground_header *)(void *)bytes)->version = GROUND_VERSION_OLDEST;
+    seal();
+    put_file(bytes, size);
+    assert_int_equal(read_copy(), 0);
+    free(bytes);
+}
+
 static void test_hash_is_of_the_ground_alone(void **state)
 {
     (void)state;
@@ -146,9 +298,6 @@ static void test_heights_are_rounded_to_the_nearest_step(void **state)
 }
 
 /* --- files that are wrong ----------------------------------------------------------------------*/
-
-static unsigned char *bytes;
-static size_t size;
 
 static void take_file(void)
 {
@@ -186,6 +335,14 @@ static int read_copy(void)
         if (result == 0 && file.road_points < 100) {
             struct ground_road_point roads[100];
             result = ground_file_roads(&file, roads, &error);
+        }
+        if (result == 0 && file.objects < 100 && file.buildings < 100 && file.corners < 100) {
+            struct ground_object objects[100];
+            struct ground_building buildings[100];
+            struct ground_corner corners[100];
+            result = ground_file_objects(&file, objects, &error);
+            if (result == 0)
+                result = ground_file_buildings(&file, buildings, corners, &error);
         }
         ground_file_close(&file);
     }
@@ -269,7 +426,8 @@ static void test_lying_headers_are_refused(void **state)
     struct ground_header *h = (struct ground_header *)(void *)bytes;
     struct ground_block *blocks = (struct ground_block *)(void *)(h + 1);
     LIE("a version", h->version, uint32_t, GROUND_VERSION + 1);
-    assert_non_null(strstr(error.text, "version 2"));
+    assert_non_null(strstr(error.text, "version 3"));
+    LIE("version 0", h->version, uint32_t, 0);
     LIE("a latitude", h->latitude_deg, double, NAN);
     LIE("a latitude", h->latitude_deg, double, 89.0);
     LIE("a longitude", h->longitude_deg, double, -180.5);
@@ -338,7 +496,8 @@ static void test_a_file_that_cannot_be_written_leaves_the_old_one(void **state)
     char wrong[128], stale[128];
     (void)state;
     snprintf(wrong, sizeof wrong, "%s/no/x.ground", folder);
-    assert_int_equal(ground_write(wrong, &header, posts, cover, "", NULL, 0, NULL, &error), -1);
+    const struct ground_content content = {.posts = posts, .cover = cover, .text = ""};
+    assert_int_equal(ground_write(wrong, &header, &content, NULL, &error), -1);
     /* What a killed writer left aside is removed by the next. */
     snprintf(stale, sizeof stale, "%s/.a.ground.99999999", folder);
     int fd = open(stale, O_WRONLY | O_CREAT | O_CLOEXEC, 0600);
@@ -372,6 +531,11 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_what_is_read_is_what_was_written),
         cmocka_unit_test(test_roads_are_read_and_checked),
+        cmocka_unit_test(test_objects_and_buildings_are_read),
+        cmocka_unit_test(test_objects_that_cannot_be_are_refused),
+        cmocka_unit_test(test_buildings_that_cannot_be_are_refused),
+        cmocka_unit_test(test_a_star_that_turns_one_way_is_no_part),
+        cmocka_unit_test(test_files_of_the_first_version_are_read),
         cmocka_unit_test(test_hash_is_of_the_ground_alone),
         cmocka_unit_test(test_heights_are_rounded_to_the_nearest_step),
         cmocka_unit_test(test_every_changed_byte_is_noticed),

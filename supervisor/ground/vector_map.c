@@ -1,0 +1,211 @@
+/* Reads features of maps layer by layer. */
+#include "supervisor/ground/vector_map.h"
+
+#include <cpl_error.h>
+#include <gdal.h>
+#include <ogr_srs_api.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* OpenStreetMap's layers. Each is read alone, because the others would fill the memory. Relations
+ * of lines are the same lines once more. */
+static const struct {
+    const char *name;
+    enum vector_map_shapes shape;
+} osm_layers[] = {{"points", VECTOR_MAP_POINTS},
+                  {"lines", VECTOR_MAP_LINES},
+                  {"multipolygons", VECTOR_MAP_AREAS}};
+#define OSM_LAYERS (sizeof osm_layers / sizeof osm_layers[0])
+
+static unsigned shapes_of(OGRwkbGeometryType type)
+{
+    switch ((int)wkbFlatten(type)) {
+    case wkbPoint:
+    case wkbMultiPoint:
+        return VECTOR_MAP_POINTS;
+    case wkbLineString:
+    case wkbMultiLineString:
+        return VECTOR_MAP_LINES;
+    case wkbPolygon:
+    case wkbMultiPolygon:
+        return VECTOR_MAP_AREAS;
+    case wkbUnknown:
+    case wkbGeometryCollection:
+        return VECTOR_MAP_POINTS | VECTOR_MAP_LINES | VECTOR_MAP_AREAS;
+    default:
+        return 0;
+    }
+}
+
+static OGRCoordinateTransformationH make_to_earth(OGRLayerH layer)
+{
+    OGRSpatialReferenceH given = OGR_L_GetSpatialRef(layer);
+    OGRCoordinateTransformationH made = NULL;
+    if (!given)
+        return NULL;
+    OGRSpatialReferenceH earth = OSRNewSpatialReference(NULL), own = OSRClone(given);
+    OSRImportFromEPSG(earth, 4326);
+    OSRSetAxisMappingStrategy(earth, OAMS_TRADITIONAL_GIS_ORDER);
+    OSRSetAxisMappingStrategy(own, OAMS_TRADITIONAL_GIS_ORDER);
+    made = OCTNewCoordinateTransformation(own, earth);
+    OSRDestroySpatialReference(own);
+    OSRDestroySpatialReference(earth);
+    return made;
+}
+
+static int read_layer(struct vector_map *map, OGRLayerH layer, vector_map_feature *feature,
+                      void *context, struct error_text *error)
+{
+    map->to_earth = make_to_earth(layer);
+    if (!map->to_earth)
+        return error_text_set(error,
+                              "%s: its projection is not known; right would be: ogr2ogr -a_srs "
+                              "EPSG:4326 PLACED.gpkg %s, if it has degrees of WGS 84",
+                              map->path, map->path);
+    for (OGRFeatureH f = OGR_L_GetNextFeature(layer); f && !map->no_memory;
+         f = OGR_L_GetNextFeature(layer)) {
+        OGRGeometryH geometry = OGR_F_GetGeometryRef(f);
+        if (geometry)
+            feature(context, map, f, geometry);
+        OGR_F_Destroy(f);
+    }
+    OCTDestroyCoordinateTransformation(map->to_earth);
+    map->to_earth = NULL;
+    return map->no_memory ? error_text_memory(error) : 0;
+}
+
+static GDALDatasetH open_map(const char *path, struct error_text *error)
+{
+    CPLErrorReset();
+    GDALDatasetH data = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
+    if (!data)
+        error_text_set(error, "%s: GDAL cannot read it as a map of points, lines and areas: %s",
+                       path, CPLGetLastErrorMsg());
+    return data;
+}
+
+/* Reads one of OpenStreetMap's layers, for which the file is read as a whole. */
+static int read_osm(struct vector_map *map, uint32_t which, vector_map_feature *feature,
+                    void *context, struct error_text *error)
+{
+    char words[64];
+    GDALDatasetH data = open_map(map->path, error);
+    if (!data)
+        return -1;
+    snprintf(words, sizeof words, "SET interest_layers = %s", osm_layers[which].name);
+    GDALDatasetReleaseResultSet(data, GDALDatasetExecuteSQL(data, words, NULL, NULL));
+    OGRLayerH layer = GDALDatasetGetLayerByName(data, osm_layers[which].name);
+    int result = layer ? read_layer(map, layer, feature, context, error) : 0;
+    if (result == 0 && CPLGetLastErrorType() >= CE_Failure)
+        result = error_text_set(error, "%s: cannot be read: %s", map->path, CPLGetLastErrorMsg());
+    GDALClose(data);
+    return result;
+}
+
+static int read_layers(struct vector_map *map, GDALDatasetH data, unsigned shapes, uint32_t *read,
+                       vector_map_feature *feature, void *context, struct error_text *error)
+{
+    for (int i = 0; i < GDALDatasetGetLayerCount(data); i++) {
+        OGRLayerH layer = GDALDatasetGetLayer(data, i);
+        if (!(shapes_of(OGR_L_GetGeomType(layer)) & shapes))
+            continue;
+        ++*read;
+        if (read_layer(map, layer, feature, context, error) != 0)
+            return -1;
+        if (CPLGetLastErrorType() >= CE_Failure)
+            return error_text_set(error, "%s: cannot be read: %s", map->path, CPLGetLastErrorMsg());
+    }
+    return 0;
+}
+
+int vector_map_read(const char *path, const struct post_grid *grid, unsigned shapes,
+                    const char *what, vector_map_feature *feature, void *context,
+                    struct error_text *error)
+{
+    struct vector_map map = {.path = path, .grid = grid};
+    uint32_t read = 0;
+    int result = 0;
+    GDALDatasetH data = open_map(path, error);
+    if (!data)
+        return -1;
+    bool osm = strcmp(GDALGetDriverShortName(GDALGetDatasetDriver(data)), "OSM") == 0;
+    if (!osm)
+        result = read_layers(&map, data, shapes, &read, feature, context, error);
+    GDALClose(data);
+    for (uint32_t i = 0; osm && i < OSM_LAYERS && result == 0; i++) {
+        read++;
+        if (osm_layers[i].shape & shapes)
+            result = read_osm(&map, i, feature, context, error);
+    }
+    if (result == 0 && read == 0)
+        result = error_text_set(error, "%s: has no %s", path, what);
+    return result;
+}
+
+bool vector_map_track(struct vector_map *map, OGRGeometryH geometry, struct vector_map_track *track)
+{
+    int count = OGR_G_GetPointCount(geometry);
+    track->count = 0;
+    if (count < 1)
+        return false;
+    if ((uint32_t)count > track->room) {
+        double(*larger)[2] = realloc(track->place, (size_t)count * sizeof *track->place);
+        map->no_memory |= !larger;
+        if (!larger)
+            return false;
+        track->place = larger;
+        track->room = (uint32_t)count;
+    }
+    for (int i = 0; i < count; i++) {
+        double x = OGR_G_GetX(geometry, i), y = OGR_G_GetY(geometry, i);
+        if (!isfinite(x) || !isfinite(y) ||
+            (map->to_earth && !OCTTransform(map->to_earth, 1, &x, &y, NULL)) ||
+            !(fabs(y) <= 90.0) || !(fabs(x) <= 540.0)) {
+            CPLErrorReset(); /* the caller counts the geometry as bad, and the map goes on */
+            return false;
+        }
+        projection_world(&map->grid->projection, y, x, &track->place[i][0], &track->place[i][1]);
+    }
+    track->count = (uint32_t)count;
+    return true;
+}
+
+void vector_map_track_free(struct vector_map_track *track)
+{
+    free(track->place);
+    *track = (struct vector_map_track){0};
+}
+
+/* Finds a key in a list "a"=>"b","c"=>"d", in which a backslash stands before quotes. */
+static const char *find_in_list(const char *list, const char *key, char *buffer, uint32_t bytes)
+{
+    size_t length = strlen(key);
+    for (const char *at = list; (at = strstr(at, key)) != NULL; at += length) {
+        if (at == list || at[-1] != '"' || (at - 1 != list && at[-2] != ',') ||
+            strncmp(at + length, "\"=>\"", 4) != 0)
+            continue;
+        uint32_t used = 0;
+        for (at += length + 4; *at && *at != '"' && used + 1 < bytes; at++) {
+            if (*at == '\\' && at[1])
+                at++;
+            buffer[used++] = *at;
+        }
+        buffer[used] = '\0';
+        return buffer;
+    }
+    return "";
+}
+
+const char *vector_map_tag(OGRFeatureH feature, const char *key, char *buffer, uint32_t bytes)
+{
+    int field = OGR_F_GetFieldIndex(feature, key);
+    if (field >= 0 && OGR_F_IsFieldSetAndNotNull(feature, field))
+        return OGR_F_GetFieldAsString(feature, field);
+    field = OGR_F_GetFieldIndex(feature, "other_tags");
+    if (field < 0 || !OGR_F_IsFieldSetAndNotNull(feature, field))
+        return "";
+    return find_in_list(OGR_F_GetFieldAsString(feature, field), key, buffer, bytes);
+}

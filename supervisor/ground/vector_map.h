@@ -1,0 +1,50 @@
+/* Maps of points, lines and areas, as GDAL reads them: OpenStreetMap (.osm, .pbf), GeoPackage,
+ * Shapefile, GeoJSON. Main thread only. */
+#ifndef JOLON_SUPERVISOR_GROUND_VECTOR_MAP_H
+#define JOLON_SUPERVISOR_GROUND_VECTOR_MAP_H
+
+#include "supervisor/ground/raster.h"
+
+#include <ogr_api.h>
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/* Where the places of a geometry are: x to the east and z to the south of the north-west corner. */
+struct vector_map_track {
+    double (*place)[2]; /* [m] */
+    uint32_t count, room;
+};
+
+struct vector_map {
+    const char *path;
+    const struct post_grid *grid;
+    OGRCoordinateTransformationH to_earth; /* of the layer that is read */
+    bool no_memory;
+};
+
+/* Called for each feature that has a geometry. */
+typedef void vector_map_feature(void *context, struct vector_map *map, OGRFeatureH feature,
+                                OGRGeometryH geometry);
+
+enum vector_map_shapes { VECTOR_MAP_POINTS = 1, VECTOR_MAP_LINES = 2, VECTOR_MAP_AREAS = 4 };
+
+/* Reads the layers of a map that may have these shapes, a bit each. what: "lines, of which roads
+ * could be made", for the refusal of a map without them. 0, or -1 with the reason: no map that GDAL
+ * reads, no known projection, no such layer, no memory. */
+int vector_map_read(const char *path, const struct post_grid *grid, unsigned shapes,
+                    const char *what, vector_map_feature *feature, void *context,
+                    struct error_text *error);
+
+/* Reads the places of a point, a line or a ring into the track. Returns false if one of them is no
+ * place on the earth, or without memory, which *map notes. */
+bool vector_map_track(struct vector_map *map, OGRGeometryH geometry,
+                      struct vector_map_track *track);
+void vector_map_track_free(struct vector_map_track *track);
+
+/* Returns a feature's value for a key of OpenStreetMap, from a field of this name or from the list
+ * "other_tags" of GDAL's driver; "" without one. A value of the list is cut to the size of buffer.
+ */
+const char *vector_map_tag(OGRFeatureH feature, const char *key, char *buffer, uint32_t bytes);
+
+#endif

@@ -1,0 +1,137 @@
+"""Draws maps of a village and of broken features for test_ground_objects.sh, and judges what became of them. Places are
+converted by PROJ's gdaltransform.
+
+usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west and broken.geojson, and broken.osm)
+       ground_features.py corner EVENTS           (does the first collision of T1 lie at the corner, within 1 mm?)
+       ground_features.py wall EVENTS             (does it lie on a wall beside that corner, within 1 mm?)
+       ground_features.py shore DUMP LATER        (does T2 stand at the shore of the lake?)"""
+import json
+import math
+import sys
+
+sys.dont_write_bytecode = True
+from ground import places_of  # noqa: E402
+
+# The western corner of the first building, whose sides go to the north-east and south-east; and the western shore.
+CORNER = (25003.217, 25000.431)
+SHORE = 20300.0
+
+
+class Map:
+    def __init__(self, latitude, longitude, side):
+        self.place = float(latitude), float(longitude)
+        self.half = float(side) / 2
+        self.features = []
+
+    def add(self, shape, points, **tags):
+        self.features.append((shape, points, tags))
+
+    def write(self, *paths):
+        """Writes each feature to the maps whose turn it is."""
+        flat = [p for _, points, _ in self.features for p in points]
+        places = iter(places_of([(x - self.half, self.half - z) for x, z in flat], *self.place))
+        rows = []
+        for shape, points, tags in self.features:
+            ring = [[round(lon, 11), round(lat, 11)] for lat, lon in (next(places) for _ in points)]
+            coordinates = ring[0] if shape == "Point" else [ring + ring[:1]] if shape == "Polygon" else ring
+            rows.append({"type": "Feature", "properties": tags, "geometry": {"type": shape, "coordinates": coordinates}})
+        for k, path in enumerate(paths):
+            with open(path, "w", encoding="utf-8") as file:
+                json.dump({"type": "FeatureCollection", "features": rows[k::len(paths)]}, file)
+        return rows
+
+
+def box(x, z, length, width, angle=0.0):
+    sine, cosine = math.sin(angle), math.cos(angle)
+    return [(round(x + u * cosine - v * sine, 3), round(z + u * sine + v * cosine, 3))
+            for u, v in ((-length / 2, -width / 2), (length / 2, -width / 2), (length / 2, width / 2), (-length / 2, width / 2))]
+
+
+def village(there):
+    x, z = CORNER
+    there.add("Polygon", [(x, z), (x + 12.5, z - 12.5), (x + 25, z), (x + 12.5, z + 12.5)], building="yes", height="9")
+    for i in range(120):
+        there.add("Polygon", box(25150 + i % 12 * 30, 24750 + i // 12 * 42, 12 + i % 5, 9, 0.01 * i), building="house")
+    for i in range(11):
+        there.add("LineString", [(25130, 24729 + i * 42), (25310, 24730 + i * 42), (25510, 24729 + i * 42)], highway="residential")
+    there.add("LineString", [(25130, 24600), (25130, 25400)], highway="secondary")
+    there.add("Polygon", [(SHORE, 29000), (22000, 29000), (22000, 31000), (SHORE, 31000)], natural="water", name="x" * 65536)
+    there.add("Polygon", [(26000, 24000), (27500, 24100), (27400, 25500), (26500, 24900)], landuse="forest")
+    there.add("LineString", [(24000 + i * 150, 24500) for i in range(20)], power="line")
+    there.add("Point", [(24300, 24500)], power="tower")
+    there.add("Point", [(25700, 24700)], man_made="water_tower")
+    there.add("LineString", [(23000, 20000), (23500, 25000), (23000, 30000)], waterway="river", width="40 m")
+
+
+def broken(there):
+    there.add("Polygon", box(25000, 25000, 12, 9), building="yes", name="y" * 65536)
+    there.add("Polygon", [(25100, 25000), (25112, 25010), (25112, 25000), (25100, 25010)], building="yes")  # a bow: two triangles
+    there.add("LineString", box(25200, 25000, 12, 9), building="yes")
+    there.add("Point", [(25300, 25000)], building="yes")
+    there.add("Polygon", box(49998, 25000, 12, 9), building="yes")
+    there.add("Polygon", box(25400, 25000, 1, 1), building="yes")
+    there.add("Polygon", [(25500, 25000), (25510, 25000), (25510, 25000.004), (25505, 25008)], building="yes", height="high")
+    there.add("Polygon", box(80000, 25000, 12, 9), building="yes")  # elsewhere
+    rows = there.write("broken.geojson")
+    rows[-1]["geometry"]["coordinates"][0][1] = [-71.5, 95.0]
+    rows.append({"type": "Feature", "properties": {"natural": "water"}, "geometry": {"type": "Polygon", "coordinates": [[[-71.5, 44.5], [-71.5, 44.6]]]}})
+    with open("broken.geojson", "w", encoding="utf-8") as file:
+        json.dump({"type": "FeatureCollection", "features": rows}, file)
+
+
+def broken_osm(there):
+    there.features = [("Polygon", box(25000 + 40 * i, 25000, 12, 9), {}) for i in range(2)]
+    rings = [row["geometry"]["coordinates"][0] for row in there.write("good.geojson")]
+    nodes = [p for ring in rings for p in ring[:4]]
+    with open("broken.osm", "w", encoding="utf-8") as file:
+        file.write('<osm version="0.6">\n')
+        for i, (lon, lat) in enumerate(nodes):
+            file.write(f'<node id="{i + 1}" lat="{lat:.9f}" lon="{lon:.9f}" version="1"/>\n')
+        for i, refs in enumerate(([1, 2, 3, 4, 1], [5, 6, 999, 7, 8, 5], [997, 998, 999, 997])):
+            file.write(f'<way id="{i + 1}" version="1">' + "".join(f'<nd ref="{r}"/>' for r in refs) + '<tag k="building" v="yes"/></way>\n')
+        file.write("</osm>\n")
+
+
+def maps(*place):
+    there = Map(*place)
+    village(there)
+    there.write("village.geojson")
+    there.write("east.geojson", "west.geojson")
+    broken(Map(*place))
+    broken_osm(Map(*place))
+
+
+def first_collision(path):
+    with open(path, encoding="utf-8") as file:
+        events = [json.loads(line) for line in file]
+    first = next(e for e in events if e["type"] == "collision" and e["b"].get("fixed"))
+    print(first)
+    return first["b"]["kind"], first["point"][0] - CORNER[0], first["point"][2] - CORNER[1]
+
+
+def corner(path):
+    kind, x, z = first_collision(path)
+    off = math.hypot(x, z)
+    print(f"{off * 1000:.4f} mm off the corner")
+    raise SystemExit(kind != "building" or off > 0.001)
+
+
+def wall(path):
+    kind, x, z = first_collision(path)
+    off = abs(abs(z) - x) / math.sqrt(2.0)  # the walls go to the north-east and the south-east
+    print(f"{off * 1000:.4f} mm off the wall")
+    raise SystemExit(kind != "building" or off > 0.001 or not 0.0 < x < 2.0)
+
+
+def shore(*paths):
+    places = []
+    for path in paths:
+        with open(path, encoding="utf-8") as file:
+            places.append(next(v["position"] for v in map(json.loads, file) if v.get("name") == "T2"))
+    print(places)
+    # It fords what is shallow, where the posts end the lake, and no more.
+    raise SystemExit(not all(-20.0 < place[0] - SHORE < 45.0 for place in places) or abs(places[0][0] - places[1][0]) > 1.0)
+
+
+if __name__ == "__main__":
+    {"maps": maps, "corner": corner, "wall": wall, "shore": shore}[sys.argv[1]](*sys.argv[2:])

@@ -1,0 +1,108 @@
+#!/usr/bin/env bash
+# Buildings, woods, water and poles of maps: what becomes of them in a ground file and in a world, maps that are
+# broken, and digests on them on 1, 2 and 4 threads, after kills and in a replay.
+here=$(cd "$(dirname "$0")" && pwd)
+. "$here/lib.sh"
+ground=$bin/jolon-ground
+mkdir -m 700 "$JOLON_RUNTIME_DIR"
+if [ ! -x "$ground" ] || ! command -v gdaltransform >/dev/null; then
+    skip "objects of ground files" "there is no jolon-ground or no gdaltransform here; make ground builds it"
+    done_testing
+fi
+make() { "$ground" make --center 44.5,-71.5 --side 50000 --posts 25 --out "${out:-x.ground}" "$@" level.asc; }
+info() { "$ground" info --json "$1" | json "$2"; }
+printf 'ncols 4\nnrows 4\nxllcorner -73\nyllcorner 43\ncellsize 1\n%s' "$(yes '80 80 80 80' | head -n 4)" >level.asc
+echo 'GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]]' >level.prj
+
+# --- a village, and each thing that can be wrong ------------------------------------------------------------
+python3 "$here/ground_features.py" maps 44.5 -71.5 50000 || exit 1
+check "a village becomes a ground" eval 'make --features village.geojson --roads village.geojson 2>err && "$ground" check x.ground'
+check "every house is a building" eval '[ "$(info x.ground buildings)" = 121 ]'
+check "the only warning is of the cover" eval '! grep -v "no map of cover" err'
+check "it has trees and poles" eval '[ "$(info x.ground objects)" -gt 1000 ]'
+check "it says so" eval '"$ground" info x.ground | grep -q "^features: 121 buildings"'
+out=again.ground make --features village.geojson --roads village.geojson --threads 1 2>/dev/null >/dev/null
+check "made on one thread, it has the same hash" equal "$(info again.ground hash)" "$(info x.ground hash)"
+out=halves.ground make --features east.geojson --features west.geojson --roads village.geojson >/dev/null 2>&1
+check "made from two maps, it has the same hash" equal "$(info halves.ground hash)" "$(info x.ground hash)"
+out=halves.ground make --features west.geojson --features village.geojson --features east.geojson --roads village.geojson >/dev/null 2>&1
+check "what several maps have counts once" equal "$(info halves.ground hash)" "$(info x.ground hash)"
+ogr2ogr -q -f GPKG village.gpkg village.geojson -nln village -dialect SQLite -sql 'SELECT * FROM village' 2>/dev/null
+out=gpkg.ground make --features village.gpkg --roads village.geojson >/dev/null 2>&1
+check "a GeoPackage of the same features gives the same hash" equal "$(info gpkg.ground hash)" "$(info x.ground hash)"
+out=other.ground make --features village.geojson --roads village.geojson --seed 7 >/dev/null 2>&1
+check "another seed gives other woods" eval '[ "$(info other.ground hash)" != "$(info x.ground hash)" ]'
+out=bare.ground make --features village.geojson --trees 0 >/dev/null 2>&1
+check "no trees are planted if none are wanted" eval '[ "$(info bare.ground objects)" -lt 40 ]'
+check "the picture has the lake and the wood" eval '"$ground" show --size 500 x.ground x.png && [ -s x.png ]'
+
+check "broken features are mended or left out" eval 'out=broken.ground make --features broken.geojson 2>err && "$ground" check broken.ground'
+for words in '1 outlines cross themselves, and were mended; the first at latitude 44.499' '1 outlines are open, and were closed; the first at' \
+    '[0-9]+ buildings or woods that are points or lines are left out' '1 buildings across the edge of the square are left out' \
+    '1 outlines are too small for buildings' '2 features with too few places, or with one that is none'; do
+    check "told: $words" grep -Eq "broken.geojson: $words" err
+done
+check "what is good in a broken map is kept" eval '[ "$(info broken.ground buildings)" = 5 ]'
+check "OpenStreetMap with missing nodes" eval 'out=osm.ground make --features broken.osm 2>err && [ "$(info osm.ground buildings)" = 2 ]'
+out=none.ground refuses "features from a text" 1 'level.prj: GDAL cannot read it as a map' make --features level.prj
+out=none.ground refuses "no such map" 1 'missing.osm: GDAL cannot read it' make --features missing.osm
+cp x.ground damaged.ground
+printf 'damage' | dd of=damaged.ground bs=1 seek=$(($(wc -c <damaged.ground) - 200)) conv=notrunc status=none
+refuses "a damaged list of buildings" 1 'damaged.ground: block [0-9]+ is damaged' "$ground" check damaged.ground
+
+# --- a corner, and a shore ---------------------------------------------------------------------------------
+cat >corner.cfg <<'TEXT'
+terrain = { source = "file"; file = "x.ground"; };
+world = { capacity = 64; };
+vehicles = ( { kind = "truck"; name = "T1"; at = [24940.0, 25000.0]; heading_deg = 90.0; speed_mps = 12.0; behaviour = "hold"; } );
+TEXT
+strikes() { "$jolon" run -w "$name" --frames 600 --pace max --without renderer --events events.json corner.cfg >/dev/null 2>&1; }
+strikes
+check "a truck strikes the corner of a building within a millimetre of its outline" python3 "$here/ground_features.py" corner events.json
+sed -i 's/"truck"/"tank"/' corner.cfg
+strikes
+check "the gun of a tank strikes the wall behind it within a millimetre" python3 "$here/ground_features.py" wall events.json
+cat >shore.cfg <<'TEXT'
+terrain = { source = "file"; file = "x.ground"; };
+world = { capacity = 64; };
+vehicles = ( { kind = "tank"; name = "T2"; at = [20250.0, 30000.0]; heading_deg = 90.0; } );
+TEXT
+"$jolon" start -w "$name" --without renderer shore.cfg >/dev/null 2>&1
+"$jolon" ctl -w "$name" scale 4 >/dev/null 2>&1
+"$jolon" ctl -w "$name" drive T2 --throttle 1 --lease 100 >/dev/null 2>&1
+sleep 8
+"$bin/jolon-world" dump --json --world "$name" >places
+sleep 2
+"$bin/jolon-world" dump --json --world "$name" >later
+"$jolon" stop -w "$name" >/dev/null 2>&1
+check "a lake stops a tank at full throttle at its shore" python3 "$here/ground_features.py" shore places later
+
+# --- digests -------------------------------------------------------------------------------------------------
+cat >scene.cfg <<'TEXT'
+world = { name = "village"; seed = 7; };
+terrain = { source = "file"; file = "x.ground"; };
+vehicles = ( { kind = "tank"; count = 40; force = "blue"; engage = "free"; behaviour = "patrol"; area = [24600, 24600, 25600, 25600]; },
+             { kind = "jeep"; count = 40; force = "red"; behaviour = "patrol"; area = [24600, 24600, 25600, 25600]; },
+             { kind = "helicopter"; count = 8; force = "red"; behaviour = "patrol"; area = [24000, 24000, 26000, 26000]; } );
+TEXT
+run() { "$jolon" run -w "$name" --frames 900 --pace max --without renderer --json "$@" scene.cfg 2>/dev/null; }
+for threads in 1 2 4; do
+    run --threads $threads --out out$threads >told$threads
+done
+check "houses and trees are hit" eval '[ "$(json fixed_damaged <told1)" -gt 0 ]'
+check "the digest is the same on 1, 2 and 4 threads" eval \
+    '[ -s told1 ] && [ "$(json digest <told1)" = "$(json digest <told2)" ] && [ "$(json digest <told1)" = "$(json digest <told4)" ]'
+run --pace real --out killed >toldk &
+for role in mover collider mover collider mover collider; do
+    sleep 1
+    "$jolon" kill -w "$name" $role KILL >/dev/null 2>&1
+done
+wait $!
+check "the digest is the same after kills" eval '[ "$(json restarts <toldk)" -ge 3 ] && equal "$(json digest <toldk)" "$(json digest <told1)"'
+check "a replay has the same digest" eval '"$jolon" replay out1/commands.log | grep -q "equal to the run"'
+check "every frame is sound" "$jolon" replay out1/commands.log --physics
+"$jolon" run -w "$name" --frames 1 --pace max --without renderer --set objects.source=none --json scene.cfg >bare 2>/dev/null
+check "a scenario can leave the objects out" eval '[ "$(json fixed_objects <bare)" = 0 ]'
+refuses "objects of a file without the file" 1 'objects.source = file: needs terrain.source = "file"' \
+    "$jolon" run -w "$name" --set objects.source=file duel
+done_testing
