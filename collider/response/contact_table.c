@@ -8,18 +8,22 @@
 #include "world/maths/sort.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
+#include "world/runtime/thread_pool.h"
 #include "world/runtime/work_done.h"
 #include "world/terrain/fallen.h"
 #include "world/world.h"
 
 #include <string.h>
 
+#define GAPS_A_PIECE 4u
+
 int contact_table_init(struct contact_table *table, const struct world *world)
 {
     *table = (struct contact_table){.capacity = world->params->contact_slots};
     table->key = reserve_take(table->capacity, sizeof *table->key);
     table->touched = reserve_take(table->capacity, sizeof *table->touched);
-    if (table->key && table->touched)
+    table->gap = reserve_take(table->capacity, sizeof *table->gap);
+    if (table->key && table->touched && table->gap)
         return 0;
     contact_table_free(table);
     return -1;
@@ -29,6 +33,7 @@ void contact_table_free(struct contact_table *table)
 {
     reserve_free(table->key);
     reserve_free(table->touched);
+    reserve_free(table->gap);
     *table = (struct contact_table){0};
 }
 
@@ -178,8 +183,6 @@ static void collect(struct contact_table *table, const struct response_context *
     }
 }
 
-/* --- the next table ----------------------------------------------------------------------------*/
-
 /* --- what did not touch ------------------------------------------------------------------------*/
 
 /* A row whose path nobody has needed yet is as the mover left it. */
@@ -247,6 +250,54 @@ static double gap_at_end(const struct response_context *context,
                           : vec3_length(between) - reach_of(context, a) - reach_of(context, b);
 }
 
+/* --- gaps --------------------------------------------------------------------------------------*/
+
+/* Lists the known contacts that bear no load in this frame, and of which the gap says whether they
+ * go on. Bodies that lie still beside each other are not looked at. */
+static void list_gaps(struct contact_table *table, const struct response_context *context)
+{
+    const struct state *committed = context->motion->committed;
+    uint32_t at = 0;
+    table->gaps = 0;
+    for (uint32_t i = 0; i < committed->head->contact_count; i++) {
+        const struct persistent_contact *known = &committed->contacts[i];
+        uint64_t key = persistent_contact_key(known);
+        while (at < table->count && persistent_contact_key(&table->touched[at]) < key)
+            at++;
+        bool bears = at < table->count && persistent_contact_key(&table->touched[at]) == key;
+        if (!bears &&
+            (is_old(context, known) || contact_table_lets_through(context, side_b(known))) &&
+            !gone(context, known) && one_may_part(context, known))
+            table->gap[table->gaps++].contact = i;
+    }
+}
+
+struct gap_job {
+    struct contact_table *table;
+    const struct response_context *context;
+};
+
+static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t worker)
+{
+    const struct gap_job *job = argument;
+    const struct state *committed = job->context->motion->committed;
+    (void)worker;
+    for (uint32_t i = first; i < end; i++) {
+        struct contact_gap *gap = &job->table->gap[i];
+        gap->gap_m = gap_at_end(job->context, &committed->contacts[gap->contact]);
+    }
+    work_done();
+}
+
+static void measure_gaps(struct contact_table *table, const struct response_context *context)
+{
+    struct gap_job job = {table, context};
+    list_gaps(table, context);
+    thread_pool_run(context->contacts->workers, measure_some, &job, table->gaps, GAPS_A_PIECE);
+}
+
+/* --- ends --------------------------------------------------------------------------------------*/
+
 /* A body that is gone is as it was in the committed frame. */
 static struct event_party party_of(const struct response_context *context, uint32_t row,
                                    uint32_t id)
@@ -298,27 +349,23 @@ static void renew(struct response_context *context, const struct persistent_cont
     put(context, &contact);
 }
 
-/* Puts a known contact without an impact or a load in this frame, or ends it. Bodies that lie still
- * beside each other are not looked at and stay in contact. Those that overlapped in the last frame
- * have been looked at in this one, and do no longer: their group may sleep. */
-static void keep(struct response_context *context, const struct persistent_contact *known)
+/* Puts a known contact without an impact or a load in this frame, or ends it. gap: of its bodies,
+ * or NULL if it says nothing about the contact. Bodies that overlapped in the last frame have been
+ * looked at in this one, and do no longer: their group may sleep. */
+static void keep(struct response_context *context, const struct persistent_contact *known,
+                 const struct contact_gap *gap)
 {
     struct persistent_contact contact = *known;
     contact.flags &= (uint16_t)~PERSISTENT_CONTACT_OVERLAPS;
     memset(contact.load, 0, sizeof contact.load);
-    bool asks = is_old(context, known) || contact_table_lets_through(context, side_b(known));
-    double gap = INFINITY;
     if (gone(context, known)) {
         end(context, known, CONTACT_END_GONE);
         return;
     }
-    bool moved = asks && one_may_part(context, known);
-    if (moved)
-        gap = gap_at_end(context, known);
-    if (gap <= CONTACT_TOUCHING_M)
+    if (gap && gap->gap_m <= CONTACT_TOUCHING_M)
         contact.pressed_tick = (uint32_t)context->next->head->tick;
     work_done();
-    if (moved && is_old(context, &contact) && gap > CONTACT_TABLE_PARTED_M)
+    if (gap && is_old(context, &contact) && gap->gap_m > CONTACT_TABLE_PARTED_M)
         end(context, known, CONTACT_END_PARTED);
     else
         put(context, &contact);
@@ -341,8 +388,9 @@ static void end_without_room(struct response_context *context)
 void contact_table_finish(struct contact_table *table, struct response_context *context)
 {
     const struct state *committed = context->motion->committed;
-    uint32_t old = 0, new = 0, count = committed->head->contact_count;
+    uint32_t old = 0, new = 0, gap = 0, count = committed->head->contact_count;
     collect(table, context);
+    measure_gaps(table, context);
     context->next->head->contact_count = 0;
     while (old < count || new < table->count) {
         const struct persistent_contact *known = &committed->contacts[old];
@@ -354,7 +402,8 @@ void contact_table_finish(struct contact_table *table, struct response_context *
         else if (key < known_key)
             put(context, touched);
         else
-            keep(context, known);
+            keep(context, known,
+                 gap < table->gaps && table->gap[gap].contact == old ? &table->gap[gap++] : NULL);
         new += key <= known_key;
         old += known_key <= key;
     }

@@ -1,5 +1,6 @@
 /* The table of persistent contacts from frame to frame: which pairs the committed frame knows, and
- * the next frame's table. Pure; one thread. */
+ * the next frame's table. Pure; one caller,
+ * and its workers. */
 #ifndef JOLON_COLLIDER_RESPONSE_CONTACT_TABLE_H
 #define JOLON_COLLIDER_RESPONSE_CONTACT_TABLE_H
 
@@ -21,11 +22,19 @@ struct contact_key {
     uint32_t a_id, b_id;
 };
 
+/* How far the bodies of a contact of the committed table are apart at the frame's end. */
+struct contact_gap {
+    uint32_t contact; /* index */
+    double gap_m;     /* beyond CONTACT_TABLE_PARTED_M it is a lower bound above that */
+};
+
 /* The pairs that touched in this frame, by their keys; the collider's own memory. */
 struct contact_table {
     struct contact_key *key;
     struct persistent_contact *touched;
     uint32_t count, capacity;
+    struct contact_gap *gap; /* of known contacts without a load whose bodies move */
+    uint32_t gaps;
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */
@@ -49,8 +58,8 @@ bool contact_table_begins(struct response_context *context, uint32_t pair);
 
 /* Makes the next frame's table from the committed one and the pairs that are marked as
  * CONTACT_PRESSED. Bodies that pass through each other are in contact for as long as they overlap.
- * Writes an event for each contact that has ended, and for one without room whose beginning was
- * told. */
+ * Gaps are measured on all workers. Writes an event for each contact that has ended, and for one
+ * without room whose beginning was told. */
 void contact_table_finish(struct contact_table *table, struct response_context *context);
 
 #endif

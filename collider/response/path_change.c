@@ -21,14 +21,30 @@
 #define STANDS_COSINE 0.70710678118654752
 #define STANDS_M      0.4
 
+/* Bodies that are slower than this have no faster velocity along any normal, and those whose pitch
+ * and roll add up to less lean less than 45 degrees. Both save what the exact answer costs. */
+#define SURELY_SLOW_MPS   (0.999 * LIES_MPS)
+#define SURELY_STANDS_RAD 0.75
+
+/* Returns true if the row's velocity along the ground's normal is not above LIES_MPS. */
+static bool keeps_to_ground(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    struct vec3 velocity = entities_velocity(e, row);
+    if (vec3_dot(velocity, velocity) < SURELY_SLOW_MPS * SURELY_SLOW_MPS)
+        return true;
+    struct vec3 normal = terrain_normal(&context->world->terrain, context->input.detect.craters,
+                                        e->x[row], e->z[row]);
+    return fabs(vec3_dot(velocity, normal)) <= LIES_MPS;
+}
+
 static bool lies(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
     const struct crater_index *craters = context->input.detect.craters;
     const struct vec3 at = entities_position(e, row);
-    struct vec3 normal = terrain_normal(&context->world->terrain, craters, at.x, at.z);
     struct body_points points;
-    if (fabs(vec3_dot(entities_velocity(e, row), normal)) > LIES_MPS ||
+    if (!keeps_to_ground(context, row) ||
         vec3_length((struct vec3){e->spin_x[row], 0.0, e->spin_z[row]}) > LIES_RPS)
         return false;
     body_points_of(context->world, e->kind[row], &points);
@@ -37,15 +53,19 @@ static bool lies(const struct response_context *context, uint32_t row)
            LIES_M;
 }
 
+static bool is_upright(double pitch_rad, double roll_rad)
+{
+    return fabs(pitch_rad) + fabs(roll_rad) < SURELY_STANDS_RAD ||
+           maths_cos(pitch_rad) * maths_cos(roll_rad) > STANDS_COSINE;
+}
+
 /* Returns true if a vehicle on its springs (mover/motion/chassis.h) stands on its wheels. */
 static bool stands(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
     const struct crater_index *craters = context->input.detect.craters;
     const struct vec3 at = entities_position(e, row);
-    struct vec3 normal = terrain_normal(&context->world->terrain, craters, at.x, at.z);
-    return maths_cos(e->pitch[row]) * maths_cos(e->roll[row]) > STANDS_COSINE &&
-           fabs(vec3_dot(entities_velocity(e, row), normal)) <= LIES_MPS &&
+    return is_upright(e->pitch[row], e->roll[row]) && keeps_to_ground(context, row) &&
            at.y - terrain_height(&context->world->terrain, craters, at.x, at.z) < STANDS_M;
 }
 

@@ -108,17 +108,27 @@ static double add_within(double *sum, double step, double low, double high)
     return *sum - before;
 }
 
-/* Returns by how much the speed at the point changes at most [m/s]. */
-static double solve_point(struct level_body *a, struct level_body *b, struct level_contact *c)
+/* Bounds the friction at the point by its load. */
+static void solve_friction(struct level_body *a, struct level_body *b, struct level_contact *c)
 {
     double limit = c->friction * c->normal_ns;
     double off = speed_across(&a->moved, &b->moved, c);
     double slide = add_within(&c->friction_ns, -off * c->across_kg, -limit, limit);
     push_across(a, b, c, slide);
-    off = c->least_mps - speed_normal(&a->moved, &b->moved, c);
+}
+
+/* Returns by how much the speed at the point changes at most [m/s]. Most points bear no load, and
+ * cost only the look at their speed. */
+static double solve_point(struct level_body *a, struct level_body *b, struct level_contact *c)
+{
+    if (c->normal_ns > 0.0 || c->friction_ns != 0.0)
+        solve_friction(a, b, c);
+    double off = c->least_mps - speed_normal(&a->moved, &b->moved, c);
     double step = add_within(&c->normal_ns, off * c->normal_kg, 0.0, INFINITY);
+    if (step == 0.0)
+        return 0.0;
     push_normal(a, b, &a->moved, &b->moved, c, step);
-    return c->normal_kg > 0.0 ? fabs(step) / c->normal_kg : 0.0;
+    return fabs(step) / c->normal_kg;
 }
 
 /* Recovers the point's overlap, or keeps its gap, by the second velocities and without friction.
