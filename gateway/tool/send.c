@@ -68,8 +68,8 @@ static const struct option_table table = {
         "  jolon dis send stop-freeze originator=7:1:0 receiver=1991:1:0 request=1\n"
         "An id is SITE:APPLICATION:ENTITY, a type of an entity has seven numbers, a vector has\n"
         "commas, place is latitude, longitude [deg] and height above the ellipsoid [m], and\n"
-        "attitude is heading, pitch and roll [deg]. Each run sends from another port, so a\n"
-        "gateway takes a second one that says the same id for another simulator.",
+        "attitude is heading, pitch and roll [deg]. Each run sends from another port: a gateway\n"
+        "takes one with the same id that comes within 6 s for another simulator.",
     .ending = "The types are entity-state, fire, detonation, collision, collision-elastic,\n"
               "create-entity, remove-entity, start-resume, stop-freeze, acknowledge.",
     .rows = rows,

@@ -35,6 +35,7 @@ def draw(form, name, rng):
         return ":".join(map(str, numbers)), numbers
     if form.startswith("KIND"):
         numbers = [rng.randrange(65536) if i == 2 else rng.randrange(256) for i in range(7)]
+        numbers[0] |= 16  # of kinds that it knows, such as life forms, tshark shows the bits of the appearance, too
         return ".".join(map(str, numbers)), numbers
     if form == "HOURS:UNITS":
         numbers = [rng.randrange(600000), rng.randrange(1 << 32)]  # tshark has 32 bits for seconds

@@ -110,6 +110,21 @@ END
 check "each is within the threshold plus its speed times the delay" eval 'python3 -I -S compare.py >compared'
 sed 's/^/# figures: /' compared
 
+# --- the other side's gateway is killed -----------------------------------------------------------------
+rows "$name-b" >before-other
+"$jolon" kill -w "$name-a" gateway >/dev/null
+sleep 3
+rows "$name-b" >after-other
+check "its successor is known as the owner of its vehicles: all keep their ids and go on" python3 -I -S -c '
+import json
+before, after = ({d["remote"]: d for d in map(json.loads, open(f"{n}-other")) if "remote" in d} for n in ("before", "after"))
+both = before.keys() & after.keys()
+assert len(both) >= 0.95 * len(before), (len(both), len(before))
+assert all(before[r]["id"] == after[r]["id"] for r in both)
+moved = sum(before[r]["position"] != after[r]["position"] for r in both if before[r]["speed_mps"] > 1)
+assert moved > 20, moved'
+check "and nothing of it was refused" eval '! grep -q "that another sender" out-b/jolon.log'
+
 # --- kills ----------------------------------------------------------------------------------------------
 remotes "$name-b" >before
 kills=${KILLS:-60}
