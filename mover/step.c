@@ -262,12 +262,21 @@ static void move_as_desired(const struct step_context *context, uint32_t i,
     }
 }
 
+/* Returns true if a land vehicle with an agent moves as a body on its springs. */
+static bool is_sprung(const struct step_context *context, uint32_t i, const struct batches *batches)
+{
+    const struct entities *m = context->m;
+    bool spins = !row_block_lacks(batches->block, SPIN_COLUMNS) &&
+                 (m->spin_x[i] != 0.0 || m->spin_y[i] != 0.0 || m->spin_z[i] != 0.0);
+    return (spins || m->flags[i] & ENTITY_FLAG_CHASSIS) && chassis_takes(context, i, false);
+}
+
 /* Moves a row by the controls that its agent set. */
 static void move_held(const struct step_context *context, uint32_t i, struct batches *batches)
 {
     struct desired_motion desired;
     if (context->world->kinds[context->m->kind[i]].domain != DOMAIN_LAND ||
-        chassis_takes(context, i, false)) {
+        is_sprung(context, i, batches)) {
         agent_controls_motion(context, i, &desired);
         move_as_desired(context, i, &desired, batches);
     } else if (ground_vehicle_take_held(context, &batches->land, i)) {

@@ -31,10 +31,20 @@ static bool follows_script(const struct step_context *context, uint32_t i)
                (enum behaviour)context->world->formations[m->order_arg[i]].order);
 }
 
+/* Behaviours, and orders, of agents that decide in their turns, whatever else the row is. */
+#define BEHAVIOUR_BIT(name) (1u << BEHAVIOUR_##name)
+#define IN_TURNS                                                                                   \
+    (BEHAVIOUR_BIT(IDLE) | BEHAVIOUR_BIT(PATROL) | BEHAVIOUR_BIT(ROUTE) | BEHAVIOUR_BIT(ATTACK) |  \
+     BEHAVIOUR_BIT(FLEE) | BEHAVIOUR_BIT(BACK_OFF) | BEHAVIOUR_BIT(WITHDRAW) |                     \
+     BEHAVIOUR_BIT(RESUPPLY) | BEHAVIOUR_BIT(REPOSITION))
+
 /* Returns how a row moves that existed before this frame. */
 static enum motion motion_of(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
+    if (m->state[i] == ENTITY_ACTIVE && IN_TURNS >> m->behaviour[i] & 1u &&
+        IN_TURNS >> m->order[i] & 1u)
+        return MOTION_AGENT; /* as most rows */
     if (m->state[i] == ENTITY_FREE)
         return MOTION_NONE;
     if (remote_is(m, i))

@@ -246,12 +246,16 @@ static void heed_fords(const struct step_context *context, const struct ground_v
     }
 }
 
-/* Tests whether the point is in the world and on dry land, or in a ford that the kind can cross. */
+/* Tests whether the point is in the world and on dry land, or in a ford that the kind can cross.
+ * dry: there is no water near. */
 static inline void passable(const struct step_context *context, const struct ground_vehicle *batch,
-                            const union simd_lanes *x, const union simd_lanes *z,
+                            const union simd_lanes *x, const union simd_lanes *z, bool dry,
                             union lane_masks *pass)
 {
-    terrain_cache_water(&context->world->terrain, &batch->pose.ground, x, z, pass);
+    if (dry)
+        memset(pass, 0, sizeof *pass);
+    else
+        terrain_cache_water(&context->world->terrain, &batch->pose.ground, x, z, pass);
     for (int h = 0; h < LANE_FOURS; h++)
         pass->f64x4[h] = ~pass->f64x4[h] & (x->f64x4[h] >= 0.0) & (z->f64x4[h] >= 0.0) &
                          (x->f64x4[h] <= WORLD_SIDE_M) & (z->f64x4[h] <= WORLD_SIDE_M);
@@ -266,8 +270,10 @@ static inline void change_position(const struct step_context *context, struct gr
     const f64x4 none = SIMD_EVERY(0.0);
     union lane_masks pass, lead_pass;
     terrain_cache_find(&context->world->terrain, &batch->pose.ground, &ahead->x, &ahead->z);
-    passable(context, batch, &ahead->x, &ahead->z, &pass);
-    passable(context, batch, &ahead->lead_x, &ahead->lead_z, &lead_pass);
+    bool dry =
+        terrain_cache_dry(&context->world->terrain, &batch->pose.ground, &batch->half_length);
+    passable(context, batch, &ahead->x, &ahead->z, dry, &pass);
+    passable(context, batch, &ahead->lead_x, &ahead->lead_z, dry, &lead_pass);
     for (int h = 0; h < LANE_FOURS; h++) {
         f64x4 x = batch->pose.x.f64x4[h], z = batch->pose.z.f64x4[h];
         four_masks moves = (ahead->x.f64x4[h] != x) | (ahead->z.f64x4[h] != z);
@@ -377,9 +383,10 @@ static void write_rows(const struct step_context *context, const struct ground_v
 VECTOR_CLONES
 void ground_vehicle_move(const struct step_context *context, struct ground_vehicle *batch)
 {
-    union simd_lanes sine, cosine, forward, rightward, under_power;
+    union simd_lanes sine, cosine, forward, rightward, under_power, heading;
     struct ahead ahead;
     find_scars(context, batch);
+    heading = batch->heading;
     maths_sincos_lanes(&batch->heading, &sine, &cosine);
     for (int h = 0; h < LANE_FOURS; h++) {
         find_desired(batch, h, context->dt_s);
@@ -393,7 +400,11 @@ void ground_vehicle_move(const struct step_context *context, struct ground_vehic
         under_power.f64x4[h] = forward.f64x4[h];
         power(batch, h, &wanted, &under_power.f64x4[h], context->dt_s);
     }
-    maths_sincos_lanes(&batch->heading, &batch->pose.sine, &batch->pose.cosine);
+    if (memcmp((const unsigned char *)&heading, (const unsigned char *)&batch->heading,
+               sizeof heading) == 0)
+        batch->pose.sine = sine, batch->pose.cosine = cosine;
+    else
+        maths_sincos_lanes(&batch->heading, &batch->pose.sine, &batch->pose.cosine);
     find_ahead(context, batch, &under_power, &rightward, &ahead);
     change_position(context, batch, &ahead);
     ground_pose_find(context, &batch->pose);

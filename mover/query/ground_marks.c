@@ -147,13 +147,18 @@ void ground_marks_find(const struct ground_marks *marks, const union simd_lanes 
                        const union simd_lanes *z, union lane_masks *crater,
                        union lane_masks *debris)
 {
+    if (!marks->any) {
+        memset(crater, 0, sizeof *crater);
+        memset(debris, 0, sizeof *debris);
+        return;
+    }
     for (int h = 0; h < LANE_FOURS; h++) {
         four_cells column, row;
         axes_of(&x->f64x4[h], &column);
         axes_of(&z->f64x4[h], &row);
         four_cells bit = (row * GRIDSQUARE_PER_SIDE + column) * (int32_t)GROUND_MARKS_BITS;
         four_masks found = {0, 0, 0, 0};
-        for (int i = 0; marks->any && i < 4; i++)
+        for (int i = 0; i < 4; i++)
             found[i] = (int64_t)(marks->square[bit[i] / 64] >> bit[i] % 64);
         crater->f64x4[h] = (found & GROUND_MARKS_CRATER) != 0;
         debris->f64x4[h] = (found & GROUND_MARKS_DEBRIS) != 0;

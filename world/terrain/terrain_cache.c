@@ -133,6 +133,21 @@ void terrain_cache_heights(const struct terrain *terrain, const struct terrain_c
         heights_four(terrain, cache, h, &x->f64x4[h], &z->f64x4[h], &height->f64x4[h]);
 }
 
+/* An entry holds the posts next to the nearest one of its point. A point that is nearer than a
+ * post's spacing in both axes has one of these for its nearest post. */
+bool terrain_cache_dry(const struct terrain *terrain, const struct terrain_cache *cache,
+                       const union simd_lanes *reach_m)
+{
+    const f64x4 most = SIMD_EVERY(0.5 * terrain->spacing_m);
+    uint32_t water = 0;
+    four_masks far = {0};
+    for (int l = 0; l < LANE_COUNT; l++)
+        water |= cache->patch[l]->water;
+    for (int h = 0; h < LANE_FOURS; h++)
+        far |= reach_m->f64x4[h] > most;
+    return water == 0 && SIMD_ANY(far) == 0;
+}
+
 VECTOR_CLONES
 void terrain_cache_water(const struct terrain *terrain, const struct terrain_cache *cache,
                          const union simd_lanes *x, const union simd_lanes *z,

@@ -6,6 +6,8 @@
 #include "world/maths/simd.h"
 #include "world/terrain/terrain.h"
 
+#include <stdbool.h>
+
 /* The posts about a body, copied together. Bodies in neighbouring rows are far apart on the ground,
  * so the posts themselves are rarely in the processor's cache. Zero at first; kept with the body.
  */
@@ -29,11 +31,19 @@ void terrain_cache_find(const struct terrain *terrain, struct terrain_cache *cac
                         const union simd_lanes *x, const union simd_lanes *z);
 
 /* Height of the uncratered ground [m], with its earthworks, at a point of each body, equal to
- * terrain_base_height() to the bit; and whether there is water, as by terrain_cover(). Fast if the
- * entry has the posts. */
+ * terrain_base_height() to the bit. Fast if the entry has the posts. */
 void terrain_cache_heights(const struct terrain *terrain, const struct terrain_cache *cache,
                            const union simd_lanes *x, const union simd_lanes *z,
                            union simd_lanes *height);
+
+/* Returns true only if there is no water at any point that is at most reach_m [m, each 0 or more]
+ * east or west and as far north or south of the point for which a lane's entry was last found. It
+ * costs less than to ask for the water. */
+bool terrain_cache_dry(const struct terrain *terrain, const struct terrain_cache *cache,
+                       const union simd_lanes *reach_m);
+
+/* Whether there is water at a point of each body, as by terrain_cover(). Fast if the entry has the
+ * posts. */
 void terrain_cache_water(const struct terrain *terrain, const struct terrain_cache *cache,
                          const union simd_lanes *x, const union simd_lanes *z,
                          union lane_masks *water);

@@ -102,11 +102,52 @@ static void test_a_body_near_its_place_needs_its_patch_alone(void **state)
     assert_memory_equal(&height, &before, sizeof height);
 }
 
+/* A post in a thousand is wet. */
+static void wet_few(uint64_t *random)
+{
+    for (uint32_t i = 0; i < SIDE * SIDE; i++)
+        cover[i] = fixture_random(random) % 1000 == 0 ? COVER_LAKE : COVER_GRASS;
+}
+
+static void test_where_it_is_dry_no_point_near_is_wet(void **state)
+{
+    uint64_t random = fixture_seed(3);
+    struct terrain_cache footing = {.patch = {NULL}};
+    union simd_lanes x, z, reach;
+    uint32_t dry = 0, wet = 0;
+    (void)state;
+    wet_few(&random);
+    memset(patches, 0, sizeof patches);
+    for (int i = 0; i < 20000; i++) {
+        for (int l = 0; l < LANE_COUNT; l++) {
+            footing.patch[l] = &patches[l];
+            x.lane[l] = place(&random);
+            z.lane[l] = place(&random);
+            reach.lane[l] = fixture_uniform(&random, 0.0, 0.51 * SPACING);
+        }
+        terrain_cache_find(&terrain, &footing, &x, &z);
+        bool is_dry = terrain_cache_dry(&terrain, &footing, &reach);
+        for (int n = 0; n < 4 * LANE_COUNT; n++) { /* the corners that are as far as allowed */
+            int l = n / 4;
+            double px = x.lane[l] + (n & 1 ? reach.lane[l] : -reach.lane[l]);
+            double pz = z.lane[l] + (n & 2 ? reach.lane[l] : -reach.lane[l]);
+            bool is_wet = cover_is_water(terrain_cover(&terrain, px, pz));
+            assert_false(is_dry && is_wet);
+            wet += is_wet;
+        }
+        dry += is_dry;
+        reach.lane[i % LANE_COUNT] = 0.6 * SPACING; /* more than it can know */
+        assert_false(terrain_cache_dry(&terrain, &footing, &reach));
+    }
+    assert_true(dry > 10000 && wet > 20);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_lanes_are_one_point_at_a_time),
         cmocka_unit_test(test_a_body_near_its_place_needs_its_patch_alone),
+        cmocka_unit_test(test_where_it_is_dry_no_point_near_is_wet),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
