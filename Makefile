@@ -486,7 +486,7 @@ install: all
 	sed 's|@BIN@|$(PREFIX)/bin|' supervisor/jolon@.service > $(UNITS)/jolon@.service
 	rm -rf $(SHARE) $(DOC)
 	install -d $(SHARE) $(DOC)
-	cp -R config/kinds config/models config/scenarios config/dis config/ground config/cyclonedds.xml config/dds-security ipc/topics/status.idl $(SHARE)
+	cp -R config/kinds config/models config/scenarios config/dis config/ground config/grounds config/cyclonedds.xml config/dds-security ipc/topics/status.idl $(SHARE)
 	@cp --parents $(DOCUMENTS) $(DOC)
 	chmod -R u=rwX,go=rX $(SHARE) $(DOC) $(UNITS)/jolon@.service
 uninstall:

@@ -22,7 +22,6 @@
 #define FARTHEST_M     600.0
 #define TALL_M         3.0   /* parts above this height are no obstacle for land vehicles */
 #define GAP_M          1.0   /* gap to obstacles at the sides and ahead */
-#define DISCS_MAX      16.0  /* along the longer side of a hull */
 #define AIR_GAP_M      8.0   /* the same in the air, and above and below */
 #define LOW_FLIGHT_M   40.0  /* above this height no fixed object is an obstacle */
 #define BRAKE_SHARE    0.8   /* share of the hardest braking that it relies on */
@@ -276,8 +275,26 @@ static void limit_by_moving(struct look *look, double dx, double dz, double vx, 
 
 /* --- obstacles ---------------------------------------------------------------------------------*/
 
-/* Limits the directions by the hulls of a building: each by discs along its longer side, which
- * cover it, so that the street beside a long building stays free. */
+/* Limits the directions by a rectangle about (dx, dz), relative to the vehicle: half its length in
+ * the direction (ux, uz), half its width across. Along its walls the shadow of the rectangle is the
+ * rectangle itself, so that a street between two long houses stays free. Of a wall that the vehicle
+ * is beside already it keeps no gap. */
+static void limit_by_box(struct look *look, double dx, double dz, double ux, double uz, double half,
+                         double width)
+{
+    for (int k = 0; k <= FAN; k += look->step) {
+        double cosine = fabs(ux * look->x[k] + uz * look->z[k]);
+        double sine = fabs(ux * look->z[k] - uz * look->x[k]);
+        double along = dx * look->x[k] + dz * look->z[k];
+        double across = fabs(dx * look->z[k] - dz * look->x[k]) - half * sine - width * cosine;
+        double reach = half * cosine + width * sine, begins = along - reach - look->half_length;
+        double beside = look->half_width + (begins > 0.0 ? look->gap + STRAYS * begins : 0.0);
+        if (along > 0.0 && across < beside)
+            look->free_m[k] = maths_min(look->free_m[k], maths_max(0.0, begins - look->gap));
+    }
+}
+
+/* Limits the directions by the hulls of a building. */
 static void limit_by_outline(struct look *look, const struct world *world,
                              const struct fixed_object *object, double dx, double dz)
 {
@@ -286,17 +303,9 @@ static void limit_by_outline(struct look *look, const struct world *world,
     maths_sincos(fixed_heading(object), &sine, &cosine);
     for (uint32_t h = 0; h < kind->hull_count; h++) {
         const struct hull *hull = &world->hulls[kind->first_hull + h];
-        bool forward = hull->half.x >= hull->half.z;
-        double half = forward ? hull->half.x : hull->half.z;
-        double across = forward ? hull->half.z : hull->half.x;
-        double discs = maths_clamp(floor(half / maths_max(across, 1.0)), 1.0, DISCS_MAX);
-        double reach = sqrt(across * across + half * half / (discs * discs));
-        for (double n = 0.0; n < discs; n += 1.0) {
-            double off = half * ((2.0 * n + 1.0) / discs - 1.0);
-            double x = hull->centre.x + (forward ? off : 0.0);
-            double z = hull->centre.z + (forward ? 0.0 : off);
-            limit_by_standing(look, dx + x * sine + z * cosine, dz - x * cosine + z * sine, reach);
-        }
+        double x = hull->centre.x, z = hull->centre.z;
+        limit_by_box(look, dx + x * sine + z * cosine, dz - x * cosine + z * sine, sine, -cosine,
+                     hull->half.x, hull->half.z);
     }
 }
 

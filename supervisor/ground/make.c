@@ -8,7 +8,7 @@
 #include "supervisor/ground/ground_write.h"
 #include "supervisor/ground/heights.h"
 #include "supervisor/ground/cover_map.h"
-#include "supervisor/ground/land_cover.h"
+#include "supervisor/ground/map_cover.h"
 #include "supervisor/ground/progress.h"
 #include "supervisor/ground/road_map.h"
 #include "world/runtime/parse_number.h"
@@ -53,7 +53,7 @@ struct making {
     struct heights_counts counts;
     struct road_map roads;
     struct features features;
-    struct land_plants plants;
+    struct map_cover_plants plants;
     uint64_t guessed;
 };
 
@@ -249,15 +249,15 @@ static void shape(struct making *m)
                                     .cover = m->cover,
                                     .side = m->grid.side,
                                     .spacing_m = given.side_m / (m->grid.side - 1)};
-    int result = land_cover_areas(&m->features, &m->grid, m->posts, m->cover);
+    int result = map_cover_areas(&m->features, &m->grid, m->posts, m->cover);
     road_map_pave(&m->roads, &m->grid, m->cover);
     if (result == 0)
-        result = land_cover_rivers(&m->features, &m->grid, m->cover);
+        result = map_cover_rivers(&m->features, &m->grid, m->cover);
     if (result == 0)
         result = buildings_found(&m->features.buildings, &terrain);
     if (result == 0)
-        result = land_cover_plant(&m->plants, &m->features, &m->grid, &terrain, m->roads.points,
-                                  m->roads.count, given.trees_per_ha, given.seed);
+        result = map_cover_plant(&m->plants, &m->features, &m->grid, &terrain, m->roads.points,
+                                 m->roads.count, given.trees_per_ha, given.seed);
     if (result != 0)
         die_refused("no memory for the features of the maps");
 }
@@ -338,7 +338,7 @@ static void finish(struct making *m)
     thread_pool_destroy(m->pool);
     road_map_free(&m->roads);
     features_free(&m->features);
-    land_plants_free(&m->plants);
+    map_cover_free(&m->plants);
     free(m->rasters);
     free(m->counts.from);
     free(m->posts);

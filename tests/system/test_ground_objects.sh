@@ -50,6 +50,11 @@ cp x.ground damaged.ground
 printf 'damage' | dd of=damaged.ground bs=1 seek=$(($(wc -c <damaged.ground) - 200)) conv=notrunc status=none
 refuses "a damaged list of buildings" 1 'damaged.ground: block [0-9]+ is damaged' "$ground" check damaged.ground
 
+# --- the town that comes with Jolon ---------------------------------------------------------------------------
+find_source_dir
+check "the town can be made" "$source_dir/config/grounds/make-town" "$ground" town.ground
+check "it is the one that comes with Jolon" equal "$(info town.ground hash)" "$(info "$source_dir/config/grounds/town.ground" hash)"
+
 # --- a corner, and a shore ---------------------------------------------------------------------------------
 cat >corner.cfg <<'TEXT'
 terrain = { source = "file"; file = "x.ground"; };
@@ -89,7 +94,7 @@ run() { "$jolon" run -w "$name" --frames 900 --pace max --without renderer --jso
 for threads in 1 2 4; do
     run --threads $threads --out out$threads >told$threads
 done
-check "houses and trees are hit" eval '[ "$(json fixed_damaged <told1)" -gt 0 ]'
+check "they fight" eval '[ "$(json detonations <told1)" -gt 0 ]'
 check "the digest is the same on 1, 2 and 4 threads" eval \
     '[ -s told1 ] && [ "$(json digest <told1)" = "$(json digest <told2)" ] && [ "$(json digest <told1)" = "$(json digest <told4)" ]'
 run --pace real --out killed >toldk &

@@ -1,5 +1,6 @@
 /* Avoidance of woods, other vehicles, water and steep ground, on any number of threads. */
 #include "tests/support/steps.h"
+#include "world/entity/kind.h"
 #include "world/terrain/gridsquare.h"
 
 #include <stdarg.h>
@@ -80,6 +81,53 @@ static void test_a_wood_is_crossed(void **state)
     }
     print_message("%d of 12 crossed, %d trees hit\n", crossed, hits);
     assert_true(crossed >= 11 && hits <= 1); /* some thickets are too narrow to turn in */
+}
+
+/* Rows of houses 16 m long on both sides of a street, their roofs 7 m from its middle. */
+static void open_street(bool outlines)
+{
+    char text[4096];
+    int length = snprintf(text, sizeof text,
+                          "world = { seed = 1; capacity = 64; hz = 20.0; };"
+                          "collision = { shape = \"model\"; }; objects = (");
+    for (int n = 0; n < 24; n++)
+        length += snprintf(text + length, sizeof text - (size_t)length,
+                           "%s{ kind = \"building\"; at = [%d.0, %.1f]; heading_deg = %d.0; }",
+                           n ? "," : "", 25060 + n / 2 * 18, 25000.0 + (n % 2 ? 13.0 : -13.0),
+                           n % 2 ? 90 : 270);
+    snprintf(text + length, sizeof text - (size_t)length, ");");
+    fixture_close(&f);
+    fixture_open(&f, text);
+    uint16_t kind = kind_find(f.view.world.kinds, f.view.world.counts.kinds, "building");
+    ((struct kind *)(uintptr_t)f.view.world.kinds)[kind].outline = outlines;
+}
+
+/* Sends a tank along the street for 40 s. Returns how far it gets from its middle, to the sides
+ * [m].
+ */
+static double drive_along(double *gets_m)
+{
+    uint32_t row = send("tank", 25000.0, 25000.0, 25600.0, 25000.0);
+    double aside = 0.0;
+    for (int frame = 0; frame < 40 * HZ; frame++) {
+        fixture_run(&f, 1);
+        aside = maths_max(aside, fabs(steps_rows(&f).z[row] - 25000.0));
+    }
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+    *gets_m = steps_rows(&f).x[row] - 25000.0;
+    return aside;
+}
+
+/* A house with an outline is the rectangle around it, any other one a disc. */
+static void test_a_street_between_outlines_is_free(void **state)
+{
+    double gets_m;
+    (void)state;
+    open_street(false);
+    assert_true(drive_along(&gets_m) > 15.0); /* around the houses */
+    open_street(true);
+    assert_true(drive_along(&gets_m) < 2.0);
+    assert_true(gets_m > 400.0);
 }
 
 static void test_head_on_they_pass_each_other_on_the_right(void **state)
@@ -239,6 +287,7 @@ int main(void)
     cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_a_wood_is_crossed),
+        TEST(test_a_street_between_outlines_is_free),
         TEST(test_head_on_they_pass_each_other_on_the_right),
         TEST(test_crossing_traffic_does_not_meet),
         TEST(test_it_stops_before_obstacles_that_it_cannot_pass),

@@ -1,5 +1,5 @@
 /* Cover from areas, and plants in them. */
-#include "supervisor/ground/land_cover.h"
+#include "supervisor/ground/map_cover.h"
 
 #include "supervisor/ground/free_ground.h"
 #include "world/maths/maths.h"
@@ -78,8 +78,8 @@ static void wet(void *context, size_t post)
         b->cover[post] = COVER_LAKE;
 }
 
-int land_cover_areas(const struct features *features, const struct post_grid *grid, float *posts,
-                     uint8_t *cover)
+int map_cover_areas(const struct features *features, const struct post_grid *grid, float *posts,
+                    uint8_t *cover)
 {
     int result = 0;
     for (uint32_t i = 0; i < features->areas && result == 0; i++) {
@@ -124,7 +124,7 @@ static void wet_line(const struct feature_line *line, const struct post_grid *gr
     }
 }
 
-int land_cover_rivers(const struct features *features, const struct post_grid *grid, uint8_t *cover)
+int map_cover_rivers(const struct features *features, const struct post_grid *grid, uint8_t *cover)
 {
     struct burning b = {.cover = cover};
     int result = 0;
@@ -334,14 +334,14 @@ static int plant_all(struct planting *p, const struct features *features)
     return result;
 }
 
-int land_cover_plant(struct land_plants *plants, const struct features *features,
-                     const struct post_grid *grid, const struct terrain *terrain,
-                     const struct ground_road_point *roads, uint32_t road_points, double per_ha,
-                     uint64_t seed)
+int map_cover_plant(struct map_cover_plants *plants, const struct features *features,
+                    const struct post_grid *grid, const struct terrain *terrain,
+                    const struct ground_road_point *roads, uint32_t road_points, double per_ha,
+                    uint64_t seed)
 {
     double side = 2.0 * grid->projection.middle_m;
     uint32_t room = GROUND_OBJECTS_MAX - features->buildings.count;
-    *plants = (struct land_plants){.planted_per_ha = density_of(features, side, per_ha, room)};
+    *plants = (struct map_cover_plants){.planted_per_ha = density_of(features, side, per_ha, room)};
     struct planting p = {
         .grid = grid,
         .terrain = terrain,
@@ -361,8 +361,8 @@ int land_cover_plant(struct land_plants *plants, const struct features *features
     return result;
 }
 
-void land_plants_free(struct land_plants *plants)
+void map_cover_free(struct map_cover_plants *plants)
 {
     free(plants->object);
-    *plants = (struct land_plants){0};
+    *plants = (struct map_cover_plants){0};
 }

@@ -1,7 +1,7 @@
 /* What the areas and rivers of maps make of the ground: cover, level lakes, and plants. Main thread
  * only. */
-#ifndef JOLON_SUPERVISOR_GROUND_LAND_COVER_H
-#define JOLON_SUPERVISOR_GROUND_LAND_COVER_H
+#ifndef JOLON_SUPERVISOR_GROUND_MAP_COVER_H
+#define JOLON_SUPERVISOR_GROUND_MAP_COVER_H
 
 #include "supervisor/ground/features.h"
 
@@ -9,16 +9,15 @@ struct terrain;
 
 /* Makes posts in lakes water at the height of the lowest of them, and posts in woods and scrub
  * forest and chaparral. Posts of water stay water. 0; -1: no memory. */
-int land_cover_areas(const struct features *features, const struct post_grid *grid, float *posts,
-                     uint8_t *cover);
+int map_cover_areas(const struct features *features, const struct post_grid *grid, float *posts,
+                    uint8_t *cover);
 
 /* Makes posts in and along rivers water, but not where a road is: it crosses them. A river is at
  * least as wide as the posts are apart. 0; -1: no memory. */
-int land_cover_rivers(const struct features *features, const struct post_grid *grid,
-                      uint8_t *cover);
+int map_cover_rivers(const struct features *features, const struct post_grid *grid, uint8_t *cover);
 
 /* Plants that are to be a ground's objects. */
-struct land_plants {
+struct map_cover_plants {
     struct ground_object *object; /* in the order of a ground file */
     uint32_t count;
     uint32_t left_out;     /* for which there was no room */
@@ -29,10 +28,10 @@ struct land_plants {
  * buildings, and adds the objects that stand in the maps. At most GROUND_OBJECTS_MAX less the
  * buildings are kept; of planted ones those are left out that a random order puts last. 0; -1: no
  * memory. */
-int land_cover_plant(struct land_plants *plants, const struct features *features,
-                     const struct post_grid *grid, const struct terrain *terrain,
-                     const struct ground_road_point *roads, uint32_t road_points, double per_ha,
-                     uint64_t seed);
-void land_plants_free(struct land_plants *plants);
+int map_cover_plant(struct map_cover_plants *plants, const struct features *features,
+                    const struct post_grid *grid, const struct terrain *terrain,
+                    const struct ground_road_point *roads, uint32_t road_points, double per_ha,
+                    uint64_t seed);
+void map_cover_free(struct map_cover_plants *plants);
 
 #endif
