@@ -31,6 +31,7 @@ struct objects {
     struct ground_building *building;
     struct ground_corner *corner;
     uint16_t kind[GROUND_OBJECT_TYPES], building_kind;
+    double offset_m; /* of the file's square in the world's */
     struct key_place place;
     struct error_text *error;
 };
@@ -74,6 +75,9 @@ static int open_file(struct objects *o)
         return refuse(o, reason.text);
     if (o->file.header.hash != settings->ground_hash)
         return refuse(o, "has changed while the scenario was read");
+    uint32_t posts_side;
+    if (!ground_file_fits_world(&o->file.header, &o->offset_m, &posts_side))
+        return refuse(o, "has a square that no world has");
     o->object = calloc(o->file.objects + 1, sizeof(*o->object));
     o->building = calloc(o->file.buildings + 1, sizeof(*o->building));
     o->corner = calloc(o->file.corners + 1, sizeof(*o->corner));
@@ -181,8 +185,8 @@ static int add_building(struct objects *o, const struct ground_building *b,
         (struct scenario_object){.kind = (uint16_t)scenario->kind_count++,
                                  .turn = b->turn,
                                  .size = 1.0f,
-                                 .x = b->x_mm / 1000.0,
-                                 .z = b->z_mm / 1000.0};
+                                 .x = b->x_mm / 1000.0 + o->offset_m,
+                                 .z = b->z_mm / 1000.0 + o->offset_m};
     return 0;
 }
 
@@ -202,8 +206,8 @@ static int add_all(struct objects *o)
             (struct scenario_object){.kind = o->kind[from->type],
                                      .turn = from->turn,
                                      .size = (float)(from->size_percent / 100.0),
-                                     .x = from->x_mm / 1000.0,
-                                     .z = from->z_mm / 1000.0};
+                                     .x = from->x_mm / 1000.0 + o->offset_m,
+                                     .z = from->z_mm / 1000.0 + o->offset_m};
     }
     free(outline);
     return result;

@@ -41,17 +41,19 @@ static bool find(const char *name, const char *scenario, const char *data_dir, b
 static int check(const struct ground_file *file, const char *name, struct key_place place,
                  struct error_text *error)
 {
-    double side_m = file->header.side_m;
-    if (side_m != WORLD_SIDE_M)
+    double side_m = file->header.side_m, offset_m;
+    uint32_t posts_side;
+    if (side_m > WORLD_SIDE_M)
         return key_table_refuse(error, place, GROUND_SOURCE_KEY, name,
-                                "its square has a side of %g km; this version runs squares of %g "
+                                "its square has a side of %g km; worlds have squares of up to %g "
                                 "km: make it again by jolon ground make --side %g",
                                 side_m / 1000.0, WORLD_SIDE_M / 1000.0, WORLD_SIDE_M);
-    if (file->header.posts_side > GROUND_WORLD_POSTS_MAX)
+    if (!ground_file_fits_world(&file->header, &offset_m, &posts_side))
         return key_table_refuse(error, place, GROUND_SOURCE_KEY, name,
-                                "its posts are %g m apart; a world has room for %u x %u of them: "
-                                "make it again by jolon ground make --posts 12.5",
-                                file->header.spacing_m, GROUND_WORLD_POSTS_MAX,
+                                "its posts are %g m apart, which are no posts of a world of %g km "
+                                "with at most %u along an edge: make it again by jolon ground make "
+                                "--posts 12.5 or 31.25",
+                                file->header.spacing_m, WORLD_SIDE_M / 1000.0,
                                 GROUND_WORLD_POSTS_MAX);
     return 0;
 }

@@ -45,6 +45,13 @@ static char *read_text(const struct ground_file *file)
     return text;
 }
 
+static bool runs(const struct ground_header *header)
+{
+    double offset_m;
+    uint32_t posts_side;
+    return ground_file_fits_world(header, &offset_m, &posts_side);
+}
+
 static void print_json(const struct ground_file *file, const char *text)
 {
     const struct ground_header *h = &file->header;
@@ -62,7 +69,7 @@ static void print_json(const struct ground_file *file, const char *text)
     json_number(object, "undulation_m", h->undulation_m);
     json_bool(object, "cover_guessed", h->flags & GROUND_COVER_GUESSED);
     json_number(object, "stretch_edge", projection_stretch(0.5 * h->side_m));
-    json_bool(object, "runs", h->side_m == WORLD_SIDE_M);
+    json_bool(object, "runs", runs(h));
     json_whole(object, "bytes", h->bytes);
     json_whole(object, "road_points", file->road_points);
     json_whole(object, "buildings", file->buildings);
@@ -81,7 +88,10 @@ static void print(const struct ground_file *file, const char *text)
     printf("middle       latitude %.6f, longitude %.6f (WGS 84)\n", h->latitude_deg,
            h->longitude_deg);
     printf("side         %g km; %s\n", h->side_m / 1000.0,
-           h->side_m == WORLD_SIDE_M ? "worlds run on it" : "worlds run on squares of 50 km only");
+           runs(h) ? "worlds run on it"
+           : h->side_m > WORLD_SIDE_M
+               ? "worlds run on squares of up to 50 km"
+               : "worlds run on it only if its posts are 12.5, 25, 31.25, 62.5 or 125 m apart");
     printf("posts        %u x %u, %g m apart\n", h->posts_side, h->posts_side, h->spacing_m);
     printf("heights      %g to %g m above the sea level\n", (double)h->lowest_m,
            (double)h->highest_m);

@@ -67,6 +67,11 @@ check "a truck strikes the corner of a building within a millimetre of its outli
 sed -i 's/"truck"/"tank"/' corner.cfg
 strikes
 check "the gun of a tank strikes the wall behind it within a millimetre" python3 "$here/ground_features.py" wall events.json
+"$ground" make --center 44.5,-71.5 --side 2000 --posts 12.5 --out small.ground --features village.geojson level.asc >/dev/null 2>&1
+sed 's/"tank"/"truck"/; s/x.ground/small.ground/' corner.cfg >small.cfg
+mv small.cfg corner.cfg
+strikes
+check "in a square of 2 km the corner is at the same place" python3 "$here/ground_features.py" corner events.json
 cat >shore.cfg <<'TEXT'
 terrain = { source = "file"; file = "x.ground"; };
 world = { capacity = 64; };

@@ -2,6 +2,7 @@
 #include "world/terrain/ground_file.h"
 
 #include "world/maths/hash.h"
+#include "world/terrain/gridsquare.h"
 #include "world/terrain/projection.h"
 
 #include <errno.h>
@@ -34,6 +35,18 @@ uint64_t ground_file_hash(const struct ground_header *header, const struct groun
                 XXH3_64bits_withSeed(&blocks[i].content_hash, sizeof blocks[i].content_hash, hash);
     }
     return hash;
+}
+
+bool ground_file_fits_world(const struct ground_header *header, double *offset_m,
+                            uint32_t *posts_side)
+{
+    double cells = WORLD_SIDE_M / header->spacing_m;
+    *offset_m = 0.5 * (WORLD_SIDE_M - header->side_m);
+    if (!(*offset_m >= 0.0) || cells != floor(cells) || cells > GROUND_WORLD_POSTS_MAX - 1 ||
+        fmod(*offset_m, header->spacing_m) != 0.0)
+        return false;
+    *posts_side = (uint32_t)cells + 1;
+    return true;
 }
 
 static int refuse(const struct ground_file *file, struct error_text *error, const char *what)

@@ -49,12 +49,14 @@ static uint8_t cover[SIDE * SIDE];
 static char path[96];
 static struct error_text error;
 
+static double side_m = 50000.0;
+
 static void put_ground(void)
 {
     struct ground_header header = {.latitude_deg = 44.5,
                                    .longitude_deg = -71.25,
-                                   .side_m = 50000.0,
-                                   .spacing_m = 125.0,
+                                   .side_m = side_m,
+                                   .spacing_m = side_m / (SIDE - 1),
                                    .posts_side = SIDE};
     const struct ground_content content = {.posts = posts,
                                            .cover = cover,
@@ -201,6 +203,20 @@ static void test_models_are_closed_walls_and_roofs(void **state)
     scenario_free(&s);
 }
 
+static void test_objects_of_a_small_square_lie_in_the_middle(void **state)
+{
+    struct scenario s;
+    (void)state;
+    side_m = 40000.0;
+    put_ground();
+    must_load(&s, TEXT);
+    assert_true(s.object_list[0].x == buildings[0].x_mm / 1000.0 + 5000.0);
+    assert_true(s.object_list[0].z == buildings[0].z_mm / 1000.0 + 5000.0);
+    assert_true(s.object_list[2].x == objects[0].x_mm / 1000.0 + 5000.0);
+    scenario_free(&s);
+    side_m = 50000.0;
+}
+
 static void test_other_objects_take_their_place(void **state)
 {
     struct scenario s;
@@ -224,6 +240,7 @@ int main(void)
         cmocka_unit_test(test_a_building_is_as_heavy_as_it_is_large),
         cmocka_unit_test(test_objects_have_their_kinds_and_sizes),
         cmocka_unit_test(test_models_are_closed_walls_and_roofs),
+        cmocka_unit_test(test_objects_of_a_small_square_lie_in_the_middle),
         cmocka_unit_test(test_other_objects_take_their_place),
     };
     return cmocka_run_group_tests(tests, quick_config_make, quick_config_remove);

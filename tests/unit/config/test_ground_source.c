@@ -7,7 +7,9 @@
 #include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
 #include "world/terrain/ground_tile.h"
+#include "world/terrain/terrain.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -117,6 +119,39 @@ static void test_the_gateway_is_where_the_ground_is(void **state)
     scenario_free(&s);
 }
 
+static void test_a_small_square_lies_in_the_middle(void **state)
+{
+    struct scenario s;
+    struct world_build built;
+    const uint32_t first = 800; /* 20 km at 25 m */
+    (void)state;
+    memset(cover, COVER_FOREST, sizeof cover);
+    cover[7] = COVER_ROAD;
+    cover[9] = COVER_SEA;
+    put_ground(10000.0, 0.5);
+    must_load(&s, TEXT, NULL);
+    assert_int_equal(world_build_make(&built, &s, &error), 0);
+    assert_int_equal(built.counts.posts_side, 2001);
+    for (uint32_t row = 0; row < SIDE; row++) {
+        const size_t at = (size_t)(first + row) * 2001 + first;
+        assert_memory_equal(built.posts + at, posts + row * SIDE, SIDE * sizeof *posts);
+        assert_memory_equal(built.cover + at, cover + row * SIDE, SIDE);
+    }
+    /* Far away the ground has the mean height of the edge, whose western posts have 0 m and the
+     * eastern ones 200 m; the sea goes on, and roads do not. */
+    assert_true(fabs((double)built.posts[0] - 100.0) < 0.01);
+    assert_true(built.posts[(size_t)1000 * 2001 + first - 1] < 0.1f);
+    assert_true(fabs((double)built.posts[(size_t)1000 * 2001] - 100.0) < 0.01);
+    assert_int_equal(built.cover[0], COVER_FOREST);
+    assert_int_equal(built.cover[first + 7], COVER_FOREST);
+    assert_int_equal(built.cover[(size_t)(first - 1) * 2001 + first + 7], COVER_FOREST);
+    assert_int_equal(built.cover[first + 9], COVER_SEA);
+    assert_true(built.posts[first + 9] == posts[9]);
+    world_build_free(&built);
+    scenario_free(&s);
+    memset(cover, COVER_GRASS, sizeof cover);
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -125,7 +160,11 @@ static void test_refusals(void **state)
     refused("terrain = { source = \"file\"; };", NULL, "needs the path of a ground file");
     refused("terrain = { file = \"x.ground\"; };", NULL, "needs terrain.source = \"file\"");
     put_ground(60000.0, 0.5);
-    refused(TEXT, NULL, "its square has a side of 60 km; this version runs squares of 50 km");
+    refused(TEXT, NULL, "its square has a side of 60 km; worlds have squares of up to 50 km");
+    put_ground(6000.0, 0.5);
+    refused(TEXT, NULL, "its posts are 15 m apart, which are no posts of a world of 50 km");
+    put_ground(4000.0, 0.5);
+    refused(TEXT, NULL, "its posts are 10 m apart");
     quick_config_write(path, "nonsense");
     refused(TEXT, NULL, "is no ground file");
     unlink(path);
@@ -137,6 +176,7 @@ int main(void)
         cmocka_unit_test(test_a_world_has_the_posts_of_its_file),
         cmocka_unit_test(test_the_hash_of_the_ground_is_a_part_of_the_scenario),
         cmocka_unit_test(test_the_gateway_is_where_the_ground_is),
+        cmocka_unit_test(test_a_small_square_lies_in_the_middle),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, quick_config_make, quick_config_remove);
