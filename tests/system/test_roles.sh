@@ -195,6 +195,15 @@ check "the console starts when the port is free" eventually pid console
 check "the console's address is in the log" eventually grep -q 'console info.* serves' out/jolon.log
 check "jolon stop succeeds" "$jolon" stop -w "$name"
 
+# A keeper that does not answer is told of after 20 s.
+start --without renderer >started
+keeper=$(sed -n 's/.*supervisor pid \([0-9]*\),.*/\1/p' started)
+kill -STOP "$keeper"
+check "jolon stop says that a set has not stopped" eval '
+    ! "$jolon" stop -w "$name" 2>refused && grep -q "(supervisor pid $keeper) has not stopped after 20 s" refused'
+kill -CONT "$keeper"
+check "and it stops when it can" eventually gone "$keeper"
+
 mkdir elsewhere
 check "a run starts from any folder" bash -c "cd elsewhere && '$jolon' run -w $name --frames 5 --pace max --without renderer"
 check "Ctrl-C ends a run with its summary" bash -c "
