@@ -195,7 +195,9 @@ static int add_all(struct objects *o)
     struct scenario *scenario = o->scenario;
     const struct ground_corner *corner = o->corner;
     struct outline *outline = malloc(sizeof(*outline));
-    int result = outline != NULL ? 0 : refuse(o, "finds no memory");
+    int result = 0;
+    if (outline == NULL)
+        return refuse(o, "has more objects than there is memory for");
     /* The corner behind the last is of no part. */
     o->corner[o->file.corners].part = UINT32_MAX;
     for (uint32_t i = 0; i < o->file.buildings && result == 0; i++)

@@ -5,6 +5,7 @@
 #include "ipc/process/log.h"
 #include "ipc/process/option_table.h"
 #include "ipc/topics/command_route.h"
+#include "world/runtime/parse_number.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -63,6 +64,7 @@ static const char usage[] =
     "  remove VEHICLE\n"
     "  -                      commands from standard input, one a line, one after the other\n"
     "VEHICLE: an id, or a name in the scenario\n"
+    "X,Z: metres east and south of the north-west corner, or a place as 44.27N,71.30W\n"
     "options:";
 
 static int give(struct command_text *order, enum command_text_field field, const char *text,
@@ -77,13 +79,38 @@ static int give(struct command_text *order, enum command_text_field field, const
     return 0;
 }
 
+/* Reads "44.27N" or "71.3W". Returns false if the last letter is none of the two. */
+static bool read_degrees(const char *text, size_t length, const char letters[2], double most,
+                         double *degrees)
+{
+    char number[64];
+    char letter = length > 1 ? text[length - 1] : '\0';
+    if (length >= sizeof number || (letter != letters[0] && letter != letters[1]))
+        return false;
+    memcpy(number, text, length - 1);
+    number[length - 1] = '\0';
+    if (!parse_real(number, 0.0, most, degrees))
+        return false;
+    *degrees = letter == letters[1] ? -*degrees : *degrees;
+    return true;
+}
+
 static int give_at(struct command_text *order, const char *text, struct error_text *error)
 {
     char x[64];
     const char *comma = strchr(text, ',');
     if (!comma || (size_t)(comma - text) >= sizeof x)
-        return error_text_set(
-            error, "--at %.64s: not a place like 25000,24000 (metres east, metres south)", text);
+        return error_text_set(error,
+                              "--at %.64s: not a place like 25000,24000 (metres east, metres "
+                              "south) or 44.27N,71.30W",
+                              text);
+    order->on_earth =
+        read_degrees(text, (size_t)(comma - text), "NS", 90.0, &order->latitude_deg) &&
+        read_degrees(comma + 1, strlen(comma + 1), "EW", 180.0, &order->longitude_deg);
+    if (order->on_earth) {
+        order->given |= 1u << COMMAND_TEXT_X | 1u << COMMAND_TEXT_Z;
+        return 0;
+    }
     memcpy(x, text, (size_t)(comma - text));
     x[comma - text] = '\0';
     return give(order, COMMAND_TEXT_X, x, "--at X ", error) != 0
@@ -131,7 +158,8 @@ static int make_order(struct command_text *order, int count, char **plain, struc
     if (give_options(order, error) != 0)
         return -1;
     if (order->command.type == jolon_COMMAND_SPAWN && !(order->given & 1u << COMMAND_TEXT_X))
-        return error_text_set(error, "spawn: where? --at X,Z in metres east and south");
+        return error_text_set(
+            error, "spawn: where? --at X,Z in metres east and south, or as 44.27N,71.30W");
     return command_text_end(order, error);
 }
 

@@ -93,7 +93,7 @@ static bool is_inside(const struct outline *outline, uint32_t part, const double
     for (uint32_t p = 0; p < outline->parts; p++) {
         const struct outline_part *other = &outline->part[p];
         for (uint32_t i = 0; i < other->corners && p != part; i++) {
-            uint32_t next = (i + 1) % other->corners;
+            uint32_t next = i + 1 < other->corners ? i + 1 : 0;
             if (other->x[i] == b[0] && other->z[i] == b[1] && other->x[next] == a[0] &&
                 other->z[next] == a[1])
                 return true;
@@ -106,7 +106,7 @@ static void put_walls(struct drawing *d, const struct outline *outline, uint32_t
 {
     const struct outline_part *p = &outline->part[part];
     for (uint32_t i = 0; i < p->corners; i++) {
-        uint32_t next = (i + 1) % p->corners;
+        uint32_t next = i + 1 < p->corners ? i + 1 : 0;
         const double a[2] = {p->x[i], p->z[i]}, b[2] = {p->x[next], p->z[next]};
         if (is_inside(outline, part, a, b))
             continue;
@@ -118,7 +118,7 @@ static void put_walls(struct drawing *d, const struct outline *outline, uint32_t
 
 static double side_length(const struct outline_part *p, uint32_t i)
 {
-    uint32_t next = (i + 1) % p->corners;
+    uint32_t next = i + 1 < p->corners ? i + 1 : 0;
     double x = p->x[next] - p->x[i], z = p->z[next] - p->z[i];
     return sqrt(x * x + z * z);
 }

@@ -81,6 +81,9 @@ struct command_text {
     double every_s, radius_m;
     uint32_t seed;  /* of the rounds' points of aim */
     uint32_t given; /* bits of command_text_field */
+    /* 1: x and z are still to follow from this place on the earth [deg]; it counts as given. */
+    bool on_earth;
+    double latitude_deg, longitude_deg;
 };
 
 /* Returns verb i, NULL beyond the last. */

@@ -136,8 +136,10 @@ static bool bridge(struct convex_parts_ring *outline, const struct convex_parts_
     uint32_t more = hole->count + 2;
     memmove(outline->corner[from + 1 + more], outline->corner[from + 1],
             (outline->count - from - 1) * sizeof(corner));
-    for (uint32_t k = 0; k <= hole->count; k++)
-        memcpy(outline->corner[from + 1 + k], hole->corner[(to + k) % hole->count], sizeof(corner));
+    for (uint32_t k = 0; k <= hole->count; k++) {
+        uint32_t at = to + k < hole->count ? to + k : to + k - hole->count;
+        memcpy(outline->corner[from + 1 + k], hole->corner[at], sizeof(corner));
+    }
     memcpy(outline->corner[from + more], outline->corner[from], sizeof(corner));
     outline->count += more;
     return true;

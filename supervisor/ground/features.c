@@ -21,6 +21,7 @@
 #define WALLS_MIN_M   2.0
 #define WALLS_MAX_M   500.0
 #define RIVER_M       16.0 /* width of a river whose width is not known */
+#define RIVER_MOST_M  2000.0
 #define CANAL_M       10.0
 #define ROW_APART_M   10.0 /* of trees in a row */
 #define TOWER_PERCENT 250u /* of a pole's size */
@@ -43,47 +44,47 @@ static const char *const keys[KEYS] = {"building", "power",    "man_made", "natu
 
 /* The first row that fits counts. A value of NULL fits every word but "no". */
 static const struct {
-    enum key key;
     const char *value;
+    enum key key;
     enum feature_use use;
 } words[] = {
-    {KEY_BUILDING, "roof", FEATURE_NONE},
-    {KEY_BUILDING, NULL, FEATURE_BUILDING},
-    {KEY_FCLASS, "building", FEATURE_BUILDING},
-    {KEY_POWER, "tower", FEATURE_TOWER},
-    {KEY_POWER, "pole", FEATURE_POLE},
-    {KEY_POWER, "line", FEATURE_TOWER},
-    {KEY_POWER, "minor_line", FEATURE_POLE},
-    {KEY_MAN_MADE, "water_tower", FEATURE_WATERTOWER},
-    {KEY_FCLASS, "water_tower", FEATURE_WATERTOWER},
-    {KEY_MAN_MADE, "utility_pole", FEATURE_POLE},
-    {KEY_MAN_MADE, "mast", FEATURE_TOWER},
-    {KEY_MAN_MADE, "communications_tower", FEATURE_TOWER},
-    {KEY_NATURAL, "tree", FEATURE_TREE},
-    {KEY_FCLASS, "tree", FEATURE_TREE},
-    {KEY_NATURAL, "tree_row", FEATURE_TREE_ROW},
-    {KEY_WATER, "river", FEATURE_RIVER},
-    {KEY_WATER, "canal", FEATURE_RIVER},
-    {KEY_NATURAL, "water", FEATURE_LAKE},
-    {KEY_LANDUSE, "reservoir", FEATURE_LAKE},
-    {KEY_LANDUSE, "basin", FEATURE_LAKE},
-    {KEY_FCLASS, "water", FEATURE_LAKE},
-    {KEY_FCLASS, "reservoir", FEATURE_LAKE},
-    {KEY_WATERWAY, "river", FEATURE_RIVER},
-    {KEY_WATERWAY, "canal", FEATURE_RIVER},
-    {KEY_WATERWAY, "riverbank", FEATURE_RIVER},
-    {KEY_WATERWAY, "dock", FEATURE_LAKE},
-    {KEY_FCLASS, "river", FEATURE_RIVER},
-    {KEY_FCLASS, "canal", FEATURE_RIVER},
-    {KEY_FCLASS, "riverbank", FEATURE_RIVER},
-    {KEY_FCLASS, "dock", FEATURE_LAKE},
-    {KEY_NATURAL, "wood", FEATURE_WOOD},
-    {KEY_LANDUSE, "forest", FEATURE_WOOD},
-    {KEY_FCLASS, "forest", FEATURE_WOOD},
-    {KEY_NATURAL, "scrub", FEATURE_SCRUB},
-    {KEY_NATURAL, "heath", FEATURE_SCRUB},
-    {KEY_FCLASS, "scrub", FEATURE_SCRUB},
-    {KEY_FCLASS, "heath", FEATURE_SCRUB},
+    {"roof", KEY_BUILDING, FEATURE_NONE},
+    {NULL, KEY_BUILDING, FEATURE_BUILDING},
+    {"building", KEY_FCLASS, FEATURE_BUILDING},
+    {"tower", KEY_POWER, FEATURE_TOWER},
+    {"pole", KEY_POWER, FEATURE_POLE},
+    {"line", KEY_POWER, FEATURE_TOWER},
+    {"minor_line", KEY_POWER, FEATURE_POLE},
+    {"water_tower", KEY_MAN_MADE, FEATURE_WATERTOWER},
+    {"water_tower", KEY_FCLASS, FEATURE_WATERTOWER},
+    {"utility_pole", KEY_MAN_MADE, FEATURE_POLE},
+    {"mast", KEY_MAN_MADE, FEATURE_TOWER},
+    {"communications_tower", KEY_MAN_MADE, FEATURE_TOWER},
+    {"tree", KEY_NATURAL, FEATURE_TREE},
+    {"tree", KEY_FCLASS, FEATURE_TREE},
+    {"tree_row", KEY_NATURAL, FEATURE_TREE_ROW},
+    {"river", KEY_WATER, FEATURE_RIVER},
+    {"canal", KEY_WATER, FEATURE_RIVER},
+    {"water", KEY_NATURAL, FEATURE_LAKE},
+    {"reservoir", KEY_LANDUSE, FEATURE_LAKE},
+    {"basin", KEY_LANDUSE, FEATURE_LAKE},
+    {"water", KEY_FCLASS, FEATURE_LAKE},
+    {"reservoir", KEY_FCLASS, FEATURE_LAKE},
+    {"river", KEY_WATERWAY, FEATURE_RIVER},
+    {"canal", KEY_WATERWAY, FEATURE_RIVER},
+    {"riverbank", KEY_WATERWAY, FEATURE_RIVER},
+    {"dock", KEY_WATERWAY, FEATURE_LAKE},
+    {"river", KEY_FCLASS, FEATURE_RIVER},
+    {"canal", KEY_FCLASS, FEATURE_RIVER},
+    {"riverbank", KEY_FCLASS, FEATURE_RIVER},
+    {"dock", KEY_FCLASS, FEATURE_LAKE},
+    {"wood", KEY_NATURAL, FEATURE_WOOD},
+    {"forest", KEY_LANDUSE, FEATURE_WOOD},
+    {"forest", KEY_FCLASS, FEATURE_WOOD},
+    {"scrub", KEY_NATURAL, FEATURE_SCRUB},
+    {"heath", KEY_NATURAL, FEATURE_SCRUB},
+    {"scrub", KEY_FCLASS, FEATURE_SCRUB},
+    {"heath", KEY_FCLASS, FEATURE_SCRUB},
 };
 
 static const char *const troubles[FEATURE_TROUBLES] = {
@@ -91,8 +92,8 @@ static const char *const troubles[FEATURE_TROUBLES] = {
     [FEATURE_SHAPE] = "buildings or woods that are points or lines are left out",
     [FEATURE_OPEN] = "outlines are open, and were closed",
     [FEATURE_MENDED] = "outlines cross themselves, and were mended",
-    [FEATURE_BOXED] = "outlines could not be split, and have the smallest rectangle around them "
-                      "instead",
+    [FEATURE_BOXED] = ("outlines could not be split, and have the smallest rectangle around them "
+                       "instead"),
     [FEATURE_SMALL] = "outlines are too small for buildings, and are left out",
     [FEATURE_EDGE] = "buildings across the edge of the square are left out",
 };
@@ -270,6 +271,7 @@ static void take_river(struct reading *r)
             strcmp(vector_map_tag(r->feature, keys[r->key], buffer, sizeof buffer), "canal") == 0
                 ? CANAL_M
                 : RIVER_M;
+    width = maths_min(width, RIVER_MOST_M);
     memcpy(place, r->track.place, r->track.count * sizeof *place);
     f->line[f->lines++] = (struct feature_line){place, r->track.count, width};
 }

@@ -4,6 +4,7 @@
 #include "ipc/process/process.h"
 #include "ipc/process/program_verbs.h"
 #include "supervisor/ground/describe.h"
+#include "supervisor/ground/ground_export.h"
 #include "supervisor/ground/make.h"
 #include "supervisor/ground/picture.h"
 
@@ -12,9 +13,9 @@
 
 #include <stddef.h>
 
-static const struct program_verb verbs[] = {{"make", make_run},         {"info", describe_info},
-                                            {"check", describe_check},  {"show", picture_show},
-                                            {"export", picture_export}, {NULL, NULL}};
+static const struct program_verb verbs[] = {
+    {"make", make_run},     {"info", describe_info},       {"check", describe_check},
+    {"show", picture_show}, {"export", ground_export_run}, {NULL, NULL}};
 
 static const char usage[] =
     "usage: jolon ground VERB [options]\n"
@@ -28,7 +29,7 @@ static const char usage[] =
     "  show FILE PICTURE.png          draw it as a shaded picture\n"
     "    --size PIXELS  --grey\n"
     "  export FILE OUT.tif            write its heights, or its cover, as a GeoTIFF\n"
-    "    --cover\n"
+    "    --cover  --world NAME  --area X0,Z0,X1,Z1  --step METRES\n"
     "jolon ground VERB --help explains the options of a verb.\n"
     "A scenario runs on a ground file by: terrain = { source = \"file\"; file = \"x.ground\"; };\n";
 

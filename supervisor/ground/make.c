@@ -278,13 +278,13 @@ static void tell_features(const struct making *m)
     if (b->left_out > 0)
         log_warn("a ground has room for %u buildings: the %u smallest are left out",
                  GROUND_BUILDINGS_MAX, b->left_out);
-    if (m->plants.planted_per_ha < given.trees_per_ha)
+    if (m->plants.left_out > 0)
         log_warn("a ground has room for %u objects: woods and scrub have %.2f plants a hectare, "
                  "not %g",
-                 GROUND_OBJECTS_MAX, m->plants.planted_per_ha, given.trees_per_ha);
-    if (m->plants.left_out > 0)
-        log_warn("a ground has room for %u objects: %u plants are left out", GROUND_OBJECTS_MAX,
-                 m->plants.left_out);
+                 GROUND_OBJECTS_MAX,
+                 m->plants.planted_per_ha * m->plants.count /
+                     ((double)m->plants.count + m->plants.left_out),
+                 given.trees_per_ha);
 }
 
 static void fill(struct making *m)

@@ -14,10 +14,23 @@
 #define ROWS_A_CELL    4   /* lines along which the plants of a row of cells stand */
 #define CROWDED        4.0 /* so many times the room are planted at most, before some are left out */
 #define BUILDING_GAP_M 1.5
+#define STEPS_MAX      1e6 /* along a stretch of a river */
 
 enum { DRAW_LINE, DRAW_X, DRAW_RANK, DRAW_KIND, DRAW_SIZE, DRAW_TURN };
 
 /* --- cover -------------------------------------------------------------------------------------*/
+
+/* Whole numbers: rows or columns. */
+struct range {
+    int32_t first, last;
+};
+
+/* Returns those from low to high of 0 .. count - 1. */
+static struct range range_of(double low, double high, double count)
+{
+    return (struct range){(int32_t)maths_clamp(ceil(low), 0.0, count),
+                          (int32_t)maths_clamp(floor(high), -1.0, count - 1.0)};
+}
 
 typedef void visit_post(void *context, size_t post);
 
@@ -26,17 +39,17 @@ static int visit(const struct area *area, const struct post_grid *grid, visit_po
                  void *context)
 {
     struct area_scan scan;
-    double last = (double)(grid->side - 1);
-    double first_row = maths_max(ceil(area->low[1] / grid->spacing_m), 0.0);
-    double last_row = maths_min(floor(area->high[1] / grid->spacing_m), last);
+    const struct range rows =
+        range_of(area->low[1] / grid->spacing_m, area->high[1] / grid->spacing_m, grid->side);
     if (area_scan_begin(&scan, area) != 0)
         return -1;
-    for (double row = first_row; row <= last_row; row += 1.0) {
+    for (int32_t row = rows.first; row <= rows.last; row++) {
         uint32_t count = area_scan_line(&scan, row * grid->spacing_m);
         for (uint32_t i = 0; i < count; i += 2) {
-            double from = maths_max(ceil(scan.crossing[i] / grid->spacing_m), 0.0);
-            double to = maths_min(floor(scan.crossing[i + 1] / grid->spacing_m), last);
-            for (double column = from; column <= to; column += 1.0)
+            const struct range columns =
+                range_of(scan.crossing[i] / grid->spacing_m, scan.crossing[i + 1] / grid->spacing_m,
+                         grid->side);
+            for (int32_t column = columns.first; column <= columns.last; column++)
                 each(context, (size_t)row * grid->side + (size_t)column);
         }
     }
@@ -105,19 +118,19 @@ int map_cover_areas(const struct features *features, const struct post_grid *gri
 static void wet_line(const struct feature_line *line, const struct post_grid *grid,
                      struct burning *b)
 {
-    double last = (double)(grid->side - 1), half = 0.5 * line->width_m / grid->spacing_m;
+    double reach = maths_max(0.5 * line->width_m / grid->spacing_m, 0.5);
     for (uint32_t i = 0; i + 1 < line->count; i++) {
         double x = line->place[i][0] / grid->spacing_m, z = line->place[i][1] / grid->spacing_m;
         double dx = line->place[i + 1][0] / grid->spacing_m - x;
         double dz = line->place[i + 1][1] / grid->spacing_m - z;
-        double steps = floor(4.0 * sqrt(dx * dx + dz * dz)) + 1.0;
-        /* A line that is longer than the square crosses little of it, but takes its time. */
-        for (double n = 0.0; n <= steps && steps < 1e7; n += 1.0) {
-            double px = x + dx * n / steps, pz = z + dz * n / steps, reach = maths_max(half, 0.5);
-            double c0 = maths_max(ceil(px - reach), 0.0), c1 = maths_min(floor(px + reach), last);
-            double r0 = maths_max(ceil(pz - reach), 0.0), r1 = maths_min(floor(pz + reach), last);
-            for (double row = r0; row <= r1; row += 1.0) {
-                for (double column = c0; column <= c1; column += 1.0)
+        /* No square is so large that one of its rivers needs more. */
+        uint32_t steps = (uint32_t)maths_min(4.0 * sqrt(dx * dx + dz * dz), STEPS_MAX) + 1;
+        for (uint32_t n = 0; n <= steps; n++) {
+            double px = x + dx * n / steps, pz = z + dz * n / steps;
+            const struct range columns = range_of(px - reach, px + reach, grid->side);
+            const struct range rows = range_of(pz - reach, pz + reach, grid->side);
+            for (int32_t row = rows.first; row <= rows.last; row++) {
+                for (int32_t column = columns.first; column <= columns.last; column++)
                     wet(b, (size_t)row * grid->side + (size_t)column);
             }
         }
@@ -201,17 +214,17 @@ static bool plant_cell(struct planting *p, enum feature_use use, double column, 
 }
 
 static bool plant_line(struct planting *p, const struct area *area, struct area_scan *scan,
-                       double row, int line)
+                       int32_t row, int line)
 {
     double z = (row + (line + 0.5) / ROWS_A_CELL) * p->cell_m;
-    double last = floor(2.0 * p->grid->projection.middle_m / p->cell_m);
+    double cells = floor(2.0 * p->grid->projection.middle_m / p->cell_m) + 1.0;
     uint32_t count = area_scan_line(scan, z);
     bool good = true;
     for (uint32_t i = 0; i < count && good; i += 2) {
-        double from = maths_max(floor(scan->crossing[i] / p->cell_m), 0.0);
-        double to = maths_min(floor(scan->crossing[i + 1] / p->cell_m), last);
-        for (double column = from; column <= to && good; column += 1.0) {
-            uint64_t cell = (uint64_t)row << 32 | (uint64_t)column;
+        const struct range columns = range_of(floor(scan->crossing[i] / p->cell_m),
+                                              scan->crossing[i + 1] / p->cell_m, cells);
+        for (int32_t column = columns.first; column <= columns.last && good; column++) {
+            uint64_t cell = (uint64_t)(uint32_t)row << 32 | (uint32_t)column;
             if (draw(p, cell, DRAW_LINE) % ROWS_A_CELL == (uint64_t)line)
                 good =
                     plant_cell(p, (enum feature_use)area->use, column, z, cell, &scan->crossing[i]);
@@ -223,13 +236,13 @@ static bool plant_line(struct planting *p, const struct area *area, struct area_
 static int plant_area(struct planting *p, const struct area *area)
 {
     struct area_scan scan;
-    double side = 2.0 * p->grid->projection.middle_m;
-    double first = floor(maths_max(area->low[1], 0.0) / p->cell_m);
-    double last = floor(maths_min(area->high[1], side) / p->cell_m);
+    double cells = floor(2.0 * p->grid->projection.middle_m / p->cell_m) + 1.0;
+    const struct range rows =
+        range_of(floor(area->low[1] / p->cell_m), area->high[1] / p->cell_m, cells);
     if (area_scan_begin(&scan, area) != 0)
         return -1;
     bool good = true;
-    for (double row = first; row <= last && good; row += 1.0) {
+    for (int32_t row = rows.first; row <= rows.last && good; row++) {
         for (int line = 0; line < ROWS_A_CELL && good; line++)
             good = plant_line(p, area, &scan, row, line);
     }

@@ -1,4 +1,4 @@
-/* The verbs show and export: a ground file as a shaded picture, and as a GeoTIFF. */
+/* The verb show: a ground file as a shaded picture. */
 #include "supervisor/ground/picture.h"
 
 #include "ipc/process/log.h"
@@ -11,7 +11,6 @@
 #include <cpl_error.h>
 #include <cpl_string.h>
 #include <gdal.h>
-#include <ogr_srs_api.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -27,7 +26,7 @@
 
 static struct {
     uint32_t size;
-    bool grey, cover;
+    bool grey;
 } given = {.size = 1000};
 
 /* Colours of enum cover: red, green, blue. */
@@ -128,8 +127,7 @@ static GDALDatasetH draw(const struct ground *ground)
     return picture;
 }
 
-/* Writes a dataset aside, and gives the file its name when it is whole. */
-static void save(GDALDatasetH dataset, const char *driver, const char *path, char **options)
+void picture_save(GDALDatasetH dataset, const char *driver, const char *path, char **options)
 {
     char aside[4200];
     snprintf(aside, sizeof aside, "%.4000s.%d~", path, getpid());
@@ -163,61 +161,8 @@ int picture_show(int argc, char **argv)
                   "show x.ground x.png");
     open_ground(&ground, argv[argc - 2]);
     GDALDatasetH picture = draw(&ground);
-    save(picture, "PNG", argv[argc - 1], NULL);
+    picture_save(picture, "PNG", argv[argc - 1], NULL);
     GDALClose(picture);
-    close_ground(&ground);
-    return EXIT_OK;
-}
-
-static GDALDatasetH raster_of(const struct ground *ground)
-{
-    const struct ground_header *h = &ground->file.header;
-    int side = (int)ground->side;
-    GDALDataType type = given.cover ? GDT_Byte : GDT_Float32;
-    GDALDatasetH raster = GDALCreate(GDALGetDriverByName("MEM"), "", side, side, 1, type, NULL);
-    OGRSpatialReferenceH place = OSRNewSpatialReference(NULL);
-    /* A pixel lies around its post. */
-    double corner = -0.5 * (h->side_m + h->spacing_m);
-    double transform[6] = {corner, h->spacing_m, 0.0, -corner, 0.0, -h->spacing_m};
-    if (!raster || OSRSetWellKnownGeogCS(place, "WGS84") != OGRERR_NONE ||
-        OSRSetTM(place, h->latitude_deg, h->longitude_deg, 1.0, 0.0, 0.0) != OGRERR_NONE)
-        die_refused("%s: no memory for a raster of it", ground->file.path);
-    GDALSetSpatialRef(raster, place);
-    OSRDestroySpatialReference(place);
-    GDALSetGeoTransform(raster, transform);
-    GDALSetMetadataItem(raster, "AREA_OR_POINT", "Point", NULL);
-    void *from = given.cover ? (void *)ground->cover : (void *)ground->posts;
-    if (GDALRasterIO(GDALGetRasterBand(raster, 1), GF_Write, 0, 0, side, side, from, side, side,
-                     type, 0, 0) != CE_None)
-        die_refused("%s: no memory for a raster of it", ground->file.path);
-    if (!given.cover)
-        GDALSetRasterUnitType(GDALGetRasterBand(raster, 1), "metre");
-    return raster;
-}
-
-int picture_export(int argc, char **argv)
-{
-    static const struct option_row rows[] = {
-        {"cover", NULL,
-         "the cover: 0 grass, 1 chaparral, 2 forest, 3 rock, 4 sand, 5 road, 6 sea, 7 lake",
-         .flag = &given.cover},
-        OPTION_ROWS_END};
-    static const struct option_table table = {
-        .program = "jolon-ground export",
-        .usage = "[--cover] FILE OUT.tif\n"
-                 "Writes the heights of a ground file as a GeoTIFF, a pixel around each post.",
-        .rows = rows,
-        .plain = 2};
-    struct ground ground;
-    if (option_table_read(&table, argc, argv) != 2)
-        die_usage("ground export: needs a ground file and the name of a GeoTIFF, as in: jolon "
-                  "ground export x.ground x.tif");
-    open_ground(&ground, argv[argc - 2]);
-    GDALDatasetH raster = raster_of(&ground);
-    char *options[] = {(char[]){"COMPRESS=DEFLATE"}, (char[]){"TILED=YES"},
-                       (char[]){"BIGTIFF=IF_SAFER"}, NULL};
-    save(raster, "GTiff", argv[argc - 1], options);
-    GDALClose(raster);
     close_ground(&ground);
     return EXIT_OK;
 }

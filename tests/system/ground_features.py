@@ -4,9 +4,11 @@ converted by PROJ's gdaltransform.
 usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west and broken.geojson, and broken.osm)
        ground_features.py corner EVENTS           (does the first collision of T1 lie at the corner, within 1 mm?)
        ground_features.py wall EVENTS             (does it lie on a wall beside that corner, within 1 mm?)
+       ground_features.py craters CSV RAW         (has the raster the heights of the dump, and holes?)
        ground_features.py shore DUMP LATER        (does T2 stand at the shore of the lake?)"""
 import json
 import math
+import struct
 import sys
 
 sys.dont_write_bytecode = True
@@ -133,5 +135,15 @@ def shore(*paths):
     raise SystemExit(not all(-20.0 < place[0] - SHORE < 45.0 for place in places) or abs(places[0][0] - places[1][0]) > 1.0)
 
 
+def craters(csv_path, raw_path):
+    with open(csv_path, encoding="utf-8") as file:
+        heights = [float(line.split(",")[2]) for line in file if line[0] != "x"]
+    with open(raw_path, "rb") as file:
+        raw = struct.unpack(f"<{len(heights)}f", file.read())
+    worst = max(abs(a - b) for a, b in zip(raw, heights))
+    print(f"{worst:.5f} m off, from {min(raw):.2f} to {max(raw):.2f} m")
+    raise SystemExit(worst > 1e-3 or min(raw) > 79.5)
+
+
 if __name__ == "__main__":
-    {"maps": maps, "corner": corner, "wall": wall, "shore": shore}[sys.argv[1]](*sys.argv[2:])
+    {"maps": maps, "corner": corner, "craters": craters, "wall": wall, "shore": shore}[sys.argv[1]](*sys.argv[2:])

@@ -87,6 +87,31 @@ sleep 2
 "$jolon" stop -w "$name" >/dev/null 2>&1
 check "a lake stops a tank at full throttle at its shore" python3 "$here/ground_features.py" shore places later
 
+# --- out again -----------------------------------------------------------------------------------------------
+cat >craters.cfg <<'TEXT'
+terrain = { source = "file"; file = "small.ground"; };
+world = { capacity = 64; };
+fires = ( { at_s = 0.5; munition = "artillery"; point = [24700.0, 24700.0]; }, { at_s = 0.5; munition = "bomb"; point = [24720.0, 24710.0]; } );
+TEXT
+"$jolon" run -w "$name" --frames 900 --pace max --without renderer --checkpoint craters.img craters.cfg >/dev/null 2>&1
+"$bin/jolon-world" create --world "$name" --set world.frames=0 --from craters.img >/dev/null 2>&1
+check "the ground of a world is exported" "$ground" export --world "$name" --area 24680,24680,24740,24730 --step 0.5 craters.tif
+"$bin/jolon-world" dump --world "$name" --terrain 24680,24680,24740,24730,0.5 >craters.csv
+"$ground" export --world "$name" --cover all.tif
+refuses_export() { # PATTERN OPTION...: in one line, with status 2
+    local pattern=$1
+    shift
+    "$ground" export --world "$name" "$@" x.tif 2>err
+    [ $? = 2 ] && [ "$(wc -l <err)" = 1 ] && grep -Eq -- "$pattern" err
+}
+check "an area beyond the world is refused" refuses_export 'area 0,0,60000,10: must be X0,Z0,X1,Z1' --area 0,0,60000,10
+check "too fine a step is refused" refuses_export 'step 0.5: makes 100001 x 100001 points' --step 0.5
+"$bin/jolon-world" remove --world "$name" >/dev/null 2>&1
+refuses "no such world" 1 "there is no world" "$ground" export --world "$name" x.tif
+gdal_translate -q -of ENVI craters.tif craters.raw
+check "it has the craters of the world" python3 "$here/ground_features.py" craters craters.csv craters.raw
+check "it lies where the world does" eval 'gdalinfo -json craters.tif | json coordinateSystem.wkt | grep -q "44.5" && gdalinfo -json all.tif | json size | grep -q "4001, 4001"'
+
 # --- digests -------------------------------------------------------------------------------------------------
 cat >scene.cfg <<'TEXT'
 world = { name = "village"; seed = 7; };

@@ -61,8 +61,8 @@ static void look_at_edge(struct inset *inset, const float *posts, const uint8_t 
         }
     }
     inset->mean_m = sum / (4.0 * inset->side);
-    for (uint8_t i = 1; i < COVER_ROAD; i++)
-        inset->cover = count[i] > count[inset->cover] ? i : inset->cover;
+    for (int i = 1; i < COVER_ROAD; i++)
+        inset->cover = count[i] > count[inset->cover] ? (uint8_t)i : inset->cover;
 }
 
 /* Returns the nearest row or column of the square, and by how many posts it is off. */
@@ -108,8 +108,12 @@ static int load_inset(struct world_build *built, const struct ground_file *file,
     size_t count = (size_t)side * side;
     float *posts = malloc(count * sizeof *posts);
     uint8_t *cover = malloc(count);
-    int result =
-        posts && cover ? ground_file_posts(file, posts, cover, error) : error_text_memory(error);
+    if (!posts || !cover) {
+        free(posts);
+        free(cover);
+        return error_text_memory(error);
+    }
+    int result = ground_file_posts(file, posts, cover, error);
     if (result == 0)
         look_at_edge(&inset, posts, cover);
     for (uint32_t row = 0; row < world_side && result == 0; row++)
