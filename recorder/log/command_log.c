@@ -196,6 +196,31 @@ static void put_inputs(struct command_log *log, const struct view *view, const s
         record.type = RECORD_GAP;
     }
     put(log, &record);
+    if (input->ring == RING_GATEWAY)
+        log->inputs_taken = input->first + input->count;
+}
+
+/* Returns true if a frame has taken something from the gateway's ring since the last inputs that
+ * the log has. */
+static bool inputs_follow(const struct command_log *log, const struct view *view)
+{
+    struct state_head head;
+    return snapshot_head(&head, view) != 0 ||
+           head.command_cursor[RING_GATEWAY] != log->inputs_taken;
+}
+
+/* Records that events were overwritten before they could be read. Lost commands are found later, by
+ * their numbers; records of other simulators have none, and may be among what is lost. */
+static void put_lost_events(struct command_log *log, const struct view *view)
+{
+    if (log->cursor.gap > 0 && inputs_follow(log, view)) {
+        struct command_record gap = {.type = RECORD_GAP, .at = log->at};
+        log_warn("inputs of other simulators may be lost: the ring of events had gone round; the "
+                 "run cannot be replayed beyond frame %" PRIu64,
+                 log->at.frame);
+        put(log, &gap);
+    }
+    log->cursor.gap = 0;
 }
 
 static void put_mark(struct command_log *log)
@@ -234,7 +259,7 @@ bool command_log_append(struct command_log *log, const struct view *view)
         return false;
     mark_when_due(log, view);
     uint32_t count = events_read(view, &log->cursor, events, BATCH);
-    log->cursor.gap = 0; /* put_command() finds lost commands by their numbers */
+    put_lost_events(log, view);
     for (uint32_t i = 0; i < count; i++) {
         if (log->marking && events[i].sequence >= log->mark.at.events)
             put_mark(log);

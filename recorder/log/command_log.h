@@ -17,6 +17,7 @@ struct command_log {
     struct command_record mark; /* to be written once all commands before it are */
     bool marking;
     uint64_t marked_ns;
+    uint64_t inputs_taken; /* what frames had taken from the gateway's ring at the last inputs */
 };
 
 /* Opens the log of this world: begins it, or continues it after its last record. A log of another
