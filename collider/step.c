@@ -194,12 +194,23 @@ static void find_pairs(struct step *step, const struct method_input *input)
     contact_queue_begin(&collider->contacts, &collider->pairs, 1);
 }
 
+/* With so many lasting contacts a frame has dozens of jobs, and takes the better part of a
+ * millisecond. */
+#define CROWDED 64u
+
+static bool is_crowded(const struct body_motion *motion)
+{
+    return motion->committed->head->contact_count >= CROWDED;
+}
+
 static void collide_all(struct step *step, struct response_context *context)
 {
     struct collider *collider = step->collider;
     struct contact contact;
     /* Spheres that touch are solved by impacts alone. */
     bool rest = context->functions->joint && collider->motion.models;
+    if (is_crowded(&collider->motion))
+        thread_pool_hold(collider->workers);
     find_pairs(step, &context->input.detect);
     if (rest) {
         resting_solve(&collider->resting, context);
@@ -221,6 +232,7 @@ static void collide_all(struct step *step, struct response_context *context)
     remote_rows_settle(context, step->moved.entities);
     damage_overturned(context);
     contact_table_finish(&collider->table, context);
+    thread_pool_let_go(collider->workers);
 }
 
 static void begin_head(struct state_head *head, const struct state_head *moved)

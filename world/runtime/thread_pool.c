@@ -2,8 +2,9 @@
  * open.
  *
  * Jobs follow each other within microseconds, and putting a thread to sleep and waking it takes
- * tens of them. So a waiting thread polls for a short while before it sleeps. The caller does not
- * wait for a helper that woke after all work was done. */
+ * tens of them. So a waiting thread polls for a short while before it sleeps, and without an end
+ * while the caller holds the pool. The caller does not wait for a helper that woke after all work
+ * was done. */
 #include "world/runtime/thread_pool.h"
 
 #include "world/runtime/work_done.h"
@@ -32,6 +33,7 @@ struct thread_pool {
     _Atomic uint64_t gate;
     _Atomic uint32_t asleep; /* helpers that sleep, or are about to; changed under mutex */
     _Atomic bool waiting;    /* the caller sleeps, or is about to; changed under mutex */
+    _Atomic bool held;       /* helpers poll until they are let go; set under mutex */
     _Atomic bool stop;       /* changed under mutex */
     /* The job; written while the gate is shut and no helper is in it. */
     thread_pool_function *function;
@@ -72,19 +74,28 @@ static bool is_needed(struct thread_pool *workers, uint64_t seen)
     return (gate & GATE_OPEN && gate / GATE_JOB != seen) || atomic_load(&workers->stop);
 }
 
-static void wait_for_job(struct thread_pool *workers, uint64_t seen)
+static void sleep_until_needed(struct thread_pool *workers, uint64_t seen)
 {
-    for (uint32_t i = 0; i < workers->polls; i++) {
-        if (is_needed(workers, seen))
-            return;
-        pause_briefly();
-    }
     pthread_mutex_lock(&workers->mutex);
     atomic_fetch_add(&workers->asleep, 1);
-    while (!is_needed(workers, seen))
+    while (!is_needed(workers, seen) && !atomic_load(&workers->held))
         pthread_cond_wait(&workers->begin, &workers->mutex);
     atomic_fetch_sub(&workers->asleep, 1);
     pthread_mutex_unlock(&workers->mutex);
+}
+
+static void wait_for_job(struct thread_pool *workers, uint64_t seen)
+{
+    for (;;) {
+        for (uint32_t i = 0; i < workers->polls || atomic_load(&workers->held); i++) {
+            if (is_needed(workers, seen))
+                return;
+            pause_briefly();
+        }
+        sleep_until_needed(workers, seen);
+        if (is_needed(workers, seen))
+            return;
+    }
 }
 
 /* Enters the open job. Returns false if it is shut. */
@@ -163,6 +174,23 @@ static void shut_job(struct thread_pool *workers)
     pthread_mutex_unlock(&workers->mutex);
 }
 
+void thread_pool_hold(struct thread_pool *workers)
+{
+    if (!workers || workers->polls == 0)
+        return;
+    pthread_mutex_lock(&workers->mutex);
+    atomic_store(&workers->held, true);
+    if (atomic_load(&workers->asleep) > 0)
+        pthread_cond_broadcast(&workers->begin);
+    pthread_mutex_unlock(&workers->mutex);
+}
+
+void thread_pool_let_go(struct thread_pool *workers)
+{
+    if (workers)
+        atomic_store(&workers->held, false);
+}
+
 static uint32_t polls_for(uint32_t threads)
 {
     cpu_set_t processors;
@@ -203,6 +231,7 @@ void thread_pool_destroy(struct thread_pool *workers)
         return;
     pthread_mutex_lock(&workers->mutex);
     atomic_store(&workers->stop, true);
+    atomic_store(&workers->held, false);
     pthread_cond_broadcast(&workers->begin);
     pthread_mutex_unlock(&workers->mutex);
     for (uint32_t i = 1; i < workers->threads; i++)

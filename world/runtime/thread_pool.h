@@ -18,6 +18,12 @@ struct thread_pool *thread_pool_create(uint32_t threads);
 void thread_pool_destroy(struct thread_pool *workers);
 uint32_t thread_pool_threads(const struct thread_pool *workers);
 
+/* Keeps the helpers awake until they are let go, for work in many short jobs with longer pauses
+ * between them: a helper that sleeps comes when the job is done. Only the caller of jobs calls
+ * these. Nothing happens where there are fewer processors than threads. */
+void thread_pool_hold(struct thread_pool *workers);
+void thread_pool_let_go(struct thread_pool *workers);
+
 /* Runs function over 0 .. count - 1 in blocks of at most grain rows, on all threads; returns when
  * all are done. With fewer than two blocks, one thread or workers NULL the caller does it alone and
  * in one call. */

@@ -133,6 +133,35 @@ static void test_helpers_come_after_any_rest(void **state)
     thread_pool_destroy(workers);
 }
 
+/* Helpers that are held come from sleep and from polling, and sleep again when they are let go: they
+ * use next to no processor then. */
+static void test_helpers_are_held(void **state)
+{
+    struct timespec before, after;
+    (void)state;
+    struct thread_pool *workers = thread_pool_create(2);
+    for (long i = 0; i < 20; i++) {
+        _Atomic uint32_t met = 0;
+        rest_us(200);
+        thread_pool_hold(workers);
+        rest_us(10 * i);
+        thread_pool_run(workers, meet, &met, 2, 1);
+        assert_int_equal(met, 2);
+        thread_pool_let_go(workers);
+    }
+    rest_us(1000);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &before);
+    rest_us(50000);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &after);
+    long used_us =
+        (after.tv_sec - before.tv_sec) * 1000000 + (after.tv_nsec - before.tv_nsec) / 1000;
+    assert_true(used_us < 20000);
+    thread_pool_hold(workers); /* a pool may end while it is held */
+    thread_pool_destroy(workers);
+    thread_pool_hold(NULL);
+    thread_pool_let_go(NULL);
+}
+
 struct delay {
     _Atomic uint32_t met;
     long us;
@@ -201,6 +230,7 @@ int main(void)
         cmocka_unit_test(test_without_workers_the_caller_does_it),
         cmocka_unit_test(test_work_is_shared_by_threads),
         cmocka_unit_test(test_helpers_come_after_any_rest),
+        cmocka_unit_test(test_helpers_are_held),
         cmocka_unit_test(test_the_caller_waits_for_who_is_in),
         cmocka_unit_test(test_thousands_of_jobs_follow_each_other),
         cmocka_unit_test(test_idle_workers_end),
