@@ -133,8 +133,8 @@ static void test_helpers_come_after_any_rest(void **state)
     thread_pool_destroy(workers);
 }
 
-/* Helpers that are held come from sleep and from polling, and sleep again when they are let go: they
- * use next to no processor then. */
+/* Helpers that are held come from sleep and from polling, and sleep again when they are let go:
+ * they use next to no processor then. */
 static void test_helpers_are_held(void **state)
 {
     struct timespec before, after;
