@@ -80,6 +80,18 @@ uint32_t entity_output_row(const struct entity_output *entities, uint32_t id)
     return id == 0 ? SLOT_NONE : entities_find(&snapshot->entities, snapshot->head.used, id);
 }
 
+struct vec3 entity_output_velocity_before(const struct entity_output *entities, uint32_t row,
+                                          uint64_t tick)
+{
+    const struct entities *e = &entities->snapshot.entities;
+    const struct entity_sent *sent = &entities->sent[row];
+    if (sent->seen_id != e->id[row] && sent->id != e->id[row])
+        return entities_velocity(e, row);
+    if (sent->seen_tick < tick)
+        return sent->seen_velocity;
+    return sent->earlier_tick < tick ? sent->earlier_velocity : entities_velocity(e, row);
+}
+
 /* --- what a row looks like ---------------------------------------------------------------------*/
 
 static uint32_t appearance_of(const struct world *world, const struct snapshot *snapshot,
@@ -138,6 +150,15 @@ static struct vec3 lasting_rates(struct vec3 rates, struct vec3 before, double p
     return vec3_scale(rates, maths_max(0.0, 1.0 + RATES_LEAD_S / past_s * growth / square));
 }
 
+/* Notes the velocity of a row in a new frame. */
+static void note_velocity(struct entity_sent *sent, const struct snapshot *snapshot, uint32_t row)
+{
+    sent->earlier_tick = sent->seen_tick;
+    sent->earlier_velocity = sent->seen_velocity;
+    sent->seen_tick = snapshot->head.tick;
+    sent->seen_velocity = entities_velocity(&snapshot->entities, row);
+}
+
 /* Updates the motion of a row by a new frame. Its acceleration and rates are those since the last
  * pass: smoothing them over 0.05 s costs 6 % more PDUs, over 0.07 s 9 %. */
 static void observe(struct entity_sent *sent, const struct snapshot *snapshot, uint32_t row,
@@ -157,9 +178,10 @@ static void observe(struct entity_sent *sent, const struct snapshot *snapshot, u
     } else {
         return;
     }
+    if (sent->seen_id != e->id[row] && sent->id != e->id[row])
+        sent->seen_velocity = velocity; /* it was somebody else's */
+    note_velocity(sent, snapshot, row);
     sent->seen_id = e->id[row];
-    sent->seen_tick = snapshot->head.tick;
-    sent->seen_velocity = velocity;
     sent->seen_turn = *turn;
 }
 
@@ -176,8 +198,8 @@ static bool stands(struct entity_sent *sent, const struct world *world,
         sent->roll != e->roll[row] || sent->turret != e->turret[row] || sent->gun != e->gun[row] ||
         sent->appearance != appearance_of(world, snapshot, row))
         return false;
-    sent->seen_tick = snapshot->head.tick; /* for observe(): it stood until now */
-    sent->seen_velocity = entities_velocity(e, row);
+    if (sent->seen_tick != snapshot->head.tick)
+        note_velocity(sent, snapshot, row); /* for observe(): it stood until now */
     sent->acceleration = sent->rates = sent->seen_rates = (struct vec3){0};
     return true;
 }

@@ -53,6 +53,8 @@ struct entity_sent {
     uint64_t seen_tick;
     struct vec3 seen_velocity, seen_rates, acceleration, rates;
     struct mat3 seen_turn;
+    uint64_t earlier_tick; /* the frame that was seen before that one */
+    struct vec3 earlier_velocity;
 };
 
 struct entity_output {
@@ -92,6 +94,12 @@ void entity_output_deactivate(struct entity_output *entities, const struct view 
 
 /* Returns the row of an entity in the last snapshot, SLOT_NONE when it is gone. */
 uint32_t entity_output_row(const struct entity_output *entities, uint32_t id);
+
+/* Returns the velocity that the entity of a row of the last snapshot had before the step of a tick
+ * [m/s, world], as far as the gateway has seen: in a collision of that step, which has changed it.
+ */
+struct vec3 entity_output_velocity_before(const struct entity_output *entities, uint32_t row,
+                                          uint64_t tick);
 
 /* Returns true if entities of the kind are sent: vehicles and guided missiles, no rounds. */
 bool entity_output_sends(const struct kind *kind);

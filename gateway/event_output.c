@@ -115,15 +115,12 @@ static void set_place(double location[3], const struct event_output *events, con
     location[2] = ecef.z;
 }
 
-/* Writes the velocity of an entity, which the last frame may not have. */
-static void set_velocity(float velocity[3], const struct event_output *events, uint32_t id)
+/* Writes a velocity of the world, by the clock as those of Entity States are. */
+static void set_velocity(float to[3], const struct event_output *events, struct vec3 velocity)
 {
-    uint32_t row = entity_output_row(events->entities, id);
-    if (row == SLOT_NONE)
-        return;
-    const struct entities *e = &events->entities->snapshot.entities;
-    vec3_to_floats(velocity,
-                   local_frame_ecef_direction(&events->entities->frame, entities_velocity(e, row)));
+    double scale = events->entities->snapshot.head.time_scale;
+    vec3_to_floats(
+        to, vec3_scale(local_frame_ecef_direction(&events->entities->frame, velocity), scale));
 }
 
 /* Writes a point of the world in the body axes of an entity. */
@@ -163,7 +160,9 @@ static void send_fire(struct event_output *events, const struct world *world,
                                  .fuse = type->fuse,
                                  .quantity = 1};
     set_place(pdu.fire.location, events, fire->point);
-    set_velocity(pdu.fire.velocity, events, fire->munition.id);
+    uint32_t round = entity_output_row(events->entities, fire->munition.id);
+    if (round != SLOT_NONE)
+        set_velocity(pdu.fire.velocity, events, entities_velocity(e, round));
     uint32_t target = entity_output_row(events->entities, fire->target.fixed ? 0 : fire->target.id);
     if (target != SLOT_NONE)
         pdu.fire.range = (float)vec3_length(
@@ -207,10 +206,8 @@ static void send_detonation(struct event_output *events, const struct world *wor
         .quantity = 1,
         .result = result_of(world, detonation)};
     set_place(pdu.detonation.location, events, detonation->point);
-    vec3_to_floats(pdu.detonation.velocity,
-                   local_frame_ecef_direction(&events->entities->frame,
-                                              flight_velocity(events, world, munition.id,
-                                                              detonation->point, event->tick)));
+    set_velocity(pdu.detonation.velocity, events,
+                 flight_velocity(events, world, munition.id, detonation->point, event->tick));
     if (detonation->struck == STRUCK_VEHICLE)
         set_point(pdu.detonation.point, events, detonation->struck_party, detonation->point);
     pdu_output_send(events->output, &pdu);
@@ -234,7 +231,10 @@ static void send_collision(struct event_output *events, const struct world *worl
     /* Events of the run are counted: the number and the issuer are not used twice within a day. */
     pdu.collision.event = (struct pdu_id){
         id.site, id.application, (uint16_t)(1 + event->sequence % ENTITY_IDS_PER_APPLICATION)};
-    set_velocity(pdu.collision.velocity, events, issuer.id);
+    uint32_t row = entity_output_row(events->entities, issuer.id);
+    if (row != SLOT_NONE) /* as it was when the bodies met, not after it */
+        set_velocity(pdu.collision.velocity, events,
+                     entity_output_velocity_before(events->entities, row, event->tick));
     set_point(pdu.collision.point, events, other, event->collision.point);
     pdu_output_send(events->output, &pdu);
 }

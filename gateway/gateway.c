@@ -52,6 +52,21 @@ static void tell_begin(const struct gateway *gateway)
                  udp_address_text(&gateway->cot.udp.to, at, sizeof at));
 }
 
+/* Settings that have no effect without another one. */
+static void tell_idle_settings(const struct params *params)
+{
+    const struct gateway_params *gateway = &params->gateway;
+    bool listens = strcmp(gateway->listen, GATEWAY_LISTS_NONE) != 0;
+    if (!listens && params->remotes_max > 0)
+        log_warn("world.remotes_max = %u has no effect: gateway.listen is none",
+                 params->remotes_max);
+    if (!listens && strcmp(gateway->control, GATEWAY_LISTS_NONE) != 0)
+        log_warn("gateway.control = %s has no effect: gateway.listen is none", gateway->control);
+    if (listens && (gateway->peers[0] == '\0' || strcmp(gateway->peers, GATEWAY_LISTS_NONE) == 0))
+        log_warn("gateway.peers names nobody, so all that comes to gateway.listen = %s is refused",
+                 gateway->listen);
+}
+
 /* A world may have fewer free rows than it allows entities of others. */
 static void tell_room(const struct gateway *gateway)
 {
@@ -212,6 +227,7 @@ int gateway_open(struct gateway *gateway, const char *world, struct error_text *
     add_notices(gateway);
     tell_begin(gateway);
     tell_room(gateway);
+    tell_idle_settings(gateway->view.world.params);
     return 0;
 }
 

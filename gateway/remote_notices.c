@@ -15,7 +15,7 @@ static const char *const refusal_texts[REMOTE_INPUT_REFUSALS] = {
     [REMOTE_INPUT_TWIN] = "of an identifier that another sender (address and port) had first",
     [REMOTE_INPUT_RING] = "without room in the ring",
     [REMOTE_INPUT_SHOTS] = "shots and detonations beyond 1,000 a second",
-    [REMOTE_INPUT_BODY] = "Collisions without a mass or beyond 256 at once",
+    [REMOTE_INPUT_BODY] = "Collisions without a mass, with one above 1e9 kg, or beyond 256 at once",
     [REMOTE_INPUT_TYPE] = "of types that cannot be shown"};
 
 static uint64_t sum(const uint64_t *counts, unsigned number)

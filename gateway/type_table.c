@@ -24,6 +24,8 @@ static const char *const domains[] = {[DOMAIN_LAND] = "<land>",
  * forces. */
 struct reading {
     struct type_row row[KIND_COUNT_MAX + DOMAINS][ANY_FORCE + 1];
+    struct type_in in[TYPE_TABLE_INS];
+    uint32_t ins;
 };
 
 static int force_of(const char *word)
@@ -78,6 +80,26 @@ static bool read_cot(const char *word, char cot[TYPE_TABLE_COT])
     return true;
 }
 
+/* Reads the words of a row "in". Returns NULL, or what is wrong. */
+static const char *read_in(struct reading *reading, char *word[], int count,
+                           const struct kind *kinds, uint32_t kind_count)
+{
+    struct type_in in;
+    int subject = subject_of(word[0], kinds, kind_count);
+    if (count != 3 || subject >= (int)KIND_COUNT_MAX)
+        return "a row of what comes in must be KIND in TYPE";
+    if (!read_type(word[2], &in.type))
+        return "the type must be seven numbers with dots between them: "
+               "KIND.DOMAIN.COUNTRY.CATEGORY.SUBCATEGORY.SPECIFIC.EXTRA";
+    if (subject < 0)
+        return NULL;
+    if (reading->ins == TYPE_TABLE_INS)
+        return "there are 256 rows of what comes in already";
+    in.kind = (uint16_t)subject;
+    reading->in[reading->ins++] = in;
+    return NULL;
+}
+
 /* Reads the words of a line. Returns NULL, or what is wrong. */
 static const char *read_row(struct reading *reading, char *word[], int count,
                             const struct kind *kinds, uint32_t kind_count)
@@ -86,9 +108,11 @@ static const char *read_row(struct reading *reading, char *word[], int count,
     uint64_t warhead = 0, fuse = 0;
     if (count < 3 || count > WORDS_MAX)
         return "must be KIND FORCE TYPE [WARHEAD FUSE] [COT]";
+    if (strcmp(word[1], "in") == 0)
+        return read_in(reading, word, count, kinds, kind_count);
     int force = force_of(word[1]);
     if (force < 0)
-        return "the force must be blue, red, neutral or *";
+        return "the force must be blue, red, neutral or *, or in for a type that only comes in";
     if (!read_type(word[2], &row.type))
         return "the type must be seven numbers with dots between them: "
                "KIND.DOMAIN.COUNTRY.CATEGORY.SUBCATEGORY.SPECIFIC.EXTRA";
@@ -175,6 +199,8 @@ int type_table_read(struct type_table *table, const char *path, const struct kin
         return error_text_set(error, "%s: cannot be read: %s", path, strerror(errno));
     int result = read_lines(&reading, file, path, kinds, kind_count, error);
     (void)fclose(file);
+    memcpy(table->in, reading.in, sizeof table->in);
+    table->ins = reading.ins;
     for (uint32_t i = 0; i < kind_count && i < KIND_COUNT_MAX && result == 0; i++) {
         table->munition[i] = kinds[i].domain == DOMAIN_MUNITION;
         for (int force = 0; force < FORCE_COUNT && kinds[i].domain < DOMAINS; force++) {
@@ -192,40 +218,59 @@ const struct type_row *type_table_row(const struct type_table *table, uint16_t k
     return kind < KIND_COUNT_MAX && force < FORCE_COUNT ? &table->row[kind][force] : &none;
 }
 
-/* Returns how much a row has in common with a type, 0 when it does not fit. */
-static unsigned likeness(const struct type_row *row, struct pdu_entity_type type)
+/* Returns how much a type of the table has in common with another, 0 when it does not fit. */
+static unsigned likeness(struct pdu_entity_type own, struct pdu_entity_type type)
 {
-    const struct pdu_entity_type *own = &row->type;
-    if (!row->given || row->nearest || own->kind != type.kind || own->domain != type.domain)
+    if (own.kind != type.kind || own.domain != type.domain)
         return 0;
     /* Category 0 says nothing. An animal or a soldier is like none of another category. */
-    bool alike = own->category == type.category && own->category != 0;
-    if (own->kind == LIFE_FORM && !alike)
+    bool category = own.category == type.category && own.category != 0;
+    if (own.kind == LIFE_FORM && !category)
         return 0;
+    bool subcategory = category && own.subcategory == type.subcategory;
+    bool specific = subcategory && own.specific == type.specific;
     unsigned common = 1;
-    common += alike ? 64 : 0;
-    common += alike && own->subcategory == type.subcategory ? 32 : 0;
-    common += own->country == type.country ? 16 : 0;
-    common += own->specific == type.specific ? 8 : 0;
-    common += own->extra == type.extra ? 4 : 0;
+    common += category ? 64 : 0;
+    common += subcategory ? 32 : 0;
+    common += own.country == type.country ? 16 : 0;
+    common += specific ? 8 : 0;
+    common += specific && own.extra == type.extra ? 4 : 0;
     return common;
 }
+
+static bool is_same(struct pdu_entity_type a, struct pdu_entity_type b)
+{
+    return a.kind == b.kind && a.domain == b.domain && a.country == b.country &&
+           a.category == b.category && a.subcategory == b.subcategory && a.specific == b.specific &&
+           a.extra == b.extra;
+}
+
+#define REST_OF_DOMAIN 24u /* more than a country, less than a category */
+#define THE_SAME       128u
 
 uint16_t type_table_kind(const struct type_table *table, struct pdu_entity_type type, bool munition,
                          bool *same)
 {
     unsigned best = 0;
     uint16_t kind = KIND_NONE;
-    *same = false;
     for (uint32_t i = 0; i < KIND_COUNT_MAX; i++) {
         for (int force = 0; force < FORCE_COUNT && table->munition[i] == munition; force++) {
-            unsigned common = likeness(&table->row[i][force], type);
-            if (common > best) {
-                best = common;
-                kind = (uint16_t)i;
-                *same = memcmp(&table->row[i][force].type, &type, sizeof type) == 0;
-            }
+            const struct type_row *row = &table->row[i][force];
+            unsigned common = row->given && !row->nearest ? likeness(row->type, type) : 0;
+            common += common > 0 && is_same(row->type, type) ? THE_SAME : 0;
+            if (common > best)
+                best = common, kind = (uint16_t)i;
         }
     }
+    for (uint32_t i = 0; i < table->ins; i++) {
+        const struct type_in *in = &table->in[i];
+        unsigned common = table->munition[in->kind] == munition ? likeness(in->type, type) : 0;
+        common += common > 0 && is_same(in->type, type) ? THE_SAME : 0;
+        if (common > 0 && common < REST_OF_DOMAIN && in->type.category == 0)
+            common = REST_OF_DOMAIN;
+        if (common > best)
+            best = common, kind = in->kind;
+    }
+    *same = best >= THE_SAME;
     return kind;
 }

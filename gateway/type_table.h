@@ -11,6 +11,7 @@
 #include <stdbool.h>
 
 #define TYPE_TABLE_COT 24u /* room for a type of Cursor on Target with its NUL */
+#define TYPE_TABLE_INS 256u
 
 struct type_row {
     struct pdu_entity_type type;
@@ -20,8 +21,16 @@ struct type_row {
     bool nearest; /* the kind has no row: this is that of its domain */
 };
 
+/* A type that is shown as a kind when it comes in, and is never sent. */
+struct type_in {
+    struct pdu_entity_type type;
+    uint16_t kind;
+};
+
 struct type_table {
     struct type_row row[KIND_COUNT_MAX][FORCE_COUNT];
+    struct type_in in[TYPE_TABLE_INS];
+    uint32_t ins;
     bool munition[KIND_COUNT_MAX];
 };
 
@@ -34,10 +43,12 @@ int type_table_read(struct type_table *table, const char *path, const struct kin
 const struct type_row *type_table_row(const struct type_table *table, uint16_t kind, uint8_t force);
 
 /* Returns the kind that a type of DIS is shown as, KIND_NONE when none fits: kind and domain of the
- * type must be those of a row. Of the rows that fit, the one is chosen that has most of category,
- * subcategory, country and specific in common, in this order of importance, and of equal ones the
- * first kind. munition: whether the type is one of munitions. *same: the whole type is in the
- * table. */
+ * type must be those of a row. Of the rows that fit, the one with the same category is chosen, of
+ * these the one with most of subcategory, country, specific and extra in common, in this order of
+ * importance, and of equal ones the first kind. A subcategory counts within its category alone, as
+ * its numbers mean nothing in another, specific within the subcategory, and extra within that. A
+ * type of a category that no row has is what the row "in" of category 0 says. munition: whether the
+ * type is one of munitions. *same: the whole type is in the table. */
 uint16_t type_table_kind(const struct type_table *table, struct pdu_entity_type type, bool munition,
                          bool *same);
 

@@ -39,6 +39,8 @@
  * simulators also tell the speed of the target, or nothing that a munition can have [m/s]. */
 #define STRIKE_LEAST_MPS 100.0
 
+#define BODY_SHARE 0.4 /* of length and width, to both sides: a hull tapers to its ends */
+
 /* A munition that strikes the ground is sent down from so high above it, and this steeply. */
 #define DROP_M        2.0
 #define STEEP_SINE    0.1
@@ -359,6 +361,17 @@ static double strike_speed(const struct kind *round, struct vec3 velocity)
     return maths_max(told > 1.0 ? told : round->max_speed_mps, STRIKE_LEAST_MPS);
 }
 
+/* Returns the place of the body's box that is nearest to a point: the sender's vehicle may be
+ * larger than ours, and what flies past the hull would strike the ground behind it. Body axes:
+ * ahead, up, right. */
+static struct vec3 within_body(const struct kind *vehicle, struct vec3 point)
+{
+    double ahead = BODY_SHARE * vehicle->length_m, right = BODY_SHARE * vehicle->width_m;
+    return (struct vec3){maths_clamp(point.x, -ahead, ahead),
+                         maths_clamp(point.y, 0.2 * vehicle->height_m, 0.8 * vehicle->height_m),
+                         maths_clamp(point.z, -right, right)};
+}
+
 /* It flies at the vehicle through the point of its body that was struck. */
 static struct approach approach_vehicle(const struct serial_context *context,
                                         const struct remote_record *record, uint32_t target)
@@ -369,10 +382,8 @@ static struct approach approach_vehicle(const struct serial_context *context,
     struct mat3 turn =
         rotation_matrix(rotation_of(m->heading[target], m->pitch[target], m->roll[target]));
     double reach = maths_max(vehicle->bound_m, vehicle->radius_m);
-    struct vec3 point = place_of(record), at = entities_position(m, target);
-    if (vec3_length(point) > reach)
-        point = vec3_scale(point, reach / vec3_length(point));
-    point = vec3_add(at, rotation_apply(&turn, point));
+    struct vec3 at = entities_position(m, target);
+    struct vec3 point = vec3_add(at, rotation_apply(&turn, within_body(vehicle, place_of(record))));
     struct vec3 velocity = vec3_of(record->velocity);
     struct vec3 along = direction_of(velocity, (struct vec3){0.0, -1.0, 0.0});
     struct vec3 from = vec3_sub(point, vec3_scale(along, 2.0 * reach + round->radius_m + DROP_M));

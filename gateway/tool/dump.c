@@ -26,7 +26,7 @@ static struct {
     uint32_t port;
     uint64_t count;
     double seconds;
-} given = {.listen = "127.0.0.1", .port = PDU_PORT};
+} given = {.port = PDU_PORT};
 
 static struct pdu_counts counts;
 static uint64_t shown, other_packets;
@@ -152,7 +152,7 @@ static void read_network(void)
 {
     static uint8_t bytes[UDP_SOCKET_BYTES_MAX];
     struct udp_address at;
-    int socket = listener_open(given.listen, given.interface, &at);
+    int socket = listener_open(given.listen ? given.listen : "127.0.0.1", given.interface, &at);
     setvbuf(stdout, NULL, _IOLBF, 0);
     uint64_t until_ns =
         given.seconds > 0.0 ? clock_now_ns() + (uint64_t)(given.seconds * 1e9) : UINT64_MAX;
@@ -253,6 +253,11 @@ int dump_run(int argc, char **argv)
         .rows = rows,
         .plain = 1};
     int plain = option_table_read(&table, argc, argv), code = EXIT_OK;
+    if (plain == 1 && (given.listen || given.seconds > 0.0 || given.interface))
+        die_usage(
+            "dis dump: --listen, --interface and --seconds are for what comes by the network; "
+            "%s is a file",
+            argv[argc - 1]);
     if (plain == 1)
         code = read_capture(argv[argc - 1]);
     else

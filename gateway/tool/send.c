@@ -49,7 +49,7 @@ static const struct option_row rows[] = {
     {"exercise", "N", "the exercise (default 1)", .u32 = &given.exercise, .least = 1, .most = 255},
     {"status", "N", "the PDU status of version 7 (default 0)", .u32 = &given.status, .most = 255},
     {"timestamp", "S", "seconds past the hour, as a relative time stamp (default: UTC)",
-     .real = &given.timestamp_s, .low = 0.0, .high = 3599.999999},
+     .real = &given.timestamp_s, .low = 0.0, .high = 3599.99},
     {"count", "N", "send it N times (default 1)", .u64 = &given.count, .least = 1,
      .most = INT64_MAX},
     {"every", "S", "with --count: seconds from one to the next (default 1)", .real = &given.every_s,
@@ -133,7 +133,7 @@ int send_run(int argc, char **argv)
                   "place=35.95,-121.25,300");
     const struct pdu_layout *layout = pdu_layout_named(word[0]);
     if (!layout)
-        die_usage("%s: is no type; %s", word[0], table.ending);
+        die_usage("%s: is no type; jolon dis send --help lists the types", word[0]);
     if (given.fields) {
         field_words_list(stdout, layout->type);
         return EXIT_OK;
@@ -153,6 +153,9 @@ int send_run(int argc, char **argv)
     for (int i = 1; i < plain; i++) {
         if (field_words_set(&pdu, word[i], &error) != 0)
             die_usage("%s", error.text);
+        for (int before = 1; before < i; before++)
+            if (strncmp(word[i], word[before], strcspn(word[i], "=") + 1) == 0)
+                die_usage("%s: the field has a value before: %s", word[i], word[before]);
     }
     if (given.file)
         write_capture(&pdu, &to);

@@ -104,6 +104,13 @@ static struct vec3 world_of(const double location[3])
     return local_frame_world(&entities.frame, (struct vec3){location[0], location[1], location[2]});
 }
 
+static struct vec3 direction_of(const float velocity[3])
+{
+    return local_frame_world_direction(
+        &entities.frame,
+        (struct vec3){(double)velocity[0], (double)velocity[1], (double)velocity[2]});
+}
+
 static const char duel[] =
     "vehicles = ({ kind = \"tank\"; name = \"T1\"; at = [25000.0, 25000.0]; heading_deg = 90.0;"
     "  behaviour = \"hold\"; force = \"blue\"; },"
@@ -141,10 +148,7 @@ static void test_a_shot_and_its_detonation(void **state)
     assert_memory_equal(&detonation->event, &fire.event, sizeof fire.event);
     assert_int_equal(detonation->firer.entity, 1);
     assert_int_equal(detonation->fuse, 1000);
-    struct vec3 speed = local_frame_world_direction(&entities.frame,
-                                                    (struct vec3){(double)detonation->velocity[0],
-                                                                  (double)detonation->velocity[1],
-                                                                  (double)detonation->velocity[2]});
+    struct vec3 speed = direction_of(detonation->velocity);
     assert_true(speed.x > 1000.0 && fabs(speed.z) < 50.0); /* the round itself is gone */
     event = fixture_event(&world, EVENT_DETONATION, 0);
     struct vec3 place = world_of(detonation->location);
@@ -176,6 +180,12 @@ static void test_a_collision_of_two(void **state)
     float jeep = (float)kinds[fixture_kind(&world, "jeep")].mass_kg;
     float truck = (float)kinds[fixture_kind(&world, "truck")].mass_kg;
     assert_true(a->mass + b->mass == jeep + truck);
+    /* Each has the velocity with which they met, not that by which they parted. */
+    for (uint32_t i = 0; i < 2; i++) {
+        double east = received[i].collision.mass == jeep ? 12.0 : -12.0;
+        struct vec3 velocity = direction_of(received[i].collision.velocity);
+        assert_true(fabs(velocity.x - east) < 0.5 && fabs(velocity.z) < 0.1);
+    }
     /* The point is at the front of the other one. */
     assert_true(a->point[0] > 0.0f && a->point[0] < 10.0f);
 }
@@ -305,6 +315,29 @@ static void test_a_collision_with_a_remote_entity(void **state)
     assert_int_equal(received[0].collision.issuer.site, 1991);
     assert_int_equal(received[0].collision.other.site, 7);
     assert_int_equal(received[0].collision.other.entity, 9);
+    assert_true(fabs(direction_of(received[0].collision.velocity).x - 15.0) < 0.5);
+}
+
+static double speed_of_shot(double time_scale)
+{
+    open_world(duel);
+    for (int w = 0; w < 2; w++) {
+        struct state_head *head = world.view.w[w].head;
+        head->time_scale = time_scale;
+        head->checksum = state_checksum(&world.view.w[w], world.view.header->counts.fixed);
+    }
+    run_until(PDU_FIRE);
+    double speed = vec3_length(direction_of(received[0].fire.velocity));
+    close_world(NULL);
+    return speed;
+}
+
+/* At four times the rate of time a round flies four times as fast by the clock. */
+static void test_velocities_are_by_the_clock(void **state)
+{
+    (void)state;
+    double usual = speed_of_shot(1.0);
+    assert_true(fabs(speed_of_shot(4.0) - 4.0 * usual) < 1e-3 * usual);
 }
 
 static void test_what_others_told_is_not_told_again(void **state)
@@ -348,6 +381,7 @@ int main(void)
         cmocka_unit_test(test_what_is_sent_first),
         cmocka_unit_test_teardown(test_a_hit_on_a_remote_entity, close_world),
         cmocka_unit_test_teardown(test_a_collision_with_a_remote_entity, close_world),
+        cmocka_unit_test(test_velocities_are_by_the_clock),
         cmocka_unit_test_teardown(test_what_others_told_is_not_told_again, close_world),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

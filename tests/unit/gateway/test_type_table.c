@@ -103,6 +103,9 @@ static void test_refusals(void **state)
     assert_refused("tank * 1.1.1.1.1.1.1 G-E-V-A-T-H-E-A-V-Y-X-Y-Z\n", "Cursor on Target");
     assert_refused("tank green 1.1.1.1.1.1.1\n", "blue, red, neutral or *");
     assert_refused("tank * 1.1.1.1.1.1\n", "seven numbers");
+    assert_refused("tank in 1.1.1.1.1.1\n", "seven numbers");
+    assert_refused("tank in 1.1.1.1.1.1.1 G-E\n", "KIND in TYPE");
+    assert_refused("<land> in 1.1.1.1.1.1.1\n", "KIND in TYPE");
     assert_refused("tank * 1.1.1.1.1.1.1.1\n", "seven numbers");
     assert_refused("tank * 1.1.1.1.1.1.256\n", "seven numbers");
     assert_refused("tank * 1.1.65536.1.1.1.1\n", "seven numbers");
@@ -128,11 +131,13 @@ static void test_the_nearest_kind(void **state)
     (void)state;
     assert_int_equal(read_text(DOMAIN_ROWS "<air> * 1.2.3.0.0.0.0\ntank * 1.1.225.1.1.2.0\n"
                                            "tank red 1.1.222.1.2.1.0\njet * 1.2.225.1.3.3.0\n"
+                                           "tank in 1.1.0.7.0.0.0\n"
                                            "shell * 2.2.225.2.13.1.0 1 2\n"),
                      0);
     assert_kind((struct pdu_entity_type){1, 1, 222, 1, 2, 1, 0}, false, 0, true);
     assert_kind((struct pdu_entity_type){1, 1, 222, 1, 2, 1, 5}, false, 0, false);
     assert_kind((struct pdu_entity_type){1, 2, 71, 9, 9, 9, 9}, false, 1, false);
+    assert_kind((struct pdu_entity_type){1, 1, 0, 7, 0, 0, 0}, false, 0, true);
     assert_kind((struct pdu_entity_type){1, 3, 2, 0, 0, 0, 0}, false, KIND_NONE, false);
     assert_kind((struct pdu_entity_type){2, 2, 225, 2, 13, 1, 0}, true, 2, true);
     assert_kind((struct pdu_entity_type){2, 2, 225, 2, 13, 1, 0}, false, KIND_NONE, false);
@@ -160,6 +165,27 @@ static void test_the_shipped_table(void **state)
             if (world->kinds[kind].domain == DOMAIN_MUNITION)
                 assert_true(row->warhead > 0 && row->fuse > 0);
         }
+    }
+    /* Types of categories that none of our kinds has, and what the numbers below would suggest. */
+    static const struct {
+        struct pdu_entity_type type;
+        const char *kind;
+    } shown[] = {
+        {{1, 2, 225, 2, 4, 1, 0}, "jet"}, /* A-10A */
+        {{1, 2, 225, 2, 4, 3, 0}, "jet"},         {{1, 2, 225, 4, 2, 1, 0}, "jet"},
+        {{1, 2, 225, 40, 1, 1, 0}, "jet"},        {{1, 2, 222, 2, 1, 4, 0}, "jet"},
+        {{1, 2, 225, 21, 2, 1, 0}, "helicopter"}, /* UH-60A */
+        {{1, 2, 225, 21, 2, 3, 0}, "helicopter"}, {{1, 2, 78, 24, 1, 1, 0}, "helicopter"},
+        {{1, 2, 225, 1, 3, 3, 0}, "jet"},         {{1, 2, 225, 20, 1, 1, 0}, "helicopter"},
+        {{1, 1, 225, 3, 1, 1, 0}, "carrier"},     {{1, 1, 225, 80, 1, 1, 0}, "jeep"},
+        {{1, 1, 78, 5, 0, 0, 0}, "howitzer"},     {{1, 1, 78, 44, 0, 0, 0}, "truck"},
+        {{1, 1, 78, 1, 1, 1, 0}, "tank"},         {{1, 3, 78, 6, 1, 0, 0}, "ship"},
+    };
+    for (size_t i = 0; i < sizeof shown / sizeof *shown; i++) {
+        bool same;
+        uint16_t kind = type_table_kind(&table, shown[i].type, false, &same);
+        if (kind == KIND_NONE || strcmp(world->kinds[kind].name, shown[i].kind) != 0)
+            fail_msg("type %u of the list is no %s", (unsigned)i, shown[i].kind);
     }
     fixture_close(&fixture);
 }

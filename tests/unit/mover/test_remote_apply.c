@@ -252,6 +252,29 @@ static void test_a_slow_round_strikes_whom_it_names(void **state)
     }
 }
 
+/* The sender's vehicle may be larger than ours, and its numbers odd. */
+static void test_a_round_beside_the_hull_strikes_whom_it_names(void **state)
+{
+    static const double points[][3] = {{4.5, 0.0, 0.0}, {1e9, 0.0, 0.0}, {0.0, 40.0, 3.0}};
+    (void)state;
+    for (unsigned i = 0; i < 3; i++) {
+        struct remote_record record = {.remote = REMOTE,
+                                       .type = REMOTE_STRUCK,
+                                       .slot = SLOT_NONE,
+                                       .entity = 1,
+                                       .kind = fixture_kind(&f, "shell"),
+                                       .velocity = {0.0f, 0.0f, -900.0f}};
+        memcpy(record.position, points[i], sizeof record.position);
+        enum remote_refusal refusal = does(record);
+        assert_int_equal(refusal, points[i][0] > 1e6 ? REMOTE_UNKNOWN : REMOTE_TAKEN);
+        if (refusal != REMOTE_TAKEN)
+            continue;
+        fixture_run(&f, 30);
+        assert_int_equal(
+            fixture_event(&f, EVENT_DETONATION, i > 0 ? 1 : 0)->detonation.struck_party.id, 1);
+    }
+}
+
 static void test_a_shell_digs_a_crater(void **state)
 {
     struct remote_record record = remotes_track(&f, 0, there);
@@ -419,6 +442,7 @@ int main(void)
         TEST(test_a_shot_alarms_its_target),
         TEST(test_a_hit_harms_by_our_rules),
         TEST(test_a_slow_round_strikes_whom_it_names),
+        TEST(test_a_round_beside_the_hull_strikes_whom_it_names),
         TEST(test_a_shell_digs_a_crater),
         TEST(test_a_far_round_pierces_less),
         TEST(test_a_body_strikes),
