@@ -43,7 +43,7 @@
 static struct firing_table *make_firing_tables(const struct world *world)
 {
     uint32_t count = kind_of_files(world->kinds, world->counts.kinds);
-    struct firing_table *tables = calloc(count, sizeof *tables);
+    struct firing_table *tables = calloc(count > 0 ? count : 1, sizeof *tables);
     for (uint32_t i = 0; tables && i < count; i++)
         firing_table_make(&tables[i], &world->kinds[i]);
     return tables;

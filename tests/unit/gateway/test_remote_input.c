@@ -575,58 +575,6 @@ static void test_shots(void **state)
     assert_int_equal(input.struck, 1);
 }
 
-static struct pdu burst_of(uint16_t target, uint8_t category, struct vec3 at)
-{
-    struct vec3 ecef = local_frame_ecef(&frame, at);
-    struct pdu pdu;
-    memset(&pdu, 0, sizeof pdu);
-    pdu.header.type = PDU_DETONATION;
-    pdu.detonation = (struct pdu_detonation){.firer = {7, 1, 5},
-                                             .target = {target ? 1991 : 0, target ? 10 : 0, target},
-                                             .event = {7, 1, 77},
-                                             .munition_type = {2, 9, 225, category, 14, 2, 0},
-                                             .location = {ecef.x, ecef.y, ecef.z},
-                                             .result = target ? PDU_RESULT_ENTITY_IMPACT
-                                                              : PDU_RESULT_GROUND_IMPACT};
-    return pdu;
-}
-
-/* A number is the same event for a short time, and of the same munition, target and place. */
-static void test_a_number_of_an_event_again(void **state)
-{
-    struct vec3 at = {25500.0, FIXTURE_GROUND_M, 25000.0}, near = at, next = at;
-    struct pdu pdu = burst_of(0, 2, at);
-    (void)state;
-    near.x += 0.9 * EVENT_MEMORY_COPY_M;
-    next.x += 5.0;
-    take(&pdu, &peer);
-    assert_int_equal(input.struck, 1);
-    take(&pdu, &peer);
-    pdu = burst_of(0, 2, near); /* a gateway that starts anew may have it a little elsewhere */
-    take(&pdu, &peer);
-    assert_int_equal(input.struck, 1);
-    assert_int_equal(input.repeated, 2);
-    pdu = burst_of(0, 2, next); /* the next round of a burst */
-    take(&pdu, &peer);
-    assert_int_equal(input.struck, 2);
-    pdu = burst_of(1, 2, at); /* another target */
-    take(&pdu, &peer);
-    assert_int_equal(input.struck, 3);
-    pdu = burst_of(0, 2, at);
-    pdu.detonation.munition_type = (struct pdu_entity_type){2, 2, 225, 2, 13, 1, 0};
-    take(&pdu, &peer); /* another munition */
-    assert_int_equal(input.struck, 4);
-    pdu = burst_of(0, 2, at);
-    pdu.detonation.firer.entity = 6;
-    take(&pdu, &peer); /* of another */
-    assert_int_equal(input.struck, 5);
-    pdu = burst_of(0, 2, at);
-    now_ns += (uint64_t)(EVENT_MEMORY_COPY_S * 1e9) + 1;
-    take(&pdu, &peer); /* so late there are no copies */
-    assert_int_equal(input.struck, 6);
-    assert_int_equal(input.repeated, 2);
-}
-
 /* What the world refuses is counted and told, too. */
 static void test_a_world_that_is_full(void **state)
 {
@@ -790,7 +738,6 @@ int main(void)
         TEST(test_what_stands_is_told_once),
         TEST(test_a_full_ring),
         TEST(test_shots),
-        TEST(test_a_number_of_an_event_again),
         TEST(test_a_world_that_is_full),
         TEST(test_how_far_a_round_has_flown),
         TEST(test_collisions),
