@@ -39,6 +39,7 @@
 /* What a pass knows of a row. */
 struct row_view {
     uint32_t row, id;
+    struct mat3 axes;     /* of the world at its place, in ECEF */
     struct vec3 velocity; /* [m/s] ECEF */
     struct vec3 position; /* [m] ECEF */
     struct mat3 matrix;   /* euler.h */
@@ -212,14 +213,15 @@ static struct row_view look_at(struct entity_output *entities, const struct worl
     const struct kind *kind = &world->kinds[e->kind[row]];
     struct mat3 turn = rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
     double scale = snapshot->head.paused ? 0.0 : snapshot->head.time_scale;
+    struct mat3 axes = local_frame_axes(&entities->frame, entities_position(e, row));
     observe(&entities->sent[row], snapshot, row, &turn, world_dt_s(world));
     return (struct row_view){
         .row = row,
         .id = e->id[row],
-        .velocity = vec3_scale(
-            local_frame_ecef_direction(&entities->frame, entities_velocity(e, row)), scale),
+        .axes = axes,
+        .velocity = vec3_scale(local_frame_ecef_direction(&axes, entities_velocity(e, row)), scale),
         .position = local_frame_ecef(&entities->frame, entities_position(e, row)),
-        .matrix = local_frame_ecef_turn(&entities->frame, &turn),
+        .matrix = local_frame_ecef_turn(&axes, &turn),
         .appearance = appearance_of(world, snapshot, row),
         .turret = e->turret[row],
         .gun = e->gun[row],
@@ -294,7 +296,7 @@ static void set_motion(struct pdu_entity_state *state, const struct entity_outpu
     const struct state_head *head = &entities->snapshot.head;
     double scale = head->paused ? 0.0 : head->time_scale;
     struct vec3 acceleration =
-        vec3_scale(local_frame_ecef_direction(&entities->frame, sent->acceleration), scale * scale);
+        vec3_scale(local_frame_ecef_direction(&view->axes, sent->acceleration), scale * scale);
     struct vec3 rates = vec3_scale(sent->rates, scale);
     bool turns = vec3_length(rates) > RATE_LEAST;
     bool speeds = vec3_length(acceleration) > ACCELERATION_LEAST;

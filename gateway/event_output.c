@@ -115,12 +115,14 @@ static void set_place(double location[3], const struct event_output *events, con
     location[2] = ecef.z;
 }
 
-/* Writes a velocity of the world, by the clock as those of Entity States are. */
-static void set_velocity(float to[3], const struct event_output *events, struct vec3 velocity)
+/* Writes a velocity at a place of the world, by the clock as those of Entity States are. */
+static void set_velocity(float to[3], const struct event_output *events, const double place[3],
+                         struct vec3 velocity)
 {
     double scale = events->entities->snapshot.head.time_scale;
-    vec3_to_floats(
-        to, vec3_scale(local_frame_ecef_direction(&events->entities->frame, velocity), scale));
+    struct mat3 axes =
+        local_frame_axes(&events->entities->frame, (struct vec3){place[0], place[1], place[2]});
+    vec3_to_floats(to, vec3_scale(local_frame_ecef_direction(&axes, velocity), scale));
 }
 
 /* Writes a point of the world in the body axes of an entity. */
@@ -162,7 +164,7 @@ static void send_fire(struct event_output *events, const struct world *world,
     set_place(pdu.fire.location, events, fire->point);
     uint32_t round = entity_output_row(events->entities, fire->munition.id);
     if (round != SLOT_NONE)
-        set_velocity(pdu.fire.velocity, events, entities_velocity(e, round));
+        set_velocity(pdu.fire.velocity, events, fire->point, entities_velocity(e, round));
     uint32_t target = entity_output_row(events->entities, fire->target.fixed ? 0 : fire->target.id);
     if (target != SLOT_NONE)
         pdu.fire.range = (float)vec3_length(
@@ -206,7 +208,7 @@ static void send_detonation(struct event_output *events, const struct world *wor
         .quantity = 1,
         .result = result_of(world, detonation)};
     set_place(pdu.detonation.location, events, detonation->point);
-    set_velocity(pdu.detonation.velocity, events,
+    set_velocity(pdu.detonation.velocity, events, detonation->point,
                  flight_velocity(events, world, munition.id, detonation->point, event->tick));
     if (detonation->struck == STRUCK_VEHICLE)
         set_point(pdu.detonation.point, events, detonation->struck_party, detonation->point);
@@ -233,7 +235,7 @@ static void send_collision(struct event_output *events, const struct world *worl
         id.site, id.application, (uint16_t)(1 + event->sequence % ENTITY_IDS_PER_APPLICATION)};
     uint32_t row = entity_output_row(events->entities, issuer.id);
     if (row != SLOT_NONE) /* as it was when the bodies met, not after it */
-        set_velocity(pdu.collision.velocity, events,
+        set_velocity(pdu.collision.velocity, events, event->collision.point,
                      entity_output_velocity_before(events->entities, row, event->tick));
     set_point(pdu.collision.point, events, other, event->collision.point);
     pdu_output_send(events->output, &pdu);

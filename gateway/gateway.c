@@ -11,6 +11,7 @@
 #include "ipc/process/process.h"
 #include "ipc/segment/role_notes.h"
 #include "world/params.h"
+#include "world/provenance.h"
 #include "world/terrain/gridsquare.h"
 
 #include <inttypes.h>
@@ -205,8 +206,12 @@ int gateway_open(struct gateway *gateway, const char *world, struct error_text *
                                         (uint16_t)params->applications};
     gateway->events.entities = entities;
     gateway->events.remotes = &gateway->remotes;
-    local_frame_make(&entities->frame, params->latitude_deg, params->longitude_deg,
-                     params->undulation_m, 0.5 * WORLD_SIDE_M, 0.5 * WORLD_SIDE_M);
+    if (provenance_find(view->world.recipe, view->world.counts.recipe, "ground"))
+        local_frame_project(&entities->frame, params->latitude_deg, params->longitude_deg,
+                            params->undulation_m, 0.5 * WORLD_SIDE_M);
+    else
+        local_frame_make(&entities->frame, params->latitude_deg, params->longitude_deg,
+                         params->undulation_m, 0.5 * WORLD_SIDE_M, 0.5 * WORLD_SIDE_M);
     read_undulation(gateway);
     if (type_table_read(&gateway->types, path, view->world.kinds, view->world.counts.kinds,
                         error) != 0 ||

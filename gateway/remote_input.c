@@ -172,14 +172,14 @@ static uint8_t damage_of(uint32_t appearance)
 }
 
 /* Fills the motion: all of it in the axes of the world. */
-static void set_motion(struct remote_record *track, const struct remote_input *input,
+static void set_motion(struct remote_record *track, const struct mat3 *axes,
                        const struct pdu_entity_state *state)
 {
     const struct euler angles = {(double)state->orientation[0], (double)state->orientation[1],
                                  (double)state->orientation[2]};
     bool sane = fabs(angles.psi) < 1e3 && fabs(angles.theta) < 1e3 && fabs(angles.phi) < 1e3;
     struct mat3 matrix = euler_matrix(sane ? angles : (struct euler){0.0, 0.0, 0.0});
-    struct mat3 turn = local_frame_world_turn(input->frame, &matrix);
+    struct mat3 turn = local_frame_world_turn(axes, &matrix);
     double heading, pitch, roll;
     local_frame_angles(&turn, &heading, &pitch, &roll);
     vec3_to_floats(track->attitude, (struct vec3){heading, pitch, roll});
@@ -196,9 +196,9 @@ static void set_motion(struct remote_record *track, const struct remote_input *i
         acceleration = rotation_apply(&matrix, acceleration);
     }
     rates = rotation_apply(&matrix, rates);
-    vec3_to_floats(track->velocity, local_frame_world_direction(input->frame, velocity));
-    vec3_to_floats(track->acceleration, local_frame_world_direction(input->frame, acceleration));
-    vec3_to_floats(track->rates, local_frame_world_direction(input->frame, rates));
+    vec3_to_floats(track->velocity, local_frame_world_direction(axes, velocity));
+    vec3_to_floats(track->acceleration, local_frame_world_direction(axes, acceleration));
+    vec3_to_floats(track->rates, local_frame_world_direction(axes, rates));
 }
 
 static void set_parts(struct remote_record *track, const struct pdu *pdu)
@@ -369,7 +369,8 @@ static void take_state(struct remote_input *input, struct view *view, const stru
                                   .kind = kind,
                                   .force = force_of(state->force),
                                   .position = {place.x, place.y, place.z}};
-    set_motion(&track, input, state);
+    const struct mat3 axes = local_frame_axes(input->frame, place);
+    set_motion(&track, &axes, state);
     set_parts(&track, pdu);
     memcpy(track.marking, state->marking, PDU_MARKING_MAX);
     if (is_late(input, entry, &track, pdu, now_ns))
@@ -493,9 +494,10 @@ static void take_detonation(struct remote_input *input, struct view *view, const
     record.position[0] = place.x;
     record.position[1] = place.y;
     record.position[2] = place.z;
-    vec3_to_floats(record.velocity,
-                   local_frame_world_direction(
-                       input->frame, limited(vec3_of(detonation->velocity), SPEED_MOST_MPS)));
+    const struct mat3 axes = local_frame_axes(input->frame, at);
+    vec3_to_floats(
+        record.velocity,
+        local_frame_world_direction(&axes, limited(vec3_of(detonation->velocity), SPEED_MOST_MPS)));
     put_shot(input, view, &record, &at, now_ns);
 }
 
@@ -582,9 +584,13 @@ static void take_collision(struct remote_input *input, const struct pdu *pdu, ui
     record.position[0] = point.x;
     record.position[1] = point.y;
     record.position[2] = point.z;
-    vec3_to_floats(
-        record.velocity,
-        local_frame_world_direction(input->frame, limited(vec3_of(body.velocity), SPEED_MOST_MPS)));
+    /* A Collision has no place: its axes are those at the body that strikes, where it is known. */
+    const struct remote_entry *issuer = remote_table_find(&input->table, record.remote);
+    const struct mat3 axes = issuer && issuer->placed
+                                 ? local_frame_axes(input->frame, issuer->place)
+                                 : input->frame->axes;
+    vec3_to_floats(record.velocity, local_frame_world_direction(
+                                        &axes, limited(vec3_of(body.velocity), SPEED_MOST_MPS)));
     await_collider(input, &record, now_ns);
 }
 

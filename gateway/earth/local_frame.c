@@ -1,4 +1,4 @@
-/* The world's plane on the earth. */
+/* The world on its plane, and on the earth. */
 #include "gateway/earth/local_frame.h"
 
 #include "gateway/earth/geoid_grid.h"
@@ -6,6 +6,8 @@
 #define STRAIGHT                                                                                   \
     1e-12 /* as a share of its length, the level part of a nose straight up or down                \
            */
+
+#define AXES_STEP_M 50.0
 
 void local_frame_make(struct local_frame *frame, double latitude_deg, double longitude_deg,
                       double undulation_m, double middle_x, double middle_z)
@@ -20,7 +22,16 @@ void local_frame_make(struct local_frame *frame, double latitude_deg, double lon
                                  {0.0, sin_lat, -cos_lat}}};
     frame->middle_x = middle_x;
     frame->middle_z = middle_z;
-    frame->uneven = false;
+    frame->undulation_m = undulation_m;
+    frame->uneven = frame->projected = false;
+}
+
+void local_frame_project(struct local_frame *frame, double latitude_deg, double longitude_deg,
+                         double undulation_m, double middle_m)
+{
+    local_frame_make(frame, latitude_deg, longitude_deg, undulation_m, middle_m, middle_m);
+    projection_make(&frame->projection, latitude_deg, longitude_deg, 2.0 * middle_m);
+    frame->projected = true;
 }
 
 int local_frame_read_undulation(struct local_frame *frame, const char *path, double undulation_m,
@@ -61,33 +72,76 @@ static double sea_above(const struct local_frame *frame, double x, double z)
     return upper + down * (lower - upper);
 }
 
-struct vec3 local_frame_ecef_direction(const struct local_frame *frame, struct vec3 world)
+/* Returns the place of the earth at a place of a projected world. */
+static struct geodesy_place place_at(const struct local_frame *frame, struct vec3 world)
 {
-    return rotation_apply(&frame->axes, world);
+    double latitude_deg, longitude_deg;
+    projection_place(&frame->projection, world.x, world.z, &latitude_deg, &longitude_deg);
+    return (struct geodesy_place){latitude_deg * RAD_PER_DEG, longitude_deg * RAD_PER_DEG,
+                                  world.y + frame->undulation_m +
+                                      sea_above(frame, world.x, world.z)};
 }
 
-struct vec3 local_frame_world_direction(const struct local_frame *frame, struct vec3 ecef)
+struct vec3 local_frame_ecef_direction(const struct mat3 *axes, struct vec3 world)
 {
-    return rotation_back(&frame->axes, ecef);
+    return rotation_apply(axes, world);
+}
+
+struct vec3 local_frame_world_direction(const struct mat3 *axes, struct vec3 ecef)
+{
+    return rotation_back(axes, ecef);
 }
 
 struct vec3 local_frame_ecef(const struct local_frame *frame, struct vec3 world)
 {
+    if (frame->projected)
+        return geodesy_ecef(place_at(frame, world));
     struct vec3 local = {world.x - frame->middle_x, world.y + sea_above(frame, world.x, world.z),
                          world.z - frame->middle_z};
-    return vec3_add(frame->origin, local_frame_ecef_direction(frame, local));
+    return vec3_add(frame->origin, local_frame_ecef_direction(&frame->axes, local));
 }
 
+/* Beyond the reach of the projection a place is that of the plane, which is far outside of any
+ * square, too. */
 struct vec3 local_frame_world(const struct local_frame *frame, struct vec3 ecef)
 {
-    struct vec3 local = local_frame_world_direction(frame, vec3_sub(ecef, frame->origin));
-    double x = local.x + frame->middle_x, z = local.z + frame->middle_z;
-    return (struct vec3){x, local.y - sea_above(frame, x, z), z};
+    struct vec3 from = vec3_sub(ecef, frame->origin);
+    struct vec3 local = local_frame_world_direction(&frame->axes, from);
+    double x = local.x + frame->middle_x, z = local.z + frame->middle_z, height = local.y;
+    if (frame->projected && vec3_length(from) < 0.5 * PROJECTION_REACH_M) {
+        struct geodesy_place place = geodesy_place_of(ecef);
+        projection_world(&frame->projection, place.latitude_rad * DEG_PER_RAD,
+                         place.longitude_rad * DEG_PER_RAD, &x, &z);
+        height = place.height_m - frame->undulation_m;
+    }
+    return (struct vec3){x, height - sea_above(frame, x, z), z};
 }
 
-struct mat3 local_frame_ecef_turn(const struct local_frame *frame, const struct mat3 *turn)
+/* East on the map is found by two places of it, as it turns against the parallel away from the
+ * middle's meridian. */
+struct mat3 local_frame_axes(const struct local_frame *frame, struct vec3 world)
 {
-    struct mat3 both = rotation_both(&frame->axes, turn), matrix;
+    if (!frame->projected)
+        return frame->axes;
+    struct vec3 west = world, east = world, up;
+    double sin_lat, cos_lat, sin_lon, cos_lon;
+    struct geodesy_place place = place_at(frame, world);
+    maths_sincos(place.latitude_rad, &sin_lat, &cos_lat);
+    maths_sincos(place.longitude_rad, &sin_lon, &cos_lon);
+    up = (struct vec3){cos_lat * cos_lon, cos_lat * sin_lon, sin_lat};
+    west.x -= AXES_STEP_M;
+    east.x += AXES_STEP_M;
+    struct vec3 along = vec3_sub(local_frame_ecef(frame, east), local_frame_ecef(frame, west));
+    along = vec3_sub(along, vec3_scale(up, vec3_dot(along, up)));
+    along = vec3_scale(along, 1.0 / vec3_length(along));
+    struct vec3 south = vec3_cross(along, up);
+    return (struct mat3){
+        {{along.x, up.x, south.x}, {along.y, up.y, south.y}, {along.z, up.z, south.z}}};
+}
+
+struct mat3 local_frame_ecef_turn(const struct mat3 *axes, const struct mat3 *turn)
+{
+    struct mat3 both = rotation_both(axes, turn), matrix;
     for (int i = 0; i < 3; i++) { /* columns: forward, right, down */
         matrix.m[i][0] = both.m[i][0];
         matrix.m[i][1] = both.m[i][2];
@@ -96,7 +150,7 @@ struct mat3 local_frame_ecef_turn(const struct local_frame *frame, const struct 
     return matrix;
 }
 
-struct mat3 local_frame_world_turn(const struct local_frame *frame, const struct mat3 *matrix)
+struct mat3 local_frame_world_turn(const struct mat3 *axes, const struct mat3 *matrix)
 {
     struct mat3 turn;
     const struct vec3 columns[3] = {
@@ -105,7 +159,7 @@ struct mat3 local_frame_world_turn(const struct local_frame *frame, const struct
         {matrix->m[0][1], matrix->m[1][1], matrix->m[2][1]},    /* right */
     };
     for (int j = 0; j < 3; j++) {
-        struct vec3 world = local_frame_world_direction(frame, columns[j]);
+        struct vec3 world = local_frame_world_direction(axes, columns[j]);
         turn.m[0][j] = world.x;
         turn.m[1][j] = world.y;
         turn.m[2][j] = world.z;

@@ -1,12 +1,15 @@
-/* The world on the earth. Jolon's world has the axes x east, y up and z south [m], heights above
- * sea level, and lies on the plane that touches the earth at one point of reference. DIS has ECEF
- * places on the WGS 84 ellipsoid. Pure but for what reads a file; any thread. */
+/* The world on the earth. Jolon's world has the axes x east, y up and z south [m] and heights above
+ * sea level. It lies on the plane that touches the earth at one point of reference, or, on a ground
+ * file, on the earth itself by the projection of the file: up is then another direction at each
+ * place. DIS has ECEF places on the WGS 84 ellipsoid. Pure but for what reads a file; any thread.
+ */
 #ifndef JOLON_GATEWAY_EARTH_LOCAL_FRAME_H
 #define JOLON_GATEWAY_EARTH_LOCAL_FRAME_H
 
 #include "gateway/earth/euler.h"
 #include "gateway/earth/geodesy.h"
 #include "world/runtime/error_text.h"
+#include "world/terrain/projection.h"
 
 #include <stdbool.h>
 
@@ -23,6 +26,9 @@ struct local_frame {
     struct vec3 origin;        /* [m] ECEF of the point of reference at sea level */
     struct mat3 axes;          /* columns: east, up and south in ECEF */
     double middle_x, middle_z; /* [m] world coordinates of the point of reference */
+    bool projected;            /* places are those of the projection, not of the plane */
+    struct projection projection;
+    double undulation_m; /* of the sea above the ellipsoid at the point of reference */
     /* How far the sea is above that of the point of reference, at the corners of equal parts of the
      * square [m]: rows from north to south, each from west to east. All 0: one undulation is that
      * of the whole square. */
@@ -35,6 +41,11 @@ struct local_frame {
 void local_frame_make(struct local_frame *frame, double latitude_deg, double longitude_deg,
                       double undulation_m, double middle_x, double middle_z);
 
+/* Lays the same world on the earth by the projection of ground files about its middle, whose x and
+ * z are both middle_m. */
+void local_frame_project(struct local_frame *frame, double latitude_deg, double longitude_deg,
+                         double undulation_m, double middle_m);
+
 /* Takes the undulation of each part of the square, whose middle is the point of reference and whose
  * sides have 2 middle_x, from a grid (geoid_grid.h), instead of one for all. Reads the file; for
  * the start. undulation_m is the one of local_frame_make(). Returns 0, or -1 with the reason; the
@@ -42,16 +53,21 @@ void local_frame_make(struct local_frame *frame, double latitude_deg, double lon
 int local_frame_read_undulation(struct local_frame *frame, const char *path, double undulation_m,
                                 struct error_text *error);
 
-/* World to ECEF, and back: places, and velocities or directions. */
+/* World to ECEF, and back: places. */
 struct vec3 local_frame_ecef(const struct local_frame *frame, struct vec3 world);
 struct vec3 local_frame_world(const struct local_frame *frame, struct vec3 ecef);
-struct vec3 local_frame_ecef_direction(const struct local_frame *frame, struct vec3 world);
-struct vec3 local_frame_world_direction(const struct local_frame *frame, struct vec3 ecef);
+
+/* Returns the axes of the world at a place of it in ECEF: columns east, up and south. */
+struct mat3 local_frame_axes(const struct local_frame *frame, struct vec3 world);
+
+/* World to ECEF, and back: velocities or directions, by the axes at their place. */
+struct vec3 local_frame_ecef_direction(const struct mat3 *axes, struct vec3 world);
+struct vec3 local_frame_world_direction(const struct mat3 *axes, struct vec3 ecef);
 
 /* The attitude of a body, world = turn * body with Jolon's body axes (world/maths/rotation.h), to
- * the matrix of euler.h, and back. */
-struct mat3 local_frame_ecef_turn(const struct local_frame *frame, const struct mat3 *turn);
-struct mat3 local_frame_world_turn(const struct local_frame *frame, const struct mat3 *matrix);
+ * the matrix of euler.h, and back, by the axes at its place. */
+struct mat3 local_frame_ecef_turn(const struct mat3 *axes, const struct mat3 *turn);
+struct mat3 local_frame_world_turn(const struct mat3 *axes, const struct mat3 *matrix);
 
 /* Body axes of Jolon (forward, up, right) to those of DIS (forward, right, down), and back. */
 static inline struct vec3 local_frame_body_to_dis(struct vec3 body)

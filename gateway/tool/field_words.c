@@ -195,7 +195,7 @@ static bool set_attitude(struct pdu_entity_state *entity, char *value)
                      0.0, 0.0, 0.0);
     struct mat3 turn = rotation_matrix(
         rotation_of(number[0] * RAD_PER_DEG, number[1] * RAD_PER_DEG, number[2] * RAD_PER_DEG));
-    struct mat3 matrix = local_frame_ecef_turn(&frame, &turn);
+    struct mat3 matrix = local_frame_ecef_turn(&frame.axes, &turn);
     struct euler angles = euler_of(&matrix);
     vec3_to_floats(entity->orientation, (struct vec3){angles.psi, angles.theta, angles.phi});
     return true;

@@ -52,6 +52,9 @@ static int write_provenance(const struct view *view, const struct arguments *arg
     result |= provenance_add(&recipe, "commands", text);
     for (int i = 0; i < arguments->sets; i++)
         result |= provenance_add(&recipe, "set", arguments->set[i]);
+    const char *ground = provenance_find(view->world.recipe, view->world.counts.recipe, "ground");
+    if (ground) /* the image holds it, and the gateway has to know that it is one of a file */
+        result |= provenance_add(&recipe, "ground", ground);
     scenario_load_note_seconds(arguments, &recipe);
     uint32_t room = view->world.counts.recipe;
     if (result == 0 && recipe.bytes < room) {

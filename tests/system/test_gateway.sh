@@ -134,4 +134,33 @@ refuses "port 0" 2 'a whole number from 1 to 65535' "${run[@]}" --dis 127.0.0.1:
 refuses "no address" 2 'must be an address in numbers' "${run[@]}" --dis :3000
 refuses "too many applications" 1 'gateway.applications.*up to 65532' "${run[@]}" --set gateway.application=2 --set gateway.applications=65533
 refuses "another version" 1 'gateway.version.*5' "${run[@]}" --set gateway.version=5
+# --- a world on a ground file ---------------------------------------------------------------------------------
+# The middle of the town is 52.4 N, 9 E, its ground 60 m above the sea. By PROJ (proj -I +proj=tmerc +lat_0=52.4 +lon_0=9
+# +ellps=WGS84) a place 23 km west and 22 km north of it is 52.597218812 N, 8.660567886 E.
+cat >far.cfg <<'END'
+world = { capacity = 64; };
+terrain = { source = "file"; file = "town.ground"; };
+objects = { source = "none"; };
+vehicles = ({ kind = "tank"; behaviour = "idle"; at = [2000.0, 3000.0]; heading_deg = 0.0; });
+END
+port=$(free_port)
+"$jolon" dis record --listen "127.0.0.1:$port" --seconds 20 far.pcap 2>/dev/null &
+recorder=$!
+"$jolon" run -w "$name" --without renderer --without reporter --frames 120 --out far --dis "127.0.0.1:$port" far.cfg >/dev/null 2>&1
+kill -INT $recorder
+wait $recorder
+check "a world on a ground file is where its projection says, on the ground" eval \
+    '"$jolon" dis dump --json --type entity-state --port "$port" far.pcap 2>/dev/null | python3 -I -S -c "
+import json, math, sys
+x, y, z = json.loads(sys.stdin.readline())[\"location\"]
+a, f = 6378137.0, 1 / 298.257223563
+e2, p, lat = f * (2 - f), math.hypot(x, y), math.atan2(z, math.hypot(x, y))
+for _ in range(30):
+    n = a / math.sqrt(1 - e2 * math.sin(lat) ** 2)
+    h = p / math.cos(lat) - n
+    lat = math.atan2(z, p * (1 - e2 * n / (n + h)))
+assert abs(math.degrees(lat) - 52.597218812) < 2e-8, lat
+assert abs(math.degrees(math.atan2(y, x)) - 8.660567886) < 2e-8
+assert abs(h - 60.0) < 1e-3, h"'
+
 done_testing

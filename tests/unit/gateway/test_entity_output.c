@@ -268,7 +268,7 @@ static void test_receivers_have_it_within_the_threshold(void **state)
         struct vec3 position;
         struct mat3 matrix;
         struct mat3 turn = rotation_matrix(rotation_of(e->heading[0], e->pitch[0], e->roll[0]));
-        struct mat3 right = local_frame_ecef_turn(&entities.frame, &turn);
+        struct mat3 right = local_frame_ecef_turn(&entities.frame.axes, &turn);
         dead_reckoning_at(&known, (double)(now_ns - since_ns) / 1e9, &position, &matrix);
         struct vec3 place = local_frame_world(&entities.frame, position);
         worst_m = maths_max(worst_m, vec3_length(vec3_sub(place, entities_position(e, 0))));

@@ -84,7 +84,7 @@ static struct pdu state_of(uint16_t entity, struct vec3 at)
     static struct pdu pdu;
     struct vec3 ecef = local_frame_ecef(&frame, at);
     struct mat3 turn = rotation_matrix(rotation_of(1.0, 0.1, -0.2));
-    struct mat3 matrix = local_frame_ecef_turn(&frame, &turn);
+    struct mat3 matrix = local_frame_ecef_turn(&frame.axes, &turn);
     struct euler angles = euler_of(&matrix);
     memset(&pdu, 0, sizeof pdu);
     pdu.header.type = PDU_ENTITY_STATE;
@@ -120,7 +120,7 @@ static uint32_t row_of(uint16_t entity)
 static void test_an_entity_state_becomes_a_row(void **state)
 {
     struct pdu pdu = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M + 3.0, 24900.0});
-    struct vec3 velocity = local_frame_ecef_direction(&frame, (struct vec3){4.0, 0.0, -3.0});
+    struct vec3 velocity = local_frame_ecef_direction(&frame.axes, (struct vec3){4.0, 0.0, -3.0});
     (void)state;
     pdu.entity_state.dead_reckoning = DEAD_RECKONING_FPW;
     pdu.entity_state.appearance = PDU_APPEARANCE_DAMAGE(1);
@@ -543,7 +543,8 @@ static void test_shots(void **state)
 {
     struct pdu fire = {.header.type = PDU_FIRE}, hit = {.header.type = PDU_DETONATION};
     struct vec3 ecef = local_frame_ecef(&frame, (struct vec3){25001.0, 101.0, 25000.0});
-    struct vec3 velocity = local_frame_ecef_direction(&frame, (struct vec3){-1200.0, 0.0, 0.0});
+    struct vec3 velocity =
+        local_frame_ecef_direction(&frame.axes, (struct vec3){-1200.0, 0.0, 0.0});
     (void)state;
     fire.fire = (struct pdu_fire){.firer = {7, 1, 5},
                                   .target = {1991, 10, 1},
@@ -630,7 +631,7 @@ static struct pdu collision_of(uint16_t event, float mass_kg)
                                            .mass = mass_kg,
                                            .point = {2.0f, 1.0f, 0.5f}};
     vec3_to_floats(pdu.collision.velocity,
-                   local_frame_ecef_direction(&frame, (struct vec3){0.0, 0.0, 15.0}));
+                   local_frame_ecef_direction(&frame.axes, (struct vec3){0.0, 0.0, 15.0}));
     return pdu;
 }
 

@@ -81,11 +81,12 @@ static void test_worked_velocities(void **state)
 {
     (void)state;
     local_frame_make(&frame, 35.95, -121.25, 0.0, 0.0, 0.0);
-    struct vec3 b = local_frame_ecef_direction(&frame, (struct vec3){8, 0.5, -6});
-    struct vec3 c = local_frame_ecef_direction(&frame, (struct vec3){-90, -30, 95});
+    struct vec3 b = local_frame_ecef_direction(&frame.axes, (struct vec3){8, 0.5, -6});
+    struct vec3 c = local_frame_ecef_direction(&frame.axes, (struct vec3){-90, -30, 95});
     assert_true(apart(b, (struct vec3){8.456679, -1.484819, 5.150717}) < 2e-6);
     assert_true(apart(c, (struct vec3){-93.276484, 19.771309, -94.517685}) < 2e-6);
-    assert_true(apart(local_frame_world_direction(&frame, b), (struct vec3){8, 0.5, -6}) < 1e-12);
+    assert_true(apart(local_frame_world_direction(&frame.axes, b), (struct vec3){8, 0.5, -6}) <
+                1e-12);
 }
 
 static void test_worked_orientations(void **state)
@@ -95,10 +96,10 @@ static void test_worked_orientations(void **state)
     for (unsigned i = 0; i < CASES; i++) {
         const struct worked *worked = &cases[i];
         struct mat3 turn = attitude(worked->heading, worked->pitch, worked->roll);
-        struct mat3 matrix = local_frame_ecef_turn(&frame, &turn);
+        struct mat3 matrix = local_frame_ecef_turn(&frame.axes, &turn);
         struct mat3 right = euler_matrix(worked->angles);
         assert_true(euler_angle_between(&matrix, &right) < 2e-9);
-        struct mat3 back = local_frame_world_turn(&frame, &matrix);
+        struct mat3 back = local_frame_world_turn(&frame.axes, &matrix);
         assert_true(euler_angle_between(&turn, &back) < 1e-14);
         struct euler angles = euler_of(&matrix);
         struct mat3 again = euler_matrix(angles);
@@ -134,7 +135,7 @@ static void test_a_level_vehicle_elsewhere(void **state)
     (void)state;
     local_frame_make(&frame, 21.30, -157.86, 0.0, 0.0, 0.0);
     struct mat3 turn = attitude(270.0, 0.0, 0.0);
-    struct mat3 matrix = local_frame_ecef_turn(&frame, &turn);
+    struct mat3 matrix = local_frame_ecef_turn(&frame.axes, &turn);
     struct vec3 nose = {matrix.m[0][0], matrix.m[1][0], matrix.m[2][0]};
     double longitude = -157.86 * RAD_PER_DEG;
     assert_true(apart(nose, (struct vec3){maths_sin(longitude), -maths_cos(longitude), 0.0}) <
@@ -199,21 +200,60 @@ static void test_random_orientations(void **state)
         struct mat3 turn =
             attitude(fixture_uniform(&random, 0, 360), fixture_uniform(&random, -90, 90),
                      fixture_uniform(&random, -180, 180));
-        struct mat3 matrix = local_frame_ecef_turn(&frame, &turn);
+        struct mat3 matrix = local_frame_ecef_turn(&frame.axes, &turn);
         struct euler angles = euler_of(&matrix);
         struct mat3 again = euler_matrix(angles);
         /* sqrt of the rounding near the right angle, where phi is set to 0 */
         assert_true(euler_angle_between(&matrix, &again) < 3e-6);
         if (fabs(angles.theta) < 1.57)
             assert_true(euler_angle_between(&matrix, &again) < 1e-12);
-        struct mat3 back = local_frame_world_turn(&frame, &matrix);
+        struct mat3 back = local_frame_world_turn(&frame.axes, &matrix);
         assert_true(euler_angle_between(&turn, &back) < 1e-14);
     }
+}
+
+/* A world on a ground file: places are those of the file's projection, heights those above the sea,
+ * and the axes those of the map at each place. */
+static void test_a_projected_world(void **state)
+{
+    static const struct vec3 places[] = {
+        {25000, 300, 25000}, {0, 0, 0}, {50000, 1917, 0}, {49000, -400, 50000}, {12345, 60, 40000}};
+    struct projection projection;
+    struct local_frame there;
+    (void)state;
+    local_frame_project(&there, 44.27, -71.3, -27.0, 25000.0);
+    projection_make(&projection, 44.27, -71.3, 50000.0);
+    for (unsigned i = 0; i < sizeof places / sizeof *places; i++) {
+        struct vec3 ecef = local_frame_ecef(&there, places[i]);
+        struct geodesy_place place = geodesy_place_of(ecef);
+        double x, z;
+        assert_true(fabs(place.height_m - (places[i].y - 27.0)) < 1e-6);
+        projection_world(&projection, place.latitude_rad * DEG_PER_RAD,
+                         place.longitude_rad * DEG_PER_RAD, &x, &z);
+        assert_true(fabs(x - places[i].x) < 1e-4 && fabs(z - places[i].z) < 1e-4);
+        assert_true(apart(local_frame_world(&there, ecef), places[i]) < 1e-4);
+        /* A step on the map is one on the earth along the axes, but for the stretch of the map. */
+        struct mat3 axes = local_frame_axes(&there, places[i]);
+        for (int n = 0; n < 3; n++) {
+            struct vec3 step = {n == 0 ? 10.0 : 0.0, n == 1 ? 10.0 : 0.0, n == 2 ? 10.0 : 0.0};
+            struct vec3 moved = vec3_sub(local_frame_ecef(&there, vec3_add(places[i], step)), ecef);
+            struct vec3 along = local_frame_ecef_direction(&axes, step);
+            assert_true(apart(moved, along) < 5e-3); /* 300 ppm of height, 8 of the map */
+            assert_true(apart(local_frame_world_direction(&axes, along), step) < 1e-9);
+        }
+    }
+    /* The plane is 98 m above the sea in the corner: a projected vehicle there is on the ground. */
+    struct local_frame plane;
+    local_frame_make(&plane, 44.27, -71.3, -27.0, 25000.0, 25000.0);
+    double above = geodesy_place_of(local_frame_ecef(&plane, places[1])).height_m -
+                   geodesy_place_of(local_frame_ecef(&there, places[1])).height_m;
+    assert_true(above > 95.0 && above < 100.0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_a_projected_world),
         cmocka_unit_test(test_worked_places),
         cmocka_unit_test(test_worked_velocities),
         cmocka_unit_test(test_worked_orientations),
