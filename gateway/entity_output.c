@@ -219,7 +219,7 @@ static struct row_view look_at(struct entity_output *entities, const struct worl
         .row = row,
         .id = e->id[row],
         .axes = axes,
-        .velocity = vec3_scale(local_frame_ecef_direction(&axes, entities_velocity(e, row)), scale),
+        .velocity = vec3_scale(rotation_apply(&axes, entities_velocity(e, row)), scale),
         .position = local_frame_ecef(&entities->frame, entities_position(e, row)),
         .matrix = local_frame_ecef_turn(&axes, &turn),
         .appearance = appearance_of(world, snapshot, row),
@@ -296,7 +296,7 @@ static void set_motion(struct pdu_entity_state *state, const struct entity_outpu
     const struct state_head *head = &entities->snapshot.head;
     double scale = head->paused ? 0.0 : head->time_scale;
     struct vec3 acceleration =
-        vec3_scale(local_frame_ecef_direction(&view->axes, sent->acceleration), scale * scale);
+        vec3_scale(rotation_apply(&view->axes, sent->acceleration), scale * scale);
     struct vec3 rates = vec3_scale(sent->rates, scale);
     bool turns = vec3_length(rates) > RATE_LEAST;
     bool speeds = vec3_length(acceleration) > ACCELERATION_LEAST;

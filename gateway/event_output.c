@@ -122,7 +122,7 @@ static void set_velocity(float to[3], const struct event_output *events, const d
     double scale = events->entities->snapshot.head.time_scale;
     struct mat3 axes =
         local_frame_axes(&events->entities->frame, (struct vec3){place[0], place[1], place[2]});
-    vec3_to_floats(to, vec3_scale(local_frame_ecef_direction(&axes, velocity), scale));
+    vec3_to_floats(to, vec3_scale(rotation_apply(&axes, velocity), scale));
 }
 
 /* Writes a point of the world in the body axes of an entity. */

@@ -196,9 +196,9 @@ static void set_motion(struct remote_record *track, const struct mat3 *axes,
         acceleration = rotation_apply(&matrix, acceleration);
     }
     rates = rotation_apply(&matrix, rates);
-    vec3_to_floats(track->velocity, local_frame_world_direction(axes, velocity));
-    vec3_to_floats(track->acceleration, local_frame_world_direction(axes, acceleration));
-    vec3_to_floats(track->rates, local_frame_world_direction(axes, rates));
+    vec3_to_floats(track->velocity, rotation_back(axes, velocity));
+    vec3_to_floats(track->acceleration, rotation_back(axes, acceleration));
+    vec3_to_floats(track->rates, rotation_back(axes, rates));
 }
 
 static void set_parts(struct remote_record *track, const struct pdu *pdu)
@@ -495,9 +495,8 @@ static void take_detonation(struct remote_input *input, struct view *view, const
     record.position[1] = place.y;
     record.position[2] = place.z;
     const struct mat3 axes = local_frame_axes(input->frame, at);
-    vec3_to_floats(
-        record.velocity,
-        local_frame_world_direction(&axes, limited(vec3_of(detonation->velocity), SPEED_MOST_MPS)));
+    vec3_to_floats(record.velocity,
+                   rotation_back(&axes, limited(vec3_of(detonation->velocity), SPEED_MOST_MPS)));
     put_shot(input, view, &record, &at, now_ns);
 }
 
@@ -589,8 +588,8 @@ static void take_collision(struct remote_input *input, const struct pdu *pdu, ui
     const struct mat3 axes = issuer && issuer->placed
                                  ? local_frame_axes(input->frame, issuer->place)
                                  : input->frame->axes;
-    vec3_to_floats(record.velocity, local_frame_world_direction(
-                                        &axes, limited(vec3_of(body.velocity), SPEED_MOST_MPS)));
+    vec3_to_floats(record.velocity,
+                   rotation_back(&axes, limited(vec3_of(body.velocity), SPEED_MOST_MPS)));
     await_collider(input, &record, now_ns);
 }
 

@@ -47,14 +47,13 @@ bool remote_notices_refusals(void *subject, uint64_t now_ns)
 {
     struct remote_input *input = subject;
     uint64_t total = sum(input->refused, REMOTE_INPUT_TYPE), twin = input->twin;
-    char text[700], from[UDP_ADDRESS_TEXT], last[160] = "";
+    char text[700], from[UDP_ADDRESS_TEXT], id[REMOTE_ID_TEXT], last[160] = "";
     (void)now_ns;
     if (total == input->refused_told)
         return false;
     if (twin != 0)
-        (void)snprintf(last, sizeof last, "; the last of them is %u:%u:%u of %s",
-                       (unsigned)(twin >> 32 & 0xffff), (unsigned)(twin >> 16 & 0xffff),
-                       (unsigned)(twin & 0xffff),
+        (void)snprintf(last, sizeof last, "; the last of them is %s of %s",
+                       remote_id_text(twin, id),
                        udp_address_text(&input->twin_from, from, sizeof from));
     (void)remote_notices_text(input, text, sizeof text);
     log_warn("refused so far: %s%s", text, last);
@@ -66,9 +65,8 @@ bool remote_notices_refusals(void *subject, uint64_t now_ns)
 bool remote_notices_world(void *subject, uint64_t now_ns)
 {
     struct remote_input *input = subject;
-    uint64_t total = sum(input->world_refused, REMOTE_REFUSAL_COUNT),
-             remote = input->world_refused_remote;
-    char text[500] = "";
+    uint64_t total = sum(input->world_refused, REMOTE_REFUSAL_COUNT);
+    char text[500] = "", id[REMOTE_ID_TEXT];
     size_t at = 0;
     (void)now_ns;
     if (total == input->world_refused_told)
@@ -84,9 +82,8 @@ bool remote_notices_world(void *subject, uint64_t now_ns)
                      input->world_refused[i], remote_refusal_name((enum remote_refusal)i), more);
         at += length > 0 ? (size_t)length : 0;
     }
-    log_warn("the world has refused so far: %s; the last is %u:%u:%u", text,
-             (unsigned)(remote >> 32 & 0xffff), (unsigned)(remote >> 16 & 0xffff),
-             (unsigned)(remote & 0xffff));
+    log_warn("the world has refused so far: %s; the last is %s", text,
+             remote_id_text(input->world_refused_remote, id));
     input->world_refused_told = total;
     return true;
 }

@@ -12,6 +12,9 @@
 #define ANY_FORCE  FORCE_COUNT
 #define LIFE_FORM  3 /* kind of a type of DIS */
 
+static const char type_form[] = "the type must be seven numbers with dots between them: "
+                                "KIND.DOMAIN.COUNTRY.CATEGORY.SUBCATEGORY.SPECIFIC.EXTRA";
+
 static const char *const forces[] = {
     [FORCE_NEUTRAL] = "neutral", [FORCE_BLUE] = "blue", [FORCE_RED] = "red", [ANY_FORCE] = "*"};
 static const char *const domains[] = {[DOMAIN_LAND] = "<land>",
@@ -89,8 +92,7 @@ static const char *read_in(struct reading *reading, char *word[], int count,
     if (count != 3 || subject >= (int)KIND_COUNT_MAX)
         return "a row of what comes in must be KIND in TYPE";
     if (!read_type(word[2], &in.type))
-        return "the type must be seven numbers with dots between them: "
-               "KIND.DOMAIN.COUNTRY.CATEGORY.SUBCATEGORY.SPECIFIC.EXTRA";
+        return type_form;
     if (subject < 0)
         return NULL;
     if (reading->ins == TYPE_TABLE_INS)
@@ -114,8 +116,7 @@ static const char *read_row(struct reading *reading, char *word[], int count,
     if (force < 0)
         return "the force must be blue, red, neutral or *, or in for a type that only comes in";
     if (!read_type(word[2], &row.type))
-        return "the type must be seven numbers with dots between them: "
-               "KIND.DOMAIN.COUNTRY.CATEGORY.SUBCATEGORY.SPECIFIC.EXTRA";
+        return type_form;
     if (count >= 5 && (!parse_whole(word[3], 0, UINT16_MAX, &warhead) ||
                        !parse_whole(word[4], 0, UINT16_MAX, &fuse)))
         return "warhead and fuse must be whole numbers from 0 to 65535";
@@ -218,6 +219,16 @@ const struct type_row *type_table_row(const struct type_table *table, uint16_t k
     return kind < KIND_COUNT_MAX && force < FORCE_COUNT ? &table->row[kind][force] : &none;
 }
 
+#define REST_OF_DOMAIN 24u  /* more than a country, less than a category */
+#define THE_SAME       128u /* more than all else together */
+
+static bool is_same(struct pdu_entity_type a, struct pdu_entity_type b)
+{
+    return a.kind == b.kind && a.domain == b.domain && a.country == b.country &&
+           a.category == b.category && a.subcategory == b.subcategory && a.specific == b.specific &&
+           a.extra == b.extra;
+}
+
 /* Returns how much a type of the table has in common with another, 0 when it does not fit. */
 static unsigned likeness(struct pdu_entity_type own, struct pdu_entity_type type)
 {
@@ -227,6 +238,8 @@ static unsigned likeness(struct pdu_entity_type own, struct pdu_entity_type type
     bool category = own.category == type.category && own.category != 0;
     if (own.kind == LIFE_FORM && !category)
         return 0;
+    if (is_same(own, type))
+        return THE_SAME;
     bool subcategory = category && own.subcategory == type.subcategory;
     bool specific = subcategory && own.specific == type.specific;
     unsigned common = 1;
@@ -238,16 +251,6 @@ static unsigned likeness(struct pdu_entity_type own, struct pdu_entity_type type
     return common;
 }
 
-static bool is_same(struct pdu_entity_type a, struct pdu_entity_type b)
-{
-    return a.kind == b.kind && a.domain == b.domain && a.country == b.country &&
-           a.category == b.category && a.subcategory == b.subcategory && a.specific == b.specific &&
-           a.extra == b.extra;
-}
-
-#define REST_OF_DOMAIN 24u /* more than a country, less than a category */
-#define THE_SAME       128u
-
 uint16_t type_table_kind(const struct type_table *table, struct pdu_entity_type type, bool munition,
                          bool *same)
 {
@@ -257,7 +260,6 @@ uint16_t type_table_kind(const struct type_table *table, struct pdu_entity_type 
         for (int force = 0; force < FORCE_COUNT && table->munition[i] == munition; force++) {
             const struct type_row *row = &table->row[i][force];
             unsigned common = row->given && !row->nearest ? likeness(row->type, type) : 0;
-            common += common > 0 && is_same(row->type, type) ? THE_SAME : 0;
             if (common > best)
                 best = common, kind = (uint16_t)i;
         }
@@ -265,12 +267,11 @@ uint16_t type_table_kind(const struct type_table *table, struct pdu_entity_type 
     for (uint32_t i = 0; i < table->ins; i++) {
         const struct type_in *in = &table->in[i];
         unsigned common = table->munition[in->kind] == munition ? likeness(in->type, type) : 0;
-        common += common > 0 && is_same(in->type, type) ? THE_SAME : 0;
         if (common > 0 && common < REST_OF_DOMAIN && in->type.category == 0)
             common = REST_OF_DOMAIN;
         if (common > best)
             best = common, kind = in->kind;
     }
-    *same = best >= THE_SAME;
+    *same = best == THE_SAME;
     return kind;
 }

@@ -133,14 +133,14 @@ static void mission_text(char *text, const struct event *event, const char *cons
 static void input_text(char *text, const struct event *event, const char *const *kind)
 {
     const struct event_input *input = &event->input;
+    char id[REMOTE_ID_TEXT];
     (void)kind;
     if (input->refused == 0)
         (void)snprintf(text, EVENT_TEXT_MAX, "%u records of other simulators", input->count);
     else
         (void)snprintf(text, EVENT_TEXT_MAX,
-                       "%u records of other simulators, %u refused: of %u:%u:%u, %s", input->count,
-                       input->refused, (unsigned)(input->remote >> 32 & 0xffff),
-                       (unsigned)(input->remote >> 16 & 0xffff), (unsigned)(input->remote & 0xffff),
+                       "%u records of other simulators, %u refused: of %s, %s", input->count,
+                       input->refused, remote_id_text(input->remote, id),
                        remote_refusal_name((enum remote_refusal)input->because));
 }
 

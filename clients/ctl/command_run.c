@@ -95,9 +95,7 @@ static int find_place(const struct ctl *ctl, struct command_text *order, struct 
         return error_text_set(error,
                               "--at: that place is %.0f km from the middle of the world, at "
                               "latitude %.4f, longitude %.4f, and outside of its square",
-                              sqrt((x - 0.5 * WORLD_SIDE_M) * (x - 0.5 * WORLD_SIDE_M) +
-                                   (z - 0.5 * WORLD_SIDE_M) * (z - 0.5 * WORLD_SIDE_M)) /
-                                  1000.0,
+                              hypot(x - 0.5 * WORLD_SIDE_M, z - 0.5 * WORLD_SIDE_M) / 1000.0,
                               place->latitude_deg, place->longitude_deg);
     order->command.x_m = x;
     order->command.z_m = z;

@@ -1,6 +1,5 @@
 /* The table of persistent contacts from frame to frame: which pairs the committed frame knows, and
- * the next frame's table. Pure; one caller,
- * and its workers. */
+ * the next frame's table. Pure; one caller, and its workers. */
 #ifndef JOLON_COLLIDER_RESPONSE_CONTACT_TABLE_H
 #define JOLON_COLLIDER_RESPONSE_CONTACT_TABLE_H
 

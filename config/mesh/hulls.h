@@ -47,10 +47,10 @@ struct hulls {
 int hulls_build(struct hulls *hulls, struct scenario *scenario, const struct model *model,
                 struct key_place place, struct error_text *error);
 
-/* Adds hulls of convex pieces of a body, which are given as points: those of piece i are
- * point[end[i
- * - 1]] .. point[end[i] - 1], 1..HULLS_A_MODEL pieces. Sets *hulls as hulls_build() does. 0; -1
- * with errno ENOMEM, EDOM (a piece takes up no space) or ERANGE (too many corners). */
+/* Adds hulls of convex pieces of a body, which are given as points: those of a piece begin where
+ * those of the piece before it end, and end before point[end[i]]; 1..HULLS_A_MODEL pieces. Sets
+ * *hulls as hulls_build() does. 0; -1 with errno ENOMEM, EDOM (a piece takes up no space) or ERANGE
+ * (too many corners). */
 int hulls_of_points(struct hulls *hulls, struct scenario *scenario, const struct vec3 *point,
                     const uint32_t *end, uint32_t pieces);
 

@@ -82,23 +82,13 @@ static struct geodesy_place place_at(const struct local_frame *frame, struct vec
                                       sea_above(frame, world.x, world.z)};
 }
 
-struct vec3 local_frame_ecef_direction(const struct mat3 *axes, struct vec3 world)
-{
-    return rotation_apply(axes, world);
-}
-
-struct vec3 local_frame_world_direction(const struct mat3 *axes, struct vec3 ecef)
-{
-    return rotation_back(axes, ecef);
-}
-
 struct vec3 local_frame_ecef(const struct local_frame *frame, struct vec3 world)
 {
     if (frame->projected)
         return geodesy_ecef(place_at(frame, world));
     struct vec3 local = {world.x - frame->middle_x, world.y + sea_above(frame, world.x, world.z),
                          world.z - frame->middle_z};
-    return vec3_add(frame->origin, local_frame_ecef_direction(&frame->axes, local));
+    return vec3_add(frame->origin, rotation_apply(&frame->axes, local));
 }
 
 /* Beyond the reach of the projection a place is that of the plane, which is far outside of any
@@ -106,7 +96,7 @@ struct vec3 local_frame_ecef(const struct local_frame *frame, struct vec3 world)
 struct vec3 local_frame_world(const struct local_frame *frame, struct vec3 ecef)
 {
     struct vec3 from = vec3_sub(ecef, frame->origin);
-    struct vec3 local = local_frame_world_direction(&frame->axes, from);
+    struct vec3 local = rotation_back(&frame->axes, from);
     double x = local.x + frame->middle_x, z = local.z + frame->middle_z, height = local.y;
     if (frame->projected && vec3_length(from) < 0.5 * PROJECTION_REACH_M) {
         struct geodesy_place place = geodesy_place_of(ecef);
@@ -159,7 +149,7 @@ struct mat3 local_frame_world_turn(const struct mat3 *axes, const struct mat3 *m
         {matrix->m[0][1], matrix->m[1][1], matrix->m[2][1]},    /* right */
     };
     for (int j = 0; j < 3; j++) {
-        struct vec3 world = local_frame_world_direction(axes, columns[j]);
+        struct vec3 world = rotation_back(axes, columns[j]);
         turn.m[0][j] = world.x;
         turn.m[1][j] = world.y;
         turn.m[2][j] = world.z;

@@ -57,12 +57,9 @@ int local_frame_read_undulation(struct local_frame *frame, const char *path, dou
 struct vec3 local_frame_ecef(const struct local_frame *frame, struct vec3 world);
 struct vec3 local_frame_world(const struct local_frame *frame, struct vec3 ecef);
 
-/* Returns the axes of the world at a place of it in ECEF: columns east, up and south. */
+/* Returns the axes of the world at a place of it in ECEF: columns east, up and south. They lead
+ * velocities and directions there to ECEF by rotation_apply(), and back by rotation_back(). */
 struct mat3 local_frame_axes(const struct local_frame *frame, struct vec3 world);
-
-/* World to ECEF, and back: velocities or directions, by the axes at their place. */
-struct vec3 local_frame_ecef_direction(const struct mat3 *axes, struct vec3 world);
-struct vec3 local_frame_world_direction(const struct mat3 *axes, struct vec3 ecef);
 
 /* The attitude of a body, world = turn * body with Jolon's body axes (world/maths/rotation.h), to
  * the matrix of euler.h, and back, by the axes at its place. */

@@ -105,7 +105,6 @@ bool remote_motion_move(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
     uint32_t tick = (uint32_t)context->tick;
-    struct vec3 at;
     double silent_s = (double)(tick - m->seen_tick[i]) * context->dt_s;
     unsigned model = model_of(m, i);
     if (model == DEAD_RECKONING_STATIC)
@@ -115,7 +114,7 @@ bool remote_motion_move(const struct step_context *context, uint32_t i)
         stop(m, i);
         return true;
     }
-    at = extrapolate(context, i, model);
+    struct vec3 at = extrapolate(context, i, model);
     if (turns(model))
         turn(context, i, spin_of(m, i));
     if (!is_inside(at))

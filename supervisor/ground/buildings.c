@@ -33,17 +33,6 @@ static bool is_house(const struct convex_parts_ring *part)
     return part->count == 4;
 }
 
-static double area_of(const struct convex_parts_ring *part)
-{
-    double twice = 0.0;
-    for (uint32_t i = 0; i < part->count; i++) {
-        const int32_t *a = part->corner[i], *b = part->corner[(i + 1) % part->count];
-        twice += ((double)a[0] - part->corner[0][0]) * ((double)b[1] - part->corner[0][1]) -
-                 ((double)a[1] - part->corner[0][1]) * ((double)b[0] - part->corner[0][0]);
-    }
-    return 0.5e-6 * twice;
-}
-
 /* Makes corners relative to the middle. */
 static uint32_t put_part(struct building_draft *draft, const struct convex_parts_ring *part,
                          uint32_t number)
@@ -81,12 +70,12 @@ static bool fill(struct buildings *b, struct building_draft *draft,
     for (uint32_t i = 0; i < count; i++) {
         uint32_t more = put_part(draft, &part[i], draft->building.parts);
         if (!ground_file_part_fits(draft->corner + draft->corners, more)) {
-            b->lost_m2 += area_of(&part[i]);
+            b->lost_m2 += convex_parts_ring_area(&part[i]);
             continue;
         }
         draft->corners += more;
         draft->building.parts++;
-        draft->area_m2 += area_of(&part[i]);
+        draft->area_m2 += convex_parts_ring_area(&part[i]);
     }
     bool ridge = draft->building.parts == 1 && count == 1 && is_house(part) &&
                  2.0 * box.half_width_mm <= RIDGE_WIDE * 1000.0;

@@ -31,6 +31,11 @@ static int64_t twice_area(const struct convex_parts_ring *ring)
     return area;
 }
 
+double convex_parts_ring_area(const struct convex_parts_ring *ring)
+{
+    return (double)twice_area(ring) / 2e6;
+}
+
 /* Removes corners that repeat the one before or lie on a straight line or a spike. */
 static void clean(struct convex_parts_ring *ring)
 {
@@ -288,7 +293,7 @@ static enum convex_parts_result split(struct convex_parts *parts, struct convex_
         if (holes[i].count > 0 && !bridge(outline, &holes[i], holes + i + 1, hole_count - i - 1))
             return CONVEX_PARTS_TANGLED;
     }
-    parts->area_m2 = (double)twice_area(outline) / 2e6;
+    parts->area_m2 = convex_parts_ring_area(outline);
     enum convex_parts_result result = clip_ears(parts, outline);
     if (result != CONVEX_PARTS_GOOD)
         return result;

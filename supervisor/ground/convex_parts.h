@@ -22,6 +22,9 @@ struct convex_parts {
     double area_m2;
 };
 
+/* Returns the area of a ring that goes around clockwise [m2]. */
+double convex_parts_ring_area(const struct convex_parts_ring *ring);
+
 enum convex_parts_result {
     CONVEX_PARTS_GOOD,
     CONVEX_PARTS_EMPTY,   /* the outline encloses nothing */

@@ -24,10 +24,8 @@ static double reload_s(const struct world *world, const struct state_head *head,
 /* Adds the identifier of an entity at its owner. */
 static void add_remote(cJSON *object, uint64_t remote)
 {
-    char text[24];
-    (void)snprintf(text, sizeof text, "%u:%u:%u", (unsigned)(remote >> 32 & 0xffff),
-                   (unsigned)(remote >> 16 & 0xffff), (unsigned)(remote & 0xffff));
-    json_text(object, "remote", text);
+    char text[REMOTE_ID_TEXT];
+    json_text(object, "remote", remote_id_text(remote, text));
 }
 
 static cJSON *entity_json(const struct world *world, const struct state_head *head,

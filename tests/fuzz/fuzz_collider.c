@@ -32,23 +32,13 @@ static struct collider first, second;
 static void open_world(void)
 {
     static char text[16384];
-    struct scenario scenario;
-    struct world_build built;
-    struct error_text error;
     size_t at = (size_t)snprintf(text, sizeof text, "%sobjects = (\n", begin);
     for (int i = 0; i < GRID * GRID; i++)
         at += (size_t)snprintf(text + at, sizeof text - at,
                                "%s{ kind = \"tree\"; at = [%d.0, %d.0]; }\n", i > 0 ? "," : "",
                                25000 + 4 * (i % GRID), 25000 + 4 * (i / GRID));
     at += (size_t)snprintf(text + at, sizeof text - at, ");\n");
-    CHECK(loader_scenario(&scenario, support_data_dir(), support_file(text, at), NULL, 0, &error) ==
-          0);
-    CHECK(world_build_make(&built, &scenario, &error) == 0);
-    struct segment_header header = segment_header_for(&scenario.settings->params, &built.counts);
-    CHECK(segment_private(&view, &header, &error) == 0);
-    segment_fill(&view, &built);
-    world_build_free(&built);
-    scenario_free(&scenario);
+    support_world_of(&view, support_file(text, at));
     CHECK(mover_init(&mover, &view.world, view.w[0].craters, NULL) == 0);
     CHECK(collider_init(&first, &view.world, view.w[0].craters, NULL) == 0);
     CHECK(collider_init(&second, &view.world, view.w[0].craters, thread_pool_create(2)) == 0);

@@ -79,18 +79,8 @@ static const struct command_transport transport = {take_command, give_reply, rea
 
 static void open_world(void)
 {
-    struct scenario scenario;
-    struct world_build built;
     struct error_text error;
-    CHECK(loader_scenario(&scenario, support_data_dir(),
-                          support_file(scenario_text, sizeof scenario_text - 1), NULL, 0,
-                          &error) == 0);
-    CHECK(world_build_make(&built, &scenario, &error) == 0);
-    struct segment_header header = segment_header_for(&scenario.settings->params, &built.counts);
-    CHECK(segment_private(&view, &header, &error) == 0);
-    segment_fill(&view, &built);
-    world_build_free(&built);
-    scenario_free(&scenario);
+    support_world_of(&view, support_file(scenario_text, sizeof scenario_text - 1));
     CHECK(mover_init(&mover, &view.world, view.w[0].craters, NULL) == 0);
     CHECK(type_table_read(&types, support_file(types_text, sizeof types_text - 1), view.world.kinds,
                           view.world.counts.kinds, &error) == 0);

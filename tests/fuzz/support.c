@@ -124,12 +124,11 @@ static const char battle[] =
     "  area = [100.0, 100.0, 300.0, 300.0]; },\n"
     "  { kind = \"jet\"; force = \"red\"; at = [200.0, 200.0]; altitude_m = 80.0; } );";
 
-void support_world(struct view *view)
+void support_world_of(struct view *view, const char *path)
 {
     struct scenario scenario;
     struct world_build built;
     struct error_text error;
-    const char *path = support_file(battle, strlen(battle));
     CHECK(loader_scenario(&scenario, support_data_dir(), path, NULL, 0, &error) == 0);
     CHECK(world_build_make(&built, &scenario, &error) == 0);
     struct segment_header header = segment_header_for(&scenario.settings->params, &built.counts);
@@ -137,6 +136,11 @@ void support_world(struct view *view)
     segment_fill(view, &built);
     world_build_free(&built);
     scenario_free(&scenario);
+}
+
+void support_world(struct view *view)
+{
+    support_world_of(view, support_file(battle, strlen(battle)));
 }
 
 /* --- what must hold ----------------------------------------------------------------------------*/

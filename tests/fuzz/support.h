@@ -30,6 +30,9 @@ void support_path(char *path, size_t bytes, const char *name);
  */
 void support_world(struct view *view);
 
+/* Makes the world of a scenario in private memory at frame 0. path: of the scenario's file. */
+void support_world_of(struct view *view, const char *path);
+
 /* Returns the path of a file in memory that holds these bytes. The next call changes them. */
 const char *support_file(const void *bytes, size_t size);
 

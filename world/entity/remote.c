@@ -1,7 +1,16 @@
-/* The hash of records, and markings. */
+/* The hash of records, and the words of identifiers and markings. */
 #include "world/entity/remote.h"
 
 #include "world/maths/hash.h"
+
+#include <stdio.h>
+
+const char *remote_id_text(uint64_t remote, char text[REMOTE_ID_TEXT])
+{
+    (void)snprintf(text, REMOTE_ID_TEXT, "%u:%u:%u", (unsigned)(remote >> 32 & 0xffff),
+                   (unsigned)(remote >> 16 & 0xffff), (unsigned)(remote & 0xffff));
+    return text;
+}
 
 uint64_t remote_record_hash(const struct command *slot, uint64_t before)
 {

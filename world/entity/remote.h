@@ -97,6 +97,10 @@ static inline uint64_t remote_id(uint16_t site, uint16_t application, uint16_t e
     return (uint64_t)site << 32 | (uint64_t)application << 16 | entity;
 }
 
+/* Writes SITE:APPLICATION:ENTITY. Returns text. */
+#define REMOTE_ID_TEXT 24u
+const char *remote_id_text(uint64_t remote, char text[REMOTE_ID_TEXT]);
+
 static inline struct remote_record remote_record_of(const struct command *slot)
 {
     struct remote_record record;

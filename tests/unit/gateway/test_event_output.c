@@ -106,7 +106,7 @@ static struct vec3 world_of(const double location[3])
 
 static struct vec3 direction_of(const float velocity[3])
 {
-    return local_frame_world_direction(
+    return rotation_back(
         &entities.frame.axes,
         (struct vec3){(double)velocity[0], (double)velocity[1], (double)velocity[2]});
 }

@@ -120,7 +120,7 @@ static uint32_t row_of(uint16_t entity)
 static void test_an_entity_state_becomes_a_row(void **state)
 {
     struct pdu pdu = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M + 3.0, 24900.0});
-    struct vec3 velocity = local_frame_ecef_direction(&frame.axes, (struct vec3){4.0, 0.0, -3.0});
+    struct vec3 velocity = rotation_apply(&frame.axes, (struct vec3){4.0, 0.0, -3.0});
     (void)state;
     pdu.entity_state.dead_reckoning = DEAD_RECKONING_FPW;
     pdu.entity_state.appearance = PDU_APPEARANCE_DAMAGE(1);
@@ -543,8 +543,7 @@ static void test_shots(void **state)
 {
     struct pdu fire = {.header.type = PDU_FIRE}, hit = {.header.type = PDU_DETONATION};
     struct vec3 ecef = local_frame_ecef(&frame, (struct vec3){25001.0, 101.0, 25000.0});
-    struct vec3 velocity =
-        local_frame_ecef_direction(&frame.axes, (struct vec3){-1200.0, 0.0, 0.0});
+    struct vec3 velocity = rotation_apply(&frame.axes, (struct vec3){-1200.0, 0.0, 0.0});
     (void)state;
     fire.fire = (struct pdu_fire){.firer = {7, 1, 5},
                                   .target = {1991, 10, 1},
@@ -631,7 +630,7 @@ static struct pdu collision_of(uint16_t event, float mass_kg)
                                            .mass = mass_kg,
                                            .point = {2.0f, 1.0f, 0.5f}};
     vec3_to_floats(pdu.collision.velocity,
-                   local_frame_ecef_direction(&frame.axes, (struct vec3){0.0, 0.0, 15.0}));
+                   rotation_apply(&frame.axes, (struct vec3){0.0, 0.0, 15.0}));
     return pdu;
 }
 
