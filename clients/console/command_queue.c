@@ -188,9 +188,30 @@ static uint32_t lease_frames(const struct world_reader *reader)
     return (uint32_t)fmin(fmax(ceil(a_second * COMMAND_QUEUE_LEASE_S), 2.0), COMMAND_LEASE_MAX);
 }
 
+/* Answers the player's drives of other vehicles: only the last one is sent. */
+static void answer_superseded(struct command_queue *queue, const struct player *player)
+{
+    struct pending_command **at = &queue->pending;
+    while (*at) {
+        struct pending_command *pending = *at;
+        uint32_t vehicle = pending->order.command.entity;
+        if (is_drive(&pending->order) && pending->player == player->number &&
+            vehicle != player->wanted) {
+            http_answer_error(&pending->answer, HTTP_ANSWER_CONFLICT,
+                              "send a drive when the one before has its answer",
+                              "drive: your order for %u came before this one for %u was sent",
+                              player->wanted, vehicle);
+            finish(queue, at);
+        } else {
+            at = &pending->next;
+        }
+    }
+}
+
 static void send_drive(struct command_queue *queue, struct player *player,
                        const struct world_reader *reader, uint64_t now_ns)
 {
+    answer_superseded(queue, player);
     const struct controls *controls = &player->controls;
     jolon_Command command = {.source = player->source,
                              .type = jolon_COMMAND_DRIVE,

@@ -88,9 +88,12 @@ await check('a click on an event shows its place', async () => {
   await ada.locator('#feed-rows li', { has: ada.locator('.what.fire') }).filter({ hasText: 'Alpha' }).first().locator('button').click();
   await eventually(async () => (await text(ada, '#v-name')) === 'Alpha', 'who fired');
 });
-await check('one changes vehicle', async () => {
+await check('one changes vehicle while one steers', async () => {
   await find(ada, 'Bravo');
+  await ada.locator('#picture').focus();
+  await ada.keyboard.down('KeyA');
   await ada.click('#v-take');
+  await ada.keyboard.up('KeyA');
   await eventually(() => dump().get('Bravo').behaviour === 'driven', 'Bravo driven');
   await eventually(() => dump().get('Alpha').behaviour !== 'driven', 'Alpha back to its agent');
 });

@@ -28,8 +28,14 @@ export async function check(name, deed) {
     // What fails after the first failure mostly follows from it: one line is enough.
     const told = String(error.stack).split('\n').slice(0, failures === 1 ? 12 : 1);
     console.log(told.map((line) => `# ${line}`).join('\n'));
-    if (failures === 1) await Promise.all(pages.map((page, i) => shot(page, `failure-${i + 1}`)));
+    if (failures === 1) await Promise.all(pages.map(show));
   }
+}
+
+/** Prints the notices of a page, and takes its picture. */
+async function show(page, i) {
+  for (const notice of await page.locator('#notices p').allTextContents()) console.log(`# page ${i + 1} says: ${notice}`);
+  await shot(page, `failure-${i + 1}`);
 }
 
 /** Waits until a deed gives something true. */

@@ -1,4 +1,5 @@
 """Tests a console as its client. usage: console.py URL WORLD. Prints "ok WHAT" or "not ok WHAT" for each check."""
+import concurrent.futures
 import http.client
 import json
 import sys
@@ -123,6 +124,14 @@ def playing():
     order(key, do="drive", vehicle=tank)
     check("the player releases the vehicle", order(key, do="release")[0] == 200 and
           eventually(lambda: state(f"most=0&me={tank}")["me"]["driver"] == ""))
+    begun = time.time()
+    with concurrent.futures.ThreadPoolExecutor(24) as senders:
+        answers = list(senders.map(lambda i: order(key, do="drive", vehicle=tanks[i % 2]), range(96)))
+    check("drives of two vehicles at once are carried out or refused as too old, and none waits in vain",
+          time.time() - begun < 3 and all(status == 200 or (status == 409 and "came before" in said["error"])
+                                          for status, said in answers),
+          [answer for answer in answers if answer[0] != 200][:3])
+    order(key, do="release")
     named = next(row for row in ask("/api/list?kind=tank&force=blue&sort=damage&most=9")[1]["rows"] if row["name"])
     status, taken = order(key, do="drive", vehicle=named["name"])
     check("the player takes a vehicle by its name", status == 200 and taken["entity"] == named["id"], taken)

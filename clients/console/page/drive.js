@@ -119,7 +119,7 @@ export class Drive {
     const levers = this.read(dt);
     showLever('m-throttle', levers.throttle);
     showLever('m-steer', levers.steer);
-    if (this.busy) return;
+    if (this.busy || this.session.taking) return;
     const text = JSON.stringify(levers), since = now - this.sentAt;
     if (since >= RENEW_MS || (text !== this.sent && since >= LEAST_MS)) this.send(levers, text);
   }
@@ -130,7 +130,7 @@ export class Drive {
     this.sent = text;
     this.sentAt = performance.now();
     try {
-      await this.session.order({ do: 'drive', vehicle, ...levers });
+      await this.session.drive({ do: 'drive', vehicle, ...levers });
     } catch (error) {
       if (!(error instanceof Refusal)) throw error;
       const lasting = error.status >= 400 && error.status < 500 && error.status !== 429;

@@ -18,6 +18,10 @@ export class Session extends EventTarget {
     this.selected = 0;
     /** The vehicle that this page drives; 0: none. */
     this.driven = 0;
+    /** Whether the page waits for the answer to its wish to drive another vehicle. */
+    this.taking = false;
+    /** Settled when the last drive has its answer. */
+    this.lastDrive = Promise.resolve();
     /** The name of the player; '' until joined. */
     this.player = '';
   }
@@ -59,11 +63,23 @@ export class Session extends EventTarget {
   async command(body) {
     try {
       if (!this.player && !(await this.join('player'))) return null;
-      return await this.order(body);
+      return await (body.do === 'drive' ? this.drive(body) : this.order(body));
     } catch (error) {
       this.showError(error);
       return null;
     }
+  }
+
+  /**
+   * Sends a drive when the one before has its answer. The server carries out the last one that it hears, and two
+   * that are under way together may overtake each other.
+   * @param {object} body of /api/command
+   * @throws {Refusal}
+   */
+  drive(body) {
+    const answer = this.lastDrive.then(() => this.order(body));
+    this.lastDrive = answer.catch(() => {});
+    return answer;
   }
 
   /**
@@ -84,8 +100,10 @@ export class Session extends EventTarget {
 
   /** Takes a vehicle; the server then releases the previous one. */
   async take(id) {
-    if (!this.mayChange || !id || id === this.driven) return;
+    if (!this.mayChange || !id || id === this.driven || this.taking) return;
+    this.taking = true;
     const answer = await this.command({ do: 'drive', vehicle: id, throttle: 0, steer: 0 });
+    this.taking = false;
     if (!answer) return;
     this.driven = id;
     this.selected = id;
