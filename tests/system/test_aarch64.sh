@@ -2,7 +2,7 @@
 # aarch64 gives the same run to the bit: programs compiled for aarch64 replay runs of this machine.
 # An emulator of user programs executes them. It also emulates kernels with pages of 16 and 64 KiB,
 # where mover and collider run a world that this machine has made.
-# Long: it compiles the steps for another machine and emulates it.
+# Computes: it compiles the steps for another machine and emulates it.
 . "$(dirname "$0")/lib.sh"
 find_source_dir
 export JOLON_DATA=$source_dir/config

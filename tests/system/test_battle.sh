@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Long: half an hour of the default battle, as fast as it goes.
+# Computes: half an hour of the default battle, as fast as it goes.
 # The default battle lasts: it has shots in every three minutes, each side loses aircraft and keeps some, no
 # tank's gun fires at a jet, nobody pushes for long, and it ends with a result.
 . "$(dirname "$0")/lib.sh"

@@ -2,7 +2,7 @@
 # Every compiler gives the same run to the bit: gcc without optimisation, and gcc and clang with
 # everything that this processor supports, compared with the tested build on one, two and four
 # threads. Everything that moves, collides and makes worlds is built for each of them below build/.
-# Long: it compiles the steps three times.
+# Computes: it compiles the steps three times.
 . "$(dirname "$0")/lib.sh"
 find_source_dir
 export JOLON_DATA=$source_dir/config

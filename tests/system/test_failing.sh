@@ -3,7 +3,7 @@
 # with one clear line and exit code 1, or continues with the same result. tests/faults/failing.c
 # makes the nth call of a class fail. Where there are many calls, a sample of them is tried. SEED=n
 # chooses another sample, SAMPLES=n its size, ONLY=dump the programs.
-# Long: it runs each program hundreds of times.
+# Computes: it runs each program hundreds of times.
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/lib.sh"
 

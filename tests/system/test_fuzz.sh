@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Hostile input: runs each harness of tests/fuzz on its corpus and on a fixed number of inputs from
 # a fixed seed. `make fuzz SECONDS=n` runs longer.
-# Long: it compiles the harnesses.
+# Computes: it compiles the harnesses.
 . "$(dirname "$0")/lib.sh"
 find_source_dir
 
