@@ -23,7 +23,7 @@ check "one thread and three threads give the same digest" equal "$(digest one)" 
 play short --frames 600
 play killed --frames 600 --pace real &
 run=$!
-sleep 5
+eventually eval '[ "$(frame 2>/dev/null || echo 0)" -gt 200 ]'
 check "the mover is killed during the run" "$jolon" kill -w "$name" mover
 wait $run
 check "the mover was restarted once" equal "$(json restarts <killed.json)" 1
