@@ -106,6 +106,7 @@ int main(int argc, char **argv)
     start_set(&keeper);
     if (!keeper.gave_up) {
         run_report_warn_unguarded(&keeper.set);
+        run_report_warn_no_gateway(&keeper.set);
         run_report_ready(keeper.ready_fd);
     }
     while (!keeper.over)

@@ -2,6 +2,7 @@
 #include "supervisor/run_report.h"
 
 #include "ipc/process/log.h"
+#include "world/gateway_idle.h"
 
 #include <fcntl.h>
 #include <stdio.h>
@@ -26,6 +27,13 @@ void run_report_warn_unguarded(const struct process_set *set)
         process_set_log(
             set, "WARNING: the reporter takes commands from every host that reaches its network "
                  "(--remote-commands without DDS Security; docs/topics.md, \"Security\")");
+}
+
+void run_report_warn_no_gateway(const struct process_set *set)
+{
+    char names[GATEWAY_IDLE_TEXT];
+    if (gateway_idle_settings(set->view.world.params, names))
+        process_set_log(set, "WARNING: " GATEWAY_IDLE_WARNING, names);
 }
 
 static void print_pictures(const struct plan *plan)

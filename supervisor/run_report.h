@@ -13,6 +13,9 @@ void run_report_ready(int fd);
 /* Logs a warning if the reporter takes commands without DDS Security. */
 void run_report_warn_unguarded(const struct process_set *set);
 
+/* Logs a warning if the world has settings of a gateway and no gateway. */
+void run_report_warn_no_gateway(const struct process_set *set);
+
 /* Prints the summary of the run, to the log if it is in the background. wall_ns: how long it took.
  * Returns an exit code. */
 int run_report_summary(const struct process_set *set, uint64_t wall_ns);

@@ -10,6 +10,7 @@
 #include "ipc/process/log.h"
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
+#include "world/gateway_idle.h"
 #include "world/param_values.h"
 #include "world/params.h"
 #include "world/terrain/fixed.h"
@@ -210,6 +211,7 @@ static void print_role(const struct view *view, enum role role)
 
 static void status_text(const struct view *view, const struct state_head *head)
 {
+    char names[GATEWAY_IDLE_TEXT];
     printf("world \"%s\" is %s at frame %" PRIu64 ", %.2f s; %u vehicles, %u munitions, %" PRIu64
            " events; scenario %s\n",
            view->name, state_of(view, head), head->frame, state_time_s(&view->world, head),
@@ -222,6 +224,8 @@ static void status_text(const struct view *view, const struct state_head *head)
     if (unguarded(view))
         printf("WARNING: the reporter takes commands from every host that reaches its network "
                "(--remote-commands without DDS Security)\n");
+    if (gateway_idle_settings(view->world.params, names))
+        printf("WARNING: " GATEWAY_IDLE_WARNING "\n", names);
 }
 
 int verb_status(const struct arguments *arguments)

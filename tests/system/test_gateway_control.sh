@@ -123,6 +123,16 @@ check "and no more" [ "$commands" -le 16 ]
 check "a replay of the log ends the same" equal "$("$jolon" replay out/commands.log --json 2>/dev/null | json digest)" "$digest"
 check "nothing was refused to the gateway by its sandbox" eval '! grep -q "forbids system call" out/jolon.log'
 
+# --- no gateway ---------------------------------------------------------------------------------------------
+start_quiet() { "$jolon" start -w "$name" --without renderer --without reporter --out out3 "$@" 2>&1 >/dev/null; }
+idle='jolon: WARNING: without a gateway these settings have no effect: gateway.peers, gateway.control; --dis ADDRESS or gateway.enabled = true gives the world one'
+check "a set without a gateway names the settings of one" equal \
+    "$(start_quiet --set 'gateway.control=7:1' --set 'gateway.peers=10.0.0.0/8')" "$idle"
+check "also in its log" grep -qF "${idle#jolon: }" out3/jolon.log
+"$jolon" stop -w "$name" >/dev/null
+check "a set without such settings says nothing" equal "$(start_quiet)" ""
+"$jolon" stop -w "$name" >/dev/null
+
 # --- strangers ----------------------------------------------------------------------------------------------
 "$jolon" start -w "$name" --without renderer --without reporter --out out2 --dis "127.0.0.1:$port" --set "gateway.listen=127.0.0.1:$in" \
     --set 'gateway.control=7:1' --set 'gateway.peers=10.0.0.0/8, 127.0.0.2' >/dev/null
