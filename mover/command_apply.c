@@ -3,6 +3,7 @@
 
 #include "mover/agent/driver_controls.h"
 #include "mover/motion/kinematics.h"
+#include "mover/query/remote_index.h"
 #include "mover/remote_apply.h"
 #include "mover/weapon/fire.h"
 #include "mover/weapon/spawn.h"
@@ -349,6 +350,7 @@ static void apply_ring(struct serial_context *context, const struct command_sour
                                                                          : params->events_per_frame;
     uint64_t *cursor = &head->command_cursor[ring];
     struct remote_inputs inputs = {.most = most, .ring = (uint8_t)ring};
+    remote_index_forget(context->remotes);
     for (int n = 0; n < COMMANDS_A_FRAME && *cursor < source->end;) {
         /* A copy, because the ring's writer could change the slot between a check and its use. */
         const struct command command = source->slot[*cursor & (source->slots - 1)];
@@ -358,6 +360,7 @@ static void apply_ring(struct serial_context *context, const struct command_sour
             ++*cursor;
             continue;
         }
+        remote_index_forget(context->remotes); /* a command may remove a row */
         inputs.event = NULL; /* the records after it have an event of their own, in their order */
         n++;
         /* The answer needs room in the frame, and so does the command's own event. Without room the

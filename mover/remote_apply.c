@@ -4,6 +4,7 @@
 
 #include "mover/motion/kinematics.h"
 #include "mover/motion/remote_motion.h"
+#include "mover/query/remote_index.h"
 #include "mover/remote_impact.h"
 #include "mover/weapon/spawn.h"
 #include "world/entity/event.h"
@@ -103,23 +104,14 @@ static const struct kind *kind_of(const struct serial_context *context, uint16_t
     } while (0)
 
 /* Returns the row of a remote entity, SLOT_NONE when there is none. The sender may have seen where
- * it is; else all rows are searched, and *count is set to the number of remote rows. */
-static uint32_t find(const struct serial_context *context, uint64_t remote, uint32_t slot,
-                     uint32_t *count)
+ * it is. */
+static uint32_t find(const struct serial_context *context, uint64_t remote, uint32_t slot)
 {
     const struct entities *m = &context->moved->entities;
     uint32_t used = context->moved->head->used;
-    *count = 0;
     if (slot < used && remote_is(m, slot) && m->driver[slot] == remote)
         return slot;
-    for (uint32_t row = 0; row < used; row++) {
-        if (!remote_is(m, row))
-            continue;
-        if (m->driver[row] == remote)
-            return row;
-        ++*count;
-    }
-    return SLOT_NONE;
+    return remote_index_find(context->remotes, m, used, remote);
 }
 
 static void set_state(struct serial_context *context, uint32_t row,
@@ -235,10 +227,9 @@ static void set_place(struct serial_context *context, uint32_t row,
 /* --- the records -------------------------------------------------------------------------------*/
 
 static enum remote_refusal new_row(struct serial_context *context,
-                                   const struct remote_record *record, uint32_t count,
-                                   uint32_t *row)
+                                   const struct remote_record *record, uint32_t *row)
 {
-    if (count >= context->step->world->params->remotes_max)
+    if (context->remotes->count >= context->step->world->params->remotes_max)
         return REMOTE_TOO_MANY;
     *row = spawn_entity(context, record->kind, record->force);
     if (*row == SLOT_NONE)
@@ -247,6 +238,7 @@ static enum remote_refusal new_row(struct serial_context *context,
         table_set_behaviour(&context->writer, *row, BEHAVIOUR_REMOTE);
     table_set_order(&context->writer, *row, BEHAVIOUR_REMOTE);
     table_set_driver(&context->writer, *row, record->remote);
+    remote_index_add(context->remotes, *row, record->remote);
     return REMOTE_TAKEN;
 }
 
@@ -254,17 +246,16 @@ static enum remote_refusal track(struct serial_context *context, const struct re
 {
     const struct entities *m = &context->moved->entities;
     const struct kind *kind = kind_of(context, record->kind);
-    uint32_t count;
     if (!track_is_good(record))
         return REMOTE_UNKNOWN;
     if (!kind || kind->domain > DOMAIN_MUNITION)
         return REMOTE_NO_KIND;
-    uint32_t row = find(context, record->remote, record->slot, &count);
+    uint32_t row = find(context, record->remote, record->slot);
     bool is_new = row == SLOT_NONE;
     if (!is_new && remote_is_munition(m, row) != (kind->domain == DOMAIN_MUNITION))
         return REMOTE_NO_KIND; /* no vehicle becomes a munition */
     if (is_new) {
-        enum remote_refusal refusal = new_row(context, record, count, &row);
+        enum remote_refusal refusal = new_row(context, record, &row);
         if (refusal != REMOTE_TAKEN)
             return refusal;
     } else if (vec3_length(vec3_sub(place_of(record), entities_position(m, row))) > REMOTE_JUMP_M) {
@@ -284,9 +275,10 @@ static enum remote_refusal track(struct serial_context *context, const struct re
 
 static enum remote_refusal lost(struct serial_context *context, const struct remote_record *record)
 {
-    uint32_t count, row = find(context, record->remote, record->slot, &count);
+    uint32_t row = find(context, record->remote, record->slot);
     if (record->remote == 0 || row == SLOT_NONE)
         return REMOTE_NOBODY;
+    remote_index_remove(context->remotes, row, record->remote);
     spawn_remove(context, row);
     return REMOTE_TAKEN;
 }
@@ -304,8 +296,7 @@ static uint32_t own_row(const struct serial_context *context, uint32_t id)
 /* Returns the row of the entity that fired, SLOT_NONE when nobody here is known to have. */
 static uint32_t firer_row(const struct serial_context *context, const struct remote_record *record)
 {
-    uint32_t count;
-    return record->remote == 0 ? SLOT_NONE : find(context, record->remote, record->slot, &count);
+    return record->remote == 0 ? SLOT_NONE : find(context, record->remote, record->slot);
 }
 
 static bool shot_is_good(const struct serial_context *context, const struct remote_record *record)

@@ -65,6 +65,8 @@ int mover_init(struct mover *mover, const struct world *world, const struct crat
         square_bounds_init(&mover->slopes, square_bounds_slope, &world->terrain) == 0 &&
         crater_index_init(&mover->craters, craters) == 0 &&
         resting_rows_init(&mover->resting, world->params->capacity) == 0 &&
+        remote_index_init(&mover->remotes, world->params->capacity, world->params->remotes_max) ==
+            0 &&
         neighbour_index_init(&mover->neighbours, world->params->capacity) == 0 &&
         neighbour_lists_init(&mover->neighbour_lists, world->params->capacity) == 0 &&
         line_of_sight_init(&mover->line_of_sight, world, &mover->craters) == 0)
@@ -77,6 +79,7 @@ void mover_free(struct mover *mover)
 {
     crater_index_free(&mover->craters);
     resting_rows_free(&mover->resting);
+    remote_index_free(&mover->remotes);
     neighbour_index_free(&mover->neighbours);
     neighbour_lists_free(&mover->neighbour_lists);
     line_of_sight_free(&mover->line_of_sight);
@@ -95,6 +98,7 @@ void mover_touch(const struct mover *mover, const struct moved *moved, const str
     table_touch(&states[1].entities, rows, false);
     neighbour_index_touch(&mover->neighbours, rows);
     neighbour_lists_touch(&mover->neighbour_lists, rows);
+    remote_index_touch(&mover->remotes);
     prefault_own(mover->terrain_entries, rows * sizeof *mover->terrain_entries);
     prefault_own(mover->terrain_entries_ahead, rows * sizeof *mover->terrain_entries_ahead);
 }
@@ -654,7 +658,8 @@ void mover_step(struct mover *mover, const struct state *committed, struct moved
     struct serial_context serial_context = {
         .step = &context,
         .moved = moved,
-        .writer = {&moved->entities, mover->changed, mover->resting.resting}};
+        .writer = {&moved->entities, mover->changed, mover->resting.resting},
+        .remotes = &mover->remotes};
     struct rows rows = {.context = &context,
                         .mover = mover,
                         .committed = state_table(committed),

@@ -7,6 +7,7 @@
 #include "mover/agent/neighbour_lists.h"
 #include "mover/command_apply.h"
 #include "mover/query/ground_marks.h"
+#include "mover/query/remote_index.h"
 #include "mover/resting_rows.h"
 #include "world/checksum.h"
 #include "world/entity/command.h"
@@ -37,6 +38,8 @@ struct mover {
     struct terrain_cache_entry *terrain_entries;       /* [capacity + GROUND_POSE_AHEAD] */
     struct terrain_cache_entry *terrain_entries_ahead; /* [capacity] */
     struct resting_rows resting;
+    /* Of the moved table, while records of other simulators are applied. */
+    struct remote_index remotes;
     /* The moved table. */
     uint64_t changed[CHECKSUM_BLOCKS]; /* columns of each block that must be hashed again */
     struct block_hashes blank;         /* of a block that is all zero */

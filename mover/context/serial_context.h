@@ -7,10 +7,13 @@
 #include "world/entity/event.h"
 #include "world/entity/table_write.h"
 
+struct remote_index;
+
 struct serial_context {
     const struct step_context *step;
     struct moved *moved;
     struct table_writer writer; /* every change of moved's rows goes through this */
+    struct remote_index *remotes;
 };
 
 /* Appends an intent and returns it, zero except its type. NULL when the frame has no room. */

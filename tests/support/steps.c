@@ -200,7 +200,8 @@ void steps_serial_context(struct fixture *fixture, struct step_context *step,
     *context = (struct serial_context){.step = step,
                                        .moved = &view->m,
                                        .writer = {&view->m.entities, fixture->stepper.mover.changed,
-                                                  fixture->stepper.mover.resting.resting}};
+                                                  fixture->stepper.mover.resting.resting},
+                                       .remotes = &fixture->stepper.mover.remotes};
 }
 
 void steps_respond(struct fixture *fixture, struct response_context *context)
