@@ -2,12 +2,16 @@
 #include "world/making/road_graph.h"
 
 #include "world/maths/maths.h"
+#include "world/making/road_index.h"
 #include "world/world.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
+
+/* What is as far as the width of a junction is found in the index [m]. */
+#define ROUNDING_M 0.01
 
 /* A place on a segment of a road, which begins with a point and ends with the next. */
 struct cut {
@@ -20,6 +24,9 @@ struct cut {
 struct survey {
     const struct road_point *points;
     uint32_t count;
+    struct road_index index;
+    uint32_t *near; /* [near_room] stretches near a place, ascending */
+    uint32_t near_count, near_room;
     struct cut *cuts; /* two of each junction */
     uint32_t cut_count, cut_room;
 };
@@ -100,20 +107,37 @@ static double nearest(const struct survey *s, uint32_t i, uint32_t j, double *sh
     return least;
 }
 
-/* Returns true if the ranges a0..a1 and b0..b1, in either order, are farther apart than the width
- * of a junction. */
-static bool ranges_apart(float a0, float a1, float b0, float b1)
+static int by_number(const void *a, const void *b)
 {
-    return maths_min((double)a0, (double)a1) >
-               maths_max((double)b0, (double)b1) + ROAD_GRAPH_MEET_M ||
-           maths_min((double)b0, (double)b1) >
-               maths_max((double)a0, (double)a1) + ROAD_GRAPH_MEET_M;
+    uint32_t p = *(const uint32_t *)a, q = *(const uint32_t *)b;
+    return (p > q) - (p < q);
 }
 
-static bool far_apart(const struct road_point *a, const struct road_point *b)
+/* Finds the stretches within reach_m of the bounds of two points. Returns 0, or -1: no memory. */
+static int find_near(struct survey *s, const struct road_point *a, const struct road_point *b,
+                     double reach_m)
 {
-    return ranges_apart(a[0].x, a[1].x, b[0].x, b[1].x) ||
-           ranges_apart(a[0].z, a[1].z, b[0].z, b[1].z);
+    struct road_walk walk =
+        road_index_walk(&s->index, maths_min((double)a->x, (double)b->x) - reach_m,
+                        maths_min((double)a->z, (double)b->z) - reach_m,
+                        maths_max((double)a->x, (double)b->x) + reach_m,
+                        maths_max((double)a->z, (double)b->z) + reach_m);
+    uint32_t stretch;
+    s->near_count = 0;
+    while (road_walk_next(&walk, &stretch)) {
+        if (s->near_count == s->near_room) {
+            uint32_t room = s->near_room * 2 + 256;
+            uint32_t *near = realloc(s->near, room * sizeof *near);
+            if (!near)
+                return -1;
+            s->near = near;
+            s->near_room = room;
+        }
+        s->near[s->near_count++] = stretch;
+    }
+    if (s->near_count > 0)
+        qsort(s->near, s->near_count, sizeof *s->near, by_number);
+    return 0;
 }
 
 static int meet_between(struct survey *s)
@@ -121,10 +145,12 @@ static int meet_between(struct survey *s)
     for (uint32_t i = 0; i + 1 < s->count; i++) {
         if (!is_stretch(s, i))
             continue;
-        for (uint32_t j = i + 2; j + 1 < s->count; j++) {
+        if (find_near(s, &s->points[i], &s->points[i + 1], ROAD_GRAPH_MEET_M + ROUNDING_M) != 0)
+            return -1;
+        for (uint32_t n = 0; n < s->near_count; n++) {
             double share_i, share_j;
-            if (!is_stretch(s, j) || far_apart(&s->points[i], &s->points[j]) ||
-                nearest(s, i, j, &share_i, &share_j) > ROAD_GRAPH_MEET_M)
+            uint32_t j = s->near[n];
+            if (j < i + 2 || nearest(s, i, j, &share_i, &share_j) > ROAD_GRAPH_MEET_M)
                 continue;
             if (add_meeting(s, i, share_i, j, share_j) != 0)
                 return -1;
@@ -139,9 +165,12 @@ static int meet_end(struct survey *s, uint32_t end)
     const struct road_point *p = &s->points[end];
     double least = ROAD_GRAPH_END_M, share = 0.0;
     uint32_t found = UINT32_MAX;
-    for (uint32_t j = 0; j + 1 < s->count; j++) {
+    if (find_near(s, p, p, ROAD_GRAPH_END_M + ROUNDING_M) != 0)
+        return -1;
+    for (uint32_t n = 0; n < s->near_count; n++) {
+        uint32_t j = s->near[n];
         double off;
-        if (!is_stretch(s, j) || s->points[j].road == p->road)
+        if (s->points[j].road == p->road)
             continue;
         double at = stretch_share(s, j, (double)p->x, (double)p->z, &off);
         if (off > least)
@@ -249,7 +278,8 @@ int road_graph_build(struct road_graph *net, const struct road_point *points, ui
     uint8_t *seen = NULL;
     int result = -1;
     *net = (struct road_graph){0};
-    if (meet_between(&s) == 0 && meet_ends(&s) == 0) {
+    if (road_index_make(&s.index, points, count) == 0 && meet_between(&s) == 0 &&
+        meet_ends(&s) == 0) {
         uint32_t meetings = s.cut_count / 2;
         if (s.cut_count > 0)
             qsort(s.cuts, s.cut_count, sizeof *s.cuts, by_place);
@@ -261,6 +291,8 @@ int road_graph_build(struct road_graph *net, const struct road_point *points, ui
             result = lay_edges(net, met, meetings);
         }
     }
+    road_index_free(&s.index);
+    free(s.near);
     free(s.cuts);
     free(met);
     free(seen);
@@ -352,9 +384,11 @@ static double to_node(const struct road_graph *net, const struct road_place *pla
     return sqrt(dx * dx + dz * dz);
 }
 
-static void spread(const struct road_graph *net, struct search *s, const struct road_place *from)
+/* Finds the lengths to the nodes at both ends of the goal, or to all nodes that can be reached. */
+static void spread(const struct road_graph *net, struct search *s, const struct road_place *from,
+                   const struct road_place *to)
 {
-    uint32_t next = net->nodes[from->node].next;
+    uint32_t next = net->nodes[from->node].next, goals = 2;
     for (uint32_t n = 0; n < net->node_count; n++)
         s->length_m[n] = INFINITY;
     reach(s, from->node, to_node(net, from, from->node), UINT32_MAX);
@@ -364,6 +398,9 @@ static void spread(const struct road_graph *net, struct search *s, const struct 
         const struct road_node *node = &net->nodes[least.node];
         if (least.length_m > s->length_m[least.node])
             continue;
+        goals -= least.node == to->node || least.node == net->nodes[to->node].next;
+        if (goals == 0)
+            return;
         for (uint32_t e = 0; e < node->edge_count; e++) {
             const struct road_edge *edge = &net->edges[node->first_edge + e];
             reach(s, edge->to, least.length_m + edge->length_m, least.node);
@@ -396,7 +433,7 @@ static int find_way(const struct road_graph *net, struct search *s, const struct
 {
     uint32_t ends[2] = {to->node, net->nodes[to->node].next}, last = UINT32_MAX;
     double least = INFINITY;
-    spread(net, s, from);
+    spread(net, s, from, to);
     if (from->node == to->node) {
         double dx = to->x - from->x, dz = to->z - from->z;
         least = sqrt(dx * dx + dz * dz);

@@ -85,7 +85,7 @@ struct ground_road_point {
     uint32_t road;
 };
 
-#define GROUND_ROAD_POINTS_MAX 16384u
+#define GROUND_ROAD_POINTS_MAX 262144u
 
 enum ground_object_type {
     GROUND_TREE,

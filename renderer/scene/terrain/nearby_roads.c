@@ -33,25 +33,56 @@ static void near_segment(const struct block *block, double ax, double az, double
         }
 }
 
-bool nearby_roads_distances(const struct world *world, double x, double z, double step_m,
-                            uint32_t columns, uint32_t rows, uint32_t stride, double reach_m,
-                            float *off)
+struct rectangle {
+    double x0, z0, x1, z1;
+};
+
+/* Whether a stretch begins with point i, and its bounds touch the rectangle. */
+static bool is_near(const struct world *world, uint32_t i, const struct rectangle *near)
+{
+    const struct road_point *a = &world->road_points[i], *b = a + 1;
+    double ax = (double)a->x, az = (double)a->z, bx = (double)b->x, bz = (double)b->z;
+    return a->road == b->road && (ax >= near->x0 || bx >= near->x0) &&
+           (ax <= near->x1 || bx <= near->x1) && (az >= near->z0 || bz >= near->z0) &&
+           (az <= near->z1 || bz <= near->z1);
+}
+
+void nearby_roads_find(struct nearby_roads *roads, const struct world *world, double x0, double z0,
+                       double x1, double z1)
+{
+    const struct rectangle near = {x0, z0, x1, z1};
+    roads->count = 0;
+    roads->too_many = false;
+    for (uint32_t i = 0; i + 1 < world->counts.road_points && !roads->too_many; i++) {
+        if (!is_near(world, i, &near))
+            continue;
+        if (roads->count < NEARBY_ROADS_MAX)
+            roads->stretches[roads->count++] = i;
+        else
+            roads->too_many = true;
+    }
+}
+
+bool nearby_roads_distances(const struct nearby_roads *roads, const struct world *world, double x,
+                            double z, double step_m, uint32_t columns, uint32_t rows,
+                            uint32_t stride, double reach_m, float *off)
 {
     struct block block = {x, z, step_m, reach_m, columns, rows, stride, off};
-    double x0 = x - reach_m, x1 = x + step_m * columns + reach_m;
-    double z0 = z - reach_m, z1 = z + step_m * rows + reach_m;
+    const struct rectangle near = {x - reach_m, z - reach_m, x + step_m * columns + reach_m,
+                                   z + step_m * rows + reach_m};
+    uint32_t count = roads->too_many ? world->counts.road_points - 1 : roads->count;
     bool any = false;
-    for (uint32_t i = 0; i + 1 < world->counts.road_points; i++) {
+    for (uint32_t n = 0; n < count; n++) {
+        uint32_t i = roads->too_many ? n : roads->stretches[n];
         const struct road_point *a = &world->road_points[i], *b = a + 1;
-        double ax = (double)a->x, az = (double)a->z, bx = (double)b->x, bz = (double)b->z;
-        if (a->road != b->road || (ax < x0 && bx < x0) || (ax > x1 && bx > x1) ||
-            (az < z0 && bz < z0) || (az > z1 && bz > z1))
+        if (!is_near(world, i, &near))
             continue;
         if (!any)
-            for (size_t n = 0; n < (size_t)rows * stride; n++)
-                off[n] = 1e9f;
+            for (size_t texel = 0; texel < (size_t)rows * stride; texel++)
+                off[texel] = 1e9f;
         any = true;
-        near_segment(&block, ax, az, bx - ax, bz - az);
+        near_segment(&block, (double)a->x, (double)a->z, (double)b->x - (double)a->x,
+                     (double)b->z - (double)a->z);
     }
     return any;
 }

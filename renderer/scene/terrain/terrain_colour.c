@@ -78,6 +78,7 @@ struct block {
     struct value_noise_rows noise[NOISES];
     float roads[BLOCK * BLOCK]; /* [m] from the middle of the nearest road */
     bool has_roads;
+    struct nearby_roads near; /* roads near the tile */
     struct row now;
 };
 
@@ -531,6 +532,12 @@ static void terrain_colour_work(const struct terrain_colour_tile *tile,
 
 /* --- blocks ----------------------------------------------------------------------------------- */
 
+/* A texel shows a road that is this near to its middle [m]. */
+static double road_reach(const struct terrain_colour_tile *tile)
+{
+    return (double)ROAD_REACH_M + 0.5 * tile->step_m;
+}
+
 static void open_block(struct block *block, const struct world *world)
 {
     static const struct {
@@ -555,8 +562,8 @@ static void open_block(struct block *block, const struct world *world)
                                block->x, tile->step_m, block->columns);
     }
     block->has_roads =
-        nearby_roads_distances(world, block->x, block->z, tile->step_m, block->columns, block->rows,
-                               BLOCK, (double)ROAD_REACH_M + 0.5 * tile->step_m, block->roads);
+        nearby_roads_distances(&block->near, world, block->x, block->z, tile->step_m,
+                               block->columns, block->rows, BLOCK, road_reach(tile), block->roads);
 }
 
 static void fill_noise(struct block *block, double z)
@@ -616,7 +623,11 @@ bool terrain_colour_ground(const struct world *world, const struct crater_index 
 {
     struct block block; /* too large to be cleared for each tile */
     bool sea = false;
+    double reach = road_reach(tile);
     block.tile = tile;
+    nearby_roads_find(&block.near, world, tile->x - reach, tile->z - reach,
+                      tile->x + tile->columns * tile->step_m + reach,
+                      tile->z + tile->rows * tile->step_m + reach);
     for (block.row = 0; block.row < tile->rows; block.row += BLOCK)
         for (block.column = 0; block.column < tile->columns; block.column += BLOCK) {
             uint32_t columns = tile->columns - block.column, rows = tile->rows - block.row;
