@@ -2,6 +2,7 @@
 #include "collider/step.h"
 
 #include "collider/remote_rows.h"
+#include "collider/resting/sleeping_contacts.h"
 #include "collider/resting/turret_guard.h"
 #include "collider/response/damage.h"
 #include "collider/response/debris_push.h"
@@ -198,9 +199,9 @@ static void find_pairs(struct step *step, const struct method_input *input)
  * millisecond. */
 #define CROWDED 64u
 
-static bool is_crowded(const struct body_motion *motion)
+static bool is_crowded(const struct collider *collider)
 {
-    return motion->committed->head->contact_count >= CROWDED;
+    return collider->motion.committed->head->contact_count >= CROWDED && !collider->slept;
 }
 
 static void collide_all(struct step *step, struct response_context *context)
@@ -209,9 +210,10 @@ static void collide_all(struct step *step, struct response_context *context)
     struct contact contact;
     /* Spheres that touch are solved by impacts alone. */
     bool rest = context->functions->joint && collider->motion.models;
-    if (is_crowded(&collider->motion))
+    if (is_crowded(collider))
         thread_pool_hold(collider->workers);
     find_pairs(step, &context->input.detect);
+    context->contacts_sleep = collider->slept = sleeping_contacts_all(context);
     if (rest) {
         resting_solve(&collider->resting, context);
         free_bodies_solve(&collider->free, context);
@@ -231,7 +233,8 @@ static void collide_all(struct step *step, struct response_context *context)
         debris_push_step(context);
     remote_rows_settle(context, step->moved.entities);
     damage_overturned(context);
-    contact_table_finish(&collider->table, context);
+    if (!sleeping_contacts_keep(context))
+        contact_table_finish(&collider->table, context);
     thread_pool_let_go(collider->workers);
 }
 

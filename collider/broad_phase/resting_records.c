@@ -21,9 +21,10 @@ int resting_records_init(struct resting_records *resting, uint32_t rows)
     resting->moved = calloc(words, sizeof *resting->moved);
     resting->same = calloc(words, sizeof *resting->same);
     resting->flies = calloc(words, sizeof *resting->flies);
+    resting->awake = calloc(words, sizeof *resting->awake);
     if (resting->same)
         memset(resting->same, UINT8_MAX, words * sizeof *resting->same);
-    return resting->kept && resting->moved && resting->same && resting->flies &&
+    return resting->kept && resting->moved && resting->same && resting->flies && resting->awake &&
                    sweep_worker_init(&resting->sweeper, rows, 1) == 0 &&
                    query_index_init(&resting->index, rows) == 0
                ? 0
@@ -38,6 +39,7 @@ void resting_records_free(struct resting_records *resting)
     free(resting->moved);
     free(resting->same);
     free(resting->flies);
+    free(resting->awake);
     *resting = (struct resting_records){0};
 }
 
@@ -74,6 +76,7 @@ uint32_t resting_records_note(struct resting_records *resting, uint32_t block,
         uint32_t word = block * RESTING_RECORDS_WORDS + w;
         uint64_t moves = moving->all ? UINT64_MAX : moving->row[w] | ~resting->same[word];
         resting->same[word] = UINT64_MAX;
+        resting->awake[word] = moves;
         resting->kept[word] &= ~moves;
         resting->moved[word] |= moves;
         bin[w] = below(word, resting->rows) & ~resting->kept[word];

@@ -32,9 +32,10 @@ struct resting_records {
     uint64_t *moved;             /* and for each that has moved since the rows were looked at */
     uint64_t *same;              /* and for each that no response has written since it was noted */
     uint64_t *flies;             /* of the rows that are kept, the aircraft */
-    uint32_t words;              /* of each */
-    uint32_t craters;            /* of the ground above which the aircraft are */
-    uint32_t frames;             /* since the rows were looked at */
+    uint64_t *awake;  /* a bit for each that moves, or was written since the last frame */
+    uint32_t words;   /* of each */
+    uint32_t craters; /* of the ground above which the aircraft are */
+    uint32_t frames;  /* since the rows were looked at */
     uint64_t waste; /* records that have been made for rows that rest, since the index was built */
     uint32_t rows;  /* of the last frame */
     bool never;     /* for tests: no record is kept */
@@ -60,6 +61,13 @@ uint32_t resting_records_note(struct resting_records *resting, uint32_t block,
 /* Ends a frame. If it pays, the index is built for the next frame: of all rows that have rested for
  * some frames, but those that would touch the ground. rows: of this frame. */
 void resting_records_end(struct resting_records *resting, const struct body_boxes *rows);
+
+/* Returns true if a row of this frame moves, or a response has written it in the last one. The rows
+ * of the frame have been noted. */
+static inline bool resting_records_awake(const struct resting_records *resting, uint32_t row)
+{
+    return resting->never || resting->awake[row / 64] >> row % 64 & 1;
+}
 
 /* Returns true if a record of the index is right. */
 static inline bool resting_records_holds(const struct resting_records *resting,

@@ -26,6 +26,7 @@ struct response_context {
     struct island *island;
     uint64_t *unsprung;         /* [CHECKSUM_BLOCKS] of damage_overturned() */
     struct table_writer writer; /* every change of next's rows goes through this */
+    bool contacts_sleep;        /* of sleeping_contacts_all() */
     uint32_t begun;             /* contacts that began in this frame */
     uint32_t without_room;      /* index + 1 of a pair that is told to have no room, or 0 */
 };

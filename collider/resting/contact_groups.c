@@ -339,7 +339,7 @@ static void list_stirred(struct contact_groups *groups, struct response_context 
 {
     const struct state *committed = context->motion->committed;
     groups->stirred_count = 0;
-    if (!any_stirred(context))
+    if (context->contacts_sleep || !any_stirred(context))
         return;
     stir(groups, context);
     for (uint32_t i = 0; i < committed->head->contact_count; i++) {
@@ -492,7 +492,7 @@ void contact_groups_find_free(struct contact_groups *groups, struct response_con
 {
     const struct state *committed = context->motion->committed;
     groups->count = 0;
-    for (uint32_t i = 0; i < committed->head->contact_count; i++) {
+    for (uint32_t i = 0; !context->contacts_sleep && i < committed->head->contact_count; i++) {
         const struct persistent_contact *contact = &committed->contacts[i];
         bool a = is_there(context, contact->a_row, contact->a_id);
         bool b = is_there(context, contact->b_row, contact->b_id);

@@ -536,7 +536,8 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
             ground_placement_put(context, row, entities_position(e, row), e->heading[row]);
     }
     look_at_met(guard, context->contacts);
-    look_at_drifting(guard, context);
+    if (!context->contacts_sleep || motion->changes != 0)
+        look_at_drifting(guard, context);
     while (guard->count > 0)
         run_round(guard, context);
     for (uint32_t i = 0; i < guard->touched_count; i++)
