@@ -22,9 +22,9 @@
 #define HOVER_ROUNDED 0.1   /* of that: so far from a height they are at it */
 #define GROUND_S      3.0   /* flight keeps its height above the ground here and after this time */
 
-/* The heights [m] between which row i may fly, and when [s] it meets whom they keep it from. */
+/* The heights [m] between which row i may fly. */
 struct clearance {
-    double low, high, low_s, high_s;
+    double low, high;
 };
 
 /* Its acceleration [m/s2] towards its right in a turn, by its bank. */
@@ -47,9 +47,9 @@ static struct course course_of(const struct entities *w, uint32_t i)
     return (struct course){w->x[i], w->z[i], w->vx[i], w->vz[i], right * cosine, right * sine};
 }
 
-/* Returns true if the other row's course comes near within AHEAD_S. time_s: when. */
+/* Returns true if the other row's course comes near within AHEAD_S. */
 static bool meets(const struct step_context *context, uint32_t i, uint32_t other,
-                  const struct course *own, double *time_s)
+                  const struct course *own)
 {
     const struct entities *w = &context->committed->entities;
     const double *reach = context->avoidance->reach_m;
@@ -57,8 +57,8 @@ static bool meets(const struct step_context *context, uint32_t i, uint32_t other
     double vx = its.vx - own->vx, vz = its.vz - own->vz;
     double beside = reach[w->kind[i]] + reach[w->kind[other]] + BESIDE_M;
     double spread = SPREAD * sqrt(vx * vx + vz * vz);
-    for (*time_s = 0.0; *time_s <= AHEAD_S; *time_s += SAMPLE_S) {
-        double t = *time_s, half = 0.5 * t * t, most = beside + spread * maths_max(t, SAMPLE_S);
+    for (double t = 0.0; t <= AHEAD_S; t += SAMPLE_S) {
+        double half = 0.5 * t * t, most = beside + spread * maths_max(t, SAMPLE_S);
         double dx = its.x - own->x + vx * t + (its.ax - own->ax) * half;
         double dz = its.z - own->z + vz * t + (its.az - own->az) * half;
         if (dx * dx + dz * dz < most * most)
@@ -72,8 +72,8 @@ static void keep_from(const struct step_context *context, uint32_t i, uint32_t o
 {
     const struct entities *w = &context->committed->entities;
     const struct kind *kinds = context->world->kinds;
-    double up = w->y[i] - w->y[other], time_s;
-    if (fabs(up) > FAR_M || !meets(context, i, other, own, &time_s))
+    double up = w->y[i] - w->y[other];
+    if (fabs(up) > FAR_M || !meets(context, i, other, own))
         return;
     double soon = up + LEAD_S * (w->vy[i] - w->vy[other]);
     bool above = fabs(soon) > LEVEL_M ? soon > 0.0 : i < other;
@@ -81,13 +81,10 @@ static void keep_from(const struct step_context *context, uint32_t i, uint32_t o
     double nearing = up > 0.0 ? w->vy[other] - w->vy[i] : w->vy[i] - w->vy[other];
     gap += NEARING_S * maths_max(nearing, 0.0);
     double middle = 0.5 * (w->y[i] + w->y[other]);
-    if (above) {
-        clear->low = maths_max(clear->low, middle + 0.5 * gap);
-        clear->low_s = maths_min(clear->low_s, time_s);
-    } else {
+    if (above)
+        clear->low = maths_max(clear->low, w->y[other] + gap);
+    else
         clear->high = maths_min(clear->high, middle - 0.5 * gap);
-        clear->high_s = maths_min(clear->high_s, time_s);
-    }
 }
 
 double aircraft_separation_reach(const struct step_context *context, uint32_t kind,
@@ -136,7 +133,7 @@ static double ground_under(const struct step_context *context, uint32_t i)
 void aircraft_separation_keep(const struct step_context *context, uint32_t i,
                               struct desired_motion *desired)
 {
-    struct clearance clear = {-INFINITY, INFINITY, INFINITY, INFINITY};
+    struct clearance clear = {-INFINITY, INFINITY};
     look_around(context, i, &clear);
     if (clear.low == -INFINITY && clear.high == INFINITY)
         return;
@@ -144,9 +141,8 @@ void aircraft_separation_keep(const struct step_context *context, uint32_t i,
         keep_levels(&clear);
     double usual = context->world->kinds[context->m->kind[i]].cruise_altitude_m;
     double ground = ground_under(context, i), height = desired->altitude_m;
-    if (clear.low_s < clear.high_s) /* of two the one that it meets first */
-        height = maths_max(maths_min(height, clear.high - ground), clear.low - ground);
-    else
-        height = maths_min(maths_max(height, clear.low - ground), clear.high - ground);
+    /* Between two it goes up: the higher one goes up, too, and the lower one may be near the
+     * ground. */
+    height = maths_max(maths_min(height, clear.high - ground), clear.low - ground);
     desired->altitude_m = maths_max(height, maths_min(desired->altitude_m, LOW_SHARE * usual));
 }

@@ -89,17 +89,21 @@ static void take_detonation(struct battle_count *count, const struct state *befo
 
 /* Counts a pair of aircraft that touches. */
 static void take_meeting(struct battle_count *count, const struct view *view,
-                         const struct state *before, const struct event_collision *hit)
+                         const struct state *before, const struct event *event)
 {
     const struct kind *kinds = view->world.kinds;
+    const struct event_collision *hit = &event->collision;
     if (!hit->begins || !was_active(count, before, &hit->a) ||
         !was_active(count, before, &hit->b) || kinds[hit->a.kind].domain != DOMAIN_AIR ||
         kinds[hit->b.kind].domain != DOMAIN_AIR)
         return;
-    if (count->force[hit->a.id - 1] == count->force[hit->b.id - 1])
-        count->met_friends++;
-    else
+    if (count->force[hit->a.id - 1] != count->force[hit->b.id - 1]) {
         count->met_others++;
+        return;
+    }
+    if (count->met_friends < BATTLE_MET_MAX)
+        count->met[count->met_friends] = *event;
+    count->met_friends++;
 }
 
 static void take_collision(struct battle_count *count, const struct view *view,
@@ -107,7 +111,7 @@ static void take_collision(struct battle_count *count, const struct view *view,
 {
     const struct event_party *parties[2] = {&event->collision.a, &event->collision.b};
     count->bumps++;
-    take_meeting(count, view, before, &event->collision);
+    take_meeting(count, view, before, event);
     for (int n = 0; n < 2; n++)
         count->crashes +=
             parties[n]->damage == DAMAGE_DESTROYED && was_active(count, before, parties[n]);

@@ -10,6 +10,7 @@
 
 #define BATTLE_MINUTES  96u /* later ones count to the last */
 #define BATTLE_NEWS_MAX 512u
+#define BATTLE_MET_MAX  16u
 #define BATTLE_GROUND   KIND_COUNT_MAX /* as a target: a point, or the sky */
 
 struct battle_tally {
@@ -26,6 +27,7 @@ struct battle_count {
     uint32_t lost[FORCE_COUNT][KIND_COUNT_MAX];                 /* ... and how many are wrecks */
     uint32_t bumps, crashes;                                    /* collisions; ending a vehicle */
     uint32_t met_friends, met_others; /* pairs of aircraft that touched: of one force; others */
+    struct event met[BATTLE_MET_MAX]; /* the first collisions of those of one force */
     uint32_t *stuck, *longest;        /* frames in which a row pushed, by row; NULL: no memory */
     uint8_t *kind, *force;            /* of the vehicles of the scenario, by row */
     uint8_t *gone;                    /* 1: it is lost */

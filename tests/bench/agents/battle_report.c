@@ -113,6 +113,20 @@ static void print_fifths(const struct battle_count *count, uint32_t minutes)
     printf("\n");
 }
 
+/* Lists the collisions of aircraft of one force. */
+static void print_met(const struct battle_count *count, const struct view *view)
+{
+    printf("aircraft that touched: %u pairs of one side, %u others\n", count->met_friends,
+           count->met_others);
+    for (uint32_t n = 0; n < count->met_friends && n < BATTLE_MET_MAX; n++) {
+        const struct event_collision *met = &count->met[n].collision;
+        printf("%7.1f s  %s of row %u and %s of row %u at [%.0f, %.0f], closing with %.1f m/s\n",
+               (double)count->met[n].tick * count->dt_s, view->world.kinds[met->a.kind].name,
+               met->a.id - 1, view->world.kinds[met->b.kind].name, met->b.id - 1, met->point[0],
+               met->point[2], (double)met->closing_mps);
+    }
+}
+
 void battle_report(const struct battle_count *count, const struct view *view, uint32_t frames)
 {
     uint32_t minutes = (uint32_t)ceil((double)frames * count->dt_s / 60.0);
@@ -127,8 +141,7 @@ void battle_report(const struct battle_count *count, const struct view *view, ui
     printf("longest push: %.1f s, %s of row %u; collisions: %u, by which %u vehicles ended\n",
            count->longest[row] * count->dt_s, view->world.kinds[count->kind[row]].name, row,
            count->bumps, count->crashes);
-    printf("aircraft that touched: %u pairs of one side, %u others\n", count->met_friends,
-           count->met_others);
+    print_met(count, view);
 }
 
 /* --- bounds ------------------------------------------------------------------------------------*/

@@ -88,6 +88,30 @@ static void test_a_crowd_on_patrol_does_not_collide(void **state)
     assert_in_range(fixture_state(&f).head->tally.collisions, 0, 1);
 }
 
+/* Where three are above each other, the middle one has the other two in its way. */
+static void test_a_dense_herd_does_not_collide(void **state)
+{
+    (void)state;
+    unsigned long long collisions = 0;
+    for (int seed = 1; seed <= 6; seed++) {
+        char text[512];
+        snprintf(
+            text, sizeof text,
+            "world = { seed = %d; capacity = 64; hz = 20.0; }; vehicles = (\n"
+            "{ kind = \"helo-cow\"; count = 25; area = [25000.0, 25000.0, 25700.0, 25700.0]; },\n"
+            "{ kind = \"wishbone\"; count = 15; area = [26000.0, 25000.0, 26500.0, 25500.0]; } );",
+            seed);
+        fixture_open(&f, text);
+        fixture_run(&f, 300 * HZ);
+        unsigned long long found = fixture_state(&f).head->tally.collisions;
+        print_message("seed %d: %llu collisions\n", seed, found);
+        collisions += found;
+        fixture_close(&f);
+    }
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; };");
+    assert_int_equal(collisions, 0);
+}
+
 static double least_gap(uint32_t first, uint32_t end)
 {
     struct entities e = steps_rows(&f);
@@ -125,6 +149,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(test_two_that_meet_pass_above_and_below, close_world),
         cmocka_unit_test_teardown(test_a_crowd_on_patrol_does_not_collide, close_world),
+        cmocka_unit_test_teardown(test_a_dense_herd_does_not_collide, close_world),
         cmocka_unit_test_teardown(test_those_at_their_base_do_not_collide, close_world),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
