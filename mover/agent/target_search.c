@@ -106,6 +106,13 @@ static double preference(const struct step_context *context, uint32_t i, uint32_
                                           RANDOM_SEARCH);
 }
 
+/* Returns true if a look considers enemies that it cannot harm. A crew that is at ease minds them,
+ * and takes cover; one with the order never to flee looks past them. */
+static bool minds_all(const struct step_context *context, uint32_t i, enum target_search how)
+{
+    return how == TARGET_SEARCH_CALM && !(context->m->flags[i] & ENTITY_FLAG_STAND);
+}
+
 static void gather(const struct step_context *context, uint32_t i, const struct sector *view,
                    double radius, enum target_search how, struct candidates *c)
 {
@@ -114,12 +121,13 @@ static void gather(const struct step_context *context, uint32_t i, const struct 
     struct neighbour_query query =
         neighbour_query_begin(context->neighbours, neighbour_index_enemies((enum force)w->force[i]),
                               w->x[i], w->z[i], radius);
+    bool all = minds_all(context, i, how);
     c->count = 0;
     while ((entry = neighbour_query_next(&query))) {
         double dx = (double)entry->x - query.x, dz = (double)entry->z - query.z;
         double square = dx * dx + dz * dz;
         if (in_view(view, dx, dz) && fire_control_worth(context, i, entry->row, square) &&
-            (how == TARGET_SEARCH_CALM || fire_control_fights(context, i, entry->row)))
+            (all || fire_control_fights(context, i, entry->row)))
             consider(c, entry->row, square * preference(context, i, entry->row));
     }
 }

@@ -7,7 +7,8 @@
 
 /* How a crew looks for enemies. */
 enum target_search {
-    TARGET_SEARCH_CALM, /* it finds an enemy in its view after a random time */
+    TARGET_SEARCH_CALM, /* it finds an enemy in its view after a random time; one that never flees
+                           (ENTITY_FLAG_STAND) finds only those that its rounds may harm */
     TARGET_SEARCH_ALERT /* in a fight: it finds at once an enemy that its rounds may harm */
 };
 

@@ -90,6 +90,31 @@ static void test_crews_side_by_side_take_different_targets(void **state)
     assert_true(targets >= 4 && most <= 4);
 }
 
+/* Jeeps that may not flee see tanks near by, which their bullets do not harm, and a jeep further
+ * on.
+ */
+static void test_a_crew_that_stands_looks_past_what_it_cannot_harm(void **state)
+{
+    uint32_t fight = 0;
+    (void)state;
+    for (uint32_t n = 0; n < CREWS; n++) {
+        double x = 4000.0 + 6000.0 * (n % 7), z = 4000.0 + 6000.0 * (double)(n / 7);
+        uint32_t row = put("jeep", x, z, FORCE_BLUE, BEHAVIOUR_IDLE);
+        steps_rows(&f).flags[row] |= ENTITY_FLAG_STAND;
+        for (int tank = 0; tank < 3; tank++)
+            put("tank", x + 20.0, z + 12.0 * tank, FORCE_RED, BEHAVIOUR_HOLD);
+        put("jeep", x + 300.0, z - 60.0, FORCE_RED, BEHAVIOUR_HOLD);
+    }
+    fixture_run(&f, 20 * HZ);
+    struct entities e = steps_rows(&f);
+    for (uint32_t n = 0; n < CREWS; n++) {
+        fight += e.behaviour[5 * n] == BEHAVIOUR_ATTACK;
+        assert_true(e.behaviour[5 * n] == BEHAVIOUR_IDLE || e.target_slot[5 * n] == 5 * n + 4);
+    }
+    if (fight < CREWS * 3 / 4)
+        fail_msg("%u of %u jeeps fight", fight, CREWS);
+}
+
 static void test_no_crew_takes_a_wreck_or_what_is_out_of_reach(void **state)
 {
     struct step_context step;
@@ -115,6 +140,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_the_time_to_find_a_target_grows_with_the_distance),
         TEST(test_crews_side_by_side_take_different_targets),
+        TEST(test_a_crew_that_stands_looks_past_what_it_cannot_harm),
         TEST(test_no_crew_takes_a_wreck_or_what_is_out_of_reach),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
