@@ -219,9 +219,19 @@ static bool has_result(const struct battle_count *count)
     return false;
 }
 
+static uint32_t wrong_meetings(const struct battle_count *count)
+{
+    if (count->met_friends == 0)
+        return 0;
+    printf("OUT OF BOUNDS: %u pairs of aircraft of one side touched; right would be none\n",
+           count->met_friends);
+    return 1;
+}
+
 uint32_t battle_report_wrong(const struct battle_count *count, const struct view *view)
 {
-    uint32_t wrong = wrong_shots(count) + wrong_aircraft(count, view) + wrong_rounds(count, view);
+    uint32_t wrong = wrong_shots(count) + wrong_aircraft(count, view) + wrong_rounds(count, view) +
+                     wrong_meetings(count);
     double push_s = count->longest[longest_push(count, view)] * count->dt_s;
     if (push_s > PUSH_LONG_S) {
         printf("OUT OF BOUNDS: a vehicle pushed for %.1f s; right would be %g s or less\n", push_s,
