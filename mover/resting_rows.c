@@ -4,6 +4,7 @@
 #include "mover/agent/neighbour_lists.h"
 #include "mover/agent/perception.h"
 #include "mover/motion/kinematics.h"
+#include "mover/motion/remote_motion.h"
 #include "mover/motion/ground/wreck.h"
 #include "world/entity/kind.h"
 #include "world/state.h"
@@ -192,9 +193,10 @@ static enum rest rest_of(const struct resting_rows *rows, const struct step_cont
     case MOTION_AGENT:
         return is_at_ease(context, i) ? rest_of_agent(rows, context, i, motion == MOTION_AGENT)
                                       : REST_NONE;
+    case MOTION_REMOTE:
+        return remote_motion_stands(m, i) && m->trigger[i] == 0 ? REST_ALL : REST_NONE;
     case MOTION_FLIGHT:
     case MOTION_ALONE:
-    case MOTION_REMOTE:
         break;
     }
     return REST_NONE;
@@ -227,11 +229,12 @@ static void settle_row(struct resting_rows *rows, const struct step_context *con
 }
 
 _Static_assert(KINEMATICS_HOVER_ROWS == CHECKSUM_ROWS, "a block burns its fuel in one frame");
-_Static_assert(BEHAVIOUR_IDLE == 0 && MOTION_HOLD < 4 && MOTION_COURSE >= 4,
+_Static_assert(BEHAVIOUR_IDLE == 0 && MOTION_HOLD < 4 && MOTION_COURSE >= 4 &&
+                   MOTION_REMOTE > MOTION_ALONE && MOTION_REMOTE < 0x80,
                "may_rest() compares bytes");
 
-/* Returns false if none of eight rows rests or can begin to: all have an agent or a driver, and no
- * behaviour is to stand. True is possible otherwise. first: a multiple of 8. */
+/* Returns false if none of eight rows rests or can begin to: all have an agent or a driver here,
+ * and no behaviour is to stand. True is possible otherwise. first: a multiple of 8. */
 static bool may_rest(const struct resting_rows *rows, const struct entities *m, uint32_t first,
                      const uint8_t *motion)
 {
@@ -241,7 +244,8 @@ static bool may_rest(const struct resting_rows *rows, const struct entities *m, 
     memcpy(&behaviour, m->behaviour + first, sizeof behaviour);
     uint64_t no_agent = (how - 4 * ones) & ~how & tops; /* a byte is below 4 */
     uint64_t idle = (behaviour - ones) & ~behaviour & tops;
-    return (no_agent | idle | (rows->resting[first / 64] >> first % 64 & 0xff)) != 0;
+    uint64_t remote = (how + (0x80 - MOTION_REMOTE) * ones) & tops;
+    return (no_agent | idle | remote | (rows->resting[first / 64] >> first % 64 & 0xff)) != 0;
 }
 
 static void settle(struct resting_rows *rows, const struct step_context *context, uint32_t i,

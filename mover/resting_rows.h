@@ -6,7 +6,7 @@
  * change by an event: a wreck at rest, a vehicle that holds its course and stands, and an agent
  * that stands by its order and has nothing to decide. An agent that has something to look for rests
  * between its turns to decide. An aircraft that hovers is moved in the frames in which it burns
- * fuel.
+ * fuel. An entity of another simulator rests if its owner says that it stands.
  *
  * A row wakes when anything writes to it: a command, a shot, a response of the collider, or when a
  * crater is dug near it. One that hovers also wakes when an aircraft moves near it. */

@@ -101,6 +101,11 @@ static bool is_inside(struct vec3 at)
     return at.x >= 0.0 && at.x <= WORLD_SIDE_M && at.z >= 0.0 && at.z <= WORLD_SIDE_M;
 }
 
+bool remote_motion_stands(const struct entities *m, uint32_t i)
+{
+    return model_of(m, i) == DEAD_RECKONING_STATIC;
+}
+
 bool remote_motion_move(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;

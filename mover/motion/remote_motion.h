@@ -12,4 +12,7 @@
 /* Moves row i by one frame. Returns false if it has left the world. Any thread. */
 bool remote_motion_move(const struct step_context *context, uint32_t i);
 
+/* Returns true if row i stands by its model: it changes only by a record, or by being corrected. */
+bool remote_motion_stands(const struct entities *m, uint32_t i);
+
 #endif

@@ -2,6 +2,7 @@
 #include "mover/query/neighbour_index.h"
 
 #include "world/checksum.h"
+#include "world/entity/remote.h"
 #include "world/runtime/prefault.h"
 #include "world/terrain/gridsquare.h"
 
@@ -168,7 +169,7 @@ static inline struct neighbour_index_entry entry_of(const struct entities *w, ui
 static inline uint32_t agent_of(const struct neighbour_index *index, uint32_t i)
 {
     const struct entities *w = index->committed;
-    return w->state[i] == ENTITY_ACTIVE && !row_rests(index, i) ? w->id[i] : 0;
+    return w->state[i] == ENTITY_ACTIVE && !row_rests(index, i) && !remote_is(w, i) ? w->id[i] : 0;
 }
 
 static void note_agent(struct neighbour_index *index, uint32_t band)

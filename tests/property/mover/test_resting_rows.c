@@ -2,7 +2,10 @@
  * differs from one in which every row is moved and boxed in every frame: with shots, bombs,
  * craters, commands, restarts and any number of threads. SEED=n chooses others. */
 #include "tests/support/fixture.h"
+#include "tests/support/remotes.h"
 #include "tests/support/steps.h"
+#include "world/maths/dead_reckoning.h"
+#include "world/params.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -44,6 +47,10 @@
     "terrain = { " ground " }; vehicles = (" STANDING OTHERS FAR " );"
 
 static const char flat[] = WORLD("sphere", "source = \"flat\"; height_m = 100.0;");
+#define REMOTES 60u
+static const char strangers[] =
+    "world = { seed = 5; capacity = 4096; remotes_max = 60; }; collision = { shape = \"model\"; };"
+    "terrain = { source = \"flat\"; height_m = 100.0; }; vehicles = (" STANDING OTHERS FAR " );";
 static const char shaped[] = WORLD("model", "source = \"flat\"; height_m = 100.0;");
 
 /* Blocks of 1,024 rows in which all rest, and others that drive and fly through them and fight. */
@@ -89,6 +96,16 @@ static uint32_t count_resting(const struct fixture *f)
     return count;
 }
 
+static uint32_t count_remotes_at_rest(const struct fixture *f)
+{
+    const struct resting_rows *rows = &f->stepper.mover.resting;
+    const struct state state = fixture_state(f);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < state.head->used; i++)
+        count += remote_is(&state.entities, i) && (rows->resting[i / 64] >> i % 64 & 1);
+    return count;
+}
+
 static uint32_t count_hovering(const struct fixture *f)
 {
     const struct resting_rows *rows = &f->stepper.mover.resting;
@@ -122,7 +139,22 @@ struct seen {
     uint32_t left_hover;  /* frames in which rows woke that hovered alone */
     uint32_t kept, left;  /* frames with records that are kept, and in which some are let go */
     uint32_t craters, destroyed;
+    uint32_t remotes; /* frames with more than ten entities of others at rest */
 };
+
+/* A record of another simulator in the middle of the vehicles; three of four entities stand. */
+static struct remote_record random_record(const struct fixture *fixture, uint64_t *seed)
+{
+    struct remote_record record = remotes_any(fixture, seed);
+    if (record.type != REMOTE_TRACK)
+        return record;
+    record.remote = remote_id(7, 1, (uint16_t)(1 + fixture_random(seed) % REMOTES));
+    record.position[0] = fixture_uniform(seed, 24600.0, 25400.0);
+    record.position[2] = fixture_uniform(seed, 24600.0, 25400.0);
+    if (fixture_random(seed) % 4 != 0)
+        record.model = DEAD_RECKONING_STATIC;
+    return record;
+}
 
 static struct seen compare(const char *scenario, uint64_t seed)
 {
@@ -144,6 +176,12 @@ static struct seen compare(const char *scenario, uint64_t seed)
             drop(&rests, x, 25000.0);
             drop(&moves, x, 25000.0);
         }
+        if (fixture_state(&rests).head->frame > 60 && rests.view.world.params->remotes_max > 0 &&
+            fixture_random(&seed) % 3 != 0) {
+            struct remote_record record = random_record(&rests, &seed);
+            remotes_send(&rests, record);
+            remotes_send(&moves, record);
+        }
         if (fixture_random(&seed) % 150 == 0)
             fixture_threads(&rests, 1 + (uint32_t)(fixture_random(&seed) % 3));
         fixture_continue(&rests, 1);
@@ -151,6 +189,7 @@ static struct seen compare(const char *scenario, uint64_t seed)
         struct state a = fixture_state(&rests), b = fixture_state(&moves);
         assert_int_equal(a.head->event_digest, b.head->event_digest);
         assert_int_equal(steps_state_hash(&rests, &a), steps_state_hash(&moves, &b));
+        seen.remotes += count_remotes_at_rest(&rests) > 10;
         uint32_t count = count_resting(&rests), kept = count_kept(&rests);
         uint32_t hovering = count_hovering(&rests);
         seen.left_hover += hovering < hovering_before;
@@ -185,6 +224,14 @@ static void test_rows_that_rest_change_no_bit(void **state)
     compare(flat, seed);
 }
 
+static void test_entities_of_others_that_rest_change_no_bit(void **state)
+{
+    uint64_t seed = fixture_seed(17);
+    (void)state;
+    struct seen seen = compare(strangers, seed);
+    assert_true(seen.remotes > 300);
+}
+
 static void test_bodies_that_rest_change_no_bit(void **state)
 {
     uint64_t seed = fixture_seed(15);
@@ -204,6 +251,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rows_that_rest_change_no_bit),
+        cmocka_unit_test(test_entities_of_others_that_rest_change_no_bit),
         cmocka_unit_test(test_bodies_that_rest_change_no_bit),
         cmocka_unit_test(test_herds_that_rest_change_no_bit),
     };

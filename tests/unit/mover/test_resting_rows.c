@@ -1,7 +1,9 @@
 /* Which rows come to rest, and what wakes them. */
 #include "mover/resting_rows.h"
 #include "tests/support/fixture.h"
+#include "tests/support/remotes.h"
 #include "tests/support/steps.h"
+#include "world/maths/dead_reckoning.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +19,7 @@ static struct fixture f;
 static int open_world(void **state)
 {
     (void)state;
-    fixture_open(&f, "");
+    fixture_open(&f, "world = { remotes_max = 20; };");
     return 0;
 }
 
@@ -117,6 +119,35 @@ static void test_a_command_wakes_the_row(void **state)
     assert_true(steps_speed(&f, tank) > 1.0);
 }
 
+static void test_a_remote_row_that_stands_rests(void **state)
+{
+    const struct vec3 place = {25000.0, 100.0, 26000.0}, beside = {25000.0, 100.0, 26100.0};
+    struct remote_record stands = remotes_track(&f, remote_id(7, 1, 1), place);
+    struct remote_record drives = remotes_track(&f, remote_id(7, 1, 2), beside);
+    (void)state;
+    stands.model = DEAD_RECKONING_STATIC;
+    drives.model = DEAD_RECKONING_FPW;
+    drives.velocity[0] = 5.0f;
+    for (uint16_t n = 3; n <= 12; n++) { /* whole words of rows of others */
+        remotes_send(&f, remotes_track(&f, remote_id(7, 1, n),
+                                       (struct vec3){25000.0 + 20.0 * n, 100.0, 27000.0}));
+    }
+    remotes_send(&f, stands);
+    remotes_send(&f, drives);
+    fixture_run(&f, 1);
+    fixture_continue(&f, SECOND);
+    uint32_t row = remotes_row(&f, stands.remote);
+    assert_true(rests(row));
+    assert_false(rests(remotes_row(&f, drives.remote)));
+    stands.position[0] += 1.0; /* its owner corrects it, a little in each frame */
+    remotes_send(&f, stands);
+    fixture_continue(&f, 3);
+    assert_true(steps_rows(&f).x[row] > 25000.01 && steps_rows(&f).x[row] < 25000.9);
+    fixture_continue(&f, SECOND);
+    assert_true(rests(row));
+    assert_true(fabs(steps_rows(&f).x[row] - 25001.0) < 1e-6);
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
@@ -125,6 +156,7 @@ int main(void)
         TEST(test_a_restarted_mover_knows_no_row_at_rest),
         TEST(test_a_crater_wakes_what_stands_at_its_rim),
         TEST(test_a_command_wakes_the_row),
+        TEST(test_a_remote_row_that_stands_rests),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
