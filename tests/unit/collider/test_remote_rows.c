@@ -176,6 +176,27 @@ static void test_what_is_corrected_into_ours_parts_from_it(void **state)
     assert_true(e.y[own] < FIXTURE_GROUND_M + 0.1); /* on the ground, not on the tank */
 }
 
+/* Its owner goes on while the world is paused, through our vehicle and beyond. It is led there when
+ * the world goes on. */
+static void test_what_passes_while_the_world_is_paused_strikes_nothing(void **state)
+{
+    struct vec3 at = {25000.0, FIXTURE_GROUND_M, 25000.0};
+    uint32_t own = fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = there});
+    (void)state;
+    uint32_t row = put_track(REMOTE, at, "tank");
+    steps_send(&f, RING_CLIENTS, (struct command){.source = 1, .type = COMMAND_PAUSE});
+    for (; at.x < 25045.0; at.x += 1.5) {
+        remotes_send(&f, remotes_track(&f, REMOTE, at));
+        fixture_run(&f, 1);
+        assert_true(steps_rows(&f).x[row] < 25000.0 + 1e-6);
+    }
+    steps_send(&f, RING_CLIENTS, (struct command){.source = 1, .type = COMMAND_RESUME});
+    fixture_run(&f, 60);
+    assert_true(fabs(steps_rows(&f).x[row] - (at.x - 1.5)) < 1e-6);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+    assert_true(steps_rows(&f).x[own] == there.x && steps_rows(&f).harm_j[own] == 0.0);
+}
+
 int main(void)
 {
 #define TEST(test) cmocka_unit_test_prestate_setup_teardown(test, open_world, fixture_teardown, &f)
@@ -188,6 +209,7 @@ int main(void)
         TEST(test_what_is_corrected_at_once_passes),
         TEST(test_what_is_corrected_has_no_speed_by_it),
         TEST(test_what_is_corrected_into_ours_parts_from_it),
+        TEST(test_what_passes_while_the_world_is_paused_strikes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
