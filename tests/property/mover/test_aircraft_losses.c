@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #define HZ      20
-#define BATTLES 3
+#define BATTLES 12
 #define SECONDS 240
 
 static const char battle[] =
