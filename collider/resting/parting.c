@@ -19,7 +19,8 @@ int parting_init(struct parting *parting, uint64_t bodies, uint64_t points)
     *parting = (struct parting){.body_capacity = bodies, .bound_capacity = 2 * points};
     parting->body = reserve_take(bodies, sizeof *parting->body);
     parting->bound = reserve_take(2 * points, sizeof *parting->bound);
-    if (parting->body && parting->bound)
+    parting->wishing = reserve_take(points, sizeof *parting->wishing);
+    if (parting->body && parting->bound && parting->wishing)
         return 0;
     parting_free(parting);
     errno = ENOMEM;
@@ -30,6 +31,7 @@ void parting_free(struct parting *parting)
 {
     reserve_free(parting->body);
     reserve_free(parting->bound);
+    reserve_free(parting->wishing);
     *parting = (struct parting){0};
 }
 
@@ -45,6 +47,8 @@ static void make_room(struct parting *parting, const struct parting_input *input
         parting->bound_capacity = 4 * (uint64_t)input->points;
         parting->bound =
             reserve_grow(parting->bound, 0, parting->bound_capacity, sizeof *parting->bound);
+        parting->wishing = reserve_grow(parting->wishing, 0, parting->bound_capacity / 2,
+                                        sizeof *parting->wishing);
     }
 }
 

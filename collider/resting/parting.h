@@ -48,7 +48,8 @@ struct parting_bound {
 struct parting {
     struct parting_body *body;
     struct parting_bound *bound;
-    uint64_t body_capacity, bound_capacity;
+    uint32_t *wishing; /* points whose bodies wish to part, a subset in order */
+    uint64_t body_capacity, bound_capacity; /* half as many points */
 };
 
 /* What is parted: the solver's bodies, of which row is SLOT_NONE for a fixed object, and points,

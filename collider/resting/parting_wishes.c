@@ -184,6 +184,18 @@ static void part_point(const struct parting_input *input, const struct level_con
     b->z += step * light_b * point->normal_z;
 }
 
+/* Lists the points that the sweeps go over. Returns their number. */
+static uint32_t list_points(struct parting *parting, const struct parting_input *input)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < input->points; i++) {
+        if (parting_wishes_parts(parting, input->point[i].a) &&
+            !spread_together(parting, &input->point[i]))
+            parting->wishing[count++] = i;
+    }
+    return count;
+}
+
 /* Finds the speeds at which the bodies would part. They do not turn: a turn would change the depths
  * of all their points. */
 static void part_points(struct parting *parting, const struct parting_input *input)
@@ -196,12 +208,11 @@ static void part_points(struct parting *parting, const struct parting_input *inp
             spread(input, &parting->body[crowd_of(parting->body, i)], body);
         input->body[i].pushed = (struct level_motion){body->wish_x, body->wish_z, 0.0};
     }
+    uint32_t count = list_points(parting, input);
     for (uint32_t sweep = 0; sweep < WISH_SWEEPS; sweep++) {
-        for (uint32_t n = 0; n < input->points; n++) {
-            uint32_t i = sweep % 2 == 0 ? n : input->points - 1 - n;
-            if (parting_wishes_parts(parting, input->point[i].a) &&
-                !spread_together(parting, &input->point[i]))
-                part_point(input, &input->point[i]);
+        for (uint32_t n = 0; n < count; n++) {
+            uint32_t i = sweep % 2 == 0 ? n : count - 1 - n;
+            part_point(input, &input->point[parting->wishing[i]]);
         }
     }
 }

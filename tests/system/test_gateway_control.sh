@@ -124,7 +124,7 @@ check "a replay of the log ends the same" equal "$("$jolon" replay out/commands.
 check "nothing was refused to the gateway by its sandbox" eval '! grep -q "forbids system call" out/jolon.log'
 
 # --- no gateway ---------------------------------------------------------------------------------------------
-start_quiet() { "$jolon" start -w "$name" --without renderer --without reporter --out out3 "$@" 2>&1 >/dev/null; }
+start_quiet() { { "$jolon" start -w "$name" --without renderer --without reporter --out out3 "$@" >/dev/null; } 2>&1; }
 idle='jolon: WARNING: without a gateway these settings have no effect: gateway.peers, gateway.control; --dis ADDRESS or gateway.enabled = true gives the world one'
 check "a set without a gateway names the settings of one" equal \
     "$(start_quiet --set 'gateway.control=7:1' --set 'gateway.peers=10.0.0.0/8')" "$idle"

@@ -1,7 +1,7 @@
 /* Heaps that sleep (thesis row 36): a frame leaves their contacts as they are, without a look at
  * anything but who is awake, and no bit of the world differs from one in which each contact is
- * looked at in every frame. Bombs, shots, bodies that are removed, drivers and restarts wake them.
- * SEED=n chooses others. */
+ * looked at in every frame. Bombs, drivers and bodies that are removed wake them, on one and two
+ * threads. SEED=n chooses others. */
 #include "tests/support/steps.h"
 #include "world/params.h"
 
