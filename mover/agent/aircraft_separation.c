@@ -57,8 +57,9 @@ static bool meets(const struct step_context *context, uint32_t i, uint32_t other
     double vx = its.vx - own->vx, vz = its.vz - own->vz;
     double beside = reach[w->kind[i]] + reach[w->kind[other]] + BESIDE_M;
     double spread = SPREAD * sqrt(vx * vx + vz * vz);
-    for (double t = 0.0; t <= AHEAD_S; t += SAMPLE_S) {
-        double half = 0.5 * t * t, most = beside + spread * maths_max(t, SAMPLE_S);
+    for (uint32_t n = 0; n * SAMPLE_S <= AHEAD_S; n++) {
+        double t = n * SAMPLE_S, half = 0.5 * t * t;
+        double most = beside + spread * maths_max(t, SAMPLE_S);
         double dx = its.x - own->x + vx * t + (its.ax - own->ax) * half;
         double dz = its.z - own->z + vz * t + (its.az - own->az) * half;
         if (dx * dx + dz * dz < most * most)
