@@ -8,11 +8,10 @@ s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
 s.bind(("127.0.0.1", 0))
 print(s.getsockname()[1])'; }
 port=$(free_port) dis_port=$(free_port)
-until_true() { for _ in {1..200}; do "$@" >/dev/null 2>&1 && return; sleep 0.05; done; return 1; }
 receive() { # FILE: receives until `finish`
     python3 -I "$here/cot_world.py" receive "$port" "$1" 2>receiver &
     receiver=$!
-    until_true grep -qi ":$(printf %04X "$port") " /proc/net/udp
+    eventually grep -qi ":$(printf %04X "$port") " /proc/net/udp
 }
 finish() { sleep 0.3; kill -TERM $receiver; wait $receiver; }
 events() { python3 -I -S -c '
@@ -33,17 +32,17 @@ vehicles = (
 EOF2
 receive names
 "$jolon" start -w "$name" --without renderer --without reporter --out out "${cot[@]}" names.cfg >/dev/null
-check "all three are shown" until_true eval '[ "$(events names "len({event[\"uid\"] for event in events})")" = 3 ]'
+check "all three are shown" eventually eval '[ "$(events names "len({event[\"uid\"] for event in events})")" = 3 ]'
 check "a name comes as it was written" equal "$(events names 'events[0]["callsign"]')" "<R&D> \"1\" 'x'"
 check "its type is that of a tank of friends" equal "$(events names 'events[0]["type"]')" a-f-G-E-V-A-T
 check "the jet flies east at 200 m/s" equal "$(events names '[round(event["speed"] / 10) * 10 for event in events if abs(event["course"] - 90) < 0.2][0]')" 200
 check "each is out of date after 12 s" equal "$(events names '{round(event["stale_s"], 3) for event in events}')" '{12.0}'
 check "there is fire on the truck" "$jolon" ctl -w "$name" fire --munition bomb --at 26000,25000
-check "the dead truck is taken off the map" until_true eval 'equal "$(events names "[event[\"gone\"] for event in events if \"gone\" in event]")" "['"'jolon.1.1991.1.2'"']"'
+check "the dead truck is taken off the map" eventually eval 'equal "$(events names "[event[\"gone\"] for event in events if \"gone\" in event]")" "['"'jolon.1.1991.1.2'"']"'
 before=$(pid gateway)
 another_gateway() { local now; now=$(pid gateway); [ -n "$now" ] && [ "$now" != "$before" ]; }
 "$jolon" kill -w "$name" gateway >/dev/null
-check "a killed gateway is started again" until_true another_gateway
+check "a killed gateway is started again" eventually another_gateway
 sleep 0.5
 "$jolon" stop -w "$name" >/dev/null
 finish

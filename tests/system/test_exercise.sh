@@ -5,34 +5,13 @@
 # Quiet: on a busy machine a world falls behind the clock, and what the other extrapolates is wrong
 here=$(cd "$(dirname "$0")" && pwd)
 . "$(dirname "$0")/lib.sh"
-seed=${SEED:-$RANDOM} seconds=${SECONDS_OF_PLAY:-20} holders=() net_a='' net_b=''
-until_true() { for _ in {1..200}; do "$@" >/dev/null 2>&1 && return; sleep 0.05; done; return 1; }
-leave() { [ ${#holders[@]} = 0 ] || kill "${holders[@]}" 2>/dev/null; at_end; }
-trap leave EXIT
+. "$here/namespaces.sh" || exit
+seed=${SEED:-$RANDOM} seconds=${SECONDS_OF_PLAY:-20}
 
 # --- the network ----------------------------------------------------------------------------------------
-# in_net a|b COMMAND...: runs a command in the network of that world. With hold=exec a subshell becomes the command.
-hold=
-in_net() { shift; $hold "$@"; }
 at_a=127.0.0.1 at_b=127.0.0.1 peers=127.0.0.1 network="the loopback (no network namespaces may be made here)"
-holder() { # Sets $1 to a process in a network namespace of its own
-    unshare --net -- sleep 1000 2>/dev/null &
-    until_true eval "[ \"\$(readlink /proc/$!/ns/net)\" != \"\$(readlink /proc/self/ns/net)\" ]" || return 1
-    holders+=($!)
-    printf -v "$1" %s $!
-}
-join() { # WHICH DEVICE ADDRESS: gives the device of a namespace its address
-    in_net "$1" ip address add "$3/24" dev "$2" && in_net "$1" ip link set "$2" up && in_net "$1" ip link set lo up
-}
-namespaces() {
-    command -v ip >/dev/null && unshare --net true || return 1
-    holder net_a && holder net_b || return 1
-    ip link add "ja$$" netns "$net_a" type veth peer name "jb$$" netns "$net_b" || return 1
-    in_net() { local pid=net_$1; shift; $hold nsenter --net="/proc/${!pid}/ns/net" -- "$@"; }
-    join a "ja$$" 10.91.7.1 && join b "jb$$" 10.91.7.2 && in_net a ping -c 1 -W 2 10.91.7.2 >/dev/null 2>&1 ||
-        in_net a bash -c 'exec 3<>/dev/udp/10.91.7.2/9' || return 1
-}
-if namespaces 2>why; then
+reaches() { in_net a ping -c 1 -W 2 10.91.7.2 >/dev/null 2>&1 || in_net a bash -c 'exec 3<>/dev/udp/10.91.7.2/9'; }
+if { namespaces "j$$" 10.91.7 && reaches; } 2>why; then
     at_a=10.91.7.1 at_b=10.91.7.2 peers='10.91.7.0/24, 127.0.0.1' network="two network namespaces, joined by veth"
 else
     in_net() { shift; $hold "$@"; }
@@ -88,8 +67,8 @@ check "both runs replay" eval 'replays good-a && replays good-b'
 relay_a=$!
 (hold='exec'; in_net b python3 -I "$here/../relay/relay.py" --listen "$at_b:$bad_b" --to "$at_b:$in_b" --seed $((seed + 1)) >relayed-b) &
 relay_b=$!
-until_true in_net a grep -qi ":$(printf %04X "$bad_a") " /proc/net/udp
-until_true in_net b grep -qi ":$(printf %04X "$bad_b") " /proc/net/udp
+eventually in_net a grep -qi ":$(printf %04X "$bad_a") " /proc/net/udp
+eventually in_net b grep -qi ":$(printf %04X "$bad_b") " /proc/net/udp
 exchange bad "$bad_a" "$bad_b" 130 "so it is behind a network that loses, delays, reorders and repeats"
 kill -TERM $relay_a $relay_b
 wait $relay_a $relay_b

@@ -8,11 +8,10 @@ s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
 s.bind(("127.0.0.1", 0))
 print(s.getsockname()[1])'; }
 port=$(free_port)
-until_true() { for _ in {1..200}; do "$@" >/dev/null 2>&1 && return; sleep 0.05; done; return 1; }
 record() { # FILE: records what is sent until `finish`
     "$jolon" dis record --listen "127.0.0.1:$port" "$1" 2>/dev/null &
     recorder=$!
-    until_true grep -qi ":$(printf %04X "$port") " /proc/net/udp
+    eventually grep -qi ":$(printf %04X "$port") " /proc/net/udp
 }
 finish() { sleep 0.3; kill -INT $recorder; wait $recorder; }
 count() { "$jolon" dis dump --port "$port" --summary --json "$1" | json "types.$2"; } # FILE TYPE
@@ -31,7 +30,7 @@ record run.pcap
 check "status shows the gateway" eval '"$jolon" status -w "$name" | grep -q gateway'
 sleep 3
 check "a killed gateway is started again" eval 'before=$(pid gateway); "$jolon" kill -w "$name" gateway >/dev/null;
-    until_true eval "[ -n \"\$(pid gateway)\" ] && [ \"\$(pid gateway)\" != $before ]"'
+    eventually eval "[ -n \"\$(pid gateway)\" ] && [ \"\$(pid gateway)\" != $before ]"'
 check "restart gateway" "$jolon" restart -w "$name" gateway
 sleep 1
 "$jolon" ctl -w "$name" pause >/dev/null
@@ -92,7 +91,7 @@ in=$(free_port) data=$PWD/data
 cp -r "${JOLON_DATA:-$here/../../config}" "$data"
 JOLON_DATA=$data "$jolon" start -w "$name" --without renderer --without reporter --out out-in --dis "127.255.255.255:$port" \
     --set "gateway.listen=127.0.0.1:$in" >/dev/null
-check "the gateway receives" until_true grep -q "receives at" out-in/jolon.log
+check "the gateway receives" eventually grep -q "receives at" out-in/jolon.log
 check "and warns that it does not hear the broadcast to which it sends" \
     grep -q "gateway.listen = 127.0.0.1:$in does not hear what others send to 127.255.255.255:$port" out-in/jolon.log
 check "a second receiver at its address is refused" refused "127.0.0.1:$in: cannot receive there: another program does" \
@@ -110,7 +109,7 @@ check "and with a good one it runs" "$jolon" restart -w "$name" gateway
 record rate.pcap
 "$jolon" start -w "$name" --without renderer --without reporter --out out-rate --dis "127.0.0.1:$port" --set "gateway.listen=127.0.0.1:$in" \
     --set gateway.rate=60 --set 'gateway.control=7:1' >/dev/null
-check "it receives" until_true grep -q "receives at" out-rate/jolon.log
+check "it receives" eventually grep -q "receives at" out-rate/jolon.log
 sleep 6
 "$jolon" dis send --to "127.0.0.1:$in" stop-freeze originator=7:1:0 receiver=1991:1:0 request=5
 sleep 3

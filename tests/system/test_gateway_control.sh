@@ -7,7 +7,6 @@ s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
 s.bind(("127.0.0.1", 0))
 print(s.getsockname()[1])'; }
 port=$(free_port) in=$(free_port)
-until_true() { for _ in {1..200}; do "$@" >/dev/null 2>&1 && return; sleep 0.05; done; return 1; }
 state() { "$jolon" status -w "$name" --json | json "$1"; }
 paused() { equal "$(state paused)" True; }
 running() { equal "$(state paused)" False; }
@@ -27,28 +26,28 @@ print(f"{int(hours)}:{int(past / 3600 * 2**31) << 1 | 1}")' "$1"; } # SECONDS fr
 recorder=$!
 "$jolon" start -w "$name" --without renderer --without reporter --out out --dis "127.0.0.1:$port" --set "gateway.listen=127.0.0.1:$in" \
     --set 'gateway.control=7:1, 8:*' --set gateway.version=6 >/dev/null
-check "the gateway receives" until_true grep -q "receives at 127.0.0.1:$in" out/jolon.log
+check "the gateway receives" eventually grep -q "receives at 127.0.0.1:$in" out/jolon.log
 
 # --- obeyed -----------------------------------------------------------------------------------------------
 send stop-freeze originator=7:1:0 receiver=1991:1:0 reason=1 request=100
-check "Stop/Freeze of 7:1 pauses the world" until_true paused
+check "Stop/Freeze of 7:1 pauses the world" eventually paused
 at=$(frame)
 send --version 6 start-resume originator=8:44:0 receiver=65535:65535:65535 request=101
-check "Start/Resume of 8:44 to all resumes it" until_true running
-check "its frames go on" until_true eval '[ "$(frame)" -gt '"$at"' ]'
+check "Start/Resume of 8:44 to all resumes it" eventually running
+check "its frames go on" eventually eval '[ "$(frame)" -gt '"$at"' ]'
 send stop-freeze originator=7:1:0 receiver=1991:1:0 request=102 real_time="$(clock 1.5)"
 sleep 0.5
 check "a stop for a later time waits for it" running
-check "and is then obeyed" until_true paused
+check "and is then obeyed" eventually paused
 for _ in 1 2 3; do send start-resume originator=7:1:0 receiver=1991:1:0 request=103; done
-check "a start that comes three times resumes once" until_true running
+check "a start that comes three times resumes once" eventually running
 # The same octets with version 5, which jolon dis does not write: 7:1:0 to FFFF:FFFF:FFFF, request 105.
 python3 -I -S -c 'import socket, sys
 octets = "05010e05" + "57c962fd" + "00280000" + "000700010000" + "ffffffffffff" + "00" * 8 + "0100" + "0000" + "00000069"
 socket.socket(socket.AF_INET, socket.SOCK_DGRAM).sendto(bytes.fromhex(octets), ("127.0.0.1", int(sys.argv[1])))' "$in"
-check "a stop by version 5 is obeyed" until_true paused
+check "a stop by version 5 is obeyed" eventually paused
 send start-resume originator=7:1:0 receiver=1991:1:0 request=106
-check "and a start after it" until_true running
+check "and a start after it" eventually running
 sleep 0.3
 
 # --- not obeyed -------------------------------------------------------------------------------------------
@@ -65,36 +64,36 @@ check "nobody else stops it" running
 # Of all that come within a second the last is named.
 check "who is not allowed is told of" eventually grep -q 'gateway warning .* stop-freeze of \(9:1\|7:2\):0 is ignored: gateway.control does not name it' out/jolon.log
 check "once a second at most" [ "$(grep -c "gateway.control does not name it" out/jolon.log)" -le $((took + 2)) ]
-check "a start an hour ahead is told of, with the reason" until_true grep -q "stop-freeze 30[34] of 7:1:0: .*" out/jolon.log
+check "a start an hour ahead is told of, with the reason" eventually grep -q "stop-freeze 30[34] of 7:1:0: .*" out/jolon.log
 
 # --- kills ------------------------------------------------------------------------------------------------
 before=$(pid intake)
 another_intake() { local now; now=$(pid intake); [ -n "$now" ] && [ "$now" != "$before" ]; }
 "$jolon" kill -w "$name" intake >/dev/null
 send stop-freeze originator=7:1:0 receiver=1991:1:0 request=400
-check "an intake that is killed meanwhile changes nothing" until_true paused
-check "it was another" until_true another_intake
+check "an intake that is killed meanwhile changes nothing" eventually paused
+check "it was another" eventually another_intake
 before=$(pid gateway)
 another_gateway() { local now; now=$(pid gateway); [ -n "$now" ] && [ "$now" != "$before" ]; }
 "$jolon" kill -w "$name" gateway >/dev/null
-check "a killed gateway is started again" until_true another_gateway
-check "and receives" until_true eval '[ "$(grep -c "receives at" out/jolon.log)" = 2 ]'
+check "a killed gateway is started again" eventually another_gateway
+check "and receives" eventually eval '[ "$(grep -c "receives at" out/jolon.log)" = 2 ]'
 check "the world is still paused" paused
 send start-resume originator=7:1:0 receiver=1991:1:0 request=401
-check "the new gateway obeys" until_true running
+check "the new gateway obeys" eventually running
 send stop-freeze originator=7:1:0 receiver=1991:1:0 request=402 real_time="$(clock 3)"
 sleep 0.5
 before=$(pid gateway)
 "$jolon" kill -w "$name" gateway >/dev/null
-check "a gateway that is killed before the time of a stop is started again" until_true another_gateway
-check "and its successor stops the world" until_true paused
+check "a gateway that is killed before the time of a stop is started again" eventually another_gateway
+check "and its successor stops the world" eventually paused
 check "which the log says" grep -q 'takes over requests that wait for their time: 1' out/jolon.log
 send start-resume originator=7:1:0 receiver=1991:1:0 request=100
-check "a start is obeyed whose number was that of a stop" until_true running
+check "a start is obeyed whose number was that of a stop" eventually running
 send stop-freeze originator=7:1:0 receiver=1991:1:0 request=100
-check "and a stop by the same number again" until_true paused
+check "and a stop by the same number again" eventually paused
 send start-resume originator=7:1:0 receiver=1991:1:0 request=100
-check "and a start" until_true running
+check "and a start" eventually running
 sleep 0.3
 kill -INT $recorder
 wait $recorder
@@ -136,7 +135,7 @@ check "a set without such settings says nothing" equal "$(start_quiet)" ""
 # --- strangers ----------------------------------------------------------------------------------------------
 "$jolon" start -w "$name" --without renderer --without reporter --out out2 --dis "127.0.0.1:$port" --set "gateway.listen=127.0.0.1:$in" \
     --set 'gateway.control=7:1' --set 'gateway.peers=10.0.0.0/8, 127.0.0.2' >/dev/null
-until_true grep -q "receives at" out2/jolon.log
+eventually grep -q "receives at" out2/jolon.log
 SECONDS=0
 for i in $(seq 20); do send stop-freeze originator=7:1:0 receiver=1991:1:0 request="$i"; done
 took=$((SECONDS + 1))

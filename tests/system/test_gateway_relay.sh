@@ -10,14 +10,13 @@ s = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
 s.bind(("127.0.0.1", 0))
 print(s.getsockname()[1])'; }
 port=$(free_port) far=$(free_port)
-until_true() { for _ in {1..200}; do "$@" >/dev/null 2>&1 && return; sleep 0.05; done; return 1; }
 python3 -I "$here/../relay/relay.py" --listen "$port" --to "$far" --seed "$seed" ${RELAY-} >relayed &
 relay=$!
-until_true grep -qi ":$(printf %04X "$port") " /proc/net/udp
+eventually grep -qi ":$(printf %04X "$port") " /proc/net/udp
 receive() { python3 -I "$here/dis_receiver.py" "$far" "$bin/jolon-world" "$name" 20 130 >places; }
 (receive; echo $? >received) &
 receiver=$!
-until_true grep -qi ":$(printf %04X "$far") " /proc/net/udp
+eventually grep -qi ":$(printf %04X "$far") " /proc/net/udp
 "$jolon" start -w "$name" --without renderer --without reporter --out out --dis "127.0.0.1:$port" >/dev/null
 wait $receiver
 "$jolon" stop -w "$name" >/dev/null

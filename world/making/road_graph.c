@@ -33,7 +33,7 @@ struct survey {
 
 static bool is_stretch(const struct survey *s, uint32_t i)
 {
-    return i + 1 < s->count && s->points[i].road == s->points[i + 1].road;
+    return road_index_is_stretch(s->points, s->count, i);
 }
 
 static int add_meeting(struct survey *s, uint32_t a, double a_share, uint32_t b, double b_share)

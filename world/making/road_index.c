@@ -28,8 +28,7 @@ static struct cells cells_of(const struct road_index *index, double x0, double z
                           cell_of(index, z1)};
 }
 
-/* Whether a stretch begins with point i. */
-static bool is_stretch(const struct road_point *points, uint32_t count, uint32_t i)
+bool road_index_is_stretch(const struct road_point *points, uint32_t count, uint32_t i)
 {
     return i + 1 < count && points[i].road == points[i + 1].road;
 }
@@ -79,7 +78,7 @@ int road_index_make(struct road_index *index, const struct road_point *points, u
     if (!index->first)
         return -1;
     for (uint32_t i = 0; i < count; i++)
-        if (is_stretch(points, count, i))
+        if (road_index_is_stretch(points, count, i))
             each_cell(index, i, false);
     for (uint32_t cell = 0; cell < cells; cell++)
         index->first[cell + 1] += index->first[cell];
@@ -90,7 +89,7 @@ int road_index_make(struct road_index *index, const struct road_point *points, u
         return -1;
     }
     for (uint32_t i = count; i-- > 0;)
-        if (is_stretch(points, count, i))
+        if (road_index_is_stretch(points, count, i))
             each_cell(index, i, true);
     return 0;
 }

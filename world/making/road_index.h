@@ -25,6 +25,9 @@ struct road_walk {
     uint32_t column, row, at;
 };
 
+/* Returns true if a stretch begins with point i of points [count]: the next one is of its road. */
+bool road_index_is_stretch(const struct road_point *points, uint32_t count, uint32_t i);
+
 /* Makes the index of points [count], which must stay where they are. The caller frees it. Returns
  * 0, or -1 with errno ENOMEM and nothing to free. */
 int road_index_make(struct road_index *index, const struct road_point *points, uint32_t count);

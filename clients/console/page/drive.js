@@ -130,7 +130,7 @@ export class Drive {
     this.sent = text;
     this.sentAt = performance.now();
     try {
-      await this.session.drive({ do: 'drive', vehicle, ...levers });
+      await this.session.order({ do: 'drive', vehicle, ...levers });
     } catch (error) {
       if (!(error instanceof Refusal)) throw error;
       const lasting = error.status >= 400 && error.status < 500 && error.status !== 429;

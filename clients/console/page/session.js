@@ -63,7 +63,7 @@ export class Session extends EventTarget {
   async command(body) {
     try {
       if (!this.player && !(await this.join('player'))) return null;
-      return await (body.do === 'drive' ? this.drive(body) : this.order(body));
+      return await this.order(body);
     } catch (error) {
       this.showError(error);
       return null;
@@ -71,24 +71,25 @@ export class Session extends EventTarget {
   }
 
   /**
-   * Sends a drive when the one before has its answer. The server carries out the last one that it hears, and two
-   * that are under way together may overtake each other.
+   * Sends a command without a notice. A drive waits until the one before has its answer: the server carries
+   * out the last one that it hears, and two that are under way together may overtake each other.
    * @param {object} body of /api/command
+   * @returns {Promise<any>} the answer
    * @throws {Refusal}
    */
-  drive(body) {
-    const answer = this.lastDrive.then(() => this.order(body));
+  order(body) {
+    if (body.do !== 'drive') return this.send(body);
+    const answer = this.lastDrive.then(() => this.send(body));
     this.lastDrive = answer.catch(() => {});
     return answer;
   }
 
   /**
-   * Sends a command without a notice. A player whom the server has forgotten joins again under the
-   * same name.
+   * Sends a command at once. A player whom the server has forgotten joins again under the same name.
    * @param {object} body of /api/command
    * @throws {Refusal}
    */
-  async order(body) {
+  async send(body) {
     try {
       return await this.api.post('command', body);
     } catch (error) {
@@ -102,8 +103,8 @@ export class Session extends EventTarget {
   async take(id) {
     if (!this.mayChange || !id || id === this.driven || this.taking) return;
     this.taking = true;
-    const answer = await this.command({ do: 'drive', vehicle: id, throttle: 0, steer: 0 });
-    this.taking = false;
+    const answer = await this.command({ do: 'drive', vehicle: id, throttle: 0, steer: 0 })
+      .finally(() => { this.taking = false; });
     if (!answer) return;
     this.driven = id;
     this.selected = id;
