@@ -3,7 +3,7 @@
 
 #include "gateway/earth/euler.h"
 #include "gateway/pdu/timestamp.h"
-#include "ipc/frame/command_ring.h"
+#include "gateway/remote_ring.h"
 #include "ipc/process/clock.h"
 #include "world/maths/dead_reckoning.h"
 #include "world/params.h"
@@ -70,7 +70,8 @@ static void read_ring(struct remote_input *input, const struct view *view, uint6
         struct remote_record record = remote_record_of(&words->slot[i & (slots - 1)]);
         if (record.type == REMOTE_STRUCK || record.type == REMOTE_FIRE)
             note_old_shot(input, &record, now_ns);
-        if (record.type == REMOTE_TRACK || record.type == REMOTE_LOST)
+        if (record.type == REMOTE_TRACK || record.type == REMOTE_OWNER ||
+            record.type == REMOTE_LOST)
             note_old_owner(input, &record, i, now_ns);
     }
 }
@@ -218,8 +219,7 @@ static void put_lost(struct remote_input *input, struct view *view, struct remot
 {
     struct remote_record record = {
         .remote = entry->remote, .type = REMOTE_LOST, .slot = entry->track.slot};
-    struct command slot = remote_record_slot(&record);
-    if (command_append(view, RING_GATEWAY, &slot, input->taken) != 0) {
+    if (remote_ring_append(&input->table, view, &record, input->taken) != 0) {
         input->refused[REMOTE_INPUT_RING]++; /* its row is seen again, and lost later */
         return;
     }
@@ -392,7 +392,6 @@ static void take_state(struct remote_input *input, struct view *view, const stru
 static void put_shot(struct remote_input *input, struct view *view,
                      const struct remote_record *record, const struct vec3 *place, uint64_t now_ns)
 {
-    struct command slot = remote_record_slot(record);
     struct told_event shot = event_memory_of(record, now_ns);
     shot.placed = place != NULL;
     shot.place = place ? *place : (struct vec3){0};
@@ -404,7 +403,7 @@ static void put_shot(struct remote_input *input, struct view *view,
         input->refused[REMOTE_INPUT_SHOTS]++;
         return;
     }
-    if (command_append(view, RING_GATEWAY, &slot, input->taken) != 0) {
+    if (remote_ring_append(&input->table, view, record, input->taken) != 0) {
         input->refused[REMOTE_INPUT_RING]++;
         return;
     }
@@ -649,12 +648,11 @@ void remote_input_world_refused(struct remote_input *input, uint64_t remote, uin
 static bool tell_entry(struct remote_input *input, struct view *view, struct remote_entry *entry,
                        uint64_t now_ns)
 {
-    struct command slot = remote_record_slot(&entry->track);
     if (!entry->waits)
         return true;
     if (now_ns - entry->told_ns < (uint64_t)(REMOTE_INPUT_LEAST_S * 1e9))
         return false;
-    if (command_append(view, RING_GATEWAY, &slot, input->taken) != 0) {
+    if (remote_ring_append(&input->table, view, &entry->track, input->taken) != 0) {
         input->refused[REMOTE_INPUT_RING]++;
         return false;
     }
@@ -681,17 +679,6 @@ void remote_input_tell(struct remote_input *input, struct view *view, uint64_t n
     table->waiting_count = kept;
 }
 
-/* Tells what stands again before the ring goes round, so that the ring always has its owner. */
-static void keep_owner(struct remote_input *input, const struct view *view,
-                       struct remote_entry *entry)
-{
-    uint64_t slots = layout_ring_slots(view->header, RING_GATEWAY);
-    uint64_t since = segment_load(&view->commands[RING_GATEWAY]->head) - entry->told_at;
-    if (since > slots / 2 && entry->track.remote != 0 &&
-        entry->track.model == DEAD_RECKONING_STATIC)
-        remote_table_wait(&input->table, entry);
-}
-
 void remote_input_see(struct remote_input *input, struct view *view,
                       const struct snapshot *snapshot, uint64_t now_ns)
 {
@@ -709,9 +696,7 @@ void remote_input_see(struct remote_input *input, struct view *view,
             entry->track.slot = SLOT_NONE;
         if (here && now_ns - entry->heard_ns > input->timeout_ns)
             put_lost(input, view, entry);
-        else if (here)
-            keep_owner(input, view, entry);
-        else if (now_ns - entry->seen_ns > GONE_NS)
+        else if (!here && now_ns - entry->seen_ns > GONE_NS)
             remote_table_remove(table, entry); /* it has left the world, or was refused */
     }
 }

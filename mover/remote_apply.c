@@ -481,6 +481,8 @@ static enum remote_refusal apply_one(struct serial_context *context,
         return struck(context, record);
     case REMOTE_FIRE:
         return tell_fire(context, record);
+    case REMOTE_OWNER:
+        return REMOTE_TAKEN; /* the gateway reads it from the ring */
     case REMOTE_TYPE_END:
         break;
     }

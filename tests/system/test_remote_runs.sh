@@ -57,6 +57,9 @@ check "a detonation of another simulator strikes" eventually strikes detonation
 check "so does a collision of which ours knows nothing" eventually strikes collision
 
 # --- kills, checkpoints, branches -----------------------------------------------------------------------
+# A vehicle that moves and of which its owner says nothing while the crowd goes round the ring of records, 4 s a time.
+seldom() { send entity-state id=9:2:9 type=1.1.222.1.2.1.0 force=2 dead_reckoning=2 velocity="$(python3 -I -S "$here/dis_place.py" --direction 1 0 0)" "$@"; }
+seldom place="$(eastern -500 500)" marking=FIRST
 (exec python3 -I -S "$here/dis_crowd.py" "127.0.0.1:$in" 200 5 100000 moving >/dev/null) &
 sender=$!
 check "a crowd of 200 comes" eventually eval '[ "$(who | grep -o : | wc -l)" -ge 400 ]'
@@ -67,7 +70,14 @@ for ((i = 0; i < kills; i++)); do
     "$jolon" kill -w "$name" "${roles[RANDOM % 6]}" >/dev/null 2>&1
     sleep 0.0$((RANDOM % 9))
 done
+sleep 4
+"$jolon" kill -w "$name" gateway >/dev/null 2>&1
+kills=$((kills + 1))
+sleep 7
+seldom place="$(eastern -490 500)" marking=SECOND # from another port
 sleep 1
+check "who had a vehicle first has it, also after a kill when the ring of records has gone round" eval '
+    rows | grep 9:2:9 | grep -q "FIRST"'
 who >after
 check "after $kills kills each is there once, and has the id that it had" cmp before after
 kill $sender

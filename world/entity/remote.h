@@ -26,6 +26,7 @@ enum remote_type {
     REMOTE_LOST,        /* the entity is gone, or its owner was not heard of for too long */
     REMOTE_STRUCK,      /* a munition of another simulator detonates here, or a body strikes ours */
     REMOTE_FIRE,        /* an entity of another simulator fires */
+    REMOTE_OWNER,       /* who owns an entity, for a gateway that starts anew; has no effect */
     REMOTE_TYPE_END
 };
 
@@ -37,8 +38,8 @@ enum remote_type {
 struct remote_record {
     uint64_t sequence; /* as in struct command */
     uint64_t remote;   /* remote_id() of the entity; STRUCK: of the firer or of the body, 0: none */
-    uint64_t event;    /* FIRE, STRUCK: remote_id() of the event. TRACK: a number of who sent it,
-                          for a gateway that starts anew; it means nothing to the world */
+    uint64_t event;    /* FIRE, STRUCK: remote_id() of the event. TRACK, OWNER: a number of who
+                          sent it, for a gateway that starts anew; it means nothing to the world */
     uint32_t type;     /* enum remote_type */
     uint32_t slot;     /* where the sender has seen the entity's row; SLOT_NONE: nowhere */
     union {

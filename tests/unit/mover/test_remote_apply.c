@@ -150,6 +150,25 @@ static void test_a_jump_is_refused(void **state)
     assert_true(steps_rows(&f).x[1] == there.x && steps_rows(&f).z[1] == there.z);
 }
 
+/* Who owns an entity is for the gateway alone. */
+static void test_an_owner_has_no_effect(void **state)
+{
+    struct remote_record track = remotes_track(&f, REMOTE, there);
+    struct remote_record owner = {
+        .remote = REMOTE, .type = REMOTE_OWNER, .slot = SLOT_NONE, .event = 4711};
+    (void)state;
+    assert_int_equal(does(owner), REMOTE_TAKEN); /* also of an entity that is not there */
+    assert_int_equal(fixture_state(&f).head->vehicles, 1);
+    assert_int_equal(does(track), REMOTE_TAKEN);
+    struct entities e = steps_rows(&f);
+    uint32_t row = remotes_row(&f, REMOTE), heard = e.seen_tick[row];
+    assert_int_equal(does(owner), REMOTE_TAKEN);
+    e = steps_rows(&f);
+    assert_int_equal(remotes_row(&f, REMOTE), row);
+    assert_int_equal(e.seen_tick[row], heard); /* its owner has said nothing of its place */
+    assert_true(e.x[row] == there.x && e.z[row] == there.z);
+}
+
 static void test_nobody_drives_them(void **state)
 {
     static const enum command_type types[] = {COMMAND_DRIVE, COMMAND_RELEASE, COMMAND_FIRE,
@@ -437,6 +456,7 @@ int main(void)
         TEST(test_more_than_allowed_are_refused),
         TEST(test_bad_tracks_are_refused),
         TEST(test_a_jump_is_refused),
+        TEST(test_an_owner_has_no_effect),
         TEST(test_nobody_drives_them),
         TEST(test_commands_and_records_keep_their_order),
         TEST(test_a_shot_alarms_its_target),
