@@ -170,6 +170,18 @@ static bool unguarded(const struct view *view)
            atomic_load(&view->slot[ROLE_REPORTER]->unguarded) != 0;
 }
 
+/* Settings of a gateway that the world does not have, by name. */
+static void add_idle_settings(cJSON *object, const struct params *params)
+{
+    cJSON *array = json_array(object, "without_effect");
+    char names[GATEWAY_IDLE_TEXT], *rest = NULL;
+    if (!gateway_idle_settings(params, names))
+        return;
+    for (char *name = strtok_r(names, GATEWAY_IDLE_BETWEEN, &rest); name;
+         name = strtok_r(NULL, GATEWAY_IDLE_BETWEEN, &rest))
+        (void)cJSON_AddItemToArray(array, cJSON_CreateString(name));
+}
+
 static void status_json(const struct view *view, const struct state_head *head)
 {
     cJSON *object = cJSON_CreateObject();
@@ -185,6 +197,7 @@ static void status_json(const struct view *view, const struct state_head *head)
     json_whole(object, "munitions", head->munitions);
     json_whole(object, "events", head->event_end);
     json_bool(object, "unguarded", unguarded(view));
+    add_idle_settings(object, view->world.params);
     battle_json(object, &view->world, head);
     cJSON *roles = json_array(object, "roles");
     for (int role = 0; role < ROLE_COUNT; role++) {

@@ -128,8 +128,11 @@ idle='jolon: WARNING: without a gateway these settings have no effect: gateway.p
 check "a set without a gateway names the settings of one" equal \
     "$(start_quiet --set 'gateway.control=7:1' --set 'gateway.peers=10.0.0.0/8')" "$idle"
 check "also in its log" grep -qF "${idle#jolon: }" out3/jolon.log
+without_effect() { "$jolon" status -w "$name" --json | python3 -I -S -c 'import json, sys; print(*json.load(sys.stdin)["without_effect"])'; }
+check "and in its status as JSON" equal "$(without_effect)" "gateway.peers gateway.control"
 "$jolon" stop -w "$name" >/dev/null
 check "a set without such settings says nothing" equal "$(start_quiet)" ""
+check "nor does its status as JSON" equal "$(without_effect)" ""
 "$jolon" stop -w "$name" >/dev/null
 
 # --- strangers ----------------------------------------------------------------------------------------------
