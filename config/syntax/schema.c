@@ -3,6 +3,7 @@
 #include "world/entity/entity.h"
 #include "world/entity/persistent_contact.h"
 #include "world/entity/remote.h"
+#include "world/gateway_defaults.h"
 #include "world/making/scenario_settings.h"
 #include "world/param_values.h"
 #include "world/view_mode.h"
@@ -59,7 +60,8 @@ static const struct key scenario_keys[] = {
             .unset = "4 times `world.capacity`, at least 256",
             .meaning = "How many pairs of bodies can press on each other at one time. The world "
                        "counts the contacts for which there is no room, as `contacts_refused`."),
-    WHOLE32("world.remotes_max", S, params.remotes_max, 0, REMOTE_ROWS_MAX, "0",
+    WHOLE32("world.remotes_max", S, params.remotes_max, 0, REMOTE_ROWS_MAX,
+            GATEWAY_DEFAULT_REMOTES_MAX,
             .meaning = "How many vehicles of other simulators the world takes in at most "
                        "([dis.md](dis.md)). They need room in `world.capacity`, which has to be as "
                        "large at least."),
@@ -193,37 +195,40 @@ static const struct key scenario_keys[] = {
     BOOLEAN("gateway.enabled", S, params.gateway.enabled, STORE_U32, "false",
             .meaning = "true: the set has a gateway, which shows the world to other simulators by "
                        "DIS ([dis.md](dis.md))."),
-    TEXT("gateway.address", S, params.gateway.address, "127.0.0.1",
+    TEXT("gateway.address", S, params.gateway.address, GATEWAY_DEFAULT_ADDRESS,
          .meaning = "Where PDUs are sent, in numbers: the address of a machine, of a multicast "
                     "group or of a broadcast."),
-    WHOLE32("gateway.port", S, params.gateway.port, 1, 65535, "3000",
+    WHOLE32("gateway.port", S, params.gateway.port, 1, 65535, GATEWAY_DEFAULT_PORT,
             .meaning = "The port of UDP."),
-    TEXT("gateway.listen", S, params.gateway.listen, "none",
+    TEXT("gateway.listen", S, params.gateway.listen, GATEWAY_DEFAULT_LISTEN,
          .meaning =
              "Where PDUs are received: an address of this machine, of a multicast group or of a "
              "broadcast in numbers, with a port if it is not 3000; \"0.0.0.0\" is any address of "
              "this machine and its broadcasts. \"none\": nowhere."),
-    TEXT("gateway.interface", S, params.gateway.interface, "any",
+    TEXT("gateway.interface", S, params.gateway.interface, GATEWAY_DEFAULT_INTERFACE,
          .meaning = "The interface of multicast and of link-local addresses: its name, such as "
                     "\"eth0\", or an address that it has. \"any\": the system's choice."),
-    WHOLE32("gateway.exercise", S, params.gateway.exercise, 1, 255, "1",
+    WHOLE32("gateway.exercise", S, params.gateway.exercise, 1, 255, GATEWAY_DEFAULT_EXERCISE,
             .meaning = "The exercise, by which simulators on one network tell theirs from others."),
-    WHOLE32("gateway.site", S, params.gateway.site, 1, 65533, "1991",
+    WHOLE32("gateway.site", S, params.gateway.site, 1, 65533, GATEWAY_DEFAULT_SITE,
             .meaning = "The site in the identifiers of our entities."),
-    WHOLE32("gateway.application", S, params.gateway.application, 1, 65533, "1",
+    WHOLE32("gateway.application", S, params.gateway.application, 1, 65533,
+            GATEWAY_DEFAULT_APPLICATION,
             .meaning = "The first application in the identifiers of our entities."),
-    WHOLE32("gateway.applications", S, params.gateway.applications, 1, 65533, "16",
+    WHOLE32("gateway.applications", S, params.gateway.applications, 1, 65533,
+            GATEWAY_DEFAULT_APPLICATIONS,
             .meaning = "How many applications our identifiers may use, from `gateway.application` "
                        "on. Each has room for 65,533 of the ids that a world gives."),
-    WHOLE32("gateway.version", S, params.gateway.version, 6, 7, "7",
+    WHOLE32("gateway.version", S, params.gateway.version, 6, 7, GATEWAY_DEFAULT_VERSION,
             .meaning = "The version of DIS: 6 is IEEE 1278.1A-1998, 7 is 1278.1-2012."),
-    WHOLE32("gateway.rate", S, params.gateway.rate_ps, 1, 1000000, "5000",
+    WHOLE32("gateway.rate", S, params.gateway.rate_ps, 1, 1000000, GATEWAY_DEFAULT_RATE,
             .meaning = "How many PDUs a second are sent at most. Those that are put off are sent "
                        "later, as they are then."),
-    BOOLEAN("gateway.clamp", S, params.gateway.clamp, STORE_U32, "true",
+    BOOLEAN("gateway.clamp", S, params.gateway.clamp, STORE_U32, GATEWAY_DEFAULT_CLAMP,
             .meaning = "true: a land vehicle of another simulator is set on our ground where that "
                        "is within 30 m of its place."),
-    NUMBER("gateway.timeout_s", S, params.gateway.timeout_s, 1, 3600, "12", .unit = "s",
+    NUMBER("gateway.timeout_s", S, params.gateway.timeout_s, 1, 3600, GATEWAY_DEFAULT_TIMEOUT_S,
+           .unit = "s",
            .meaning = "An entity of another simulator is removed when no Entity State of it came "
                       "for so long."),
     NUMBER("gateway.latitude_deg", S, params.gateway.latitude_deg, -89.9, 89.9, "35.95",
@@ -233,18 +238,19 @@ static const struct key scenario_keys[] = {
     NUMBER("gateway.undulation_m", S, params.gateway.undulation_m, -200, 200, "-33.7", .unit = "m",
            .meaning = "The height of the sea level above the ellipsoid at the middle of the "
                       "square. DIS has heights above the ellipsoid."),
-    BOOLEAN("gateway.undulation_grid", S, params.gateway.undulation_grid, STORE_U32, "false",
+    BOOLEAN("gateway.undulation_grid", S, params.gateway.undulation_grid, STORE_U32,
+            GATEWAY_DEFAULT_UNDULATION_GRID,
             .meaning =
                 "true: the height of the sea level at each place, from PROJ's grid of EGM96, "
                 "instead of `gateway.undulation_m` for the whole square. Where the grid is "
                 "missing the log says so, and it is as with false."),
-    TEXT("gateway.cot", S, params.gateway.cot, "none",
+    TEXT("gateway.cot", S, params.gateway.cot, GATEWAY_DEFAULT_COT,
          .meaning = "Where events of Cursor on Target are sent: an address in numbers, with a port "
                     "if it is not 6969, such as \"239.2.3.1:6969\". \"none\": nowhere."),
-    TEXT("gateway.peers", S, params.gateway.peers, "127.0.0.0/8, ::1",
+    TEXT("gateway.peers", S, params.gateway.peers, GATEWAY_DEFAULT_PEERS,
          .meaning = "From whom packets are taken: addresses, and ranges such as \"10.1.0.0/16\", "
                     "with commas between them. \"none\": from nobody."),
-    TEXT("gateway.control", S, params.gateway.control, "none",
+    TEXT("gateway.control", S, params.gateway.control, GATEWAY_DEFAULT_CONTROL,
          .meaning =
              "Whose Start/Resume and Stop/Freeze are obeyed: SITE:APPLICATION, or SITE:* for "
              "all of a site, with commas between them. \"none\": nobody's."),
