@@ -7,6 +7,7 @@
 #include "config/ground_source.h"
 #include "config/kinds.h"
 #include "config/missions.h"
+#include "config/places.h"
 #include "config/scripts.h"
 #include "config/syntax/lists.h"
 #include "config/syntax/schema.h"
@@ -408,6 +409,8 @@ static int read_scenario(struct load *load, const char *const *overrides, int ov
             return -1;
     }
     if (check_together(load) != 0 || read_ground(load) != 0 ||
+        places_convert(&load->config, load->source.path, &load->scenario->settings->params,
+                       load->error) != 0 ||
         kinds_read(load->scenario, load->data_dir, load->hash, load->error) != 0 ||
         read_lists(load) != 0)
         return -1;

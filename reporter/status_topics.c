@@ -101,6 +101,8 @@ int status_topics_world(struct status_topics *topics, const struct view *view,
     info->seed = params->seed;
     info->hz = params->hz;
     info->side_m = WORLD_SIDE_M;
+    info->latitude_deg = params->gateway.latitude_deg;
+    info->longitude_deg = params->gateway.longitude_deg;
     info->capacity = params->capacity;
     info->fixed_objects = view->world.counts.fixed;
     info->frame_limit = params->frame_limit;

@@ -4,6 +4,7 @@
 #include "clients/console/access_control.h"
 #include "clients/console/process_control.h"
 #include "ipc/process/clock.h"
+#include "world/earth_place.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -50,6 +51,8 @@ static bool command(struct request *request, struct player *player, struct http_
     struct console *console = request->console;
     struct pending_command *pending = &request->pending;
     const char *key = http_header(request->http, "X-Jolon-Player");
+    struct place_frame frame;
+    struct error_text error;
     if (key && !player) {
         http_answer_error(answer, HTTP_ANSWER_UNAUTHORIZED, "POST /api/join again",
                           "no player has this key; a player without requests for two minutes is "
@@ -64,6 +67,12 @@ static bool command(struct request *request, struct player *player, struct http_
     if (!request_body_order(&pending->order, &pending->cancel, request->http->body,
                             request->http->body_bytes, answer))
         return true;
+    earth_place_frame(&frame, console->reader.view.world.params);
+    if (command_text_place(&pending->order, &frame, &error) != 0) {
+        http_answer_error(answer, HTTP_ANSWER_BAD, "name a place within the world", "%s: %s",
+                          pending->order.verb->name, error.text);
+        return true;
+    }
     pending->ready = on_ready;
     return !command_queue_put(&console->queue, pending, player, clock_now_ns(), answer);
 }

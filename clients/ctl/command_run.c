@@ -5,11 +5,7 @@
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
-#include "world/params.h"
-#include "world/terrain/gridsquare.h"
-#include "world/terrain/projection.h"
 
-#include <math.h>
 #include <stdio.h>
 
 static uint64_t limit(const struct ctl *ctl)
@@ -80,47 +76,22 @@ static bool carry_out(struct ctl *ctl, struct result_text_context *context)
     return command_series_over(series);
 }
 
-/* Converts the order's place on the earth, as a ground file's projection does. Returns 0, or -1
- * with the reason. */
-static int find_place(const struct ctl *ctl, struct command_text *order, struct error_text *error)
-{
-    struct projection projection;
-    double x, z;
-    if (!ctl->lookup.view)
-        return error_text_set(error, "--at: a world elsewhere takes metres alone, as 25000,24000");
-    const struct gateway_params *place = &ctl->lookup.view->world.params->gateway;
-    projection_make(&projection, place->latitude_deg, place->longitude_deg, WORLD_SIDE_M);
-    projection_world(&projection, order->latitude_deg, order->longitude_deg, &x, &z);
-    if (!(x >= 0.0 && z >= 0.0 && x <= WORLD_SIDE_M && z <= WORLD_SIDE_M))
-        return error_text_set(error,
-                              "--at: that place is %.0f km from the middle of the world, at "
-                              "latitude %.4f, longitude %.4f, and outside of its square",
-                              hypot(x - 0.5 * WORLD_SIDE_M, z - 0.5 * WORLD_SIDE_M) / 1000.0,
-                              place->latitude_deg, place->longitude_deg);
-    order->command.x_m = x;
-    order->command.z_m = z;
-    order->on_earth = false;
-    return 0;
-}
-
 int command_run(struct ctl *ctl, struct command_text *order, uint32_t line)
 {
     struct result_text_context context = {
         .world = ctl->request.world, .line = line, .rounds = order->rounds};
     struct error_text error;
-    if (command_text_needs_names(order) || command_text_needs_hz(order)) {
+    if (command_text_needs_names(order) || command_text_needs_hz(order) ||
+        command_text_needs_place(order)) {
         if (!lookup_wait(&ctl->lookup, limit(ctl))) {
             print_no_reply(ctl, order);
             return EXIT_GAVE_UP;
         }
-        if (command_text_resolve(order, &ctl->lookup.names, ctl->lookup.hz, &error) != 0) {
+        if (command_text_resolve(order, &ctl->lookup.names, ctl->lookup.hz, &error) != 0 ||
+            command_text_place(order, &ctl->lookup.frame, &error) != 0) {
             (void)fprintf(stderr, "jolon-ctl: %s: %s\n", order->verb->name, error.text);
             return EXIT_REFUSED;
         }
-    }
-    if (order->on_earth && find_place(ctl, order, &error) != 0) {
-        (void)fprintf(stderr, "jolon-ctl: %s: %s\n", order->verb->name, error.text);
-        return EXIT_REFUSED;
     }
     command_series_begin(&ctl->series, order, clock_now_ns());
     if (carry_out(ctl, &context))

@@ -1,11 +1,12 @@
 /* What jolon-ctl needs to know of the world before it sends a command: the vehicles' names, the
- * frame rate and the kinds. It is read when first needed: of a world on this machine from the
- * shared memory, of a remote world from the topics. */
+ * frame rate, the kinds and the world's place on the earth. It is read when first needed: of a
+ * world on this machine from the shared memory, of a remote world from the topics. */
 #ifndef JOLON_CLIENTS_CTL_LOOKUP_H
 #define JOLON_CLIENTS_CTL_LOOKUP_H
 
 #include "ipc/segment/segment.h"
 #include "ipc/topics/names_reader.h"
+#include "world/terrain/place.h"
 
 #include <stdbool.h>
 
@@ -17,6 +18,7 @@ struct lookup {
     dds_entity_t world, waitset;
     struct names_reader names_reader;
     double hz;                          /* 0: not known yet */
+    struct place_frame frame;           /* known when hz is */
     char vehicles[512], munitions[512]; /* kinds that can be spawned and fired: "tank, jeep" */
 };
 

@@ -5,7 +5,6 @@
 #include "ipc/process/log.h"
 #include "ipc/process/option_table.h"
 #include "ipc/topics/command_route.h"
-#include "world/runtime/parse_number.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -18,7 +17,6 @@ static struct ctl_request given;
 /* The values of the commands' options, by field; NULL: not given. */
 static struct {
     const char *value[COMMAND_TEXT_FIELD_COUNT];
-    const char *at;
 } words;
 
 static const struct option_row rows[] = {
@@ -33,11 +31,10 @@ static const struct option_row rows[] = {
 /* The commands' options, which the usage text describes. */
 static const struct option_row *order_rows(void)
 {
-    static struct option_row row[COMMAND_TEXT_FIELD_COUNT + 2] = {
-        {"at", "X,Z", NULL, .text = &words.at}};
+    static struct option_row row[COMMAND_TEXT_FIELD_COUNT + 1];
     for (int i = 0; i < COMMAND_TEXT_FIELD_COUNT; i++) {
         enum command_text_field field = (enum command_text_field)i;
-        row[i + 1] =
+        row[i] =
             (struct option_row){.name = command_text_field_option(field),
                                 .argument = command_text_field_is_truth(field) ? NULL : "VALUE",
                                 .text = &words.value[i]};
@@ -57,14 +54,15 @@ static const char usage[] =
     "                         back to its agent; --anyway: from any driver\n"
     "  fire VEHICLE [--target VEHICLE]\n"
     "                         without a target: straight ahead\n"
-    "  fire --munition KIND --at X,Z [--rounds N] [--every SECONDS] [--radius METRES]\n"
+    "  fire --munition KIND --at PLACE [--rounds N] [--every SECONDS] [--radius METRES]\n"
     "        [--seed N]       out of the sky, N rounds about that place\n"
-    "  spawn KIND --at X,Z [--force neutral|blue|red] [--behaviour idle|hold|patrol]\n"
+    "  spawn KIND --at PLACE [--force neutral|blue|red] [--behaviour idle|hold|patrol]\n"
     "        [--altitude METRES] [--heading DEGREES] [--speed MPS]\n"
     "  remove VEHICLE\n"
     "  -                      commands from standard input, one a line, one after the other\n"
     "VEHICLE: an id, or a name in the scenario\n"
-    "X,Z: metres east and south of the north-west corner, or a place as 44.27N,71.30W\n"
+    "PLACE: X,Z in metres east and south of the north-west corner, degrees as\n"
+    "44.2705N,71.3033W, or a reference of the MGRS as 19TCK1617404497\n"
     "options:";
 
 static int give(struct command_text *order, enum command_text_field field, const char *text,
@@ -77,45 +75,6 @@ static int give(struct command_text *order, enum command_text_field field, const
     if (command_text_give(order, field, &value, &detail) != 0)
         return error_text_set(error, "%s: %s%.400s", order->verb->name, label, detail.text);
     return 0;
-}
-
-/* Reads "44.27N" or "71.3W". Returns false if the last letter is none of the two. */
-static bool read_degrees(const char *text, size_t length, const char letters[2], double most,
-                         double *degrees)
-{
-    char number[64];
-    char letter = length > 1 ? text[length - 1] : '\0';
-    if (length >= sizeof number || (letter != letters[0] && letter != letters[1]))
-        return false;
-    memcpy(number, text, length - 1);
-    number[length - 1] = '\0';
-    if (!parse_real(number, 0.0, most, degrees))
-        return false;
-    *degrees = letter == letters[1] ? -*degrees : *degrees;
-    return true;
-}
-
-static int give_at(struct command_text *order, const char *text, struct error_text *error)
-{
-    char x[64];
-    const char *comma = strchr(text, ',');
-    if (!comma || (size_t)(comma - text) >= sizeof x)
-        return error_text_set(error,
-                              "--at %.64s: not a place like 25000,24000 (metres east, metres "
-                              "south) or 44.27N,71.30W",
-                              text);
-    order->on_earth =
-        read_degrees(text, (size_t)(comma - text), "NS", 90.0, &order->latitude_deg) &&
-        read_degrees(comma + 1, strlen(comma + 1), "EW", 180.0, &order->longitude_deg);
-    if (order->on_earth) {
-        order->given |= 1u << COMMAND_TEXT_X | 1u << COMMAND_TEXT_Z;
-        return 0;
-    }
-    memcpy(x, text, (size_t)(comma - text));
-    x[comma - text] = '\0';
-    return give(order, COMMAND_TEXT_X, x, "--at X ", error) != 0
-               ? -1
-               : give(order, COMMAND_TEXT_Z, comma + 1, "--at Z ", error);
 }
 
 static int give_options(struct command_text *order, struct error_text *error)
@@ -132,9 +91,7 @@ static int give_options(struct command_text *order, struct error_text *error)
         if (give(order, field, words.value[i], label, error) != 0)
             return -1;
     }
-    if (words.at && !(order->verb->allowed & 1u << COMMAND_TEXT_X))
-        return error_text_set(error, "%s: does not take --at", order->verb->name);
-    return words.at ? give_at(order, words.at, error) : 0;
+    return 0;
 }
 
 /* Makes the command of a verb, its operand and the options. */
@@ -159,7 +116,8 @@ static int make_order(struct command_text *order, int count, char **plain, struc
         return -1;
     if (order->command.type == jolon_COMMAND_SPAWN && !(order->given & 1u << COMMAND_TEXT_X))
         return error_text_set(
-            error, "spawn: where? --at X,Z in metres east and south, or as 44.27N,71.30W");
+            error, "spawn: where? --at X,Z in metres east and south, as 44.2705N,71.3033W, or a "
+                   "reference of the MGRS");
     return command_text_end(order, error);
 }
 
@@ -184,7 +142,7 @@ void ctl_parse(struct ctl_request *request, int argc, char **argv)
                   "--remote, or leave them out");
     link->domain = link->domain == DOMAIN_NONE ? 0 : link->domain;
     given.lines = count == 1 && strcmp(plain[0], "-") == 0;
-    bool options = words.at != NULL;
+    bool options = false;
     for (int i = 0; i < COMMAND_TEXT_FIELD_COUNT; i++)
         options |= words.value[i] != NULL;
     if (given.lines && options)

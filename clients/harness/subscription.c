@@ -276,6 +276,8 @@ cJSON *subscription_world(const struct world_mirror *mirror)
     json_text(object, "ground", world->ground);
     json_number(object, "hz", world->hz);
     json_number(object, "side_m", world->side_m);
+    json_number(object, "latitude_deg", world->latitude_deg);
+    json_number(object, "longitude_deg", world->longitude_deg);
     json_whole(object, "capacity", world->capacity);
     json_bool(object, "real_time", world->real_time);
     cJSON *kinds = json_array(object, "kinds");

@@ -17,7 +17,16 @@
 #define EVERY_MAX_S 3600.0
 #define RADIUS_MAX  5000.0 /* [m] */
 
-enum sort { SORT_ENTITY, SORT_FLOAT, SORT_DOUBLE, SORT_WHOLE, SORT_TRUTH, SORT_KIND, SORT_WORD };
+enum sort {
+    SORT_ENTITY,
+    SORT_FLOAT,
+    SORT_DOUBLE,
+    SORT_WHOLE,
+    SORT_TRUTH,
+    SORT_KIND,
+    SORT_WORD,
+    SORT_PLACE
+};
 
 typedef const char *word_name(int value);
 
@@ -67,6 +76,7 @@ static const struct {
     [COMMAND_TEXT_MUNITION] = {"munition", "munition", SORT_KIND, 0, 0, OFFSET(command.kind), NULL},
     [COMMAND_TEXT_X] = {"x", "x", SORT_DOUBLE, 0, WORLD_SIDE_M, OFFSET(command.x_m), NULL},
     [COMMAND_TEXT_Z] = {"z", "z", SORT_DOUBLE, 0, WORLD_SIDE_M, OFFSET(command.z_m), NULL},
+    [COMMAND_TEXT_AT] = {"at", "at", SORT_PLACE, 0, 0, OFFSET(place), NULL},
     [COMMAND_TEXT_FORCE] = {"force", "force", SORT_WORD, 0, FORCE_COUNT - 1, OFFSET(command.force),
                             force_word},
     [COMMAND_TEXT_BEHAVIOUR] = {"behaviour", "behaviour", SORT_WORD, 0, BEHAVIOUR_PATROL,
@@ -100,11 +110,11 @@ _Static_assert(COMMAND_TEXT_NAME_MAX == ENTITY_NAME_MAX, "names of vehicles");
      BIT(COMMAND_TEXT_GEAR) | BIT(COMMAND_TEXT_LEASE))
 #define MISSION_NEEDED (BIT(COMMAND_TEXT_MUNITION) | BIT(COMMAND_TEXT_X) | BIT(COMMAND_TEXT_Z))
 #define MISSION                                                                                    \
-    (MISSION_NEEDED | BIT(COMMAND_TEXT_ROUNDS) | BIT(COMMAND_TEXT_EVERY) |                         \
+    (MISSION_NEEDED | BIT(COMMAND_TEXT_AT) | BIT(COMMAND_TEXT_ROUNDS) | BIT(COMMAND_TEXT_EVERY) |  \
      BIT(COMMAND_TEXT_RADIUS) | BIT(COMMAND_TEXT_SEED))
 #define SPAWN_NEEDED (BIT(COMMAND_TEXT_KIND) | BIT(COMMAND_TEXT_X) | BIT(COMMAND_TEXT_Z))
 #define SPAWN                                                                                      \
-    (SPAWN_NEEDED | BIT(COMMAND_TEXT_FORCE) | BIT(COMMAND_TEXT_BEHAVIOUR) |                        \
+    (SPAWN_NEEDED | BIT(COMMAND_TEXT_AT) | BIT(COMMAND_TEXT_FORCE) | BIT(COMMAND_TEXT_BEHAVIOUR) | \
      BIT(COMMAND_TEXT_ALTITUDE) | BIT(COMMAND_TEXT_HEADING) | BIT(COMMAND_TEXT_SPEED))
 #define VEHICLE BIT(COMMAND_TEXT_VEHICLE)
 #define NOTHING COMMAND_TEXT_FIELD_COUNT
@@ -294,6 +304,26 @@ static int take_word(void *to, enum command_text_field field,
     return wrong(value, error, right);
 }
 
+/* Reads a place in any of its forms. x and z count as given by it. */
+static int take_place(struct command_text *order, const struct command_text_value *value,
+                      struct error_text *error)
+{
+    const uint32_t both = BIT(COMMAND_TEXT_X) | BIT(COMMAND_TEXT_Z);
+    struct place *place = &order->place;
+    if (order->given & both)
+        return error_text_set(error, "x and z are given beside it; right would be: one of the two");
+    if (!value->text)
+        return wrong(value, error, "a text, as \"44.2705N,71.3033W\"");
+    if (place_read(place, value->text, error) != 0)
+        return -1;
+    const struct command_text_value x = {.number = place->x}, z = {.number = place->z};
+    if (!place->on_earth && (take_number(&order->command.x_m, COMMAND_TEXT_X, &x, error) != 0 ||
+                             take_number(&order->command.z_m, COMMAND_TEXT_Z, &z, error) != 0))
+        return -1;
+    order->given |= both;
+    return 0;
+}
+
 static int take(struct command_text *order, enum command_text_field field,
                 const struct command_text_value *value, struct error_text *error)
 {
@@ -308,6 +338,8 @@ static int take(struct command_text *order, enum command_text_field field,
         return take_name(to, value, "the name of a kind", error);
     case SORT_WORD:
         return take_word(to, field, value, error);
+    case SORT_PLACE:
+        return take_place(order, value, error);
     case SORT_TRUTH:
         if (!value->is_truth)
             return wrong(value, error, "true or false");
@@ -356,7 +388,7 @@ static int check_fire(const struct command_text *order, struct error_text *error
                              : by_vehicle != 0 || (by_sky & MISSION_NEEDED) != MISSION_NEEDED)
         return error_text_set(error,
                               "%s: either a vehicle, and a target or none; or a munition and a "
-                              "place x, z, and rounds, every, radius and seed or none",
+                              "place x, z or at, and rounds, every, radius and seed or none",
                               order->verb->name);
     return 0;
 }
@@ -378,6 +410,23 @@ bool command_text_needs_names(const struct command_text *order)
 bool command_text_needs_hz(const struct command_text *order)
 {
     return order->lease_s > 0.0;
+}
+
+bool command_text_needs_place(const struct command_text *order)
+{
+    return order->place.on_earth;
+}
+
+int command_text_place(struct command_text *order, const struct place_frame *frame,
+                       struct error_text *error)
+{
+    struct error_text reason;
+    if (!order->place.on_earth)
+        return 0;
+    if (place_world(&order->place, frame, &order->command.x_m, &order->command.z_m, &reason) != 0)
+        return error_text_set(error, "at: %s", reason.text);
+    order->place.on_earth = false;
+    return 0;
 }
 
 static int resolve_name(uint32_t *id, const char *name, const struct name_table *names,

@@ -8,6 +8,7 @@
  *     command_text_give(&order, COMMAND_TEXT_VEHICLE, &value, &error);    for each argument
  *     command_text_end(&order, &error);                                   nothing is missing
  *     command_text_resolve(&order, names, hz, &error);         names to ids, seconds to frames
+ *     command_text_place(&order, &frame, &error);              a place on the earth to x and z
  *
  * Each order is used by one thread. */
 #ifndef JOLON_IPC_TOPICS_COMMAND_TEXT_H
@@ -15,6 +16,7 @@
 
 #include "ipc/segment/segment.h"
 #include "ipc/topics/name_table.h"
+#include "world/terrain/place.h"
 
 #include "status.h"
 
@@ -41,6 +43,7 @@ enum command_text_field {
     COMMAND_TEXT_MUNITION,
     COMMAND_TEXT_X,
     COMMAND_TEXT_Z,
+    COMMAND_TEXT_AT,
     COMMAND_TEXT_FORCE,
     COMMAND_TEXT_BEHAVIOUR,
     COMMAND_TEXT_ALTITUDE,
@@ -81,9 +84,9 @@ struct command_text {
     double every_s, radius_m;
     uint32_t seed;  /* of the rounds' points of aim */
     uint32_t given; /* bits of command_text_field */
-    /* 1: x and z are still to follow from this place on the earth [deg]; it counts as given. */
-    bool on_earth;
-    double latitude_deg, longitude_deg;
+    /* on_earth: x and z are still to follow from it by command_text_place(); they count as given.
+     */
+    struct place place;
 };
 
 /* Returns verb i, NULL beyond the last. */
@@ -111,14 +114,21 @@ int command_text_give(struct command_text *order, enum command_text_field field,
 /* Checks that nothing is missing and nothing contradicts. Returns 0, or -1 with the reason. */
 int command_text_end(struct command_text *order, struct error_text *error);
 
-/* Return true if command_text_resolve() needs the names, or the world's frames a second. */
+/* Return true if command_text_resolve() needs the names, or the world's frames a second; and if
+ * command_text_place() has something to do. */
 bool command_text_needs_names(const struct command_text *order);
 bool command_text_needs_hz(const struct command_text *order);
+bool command_text_needs_place(const struct command_text *order);
 
 /* Replaces names by ids and seconds by frames. Returns 0, or -1 with the reason: no vehicle has
  * that name. */
 int command_text_resolve(struct command_text *order, const struct name_table *names, double hz,
                          struct error_text *error);
+
+/* Gives a place on the earth its x and z, and any other order nothing. Returns 0, or -1 with the
+ * reason: the place is outside of the world. */
+int command_text_place(struct command_text *order, const struct place_frame *frame,
+                       struct error_text *error);
 
 /* Returns the command of a fire mission's round, counted from 0, aimed at random within radius_m of
  * the middle. Any other order has the one round 0. */

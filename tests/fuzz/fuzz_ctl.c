@@ -15,8 +15,8 @@
 
 static void check_order(const struct command_text *order)
 {
-    CHECK(!order->on_earth ||
-          (fabs(order->latitude_deg) <= 90.0 && fabs(order->longitude_deg) <= 180.0));
+    CHECK(!order->place.on_earth ||
+          (fabs(order->place.latitude_deg) <= 90.0 && fabs(order->place.longitude_deg) <= 180.0));
     const jolon_Command *c = &order->command;
     CHECK(order->verb && (order->given & ~order->verb->allowed) == 0);
     CHECK(c->type > jolon_COMMAND_NONE && c->type <= jolon_COMMAND_QUIT);

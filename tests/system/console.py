@@ -152,6 +152,17 @@ def ruling():
     status, made = order(do="spawn", kind="tank", force="red", x=25000, z=24000)
     check("the console spawns a vehicle", status == 200 and state(f"most=0&me={made['entity']}")["frame"] and
           eventually(lambda: "me" in state(f"most=0&me={made['entity']}")), made)
+    status, placed = order(do="spawn", kind="helicopter", force="red", at="10SFE5783079818", altitude_m=500)
+    check("the console spawns at a place of the MGRS", status == 200, placed)
+    order(do="remove", vehicle=placed.get("entity", 0))
+    status, said = order(do="spawn", kind="tank", at="48.1N,11.5E")
+    check("a place outside of the world is refused", status == 400 and "from the middle of the world" in said["error"], said)
+    status, place = ask("/api/place?at=35.95N,121.25W")
+    check("the console gives a place in all its forms", status == 200 and abs(place["x"] - 25000) < 0.02 and
+          abs(place["z"] - 25000) < 0.02 and place["mgrs"] == "10SFE5783079818" and place["degrees"] == "35.950000N,121.250000W", place)
+    status, said = ask("/api/place?at=here")
+    check("what is no place is refused", status == 400 and "not a place" in said["error"], said)
+    check("a vehicle's state has its place", "N," in state(f"most=0&me={made['entity']}")["me"]["degrees"])
     check("the console removes a vehicle once", order(do="remove", vehicle=made["entity"])[0] == 200 and
           order(do="remove", vehicle=made["entity"])[0] == 409)
     status, said = order(do="spawn", kind="tnak", x=1, z=1)

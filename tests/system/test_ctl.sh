@@ -39,15 +39,18 @@ stands_in_the_middle() { # of the world, the jeep that has just been made
     python3 -c 'import json, sys
 place = next(v["position"] for v in map(json.loads, sys.stdin) if v["id"] == int(sys.argv[1]))
 print(place)
-raise SystemExit(max(abs(place[0] - 25000), abs(place[2] - 25000)) > 0.01)' "$1"
+raise SystemExit(max(abs(place[0] - 25000), abs(place[2] - 25000)) > float(sys.argv[2]))' "$1" "$2"
 }
 check "a place may be a latitude and a longitude" eval \
-    'id=$($ctl --json spawn jeep --at 35.95N,121.25W | json entity) && "$bin/jolon-world" dump --json --world "$name" | stands_in_the_middle "$id"'
+    'id=$($ctl --json spawn jeep --at 35.95N,121.25W | json entity) && "$bin/jolon-world" dump --json --world "$name" | stands_in_the_middle "$id" 0.01'
+check "a place may be a reference of the MGRS" eval \
+    'id=$($ctl --json spawn helicopter --altitude 500 --at 10SFE5783079818 | json entity) && "$bin/jolon-world" dump --json --world "$name" | stands_in_the_middle "$id" 1'
 
 # --- errors -------------------------------------------------------------------------------------------
 check "a ship on dry land" denies 1 'value out of range .*a ship needs water' spawn ship --at 24000,24000
 check "a place on another continent" denies 1 'is [0-9]+ km from the middle of the world' spawn jeep --at 48.1N,11.5E
-check "a latitude without a longitude" denies 2 'not a number' spawn jeep --at 48.1N,11.5
+check "a latitude without a longitude" denies 2 'not a latitude of 0 to 90 degrees' spawn jeep --at 48.1N,11.5
+check "a square that its zone has not" denies 2 'its zone has no square of these letters' spawn jeep --at 10SXX5783079818
 check "an unknown name" denies 1 "no vehicle has that name; the nearest is West" drive Wset
 check "an unknown verb" denies 2 "did you mean release" relase 1
 check "a number out of range" denies 2 "--throttle '2': not a number from -1 to 1" drive 1 --throttle 2

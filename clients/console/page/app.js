@@ -14,6 +14,7 @@ import { MapView } from './map.js';
 import { Notices } from './notices.js';
 import { Orders } from './orders.js';
 import { Picture } from './picture.js';
+import { Place } from './place.js';
 import { Processes } from './processes.js';
 import { Session } from './session.js';
 import { tabs } from './tabs.js';
@@ -37,6 +38,7 @@ new Feed(events, world, session, map);
 const processes = new Processes(api, session);
 const tally = new Tally(world);
 const orders = new Orders(world, session);
+const place = new Place(api, map, orders, notices);
 
 document.body.classList.toggle('spectator', !api.mayChange);
 byId('spectator').hidden = api.mayChange;
@@ -149,8 +151,7 @@ listen(map, {
   },
   hover(px, py) {
     const near = map.nearest(px, py);
-    const place = `x ${number(map.camera.worldX(px))}  z ${number(map.camera.worldZ(py))} m`;
-    setText(byId('map-where'), near ? `${world.name(near)} · ${place}` : place);
+    place.hover(near ? world.name(near) : '', map.camera.worldX(px), map.camera.worldZ(py));
     map.canvas.classList.toggle('over', near !== 0);
   },
   moved() {

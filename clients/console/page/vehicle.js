@@ -29,6 +29,9 @@ const FIGURES = [
   ['target', (me, world) => (me.target ? world.name(me.target) : 'none')],
   ['x', (me) => `${number(me.x, 1)} m`],
   ['z', (me) => `${number(me.z, 1)} m`],
+  ['latitude', (me) => me.degrees.split(',')[0]],
+  ['longitude', (me) => me.degrees.split(',')[1]],
+  ['MGRS', (me) => me.mgrs || 'none here'],
 ];
 
 export class Vehicle {

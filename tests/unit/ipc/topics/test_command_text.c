@@ -3,10 +3,12 @@
 
 #include "world/terrain/gridsquare.h"
 
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -176,6 +178,44 @@ static void test_every_verb_has_all_that_it_needs_among_what_it_takes(void **sta
     assert_int_equal(command_text_field("nothing"), COMMAND_TEXT_FIELD_COUNT);
 }
 
+static void test_a_place_gives_x_and_z(void **state)
+{
+    struct command_text order;
+    struct place_frame frame;
+    (void)state;
+    place_frame_make(&frame, 44.2705, -71.3033, WORLD_SIDE_M);
+    assert_int_equal(
+        read_order(&order, "{\"do\":\"spawn\",\"kind\":\"jeep\",\"at\":\"100,200.5\"}"), 0);
+    assert_false(command_text_needs_place(&order));
+    assert_true(order.command.x_m == 100.0 && order.command.z_m == 200.5);
+    static const char *const places[] = {"44.2705N,71.3033W", "19TCK1617404497"};
+    for (int i = 0; i < 2; i++) {
+        char text[120];
+        (void)snprintf(text, sizeof text,
+                       "{\"do\":\"mission\",\"munition\":\"shell\",\"at\":\"%s\"}", places[i]);
+        assert_int_equal(read_order(&order, text), 0);
+        assert_true(command_text_needs_place(&order));
+        assert_int_equal(command_text_place(&order, &frame, &error), 0);
+        assert_false(command_text_needs_place(&order));
+        assert_true(fabs(order.command.x_m - 25000.0) < 1.0);
+        assert_true(fabs(order.command.z_m - 25000.0) < 1.0);
+    }
+    place_frame_make(&frame, 35.95, -121.25, WORLD_SIDE_M);
+    assert_int_equal(
+        read_order(&order, "{\"do\":\"spawn\",\"kind\":\"jeep\",\"at\":\"19TCK1617404497\"}"), 0);
+    assert_int_equal(command_text_place(&order, &frame, &error), -1);
+    assert_non_null(strstr(error.text, "at: that place is 42"));
+    refused("{\"do\":\"spawn\",\"kind\":\"jeep\",\"at\":\"100,60000\"}",
+            "at: 60000: not a number from 0 to 50000");
+    refused("{\"do\":\"spawn\",\"kind\":\"jeep\",\"at\":[1,2]}", "at: not a number, a text");
+    refused("{\"do\":\"spawn\",\"kind\":\"jeep\",\"at\":5}", "at: 5: not a text, as");
+    refused("{\"do\":\"spawn\",\"kind\":\"jeep\",\"x\":5,\"at\":\"1,2\"}",
+            "at: x and z are given beside it");
+    refused("{\"do\":\"spawn\",\"kind\":\"jeep\",\"at\":\"1,2\",\"z\":5}", "z: it is given twice");
+    refused("{\"do\":\"pause\",\"at\":\"1,2\"}", "'at': no such argument");
+    refused("{\"do\":\"spawn\",\"kind\":\"jeep\"}", "spawn: x is missing");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -185,6 +225,7 @@ int main(void)
         cmocka_unit_test(test_a_command_line_gives_numbers_as_text),
         cmocka_unit_test(test_wrong_arguments_are_named),
         cmocka_unit_test(test_a_mission_falls_about_its_middle),
+        cmocka_unit_test(test_a_place_gives_x_and_z),
         cmocka_unit_test(test_every_verb_has_all_that_it_needs_among_what_it_takes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
