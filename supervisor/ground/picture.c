@@ -3,8 +3,11 @@
 
 #include "ipc/process/log.h"
 #include "ipc/process/option_table.h"
+#include "supervisor/ground/canvas.h"
+#include "supervisor/ground/picture_features.h"
 #include "world/maths/maths.h"
 #include "world/terrain/ground_file.h"
+#include "world/terrain/place.h"
 #include "world/terrain/terrain.h"
 
 #include <cpl_conv.h>
@@ -26,6 +29,8 @@
 
 static struct {
     uint32_t size;
+    const char *at;
+    double metres; /* 0: the whole square */
     bool grey;
 } given = {.size = 1000};
 
@@ -33,7 +38,7 @@ static struct {
 static const uint8_t colours[COVER_COUNT][3] = {
     [COVER_GRASS] = {190, 200, 130}, [COVER_CHAPARRAL] = {150, 160, 95},
     [COVER_FOREST] = {80, 120, 70},  [COVER_ROCK] = {175, 165, 155},
-    [COVER_SAND] = {225, 210, 160},  [COVER_ROAD] = {120, 115, 110},
+    [COVER_SAND] = {225, 210, 160},  [COVER_ROAD] = {182, 188, 130},
     [COVER_SEA] = {90, 130, 175},    [COVER_LAKE] = {110, 155, 195}};
 
 /* A ground in memory. */
@@ -96,34 +101,79 @@ static double shade(const struct ground *ground, int64_t column, int64_t row, in
     return light > 0.0 ? SHADE_DARKEST + 254.0 * light : SHADE_DARKEST;
 }
 
-static GDALDatasetH draw(const struct ground *ground)
+/* Returns the brightness of a place between posts: bilinear. column, row: in posts. */
+static double shade_between(const struct ground *ground, double column, double row)
 {
-    uint32_t size = given.size < ground->side ? given.size : ground->side;
-    int bands = given.grey ? 1 : 3;
-    uint8_t *line = malloc(3 * (size_t)size);
-    GDALDatasetH picture =
-        GDALCreate(GDALGetDriverByName("MEM"), "", (int)size, (int)size, bands, GDT_Byte, NULL);
-    if (!line || !picture)
-        die_refused("no memory for a picture of %u x %u", size, size);
-    int64_t step = ground->side / size;
-    for (uint32_t row = 0; row < size; row++) {
-        for (uint32_t column = 0; column < size; column++) {
-            double last = size > 1 ? (double)(ground->side - 1) / (size - 1) : 0.0;
-            int64_t c = (int64_t)(column * last + 0.5), r = (int64_t)(row * last + 0.5);
-            double bright = shade(ground, c, r, step > 0 ? step : 1);
+    int64_t c = (int64_t)floor(column), r = (int64_t)floor(row);
+    double east = column - (double)c, south = row - (double)r;
+    double upper = (1.0 - east) * shade(ground, c, r, 1) + east * shade(ground, c + 1, r, 1);
+    double lower =
+        (1.0 - east) * shade(ground, c, r + 1, 1) + east * shade(ground, c + 1, r + 1, 1);
+    return (1.0 - south) * upper + south * lower;
+}
+
+/* The square of the ground that is drawn. */
+static void choose_square(struct canvas *canvas, const struct ground *ground)
+{
+    const struct ground_header *header = &ground->file.header;
+    double metres =
+        given.metres > 0.0 && given.metres < header->side_m ? given.metres : header->side_m;
+    double middle[2] = {0.5 * header->side_m, 0.5 * header->side_m};
+    struct place place;
+    struct place_frame frame;
+    struct error_text error;
+    place_frame_make(&frame, header->latitude_deg, header->longitude_deg, header->side_m);
+    if (given.at && (place_read(&place, given.at, &error) != 0 ||
+                     place_world(&place, &frame, &middle[0], &middle[1], &error) != 0))
+        die_usage("ground show: --at: %s", error.text);
+    canvas->x0 = maths_clamp(middle[0] - 0.5 * metres, 0.0, header->side_m - metres);
+    canvas->z0 = maths_clamp(middle[1] - 0.5 * metres, 0.0, header->side_m - metres);
+    canvas->size = given.size < ground->side || given.metres > 0.0 ? given.size : ground->side;
+    canvas->step_m = metres / (canvas->size - 1);
+}
+
+static void draw_ground(const struct canvas *canvas, const struct ground *ground)
+{
+    double posts = canvas->step_m / ground->spacing_m; /* a pixel */
+    double first[2] = {canvas->x0 / ground->spacing_m, canvas->z0 / ground->spacing_m};
+    int64_t step = posts >= 2.0 ? ground->side / canvas->size : 1, last = ground->side - 1;
+    for (uint32_t row = 0; row < canvas->size; row++) {
+        for (uint32_t column = 0; column < canvas->size; column++) {
+            double at[2] = {first[0] + column * posts, first[1] + row * posts};
+            int64_t c = (int64_t)(at[0] + 0.5), r = (int64_t)(at[1] + 0.5);
+            c = c < last ? c : last;
+            r = r < last ? r : last;
+            double bright = posts < 1.0 ? shade_between(ground, at[0], at[1])
+                                        : shade(ground, c, r, step > 0 ? step : 1);
             const uint8_t *colour = colours[ground->cover[r * ground->side + c]];
-            for (int k = 0; k < bands; k++)
-                line[(size_t)k * size + column] =
+            uint8_t *pixel = canvas->pixels + 3 * ((size_t)row * canvas->size + column);
+            for (int k = 0; k < 3; k++)
+                pixel[k] =
                     (uint8_t)(given.grey ? bright + 0.5
                                          : colour[k] * maths_min(0.15 + bright / 265.0, 1.0));
         }
-        for (int k = 0; k < bands; k++) {
-            if (GDALRasterIO(GDALGetRasterBand(picture, k + 1), GF_Write, 0, (int)row, (int)size, 1,
-                             line + (size_t)k * size, (int)size, 1, GDT_Byte, 0, 0) != CE_None)
-                die_refused("no memory for a picture of %u x %u", size, size);
-        }
     }
-    free(line);
+}
+
+static GDALDatasetH draw(const struct ground *ground)
+{
+    struct canvas canvas;
+    choose_square(&canvas, ground);
+    int size = (int)canvas.size, bands = given.grey ? 1 : 3;
+    canvas.pixels = malloc(3 * (size_t)canvas.size * canvas.size);
+    GDALDatasetH picture =
+        GDALCreate(GDALGetDriverByName("MEM"), "", size, size, bands, GDT_Byte, NULL);
+    if (!canvas.pixels || !picture)
+        die_refused("no memory for a picture of %d x %d", size, size);
+    draw_ground(&canvas, ground);
+    if (!given.grey)
+        picture_features_draw(&canvas, &ground->file);
+    for (int k = 0; k < bands; k++) {
+        if (GDALRasterIO(GDALGetRasterBand(picture, k + 1), GF_Write, 0, 0, size, size,
+                         canvas.pixels + k, size, size, GDT_Byte, 3, 3 * size) != CE_None)
+            die_refused("no memory for a picture of %d x %d", size, size);
+    }
+    free(canvas.pixels);
     return picture;
 }
 
@@ -145,20 +195,30 @@ void picture_save(GDALDatasetH dataset, const char *driver, const char *path, ch
 int picture_show(int argc, char **argv)
 {
     static const struct option_row rows[] = {
-        {"size", "PIXELS", "width and height (default 1000; at most one pixel a post)",
+        {"size", "PIXELS",
+         "width and height (default 1000; of a whole square at most one pixel a post)",
          .u32 = &given.size, .least = 16, .most = 20001},
+        {"at", "PLACE",
+         "the middle of the picture, with --metres: X,Z in metres in the square, degrees as "
+         "44.2705N,71.3033W, or MGRS",
+         .text = &given.at},
+        {"metres", "M", "width and height of the ground in the picture (default: all of it)",
+         .real = &given.metres, .low = 10.0, .high = 500000.0},
         {"grey", NULL, "the light alone, without the colours of the cover", .flag = &given.grey},
         OPTION_ROWS_END};
     static const struct option_table table = {
         .program = "jolon-ground show",
         .usage = "[options] FILE PICTURE.png\n"
-                 "Draws a ground file as a shaded picture with the light from the north-west.",
+                 "Draws a ground file as a shaded picture with the light from the north-west, with "
+                 "its roads, buildings, woods and water.",
         .rows = rows,
         .plain = 2};
     struct ground ground;
     if (option_table_read(&table, argc, argv) != 2)
         die_usage("ground show: needs a ground file and the name of a picture, as in: jolon ground "
                   "show x.ground x.png");
+    if (given.at && given.metres <= 0.0)
+        die_usage("ground show: --at goes with --metres, as in: --at 25000,25000 --metres 2000");
     open_ground(&ground, argv[argc - 2]);
     GDALDatasetH picture = draw(&ground);
     picture_save(picture, "PNG", argv[argc - 1], NULL);

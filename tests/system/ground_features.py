@@ -5,6 +5,7 @@ usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west an
        ground_features.py corner EVENTS           (does the first collision of T1 lie at the corner, within 1 mm?)
        ground_features.py wall EVENTS             (does it lie on a wall beside that corner, within 1 mm?)
        ground_features.py craters CSV RAW         (has the raster the heights of the dump, and holes?)
+       ground_features.py picture RAW X Z STEP WORD...   (has the picture of 500 x 500 pixels the colours of these things?)
        ground_features.py shore DUMP LATER        (does T2 stand at the shore of the lake?)"""
 import json
 import math
@@ -145,5 +146,29 @@ def craters(csv_path, raw_path):
     raise SystemExit(worst > 1e-3 or min(raw) > 79.5)
 
 
+def picture(path, x0, z0, step, *things):
+    with open(path, "rb") as file:
+        raw = file.read()
+
+    def at(x, z):
+        i = 3 * (round((z - float(z0)) / float(step)) * 500 + round((x - float(x0)) / float(step)))
+        return tuple(raw[i:i + 3])
+
+    def is_red(pixel):
+        return pixel[0] > 1.4 * pixel[1] and pixel[0] > 1.4 * pixel[2]
+
+    there = {
+        "lake": lambda: at(21000, 30000)[2] > at(21000, 30000)[0] + 20,
+        "village": lambda: sum(is_red(at(25150 + 100 * i, 24750 + 100 * k)) for i in range(4) for k in range(5)) > 10,
+        "road": lambda: min(at(25130, 24650)) > max(at(25600, 24650)) - 40,
+        # The corner points to the west, with ground before it and the building behind it.
+        "corner": lambda: is_red(at(CORNER[0] + 3, CORNER[1])) and not is_red(at(CORNER[0] - 3, CORNER[1])) and
+        is_red(at(CORNER[0] + 22, CORNER[1])) and not is_red(at(CORNER[0] + 28, CORNER[1])),
+    }
+    missing = [thing for thing in things if not there[thing]()]
+    print(*missing)
+    raise SystemExit(len(missing))
+
+
 if __name__ == "__main__":
-    {"maps": maps, "corner": corner, "craters": craters, "wall": wall, "shore": shore}[sys.argv[1]](*sys.argv[2:])
+    {"maps": maps, "picture": picture, "corner": corner, "craters": craters, "wall": wall, "shore": shore}[sys.argv[1]](*sys.argv[2:])

@@ -34,7 +34,12 @@ out=other.ground make --features village.geojson --roads village.geojson --seed 
 check "another seed gives other woods" eval '[ "$(info other.ground hash)" != "$(info x.ground hash)" ]'
 out=bare.ground make --features village.geojson --trees 0 >/dev/null 2>&1
 check "no trees are planted if none are wanted" eval '[ "$(info bare.ground objects)" -lt 40 ]'
-check "the picture has the lake and the wood" eval '"$ground" show --size 500 x.ground x.png && [ -s x.png ]'
+"$ground" show --size 500 x.ground x.png && gdal_translate -q -of ENVI -co INTERLEAVE=BIP x.png x.raw
+"$ground" show --size 500 --at 25100,25000 --metres 499 x.ground near.png && gdal_translate -q -of ENVI -co INTERLEAVE=BIP near.png near.raw
+check "the picture has the lake, the road and the village" python3 "$here/ground_features.py" picture x.raw 0 0 100.2004008 lake village road
+check "the picture of half a kilometre has a building to its corner" python3 "$here/ground_features.py" picture near.raw 24850.5 24750.5 1 corner
+refuses "a picture of a place in another country" 2 'show: --at: that place is [0-9]+ km from the middle' "$ground" show --at 48N,11E --metres 500 x.ground near.png
+refuses "a picture about a place without its size" 2 '--at goes with --metres' "$ground" show --at 25000,25000 x.ground near.png
 
 check "broken features are mended or left out" eval 'out=broken.ground make --features broken.geojson 2>err && "$ground" check broken.ground'
 for words in '1 outlines cross themselves, and were mended; the first at latitude 44.499' '1 outlines are open, and were closed; the first at' \
