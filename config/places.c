@@ -3,7 +3,7 @@
 
 #include "config/syntax/key_table.h"
 #include "config/syntax/schema.h"
-#include "world/earth_place.h"
+#include "world/earth_location.h"
 #include "world/maths/maths.h"
 
 #include <stdio.h>
@@ -12,7 +12,7 @@
 /* A scenario while its places are replaced. */
 struct conversion {
     const char *file;
-    struct place_frame frame;
+    struct location_frame frame;
     struct error_text *error;
 };
 
@@ -53,10 +53,10 @@ static int add_point(config_setting_t *list, const double point[2])
 static int read_point(const struct conversion *c, const config_setting_t *setting, const char *path,
                       double point[2])
 {
-    struct place place;
+    struct location place;
     struct error_text reason;
-    if (place_read(&place, config_setting_get_string(setting), &reason) != 0 ||
-        place_world(&place, &c->frame, &point[0], &point[1], &reason) != 0)
+    if (location_read(&place, config_setting_get_string(setting), &reason) != 0 ||
+        location_world(&place, &c->frame, &point[0], &point[1], &reason) != 0)
         return refuse(c, setting, path, reason.text);
     return 0;
 }
@@ -191,6 +191,6 @@ int places_convert(config_t *config, const char *file, const struct params *para
 {
     struct conversion c = {.file = file, .error = error};
     static const struct key_table none = {.path = ""};
-    earth_place_frame(&c.frame, params);
+    earth_location_frame(&c.frame, params);
     return convert_entry(&c, config_root_setting(config), &none, "");
 }

@@ -4,7 +4,7 @@
 #include "clients/console/access_control.h"
 #include "clients/console/process_control.h"
 #include "ipc/process/clock.h"
-#include "world/earth_place.h"
+#include "world/earth_location.h"
 
 #include <stddef.h>
 #include <string.h>
@@ -51,7 +51,7 @@ static bool command(struct request *request, struct player *player, struct http_
     struct console *console = request->console;
     struct pending_command *pending = &request->pending;
     const char *key = http_header(request->http, "X-Jolon-Player");
-    struct place_frame frame;
+    struct location_frame frame;
     struct error_text error;
     if (key && !player) {
         http_answer_error(answer, HTTP_ANSWER_UNAUTHORIZED, "POST /api/join again",
@@ -67,7 +67,7 @@ static bool command(struct request *request, struct player *player, struct http_
     if (!request_body_order(&pending->order, &pending->cancel, request->http->body,
                             request->http->body_bytes, answer))
         return true;
-    earth_place_frame(&frame, console->reader.view.world.params);
+    earth_location_frame(&frame, console->reader.view.world.params);
     if (command_text_place(&pending->order, &frame, &error) != 0) {
         http_answer_error(answer, HTTP_ANSWER_BAD, "name a place within the world", "%s: %s",
                           pending->order.verb->name, error.text);

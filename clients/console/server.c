@@ -9,7 +9,6 @@
 #include "clients/console/state_json.h"
 #include "clients/console/vehicles_json.h"
 #include "clients/console/world_json.h"
-#include "clients/console/place_json.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 
@@ -97,9 +96,9 @@ static const struct {
     const char *path;
     answer_function *answer;
 } get_requests[] = {
-    {"/api/world", world_json},   {"/api/state", state_json},
-    {"/api/list", vehicles_json}, {"/api/events", events_json},
-    {"/api/place", place_json},   {"/api/processes", process_control_list},
+    {"/api/world", world_json},       {"/api/state", state_json},
+    {"/api/list", vehicles_json},     {"/api/events", events_json},
+    {"/api/place", world_json_place}, {"/api/processes", process_control_list},
 };
 
 static const char *argument(void *context, const char *key)

@@ -1,7 +1,7 @@
 /* Writes the frame, its counters, the entities of an area and the requested vehicle. */
 #include "clients/console/state_json.h"
 
-#include "clients/console/place_json.h"
+#include "clients/console/world_json.h"
 #include "world/entity/kind.h"
 #include "world/entity/grounded.h"
 #include "world/entity/remote.h"
@@ -196,7 +196,7 @@ static void put_where(struct json_writer *json, const struct world_query *query,
     json_writer_key_number(json, "x", e->x[row], 2);
     json_writer_key_number(json, "y", e->y[row], 2);
     json_writer_key_number(json, "z", e->z[row], 2);
-    place_json_put(json, world->params, e->x[row], e->z[row]);
+    world_json_earth(json, world->params, e->x[row], e->z[row]);
     json_writer_key_number(json, "speed_mps", vec3_length(entities_velocity(e, row)), 2);
     json_writer_key_number(json, "heading_deg", e->heading[row] / RAD_PER_DEG, 1);
     json_writer_key_number(json, "pitch_deg", e->pitch[row] / RAD_PER_DEG, 1);

@@ -1,6 +1,7 @@
-/* Writes what never changes in a world. */
+/* Writes what never changes in a world, and places in all their forms. */
 #include "clients/console/world_json.h"
 
+#include "world/earth_location.h"
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
 #include "world/param_values.h"
@@ -10,7 +11,8 @@
 #include <stdio.h>
 #include <string.h>
 
-#define NAMES_MAX 5000u
+#define NAMES_MAX       5000u
+#define DEGREE_DECIMALS 7 /* 1 cm */
 
 static void put_kinds(struct json_writer *json, const struct world_reader *reader)
 {
@@ -116,5 +118,42 @@ void world_json(const struct world_query *query, struct http_answer *answer)
     for (int i = 0; i < GEAR_COUNT; i++)
         json_writer_word(json, gear_name((enum gearing)i));
     json_writer_end(json, ']');
+    json_writer_end(json, '}');
+}
+
+void world_json_earth(struct json_writer *json, const struct params *params, double x, double z)
+{
+    struct location_frame frame;
+    struct location_earth earth;
+    earth_location_frame(&frame, params);
+    location_earth(&earth, &frame, x, z);
+    json_writer_key_number(json, "latitude_deg", earth.latitude_deg, DEGREE_DECIMALS);
+    json_writer_key_number(json, "longitude_deg", earth.longitude_deg, DEGREE_DECIMALS);
+    json_writer_key_word(json, "degrees", earth.degrees);
+    json_writer_key_word(json, "mgrs", earth.mgrs);
+}
+
+void world_json_place(const struct world_query *query, struct http_answer *answer)
+{
+    struct json_writer *json = &answer->json;
+    struct location place;
+    struct location_frame frame;
+    struct error_text error;
+    double x, z;
+    if (!world_query_attached(query, answer))
+        return;
+    const struct params *params = query->reader->view.world.params;
+    earth_location_frame(&frame, params);
+    if (location_read(&place, query_text(&query->arguments, "at"), &error) != 0 ||
+        location_world(&place, &frame, &x, &z, &error) != 0) {
+        http_answer_error(answer, HTTP_ANSWER_BAD,
+                          "ask as at=25000,24000, at=44.2705N,71.3033W or at=19TCK1617404497",
+                          "at: %s", error.text);
+        return;
+    }
+    json_writer_begin(json, '{');
+    json_writer_key_number(json, "x", x, 2);
+    json_writer_key_number(json, "z", z, 2);
+    world_json_earth(json, params, x, z);
     json_writer_end(json, '}');
 }

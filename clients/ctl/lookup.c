@@ -3,7 +3,7 @@
 
 #include "ipc/process/clock.h"
 #include "ipc/process/process.h"
-#include "world/earth_place.h"
+#include "world/earth_location.h"
 #include "world/entity/kind.h"
 #include "world/params.h"
 
@@ -40,7 +40,7 @@ static bool read_view(struct lookup *lookup)
 {
     const struct world *world = &lookup->view->world;
     lookup->hz = world->params->hz;
-    earth_place_frame(&lookup->frame, world->params);
+    earth_location_frame(&lookup->frame, world->params);
     for (uint32_t i = 0; i < world->counts.kinds; i++)
         add_kind(lookup, world->kinds[i].name, world->kinds[i].domain);
     lookup->reading = name_table_read_world(&lookup->names, world, lookup->view->header->made);
@@ -56,7 +56,8 @@ static void take_world(struct lookup *lookup)
     const jolon_WorldInfo *world = sample;
     if (info.valid_data) {
         lookup->hz = world->hz;
-        place_frame_make(&lookup->frame, world->latitude_deg, world->longitude_deg, world->side_m);
+        location_frame_make(&lookup->frame, world->latitude_deg, world->longitude_deg,
+                            world->side_m);
         lookup->vehicles[0] = lookup->munitions[0] = '\0';
         for (uint32_t i = 0; i < world->kinds._length; i++) {
             const jolon_KindInfo *kind = &world->kinds._buffer[i];

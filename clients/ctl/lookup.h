@@ -6,7 +6,7 @@
 
 #include "ipc/segment/segment.h"
 #include "ipc/topics/names_reader.h"
-#include "world/terrain/place.h"
+#include "world/terrain/location.h"
 
 #include <stdbool.h>
 
@@ -18,7 +18,7 @@ struct lookup {
     dds_entity_t world, waitset;
     struct names_reader names_reader;
     double hz;                          /* 0: not known yet */
-    struct place_frame frame;           /* known when hz is */
+    struct location_frame frame;        /* known when hz is */
     char vehicles[512], munitions[512]; /* kinds that can be spawned and fired: "tank, jeep" */
 };
 

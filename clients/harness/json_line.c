@@ -74,9 +74,9 @@ static void queue_command(struct session *session, const cJSON *object, const ch
     struct command_text order;
     struct error_text error;
     const struct world_mirror *mirror = &session->mirror;
-    struct place_frame frame;
-    place_frame_make(&frame, mirror->world.latitude_deg, mirror->world.longitude_deg,
-                     mirror->world.side_m);
+    struct location_frame frame;
+    location_frame_make(&frame, mirror->world.latitude_deg, mirror->world.longitude_deg,
+                        mirror->world.side_m);
     if (command_from_json(&order, object, &error) != 0 ||
         command_text_resolve(&order, &mirror->names, mirror->world.hz, &error) != 0 ||
         command_text_place(&order, &frame, &error) != 0)

@@ -309,12 +309,12 @@ static int take_place(struct command_text *order, const struct command_text_valu
                       struct error_text *error)
 {
     const uint32_t both = BIT(COMMAND_TEXT_X) | BIT(COMMAND_TEXT_Z);
-    struct place *place = &order->place;
+    struct location *place = &order->place;
     if (order->given & both)
         return error_text_set(error, "x and z are given beside it; right would be: one of the two");
     if (!value->text)
         return wrong(value, error, "a text, as \"44.2705N,71.3033W\"");
-    if (place_read(place, value->text, error) != 0)
+    if (location_read(place, value->text, error) != 0)
         return -1;
     const struct command_text_value x = {.number = place->x}, z = {.number = place->z};
     if (!place->on_earth && (take_number(&order->command.x_m, COMMAND_TEXT_X, &x, error) != 0 ||
@@ -417,13 +417,14 @@ bool command_text_needs_place(const struct command_text *order)
     return order->place.on_earth;
 }
 
-int command_text_place(struct command_text *order, const struct place_frame *frame,
+int command_text_place(struct command_text *order, const struct location_frame *frame,
                        struct error_text *error)
 {
     struct error_text reason;
     if (!order->place.on_earth)
         return 0;
-    if (place_world(&order->place, frame, &order->command.x_m, &order->command.z_m, &reason) != 0)
+    if (location_world(&order->place, frame, &order->command.x_m, &order->command.z_m, &reason) !=
+        0)
         return error_text_set(error, "at: %s", reason.text);
     order->place.on_earth = false;
     return 0;

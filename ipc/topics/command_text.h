@@ -16,7 +16,7 @@
 
 #include "ipc/segment/segment.h"
 #include "ipc/topics/name_table.h"
-#include "world/terrain/place.h"
+#include "world/terrain/location.h"
 
 #include "status.h"
 
@@ -86,7 +86,7 @@ struct command_text {
     uint32_t given; /* bits of command_text_field */
     /* on_earth: x and z are still to follow from it by command_text_place(); they count as given.
      */
-    struct place place;
+    struct location place;
 };
 
 /* Returns verb i, NULL beyond the last. */
@@ -127,7 +127,7 @@ int command_text_resolve(struct command_text *order, const struct name_table *na
 
 /* Gives a place on the earth its x and z, and any other order nothing. Returns 0, or -1 with the
  * reason: the place is outside of the world. */
-int command_text_place(struct command_text *order, const struct place_frame *frame,
+int command_text_place(struct command_text *order, const struct location_frame *frame,
                        struct error_text *error);
 
 /* Returns the command of a fire mission's round, counted from 0, aimed at random within radius_m of

@@ -7,7 +7,7 @@
 #include "supervisor/ground/picture_features.h"
 #include "world/maths/maths.h"
 #include "world/terrain/ground_file.h"
-#include "world/terrain/place.h"
+#include "world/terrain/location.h"
 #include "world/terrain/terrain.h"
 
 #include <cpl_conv.h>
@@ -119,12 +119,12 @@ static void choose_square(struct canvas *canvas, const struct ground *ground)
     double metres =
         given.metres > 0.0 && given.metres < header->side_m ? given.metres : header->side_m;
     double middle[2] = {0.5 * header->side_m, 0.5 * header->side_m};
-    struct place place;
-    struct place_frame frame;
+    struct location place;
+    struct location_frame frame;
     struct error_text error;
-    place_frame_make(&frame, header->latitude_deg, header->longitude_deg, header->side_m);
-    if (given.at && (place_read(&place, given.at, &error) != 0 ||
-                     place_world(&place, &frame, &middle[0], &middle[1], &error) != 0))
+    location_frame_make(&frame, header->latitude_deg, header->longitude_deg, header->side_m);
+    if (given.at && (location_read(&place, given.at, &error) != 0 ||
+                     location_world(&place, &frame, &middle[0], &middle[1], &error) != 0))
         die_usage("ground show: --at: %s", error.text);
     canvas->x0 = maths_clamp(middle[0] - 0.5 * metres, 0.0, header->side_m - metres);
     canvas->z0 = maths_clamp(middle[1] - 0.5 * metres, 0.0, header->side_m - metres);

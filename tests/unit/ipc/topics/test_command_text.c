@@ -181,9 +181,9 @@ static void test_every_verb_has_all_that_it_needs_among_what_it_takes(void **sta
 static void test_a_place_gives_x_and_z(void **state)
 {
     struct command_text order;
-    struct place_frame frame;
+    struct location_frame frame;
     (void)state;
-    place_frame_make(&frame, 44.2705, -71.3033, WORLD_SIDE_M);
+    location_frame_make(&frame, 44.2705, -71.3033, WORLD_SIDE_M);
     assert_int_equal(
         read_order(&order, "{\"do\":\"spawn\",\"kind\":\"jeep\",\"at\":\"100,200.5\"}"), 0);
     assert_false(command_text_needs_place(&order));
@@ -200,7 +200,7 @@ static void test_a_place_gives_x_and_z(void **state)
         assert_true(fabs(order.command.x_m - 25000.0) < 1.0);
         assert_true(fabs(order.command.z_m - 25000.0) < 1.0);
     }
-    place_frame_make(&frame, 35.95, -121.25, WORLD_SIDE_M);
+    location_frame_make(&frame, 35.95, -121.25, WORLD_SIDE_M);
     assert_int_equal(
         read_order(&order, "{\"do\":\"spawn\",\"kind\":\"jeep\",\"at\":\"19TCK1617404497\"}"), 0);
     assert_int_equal(command_text_place(&order, &frame, &error), -1);

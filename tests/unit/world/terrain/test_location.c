@@ -1,5 +1,5 @@
 /* Places as people write them: the three forms, what is refused, and where they lie in a world. */
-#include "world/terrain/place.h"
+#include "world/terrain/location.h"
 
 #include "tests/support/fixture.h"
 #include "world/maths/random.h"
@@ -16,10 +16,10 @@
 
 static struct error_text error;
 
-static struct place read_good(const char *text)
+static struct location read_good(const char *text)
 {
-    struct place place;
-    if (place_read(&place, text, &error) != 0)
+    struct location place;
+    if (location_read(&place, text, &error) != 0)
         fail_msg("'%s' was refused: %s", text, error.text);
     return place;
 }
@@ -27,7 +27,7 @@ static struct place read_good(const char *text)
 static void test_the_three_forms(void **state)
 {
     (void)state;
-    struct place place = read_good(" 25000 , 24000.5 ");
+    struct location place = read_good(" 25000 , 24000.5 ");
     assert_true(!place.on_earth && place.x == 25000.0 && place.z == 24000.5);
     place = read_good("44.2705N,71.3033W");
     assert_true(place.on_earth && place.latitude_deg == 44.2705 && place.longitude_deg == -71.3033);
@@ -61,34 +61,34 @@ static void test_what_is_no_place_is_refused_with_the_reason(void **state)
     };
     (void)state;
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
-        struct place place;
-        assert_int_equal(place_read(&place, wrong[i].text, &error), -1);
+        struct location place;
+        assert_int_equal(location_read(&place, wrong[i].text, &error), -1);
         if (!strstr(error.text, wrong[i].because))
             fail_msg("'%s': \"%s\" does not say \"%s\"", wrong[i].text, error.text,
                      wrong[i].because);
     }
 }
 
-static void refused(const char *text, const struct place_frame *frame, const char *because)
+static void refused(const char *text, const struct location_frame *frame, const char *because)
 {
     double x, z;
-    const struct place place = read_good(text);
-    assert_int_equal(place_world(&place, frame, &x, &z, &error), -1);
+    const struct location place = read_good(text);
+    assert_int_equal(location_world(&place, frame, &x, &z, &error), -1);
     if (!strstr(error.text, because))
         fail_msg("'%s': \"%s\" does not say \"%s\"", text, error.text, because);
 }
 
 static void test_a_place_has_coordinates_within_the_square(void **state)
 {
-    struct place_frame frame;
+    struct location_frame frame;
     double x, z;
     (void)state;
-    place_frame_make(&frame, 44.45, -71.45, 50000.0);
-    struct place place = read_good("44.45N,71.45W");
-    assert_int_equal(place_world(&place, &frame, &x, &z, &error), 0);
+    location_frame_make(&frame, 44.45, -71.45, 50000.0);
+    struct location place = read_good("44.45N,71.45W");
+    assert_int_equal(location_world(&place, &frame, &x, &z, &error), 0);
     assert_true(fabs(x - 25000.0) < 1e-6 && fabs(z - 25000.0) < 1e-6);
     place = read_good("0,50000");
-    assert_int_equal(place_world(&place, &frame, &x, &z, &error), 0);
+    assert_int_equal(location_world(&place, &frame, &x, &z, &error), 0);
     assert_true(x == 0.0 && z == 50000.0);
     refused("0,50000.1", &frame, "outside of the world; allowed: 0..50000 m each");
     refused("44.45N,71.13W", &frame,
@@ -106,17 +106,17 @@ static void test_there_and_back_is_the_same_place(void **state)
         double side_m = 1000.0 + 499000.0 * random_unit(random, i, 1, 0);
         double east = side_m * (0.01 + 0.98 * random_unit(random, i, 2, 0));
         double south = side_m * (0.01 + 0.98 * random_unit(random, i, 3, 0));
-        struct place_frame frame;
-        struct place_earth earth;
-        place_frame_make(&frame, middle, -180.0 + 360.0 * random_unit(random, i, 4, 0), side_m);
-        place_earth(&earth, &frame, east, south);
-        struct place place = read_good(earth.degrees);
-        assert_int_equal(place_world(&place, &frame, &x, &z, &error), 0);
+        struct location_frame frame;
+        struct location_earth earth;
+        location_frame_make(&frame, middle, -180.0 + 360.0 * random_unit(random, i, 4, 0), side_m);
+        location_earth(&earth, &frame, east, south);
+        struct location place = read_good(earth.degrees);
+        assert_int_equal(location_world(&place, &frame, &x, &z, &error), 0);
         assert_true(fabs(x - east) < 0.1 && fabs(z - south) < 0.1);
         if (!earth.mgrs[0])
             continue; /* near a pole */
         place = read_good(earth.mgrs);
-        assert_int_equal(place_world(&place, &frame, &x, &z, &error), 0);
+        assert_int_equal(location_world(&place, &frame, &x, &z, &error), 0);
         assert_true(fabs(x - east) < 0.8 && fabs(z - south) < 0.8);
     }
 }

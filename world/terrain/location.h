@@ -6,8 +6,8 @@
  *
  * A place on the earth becomes one of the world by the projection of ground files (projection.h)
  * about the world's place, also where the ground is of no file. Pure; any thread. */
-#ifndef JOLON_WORLD_TERRAIN_PLACE_H
-#define JOLON_WORLD_TERRAIN_PLACE_H
+#ifndef JOLON_WORLD_TERRAIN_LOCATION_H
+#define JOLON_WORLD_TERRAIN_LOCATION_H
 
 #include "world/runtime/error_text.h"
 #include "world/terrain/mgrs.h"
@@ -15,40 +15,41 @@
 
 #include <stdbool.h>
 
-#define PLACE_TEXT_MAX 32 /* [byte] of a latitude and a longitude, with the NUL */
+#define LOCATION_TEXT_MAX 32 /* [byte] of a latitude and a longitude, with the NUL */
 
-struct place {
+struct location {
     bool on_earth;                      /* else x and z hold */
     double x, z;                        /* [m] */
     double latitude_deg, longitude_deg; /* WGS 84 */
 };
 
 /* Where a world lies on the earth. */
-struct place_frame {
+struct location_frame {
     double latitude_deg, longitude_deg; /* of the middle */
     double side_m;
     struct projection projection;
 };
 
-void place_frame_make(struct place_frame *frame, double latitude_deg, double longitude_deg,
-                      double side_m);
+void location_frame_make(struct location_frame *frame, double latitude_deg, double longitude_deg,
+                         double side_m);
 
 /* Reads a place in one of the three forms. Returns 0, or -1 with the reason: what is wrong and what
  * would be right. Metres are any numbers. */
-int place_read(struct place *place, const char *text, struct error_text *error);
+int location_read(struct location *place, const char *text, struct error_text *error);
 
 /* Gives a place's coordinates in the world [m]. Returns 0, or -1 with the reason if it lies outside
  * of the world's square. */
-int place_world(const struct place *place, const struct place_frame *frame, double *x, double *z,
-                struct error_text *error);
+int location_world(const struct location *place, const struct location_frame *frame, double *x,
+                   double *z, struct error_text *error);
 
 /* The same place of a world [m] on the earth: degrees; as "44.270500N,71.303300W", to 0.1 m; and as
  * a reference of the grid, "" where there is none. */
-struct place_earth {
+struct location_earth {
     double latitude_deg, longitude_deg;
-    char degrees[PLACE_TEXT_MAX];
+    char degrees[LOCATION_TEXT_MAX];
     char mgrs[MGRS_TEXT_MAX];
 };
-void place_earth(struct place_earth *earth, const struct place_frame *frame, double x, double z);
+void location_earth(struct location_earth *earth, const struct location_frame *frame, double x,
+                    double z);
 
 #endif

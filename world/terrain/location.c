@@ -1,5 +1,5 @@
 /* Reads and writes places. */
-#include "world/terrain/place.h"
+#include "world/terrain/location.h"
 
 #include "world/maths/maths.h"
 #include "world/runtime/parse_number.h"
@@ -15,10 +15,10 @@
 
 #define NUMBER_MAX 40
 
-void place_frame_make(struct place_frame *frame, double latitude_deg, double longitude_deg,
-                      double side_m)
+void location_frame_make(struct location_frame *frame, double latitude_deg, double longitude_deg,
+                         double side_m)
 {
-    *frame = (struct place_frame){
+    *frame = (struct location_frame){
         .latitude_deg = latitude_deg, .longitude_deg = longitude_deg, .side_m = side_m};
     projection_make(&frame->projection, latitude_deg, longitude_deg, side_m);
 }
@@ -58,12 +58,12 @@ static bool ends_in_letter(const char *text)
     return isalpha((unsigned char)text[strlen(text) - 1]);
 }
 
-int place_read(struct place *place, const char *text, struct error_text *error)
+int location_read(struct location *place, const char *text, struct error_text *error)
 {
     const char *comma = strchr(text, ','), *zone = text + strspn(text, " ");
     size_t digits = strspn(zone, "0123456789");
     char first[NUMBER_MAX], second[NUMBER_MAX];
-    *place = (struct place){.on_earth = true};
+    *place = (struct location){.on_earth = true};
     if (!comma && digits >= 1 && digits <= 2 && isalpha((unsigned char)zone[digits]))
         return mgrs_read(text, &place->latitude_deg, &place->longitude_deg, error);
     if (!comma || !part_of(first, text, comma) || !part_of(second, comma + 1, text + strlen(text)))
@@ -85,7 +85,7 @@ int place_read(struct place *place, const char *text, struct error_text *error)
 }
 
 /* The distance of two places on a sphere [km], good to 1 %. */
-static double distance_km(const struct place *place, const struct place_frame *frame)
+static double distance_km(const struct location *place, const struct location_frame *frame)
 {
     double sine, cosine, middle_sine, middle_cosine, turn_sine, turn_cosine;
     maths_sincos(place->latitude_deg * RAD_PER_DEG, &sine, &cosine);
@@ -98,8 +98,8 @@ static double distance_km(const struct place *place, const struct place_frame *f
     return 6371.0 * maths_atan2(sqrt(east * east + north * north), along);
 }
 
-int place_world(const struct place *place, const struct place_frame *frame, double *x, double *z,
-                struct error_text *error)
+int location_world(const struct location *place, const struct location_frame *frame, double *x,
+                   double *z, struct error_text *error)
 {
     double side_m = frame->side_m;
     *x = place->x;
@@ -123,7 +123,8 @@ int place_world(const struct place *place, const struct place_frame *frame, doub
         fabs(frame->longitude_deg), frame->longitude_deg < 0.0 ? 'W' : 'E', side_m / 1000.0);
 }
 
-void place_earth(struct place_earth *earth, const struct place_frame *frame, double x, double z)
+void location_earth(struct location_earth *earth, const struct location_frame *frame, double x,
+                    double z)
 {
     projection_place(&frame->projection, x, z, &earth->latitude_deg, &earth->longitude_deg);
     (void)snprintf(earth->degrees, sizeof earth->degrees, "%.6f%c,%.6f%c",
