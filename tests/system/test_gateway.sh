@@ -130,6 +130,7 @@ refuses "more remote entities than rows" 1 'world.remotes_max = 65: world.capaci
     "${run[@]}" --set world.remotes_max=65 --set world.capacity=64
 refuses "a zone" 1 'an address has no %zone here; name it by gateway.interface' "${run[@]}" --set 'gateway.listen=[ff02::1%lo]:3000'
 refuses "port 0" 2 'a whole number from 1 to 65535' "${run[@]}" --dis 127.0.0.1:0
+refuses "half a pair of brackets" 2 'must be an address in numbers' "${run[@]}" --dis '[::1'
 refuses "no address" 2 'must be an address in numbers' "${run[@]}" --dis :3000
 refuses "too many applications" 1 'gateway.applications.*up to 65532' "${run[@]}" --set gateway.application=2 --set gateway.applications=65533
 refuses "another version" 1 'gateway.version.*5' "${run[@]}" --set gateway.version=5
