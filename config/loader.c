@@ -180,6 +180,22 @@ static int refuse_zone(const struct load *load, const char *name, const char *te
                             text, "an address has no %%zone here; name it by gateway.interface");
 }
 
+/* 0.0.0.0 and :: are where one may listen. The system would send to this machine there, which is
+ * not what who writes them means. */
+static int check_target(const struct load *load, const char *name, const char *text)
+{
+    static const uint8_t any[16];
+    struct internet_address address;
+    struct error_text wrong;
+    if (internet_address_read(&address, text, 1, &wrong) != 0 ||
+        memcmp(address.bytes, any, sizeof any) != 0)
+        return 0;
+    return key_table_refuse(load->error, load->origin[key_table_find(&schema_scenario, name)], name,
+                            text,
+                            "is no address to send to; right would be that of a machine, of a "
+                            "broadcast such as 10.0.0.255, or of a group such as 239.1.2.3");
+}
+
 /* An address in numbers, with or without a port, or "none". */
 static int check_endpoint(const struct load *load, const char *name, const char *text)
 {
@@ -222,6 +238,9 @@ static int check_gateway(const struct load *load)
         return key_table_refuse(
             load->error, load->origin[key_table_find(&schema_scenario, name)], name, address,
             "is no address in numbers; right would be: 127.0.0.1, 239.1.2.3 or ::1");
+    if (check_target(load, name, address) != 0 ||
+        check_target(load, "gateway.cot", gateway->cot) != 0)
+        return -1;
     name = "gateway.applications";
     if (gateway->application + gateway->applications - 1 > APPLICATION_LAST) {
         char text[32];

@@ -78,6 +78,12 @@ static const struct refusal refusals[] = {
     {"gateway = { listen = \"[ff02::1%eth0]:3000\"; };", 1,
      "gateway.listen = [ff02::1%eth0]:3000: an address has no %zone here; name it by "
      "gateway.interface"},
+    {"gateway = { address = \"0.0.0.0\"; };", 1,
+     "gateway.address = 0.0.0.0: is no address to send to; right would be that of a machine, of a "
+     "broadcast such as 10.0.0.255, or of a group such as 239.1.2.3"},
+    {"gateway = {\n cot = \"[::]:4242\"; };", 2,
+     "gateway.cot = [::]:4242: is no address to send to; right would be that of a machine, of a "
+     "broadcast such as 10.0.0.255, or of a group such as 239.1.2.3"},
     {"gateway = {\n address = \"fe80::1%eth0\"; };", 2,
      "gateway.address = fe80::1%eth0: an address has no %zone here; name it by "
      "gateway.interface"},
