@@ -45,6 +45,11 @@ else
     skip "tshark reads the places and attitudes of the paused world" "there is no tshark here"
 fi
 "$jolon" dis dump --port "$port" --json run.pcap >pdus 2>/dev/null
+check "neither the kill nor the restart has told that the vehicles leave" python3 -I -S -c '
+import json
+last = sum(pdu["appearance"] >> 23 & 1 for pdu in map(json.loads, open("pdus")) if pdu["pdu"] == "entity-state")
+print(last)
+assert last < 100' # missiles that struck
 check "no entity has two types" python3 -I -S -c '
 import json, sys
 types = {}
