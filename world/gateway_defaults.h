@@ -1,5 +1,5 @@
-/* The defaults of the settings of a gateway, as scenarios write them: the schema of scenarios has
- * them from here, and so has who tells of settings that nobody uses (gateway_idle.h). */
+/* The defaults of the settings of a gateway, as scenarios write them. The schema of scenarios and
+ * the warning of settings without effect (gateway_idle.h) take them from here. */
 #ifndef JOLON_WORLD_GATEWAY_DEFAULTS_H
 #define JOLON_WORLD_GATEWAY_DEFAULTS_H
 

@@ -88,7 +88,7 @@ static void test_owners_survive_what_goes_round(void **state)
                     5 * slots + ENTITIES + 6 * (ENTITIES - 1));
 }
 
-/* Whoever is told, shoots or leaves in whatever order. */
+/* Tracks, shots and losses in any order. */
 static void test_random_records(void **state)
 {
     uint64_t seed = getenv("SEED") ? strtoull(getenv("SEED"), NULL, 10) : (uint64_t)time(NULL);
@@ -138,8 +138,8 @@ static void test_a_full_ring_keeps_owners(void **state)
     assert_true(finds(1) && finds(2) && finds(3));
 }
 
-/* Nobody is known to own an entity that was only seen, and no record says so. */
-static void test_nobody_is_no_owner(void **state)
+/* No record is written of an entity whose owner the gateway does not know. */
+static void test_an_unknown_owner_is_not_written(void **state)
 {
     (void)state;
     assert_int_equal(tell(1, head()), 0);
@@ -156,7 +156,7 @@ int main(void)
         TEST(test_owners_survive_what_goes_round),
         TEST(test_random_records),
         TEST(test_a_full_ring_keeps_owners),
-        TEST(test_nobody_is_no_owner),
+        TEST(test_an_unknown_owner_is_not_written),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
