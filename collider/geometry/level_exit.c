@@ -1,4 +1,5 @@
-/* Planes of all pairs of hulls first, then intervals along each of their normals. */
+/* Planes of all pairs of hulls first, then intervals along their normals, and to the corners in
+ * which the outlines of two pairs of hulls meet. */
 #include "collider/geometry/level_exit.h"
 
 #include "collider/geometry/hull_separation.h"
@@ -10,12 +11,20 @@
 /* There is room for so many at first. */
 #define PLANES_FIRST 65536u
 #define HULLS_FIRST  1024u
+#define EDGES_FIRST  1024u
 
-/* A narrower gap between two hulls is no place to stay in [m]. */
-#define GAP_LEAST_M 0.02
+/* So far is a way to lead from all hulls: what is between two that are nearer to each other than
+ * twice of that is no place to stay in [m]. */
+#define CLEAR_M 0.01
 
 /* Directions that differ less are the same [square of the difference of unit vectors]. */
 #define SAME 1e-18
+
+/* Edges whose unit normals have a smaller cross product are parallel. */
+#define PARALLEL 1e-9
+
+/* A corner may lie so far beyond the ends of its edges, and within other hulls, by rounding [m]. */
+#define ROUNDING_M 1e-9
 
 /* So many directions are remembered, so that none of them is tried twice. */
 #define TRIED_MAX 64u
@@ -24,10 +33,13 @@
 
 int level_exit_init(struct level_exit *search)
 {
-    *search = (struct level_exit){.plane_capacity = PLANES_FIRST, .hulls_capacity = HULLS_FIRST};
+    *search = (struct level_exit){.plane_capacity = PLANES_FIRST,
+                                  .hulls_capacity = HULLS_FIRST,
+                                  .edge_capacity = EDGES_FIRST};
     search->plane = reserve_take(PLANES_FIRST, sizeof *search->plane);
     search->hulls = reserve_take(HULLS_FIRST, sizeof *search->hulls);
-    if (search->plane && search->hulls)
+    search->edge = reserve_take(EDGES_FIRST, sizeof *search->edge);
+    if (search->plane && search->hulls && search->edge)
         return 0;
     level_exit_free(search);
     errno = ENOMEM;
@@ -38,6 +50,7 @@ void level_exit_free(struct level_exit *search)
 {
     reserve_free(search->plane);
     reserve_free(search->hulls);
+    reserve_free(search->edge);
     *search = (struct level_exit){0};
 }
 
@@ -46,11 +59,15 @@ void level_exit_begin(struct level_exit *search)
     search->planes = search->hulls_count = 0;
 }
 
-static void add_plane(struct level_exit *search, const struct relative_pose *now,
-                      struct vec3 normal)
+/* Adds a plane. Returns false if it separates the hulls. */
+static bool add_plane(struct level_exit *search, const struct relative_pose *now,
+                      struct vec3 normal, double clear_m)
 {
+    double level = sqrt(normal.x * normal.x + normal.z * normal.z);
+    double separation = hull_separation_now(now, normal);
     search->plane[search->planes++] =
-        (struct exit_plane){normal.x, normal.z, hull_separation_now(now, normal)};
+        (struct exit_plane){normal.x, normal.z, separation - clear_m * level};
+    return separation < 0.0;
 }
 
 static void make_room(struct level_exit *search, uint32_t planes)
@@ -76,18 +93,18 @@ static void add_hulls(struct level_exit *search, const struct relative_pose *now
     const struct hull_plane *a = body->planes + hull_a->first_plane;
     const struct hull_plane *b = other->planes + hull_b->first_plane;
     struct exit_hulls hulls = {.overlaps = true, .bars = bars};
+    double clear = bars ? 0.0 : CLEAR_M;
     if (hull_separation_now(now, (struct vec3){0.0, 1.0, 0.0}) >= 0.0 ||
         hull_separation_now(now, (struct vec3){0.0, -1.0, 0.0}) >= 0.0)
         return;
     make_room(search, hull_a->plane_count + hull_b->plane_count);
     hulls.first = search->planes;
     for (uint32_t i = 0; i < hull_a->plane_count; i++)
-        add_plane(search, now, rotation_apply(&now->a.turn, a[i].normal));
+        hulls.overlaps &= add_plane(search, now, rotation_apply(&now->a.turn, a[i].normal), clear);
     for (uint32_t i = 0; i < hull_b->plane_count; i++)
-        add_plane(search, now, vec3_scale(rotation_apply(&now->b.turn, b[i].normal), -1.0));
+        hulls.overlaps &= add_plane(
+            search, now, vec3_scale(rotation_apply(&now->b.turn, b[i].normal), -1.0), clear);
     hulls.end = search->planes;
-    for (uint32_t i = hulls.first; i < hulls.end; i++)
-        hulls.overlaps = hulls.overlaps && search->plane[i].separation_m < 0.0;
     search->hulls[search->hulls_count++] = hulls;
 }
 
@@ -145,7 +162,7 @@ static double way_along(const struct level_exit *search, bool bars, double norma
         for (uint32_t i = 0; i < search->hulls_count; i++) {
             const struct exit_hulls *hulls = &search->hulls[i];
             const struct interval along = overlap_along(search, hulls, normal_x, normal_z);
-            if (along.from > along.to || along.to <= end || along.from >= end + GAP_LEAST_M)
+            if (along.from > along.to || along.to <= end || along.from > end)
                 continue;
             if (along.to >= best_m || (bars && hulls->bars))
                 return INFINITY;
@@ -176,24 +193,153 @@ static bool is_new(struct tried *tried, double x, double z)
     return true;
 }
 
-double level_exit_find(const struct level_exit *search, bool bars, struct vec3 *normal)
+/* The shortest way that has been found. */
+struct best_way {
+    double length_m;
+    double x, z; /* against the motion */
+};
+
+static void try_way(const struct level_exit *search, bool bars, double x, double z,
+                    struct best_way *best)
+{
+    double way = way_along(search, bars, x, z, best->length_m);
+    if (way < best->length_m)
+        *best = (struct best_way){way, x, z};
+}
+
+/* Tries the ways across the faces of all hulls that are to be left. Those of hulls that do not
+ * overlap yet count, too: the way out of one hull may lead into another, and out of that at its
+ * face. */
+static void try_faces(const struct level_exit *search, bool bars, struct best_way *best)
 {
     struct tried tried = {.count = 0};
-    double best = INFINITY;
     for (uint32_t h = 0; h < search->hulls_count; h++) {
         const struct exit_hulls *hulls = &search->hulls[h];
-        for (uint32_t i = hulls->first; hulls->overlaps && !hulls->bars && i < hulls->end; i++) {
+        for (uint32_t i = hulls->first; !hulls->bars && i < hulls->end; i++) {
             const struct exit_plane *plane = &search->plane[i];
             double length = sqrt(plane->x * plane->x + plane->z * plane->z);
-            if (length < LEVEL_MIN || !is_new(&tried, plane->x / length, plane->z / length))
+            if (length < LEVEL_MIN || plane->separation_m >= 0.0 ||
+                -plane->separation_m >= best->length_m * length ||
+                !is_new(&tried, plane->x / length, plane->z / length))
                 continue;
-            double x = plane->x / length, z = plane->z / length;
-            double way = way_along(search, bars, x, z, best);
-            if (way < best) {
-                best = way;
-                *normal = (struct vec3){x, 0.0, z};
-            }
+            try_way(search, bars, plane->x / length, plane->z / length, best);
         }
     }
-    return best;
+}
+
+/* --- corners -----------------------------------------------------------------------------------*/
+
+/* Cuts the line of an edge to the outline of its hulls. Returns false if nothing of it is left. */
+static bool cut_edge(const struct level_exit *search, const struct exit_hulls *hulls,
+                     struct exit_edge *edge)
+{
+    double foot_x = edge->far_m * edge->x, foot_z = edge->far_m * edge->z;
+    edge->from = -INFINITY;
+    edge->to = INFINITY;
+    for (uint32_t i = hulls->first; i < hulls->end && edge->from <= edge->to; i++) {
+        const struct exit_plane *plane = &search->plane[i];
+        double rate = plane->z * edge->x - plane->x * edge->z;
+        double room = -plane->separation_m - plane->x * foot_x - plane->z * foot_z;
+        if (fabs(rate) < PARALLEL) {
+            if (room < -ROUNDING_M)
+                return false;
+        } else if (rate > 0.0) {
+            edge->to = maths_min(edge->to, room / rate);
+        } else {
+            edge->from = maths_max(edge->from, room / rate);
+        }
+    }
+    return edge->from <= edge->to;
+}
+
+/* Lists the edges of the outlines that are nearer than the best way is long. */
+static void list_edges(struct level_exit *search, double best_m)
+{
+    search->edges = 0;
+    for (uint32_t h = 0; h < search->hulls_count; h++) {
+        const struct exit_hulls *hulls = &search->hulls[h];
+        for (uint32_t i = hulls->first; !hulls->bars && i < hulls->end; i++) {
+            const struct exit_plane *plane = &search->plane[i];
+            double length = sqrt(plane->x * plane->x + plane->z * plane->z);
+            if (length < LEVEL_MIN || fabs(plane->separation_m) >= best_m * length)
+                continue;
+            struct exit_edge edge = {.hulls = h,
+                                     .x = plane->x / length,
+                                     .z = plane->z / length,
+                                     .far_m = -plane->separation_m / length};
+            if (!cut_edge(search, hulls, &edge))
+                continue;
+            if (search->edges == search->edge_capacity) {
+                search->edge_capacity *= 2;
+                search->edge = reserve_grow(search->edge, search->edges, search->edge_capacity,
+                                            sizeof *search->edge);
+            }
+            search->edge[search->edges++] = edge;
+        }
+    }
+}
+
+static bool is_on(const struct exit_edge *edge, double x, double z)
+{
+    double along = z * edge->x - x * edge->z;
+    return along >= edge->from - ROUNDING_M && along <= edge->to + ROUNDING_M;
+}
+
+/* Returns true if a way of this length leads out of all hulls, through none that bars it. Whether
+ * it would lead into others farther on does not matter. */
+static bool ends_outside(const struct level_exit *search, bool bars, double normal_x,
+                         double normal_z, double length_m)
+{
+    for (uint32_t i = 0; i < search->hulls_count; i++) {
+        const struct exit_hulls *hulls = &search->hulls[i];
+        const struct interval along = overlap_along(search, hulls, normal_x, normal_z);
+        if (along.from > along.to || along.to <= 0.0)
+            continue;
+        double end = bars && hulls->bars ? INFINITY : along.to;
+        if (along.from < length_m - ROUNDING_M && end > length_m + ROUNDING_M)
+            return false;
+    }
+    return true;
+}
+
+/* Tries the way to the point in which two edges cross, if it is nearer than the best way is long.
+ */
+static void try_corner(const struct level_exit *search, bool bars, const struct exit_edge *p,
+                       const struct exit_edge *q, struct best_way *best)
+{
+    double across = p->x * q->z - p->z * q->x;
+    if (fabs(across) < PARALLEL)
+        return;
+    double x = (p->far_m * q->z - q->far_m * p->z) / across;
+    double z = (q->far_m * p->x - p->far_m * q->x) / across;
+    double far = sqrt(x * x + z * z);
+    if (far > 0.0 && far < best->length_m && is_on(p, x, z) && is_on(q, x, z) &&
+        ends_outside(search, bars, x / far, z / far, far))
+        *best = (struct best_way){far, x / far, z / far};
+}
+
+static void try_corners(struct level_exit *search, bool bars, struct best_way *best)
+{
+    list_edges(search, best->length_m);
+    for (uint32_t i = 0; i < search->edges; i++) {
+        for (uint32_t j = i + 1; j < search->edges; j++) {
+            if (search->edge[i].hulls != search->edge[j].hulls)
+                try_corner(search, bars, &search->edge[i], &search->edge[j], best);
+        }
+    }
+}
+
+double level_exit_find(struct level_exit *search, bool bars, struct vec3 *normal)
+{
+    struct best_way best = {.length_m = INFINITY};
+    bool overlaps = false;
+    for (uint32_t h = 0; h < search->hulls_count; h++)
+        overlaps |= search->hulls[h].overlaps && !search->hulls[h].bars;
+    if (!overlaps)
+        return INFINITY;
+    try_faces(search, bars, &best);
+    try_corners(search, bars, &best);
+    if (best.length_m < INFINITY)
+        *normal = (struct vec3){best.x, 0.0, best.z};
+    return best.length_m;
 }
