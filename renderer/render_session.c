@@ -265,6 +265,7 @@ struct frame_view render_session_frame_view(const struct render_session *session
                                .fixed_damage = snapshot->fixed_damage,
                                .craters = &session->craters,
                                .dents = &session->dents,
+                               .roads = &session->static_scene.roads,
                                .articulation = &session->articulation};
 }
 

@@ -26,6 +26,7 @@ void base_map_open(struct base_map *base, const struct world *world)
 void base_map_close(struct base_map *base)
 {
     image_free(&base->ring);
+    road_index_free(&base->roads);
 }
 
 /* --- painting --------------------------------------------------------------------------------- */
@@ -112,7 +113,8 @@ static void blank_beyond(struct image *image, const struct map_view *view)
 }
 
 /* Paints the view's ground into an image of its size. Returns 0, or -1 with errno ENOMEM. */
-static int paint_view(struct image *image, const struct map_view *view, const struct world *world)
+static int paint_view(struct image *image, const struct map_view *view, const struct world *world,
+                      const struct road_index *roads)
 {
     size_t count = (size_t)view->width * view->height;
     float *light = malloc(count * sizeof *light);
@@ -128,6 +130,7 @@ static int paint_view(struct image *image, const struct map_view *view, const st
         .relief = RELIEF,
         .rgba = image->pixels,
         .light = light,
+        .roads = roads,
     };
     terrain_colour_ground(world, NULL, &tile);
     free(light);
@@ -179,9 +182,13 @@ static int paint_part(struct base_map *base, struct base_map_part part)
                             .width = (uint32_t)(part.x1 - part.x0),
                             .height = (uint32_t)(part.y1 - part.y0)};
     struct image image;
+    if (!base->has_roads && road_index_make(&base->roads, base->world->road_points,
+                                            base->world->counts.road_points) != 0)
+        return -1;
+    base->has_roads = true;
     if (image_init(&image, view.width, view.height) != 0)
         return -1;
-    int result = paint_view(&image, &view, base->world);
+    int result = paint_view(&image, &view, base->world, &base->roads);
     for (int64_t row = part.y0; result == 0 && row < part.y1; row++)
         copy_row(base, row, part.x0, part.x1,
                  image.pixels + (size_t)(row - part.y0) * view.width * 4, true);

@@ -9,6 +9,7 @@
 
 #include "renderer/chart/map.h"
 #include "renderer/image/image.h"
+#include "world/road_index.h"
 
 #include <stdint.h>
 
@@ -23,6 +24,8 @@ struct base_map {
     double metres;             /* [m] a pixel; 0: nothing is painted yet */
     struct base_map_part held; /* the painted part in the ring */
     uint64_t painted;          /* [pixel] painted since it was opened */
+    struct road_index roads;   /* made for the first painting; owned */
+    bool has_roads;
 };
 
 void base_map_open(struct base_map *base, const struct world *world);

@@ -143,11 +143,13 @@ void image_line(struct image *image, struct point from, struct point to, double 
                 struct rgba colour)
 {
     double half = 0.5 * width, dx = to.x - from.x, dy = to.y - from.y;
-    double length = sqrt(dx * dx + dy * dy);
-    double ux = length > 0.0 ? dx / length : 1.0, uy = length > 0.0 ? dy / length : 0.0;
     struct row_span span =
         span_of(image, least(from.x, to.x) - half - 1.0, least(from.y, to.y) - half - 1.0,
                 most(from.x, to.x) + half + 1.0, most(from.y, to.y) + half + 1.0);
+    if (span.x0 >= span.x1 || span.y0 >= span.y1)
+        return; /* most roads are outside of a picture */
+    double length = sqrt(dx * dx + dy * dy);
+    double ux = length > 0.0 ? dx / length : 1.0, uy = length > 0.0 ? dy / length : 0.0;
     /* A row meets the line around the point where it crosses the line's middle. It extends to both
      * sides as far as the line's width and slant require. */
     bool level = fabs(uy) < 1e-3;

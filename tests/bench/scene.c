@@ -23,6 +23,7 @@ struct frame_view bench_scene_frame_view(const struct bench_scene *s)
                                .fixed_damage = state->fixed_damage,
                                .craters = &s->craters,
                                .dents = &s->dents,
+                               .roads = &s->static_scene.roads,
                                .articulation = &s->articulation};
 }
 

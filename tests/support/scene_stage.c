@@ -48,7 +48,8 @@ void scene_stage_ready(struct scene_stage *stage)
                                             .entities = &stage->entities,
                                             .fixed_damage = stage->fixed_damage,
                                             .craters = &stage->index,
-                                            .dents = &stage->dents};
+                                            .dents = &stage->dents,
+                                            .roads = &stage->static_scene.roads};
 }
 
 int scene_stage_teardown(void **context)

@@ -2,7 +2,7 @@
 #include "world/making/road_graph.h"
 
 #include "world/maths/maths.h"
-#include "world/making/road_index.h"
+#include "world/road_index.h"
 #include "world/world.h"
 
 #include <errno.h>

@@ -145,6 +145,10 @@ int static_scene_init(struct static_scene *static_scene, const struct world *wor
     *static_scene = (struct static_scene){.world = world};
     if (terrain_quadtree_init(&static_scene->ground, &world->terrain) != 0)
         return -1;
+    if (road_index_make(&static_scene->roads, world->road_points, world->counts.road_points) != 0) {
+        static_scene_free(static_scene);
+        return -1;
+    }
     static_scene->square_start =
         malloc((GRIDSQUARE_COUNT + 1) * sizeof *static_scene->square_start);
     static_scene->look = malloc(world->counts.fixed + 1);
@@ -182,5 +186,6 @@ void static_scene_free(struct static_scene *static_scene)
     free(static_scene->plants);
     free(static_scene->blocks);
     free(static_scene->skeletons);
+    road_index_free(&static_scene->roads);
     *static_scene = (struct static_scene){.world = NULL};
 }

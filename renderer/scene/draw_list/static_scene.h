@@ -1,11 +1,12 @@
 /* What the renderer computes once about the fixed objects of a world: where they are by gridsquare,
- * what each looks like, and the ground's quadtree. Pure. */
+ * what each looks like, the index of roads, and the ground's quadtree. Pure. */
 #ifndef JOLON_RENDERER_SCENE_DRAW_LIST_STATIC_SCENE_H
 #define JOLON_RENDERER_SCENE_DRAW_LIST_STATIC_SCENE_H
 
 #include "renderer/scene/model/plant_impostors.h"
 #include "renderer/scene/terrain/terrain_quadtree.h"
 #include "renderer/scene/model/mesh.h"
+#include "world/road_index.h"
 #include "world/terrain/gridsquare.h"
 
 #include <stdint.h>
@@ -43,6 +44,7 @@ struct static_scene {
     struct static_scene_block
         *blocks; /* [STATIC_SCENE_BLOCKS * STATIC_SCENE_BLOCKS] row by row; owned */
     struct mesh_skeleton *skeletons; /* [world->counts.models]; owned */
+    struct road_index roads;         /* of world->road_points; owned */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. The world must outlive the static scene. */

@@ -11,6 +11,7 @@
 
 struct crater_index;
 struct entities;
+struct road_index;
 struct world;
 
 struct frame_view {
@@ -20,6 +21,7 @@ struct frame_view {
     const uint8_t *fixed_damage;     /* [world->counts.fixed] enum damage */
     const struct crater_index *craters;
     const struct dent_index *dents;
+    const struct road_index *roads;          /* NULL: no roads are drawn on the ground */
     const struct articulation *articulation; /* NULL: every vehicle is in its initial state */
     double ahead_s; /* simulation time of the picture after the frame's [s]; bodies are at their
                        positions at that time (renderer/scene/frame/frame_interpolation.h) */

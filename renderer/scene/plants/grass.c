@@ -4,6 +4,7 @@
 #include "renderer/scene/draw_list/draw_list.h"
 #include "renderer/scene/draw_list/static_scene.h"
 #include "renderer/scene/noise/value_noise.h"
+#include "world/road_index.h"
 #include "world/world.h"
 
 #include <math.h>
@@ -56,17 +57,16 @@ void grass_free(struct grass *grass)
 
 /* --- a block ---------------------------------------------------------------------------------- */
 
-static void find_roads(const struct world *world, struct vec3 middle, struct road_pieces *pieces)
+static void find_roads(const struct road_index *roads, struct vec3 middle,
+                       struct road_pieces *pieces)
 {
+    const double reach = 0.5 * BLOCK_M + ROAD_CLEAR_M;
+    struct road_walk walk = road_index_walk(roads, middle.x - reach, middle.z - reach,
+                                            middle.x + reach, middle.z + reach);
+    uint32_t stretch;
     pieces->count = 0;
-    for (uint32_t i = 0; i + 1 < world->counts.road_points && pieces->count < ROADS_MAX; i++) {
-        const struct road_point *a = &world->road_points[i], *b = a + 1;
-        double dx = (double)b->x - (double)a->x, dz = (double)b->z - (double)a->z;
-        double mx = (double)a->x + 0.5 * dx - middle.x, mz = (double)a->z + 0.5 * dz - middle.z;
-        double reach = 0.5 * (fabs(dx) + fabs(dz)) + BLOCK_M + ROAD_CLEAR_M;
-        if (a->road == b->road && fabs(mx) < reach && fabs(mz) < reach)
-            pieces->from[pieces->count++] = a;
-    }
+    while (pieces->count < ROADS_MAX && road_walk_next(&walk, &stretch))
+        pieces->from[pieces->count++] = &roads->points[stretch];
 }
 
 static bool on_road(const struct road_pieces *pieces, double x, double z)
@@ -143,9 +143,10 @@ static void add_clump(struct block *block, const struct world *world,
 }
 
 static void make_block(struct block *block, const struct world *world,
-                       const struct crater_index *craters, int32_t column, int32_t row)
+                       const struct road_index *roads, const struct crater_index *craters,
+                       int32_t column, int32_t row)
 {
-    struct road_pieces roads;
+    struct road_pieces pieces;
     block->made = true;
     block->column = column;
     block->row = row;
@@ -155,10 +156,10 @@ static void make_block(struct block *block, const struct world *world,
     block->middle.x = (column + 0.5) * BLOCK_M;
     block->middle.z = (row + 0.5) * BLOCK_M;
     block->middle.y = terrain_base_height(&world->terrain, block->middle.x, block->middle.z);
-    find_roads(world, block->middle, &roads);
+    find_roads(roads, block->middle, &pieces);
     for (int32_t r = 0; r < BLOCK_CELLS; r++)
         for (int32_t c = 0; c < BLOCK_CELLS; c++)
-            add_clump(block, world, craters, &roads, column * BLOCK_CELLS + c,
+            add_clump(block, world, craters, &pieces, column * BLOCK_CELLS + c,
                       row * BLOCK_CELLS + r);
     block->reach += (float)BLOCK_M * 0.75f + CLUMP_REACH_M; /* half a diagonal is 0.71 sides */
 }
@@ -178,12 +179,13 @@ static bool dug_since(struct block *block, const struct crater_index *craters)
 }
 
 static const struct block *block_at(struct grass *grass, const struct world *world,
+                                    const struct road_index *roads,
                                     const struct crater_index *craters, int32_t column, int32_t row)
 {
     uint32_t x = (uint32_t)column % TABLE_SIDE, z = (uint32_t)row % TABLE_SIDE;
     struct block *block = &grass->block[z * TABLE_SIDE + x];
     if (!block->made || block->column != column || block->row != row || dug_since(block, craters))
-        make_block(block, world, craters, column, row);
+        make_block(block, world, roads, craters, column, row);
     return block;
 }
 
@@ -217,8 +219,8 @@ static uint32_t show_block(const struct block *block, const struct draw_list *li
 }
 
 uint32_t grass_show(struct grass *grass, const struct draw_list *list, const struct world *world,
-                    const struct crater_index *craters, struct draw_list_plant *plants,
-                    uint32_t room)
+                    const struct road_index *roads, const struct crater_index *craters,
+                    struct draw_list_plant *plants, uint32_t room)
 {
     struct vec3 eye = list->camera.eye;
     double range = GRASS_RANGE_M * sqrt((double)list->detail);
@@ -231,7 +233,7 @@ uint32_t grass_show(struct grass *grass, const struct draw_list *list, const str
     int32_t last_row = value_noise_floor((eye.z + range) / BLOCK_M);
     for (int32_t row = first_row; row <= last_row; row++)
         for (int32_t column = first_column; column <= last_column; column++)
-            count += show_block(block_at(grass, world, craters, column, row), list, (float)range,
-                                plants + count, room - count);
+            count += show_block(block_at(grass, world, roads, craters, column, row), list,
+                                (float)range, plants + count, room - count);
     return count;
 }

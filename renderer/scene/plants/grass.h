@@ -12,6 +12,7 @@ struct crater_index;
 struct draw_list;
 struct draw_list_plant;
 struct grass;
+struct road_index;
 struct world;
 
 /* Returns NULL if there is no memory. */
@@ -21,7 +22,7 @@ void grass_free(struct grass *grass);
 /* Writes the clumps in the camera's view to plants and returns their number, at most room. The
  * range depends on the draw list's detail. */
 uint32_t grass_show(struct grass *grass, const struct draw_list *list, const struct world *world,
-                    const struct crater_index *craters, struct draw_list_plant *plants,
-                    uint32_t room);
+                    const struct road_index *roads, const struct crater_index *craters,
+                    struct draw_list_plant *plants, uint32_t room);
 
 #endif

@@ -187,7 +187,7 @@ void plants_add(struct draw_list *list, const struct static_scene *static_scene,
             add_block(&context, &box, column, row);
     if (!list->texture)
         return;
-    list->plant_count +=
-        grass_show(list->grass, list, static_scene->world, frame_view->craters,
-                   &list->plants[list->plant_count], DRAW_LIST_PLANTS_MAX - list->plant_count);
+    list->plant_count += grass_show(list->grass, list, static_scene->world, &static_scene->roads,
+                                    frame_view->craters, &list->plants[list->plant_count],
+                                    DRAW_LIST_PLANTS_MAX - list->plant_count);
 }

@@ -2,6 +2,7 @@
 #include "renderer/scene/terrain/nearby_roads.h"
 
 #include "world/maths/maths.h"
+#include "world/road_index.h"
 #include "world/world.h"
 
 #include <math.h>
@@ -33,53 +34,22 @@ static void near_segment(const struct block *block, double ax, double az, double
         }
 }
 
-struct rectangle {
-    double x0, z0, x1, z1;
-};
-
-/* Whether a stretch begins with point i, and its bounds touch the rectangle. */
-static bool is_near(const struct world *world, uint32_t i, const struct rectangle *near)
+bool nearby_roads_distances(const struct road_index *roads, double x, double z, double step_m,
+                            uint32_t columns, uint32_t rows, uint32_t stride, double reach_m,
+                            float *off)
 {
-    const struct road_point *a = &world->road_points[i], *b = a + 1;
-    double ax = (double)a->x, az = (double)a->z, bx = (double)b->x, bz = (double)b->z;
-    return a->road == b->road && (ax >= near->x0 || bx >= near->x0) &&
-           (ax <= near->x1 || bx <= near->x1) && (az >= near->z0 || bz >= near->z0) &&
-           (az <= near->z1 || bz <= near->z1);
-}
-
-void nearby_roads_find(struct nearby_roads *roads, const struct world *world, double x0, double z0,
-                       double x1, double z1)
-{
-    const struct rectangle near = {x0, z0, x1, z1};
-    roads->count = 0;
-    roads->too_many = false;
-    for (uint32_t i = 0; i + 1 < world->counts.road_points && !roads->too_many; i++) {
-        if (!is_near(world, i, &near))
-            continue;
-        if (roads->count < NEARBY_ROADS_MAX)
-            roads->stretches[roads->count++] = i;
-        else
-            roads->too_many = true;
-    }
-}
-
-bool nearby_roads_distances(const struct nearby_roads *roads, const struct world *world, double x,
-                            double z, double step_m, uint32_t columns, uint32_t rows,
-                            uint32_t stride, double reach_m, float *off)
-{
-    struct block block = {x, z, step_m, reach_m, columns, rows, stride, off};
-    const struct rectangle near = {x - reach_m, z - reach_m, x + step_m * columns + reach_m,
-                                   z + step_m * rows + reach_m};
-    uint32_t count = roads->too_many ? world->counts.road_points - 1 : roads->count;
+    const struct block block = {x, z, step_m, reach_m, columns, rows, stride, off};
+    uint32_t stretch;
     bool any = false;
-    for (uint32_t n = 0; n < count; n++) {
-        uint32_t i = roads->too_many ? n : roads->stretches[n];
-        const struct road_point *a = &world->road_points[i], *b = a + 1;
-        if (!is_near(world, i, &near))
-            continue;
-        if (!any)
-            for (size_t texel = 0; texel < (size_t)rows * stride; texel++)
-                off[texel] = 1e9f;
+    if (roads == NULL)
+        return false;
+    struct road_walk walk =
+        road_index_walk(roads, x - reach_m, z - reach_m, x + step_m * columns + reach_m,
+                        z + step_m * rows + reach_m);
+    while (road_walk_next(&walk, &stretch)) {
+        const struct road_point *a = &roads->points[stretch], *b = a + 1;
+        for (size_t texel = 0; !any && texel < (size_t)rows * stride; texel++)
+            off[texel] = 1e9f;
         any = true;
         near_segment(&block, (double)a->x, (double)a->z, (double)b->x - (double)a->x,
                      (double)b->z - (double)a->z);

@@ -78,7 +78,6 @@ struct block {
     struct value_noise_rows noise[NOISES];
     float roads[BLOCK * BLOCK]; /* [m] from the middle of the nearest road */
     bool has_roads;
-    struct nearby_roads near; /* roads near the tile */
     struct row now;
 };
 
@@ -562,8 +561,8 @@ static void open_block(struct block *block, const struct world *world)
                                block->x, tile->step_m, block->columns);
     }
     block->has_roads =
-        nearby_roads_distances(&block->near, world, block->x, block->z, tile->step_m,
-                               block->columns, block->rows, BLOCK, road_reach(tile), block->roads);
+        nearby_roads_distances(tile->roads, block->x, block->z, tile->step_m, block->columns,
+                               block->rows, BLOCK, road_reach(tile), block->roads);
 }
 
 static void fill_noise(struct block *block, double z)
@@ -623,11 +622,7 @@ bool terrain_colour_ground(const struct world *world, const struct crater_index 
 {
     struct block block; /* too large to be cleared for each tile */
     bool sea = false;
-    double reach = road_reach(tile);
     block.tile = tile;
-    nearby_roads_find(&block.near, world, tile->x - reach, tile->z - reach,
-                      tile->x + tile->columns * tile->step_m + reach,
-                      tile->z + tile->rows * tile->step_m + reach);
     for (block.row = 0; block.row < tile->rows; block.row += BLOCK)
         for (block.column = 0; block.column < tile->columns; block.column += BLOCK) {
             uint32_t columns = tile->columns - block.column, rows = tile->rows - block.row;

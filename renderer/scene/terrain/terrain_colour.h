@@ -9,6 +9,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+struct road_index;
+
 /* Alpha of a texel: water, higher nearer to the sea's shore, or ground with the share of scrub in
  * its fine texture. */
 #define TERRAIN_COLOUR_WATER_ALPHA  0
@@ -21,10 +23,11 @@ struct terrain_colour_tile {
     double x, z;   /* [m, world] centre of the first texel */
     double step_m; /* between texels */
     uint32_t columns, rows;
-    struct vec3 sun; /* unit; towards the light */
-    double relief;   /* factor on the slopes for shading */
-    uint8_t *rgba;   /* [rows * columns * 4], from the north-west */
-    float *light;    /* [rows * columns] scratch: the sun's light */
+    struct vec3 sun;                /* unit; towards the light */
+    double relief;                  /* factor on the slopes for shading */
+    uint8_t *rgba;                  /* [rows * columns * 4], from the north-west */
+    float *light;                   /* [rows * columns] scratch: the sun's light */
+    const struct road_index *roads; /* of the world; NULL: none are drawn */
 };
 
 /* Computes the texture. Returns true if there is sea in it or next to it. */

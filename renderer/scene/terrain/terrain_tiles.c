@@ -194,6 +194,7 @@ static void make_texture(struct terrain_tiles *tiles, struct tile *tile,
         .relief = 1.0,
         .rgba = tile->texture,
         .light = tiles->light,
+        .roads = frame_view->roads,
     };
     tile->surf = terrain_colour_ground(frame_view->world, frame_view->craters, &request);
     fill_mips(tile->texture);

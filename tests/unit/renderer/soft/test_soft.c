@@ -247,7 +247,8 @@ static int open_landscape(void **context)
     assert_int_equal(crater_index_init(&c->index, c->craters), 0);
     assert_int_equal(static_scene_init(&c->static_scene, &c->world), 0);
     assert_int_equal(scene_init(&c->list), 0);
-    c->frame_view = (struct frame_view){.world = &c->world, .craters = &c->index};
+    c->frame_view = (struct frame_view){
+        .world = &c->world, .craters = &c->index, .roads = &c->static_scene.roads};
     struct error_text error;
     assert_int_equal(
         soft_open_build(&c->plain, &c->static_scene, 300, 144, 1, &soft_kernels_plain, &error), 0);

@@ -7,6 +7,7 @@
 #include "renderer/scene/terrain/terrain_quadtree.h"
 #include "renderer/scene/frame/light.h"
 #include "tests/support/fixture.h"
+#include "world/road_index.h"
 #include "tests/support/works.h"
 
 #include <setjmp.h>
@@ -29,6 +30,7 @@ struct coast {
     struct world world;
     struct crater craters[2];
     struct crater_index index;
+    struct road_index roads;
     struct road_point road[3];
     float posts[POSTS * POSTS];
     uint8_t cover[POSTS * POSTS];
@@ -59,6 +61,8 @@ static int open_coast(void **context)
         .posts = coast->posts, .cover = coast->cover, .side = POSTS, .spacing_m = SPACING};
     coast->world.road_points = coast->road;
     coast->world.counts.road_points = 3;
+    if (road_index_make(&coast->roads, coast->road, 3) != 0)
+        return -1;
     return crater_index_init(&coast->index, coast->craters);
 }
 
@@ -66,6 +70,7 @@ static int close_coast(void **context)
 {
     (void)context;
     crater_index_free(&coast->index);
+    road_index_free(&coast->roads);
     free(coast);
     return 0;
 }
@@ -81,7 +86,8 @@ static bool make_texture(double x, double z, double step_m, uint32_t columns, ui
                                        .sun = light_sun(),
                                        .relief = 1.0,
                                        .rgba = rgba,
-                                       .light = coast->light};
+                                       .light = coast->light,
+                                       .roads = &coast->roads};
     return terrain_colour_ground(&coast->world, &coast->index, &tile);
 }
 

@@ -2,6 +2,7 @@
 #include "renderer/scene/terrain/terrain_tiles.h"
 
 #include "renderer/scene/terrain/terrain_colour.h"
+#include "world/road_index.h"
 #include "world/world.h"
 
 #include <setjmp.h>
@@ -23,6 +24,7 @@ struct terrain_context {
     struct frame_view frame_view;
     struct crater craters[8];
     struct crater_index index;
+    struct road_index roads;
     struct road_point road[3];
     struct terrain_tiles tiles;
     float posts[POSTS * POSTS];
@@ -54,7 +56,9 @@ static int open_country(void **context)
     c->world.counts.road_points = 3;
     assert_int_equal(crater_index_init(&c->index, c->craters), 0);
     assert_int_equal(terrain_tiles_init(&c->tiles), 0);
-    c->frame_view = (struct frame_view){.world = &c->world, .craters = &c->index};
+    assert_int_equal(road_index_make(&c->roads, c->road, 3), 0);
+    c->frame_view =
+        (struct frame_view){.world = &c->world, .craters = &c->index, .roads = &c->roads};
     *context = c;
     return 0;
 }
@@ -64,6 +68,7 @@ static int close_country(void **context)
     struct terrain_context *c = *context;
     terrain_tiles_free(&c->tiles);
     crater_index_free(&c->index);
+    road_index_free(&c->roads);
     free(c);
     return 0;
 }

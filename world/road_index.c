@@ -1,5 +1,5 @@
 /* A grid with lists of stretches, made by counting. */
-#include "world/making/road_index.h"
+#include "world/road_index.h"
 
 #include "world/maths/maths.h"
 #include "world/terrain/gridsquare.h"
@@ -18,7 +18,7 @@ struct cells {
 
 static uint32_t cell_of(const struct road_index *index, double place_m)
 {
-    return (uint32_t)maths_clamp(floor(place_m / index->cell_m), 0.0, (double)(index->side - 1));
+    return (uint32_t)maths_clamp(place_m * index->cells_a_m, 0.0, (double)(index->side - 1));
 }
 
 static struct cells cells_of(const struct road_index *index, double x0, double z0, double x1,
@@ -72,7 +72,7 @@ int road_index_make(struct road_index *index, const struct road_point *points, u
     double side = ceil(sqrt(0.5 * (double)count));
     *index = (struct road_index){.points = points,
                                  .side = (uint32_t)maths_clamp(side, 1.0, (double)SIDE_MAX)};
-    index->cell_m = WORLD_SIDE_M / (double)index->side;
+    index->cells_a_m = (double)index->side / WORLD_SIDE_M;
     uint32_t cells = index->side * index->side;
     index->first = calloc((size_t)cells + 1, sizeof *index->first);
     if (!index->first)
@@ -123,12 +123,12 @@ struct road_walk road_index_walk(const struct road_index *index, double x0, doub
  * in the first cell that it shares with the walk. */
 static bool is_found(const struct road_walk *walk, uint32_t stretch)
 {
-    struct bounds b = bounds_of(walk->index, stretch);
-    struct cells own = cells_of_stretch(walk->index, stretch);
-    uint32_t column = own.column0 > walk->column0 ? own.column0 : walk->column0;
-    uint32_t row = own.row0 > walk->row0 ? own.row0 : walk->row0;
-    return column == walk->column && row == walk->row && b.x0 <= walk->x1 && b.x1 >= walk->x0 &&
-           b.z0 <= walk->z1 && b.z1 >= walk->z0;
+    const struct road_index *index = walk->index;
+    struct bounds b = bounds_of(index, stretch);
+    if (!(b.x0 <= walk->x1 && b.x1 >= walk->x0 && b.z0 <= walk->z1 && b.z1 >= walk->z0))
+        return false;
+    return (walk->column == walk->column0 || cell_of(index, b.x0) == walk->column) &&
+           (walk->row == walk->row0 || cell_of(index, b.z0) == walk->row);
 }
 
 bool road_walk_next(struct road_walk *walk, uint32_t *stretch)

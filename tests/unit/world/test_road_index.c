@@ -1,5 +1,5 @@
 /* Walks over the index of roads against looking at every stretch (row 4). */
-#include "world/making/road_index.h"
+#include "world/road_index.h"
 
 #include "tests/support/fixture.h"
 #include "world/terrain/gridsquare.h"

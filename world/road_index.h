@@ -1,8 +1,8 @@
 /* The index of roads: which stretches lie in each cell of a grid over the world. A stretch leads
  * from a point of a road to the next and has the number of the point where it begins. Used at
- * creation. Pure. */
-#ifndef JOLON_WORLD_MAKING_ROAD_INDEX_H
-#define JOLON_WORLD_MAKING_ROAD_INDEX_H
+ * creation and by the renderer. Pure; any number of threads may walk. */
+#ifndef JOLON_WORLD_ROAD_INDEX_H
+#define JOLON_WORLD_ROAD_INDEX_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -12,7 +12,7 @@ struct road_point;
 struct road_index {
     const struct road_point *points;
     uint32_t side; /* cells in a row and in a column */
-    double cell_m;
+    double cells_a_m;
     uint32_t *first;     /* [side * side + 1] of each cell in stretches */
     uint32_t *stretches; /* ascending within a cell */
 };
