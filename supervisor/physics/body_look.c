@@ -5,6 +5,7 @@
 #include "world/entity/event.h"
 #include "world/entity/kind.h"
 #include "world/entity/persistent_contact.h"
+#include "world/entity/remote.h"
 #include "world/state.h"
 #include "world/world.h"
 
@@ -99,6 +100,8 @@ static void read_body(struct body_looks *looks, const struct world *world,
     read_motion(&body->now, state, row, (enum domain)body->kind->domain);
     body->named = (struct measured_body){e->id[row], false, e->kind[row], body->now.pose.at};
     body->finite = all_finite(&body->now);
+    body->foreign = remote_is(e, row);
+    looks->foreign += body->foreign;
     body->known = memory->id == e->id[row] && body->finite;
     if (body->known) {
         body->was = &memory->look;
@@ -122,7 +125,7 @@ void body_looks_begin(struct body_looks *looks, const struct world *world,
                       const struct state *state)
 {
     const struct entities *e = &state->entities;
-    looks->count = 0;
+    looks->count = looks->foreign = 0;
     looks->rows = state->head->used;
     for (uint32_t row = 0; row < state->head->used; row++) {
         looks->of_row[row] = NO_LOOK;

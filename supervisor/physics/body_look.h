@@ -60,6 +60,8 @@ struct body_look {
     bool known;                    /* it was there in the frame before */
     bool still;                    /* known, and its pose and its turret are the same to the bit */
     bool finite;                   /* all its numbers are */
+    bool foreign;                  /* another simulator moves it: it is not judged, and explains
+                                      what happens to bodies that it touches */
     /* What may explain a change of its velocity. */
     bool commanded;   /* a command named it */
     uint32_t blasts;  /* explosions near */
@@ -88,6 +90,7 @@ struct row_memory {
 struct body_looks {
     struct body_look *body; /* in the order of their rows */
     uint32_t count, rows;
+    uint32_t foreign;          /* of the bodies */
     uint32_t *of_row;          /* [capacity] index into body, or NO_LOOK */
     struct row_memory *memory; /* [capacity] */
 };

@@ -112,7 +112,8 @@ static void begin_share(struct energy_share *share, uint32_t index, const struct
                         double dt_s)
 {
     *share = (struct energy_share){.parent = index, .mass_kg = body->kind->mass_kg};
-    share->unexplained = body->known && body->finite && !body->commanded && body->blasts == 0;
+    share->unexplained =
+        body->known && body->finite && !body->commanded && body->blasts == 0 && !body->foreign;
     if (share->unexplained) /* springs give energy back: see sprung_body.h */
         share->unexplained = !body->now.sprung && !body->was->sprung;
     if (!share->unexplained)

@@ -265,10 +265,12 @@ static uint64_t key_of(uint32_t first, uint32_t second)
     return (uint64_t)first << 32 | second;
 }
 
-/* Looks at two bodies, of which a has the lower id. */
+/* Looks at two bodies, of which a has the lower id. One of another simulator may be anywhere, so
+ * the other one parts from it as from a body that was placed there. */
 static int look_at_pair(struct look *look, struct body_look *a, struct body_look *b)
 {
     struct overlaps *overlaps = look->overlaps;
+    bool foreign = a->foreign || b->foreign;
     const struct overlap_list *before = &overlaps->pairs[!overlaps->current];
     struct overlap pair = {.key = key_of(a->named.id, b->named.id)};
     const struct overlap *last = list_find(before, pair.key);
@@ -276,7 +278,7 @@ static int look_at_pair(struct look *look, struct body_look *a, struct body_look
         pair = *last;
         a->parts += pair.since_start;
         b->parts += pair.since_start;
-        look->overlapping += pair.depth_m > ROUNDING_M;
+        look->overlapping += !foreign && pair.depth_m > ROUNDING_M;
     } else {
         const struct pair_side sides[2] = {side_of(a), side_of(b)};
         double enough = touch_reach(a, b->now.velocity, look->dt_s);
@@ -285,8 +287,12 @@ static int look_at_pair(struct look *look, struct body_look *a, struct body_look
         double apart = bodies_apart(overlaps, &sides[0], &sides[1], enough, &pair.axis);
         pair.depth_m = maths_max(0.0, -apart);
         pair.touch = apart < enough;
-        measure_pair(look, &pair, last, !a->known || !b->known, &a->named, &b->named);
-        if (a->known && b->known && !parts_from_others(a, last) && !parts_from_others(b, last)) {
+        if (foreign)
+            pair.since_start = pair.depth_m > ROUNDING_M;
+        else
+            measure_pair(look, &pair, last, !a->known || !b->known, &a->named, &b->named);
+        if (!foreign && a->known && b->known && !parts_from_others(a, last) &&
+            !parts_from_others(b, last)) {
             const struct pair_side earlier[2] = {side_before(a), side_before(b)};
             measure_growth(look, &pair, last, earlier, sides, &a->named, &b->named);
         }
@@ -409,7 +415,8 @@ static int look_at_all(struct look *look)
     struct body_look *body = look->looks->body;
     put_balls(look);
     for (uint32_t i = 0; i < overlaps->balls && overlaps->walls.side > 0; i++) {
-        if (look_at_walls(look, &body[overlaps->ball[i].body], &overlaps->ball[i]) != 0)
+        struct body_look *looked = &body[overlaps->ball[i].body];
+        if (!looked->foreign && look_at_walls(look, looked, &overlaps->ball[i]) != 0)
             return -1;
     }
     if (neighbour_pairs_find(&overlaps->near, overlaps->ball, overlaps->balls) != 0)
@@ -419,6 +426,8 @@ static int look_at_all(struct look *look)
         struct body_look *a = &body[overlaps->near.pair[i].a];
         struct body_look *b = &body[overlaps->near.pair[i].b];
         bool lower = a->named.id < b->named.id;
+        if (a->foreign && b->foreign)
+            continue;
         if (look_at_pair(look, lower ? a : b, lower ? b : a) != 0)
             return -1;
     }

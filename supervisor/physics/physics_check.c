@@ -97,11 +97,26 @@ static int join_pressed(struct physics_check *check, const struct state *state)
     return 0;
 }
 
+/* A body of another simulator is corrected at the end of a frame, so it may have touched a body
+ * from which it is apart now. */
+static void mark_touched(struct physics_check *check)
+{
+    const struct neighbour_pairs *touching = &check->overlaps.touching;
+    for (uint32_t i = 0; i < touching->count; i++) {
+        struct body_look *a = &check->looks.body[touching->pair[i].a],
+                         *b = &check->looks.body[touching->pair[i].b];
+        a->touches |= b->foreign;
+        b->touches |= a->foreign;
+    }
+}
+
 static void look_at_bodies(struct physics_check *check, const struct ground_look *ground)
 {
     struct body_looks *looks = &check->looks;
     for (uint32_t i = 0; i < looks->count; i++) {
         struct body_look *body = &looks->body[i];
+        if (body->foreign)
+            continue;
         body_measures_numbers(&check->measures, body);
         if (body->finite)
             body_measures_ground(&check->measures, ground, body);
@@ -112,7 +127,7 @@ static void look_at_motion(struct physics_check *check, const struct ground_look
 {
     const struct body_looks *looks = &check->looks;
     for (uint32_t i = 0; i < looks->count; i++) {
-        if (!looks->body[i].finite)
+        if (!looks->body[i].finite || looks->body[i].foreign)
             continue;
         body_measures_rest(&check->measures, ground, &looks->body[i]);
         body_measures_motion(&check->measures, ground->dt_s, &looks->body[i]);
@@ -144,6 +159,7 @@ static int look_at(struct physics_check *check, const struct state *state,
         (events && join_struck(check, state->head->event_end, events) != 0) ||
         join_pressed(check, state) != 0)
         return -1;
+    mark_touched(check);
     joined_bodies_find(&check->looks, &check->overlaps.touching);
     look_at_motion(check, &ground);
     body_looks_end(&check->looks);
@@ -189,8 +205,9 @@ int physics_check_frame(struct physics_check *check, const struct state *state,
 {
     if (look_at(check, state, events) != 0)
         return -1;
+    uint32_t bodies = check->looks.count - check->looks.foreign;
     check->frames++;
-    check->bodies += check->looks.count;
-    check->most = check->most > check->looks.count ? check->most : check->looks.count;
+    check->bodies += bodies;
+    check->most = check->most > bodies ? check->most : bodies;
     return 0;
 }

@@ -85,6 +85,7 @@ wait $sender 2>/dev/null
 "$jolon" stop -w "$name" >/dev/null
 replay() { "$jolon" replay "$@" out/commands.log; }
 check "the log replays on one thread" eval 'replay --threads 1 | grep "equal to the run that was recorded"'
+check "and its physics are good: what others move is not judged" eval '"$jolon" replay --physics out/commands.log | grep "^physics: good"'
 check "and on four" eval 'replay --threads 4 | grep "equal to the run that was recorded"'
 check "so it does up to frames before the end" eval '
     for frames in 300 450; do
