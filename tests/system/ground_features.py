@@ -5,6 +5,7 @@ usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west an
        ground_features.py corner EVENTS           (does the first collision of T1 lie at the corner, within 1 mm?)
        ground_features.py wall EVENTS             (does it lie on a wall beside that corner, within 1 mm?)
        ground_features.py craters CSV RAW         (has the raster the heights of the dump, and holes?)
+       ground_features.py convoy DUMP             (do six trucks drive in the valley south of Gorham?)
        ground_features.py picture RAW X Z STEP WORD...   (has the picture of 500 x 500 pixels the colours of these things?)
        ground_features.py shore DUMP LATER        (does T2 stand at the shore of the lake?)"""
 import json
@@ -146,6 +147,15 @@ def craters(csv_path, raw_path):
     raise SystemExit(worst > 1e-3 or min(raw) > 79.5)
 
 
+def convoy(path):
+    with open(path, encoding="utf-8") as file:
+        trucks = [v for v in map(json.loads, file) if v["kind"] == "truck"]
+    print(*((round(x), round(z), round(y)) for x, y, z in (v["position"] for v in trucks)))
+    # Gorham is at [33300, 13220] and the road leads to the south.
+    raise SystemExit(len(trucks) != 6 or not all(v["damage"] == "none" and v["speed_mps"] > 2.0 for v in trucks) or
+                     not all(12900.0 < v["position"][2] < 15500.0 for v in trucks))
+
+
 def picture(path, x0, z0, step, *things):
     with open(path, "rb") as file:
         raw = file.read()
@@ -171,4 +181,4 @@ def picture(path, x0, z0, step, *things):
 
 
 if __name__ == "__main__":
-    {"maps": maps, "picture": picture, "corner": corner, "craters": craters, "wall": wall, "shore": shore}[sys.argv[1]](*sys.argv[2:])
+    {"maps": maps, "picture": picture, "convoy": convoy, "corner": corner, "craters": craters, "wall": wall, "shore": shore}[sys.argv[1]](*sys.argv[2:])

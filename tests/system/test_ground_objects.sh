@@ -60,6 +60,18 @@ find_source_dir
 check "the town can be made" "$source_dir/config/grounds/make-town" "$ground" town.ground
 check "it is the one that comes with Jolon" equal "$(info town.ground hash)" "$(info "$source_dir/config/grounds/town.ground" hash)"
 
+# --- the White Mountains that come with Jolon ----------------------------------------------------------------
+mountains=$source_dir/config/grounds/white-mountains.ground
+check "the White Mountains are sound, and below 5 MB" eval '"$ground" check "$mountains" && [ "$(wc -c <"$mountains")" -lt 5000000 ]'
+check "they say where they are from" eval '"$ground" info "$mountains" | grep -q "^licence: heights: SRTM .*public domain"'
+check "Mount Washington is the highest" eval '"$ground" info "$mountains" | grep -q "heights  *212.344 to 1906.31 m"'
+"$jolon" run -w "$name" --frames 3600 --pace max --without renderer --json --out up --checkpoint up.img mount-washington >told 2>/dev/null
+check "a minute of the convoy has no collision" eval '[ "$(json collisions <told)" = 0 ]'
+"$bin/jolon-world" create --world "$name" --from up.img --set world.frames=0 >/dev/null 2>&1
+"$bin/jolon-world" dump --json --world "$name" >convoy.json
+"$bin/jolon-world" remove --world "$name" >/dev/null 2>&1
+check "its trucks drive up the valley" python3 "$here/ground_features.py" convoy convoy.json
+
 # --- a corner, and a shore ---------------------------------------------------------------------------------
 cat >corner.cfg <<'TEXT'
 terrain = { source = "file"; file = "x.ground"; };
