@@ -96,6 +96,7 @@ static const char *const troubles[FEATURE_TROUBLES] = {
                        "instead"),
     [FEATURE_SMALL] = "outlines are too small for buildings, and are left out",
     [FEATURE_EDGE] = "buildings across the edge of the square are left out",
+    [FEATURE_TALL] = "buildings have a height above 500 m, which was not used",
 };
 
 struct reading {
@@ -278,14 +279,16 @@ static void take_river(struct reading *r)
 
 /* --- buildings ---------------------------------------------------------------------------------*/
 
-static double walls_of(const struct reading *r, double area_m2)
+static double walls_of(struct reading *r, double area_m2)
 {
     double height = metres_of(r, "height"), storeys = metres_of(r, "building:levels");
     if (height == 0.0 && storeys > 0.0)
         height = storeys * STOREY_M;
-    if (height == 0.0)
+    if (height > WALLS_MAX_M)
+        note(r, FEATURE_TALL);
+    if (height == 0.0 || height > WALLS_MAX_M)
         height = area_m2 < SHED_M2 ? SHED_M : area_m2 < HALL_M2 ? HOUSE_M : HALL_M;
-    return maths_clamp(height, WALLS_MIN_M, WALLS_MAX_M);
+    return maths_max(height, WALLS_MIN_M);
 }
 
 /* Returns true if a corner lies within the square. */

@@ -31,6 +31,7 @@ enum feature_trouble {
     FEATURE_BOXED,    /* an outline that could not be split: its smallest rectangle stands for it */
     FEATURE_SMALL,    /* left out: a building of less than BUILDINGS_LEAST_M2 */
     FEATURE_EDGE,     /* left out: a building across the edge of the square */
+    FEATURE_TALL,     /* a building with a height that no building has; it is not used */
     FEATURE_TROUBLES
 };
 

@@ -13,6 +13,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
 
 #define METRES_PER_FOOT        0.3048
 #define METRES_PER_SURVEY_FOOT (1200.0 / 3937.0)
@@ -21,6 +23,19 @@ static const char *last_error(void)
 {
     const char *text = CPLGetLastErrorMsg();
     return text[0] != '\0' ? text : "GDAL gives no reason";
+}
+
+/* Says why a file is no raster. GDAL is silent about a tile of SRTM that is cut off. */
+static int refuse_file(const char *path, struct error_text *error)
+{
+    const char *ending = strrchr(path, '.'), *reason = CPLGetLastErrorMsg();
+    struct stat status;
+    if (reason[0] == '\0' && ending && strcasecmp(ending, ".hgt") == 0 && stat(path, &status) == 0)
+        return error_text_set(error,
+                              "%s: has %lld bytes; a tile of heights has 2884802 (1,201 x 1,201), "
+                              "12967202 or 25934402 (3,601 x 3,601), and a name like N44W072.hgt",
+                              path, (long long)status.st_size);
+    return error_text_set(error, "%s: GDAL cannot read it as a raster: %s", path, last_error());
 }
 
 static int check_band(struct raster *r, enum raster_use use, struct error_text *error)
@@ -183,7 +198,7 @@ struct raster *raster_open(const char *path, enum raster_use use, const struct p
     CPLErrorReset();
     r->dataset = GDALOpenEx(path, GDAL_OF_RASTER | GDAL_OF_READONLY, NULL, NULL, NULL);
     if (r->dataset == NULL)
-        error_text_set(error, "%s: GDAL cannot read it as a raster: %s", path, last_error());
+        refuse_file(path, error);
     else if (fill(r, use, to_metres, error) == 0)
         return r;
     raster_close(r);

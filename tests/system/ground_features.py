@@ -75,6 +75,7 @@ def broken(there):
     there.add("Polygon", box(49998, 25000, 12, 9), building="yes")
     there.add("Polygon", box(25400, 25000, 1, 1), building="yes")
     there.add("Polygon", [(25500, 25000), (25510, 25000), (25510, 25000.004), (25505, 25008)], building="yes", height="high")
+    there.add("Polygon", box(25600, 25000, 12, 9), building="yes", height="1e308")
     there.add("Polygon", box(80000, 25000, 12, 9), building="yes")  # elsewhere
     rows = there.write("broken.geojson")
     rows[-1]["geometry"]["coordinates"][0][1] = [-71.5, 95.0]
