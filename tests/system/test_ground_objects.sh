@@ -61,10 +61,9 @@ check "the town can be made" "$source_dir/config/grounds/make-town" "$ground" to
 check "it is the one that comes with Jolon" equal "$(info town.ground hash)" "$(info "$source_dir/config/grounds/town.ground" hash)"
 
 # --- the White Mountains that come with Jolon ----------------------------------------------------------------
-mountains=$source_dir/config/grounds/white-mountains.ground
-check "the White Mountains are sound, and below 5 MB" eval '"$ground" check "$mountains" && [ "$(wc -c <"$mountains")" -lt 5000000 ]'
-check "they say where they are from" eval '"$ground" info "$mountains" | grep -q "^licence: heights: SRTM .*public domain"'
-check "Mount Washington is the highest" eval '"$ground" info "$mountains" | grep -q "heights  *212.344 to 1906.31 m"'
+check "the White Mountains are sound, and below 5 MB" eval '"$ground" check "$source_dir/config/grounds/white-mountains.ground" && [ "$(wc -c <"$source_dir/config/grounds/white-mountains.ground")" -lt 5000000 ]'
+check "they say where they are from" eval '"$ground" info "$source_dir/config/grounds/white-mountains.ground" | grep -q "^licence: heights: SRTM .*public domain"'
+check "Mount Washington is the highest" eval '"$ground" info "$source_dir/config/grounds/white-mountains.ground" | grep -q "heights  *212.344 to 1906.31 m"'
 "$jolon" run -w "$name" --frames 3600 --pace max --without renderer --json --out up --checkpoint up.img mount-washington >told 2>/dev/null
 check "a minute of the convoy has no collision" eval '[ "$(json collisions <told)" = 0 ]'
 "$bin/jolon-world" create --world "$name" --from up.img --set world.frames=0 >/dev/null 2>&1

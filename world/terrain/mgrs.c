@@ -161,7 +161,7 @@ static double metres_of(const char *digits, size_t count, double side_m)
 int mgrs_read(const char *text, double *latitude_deg, double *longitude_deg,
               struct error_text *error)
 {
-    struct reference r;
+    struct reference r = {.digits = ""};
     if (read_parts(&r, text, error) != 0)
         return -1;
     const struct projection projection = projection_of(r.zone);
