@@ -9,6 +9,7 @@
 #include "world/entity/kind.h"
 #include "world/enum_names.h"
 #include "world/event_text.h"
+#include "world/terrain/location.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -102,6 +103,10 @@ static int read_member(struct subscription *subscription, const cJSON *member,
         subscription->frames = cJSON_IsTrue(member);
         return cJSON_IsBool(member) ? 0 : error_text_set(error, "not true or false");
     }
+    if (strcmp(name, "places") == 0) {
+        subscription->places = cJSON_IsTrue(member);
+        return cJSON_IsBool(member) ? 0 : error_text_set(error, "not true or false");
+    }
     if (strcmp(name, "rate_hz") == 0) {
         subscription->rate_hz = cJSON_IsNumber(member) ? member->valuedouble : 0.0;
         if (subscription->rate_hz >= SUBSCRIPTION_RATE_MIN_HZ &&
@@ -110,7 +115,8 @@ static int read_member(struct subscription *subscription, const cJSON *member,
         return error_text_set(error, "not a number from %g to %g", SUBSCRIPTION_RATE_MIN_HZ,
                               SUBSCRIPTION_RATE_MAX_HZ);
     }
-    return error_text_set(error, "no such member; there are frames, entities, rate_hz, events");
+    return error_text_set(error, "no such member; there are frames, entities, places, rate_hz, "
+                                 "events");
 }
 
 int subscription_read(struct subscription *subscription, const cJSON *want,
@@ -160,6 +166,15 @@ static bool is_wanted(const struct subscription *subscription, const jolon_Entit
     return false;
 }
 
+static void add_place(cJSON *object, const struct location_frame *frame, const jolon_Entity *entity)
+{
+    struct location_earth earth;
+    location_earth(&earth, frame, entity->x_m, entity->z_m);
+    json_number(object, "latitude_deg", earth.latitude_deg);
+    json_number(object, "longitude_deg", earth.longitude_deg);
+    json_text(object, "mgrs", earth.mgrs);
+}
+
 static void write_entities(const struct subscription *subscription,
                            const struct world_mirror *mirror, struct output *output)
 {
@@ -168,10 +183,17 @@ static void write_entities(const struct subscription *subscription,
         subscription->near ? world_mirror_entity(mirror, subscription->near) : NULL;
     cJSON *object = cJSON_CreateObject();
     cJSON *list = json_array(object, "entities");
+    struct location_frame frame;
+    location_frame_make(&frame, mirror->world.latitude_deg, mirror->world.longitude_deg,
+                        mirror->world.side_m);
     json_whole(object, "frame", batch->frame);
     for (uint32_t i = 0; i < batch->count; i++) {
-        if (is_wanted(subscription, &batch->entity[i], middle))
-            (void)cJSON_AddItemToArray(list, entity_json(mirror, &batch->entity[i]));
+        if (!is_wanted(subscription, &batch->entity[i], middle))
+            continue;
+        cJSON *entity = entity_json(mirror, &batch->entity[i]);
+        if (subscription->places)
+            add_place(entity, &frame, &batch->entity[i]);
+        (void)cJSON_AddItemToArray(list, entity);
     }
     output_object(output, OUTPUT_STATE, object);
 }

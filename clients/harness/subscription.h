@@ -19,6 +19,7 @@
 
 struct subscription {
     bool frames, all;
+    bool places;   /* entities have latitude, longitude and MGRS */
     uint32_t near; /* id, 0: not by distance */
     double within_m;
     double rate_hz;

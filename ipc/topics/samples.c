@@ -44,7 +44,8 @@ static bool times(const jolon_Times *value)
 static bool good_world(jolon_WorldInfo *world)
 {
     bool good = world->hz > 0.0 && amount(world->hz) && world->side_m >= SIDE_MIN_M &&
-                amount(world->side_m) && world->kinds._length <= 64;
+                amount(world->side_m) && fabs(world->latitude_deg) <= 90.0 &&
+                fabs(world->longitude_deg) <= 180.0 && world->kinds._length <= 64;
     for (uint32_t i = 0; good && i < jolon_MAP_CELLS; i++)
         good = number((double)world->height_m[i]);
     for (uint32_t i = 0; good && i < world->kinds._length; i++) {

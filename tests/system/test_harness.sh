@@ -119,6 +119,24 @@ assert "longer than" in error[18]["error"] and "UTF-8" in error[17]["error"]
 P
 check "each line is answered, or refused with the error and the correct form" python3 "$folder/answers"
 
+# --- places ---------------------------------------------------------------------------------------------
+{ echo '{"id":0,"want":{"entities":"all","places":true,"rate_hz":10}}'
+    echo '{"id":1,"do":"spawn","kind":"helicopter","at":"35.96N,121.25W","altitude_m":900}'
+    echo '{"id":2,"do":"spawn","kind":"helicopter","at":"36.96N,121.25W"}'
+    sleep 2; } | $harness >told
+cat >"$folder/places" <<'P'
+import json
+lines = [json.loads(line) for line in open("told")]
+assert lines[0]["latitude_deg"] == 35.95 and lines[0]["longitude_deg"] == -121.25, lines[0]
+made = next(line["entity"] for line in lines if line.get("answer") == 1)
+assert "from the middle of the world" in next(line["error"] for line in lines if line.get("answer") == 2)
+first = next(e for line in lines if "entities" in line for e in line["entities"] if e["id"] == made)
+print(first)
+assert abs(first["latitude_deg"] - 35.96) < 0.002 and abs(first["longitude_deg"] + 121.25) < 0.002
+assert first["mgrs"].startswith("10SFE57") and len(first["mgrs"]) == 15
+P
+check "commands take places on the earth, and vehicles have theirs" python3 "$folder/places"
+
 # --- a slow reader -------------------------------------------------------------------------------------
 { echo '{"id":0,"want":{"entities":"all","rate_hz":10,"frames":true,"events":"all"}}'
     for i in $(seq 1000); do
