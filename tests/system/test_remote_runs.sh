@@ -101,4 +101,14 @@ at=$(grep -ao 'checkpoint early.image: frame [0-9]*' out/jolon.log | tail -n 1 |
 echo "# the checkpoint is of frame $at"
 check "a branch from a checkpoint is the same on 1 and 4 threads" eval 'one=$(branch 1); [ -n "$one" ] && equal "$one" "$(branch 4)"'
 check "another seed is another branch" eval '[ "$(branch 1)" != "$(branch 1 --set world.seed=77)" ]'
+
+# --- owners ---------------------------------------------------------------------------------------------
+"$jolon" start -w "$name" --from early.image --without renderer --without reporter --out out-more >/dev/null
+eventually grep -q "receives at" out-more/jolon.log
+sleep 7
+seldom place="$(eastern -490 500)" marking=SECOND
+sleep 1
+check "who had a vehicle first has it in a run that continues from a checkpoint, too" eval '
+    rows | grep 9:2:9 | grep -q "FIRST"'
+"$jolon" stop -w "$name" >/dev/null
 done_testing
