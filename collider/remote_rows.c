@@ -20,11 +20,6 @@ static void restore_block(struct response_context *context, const struct entitie
     }
 }
 
-static double into_world(double metres)
-{
-    return maths_clamp(metres, 0.0, WORLD_SIDE_M);
-}
-
 static void correct(struct response_context *context, uint32_t row)
 {
     const struct entities *e = &context->next->entities;
@@ -32,8 +27,8 @@ static void correct(struct response_context *context, uint32_t row)
     struct vec3 drift = remote_drift(e, row), turn = remote_turn(e, row);
     if (vec3_dot(drift, drift) > 0.0) {
         struct vec3 at = vec3_add(entities_position(e, row), vec3_scale(drift, dt_s));
-        at.x = into_world(at.x);
-        at.z = into_world(at.z);
+        at.x = world_clamp(context->world, at.x);
+        at.z = world_clamp(context->world, at.z);
         if (e->order_arg[row] >> REMOTE_FLAGS_SHIFT & REMOTE_FLAG_CLAMPED)
             (void)ground_clamp(&context->world->terrain, context->input.detect.craters,
                                REMOTE_CLAMP_M, &at);

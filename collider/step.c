@@ -26,8 +26,9 @@ int collider_init(struct collider *collider, const struct world *world,
 {
     *collider =
         (struct collider){.world = world, .workers = workers, .fixed_hash_frame = UINT64_MAX};
-    if (crater_index_init(&collider->craters, craters) != 0 ||
-        square_bounds_init(&collider->heights, square_bounds_height, &world->terrain) != 0 ||
+    if (crater_index_init(&collider->craters, &world->terrain.squares, craters) != 0 ||
+        square_bounds_init(&collider->heights, &world->terrain.squares, square_bounds_height,
+                           &world->terrain) != 0 ||
         body_motion_init(&collider->motion, world) != 0 ||
         broad_phase_init(&collider->broad, world, workers) != 0 ||
         contact_queue_init(&collider->contacts, world, workers) != 0 ||

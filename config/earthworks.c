@@ -4,6 +4,7 @@
 #include "config/syntax/entry.h"
 #include "config/syntax/schema.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 #include "world/maths/maths.h"
 #include "world/terrain/earthwork.h"
 #include "world/terrain/gridsquare.h"
@@ -89,13 +90,13 @@ static int check_slopes(const struct entry *entry, const struct earthwork *work)
 
 static int check_place(const struct entry *entry, const struct earthwork *work)
 {
+    const double side_m = entry->scenario->settings->side_m;
     double x = earthwork_reach_x(work), z = earthwork_reach_z(work);
-    if (work->x - x >= 0.0 && work->z - z >= 0.0 && work->x + x <= WORLD_SIDE_M &&
-        work->z + z <= WORLD_SIDE_M)
+    if (work->x - x >= 0.0 && work->z - z >= 0.0 && work->x + x <= side_m && work->z + z <= side_m)
         return 0;
     return entry_refuse(entry, EARTHWORK_KEY_AT,
                         "the earthwork reaches out of the world; allowed: all of it within 0..%g m",
-                        WORLD_SIDE_M);
+                        side_m);
 }
 
 static int read_work(struct earthwork *work, const struct entry *entry,

@@ -76,7 +76,8 @@ static int open_file(struct objects *o)
     if (o->file.header.hash != settings->ground_hash)
         return refuse(o, "has changed while the scenario was read");
     uint32_t posts_side;
-    if (!ground_file_fits_world(&o->file.header, &o->offset_m, &posts_side))
+    if (!ground_file_fits_world(&o->file.header, o->scenario->settings->side_m, &o->offset_m,
+                                &posts_side))
         return refuse(o, "has a square that no world has");
     o->object = calloc(o->file.objects + 1, sizeof(*o->object));
     o->building = calloc(o->file.buildings + 1, sizeof(*o->building));

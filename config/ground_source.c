@@ -38,23 +38,22 @@ static bool find(const char *name, const char *scenario, const char *data_dir, b
     return false;
 }
 
-static int check(const struct ground_file *file, const char *name, struct key_place place,
-                 struct error_text *error)
+static int check(const struct ground_file *file, double side_m, const char *name,
+                 struct key_place place, struct error_text *error)
 {
-    double side_m = file->header.side_m, offset_m;
+    double offset_m;
     uint32_t posts_side;
-    if (side_m > WORLD_SIDE_M)
+    if (file->header.side_m > side_m)
         return key_table_refuse(error, place, GROUND_SOURCE_KEY, name,
-                                "its square has a side of %g km; worlds have squares of up to %g "
-                                "km: make it again by jolon ground make --side %g",
-                                side_m / 1000.0, WORLD_SIDE_M / 1000.0, WORLD_SIDE_M);
-    if (!ground_file_fits_world(&file->header, &offset_m, &posts_side))
+                                "its square has a side of %g m, and terrain.side_m is %g; allowed: "
+                                "from the side of the square, or no terrain.side_m",
+                                file->header.side_m, side_m);
+    if (!ground_file_fits_world(&file->header, side_m, &offset_m, &posts_side))
         return key_table_refuse(error, place, GROUND_SOURCE_KEY, name,
                                 "its posts are %g m apart, which are no posts of a world of %g km "
-                                "with at most %u along an edge: make it again by jolon ground make "
-                                "--posts 12.5 or 31.25",
-                                file->header.spacing_m, WORLD_SIDE_M / 1000.0,
-                                GROUND_WORLD_POSTS_MAX);
+                                "with at most %u along an edge: give another terrain.side_m, or "
+                                "make it again by jolon ground make with other --posts",
+                                file->header.spacing_m, side_m / 1000.0, GROUND_WORLD_POSTS_MAX);
     return 0;
 }
 
@@ -88,7 +87,9 @@ int ground_source_read(struct scenario_settings *settings, const char *scenario,
     middle[0] = file.header.latitude_deg;
     middle[1] = file.header.longitude_deg;
     middle[2] = file.header.undulation_m;
-    int result = check(&file, name, place, error);
+    if (settings->side_m == 0.0)
+        settings->side_m = ground_file_world_side(&file.header);
+    int result = check(&file, settings->side_m, name, place, error);
     ground_file_close(&file);
     return result;
 }

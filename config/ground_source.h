@@ -12,7 +12,8 @@ struct scenario_settings;
  * path and the hash of its ground, and middle: latitude, longitude [deg] and undulation [m] of the
  * middle of its square. Looks in the folder of the scenario, then in the current one, then in
  * data_dir/grounds; of an override first in the current one. place: of the key, for messages.
- * Refuses a file that is missing or damaged, and sides that no world has yet. 0; -1 with the
+ * Sets settings->side_m if it is 0. Refuses a file that is missing or damaged, and one that does
+ * not fit into the world. 0; -1 with the
  * message. */
 int ground_source_read(struct scenario_settings *settings, const char *scenario,
                        const char *data_dir, struct key_place place, double middle[3],

@@ -17,10 +17,13 @@
 #include "world/gateway_lists.h"
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
+#include "world/terrain/gridsquare.h"
+#include "world/terrain/ground_format.h"
 
 #include <arpa/inet.h>
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -256,6 +259,29 @@ static int check_gateway(const struct load *load)
     return check_gateway_lists(load, gateway);
 }
 
+/* Settles the side of the world; read_ground() does for a ground file without one. */
+static int settle_side(const struct load *load)
+{
+    struct scenario_settings *settings = load->scenario->settings;
+    const char *name = "terrain.side_m", *wrong = NULL;
+    const struct key_place place = load->origin[key_table_find(&schema_scenario, name)];
+    char text[32];
+    snprintf(text, sizeof(text), "%.15g", settings->side_m);
+    if (settings->side_m == 0.0 && settings->terrain != TERRAIN_FILE)
+        settings->side_m = WORLD_SIDE_DEFAULT_M;
+    if (fmod(settings->side_m, WORLD_SIDE_OF_M) != 0.0)
+        wrong = "is no multiple of 125 m";
+    else if (settings->terrain == TERRAIN_GENERATED && settings->side_m != WORLD_SIDE_DEFAULT_M)
+        wrong = "generated ground has 50 km; allowed: 50000, or terrain.source = \"flat\" or "
+                "\"file\"";
+    else if (settings->terrain == TERRAIN_FLAT &&
+             settings->side_m / settings->spacing_m > GROUND_WORLD_POSTS_MAX - 1)
+        wrong =
+            "has too many posts for terrain.spacing_m; allowed: up to 4,097 along an edge: up to "
+            "512 km with spacing_m = 125, 256 km with 62.5, 128 km with 31.25";
+    return wrong ? key_table_refuse(load->error, place, name, text, "%s", wrong) : 0;
+}
+
 /* Vehicles of other simulators are rows like others. */
 static int check_remotes(const struct load *load)
 {
@@ -286,7 +312,7 @@ static int check_together(const struct load *load)
         {collision->mass_c1_kg, collision->mass_c2_kg, collision->mass_c3_kg}};
     if (check_levels(load, &damage) != 0 || check_levels(load, &mass) != 0)
         return -1;
-    return check_remotes(load) != 0 ? -1 : check_gateway(load);
+    return check_remotes(load) != 0 || settle_side(load) != 0 ? -1 : check_gateway(load);
 }
 
 static int read_lists(struct load *load)
@@ -429,7 +455,7 @@ static int read_scenario(struct load *load, const char *const *overrides, int ov
     }
     if (check_together(load) != 0 || read_ground(load) != 0 ||
         places_convert(&load->config, load->source.path, &load->scenario->settings->params,
-                       load->error) != 0 ||
+                       load->scenario->settings->side_m, load->error) != 0 ||
         kinds_read(load->scenario, load->data_dir, load->hash, load->error) != 0 ||
         read_lists(load) != 0)
         return -1;

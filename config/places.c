@@ -186,11 +186,11 @@ static int convert_list(const struct conversion *c, config_setting_t *list,
     return 0;
 }
 
-int places_convert(config_t *config, const char *file, const struct params *params,
+int places_convert(config_t *config, const char *file, const struct params *params, double side_m,
                    struct error_text *error)
 {
     struct conversion c = {.file = file, .error = error};
     static const struct key_table none = {.path = ""};
-    earth_location_frame(&c.frame, params);
+    earth_location_frame(&c.frame, params, side_m);
     return convert_entry(&c, config_root_setting(config), &none, "");
 }

@@ -9,9 +9,9 @@
 #include <libconfig.h>
 
 /* Replaces such texts in the lists of a scenario's tree by metres from the north-west corner, so
- * that the readers of the lists know of numbers alone. params: the world's place on the earth.
- * Returns 0, or -1 with the message: file, line, key, value and what would be right. */
-int places_convert(config_t *config, const char *file, const struct params *params,
+ * that the readers of the lists know of numbers alone. params, side_m: the world's place on the
+ * earth. Returns 0, or -1 with the message: file, line, key, value and what would be right. */
+int places_convert(config_t *config, const char *file, const struct params *params, double side_m,
                    struct error_text *error);
 
 #endif

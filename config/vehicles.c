@@ -214,7 +214,8 @@ int vehicles_read(struct scenario *scenario, const config_setting_t *list, const
     if (scenario->groups == NULL || scenario->areas == NULL || scenario->routes == NULL ||
         scenario->route_points == NULL)
         return -1;
-    scenario->areas[scenario->area_count++] = (struct area){0.0, 0.0, WORLD_SIDE_M, WORLD_SIDE_M};
+    const double side_m = scenario->settings->side_m;
+    scenario->areas[scenario->area_count++] = (struct area){0.0, 0.0, side_m, side_m};
     scenario->settings->params.initial_entities = 0;
     for (int i = 0; i < length; i++) {
         struct vehicle_entry vehicle;

@@ -208,10 +208,11 @@ int gateway_open(struct gateway *gateway, const char *world, struct error_text *
     gateway->events.remotes = &gateway->remotes;
     if (provenance_find(view->world.recipe, view->world.counts.recipe, "ground"))
         local_frame_project(&entities->frame, params->latitude_deg, params->longitude_deg,
-                            params->undulation_m, 0.5 * WORLD_SIDE_M);
+                            params->undulation_m, 0.5 * view->world.terrain.squares.world_m);
     else
         local_frame_make(&entities->frame, params->latitude_deg, params->longitude_deg,
-                         params->undulation_m, 0.5 * WORLD_SIDE_M, 0.5 * WORLD_SIDE_M);
+                         params->undulation_m, 0.5 * view->world.terrain.squares.world_m,
+                         0.5 * view->world.terrain.squares.world_m);
     read_undulation(gateway);
     if (type_table_read(&gateway->types, path, view->world.kinds, view->world.counts.kinds,
                         error) != 0 ||

@@ -82,6 +82,7 @@ int remote_input_open(struct remote_input *input, const struct view *view, uint6
     if (remote_table_open(&input->table, view->world.params->remotes_max) != 0)
         return error_text_set(error, "remote entities: no memory for %u: %s",
                               view->world.params->remotes_max, strerror(errno));
+    input->side_m = view->world.terrain.squares.world_m;
     input->world_capacity = view->header->capacity;
     input->grace_ns = now_ns + (uint64_t)(REMOTE_INPUT_GRACE_S * 1e9);
     read_ring(input, view, now_ns);
@@ -100,20 +101,20 @@ static bool within(struct vec3 v, double most)
     return vec3_length(v) <= most; /* false for NaN */
 }
 
-static bool in_square(struct vec3 at)
+static bool in_square(const struct remote_input *input, struct vec3 at)
 {
-    return at.x >= 0.0 && at.x <= WORLD_SIDE_M && at.z >= 0.0 && at.z <= WORLD_SIDE_M;
+    return at.x >= 0.0 && at.x <= input->side_m && at.z >= 0.0 && at.z <= input->side_m;
 }
 
 /* Returns true if a place is one of the world, and else counts why not. */
 static bool in_world(struct remote_input *input, struct vec3 at)
 {
     bool high = at.y >= HEIGHT_LEAST_M && at.y <= HEIGHT_MOST_M; /* false for NaN */
-    if (!in_square(at))
+    if (!in_square(input, at))
         input->refused[REMOTE_INPUT_PLACE]++;
     else if (!high)
         input->refused[REMOTE_INPUT_HEIGHT]++;
-    return in_square(at) && high;
+    return in_square(input, at) && high;
 }
 
 /* Returns a place of the world. One that is nowhere near is outside the square. */

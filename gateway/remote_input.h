@@ -55,6 +55,7 @@ enum remote_input_refusal {
 struct remote_input {
     const struct type_table *types;
     const struct local_frame *frame;
+    double side_m; /* of the world */
     struct entity_ids own;
     bool clamp;
     uint64_t timeout_ns;

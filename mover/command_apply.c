@@ -31,11 +31,6 @@ static bool within(double value, double low, double high)
     return value >= low && value <= high;
 }
 
-static bool in_world(const double point[2])
-{
-    return within(point[0], 0.0, WORLD_SIDE_M) && within(point[1], 0.0, WORLD_SIDE_M);
-}
-
 /* --- vehicles ----------------------------------------------------------------------------------*/
 
 static uint32_t vehicle_row(const struct serial_context *context, uint32_t id)
@@ -134,7 +129,7 @@ static enum command_result drop_bomb(struct serial_context *context, const struc
     if (command->kind >= world->counts.kinds ||
         world->kinds[command->kind].domain != DOMAIN_MUNITION)
         return COMMAND_NO_SUCH_KIND;
-    if (!in_world(command->value))
+    if (!world_holds(context->step->world, command->value[0], command->value[1]))
         return COMMAND_OUT_OF_RANGE;
     return fire_drop_bomb(context, command->kind, command->value[0], command->value[1])
                ? COMMAND_DONE
@@ -212,9 +207,9 @@ static enum command_result spawn(struct serial_context *context, const struct co
     if (command->kind >= world->counts.kinds || world->kinds[command->kind].domain > DOMAIN_AIR)
         return COMMAND_NO_SUCH_KIND;
     const struct kind *kind = &world->kinds[command->kind];
-    if (!in_world(v) || !within(v[2], 0.0, 20000.0) || !within(v[3], -TWO_PI, TWO_PI) ||
-        !within(v[4], 0.0, 10000.0) || command->force >= FORCE_COUNT ||
-        command->amount > BEHAVIOUR_PATROL)
+    if (!world_holds(context->step->world, v[0], v[1]) || !within(v[2], 0.0, 20000.0) ||
+        !within(v[3], -TWO_PI, TWO_PI) || !within(v[4], 0.0, 10000.0) ||
+        command->force >= FORCE_COUNT || command->amount > BEHAVIOUR_PATROL)
         return COMMAND_OUT_OF_RANGE;
     bool water = cover_is_water(terrain_cover(&world->terrain, v[0], v[1]));
     if (kind->domain != DOMAIN_AIR && (kind->domain == DOMAIN_SEA) != water)

@@ -12,9 +12,9 @@
 
 #define FIND_FRAMES 64u /* from one time that the squares are found to the next */
 
-int hover_watch_init(struct hover_watch *watch, uint32_t words)
+int hover_watch_init(struct hover_watch *watch, uint32_t words, double side_m)
 {
-    *watch = (struct hover_watch){.hovers = calloc(words, sizeof *watch->hovers)};
+    *watch = (struct hover_watch){.hovers = calloc(words, sizeof *watch->hovers), .side_m = side_m};
     return watch->hovers ? 0 : -1;
 }
 
@@ -24,9 +24,9 @@ void hover_watch_free(struct hover_watch *watch)
     watch->hovers = NULL;
 }
 
-static uint32_t axis_of(double metres)
+static uint32_t axis_of(const struct hover_watch *watch, double metres)
 {
-    double squares = metres * (HOVER_WATCH_SIDE / WORLD_SIDE_M);
+    double squares = metres * (HOVER_WATCH_SIDE / watch->side_m);
     if (!(squares > 0.0))
         return 0;
     return squares >= HOVER_WATCH_SIDE ? HOVER_WATCH_SIDE - 1 : (uint32_t)squares;
@@ -34,7 +34,7 @@ static uint32_t axis_of(double metres)
 
 static void mark(struct hover_watch *watch, double x, double z)
 {
-    uint32_t square = axis_of(z) * HOVER_WATCH_SIDE + axis_of(x);
+    uint32_t square = axis_of(watch, z) * HOVER_WATCH_SIDE + axis_of(watch, x);
     atomic_fetch_or_explicit(&watch->squares[square / 64], (uint64_t)1 << square % 64,
                              memory_order_relaxed);
 }
@@ -100,8 +100,8 @@ static void find_squares(struct hover_watch *watch, const uint64_t *resting,
 /* Returns true if a square within reach is marked. */
 static bool is_marked(struct hover_watch *watch, double x, double z)
 {
-    uint32_t x0 = axis_of(x - watch->reach_m), x1 = axis_of(x + watch->reach_m);
-    uint32_t z0 = axis_of(z - watch->reach_m), z1 = axis_of(z + watch->reach_m);
+    uint32_t x0 = axis_of(watch, x - watch->reach_m), x1 = axis_of(watch, x + watch->reach_m);
+    uint32_t z0 = axis_of(watch, z - watch->reach_m), z1 = axis_of(watch, z + watch->reach_m);
     for (uint32_t row = z0; row <= z1; row++) {
         for (uint32_t square = row * HOVER_WATCH_SIDE + x0; square <= row * HOVER_WATCH_SIDE + x1;
              square++) {

@@ -14,18 +14,20 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define HOVER_WATCH_SIDE 128u /* squares along an edge of the map, of 391 m */
+#define HOVER_WATCH_SIDE 128u /* squares along an edge of the map, of 391 m in 50 km */
 
 struct hover_watch {
     uint64_t *hovers; /* [capacity / 64] of the rows that rest, those that hover */
+    double side_m;    /* of the world */
     double reach_m;   /* those that hover are woken by an aircraft that is so near */
     uint32_t frames;  /* since the squares were found */
     /* A bit for each square in which a row hovers, or has hovered since. */
     _Atomic uint64_t squares[HOVER_WATCH_SIDE * HOVER_WATCH_SIDE / 64];
 };
 
-/* words: of 64 rows. Returns 0, or -1 with errno ENOMEM; must be freed in either case. */
-int hover_watch_init(struct hover_watch *watch, uint32_t words);
+/* words: of 64 rows; side_m: of the world. Returns 0, or -1 with errno ENOMEM; must be freed in
+ * either case. */
+int hover_watch_init(struct hover_watch *watch, uint32_t words, double side_m);
 void hover_watch_free(struct hover_watch *watch);
 
 /* Wakes the rows that hover near an aircraft that does not rest: clears their bits in resting. The

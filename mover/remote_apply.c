@@ -70,15 +70,14 @@ static struct vec3 place_of(const struct remote_record *record)
     return (struct vec3){record->position[0], record->position[1], record->position[2]};
 }
 
-static bool in_world(struct vec3 place)
+static bool in_world(const struct world *world, struct vec3 place)
 {
-    return place.x >= 0.0 && place.x <= WORLD_SIDE_M && place.z >= 0.0 && place.z <= WORLD_SIDE_M &&
-           within(place.y, HEIGHT_MOST_M);
+    return world_holds(world, place.x, place.z) && within(place.y, HEIGHT_MOST_M);
 }
 
-static bool track_is_good(const struct remote_record *record)
+static bool track_is_good(const struct world *world, const struct remote_record *record)
 {
-    return record->remote != 0 && in_world(place_of(record)) &&
+    return record->remote != 0 && in_world(world, place_of(record)) &&
            all_within(record->velocity, SPEED_MOST_MPS) &&
            all_within(record->acceleration, ACCELERATION_MOST_MPS2) &&
            all_within(record->rates, RATE_MOST_RPS) &&
@@ -248,7 +247,7 @@ static enum remote_refusal track(struct serial_context *context, const struct re
 {
     const struct entities *m = &context->moved->entities;
     const struct kind *kind = kind_of(context, record->kind);
-    if (!track_is_good(record))
+    if (!track_is_good(context->step->world, record))
         return REMOTE_UNKNOWN;
     if (!kind || kind->domain > DOMAIN_MUNITION)
         return REMOTE_NO_KIND;
@@ -312,7 +311,7 @@ static enum remote_refusal tell_fire(struct serial_context *context,
                                      const struct remote_record *record)
 {
     const struct entities *m = &context->moved->entities;
-    if (!in_world(place_of(record)))
+    if (!in_world(context->step->world, place_of(record)))
         return REMOTE_UNKNOWN;
     if (!shot_is_good(context, record))
         return REMOTE_NO_KIND;
@@ -428,10 +427,11 @@ static enum remote_refusal detonates(struct serial_context *context,
     const struct table_writer *writer = &context->writer;
     uint32_t target = own_row(context, record->entity);
     struct vec3 place = place_of(record);
+    const double side_m = context->step->world->terrain.squares.world_m;
     if (!all_within(record->velocity, SPEED_MOST_MPS) ||
-        !within((double)record->flown_m, FLOWN_MOST_M) || !within(place.x, 2.0 * WORLD_SIDE_M) ||
-        !within(place.y, HEIGHT_MOST_M) || !within(place.z, 2.0 * WORLD_SIDE_M) ||
-        (record->entity == 0 && !in_world(place)))
+        !within((double)record->flown_m, FLOWN_MOST_M) || !within(place.x, 2.0 * side_m) ||
+        !within(place.y, HEIGHT_MOST_M) || !within(place.z, 2.0 * side_m) ||
+        (record->entity == 0 && !in_world(context->step->world, place)))
         return REMOTE_UNKNOWN;
     if (!shot_is_good(context, record))
         return REMOTE_NO_KIND;

@@ -23,12 +23,12 @@ static size_t words_of(uint32_t capacity)
     return (capacity + CHECKSUM_ROWS - 1) / CHECKSUM_ROWS * ROW_BLOCK_WORDS;
 }
 
-int resting_rows_init(struct resting_rows *rows, uint32_t capacity)
+int resting_rows_init(struct resting_rows *rows, uint32_t capacity, double side_m)
 {
     *rows = (struct resting_rows){.resting = calloc(words_of(capacity), sizeof *rows->resting),
                                   .turns = calloc(words_of(capacity), sizeof *rows->turns)};
     if (rows->resting && rows->turns &&
-        hover_watch_init(&rows->hovering, (uint32_t)words_of(capacity)) == 0)
+        hover_watch_init(&rows->hovering, (uint32_t)words_of(capacity), side_m) == 0)
         return 0;
     resting_rows_free(rows);
     return -1;

@@ -29,7 +29,7 @@ struct resting_rows {
 };
 
 /* No row rests. 0, or -1 with errno ENOMEM. */
-int resting_rows_init(struct resting_rows *rows, uint32_t capacity);
+int resting_rows_init(struct resting_rows *rows, uint32_t capacity, double side_m);
 void resting_rows_free(struct resting_rows *rows);
 
 /* Wakes all rows of a block. */

@@ -54,17 +54,19 @@ int mover_init(struct mover *mover, const struct world *world, const struct crat
 {
     *mover = (struct mover){.world = world, .workers = workers};
     block_hashes_blank(&mover->blank);
-    avoidance_init(&mover->avoidance, world);
     mover->terrain_entries =
         calloc(world->params->capacity + GROUND_POSE_AHEAD, sizeof *mover->terrain_entries);
     mover->terrain_entries_ahead =
         calloc(world->params->capacity, sizeof *mover->terrain_entries_ahead);
     mover->firing_tables = make_firing_tables(world);
     if (mover->terrain_entries && mover->terrain_entries_ahead && mover->firing_tables &&
+        avoidance_init(&mover->avoidance, world) == 0 &&
         ground_marks_init(&mover->ground_marks, world) == 0 &&
-        square_bounds_init(&mover->slopes, square_bounds_slope, &world->terrain) == 0 &&
-        crater_index_init(&mover->craters, craters) == 0 &&
-        resting_rows_init(&mover->resting, world->params->capacity) == 0 &&
+        square_bounds_init(&mover->slopes, &world->terrain.squares, square_bounds_slope,
+                           &world->terrain) == 0 &&
+        crater_index_init(&mover->craters, &world->terrain.squares, craters) == 0 &&
+        resting_rows_init(&mover->resting, world->params->capacity,
+                          world->terrain.squares.world_m) == 0 &&
         remote_index_init(&mover->remotes, world->params->capacity, world->params->remotes_max) ==
             0 &&
         neighbour_index_init(&mover->neighbours, world->params->capacity) == 0 &&
@@ -77,6 +79,7 @@ int mover_init(struct mover *mover, const struct world *world, const struct crat
 
 void mover_free(struct mover *mover)
 {
+    avoidance_free(&mover->avoidance);
     crater_index_free(&mover->craters);
     resting_rows_free(&mover->resting);
     remote_index_free(&mover->remotes);
@@ -641,6 +644,7 @@ static void index_neighbours(struct mover *mover, const struct step_context *con
 {
     const struct state *committed = context->committed;
     const struct neighbour_index_frame frame = {.committed = &committed->entities,
+                                                .side_m = mover->world->terrain.squares.world_m,
                                                 .used = committed->head->used,
                                                 .tick = (uint32_t)context->tick,
                                                 .think_frames = context->think_frames,

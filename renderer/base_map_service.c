@@ -13,5 +13,6 @@ static int paint(void *self, const struct query_map *map, struct image *image)
 
 struct stream_painter base_map_service_painter(struct base_map *base)
 {
-    return (struct stream_painter){.self = base, .paint = paint};
+    return (struct stream_painter){
+        .side_m = base->world->terrain.squares.world_m, .self = base, .paint = paint};
 }

@@ -107,6 +107,8 @@ int main(int argc, char **argv)
     if (segment_attach(&view, options.world, snapping ? ROLE_NONE : options.role, &error) != 0)
         die_refused("%s", error.text);
     find_followed(&options, &view);
+    if (options.pose.given && !world_holds(&view.world, options.pose.x, options.pose.z))
+        die_usage("--eye: X and Z are from 0 to %.0f", view.world.terrain.squares.world_m);
     base_map_open(&base, &view.world);
     options.outputs.painter = base_map_service_painter(&base);
     if (!snapping && confine(&sandbox, &outputs, &options, &error) != 0)

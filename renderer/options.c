@@ -82,8 +82,8 @@ static int read_list(const char *text, const struct list_number *part, int least
 static int take_eye(const char *text, struct error_text *error)
 {
     static const struct list_number part[] = {
-        {"X", 0.0, WORLD_SIDE_M, &given.pose.x},
-        {"Z", 0.0, WORLD_SIDE_M, &given.pose.z},
+        {"X", 0.0, WORLD_SIDE_MAX_M, &given.pose.x},
+        {"Z", 0.0, WORLD_SIDE_MAX_M, &given.pose.z},
         {"HEIGHT", 0.0, EYE_HEIGHT_MAX_M, &given.pose.above_m}};
     given.pose.above_m = EYE_HEIGHT_M;
     given.pose.given = true;

@@ -75,7 +75,7 @@ static int open_world(struct render_session *session, struct view *view)
         goto err_first;
     if (frame_interpolation_init(&session->interpolation, view->header->capacity) != 0)
         goto err_second;
-    if (crater_index_init(&session->craters, view->w[0].craters) != 0)
+    if (crater_index_init(&session->craters, &view->world.terrain.squares, view->w[0].craters) != 0)
         goto err_interpolation;
     if (dent_index_init(&session->dents, view->w[0].dents, view->world.params->dent_slots) != 0)
         goto err_craters;

@@ -56,7 +56,7 @@ int status_topics_open(struct status_topics *topics, const struct view *view,
 
 static void fill_map(jolon_WorldInfo *info, const struct terrain *terrain)
 {
-    double cell_m = WORLD_SIDE_M / jolon_MAP_SIDE;
+    double cell_m = terrain->squares.world_m / jolon_MAP_SIDE;
     for (uint32_t row = 0; row < jolon_MAP_SIDE; row++) {
         for (uint32_t column = 0; column < jolon_MAP_SIDE; column++) {
             double x = (column + 0.5) * cell_m;
@@ -100,7 +100,7 @@ int status_topics_world(struct status_topics *topics, const struct view *view,
     info->run = topics->run;
     info->seed = params->seed;
     info->hz = params->hz;
-    info->side_m = WORLD_SIDE_M;
+    info->side_m = view->world.terrain.squares.world_m;
     info->latitude_deg = params->gateway.latitude_deg;
     info->longitude_deg = params->gateway.longitude_deg;
     info->capacity = params->capacity;

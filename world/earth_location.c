@@ -1,10 +1,7 @@
 /* Where a world lies on the earth. */
 #include "world/earth_location.h"
 
-#include "world/terrain/gridsquare.h"
-
-void earth_location_frame(struct location_frame *frame, const struct params *params)
+void earth_location_frame(struct location_frame *frame, const struct params *params, double side_m)
 {
-    location_frame_make(frame, params->gateway.latitude_deg, params->gateway.longitude_deg,
-                        WORLD_SIDE_M);
+    location_frame_make(frame, params->gateway.latitude_deg, params->gateway.longitude_deg, side_m);
 }

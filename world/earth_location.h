@@ -7,7 +7,7 @@
 #include "world/terrain/location.h"
 
 /* The middle is at gateway.latitude_deg and gateway.longitude_deg, which are those of the ground
- * file unless the scenario gives others. */
-void earth_location_frame(struct location_frame *frame, const struct params *params);
+ * file unless the scenario gives others. side_m: of the world. */
+void earth_location_frame(struct location_frame *frame, const struct params *params, double side_m);
 
 #endif

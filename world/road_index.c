@@ -67,12 +67,13 @@ static void each_cell(struct road_index *index, uint32_t stretch, bool put)
         }
 }
 
-int road_index_make(struct road_index *index, const struct road_point *points, uint32_t count)
+int road_index_make(struct road_index *index, const struct road_point *points, uint32_t count,
+                    double side_m)
 {
     double side = ceil(sqrt(0.5 * (double)count));
     *index = (struct road_index){.points = points,
                                  .side = (uint32_t)maths_clamp(side, 1.0, (double)SIDE_MAX)};
-    index->cells_a_m = (double)index->side / WORLD_SIDE_M;
+    index->cells_a_m = (double)index->side / side_m;
     uint32_t cells = index->side * index->side;
     index->first = calloc((size_t)cells + 1, sizeof *index->first);
     if (!index->first)

@@ -28,9 +28,10 @@ struct road_walk {
 /* Returns true if a stretch begins with point i of points [count]: the next one is of its road. */
 bool road_index_is_stretch(const struct road_point *points, uint32_t count, uint32_t i);
 
-/* Makes the index of points [count], which must stay where they are. The caller frees it. Returns
- * 0, or -1 with errno ENOMEM and nothing to free. */
-int road_index_make(struct road_index *index, const struct road_point *points, uint32_t count);
+/* Makes the index of points [count] in a world of this side, which must stay where they are. The
+ * caller frees it. Returns 0, or -1 with errno ENOMEM and nothing to free. */
+int road_index_make(struct road_index *index, const struct road_point *points, uint32_t count,
+                    double side_m);
 void road_index_free(struct road_index *index);
 
 /* Begins a walk over the stretches whose bounds touch the rectangle from (x0, z0) to (x1, z1) [m].

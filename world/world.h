@@ -71,6 +71,7 @@ struct counts {
     uint32_t missions, mission_phases, mission_members, objectives;
     uint32_t earthworks, earthwork_words; /* of their index */
     uint32_t recipe;                      /* [byte] */
+    uint32_t side_m;                      /* of the world: WORLD_SIDE_MIN_M .. MAX_M */
 };
 
 struct world {
@@ -85,7 +86,7 @@ struct world {
     const struct vec3 *hull_vertices;
     const struct hull_plane *hull_planes;
     const struct fixed_object *fixed;
-    const uint32_t *reach_start; /* [GRIDSQUARE_COUNT + 1] into reach */
+    const uint32_t *reach_start; /* [terrain.squares.count + 1] into reach */
     const uint32_t *reach;       /* fixed object indices, ascending within a square */
     const struct area *areas;
     const struct route *routes;
@@ -105,6 +106,19 @@ struct world {
 
 /* Returns a step of simulated time [s]: params->dt_s, for files that need no other parameter. */
 double world_dt_s(const struct world *world);
+
+/* Returns true if a place on the map is in the world, its edges included. False for NaN. */
+static inline bool world_holds(const struct world *world, double x, double z)
+{
+    const double side_m = world->terrain.squares.world_m;
+    return x >= 0.0 && z >= 0.0 && x <= side_m && z <= side_m;
+}
+
+/* Returns a coordinate of the map, or that of the nearest edge [m]. */
+static inline double world_clamp(const struct world *world, double metres)
+{
+    return maths_clamp(metres, 0.0, world->terrain.squares.world_m);
+}
 
 /* Returns the name that the scenario gave the entity with this id, or "". */
 const char *world_entity_name(const struct world *world, uint32_t id);

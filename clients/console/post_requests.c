@@ -67,7 +67,8 @@ static bool command(struct request *request, struct player *player, struct http_
     if (!request_body_order(&pending->order, &pending->cancel, request->http->body,
                             request->http->body_bytes, answer))
         return true;
-    earth_location_frame(&frame, console->reader.view.world.params);
+    earth_location_frame(&frame, console->reader.view.world.params,
+                         console->reader.view.world.terrain.squares.world_m);
     if (command_text_place(&pending->order, &frame, &error) != 0) {
         http_answer_error(answer, HTTP_ANSWER_BAD, "name a place within the world", "%s: %s",
                           pending->order.verb->name, error.text);

@@ -74,7 +74,8 @@ static bool read_area(const struct world_query *query, struct area_asked *area,
                       struct http_answer *answer)
 {
     const char *given = query_text(&query->arguments, "area");
-    *area = (struct area_asked){0.0, 0.0, WORLD_SIDE_M, WORLD_SIDE_M, 0};
+    const double side_m = query->reader->view.world.terrain.squares.world_m;
+    *area = (struct area_asked){0.0, 0.0, side_m, side_m, 0};
     int used = 0;
     if (*given && (sscanf(given, "%lf,%lf,%lf,%lf%n", &area->x0, &area->z0, &area->x1, &area->z1,
                           &used) != 4 ||
@@ -196,7 +197,7 @@ static void put_where(struct json_writer *json, const struct world_query *query,
     json_writer_key_number(json, "x", e->x[row], 2);
     json_writer_key_number(json, "y", e->y[row], 2);
     json_writer_key_number(json, "z", e->z[row], 2);
-    world_json_earth(json, world->params, e->x[row], e->z[row]);
+    world_json_earth(json, world, e->x[row], e->z[row]);
     json_writer_key_number(json, "speed_mps", vec3_length(entities_velocity(e, row)), 2);
     json_writer_key_number(json, "heading_deg", e->heading[row] / RAD_PER_DEG, 1);
     json_writer_key_number(json, "pitch_deg", e->pitch[row] / RAD_PER_DEG, 1);

@@ -90,7 +90,7 @@ void world_json(const struct world_query *query, struct http_answer *answer)
     json_writer_key_word(json, "ground", params->name);
     const char *file = strrchr(params->scenario, '/');
     json_writer_key_word(json, "scenario", file ? file + 1 : params->scenario);
-    json_writer_key_number(json, "side_m", WORLD_SIDE_M, 0);
+    json_writer_key_number(json, "side_m", view->world.terrain.squares.world_m, 0);
     json_writer_key_number(json, "hz", params->hz, 3);
     json_writer_key_bool(json, "real_time", params->pace == PACE_REAL);
     json_writer_key_whole(json, "capacity", params->capacity);
@@ -121,11 +121,11 @@ void world_json(const struct world_query *query, struct http_answer *answer)
     json_writer_end(json, '}');
 }
 
-void world_json_earth(struct json_writer *json, const struct params *params, double x, double z)
+void world_json_earth(struct json_writer *json, const struct world *world, double x, double z)
 {
     struct location_frame frame;
     struct location_earth earth;
-    earth_location_frame(&frame, params);
+    earth_location_frame(&frame, world->params, world->terrain.squares.world_m);
     location_earth(&earth, &frame, x, z);
     json_writer_key_number(json, "latitude_deg", earth.latitude_deg, DEGREE_DECIMALS);
     json_writer_key_number(json, "longitude_deg", earth.longitude_deg, DEGREE_DECIMALS);
@@ -142,8 +142,8 @@ void world_json_place(const struct world_query *query, struct http_answer *answe
     double x, z;
     if (!world_query_attached(query, answer))
         return;
-    const struct params *params = query->reader->view.world.params;
-    earth_location_frame(&frame, params);
+    const struct world *world = &query->reader->view.world;
+    earth_location_frame(&frame, world->params, world->terrain.squares.world_m);
     if (location_read(&place, query_text(&query->arguments, "at"), &error) != 0 ||
         location_world(&place, &frame, &x, &z, &error) != 0) {
         http_answer_error(answer, HTTP_ANSWER_BAD,
@@ -154,6 +154,6 @@ void world_json_place(const struct world_query *query, struct http_answer *answe
     json_writer_begin(json, '{');
     json_writer_key_number(json, "x", x, 2);
     json_writer_key_number(json, "z", z, 2);
-    world_json_earth(json, params, x, z);
+    world_json_earth(json, world, x, z);
     json_writer_end(json, '}');
 }

@@ -6,6 +6,8 @@
 #include "world/params.h"
 
 /* Writes the world's name, sizes, kinds, vehicle names and the words of its enumerations. */
+struct world;
+
 void world_json(const struct world_query *asked, struct http_answer *answer);
 
 /* GET /api/place?at=PLACE: writes the place that `at` names, in any form of
@@ -13,6 +15,6 @@ void world_json(const struct world_query *asked, struct http_answer *answer);
 void world_json_place(const struct world_query *query, struct http_answer *answer);
 
 /* Writes the members latitude_deg, longitude_deg, degrees and mgrs of a place of the world [m]. */
-void world_json_earth(struct json_writer *json, const struct params *params, double x, double z);
+void world_json_earth(struct json_writer *json, const struct world *world, double x, double z);
 
 #endif

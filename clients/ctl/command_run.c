@@ -93,6 +93,8 @@ int command_run(struct ctl *ctl, struct command_text *order, uint32_t line)
             return EXIT_REFUSED;
         }
     }
+    if (ctl->lookup.view)
+        order->side_m = ctl->lookup.view->world.terrain.squares.world_m;
     command_series_begin(&ctl->series, order, clock_now_ns());
     if (carry_out(ctl, &context))
         return ctl->series.done == order->rounds ? EXIT_OK : EXIT_REFUSED;

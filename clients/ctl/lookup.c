@@ -40,7 +40,7 @@ static bool read_view(struct lookup *lookup)
 {
     const struct world *world = &lookup->view->world;
     lookup->hz = world->params->hz;
-    earth_location_frame(&lookup->frame, world->params);
+    earth_location_frame(&lookup->frame, world->params, world->terrain.squares.world_m);
     for (uint32_t i = 0; i < world->counts.kinds; i++)
         add_kind(lookup, world->kinds[i].name, world->kinds[i].domain);
     lookup->reading = name_table_read_world(&lookup->names, world, lookup->view->header->made);

@@ -130,15 +130,17 @@ static void take_kinds(const struct body_boxes *rows, struct block *block, uint3
             block->margin[k] += BODY_BOX_WIDER_M;
         block->tag[k] = (first + k) | rows->flags[kind];
         if (rows->flags[kind] & BIN_AIR && rows->input->heights)
-            __builtin_prefetch(&rows->input->heights->bound[gridsquare_of(x[k], z[k])]);
+            __builtin_prefetch(
+                &rows->input->heights
+                     ->bound[gridsquare_of(&rows->input->heights->squares, x[k], z[k])]);
     }
 }
 
 /* bin_steps() of four. */
-static inline four_steps steps_of(four_metres metres)
+static inline four_steps steps_of(float steps_per_m, four_metres metres)
 {
     const four_metres none = {0}, last = {BIN_LAST, BIN_LAST, BIN_LAST, BIN_LAST};
-    four_metres steps = metres * BIN_STEPS_PER_M;
+    four_metres steps = metres * steps_per_m;
     steps = CHOOSE_METRES(steps > none, steps, none);
     steps = CHOOSE_METRES(steps < last, steps, last);
     return __builtin_convertvector(steps, four_steps);
@@ -179,7 +181,7 @@ static void put_records(struct block *block, uint32_t k, four_steps west, four_s
 /* Computes boxes and records from the ends. moved: the ends are positions, and the path leads from
  * one to the other as in body_motion_path. Rows whose path has no length are marked; returns true
  * if there are any. */
-static bool bound_rows(struct block *block, const struct ends *ends, bool moved,
+static bool bound_rows(struct block *block, const struct ends *ends, bool moved, float steps_per_m,
                        struct path_box *box)
 {
     four_masks any = {0};
@@ -203,8 +205,8 @@ static bool bound_rows(struct block *block, const struct ends *ends, bool moved,
         for (uint32_t i = 0; moved && i < 4; i++)
             block->rests[k + i] = (uint32_t)rests[i] & BIN_RESTS;
         put_boxes(&box[k], low, high);
-        put_records(block, k, steps_of(low[0]), steps_of(high[0]), steps_of(low[2]),
-                    steps_of(high[2]));
+        put_records(block, k, steps_of(steps_per_m, low[0]), steps_of(steps_per_m, high[0]),
+                    steps_of(steps_per_m, low[2]), steps_of(steps_per_m, high[2]));
     }
     return any[0] | any[1] | any[2] | any[3];
 }
@@ -228,15 +230,15 @@ static void add_spanning(const struct body_boxes *rows, struct strip_bins *bins,
         record.tag |= BIN_LONG;
     if (rows->motion && record.tag & (BIN_LONG | BIN_AIR))
         body_motion_require(rows->motion, row);
-    uint32_t last = bin_strip(box->max_z);
-    for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
+    uint32_t last = bin_strip(rows->steps_per_m, box->max_z);
+    for (uint32_t strip = bin_strip(rows->steps_per_m, box->min_z); strip <= last; strip++) {
         if (is_long) {
-            struct sweep_and_prune_span span =
-                sweep_and_prune_span(&rows->input->path[row], box, margin, strip);
+            struct sweep_and_prune_span span = sweep_and_prune_span(
+                rows->steps_per_m, &rows->input->path[row], box, margin, strip);
             record.min_x = span.min_x;
             record.max_x = span.max_x;
         }
-        record.z = bin_z(box->min_z, box->max_z, strip);
+        record.z = bin_z(rows->steps_per_m, box->min_z, box->max_z, strip);
         strip_bins_add(bins, strip, record);
     }
 }
@@ -298,11 +300,11 @@ static void bin_block(const struct body_boxes *rows, struct block *block,
     take_kinds(rows, block, first, count);
     if (rows->motion) {
         ends = take_places(block, rows->motion, first, count);
-        if (bound_rows(block, &ends, true, to))
+        if (bound_rows(block, &ends, true, rows->steps_per_m, to))
             find_resting(rows, block, first, count);
     } else {
         ends = take_paths(block, rows->input->path + first, count);
-        bound_rows(block, &ends, false, to);
+        bound_rows(block, &ends, false, rows->steps_per_m, to);
     }
     if (count < BLOCK)
         memcpy(box, block->box, count * sizeof *box);

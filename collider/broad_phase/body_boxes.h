@@ -14,6 +14,7 @@
 struct body_boxes {
     const struct method_input *input;
     struct body_motion *motion; /* computes the paths; NULL: they are in input->path */
+    float steps_per_m;          /* bin_steps_per_m() */
     struct path_box *box;       /* [rows] */
     const double *margin;       /* [kinds] from a row's path to its box [m] */
     const uint32_t *flags;      /* [kinds] bits of a record's tag */

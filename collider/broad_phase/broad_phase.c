@@ -136,6 +136,7 @@ void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_inpu
     }
     job.rows = (struct body_boxes){.input = input,
                                    .motion = motion,
+                                   .steps_per_m = broad->fixed_boxes.steps_per_m,
                                    .box = broad->box,
                                    .margin = job.margin,
                                    .flags = job.flags,
@@ -144,6 +145,7 @@ void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_inpu
                                  .motion = motion,
                                  .fixed_boxes = &broad->fixed_boxes,
                                  .resting = broad->resting.index.built ? &broad->resting : NULL,
+                                 .steps_per_m = broad->fixed_boxes.steps_per_m,
                                  .box = broad->box,
                                  .margin = job.margin,
                                  .sweeper = broad->sweeper,
@@ -225,11 +227,13 @@ uint64_t broad_phase_found_most(const struct world *world)
     return 2 * ((uint64_t)world->params->capacity + world->counts.fixed) + 2;
 }
 
-static struct bin_record record_of(const struct path_box *box, uint32_t strip)
+static struct bin_record record_of(const struct broad_phase *broad, const struct path_box *box,
+                                   uint32_t strip)
 {
-    return (struct bin_record){.min_x = bin_steps(box->min_x),
-                               .max_x = bin_steps(box->max_x),
-                               .z = bin_z(box->min_z, box->max_z, strip)};
+    const float steps_per_m = broad->fixed_boxes.steps_per_m;
+    return (struct bin_record){.min_x = bin_steps(steps_per_m, box->min_x),
+                               .max_x = bin_steps(steps_per_m, box->max_x),
+                               .z = bin_z(steps_per_m, box->min_z, box->max_z, strip)};
 }
 
 /* What a query looks for, and where it puts the rows. */
@@ -275,7 +279,7 @@ static void query_resting(const struct query *query, uint32_t strip, const struc
 static void query_strip(const struct query *query, uint32_t strip)
 {
     const struct broad_phase *broad = query->broad;
-    const struct bin_record one = record_of(query->box, strip);
+    const struct bin_record one = record_of(broad, query->box, strip);
     if (broad->resting.index.built)
         query_resting(query, strip, &one);
     if (broad->index.built) {
@@ -302,10 +306,11 @@ void broad_phase_expect_queries(struct broad_phase *broad, uint32_t queries)
 void broad_phase_query(const struct broad_phase *broad, const struct method_input *input,
                        const struct path_box *box, struct pair_list *found)
 {
-    uint32_t since = found->count, last = bin_strip(box->max_z);
+    uint32_t since = found->count, last = bin_strip(broad->fixed_boxes.steps_per_m, box->max_z);
     const struct query query = {broad, box, found, since};
     (void)input;
-    for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++)
+    for (uint32_t strip = bin_strip(broad->fixed_boxes.steps_per_m, box->min_z); strip <= last;
+         strip++)
         query_strip(&query, strip);
     order_found(found, since);
 }
@@ -313,9 +318,10 @@ void broad_phase_query(const struct broad_phase *broad, const struct method_inpu
 void broad_phase_query_fixed(const struct broad_phase *broad, const struct method_input *input,
                              const struct path_box *box, struct pair_list *found)
 {
-    uint32_t since = found->count, last = bin_strip(box->max_z);
-    for (uint32_t strip = bin_strip(box->min_z); strip <= last; strip++) {
-        struct bin_record one = record_of(box, strip);
+    uint32_t since = found->count, last = bin_strip(broad->fixed_boxes.steps_per_m, box->max_z);
+    for (uint32_t strip = bin_strip(broad->fixed_boxes.steps_per_m, box->min_z); strip <= last;
+         strip++) {
+        struct bin_record one = record_of(broad, box, strip);
         const struct bin_record *object = static_boxes_from(&broad->fixed_boxes, strip, one.min_x);
         for (; object->min_x <= one.max_x; object++) {
             uint32_t index = object->tag & BIN_OBJECT;

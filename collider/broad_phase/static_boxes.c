@@ -9,23 +9,23 @@
 #include <string.h>
 
 /* More than a float's step at 50 km, so that a record's box contains the object's. */
-#define SLACK_M 0.01
 
 /* Returns how far the object reaches on the map [m], for either collision.shape. */
 static double reach_of(const struct world *world, const struct fixed_object *object)
 {
-    return fixed_index_of_fixed(object, world->kinds) + SLACK_M;
+    return fixed_index_of_fixed(object, world->kinds) + pair_filter_slack(world);
 }
 
 struct span {
     uint32_t first, last;
 };
 
-static struct span strips_of(const struct world *world, const struct fixed_object *object)
+static struct span strips_of(const struct static_boxes *fixed_boxes, const struct world *world,
+                             const struct fixed_object *object)
 {
     double reach = reach_of(world, object);
-    return (struct span){bin_strip((float)(object->z - reach)),
-                         bin_strip((float)(object->z + reach))};
+    return (struct span){bin_strip(fixed_boxes->steps_per_m, (float)(object->z - reach)),
+                         bin_strip(fixed_boxes->steps_per_m, (float)(object->z + reach))};
 }
 
 /* --- from west to east -------------------------------------------------------------------------*/
@@ -55,7 +55,7 @@ static void sort_digit(const struct place *from, struct place *to, uint32_t coun
 }
 
 /* Returns the objects by west edge, then by index; the caller frees them. NULL: out of memory. */
-static struct place *from_west(const struct world *world)
+static struct place *from_west(const struct static_boxes *fixed_boxes, const struct world *world)
 {
     uint32_t count = world->counts.fixed;
     struct place *place = calloc(2 * ((size_t)count + 1), sizeof *place);
@@ -63,7 +63,8 @@ static struct place *from_west(const struct world *world)
         return NULL;
     for (uint32_t i = 0; i < count; i++) {
         const struct fixed_object *object = &world->fixed[i];
-        place[i] = (struct place){bin_steps((float)(object->x - reach_of(world, object))), i};
+        place[i] = (struct place){
+            bin_steps(fixed_boxes->steps_per_m, (float)(object->x - reach_of(world, object))), i};
     }
     sort_digit(place, place + count, count, 0);
     sort_digit(place + count, place, count, DIGIT_BITS);
@@ -77,12 +78,13 @@ static void put(const struct static_boxes *fixed_boxes, const struct world *worl
 {
     const struct fixed_object *object = &world->fixed[place->object];
     double reach = reach_of(world, object);
-    struct span span = strips_of(world, object);
+    struct span span = strips_of(fixed_boxes, world, object);
     for (uint32_t strip = span.first; strip <= span.last; strip++)
         fixed_boxes->record[next[strip]++] = (struct bin_record){
             .min_x = place->min_x,
-            .max_x = bin_steps((float)(object->x + reach)),
-            .z = bin_z((float)(object->z - reach), (float)(object->z + reach), strip),
+            .max_x = bin_steps(fixed_boxes->steps_per_m, (float)(object->x + reach)),
+            .z = bin_z(fixed_boxes->steps_per_m, (float)(object->z - reach),
+                       (float)(object->z + reach), strip),
             .tag = place->object | (span.last > span.first ? BIN_SPANS : 0),
         };
 }
@@ -104,8 +106,9 @@ static void finish_strip(struct static_boxes *fixed_boxes, uint32_t strip)
 int static_boxes_init(struct static_boxes *fixed_boxes, const struct world *world)
 {
     uint32_t next[STRIP_COUNT], count[STRIP_COUNT] = {0}, total = 0;
+    fixed_boxes->steps_per_m = bin_steps_per_m(world->terrain.squares.world_m);
     for (uint32_t i = 0; i < world->counts.fixed; i++) {
-        struct span span = strips_of(world, &world->fixed[i]);
+        struct span span = strips_of(fixed_boxes, world, &world->fixed[i]);
         for (uint32_t strip = span.first; strip <= span.last; strip++)
             count[strip]++;
     }
@@ -116,7 +119,7 @@ int static_boxes_init(struct static_boxes *fixed_boxes, const struct world *worl
     fixed_boxes->start[STRIP_COUNT] = total;
     fixed_boxes->record = malloc(total * sizeof *fixed_boxes->record);
     fixed_boxes->first = malloc(STRIP_COUNT * STATIC_BOXES_COLUMNS * sizeof *fixed_boxes->first);
-    struct place *place = from_west(world);
+    struct place *place = from_west(fixed_boxes, world);
     if (!fixed_boxes->record || !fixed_boxes->first || !place) {
         free(place);
         static_boxes_free(fixed_boxes);
@@ -137,7 +140,8 @@ void static_boxes_free(struct static_boxes *fixed_boxes)
     memset(fixed_boxes, 0, sizeof *fixed_boxes);
 }
 
-uint32_t static_boxes_strip(const struct world *world, const struct fixed_object *object)
+uint32_t static_boxes_strip(const struct static_boxes *fixed_boxes, const struct world *world,
+                            const struct fixed_object *object)
 {
-    return strips_of(world, object).first;
+    return strips_of(fixed_boxes, world, object).first;
 }

@@ -17,6 +17,7 @@ struct world;
 #define STATIC_BOXES_AHEAD 4 /* records that may be read behind any record of a strip */
 
 struct static_boxes {
+    float steps_per_m; /* bin_steps_per_m() */
     /* By strip, then by min_x; each strip ends with STATIC_BOXES_AHEAD records that lie east of
      * everything. */
     struct bin_record *record;
@@ -31,7 +32,8 @@ int static_boxes_init(struct static_boxes *fixed_boxes, const struct world *worl
 void static_boxes_free(struct static_boxes *fixed_boxes);
 
 /* Returns the first strip that the object reaches into. */
-uint32_t static_boxes_strip(const struct world *world, const struct fixed_object *object);
+uint32_t static_boxes_strip(const struct static_boxes *fixed_boxes, const struct world *world,
+                            const struct fixed_object *object);
 
 /* Returns the strip's records from the first that can reach x [steps] on. The record that ends them
  * lies beyond every max_x. */

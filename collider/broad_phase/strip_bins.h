@@ -1,5 +1,6 @@
-/* Bins: the contents of each strip of gridsquares in this frame, as 16-byte records. A strip is a
- * row of 400 squares, 125 m from north to south and 50 km from west to east.
+/* Bins: the contents of each strip of the map in this frame, as 16-byte records. A strip reaches
+ * from the west edge of the world to the east. It is 125 m deep in a world of up to 50 km, and in
+ * larger ones 250 m, 500 m and so on, so that a world has STRIP_COUNT strips at most.
  *
  * Every worker fills bins of its own, so that no worker waits; a strip is the sum of its workers'
  * bins. Records lie in chunks of 1 KB, taken one after the other, so that the memory in use follows
@@ -14,7 +15,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#define STRIP_COUNT GRIDSQUARE_PER_SIDE
+#define STRIP_COUNT   400u
+#define STRIP_LEAST_M 125.0 /* depth */
 
 /* A record's tag: the row or the fixed object, and the bits that comparisons need. */
 #define BIN_ROW   (CAPACITY_MAX - 1u)
@@ -28,9 +30,10 @@
 #define BIN_OBJECT 0x7fffffffu /* of a fixed object's tag: its index */
 #define BIN_SPANS  0x80000000u /* the body is in several strips */
 
-/* A box within one strip, in whole steps of 1/512 m: x from the world's west edge, z from the
- * strip's north edge and clipped to the strip. All bounds are rounded down, which keeps the order
- * of any two bounds and so every overlap. */
+/* A box within one strip, in whole steps of 1/512 m in a world of up to 50 km, and of 1/256 m,
+ * 1/128 m and so on in larger ones: x from the world's west edge, z from the strip's north edge and
+ * clipped to the strip. All bounds are rounded down, which keeps the order of any two bounds and so
+ * every overlap. */
 struct bin_record {
     int32_t min_x,
         max_x;  /* Computes the half-planes that bound an outline, widened by the slack. */
@@ -38,14 +41,13 @@ struct bin_record {
     uint32_t tag;
 };
 
-#define BIN_STEPS_PER_M 512
-#define BIN_STRIP_STEPS 64000    /* 125 m */
+#define BIN_STEPS_PER_M 512      /* at most */
+#define BIN_STRIP_STEPS 64000    /* the depth of a strip */
 #define BIN_LAST        25599998 /* the last one within the world that a float can hold */
 #define BIN_BITS        25       /* bits of any number of steps */
 #define BIN_WIDE_STEPS  (16 * BIN_STEPS_PER_M)
 
-_Static_assert(BIN_STRIP_STEPS == (int)GRIDSQUARE_SIDE_M * BIN_STEPS_PER_M,
-               "a strip is a square deep");
+_Static_assert(BIN_STRIP_STEPS == (int)STRIP_LEAST_M * BIN_STEPS_PER_M, "a strip's depth");
 _Static_assert(BIN_LAST / BIN_STRIP_STEPS == STRIP_COUNT - 1, "all of the world, no strip more");
 
 _Static_assert(sizeof(struct bin_record) == 16, "four to a cache line");
@@ -114,29 +116,39 @@ static inline const struct bin_chunk *strip_bins_last(const struct strip_bins *b
     return chunk;
 }
 
-/* Returns metres as steps, still a float, clamped to the world. Monotonic. */
-static inline float bin_scaled(float metres)
+/* Returns how many steps a metre has in a world of this side: a power of two. */
+static inline float bin_steps_per_m(double world_m)
 {
-    float steps = metres * BIN_STEPS_PER_M;
+    float steps = BIN_STEPS_PER_M;
+    while (world_m * (double)steps > (double)STRIP_COUNT * BIN_STRIP_STEPS)
+        steps *= 0.5f;
+    return steps;
+}
+
+/* Returns metres as steps, still a float, clamped to the strips. Monotonic. */
+static inline float bin_scaled(float steps_per_m, float metres)
+{
+    float steps = metres * steps_per_m;
     steps = steps > 0.0f ? steps : 0.0f; /* NaN becomes 0 */
     return steps < (float)BIN_LAST ? steps : (float)BIN_LAST;
 }
 
-static inline int32_t bin_steps(float metres)
+static inline int32_t bin_steps(float steps_per_m, float metres)
 {
-    return (int32_t)bin_scaled(metres);
+    return (int32_t)bin_scaled(steps_per_m, metres);
 }
 
-static inline uint32_t bin_strip(float z)
+static inline uint32_t bin_strip(float steps_per_m, float z)
 {
-    return (uint32_t)bin_steps(z) / BIN_STRIP_STEPS;
+    return (uint32_t)bin_steps(steps_per_m, z) / BIN_STRIP_STEPS;
 }
 
 /* Returns a record's z within the strip. */
-static inline uint32_t bin_z(float min_z, float max_z, uint32_t strip)
+static inline uint32_t bin_z(float steps_per_m, float min_z, float max_z, uint32_t strip)
 {
     int32_t edge = (int32_t)strip * BIN_STRIP_STEPS;
-    int32_t low = bin_steps(min_z) - edge, high = bin_steps(max_z) - edge;
+    int32_t low = bin_steps(steps_per_m, min_z) - edge;
+    int32_t high = bin_steps(steps_per_m, max_z) - edge;
     low = low > 0 ? low : 0;
     high = high < BIN_STRIP_STEPS ? high : BIN_STRIP_STEPS;
     return (uint32_t)low | (uint32_t)high << 16;

@@ -67,18 +67,20 @@ void sweep_worker_free(struct sweep_worker *sweeper)
 
 /* --- long ways ---------------------------------------------------------------------------------*/
 
-struct sweep_and_prune_span sweep_and_prune_span(const struct path *path,
+struct sweep_and_prune_span sweep_and_prune_span(float steps_per_m, const struct path *path,
                                                  const struct path_box *box, double margin,
                                                  uint32_t strip)
 {
     double left = 1.0 - path->since, dx = path->along.x * left, dz = path->along.z * left;
-    struct sweep_and_prune_span span = {bin_steps(box->min_x), bin_steps(box->max_x)};
+    struct sweep_and_prune_span span = {bin_steps(steps_per_m, box->min_x),
+                                        bin_steps(steps_per_m, box->max_x)};
     if (dz == 0.0)
         return span;
     /* The part of the path that is nearer to the strip than the body's reach. */
-    double reach = margin + LONG_SLACK_M, from = 0.0, to = 1.0;
-    double enter = (GRIDSQUARE_SIDE_M * (double)strip - reach - path->at.z) / dz;
-    double leave = (GRIDSQUARE_SIDE_M * (double)(strip + 1) + reach - path->at.z) / dz;
+    double deep = BIN_STRIP_STEPS / (double)steps_per_m;
+    double reach = margin + LONG_SLACK_M * deep / STRIP_LEAST_M, from = 0.0, to = 1.0;
+    double enter = (deep * (double)strip - reach - path->at.z) / dz;
+    double leave = (deep * (double)(strip + 1) + reach - path->at.z) / dz;
     if (strip == 0) /* bodies outside the world belong to the strip at its edge */
         enter = dz > 0.0 ? -INFINITY : INFINITY;
     if (strip == STRIP_COUNT - 1)
@@ -88,8 +90,8 @@ struct sweep_and_prune_span sweep_and_prune_span(const struct path *path,
     if (!(from <= to))
         return span;
     double p = path->at.x + dx * from, q = path->at.x + dx * to;
-    int32_t min_x = bin_steps((float)(maths_min(p, q) - reach));
-    int32_t max_x = bin_steps((float)(maths_max(p, q) + reach));
+    int32_t min_x = bin_steps(steps_per_m, (float)(maths_min(p, q) - reach));
+    int32_t max_x = bin_steps(steps_per_m, (float)(maths_max(p, q) + reach));
     span.min_x = min_x > span.min_x ? min_x : span.min_x;
     span.max_x = max_x < span.max_x ? max_x : span.max_x;
     return span;
@@ -101,8 +103,9 @@ static struct sweep_and_prune_span span_in(const struct strips *strips, uint32_t
     uint32_t row = tag & BIN_ROW;
     const struct path_box *box = &strips->box[row];
     if (!(tag & BIN_LONG))
-        return (struct sweep_and_prune_span){bin_steps(box->min_x), bin_steps(box->max_x)};
-    return sweep_and_prune_span(&strips->input->path[row], box,
+        return (struct sweep_and_prune_span){bin_steps(strips->steps_per_m, box->min_x),
+                                             bin_steps(strips->steps_per_m, box->max_x)};
+    return sweep_and_prune_span(strips->steps_per_m, &strips->input->path[row], box,
                                 strips->margin[strips->input->entities->kind[row]], strip);
 }
 
@@ -122,8 +125,8 @@ static uint32_t later(uint32_t a, uint32_t b)
  * first strip in which they meet. */
 static bool met_before(const struct strips *strips, uint32_t a, uint32_t b, uint32_t strip)
 {
-    uint32_t first =
-        later(bin_strip(strips->box[a & BIN_ROW].min_z), bin_strip(strips->box[b & BIN_ROW].min_z));
+    uint32_t first = later(bin_strip(strips->steps_per_m, strips->box[a & BIN_ROW].min_z),
+                           bin_strip(strips->steps_per_m, strips->box[b & BIN_ROW].min_z));
     for (; first < strip; first++) {
         if (spans_meet(span_in(strips, a, first), span_in(strips, b, first)))
             return true;
@@ -148,8 +151,8 @@ static bool met_object_before(const struct strips *strips, uint32_t tag,
                               const struct bin_record *object, uint32_t first, uint32_t strip)
 {
     struct sweep_and_prune_span span = {object->min_x, object->max_x};
-    for (first = later(first, bin_strip(strips->box[tag & BIN_ROW].min_z)); first < strip;
-         first++) {
+    for (first = later(first, bin_strip(strips->steps_per_m, strips->box[tag & BIN_ROW].min_z));
+         first < strip; first++) {
         if (spans_meet(span_in(strips, tag, first), span))
             return true;
     }
@@ -165,7 +168,8 @@ static void take_fixed(const struct strips *strips, struct sweep_worker *sweeper
     if (tag & BIN_RESTS || !pair_filter_stands(input, index) ||
         !pair_filter_box_meets_fixed(input, &strips->box[row], object) ||
         (tag & record->tag & BIN_SPANS &&
-         met_object_before(strips, tag, record, static_boxes_strip(input->world, object), strip)))
+         met_object_before(strips, tag, record,
+                           static_boxes_strip(strips->fixed_boxes, input->world, object), strip)))
         return;
     /* An aircraft's path may not have been computed yet. */
     if (tag & BIN_AIR && strips->motion)

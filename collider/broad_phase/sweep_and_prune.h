@@ -41,6 +41,7 @@ struct strips {
     struct body_motion *motion; /* computes the paths; NULL: they are in input->path */
     const struct static_boxes *fixed_boxes;
     const struct resting_records *resting; /* NULL: none */
+    float steps_per_m;                     /* bin_steps_per_m() */
     const struct path_box *box;            /* [rows] */
     const double *margin;                  /* [kinds] from a row's path to its box [m] */
     struct sweep_worker *sweeper;          /* [sweepers] whose bins make up the strips */
@@ -57,7 +58,7 @@ void sweep_worker_free(struct sweep_worker *sweeper);
 struct sweep_and_prune_span {
     int32_t min_x, max_x; /* [steps] */
 };
-struct sweep_and_prune_span sweep_and_prune_span(const struct path *path,
+struct sweep_and_prune_span sweep_and_prune_span(float steps_per_m, const struct path *path,
                                                  const struct path_box *box, double margin,
                                                  uint32_t strip);
 

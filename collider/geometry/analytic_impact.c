@@ -49,11 +49,12 @@ static bool uneven_near(const struct terrain *terrain, const struct crater_index
     double highest, lowest;
     if (!cratered && terrain->earthworks.count == 0)
         return false;
-    struct gridsquare_box box = gridsquare_box_of(maths_min(p.x, q.x), maths_min(p.z, q.z),
-                                                  maths_max(p.x, q.x), maths_max(p.z, q.z));
+    struct gridsquare_box box =
+        gridsquare_box_of(&terrain->squares, maths_min(p.x, q.x), maths_min(p.z, q.z),
+                          maths_max(p.x, q.x), maths_max(p.z, q.z));
     for (int32_t row = box.z0; row <= box.z1; row++) {
         for (int32_t column = box.x0; column <= box.x1; column++) {
-            if (cratered && craters->head[gridsquare_index(column, row)] != 0)
+            if (cratered && craters->head[gridsquare_index(&terrain->squares, column, row)] != 0)
                 return true;
         }
     }

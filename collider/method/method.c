@@ -40,7 +40,7 @@ struct method_workspace *method_workspace_create(const struct world *world,
         return NULL;
     workspace->broad = broad;
     for (int i = 0; i < METHOD_BLOCKS; i++) {
-        workspace->bytes[i] = (size_t)bodies * METHOD_BODY_BYTES + GRIDSQUARE_COUNT;
+        workspace->bytes[i] = (size_t)bodies * METHOD_BODY_BYTES + world->terrain.squares.count;
         workspace->block[i] = reserve_take(workspace->bytes[i], 1);
         if (!workspace->block[i]) {
             method_workspace_free(workspace);
@@ -77,13 +77,14 @@ void method_workspace_free(struct method_workspace *workspace)
 
 /* Returns true if the box touches a marked square. With mark it marks all of the box's squares
  * instead. */
-static bool squares_marked(uint8_t *marked, const struct path_box *box, bool mark)
+static bool squares_marked(const struct gridsquares *division, uint8_t *marked,
+                           const struct path_box *box, bool mark)
 {
-    struct gridsquare_box squares = gridsquare_box_of((double)box->min_x, (double)box->min_z,
-                                                      (double)box->max_x, (double)box->max_z);
+    struct gridsquare_box squares = gridsquare_box_of(
+        division, (double)box->min_x, (double)box->min_z, (double)box->max_x, (double)box->max_z);
     for (int32_t row = squares.z0; row <= squares.z1; row++) {
         for (int32_t column = squares.x0; column <= squares.x1; column++) {
-            uint32_t square = gridsquare_index(column, row);
+            uint32_t square = gridsquare_index(division, column, row);
             if (mark)
                 marked[square] = 1;
             else if (marked[square])
@@ -97,13 +98,14 @@ void method_bodies(const struct method_input *input, struct method_workspace *wo
                    struct method_bodies *bodies)
 {
     const struct world *world = input->world;
+    const struct gridsquares *division = &world->terrain.squares;
     size_t most = (size_t)input->rows + world->counts.fixed;
     uint32_t *what = method_block(workspace, METHOD_BODIES, most, sizeof *what);
     struct path_box *box = method_block(workspace, METHOD_BODIES + 1, most, sizeof *box);
     uint8_t *tests_fixed = method_block(workspace, METHOD_BODIES + 2, input->rows, 1);
-    uint8_t *marked = method_block(workspace, METHOD_BODIES + 3, GRIDSQUARE_COUNT, 1);
+    uint8_t *marked = method_block(workspace, METHOD_BODIES + 3, division->count, 1);
     uint32_t count = 0, moving;
-    memset(marked, 0, GRIDSQUARE_COUNT);
+    memset(marked, 0, division->count);
     for (uint32_t row = 0; row < input->rows; row++) {
         if (!pair_filter_there(input, row))
             continue;
@@ -111,13 +113,14 @@ void method_bodies(const struct method_input *input, struct method_workspace *wo
         box[count] = pair_filter_box(input, row);
         tests_fixed[count] = pair_filter_tests_fixed(input, row);
         if (tests_fixed[count])
-            squares_marked(marked, &box[count], true);
+            squares_marked(division, marked, &box[count], true);
         count++;
     }
     moving = count;
     for (uint32_t object = 0; object < world->counts.fixed; object++) {
         box[count] = pair_filter_fixed_box(world, &world->fixed[object]);
-        if (pair_filter_stands(input, object) && squares_marked(marked, &box[count], false))
+        if (pair_filter_stands(input, object) &&
+            squares_marked(division, marked, &box[count], false))
             what[count++] = object | PAIR_FIXED;
     }
     *bodies = (struct method_bodies){count, moving, what, box, tests_fixed};

@@ -51,7 +51,7 @@ const struct broad_phase *method_broad_phase(const struct method_workspace *work
 
 /* Returns room for count items of size bytes in the workspace's block of this number (of
  * METHOD_BLOCKS). The blocks from METHOD_BODIES on belong to method_bodies(). The block's former
- * contents may be lost. METHOD_BODY_BYTES for each body and GRIDSQUARE_COUNT more are reserved; a
+ * contents may be lost. METHOD_BODY_BYTES for each body and one for each gridsquare are reserved; a
  * block that needs more grows. */
 #define METHOD_BLOCKS     13
 #define METHOD_BODIES     9

@@ -112,7 +112,7 @@ static uint32_t hit_fixed(const struct method_input *input, uint32_t row, struct
 {
     const struct world *world = input->world;
     struct body body = body_of_row(input, row);
-    uint32_t square = gridsquare_of(body.at.x, body.at.z);
+    uint32_t square = gridsquare_of(&world->terrain.squares, body.at.x, body.at.z);
     const uint32_t *objects;
     uint32_t hits = 0;
     if (world->counts.fixed == 0 || !below_threshold(input, body.at))
@@ -121,7 +121,7 @@ static uint32_t hit_fixed(const struct method_input *input, uint32_t row, struct
     for (uint32_t n = 0; n < count; n++) {
         const struct fixed_object *object = &world->fixed[objects[n]];
         struct body other = body_of_fixed(world, object);
-        if (gridsquare_of(object->x, object->z) != square ||
+        if (gridsquare_of(&world->terrain.squares, object->x, object->z) != square ||
             !pair_filter_stands(input, objects[n]) || !spheres_overlap(&body, &other) ||
             !polygons_touch(input, row, objects[n] | PAIR_FIXED))
             continue;

@@ -14,6 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define SLACK_M 0.01 /* in a world of up to 50 km */
+
 uint32_t pair_filter_pairs_first(const struct world *world)
 {
     uint64_t rows = world->params->capacity, first = PAIRS_FIRST + PAIRS_A_ROW * rows;
@@ -68,10 +70,15 @@ double pair_filter_row_reach(const struct method_input *input, uint32_t row)
     return kind_reach(input->world, &input->world->kinds[input->entities->kind[row]]);
 }
 
+double pair_filter_slack(const struct world *world)
+{
+    return SLACK_M * maths_max(1.0, world->terrain.squares.world_m / WORLD_SIDE_DEFAULT_M);
+}
+
 double pair_filter_margin(const struct world *world, const struct kind *kind)
 {
     bool models = world->params->collision.shape == SHAPE_MODEL;
-    return (models ? kind->reach_m : kind->radius_m) + BOX_SLACK_M;
+    return (models ? kind->reach_m : kind->radius_m) + pair_filter_slack(world);
 }
 
 double pair_filter_fixed_reach(const struct world *world, const struct fixed_object *object)
@@ -166,9 +173,9 @@ bool pair_filter_box_meets_fixed(const struct method_input *input, const struct 
 struct path_box pair_filter_fixed_box(const struct world *world, const struct fixed_object *object)
 {
     struct extent e = extent_of(world, object);
-    double reach = e.reach + BOX_SLACK_M, y = (double)object->y;
+    double slack = pair_filter_slack(world), reach = e.reach + slack, y = (double)object->y;
     return (struct path_box){
-        (float)(object->x - reach), (float)(y + e.low - BOX_SLACK_M),  (float)(object->z - reach),
-        (float)(object->x + reach), (float)(y + e.high + BOX_SLACK_M), (float)(object->z + reach),
+        (float)(object->x - reach), (float)(y + e.low - slack),  (float)(object->z - reach),
+        (float)(object->x + reach), (float)(y + e.high + slack), (float)(object->z + reach),
     };
 }

@@ -48,9 +48,9 @@ void pair_list_free(struct pair_list *list);
 void pair_list_add(struct pair_list *list, uint32_t a, uint32_t b);
 void pair_list_append(struct pair_list *list, const struct pair_list *from);
 
-/* Added to each side of a box [m]: half a float's step at 50 km is 2 mm, so 1 cm keeps the box
- * around the body. */
-#define BOX_SLACK_M 0.01
+/* Returns what is added to each side of a box [m]: half a float's step at 50 km is 2 mm, so 1 cm
+ * keeps the box around the body. Steps grow with the side of the world. */
+double pair_filter_slack(const struct world *world);
 
 /* The box around a row's path with its sphere or its hulls. */
 struct path_box {

@@ -192,7 +192,7 @@ static double left_of(double speed, double lost)
     return speed > lost ? 1.0 - lost / speed : 0.0;
 }
 
-static void slide(struct debris *debris, double dt_s)
+static void slide(const struct world *world, struct debris *debris, double dt_s)
 {
     double vx = (double)debris->vx, vz = (double)debris->vz, spin = (double)debris->spin_rps;
     double half = (double)debris->half_length_m, grip = FRICTION * GRAVITY_MPS2 * dt_s;
@@ -202,8 +202,8 @@ static void slide(struct debris *debris, double dt_s)
     debris->vx = (float)(vx * left);
     debris->vz = (float)(vz * left);
     debris->spin_rps = (float)(spin * spins);
-    debris->x = maths_clamp(debris->x + (double)debris->vx * dt_s, 0.0, WORLD_SIDE_M);
-    debris->z = maths_clamp(debris->z + (double)debris->vz * dt_s, 0.0, WORLD_SIDE_M);
+    debris->x = world_clamp(world, debris->x + (double)debris->vx * dt_s);
+    debris->z = world_clamp(world, debris->z + (double)debris->vz * dt_s);
     debris->heading_rad =
         (float)maths_wrap_turn((double)debris->heading_rad + (double)debris->spin_rps * dt_s);
 }
@@ -214,6 +214,6 @@ void debris_push_step(struct response_context *context)
     for (uint32_t i = 0; i < head->debris_count; i++) {
         push_by_all(context, &head->debris[i]);
         if (!rests(&head->debris[i]))
-            slide(&head->debris[i], context->world->params->dt_s);
+            slide(context->world, &head->debris[i], context->world->params->dt_s);
     }
 }

@@ -205,7 +205,7 @@ static void explosion_one(struct response_context *context, const struct charge 
 {
     double radius = EXPLOSION_RADIUS_M * maths_cbrt(charge->explosive_kg);
     const struct path still = {.at = charge->point};
-    struct path_box box = pair_filter_path_box(&still, radius + BOX_SLACK_M);
+    struct path_box box = pair_filter_path_box(&still, radius + pair_filter_slack(context->world));
     struct charges *charges = context->charges;
     struct pair_list *near = &charges->near;
     near->count = charges->pushed_count = 0;
@@ -238,7 +238,7 @@ static void undermine(struct response_context *context, const struct crater *cra
 {
     const struct entities *e = &context->next->entities;
     const struct path centre = {.at = {crater->x, 0.0, crater->z}};
-    double reach = (double)crater->radius_m * CRATER_RIM + BOX_SLACK_M;
+    double reach = (double)crater->radius_m * CRATER_RIM + pair_filter_slack(context->world);
     struct path_box box = pair_filter_path_box(&centre, reach);
     struct pair_list *near = &context->charges->near;
     box.min_y = -INFINITY;

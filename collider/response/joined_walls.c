@@ -65,7 +65,7 @@ uint32_t joined_walls_find(struct response_context *context, uint32_t object)
     const struct path still = {.at = fixed_position(struck)};
     const struct footprint sides = footprint_of(struck, world->kinds);
     double reach = sides.half_length_m + sides.half_width_m + JOINED_WALLS_GAP_M;
-    struct path_box box = pair_filter_path_box(&still, reach + BOX_SLACK_M);
+    struct path_box box = pair_filter_path_box(&still, reach + pair_filter_slack(world));
     broad_phase_query_fixed(context->broad, &context->input.detect, &box, near);
     uint32_t kept = 0;
     for (uint32_t i = 0; i < near->count; i++) {

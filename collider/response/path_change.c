@@ -183,18 +183,16 @@ static double driven(const struct response_context *context, uint32_t row, bool 
 
 /* Ends the path at the world's edge. It may begin beyond it, if the body was pushed out of
  * another. */
-static struct path within_world(struct path path)
+static struct path within_world(const struct world *world, struct path path)
 {
     double left = 1.0 - path.since;
     if (!(left > 0.0)) {
-        path.at.x = maths_clamp(path.at.x, 0.0, WORLD_SIDE_M);
-        path.at.z = maths_clamp(path.at.z, 0.0, WORLD_SIDE_M);
+        path.at.x = world_clamp(world, path.at.x);
+        path.at.z = world_clamp(world, path.at.z);
     }
     if (left > 0.0) {
-        path.along.x =
-            (maths_clamp(path.at.x + path.along.x * left, 0.0, WORLD_SIDE_M) - path.at.x) / left;
-        path.along.z =
-            (maths_clamp(path.at.z + path.along.z * left, 0.0, WORLD_SIDE_M) - path.at.z) / left;
+        path.along.x = (world_clamp(world, path.at.x + path.along.x * left) - path.at.x) / left;
+        path.along.z = (world_clamp(world, path.at.z + path.along.z * left) - path.at.z) / left;
     }
     return path;
 }
@@ -216,7 +214,7 @@ static void take_path(struct response_context *context, uint32_t row, const stru
                       const struct rotation_path *rotation, struct vec3 velocity)
 {
     double heading, pitch, roll;
-    struct path within = within_world(*path);
+    struct path within = within_world(context->world, *path);
     struct vec3 to = path_at(&within, 1.0);
     wake(context, row, to);
     body_motion_change(context->motion, row, &within, rotation);

@@ -98,10 +98,10 @@ static void find_drift(struct free_bodies *bodies, double dt_s)
 
 /* --- motion ------------------------------------------------------------------------------------*/
 
-static struct vec3 clamped(struct vec3 at)
+static struct vec3 clamped(const struct world *world, struct vec3 at)
 {
-    at.x = maths_clamp(at.x, 0.0, WORLD_SIDE_M);
-    at.z = maths_clamp(at.z, 0.0, WORLD_SIDE_M);
+    at.x = world_clamp(world, at.x);
+    at.z = world_clamp(world, at.z);
     return at;
 }
 
@@ -110,7 +110,7 @@ static void put(const struct response_context *context, uint32_t row, struct vec
 {
     double heading, pitch, roll;
     rotation_angles(turn, &heading, &pitch, &roll);
-    table_set_position(&context->writer, row, clamped(at));
+    table_set_position(&context->writer, row, clamped(context->world, at));
     table_set_velocity(&context->writer, row, velocity);
     table_set_spin(&context->writer, row, spin);
     table_set_heading(&context->writer, row, heading);
@@ -193,7 +193,8 @@ static bool move_held(struct response_context *context, const struct free_side *
     struct vec3 at = entities_position(e, row);
     at.x += change.x * dt_s;
     at.z += change.z * dt_s;
-    ground_placement_put(context, row, clamped(at), maths_wrap_turn(e->heading[row] - turn * dt_s));
+    ground_placement_put(context, row, clamped(context->world, at),
+                         maths_wrap_turn(e->heading[row] - turn * dt_s));
     table_set_vx(&context->writer, row, e->vx[row] + change.x);
     table_set_vz(&context->writer, row, e->vz[row] + change.z);
     table_set_spin_y(&context->writer, row, e->spin_y[row] + turn);

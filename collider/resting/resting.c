@@ -312,8 +312,8 @@ static void move(struct response_context *context, uint32_t row, const struct le
     const struct entities *w = body_motion_before(context->motion, row);
     double dt_s = world_dt_s(context->world);
     struct vec3 at = context->path[row].at;
-    at.x = maths_clamp(at.x + (body->moved.x + body->pushed.x) * dt_s, 0.0, WORLD_SIDE_M);
-    at.z = maths_clamp(at.z + (body->moved.z + body->pushed.z) * dt_s, 0.0, WORLD_SIDE_M);
+    at.x = world_clamp(context->world, at.x + (body->moved.x + body->pushed.x) * dt_s);
+    at.z = world_clamp(context->world, at.z + (body->moved.z + body->pushed.z) * dt_s);
     double turn = (body->moved.spin + body->pushed.spin) * dt_s;
     context->motion->parting_rps[row] = body->pushed.spin;
     ground_placement_put(context, row, at, maths_wrap_turn(w->heading[row] - turn));

@@ -4,6 +4,7 @@
 #include "config/syntax/schema.h"
 #include "world/entity/kind.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -61,6 +62,7 @@ int entry_read(struct entry *entry, const struct key_table *table, int index,
     entry->setting = setting;
     entry->keys.table = table;
     entry->keys.destination = destination;
+    entry->keys.side_m = entry->scenario->settings->side_m;
     memset(entry->keys.given, 0, sizeof entry->keys.given);
     snprintf(entry->path, sizeof(entry->path), "%s%s[%d]",
              entry->within != NULL ? entry->within : "", table->path, index);

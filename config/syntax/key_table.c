@@ -550,6 +550,16 @@ static void list_names(const struct key_table *table, const char *prefix, char *
     }
 }
 
+/* A key of the table, as it holds in this world. */
+static struct key key_of(const struct key_reading *reading, uint32_t index)
+{
+    struct key key = reading->table->keys[index];
+    bool place = key.type == KEY_POINT || key.type == KEY_AREA || key.type == KEY_ROUTE;
+    if (place && reading->side_m > 0.0)
+        key.high = reading->side_m;
+    return key;
+}
+
 static int read_setting(struct key_reading *reading, const config_setting_t *setting,
                         const char *name, const char *shown, struct error_text *error)
 {
@@ -558,7 +568,8 @@ static int read_setting(struct key_reading *reading, const config_setting_t *set
     int index = key_table_find(reading->table, name);
     key_table_value_text(setting, value, sizeof(value));
     if (index >= 0) {
-        struct given given = {&reading->table->keys[index], shown, value, place, error};
+        const struct key key = key_of(reading, (uint32_t)index);
+        struct given given = {&key, shown, value, place, error};
         reading->given[index] = true;
         reading->line[index] = place.line;
         return store_setting(&given, reading->destination, setting);
@@ -602,13 +613,13 @@ int key_table_read(struct key_reading *reading, const config_setting_t *group, c
             return -1;
     }
     for (uint32_t i = 0; prefix[0] == '\0' && i < reading->table->count; i++) {
-        const struct key *key = &reading->table->keys[i];
+        const struct key key = key_of(reading, i);
         const struct key_place place = {reading->file, group_line(group)};
         char allowed[ALLOWED_TEXT_MAX], path[KEY_PATH_MAX + KEY_PATH_MAX];
-        if (!key->required || reading->given[i])
+        if (!key.required || reading->given[i])
             continue;
-        key_table_allowed(key, allowed, sizeof(allowed));
-        snprintf(path, sizeof(path), "%s%s%s", shown, shown_dot, key->name);
+        key_table_allowed(&key, allowed, sizeof(allowed));
+        snprintf(path, sizeof(path), "%s%s%s", shown, shown_dot, key.name);
         return key_table_refuse(error, place, path, NULL, "is missing; allowed: %s", allowed);
     }
     return 0;

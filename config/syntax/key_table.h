@@ -56,7 +56,8 @@ struct key {
     enum key_store store;
     uint32_t size;        /* STORE_TEXT: bytes, the NUL included; KEY_NUMBERS: how many */
     size_t offset;        /* within the table's destination */
-    double low, high;     /* inclusive; of each coordinate of points, areas and routes */
+    double low, high;     /* inclusive; of each coordinate of points, areas and routes, which
+                             key_reading.side_m replaces */
     double scale;         /* of STORE_DOUBLE: the stored value is the file's times this */
     const char *fallback; /* the default, as in an override; NULL: nothing is stored */
     bool required;
@@ -114,6 +115,7 @@ struct key_reading {
     const struct key_table *table;
     void *destination;
     const char *file;
+    double side_m; /* of the world: the limit of points, areas and routes; 0: key.high */
     bool given[KEY_TABLE_MAX]; /* out: the file has this key */
     int line[KEY_TABLE_MAX];   /* out: of each key that the file has */
     /* Returns true for a top-level setting that another function reads; NULL: there is none. */

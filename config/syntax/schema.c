@@ -86,6 +86,13 @@ static const struct key scenario_keys[] = {
                     "a part of the scenario, so a log is not replayed on another ground."),
     NUMBER("terrain.height_m", S, flat_height_m, -400, 8000, "0", .unit = "m",
            .meaning = "The height of `flat` ground."),
+    ROW("terrain.side_m", KEY_NUMBER, STORE_DOUBLE, S, side_m, .scale = 1.0,
+        .low = WORLD_SIDE_MIN_M, .high = WORLD_SIDE_MAX_M, .unit = "m",
+        .unset = "50000, or the side of a ground file that does not fit into 50 km",
+        .meaning =
+            "The side of the world, a multiple of 125 m. Places are from 0 to it, where this "
+            "page says 50000. A smaller ground file lies in the middle. Generated ground has "
+            "50 km."),
     ROW("terrain.spacing_m", KEY_NUMBER, STORE_DOUBLE, S, spacing_m, .scale = 1.0, .low = 31.25,
         .high = 125, .fallback = "31.25", WORDS(spacings), .unit = "m",
         .meaning = "The distance between neighbouring posts, the points whose height is known. A "

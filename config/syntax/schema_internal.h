@@ -38,7 +38,8 @@
     ROW(key, KEY_TEXT, STORE_TEXT, D, field, .size = sizeof(((D *)0)->field), .fallback = (value), \
         __VA_ARGS__)
 #define PLACE(key, of_type, how, D, field, ...)                                                    \
-    ROW(key, of_type, how, D, field, .low = 0.0, .high = WORLD_SIDE_M, .unit = "m", __VA_ARGS__)
+    ROW(key, of_type, how, D, field, .low = 0.0, .high = WORLD_SIDE_DEFAULT_M, .unit = "m",        \
+        __VA_ARGS__)
 
 #define NUMBERS(key, D, field, min, max, ...)                                                      \
     ROW(key, KEY_NUMBERS, STORE_DOUBLE, D, field,                                                  \

@@ -126,10 +126,11 @@ static bool plausible(const struct segment_header *h)
             return false;
     }
     return h->capacity >= 1 && h->capacity <= CAPACITY_MAX && n->posts_side >= 2 &&
-           n->posts_side <= POSTS_SIDE_MAX && power_of_two(h->event_slots) &&
-           power_of_two(h->command_slots) && h->command_slots <= (1u << 20) &&
-           power_of_two(h->input_slots) && h->input_slots <= (1u << 20) &&
-           h->crater_slots <= CRATER_SLOTS_MAX &&
+           n->posts_side <= POSTS_SIDE_MAX && n->side_m >= WORLD_SIDE_MIN_M &&
+           n->side_m <= WORLD_SIDE_MAX_M && n->side_m % WORLD_SIDE_OF_M == 0 &&
+           power_of_two(h->event_slots) && power_of_two(h->command_slots) &&
+           h->command_slots <= (1u << 20) && power_of_two(h->input_slots) &&
+           h->input_slots <= (1u << 20) && h->crater_slots <= CRATER_SLOTS_MAX &&
            h->contact_slots <= PERSISTENT_CONTACT_SLOTS_MAX && n->missions <= MISSIONS_MAX &&
            n->objectives <= OBJECTIVES_MAX;
 }
@@ -157,7 +158,7 @@ int layout_compute(struct layout *layout, const struct segment_header *h)
     b[REGION_EARTHWORKS] = n->earthworks * sizeof(struct earthwork);
     b[REGION_EARTHWORK_INDEX] = n->earthwork_words * sizeof(uint32_t);
     b[REGION_FIXED] = n->fixed * sizeof(struct fixed_object);
-    b[REGION_REACH_START] = (GRIDSQUARE_COUNT + 1) * sizeof(uint32_t);
+    b[REGION_REACH_START] = (gridsquares_of(n->side_m).count + 1) * sizeof(uint32_t);
     b[REGION_REACH] = n->reach * sizeof(uint32_t);
     b[REGION_AREAS] = n->areas * sizeof(struct area);
     b[REGION_ROUTES] = n->routes * sizeof(struct route);

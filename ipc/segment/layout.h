@@ -15,7 +15,7 @@
 #include <stdint.h>
 
 #define SEGMENT_MAGIC   0x314e4f4c4f4a0a1au /* "\x1a\nJOLON1": also no text file's first bytes */
-#define SEGMENT_VERSION 10u
+#define SEGMENT_VERSION 11u
 
 /* Every region begins at a multiple of this [byte]. A mapping begins on a page border, and pages
  * are 4, 16 or 64 KiB, depending on the kernel (aarch64 has all three). */

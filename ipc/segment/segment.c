@@ -49,13 +49,16 @@ void segment_bind(struct view *view)
     struct world *world = &view->world;
     world->params = segment_part(view, REGION_PARAMS);
     world->counts = header->counts;
-    world->terrain = (struct terrain){
-        .posts = segment_part(view, REGION_POSTS),
-        .cover = segment_part(view, REGION_COVER),
-        .side = header->counts.posts_side,
-        .spacing_m = WORLD_SIDE_M / (double)(header->counts.posts_side - 1),
-        .earthworks = {segment_part(view, REGION_EARTHWORKS),
-                       segment_part(view, REGION_EARTHWORK_INDEX), header->counts.earthworks}};
+    const struct gridsquares squares = gridsquares_of(header->counts.side_m);
+    world->terrain = (struct terrain){.posts = segment_part(view, REGION_POSTS),
+                                      .cover = segment_part(view, REGION_COVER),
+                                      .side = header->counts.posts_side,
+                                      .spacing_m = header->counts.side_m /
+                                                   (double)(header->counts.posts_side - 1),
+                                      .earthworks = {segment_part(view, REGION_EARTHWORKS),
+                                                     segment_part(view, REGION_EARTHWORK_INDEX),
+                                                     header->counts.earthworks, squares},
+                                      .squares = squares};
     world->kinds = segment_part(view, REGION_KINDS);
     world->models = segment_part(view, REGION_MODELS);
     world->model_vertices = segment_part(view, REGION_MODEL_VERTICES);

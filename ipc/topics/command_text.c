@@ -74,8 +74,8 @@ static const struct {
     [COMMAND_TEXT_ANYWAY] = {"anyway", "anyway", SORT_TRUTH, 0, 1, OFFSET(command.anyway), NULL},
     [COMMAND_TEXT_KIND] = {"kind", "kind", SORT_KIND, 0, 0, OFFSET(command.kind), NULL},
     [COMMAND_TEXT_MUNITION] = {"munition", "munition", SORT_KIND, 0, 0, OFFSET(command.kind), NULL},
-    [COMMAND_TEXT_X] = {"x", "x", SORT_DOUBLE, 0, WORLD_SIDE_M, OFFSET(command.x_m), NULL},
-    [COMMAND_TEXT_Z] = {"z", "z", SORT_DOUBLE, 0, WORLD_SIDE_M, OFFSET(command.z_m), NULL},
+    [COMMAND_TEXT_X] = {"x", "x", SORT_DOUBLE, 0, WORLD_SIDE_MAX_M, OFFSET(command.x_m), NULL},
+    [COMMAND_TEXT_Z] = {"z", "z", SORT_DOUBLE, 0, WORLD_SIDE_MAX_M, OFFSET(command.z_m), NULL},
     [COMMAND_TEXT_AT] = {"at", "at", SORT_PLACE, 0, 0, OFFSET(place), NULL},
     [COMMAND_TEXT_FORCE] = {"force", "force", SORT_WORD, 0, FORCE_COUNT - 1, OFFSET(command.force),
                             force_word},
@@ -201,7 +201,8 @@ int command_text_begin(struct command_text *order, const char *verb, struct erro
 {
     char all[160] = "";
     size_t best = 0;
-    *order = (struct command_text){.rounds = 1, .command = {.altitude_m = -1.0}};
+    *order = (struct command_text){
+        .rounds = 1, .side_m = WORLD_SIDE_MAX_M, .command = {.altitude_m = -1.0}};
     for (size_t i = 0; i < VERB_COUNT; i++) {
         if (strcmp(verbs[i].name, verb) == 0) {
             order->verb = &verbs[i];
@@ -473,8 +474,8 @@ jolon_Command command_text_round(const struct command_text *order, uint64_t seed
         double sine, cosine;
         double away_m = order->radius_m * sqrt(random_unit(seed, 0, round, RANDOM_MISSION_RANGE));
         maths_sincos(TWO_PI * random_unit(seed, 0, round, RANDOM_MISSION_AZIMUTH), &sine, &cosine);
-        command.x_m = maths_clamp(command.x_m + away_m * sine, 0.0, WORLD_SIDE_M);
-        command.z_m = maths_clamp(command.z_m + away_m * cosine, 0.0, WORLD_SIDE_M);
+        command.x_m = maths_clamp(command.x_m + away_m * sine, 0.0, order->side_m);
+        command.z_m = maths_clamp(command.z_m + away_m * cosine, 0.0, order->side_m);
     }
     return command;
 }

@@ -82,6 +82,7 @@ struct command_text {
     double lease_s;                    /* 0: none */
     uint32_t rounds;                   /* of a fire mission, from 1 */
     double every_s, radius_m;
+    double side_m;  /* of the world, WORLD_SIDE_MAX_M while it is not known */
     uint32_t seed;  /* of the rounds' points of aim */
     uint32_t given; /* bits of command_text_field */
     /* on_earth: x and z are still to follow from it by command_text_place(); they count as given.

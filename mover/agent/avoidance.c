@@ -15,6 +15,7 @@
 #include "world/world.h"
 
 #include <stddef.h>
+#include <stdlib.h>
 
 #define REACT_S        0.6  /* time until a look has turned or slowed the vehicle */
 #define TURNS_AHEAD    1.5  /* least horizon in turning circles */
@@ -130,9 +131,13 @@ static double slope_of(const struct kind *kind)
     return sine / maths_max(cosine, 1e-9);
 }
 
-void avoidance_init(struct avoidance *avoidance, const struct world *world)
+int avoidance_init(struct avoidance *avoidance, const struct world *world)
 {
-    *avoidance = (struct avoidance){.reach_m = {0.0}};
+    const uint32_t squares = world->terrain.squares.count;
+    *avoidance =
+        (struct avoidance){.occupied = calloc((squares + 63) / 64, sizeof *avoidance->occupied)};
+    if (!avoidance->occupied)
+        return -1;
     uint32_t kinds = kind_of_files(world->kinds, world->counts.kinds);
     for (uint32_t k = 0; k < kinds; k++) {
         const struct kind *kind = &world->kinds[k];
@@ -151,10 +156,17 @@ void avoidance_init(struct avoidance *avoidance, const struct world *world)
             avoidance->slope[k] = slope_of(kind);
         }
     }
-    for (uint32_t square = 0; square < GRIDSQUARE_COUNT; square++) {
+    for (uint32_t square = 0; square < squares; square++) {
         if (world->reach_start[square + 1] > world->reach_start[square])
             avoidance->occupied[square / 64] |= UINT64_C(1) << square % 64;
     }
+    return 0;
+}
+
+void avoidance_free(struct avoidance *avoidance)
+{
+    free(avoidance->occupied);
+    avoidance->occupied = NULL;
 }
 
 /* --- the fan -----------------------------------------------------------------------------------*/
@@ -348,11 +360,12 @@ static void see_fixed(const struct step_context *context, uint32_t i, struct loo
 {
     const struct entities *m = context->m;
     double most = look->horizon_m;
+    const struct gridsquares *squares = &context->world->terrain.squares;
     struct gridsquare_box box =
-        gridsquare_box_of(m->x[i] - most, m->z[i] - most, m->x[i] + most, m->z[i] + most);
+        gridsquare_box_of(squares, m->x[i] - most, m->z[i] - most, m->x[i] + most, m->z[i] + most);
     for (int32_t row = box.z0; row <= box.z1; row++)
         for (int32_t column = box.x0; column <= box.x1; column++) {
-            uint32_t square = gridsquare_index(column, row);
+            uint32_t square = gridsquare_index(squares, column, row);
             if (context->avoidance->occupied[square / 64] >> square % 64 & 1u)
                 see_square(context, i, look, square);
         }
@@ -397,9 +410,10 @@ static void see_vehicles(const struct step_context *context, uint32_t i, struct 
         see_vehicle(context, i, look, entry);
 }
 
-static bool in_world(double x, double z)
+static bool in_world(const struct step_context *context, double x, double z)
 {
-    return x > 0.0 && z > 0.0 && x < WORLD_SIDE_M && z < WORLD_SIDE_M;
+    const double side_m = context->world->terrain.squares.world_m;
+    return x > 0.0 && z > 0.0 && x < side_m && z < side_m;
 }
 
 /* Returns true only if the ground up to (x, z) is dry, without craters and no steeper than the
@@ -407,8 +421,9 @@ static bool in_world(double x, double z)
 static bool surely_passable(const struct step_context *context, uint32_t i, double x, double z)
 {
     const struct entities *m = context->m;
-    struct gridsquare_box box = gridsquare_box_of(maths_min(m->x[i], x), maths_min(m->z[i], z),
-                                                  maths_max(m->x[i], x), maths_max(m->z[i], z));
+    struct gridsquare_box box =
+        gridsquare_box_of(&context->world->terrain.squares, maths_min(m->x[i], x),
+                          maths_min(m->z[i], z), maths_max(m->x[i], x), maths_max(m->z[i], z));
     uint16_t most = square_bounds_below_slope(context->avoidance->slope[m->kind[i]]);
     return square_bounds_within(context->slopes, box, most) &&
            !ground_marks_within(context->ground_marks, box, GROUND_MARKS_CRATER);
@@ -441,15 +456,16 @@ static double ground_free(const struct step_context *context, uint32_t i, const 
     double before_m = 0.0, before_y = m->y[i];
     double end_x = m->x[i] + look->horizon_m * look->x[k];
     double end_z = m->z[i] + look->horizon_m * look->z[k];
-    if (look->kind->domain == DOMAIN_LAND && in_world(end_x, end_z) &&
+    if (look->kind->domain == DOMAIN_LAND && in_world(context, end_x, end_z) &&
         surely_passable(context, i, end_x, end_z))
         return look->horizon_m;
     double free_m = works_free(context, i, look, k);
     for (int n = 1; n <= 2; n++) {
         double distance = 0.5 * n * look->horizon_m;
         double x = m->x[i] + distance * look->x[k], z = m->z[i] + distance * look->z[k];
-        if (!in_world(x, z) || cover_is_water(terrain_cover(&context->world->terrain, x, z)) !=
-                                   (look->kind->domain == DOMAIN_SEA))
+        if (!in_world(context, x, z) ||
+            cover_is_water(terrain_cover(&context->world->terrain, x, z)) !=
+                (look->kind->domain == DOMAIN_SEA))
             return maths_min(before_m, free_m);
         if (look->kind->domain == DOMAIN_LAND) {
             double y = kinematics_ground(context, x, z);

@@ -29,10 +29,12 @@ struct avoidance {
     /* Of vehicle kinds [m]: the radius in which one at full speed looks for other vehicles. */
     double around_m[KIND_COUNT_MAX];
     /* A bit for each gridsquare that a fixed object reaches into. */
-    uint64_t occupied[GRIDSQUARE_COUNT / 64];
+    uint64_t *occupied;
 };
 
-void avoidance_init(struct avoidance *avoidance, const struct world *world);
+/* Returns 0, or -1 with errno ENOMEM; must be freed in either case. */
+int avoidance_init(struct avoidance *avoidance, const struct world *world);
+void avoidance_free(struct avoidance *avoidance);
 
 /* Looks if row i is due, and changes the desired motion by dodge and ease. */
 void avoidance_steer(const struct step_context *context, uint32_t i,

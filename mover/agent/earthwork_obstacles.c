@@ -82,14 +82,14 @@ double earthwork_obstacles_free(const struct earthworks *works, const struct kin
 {
     double free_m = way->length_m, far = way->length_m + way->ahead_m;
     double end_x = way->x + far * way->ux, end_z = way->z + far * way->uz, wide = way->beside_m;
-    struct gridsquare_box box =
-        gridsquare_box_of(maths_min(way->x, end_x) - wide, maths_min(way->z, end_z) - wide,
-                          maths_max(way->x, end_x) + wide, maths_max(way->z, end_z) + wide);
+    struct gridsquare_box box = gridsquare_box_of(
+        &works->squares, maths_min(way->x, end_x) - wide, maths_min(way->z, end_z) - wide,
+        maths_max(way->x, end_x) + wide, maths_max(way->z, end_z) + wide);
     for (int32_t row = box.z0; row <= box.z1 && works->count > 0; row++) {
         for (int32_t column = box.x0; column <= box.x1; column++) {
             uint32_t count;
             const uint32_t *items =
-                earthwork_in_square(works, gridsquare_index(column, row), &count);
+                earthwork_in_square(works, gridsquare_index(&works->squares, column, row), &count);
             for (uint32_t n = 0; n < count; n++) {
                 const struct earthwork *work = &works->works[items[n]];
                 struct cut cut;

@@ -103,8 +103,8 @@ static void along(const struct step_context *context, uint32_t i, double heading
 {
     double sine, cosine;
     maths_sincos(heading, &sine, &cosine);
-    *x = maths_clamp(context->m->x[i] + distance * sine, 0.0, WORLD_SIDE_M);
-    *z = maths_clamp(context->m->z[i] - distance * cosine, 0.0, WORLD_SIDE_M);
+    *x = world_clamp(context->world, context->m->x[i] + distance * sine);
+    *z = world_clamp(context->world, context->m->z[i] - distance * cosine);
 }
 
 void goal_away(const struct step_context *context, uint32_t i, double heading, double distance)
@@ -231,8 +231,8 @@ static void base_place(const struct step_context *context, uint32_t i, double *x
     bool hovers = kind->domain == DOMAIN_AIR && kind->min_speed_mps <= 0.0;
     double away = hovers ? HOME_ROOM_M * sqrt(number) : 0.0;
     maths_sincos(GOLDEN_RAD * number, &sine, &cosine);
-    *x = maths_clamp(base->x + away * sine, 0.0, WORLD_SIDE_M);
-    *z = maths_clamp(base->z - away * cosine, 0.0, WORLD_SIDE_M);
+    *x = world_clamp(context->world, base->x + away * sine);
+    *z = world_clamp(context->world, base->z - away * cosine);
 }
 
 void goal_base(const struct step_context *context, uint32_t i)

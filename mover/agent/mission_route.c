@@ -35,8 +35,7 @@ void mission_route_next(const struct step_context *context, uint32_t i, const st
     double high = (double)(last ? route->last_z_m : route->spread_m);
     double x = point->x + wide * sideways(context, i, number, RANDOM_GOAL_X);
     double z = point->z + high * sideways(context, i, number, RANDOM_GOAL_Z);
-    bool own =
-        x >= 0.0 && x <= WORLD_SIDE_M && z >= 0.0 && z <= WORLD_SIDE_M && suits(context, i, x, z);
+    bool own = world_holds(context->world, x, z) && suits(context, i, x, z);
     m->goal_x[i] = own ? x : point->x;
     m->goal_z[i] = own ? z : point->z;
     m->leg[i] = leg + 1;

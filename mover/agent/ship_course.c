@@ -17,7 +17,7 @@
 
 static bool is_deep(const struct step_context *context, double x, double z)
 {
-    return x >= 0.0 && z >= 0.0 && x <= WORLD_SIDE_M && z <= WORLD_SIDE_M &&
+    return world_holds(context->world, x, z) &&
            cover_is_water(terrain_cover(&context->world->terrain, x, z));
 }
 

@@ -44,18 +44,18 @@ static void take_kind(struct aircraft *batch, int l, const struct kind *kind)
 }
 
 /* Returns true if it flies towards an edge of the world that is near. */
-static bool leaves(const struct entities *m, uint32_t i)
+static bool leaves(const struct entities *m, uint32_t i, double side_m)
 {
     double x = m->x[i] + m->vx[i] * EDGE_TURN_S, z = m->z[i] + m->vz[i] * EDGE_TURN_S;
-    const double first = EDGE_LEAST_M, last = WORLD_SIDE_M - EDGE_LEAST_M;
+    const double first = EDGE_LEAST_M, last = side_m - EDGE_LEAST_M;
     return x < first || z < first || x > last || z > last;
 }
 
 /* Turns it towards the middle of the world, whatever its agent or its driver wants. */
-static void turn_back(const struct entities *m, struct aircraft *batch, int l)
+static void turn_back(const struct entities *m, struct aircraft *batch, int l, double side_m)
 {
     uint32_t i = batch->row[l];
-    double heading = maths_heading(0.5 * WORLD_SIDE_M - m->x[i], 0.5 * WORLD_SIDE_M - m->z[i]);
+    double heading = maths_heading(0.5 * side_m - m->x[i], 0.5 * side_m - m->z[i]);
     double off = maths_wrap_half(heading - m->heading[i]);
     batch->held.lane[l] = 0;
     batch->wanted_heading.lane[l] = heading;
@@ -67,6 +67,7 @@ static void take_desired(const struct step_context *context, struct aircraft *ba
                          const struct desired_motion *desired)
 {
     const struct entities *m = context->m;
+    const double side_m = context->world->terrain.squares.world_m;
     uint32_t i = batch->row[l];
     batch->driven.lane[l] = -(int64_t)desired->driven;
     batch->held.lane[l] = -(int64_t)desired->held;
@@ -78,8 +79,8 @@ static void take_desired(const struct step_context *context, struct aircraft *ba
     batch->brake.lane[l] = desired->brake;
     batch->spool.lane[l] = desired->driven ? 1.0 - (double)m->dodge[i] : 1.0;
     batch->power.lane[l] = desired->driven ? desired->power : 1.0;
-    if (leaves(m, i))
-        turn_back(m, batch, l);
+    if (leaves(m, i, side_m))
+        turn_back(m, batch, l, side_m);
 }
 
 bool aircraft_take(const struct step_context *context, struct aircraft *batch, uint32_t i,
@@ -160,20 +161,21 @@ static inline void want(struct aircraft *batch, int h, const f64x4 *ground, doub
 }
 
 /* Advances a map coordinate, and notes whether it has crossed the edge of the world. */
-static inline void advance(f64x4 *metres, const f64x4 *speed_mps, double dt_s, four_masks *left)
+static inline void advance(f64x4 *metres, const f64x4 *speed_mps, double dt_s, double side_m,
+                           four_masks *left)
 {
     f64x4 to = *metres + *speed_mps * dt_s;
-    *metres = SIMD_CLAMP(to, SIMD_EVERY(0.0), SIMD_EVERY(WORLD_SIDE_M));
+    *metres = SIMD_CLAMP(to, SIMD_EVERY(0.0), SIMD_EVERY(side_m));
     *left |= to != *metres;
 }
 
 /* Moves it, and notes whether it is near the edge. */
-static inline void change_position(struct aircraft *batch, int h, double dt_s)
+static inline void change_position(struct aircraft *batch, int h, double dt_s, double side_m)
 {
-    const f64x4 last = SIMD_EVERY(WORLD_SIDE_M - EDGE_M);
+    const f64x4 last = SIMD_EVERY(side_m - EDGE_M);
     batch->left.f64x4[h] = (four_masks){0};
-    advance(&batch->x.f64x4[h], &batch->vx.f64x4[h], dt_s, &batch->left.f64x4[h]);
-    advance(&batch->z.f64x4[h], &batch->vz.f64x4[h], dt_s, &batch->left.f64x4[h]);
+    advance(&batch->x.f64x4[h], &batch->vx.f64x4[h], dt_s, side_m, &batch->left.f64x4[h]);
+    advance(&batch->z.f64x4[h], &batch->vz.f64x4[h], dt_s, side_m, &batch->left.f64x4[h]);
     batch->y.f64x4[h] += batch->vy.f64x4[h] * dt_s;
     batch->blocked.f64x4[h] = (batch->x.f64x4[h] < EDGE_M) | (batch->z.f64x4[h] < EDGE_M) |
                               (batch->x.f64x4[h] > last) | (batch->z.f64x4[h] > last);
@@ -402,7 +404,7 @@ void aircraft_move(const struct step_context *context, struct aircraft *batch)
         batch->vx.f64x4[h] = speed * sine.f64x4[h] + side * cosine.f64x4[h];
         batch->vz.f64x4[h] = side * sine.f64x4[h] - speed * cosine.f64x4[h];
         batch->vy.f64x4[h] = moving.flight[h].up_mps;
-        change_position(batch, h, context->dt_s);
+        change_position(batch, h, context->dt_s, context->world->terrain.squares.world_m);
     }
     moving.lean.lag = lagged(maths_min(context->dt_s / AIRFRAME_LAG_S, 1.0));
     lean(context, batch, &moving.lean);

@@ -13,8 +13,9 @@ enum course_result constant_course_row(const struct step_context *context, uint3
     struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     bool aground = kind->domain == DOMAIN_SEA && ship_hold(context, i);
+    const double side_m = context->world->terrain.squares.world_m;
     double x = m->x[i] + m->vx[i] * context->dt_s, z = m->z[i] + m->vz[i] * context->dt_s;
-    if (x < 0.0 || z < 0.0 || x > WORLD_SIDE_M || z > WORLD_SIDE_M)
+    if (x < 0.0 || z < 0.0 || x > side_m || z > side_m)
         return COURSE_LEFT_WORLD;
     m->x[i] = x;
     m->z[i] = z;

@@ -34,6 +34,5 @@ static bool is_shallow(const struct step_context *context, const struct kind *ki
 bool fording_passable(const struct step_context *context, const struct kind *kind, double x,
                       double z)
 {
-    return x >= 0.0 && z >= 0.0 && x <= WORLD_SIDE_M && z <= WORLD_SIDE_M &&
-           is_shallow(context, kind, x, z);
+    return world_holds(context->world, x, z) && is_shallow(context, kind, x, z);
 }

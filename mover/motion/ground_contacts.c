@@ -94,11 +94,12 @@ static double steepest_under(const struct step_context *context, const struct ri
                              double reach_m, bool cratered)
 {
     struct vec3 at = body->centre;
+    const struct gridsquares *squares = &context->world->terrain.squares;
     struct gridsquare_box box =
-        gridsquare_box_of(at.x - reach_m, at.z - reach_m, at.x + reach_m, at.z + reach_m);
+        gridsquare_box_of(squares, at.x - reach_m, at.z - reach_m, at.x + reach_m, at.z + reach_m);
     if (cratered || box.x0 != box.x1 || box.z0 != box.z1)
         return STEEPEST;
-    uint16_t bound = square_bounds_of(context->slopes, gridsquare_index(box.x0, box.z0));
+    uint16_t bound = square_bounds_of(context->slopes, gridsquare_index(squares, box.x0, box.z0));
     return bound == SQUARE_BOUNDS_NONE ? STEEPEST : bound * SQUARE_BOUNDS_SLOPE_STEP;
 }
 

@@ -252,13 +252,14 @@ static inline void passable(const struct step_context *context, const struct gro
                             const union simd_lanes *x, const union simd_lanes *z, bool dry,
                             union lane_masks *pass)
 {
+    const double side_m = context->world->terrain.squares.world_m;
     if (dry)
         memset(pass, 0, sizeof *pass);
     else
         terrain_cache_water(&context->world->terrain, &batch->pose.ground, x, z, pass);
     for (int h = 0; h < LANE_FOURS; h++)
         pass->f64x4[h] = ~pass->f64x4[h] & (x->f64x4[h] >= 0.0) & (z->f64x4[h] >= 0.0) &
-                         (x->f64x4[h] <= WORLD_SIDE_M) & (z->f64x4[h] <= WORLD_SIDE_M);
+                         (x->f64x4[h] <= side_m) & (z->f64x4[h] <= side_m);
     if (context->world->terrain.earthworks.count > 0)
         heed_fords(context, batch, x, z, pass);
 }

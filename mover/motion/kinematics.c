@@ -68,10 +68,10 @@ double kinematics_approach(double value, double wanted, double step)
     return value + maths_clamp(wanted - value, -step, step);
 }
 
-void kinematics_advance(double *metres, double *speed_mps, double dt_s)
+void kinematics_advance(const struct step_context *context, double *metres, double *speed_mps)
 {
-    double to = *metres + *speed_mps * dt_s;
-    *metres = maths_clamp(to, 0.0, WORLD_SIDE_M);
+    double to = *metres + *speed_mps * context->dt_s;
+    *metres = world_clamp(context->world, to);
     if (to != *metres)
         *speed_mps = 0.0;
 }

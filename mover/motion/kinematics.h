@@ -35,9 +35,9 @@ void kinematics_along(const struct entities *m, uint32_t i, double sine, double 
 /* The value moved towards wanted by at most step. */
 double kinematics_approach(double value, double wanted, double step);
 
-/* Advances a map coordinate by its speed. At the edge of the world the coordinate and the speed
- * stop. */
-void kinematics_advance(double *metres, double *speed_mps, double dt_s);
+/* Advances a map coordinate by its speed over a step. At the edge of the world the coordinate and
+ * the speed stop. */
+void kinematics_advance(const struct step_context *context, double *metres, double *speed_mps);
 
 /* Returns true if row i has the order to stand, and stands. The engine of a land vehicle is then
  * off. */

@@ -96,11 +96,6 @@ static void turn(const struct step_context *context, uint32_t i, struct vec3 rat
                     &m->roll[i]);
 }
 
-static bool is_inside(struct vec3 at)
-{
-    return at.x >= 0.0 && at.x <= WORLD_SIDE_M && at.z >= 0.0 && at.z <= WORLD_SIDE_M;
-}
-
 bool remote_motion_stands(const struct entities *m, uint32_t i)
 {
     return model_of(m, i) == DEAD_RECKONING_STATIC;
@@ -122,7 +117,7 @@ bool remote_motion_move(const struct step_context *context, uint32_t i)
     struct vec3 at = extrapolate(context, i, model);
     if (turns(model))
         turn(context, i, spin_of(m, i));
-    if (!is_inside(at))
+    if (!world_holds(context->world, at.x, at.z))
         return false;
     if (m->order_arg[i] >> REMOTE_FLAGS_SHIFT & REMOTE_FLAG_CLAMPED)
         (void)ground_clamp(&context->world->terrain, context->craters, REMOTE_CLAMP_M, &at);

@@ -25,9 +25,9 @@ struct rigid_body rigid_body_take(const struct step_context *context, uint32_t i
     return body;
 }
 
-static void stop_at_edge(double *metres, double *speed_mps)
+static void stop_at_edge(const struct world *world, double *metres, double *speed_mps)
 {
-    double within = maths_clamp(*metres, 0.0, WORLD_SIDE_M);
+    double within = world_clamp(world, *metres);
     if (within != *metres)
         *speed_mps = 0.0;
     *metres = within;
@@ -39,8 +39,8 @@ void rigid_body_put(const struct step_context *context, uint32_t i, const struct
     struct vec3 arm = arm_of(body);
     struct vec3 at = vec3_sub(body->centre, arm);
     struct vec3 velocity = vec3_sub(body->velocity, vec3_cross(body->spin, arm));
-    stop_at_edge(&at.x, &velocity.x);
-    stop_at_edge(&at.z, &velocity.z);
+    stop_at_edge(context->world, &at.x, &velocity.x);
+    stop_at_edge(context->world, &at.z, &velocity.z);
     entities_set_position(m, i, at);
     entities_set_velocity(m, i, velocity);
     rotation_angles(body->turn, &m->heading[i], &m->pitch[i], &m->roll[i]);

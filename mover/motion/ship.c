@@ -36,14 +36,10 @@ struct course {
 
 /* --- the shore ---------------------------------------------------------------------------------*/
 
-static bool in_world(double x, double z)
-{
-    return x >= 0.0 && z >= 0.0 && x <= WORLD_SIDE_M && z <= WORLD_SIDE_M;
-}
-
 static bool is_land(const struct step_context *context, double x, double z)
 {
-    return in_world(x, z) && !cover_is_water(terrain_cover(&context->world->terrain, x, z));
+    return world_holds(context->world, x, z) &&
+           !cover_is_water(terrain_cover(&context->world->terrain, x, z));
 }
 
 /* What the ends of the hull are on. */
@@ -74,8 +70,8 @@ static struct grounding find_grounding(const struct step_context *context, const
     return (struct grounding){
         .bow_m = ashore(context, kind, course, at, 1.0),
         .stern_m = ashore(context, kind, course, at, -1.0),
-        .bow_out = !in_world(at.x + x, at.z + z),
-        .stern_out = !in_world(at.x - x, at.z - z),
+        .bow_out = !world_holds(context->world, at.x + x, at.z + z),
+        .stern_out = !world_holds(context->world, at.x - x, at.z - z),
     };
 }
 
@@ -133,8 +129,8 @@ static struct ship_moved advance(const struct step_context *context, uint32_t i,
         scrape(context, i, course, &grounding);
     m->vx[i] = course->forward * course->sine + course->rightward * course->cosine;
     m->vz[i] = -course->forward * course->cosine + course->rightward * course->sine;
-    kinematics_advance(&m->x[i], &m->vx[i], context->dt_s);
-    kinematics_advance(&m->z[i], &m->vz[i], context->dt_s);
+    kinematics_advance(context, &m->x[i], &m->vx[i]);
+    kinematics_advance(context, &m->z[i], &m->vz[i]);
     /* a post in water has the height of its surface */
     m->y[i] = kinematics_ground(context, m->x[i], m->z[i]);
     m->vy[i] = 0.0;

@@ -65,13 +65,14 @@ static double share_of_square(const struct world *world, const struct state *com
 static double share_of_fallen(const struct world *world, const struct state *committed,
                               const struct kind *vehicle, double x, double z)
 {
-    struct gridsquare_box box =
-        gridsquare_box_of(x - TRUNK_MOST_M, z - TRUNK_MOST_M, x + TRUNK_MOST_M, z + TRUNK_MOST_M);
+    const struct gridsquares *squares = &world->terrain.squares;
+    struct gridsquare_box box = gridsquare_box_of(squares, x - TRUNK_MOST_M, z - TRUNK_MOST_M,
+                                                  x + TRUNK_MOST_M, z + TRUNK_MOST_M);
     double share = NOTHING;
     for (int32_t row = box.z0; row <= box.z1; row++) {
         for (int32_t column = box.x0; column <= box.x1; column++)
             share = maths_min(share, share_of_square(world, committed, vehicle,
-                                                     gridsquare_index(column, row), x, z));
+                                                     gridsquare_index(squares, column, row), x, z));
     }
     return share;
 }

@@ -15,18 +15,26 @@
 
 #define STRIDE 64u /* bytes of damage compared at once */
 
+static size_t words_of(const struct ground_marks *marks)
+{
+    return ((size_t)marks->squares.count * GROUND_MARKS_BITS + 63) / 64;
+}
+
 void ground_marks_free(struct ground_marks *marks)
 {
     free(marks->damage);
+    free(marks->square);
     marks->damage = NULL;
+    marks->square = NULL;
 }
 
 static void mark(struct ground_marks *marks, double x, double z, double reach, uint64_t bits)
 {
-    struct gridsquare_box box = gridsquare_box_of(x - reach, z - reach, x + reach, z + reach);
+    struct gridsquare_box box =
+        gridsquare_box_of(&marks->squares, x - reach, z - reach, x + reach, z + reach);
     for (int32_t row = box.z0; row <= box.z1; row++) {
         for (int32_t column = box.x0; column <= box.x1; column++) {
-            uint32_t bit = gridsquare_index(column, row) * GROUND_MARKS_BITS;
+            uint32_t bit = gridsquare_index(&marks->squares, column, row) * GROUND_MARKS_BITS;
             marks->square[bit / 64] |= bits << bit % 64;
         }
     }
@@ -47,16 +55,20 @@ static void mark_earthworks(struct ground_marks *marks, const struct earthworks 
 int ground_marks_init(struct ground_marks *marks, const struct world *world)
 {
     memset(marks, 0, sizeof *marks);
-    mark_earthworks(marks, &world->terrain.earthworks);
+    marks->squares = world->terrain.squares;
+    marks->square = calloc(words_of(marks), sizeof *marks->square);
     marks->damage = calloc(world->counts.fixed + 1, 1);
-    return marks->damage ? 0 : -1;
+    if (!marks->square || !marks->damage)
+        return -1;
+    mark_earthworks(marks, &world->terrain.earthworks);
+    return 0;
 }
 
 bool ground_marks_within(const struct ground_marks *marks, struct gridsquare_box box, uint8_t any)
 {
     for (int32_t row = box.z0; row <= box.z1; row++) {
         for (int32_t column = box.x0; column <= box.x1; column++) {
-            if (ground_marks_of(marks, gridsquare_index(column, row)) & any)
+            if (ground_marks_of(marks, gridsquare_index(&marks->squares, column, row)) & any)
                 return true;
         }
     }
@@ -65,7 +77,7 @@ bool ground_marks_within(const struct ground_marks *marks, struct gridsquare_box
 
 static void forget(struct ground_marks *marks, const struct world *world)
 {
-    memset(marks->square, 0, sizeof marks->square);
+    memset(marks->square, 0, words_of(marks) * sizeof *marks->square);
     memset(marks->damage, 0, world->counts.fixed);
     marks->craters = 0;
     marks->any = false;
@@ -134,11 +146,12 @@ void ground_marks_update(struct ground_marks *marks, const struct world *world,
 }
 
 /* gridsquare_axis() of four. */
-static inline void axes_of(const f64x4 *metres, four_cells *square)
+static inline void axes_of(const struct gridsquares *squares, const f64x4 *metres,
+                           four_cells *square)
 {
-    const f64x4 none = SIMD_EVERY(0.0), last = SIMD_EVERY(GRIDSQUARE_PER_SIDE - 1.0);
-    f64x4 along = SIMD_CHOOSE(*metres > none, *metres / GRIDSQUARE_SIDE_M, none);
-    along = SIMD_CHOOSE(*metres >= WORLD_SIDE_M, last, along);
+    const f64x4 none = SIMD_EVERY(0.0), last = SIMD_EVERY(squares->per_side - 1.0);
+    f64x4 along = SIMD_CHOOSE(*metres > none, *metres / squares->side_m, none);
+    along = SIMD_CHOOSE(*metres >= squares->world_m, last, along);
     *square = __builtin_convertvector(along, four_cells);
 }
 
@@ -154,9 +167,9 @@ void ground_marks_find(const struct ground_marks *marks, const union simd_lanes 
     }
     for (int h = 0; h < LANE_FOURS; h++) {
         four_cells column, row;
-        axes_of(&x->f64x4[h], &column);
-        axes_of(&z->f64x4[h], &row);
-        four_cells bit = (row * GRIDSQUARE_PER_SIDE + column) * (int32_t)GROUND_MARKS_BITS;
+        axes_of(&marks->squares, &x->f64x4[h], &column);
+        axes_of(&marks->squares, &z->f64x4[h], &row);
+        four_cells bit = (row * marks->squares.per_side + column) * (int32_t)GROUND_MARKS_BITS;
         four_masks found = {0, 0, 0, 0};
         for (int i = 0; i < 4; i++)
             found[i] = (int64_t)(marks->square[bit[i] / 64] >> bit[i] % 64);

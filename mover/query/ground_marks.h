@@ -23,7 +23,8 @@ struct world;
 
 struct ground_marks {
     /* Marks, packed so that they stay in the processor's cache. */
-    uint64_t square[GRIDSQUARE_COUNT * GROUND_MARKS_BITS / 64];
+    uint64_t *square; /* [squares.count * GROUND_MARKS_BITS / 64], rounded up */
+    struct gridsquares squares;
     uint8_t *damage;  /* [counts.fixed] as of the last update */
     uint32_t craters; /* as of the last update */
     bool any;         /* some square has a mark */
@@ -46,7 +47,7 @@ static inline uint8_t ground_marks_of(const struct ground_marks *marks, uint32_t
 
 static inline uint8_t ground_marks_at(const struct ground_marks *marks, double x, double z)
 {
-    return ground_marks_of(marks, gridsquare_of(x, z));
+    return ground_marks_of(marks, gridsquare_of(&marks->squares, x, z));
 }
 
 /* Returns true if a square that the box touches has one of these marks. */

@@ -48,8 +48,8 @@ static int build_reach(struct line_of_sight *sight)
         kinds[k] = world->kinds[k];
         kinds[k].level_m = 0.5 * sqrt(length * length + width * width);
     }
-    int result = fixed_index_build(world->fixed, world->counts.fixed, kinds, &sight->reach_start,
-                                   &sight->reach);
+    int result = fixed_index_build(&world->terrain.squares, world->fixed, world->counts.fixed,
+                                   kinds, &sight->reach_start, &sight->reach);
     free(kinds);
     return result;
 }
@@ -82,7 +82,8 @@ int line_of_sight_init(struct line_of_sight *sight, const struct world *world,
                        const struct crater_index *craters)
 {
     *sight = (struct line_of_sight){.world = world, .craters = craters};
-    if (square_bounds_init(&sight->skyline, skyline, sight) == 0 && build_reach(sight) == 0)
+    if (square_bounds_init(&sight->skyline, &world->terrain.squares, skyline, sight) == 0 &&
+        build_reach(sight) == 0)
         return 0;
     line_of_sight_free(sight);
     return -1;
@@ -293,7 +294,7 @@ static bool objects_hide(const struct line *line, uint32_t square)
 
 static bool square_hides(const struct line *line, int32_t column, int32_t row, double t0, double t1)
 {
-    uint32_t square = gridsquare_index(column, row);
+    uint32_t square = gridsquare_index(&line->sight->world->terrain.squares, column, row);
     double lowest = maths_min(height_at(line, t0), height_at(line, t1));
     if (square_bounds_of(&line->sight->skyline, square) <= square_bounds_below_height(lowest) &&
         line->sight->craters->head[square] == 0)
@@ -302,17 +303,18 @@ static bool square_hides(const struct line *line, int32_t column, int32_t row, d
 }
 
 /* The t at which the line leaves this column or row of squares. */
-static double border(double start, double delta, int32_t axis)
+static double border(const struct gridsquares *squares, double start, double delta, int32_t axis)
 {
     if (delta == 0.0)
         return INFINITY;
-    return ((double)(delta > 0.0 ? axis + 1 : axis) * GRIDSQUARE_SIDE_M - start) / delta;
+    return ((double)(delta > 0.0 ? axis + 1 : axis) * squares->side_m - start) / delta;
 }
 
 bool line_of_sight_clear(const struct line_of_sight *sight, struct vec3 from, struct vec3 to)
 {
     struct line line = {.sight = sight, .from = from, .delta = vec3_sub(to, from)};
-    int32_t column = gridsquare_axis(from.x), row = gridsquare_axis(from.z);
+    const struct gridsquares *squares = &sight->world->terrain.squares;
+    int32_t column = gridsquare_axis(squares, from.x), row = gridsquare_axis(squares, from.z);
     double t = 0.0;
     line.level = sqrt(line.delta.x * line.delta.x + line.delta.z * line.delta.z);
     if (line.level < LEAST_M)
@@ -323,8 +325,9 @@ bool line_of_sight_clear(const struct line_of_sight *sight, struct vec3 from, st
         if (ground_above(&line, (double)reversed / (FIRST_LOOKS + 1)))
             return false;
     }
-    while (column >= 0 && row >= 0 && column < GRIDSQUARE_PER_SIDE && row < GRIDSQUARE_PER_SIDE) {
-        double tx = border(from.x, line.delta.x, column), tz = border(from.z, line.delta.z, row);
+    while (column >= 0 && row >= 0 && column < squares->per_side && row < squares->per_side) {
+        double tx = border(squares, from.x, line.delta.x, column),
+               tz = border(squares, from.z, line.delta.z, row);
         double end = maths_clamp(maths_min(tx, tz), t, 1.0);
         if (square_hides(&line, column, row, t, end))
             return false;

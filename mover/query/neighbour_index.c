@@ -316,7 +316,7 @@ void neighbour_index_build(struct neighbour_index *index, const struct neighbour
 {
     take_frame(index, frame);
     index->side = side_for(index->used);
-    index->cells_per_m = (double)index->side / WORLD_SIDE_M;
+    index->cells_per_m = (double)index->side / frame->side_m;
     index->stride = slots_of(index) + 1;
     index->placed = places;
     workers = index->used > NEIGHBOUR_INDEX_ALONE ? workers : NULL;

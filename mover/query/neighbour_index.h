@@ -104,6 +104,7 @@ uint32_t neighbour_index_room(uint32_t rows);
 /* What the index is of. */
 struct neighbour_index_frame {
     const struct entities *committed;
+    double side_m;         /* of the world */
     uint32_t used;         /* rows */
     uint32_t tick;         /* of the frame that is made */
     uint32_t think_frames; /* from one decision of an agent to the next */

@@ -177,7 +177,8 @@ static int draw_whole(struct annotated_picture *picture, struct image *image,
                       const struct annotated_picture_source *source)
 {
     struct box box = picture->layout.whole, corner = {0, 0, 0, 0};
-    struct map_view view = map_whole(box.left, box.top, (uint32_t)box.width);
+    struct map_view view =
+        map_whole(picture->world->terrain.squares.world_m, box.left, box.top, (uint32_t)box.width);
     struct label_space space = {.count = 0};
     if (picture->layout.legend.width == 0) {
         corner = legend_corner(picture, &view, source);
@@ -197,7 +198,7 @@ static int draw_close_up(struct annotated_picture *picture, struct image *image,
                          const struct annotated_picture_source *source)
 {
     struct box box = picture->layout.close_up;
-    double x = 0.5 * WORLD_SIDE_M, z = x;
+    double x = 0.5 * picture->world->terrain.squares.world_m, z = x;
     if (source->slot != SLOT_NONE) {
         x = source->frame_view->entities->x[source->slot];
         z = source->frame_view->entities->z[source->slot];

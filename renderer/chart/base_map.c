@@ -99,12 +99,12 @@ static void draw_roads(struct image *image, const struct map_view *view, const s
     }
 }
 
-static void blank_beyond(struct image *image, const struct map_view *view)
+static void blank_beyond(struct image *image, const struct map_view *view, double side_m)
 {
     int32_t left = (int32_t)ceil(-view->x / view->metres - 0.5);
     int32_t top = (int32_t)ceil(-view->z / view->metres - 0.5);
-    int32_t right = (int32_t)ceil((WORLD_SIDE_M - view->x) / view->metres - 0.5);
-    int32_t bottom = (int32_t)ceil((WORLD_SIDE_M - view->z) / view->metres - 0.5);
+    int32_t right = (int32_t)ceil((side_m - view->x) / view->metres - 0.5);
+    int32_t bottom = (int32_t)ceil((side_m - view->z) / view->metres - 0.5);
     int32_t width = (int32_t)view->width, height = (int32_t)view->height;
     image_rectangle(image, 0, 0, left, height, beyond);
     image_rectangle(image, 0, 0, width, top, beyond);
@@ -139,7 +139,7 @@ static int paint_view(struct image *image, const struct map_view *view, const st
     if (draw_contours(image, view, &world->terrain) != 0)
         return -1;
     draw_roads(image, view, world);
-    blank_beyond(image, view);
+    blank_beyond(image, view, world->terrain.squares.world_m);
     return 0;
 }
 
@@ -182,8 +182,9 @@ static int paint_part(struct base_map *base, struct base_map_part part)
                             .width = (uint32_t)(part.x1 - part.x0),
                             .height = (uint32_t)(part.y1 - part.y0)};
     struct image image;
-    if (!base->has_roads && road_index_make(&base->roads, base->world->road_points,
-                                            base->world->counts.road_points) != 0)
+    if (!base->has_roads &&
+        road_index_make(&base->roads, base->world->road_points, base->world->counts.road_points,
+                        base->world->terrain.squares.world_m) != 0)
         return -1;
     base->has_roads = true;
     if (image_init(&image, view.width, view.height) != 0)

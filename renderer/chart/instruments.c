@@ -26,7 +26,7 @@ static void small_map(struct annotated_picture *picture, struct image *image,
     uint32_t side =
         (picture->width < picture->height ? picture->width : picture->height) / SMALL_SHARE;
     int32_t gap = (int32_t)side / 15, left = (int32_t)(picture->width - side) - gap;
-    struct map_view view = map_whole(0, 0, side);
+    struct map_view view = map_whole(picture->world->terrain.squares.world_m, 0, 0, side);
     struct annotated_picture_style style = {.symbol = maths_max(SMALL_SYMBOL * side / 180.0, 3.0),
                                             .triangle = 0.25 * side};
     if (annotated_picture_inset_resize(&picture->small, side, side) != 0 ||

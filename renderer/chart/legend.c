@@ -169,8 +169,9 @@ static void grid_number(struct annotated_picture *picture, struct image *image,
 static void grid_numbers(struct annotated_picture *picture, struct image *image,
                          const struct map_view *view, struct label_space *space, double step_m)
 {
-    double east = fmin(view->x + view->width * view->metres, WORLD_SIDE_M);
-    double south = fmin(view->z + view->height * view->metres, WORLD_SIDE_M);
+    const double side_m = picture->world->terrain.squares.world_m;
+    double east = fmin(view->x + view->width * view->metres, side_m);
+    double south = fmin(view->z + view->height * view->metres, side_m);
     for (int32_t n = (int32_t)ceil(fmax(view->x, 0.0) / step_m); n * step_m < east; n++)
         grid_number(picture, image, space, (int32_t)map_point(view, n * step_m, 0.0).x + 1,
                     view->top, n * step_m, step_m);
@@ -249,7 +250,7 @@ void legend_marks(struct annotated_picture *picture, struct image *image,
                   struct label_space *space)
 {
     double step_m = map_round_down(GRID_LETTERS * 2.0 * picture->layout.font_size * view->metres);
-    map_grid(image, view, step_m);
+    map_grid(image, view, picture->world->terrain.squares.world_m, step_m);
     scale_bar(picture, image, view, source, space);
     north_arrow(picture, image, view, source, space);
     if (strcmp(picture->world->params->name, "hunter-liggett") == 0)

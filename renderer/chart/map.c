@@ -22,9 +22,9 @@
 #define STROKE_LENGTH  75.0  /* [pixel] longer triangles have thicker lines */
 #define OUTSIDE_MOST   40.0  /* [pixel] a symbol farther outside does not show */
 
-struct map_view map_whole(int32_t left, int32_t top, uint32_t side)
+struct map_view map_whole(double side_m, int32_t left, int32_t top, uint32_t side)
 {
-    return (struct map_view){0.0, 0.0, WORLD_SIDE_M / side, left, top, side, side};
+    return (struct map_view){0.0, 0.0, side_m / side, left, top, side, side};
 }
 
 struct map_view map_around(double x, double z, double metres, int32_t left, int32_t top,
@@ -61,11 +61,11 @@ double map_round_down(double metres)
     return metres >= 5.0 * power ? 5.0 * power : metres >= 2.0 * power ? 2.0 * power : power;
 }
 
-void map_grid(struct image *image, const struct map_view *view, double step_m)
+void map_grid(struct image *image, const struct map_view *view, double side_m, double step_m)
 {
     const struct rgba line = {20, 24, 30, 70};
-    double right = fmin(view->x + view->width * view->metres, WORLD_SIDE_M);
-    double bottom = fmin(view->z + view->height * view->metres, WORLD_SIDE_M);
+    double right = fmin(view->x + view->width * view->metres, side_m);
+    double bottom = fmin(view->z + view->height * view->metres, side_m);
     for (int32_t n = (int32_t)ceil(fmax(view->x, 0.0) / step_m); n * step_m < right; n++)
         image_rectangle(image, (int32_t)map_point(view, n * step_m, 0.0).x, view->top, 1,
                         (int32_t)view->height, line);

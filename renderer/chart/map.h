@@ -22,8 +22,8 @@ struct map_view {
     uint32_t width, height;
 };
 
-/* The whole world in a square of side pixels. */
-struct map_view map_whole(int32_t left, int32_t top, uint32_t side);
+/* The whole world, side_m across, in a square of side pixels. */
+struct map_view map_whole(double side_m, int32_t left, int32_t top, uint32_t side);
 
 /* The surroundings of (x, z) [m, world] at so many metres a pixel. */
 struct map_view map_around(double x, double z, double metres, int32_t left, int32_t top,
@@ -41,7 +41,7 @@ bool map_contains(const struct map_view *view, struct point point, double margin
 /* Returns the largest number up to metres that is 1, 2 or 5 times a power of ten. */
 double map_round_down(double metres);
 
-void map_grid(struct image *image, const struct map_view *view, double step_m);
+void map_grid(struct image *image, const struct map_view *view, double side_m, double step_m);
 void map_craters(struct image *image, const struct map_view *view,
                  const struct crater_index *craters, double pixels);
 

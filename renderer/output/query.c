@@ -140,11 +140,11 @@ int query_picture_take(struct query_picture *query, const char *key, const char 
     }
 }
 
-void query_map_begin(struct query_map *query)
+void query_map_begin(struct query_map *query, double side_m)
 {
-    *query = (struct query_map){.x = 0.5 * WORLD_SIDE_M,
-                                .z = 0.5 * WORLD_SIDE_M,
-                                .metres = WORLD_SIDE_M,
+    *query = (struct query_map){.x = 0.5 * side_m,
+                                .z = 0.5 * side_m,
+                                .metres = side_m,
                                 .width = WIDTH_USUAL,
                                 .height = HEIGHT_USUAL};
 }
@@ -160,11 +160,11 @@ int query_map_take(struct query_map *query, const char *key, const char *value,
     case KEY_Z:
         if (!is_number(value, -QUERY_PLACE_MOST, QUERY_PLACE_MOST,
                        which == KEY_X ? &query->x : &query->z))
-            return refuse(error, key, value, "is a place in metres, from -100000 to 100000");
+            return refuse(error, key, value, "is a place in metres, from -1000000 to 1000000");
         return 0;
     case KEY_METRES:
         if (!is_number(value, QUERY_METRES_MIN, QUERY_METRES_MAX, &query->metres))
-            return refuse(error, key, value, "is metres across the map, from 100 to 200000");
+            return refuse(error, key, value, "is metres across the map, from 100 to 2000000");
         return 0;
     case KEY_SIZE:
         return take_size(&query->width, &query->height, value, error);

@@ -14,9 +14,9 @@
 #define QUERY_WIDTH_MAX  1920u
 #define QUERY_HEIGHT_MAX 1080u
 #define QUERY_METRES_MIN 100.0 /* across a map */
-#define QUERY_METRES_MAX 200000.0
+#define QUERY_METRES_MAX 2000000.0
 #define QUERY_PLACE_MOST                                                                           \
-    100000.0 /* [m] coordinates of a map's centre may lie outside of the world */
+    1000000.0 /* [m] coordinates of a map's centre may lie outside of the world */
 
 /* /picture.jpg?view=&vehicle=&size=WxH&after=N&bar=0|1 */
 struct query_picture {
@@ -36,7 +36,7 @@ struct query_map {
 
 /* Set the defaults. */
 void query_picture_begin(struct query_picture *query);
-void query_map_begin(struct query_map *query);
+void query_map_begin(struct query_map *query, double side_m); /* of the world */
 
 /* Take one key and its value, NULL for a key without one. */
 int query_picture_take(struct query_picture *query, const char *key, const char *value,

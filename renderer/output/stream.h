@@ -19,6 +19,7 @@ struct stream;
 /* Paints maps, in the stream's painting thread. paint() returns 0, or -1 when there is no memory.
  */
 struct stream_painter {
+    double side_m; /* of the world */
     void *self;
     int (*paint)(void *self, const struct query_map *map, struct image *image);
 };

@@ -189,7 +189,7 @@ bool stream_requests_map(struct stream_client *client, struct http_reply *reply)
     struct reading reading = {.map = &query};
     if (client->map != NULL) /* it has waited */
         return answer_map(client, reply);
-    query_map_begin(&query);
+    query_map_begin(&query, stream->painter.side_m);
     if (!read_query(client, &reading, reply))
         return true;
     struct stream_map *map = find_map(stream, &query);

@@ -213,11 +213,13 @@ void fixed_objects_add(struct draw_list *list, const struct static_scene *static
                        const struct frame_view *frame_view)
 {
     struct vec3 eye = list->camera.eye;
-    struct gridsquare_box box = gridsquare_box_of(eye.x - FIXED_RANGE_M, eye.z - FIXED_RANGE_M,
-                                                  eye.x + FIXED_RANGE_M, eye.z + FIXED_RANGE_M);
+    const struct gridsquares *squares = &static_scene->world->terrain.squares;
+    struct gridsquare_box box =
+        gridsquare_box_of(squares, eye.x - FIXED_RANGE_M, eye.z - FIXED_RANGE_M,
+                          eye.x + FIXED_RANGE_M, eye.z + FIXED_RANGE_M);
     for (int32_t row = box.z0; row <= box.z1; row++) {
-        uint32_t first = static_scene->square_start[gridsquare_index(box.x0, row)];
-        uint32_t end = static_scene->square_start[gridsquare_index(box.x1, row) + 1];
+        uint32_t first = static_scene->square_start[gridsquare_index(squares, box.x0, row)];
+        uint32_t end = static_scene->square_start[gridsquare_index(squares, box.x1, row) + 1];
         for (uint32_t i = first; i < end; i++)
             if (static_scene->look[i] == LOOK_MODEL)
                 add_fixed(list, static_scene, frame_view, i);

@@ -31,11 +31,6 @@ static bool within(double value, double low, double high)
     return value >= low && value <= high;
 }
 
-static bool on_the_map(const jolon_Command *wire)
-{
-    return within(wire->x_m, 0.0, WORLD_SIDE_M) && within(wire->z_m, 0.0, WORLD_SIDE_M);
-}
-
 static enum command_result check_drive(struct command *command, const jolon_Command *wire)
 {
     if (!within(wire->throttle, -1.0, 1.0) || !within(wire->steer, -1.0, 1.0) ||
@@ -63,7 +58,7 @@ static enum command_result check_fire(struct command *command, const jolon_Comma
     command->kind = kind_find(world->kinds, world->counts.kinds, wire->kind);
     if (command->kind == KIND_NONE || world->kinds[command->kind].domain != DOMAIN_MUNITION)
         return COMMAND_NO_SUCH_KIND;
-    if (!on_the_map(wire))
+    if (!world_holds(world, wire->x_m, wire->z_m))
         return COMMAND_OUT_OF_RANGE;
     command->value[0] = wire->x_m;
     command->value[1] = wire->z_m;
@@ -80,7 +75,7 @@ static enum command_result check_spawn(struct command *command, const jolon_Comm
     if (kind->domain != DOMAIN_LAND && kind->domain != DOMAIN_SEA && kind->domain != DOMAIN_AIR)
         return COMMAND_NO_SUCH_KIND;
     bool as_it_flies = !(wire->altitude_m < -1.0) && !(wire->altitude_m > -1.0);
-    if (!on_the_map(wire) || wire->behaviour > jolon_BEHAVIOUR_PATROL ||
+    if (!world_holds(world, wire->x_m, wire->z_m) || wire->behaviour > jolon_BEHAVIOUR_PATROL ||
         wire->force > jolon_FORCE_RED ||
         !(within(wire->altitude_m, 0.0, COMMAND_CHECK_ALTITUDE_MAX) || as_it_flies) ||
         !within(wire->heading_rad, -1e3, 1e3) ||

@@ -49,7 +49,7 @@ static bool runs(const struct ground_header *header)
 {
     double offset_m;
     uint32_t posts_side;
-    return ground_file_fits_world(header, &offset_m, &posts_side);
+    return ground_file_fits_world(header, ground_file_world_side(header), &offset_m, &posts_side);
 }
 
 static void print_json(const struct ground_file *file, const char *text)
@@ -89,9 +89,7 @@ static void print(const struct ground_file *file, const char *text)
            h->longitude_deg);
     printf("side         %g km; %s\n", h->side_m / 1000.0,
            runs(h) ? "worlds run on it"
-           : h->side_m > WORLD_SIDE_M
-               ? "worlds run on squares of up to 50 km"
-               : "worlds run on it only if its posts are 12.5, 25, 31.25, 62.5 or 125 m apart");
+                   : "it has more posts along an edge than a world, which has up to 4,097");
     printf("posts        %u x %u, %g m apart\n", h->posts_side, h->posts_side, h->spacing_m);
     printf("heights      %g to %g m above the sea level\n", (double)h->lowest_m,
            (double)h->highest_m);

@@ -108,16 +108,17 @@ static void export_file(const char *path, const char *to)
 static struct placing place_world(const struct view *view)
 {
     const struct gateway_params *gateway = &view->world.params->gateway;
-    double a[4] = {0.0, 0.0, WORLD_SIDE_M, WORLD_SIDE_M};
+    const double side_m = view->world.terrain.squares.world_m;
+    double a[4] = {0.0, 0.0, side_m, side_m};
     double step = given.step_m > 0.0 ? given.step_m : view->world.terrain.spacing_m;
     char rest;
     if (given.area &&
         (sscanf(given.area, "%lf,%lf,%lf,%lf%c", &a[0], &a[1], &a[2], &a[3], &rest) != 4 ||
-         !(a[0] >= 0.0 && a[1] >= 0.0 && a[2] >= a[0] && a[3] >= a[1] && a[2] <= WORLD_SIDE_M &&
-           a[3] <= WORLD_SIDE_M)))
+         !(a[0] >= 0.0 && a[1] >= 0.0 && a[2] >= a[0] && a[3] >= a[1] && a[2] <= side_m &&
+           a[3] <= side_m)))
         die_usage("ground export: --area %s: must be X0,Z0,X1,Z1 in metres, 0 to %g, X0 <= X1 and "
                   "Z0 <= Z1",
-                  given.area, WORLD_SIDE_M);
+                  given.area, side_m);
     double columns = floor((a[2] - a[0]) / step) + 1.0, rows = floor((a[3] - a[1]) / step) + 1.0;
     if (columns > SIDE_MAX || rows > SIDE_MAX)
         die_usage("ground export: --step %g: makes %.0f x %.0f points; at most %.0f along an edge "
@@ -126,8 +127,8 @@ static struct placing place_world(const struct view *view)
     return (struct placing){given.world,
                             gateway->latitude_deg,
                             gateway->longitude_deg,
-                            a[0] - 0.5 * WORLD_SIDE_M,
-                            0.5 * WORLD_SIDE_M - a[1],
+                            a[0] - 0.5 * side_m,
+                            0.5 * side_m - a[1],
                             step,
                             (int)columns,
                             (int)rows};
@@ -157,15 +158,16 @@ static void export_world(const char *to)
     const struct terrain *terrain = &view.world.terrain;
     float *heights = malloc((size_t)placing.columns * sizeof *heights);
     uint8_t *cover = malloc((size_t)placing.columns);
-    if (!heights || !cover || crater_index_init(&craters, view.w[0].craters) != 0)
+    if (!heights || !cover ||
+        crater_index_init(&craters, &view.world.terrain.squares, view.w[0].craters) != 0)
         die_refused("%s: no memory for its craters", given.world);
     take_head(&view, &head);
     crater_index_update(&craters, head.crater_count);
     GDALDatasetH raster = make_raster(&placing);
     for (int row = 0; row < placing.rows; row++) {
-        double z = 0.5 * WORLD_SIDE_M - placing.north_m + row * placing.step_m;
+        double z = 0.5 * terrain->squares.world_m - placing.north_m + row * placing.step_m;
         for (int column = 0; column < placing.columns; column++) {
-            double x = placing.east_m + 0.5 * WORLD_SIDE_M + column * placing.step_m;
+            double x = placing.east_m + 0.5 * terrain->squares.world_m + column * placing.step_m;
             if (given.cover)
                 cover[column] = (uint8_t)terrain_cover(terrain, x, z);
             else

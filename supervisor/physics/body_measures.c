@@ -7,7 +7,6 @@
 
 #include <stddef.h>
 
-#define WORLD_EDGE_M   50000.0
 #define HELD_M         1e-3 /* a body that is no farther off the ground is on it */
 #define LEAST_DEPTH_M  0.05 /* a corner that is no higher over the ground touches it */
 #define LEANING_RPS    3.0  /* an aircraft banks and pitches so fast */
@@ -24,12 +23,12 @@ static int unfinished(struct vec3 v)
     return !isfinite(v.x) + !isfinite(v.y) + !isfinite(v.z);
 }
 
-static double beyond(double metres)
+static double beyond(double metres, double side_m)
 {
-    return maths_max(0.0, maths_max(-metres, metres - WORLD_EDGE_M));
+    return maths_max(0.0, maths_max(-metres, metres - side_m));
 }
 
-void body_measures_numbers(struct measures *measures, const struct body_look *body)
+void body_measures_numbers(struct measures *measures, const struct body_look *body, double side_m)
 {
     const struct motion_look *now = &body->now;
     const struct vec3 angles = {now->heading, now->pitch, now->roll};
@@ -38,7 +37,8 @@ void body_measures_numbers(struct measures *measures, const struct body_look *bo
                                    unfinished(now->spin) + unfinished(angles);
     measure_take(measures, MEASURE_OF_NOT_FINITE, count, &body->named, NULL);
     measure_take(measures, MEASURE_OF_OUTSIDE,
-                 maths_max(beyond(body->named.at.x), beyond(body->named.at.z)), &body->named, NULL);
+                 maths_max(beyond(body->named.at.x, side_m), beyond(body->named.at.z, side_m)),
+                 &body->named, NULL);
 }
 
 /* --- the ground --------------------------------------------------------------------------------*/

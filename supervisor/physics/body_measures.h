@@ -9,7 +9,7 @@
 struct hull_shape;
 
 /* Measures numbers and place. Must be called before the other two; they want finite numbers. */
-void body_measures_numbers(struct measures *measures, const struct body_look *body);
+void body_measures_numbers(struct measures *measures, const struct body_look *body, double side_m);
 
 /* The ground of a frame, and what touches it. */
 struct ground_look {

@@ -117,7 +117,7 @@ static void look_at_bodies(struct physics_check *check, const struct ground_look
         struct body_look *body = &looks->body[i];
         if (body->foreign)
             continue;
-        body_measures_numbers(&check->measures, body);
+        body_measures_numbers(&check->measures, body, check->world->terrain.squares.world_m);
         if (body->finite)
             body_measures_ground(&check->measures, ground, body);
     }

@@ -34,8 +34,9 @@ static struct dispersion count_objects(const struct world *world)
     uint32_t run = 0;
     for (uint32_t i = 0; i < world->counts.fixed; i++) {
         const struct fixed_object *object = &world->fixed[i];
-        bool same = i > 0 && gridsquare_of(object->x, object->z) ==
-                                 gridsquare_of(world->fixed[i - 1].x, world->fixed[i - 1].z);
+        bool same = i > 0 && gridsquare_of(&world->terrain.squares, object->x, object->z) ==
+                                 gridsquare_of(&world->terrain.squares, world->fixed[i - 1].x,
+                                               world->fixed[i - 1].z);
         run = same ? run + 1 : 1;
         d.occupied += !same;
         d.most = run > d.most ? run : d.most;
@@ -66,10 +67,10 @@ static void info_text(const struct view *view, const struct dispersion *d)
            counts->model_triangles, counts->hulls, counts->hull_vertices);
     for (int i = 0; i < OBJECT_CLASS_COUNT; i++)
         printf("%-16s %6u\n", object_class_name((enum object_class)i), d->of_class[i]);
-    printf("%-16s %6u in %u of %d gridsquares: at most %u, on average %.2f of the occupied, "
+    printf("%-16s %6u in %u of %u gridsquares: at most %u, on average %.2f of the occupied, "
            "%.2f of all\n",
-           "fixed objects", counts->fixed, d->occupied, GRIDSQUARE_COUNT, d->most,
-           per(counts->fixed, d->occupied), per(counts->fixed, GRIDSQUARE_COUNT));
+           "fixed objects", counts->fixed, d->occupied, world->terrain.squares.count, d->most,
+           per(counts->fixed, d->occupied), per(counts->fixed, world->terrain.squares.count));
 }
 
 static void info_json(const struct view *view, const struct dispersion *d)
@@ -91,11 +92,12 @@ static void info_json(const struct view *view, const struct dispersion *d)
     for (int i = 0; i < OBJECT_CLASS_COUNT; i++)
         json_whole(counts, object_class_name((enum object_class)i), d->of_class[i]);
     json_whole(object, "fixed_objects", world->counts.fixed);
-    json_whole(object, "gridsquares", GRIDSQUARE_COUNT);
+    json_whole(object, "gridsquares", world->terrain.squares.count);
     json_whole(object, "occupied", d->occupied);
     json_whole(object, "most_per_square", d->most);
     json_number(object, "average_per_occupied", per(world->counts.fixed, d->occupied));
-    json_number(object, "average_per_square", per(world->counts.fixed, GRIDSQUARE_COUNT));
+    json_number(object, "average_per_square",
+                per(world->counts.fixed, world->terrain.squares.count));
     json_whole(object, "hulls", world->counts.hulls);
     json_whole(object, "hull_vertices", world->counts.hull_vertices);
     cJSON *terrain = json_object(object, "terrain");

@@ -136,7 +136,7 @@ static void dump_terrain(const struct arguments *arguments, const struct view *v
     if (!(step > 0.0) || !(x1 >= x0) || !(z1 >= z0) || (x1 - x0) / step * ((z1 - z0) / step) > 1e8)
         die_usage("--terrain %s: X0 <= X1, Z0 <= Z1, 0 < STEP, at most 1e8 points",
                   arguments->terrain);
-    if (crater_index_init(&craters, view->w[0].craters) != 0)
+    if (crater_index_init(&craters, &view->world.terrain.squares, view->w[0].craters) != 0)
         die_refused("out of memory for the index of craters");
     crater_index_update(&craters, snapshot->head.crater_count);
     printf("x,z,height_m,cover\n");

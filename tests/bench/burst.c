@@ -13,7 +13,7 @@ static struct vec3 place_of(uint32_t n, uint32_t bombs)
     uint32_t side = 1;
     while (side * side < bombs)
         side++;
-    double gap_m = WORLD_SIDE_M / (double)(side + 1);
+    double gap_m = WORLD_SIDE_DEFAULT_M / (double)(side + 1);
     return (struct vec3){gap_m * (double)(n % side + 1), BURST_HEIGHT_M,
                          gap_m * (double)(n / side + 1)};
 }

@@ -78,11 +78,12 @@ static void make_world(struct jolon *self)
         self->entities.state[i] = ENTITY_ACTIVE;
         self->entities.behaviour[i] = BEHAVIOUR_HOLD;
     }
-    self->world = (struct world){.params = &self->params,
-                                 .counts = {.kinds = 2, .fixed = scene->fixed_count},
-                                 .terrain = {self->posts, self->cover, 2, 50000.0},
-                                 .kinds = self->kinds,
-                                 .fixed = self->fixed};
+    self->world = (struct world){
+        .params = &self->params,
+        .counts = {.kinds = 2, .fixed = scene->fixed_count},
+        .terrain = {self->posts, self->cover, 2, 50000.0, .squares = GRIDSQUARES_DEFAULT_INIT},
+        .kinds = self->kinds,
+        .fixed = self->fixed};
     self->input = (struct method_input){.world = &self->world,
                                         .entities = &self->entities,
                                         .path = self->path,

@@ -75,7 +75,7 @@ static void frames_between(uint32_t frames, double *us)
                             .intents_per_frame = 1,
                             .command_slots = 16,
                             .crater_slots = 1};
-    struct counts counts = {.posts_side = 2};
+    struct counts counts = {.posts_side = 2, .side_m = 50000};
     struct segment_header header = segment_header_for(&params, &counts);
     struct view view;
     struct error_text error;

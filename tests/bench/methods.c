@@ -52,7 +52,7 @@ static void make_field(struct field *field, uint32_t bodies)
     field->params.dt_s = DT_S;
     field->params.collision = (struct collision_params){
         .shape = SHAPE_SPHERE, .nearness = NEARNESS_AND, .mps_near_m = MPS_NEAR_M};
-    field->reach_start = calloc(GRIDSQUARE_COUNT + 1, sizeof *field->reach_start);
+    field->reach_start = calloc(GRIDSQUARES_DEFAULT.count + 1, sizeof *field->reach_start);
     field->path = calloc(bodies, sizeof *field->path);
     field->memory = calloc(1, entities_bytes(bodies) + COLUMN_ALIGN);
     if (!field->reach_start || !field->path || !field->memory)
@@ -61,7 +61,8 @@ static void make_field(struct field *field, uint32_t bodies)
     entities_bind(&field->entities, bodies, (char *)field->memory + (COLUMN_ALIGN - past));
     field->world = (struct world){.params = &field->params,
                                   .counts = {.kinds = 1},
-                                  .terrain = {field->posts, field->cover, 2, WORLD_SIDE_M},
+                                  .terrain = {field->posts, field->cover, 2, WORLD_SIDE_DEFAULT_M,
+                                              .squares = GRIDSQUARES_DEFAULT_INIT},
                                   .kinds = &field->kind,
                                   .reach_start = field->reach_start};
     field->input = (struct method_input){
@@ -88,13 +89,13 @@ static void place_bodies(struct field *field)
         double speed = i % FAST == 0 ? AIR_MPS : draw(i, RANDOM_NOISE, 0.0, GROUND_MPS);
         double sine, cosine;
         maths_sincos(draw(i, RANDOM_HEADING, 0.0, TWO_PI), &sine, &cosine);
-        field->path[i] =
-            (struct path){.at = {draw(platoon, RANDOM_GOAL_X, 0.0, WORLD_SIDE_M - PLATOON_M) +
-                                     draw(i, RANDOM_PLACE_X, 0.0, PLATOON_M),
-                                 0.0,
-                                 draw(platoon, RANDOM_GOAL_Z, 0.0, WORLD_SIDE_M - PLATOON_M) +
-                                     draw(i, RANDOM_PLACE_Z, 0.0, PLATOON_M)},
-                          .along = {speed * DT_S * sine, 0.0, speed * DT_S * cosine}};
+        field->path[i] = (struct path){
+            .at = {draw(platoon, RANDOM_GOAL_X, 0.0, WORLD_SIDE_DEFAULT_M - PLATOON_M) +
+                       draw(i, RANDOM_PLACE_X, 0.0, PLATOON_M),
+                   0.0,
+                   draw(platoon, RANDOM_GOAL_Z, 0.0, WORLD_SIDE_DEFAULT_M - PLATOON_M) +
+                       draw(i, RANDOM_PLACE_Z, 0.0, PLATOON_M)},
+            .along = {speed * DT_S * sine, 0.0, speed * DT_S * cosine}};
         e->id[i] = i + 1;
         e->state[i] = ENTITY_ACTIVE;
         e->behaviour[i] = BEHAVIOUR_HOLD;

@@ -64,7 +64,7 @@ void bench_scene_open(struct bench_scene *s, const struct bench_scene_options *o
     bench_world_open(&s->view, options->scenario, BENCH_SCENARIO_VEHICLES);
     const struct world *world = &s->view.world;
     if (frame_stepper_init(&s->stepper, &s->view, 1) != 0 ||
-        crater_index_init(&s->craters, s->view.w[0].craters) != 0 ||
+        crater_index_init(&s->craters, &GRIDSQUARES_DEFAULT, s->view.w[0].craters) != 0 ||
         dent_index_init(&s->dents, s->view.w[0].dents, world->params->dent_slots) != 0 ||
         tracks_init(&s->tracks, world->params->capacity) != 0 ||
         articulation_init(&s->articulation, world->params->capacity) != 0 ||

@@ -68,8 +68,8 @@ void workload_rewind(struct workload *workload)
     uint64_t random = SEED;
     for (uint32_t i = 0; i < workload->scene.bodies; i++) {
         struct engine_body *body = &workload->scene.body[i];
-        body->x = uniform(&random, WORLD_SIDE_M);
-        body->z = uniform(&random, WORLD_SIDE_M);
+        body->x = uniform(&random, WORLD_SIDE_DEFAULT_M);
+        body->z = uniform(&random, WORLD_SIDE_DEFAULT_M);
         double speed = uniform(&random, SPEED_MPS), sine, cosine;
         maths_sincos(uniform(&random, TWO_PI), &sine, &cosine);
         body->vx = speed * cosine;
@@ -115,7 +115,7 @@ static void bounce(struct workload *workload, struct engine_touch touch)
 static void move_axis(double *at, double *speed)
 {
     *at += *speed * ENGINE_DT_S;
-    if ((*at < 0.0 && *speed < 0.0) || (*at > WORLD_SIDE_M && *speed > 0.0))
+    if ((*at < 0.0 && *speed < 0.0) || (*at > WORLD_SIDE_DEFAULT_M && *speed > 0.0))
         *speed = -*speed;
 }
 

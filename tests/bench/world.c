@@ -131,7 +131,7 @@ static struct crowd usual(uint32_t vehicles)
 {
     return (struct crowd){.shares = vehicles != BENCH_SCENARIO_VEHICLES ? mixture : NULL,
                           .behaviour = BEHAVIOUR_PATROL,
-                          .side_m = WORLD_SIDE_M};
+                          .side_m = WORLD_SIDE_DEFAULT_M};
 }
 
 void bench_world_open(struct view *view, const char *path, uint32_t vehicles)
@@ -148,7 +148,7 @@ void bench_world_mode(struct view *view, enum bench_mode mode, uint32_t vehicles
     if (mode == BENCH_MODE_IDLE)
         crowd.behaviour = BEHAVIOUR_IDLE;
     if (mode == BENCH_MODE_DENSE)
-        crowd.side_m = maths_min(WORLD_SIDE_M, sqrt(DENSE_SQUARE_M * (double)vehicles));
+        crowd.side_m = maths_min(WORLD_SIDE_DEFAULT_M, sqrt(DENSE_SQUARE_M * (double)vehicles));
     open_world(view, NULL, vehicles, more, &crowd);
 }
 

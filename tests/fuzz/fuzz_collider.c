@@ -79,10 +79,10 @@ static struct vec3 place_of(const uint8_t *body)
     double size = sizes[body[0] & 3], x = 25024.0 + size * share(body[1]);
     double z = 25024.0 + size * share(body[2]);
     if (body[0] & 4)
-        x = body[1] < 128 ? 0.0 : WORLD_SIDE_M;
+        x = body[1] < 128 ? 0.0 : WORLD_SIDE_DEFAULT_M;
     double up = body[0] & 8 ? 0.4 * (double)body[3] : 0.0;
-    return (struct vec3){maths_clamp(x, 0.0, WORLD_SIDE_M), 100.0 + up,
-                         maths_clamp(z, 0.0, WORLD_SIDE_M)};
+    return (struct vec3){maths_clamp(x, 0.0, WORLD_SIDE_DEFAULT_M), 100.0 + up,
+                         maths_clamp(z, 0.0, WORLD_SIDE_DEFAULT_M)};
 }
 
 static void put_body(const uint8_t *body)
@@ -128,8 +128,8 @@ static void check_rows(const struct state *state)
     for (uint32_t i = 0; i < head->used; i++) {
         if (e->state[i] == ENTITY_FREE)
             continue;
-        bool inside =
-            e->x[i] >= 0.0 && e->x[i] <= WORLD_SIDE_M && e->z[i] >= 0.0 && e->z[i] <= WORLD_SIDE_M;
+        bool inside = e->x[i] >= 0.0 && e->x[i] <= WORLD_SIDE_DEFAULT_M && e->z[i] >= 0.0 &&
+                      e->z[i] <= WORLD_SIDE_DEFAULT_M;
         CHECK(inside || e->behaviour[i] == BEHAVIOUR_FLIGHT); /* rounds fly out of the world */
         CHECK(isfinite(e->x[i]) && isfinite(e->z[i]));
         CHECK(isfinite(e->y[i]) && isfinite(e->heading[i]) && isfinite(e->harm_j[i]));

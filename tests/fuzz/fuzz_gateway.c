@@ -84,7 +84,8 @@ static void open_world(void)
     CHECK(mover_init(&mover, &view.world, view.w[0].craters, NULL) == 0);
     CHECK(type_table_read(&types, support_file(types_text, sizeof types_text - 1), view.world.kinds,
                           view.world.counts.kinds, &error) == 0);
-    local_frame_make(&frame, 35.95, -121.25, -33.7, 0.5 * WORLD_SIDE_M, 0.5 * WORLD_SIDE_M);
+    local_frame_make(&frame, 35.95, -121.25, -33.7, 0.5 * WORLD_SIDE_DEFAULT_M,
+                     0.5 * WORLD_SIDE_DEFAULT_M);
     CHECK(collider_init(&collider, &view.world, view.w[0].craters, NULL) == 0);
 }
 

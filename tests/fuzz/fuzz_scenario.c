@@ -50,8 +50,8 @@ static void make_world(const struct scenario *scenario)
     CHECK(layout_compute(&layout, &header) == 0);
     CHECK(built.used == scenario->settings->params.initial_entities);
     for (uint32_t i = 0; i < built.used; i++) {
-        CHECK(built.first.x[i] >= 0.0 && built.first.x[i] <= WORLD_SIDE_M);
-        CHECK(built.first.z[i] >= 0.0 && built.first.z[i] <= WORLD_SIDE_M);
+        CHECK(built.first.x[i] >= 0.0 && built.first.x[i] <= WORLD_SIDE_DEFAULT_M);
+        CHECK(built.first.z[i] >= 0.0 && built.first.z[i] <= WORLD_SIDE_DEFAULT_M);
         CHECK(built.first.y[i] >= -1e5 && built.first.y[i] <= 1e5);
     }
     world_build_free(&built);

@@ -19,8 +19,8 @@ static void check_steps(const struct scenario_step *steps, int count)
         const struct script_step *step = &steps[i].step;
         CHECK(step->type == STEP_ARRIVE && steps[i].line > 1);
         CHECK(isfinite(step->at_s) && step->at_s > before_s && step->at_s <= 1e7);
-        CHECK(step->x >= 0.0 && step->x <= WORLD_SIDE_M && step->z >= 0.0 &&
-              step->z <= WORLD_SIDE_M);
+        CHECK(step->x >= 0.0 && step->x <= WORLD_SIDE_DEFAULT_M && step->z >= 0.0 &&
+              step->z <= WORLD_SIDE_DEFAULT_M);
         CHECK(step->altitude_m == STEP_SAME_ALTITUDE ||
               (step->altitude_m >= 0.0 && step->altitude_m <= 20000.0));
         before_s = step->at_s;

@@ -168,7 +168,7 @@ void support_check_message(const struct error_text *message)
 
 static void check_on_map(double x, double z)
 {
-    CHECK(x >= 0.0 && x <= WORLD_SIDE_M && z >= 0.0 && z <= WORLD_SIDE_M);
+    CHECK(x >= 0.0 && x <= WORLD_SIDE_DEFAULT_M && z >= 0.0 && z <= WORLD_SIDE_DEFAULT_M);
 }
 
 /* Checks that every vertex of the model is inside one of its hulls. */

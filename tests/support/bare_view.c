@@ -29,7 +29,7 @@ void bare_view_make(struct view *view, const struct bare_sizes *sizes)
         .dent_slots = 16,
         .contact_slots = 16,
     };
-    const struct counts counts = {.posts_side = 2, .fixed = sizes->fixed};
+    const struct counts counts = {.posts_side = 2, .fixed = sizes->fixed, .side_m = 50000};
     struct segment_header header = segment_header_for(&params, &counts);
     struct error_text error;
     if (segment_private(view, &header, &error) != 0)

@@ -15,7 +15,7 @@ void map_stage_open(struct map_stage *stage, uint64_t seed)
     static const char *const kinds[] = {"tank",      "jeep",       "truck", "carrier",
                                         "hamburger", "helicopter", "jet",   "ship"};
     fixture_open(&stage->fixture, "");
-    double step_m = WORLD_SIDE_M / MAP_STAGE_SIDE;
+    double step_m = WORLD_SIDE_DEFAULT_M / MAP_STAGE_SIDE;
     for (uint32_t i = 0; i < MAP_STAGE_SIDE * MAP_STAGE_SIDE; i++) {
         double x = (i % MAP_STAGE_SIDE + fixture_uniform(&seed, 0.3, 0.7)) * step_m;
         double z = (i / MAP_STAGE_SIDE + fixture_uniform(&seed, 0.3, 0.7)) * step_m;
@@ -26,7 +26,8 @@ void map_stage_open(struct map_stage *stage, uint64_t seed)
                                             .force = (enum force)(i % FORCE_COUNT)});
     }
     stage->state = fixture_state(&stage->fixture);
-    assert_int_equal(crater_index_init(&stage->craters, stage->state.craters), 0);
+    assert_int_equal(crater_index_init(&stage->craters, &GRIDSQUARES_DEFAULT, stage->state.craters),
+                     0);
     stage->frame_view = (struct frame_view){.world = &stage->fixture.view.world,
                                             .head = stage->state.head,
                                             .entities = &stage->state.entities,

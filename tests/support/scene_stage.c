@@ -19,7 +19,7 @@ struct scene_stage *scene_stage_new(uint32_t capacity, uint32_t fixed)
     assert_non_null(s);
     s->posts = calloc(SCENE_STAGE_POSTS * SCENE_STAGE_POSTS, sizeof *s->posts);
     s->cover = calloc(SCENE_STAGE_POSTS, SCENE_STAGE_POSTS);
-    s->reach_start = calloc(GRIDSQUARE_COUNT + 1, sizeof *s->reach_start);
+    s->reach_start = calloc(GRIDSQUARES_DEFAULT.count + 1, sizeof *s->reach_start);
     s->fixed = calloc(fixed, sizeof *s->fixed);
     s->fixed_damage = calloc(fixed, 1);
     s->columns = aligned_alloc(COLUMN_ALIGN, entities_bytes(capacity));
@@ -28,18 +28,19 @@ struct scene_stage *scene_stage_new(uint32_t capacity, uint32_t fixed)
     memset(s->columns, 0, entities_bytes(capacity));
     entities_bind(&s->entities, capacity, s->columns);
     s->params.capacity = capacity;
-    s->world = (struct world){
-        .params = &s->params,
-        .counts = {.posts_side = SCENE_STAGE_POSTS},
-        .terrain = {s->posts, s->cover, SCENE_STAGE_POSTS, WORLD_SIDE_M / (SCENE_STAGE_POSTS - 1)},
-        .fixed = s->fixed,
-        .reach_start = s->reach_start};
+    s->world = (struct world){.params = &s->params,
+                              .counts = {.posts_side = SCENE_STAGE_POSTS},
+                              .terrain = {s->posts, s->cover, SCENE_STAGE_POSTS,
+                                          WORLD_SIDE_DEFAULT_M / (SCENE_STAGE_POSTS - 1),
+                                          .squares = GRIDSQUARES_DEFAULT_INIT},
+                              .fixed = s->fixed,
+                              .reach_start = s->reach_start};
     return s;
 }
 
 void scene_stage_ready(struct scene_stage *stage)
 {
-    assert_int_equal(crater_index_init(&stage->index, stage->craters), 0);
+    assert_int_equal(crater_index_init(&stage->index, &GRIDSQUARES_DEFAULT, stage->craters), 0);
     assert_int_equal(dent_index_init(&stage->dents, stage->dent, SCENE_STAGE_DENTS), 0);
     assert_int_equal(static_scene_init(&stage->static_scene, &stage->world), 0);
     assert_int_equal(scene_init(&stage->list), 0);

@@ -47,7 +47,8 @@ void small_world_begin(struct small_world *w, uint32_t rows, uint32_t fixed)
     entities_bind(&w->e, rows, w->memory);
     w->world = (struct world){.params = w->params,
                               .counts = {.kinds = SMALL_KINDS},
-                              .terrain = {w->posts, w->cover, 2, WORLD_SIDE_M},
+                              .terrain = {w->posts, w->cover, 2, WORLD_SIDE_DEFAULT_M,
+                                          .squares = GRIDSQUARES_DEFAULT_INIT},
                               .kinds = w->kinds,
                               .fixed = w->fixed};
 }
@@ -105,9 +106,9 @@ void small_world_index(struct small_world *w)
 {
     free(w->reach_start);
     free(w->reach);
-    assert_int_equal(
-        fixed_index_build(w->fixed, w->world.counts.fixed, w->kinds, &w->reach_start, &w->reach),
-        0);
+    assert_int_equal(fixed_index_build(&GRIDSQUARES_DEFAULT, w->fixed, w->world.counts.fixed,
+                                       w->kinds, &w->reach_start, &w->reach),
+                     0);
     w->world.reach_start = w->reach_start;
     w->world.reach = w->reach;
 }

@@ -51,7 +51,7 @@ static void clear_terrain_cache(const struct fixture *fixture)
     uint32_t capacity = mover->world->params->capacity;
     memset(mover->terrain_entries, 0, capacity * sizeof *mover->terrain_entries);
     memset(mover->terrain_entries_ahead, 0, capacity * sizeof *mover->terrain_entries_ahead);
-    for (uint32_t square = 0; square < GRIDSQUARE_COUNT; square++)
+    for (uint32_t square = 0; square < GRIDSQUARES_DEFAULT.count; square++)
         atomic_store_explicit(&mover->slopes.bound[square], 0, memory_order_relaxed);
 }
 

@@ -33,12 +33,12 @@ void works_scatter(struct earthwork *works, uint32_t count, double low, double h
 struct earthworks works_index(const struct earthwork *works, uint32_t count)
 {
     uint32_t *index, words;
-    assert_int_equal(earthwork_index_build(works, count, &index, &words), 0);
-    return (struct earthworks){works, index, count};
+    assert_int_equal(earthwork_index_build(works, count, &GRIDSQUARES_DEFAULT, &index, &words), 0);
+    return (struct earthworks){works, index, count, GRIDSQUARES_DEFAULT};
 }
 
 void works_free(struct earthworks *works)
 {
     free((void *)(uintptr_t)works->index);
-    *works = (struct earthworks){NULL, NULL, 0};
+    *works = (struct earthworks){.works = NULL};
 }

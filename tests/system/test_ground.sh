@@ -244,7 +244,9 @@ refuses "the replay without the file" 1 'terrain.file = x.ground: no such file' 
 out=x.ground make --posts 62.5 "$tile" >/dev/null 2>&1
 refuses "a replay on another ground" 1 "was recorded on the ground $(hash_of y.ground) .*x.ground now has another" "$jolon" replay out1/commands.log
 side=60000 posts=125 center=44.5,-71.5 out=x.ground make "$tile" >/dev/null 2>&1
-refuses "a world on a square of another side" 1 'scene.cfg:2: terrain.file = x.ground: its square has a side of 60 km' "$jolon" run -w "$name" scene.cfg
+refuses "a world smaller than its square" 1 'terrain.file = x.ground: its square has a side of 60000 m, and terrain.side_m is 50000' \
+    "$jolon" run -w "$name" --set terrain.side_m=50000 scene.cfg
+check "a larger square has a world of its own side" eval 'run --frames 60 --out out6 >told6 && [ -s told6 ]'
 mv cut.ground x.ground
 refuses "a world on a file that is cut off" 1 'x.ground: has 1000000 bytes' "$jolon" run -w "$name" scene.cfg
 refuses "a file without its source" 1 'terrain.file = y.ground: needs terrain.source = "file"' \

@@ -118,7 +118,7 @@ refuses "a view whose id is no number" 2 "after the colon comes a vehicle's id" 
 refuses "an invalid size" 2 'not WxH with each from' "$renderer" --snap x.png --size 10
 refuses "a direction without a place" 2 'give --eye X,Z too' "$renderer" --snap x.png --look 0,0
 refuses "a place without its view" 2 'give --view free too' "$renderer" --snap x.png --eye 1,1 --view chase
-refuses "a place outside the map" 2 'X is from 0 to 50000' "$renderer" --snap x.png --eye 60000,1
+refuses "a place outside of any map" 2 'X is from 0 to 500000' "$renderer" --snap x.png --eye 600000,1
 refuses "an unknown back end" 2 'not one of auto, gl, soft' "$renderer" --snap x.png --backend d3d
 refuses "a device for the software rasteriser" 2 'needs none' "$renderer" --snap x.png --backend soft --device 0
 refuses "an unknown quality" 2 'not one of fixed, hold' "$renderer" --snap x.png --quality best

@@ -24,7 +24,9 @@ int free_place_init(struct free_place *place, const struct terrain *terrain,
                                  .reach_start = reach_start,
                                  .reach = reach,
                                  .seed = seed};
-    place->head = calloc((size_t)FREE_PLACE_CELLS * FREE_PLACE_CELLS, sizeof *place->head);
+    place->cell_m = maths_max(FREE_PLACE_CELL_M, terrain->squares.world_m / FREE_PLACE_CELLS_MAX);
+    place->cells = (uint32_t)ceil(terrain->squares.world_m / place->cell_m);
+    place->head = calloc((size_t)place->cells * place->cells, sizeof *place->head);
     return place->head ? 0 : -1;
 }
 
@@ -65,18 +67,19 @@ static bool ground_suits(const struct free_place *place, const struct kind *kind
 }
 
 /* The row or column of cells in which a coordinate is. */
-static uint32_t cell_at(double m)
+static uint32_t cell_at(const struct free_place *place, double m)
 {
-    double cell = floor(m / FREE_PLACE_CELL_M);
-    return cell < 0.0 ? 0 : cell < FREE_PLACE_CELLS ? (uint32_t)cell : FREE_PLACE_CELLS - 1;
+    double cell = floor(m / place->cell_m);
+    return cell < 0.0 ? 0 : cell < place->cells ? (uint32_t)cell : place->cells - 1;
 }
 
 static bool clear_of_vehicles(const struct free_place *place, double x, double z, double reach_m)
 {
     double reach = reach_m + place->largest_m + CLEARANCE_M;
-    for (uint32_t row = cell_at(z - reach); row <= cell_at(z + reach); row++) {
-        for (uint32_t column = cell_at(x - reach); column <= cell_at(x + reach); column++) {
-            uint32_t next = place->head[row * FREE_PLACE_CELLS + column];
+    for (uint32_t row = cell_at(place, z - reach); row <= cell_at(place, z + reach); row++) {
+        for (uint32_t column = cell_at(place, x - reach); column <= cell_at(place, x + reach);
+             column++) {
+            uint32_t next = place->head[row * place->cells + column];
             while (next != 0) {
                 const struct free_place_taken *other = &place->taken[next - 1];
                 double dx = other->x - x, dz = other->z - z;
@@ -93,10 +96,11 @@ static bool clear_of_vehicles(const struct free_place *place, double x, double z
 static bool clear_of_objects(const struct free_place *place, double x, double z, double reach_m)
 {
     double reach = reach_m + CLEARANCE_M;
-    struct gridsquare_box box = gridsquare_box_of(x - reach, z - reach, x + reach, z + reach);
+    struct gridsquare_box box =
+        gridsquare_box_of(&place->terrain.squares, x - reach, z - reach, x + reach, z + reach);
     for (int32_t row = box.z0; row <= box.z1; row++) {
         for (int32_t column = box.x0; column <= box.x1; column++) {
-            uint32_t square = gridsquare_index(column, row);
+            uint32_t square = gridsquare_index(&place->terrain.squares, column, row);
             for (uint32_t i = place->reach_start[square]; i < place->reach_start[square + 1]; i++) {
                 const struct fixed_object *object = &place->fixed[place->reach[i]];
                 double dx = object->x - x, dz = object->z - z;
@@ -118,9 +122,10 @@ static bool free_and_fit(const struct free_place *place, const struct kind *kind
 }
 
 /* Narrows a range to keep away from the world's edge, unless nothing would be left of it. */
-static void leave_edge(double *low, double *high)
+static void leave_edge(const struct free_place *place, double *low, double *high)
 {
-    double from = maths_max(*low, EDGE_M), to = maths_min(*high, WORLD_SIDE_M - EDGE_M);
+    double from = maths_max(*low, EDGE_M),
+           to = maths_min(*high, place->terrain.squares.world_m - EDGE_M);
     if (from < to) {
         *low = from;
         *high = to;
@@ -130,7 +135,8 @@ static void leave_edge(double *low, double *high)
 bool free_place_suits(const struct free_place *place, const struct kind *kind, double x, double z)
 {
     double reach = fixed_index_of_kind(kind);
-    return x >= EDGE_M && z >= EDGE_M && x <= WORLD_SIDE_M - EDGE_M && z <= WORLD_SIDE_M - EDGE_M &&
+    double last = place->terrain.squares.world_m - EDGE_M;
+    return x >= EDGE_M && z >= EDGE_M && x <= last && z <= last &&
            free_and_fit(place, kind, x, z, reach);
 }
 
@@ -139,8 +145,8 @@ int free_place_find(struct free_place *place, const struct area *area, const str
 {
     double x0 = area->x0, x1 = area->x1, z0 = area->z0, z1 = area->z1;
     double reach = fixed_index_of_kind(kind);
-    leave_edge(&x0, &x1);
-    leave_edge(&z0, &z1);
+    leave_edge(place, &x0, &x1);
+    leave_edge(place, &z0, &z1);
     for (uint64_t i = 0; i < TRIES; i++) {
         *x = random_between(place->seed, i, slot, RANDOM_PLACE_X, x0, x1);
         *z = random_between(place->seed, i, slot, RANDOM_PLACE_Z, z0, z1);
@@ -160,7 +166,7 @@ int free_place_take(struct free_place *place, double x, double z, double reach_m
         place->taken = taken;
         place->capacity = capacity;
     }
-    uint32_t *head = &place->head[cell_at(z) * FREE_PLACE_CELLS + cell_at(x)];
+    uint32_t *head = &place->head[cell_at(place, z) * place->cells + cell_at(place, x)];
     place->taken[place->count] = (struct free_place_taken){x, z, reach_m, *head};
     *head = ++place->count;
     place->largest_m = maths_max(place->largest_m, reach_m);

@@ -15,8 +15,8 @@ struct area;
 
 /* Taken places are found by cells finer than gridsquares: with a million vehicles in one part of
  * the map a gridsquare holds thousands, and a cell at most some fifteen. */
-#define FREE_PLACE_CELL_M 25.0
-#define FREE_PLACE_CELLS  ((uint32_t)(WORLD_SIDE_M / FREE_PLACE_CELL_M))
+#define FREE_PLACE_CELL_M    25.0
+#define FREE_PLACE_CELLS_MAX 4000u /* along an edge; in large worlds cells are larger */
 
 struct free_place_taken {
     double x, z, reach_m;
@@ -29,7 +29,9 @@ struct free_place {
     const struct kind *kinds; /* of the fixed objects */
     const uint32_t *reach_start, *reach;
     uint64_t seed;
-    uint32_t *head; /* [FREE_PLACE_CELLS * FREE_PLACE_CELLS] taken + 1 */
+    double cell_m;
+    uint32_t cells; /* along an edge */
+    uint32_t *head; /* [cells * cells] taken + 1 */
     struct free_place_taken *taken;
     uint32_t count, capacity;
     double largest_m; /* greatest reach taken so far */

@@ -17,11 +17,11 @@ struct road_point;
  * plane over the square. */
 void generate_place(double latitude_deg, double longitude_deg, double *x, double *z);
 
-/* Fills posts [side * side, m] and cover [side * side] for side posts over WORLD_SIDE_M, and at
- * most road_max points of the roads; *road_count points were written. The ground is the same for
- * every side to within a metre or two; cover shows roads where posts are 40 m apart or less. 0, or
- * -1 with errno ENOMEM, ENOBUFS (road_max too small; GENERATE_ROAD_MAX is enough), or EHOSTUNREACH
- * (water between two places that a road joins). */
+/* Fills posts [side * side, m] and cover [side * side] for side posts over WORLD_SIDE_DEFAULT_M,
+ * and at most road_max points of the roads; *road_count points were written. The ground is the same
+ * for every side to within a metre or two; cover shows roads where posts are 40 m apart or less. 0,
+ * or -1 with errno ENOMEM, ENOBUFS (road_max too small; GENERATE_ROAD_MAX is enough), or
+ * EHOSTUNREACH (water between two places that a road joins). */
 #define GENERATE_ROAD_MAX 16384u
 int generate_hunter_liggett(float *posts, uint8_t *cover, uint32_t side, uint64_t seed,
                             struct road_point *roads, uint32_t road_max, uint32_t *road_count);

@@ -166,10 +166,11 @@ static int add_built(struct object_placement *p)
 }
 
 /* By gridsquare; within one from west to east, then from north to south. */
-static int in_order(const void *left, const void *right)
+static int in_order(const void *left, const void *right, void *squares)
 {
     const struct fixed_object *a = left, *b = right;
-    uint32_t square_a = gridsquare_of(a->x, a->z), square_b = gridsquare_of(b->x, b->z);
+    uint32_t square_a = gridsquare_of(squares, a->x, a->z),
+             square_b = gridsquare_of(squares, b->x, b->z);
     if (square_a != square_b)
         return square_a < square_b ? -1 : 1;
     if (a->x < b->x || a->x > b->x)
@@ -188,11 +189,12 @@ int generate_table1_objects(struct fixed_object *objects, const struct terrain *
     if (object_placement_init(&placement, terrain, kinds, kind_count, roads, road_count, seed,
                               objects) != 0)
         return -1;
+    struct gridsquares squares = terrain->squares;
     int result = add_built(&placement);
     if (result == 0)
         result = plant_placement_plant(&placement);
     object_placement_free(&placement);
     if (result == 0)
-        qsort(objects, GENERATE_TABLE1_TOTAL, sizeof *objects, in_order);
+        qsort_r(objects, GENERATE_TABLE1_TOTAL, sizeof *objects, in_order, &squares);
     return result;
 }

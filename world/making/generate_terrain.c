@@ -45,8 +45,9 @@ void generate_place(double latitude_deg, double longitude_deg, double *x, double
     double north = (latitude_deg - CENTRE_LATITUDE) * RAD_PER_DEG;
     double east = (longitude_deg - CENTRE_LONGITUDE) * RAD_PER_DEG;
     /* Second order: parallels are shorter in the north, and curved. */
-    *x = 0.5 * WORLD_SIDE_M + normal_m * cosine_there * east;
-    *z = 0.5 * WORLD_SIDE_M - meridian_m * north - 0.5 * normal_m * sine * cosine * east * east;
+    *x = 0.5 * WORLD_SIDE_DEFAULT_M + normal_m * cosine_there * east;
+    *z = 0.5 * WORLD_SIDE_DEFAULT_M - meridian_m * north -
+         0.5 * normal_m * sine * cosine * east * east;
 }
 
 void generate_flat(float *posts, uint8_t *cover, uint32_t side, double height_m)
@@ -96,7 +97,7 @@ static int weave_init(struct weave *w, const struct elevation_grid *grid, uint32
                       uint64_t seed)
 {
     *w = (struct weave){.grid = grid, .seed = seed, .side = side};
-    w->spacing_m = WORLD_SIDE_M / (double)(side - 1);
+    w->spacing_m = WORLD_SIDE_DEFAULT_M / (double)(side - 1);
     w->memory = malloc((size_t)side * WEAVE_ROWS * sizeof *w->memory);
     w->between = malloc(side * sizeof *w->between);
     if (!w->memory || !w->between) {

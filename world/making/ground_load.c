@@ -135,7 +135,7 @@ static int load(struct world_build *built, const struct ground_file *file, struc
             "%s: has changed since the scenario was read: its hash was %016" PRIx64
             " and is %016" PRIx64,
             file->path, settings->ground_hash, file->header.hash);
-    if (!ground_file_fits_world(&file->header, &offset_m, &side))
+    if (!ground_file_fits_world(&file->header, settings->side_m, &offset_m, &side))
         return error_text_set(error, "%s: has a side or a number of posts that no world has",
                               file->path);
     size_t posts = (size_t)side * side;

@@ -44,29 +44,30 @@ static int sort_kinds(struct object_placement *p, uint32_t kind_count)
     return 0;
 }
 
-static struct gridsquare_box leg_box(const struct road_point *a)
+static struct gridsquare_box leg_box(const struct gridsquares *squares, const struct road_point *a)
 {
     const struct road_point *b = a + 1;
     return gridsquare_box_of(
-        maths_min(a->x, b->x) - ROAD_REACH_M, maths_min(a->z, b->z) - ROAD_REACH_M,
+        squares, maths_min(a->x, b->x) - ROAD_REACH_M, maths_min(a->z, b->z) - ROAD_REACH_M,
         maths_max(a->x, b->x) + ROAD_REACH_M, maths_max(a->z, b->z) + ROAD_REACH_M);
 }
 
 /* Indexes the legs of roads by the squares near them: counts first, then fills. */
 static int index_roads(struct object_placement *p)
 {
-    uint32_t *fill = calloc(GRIDSQUARE_COUNT, sizeof *fill);
-    p->leg_start = calloc(GRIDSQUARE_COUNT + 1, sizeof *p->leg_start);
+    const struct gridsquares *squares = &p->terrain->squares;
+    uint32_t *fill = calloc(squares->count, sizeof *fill);
+    p->leg_start = calloc(squares->count + 1, sizeof *p->leg_start);
     if (!fill || !p->leg_start)
         goto err;
     for (int pass = 0; pass < 2; pass++) {
         for (uint32_t i = 0; i + 1 < p->road_count; i++) {
-            struct gridsquare_box box = leg_box(&p->roads[i]);
+            struct gridsquare_box box = leg_box(squares, &p->roads[i]);
             if (p->roads[i].road != p->roads[i + 1].road)
                 continue;
             for (int32_t row = box.z0; row <= box.z1; row++) {
                 for (int32_t column = box.x0; column <= box.x1; column++) {
-                    uint32_t square = gridsquare_index(column, row);
+                    uint32_t square = gridsquare_index(squares, column, row);
                     if (pass == 0)
                         p->leg_start[square + 1]++;
                     else
@@ -76,9 +77,9 @@ static int index_roads(struct object_placement *p)
         }
         if (pass == 1)
             break;
-        for (uint32_t i = 0; i < GRIDSQUARE_COUNT; i++)
+        for (uint32_t i = 0; i < squares->count; i++)
             p->leg_start[i + 1] += p->leg_start[i];
-        p->legs = malloc((p->leg_start[GRIDSQUARE_COUNT] + 1u) * sizeof *p->legs);
+        p->legs = malloc((p->leg_start[squares->count] + 1u) * sizeof *p->legs);
         if (!p->legs)
             goto err;
     }
@@ -91,7 +92,7 @@ err:
 
 static bool near_road(const struct object_placement *p, double x, double z, double free_m)
 {
-    uint32_t square = gridsquare_of(x, z);
+    uint32_t square = gridsquare_of(&p->terrain->squares, x, z);
     for (uint32_t k = p->leg_start[square]; k < p->leg_start[square + 1]; k++) {
         const struct road_point *a = &p->roads[p->legs[k]], *b = a + 1;
         double dx = (double)(b->x - a->x), dz = (double)(b->z - a->z);
@@ -142,7 +143,7 @@ uint16_t object_placement_mixed_kind(const struct object_placement *p,
 
 bool object_placement_allows(const struct object_placement *p, double x, double z, double radius_m)
 {
-    const double far = WORLD_SIDE_M - OBJECT_PLACEMENT_EDGE_FREE_M;
+    const double far = p->terrain->squares.world_m - OBJECT_PLACEMENT_EDGE_FREE_M;
     return x > OBJECT_PLACEMENT_EDGE_FREE_M && z > OBJECT_PLACEMENT_EDGE_FREE_M && x < far &&
            z < far && !cover_is_water(terrain_cover(p->terrain, x, z)) &&
            !near_road(p, x, z, OBJECT_PLACEMENT_ROAD_FREE_M + radius_m);

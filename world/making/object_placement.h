@@ -30,7 +30,7 @@ struct object_placement {
     uint16_t of_class[OBJECT_CLASS_COUNT][KIND_COUNT_MAX]; /* low kinds first */
     uint32_t class_size[OBJECT_CLASS_COUNT];
     double grown_m;               /* largest radius of a tree or bush */
-    uint32_t *leg_start;          /* [GRIDSQUARE_COUNT + 1] into legs */
+    uint32_t *leg_start;          /* [terrain->squares.count + 1] into legs */
     uint32_t *legs;               /* road points whose leg to the next comes near a square */
     struct fixed_object *objects; /* the caller's */
     uint32_t used;

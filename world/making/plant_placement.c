@@ -39,11 +39,11 @@ struct plant_placement {
     struct object_placement *placement;
     uint32_t growing;     /* number of trees and bushes */
     uint32_t built;       /* objects placed before */
-    uint8_t *taken;       /* [GRIDSQUARE_COUNT] objects were placed there before */
-    struct stand *stands; /* [GRIDSQUARE_COUNT] best first, then in the order of squares */
+    uint8_t *taken;       /* [squares.count] objects were placed there before */
+    struct stand *stands; /* [squares.count] best first, then in the order of squares */
     uint32_t stand_count;
-    uint32_t *first;    /* [GRIDSQUARE_COUNT] first spot */
-    uint8_t *held;      /* [GRIDSQUARE_COUNT] spots */
+    uint32_t *first;    /* [squares.count] first spot */
+    uint8_t *held;      /* [squares.count] spots */
     struct spot *spots; /* [growing] */
 };
 
@@ -73,11 +73,12 @@ static double cover_suits(enum cover cover)
  * is water. */
 static double square_suits(const struct object_placement *p, uint32_t square)
 {
-    double x0 = square % GRIDSQUARE_PER_SIDE * GRIDSQUARE_SIDE_M, sum = 0.0;
-    double z0 = square / GRIDSQUARE_PER_SIDE * GRIDSQUARE_SIDE_M;
+    const struct gridsquares *squares = &p->terrain->squares;
+    double x0 = gridsquare_column(squares, square) * squares->side_m, sum = 0.0;
+    double z0 = gridsquare_row(squares, square) * squares->side_m;
     for (int i = 0; i < 25; i++) {
-        double x = x0 + (i % 5) * (GRIDSQUARE_SIDE_M / 4.0),
-               z = z0 + (i / 5) * (GRIDSQUARE_SIDE_M / 4.0);
+        double x = x0 + (i % 5) * (squares->side_m / 4.0),
+               z = z0 + (i / 5) * (squares->side_m / 4.0);
         enum cover cover = terrain_cover(p->terrain, x, z);
         if (cover_is_water(cover))
             return -1.0;
@@ -88,8 +89,9 @@ static double square_suits(const struct object_placement *p, uint32_t square)
 
 static double square_score(const struct object_placement *p, uint32_t square, double suits)
 {
-    double x = (square % GRIDSQUARE_PER_SIDE + 0.5) * GRIDSQUARE_SIDE_M;
-    double z = (square / GRIDSQUARE_PER_SIDE + 0.5) * GRIDSQUARE_SIDE_M;
+    const struct gridsquares *squares = &p->terrain->squares;
+    double x = (gridsquare_column(squares, square) + 0.5) * squares->side_m;
+    double z = (gridsquare_row(squares, square) + 0.5) * squares->side_m;
     double dx = (x - FORT_X_M) / FORT_REACH_M, dz = (z - FORT_Z_M) / FORT_REACH_M;
     double near = 1.0 / (1.0 + dx * dx + dz * dz);
     double grove = noise_fractal(p->seed + NOISE_GROVE, x / 1900.0, z / 1900.0, 3);
@@ -125,11 +127,11 @@ static int choose_squares(struct plant_placement *g)
     const struct object_placement *p = g->placement;
     uint32_t occupied = 0, dry = 0;
     for (uint32_t i = 0; i < p->used; i++) {
-        uint32_t square = gridsquare_of(p->objects[i].x, p->objects[i].z);
+        uint32_t square = gridsquare_of(&p->terrain->squares, p->objects[i].x, p->objects[i].z);
         occupied += g->taken[square] == 0;
         g->taken[square] = 1;
     }
-    for (uint32_t square = 0; square < GRIDSQUARE_COUNT; square++) {
+    for (uint32_t square = 0; square < p->terrain->squares.count; square++) {
         double suits = g->taken[square] ? -1.0 : square_suits(p, square);
         if (suits >= 0.0)
             g->stands[dry++] = (struct stand){square_score(p, square, suits), square, 0};
@@ -177,12 +179,13 @@ static void share_out(struct plant_placement *g)
  * the two would touch. */
 static int apart(const struct plant_placement *g, double x, double z)
 {
+    const struct gridsquares *squares = &g->placement->terrain->squares;
     double apart_m = 2.0 * g->placement->grown_m + 0.5;
     struct gridsquare_box box =
-        gridsquare_box_of(x - apart_m, z - apart_m, x + apart_m, z + apart_m);
+        gridsquare_box_of(squares, x - apart_m, z - apart_m, x + apart_m, z + apart_m);
     for (int32_t row = box.z0; row <= box.z1; row++) {
         for (int32_t column = box.x0; column <= box.x1; column++) {
-            uint32_t square = gridsquare_index(column, row);
+            uint32_t square = gridsquare_index(squares, column, row);
             for (uint32_t i = 0; i < g->held[square]; i++) {
                 const struct spot *spot = &g->spots[g->first[square] + i];
                 double dx = spot->x - x, dz = spot->z - z;
@@ -207,16 +210,18 @@ static double treeness(const struct object_placement *p, double x, double z, uin
 static int find_spot(struct plant_placement *g, uint32_t square, uint32_t number)
 {
     const struct object_placement *p = g->placement;
-    double x0 = square % GRIDSQUARE_PER_SIDE * GRIDSQUARE_SIDE_M;
-    double z0 = square / GRIDSQUARE_PER_SIDE * GRIDSQUARE_SIDE_M;
+    const struct gridsquares *squares = &p->terrain->squares;
+    double x0 = gridsquare_column(squares, square) * squares->side_m;
+    double z0 = gridsquare_row(squares, square) * squares->side_m;
     for (uint32_t try = 0; try < TRIES; try++) {
         uint64_t entity = (uint64_t)number << 16 | try;
         double x =
-            x0 + random_between(p->seed, square, entity, RANDOM_OBJECT_X, 0, GRIDSQUARE_SIDE_M);
+            x0 + random_between(p->seed, square, entity, RANDOM_OBJECT_X, 0, squares->side_m);
         double z =
-            z0 + random_between(p->seed, square, entity, RANDOM_OBJECT_Z, 0, GRIDSQUARE_SIDE_M);
-        if (gridsquare_of(x, z) != square || !object_placement_allows(p, x, z, p->grown_m) ||
-            !apart(g, x, z) || !object_placement_clear(p, g->built, x, z, p->grown_m))
+            z0 + random_between(p->seed, square, entity, RANDOM_OBJECT_Z, 0, squares->side_m);
+        if (gridsquare_of(squares, x, z) != square ||
+            !object_placement_allows(p, x, z, p->grown_m) || !apart(g, x, z) ||
+            !object_placement_clear(p, g->built, x, z, p->grown_m))
             continue;
         g->spots[number] = (struct spot){x, z, treeness(p, x, z, number), number};
         if (g->held[square]++ == 0)
@@ -255,12 +260,13 @@ static void plant_spots(struct plant_placement *g)
 
 int plant_placement_plant(struct object_placement *placement)
 {
+    const uint32_t squares = placement->terrain->squares.count;
     struct plant_placement g = {.placement = placement, .built = placement->used};
     g.growing = generate_table1[OBJECT_TREE] + generate_table1[OBJECT_BUSH];
-    g.taken = calloc(GRIDSQUARE_COUNT, sizeof *g.taken);
-    g.stands = malloc(GRIDSQUARE_COUNT * sizeof *g.stands);
-    g.first = calloc(GRIDSQUARE_COUNT, sizeof *g.first);
-    g.held = calloc(GRIDSQUARE_COUNT, sizeof *g.held);
+    g.taken = calloc(squares, sizeof *g.taken);
+    g.stands = malloc(squares * sizeof *g.stands);
+    g.first = calloc(squares, sizeof *g.first);
+    g.held = calloc(squares, sizeof *g.held);
     g.spots = malloc(g.growing * sizeof *g.spots);
     int result = -1;
     if (g.taken && g.stands && g.first && g.held && g.spots && choose_squares(&g) == 0) {

@@ -271,14 +271,15 @@ static int lay_edges(struct road_graph *net, uint32_t (*met)[2], uint32_t meetin
     return 0;
 }
 
-int road_graph_build(struct road_graph *net, const struct road_point *points, uint32_t count)
+int road_graph_build(struct road_graph *net, const struct road_point *points, uint32_t count,
+                     double side_m)
 {
     struct survey s = {.points = points, .count = count};
     uint32_t(*met)[2] = NULL;
     uint8_t *seen = NULL;
     int result = -1;
     *net = (struct road_graph){0};
-    if (road_index_make(&s.index, points, count) == 0 && meet_between(&s) == 0 &&
+    if (road_index_make(&s.index, points, count, side_m) == 0 && meet_between(&s) == 0 &&
         meet_ends(&s) == 0) {
         uint32_t meetings = s.cut_count / 2;
         if (s.cut_count > 0)

@@ -44,7 +44,8 @@ struct road_place {
 };
 
 /* 0, or -1 with errno ENOMEM and nothing to free. */
-int road_graph_build(struct road_graph *net, const struct road_point *points, uint32_t count);
+int road_graph_build(struct road_graph *net, const struct road_point *points, uint32_t count,
+                     double side_m);
 void road_graph_free(struct road_graph *net);
 
 /* Finds the place nearest to a point. Returns false if there are no roads. */

@@ -159,8 +159,8 @@ int road_routing_build(struct world_build *built, struct error_text *error)
         roads |= scenario->groups[g].roads != 0;
     for (uint32_t p = 0; p < scenario->phase_count; p++)
         roads |= scenario->phases[p].roads != 0;
-    if (!built->routes ||
-        (roads && road_graph_build(&net, built->roads, built->counts.road_points) != 0))
+    if (!built->routes || (roads && road_graph_build(&net, built->roads, built->counts.road_points,
+                                                     built->counts.side_m) != 0))
         return error_text_memory(error);
     for (uint32_t g = 0; g < scenario->group_count && result == 0; g++) {
         laying.group = &scenario->groups[g];

@@ -16,6 +16,7 @@ struct scenario_settings {
     struct params params;
     enum terrain_source terrain;
     double flat_height_m;
+    double side_m;    /* of the world */
     double spacing_m; /* between posts of other ground than a file's: 125, 62.5 or 31.25 */
     char ground_file[GROUND_FILE_TEXT_MAX]; /* TERRAIN_FILE: its path, absolute */
     uint64_t ground_hash;                   /* the same: of the ground in it */

@@ -147,8 +147,8 @@ static int copy_step(const struct copy *copy, uint32_t index, double *altitude_m
     const struct scenario_step *from = &steps[index];
     *step = from->step;
     if (goes(step)) {
-        step->x = maths_clamp(step->x + copy->off_x, 0.0, WORLD_SIDE_M);
-        step->z = maths_clamp(step->z + copy->off_z, 0.0, WORLD_SIDE_M);
+        step->x = maths_clamp(step->x + copy->off_x, 0.0, scenario->settings->side_m);
+        step->z = maths_clamp(step->z + copy->off_z, 0.0, scenario->settings->side_m);
         step->halt = stands(copy->from, steps, index);
     }
     if (step->altitude_m >= 0.0)

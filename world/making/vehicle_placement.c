@@ -121,11 +121,12 @@ static int near_stand(struct vehicle_placement *placement, uint32_t slot, double
     if (free_place_suits(&placement->place, kind, stand->x, stand->z))
         return 0;
     for (int i = 0; i < NEAR_TRIES; i++, reach *= 2.0) {
+        const double last = placement->place.terrain.squares.world_m;
         const struct area near = {
-            maths_clamp(wanted.x - reach, 0.0, WORLD_SIDE_M),
-            maths_clamp(wanted.z - reach, 0.0, WORLD_SIDE_M),
-            maths_clamp(wanted.x + reach, 0.0, WORLD_SIDE_M),
-            maths_clamp(wanted.z + reach, 0.0, WORLD_SIDE_M),
+            maths_clamp(wanted.x - reach, 0.0, last),
+            maths_clamp(wanted.z - reach, 0.0, last),
+            maths_clamp(wanted.x + reach, 0.0, last),
+            maths_clamp(wanted.z + reach, 0.0, last),
         };
         if (free_place_find(&placement->place, &near, kind, slot, &stand->x, &stand->z) == 0)
             return 0;
@@ -309,7 +310,8 @@ static int build_group(struct vehicle_placement *placement, const struct scenari
     return 0;
 }
 
-static struct force_base middle_of(const struct entities *e, uint32_t used, uint32_t force)
+static struct force_base middle_of(const struct entities *e, uint32_t used, uint32_t force,
+                                   double side_m)
 {
     double x = 0.0, z = 0.0, count = 0.0;
     for (uint32_t i = 0; i < used; i++) {
@@ -320,7 +322,7 @@ static struct force_base middle_of(const struct entities *e, uint32_t used, uint
         count += 1.0;
     }
     return count > 0.0 ? (struct force_base){x / count, z / count}
-                       : (struct force_base){0.5 * WORLD_SIDE_M, 0.5 * WORLD_SIDE_M};
+                       : (struct force_base){0.5 * side_m, 0.5 * side_m};
 }
 
 /* Returns the place of the force's land vehicle that is nearest to the middle of the force, since
@@ -328,7 +330,8 @@ static struct force_base middle_of(const struct entities *e, uint32_t used, uint
 static struct force_base base_of(const struct world_build *built, uint32_t force)
 {
     const struct entities *e = &built->first;
-    struct force_base middle = middle_of(e, built->used, force), base = middle;
+    struct force_base middle = middle_of(e, built->used, force, built->counts.side_m),
+                      base = middle;
     double least = INFINITY;
     for (uint32_t i = 0; i < built->used; i++) {
         double dx = e->x[i] - middle.x, dz = e->z[i] - middle.z;

@@ -35,7 +35,7 @@ static int build_ground(struct world_build *built, struct error_text *error)
     const struct scenario *scenario = built->scenario;
     if (scenario->settings->terrain == TERRAIN_FILE)
         return ground_load(built, error);
-    uint32_t side = (uint32_t)(WORLD_SIDE_M / scenario->settings->spacing_m) + 1;
+    uint32_t side = (uint32_t)(scenario->settings->side_m / scenario->settings->spacing_m) + 1;
     size_t posts = (size_t)side * side;
     built->counts.posts_side = side;
     built->posts = malloc(posts * sizeof *built->posts);
@@ -56,17 +56,18 @@ static int build_ground(struct world_build *built, struct error_text *error)
 static int build_earthworks(struct world_build *built, struct error_text *error)
 {
     const struct scenario *scenario = built->scenario;
-    if (earthwork_index_build(scenario->earthworks, scenario->earthwork_count,
+    const struct gridsquares squares = gridsquares_of(built->counts.side_m);
+    if (earthwork_index_build(scenario->earthworks, scenario->earthwork_count, &squares,
                               &built->earthwork_index, &built->counts.earthwork_words) != 0)
         return error_text_memory(error);
     built->counts.earthworks = scenario->earthwork_count;
     return 0;
 }
 
-static int by_square(const void *a, const void *b)
+static int by_square(const void *a, const void *b, void *squares)
 {
     const struct fixed_object *p = a, *q = b;
-    uint32_t sp = gridsquare_of(p->x, p->z), sq = gridsquare_of(q->x, q->z);
+    uint32_t sp = gridsquare_of(squares, p->x, p->z), sq = gridsquare_of(squares, q->x, q->z);
     if (sp != sq)
         return sp < sq ? -1 : 1;
     if (p->x != q->x)
@@ -92,7 +93,8 @@ static void list_objects(struct world_build *built, const struct terrain *terrai
             .turn = from->turn,
         };
     }
-    qsort(built->fixed, scenario->object_count, sizeof *built->fixed, by_square);
+    struct gridsquares squares = terrain->squares;
+    qsort_r(built->fixed, scenario->object_count, sizeof *built->fixed, by_square, &squares);
 }
 
 static int build_objects(struct world_build *built, struct error_text *error)
@@ -115,10 +117,10 @@ static int build_objects(struct world_build *built, struct error_text *error)
                    ? error_text_set(error,
                                     "objects: a class of Table 1 has no kind in config/kinds")
                    : error_text_memory(error);
-    if (fixed_index_build(built->fixed, count, scenario->kinds, &built->reach_start,
-                          &built->reach) != 0)
+    if (fixed_index_build(&terrain.squares, built->fixed, count, scenario->kinds,
+                          &built->reach_start, &built->reach) != 0)
         return error_text_memory(error);
-    built->counts.reach = built->reach_start[GRIDSQUARE_COUNT];
+    built->counts.reach = built->reach_start[terrain.squares.count];
     return 0;
 }
 
@@ -204,12 +206,15 @@ static int build_orders(struct world_build *built, struct error_text *error)
 
 struct terrain world_build_terrain(const struct world_build *built)
 {
+    const struct gridsquares squares = gridsquares_of(built->counts.side_m);
     return (struct terrain){.posts = built->posts,
                             .cover = built->cover,
                             .side = built->counts.posts_side,
-                            .spacing_m = WORLD_SIDE_M / (double)(built->counts.posts_side - 1),
+                            .spacing_m =
+                                built->counts.side_m / (double)(built->counts.posts_side - 1),
                             .earthworks = {built->scenario->earthworks, built->earthwork_index,
-                                           built->counts.earthworks}};
+                                           built->counts.earthworks, squares},
+                            .squares = squares};
 }
 
 int world_build_make(struct world_build *built, const struct scenario *scenario,
@@ -227,6 +232,7 @@ int world_build_make(struct world_build *built, const struct scenario *scenario,
         .areas = scenario->area_count,
         .objectives = scenario->objective_count,
         .recipe = provenance_room(scenario->recipe.bytes),
+        .side_m = (uint32_t)scenario->settings->side_m,
     };
     if (build_ground(built, error) != 0 || build_earthworks(built, error) != 0 ||
         build_objects(built, error) != 0 || road_routing_build(built, error) != 0 ||

@@ -56,7 +56,8 @@ void world_build_fill(const struct world_build *built, struct world *world, stru
     fill(world->terrain.earthworks.index, built->earthwork_index, n->earthwork_words,
          sizeof *built->earthwork_index);
     fill(world->fixed, built->fixed, n->fixed, sizeof *built->fixed);
-    fill(world->reach_start, built->reach_start, GRIDSQUARE_COUNT + 1, sizeof(uint32_t));
+    fill(world->reach_start, built->reach_start, world->terrain.squares.count + 1,
+         sizeof(uint32_t));
     fill(world->reach, built->reach, n->reach, sizeof(uint32_t));
     fill(world->areas, s->areas, n->areas, sizeof *s->areas);
     fill(world->routes, built->routes, n->routes, sizeof *built->routes);

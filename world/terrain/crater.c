@@ -10,10 +10,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-int crater_index_init(struct crater_index *index, const struct crater *craters)
+int crater_index_init(struct crater_index *index, const struct gridsquares *squares,
+                      const struct crater *craters)
 {
-    *index = (struct crater_index){.craters = craters};
-    index->head = calloc(GRIDSQUARE_COUNT, sizeof *index->head);
+    *index = (struct crater_index){.craters = craters, .squares = *squares};
+    index->head = calloc(squares->count, sizeof *index->head);
     index->links = reserve_take(CRATER_SLOTS_MAX * CRATER_SQUARES, sizeof *index->links);
     if (index->head && index->links)
         return 0;
@@ -29,26 +30,27 @@ void crater_index_free(struct crater_index *index)
     *index = (struct crater_index){0};
 }
 
-static struct gridsquare_box reach_of(const struct crater *crater)
+static struct gridsquare_box reach_of(const struct gridsquares *squares,
+                                      const struct crater *crater)
 {
     double reach = maths_min((double)crater->radius_m, CRATER_RADIUS_MAX) * CRATER_RIM;
-    return gridsquare_box_of(crater->x - reach, crater->z - reach, crater->x + reach,
+    return gridsquare_box_of(squares, crater->x - reach, crater->z - reach, crater->x + reach,
                              crater->z + reach);
 }
 
 void crater_index_update(struct crater_index *index, uint32_t count)
 {
     if (count < index->count) {
-        memset(index->head, 0, GRIDSQUARE_COUNT * sizeof *index->head);
+        memset(index->head, 0, index->squares.count * sizeof *index->head);
         index->link_count = 0;
         index->count = 0;
         index->rim_m = 0.0;
     }
     while (index->count < count) {
-        struct gridsquare_box box = reach_of(&index->craters[index->count]);
+        struct gridsquare_box box = reach_of(&index->squares, &index->craters[index->count]);
         for (int32_t row = box.z0; row <= box.z1; row++) {
             for (int32_t column = box.x0; column <= box.x1; column++) {
-                uint32_t *head = &index->head[gridsquare_index(column, row)];
+                uint32_t *head = &index->head[gridsquare_index(&index->squares, column, row)];
                 index->links[index->link_count] = (struct crater_link){index->count, *head};
                 *head = ++index->link_count;
             }
@@ -84,7 +86,7 @@ double crater_offset(const struct crater_index *index, double x, double z)
     double highest = 0.0;
     if (index->count == 0)
         return 0.0;
-    uint32_t link = index->head[gridsquare_of(x, z)];
+    uint32_t link = index->head[gridsquare_of(&index->squares, x, z)];
     while (link != 0) {
         const struct crater_link *entry = &index->links[link - 1];
         double offset = profile(&index->craters[entry->crater], x, z);

@@ -6,6 +6,8 @@
 #ifndef JOLON_WORLD_TERRAIN_CRATER_H
 #define JOLON_WORLD_TERRAIN_CRATER_H
 
+#include "world/terrain/gridsquare.h"
+
 #include <stdint.h>
 
 struct crater {
@@ -36,15 +38,17 @@ struct crater_link {
 
 struct crater_index {
     const struct crater *craters;
-    uint32_t count;            /* craters indexed so far */
-    uint32_t *head;            /* [GRIDSQUARE_COUNT] link + 1, 0 for none */
+    uint32_t count; /* craters indexed so far */
+    struct gridsquares squares;
+    uint32_t *head;            /* [squares.count] link + 1, 0 for none */
     struct crater_link *links; /* CRATER_SQUARES for each of CRATER_SLOTS_MAX craters */
     uint32_t link_count;
     double rim_m; /* the greatest height of a rim over the ground [m] */
 };
 
 /* 0, or -1 with errno ENOMEM. The list must outlive the index. */
-int crater_index_init(struct crater_index *index, const struct crater *craters);
+int crater_index_init(struct crater_index *index, const struct gridsquares *squares,
+                      const struct crater *craters);
 void crater_index_free(struct crater_index *index);
 
 /* Indexes the list's entries up to count, at most CRATER_SLOTS_MAX. A count below what was indexed

@@ -20,17 +20,18 @@ double earthwork_reach_z(const struct earthwork *work)
 
 /* --- the index ---------------------------------------------------------------------------------*/
 
-static struct gridsquare_box box_of(const struct earthwork *work)
+static struct gridsquare_box box_of(const struct gridsquares *squares, const struct earthwork *work)
 {
     double x = earthwork_reach_x(work), z = earthwork_reach_z(work);
-    return gridsquare_box_of(work->x - x, work->z - z, work->x + x, work->z + z);
+    return gridsquare_box_of(squares, work->x - x, work->z - z, work->x + x, work->z + z);
 }
 
-static struct gridsquare_box box_of_all(const struct earthwork *works, uint32_t count)
+static struct gridsquare_box box_of_all(const struct gridsquares *squares,
+                                        const struct earthwork *works, uint32_t count)
 {
-    struct gridsquare_box all = box_of(&works[0]);
+    struct gridsquare_box all = box_of(squares, &works[0]);
     for (uint32_t i = 1; i < count; i++) {
-        struct gridsquare_box box = box_of(&works[i]);
+        struct gridsquare_box box = box_of(squares, &works[i]);
         all.x0 = box.x0 < all.x0 ? box.x0 : all.x0;
         all.z0 = box.z0 < all.z0 ? box.z0 : all.z0;
         all.x1 = box.x1 > all.x1 ? box.x1 : all.x1;
@@ -45,42 +46,43 @@ static bool overlap(const struct gridsquare_box *box, int32_t column, int32_t ro
 }
 
 /* Returns the number of entries that the boxes of all works have together. */
-static size_t entries_of(const struct earthwork *works, uint32_t count)
+static size_t entries_of(const struct gridsquares *squares, const struct earthwork *works,
+                         uint32_t count)
 {
     size_t entries = 0;
     for (uint32_t i = 0; i < count; i++) {
-        struct gridsquare_box box = box_of(&works[i]);
+        struct gridsquare_box box = box_of(squares, &works[i]);
         entries += (size_t)(box.x1 - box.x0 + 1) * (size_t)(box.z1 - box.z0 + 1);
     }
     return entries;
 }
 
-int earthwork_index_build(const struct earthwork *works, uint32_t count, uint32_t **index,
-                          uint32_t *words)
+int earthwork_index_build(const struct earthwork *works, uint32_t count,
+                          const struct gridsquares *squares, uint32_t **index, uint32_t *words)
 {
     *index = NULL;
     *words = 0;
     if (count == 0)
         return 0;
-    struct gridsquare_box all = box_of_all(works, count);
+    struct gridsquare_box all = box_of_all(squares, works, count);
     uint32_t columns = (uint32_t)(all.x1 - all.x0 + 1), rows = (uint32_t)(all.z1 - all.z0 + 1);
-    uint32_t squares = columns * rows, used = 0;
-    size_t length = EARTHWORK_INDEX_HEAD + squares + 1 + entries_of(works, count);
+    uint32_t cells = columns * rows, used = 0;
+    size_t length = EARTHWORK_INDEX_HEAD + cells + 1 + entries_of(squares, works, count);
     uint32_t *list = malloc(length * sizeof *list);
     if (list == NULL)
         return -1;
     const uint32_t head[] = {(uint32_t)all.x0, (uint32_t)all.z0, columns, rows};
     memcpy(list, head, sizeof head);
-    uint32_t *start = list + EARTHWORK_INDEX_HEAD, *items = start + squares + 1;
-    for (uint32_t s = 0; s < squares; s++) {
+    uint32_t *start = list + EARTHWORK_INDEX_HEAD, *items = start + cells + 1;
+    for (uint32_t s = 0; s < cells; s++) {
         start[s] = used;
         for (uint32_t i = 0; i < count; i++) {
-            struct gridsquare_box box = box_of(&works[i]);
+            struct gridsquare_box box = box_of(squares, &works[i]);
             if (overlap(&box, all.x0 + (int32_t)(s % columns), all.z0 + (int32_t)(s / columns)))
                 items[used++] = i;
         }
     }
-    start[squares] = used;
+    start[cells] = used;
     *index = list;
     *words = (uint32_t)length;
     return 0;
@@ -107,8 +109,8 @@ const uint32_t *earthwork_in_square(const struct earthworks *works, uint32_t squ
 {
     *count = 0;
     return works->count == 0 ? NULL
-                             : in_square(works, (int32_t)(square % GRIDSQUARE_PER_SIDE),
-                                         (int32_t)(square / GRIDSQUARE_PER_SIDE), count);
+                             : in_square(works, gridsquare_column(&works->squares, square),
+                                         gridsquare_row(&works->squares, square), count);
 }
 
 static inline const uint32_t *works_at(const struct earthworks *works, double x, double z,
@@ -116,7 +118,8 @@ static inline const uint32_t *works_at(const struct earthworks *works, double x,
 {
     *count = 0;
     return works->count == 0 ? NULL
-                             : in_square(works, gridsquare_axis(x), gridsquare_axis(z), count);
+                             : in_square(works, gridsquare_axis(&works->squares, x),
+                                         gridsquare_axis(&works->squares, z), count);
 }
 
 /* --- the shape ---------------------------------------------------------------------------------*/

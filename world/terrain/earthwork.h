@@ -4,10 +4,10 @@
 #ifndef JOLON_WORLD_TERRAIN_EARTHWORK_H
 #define JOLON_WORLD_TERRAIN_EARTHWORK_H
 
+#include "world/terrain/gridsquare.h"
+
 #include <stdbool.h>
 #include <stdint.h>
-
-struct gridsquare_box;
 
 enum earthwork_shape {
     EARTHWORK_RAMP,      /* rises all along its length and ends in a lip */
@@ -47,6 +47,7 @@ struct earthworks {
     const struct earthwork *works;
     const uint32_t *index; /* EARTHWORK_INDEX_HEAD words; starts; numbers of works */
     uint32_t count;        /* 0: no work, and no index */
+    struct gridsquares squares;
 };
 
 /* The index covers one rectangle of gridsquares. Its first words say which. */
@@ -54,8 +55,8 @@ enum { EARTHWORK_COLUMN, EARTHWORK_ROW, EARTHWORK_COLUMNS, EARTHWORK_ROWS, EARTH
 
 /* Builds the index on the heap, `words` long; the caller frees it. Without works it is NULL and 0
  * words long. Returns 0, or -1 with errno ENOMEM. */
-int earthwork_index_build(const struct earthwork *works, uint32_t count, uint32_t **index,
-                          uint32_t *words);
+int earthwork_index_build(const struct earthwork *works, uint32_t count,
+                          const struct gridsquares *squares, uint32_t **index, uint32_t *words);
 
 /* Returns the numbers of the works that may reach into a gridsquare, ascending, and their count. */
 const uint32_t *earthwork_in_square(const struct earthworks *works, uint32_t square,

@@ -6,6 +6,7 @@
 #include "world/terrain/fixed.h"
 #include "world/entity/kind.h"
 #include "world/maths/maths.h"
+#include "world/terrain/gridsquare.h"
 
 #include <stdint.h>
 
@@ -25,10 +26,10 @@ static inline double fixed_index_of_fixed(const struct fixed_object *object,
                                           : (double)object->radius_m;
 }
 
-/* Builds start [GRIDSQUARE_COUNT + 1] and items [start[GRIDSQUARE_COUNT]] on the heap; the caller
+/* Builds start [squares->count + 1] and items [start[squares->count]] on the heap; the caller
  * frees both. Objects ascend within a square. kinds are the objects'. 0, or -1 with errno ENOMEM.
  */
-int fixed_index_build(const struct fixed_object *objects, uint32_t count, const struct kind *kinds,
-                      uint32_t **start, uint32_t **items);
+int fixed_index_build(const struct gridsquares *squares, const struct fixed_object *objects,
+                      uint32_t count, const struct kind *kinds, uint32_t **start, uint32_t **items);
 
 #endif

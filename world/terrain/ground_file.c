@@ -37,16 +37,25 @@ uint64_t ground_file_hash(const struct ground_header *header, const struct groun
     return hash;
 }
 
-bool ground_file_fits_world(const struct ground_header *header, double *offset_m,
+bool ground_file_fits_world(const struct ground_header *header, double side_m, double *offset_m,
                             uint32_t *posts_side)
 {
-    double cells = WORLD_SIDE_M / header->spacing_m;
-    *offset_m = 0.5 * (WORLD_SIDE_M - header->side_m);
+    double cells = side_m / header->spacing_m;
+    *offset_m = 0.5 * (side_m - header->side_m);
     if (!(*offset_m >= 0.0) || cells != floor(cells) || cells > GROUND_WORLD_POSTS_MAX - 1 ||
         fmod(*offset_m, header->spacing_m) != 0.0)
         return false;
     *posts_side = (uint32_t)cells + 1;
     return true;
+}
+
+double ground_file_world_side(const struct ground_header *header)
+{
+    double offset_m;
+    uint32_t posts_side;
+    return ground_file_fits_world(header, WORLD_SIDE_DEFAULT_M, &offset_m, &posts_side)
+               ? WORLD_SIDE_DEFAULT_M
+               : header->side_m;
 }
 
 static int refuse(const struct ground_file *file, struct error_text *error, const char *what)

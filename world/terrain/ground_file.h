@@ -32,12 +32,16 @@ struct ground_file {
  * the directory, whose text does not count. */
 uint64_t ground_file_hash(const struct ground_header *header, const struct ground_block *blocks);
 
-/* Returns true if a world can have this ground: a square of WORLD_SIDE_M at most in its middle,
- * whose posts are posts of the world, GROUND_WORLD_POSTS_MAX along an edge at most. Sets *offset_m:
- * x and z of the square's north-west corner in the world, and *posts_side: posts of the world along
- * an edge. */
-bool ground_file_fits_world(const struct ground_header *header, double *offset_m,
+/* Returns true if a world of this side [m] can have this ground: a square in its middle whose posts
+ * are posts of the world, GROUND_WORLD_POSTS_MAX along an edge at most. Sets *offset_m: x and z of
+ * the square's north-west corner in the world, and *posts_side: posts of the world along an edge.
+ */
+bool ground_file_fits_world(const struct ground_header *header, double side_m, double *offset_m,
                             uint32_t *posts_side);
+
+/* Returns the side of the world that a ground has unless another is asked for [m]:
+ * WORLD_SIDE_DEFAULT_M if it fits into the middle of that, else its own. */
+double ground_file_world_side(const struct ground_header *header);
 
 /* Opens a file and checks its header and its directory. 0, or -1 with the reason. */
 int ground_file_open(struct ground_file *file, const char *path, struct error_text *error);

@@ -7,11 +7,11 @@
 #define SLACK_M      0.01 /* more than rounding adds to a height or moves a path */
 #define SQUARES_MOST 9    /* of a box; for a larger one the ground itself is tested */
 
-int square_bounds_init(struct square_bounds *bounds, square_bounds_function *compute,
-                       const void *context)
+int square_bounds_init(struct square_bounds *bounds, const struct gridsquares *squares,
+                       square_bounds_function *compute, const void *context)
 {
-    *bounds = (struct square_bounds){.compute = compute, .context = context};
-    bounds->bound = calloc(GRIDSQUARE_COUNT, sizeof *bounds->bound);
+    *bounds = (struct square_bounds){.compute = compute, .context = context, .squares = *squares};
+    bounds->bound = calloc(squares->count, sizeof *bounds->bound);
     return bounds->bound ? 0 : -1;
 }
 
@@ -35,7 +35,7 @@ bool square_bounds_within(const struct square_bounds *bounds, struct gridsquare_
         return false;
     for (int32_t row = box.z0; row <= box.z1; row++) {
         for (int32_t column = box.x0; column <= box.x1; column++) {
-            if (square_bounds_of(bounds, gridsquare_index(column, row)) > most)
+            if (square_bounds_of(bounds, gridsquare_index(&bounds->squares, column, row)) > most)
                 return false;
         }
     }
@@ -79,19 +79,19 @@ struct posts {
     struct terrain_posts across, down;
 };
 
-static struct gridsquare_box square_box(uint32_t square)
+static struct gridsquare_box square_box(const struct gridsquares *squares, uint32_t square)
 {
-    int32_t column = (int32_t)(square % GRIDSQUARE_PER_SIDE);
-    int32_t row = (int32_t)(square / GRIDSQUARE_PER_SIDE);
+    int32_t column = gridsquare_column(squares, square), row = gridsquare_row(squares, square);
     return (struct gridsquare_box){column, row, column, row};
 }
 
 static struct posts posts_of(const struct terrain *terrain, uint32_t square)
 {
-    double west_m = GRIDSQUARE_SIDE_M * (square % GRIDSQUARE_PER_SIDE);
-    double north_m = GRIDSQUARE_SIDE_M * (double)(square / GRIDSQUARE_PER_SIDE);
-    return (struct posts){terrain_posts(terrain, west_m, GRIDSQUARE_SIDE_M),
-                          terrain_posts(terrain, north_m, GRIDSQUARE_SIDE_M)};
+    const struct gridsquares *squares = &terrain->squares;
+    double west_m = squares->side_m * gridsquare_column(squares, square);
+    double north_m = squares->side_m * gridsquare_row(squares, square);
+    return (struct posts){terrain_posts(terrain, west_m, squares->side_m),
+                          terrain_posts(terrain, north_m, squares->side_m)};
 }
 
 uint16_t square_bounds_height(const void *context, uint32_t square)
@@ -105,7 +105,7 @@ uint16_t square_bounds_height(const void *context, uint32_t square)
             top = post > top ? post : top;
         }
     }
-    const struct gridsquare_box box = square_box(square);
+    const struct gridsquare_box box = square_box(&terrain->squares, square);
     double highest, lowest;
     earthwork_range(&terrain->earthworks, &box, &highest, &lowest);
     return square_bounds_above_height((double)top + highest);
@@ -125,7 +125,7 @@ uint16_t square_bounds_slope(const void *context, uint32_t square)
 {
     const struct terrain *terrain = context;
     const struct posts posts = posts_of(terrain, square);
-    const struct gridsquare_box box = square_box(square);
+    const struct gridsquare_box box = square_box(&terrain->squares, square);
     double most = 0.0, highest, lowest;
     if (earthwork_range(&terrain->earthworks, &box, &highest, &lowest))
         return SQUARE_BOUNDS_NONE;
@@ -146,7 +146,8 @@ bool square_bounds_clear(const struct square_bounds *heights, const struct crate
 {
     double low_m = maths_min(p.y, q.y) - (craters ? craters->rim_m : 0.0);
     return square_bounds_within(heights,
-                                gridsquare_box_of(maths_min(p.x, q.x), maths_min(p.z, q.z),
-                                                  maths_max(p.x, q.x), maths_max(p.z, q.z)),
+                                gridsquare_box_of(&heights->squares, maths_min(p.x, q.x),
+                                                  maths_min(p.z, q.z), maths_max(p.x, q.x),
+                                                  maths_max(p.z, q.z)),
                                 square_bounds_below_height(low_m));
 }

@@ -1,6 +1,6 @@
 /* Upper bounds of a quantity, such as the height of the ground, in each gridsquare.
  *
- * The bound of a square is computed on its first use: computing those of 50 km x 50 km would delay
+ * The bound of a square is computed on its first use: computing those of a whole world would delay
  * a process's start. Bounds follow from the static world, so the results do not depend on earlier
  * calls. Any thread. */
 #ifndef JOLON_WORLD_TERRAIN_SQUARE_BOUNDS_H
@@ -25,12 +25,13 @@ typedef uint16_t square_bounds_function(const void *context, uint32_t square);
 struct square_bounds {
     square_bounds_function *compute;
     const void *context;
-    _Atomic uint16_t *bound; /* [GRIDSQUARE_COUNT] 0: not computed yet */
+    struct gridsquares squares;
+    _Atomic uint16_t *bound; /* [squares.count] 0: not computed yet */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. The context stays the caller's. */
-int square_bounds_init(struct square_bounds *bounds, square_bounds_function *compute,
-                       const void *context);
+int square_bounds_init(struct square_bounds *bounds, const struct gridsquares *squares,
+                       square_bounds_function *compute, const void *context);
 void square_bounds_free(struct square_bounds *bounds);
 
 /* Computes and keeps a bound. Only square_bounds_of() calls it. */

@@ -11,6 +11,7 @@
 
 #include "world/terrain/crater.h"
 #include "world/terrain/earthwork.h"
+#include "world/terrain/gridsquare.h"
 #include "world/maths/maths.h"
 
 #include <stdbool.h>
@@ -35,6 +36,7 @@ struct terrain {
     uint32_t side;        /* posts along one edge */
     double spacing_m;
     struct earthworks earthworks;
+    struct gridsquares squares; /* how the world is divided; the posts reach from edge to edge */
 };
 
 /* Height of the uncratered ground [m], with its earthworks. */

@@ -55,8 +55,8 @@ static void drift(const struct step_context *context, uint32_t i)
     double share = speed > 0.0 ? left / speed : 0.0;
     m->vx[i] *= share;
     m->vz[i] *= share;
-    kinematics_advance(&m->x[i], &m->vx[i], context->dt_s);
-    kinematics_advance(&m->z[i], &m->vz[i], context->dt_s);
+    kinematics_advance(context, &m->x[i], &m->vx[i]);
+    kinematics_advance(context, &m->z[i], &m->vz[i]);
     bool sinks = sinking_hull(context, i);
     if (!turned && !sinks && is_still(m, i))
         m->until_tick[i] = (uint32_t)context->tick;

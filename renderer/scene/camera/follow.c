@@ -8,8 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#define CELL_M         250.0 /* neighbours are counted in cells of this size */
-#define CELLS          200   /* cells a side */
+#define CELLS          200   /* a side, in which neighbours are counted: of 250 m in 50 km */
 #define AHEAD_M        160.0 /* neighbours count where the camera looks */
 #define NEIGHBOURS_MAX 10
 #define FIRES          16.0 /* its round is in the air */
@@ -22,9 +21,10 @@
 #define ACTION_MAX     12.0
 #define OBJECTS_MAX    10 /* most fixed objects nearby that count */
 
-static int32_t cell_axis(double metres)
+static int32_t cell_axis(const struct world *world, double metres)
 {
-    int32_t cell = (int32_t)(maths_clamp(metres, 0.0, WORLD_SIDE_M) / CELL_M);
+    const double cell_m = world->terrain.squares.world_m / CELLS;
+    int32_t cell = (int32_t)(world_clamp(world, metres) / cell_m);
     return cell < CELLS ? cell : CELLS - 1;
 }
 
@@ -96,17 +96,18 @@ static double liveliness(const struct frame_view *frame_view, const struct effec
     score -= e->force[slot] == FORCE_NEUTRAL ? NO_ENEMY : 0.0;
     score -= e->damage[slot];
     const uint32_t *around;
-    uint32_t objects =
-        world_reach(frame_view->world, gridsquare_of(position.x, position.z), &around);
+    uint32_t objects = world_reach(
+        frame_view->world,
+        gridsquare_of(&frame_view->world->terrain.squares, position.x, position.z), &around);
     score += 0.25 * (objects < OBJECTS_MAX ? objects : OBJECTS_MAX);
     score += e->behaviour[slot] == BEHAVIOUR_ATTACK ? FIGHTS : 0.0;
     return score +
            action_near(effects, position, state_time_s(frame_view->world, frame_view->head));
 }
 
-static uint16_t *cell_of(uint16_t *cells, double x, double z)
+static uint16_t *cell_of(const struct world *world, uint16_t *cells, double x, double z)
 {
-    return &cells[cell_axis(z) * CELLS + cell_axis(x)];
+    return &cells[cell_axis(world, z) * CELLS + cell_axis(world, x)];
 }
 
 static double score_of(const struct frame_view *frame_view, const struct effects *effects,
@@ -115,7 +116,8 @@ static double score_of(const struct frame_view *frame_view, const struct effects
     const struct entities *e = frame_view->entities;
     double ahead_x = e->x[slot] + AHEAD_M * maths_sin(e->heading[slot]);
     double ahead_z = e->z[slot] - AHEAD_M * maths_cos(e->heading[slot]);
-    return liveliness(frame_view, effects, slot, *cell_of(neighbours, ahead_x, ahead_z));
+    return liveliness(frame_view, effects, slot,
+                      *cell_of(frame_view->world, neighbours, ahead_x, ahead_z));
 }
 
 /* The best vehicle so far. */
@@ -156,7 +158,7 @@ static uint32_t liveliest(const struct frame_view *frame_view, const struct effe
     memset(neighbours, 0, sizeof neighbours);
     for (uint32_t i = 0; i < frame_view->head->used; i++)
         if (is_vehicle(frame_view, i)) {
-            uint16_t *here = cell_of(neighbours, e->x[i], e->z[i]);
+            uint16_t *here = cell_of(frame_view->world, neighbours, e->x[i], e->z[i]);
             *here = (uint16_t)(*here + (*here < UINT16_MAX));
         }
     if (now != SLOT_NONE && is_vehicle(frame_view, now))

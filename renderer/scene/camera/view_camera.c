@@ -45,7 +45,7 @@ struct subject {
 static struct subject subject_of(const struct frame_view *frame_view, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
-    double middle = 0.5 * WORLD_SIDE_M;
+    double middle = 0.5 * frame_view->world->terrain.squares.world_m;
     if (slot == SLOT_NONE) {
         double ground = terrain_height(&frame_view->world->terrain, NULL, middle, middle);
         return (struct subject){.position = {middle, ground, middle},

@@ -44,13 +44,14 @@ static void find_starts(struct static_scene *static_scene)
 {
     const struct world *world = static_scene->world;
     uint32_t next = 0;
-    for (uint32_t square = 0; square < GRIDSQUARE_COUNT; square++) {
+    for (uint32_t square = 0; square < world->terrain.squares.count; square++) {
         static_scene->square_start[square] = next;
         while (next < world->counts.fixed &&
-               gridsquare_of(world->fixed[next].x, world->fixed[next].z) <= square)
+               gridsquare_of(&world->terrain.squares, world->fixed[next].x, world->fixed[next].z) <=
+                   square)
             next++;
     }
-    static_scene->square_start[GRIDSQUARE_COUNT] = world->counts.fixed;
+    static_scene->square_start[world->terrain.squares.count] = world->counts.fixed;
 }
 
 /* Returns the width of a picture over its height: plants fill their squares differently. */
@@ -118,16 +119,17 @@ static void find_ranks(struct static_scene *static_scene, uint32_t square)
 static void find_blocks(struct static_scene *static_scene)
 {
     const struct world *world = static_scene->world;
-    for (uint32_t i = 0; i < STATIC_SCENE_BLOCKS * STATIC_SCENE_BLOCKS; i++)
+    const struct gridsquares *squares = &world->terrain.squares;
+    for (uint32_t i = 0; i < static_scene->blocks_a_side * static_scene->blocks_a_side; i++)
         static_scene->blocks[i] = (struct static_scene_block){INFINITY, -INFINITY};
     for (uint32_t i = 0; i < world->counts.fixed; i++) {
         if (static_scene->look[i] == LOOK_MODEL)
             continue;
         const struct fixed_object *object = &world->fixed[i];
-        uint32_t column = (uint32_t)gridsquare_axis(object->x) / STATIC_SCENE_BLOCK;
-        uint32_t row = (uint32_t)gridsquare_axis(object->z) / STATIC_SCENE_BLOCK;
+        uint32_t column = (uint32_t)gridsquare_axis(squares, object->x) / STATIC_SCENE_BLOCK;
+        uint32_t row = (uint32_t)gridsquare_axis(squares, object->z) / STATIC_SCENE_BLOCK;
         struct static_scene_block *block =
-            &static_scene->blocks[row * STATIC_SCENE_BLOCKS + column];
+            &static_scene->blocks[row * static_scene->blocks_a_side + column];
         block->low = fminf(block->low, object->y);
         block->high = fmaxf(block->high, object->y + object->height_m);
     }
@@ -145,16 +147,19 @@ int static_scene_init(struct static_scene *static_scene, const struct world *wor
     *static_scene = (struct static_scene){.world = world};
     if (terrain_quadtree_init(&static_scene->ground, &world->terrain) != 0)
         return -1;
-    if (road_index_make(&static_scene->roads, world->road_points, world->counts.road_points) != 0) {
+    if (road_index_make(&static_scene->roads, world->road_points, world->counts.road_points,
+                        world->terrain.squares.world_m) != 0) {
         static_scene_free(static_scene);
         return -1;
     }
     static_scene->square_start =
-        malloc((GRIDSQUARE_COUNT + 1) * sizeof *static_scene->square_start);
+        malloc(((size_t)world->terrain.squares.count + 1) * sizeof *static_scene->square_start);
     static_scene->look = malloc(world->counts.fixed + 1);
     static_scene->plants = malloc((world->counts.fixed + 1) * sizeof *static_scene->plants);
-    static_scene->blocks =
-        malloc(STATIC_SCENE_BLOCKS * STATIC_SCENE_BLOCKS * sizeof *static_scene->blocks);
+    static_scene->blocks_a_side =
+        ((uint32_t)world->terrain.squares.per_side + STATIC_SCENE_BLOCK - 1) / STATIC_SCENE_BLOCK;
+    static_scene->blocks = malloc((size_t)static_scene->blocks_a_side *
+                                  static_scene->blocks_a_side * sizeof *static_scene->blocks);
     static_scene->skeletons = malloc((world->counts.models + 1) * sizeof *static_scene->skeletons);
     if (static_scene->square_start == NULL || static_scene->look == NULL ||
         static_scene->plants == NULL || static_scene->blocks == NULL ||
@@ -167,7 +172,7 @@ int static_scene_init(struct static_scene *static_scene, const struct world *wor
         static_scene->look[i] = look_of(&world->kinds[world->fixed[i].kind], i);
         find_plant(static_scene, i);
     }
-    for (uint32_t square = 0; square < GRIDSQUARE_COUNT; square++)
+    for (uint32_t square = 0; square < world->terrain.squares.count; square++)
         find_ranks(static_scene, square);
     find_blocks(static_scene);
     for (uint32_t i = 0; i < world->counts.models; i++)

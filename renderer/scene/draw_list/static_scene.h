@@ -18,9 +18,7 @@ struct world;
 #define LOOK_MODEL 255u /* drawn by the polygons of its kind; lower: enum plant_impostors */
 
 #define STATIC_SCENE_BLOCK 8u /* side of a block, by which plants are culled [gridsquares] */
-#define STATIC_SCENE_BLOCKS                                                                        \
-    ((GRIDSQUARE_PER_SIDE + STATIC_SCENE_BLOCK - 1u) / STATIC_SCENE_BLOCK) /* a side */
-#define STATIC_SCENE_KEPT 4u /* so few plants of a gridsquare are never thinned out */
+#define STATIC_SCENE_KEPT  4u /* so few plants of a gridsquare are never thinned out */
 
 /* The constant properties of a fixed object that is a plant. */
 struct static_scene_plant {
@@ -38,13 +36,13 @@ struct static_scene_block {
 struct static_scene {
     const struct world *world;
     struct terrain_quadtree ground;
-    uint32_t *square_start; /* [GRIDSQUARE_COUNT + 1] into world->fixed; owned */
+    uint32_t *square_start; /* [gridsquares + 1] into world->fixed; owned */
     uint8_t *look;          /* [world->counts.fixed] enum plant_impostors or LOOK_MODEL; owned */
     struct static_scene_plant *plants; /* [world->counts.fixed]; owned */
-    struct static_scene_block
-        *blocks; /* [STATIC_SCENE_BLOCKS * STATIC_SCENE_BLOCKS] row by row; owned */
-    struct mesh_skeleton *skeletons; /* [world->counts.models]; owned */
-    struct road_index roads;         /* of world->road_points; owned */
+    uint32_t blocks_a_side;
+    struct static_scene_block *blocks; /* [blocks_a_side * blocks_a_side] row by row; owned */
+    struct mesh_skeleton *skeletons;   /* [world->counts.models]; owned */
+    struct road_index roads;           /* of world->road_points; owned */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. The world must outlive the static scene. */

@@ -18,9 +18,8 @@
 #define WOOD_MIN_SHARE    0.30f /* ... but never below this share */
 #define WOOD_BAND         0.12f /* range of the share in which a plant shrinks to nothing */
 #define LEAN_M            40.0  /* a plant may hang this far over the edge of its gridsquare */
-#define SQUARE_REACH_M                                                                             \
-    (float)(0.75 * GRIDSQUARE_SIDE_M + LEAN_M) /* half a diagonal is 0.71 sides */
-#define STUMP_M 1.0f                           /* width and height */
+#define DIAGONAL_SHARE    0.75  /* more than half a diagonal of a square over its side */
+#define STUMP_M           1.0f  /* width and height */
 
 /* The data that all plants of a picture share. */
 struct plant_context {
@@ -129,9 +128,9 @@ static void add_plants(const struct plant_context *context, uint32_t first, uint
 
 /* Returns true if any plant of the block may be in the picture. Plants may lean over its edge. */
 static bool sees_block(const struct camera *camera, const struct static_scene_block *block,
-                       int32_t column, int32_t row)
+                       double square_m, int32_t column, int32_t row)
 {
-    const double side = STATIC_SCENE_BLOCK * GRIDSQUARE_SIDE_M;
+    const double side = STATIC_SCENE_BLOCK * square_m;
     if (block->low > block->high)
         return false;
     struct vec3 low = {column * side - LEAN_M, (double)block->low - 1.0, row * side - LEAN_M};
@@ -142,14 +141,13 @@ static bool sees_block(const struct camera *camera, const struct static_scene_bl
 
 /* The same for one gridsquare of the block. */
 static bool sees_square(const struct draw_list *list, const struct static_scene_block *block,
-                        int32_t column, int32_t row)
+                        double square_m, int32_t column, int32_t row)
 {
-    struct vec3 middle = {(column + 0.5) * GRIDSQUARE_SIDE_M,
-                          0.5 * ((double)block->low + (double)block->high),
-                          (row + 0.5) * GRIDSQUARE_SIDE_M};
+    struct vec3 middle = {(column + 0.5) * square_m,
+                          0.5 * ((double)block->low + (double)block->high), (row + 0.5) * square_m};
     float at[3], high = 0.5f * (block->high - block->low);
     draw_list_relative(list, middle, at);
-    return frustum_ball(&list->frustum, at, SQUARE_REACH_M + high);
+    return frustum_ball(&list->frustum, at, (float)(DIAGONAL_SHARE * square_m + LEAN_M) + high);
 }
 
 static void add_block(const struct plant_context *context, const struct gridsquare_box *box,
@@ -157,16 +155,17 @@ static void add_block(const struct plant_context *context, const struct gridsqua
 {
     const int32_t side = (int32_t)STATIC_SCENE_BLOCK;
     const struct static_scene *static_scene = context->static_scene;
+    const struct gridsquares *squares = &static_scene->world->terrain.squares;
     const struct static_scene_block *block =
-        &static_scene->blocks[(uint32_t)row * STATIC_SCENE_BLOCKS + (uint32_t)column];
-    if (!sees_block(&context->list->camera, block, column, row))
+        &static_scene->blocks[(uint32_t)row * static_scene->blocks_a_side + (uint32_t)column];
+    if (!sees_block(&context->list->camera, block, squares->side_m, column, row))
         return;
     int32_t last_row = row * side + side - 1 < box->z1 ? row * side + side - 1 : box->z1;
     int32_t last_column = column * side + side - 1 < box->x1 ? column * side + side - 1 : box->x1;
     for (int32_t r = row * side > box->z0 ? row * side : box->z0; r <= last_row; r++)
         for (int32_t c = column * side > box->x0 ? column * side : box->x0; c <= last_column; c++) {
-            const uint32_t *start = &static_scene->square_start[gridsquare_index(c, r)];
-            if (start[0] < start[1] && sees_square(context->list, block, c, r))
+            const uint32_t *start = &static_scene->square_start[gridsquare_index(squares, c, r)];
+            if (start[0] < start[1] && sees_square(context->list, block, squares->side_m, c, r))
                 add_plants(context, start[0], start[1]);
         }
 }
@@ -180,8 +179,9 @@ void plants_add(struct draw_list *list, const struct static_scene *static_scene,
                                     .whole_pixels = WOOD_WHOLE_PIXELS / list->detail};
     struct vec3 eye = list->camera.eye;
     const int32_t side = (int32_t)STATIC_SCENE_BLOCK;
-    struct gridsquare_box box = gridsquare_box_of(eye.x - PLANT_RANGE_M, eye.z - PLANT_RANGE_M,
-                                                  eye.x + PLANT_RANGE_M, eye.z + PLANT_RANGE_M);
+    struct gridsquare_box box =
+        gridsquare_box_of(&static_scene->world->terrain.squares, eye.x - PLANT_RANGE_M,
+                          eye.z - PLANT_RANGE_M, eye.x + PLANT_RANGE_M, eye.z + PLANT_RANGE_M);
     for (int32_t row = box.z0 / side; row <= box.z1 / side; row++)
         for (int32_t column = box.x0 / side; column <= box.x1 / side; column++)
             add_block(&context, &box, column, row);

@@ -9,7 +9,9 @@
 #define RING               1 /* squares of 64 km on each side of the world */
 #define BEYOND_ASIDE       0.6
 #define BEYOND_ASIDE_MAX_M 2600.0
-#define STACK              64 /* depth first: three siblings a level and the roots */
+#define STACK              256      /* depth first: three siblings a level and the roots */
+#define LOWEST_M           -1000.0f /* of any ground */
+#define HIGHEST_M          9000.0f
 
 /* Returns the number of patches of all levels above this one: (4^level - 1) / 3. */
 static size_t range_offset(int32_t level)
@@ -30,11 +32,10 @@ static uint32_t post_before(const struct terrain *terrain, double metres)
     return (uint32_t)maths_clamp(post, 0.0, (double)terrain->side - 1.0);
 }
 
-static struct terrain_quadtree_range posts_range(const struct terrain *terrain, int32_t column,
-                                                 int32_t row)
+static struct terrain_quadtree_range posts_range(const struct terrain *terrain, int32_t level,
+                                                 int32_t column, int32_t row)
 {
-    double side = terrain_quadtree_patch_side(TERRAIN_QUADTREE_RANGE_LEVEL),
-           more = side + terrain->spacing_m;
+    double side = terrain_quadtree_patch_side(level), more = side + terrain->spacing_m;
     uint32_t c0 = post_before(terrain, column * side),
              c1 = post_before(terrain, column * side + more);
     uint32_t r0 = post_before(terrain, row * side), r1 = post_before(terrain, row * side + more);
@@ -46,8 +47,8 @@ static struct terrain_quadtree_range posts_range(const struct terrain *terrain, 
             range.low = y < range.low ? y : range.low;
             range.high = y > range.high ? y : range.high;
         }
-    const struct gridsquare_box box =
-        gridsquare_box_of(column * side, row * side, column * side + side, row * side + side);
+    const struct gridsquare_box box = gridsquare_box_of(
+        &terrain->squares, column * side, row * side, column * side + side, row * side + side);
     double highest, lowest;
     earthwork_range(&terrain->earthworks, &box, &highest, &lowest);
     range.high += (float)highest;
@@ -72,13 +73,17 @@ void terrain_quadtree_beyond(const struct terrain *terrain, double *x, double *z
 int terrain_quadtree_init(struct terrain_quadtree *ground, const struct terrain *terrain)
 {
     ground->terrain = terrain;
+    ground->range = NULL;
+    ground->roots = (int32_t)ceil(terrain->squares.world_m / TERRAIN_QUADTREE_ROOT_M);
+    if (ground->roots > 1)
+        return 0;
     ground->range = malloc(range_offset(TERRAIN_QUADTREE_RANGE_LEVEL + 1) * sizeof *ground->range);
     if (ground->range == NULL)
         return -1;
     for (int32_t row = 0; row < 1 << TERRAIN_QUADTREE_RANGE_LEVEL; row++)
         for (int32_t column = 0; column < 1 << TERRAIN_QUADTREE_RANGE_LEVEL; column++)
             *range_at(ground, TERRAIN_QUADTREE_RANGE_LEVEL, column, row) =
-                posts_range(terrain, column, row);
+                posts_range(terrain, TERRAIN_QUADTREE_RANGE_LEVEL, column, row);
     for (int32_t level = TERRAIN_QUADTREE_RANGE_LEVEL - 1; level >= 0; level--)
         for (int32_t row = 0; row < 1 << level; row++)
             for (int32_t column = 0; column < 1 << level; column++) {
@@ -101,11 +106,27 @@ void terrain_quadtree_free(struct terrain_quadtree *ground)
     ground->range = NULL;
 }
 
+/* The same in a world of several roots: reading all of its posts for the coarse levels would take
+ * as long as making it. */
+static struct terrain_quadtree_range large_range(const struct terrain_quadtree *ground,
+                                                 const struct terrain_quadtree_patch *patch)
+{
+    double side = terrain_quadtree_patch_side(patch->level);
+    double last = ground->terrain->squares.world_m;
+    bool inside = patch->column >= 0 && patch->row >= 0 && (patch->column + 1) * side <= last &&
+                  (patch->row + 1) * side <= last;
+    return inside && patch->level >= TERRAIN_QUADTREE_RANGE_LEVEL
+               ? posts_range(ground->terrain, patch->level, patch->column, patch->row)
+               : (struct terrain_quadtree_range){LOWEST_M, HIGHEST_M};
+}
+
 /* Outside the square the heights may be those of any ground in it. */
 static struct terrain_quadtree_range patch_range(const struct terrain_quadtree *ground,
                                                  const struct terrain_quadtree_patch *patch)
 {
     int32_t level = patch->level, column = patch->column, row = patch->row;
+    if (ground->range == NULL)
+        return large_range(ground, patch);
     if (level > TERRAIN_QUADTREE_RANGE_LEVEL) {
         /* An arithmetic shift rounds down, so it finds the parent of a negative index too. */
         column >>= level - TERRAIN_QUADTREE_RANGE_LEVEL;
@@ -153,8 +174,9 @@ terrain_quadtree_select(const struct terrain_quadtree *ground, const struct came
 {
     struct terrain_quadtree_patch stack[STACK];
     uint32_t depth = 0, count = 0;
-    for (int32_t row = -RING; row <= RING; row++)
-        for (int32_t column = -RING; column <= RING; column++)
+    const int32_t last = ground->roots - 1 + RING;
+    for (int32_t row = -RING; row <= last; row++)
+        for (int32_t column = -RING; column <= last; column++)
             stack[depth++] = (struct terrain_quadtree_patch){.column = column, .row = row};
     while (depth > 0) {
         struct terrain_quadtree_patch patch = stack[--depth];

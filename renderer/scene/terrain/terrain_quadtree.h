@@ -1,8 +1,9 @@
 /* The ground as a quadtree of patches at falling levels of detail: which of them to draw for a
  * camera. Pure.
  *
- * There are nine quadtrees, each over a square of 64 km: one begins at the world's corner, eight
- * lie around it, and there the ground continues to the horizon. 64 km is the spacing of posts times
+ * Each quadtree lies over a square of 64 km. The first begins at the world's corner, others follow
+ * where a world is larger, and a ring of them lies around, where the ground continues to the
+ * horizon. 64 km is the spacing of posts times
  * a power of two, so a patch's cells are fractions or multiples of a post's cell. They are split
  * along the same diagonal (world/terrain/terrain.h). From the level of the posts on, the ground
  * drawn is the ground that vehicles drive on. Skirts hide the seams between levels. */
@@ -38,7 +39,10 @@ struct terrain_quadtree_range {
 
 struct terrain_quadtree {
     const struct terrain *terrain;
-    struct terrain_quadtree_range *range; /* one level after another, rows from the north; owned */
+    int32_t roots; /* along an edge of the world */
+    /* With one root; else NULL, and ranges are found when they are needed. One level after another,
+     * rows from the north; owned */
+    struct terrain_quadtree_range *range;
 };
 
 /* Returns 0, or -1 with errno ENOMEM. The terrain must outlive the quadtree. */

@@ -68,7 +68,8 @@ static void begin(struct small_world *w, uint32_t capacity)
     entities_bind(&w->e, capacity, w->memory);
     w->world = (struct world){.params = &w->params,
                               .counts = {.kinds = KINDS},
-                              .terrain = {w->posts, w->cover, 2, WORLD_SIDE_M},
+                              .terrain = {w->posts, w->cover, 2, WORLD_SIDE_DEFAULT_M,
+                                          .squares = GRIDSQUARES_DEFAULT_INIT},
                               .kinds = w->kinds,
                               .fixed = w->fixed};
 }
@@ -88,15 +89,17 @@ static void draw_fixed(struct small_world *w, const struct spread *place, uint64
     for (uint32_t i = 0; i < count; i++) {
         struct vec3 p = spread_point(place, random);
         w->fixed[i] = (struct fixed_object){
-            .x = maths_clamp(p.x, 0.0, WORLD_SIDE_M),
-            .z = maths_clamp(p.z, 0.0, WORLD_SIDE_M),
+            .x = maths_clamp(p.x, 0.0, WORLD_SIDE_DEFAULT_M),
+            .z = maths_clamp(p.z, 0.0, WORLD_SIDE_DEFAULT_M),
             .y = (float)fixture_uniform(random, 0.0, 5.0),
             .radius_m = (float)radii[fixture_random(random) % 5],
         };
         w->damage[i] = (uint8_t)(fixture_random(random) % 8 == 0 ? DAMAGE_HIGH : DAMAGE_MED);
     }
     w->world.counts.fixed = count;
-    assert_int_equal(fixed_index_build(w->fixed, count, w->kinds, &w->reach_start, &w->reach), 0);
+    assert_int_equal(fixed_index_build(&GRIDSQUARES_DEFAULT, w->fixed, count, w->kinds,
+                                       &w->reach_start, &w->reach),
+                     0);
     w->world.reach_start = w->reach_start;
     w->world.reach = w->reach;
 }

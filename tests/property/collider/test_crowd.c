@@ -83,8 +83,8 @@ static void check_rows(const struct entities *e)
         assert_true(isfinite(e->vx[i]) && isfinite(e->vy[i]) && isfinite(e->vz[i]));
         assert_true(isfinite(e->heading[i]) && isfinite(e->pitch[i]) && isfinite(e->roll[i]));
         assert_true(isfinite(e->spin_y[i]) && isfinite(e->harm_j[i]));
-        assert_true(e->x[i] >= 0.0 && e->x[i] <= WORLD_SIDE_M);
-        assert_true(e->z[i] >= 0.0 && e->z[i] <= WORLD_SIDE_M);
+        assert_true(e->x[i] >= 0.0 && e->x[i] <= WORLD_SIDE_DEFAULT_M);
+        assert_true(e->z[i] >= 0.0 && e->z[i] <= WORLD_SIDE_DEFAULT_M);
     }
 }
 

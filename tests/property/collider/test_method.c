@@ -81,9 +81,9 @@ static void draw_world(struct small_world *w, uint32_t rows, uint32_t fixed, dou
     w->params->collision.shape = fixture_random(random) % 3 == 0 ? SHAPE_MODEL : SHAPE_SPHERE;
     for (uint32_t i = 0; i < fixed; i++) {
         struct vec3 p = spread_point(&place, random);
-        p.x = maths_clamp(p.x, 0.0, WORLD_SIDE_M);
+        p.x = maths_clamp(p.x, 0.0, WORLD_SIDE_DEFAULT_M);
         p.y = fixture_uniform(random, 0.0, 5.0);
-        p.z = maths_clamp(p.z, 0.0, WORLD_SIDE_M);
+        p.z = maths_clamp(p.z, 0.0, WORLD_SIDE_DEFAULT_M);
         uint32_t object = small_world_tree(w, p, radii[fixture_random(random) % 5]);
         w->damage[object] = (uint8_t)(fixture_random(random) % 8 == 0 ? DAMAGE_HIGH : DAMAGE_MED);
     }
@@ -279,7 +279,8 @@ static void test_rows_44_45_the_methods_find_the_same_in_crowds(void **state)
     begin_lists(&lists, &w, CROWD_FIXED);
     for (uint64_t world = 0; world < CROWDS; world++) {
         draw_world(&w, (uint32_t)(CROWD_ROWS / 2 + fixture_random(&random) % (CROWD_ROWS / 2)),
-                   (uint32_t)(fixture_random(&random) % (CROWD_FIXED + 1)), WORLD_SIDE_M, &random);
+                   (uint32_t)(fixture_random(&random) % (CROWD_FIXED + 1)), WORLD_SIDE_DEFAULT_M,
+                   &random);
         try_world(&lists, &w, world);
         lists.touching += check_touching(&w, world, &lists.wanted);
         try_swept(&lists, &w, world);

@@ -46,8 +46,9 @@ static void test_every_point_is_in_the_square_of_exact_arithmetic(void **state)
     (void)state;
     for (int i = 0; i < POINTS; i++) {
         double x = random_coordinate(&random), z = random_coordinate(&random);
-        if (gridsquare_of(x, z) != (uint64_t)(oracle_axis(z) * 400 + oracle_axis(x)))
-            fail_msg("(%a, %a) is in square %u", x, z, gridsquare_of(x, z));
+        if (gridsquare_of(&GRIDSQUARES_DEFAULT, x, z) !=
+            (uint64_t)(oracle_axis(z) * 400 + oracle_axis(x)))
+            fail_msg("(%a, %a) is in square %u", x, z, gridsquare_of(&GRIDSQUARES_DEFAULT, x, z));
     }
 }
 
@@ -58,7 +59,7 @@ static void test_every_point_lies_within_its_square(void **state)
     (void)state;
     for (int i = 0; i < POINTS; i++) {
         double x = fixture_uniform(&random, 0.0, 50000.0);
-        int32_t column = gridsquare_axis(x);
+        int32_t column = gridsquare_axis(&GRIDSQUARES_DEFAULT, x);
         if (!(x >= column * 125.0 && x < (column + 1) * 125.0))
             fail_msg("%a is in column %d", x, column);
     }
@@ -72,12 +73,14 @@ static void test_box_holds_the_squares_of_its_points(void **state)
     for (int i = 0; i < POINTS / 10; i++) {
         double x0 = random_coordinate(&random), x1 = random_coordinate(&random);
         double z0 = random_coordinate(&random), z1 = random_coordinate(&random);
-        struct gridsquare_box box =
-            gridsquare_box_of(fmin(x0, x1), fmin(z0, z1), fmax(x0, x1), fmax(z0, z1));
+        struct gridsquare_box box = gridsquare_box_of(&GRIDSQUARES_DEFAULT, fmin(x0, x1),
+                                                      fmin(z0, z1), fmax(x0, x1), fmax(z0, z1));
         double x = x0 + (x1 - x0) * fixture_uniform(&random, 0.0, 1.0);
-        int32_t column = gridsquare_axis(fmin(fmax(x, fmin(x0, x1)), fmax(x0, x1)));
+        int32_t column =
+            gridsquare_axis(&GRIDSQUARES_DEFAULT, fmin(fmax(x, fmin(x0, x1)), fmax(x0, x1)));
         assert_true(box.x0 <= column && column <= box.x1);
-        assert_true(box.z0 <= gridsquare_axis(z0) && gridsquare_axis(z0) <= box.z1);
+        assert_true(box.z0 <= gridsquare_axis(&GRIDSQUARES_DEFAULT, z0) &&
+                    gridsquare_axis(&GRIDSQUARES_DEFAULT, z0) <= box.z1);
         assert_int_equal(box.x0, oracle_axis(fmin(x0, x1)));
         assert_int_equal(box.x1, oracle_axis(fmax(x0, x1)));
     }

@@ -173,7 +173,7 @@ static void test_ways_are_the_shortest(void **state)
     for (int round = 0; round < 60; round++) {
         struct road_graph net;
         uint32_t count = some_roads(&seed);
-        assert_int_equal(road_graph_build(&net, points, count), 0);
+        assert_int_equal(road_graph_build(&net, points, count, WORLD_SIDE_DEFAULT_M), 0);
         fill_table(&net);
         check_crossings(&net, count);
         for (int i = 0; i < 20; i++)
@@ -190,7 +190,7 @@ static void test_places_are_the_nearest(void **state)
     for (int round = 0; round < 40; round++) {
         struct road_graph net;
         uint32_t count = some_roads(&seed);
-        assert_int_equal(road_graph_build(&net, points, count), 0);
+        assert_int_equal(road_graph_build(&net, points, count, WORLD_SIDE_DEFAULT_M), 0);
         for (int i = 0; i < 20; i++) {
             double x = fixture_uniform(&seed, -200.0, 1700.0);
             double z = fixture_uniform(&seed, -200.0, 1700.0);
@@ -218,7 +218,7 @@ static double way_to(uint32_t count, double x, double z)
     struct route_point *way = NULL;
     uint32_t length;
     double metres = -1.0;
-    assert_int_equal(road_graph_build(&net, points, count), 0);
+    assert_int_equal(road_graph_build(&net, points, count, WORLD_SIDE_DEFAULT_M), 0);
     assert_true(road_graph_place(&net, 0.0, 0.0, &from) && road_graph_place(&net, x, z, &to));
     if (road_graph_way(&net, &from, &to, &way, &length, &metres) != 0)
         metres = -1.0;
@@ -253,7 +253,7 @@ static void test_no_roads_have_no_place(void **state)
     (void)state;
     struct road_graph net;
     struct road_place place;
-    assert_int_equal(road_graph_build(&net, points, 0), 0);
+    assert_int_equal(road_graph_build(&net, points, 0, WORLD_SIDE_DEFAULT_M), 0);
     assert_false(road_graph_place(&net, 1.0, 1.0, &place));
     road_graph_free(&net);
 }

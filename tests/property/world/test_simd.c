@@ -89,7 +89,7 @@ static double debris_share(const struct step_context *context, const struct kind
 
 static bool passable(const struct step_context *context, double x, double z)
 {
-    return x >= 0.0 && z >= 0.0 && x <= WORLD_SIDE_M && z <= WORLD_SIDE_M &&
+    return x >= 0.0 && z >= 0.0 && x <= WORLD_SIDE_DEFAULT_M && z <= WORLD_SIDE_DEFAULT_M &&
            !cover_is_water(terrain_cover(&context->world->terrain, x, z));
 }
 
@@ -280,7 +280,7 @@ static double place(uint64_t *random)
     case 0:
         return fixture_uniform(random, 0.0, 8.0);
     case 1:
-        return fixture_uniform(random, WORLD_SIDE_M - 8.0, WORLD_SIDE_M);
+        return fixture_uniform(random, WORLD_SIDE_DEFAULT_M - 8.0, WORLD_SIDE_DEFAULT_M);
     default:
         return fixture_uniform(random, 24900.0, 25200.0);
     }
@@ -471,7 +471,7 @@ static void lanes_go_where_one_would(const char *text, uint64_t seed)
     entities_bind(&both.rows, 64, memory);
     for (int i = 0; i < ROUNDS; i++) {
         if (i % 300 == 0) {
-            steps_cover(&f, COVER_GRASS, 0.0, 0.0, WORLD_SIDE_M, WORLD_SIDE_M);
+            steps_cover(&f, COVER_GRASS, 0.0, 0.0, WORLD_SIDE_DEFAULT_M, WORLD_SIDE_DEFAULT_M);
             steps_cover(&f, COVER_LAKE, 25125.0, 24000.0, 26000.0, 25000.0);
             steps_ground(&f, rough, &heights[i / 300 % 4]);
         }

@@ -152,6 +152,41 @@ static void test_a_small_square_lies_in_the_middle(void **state)
     memset(cover, COVER_GRASS, sizeof cover);
 }
 
+/* Its own if it does not fit into 50 km, or another that holds it. */
+static void test_a_world_has_the_side_of_its_file(void **state)
+{
+    static const struct {
+        double file_m;
+        const char *override;
+        double side_m;
+        uint32_t posts;
+    } rows[] = {{60000.0, NULL, 60000.0, 401},
+                {6000.0, NULL, 6000.0, 401},
+                {500000.0, NULL, 500000.0, 401},
+                {10000.0, "terrain.side_m=10000", 10000.0, 401},
+                {10000.0, "terrain.side_m=12000", 12000.0, 481},
+                {100000.0, "terrain.side_m=200000", 200000.0, 801}};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        struct scenario s;
+        struct world_build built;
+        put_ground(rows[i].file_m, 0.5);
+        must_load(&s, TEXT, rows[i].override);
+        assert_true(s.settings->side_m == rows[i].side_m);
+        assert_true(s.areas[0].x1 == rows[i].side_m && s.areas[0].z1 == rows[i].side_m);
+        assert_int_equal(world_build_make(&built, &s, &error), 0);
+        assert_int_equal(built.counts.posts_side, rows[i].posts);
+        assert_int_equal(built.counts.side_m, rows[i].side_m);
+        struct terrain terrain = world_build_terrain(&built);
+        assert_true(terrain.squares.world_m == rows[i].side_m);
+        assert_true(terrain.spacing_m == rows[i].file_m / (SIDE - 1));
+        double middle = terrain_base_height(&terrain, 0.5 * rows[i].side_m, 0.5 * rows[i].side_m);
+        assert_true(fabs(middle - 100.0) < 0.02);
+        world_build_free(&built);
+        scenario_free(&s);
+    }
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -160,11 +195,19 @@ static void test_refusals(void **state)
     refused("terrain = { source = \"file\"; };", NULL, "needs the path of a ground file");
     refused("terrain = { file = \"x.ground\"; };", NULL, "needs terrain.source = \"file\"");
     put_ground(60000.0, 0.5);
-    refused(TEXT, NULL, "its square has a side of 60 km; worlds have squares of up to 50 km");
+    refused(TEXT, "terrain.side_m=50000",
+            "its square has a side of 60000 m, and terrain.side_m is 50000");
     put_ground(6000.0, 0.5);
-    refused(TEXT, NULL, "its posts are 15 m apart, which are no posts of a world of 50 km");
+    refused(TEXT, "terrain.side_m=50000",
+            "its posts are 15 m apart, which are no posts of a world of 50 km");
     put_ground(4000.0, 0.5);
-    refused(TEXT, NULL, "its posts are 10 m apart");
+    refused(TEXT, "terrain.side_m=50000", "its posts are 10 m apart");
+    refused(TEXT, "terrain.side_m=50001", "terrain.side_m = 50001: is no multiple of 125 m");
+    refused("terrain = { side_m = 60000.0; };", NULL, "generated ground has 50 km");
+    refused("terrain = { source = \"flat\"; side_m = 200000.0; };", NULL,
+            "has too many posts for terrain.spacing_m");
+    refused(TEXT "vehicles = ( { kind = \"tank\"; at = [4000.5, 100]; } );", NULL,
+            "vehicles[0].at = [4000.5, 100]: out of range; allowed: [x, z], each 0..4000 m");
     quick_config_write(path, "nonsense");
     refused(TEXT, NULL, "is no ground file");
     unlink(path);
@@ -177,6 +220,7 @@ int main(void)
         cmocka_unit_test(test_the_hash_of_the_ground_is_a_part_of_the_scenario),
         cmocka_unit_test(test_the_gateway_is_where_the_ground_is),
         cmocka_unit_test(test_a_small_square_lies_in_the_middle),
+        cmocka_unit_test(test_a_world_has_the_side_of_its_file),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, quick_config_make, quick_config_remove);

@@ -214,6 +214,7 @@ static const struct {
     {"world.pace=max", "world = { pace = \"max\"; };"},
     {"terrain.source=flat", "terrain = { source = \"flat\"; };"},
     {"terrain.height_m=-20.5", "terrain = { height_m = -20.5; };"},
+    {"terrain.side_m=50000", "terrain = { side_m = 50000; };"},
     {"terrain.spacing_m=125", "terrain = { spacing_m = 125; };"},
     {"objects.source=none", "objects = { source = \"none\"; };"},
     {"collision.method=swept", "collision = { method = \"swept\"; };"},

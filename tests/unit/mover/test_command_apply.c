@@ -189,7 +189,7 @@ static void test_fire_answers(void **state)
     assert_int_equal(DOES(.type = COMMAND_FIRE, .entity = 2), COMMAND_CANNOT); /* unarmed */
     assert_int_equal(DOES(.type = COMMAND_FIRE, .entity = 99), COMMAND_NO_SUCH_ENTITY);
     assert_int_equal(DOES(.type = COMMAND_FIRE, .entity = 1, .target = 99), COMMAND_NO_SUCH_ENTITY);
-    assert_int_equal(DOES(.type = COMMAND_FIRE, .kind = bomb, .value = {0.0, WORLD_SIDE_M}),
+    assert_int_equal(DOES(.type = COMMAND_FIRE, .kind = bomb, .value = {0.0, WORLD_SIDE_DEFAULT_M}),
                      COMMAND_DONE);
     assert_int_equal(DOES(.type = COMMAND_FIRE, .kind = bomb, .value = {-0.1, 10.0}),
                      COMMAND_OUT_OF_RANGE);
@@ -260,7 +260,8 @@ static void test_spawn_refuses_what_is_out_of_range(void **state)
 {
     uint16_t kind = fixture_kind(&f, "helicopter");
     static const double low[5] = {0.0, 0.0, 0.0, -TWO_PI, 0.0};
-    static const double high[5] = {WORLD_SIDE_M, WORLD_SIDE_M, 20000.0, TWO_PI, 10000.0};
+    static const double high[5] = {WORLD_SIDE_DEFAULT_M, WORLD_SIDE_DEFAULT_M, 20000.0, TWO_PI,
+                                   10000.0};
     (void)state;
     for (int n = 0; n < 5; n++) {
         struct command command = {.type = COMMAND_SPAWN, .kind = kind, .value = {100.0, 100.0}};

@@ -29,8 +29,8 @@ static void lay_roads(uint64_t *seed)
         if (left == 0) {
             left = 1 + (uint32_t)fixture_uniform(seed, 0.0, 16.0);
             road++;
-            x = fixture_uniform(seed, 0.0, WORLD_SIDE_M);
-            z = fixture_uniform(seed, 0.0, WORLD_SIDE_M);
+            x = fixture_uniform(seed, 0.0, WORLD_SIDE_DEFAULT_M);
+            z = fixture_uniform(seed, 0.0, WORLD_SIDE_DEFAULT_M);
         }
         double step = i % 9 == 0 ? 3000.0 : 60.0;
         x += fixture_uniform(seed, -step, step);
@@ -53,11 +53,11 @@ static void test_walk_finds_each_stretch_once(void **state)
     struct road_index index;
     (void)state;
     lay_roads(&seed);
-    assert_int_equal(road_index_make(&index, points, POINTS), 0);
+    assert_int_equal(road_index_make(&index, points, POINTS, WORLD_SIDE_DEFAULT_M), 0);
     for (uint32_t n = 0; n < WALKS; n++) {
-        double side = n % 3 == 0 ? 10.0 : n % 3 == 1 ? 600.0 : WORLD_SIDE_M;
-        double x0 = fixture_uniform(&seed, -1000.0, WORLD_SIDE_M);
-        double z0 = fixture_uniform(&seed, -1000.0, WORLD_SIDE_M);
+        double side = n % 3 == 0 ? 10.0 : n % 3 == 1 ? 600.0 : WORLD_SIDE_DEFAULT_M;
+        double x0 = fixture_uniform(&seed, -1000.0, WORLD_SIDE_DEFAULT_M);
+        double z0 = fixture_uniform(&seed, -1000.0, WORLD_SIDE_DEFAULT_M);
         double x1 = x0 + fixture_uniform(&seed, 0.0, side);
         double z1 = z0 + fixture_uniform(&seed, 0.0, side);
         struct road_walk walk = road_index_walk(&index, x0, z0, x1, z1);
@@ -78,8 +78,9 @@ static void test_no_roads_are_an_index_too(void **state)
     struct road_index index;
     uint32_t stretch;
     (void)state;
-    assert_int_equal(road_index_make(&index, points, 0), 0);
-    struct road_walk walk = road_index_walk(&index, 0.0, 0.0, WORLD_SIDE_M, WORLD_SIDE_M);
+    assert_int_equal(road_index_make(&index, points, 0, WORLD_SIDE_DEFAULT_M), 0);
+    struct road_walk walk =
+        road_index_walk(&index, 0.0, 0.0, WORLD_SIDE_DEFAULT_M, WORLD_SIDE_DEFAULT_M);
     assert_false(road_walk_next(&walk, &stretch));
     road_index_free(&index);
 }

@@ -194,8 +194,11 @@ static void raise_ground(struct ground *g, uint64_t *random)
     for (int i = 0; i < SIDE * SIDE; i++)
         g->posts[i] = (float)(fixture_random(random) % 4 == 0 ? fixture_uniform(random, 60, 120)
                                                               : fixture_uniform(random, 0, 20));
-    g->terrain =
-        (struct terrain){.posts = g->posts, .cover = g->cover, .side = SIDE, .spacing_m = SPACING};
+    g->terrain = (struct terrain){.posts = g->posts,
+                                  .cover = g->cover,
+                                  .side = SIDE,
+                                  .spacing_m = SPACING,
+                                  .squares = GRIDSQUARES_DEFAULT_INIT};
 }
 
 static void dig_ground(struct ground *g, uint64_t *random)
@@ -205,7 +208,7 @@ static void dig_ground(struct ground *g, uint64_t *random)
                                      fixture_uniform(random, 0, (SIDE - 1) * SPACING),
                                      (float)fixture_uniform(random, 2, 6),
                                      (float)fixture_uniform(random, 0.5, 2), 1};
-    assert_int_equal(crater_index_init(&g->craters, g->list), 0);
+    assert_int_equal(crater_index_init(&g->craters, &GRIDSQUARES_DEFAULT, g->list), 0);
     crater_index_update(&g->craters, 400);
 }
 

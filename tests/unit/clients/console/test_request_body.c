@@ -82,7 +82,7 @@ static void test_numbers_are_held_to_their_ranges(void **state)
     bad("{\"do\":\"step\",\"frames\":0}");
     bad("{\"do\":\"step\",\"frames\":1000001}");
     bad("{\"do\":\"spawn\",\"kind\":\"tank\",\"x\":-1,\"z\":1}");
-    bad("{\"do\":\"spawn\",\"kind\":\"tank\",\"x\":1,\"z\":50001}");
+    bad("{\"do\":\"spawn\",\"kind\":\"tank\",\"x\":1,\"z\":500001}");
     bad("{\"do\":\"mission\",\"munition\":\"bomb\",\"x\":1,\"z\":1,\"rounds\":1001}");
     bad("{\"do\":\"mission\",\"munition\":\"bomb\",\"x\":1,\"z\":1,\"every_s\":-0.001}");
     bad("{\"do\":\"mission\",\"munition\":\"bomb\",\"x\":1,\"z\":1,\"radius_m\":-1}");

@@ -125,7 +125,8 @@ static void test_row_37_an_object_that_reaches_over_the_border_is_found_there(vo
     with_objects();
     /* West of the border all the time: only in the square in which the building's centre is not. */
     uint32_t row = put("jeep", (struct vec3){24994, 100, 25055}, (struct vec3){0, 0, 4});
-    assert_int_equal(gridsquare_axis(24994 + 1.6 + 0.01), gridsquare_axis(24994));
+    assert_int_equal(gridsquare_axis(&GRIDSQUARES_DEFAULT, 24994 + 1.6 + 0.01),
+                     gridsquare_axis(&GRIDSQUARES_DEFAULT, 24994));
     assert_true(pairs(row, 0 | PAIR_FIXED));
 }
 

@@ -112,10 +112,10 @@ static void test_no_body_is_pushed_out_of_the_world(void **state)
     const struct vec3 out = {-300.0, 0.0, 0.0};
     static const double times[] = {0.0, 0.5, 1.0};
     for (int i = 0; i < 3; i++) {
-        struct vec3 at = {-0.5, 900.0, WORLD_SIDE_M + 0.5}; /* parted from another */
+        struct vec3 at = {-0.5, 900.0, WORLD_SIDE_DEFAULT_M + 0.5}; /* parted from another */
         path_change_leave(&context, row, times[i], at, out, none, i == 2);
-        assert_true(x_of(row) >= 0.0 && x_of(row) <= WORLD_SIDE_M);
-        assert_true(context.next->entities.z[row] <= WORLD_SIDE_M);
+        assert_true(x_of(row) >= 0.0 && x_of(row) <= WORLD_SIDE_DEFAULT_M);
+        assert_true(context.next->entities.z[row] <= WORLD_SIDE_DEFAULT_M);
     }
 }
 

@@ -245,7 +245,8 @@ static void test_bodies_that_moved_find_their_new_neighbours(void **state)
     bool found = false;
     (void)state;
     w.x[1] -= 0.2;
-    w.x[2] = w.x[1] + 2.0 * f.view.world.kinds[w.kind[1]].bound_m + 2.0 * BOX_SLACK_M + 0.015;
+    w.x[2] = w.x[1] + 2.0 * f.view.world.kinds[w.kind[1]].bound_m +
+             2.0 * pair_filter_slack(&f.view.world) + 0.015;
     know(0)->flags = PERSISTENT_CONTACT_OVERLAPS;
     begin();
     resting_solve(resting, &context);

@@ -144,7 +144,7 @@ static void test_abandoned_world_leaves_nothing(void **state)
                                   .intents_per_frame = 8,
                                   .command_slots = 4,
                                   .crater_slots = 4};
-    const struct counts counts = {.posts_side = 2};
+    const struct counts counts = {.posts_side = 2, .side_m = 50000};
     struct segment_header header = segment_header_for(&params, &counts);
     struct view view;
     (void)state;

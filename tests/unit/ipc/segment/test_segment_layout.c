@@ -14,7 +14,7 @@
 
 static struct segment_header header_of(uint32_t fixed, uint32_t contacts)
 {
-    return (struct segment_header){.counts = {.posts_side = 2, .fixed = fixed},
+    return (struct segment_header){.counts = {.posts_side = 2, .fixed = fixed, .side_m = 50000},
                                    .capacity = 16,
                                    .event_slots = 64,
                                    .command_slots = 4,

@@ -158,7 +158,7 @@ static void test_a_mission_falls_about_its_middle(void **state)
     order.command.x_m = order.command.z_m = 0.0;
     for (uint32_t i = 0; i < order.rounds; i++) {
         jolon_Command round = command_text_round(&order, 11, i);
-        assert_true(round.x_m >= 0.0 && round.z_m >= 0.0 && round.x_m <= WORLD_SIDE_M);
+        assert_true(round.x_m >= 0.0 && round.z_m >= 0.0 && round.x_m <= WORLD_SIDE_DEFAULT_M);
     }
 }
 
@@ -183,7 +183,7 @@ static void test_a_place_gives_x_and_z(void **state)
     struct command_text order;
     struct location_frame frame;
     (void)state;
-    location_frame_make(&frame, 44.2705, -71.3033, WORLD_SIDE_M);
+    location_frame_make(&frame, 44.2705, -71.3033, WORLD_SIDE_DEFAULT_M);
     assert_int_equal(
         read_order(&order, "{\"do\":\"spawn\",\"kind\":\"jeep\",\"at\":\"100,200.5\"}"), 0);
     assert_false(command_text_needs_place(&order));
@@ -200,7 +200,7 @@ static void test_a_place_gives_x_and_z(void **state)
         assert_true(fabs(order.command.x_m - 25000.0) < 1.0);
         assert_true(fabs(order.command.z_m - 25000.0) < 1.0);
     }
-    location_frame_make(&frame, 35.95, -121.25, WORLD_SIDE_M);
+    location_frame_make(&frame, 35.95, -121.25, WORLD_SIDE_DEFAULT_M);
     assert_int_equal(
         read_order(&order, "{\"do\":\"spawn\",\"kind\":\"jeep\",\"at\":\"19TCK1617404497\"}"), 0);
     assert_int_equal(command_text_place(&order, &frame, &error), -1);

@@ -73,7 +73,7 @@ static uint32_t gather(uint32_t think, struct thread_pool *workers)
     struct entities e = steps_rows(&f);
     uint32_t made = 0;
     const struct neighbour_index_frame frame = {
-        .committed = &e, .used = VEHICLES, .tick = 0, .think_frames = think};
+        .committed = &e, .side_m = 50000.0, .used = VEHICLES, .tick = 0, .think_frames = think};
     neighbour_index_build(&neighbours, &frame, true, workers);
     neighbour_lists_gather(&lists, &neighbours, &f.view.world, &avoidance, workers);
     for (uint32_t i = 0; i < VEHICLES; i++) {

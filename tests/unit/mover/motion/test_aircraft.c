@@ -131,8 +131,8 @@ static void test_patrols_stay_inside_the_world(void **state)
         fixture_run(&f, 1);
         struct entities e = steps_rows(&f);
         for (uint32_t n = 0; n < 6; n++)
-            assert_true(e.x[row[n]] >= 0.0 && e.x[row[n]] <= WORLD_SIDE_M && e.z[row[n]] >= 0.0 &&
-                        e.z[row[n]] <= WORLD_SIDE_M);
+            assert_true(e.x[row[n]] >= 0.0 && e.x[row[n]] <= WORLD_SIDE_DEFAULT_M &&
+                        e.z[row[n]] >= 0.0 && e.z[row[n]] <= WORLD_SIDE_DEFAULT_M);
     }
 }
 

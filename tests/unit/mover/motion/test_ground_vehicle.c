@@ -177,17 +177,17 @@ static void test_it_can_back_away_from_the_shore(void **state)
 static void test_the_worlds_edge_stops_it(void **state)
 {
     static const double places[4][3] = {{50.0, 25000.0, 270.0},
-                                        {WORLD_SIDE_M - 50.0, 25000.0, 90.0},
+                                        {WORLD_SIDE_DEFAULT_M - 50.0, 25000.0, 90.0},
                                         {25000.0, 50.0, 0.0},
-                                        {25000.0, WORLD_SIDE_M - 50.0, 180.0}};
+                                        {25000.0, WORLD_SIDE_DEFAULT_M - 50.0, 180.0}};
     (void)state;
     for (int n = 0; n < 4; n++) {
         uint32_t row = put_tank(places[n][0], places[n][1], places[n][2], 16.0);
         steps_drive(&f, row, 1.0, 0.0, 0.0);
         fixture_run(&f, (uint32_t)(10.0 * HZ));
         struct entities e = steps_rows(&f);
-        assert_in_range((uint64_t)e.x[row], 1, (uint64_t)WORLD_SIDE_M - 1);
-        assert_in_range((uint64_t)e.z[row], 1, (uint64_t)WORLD_SIDE_M - 1);
+        assert_in_range((uint64_t)e.x[row], 1, (uint64_t)WORLD_SIDE_DEFAULT_M - 1);
+        assert_in_range((uint64_t)e.z[row], 1, (uint64_t)WORLD_SIDE_DEFAULT_M - 1);
         assert_true(steps_speed(&f, row) < 0.5);
     }
 }

@@ -47,10 +47,10 @@ static void dig(double x, double z, float radius_m)
 static uint32_t marked(uint8_t mark)
 {
     uint32_t count = 0;
-    for (int32_t row = 0; row < GRIDSQUARE_PER_SIDE; row++) {
-        for (int32_t column = 0; column < GRIDSQUARE_PER_SIDE; column++)
-            count += (ground_marks_at(&marks, (column + 0.5) * GRIDSQUARE_SIDE_M,
-                                      (row + 0.5) * GRIDSQUARE_SIDE_M) &
+    for (int32_t row = 0; row < GRIDSQUARES_DEFAULT.per_side; row++) {
+        for (int32_t column = 0; column < GRIDSQUARES_DEFAULT.per_side; column++)
+            count += (ground_marks_at(&marks, (column + 0.5) * GRIDSQUARE_LEAST_M,
+                                      (row + 0.5) * GRIDSQUARE_LEAST_M) &
                       mark) != 0;
     }
     return count;
@@ -108,8 +108,8 @@ static void test_no_crater_is_missed(void **state)
     uint64_t random = fixture_seed(3);
     (void)state;
     for (int i = 0; i < 20; i++) {
-        dig(fixture_uniform(&random, 0.0, WORLD_SIDE_M),
-            fixture_uniform(&random, 0.0, WORLD_SIDE_M),
+        dig(fixture_uniform(&random, 0.0, WORLD_SIDE_DEFAULT_M),
+            fixture_uniform(&random, 0.0, WORLD_SIDE_DEFAULT_M),
             (float)fixture_uniform(&random, 0.5, 30.0));
         update();
     }
@@ -137,9 +137,9 @@ static void test_no_crater_is_missed(void **state)
         for (int l = 0; l < LANE_COUNT; l++) {
             const struct crater *by = &now.craters[(i + l) % 20];
             x.lane[l] = l % 3 ? by->x + fixture_uniform(&random, -200.0, 200.0)
-                              : fixture_uniform(&random, -300.0, WORLD_SIDE_M + 300.0);
+                              : fixture_uniform(&random, -300.0, WORLD_SIDE_DEFAULT_M + 300.0);
             z.lane[l] = l % 4 ? by->z + fixture_uniform(&random, -200.0, 200.0)
-                              : GRIDSQUARE_SIDE_M * (double)(fixture_random(&random) % 401);
+                              : GRIDSQUARE_LEAST_M * (double)(fixture_random(&random) % 401);
         }
         ground_marks_find(&marks, &x, &z, &crater, &debris);
         for (int l = 0; l < LANE_COUNT; l++) {
@@ -154,8 +154,10 @@ static void test_no_crater_is_missed(void **state)
 static void test_a_box_has_the_marks_of_its_squares(void **state)
 {
     (void)state;
-    struct gridsquare_box with = gridsquare_box_of(19000.0, 20000.0, 20000.0, 20000.0);
-    struct gridsquare_box without = gridsquare_box_of(19000.0, 20000.0, 19800.0, 20000.0);
+    struct gridsquare_box with =
+        gridsquare_box_of(&GRIDSQUARES_DEFAULT, 19000.0, 20000.0, 20000.0, 20000.0);
+    struct gridsquare_box without =
+        gridsquare_box_of(&GRIDSQUARES_DEFAULT, 19000.0, 20000.0, 19800.0, 20000.0);
     assert_false(ground_marks_within(&marks, with, GROUND_MARKS_CRATER));
     dig(20000.0, 20000.0, 2.0f);
     update();

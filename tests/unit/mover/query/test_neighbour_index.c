@@ -54,7 +54,7 @@ static void scatter(uint64_t *random, uint32_t count, double side_m)
         double x = fixture_uniform(random, 0.0, side_m), z = fixture_uniform(random, 0.0, side_m);
         if (i % 7 == 0)
             x = 781.25 * (double)(fixture_random(random) % 65);
-        put(i, x, i % 11 == 0 ? WORLD_SIDE_M : z, (enum force)(fixture_random(random) % 3));
+        put(i, x, i % 11 == 0 ? WORLD_SIDE_DEFAULT_M : z, (enum force)(fixture_random(random) % 3));
         uint64_t sort = fixture_random(random) % 8;
         rows.state[i] = (uint8_t)(sort == 0   ? ENTITY_FREE
                                   : sort == 1 ? ENTITY_WRECK
@@ -67,8 +67,11 @@ static void scatter(uint64_t *random, uint32_t count, double side_m)
 /* Indexes the first rows, of which none rests. */
 static struct neighbour_index_frame frame_of(uint32_t count, uint32_t tick, uint32_t think)
 {
-    return (struct neighbour_index_frame){
-        .committed = &rows, .used = count, .tick = tick, .think_frames = think};
+    return (struct neighbour_index_frame){.committed = &rows,
+                                          .side_m = WORLD_SIDE_DEFAULT_M,
+                                          .used = count,
+                                          .tick = tick,
+                                          .think_frames = think};
 }
 
 static void build(uint32_t count, uint32_t tick, uint32_t think, struct thread_pool *workers)
@@ -107,7 +110,7 @@ static void test_a_query_finds_exactly_the_rows_within_the_radius(void **state)
     (void)state;
     for (int trial = 0; trial < 60; trial++) {
         uint32_t count = (uint32_t)(fixture_random(&random) % ROWS_MAX);
-        scatter(&random, count, trial % 2 ? WORLD_SIDE_M : 3000.0);
+        scatter(&random, count, trial % 2 ? WORLD_SIDE_DEFAULT_M : 3000.0);
         build(count, 0, 1, NULL);
         for (int n = 0; n < 6; n++)
             agrees(count, (uint32_t)(fixture_random(&random) % (NEIGHBOUR_INDEX_ALL + 1)),
@@ -195,8 +198,10 @@ static void change(uint64_t *random, uint32_t i, double side_m)
         rows.state[i] = rows.state[i] == ENTITY_FREE ? ENTITY_FREE : ENTITY_WRECK;
         break;
     default:
-        rows.x[i] = maths_clamp(rows.x[i] + fixture_uniform(random, -9.0, 9.0), 0.0, WORLD_SIDE_M);
-        rows.z[i] = maths_clamp(rows.z[i] + fixture_uniform(random, -9.0, 9.0), 0.0, WORLD_SIDE_M);
+        rows.x[i] =
+            maths_clamp(rows.x[i] + fixture_uniform(random, -9.0, 9.0), 0.0, WORLD_SIDE_DEFAULT_M);
+        rows.z[i] =
+            maths_clamp(rows.z[i] + fixture_uniform(random, -9.0, 9.0), 0.0, WORLD_SIDE_DEFAULT_M);
         rows.vx[i] = fixture_uniform(random, -9.0, 9.0);
         break;
     }
@@ -247,7 +252,7 @@ static void test_an_index_that_is_kept_is_one_that_is_built(void **state)
     (void)state;
     assert_non_null(workers);
     for (int trial = 0; trial < 12; trial++) {
-        double side_m = trial % 2 ? WORLD_SIDE_M : 2000.0;
+        double side_m = trial % 2 ? WORLD_SIDE_DEFAULT_M : 2000.0;
         uint32_t used = 3000 + (uint32_t)(fixture_random(&random) % 1000), most = 1u << trial;
         memset(resting, 0, sizeof resting);
         memset(rows.state, 0, ROWS_MAX);

@@ -83,7 +83,8 @@ static void test_the_whole_map_shows_every_vehicle(void **context)
         assert_memory_equal(first.image.pixels, again.image.pixels,
                             (size_t)sizes[i][0] * sizes[i][1] * 4);
         struct box box = picture.layout.whole;
-        struct map_view view = map_whole(box.left, box.top, (uint32_t)box.width);
+        struct map_view view =
+            map_whole(WORLD_SIDE_DEFAULT_M, box.left, box.top, (uint32_t)box.width);
         uint32_t hidden = 0;
         for (uint32_t slot = 0; slot < stage->state.head->used; slot++)
             hidden += !map_stage_shows(stage, &first.image, &view, slot);

@@ -31,7 +31,7 @@ static const uint8_t *pixel_at(const struct image *image, double x, double y)
 static void test_points_of_the_map(void **context)
 {
     (void)context;
-    struct map_view view = map_whole(10, 20, 500); /* 100 m a pixel */
+    struct map_view view = map_whole(WORLD_SIDE_DEFAULT_M, 10, 20, 500); /* 100 m a pixel */
     struct point middle = map_point(&view, 25000.0, 25000.0);
     assert_true(fabs(middle.x - 260.0) < 1e-9 && fabs(middle.y - 270.0) < 1e-9);
     struct map_view close = map_around(30000.0, 20000.0, 10.0, 0, 0, 600, 400);
@@ -79,9 +79,9 @@ static void test_vehicles_are_where_the_table_says(void **context)
 {
     const struct map_stage *stage = *context;
     const struct map_view views[] = {
-        map_whole(0, 0, 200),
-        map_whole(13, 29, 512),
-        map_whole(0, 0, 1080),
+        map_whole(WORLD_SIDE_DEFAULT_M, 0, 0, 200),
+        map_whole(WORLD_SIDE_DEFAULT_M, 13, 29, 512),
+        map_whole(WORLD_SIDE_DEFAULT_M, 0, 0, 1080),
         map_around(25000.0, 25000.0, 10.0, 0, 0, 1280, 720),
         map_around(25000.0, 25000.0, 31.3, 5, 7, 640, 360),
         map_around(3000.0, 47000.0, 55.0, 0, 0, 300, 700), /* partly beyond the world */
@@ -178,7 +178,7 @@ static uint32_t count_red_over_blue(const struct image *image)
 static void test_wrecks_burn_and_then_are_crosses(void **context)
 {
     struct map_stage *stage = *context;
-    struct map_view view = map_whole(0, 0, 700);
+    struct map_view view = map_whole(WORLD_SIDE_DEFAULT_M, 0, 0, 700);
     struct image image;
     struct entities *e = &stage->state.entities;
     assert_int_equal(image_init(&image, 700, 700), 0);
@@ -198,7 +198,7 @@ static void test_wrecks_burn_and_then_are_crosses(void **context)
 static void test_blasts_show_and_fade(void **context)
 {
     struct map_stage *stage = *context;
-    struct map_view view = map_whole(0, 0, 500);
+    struct map_view view = map_whole(WORLD_SIDE_DEFAULT_M, 0, 0, 500);
     static struct effects effects = {.count = 2};
     struct image image;
     effects.effect[0] = (struct effect){.point = {10000.0, 0.0, 20000.0}, .type = EFFECT_EXPLOSION};
@@ -219,7 +219,7 @@ static void test_the_triangle_is_the_cameras(void **context)
 {
     (void)context;
     uint64_t seed = fixture_seed(5);
-    struct map_view view = map_whole(0, 0, 500);
+    struct map_view view = map_whole(WORLD_SIDE_DEFAULT_M, 0, 0, 500);
     struct image image;
     assert_int_equal(image_init(&image, 500, 500), 0);
     for (uint32_t i = 0; i < 40; i++) {
@@ -303,7 +303,7 @@ static void test_objectives_have_their_holders_colour(void **context)
     const struct objective hill = {.x0 = 10000.0, .z0 = 20000.0, .x1 = 20000.0, .z1 = 30000.0};
     struct world world = *stage->frame_view.world;
     struct frame_view frame_view = stage->frame_view;
-    struct map_view view = map_whole(0, 0, 500);
+    struct map_view view = map_whole(WORLD_SIDE_DEFAULT_M, 0, 0, 500);
     world.objectives = &hill;
     world.counts.objectives = 1;
     frame_view.world = &world;

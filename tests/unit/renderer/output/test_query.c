@@ -33,8 +33,8 @@ static void test_what_does_not_come_is_as_usual(void **state)
     assert_int_equal(picture.key.width, 640);
     assert_true(picture.key.bar);
     assert_false(picture.after_given);
-    query_map_begin(&map);
-    assert_true(map.x == 0.5 * WORLD_SIDE_M && map.metres == WORLD_SIDE_M);
+    query_map_begin(&map, WORLD_SIDE_DEFAULT_M);
+    assert_true(map.x == 0.5 * WORLD_SIDE_DEFAULT_M && map.metres == WORLD_SIDE_DEFAULT_M);
 }
 
 static void test_a_whole_query(void **state)
@@ -51,7 +51,7 @@ static void test_a_whole_query(void **state)
     assert_int_equal(picture.key.width, 1920);
     assert_int_equal(picture.key.height, 1080);
     assert_true(picture.after_given && picture.after == 0 && !picture.key.bar);
-    query_map_begin(&map);
+    query_map_begin(&map, WORLD_SIDE_DEFAULT_M);
     assert_int_equal(query_map_take(&map, "x", "-1e3", &error), 0);
     assert_int_equal(query_map_take(&map, "z", "41234.5", &error), 0);
     assert_int_equal(query_map_take(&map, "metres", "100", &error), 0);
@@ -102,7 +102,7 @@ static void test_what_is_wrong_is_said(void **state)
             fail_msg("\"%s\" does not say \"%s\"", error.text, rows[i].says);
     }
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
-        query_map_begin(&map);
+        query_map_begin(&map, WORLD_SIDE_DEFAULT_M);
         assert_int_equal(query_map_take(&map, places[i].key, places[i].value, &error), -1);
         if (strstr(error.text, places[i].says) == NULL)
             fail_msg("\"%s\" does not say \"%s\"", error.text, places[i].says);
@@ -140,7 +140,7 @@ static void test_noise(void **state)
         value[length] = '\0';
         const char *key = keys[below(&next, sizeof keys / sizeof keys[0])];
         query_picture_begin(&picture);
-        query_map_begin(&map);
+        query_map_begin(&map, WORLD_SIDE_DEFAULT_M);
         if (take_picture(key, value) != 0 && query_map_take(&map, key, value, &error) != 0)
             for (const char *at = error.text; *at != '\0'; at++)
                 assert_true(*at >= ' ' && *at <= '~');

@@ -242,9 +242,12 @@ static int open_landscape(void **context)
             c->posts[row * POSTS + column] = sea ? 0.0f : hills;
             c->cover[row * POSTS + column] = sea ? COVER_SEA : COVER_GRASS;
         }
-    c->world.terrain =
-        (struct terrain){.posts = c->posts, .cover = c->cover, .side = POSTS, .spacing_m = SPACING};
-    assert_int_equal(crater_index_init(&c->index, c->craters), 0);
+    c->world.terrain = (struct terrain){.posts = c->posts,
+                                        .cover = c->cover,
+                                        .side = POSTS,
+                                        .spacing_m = SPACING,
+                                        .squares = GRIDSQUARES_DEFAULT_INIT};
+    assert_int_equal(crater_index_init(&c->index, &GRIDSQUARES_DEFAULT, c->craters), 0);
     assert_int_equal(static_scene_init(&c->static_scene, &c->world), 0);
     assert_int_equal(scene_init(&c->list), 0);
     c->frame_view = (struct frame_view){

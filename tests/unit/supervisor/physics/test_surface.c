@@ -19,7 +19,8 @@
 #define CRATERS 60
 
 static float posts[SIDE * SIDE];
-static const struct terrain terrain = {.posts = posts, .side = SIDE, .spacing_m = SPACING};
+static const struct terrain terrain = {
+    .posts = posts, .side = SIDE, .spacing_m = SPACING, .squares = GRIDSQUARES_DEFAULT_INIT};
 static struct crater craters[CRATERS];
 
 static void set_post(uint32_t column, uint32_t row, float height)
@@ -74,7 +75,7 @@ static void test_the_ground_is_that_of_the_world(void **state)
     struct crater_index index;
     (void)state;
     roughen(&random);
-    assert_int_equal(crater_index_init(&index, craters), 0);
+    assert_int_equal(crater_index_init(&index, &GRIDSQUARES_DEFAULT, craters), 0);
     for (uint32_t count = 0; count <= CRATERS; count += 20) {
         crater_index_update(&index, count);
         assert_int_equal(surface_update(&surface, craters, count), 0);
@@ -129,7 +130,7 @@ static void test_vehicles_stand_over_craters_as_the_mover_has_them(void **state)
     double highest = 0.0;
     (void)state;
     roughen(&random);
-    assert_int_equal(crater_index_init(&index, craters), 0);
+    assert_int_equal(crater_index_init(&index, &GRIDSQUARES_DEFAULT, craters), 0);
     crater_index_update(&index, CRATERS);
     assert_int_equal(surface_update(&surface, craters, CRATERS), 0);
     for (int i = 0; i < 4000; i++) {

@@ -20,8 +20,11 @@
 
 static float posts[SIDE * SIDE];
 static uint8_t cover[SIDE * SIDE];
-static const struct terrain terrain = {
-    .posts = posts, .cover = cover, .side = SIDE, .spacing_m = SPACING};
+static const struct terrain terrain = {.posts = posts,
+                                       .cover = cover,
+                                       .side = SIDE,
+                                       .spacing_m = SPACING,
+                                       .squares = GRIDSQUARES_DEFAULT_INIT};
 static struct fixed_object trees[TREES];
 static uint32_t *reach_start, *reach;
 static struct free_place place;
@@ -51,7 +54,7 @@ static int make_ground(void **state)
         trees[i] = (struct fixed_object){.x = fixture_uniform(&random, 30000.0, 30300.0),
                                          .z = fixture_uniform(&random, 30000.0, 30300.0),
                                          .radius_m = 2.0f};
-    if (fixed_index_build(trees, TREES, &bare, &reach_start, &reach) != 0)
+    if (fixed_index_build(&GRIDSQUARES_DEFAULT, trees, TREES, &bare, &reach_start, &reach) != 0)
         return -1;
     return free_place_init(&place, &terrain, trees, &bare, reach_start, reach, 1);
 }
@@ -97,14 +100,14 @@ static bool anywhere(double x, double z)
 
 static void test_land_vehicles_start_on_dry_ground_that_they_climb(void **state)
 {
-    const struct area all = {0.0, 0.0, WORLD_SIDE_M, WORLD_SIDE_M};
+    const struct area all = {0.0, 0.0, WORLD_SIDE_DEFAULT_M, WORLD_SIDE_DEFAULT_M};
     (void)state;
     check_all(&tank, &all, 2000, dry_and_level);
 }
 
 static void test_ships_start_on_water_with_room_to_turn(void **state)
 {
-    const struct area coast = {18000.0, 0.0, 22000.0, WORLD_SIDE_M};
+    const struct area coast = {18000.0, 0.0, 22000.0, WORLD_SIDE_DEFAULT_M};
     const struct area north = {1000.0, 3000.0, 9000.0, 6000.0};
     const struct area island = {9950.0, 9950.0, 10050.0, 10050.0};
     double x, z;
@@ -116,7 +119,7 @@ static void test_ships_start_on_water_with_room_to_turn(void **state)
 
 static void test_aircraft_start_anywhere_in_their_area(void **state)
 {
-    const struct area corner = {40000.0, 0.0, WORLD_SIDE_M, 1000.0};
+    const struct area corner = {40000.0, 0.0, WORLD_SIDE_DEFAULT_M, 1000.0};
     (void)state;
     check_all(&jet, &corner, 500, anywhere);
 }
@@ -197,7 +200,7 @@ static void test_no_place_is_said(void **state)
 
 static void test_same_seed_same_places(void **state)
 {
-    const struct area all = {0.0, 0.0, WORLD_SIDE_M, WORLD_SIDE_M};
+    const struct area all = {0.0, 0.0, WORLD_SIDE_DEFAULT_M, WORLD_SIDE_DEFAULT_M};
     struct free_place other;
     double x, z, again_x, again_z, other_x, other_z;
     (void)state;
@@ -212,12 +215,12 @@ static void test_same_seed_same_places(void **state)
 
 static void test_no_vehicle_starts_at_the_worlds_edge(void **state)
 {
-    const struct area corner = {49800.0, 0.0, WORLD_SIDE_M, 200.0};
+    const struct area corner = {49800.0, 0.0, WORLD_SIDE_DEFAULT_M, 200.0};
     (void)state;
     for (uint32_t i = 0; i < 500; i++) {
         double x, z;
         assert_int_equal(free_place_find(&place, &corner, &jet, i, &x, &z), 0);
-        assert_true(x <= WORLD_SIDE_M - 50.0 && z >= 50.0);
+        assert_true(x <= WORLD_SIDE_DEFAULT_M - 50.0 && z >= 50.0);
     }
 }
 
@@ -225,8 +228,8 @@ static void test_no_vehicle_starts_at_the_worlds_edge(void **state)
 static void test_area_along_the_edge_holds_its_vehicles(void **state)
 {
     const struct area strips[] = {{0.0, 20000.0, 30.0, 30000.0},
-                                  {49980.0, 20000.0, WORLD_SIDE_M, 30000.0},
-                                  {20000.0, 49980.0, 30000.0, WORLD_SIDE_M}};
+                                  {49980.0, 20000.0, WORLD_SIDE_DEFAULT_M, 30000.0},
+                                  {20000.0, 49980.0, 30000.0, WORLD_SIDE_DEFAULT_M}};
     (void)state;
     for (size_t i = 0; i < sizeof strips / sizeof strips[0]; i++)
         check_all(&jet, &strips[i], 100, anywhere);

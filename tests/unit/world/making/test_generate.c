@@ -91,8 +91,11 @@ static void make_ground(struct ground *g, uint32_t side, uint64_t seed)
     assert_int_equal(generate_hunter_liggett(g->posts, g->cover, side, seed, g->roads,
                                              GENERATE_ROAD_MAX, &g->road_count),
                      0);
-    g->terrain = (struct terrain){
-        .posts = g->posts, .cover = g->cover, .side = side, .spacing_m = WORLD_SIDE_M / (side - 1)};
+    g->terrain = (struct terrain){.posts = g->posts,
+                                  .cover = g->cover,
+                                  .side = side,
+                                  .spacing_m = WORLD_SIDE_DEFAULT_M / (side - 1),
+                                  .squares = GRIDSQUARES_DEFAULT_INIT};
 }
 
 static void free_ground(struct ground *g)
@@ -195,12 +198,12 @@ static void everything_is_inside(void **state)
 {
     (void)state;
     for (uint32_t i = 0; i < GENERATE_TABLE1_TOTAL; i++) {
-        assert_between(objects[i].x, 0.0, WORLD_SIDE_M);
-        assert_between(objects[i].z, 0.0, WORLD_SIDE_M);
+        assert_between(objects[i].x, 0.0, WORLD_SIDE_DEFAULT_M);
+        assert_between(objects[i].z, 0.0, WORLD_SIDE_DEFAULT_M);
     }
     for (uint32_t i = 0; i < coarse.road_count; i++) {
-        assert_between((double)coarse.roads[i].x, 0.0, WORLD_SIDE_M);
-        assert_between((double)coarse.roads[i].z, 0.0, WORLD_SIDE_M);
+        assert_between((double)coarse.roads[i].x, 0.0, WORLD_SIDE_DEFAULT_M);
+        assert_between((double)coarse.roads[i].z, 0.0, WORLD_SIDE_DEFAULT_M);
     }
 }
 
@@ -349,7 +352,7 @@ static void lake_is_a_reservoir(void **state)
     }
     assert_between(count * 125.0 * 125.0 * 1e-6, 4.0, 25.0);
     assert_between(west, 40000.0, 45000.0);
-    assert_true(east == WORLD_SIDE_M);
+    assert_true(east == WORLD_SIDE_DEFAULT_M);
     assert_between(south - north, 4000.0, 14000.0);
 }
 
@@ -478,11 +481,11 @@ static void counts_are_table_1(void **state)
 static void squares_are_as_full_as_in_table_1(void **state)
 {
     (void)state;
-    uint8_t *held = calloc(GRIDSQUARE_COUNT, 1);
+    uint8_t *held = calloc(GRIDSQUARES_DEFAULT.count, 1);
     uint32_t occupied = 0, most = 0;
     assert_non_null(held);
     for (uint32_t i = 0; i < GENERATE_TABLE1_TOTAL; i++) {
-        uint32_t now = ++held[gridsquare_of(objects[i].x, objects[i].z)];
+        uint32_t now = ++held[gridsquare_of(&GRIDSQUARES_DEFAULT, objects[i].x, objects[i].z)];
         occupied += now == 1;
         most = now > most ? now : most;
     }
@@ -521,8 +524,11 @@ static void flat_ground_holds_table_1(void **state)
     assert_non_null(flat.posts);
     assert_non_null(flat.cover);
     generate_flat(flat.posts, flat.cover, 401, 12.5);
-    flat.terrain =
-        (struct terrain){.posts = flat.posts, .cover = flat.cover, .side = 401, .spacing_m = 125.0};
+    flat.terrain = (struct terrain){.posts = flat.posts,
+                                    .cover = flat.cover,
+                                    .side = 401,
+                                    .spacing_m = 125.0,
+                                    .squares = GRIDSQUARES_DEFAULT_INIT};
     struct fixed_object *made = make_objects(&flat, SEED);
     for (uint32_t i = 0; i < GENERATE_TABLE1_TOTAL; i++)
         assert_true(made[i].y == 12.5f);
@@ -538,8 +544,11 @@ static void water_holds_nothing(void **state)
     struct fixed_object *made = malloc(GENERATE_TABLE1_TOTAL * sizeof *made);
     assert_non_null(made);
     memset(sea.cover, COVER_SEA, 401 * 401);
-    sea.terrain =
-        (struct terrain){.posts = sea.posts, .cover = sea.cover, .side = 401, .spacing_m = 125.0};
+    sea.terrain = (struct terrain){.posts = sea.posts,
+                                   .cover = sea.cover,
+                                   .side = 401,
+                                   .spacing_m = 125.0,
+                                   .squares = GRIDSQUARES_DEFAULT_INIT};
     errno = 0;
     assert_int_equal(generate_table1_objects(made, &sea.terrain, kinds, KIND_COUNT, NULL, 0, SEED),
                      -1);
@@ -557,7 +566,8 @@ static void objects_lie_in_the_order_of_squares(void **state)
     (void)state;
     for (uint32_t i = 1; i < GENERATE_TABLE1_TOTAL; i++) {
         const struct fixed_object *a = &objects[i - 1], *b = &objects[i];
-        uint32_t square_a = gridsquare_of(a->x, a->z), square_b = gridsquare_of(b->x, b->z);
+        uint32_t square_a = gridsquare_of(&GRIDSQUARES_DEFAULT, a->x, a->z),
+                 square_b = gridsquare_of(&GRIDSQUARES_DEFAULT, b->x, b->z);
         assert_true(square_a <= square_b);
         if (square_a == square_b)
             assert_true(a->x < b->x || (a->x == b->x && a->z < b->z));
@@ -568,18 +578,19 @@ static void objects_lie_in_the_order_of_squares(void **state)
 static void objects_stand_apart(void **state)
 {
     (void)state;
-    uint32_t *start = calloc(GRIDSQUARE_COUNT + 1, sizeof *start);
+    uint32_t *start = calloc(GRIDSQUARES_DEFAULT.count + 1, sizeof *start);
     assert_non_null(start);
     for (uint32_t i = 0; i < GENERATE_TABLE1_TOTAL; i++)
-        start[gridsquare_of(objects[i].x, objects[i].z) + 1]++;
-    for (uint32_t i = 0; i < GRIDSQUARE_COUNT; i++)
+        start[gridsquare_of(&GRIDSQUARES_DEFAULT, objects[i].x, objects[i].z) + 1]++;
+    for (uint32_t i = 0; i < GRIDSQUARES_DEFAULT.count; i++)
         start[i + 1] += start[i];
     for (uint32_t i = 0; i < GENERATE_TABLE1_TOTAL; i++) {
         const struct fixed_object *a = &objects[i];
-        struct gridsquare_box box = gridsquare_box_of(a->x - 30, a->z - 30, a->x + 30, a->z + 30);
+        struct gridsquare_box box =
+            gridsquare_box_of(&GRIDSQUARES_DEFAULT, a->x - 30, a->z - 30, a->x + 30, a->z + 30);
         for (int32_t row = box.z0; row <= box.z1; row++) {
-            uint32_t first = start[gridsquare_index(box.x0, row)];
-            uint32_t end = start[gridsquare_index(box.x1, row) + 1];
+            uint32_t first = start[gridsquare_index(&GRIDSQUARES_DEFAULT, box.x0, row)];
+            uint32_t end = start[gridsquare_index(&GRIDSQUARES_DEFAULT, box.x1, row) + 1];
             for (uint32_t k = first; k < end; k++)
                 if (k != i)
                     assert_true(distance(a->x, a->z, objects[k].x, objects[k].z) >

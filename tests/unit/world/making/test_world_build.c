@@ -244,11 +244,12 @@ static void test_listed_objects_are_in_gridsquare_order(void **state)
     assert_int_equal(world->counts.fixed, 4);
     for (uint32_t i = 0; i < 4; i++) {
         const struct fixed_object *object = &world->fixed[i];
-        uint32_t square = gridsquare_of(object->x, object->z);
+        uint32_t square = gridsquare_of(&GRIDSQUARES_DEFAULT, object->x, object->z);
         const uint32_t *reach;
         bool found = false;
         if (i > 0)
-            assert_true(square >= gridsquare_of(world->fixed[i - 1].x, world->fixed[i - 1].z));
+            assert_true(square >= gridsquare_of(&GRIDSQUARES_DEFAULT, world->fixed[i - 1].x,
+                                                world->fixed[i - 1].z));
         for (uint32_t n = world_reach(world, square, &reach); n > 0; n--)
             found = found || reach[n - 1] == i;
         assert_true(found);

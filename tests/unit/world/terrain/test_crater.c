@@ -17,7 +17,7 @@
 
 static void index_of(struct crater_index *index, const struct crater *craters, uint32_t count)
 {
-    assert_int_equal(crater_index_init(index, craters), 0);
+    assert_int_equal(crater_index_init(index, &GRIDSQUARES_DEFAULT, craters), 0);
     crater_index_update(index, count);
     assert_int_equal(index->count, count);
 }
@@ -81,7 +81,7 @@ static void test_no_craters_no_change(void **state)
     (void)state;
     index_of(&index, NULL, 0);
     assert_true(crater_offset(&index, 0.0, 0.0) == 0.0);
-    assert_true(crater_offset(&index, WORLD_SIDE_M, WORLD_SIDE_M) == 0.0);
+    assert_true(crater_offset(&index, WORLD_SIDE_DEFAULT_M, WORLD_SIDE_DEFAULT_M) == 0.0);
     crater_index_free(&index);
 }
 
@@ -148,7 +148,7 @@ static void test_craters_on_borders_are_found_from_every_side(void **state)
     const struct crater craters[] = {{25000.0, 25000.0, 20.0f, 5.0f, 1},
                                      {25124.0, 24000.0, 2.0f, 1.0f, 1},
                                      {0.0, 0.0, 20.0f, 5.0f, 1},
-                                     {WORLD_SIDE_M, WORLD_SIDE_M, 20.0f, 5.0f, 1}};
+                                     {WORLD_SIDE_DEFAULT_M, WORLD_SIDE_DEFAULT_M, 20.0f, 5.0f, 1}};
     struct crater_index index;
     (void)state;
     index_of(&index, craters, 4);
@@ -160,7 +160,8 @@ static void test_craters_on_borders_are_found_from_every_side(void **state)
     assert_true(crater_offset(&index, 25126.5, 24000.0) > 0.0); /* only its rim crosses */
     assert_true(crater_offset(&index, 3.0, 3.0) < -4.0);
     assert_true(crater_offset(&index, -3.0, -3.0) < -4.0); /* the edge's ground goes on outside */
-    assert_true(crater_offset(&index, WORLD_SIDE_M + 3.0, WORLD_SIDE_M - 3.0) < -4.0);
+    assert_true(crater_offset(&index, WORLD_SIDE_DEFAULT_M + 3.0, WORLD_SIDE_DEFAULT_M - 3.0) <
+                -4.0);
     crater_index_free(&index);
 }
 

@@ -132,7 +132,7 @@ static void test_vehicles_are_lifted_over_works(void **state)
 
 static void test_a_world_without_works_has_none(void **state)
 {
-    const struct earthworks none = {NULL, NULL, 0};
+    const struct earthworks none = {.works = NULL};
     const struct gridsquare_box box = {0, 0, 399, 399};
     double highest, lowest;
     (void)state;
@@ -169,7 +169,7 @@ static void test_index_finds_every_work(void **state)
         double x = fixture_uniform(&random, 23700.0, 26300.0);
         double z = fixture_uniform(&random, 23700.0, 26300.0);
         double offset = earthwork_offset(&all, x, z), highest, lowest;
-        const struct gridsquare_box box = gridsquare_box_of(x, z, x, z);
+        const struct gridsquare_box box = gridsquare_box_of(&GRIDSQUARES_DEFAULT, x, z, x, z);
         earthwork_range(&all, &box, &highest, &lowest);
         assert_true(offset == by_search(x, z));
         assert_true(offset <= highest && offset >= lowest);
@@ -192,7 +192,7 @@ static void test_the_ground_is_continuous(void **state)
         double x = fixture_uniform(&random, 24000.0, 26000.0);
         double z = fixture_uniform(&random, 24000.0, 26000.0);
         if (i % 2) /* at a border of gridsquares */
-            x = GRIDSQUARE_SIDE_M * floor(x / GRIDSQUARE_SIDE_M);
+            x = GRIDSQUARE_LEAST_M * floor(x / GRIDSQUARE_LEAST_M);
         double rise = earthwork_offset(&all, x, z) - earthwork_offset(&all, x - apart, z - apart);
         assert_true(fabs(rise) <= 2.0 * 1.5 * steepest * apart);
     }

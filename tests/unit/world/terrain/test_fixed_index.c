@@ -24,7 +24,8 @@ static uint32_t *start, *items;
 
 static void build(const struct fixed_object *objects, uint32_t count)
 {
-    assert_int_equal(fixed_index_build(objects, count, kinds, &start, &items), 0);
+    assert_int_equal(fixed_index_build(&GRIDSQUARES_DEFAULT, objects, count, kinds, &start, &items),
+                     0);
 }
 
 static void release(void)
@@ -47,7 +48,7 @@ static void test_object_within_a_square_is_in_that_square_alone(void **state)
     const struct fixed_object tree = {.x = 1062.0, .z = 2062.0, .radius_m = 5.0f};
     (void)state;
     build(&tree, 1);
-    assert_int_equal(start[GRIDSQUARE_COUNT], 1);
+    assert_int_equal(start[GRIDSQUARES_DEFAULT.count], 1);
     assert_true(holds(16 * 400 + 8, 0));
     release();
 }
@@ -58,7 +59,7 @@ static void test_object_at_a_corner_is_in_all_four_squares(void **state)
     const struct fixed_object tower = {.x = 1250.0, .z = 2500.0, .radius_m = 3.0f};
     (void)state;
     build(&tower, 1);
-    assert_int_equal(start[GRIDSQUARE_COUNT], 4);
+    assert_int_equal(start[GRIDSQUARES_DEFAULT.count], 4);
     assert_true(holds(19 * 400 + 9, 0) && holds(19 * 400 + 10, 0));
     assert_true(holds(20 * 400 + 9, 0) && holds(20 * 400 + 10, 0));
     release();
@@ -70,16 +71,16 @@ static void test_object_is_found_as_far_as_its_hulls_reach(void **state)
     struct fixed_object tree = {.x = 1254.5, .z = 2562.0, .radius_m = 2.0f, .kind = BARE};
     (void)state;
     build(&tree, 1);
-    assert_int_equal(start[GRIDSQUARE_COUNT], 1);
+    assert_int_equal(start[GRIDSQUARES_DEFAULT.count], 1);
     release();
     tree.kind = OAK; /* 5 m: half a metre over the border */
     build(&tree, 1);
-    assert_int_equal(start[GRIDSQUARE_COUNT], 2);
+    assert_int_equal(start[GRIDSQUARES_DEFAULT.count], 2);
     assert_true(holds(20 * 400 + 9, 0) && holds(20 * 400 + 10, 0));
     release();
     tree.radius_m = 1.6f; /* a young one: 4 m */
     build(&tree, 1);
-    assert_int_equal(start[GRIDSQUARE_COUNT], 1);
+    assert_int_equal(start[GRIDSQUARES_DEFAULT.count], 1);
     release();
 }
 
@@ -112,7 +113,7 @@ static void test_every_square_has_the_objects_that_overlap_it(void **state)
             assert_int_equal(at, start[square + 1]);
         }
     }
-    assert_int_equal(start[GRIDSQUARE_COUNT], expected);
+    assert_int_equal(start[GRIDSQUARES_DEFAULT.count], expected);
     release();
 }
 
@@ -120,18 +121,19 @@ static void test_no_objects_no_reach(void **state)
 {
     (void)state;
     build(NULL, 0);
-    for (uint32_t i = 0; i <= GRIDSQUARE_COUNT; i++)
+    for (uint32_t i = 0; i <= GRIDSQUARES_DEFAULT.count; i++)
         assert_int_equal(start[i], 0);
     release();
 }
 
 static void test_objects_on_the_worlds_edge_stay_in_it(void **state)
 {
-    const struct fixed_object corner = {.x = WORLD_SIDE_M, .z = WORLD_SIDE_M, .radius_m = 4.0f};
+    const struct fixed_object corner = {
+        .x = WORLD_SIDE_DEFAULT_M, .z = WORLD_SIDE_DEFAULT_M, .radius_m = 4.0f};
     (void)state;
     build(&corner, 1);
-    assert_int_equal(start[GRIDSQUARE_COUNT], 1);
-    assert_true(holds(GRIDSQUARE_COUNT - 1, 0));
+    assert_int_equal(start[GRIDSQUARES_DEFAULT.count], 1);
+    assert_true(holds(GRIDSQUARES_DEFAULT.count - 1, 0));
     release();
 }
 

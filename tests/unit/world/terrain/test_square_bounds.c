@@ -29,12 +29,13 @@ static struct crater dug[CRATERS];
 /* Hills of 80 m from 1,500 m below the sea to 9,000 m above it. */
 static void raise(uint64_t *random, double spacing_m)
 {
-    uint32_t side = (uint32_t)(WORLD_SIDE_M / spacing_m) + 1;
+    uint32_t side = (uint32_t)(WORLD_SIDE_DEFAULT_M / spacing_m) + 1;
     float *posts = malloc((size_t)side * side * sizeof *posts);
     assert_non_null(posts);
     for (uint32_t i = 0; i < side * side; i++)
         posts[i] = (float)(10500.0 * (i % side) / side - 1500.0 + fixture_uniform(random, 0, 80));
-    ground = (struct terrain){.posts = posts, .side = side, .spacing_m = spacing_m};
+    ground = (struct terrain){
+        .posts = posts, .side = side, .spacing_m = spacing_m, .squares = GRIDSQUARES_DEFAULT_INIT};
 }
 
 static void lower(void)
@@ -48,23 +49,26 @@ static void open_ground(uint64_t *random, double spacing_m)
 {
     raise(random, spacing_m);
     for (uint32_t i = 0; i < CRATERS; i++)
-        dug[i] = (struct crater){fixture_uniform(random, 0.0, WORLD_SIDE_M),
-                                 fixture_uniform(random, 0.0, WORLD_SIDE_M), 40.0f, 60.0f, 1};
-    assert_int_equal(crater_index_init(&craters, dug), 0);
+        dug[i] =
+            (struct crater){fixture_uniform(random, 0.0, WORLD_SIDE_DEFAULT_M),
+                            fixture_uniform(random, 0.0, WORLD_SIDE_DEFAULT_M), 40.0f, 60.0f, 1};
+    assert_int_equal(crater_index_init(&craters, &GRIDSQUARES_DEFAULT, dug), 0);
     crater_index_update(&craters, CRATERS);
-    assert_int_equal(square_bounds_init(&bounds, square_bounds_height, &ground), 0);
+    assert_int_equal(
+        square_bounds_init(&bounds, &GRIDSQUARES_DEFAULT, square_bounds_height, &ground), 0);
 }
 
 /* A path of up to 200 m near the ground, often from or to a crater's lip or a square's border. */
 static struct path draw(uint64_t *random)
 {
     const struct crater *crater = &dug[fixture_random(random) % CRATERS];
-    struct vec3 at = {fixture_uniform(random, -100.0, WORLD_SIDE_M + 100.0), 0.0,
-                      fixture_uniform(random, 0.0, WORLD_SIDE_M)};
+    struct vec3 at = {fixture_uniform(random, -100.0, WORLD_SIDE_DEFAULT_M + 100.0), 0.0,
+                      fixture_uniform(random, 0.0, WORLD_SIDE_DEFAULT_M)};
     if (fixture_random(random) % 2)
         at = (struct vec3){crater->x + 40.0, 0.0, crater->z};
     if (fixture_random(random) % 4 == 0)
-        at.x = GRIDSQUARE_SIDE_M * (double)(fixture_random(random) % GRIDSQUARE_PER_SIDE);
+        at.x = GRIDSQUARE_LEAST_M *
+               (double)(fixture_random(random) % (uint64_t)GRIDSQUARES_DEFAULT.per_side);
     at.y = terrain_height(&ground, &craters, at.x, at.z) + fixture_uniform(random, 0.0, 120.0);
     return (struct path){.at = at,
                          .along = {fixture_uniform(random, -140.0, 140.0),
@@ -105,12 +109,14 @@ static void test_a_path_above_its_squares_never_meets_the_ground(void **state)
 static void test_the_highest_post_of_the_square_counts_and_none_beyond_it(void **state)
 {
     static float posts[SIDE * SIDE];
-    const struct terrain flat = {.posts = posts, .side = SIDE, .spacing_m = 125.0};
+    const struct terrain flat = {
+        .posts = posts, .side = SIDE, .spacing_m = 125.0, .squares = GRIDSQUARES_DEFAULT_INIT};
     struct vec3 at = {25.0 * 125.0 + 60.0, 11.0, 40.0 * 125.0 + 60.0};
     struct vec3 west = {at.x - 300.0, at.y, at.z}, beside = {at.x + 100.0, at.y, at.z};
     (void)state;
     posts[41 * SIDE + 26] = 50.0f; /* the square's south-eastern corner */
-    assert_int_equal(square_bounds_init(&bounds, square_bounds_height, &flat), 0);
+    assert_int_equal(square_bounds_init(&bounds, &GRIDSQUARES_DEFAULT, square_bounds_height, &flat),
+                     0);
     assert_false(square_bounds_clear(&bounds, NULL, at, at));
     assert_false(square_bounds_clear(&bounds, NULL, west, beside));
     assert_true(square_bounds_clear(&bounds, NULL, west, west));
@@ -125,7 +131,11 @@ static void test_works_raise_the_bounds(void **state)
     static float posts[SIDE * SIDE];
     static uint8_t grass[SIDE * SIDE];
     static struct earthwork works[60];
-    struct terrain worked = {.posts = posts, .cover = grass, .side = SIDE, .spacing_m = 125.0};
+    struct terrain worked = {.posts = posts,
+                             .cover = grass,
+                             .side = SIDE,
+                             .spacing_m = 125.0,
+                             .squares = GRIDSQUARES_DEFAULT_INIT};
     uint64_t random = fixture_seed(15);
     int raised = 0;
     (void)state;
@@ -135,7 +145,7 @@ static void test_works_raise_the_bounds(void **state)
         double x = fixture_uniform(&random, 23900.0, 26100.0);
         double z = fixture_uniform(&random, 23900.0, 26100.0);
         double height = terrain_height(&worked, NULL, x, z);
-        uint32_t square = gridsquare_of(x, z);
+        uint32_t square = gridsquare_of(&GRIDSQUARES_DEFAULT, x, z);
         assert_true(square_bounds_height(&worked, square) > square_bounds_below_height(height));
         if (height != 0.0)
             assert_int_equal(square_bounds_slope(&worked, square), SQUARE_BOUNDS_NONE);
@@ -152,7 +162,8 @@ static uint8_t cover[ROUGH_SIDE * ROUGH_SIDE];
 static const struct terrain rough_ground = {.posts = rough,
                                             .cover = cover,
                                             .side = ROUGH_SIDE,
-                                            .spacing_m = WORLD_SIDE_M / (ROUGH_SIDE - 1)};
+                                            .spacing_m = WORLD_SIDE_DEFAULT_M / (ROUGH_SIDE - 1),
+                                            .squares = GRIDSQUARES_DEFAULT_INIT};
 
 /* From level in the west to rough in the east, with a pond here and there. */
 static void roughen(uint64_t *random)
@@ -165,8 +176,9 @@ static void roughen(uint64_t *random)
 
 static bool gentle(double x0, double z0, double x1, double z1, double slope)
 {
-    struct gridsquare_box box = gridsquare_box_of(maths_min(x0, x1), maths_min(z0, z1),
-                                                  maths_max(x0, x1), maths_max(z0, z1));
+    struct gridsquare_box box =
+        gridsquare_box_of(&GRIDSQUARES_DEFAULT, maths_min(x0, x1), maths_min(z0, z1),
+                          maths_max(x0, x1), maths_max(z0, z1));
     return square_bounds_within(&bounds, box, square_bounds_below_slope(slope));
 }
 
@@ -189,13 +201,14 @@ static void test_what_is_called_gentle_is(void **state)
     uint32_t found = 0;
     (void)state;
     roughen(&random);
-    assert_int_equal(square_bounds_init(&bounds, square_bounds_slope, &rough_ground), 0);
+    assert_int_equal(
+        square_bounds_init(&bounds, &GRIDSQUARES_DEFAULT, square_bounds_slope, &rough_ground), 0);
     for (uint32_t i = 0; i < WAYS; i++) {
-        double x0 = fixture_uniform(&random, 0.0, WORLD_SIDE_M), x1 = x0;
-        double z0 = fixture_uniform(&random, 0.0, WORLD_SIDE_M), z1 = z0;
+        double x0 = fixture_uniform(&random, 0.0, WORLD_SIDE_DEFAULT_M), x1 = x0;
+        double z0 = fixture_uniform(&random, 0.0, WORLD_SIDE_DEFAULT_M), z1 = z0;
         double slope = fixture_uniform(&random, 0.05, 1.2);
-        x1 = maths_clamp(x1 + fixture_uniform(&random, -150.0, 150.0), 0.0, WORLD_SIDE_M);
-        z1 = maths_clamp(z1 + fixture_uniform(&random, -150.0, 150.0), 0.0, WORLD_SIDE_M);
+        x1 = maths_clamp(x1 + fixture_uniform(&random, -150.0, 150.0), 0.0, WORLD_SIDE_DEFAULT_M);
+        z1 = maths_clamp(z1 + fixture_uniform(&random, -150.0, 150.0), 0.0, WORLD_SIDE_DEFAULT_M);
         bool said = gentle(x0, z0, x1, z1, slope);
         assert_true(gentle(x1, z1, x0, z0, slope) == said);
         if (said)
@@ -216,7 +229,8 @@ static void test_water_and_slopes_are_not_gentle(void **state)
     }
     cover[80 * ROUGH_SIDE + 81] = COVER_SEA;
     rough[160 * ROUGH_SIDE + 161] = 10.0f;
-    assert_int_equal(square_bounds_init(&bounds, square_bounds_slope, &rough_ground), 0);
+    assert_int_equal(
+        square_bounds_init(&bounds, &GRIDSQUARES_DEFAULT, square_bounds_slope, &rough_ground), 0);
     assert_true(gentle(30000.0, 30000.0, 30100.0, 30100.0, 0.1));
     assert_false(gentle(5050.0, 5010.0, 5020.0, 5010.0, 1.0));
     assert_false(gentle(10010.0, 10010.0, 10090.0, 10010.0, 0.15));

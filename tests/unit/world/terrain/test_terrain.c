@@ -18,8 +18,11 @@
 
 static float posts[SIDE * SIDE];
 static uint8_t cover[SIDE * SIDE];
-static const struct terrain terrain = {
-    .posts = posts, .cover = cover, .side = SIDE, .spacing_m = SPACING};
+static const struct terrain terrain = {.posts = posts,
+                                       .cover = cover,
+                                       .side = SIDE,
+                                       .spacing_m = SPACING,
+                                       .squares = GRIDSQUARES_DEFAULT_INIT};
 
 static float *post(uint32_t column, uint32_t row)
 {
@@ -66,8 +69,8 @@ static void test_two_flat_triangles_a_cell_split_from_north_west_to_south_east(v
     (void)state;
     fixture_roughen(posts, cover, SIDE * SIDE, &random);
     for (int i = 0; i < 100000; i++) {
-        double x = fixture_uniform(&random, 0.0, WORLD_SIDE_M);
-        double z = fixture_uniform(&random, 0.0, WORLD_SIDE_M);
+        double x = fixture_uniform(&random, 0.0, WORLD_SIDE_DEFAULT_M);
+        double z = fixture_uniform(&random, 0.0, WORLD_SIDE_DEFAULT_M);
         uint32_t column = (uint32_t)(x / SPACING), row = (uint32_t)(z / SPACING);
         double x0 = column * SPACING, z0 = row * SPACING, x1 = x0 + SPACING, z1 = z0 + SPACING;
         double nw = (double)*post(column, row), se = (double)*post(column + 1, row + 1);
@@ -88,7 +91,7 @@ static void test_continuous_across_edges_and_diagonals(void **state)
     fixture_roughen(posts, cover, SIDE * SIDE, &random);
     for (int i = 0; i < 100000; i++) {
         double border = SPACING * (double)(1 + fixture_random(&random) % (SIDE - 2));
-        double along = fixture_uniform(&random, 0.0, WORLD_SIDE_M);
+        double along = fixture_uniform(&random, 0.0, WORLD_SIDE_DEFAULT_M);
         assert_true(fabs(height(border - step, along) - height(border, along)) < step * steepest);
         assert_true(fabs(height(along, border - step) - height(along, border)) < step * steepest);
         double x = fixture_uniform(&random, 0.0, SPACING), z = x; /* on a diagonal */
@@ -103,12 +106,14 @@ static void test_outside_the_edges_height_goes_on(void **state)
     (void)state;
     fixture_roughen(posts, cover, SIDE * SIDE, &random);
     for (int i = 0; i < 10000; i++) {
-        double along = fixture_uniform(&random, 0.0, WORLD_SIDE_M);
+        double along = fixture_uniform(&random, 0.0, WORLD_SIDE_DEFAULT_M);
         double beyond = fixture_uniform(&random, 0.0, 1e6);
         assert_true(height(-beyond, along) == height(0.0, along));
-        assert_true(height(WORLD_SIDE_M + beyond, along) == height(WORLD_SIDE_M, along));
+        assert_true(height(WORLD_SIDE_DEFAULT_M + beyond, along) ==
+                    height(WORLD_SIDE_DEFAULT_M, along));
         assert_true(height(along, -beyond) == height(along, 0.0));
-        assert_true(height(along, WORLD_SIDE_M + beyond) == height(along, WORLD_SIDE_M));
+        assert_true(height(along, WORLD_SIDE_DEFAULT_M + beyond) ==
+                    height(along, WORLD_SIDE_DEFAULT_M));
     }
     assert_true(height(-1e300, 1e300) == (double)*post(0, SIDE - 1));
     assert_true(height(INFINITY, INFINITY) == (double)*post(SIDE - 1, SIDE - 1));
@@ -174,7 +179,7 @@ static void test_craters_change_height_and_normal(void **state)
     struct crater_index craters;
     (void)state;
     level(100.0f);
-    assert_int_equal(crater_index_init(&craters, &dug), 0);
+    assert_int_equal(crater_index_init(&craters, &GRIDSQUARES_DEFAULT, &dug), 0);
     crater_index_update(&craters, 1);
     assert_true(terrain_height(&terrain, &craters, 1000.0, 1000.0) == 96.0);
     assert_true(terrain_height(&terrain, NULL, 1000.0, 1000.0) == 100.0);

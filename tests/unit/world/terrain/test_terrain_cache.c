@@ -18,21 +18,24 @@
 
 static float posts[SIDE * SIDE];
 static uint8_t cover[SIDE * SIDE];
-static const struct terrain terrain = {
-    .posts = posts, .cover = cover, .side = SIDE, .spacing_m = SPACING};
+static const struct terrain terrain = {.posts = posts,
+                                       .cover = cover,
+                                       .side = SIDE,
+                                       .spacing_m = SPACING,
+                                       .squares = GRIDSQUARES_DEFAULT_INIT};
 static struct terrain_cache_entry patches[LANE_COUNT];
 
 /* Anywhere, on posts and edges, outside the world. */
 static double place(uint64_t *random)
 {
-    double metres = fixture_uniform(random, -500.0, WORLD_SIDE_M + 500.0);
+    double metres = fixture_uniform(random, -500.0, WORLD_SIDE_DEFAULT_M + 500.0);
     switch (fixture_random(random) % 6) {
     case 0:
         return SPACING * floor(metres / SPACING);
     case 1:
         return SPACING * (floor(metres / SPACING) + 0.5);
     case 2:
-        return metres < WORLD_SIDE_M * 0.5 ? 0.0 : WORLD_SIDE_M;
+        return metres < WORLD_SIDE_DEFAULT_M * 0.5 ? 0.0 : WORLD_SIDE_DEFAULT_M;
     default:
         return metres;
     }
@@ -88,13 +91,13 @@ static void test_a_body_near_its_place_needs_its_patch_alone(void **state)
     memset(patches, 0, sizeof patches);
     for (int l = 0; l < LANE_COUNT; l++) {
         footing.patch[l] = &patches[l];
-        x.lane[l] = fixture_uniform(&random, 0.0, WORLD_SIDE_M);
-        z.lane[l] = fixture_uniform(&random, 0.0, WORLD_SIDE_M);
+        x.lane[l] = fixture_uniform(&random, 0.0, WORLD_SIDE_DEFAULT_M);
+        z.lane[l] = fixture_uniform(&random, 0.0, WORLD_SIDE_DEFAULT_M);
     }
     terrain_cache_find(&terrain, &footing, &x, &z);
     for (int l = 0; l < LANE_COUNT; l++) /* less than half a cell */
-        x.lane[l] =
-            maths_clamp(x.lane[l] + fixture_uniform(&random, -62.0, 62.0), 0.0, WORLD_SIDE_M);
+        x.lane[l] = maths_clamp(x.lane[l] + fixture_uniform(&random, -62.0, 62.0), 0.0,
+                                WORLD_SIDE_DEFAULT_M);
     terrain_cache_heights(&terrain, &footing, &x, &z, &before);
     for (uint32_t i = 0; i < SIDE * SIDE; i++)
         posts[i] = NAN;

@@ -84,16 +84,17 @@ static int open_stage(void **context)
                 (float)(300.0 + 200.0 * maths_sin(column * 0.11) * maths_cos(row * 0.07) +
                         60.0 * maths_sin(column * 0.9 + row));
     s->params.dt_s = DT_S;
-    s->world = (struct world){.params = &s->params,
-                              .counts = {.kinds = KINDS, .models = 1},
-                              .terrain = {s->posts, s->cover, POSTS, 125.0},
-                              .kinds = kinds,
-                              .models = models,
-                              .model_vertices = vertices,
-                              .model_triangles = triangles};
+    s->world = (struct world){
+        .params = &s->params,
+        .counts = {.kinds = KINDS, .models = 1},
+        .terrain = {s->posts, s->cover, POSTS, 125.0, .squares = GRIDSQUARES_DEFAULT_INIT},
+        .kinds = kinds,
+        .models = models,
+        .model_vertices = vertices,
+        .model_triangles = triangles};
     memset(s->columns, 0, entities_bytes(CAPACITY));
     entities_bind(&s->entities, CAPACITY, s->columns);
-    assert_int_equal(crater_index_init(&s->index, s->craters), 0);
+    assert_int_equal(crater_index_init(&s->index, &GRIDSQUARES_DEFAULT, s->craters), 0);
     s->frame_view = (struct frame_view){
         .world = &s->world, .head = &s->head, .entities = &s->entities, .craters = &s->index};
     *context = s;
@@ -162,7 +163,8 @@ static void test_cameras_are_above_the_ground_and_see_their_vehicle(void **conte
         if (view == VIEW_MAP)
             continue;
         s->head.tick = i * 1000;
-        put(s, i % 7 == 0 ? PLANE : TANK, draw(0.0, WORLD_SIDE_M), draw(0.0, WORLD_SIDE_M));
+        put(s, i % 7 == 0 ? PLANE : TANK, draw(0.0, WORLD_SIDE_DEFAULT_M),
+            draw(0.0, WORLD_SIDE_DEFAULT_M));
         view_camera_update(&aim, &wish, &s->frame_view, 0, &camera);
         check_axes(&camera);
         double least = view == VIEW_INSIDE ? 0.5
@@ -184,7 +186,7 @@ static void test_without_a_vehicle_they_look_over_the_middle(void **context)
         struct view_camera aim = {.id = 0};
         struct view_camera_options wish = wish_of((enum view_mode)view);
         struct camera camera;
-        double middle = 0.5 * WORLD_SIDE_M;
+        double middle = 0.5 * WORLD_SIDE_DEFAULT_M;
         if (view == VIEW_MAP)
             continue;
         view_camera_update(&aim, &wish, &s->frame_view, SLOT_NONE, &camera);

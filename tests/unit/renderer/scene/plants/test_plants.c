@@ -33,7 +33,8 @@ static const struct kind kinds[] = {{.name = "oak",
 static int by_square(const void *a, const void *b)
 {
     const struct fixed_object *p = a, *q = b;
-    uint32_t first = gridsquare_of(p->x, p->z), second = gridsquare_of(q->x, q->z);
+    uint32_t first = gridsquare_of(&GRIDSQUARES_DEFAULT, p->x, p->z),
+             second = gridsquare_of(&GRIDSQUARES_DEFAULT, q->x, q->z);
     return (first > second) - (first < second);
 }
 
@@ -103,7 +104,8 @@ static const struct draw_list_plant *shown(const struct scene_stage *s,
 
 static bool in_wood(const struct fixed_object *tree)
 {
-    return gridsquare_of(tree->x, tree->z) == gridsquare_of(WOOD_X, WOOD_X);
+    return gridsquare_of(&GRIDSQUARES_DEFAULT, tree->x, tree->z) ==
+           gridsquare_of(&GRIDSQUARES_DEFAULT, WOOD_X, WOOD_X);
 }
 
 static void test_no_plant_in_view_is_culled(void **context)

@@ -57,13 +57,16 @@ static int open_coast(void **context)
     coast->road[0] = (struct road_point){.x = 9000.0f, .z = 2000.0f, .road = 7};
     coast->road[1] = (struct road_point){.x = 9500.0f, .z = 2500.0f, .road = 7};
     coast->road[2] = (struct road_point){.x = 9500.0f, .z = 9000.0f, .road = 8};
-    coast->world.terrain = (struct terrain){
-        .posts = coast->posts, .cover = coast->cover, .side = POSTS, .spacing_m = SPACING};
+    coast->world.terrain = (struct terrain){.posts = coast->posts,
+                                            .cover = coast->cover,
+                                            .side = POSTS,
+                                            .spacing_m = SPACING,
+                                            .squares = GRIDSQUARES_DEFAULT_INIT};
     coast->world.road_points = coast->road;
     coast->world.counts.road_points = 3;
-    if (road_index_make(&coast->roads, coast->road, 3) != 0)
+    if (road_index_make(&coast->roads, coast->road, 3, WORLD_SIDE_DEFAULT_M) != 0)
         return -1;
-    return crater_index_init(&coast->index, coast->craters);
+    return crater_index_init(&coast->index, &GRIDSQUARES_DEFAULT, coast->craters);
 }
 
 static int close_coast(void **context)

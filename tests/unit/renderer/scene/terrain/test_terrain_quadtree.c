@@ -57,11 +57,14 @@ static int open_relief(void **context)
                     (double)value_noise_value(x * (1u << i) / 5000.0, z * (1u << i) / 5000.0, i);
             relief->posts[row * POSTS + column] = (float)height;
         }
-    relief->terrain = (struct terrain){
-        .posts = relief->posts, .cover = relief->cover, .side = POSTS, .spacing_m = SPACING};
+    relief->terrain = (struct terrain){.posts = relief->posts,
+                                       .cover = relief->cover,
+                                       .side = POSTS,
+                                       .spacing_m = SPACING,
+                                       .squares = GRIDSQUARES_DEFAULT_INIT};
     open_mesh(&relief->mesh);
     open_mesh(&relief->other);
-    return crater_index_init(&relief->index, relief->craters);
+    return crater_index_init(&relief->index, &GRIDSQUARES_DEFAULT, relief->craters);
 }
 
 static int close_relief(void **context)

@@ -50,13 +50,16 @@ static int open_country(void **context)
     c->road[0] = (struct road_point){.x = 20000.0f, .z = 21000.0f, .road = 1};
     c->road[1] = (struct road_point){.x = 26000.0f, .z = 25100.0f, .road = 1};
     c->road[2] = (struct road_point){.x = 31000.0f, .z = 25100.0f, .road = 1};
-    c->world.terrain =
-        (struct terrain){.posts = c->posts, .cover = c->cover, .side = POSTS, .spacing_m = SPACING};
+    c->world.terrain = (struct terrain){.posts = c->posts,
+                                        .cover = c->cover,
+                                        .side = POSTS,
+                                        .spacing_m = SPACING,
+                                        .squares = GRIDSQUARES_DEFAULT_INIT};
     c->world.road_points = c->road;
     c->world.counts.road_points = 3;
-    assert_int_equal(crater_index_init(&c->index, c->craters), 0);
+    assert_int_equal(crater_index_init(&c->index, &GRIDSQUARES_DEFAULT, c->craters), 0);
     assert_int_equal(terrain_tiles_init(&c->tiles), 0);
-    assert_int_equal(road_index_make(&c->roads, c->road, 3), 0);
+    assert_int_equal(road_index_make(&c->roads, c->road, 3, WORLD_SIDE_DEFAULT_M), 0);
     c->frame_view =
         (struct frame_view){.world = &c->world, .craters = &c->index, .roads = &c->roads};
     *context = c;
