@@ -349,7 +349,7 @@ $(BUILD)/tests/unit/supervisor/%: $(call libraries,sandbox)
 $(filter $(BUILD)/tests/unit/gateway/%,$(UNIT_TESTS)): $(call libraries,gateway)
 $(addprefix $(BUILD)/tests/unit/ipc/topics/test_,dds_datagrams samples command_text): $(call libraries,datagrams)
 $(BUILD)/tests/unit/config/syntax/test_schema: $(OBJ)/docs/keys/key_tables.o
-$(addprefix $(BUILD)/tests/unit/,supervisor/ground/test_canvas supervisor/ground/test_convex_parts supervisor/ground/test_ground_write config/test_ground_objects config/test_ground_source): $(GROUND_WRITER)
+$(addprefix $(BUILD)/tests/unit/,supervisor/ground/test_canvas supervisor/ground/test_convex_parts supervisor/ground/test_ground_write config/test_ground_objects config/test_ground_source world/terrain/test_posts_write): $(GROUND_WRITER)
 $(BUILD)/tests/unit/docs/figures/test_palette: $(OBJ)/docs/figures/palette.o
 $(BUILD)/tests/crash/test_crash: $(call objects,$(call sources,tests/crash))
 $(GOLDEN_TESTS): $(call libraries,bench)

@@ -49,11 +49,12 @@ static int check(const struct ground_file *file, double side_m, const char *name
                                 "from the side of the square, or no terrain.side_m",
                                 file->header.side_m, side_m);
     if (!ground_file_fits_world(&file->header, side_m, &offset_m, &posts_side))
-        return key_table_refuse(error, place, GROUND_SOURCE_KEY, name,
-                                "its posts are %g m apart, which are no posts of a world of %g km "
-                                "with at most %u along an edge: give another terrain.side_m, or "
-                                "make it again by jolon ground make with other --posts",
-                                file->header.spacing_m, side_m / 1000.0, GROUND_WORLD_POSTS_MAX);
+        return key_table_refuse(
+            error, place, GROUND_SOURCE_KEY, name,
+            "its posts are %g m apart, which are no posts of a world of %g km "
+            "with at most %u along an edge around the square: give another terrain.side_m, or "
+            "make it again by jolon ground make with other --posts",
+            file->header.spacing_m, side_m / 1000.0, GROUND_WORLD_POSTS_MAX);
     return 0;
 }
 

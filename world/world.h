@@ -72,6 +72,8 @@ struct counts {
     uint32_t earthworks, earthwork_words; /* of their index */
     uint32_t recipe;                      /* [byte] */
     uint32_t side_m;                      /* of the world: WORLD_SIDE_MIN_M .. MAX_M */
+    uint32_t
+        posts_in_file; /* 1: posts and cover are in a posts file (world/terrain/posts_file.h) */
 };
 
 struct world {

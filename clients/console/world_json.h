@@ -3,11 +3,10 @@
 #define JOLON_CLIENTS_CONSOLE_WORLD_JSON_H
 
 #include "clients/console/world_query.h"
-#include "world/params.h"
 
-/* Writes the world's name, sizes, kinds, vehicle names and the words of its enumerations. */
 struct world;
 
+/* Writes the world's name, sizes, kinds, vehicle names and the words of its enumerations. */
 void world_json(const struct world_query *asked, struct http_answer *answer);
 
 /* GET /api/place?at=PLACE: writes the place that `at` names, in any form of

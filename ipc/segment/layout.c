@@ -17,6 +17,7 @@
 #include "world/params.h"
 #include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
+#include "world/terrain/ground_format.h"
 
 #include <errno.h>
 #include <string.h>
@@ -30,8 +31,7 @@ _Static_assert(sizeof(struct state_head) <= LAYOUT_HEAD_BYTES, "columns begin af
 #define INPUT_SLOTS_MAX   (1u << 17)
 
 /* Bounds for a forged header; each is far above what a world needs. */
-#define POSTS_SIDE_MAX 4097u
-#define PART_MAX       (1u << 26)
+#define PART_MAX (1u << 26)
 
 static const char *const region_names[REGION_COUNT] = {
     [REGION_HEADER] = "header",
@@ -126,7 +126,8 @@ static bool plausible(const struct segment_header *h)
             return false;
     }
     return h->capacity >= 1 && h->capacity <= CAPACITY_MAX && n->posts_side >= 2 &&
-           n->posts_side <= POSTS_SIDE_MAX && n->side_m >= WORLD_SIDE_MIN_M &&
+           n->posts_side <= (n->posts_in_file ? GROUND_POSTS_SIDE_MAX : GROUND_WORLD_POSTS_MAX) &&
+           n->posts_in_file <= 1 && n->side_m >= WORLD_SIDE_MIN_M &&
            n->side_m <= WORLD_SIDE_MAX_M && n->side_m % WORLD_SIDE_OF_M == 0 &&
            power_of_two(h->event_slots) && power_of_two(h->command_slots) &&
            h->command_slots <= (1u << 20) && power_of_two(h->input_slots) &&
@@ -142,7 +143,7 @@ int layout_compute(struct layout *layout, const struct segment_header *h)
         errno = EOVERFLOW;
         return -1;
     }
-    size_t posts = (size_t)n->posts_side * n->posts_side;
+    size_t posts = n->posts_in_file ? 0 : (size_t)n->posts_side * n->posts_side;
     size_t *b = layout->bytes;
     b[REGION_HEADER] = sizeof *h;
     b[REGION_PARAMS] = sizeof(struct params);

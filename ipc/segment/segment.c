@@ -8,11 +8,13 @@
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
+#include "world/provenance.h"
 #include "world/runtime/prefault.h"
 #include "world/terrain/gridsquare.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/random.h>
@@ -98,6 +100,27 @@ void segment_bind(struct view *view)
     view->doorbells = segment_part(view, REGION_DOORS);
     for (int i = 0; i < ROLE_COUNT; i++)
         view->slot[i] = segment_part(view, REGION_SLOTS + i);
+}
+
+/* The recipe has "HASH PATH" of the ground file. */
+int segment_map_posts(struct view *view, struct error_text *error)
+{
+    const struct counts *counts = &view->header->counts;
+    const char *ground = provenance_find(view->world.recipe, counts->recipe, "ground");
+    struct posts_file_ground of = {.side_m = counts->side_m, .posts_side = counts->posts_side};
+    char *path = NULL;
+    if (!counts->posts_in_file || view->posts_file.mapped)
+        return 0;
+    if (ground)
+        of.hash = strtoull(ground, &path, 16);
+    if (!path || *path != ' ')
+        return error_text_set(error, "the world's recipe does not name its ground file");
+    of.path = path + 1;
+    if (posts_file_open(&view->posts_file, &of, error) != 0)
+        return -1;
+    view->world.terrain.posts = view->posts_file.posts;
+    view->world.terrain.cover = view->posts_file.cover;
+    return 0;
 }
 
 /* --- creation ----------------------------------------------------------------------------------*/
@@ -245,6 +268,7 @@ void segment_abandon(struct view *view)
     if (!view->base)
         return;
     munmap(view->base, view->layout.total);
+    posts_file_close(&view->posts_file);
     view->base = NULL;
     if (view->object_fd >= 0)
         close(view->object_fd);

@@ -14,6 +14,7 @@
 #include "ipc/segment/world_names.h"
 #include "world/entity/command.h"
 #include "world/state.h"
+#include "world/terrain/posts_file.h"
 #include "world/world.h"
 
 #include <stdatomic.h>
@@ -60,6 +61,7 @@ struct view {
     struct layout layout;
     const struct segment_header *header;
     struct world world;
+    struct posts_file posts_file; /* with counts.posts_in_file: where terrain's posts are */
     struct commit_words *commit;
     struct moved_word *moved_word;
     struct state w[2];
@@ -93,6 +95,11 @@ int segment_private(struct view *view, const struct segment_header *header,
 /* Returns the header fields that follow from a scenario's parameters and the counts of a built
  * world. */
 struct segment_header segment_header_for(const struct params *params, const struct counts *counts);
+
+/* Maps the posts file of a large world, which the recipe names; other worlds have none. Attaching
+ * does so; who fills a segment calls it before terrain is used. Returns 0, or -1 with the reason:
+ * which file is missing, and what makes it. */
+int segment_map_posts(struct view *view, struct error_text *error);
 
 /* Copies a built world and its parameters into a begun or private segment, as frame 0. */
 void segment_fill(struct view *view, const struct world_build *built);

@@ -136,6 +136,8 @@ int segment_map(struct view *view, segment_writable *writable, struct error_text
     view->header = view->base;
     prefault_large(view->base, bytes);
     segment_bind(view);
+    if (segment_map_posts(view, error) != 0)
+        goto err_map;
     result = 0;
     goto done;
 err_map:
@@ -167,6 +169,7 @@ static void slot_taken(struct view *view)
 static int unlocked(struct view *view, struct error_text *error)
 {
     munmap(view->base, view->layout.total);
+    posts_file_close(&view->posts_file);
     view->base = NULL;
     return error_text_set(error, "world \"%s\" is just being made; try again", view->name);
 }
@@ -248,6 +251,7 @@ void segment_detach(struct view *view)
         atomic_store(&view->slot[view->role]->pid, 0);
     }
     munmap(view->base, view->layout.total);
+    posts_file_close(&view->posts_file);
     view->base = NULL;
     if (view->lock_fd >= 0) {
         CRASH_POINT("role's unlock");

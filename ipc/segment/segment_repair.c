@@ -176,6 +176,7 @@ int segment_repair(const char *name, struct error_text *report)
     result = repair(&view, report);
     report->damaged = result < 0;
     munmap(view.base, view.layout.total);
+    posts_file_close(&view.posts_file);
 err_lock:
     for (int i = 0; i < 2; i++) {
         if (held[i] >= 0)

@@ -9,6 +9,7 @@
 #include "world/checksum.h"
 #include "recorder/replay/world_adopt.h"
 #include "recorder/replay/scenario_load.h"
+#include "world/terrain/posts_write.h"
 #include "world/provenance.h"
 
 #include <inttypes.h>
@@ -70,6 +71,20 @@ static int write_provenance(const struct view *view, const struct arguments *arg
     return result;
 }
 
+/* Maps the posts of a large world, which the image does not hold. Makes their file again from the
+ * ground file if that is all that is missing. */
+static int find_posts(struct view *view, struct error_text *error)
+{
+    const char *ground = provenance_find(view->world.recipe, view->world.counts.recipe, "ground");
+    char *path = NULL;
+    if (segment_map_posts(view, error) == 0)
+        return 0;
+    uint64_t hash = ground ? strtoull(ground, &path, 16) : 0;
+    if (!path || *path != ' ' || posts_write_for(path + 1, hash, error) != 0)
+        return -1;
+    return segment_map_posts(view, error);
+}
+
 void image_resume_open(const struct arguments *arguments, struct image *image)
 {
     struct error_text error;
@@ -81,7 +96,7 @@ void image_resume_open(const struct arguments *arguments, struct image *image)
 int image_resume_fill(struct view *view, const struct arguments *arguments,
                       const struct image *image, struct error_text *error)
 {
-    if (image_load(view, image, error) != 0)
+    if (image_load(view, image, error) != 0 || find_posts(view, error) != 0)
         return -1;
     clear_quit(view, image->header.frame);
     return write_provenance(view, arguments, image, error);
@@ -93,7 +108,8 @@ void image_resume_private(struct view *view, struct image *image, const char *pa
     if (image_open(image, path, &error) != 0)
         die_refused("%s", error.text);
     struct segment_header header = image_segment(image);
-    if (segment_private(view, &header, &error) != 0 || image_load(view, image, &error) != 0)
+    if (segment_private(view, &header, &error) != 0 || image_load(view, image, &error) != 0 ||
+        find_posts(view, &error) != 0)
         die_refused("%s", error.text);
 }
 

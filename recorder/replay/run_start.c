@@ -111,6 +111,8 @@ static void from_scenario(struct view *view, const struct log_replay *replay,
     if (segment_private(view, &header, &error) != 0)
         die_refused("%s", error.text);
     segment_fill(view, &built);
+    if (segment_map_posts(view, &error) != 0)
+        die_refused("%s", error.text);
     world_build_free(&built);
     scenario_free(&scenario);
 }

@@ -88,8 +88,7 @@ static void print(const struct ground_file *file, const char *text)
     printf("middle       latitude %.6f, longitude %.6f (WGS 84)\n", h->latitude_deg,
            h->longitude_deg);
     printf("side         %g km; %s\n", h->side_m / 1000.0,
-           runs(h) ? "worlds run on it"
-                   : "it has more posts along an edge than a world, which has up to 4,097");
+           runs(h) ? "worlds run on it" : "worlds do not run on it");
     printf("posts        %u x %u, %g m apart\n", h->posts_side, h->posts_side, h->spacing_m);
     printf("heights      %g to %g m above the sea level\n", (double)h->lowest_m,
            (double)h->highest_m);

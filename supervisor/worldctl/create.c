@@ -68,7 +68,8 @@ int verb_check(const struct arguments *arguments)
     }
     struct snapshot snapshot;
     arguments_snapshot(arguments, &view, &snapshot);
-    if (segment_verify(&view, &error) != 0)
+    if (segment_verify(&view, &error) != 0 ||
+        (view.posts_file.mapped && posts_file_verify(&view.posts_file, &error) != 0))
         die_refused("world \"%s\": %s", arguments->world, error.text);
     printf("world \"%s\": good at frame %llu\n", arguments->world,
            (unsigned long long)snapshot.head.frame);

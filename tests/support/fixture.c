@@ -167,6 +167,8 @@ void fixture_open(struct fixture *fixture, const char *text)
     if (segment_private(&fixture->view, &header, &error) != 0)
         fail_msg("%s", error.text);
     segment_fill(&fixture->view, fixture->built);
+    if (segment_map_posts(&fixture->view, &error) != 0)
+        fail_msg("%s", error.text);
     fixture_threads(fixture, 1);
 }
 

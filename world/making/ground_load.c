@@ -1,6 +1,7 @@
 /* Ground from a file. */
 #include "world/making/ground_load.h"
 
+#include "world/terrain/posts_write.h"
 #include "world/making/scenario.h"
 #include "world/making/scenario_settings.h"
 #include "world/making/world_build.h"
@@ -124,6 +125,17 @@ static int load_inset(struct world_build *built, const struct ground_file *file,
     return result;
 }
 
+/* Maps the posts of a ground that has more than a world's memory, and makes their file first if it
+ * is not there. */
+static int map_posts(struct world_build *built, const struct ground_file *file,
+                     struct error_text *error)
+{
+    const struct posts_file_ground ground = {file->path, file->header.hash, file->header.side_m,
+                                             file->header.posts_side};
+    built->counts.posts_in_file = 1;
+    return posts_write(file, error) == 0 ? posts_file_open(&built->posts_file, &ground, error) : -1;
+}
+
 static int load(struct world_build *built, const struct ground_file *file, struct error_text *error)
 {
     const struct scenario_settings *settings = built->scenario->settings;
@@ -140,6 +152,8 @@ static int load(struct world_build *built, const struct ground_file *file, struc
                               file->path);
     size_t posts = (size_t)side * side;
     built->counts.posts_side = side;
+    if (side > GROUND_WORLD_POSTS_MAX)
+        return map_posts(built, file, error) == 0 ? load_roads(built, file, offset_m, error) : -1;
     built->posts = malloc(posts * sizeof *built->posts);
     built->cover = malloc(posts);
     if (!built->posts || !built->cover)

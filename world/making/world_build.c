@@ -207,14 +207,14 @@ static int build_orders(struct world_build *built, struct error_text *error)
 struct terrain world_build_terrain(const struct world_build *built)
 {
     const struct gridsquares squares = gridsquares_of(built->counts.side_m);
-    return (struct terrain){.posts = built->posts,
-                            .cover = built->cover,
-                            .side = built->counts.posts_side,
-                            .spacing_m =
-                                built->counts.side_m / (double)(built->counts.posts_side - 1),
-                            .earthworks = {built->scenario->earthworks, built->earthwork_index,
-                                           built->counts.earthworks, squares},
-                            .squares = squares};
+    return (struct terrain){
+        .posts = built->counts.posts_in_file ? built->posts_file.posts : built->posts,
+        .cover = built->counts.posts_in_file ? built->posts_file.cover : built->cover,
+        .side = built->counts.posts_side,
+        .spacing_m = built->counts.side_m / (double)(built->counts.posts_side - 1),
+        .earthworks = {built->scenario->earthworks, built->earthwork_index,
+                       built->counts.earthworks, squares},
+        .squares = squares};
 }
 
 int world_build_make(struct world_build *built, const struct scenario *scenario,
@@ -247,6 +247,7 @@ void world_build_free(struct world_build *built)
 {
     free(built->posts);
     free(built->cover);
+    posts_file_close(&built->posts_file);
     free(built->earthwork_index);
     free(built->fixed);
     free(built->reach_start);

@@ -5,6 +5,7 @@
 #include "world/entity/entity.h"
 #include "world/params.h"
 #include "world/state.h"
+#include "world/terrain/posts_file.h"
 #include "world/terrain/terrain.h"
 #include "world/world.h"
 
@@ -26,6 +27,7 @@ struct world_build {
     struct counts counts;
     float *posts;
     uint8_t *cover;
+    struct posts_file posts_file; /* with counts.posts_in_file, in place of the two above */
     uint32_t *earthwork_index;
     struct fixed_object *fixed;
     uint32_t *reach_start, *reach;

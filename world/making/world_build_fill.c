@@ -42,7 +42,7 @@ void world_build_fill(const struct world_build *built, struct world *world, stru
 {
     const struct scenario *s = built->scenario;
     const struct counts *n = &built->counts;
-    size_t posts = (size_t)n->posts_side * n->posts_side;
+    size_t posts = n->posts_in_file ? 0 : (size_t)n->posts_side * n->posts_side;
     fill(world->kinds, s->kinds, n->kinds, sizeof *s->kinds);
     fill(world->models, s->models, n->models, sizeof *s->models);
     fill(world->model_vertices, s->vertices, n->model_vertices, sizeof *s->vertices);

@@ -42,7 +42,8 @@ bool ground_file_fits_world(const struct ground_header *header, double side_m, d
 {
     double cells = side_m / header->spacing_m;
     *offset_m = 0.5 * (side_m - header->side_m);
-    if (!(*offset_m >= 0.0) || cells != floor(cells) || cells > GROUND_WORLD_POSTS_MAX - 1 ||
+    if (!(*offset_m >= 0.0) || cells != floor(cells) ||
+        cells > (*offset_m > 0.0 ? GROUND_WORLD_POSTS_MAX : GROUND_POSTS_SIDE_MAX) - 1 ||
         fmod(*offset_m, header->spacing_m) != 0.0)
         return false;
     *posts_side = (uint32_t)cells + 1;

@@ -33,7 +33,8 @@ struct ground_file {
 uint64_t ground_file_hash(const struct ground_header *header, const struct ground_block *blocks);
 
 /* Returns true if a world of this side [m] can have this ground: a square in its middle whose posts
- * are posts of the world, GROUND_WORLD_POSTS_MAX along an edge at most. Sets *offset_m: x and z of
+ * are posts of the world, GROUND_WORLD_POSTS_MAX along an edge at most, more if the square is the
+ * whole world. Sets *offset_m: x and z of
  * the square's north-west corner in the world, and *posts_side: posts of the world along an edge.
  */
 bool ground_file_fits_world(const struct ground_header *header, double side_m, double *offset_m,

@@ -20,7 +20,8 @@
 #define GROUND_POSTS_SIDE_MIN 9u
 #define GROUND_POSTS_SIDE_MAX 20001u
 
-/* A world has room for so many along an edge (ipc/segment/layout.c refuses more). */
+/* A world has room for so many along an edge; more are in a file beside the ground file
+ * (world/terrain/posts_file.h). */
 #define GROUND_WORLD_POSTS_MAX 4097u
 
 /* Posts along one edge of a tile; the last tiles of a row or column have fewer. */

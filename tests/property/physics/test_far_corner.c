@@ -23,7 +23,7 @@
 #define NEAR_M  1e-3
 
 /* Places that are multiples of the distance of posts, of the strips and of the gridsquares. */
-static const struct place {
+static const struct corner {
     double side_m, x, z;
 } places[] = {{50000.0, 24000.0, 24000.0},
               {500000.0, 250000.0, 250000.0},
@@ -37,7 +37,7 @@ struct ending {
     uint64_t collisions, contacts;
 };
 
-static void open_world(struct fixture *f, const struct place *place, const char *method,
+static void open_world(struct fixture *f, const struct corner *place, const char *method,
                        const char *shape)
 {
     char text[640];
@@ -54,7 +54,7 @@ static void open_world(struct fixture *f, const struct place *place, const char 
 }
 
 /* Vehicles and helicopters cross a square of 120 m. */
-static void put_crowd(struct fixture *f, const struct place *place, uint64_t random)
+static void put_crowd(struct fixture *f, const struct corner *place, uint64_t random)
 {
     for (uint32_t i = 0; i < ROWS; i++) {
         bool flies = i % 6 == 5;
@@ -72,7 +72,7 @@ static void put_crowd(struct fixture *f, const struct place *place, uint64_t ran
 
 /* Pairs drive at each other, each pair alone: among many bodies a rounding error grows with every
  * impact. */
-static void put_pairs(struct fixture *f, const struct place *place, uint64_t random)
+static void put_pairs(struct fixture *f, const struct corner *place, uint64_t random)
 {
     for (uint32_t i = 0; i < ROWS; i += 2) {
         bool flies = i % 12 == 10;
@@ -89,9 +89,9 @@ static void put_pairs(struct fixture *f, const struct place *place, uint64_t ran
     }
 }
 
-typedef void put(struct fixture *f, const struct place *place, uint64_t random);
+typedef void put(struct fixture *f, const struct corner *place, uint64_t random);
 
-static struct ending run(const struct place *place, const char *method, const char *shape,
+static struct ending run(const struct corner *place, const char *method, const char *shape,
                          put *crowd, uint64_t seed)
 {
     struct fixture f;
