@@ -205,8 +205,8 @@ static void test_a_place_gives_x_and_z(void **state)
         read_order(&order, "{\"do\":\"spawn\",\"kind\":\"jeep\",\"at\":\"19TCK1617404497\"}"), 0);
     assert_int_equal(command_text_place(&order, &frame, &error), -1);
     assert_non_null(strstr(error.text, "at: that place is 42"));
-    refused("{\"do\":\"spawn\",\"kind\":\"jeep\",\"at\":\"100,60000\"}",
-            "at: 60000: not a number from 0 to 50000");
+    refused("{\"do\":\"spawn\",\"kind\":\"jeep\",\"at\":\"100,600000\"}",
+            "at: 600000: not a number from 0 to 500000");
     refused("{\"do\":\"spawn\",\"kind\":\"jeep\",\"at\":[1,2]}", "at: not a number, a text");
     refused("{\"do\":\"spawn\",\"kind\":\"jeep\",\"at\":5}", "at: 5: not a text, as");
     refused("{\"do\":\"spawn\",\"kind\":\"jeep\",\"x\":5,\"at\":\"1,2\"}",
