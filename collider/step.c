@@ -1,6 +1,7 @@
 /* The collider's step, from top to bottom. */
 #include "collider/step.h"
 
+#include "collider/narrow_phase/cruise_rows.h"
 #include "collider/remote_rows.h"
 #include "collider/resting/sleeping_contacts.h"
 #include "collider/resting/turret_guard.h"
@@ -89,7 +90,8 @@ _Static_assert(BROAD_PHASE_ROWS_TAKEN == CHECKSUM_ROWS, "rows are taken by whole
 #define POSE_COLUMNS                                                                               \
     (COLUMN_BIT(x) | COLUMN_BIT(y) | COLUMN_BIT(z) | COLUMN_BIT(heading) | COLUMN_BIT(pitch) |     \
      COLUMN_BIT(roll) | COLUMN_BIT(turret) | COLUMN_BIT(gun) | COLUMN_BIT(id) | COLUMN_BIT(kind) | \
-     COLUMN_BIT(state) | COLUMN_BIT(behaviour) | COLUMN_BIT(flags))
+     COLUMN_BIT(state) | COLUMN_BIT(behaviour) | COLUMN_BIT(flags) | COLUMN_BIT(cruise_tick) |     \
+     COLUMN_BIT(cruise_rps) | COLUMN_BIT(cruise_mps2))
 
 /* Rows of a block that may move before they are taken for all. */
 #define FEW_MOVE (CHECKSUM_ROWS / 4)
@@ -131,14 +133,16 @@ static void take_rows(void *context, uint32_t first, uint32_t end, struct moving
 /* Notes which rows commands have changed in a frame in which time does not advance. */
 static void note_moving(const struct step *step, const struct method_input *input)
 {
-    struct resting_records *resting = &step->collider->broad.resting;
+    struct broad_phase *broad = &step->collider->broad;
+    struct resting_records *resting = &broad->resting;
     uint64_t bin[RESTING_RECORDS_WORDS];
     resting_records_begin(resting, input);
     for (uint32_t block = 0; block < block_count(step->used); block++) {
         struct moving_rows moving;
         find_moving(step, block, &moving);
-        resting_records_note(resting, block, &moving, bin);
+        resting_records_note(resting, block, &moving, broad->cruise.held, bin);
     }
+    broad_phase_let_go(broad, step->used);
 }
 
 /* Copies all moved rows. */
@@ -176,10 +180,26 @@ static void require_paths(struct body_motion *motion, const struct pair_list *li
     }
 }
 
+/* Ends the stretches of rows that may meet something, or that touch something already. */
+static void end_stretches(const struct step *step, const struct response_context *context)
+{
+    struct collider *collider = step->collider;
+    const struct state *committed = step->committed;
+    for (uint32_t i = 0; i < committed->head->contact_count; i++) {
+        const struct persistent_contact *contact = &committed->contacts[i];
+        cruise_rows_stop(&context->input, contact->a_row);
+        if (!(contact->b_id & PERSISTENT_CONTACT_FIXED))
+            cruise_rows_stop(&context->input, contact->b_row);
+    }
+    cruise_rows_take_pairs(&context->input, &collider->pairs);
+    broad_phase_hold(&collider->broad, &collider->motion);
+}
+
 /* Copies the moved rows, block by block with the broad phase, and finds the frame's pairs by the
  * scenario's method. Computes all paths only if the method needs them, else those of pairs. */
-static void find_pairs(struct step *step, const struct method_input *input)
+static void find_pairs(struct step *step, const struct response_context *context)
 {
+    const struct method_input *input = &context->input.detect;
     struct collider *collider = step->collider;
     const struct method_functions *method =
         method_of((enum method)collider->world->params->collision.method);
@@ -192,6 +212,8 @@ static void find_pairs(struct step *step, const struct method_input *input)
         body_motion_require(&collider->motion, row);
     collider->pairs.count = 0;
     method->pairs(input, collider->workspace, &collider->pairs);
+    if (collider->broad.cruises)
+        end_stretches(step, context);
     require_paths(&collider->motion, &collider->pairs);
     contact_queue_begin(&collider->contacts, &collider->pairs, 1);
 }
@@ -213,7 +235,7 @@ static void collide_all(struct step *step, struct response_context *context)
     bool rest = context->functions->joint && collider->motion.models;
     if (is_crowded(collider))
         thread_pool_hold(collider->workers);
-    find_pairs(step, &context->input.detect);
+    find_pairs(step, context);
     context->contacts_sleep = collider->slept = sleeping_contacts_all(context);
     if (rest) {
         resting_solve(&collider->resting, context);
@@ -234,6 +256,8 @@ static void collide_all(struct step *step, struct response_context *context)
         debris_push_step(context);
     remote_rows_settle(context, step->moved.entities);
     damage_overturned(context);
+    if (collider->broad.cruises)
+        cruise_rows_meet_written(&context->input, &collider->pairs);
     if (!sleeping_contacts_keep(context))
         contact_table_finish(&collider->table, context);
     thread_pool_let_go(collider->workers);
@@ -285,6 +309,8 @@ struct response_context collider_response_context(struct collider *collider, str
     const struct world *world = collider->world;
     const struct response_functions *functions =
         response_of((enum response_model)world->params->collision.response);
+    const struct table_writer writer = {&next->entities, collider->changed,
+                                        collider->broad.resting.same};
     return (struct response_context){
         .world = world,
         .functions = functions,
@@ -301,13 +327,14 @@ struct response_context collider_response_context(struct collider *collider, str
                   .motion = &collider->motion,
                   .broad = &collider->broad,
                   .meets = functions->joint ? CONTACT_MEETS_MAX : 1,
-                  .through_fixed = !functions->joint},
+                  .through_fixed = !functions->joint,
+                  .writer = writer},
         .next = next,
         .path = collider->motion.path,
         .charges = &collider->charges,
         .island = &collider->island,
         .unsprung = collider->unsprung,
-        .writer = {&next->entities, collider->changed, collider->broad.resting.same},
+        .writer = writer,
     };
 }
 
@@ -327,14 +354,14 @@ void collider_step(struct collider *collider, const struct state *committed,
         step.known > 0 && next->head->tally.fixed_damaged == committed->head->tally.fixed_damaged;
     /* Else rows have changed that this process has not seen. */
     if (committed->head->checksum != collider->left[committed->head->frame & 1])
-        resting_records_forget(&collider->broad.resting);
+        broad_phase_forget(&collider->broad);
     uint32_t held = step.known > 0 ? next->head->used : next->entities.capacity;
     table_clear_unused(&next->entities, step.used, held);
     crater_index_update(&collider->craters, committed->head->crater_count);
     begin_head(next->head, moved->head);
     if (!same_damage)
         memcpy(next->fixed_damage, committed->fixed_damage, world->counts.fixed);
-    body_motion_begin(&collider->motion, committed, next);
+    body_motion_begin(&collider->motion, committed, next, &collider->craters);
 
     struct response_context context = collider_response_context(collider, next);
     context.events = (struct event_writer){.slot = ring->slot,

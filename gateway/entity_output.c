@@ -549,7 +549,7 @@ static bool send_row(struct entity_output *entities, const struct world *world, 
 
 bool entity_output_look(struct entity_output *entities, const struct view *view, uint64_t now_ns)
 {
-    if (snapshot_take(&entities->snapshot, view) != 0)
+    if (snapshot_take_poses(&entities->snapshot, view) != 0)
         return false; /* the next pass sees a later frame */
     entities->frame_ns = frame_time_ns(entities, &view->world, now_ns);
     return true;

@@ -87,6 +87,7 @@ static enum command_result drive(struct serial_context *context, const struct co
     if (!within(v[5], 0.0, 1.0) || command->force >= GEAR_COUNT ||
         command->amount > COMMAND_LEASE_MAX)
         return COMMAND_OUT_OF_RANGE;
+    serial_context_stop(context, row, context->step->tick - 1);
     if (m->behaviour[row] != BEHAVIOUR_DRIVEN)
         table_set_dodge(writer, row, 0.0f); /* wheels straight, engine warm */
     table_set_throttle(writer, row, (float)v[0]);
@@ -160,6 +161,7 @@ static enum command_result fire(struct serial_context *context, const struct com
     if (m->state[row] != ENTITY_ACTIVE || step->tick < m->reload_tick[row] || m->rounds[row] == 0 ||
         step->world->kinds[m->kind[row]].munition == KIND_NONE)
         return COMMAND_CANNOT;
+    serial_context_stop(context, row, context->step->tick - 1);
     if (target != SLOT_NONE) { /* the gun turns to the target even if it cannot fire yet */
         table_set_target(&context->writer, row, target, m->id[target]);
         if (target >= step->committed->head->used || !turret_bears(step, m, row, target))

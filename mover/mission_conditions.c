@@ -16,6 +16,7 @@ bool mission_conditions_active(const struct serial_context *context, uint32_t sl
     return entities_alive(m, slot, slot + 1) && m->state[slot] == ENTITY_ACTIVE;
 }
 
+/* A vehicle that cruises counts where its stretch ends. */
 static bool within(const struct entities *m, uint32_t row, const struct objective *objective)
 {
     return m->x[row] >= objective->x0 && m->x[row] <= objective->x1 && m->z[row] >= objective->z0 &&
@@ -63,7 +64,8 @@ bool mission_conditions_there(const struct serial_context *context,
 {
     const struct world *world = context->step->world;
     const struct entities *m = &context->moved->entities;
-    const double x = m->x[row], z = m->z[row];
+    const struct vec3 at = step_context_position(context->step, m, row);
+    const double x = at.x, z = at.z;
     if (phase->route != MISSION_NONE) {
         const struct route *route = &world->routes[phase->route];
         const struct route_point *end = &world->route_points[route->first + route->count - 1];

@@ -119,6 +119,7 @@ enum remote_refusal remote_impact(struct serial_context *context,
     if (!is_good(record))
         return REMOTE_UNKNOWN;
     struct vec3 before = entities_velocity(&context->moved->entities, target);
+    serial_context_stop(context, target, context->step->tick - 1);
     struct strike strike = strike_of(context, record, target);
     if (strike.closing_mps < LEAST_MPS)
         return REMOTE_TAKEN;

@@ -5,6 +5,7 @@
 #include "mover/agent/perception.h"
 #include "mover/motion/kinematics.h"
 #include "mover/motion/remote_motion.h"
+#include "mover/context/cruise_start.h"
 #include "mover/motion/ground/wreck.h"
 #include "world/entity/kind.h"
 #include "world/state.h"
@@ -26,8 +27,10 @@ static size_t words_of(uint32_t capacity)
 int resting_rows_init(struct resting_rows *rows, uint32_t capacity, double side_m)
 {
     *rows = (struct resting_rows){.resting = calloc(words_of(capacity), sizeof *rows->resting),
-                                  .turns = calloc(words_of(capacity), sizeof *rows->turns)};
-    if (rows->resting && rows->turns &&
+                                  .turns = calloc(words_of(capacity), sizeof *rows->turns),
+                                  .cruising = calloc(words_of(capacity), sizeof *rows->cruising),
+                                  .fresh = calloc(words_of(capacity), sizeof *rows->fresh)};
+    if (rows->resting && rows->turns && rows->cruising && rows->fresh &&
         hover_watch_init(&rows->hovering, (uint32_t)words_of(capacity), side_m) == 0)
         return 0;
     resting_rows_free(rows);
@@ -38,6 +41,8 @@ void resting_rows_free(struct resting_rows *rows)
 {
     free(rows->resting);
     free(rows->turns);
+    free(rows->cruising);
+    free(rows->fresh);
     hover_watch_free(&rows->hovering);
     *rows = (struct resting_rows){0};
 }
@@ -112,6 +117,7 @@ uint32_t resting_rows_awake(const struct resting_rows *rows, const struct step_c
                             struct row_block *block)
 {
     bool burns = kinematics_hover_burns(context, block->first);
+    bool ends = cruise_start_turn(context, block->first);
     uint32_t count = 0;
     for (uint32_t w = 0; w < ROW_BLOCK_WORDS; w++) {
         uint32_t row = block->first + w * 64;
@@ -123,6 +129,8 @@ uint32_t resting_rows_awake(const struct resting_rows *rows, const struct step_c
         uint64_t due = due_of(context, row, there & resting & turns);
         /* An aircraft that rests only between its turns hovers as well. */
         due |= burns ? rows->hovering.hovers[row / 64] | turns : 0;
+        due |= ends ? rows->cruising[row / 64] : 0;
+        rows->fresh[row / 64] = 0;
         block->awake[w] = there & (~resting | due);
         count += (uint32_t)__builtin_popcountll(block->awake[w]);
     }
@@ -148,7 +156,7 @@ static bool is_at_ease(const struct step_context *context, uint32_t i)
            !perception_hurt_soon(context, i);
 }
 
-enum rest { REST_NONE, REST_TURNS, REST_HOVERS, REST_ALL };
+enum rest { REST_NONE, REST_TURNS, REST_HOVERS, REST_CRUISE, REST_ALL };
 
 static bool has_rest(const struct resting_rows *rows, uint32_t i)
 {
@@ -193,6 +201,8 @@ static enum rest rest_of(const struct resting_rows *rows, const struct step_cont
     case MOTION_AGENT:
         return is_at_ease(context, i) ? rest_of_agent(rows, context, i, motion == MOTION_AGENT)
                                       : REST_NONE;
+    case MOTION_CRUISE:
+        return REST_CRUISE;
     case MOTION_REMOTE:
         return remote_motion_stands(m, i) && m->trigger[i] == 0 ? REST_ALL : REST_NONE;
     case MOTION_FLIGHT:
@@ -220,7 +230,12 @@ static void settle_row(struct resting_rows *rows, const struct step_context *con
     enum rest rest = rest_of(rows, context, i, motion);
     if (rest == REST_NONE && !(*resting & bit))
         return;
-    if (rest == REST_NONE || has_changed(rows, context, i, rest))
+    rows->cruising[i / 64] &= ~bit;
+    if (rest == REST_CRUISE) { /* whatever has changed, it changes no more */
+        rows->cruising[i / 64] |= bit;
+        rows->fresh[i / 64] |= bit;
+        *resting |= bit;
+    } else if (rest == REST_NONE || has_changed(rows, context, i, rest))
         *resting &= ~bit;
     else
         *resting |= bit;
@@ -230,7 +245,8 @@ static void settle_row(struct resting_rows *rows, const struct step_context *con
 
 _Static_assert(KINEMATICS_HOVER_ROWS == CHECKSUM_ROWS, "a block burns its fuel in one frame");
 _Static_assert(BEHAVIOUR_IDLE == 0 && MOTION_HOLD < 4 && MOTION_COURSE >= 4 &&
-                   MOTION_REMOTE > MOTION_ALONE && MOTION_REMOTE < 0x80,
+                   MOTION_REMOTE > MOTION_ALONE && MOTION_CRUISE > MOTION_REMOTE &&
+                   MOTION_CRUISE < 0x80,
                "may_rest() compares bytes");
 
 /* Returns false if none of eight rows rests or can begin to: all have an agent or a driver here,

@@ -21,8 +21,11 @@
 struct neighbour_lists;
 
 struct resting_rows {
-    uint64_t *resting; /* [capacity / 64] a bit for each row that rests */
-    uint64_t *turns;   /* [capacity / 64] of these, the rows that are moved when they decide */
+    uint64_t *resting;  /* [capacity / 64] a bit for each row that rests */
+    uint64_t *turns;    /* [capacity / 64] of these, the rows that are moved when they decide */
+    uint64_t *cruising; /* and those that are moved when their stretch ends */
+    uint64_t *fresh;    /* those whose stretch has begun in the last step: their entry in the index
+                           of neighbours is not yet right */
     struct hover_watch hovering;
     uint32_t craters; /* that have woken the rows near them */
     bool never;       /* for tests: no row rests */

@@ -17,6 +17,7 @@
 #include "mover/motion/projectile.h"
 #include "mover/motion/remote_motion.h"
 #include "mover/motion/ship.h"
+#include "mover/context/cruise_start.h"
 #include "mover/motion/ground/wreck.h"
 #include "mover/weapon/fire.h"
 #include "mover/weapon/fire_mission.h"
@@ -120,8 +121,8 @@ struct rows {
 struct batches {
     const struct row_block *block;
     uint8_t motion[CHECKSUM_ROWS];
-    bool harmed; /* a hard landing has harmed a row */
-    struct ground_vehicle land;
+    bool harmed;                         /* a hard landing has harmed a row */
+    struct ground_vehicle land, stretch; /* moved by one frame, and by a stretch */
     struct aircraft air;
     struct constant_course course;
 };
@@ -171,6 +172,21 @@ static void move_land(const struct step_context *context, struct batches *batche
         after_motion(context, batches, i, land->blocked.lane[l] != 0);
     }
     land->count = 0;
+}
+
+/* Moves rows by a stretch, and those that it refuses by one frame. */
+static void move_stretch(const struct step_context *context, struct batches *batches)
+{
+    struct ground_vehicle *stretch = &batches->stretch;
+    ground_vehicle_move(context, stretch);
+    for (int l = 0; l < stretch->count; l++) {
+        uint32_t i = stretch->row[l];
+        if (!stretch->refused.lane[l])
+            batches->motion[i - batches->block->first] = MOTION_CRUISE;
+        else if (ground_vehicle_take_held(context, &batches->land, i))
+            move_land(context, batches);
+    }
+    stretch->count = 0;
 }
 
 /* Notes that a ship or an aircraft is or was on the ground: more than its motion changes. */
@@ -286,6 +302,9 @@ static void move_held(const struct step_context *context, uint32_t i, struct bat
         is_sprung(context, i, batches)) {
         agent_controls_motion(context, i, &desired);
         move_as_desired(context, i, &desired, batches);
+    } else if (cruise_start_may(context, i)) {
+        if (ground_vehicle_take_held(context, &batches->stretch, i))
+            move_stretch(context, batches);
     } else if (ground_vehicle_take_held(context, &batches->land, i)) {
         move_land(context, batches);
     }
@@ -342,6 +361,7 @@ static void move_row(const struct step_context *context, uint32_t i, struct batc
     struct desired_motion desired;
     switch ((enum motion)batches->motion[i - batches->block->first]) {
     case MOTION_NONE:
+    case MOTION_CRUISE:
         break;
     case MOTION_WRECK:
         wreck_row(context, i);
@@ -371,6 +391,8 @@ static void move_row(const struct step_context *context, uint32_t i, struct batc
 
 static void move_rest(const struct step_context *context, struct batches *batches)
 {
+    if (batches->stretch.count > 0)
+        move_stretch(context, batches);
     if (batches->land.count > 0)
         move_land(context, batches);
     if (batches->air.count > 0)
@@ -389,7 +411,8 @@ static void move_rest(const struct step_context *context, struct batches *batche
 #define MOTION_COLUMNS                                                                             \
     (COLUMN_BIT(x) | COLUMN_BIT(y) | COLUMN_BIT(z) | COLUMN_BIT(vx) | COLUMN_BIT(vy) |             \
      COLUMN_BIT(vz) | COLUMN_BIT(heading) | COLUMN_BIT(pitch) | COLUMN_BIT(roll) |                 \
-     COLUMN_BIT(fuel_l))
+     COLUMN_BIT(fuel_l) | COLUMN_BIT(cruise_rps) | COLUMN_BIT(cruise_mps2) |                       \
+     COLUMN_BIT(cruise_tick))
 #define LAID_COLUMNS (GUN_COLUMNS | COLUMN_BIT(trigger))
 
 /* Returns the columns of the block that were zero in every row and still are. Only rows that did
@@ -423,7 +446,8 @@ static uint64_t move_block(const struct rows *rows, const struct row_block *bloc
     batches.block = block;
     batches.harmed = false;
     think_schedule_run(context, block, batches.motion);
-    ground_vehicle_begin(&batches.land);
+    ground_vehicle_begin(&batches.land, 1);
+    ground_vehicle_begin(&batches.stretch, context->cruise_frames);
     aircraft_begin(&batches.air);
     constant_course_begin(&batches.course);
     for (uint32_t i = row_block_next(block, block->first); i < block->end;
@@ -635,6 +659,9 @@ struct step_context mover_context(const struct mover *mover, const struct state 
         .think_frames = perception_think_frames(params, used),
         .look_frames = perception_look_frames(params, used),
         .aim_frames = attack_aim_frames(params),
+        .cruise_frames = params->cruise && params->collision.method == METHOD_SWEPT
+                             ? cruise_frames(params->dt_s)
+                             : 1,
         .dt_s = params->dt_s,
         .wind = projectile_wind(params),
     };
@@ -648,7 +675,8 @@ static void index_neighbours(struct mover *mover, const struct step_context *con
                                                 .used = committed->head->used,
                                                 .tick = (uint32_t)context->tick,
                                                 .think_frames = context->think_frames,
-                                                .resting = mover->resting.resting};
+                                                .resting = mover->resting.resting,
+                                                .fresh = mover->resting.fresh};
     neighbour_index_update(&mover->neighbours, &frame, mover->workers);
     neighbour_lists_gather(&mover->neighbour_lists, &mover->neighbours, mover->world,
                            &mover->avoidance, mover->workers);

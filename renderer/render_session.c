@@ -276,7 +276,7 @@ static int take_frame(struct render_session *session)
     if (session->snapshots_taken > 0 &&
         segment_load(&session->view->commit->commit) == session->seen)
         return 0;
-    if (snapshot_take(&session->snapshot[other], session->view) != 0) {
+    if (snapshot_take_poses(&session->snapshot[other], session->view) != 0) {
         session->snapshots_taken = session->snapshots_taken > 0; /* the older one was overwritten */
         return -1;
     }

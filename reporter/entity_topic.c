@@ -97,7 +97,7 @@ static bool has_subscribers(const struct entity_topic *topic)
 static bool begin(struct entity_topic *topic, const struct view *view)
 {
     const struct state_head *head = &topic->snapshot.head;
-    if (snapshot_take(&topic->snapshot, view) != 0)
+    if (snapshot_take_poses(&topic->snapshot, view) != 0)
         return false;
     topic->wire.frame = head->frame;
     topic->wire.sim_time_s = state_time_s(&view->world, head);

@@ -92,6 +92,8 @@ struct params {
     uint32_t contact_slots; /* persistent contacts at most, in each world buffer */
     uint32_t remotes_max;   /* rows of remote entities at most (world/entity/remote.h) */
     uint32_t when_full;     /* enum when_full */
+    uint32_t cruise;        /* 1: vehicles may cruise (world/entity/cruise.h) */
+    uint32_t reserved;
     uint32_t initial_entities;
     double wind_mps, wind_from_rad; /* the air's speed, and the bearing from which it comes */
     struct collision_params collision;

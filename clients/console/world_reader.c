@@ -140,7 +140,7 @@ int world_reader_copy(struct world_reader *reader, uint64_t now_ns)
     pause_ns = pause_ns > WORLD_READER_COPY_NS ? pause_ns : WORLD_READER_COPY_NS;
     if (reader->copied && now_ns - reader->copied_ns < pause_ns)
         return 0;
-    int result = snapshot_take(&reader->snapshot, &reader->view);
+    int result = snapshot_take_poses(&reader->snapshot, &reader->view);
     uint64_t done_ns = clock_now_ns();
     reader->spent_ns = done_ns - now_ns;
     reader->copied_ns = now_ns;

@@ -39,10 +39,12 @@ struct block {
     _Alignas(64) double at[3][BLOCK], to[3][BLOCK];
     double margin[BLOCK];
     uint32_t rests[BLOCK]; /* BIN_RESTS or 0 */
+    uint64_t cruises;      /* a bit for each row that cruises */
     uint32_t tag[BLOCK];
     struct bin_record record[BLOCK];
-    uint32_t strip[BLOCK];      /* STRIP_COUNT: the row is in several strips */
-    struct path_box box[BLOCK]; /* used for a block that is not full */
+    uint32_t strip[BLOCK];       /* STRIP_COUNT: the row is in several strips */
+    struct path_box box[BLOCK];  /* used for a block that is not full */
+    struct path_box kept[BLOCK]; /* of rows that cruise and are not put into strips */
 };
 
 /* Where the paths of a block begin and end. */
@@ -95,6 +97,51 @@ static struct ends take_places(struct block *block, const struct body_motion *mo
         }
     }
     return own_ends(block);
+}
+
+/* Makes the paths of rows that cruise those of their stretches. */
+static void take_stretches(const struct body_boxes *rows, struct block *block, struct ends *ends,
+                           uint32_t first, uint32_t count, uint64_t some)
+{
+    const uint64_t tick = rows->motion->next->head->tick - 1;
+    const uint32_t *until = rows->motion->next->entities.cruise_tick + first;
+    uint32_t any = 0;
+    block->cruises = 0;
+    for (uint32_t k = 0; k < count; k++)
+        any |= until[k] > tick;
+    for (uint32_t k = 0; any && k < count; k++)
+        block->cruises |= (uint64_t)(until[k] > tick) << k;
+    for (int axis = 0; any && axis < 3; axis++) {
+        if (ends->at[axis] != block->at[axis]) {
+            memcpy(block->at[axis], ends->at[axis], count * sizeof(double));
+            memcpy(block->to[axis], ends->to[axis], count * sizeof(double));
+        }
+    }
+    if (any)
+        *ends = own_ends(block);
+    for (uint64_t bits = block->cruises & some; bits != 0; bits &= bits - 1) {
+        uint32_t k = (uint32_t)__builtin_ctzll(bits);
+        struct path path = body_motion_stretch(rows->motion, first + k);
+        struct vec3 to = path_at(&path, 1.0);
+        block->at[0][k] = path.at.x, block->at[1][k] = path.at.y, block->at[2][k] = path.at.z;
+        block->to[0][k] = to.x, block->to[1][k] = to.y, block->to[2][k] = to.z;
+    }
+}
+
+/* The box around a stretch stays as it was until the stretch ends. */
+static void keep_boxes(struct block *block, const struct path_box *box, uint32_t count,
+                       uint64_t some)
+{
+    if (block->cruises & ~some)
+        memcpy(block->kept, box, count * sizeof *box);
+}
+
+static void give_back_boxes(const struct block *block, struct path_box *box, uint64_t some)
+{
+    for (uint64_t bits = block->cruises & ~some; bits != 0; bits &= bits - 1) {
+        uint32_t k = (uint32_t)__builtin_ctzll(bits);
+        box[k] = block->kept[k];
+    }
 }
 
 /* Marks the rows whose path has no length and that do not turn. */
@@ -272,6 +319,8 @@ static void add_rows(const struct body_boxes *rows, struct sweep_worker *sweeper
 {
     const struct entities *e = rows->input->entities;
     const uint8_t *state = e->state + first, *behaviour = e->behaviour + first;
+    if (rows->awake) /* what is in the way of an old stretch was found when it began */
+        some &= ~block->cruises | rows->awake[first / 64];
     for (uint32_t k = 0; k < BLOCK && some >> k != 0; k++) {
         struct bin_record record = block->record[k];
         if (state[k] == ENTITY_FREE || !(some >> k & 1))
@@ -300,6 +349,9 @@ static void bin_block(const struct body_boxes *rows, struct block *block,
     take_kinds(rows, block, first, count);
     if (rows->motion) {
         ends = take_places(block, rows->motion, first, count);
+        if (rows->awake)
+            take_stretches(rows, block, &ends, first, count, some);
+        keep_boxes(block, box, count, some);
         if (bound_rows(block, &ends, true, rows->steps_per_m, to))
             find_resting(rows, block, first, count);
     } else {
@@ -308,6 +360,7 @@ static void bin_block(const struct body_boxes *rows, struct block *block,
     }
     if (count < BLOCK)
         memcpy(box, block->box, count * sizeof *box);
+    give_back_boxes(block, box, some);
     add_rows(rows, sweeper, block, &ends, first, some);
 }
 

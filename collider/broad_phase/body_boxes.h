@@ -19,6 +19,9 @@ struct body_boxes {
     const double *margin;       /* [kinds] from a row's path to its box [m] */
     const uint32_t *flags;      /* [kinds] bits of a record's tag */
     uint8_t *wider;             /* [rows] enum body_box_wider, or NULL */
+    /* A bit for each row that moves in this frame. One that cruises and does not has no record.
+     * NULL: no row cruises. */
+    const uint64_t *awake;
 };
 
 /* Collisions change the paths of some bodies after their boxes have been compared. */

@@ -34,7 +34,10 @@ int broad_phase_init(struct broad_phase *broad, const struct world *world,
     bool taken = broad->box && broad->sweeper && broad->wider && broad->widened &&
                  static_boxes_init(&broad->fixed_boxes, world) == 0 &&
                  query_index_init(&broad->index, rows) == 0 &&
-                 resting_records_init(&broad->resting, rows) == 0;
+                 resting_records_init(&broad->resting, rows) == 0 &&
+                 cruise_index_init(&broad->cruise, rows, world->terrain.squares.world_m) == 0 &&
+                 (broad->binned = calloc(broad->cruise.words, sizeof *broad->binned)) != NULL;
+    broad->cruises = world->params->cruise != 0;
     for (uint32_t i = 0; taken && i < broad->sweepers; i++)
         taken = sweep_worker_init(&broad->sweeper[i], rows, pairs) == 0;
     if (taken)
@@ -51,6 +54,8 @@ void broad_phase_free(struct broad_phase *broad)
     static_boxes_free(&broad->fixed_boxes);
     query_index_free(&broad->index);
     resting_records_free(&broad->resting);
+    cruise_index_free(&broad->cruise);
+    free(broad->binned);
     free(broad->sweeper);
     free(broad->box);
     free(broad->wider);
@@ -79,9 +84,10 @@ struct job {
 static void bin_block(struct job *job, struct sweep_worker *sweeper, uint32_t first, uint32_t end,
                       const struct moving_rows *moving)
 {
-    uint64_t bin[RESTING_RECORDS_WORDS];
-    uint32_t count =
-        resting_records_note(&job->broad->resting, first / BROAD_PHASE_ROWS_TAKEN, moving, bin);
+    struct broad_phase *broad = job->broad;
+    uint64_t *bin = broad->binned + first / 64;
+    uint32_t count = resting_records_note(&broad->resting, first / BROAD_PHASE_ROWS_TAKEN, moving,
+                                          broad->cruise.held, bin);
     if (count == end - first) {
         body_boxes_bin(&job->rows, sweeper, first, end);
         return;
@@ -103,6 +109,77 @@ static void bin_rows(void *context, uint32_t first, uint32_t end, uint32_t worke
         bin_block(job, &job->broad->sweeper[worker], row, past, &moving);
         work_done();
     }
+}
+
+/* --- rows that cruise --------------------------------------------------------------------------*/
+
+/* Finds the rows whose stretch the rows that move may be in the way of. */
+static void meet_cruising(void *context, uint32_t first, uint32_t end, uint32_t worker)
+{
+    struct job *job = context;
+    const struct broad_phase *broad = job->broad;
+    for (uint32_t w = first; w < end; w++) {
+        for (uint64_t bits = broad->binned[w] & broad->resting.awake[w]; bits != 0;
+             bits &= bits - 1) {
+            uint32_t row = w * 64 + (uint32_t)__builtin_ctzll(bits);
+            if (job->rows.input->entities->state[row] != ENTITY_FREE &&
+                broad->wider[row] == BODY_BOX_EXACT)
+                cruise_index_pairs(&broad->cruise, row, &broad->box[row],
+                                   &broad->sweeper[worker].pairs);
+        }
+    }
+}
+
+/* The same for the rows in contacts, also for those that do not move: their boxes are wider now. */
+static void meet_widened(const struct broad_phase *broad, const struct method_input *input)
+{
+    for (uint32_t i = 0; i < broad->widened_count; i++) {
+        uint32_t row = broad->widened[i];
+        struct path_box box = broad->box[row];
+        if (row >= input->rows || input->entities->state[row] == ENTITY_FREE)
+            continue;
+        box.min_x -= (float)(2.0 * BODY_BOX_WIDER_M), box.max_x += (float)(2.0 * BODY_BOX_WIDER_M);
+        box.min_z -= (float)(2.0 * BODY_BOX_WIDER_M), box.max_z += (float)(2.0 * BODY_BOX_WIDER_M);
+        cruise_index_pairs(&broad->cruise, row, &box, &broad->sweeper[0].pairs);
+    }
+}
+
+/* Adds rows that cruise and have been boxed to those that are held: those that do not move, or all.
+ */
+static void hold(struct broad_phase *broad, const struct body_motion *motion, bool all)
+{
+    uint32_t rows = motion->next->head->used;
+    for (uint32_t w = 0; broad->cruises && w * 64 < rows; w++) {
+        uint64_t bits = broad->binned[w] & ~broad->cruise.held[w];
+        for (bits &= all ? UINT64_MAX : ~broad->resting.awake[w]; bits != 0; bits &= bits - 1) {
+            uint32_t row = w * 64 + (uint32_t)__builtin_ctzll(bits);
+            if (motion->next->entities.state[row] != ENTITY_FREE &&
+                body_motion_cruises(motion, row))
+                cruise_index_add(&broad->cruise, row, &broad->box[row]);
+        }
+    }
+}
+
+void broad_phase_hold(struct broad_phase *broad, const struct body_motion *motion)
+{
+    hold(broad, motion, true);
+}
+
+void broad_phase_let_go(struct broad_phase *broad, uint32_t rows)
+{
+    for (uint32_t w = 0; w < broad->cruise.words && broad->cruise.count > 0; w++) {
+        uint64_t gone = broad->cruise.held[w] & broad->resting.awake[w];
+        if (w * 64 >= rows)
+            gone = broad->cruise.held[w];
+        for (; gone != 0; gone &= gone - 1)
+            cruise_index_remove(&broad->cruise, w * 64 + (uint32_t)__builtin_ctzll(gone));
+    }
+}
+
+void broad_phase_forget(struct broad_phase *broad)
+{
+    resting_records_forget(&broad->resting);
+    cruise_index_clear(&broad->cruise);
 }
 
 static bool is_empty(const struct broad_phase *broad, uint32_t strip)
@@ -140,7 +217,8 @@ void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_inpu
                                    .box = broad->box,
                                    .margin = job.margin,
                                    .flags = job.flags,
-                                   .wider = broad->widened_count > 0 ? broad->wider : NULL};
+                                   .wider = broad->widened_count > 0 ? broad->wider : NULL,
+                                   .awake = broad->cruises && motion ? broad->resting.awake : NULL};
     job.strips = (struct strips){.input = input,
                                  .motion = motion,
                                  .fixed_boxes = &broad->fixed_boxes,
@@ -157,7 +235,16 @@ void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_inpu
         broad->sweeper[i].pairs.count = 0;
     }
     resting_records_begin(&broad->resting, input);
+    if (broad->resting.never)
+        cruise_index_clear(&broad->cruise);
     thread_pool_run(workers, bin_rows, &job, input->rows, ROWS_A_PIECE);
+    broad_phase_let_go(broad, input->rows);
+    if (motion)
+        hold(broad, motion, false);
+    if (broad->cruise.count > 0) {
+        thread_pool_run(workers, meet_cruising, &job, (input->rows + 63) / 64, ROWS_A_PIECE / 64);
+        meet_widened(broad, input);
+    }
     thread_pool_run(workers, meet_strips, &job, STRIP_COUNT, STRIPS_A_PIECE);
     resting_records_end(&broad->resting, &job.rows);
     for (uint32_t i = 0; i < broad->sweepers; i++)
@@ -312,6 +399,8 @@ void broad_phase_query(const struct broad_phase *broad, const struct method_inpu
     for (uint32_t strip = bin_strip(broad->fixed_boxes.steps_per_m, box->min_z); strip <= last;
          strip++)
         query_strip(&query, strip);
+    if (broad->cruises)
+        cruise_index_query(&broad->cruise, box, found);
     order_found(found, since);
 }
 

@@ -10,6 +10,7 @@
 #include "collider/motion/body_motion.h"
 #include "collider/broad_phase/static_boxes.h"
 #include "collider/broad_phase/query_index.h"
+#include "collider/broad_phase/cruise_index.h"
 #include "collider/broad_phase/resting_records.h"
 #include "collider/broad_phase/sweep_and_prune.h"
 #include "world/runtime/thread_pool.h"
@@ -30,6 +31,9 @@ struct broad_phase {
     struct sweep_worker *sweeper; /* [sweepers] one for each worker */
     uint32_t sweepers;
     struct resting_records resting;         /* whose rows are in no bin */
+    struct cruise_index cruise;             /* rows that cruise, which are in no bin either */
+    uint64_t *binned;                       /* a bit for each row that is in a bin */
+    bool cruises;                           /* the world has rows that cruise */
     struct query_index index;               /* of this frame, once many queries are expected */
     struct pair_list list[THREAD_POOL_MAX]; /* one for each worker; their order does not matter,
                                                since contacts are put in a total order */
@@ -64,6 +68,17 @@ typedef void broad_phase_take(void *context, uint32_t first, uint32_t end,
  * read; NULL: the rows are complete. */
 void broad_phase_pairs_moved(struct broad_phase *broad, const struct method_input *input,
                              struct body_motion *motion, broad_phase_take *take, void *context);
+
+/* After broad_phase_pairs_moved, when the stretches have ended that something is in the way of:
+ * keeps the boxes of the rows that cruise. */
+void broad_phase_hold(struct broad_phase *broad, const struct body_motion *motion);
+
+/* Lets the rows go that no longer cruise: they move, or have been written. The moving rows of a
+ * frame of this many rows have been noted. */
+void broad_phase_let_go(struct broad_phase *broad, uint32_t rows);
+
+/* Forgets all that is kept from frame to frame: rows may have moved without having been noted. */
+void broad_phase_forget(struct broad_phase *broad);
 
 /* Before broad_phase_pairs_moved: the boxes of the rows in these contacts are to be wider in this
  * frame, because collisions will change their paths. contact: NULL for none. */

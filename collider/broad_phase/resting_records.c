@@ -69,7 +69,8 @@ void resting_records_begin(struct resting_records *resting, const struct method_
 }
 
 uint32_t resting_records_note(struct resting_records *resting, uint32_t block,
-                              const struct moving_rows *moving, uint64_t bin[RESTING_RECORDS_WORDS])
+                              const struct moving_rows *moving, const uint64_t *held,
+                              uint64_t bin[RESTING_RECORDS_WORDS])
 {
     uint32_t count = 0;
     for (uint32_t w = 0; w < RESTING_RECORDS_WORDS; w++) {
@@ -78,8 +79,8 @@ uint32_t resting_records_note(struct resting_records *resting, uint32_t block,
         resting->same[word] = UINT64_MAX;
         resting->awake[word] = moves;
         resting->kept[word] &= ~moves;
-        resting->moved[word] |= moves;
-        bin[w] = below(word, resting->rows) & ~resting->kept[word];
+        resting->moved[word] |= moves | held[word];
+        bin[w] = below(word, resting->rows) & ~resting->kept[word] & (moves | ~held[word]);
         count += (uint32_t)__builtin_popcountll(bin[w]);
     }
     return count;

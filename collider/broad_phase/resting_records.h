@@ -52,10 +52,11 @@ void resting_records_begin(struct resting_records *resting, const struct method_
 void resting_records_forget(struct resting_records *resting);
 
 /* Notes which rows of a block move, or were written since the last frame, and sets in `bin` the
- * rows whose records must be made in this frame. Returns how many these are. Any thread, each its
- * own block. */
+ * rows whose records must be made in this frame. held: bits of the rows that cruise, of all blocks:
+ * one that does not move has no record. Returns how many these are. Any thread, each its own
+ * block. */
 uint32_t resting_records_note(struct resting_records *resting, uint32_t block,
-                              const struct moving_rows *moving,
+                              const struct moving_rows *moving, const uint64_t *held,
                               uint64_t bin[RESTING_RECORDS_WORDS]);
 
 /* Ends a frame. If it pays, the index is built for the next frame: of all rows that have rested for

@@ -9,11 +9,20 @@
 #include "world/runtime/reserve.h"
 #include "world/runtime/prefault.h"
 #include "world/state.h"
+#include "world/cruise_pose.h"
 #include "world/terrain/fixed.h"
 #include "world/world.h"
 
 #include <stdlib.h>
 #include <string.h>
+
+/* The ground on the way of a stretch is at most this share of its length above or below its ends:
+ * no vehicle on easy ground is on a steeper slope (mover/motion/chassis.h). And the arc is within
+ * this share of its chord (mover/motion/ground_vehicle.c limits the turn). */
+#define STRETCH_SLOPE 0.5
+#define STRETCH_ARC   0.1
+
+#define BEGINS 6u /* columns of body_motion.before that are the collider's own */
 
 int body_motion_init(struct body_motion *motion, const struct world *world)
 {
@@ -27,8 +36,9 @@ int body_motion_init(struct body_motion *motion, const struct world *world)
     motion->parting_rps = calloc(capacity, sizeof *motion->parting_rps);
     motion->fall = calloc(capacity, sizeof *motion->fall);
     motion->pose = reserve_take(2 * (uint64_t)capacity, sizeof *motion->pose);
+    motion->begins = reserve_take(BEGINS * (uint64_t)capacity, sizeof *motion->begins);
     if (!motion->path || !motion->computed || !motion->change || !motion->changed || !motion->row ||
-        !motion->parting_rps || !motion->fall || !motion->pose) {
+        !motion->parting_rps || !motion->fall || !motion->pose || !motion->begins) {
         body_motion_free(motion);
         return -1;
     }
@@ -45,6 +55,7 @@ void body_motion_free(struct body_motion *motion)
     free(motion->parting_rps);
     free(motion->fall);
     reserve_free(motion->pose);
+    reserve_free(motion->begins);
     *motion = (struct body_motion){0};
 }
 
@@ -58,8 +69,9 @@ void body_motion_touch(const struct body_motion *motion, uint32_t rows)
 }
 
 void body_motion_begin(struct body_motion *motion, const struct state *committed,
-                       const struct state *next)
+                       const struct state *next, const struct crater_index *craters)
 {
+    uint64_t rows = motion->world->params->capacity;
     for (uint32_t i = 0; i < motion->changes; i++)
         motion->change[motion->row[i]] = 0;
     motion->changes = 0;
@@ -67,22 +79,65 @@ void body_motion_begin(struct body_motion *motion, const struct state *committed
     memset(motion->fall, 0, next->head->used * sizeof *motion->fall);
     motion->committed = committed;
     motion->next = next;
+    motion->craters = craters;
+    motion->before = committed->entities;
+    if (motion->world->params->cruise) {
+        motion->before.x = motion->begins;
+        motion->before.y = motion->begins + rows;
+        motion->before.z = motion->begins + 2 * rows;
+        motion->before.heading = motion->begins + 3 * rows;
+        motion->before.pitch = motion->begins + 4 * rows;
+        motion->before.roll = motion->begins + 5 * rows;
+    }
     motion->models = motion->world->params->collision.shape == SHAPE_MODEL;
+}
+
+/* Returns how an old row stands when the frame begins. */
+static struct cruise_pose begins_at(const struct body_motion *motion, uint32_t row)
+{
+    return cruise_pose_of(motion->world, motion->craters, &motion->committed->entities, row,
+                          motion->committed->head->tick);
+}
+
+static void note_begin(const struct body_motion *motion, uint32_t row)
+{
+    uint64_t rows = motion->world->params->capacity;
+    const struct cruise_pose pose = begins_at(motion, row);
+    const double values[BEGINS] = {pose.at.x,        pose.at.y,      pose.at.z,
+                                   pose.heading_rad, pose.pitch_rad, pose.roll_rad};
+    for (uint32_t i = 0; i < BEGINS; i++)
+        motion->begins[i * rows + row] = values[i];
 }
 
 struct path body_motion_path(const struct body_motion *motion, uint32_t row)
 {
     struct vec3 to = entities_position(&motion->next->entities, row);
-    struct vec3 from =
-        body_motion_old(motion, row) ? entities_position(&motion->committed->entities, row) : to;
+    struct vec3 from = body_motion_old(motion, row) ? begins_at(motion, row).at : to;
     struct path path = {.at = from, .along = vec3_sub(to, from)};
     if (pair_filter_rests(&path))
         path.rotates = body_motion_rotates(motion, row);
     return path;
 }
 
+struct path body_motion_stretch(const struct body_motion *motion, uint32_t row)
+{
+    const struct entities *n = &motion->next->entities;
+    struct vec3 to = entities_position(n, row);
+    struct vec3 at =
+        cruise_position(n, row, motion->next->head->tick - 1, world_dt_s(motion->world));
+    double x = to.x - at.x, z = to.z - at.z, length = sqrt(x * x + z * z);
+    struct vec3 most = {STRETCH_ARC * length, STRETCH_SLOPE * length, STRETCH_ARC * length};
+    struct vec3 low = {maths_min(at.x, to.x), maths_min(at.y, to.y), maths_min(at.z, to.z)};
+    struct vec3 high = {maths_max(at.x, to.x), maths_max(at.y, to.y), maths_max(at.z, to.z)};
+    low = vec3_sub(low, most);
+    return (struct path){.at = low, .along = vec3_sub(vec3_add(high, most), low)};
+}
+
 void body_motion_compute(struct body_motion *motion, uint32_t row)
 {
+    if (motion->before.x == motion->begins && body_motion_old(motion, row) &&
+        !motion->computed[row])
+        note_begin(motion, row);
     motion->path[row] = body_motion_path(motion, row);
     motion->computed[row] = 1;
 }
@@ -94,7 +149,7 @@ static const struct quat no_turn = {1.0, 0.0, 0.0, 0.0};
 static struct known_pose *place_of(const struct body_motion *motion, const struct entities *e,
                                    uint32_t row)
 {
-    bool before = e == &motion->committed->entities;
+    bool before = e == &motion->before;
     const struct state *state = before ? motion->committed : motion->next;
     return &motion->pose[2 * (uint64_t)row + (state->head->frame & 1)];
 }
@@ -122,7 +177,7 @@ void body_motion_note_poses(struct body_motion *motion, uint32_t row)
 {
     note_pose(motion, &motion->next->entities, row);
     if (body_motion_old(motion, row))
-        note_pose(motion, &motion->committed->entities, row);
+        note_pose(motion, &motion->before, row);
 }
 
 /* Returns the spin by which the mover turns the row: freely in the air, about the vertical on the
@@ -159,7 +214,7 @@ struct rotation_path body_motion_rotation(const struct body_motion *motion, uint
 {
     if (motion->change[row] != 0)
         return motion->changed[motion->change[row] - 1];
-    const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
+    const struct entities *w = &motion->before, *n = &motion->next->entities;
     struct quat to = pose(motion, n, row);
     if (!body_motion_rotated(motion, row))
         return (struct rotation_path){.from = to, .to = to};

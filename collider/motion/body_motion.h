@@ -6,6 +6,7 @@
 #define JOLON_COLLIDER_MOTION_BODY_MOTION_H
 
 #include "collider/geometry/time_of_impact.h"
+#include "world/entity/cruise.h"
 #include "world/entity/entity.h"
 #include "world/entity/kind.h"
 #include "world/maths/rotation.h"
@@ -33,6 +34,10 @@ struct body_motion {
     const struct world *world;
     const struct state *committed;
     const struct state *next;
+    const struct crater_index *craters;
+    /* The committed rows. In a world in which rows cruise place and angles are where a row was when
+     * the frame began, and are set for the rows whose path has been computed. */
+    struct entities before;
     bool models;                   /* bodies collide by their models, not as spheres */
     struct path *path;             /* [capacity] of the rows whose path has been computed */
     uint8_t *computed;             /* [capacity] 1: its path has been computed */
@@ -48,6 +53,7 @@ struct body_motion {
     /* [2 * capacity] of each row in both world buffers, kept from frame to frame. The angles are
      * compared, so that it saves work and changes no result. */
     struct known_pose *pose;
+    double *begins; /* [6 * capacity] the columns of before that are not the committed ones */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */
@@ -57,9 +63,10 @@ void body_motion_free(struct body_motion *motion);
 /* Takes the memory for this many rows before a step needs it. */
 void body_motion_touch(const struct body_motion *motion, uint32_t rows);
 
-/* Begins a frame: no path of next's rows in use has been computed. */
+/* Begins a frame: no path of next's rows in use has been computed. craters: of the committed
+ * world. */
 void body_motion_begin(struct body_motion *motion, const struct state *committed,
-                       const struct state *next);
+                       const struct state *next, const struct crater_index *craters);
 
 /* Computes the row's path from its committed position to its position in next. A row that is new in
  * this frame does not move. Any thread, for different rows. Most paths are never needed, so each is
@@ -68,6 +75,10 @@ void body_motion_compute(struct body_motion *motion, uint32_t row);
 
 /* Returns the same path without storing it. */
 struct path body_motion_path(const struct body_motion *motion, uint32_t row);
+
+/* Returns a path for the box around what is left of the stretch of a row that cruises in this
+ * frame: it begins where the frame does, and its heights hold those of the ground between. */
+struct path body_motion_stretch(const struct body_motion *motion, uint32_t row);
 
 /* Computes the row's path if that has not been done yet. */
 static inline void body_motion_require(struct body_motion *motion, uint32_t row)
@@ -88,7 +99,14 @@ static inline bool body_motion_old(const struct body_motion *motion, uint32_t ro
 static inline const struct entities *body_motion_before(const struct body_motion *motion,
                                                         uint32_t row)
 {
-    return body_motion_old(motion, row) ? &motion->committed->entities : &motion->next->entities;
+    return body_motion_old(motion, row) ? &motion->before : &motion->next->entities;
+}
+
+/* Returns true if the row cruises in this frame (world/entity/cruise.h): its columns in next do not
+ * say where it is. */
+static inline bool body_motion_cruises(const struct body_motion *motion, uint32_t row)
+{
+    return cruise_goes(&motion->next->entities, row, motion->next->head->tick - 1);
 }
 
 /* Returns true if the mover rotated the row. */
@@ -96,7 +114,8 @@ static inline bool body_motion_rotated(const struct body_motion *motion, uint32_
 {
     const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
     return body_motion_old(motion, row) &&
-           (w->heading[row] != n->heading[row] || w->pitch[row] != n->pitch[row] ||
+           (cruise_goes(w, row, motion->committed->head->tick) ||
+            w->heading[row] != n->heading[row] || w->pitch[row] != n->pitch[row] ||
             w->roll[row] != n->roll[row]);
 }
 

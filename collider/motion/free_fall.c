@@ -22,7 +22,7 @@ static struct vec3 centre_velocity(const struct entities *e, const struct kind *
 /* Returns true if the mover has changed the velocity of a wreck by its weight and nothing else. */
 static bool falls(const struct body_motion *motion, uint32_t row)
 {
-    const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
+    const struct entities *w = &motion->before, *n = &motion->next->entities;
     const struct kind *kind = &motion->world->kinds[n->kind[row]];
     if (!body_motion_old(motion, row) || w->state[row] != ENTITY_WRECK ||
         n->state[row] != ENTITY_WRECK)

@@ -1,6 +1,7 @@
 /* Columns of pairs, and lists of them by row. */
 #include "collider/narrow_phase/contact_pairs.h"
 
+#include "collider/narrow_phase/cruise_rows.h"
 #include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
 
@@ -112,6 +113,7 @@ void contact_pairs_look(struct contact_queue *contacts, const struct contact_inp
         return;
     }
     broad_phase_query(input->broad, &input->detect, &box, &contacts->near);
+    cruise_rows_take_found(input, &box, &contacts->near, 0);
     uint32_t rows = contacts->near.count;
     broad_phase_query_fixed(input->broad, &input->detect, &box, &contacts->near);
     for (uint32_t i = 0; i < contacts->near.count; i++) {

@@ -8,6 +8,7 @@
 #include "collider/narrow_phase/axis_memory.h"
 #include "collider/narrow_phase/narrow_phase.h"
 #include "collider/narrow_phase/pair_apart.h"
+#include "world/entity/table_write.h"
 
 #include <stdint.h>
 
@@ -141,9 +142,10 @@ struct contact_queue {
 struct contact_input {
     struct method_input detect;
     struct body_motion *motion;
-    struct broad_phase *broad; /* the boxes of strayed rows are changed here */
-    uint32_t meets;            /* how often a pair may meet in a frame */
-    bool through_fixed;        /* see narrow_phase_find */
+    struct broad_phase *broad;  /* the boxes of strayed rows are changed here */
+    uint32_t meets;             /* how often a pair may meet in a frame */
+    bool through_fixed;         /* see narrow_phase_find */
+    struct table_writer writer; /* ends stretches (collider/narrow_phase/cruise_rows.h) */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. workers may be NULL and stays the caller's. */

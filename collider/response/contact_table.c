@@ -304,7 +304,7 @@ static struct event_party party_of(const struct response_context *context, uint3
 {
     const struct entities *e = &context->next->entities;
     if (!(id & PERSISTENT_CONTACT_FIXED) && !entities_alive(e, row, id))
-        e = &context->motion->committed->entities;
+        e = &context->motion->before;
     if (!(id & PERSISTENT_CONTACT_FIXED))
         return (struct event_party){id, e->kind[row], 0, e->damage[row]};
     uint32_t object = id & ~PERSISTENT_CONTACT_FIXED;

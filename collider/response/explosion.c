@@ -2,6 +2,7 @@
  * ground, and the chain of further explosions. */
 #include "collider/response/explosion.h"
 
+#include "collider/narrow_phase/cruise_rows.h"
 #include "collider/response/body_push.h"
 #include "collider/response/damage.h"
 #include "collider/response/explosion_impulse.h"
@@ -174,6 +175,7 @@ static void find_rows(const struct response_context *context, const struct path_
     const struct contact_queue *contacts = context->contacts;
     struct pair_list *near = &context->charges->near;
     broad_phase_query(context->broad, &context->input.detect, box, near);
+    cruise_rows_take_found(&context->input, box, near, 0);
     for (uint32_t i = 0; i < contacts->stray_count; i++) {
         uint32_t row = contacts->strayed[i];
         if (pair_filter_boxes_meet(box, &context->broad->box[row]) && !listed(near, row))
@@ -190,6 +192,7 @@ static void alarm(struct response_context *context, const struct charge *charge,
     struct pair_list *near = &context->charges->near;
     near->count = 0;
     broad_phase_query(context->broad, &context->input.detect, &box, near);
+    cruise_rows_take_found(&context->input, &box, near, 0);
     for (uint32_t n = 0; n < near->count; n++) {
         uint32_t row = near->pair[n].a;
         struct vec3 off = vec3_sub(entities_position(e, row), charge->point);

@@ -118,7 +118,7 @@ static struct vec3 moment_of(const struct response_context *context, uint32_t ro
 static double yaw_of(const struct response_context *context, uint32_t row)
 {
     const struct body_motion *motion = context->motion;
-    const struct entities *w = &motion->committed->entities, *n = &motion->next->entities;
+    const struct entities *w = &motion->before, *n = &motion->next->entities;
     double dt_s = world_dt_s(context->world);
     if (n->state[row] == ENTITY_WRECK || has_landed(context, row))
         return n->spin_y[row]; /* nobody steers it */

@@ -278,7 +278,7 @@ static struct vec3 crash_velocity(const struct response_context *context, uint32
     struct vec3 velocity = entities_velocity(&context->next->entities, row);
     if (!body_motion_old(motion, row) || motion->change[row] != 0)
         return velocity;
-    return vec3_lerp(entities_velocity(&motion->committed->entities, row), velocity, time);
+    return vec3_lerp(entities_velocity(&motion->before, row), velocity, time);
 }
 
 /* Destroys an aircraft that hits the ground. */

@@ -93,7 +93,7 @@ static void forget_ground(struct contact_groups *groups)
 
 static bool tips(const struct response_context *context, uint32_t row)
 {
-    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    const struct entities *w = &context->motion->before, *e = &context->next->entities;
     double x = e->spin_x[row] - w->spin_x[row], z = e->spin_z[row] - w->spin_z[row];
     double most = TIPS_RPS2 * world_dt_s(context->world);
     double now = e->spin_x[row] * e->spin_x[row] + e->spin_z[row] * e->spin_z[row];

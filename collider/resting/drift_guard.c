@@ -69,7 +69,7 @@ static struct vec3 own_momentum(const struct response_context *context, uint32_t
 
 void drift_guard_send_back(struct response_context *context, uint32_t row, double share)
 {
-    const struct entities *w = &context->motion->committed->entities;
+    const struct entities *w = &context->motion->before;
     const struct path *path = &context->path[row];
     double time = path->since + (1.0 - path->since) * maths_max(share, 0.0);
     struct vec3 momentum = own_momentum(context, row);

@@ -91,7 +91,7 @@ static void stand(const struct body_motion *motion, const struct entities *e, ui
  * poses is at most the sum of the differences of their three angles. */
 static void stand_now(struct end_guard *guard, const struct response_context *context, uint32_t row)
 {
-    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    const struct entities *w = &context->motion->before, *e = &context->next->entities;
     struct placed_body *stands = &guard->stands[row];
     body_motion_note_poses(context->motion, row);
     stand(context->motion, e, row, stands);
@@ -162,7 +162,7 @@ static double gap_after(const struct end_guard *guard, const struct response_con
 static double gap_before(const struct response_context *context, const struct pair *pair,
                          struct pair_known *known)
 {
-    const struct entities *w = &context->motion->committed->entities;
+    const struct entities *w = &context->motion->before;
     struct placed_body a, b;
     if (known->before_m != PAIR_NOT_MEASURED)
         return known->before_m;
@@ -273,7 +273,7 @@ static void slow_down(struct response_context *context, uint32_t row, double kee
 static void send_body_back(struct response_context *context, uint32_t row, struct vec3 drift,
                            double keep)
 {
-    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    const struct entities *w = &context->motion->before, *e = &context->next->entities;
     double heading = w->heading[row], pitch = w->pitch[row], roll = w->roll[row];
     if (keep > 0.0) {
         struct quat to = rotation_of(e->heading[row], e->pitch[row], e->roll[row]);
@@ -297,7 +297,7 @@ static void send_body_back(struct response_context *context, uint32_t row, struc
 /* Sends a row back on its way from where it began the frame. */
 static void send_back(struct end_guard *guard, struct response_context *context, uint32_t row)
 {
-    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    const struct entities *w = &context->motion->before, *e = &context->next->entities;
     double keep = ++guard->sent_back[row] <= SENT_BACK_HALF ? 0.5 : 0.0;
     if (drift_guard_drifts(context, row)) {
         uint32_t times = guard->sent_back[row];
@@ -339,7 +339,7 @@ static double clearance_of(const struct response_context *context, const struct 
 /* Returns true for a wreck that an impact has driven deeper into the ground. */
 static bool sinks(const struct response_context *context, uint32_t row)
 {
-    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    const struct entities *w = &context->motion->before, *e = &context->next->entities;
     if (context->motion->change[row] == 0 || e->state[row] != ENTITY_WRECK ||
         context->world->kinds[e->kind[row]].domain == DOMAIN_SEA)
         return false;

@@ -83,7 +83,7 @@ void free_bodies_free(struct free_bodies *bodies)
 static void begin_wreck(const struct response_context *context, struct free_side *side,
                         struct free_body *body)
 {
-    const struct entities *w = &context->motion->committed->entities;
+    const struct entities *w = &context->motion->before;
     uint32_t row = side->row;
     body->moved.spin = (struct vec3){w->spin_x[row], w->spin_y[row], w->spin_z[row]};
     side->fall = (struct vec3){0.0, -GRAVITY_MPS2 * world_dt_s(context->world), 0.0};
@@ -107,7 +107,7 @@ static void begin_moved(const struct response_context *context, struct free_side
 static void begin_piloted(const struct response_context *context, struct free_side *side,
                           struct free_body *body)
 {
-    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    const struct entities *w = &context->motion->before, *e = &context->next->entities;
     double dt_s = world_dt_s(context->world);
     uint32_t row = side->row;
     struct vec3 spin = {w->spin_x[row], w->spin_y[row], w->spin_z[row]};
@@ -135,7 +135,7 @@ static void hold(const struct response_context *context, uint32_t row, struct fr
 static uint32_t body_for(struct free_bodies *bodies, const struct response_context *context,
                          uint32_t row)
 {
-    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    const struct entities *w = &context->motion->before, *e = &context->next->entities;
     if (bodies->body_of[row] != 0)
         return bodies->body_of[row];
     uint32_t index = bodies->body_of[row] = bodies->count++;

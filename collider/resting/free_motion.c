@@ -27,7 +27,7 @@
 static bool is_quick(const struct response_context *context, const struct free_side *side,
                      const struct free_body *body)
 {
-    const struct entities *w = &context->motion->committed->entities;
+    const struct entities *w = &context->motion->before;
     uint32_t row = side->row;
     const struct vec3 spin = {w->spin_x[row], w->spin_y[row], w->spin_z[row]};
     if (side->is_free)
@@ -38,7 +38,7 @@ static bool is_quick(const struct response_context *context, const struct free_s
 /* Finds out which bodies that touch each other are all slow, and for how long they have been. */
 static void find_rest(struct free_bodies *bodies, const struct response_context *context)
 {
-    const struct entities *w = &context->motion->committed->entities;
+    const struct entities *w = &context->motion->before;
     uint32_t now = (uint32_t)context->next->head->tick;
     for (uint32_t i = 1; i < bodies->count; i++)
         bodies->side[i].due = true;
@@ -121,7 +121,7 @@ static void put(const struct response_context *context, uint32_t row, struct vec
 /* A wreck at rest stays as it was committed, to the bit. */
 static void put_at_rest(const struct response_context *context, uint32_t row)
 {
-    const struct entities *w = &context->motion->committed->entities;
+    const struct entities *w = &context->motion->before;
     const struct vec3 none = {0.0, 0.0, 0.0};
     table_set_position(&context->writer, row, entities_position(w, row));
     table_set_velocity(&context->writer, row, none);

@@ -18,7 +18,7 @@ static bool is_still(const struct entities *e, uint32_t row)
 
 bool held_rest_ended(const struct response_context *context, uint32_t row)
 {
-    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    const struct entities *w = &context->motion->before, *e = &context->next->entities;
     return body_motion_old(context->motion, row) && is_still(e, row) && e->x[row] == w->x[row] &&
            e->y[row] == w->y[row] && e->z[row] == w->z[row] && e->heading[row] == w->heading[row] &&
            e->pitch[row] == w->pitch[row] && e->roll[row] == w->roll[row];
@@ -26,7 +26,7 @@ bool held_rest_ended(const struct response_context *context, uint32_t row)
 
 bool held_rest_stays(const struct response_context *context, uint32_t row)
 {
-    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    const struct entities *w = &context->motion->before, *e = &context->next->entities;
     double dt_s = world_dt_s(context->world);
     return body_motion_old(context->motion, row) && e->state[row] == ENTITY_ACTIVE &&
            w->flags[row] & ENTITY_FLAG_CHASSIS && is_still(w, row) &&
@@ -37,7 +37,7 @@ bool held_rest_stays(const struct response_context *context, uint32_t row)
 
 void held_rest_keep_springs(struct response_context *context, uint32_t row)
 {
-    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    const struct entities *w = &context->motion->before, *e = &context->next->entities;
     uint8_t flag = w->flags[row] & ENTITY_FLAG_CHASSIS;
     if (e->state[row] == ENTITY_ACTIVE && flag != 0 && !(e->flags[row] & ENTITY_FLAG_CHASSIS))
         table_set_flags(&context->writer, row, e->flags[row] | flag);
@@ -45,7 +45,7 @@ void held_rest_keep_springs(struct response_context *context, uint32_t row)
 
 void held_rest_put_back(struct response_context *context, uint32_t row)
 {
-    const struct entities *w = &context->motion->committed->entities;
+    const struct entities *w = &context->motion->before;
     held_rest_keep_springs(context, row);
     table_set_position(&context->writer, row, entities_position(w, row));
     table_set_heading(&context->writer, row, w->heading[row]);

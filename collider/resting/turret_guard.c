@@ -76,7 +76,7 @@ static double turn(const struct aiming_row *aiming, double turret_turn, double g
 
 static void turn_row(struct response_context *context, uint32_t row)
 {
-    const struct entities *w = &context->motion->committed->entities, *e = &context->next->entities;
+    const struct entities *w = &context->motion->before, *e = &context->next->entities;
     struct aiming_row aiming = {context, row, (double)w->turret[row], (double)w->gun[row]};
     double turret_turn = maths_wrap_half((double)e->turret[row] - aiming.turret);
     double gun_turn = (double)e->gun[row] - aiming.gun, share = 1.0;

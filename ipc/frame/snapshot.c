@@ -4,6 +4,8 @@
 #include "ipc/segment/frame_check.h"
 #include "world/entity/persistent_contact.h"
 #include "world/entity/table_write.h"
+#include "world/params.h"
+#include "world/cruise_pose.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -26,7 +28,10 @@ int snapshot_init(struct snapshot *snapshot, const struct view *view)
     snapshot->memory = aligned_alloc(COLUMN_ALIGN, columns);
     snapshot->fixed_damage = calloc(view->header->counts.fixed + 1, 1);
     snapshot->contacts = calloc(view->header->contact_slots + 1u, sizeof *snapshot->contacts);
-    if (!snapshot->memory || !snapshot->fixed_damage || !snapshot->contacts) {
+    if (!snapshot->memory || !snapshot->fixed_damage || !snapshot->contacts ||
+        (view->world.params->cruise &&
+         crater_index_init(&snapshot->craters, &view->world.terrain.squares, view->w[0].craters) !=
+             0)) {
         snapshot_free(snapshot);
         errno = ENOMEM;
         return -1;
@@ -42,6 +47,7 @@ void snapshot_free(struct snapshot *snapshot)
     free(snapshot->memory);
     free(snapshot->fixed_damage);
     free(snapshot->contacts);
+    crater_index_free(&snapshot->craters);
     *snapshot = (struct snapshot){0};
 }
 
@@ -89,6 +95,17 @@ int snapshot_take(struct snapshot *snapshot, const struct view *view)
     }
     errno = EAGAIN;
     return -1;
+}
+
+int snapshot_take_poses(struct snapshot *snapshot, const struct view *view)
+{
+    int result = snapshot_take(snapshot, view);
+    if (result != 0 || !view->world.params->cruise)
+        return result;
+    crater_index_update(&snapshot->craters, snapshot->head.crater_count);
+    cruise_pose_settle(&snapshot->entities, &view->world, &snapshot->craters, snapshot->head.used,
+                       snapshot->head.tick);
+    return 0;
 }
 
 int snapshot_head(struct state_head *head, const struct view *view)

@@ -7,6 +7,7 @@
 
 #include "ipc/segment/segment.h"
 #include "world/checksum.h"
+#include "world/terrain/crater.h"
 
 struct snapshot {
     struct state_head head;
@@ -14,6 +15,7 @@ struct snapshot {
     uint8_t *fixed_damage;               /* [world.counts.fixed] */
     struct persistent_contact *contacts; /* [head.contact_count] */
     struct list_hashes lists;            /* of the craters and dents copied so far */
+    struct crater_index craters;         /* of snapshot_take_poses() */
     uint64_t overtaken; /* copies that were taken again, because the buffer was being written */
     uint64_t damaged;   /* copies that failed their checksum, during a repair or by damage */
     uint32_t held;      /* rows that the last copy filled, whole or not */
@@ -27,6 +29,10 @@ void snapshot_free(struct snapshot *snapshot);
 /* Copies the last committed frame. Returns 0; -1 with EAGAIN when the world wrote the buffer during
  * 100 copies in a row; -1 with EBADMSG when the copy fails its checksum (a damaged world). */
 int snapshot_take(struct snapshot *snapshot, const struct view *view);
+
+/* The same, and then sets the columns of the vehicles that cruise (world/entity/cruise.h) to where
+ * they are in this frame: for readers that look at places, and make no digest. */
+int snapshot_take_poses(struct snapshot *snapshot, const struct view *view);
 
 /* Copies the head alone, with the same errors. */
 int snapshot_head(struct state_head *head, const struct view *view);

@@ -15,6 +15,7 @@
 #include "mover/agent/smoke_screen.h"
 #include "mover/agent/target_search.h"
 #include "mover/agent/driver_controls.h"
+#include "mover/context/cruise_start.h"
 #include "world/entity/disabled.h"
 #include "world/state.h"
 #include "world/world.h"
@@ -343,7 +344,8 @@ static void set_controls(const struct step_context *context, uint32_t i, const s
                          const struct desired_motion *desired)
 {
     struct entities *m = context->m;
-    double time_s = maths_max(context->dt_s * (double)context->think_frames, settle_s(kind));
+    double time_s =
+        maths_max(context->dt_s * (double)cruise_start_think_frames(context, i), settle_s(kind));
     double turn = kind->turn_rate_rps * time_s;
     double off = maths_wrap_half(desired->heading_rad - m->heading[i]);
     float throttle = throttle_for(kind, desired);

@@ -108,8 +108,9 @@ void attack_motion(const struct step_context *context, uint32_t i,
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     struct aim aim = {.seen = perception_in_sight(context, i)};
     if (aim.seen) {
-        m->goal_x[i] = w->x[m->target_slot[i]];
-        m->goal_z[i] = w->z[m->target_slot[i]];
+        struct vec3 at = step_context_position(context, w, m->target_slot[i]);
+        m->goal_x[i] = at.x;
+        m->goal_z[i] = at.z;
     }
     double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
     aim.heading = maths_heading(dx, dz);

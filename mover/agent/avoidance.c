@@ -386,8 +386,9 @@ static void see_vehicle(const struct step_context *context, uint32_t i, struct l
     if (look->step == PRESENT && !may_meet(look, 0, dx, dz, vx, vz, reach) &&
         !may_meet(look, PRESENT, dx, dz, vx, vz, reach))
         return;
-    if (fabs(w->y[j] - m->y[i]) <= apart)
-        limit_by_moving(look, w->x[j] - m->x[i], w->z[j] - m->z[i], w->vx[j], w->vz[j], reach);
+    struct vec3 off = vec3_sub(step_context_position(context, w, j), entities_position(m, i));
+    if (fabs(off.y) <= apart)
+        limit_by_moving(look, off.x, off.z, w->vx[j], w->vz[j], reach);
 }
 
 static void see_vehicles(const struct step_context *context, uint32_t i, struct look *look)

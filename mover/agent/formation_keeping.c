@@ -139,8 +139,9 @@ void formation_keeping_follow(const struct step_context *context, uint32_t i,
     formation_place((enum formation_shape)formation->shape, formation->spacing_m,
                     column ? 1 : post.rank, &ahead, &right);
     maths_sincos(w->heading[by], &sine, &cosine);
-    m->goal_x[i] = w->x[by] + ahead * sine + right * cosine;
-    m->goal_z[i] = w->z[by] - ahead * cosine + right * sine;
+    struct vec3 at = step_context_position(context, w, by);
+    m->goal_x[i] = at.x + ahead * sine + right * cosine;
+    m->goal_z[i] = at.z - ahead * cosine + right * sine;
     double speed = maths_max(0.0, w->vx[by] * sine - w->vz[by] * cosine);
     keep_place(context, i, speed, sine, cosine, desired);
 }

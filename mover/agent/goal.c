@@ -119,7 +119,8 @@ void goal_cover(const struct step_context *context, uint32_t i, uint32_t enemy)
     struct entities *m = context->m;
     const struct entities *w = &context->committed->entities;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
-    double away = maths_heading(m->x[i] - w->x[enemy], m->z[i] - w->z[enemy]);
+    struct vec3 from = step_context_position(context, w, enemy);
+    double away = maths_heading(m->x[i] - from.x, m->z[i] - from.z);
     struct vec3 eye = target_search_eye(context, enemy), to;
     for (int n = 0; n < 25; n++) {
         along(context, i, away + turns[n % 5], ways[n / 5], &to.x, &to.z);
@@ -159,7 +160,8 @@ static int find_position(const struct step_context *context, uint32_t i, uint32_
     const struct entities *w = &context->committed->entities;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     struct vec3 eye = target_search_eye(context, enemy), to = {0};
-    double towards = maths_heading(w->x[enemy] - m->x[i], w->z[enemy] - m->z[i]);
+    struct vec3 at = step_context_position(context, w, enemy);
+    double towards = maths_heading(at.x - m->x[i], at.z - m->z[i]);
     double side = unit(context, i, RANDOM_GOAL_X) < 0.5 ? 1.0 : -1.0;
     int hidden = -1;
     double heading = towards, distance = 0.0;
@@ -214,8 +216,9 @@ void goal_target(const struct step_context *context, uint32_t i, uint32_t row, u
         fire_control_acquire(context, i);
     m->target_slot[i] = row;
     m->target_id[i] = id;
-    m->goal_x[i] = w->x[row];
-    m->goal_z[i] = w->z[row];
+    struct vec3 at = step_context_position(context, w, row);
+    m->goal_x[i] = at.x;
+    m->goal_z[i] = at.z;
 }
 
 /* --- home --------------------------------------------------------------------------------------*/

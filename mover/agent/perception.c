@@ -7,6 +7,7 @@
 #include "mover/agent/losses.h"
 #include "mover/agent/progress.h"
 #include "mover/agent/target_search.h"
+#include "mover/context/cruise_start.h"
 #include "world/entity/disabled.h"
 #include "world/maths/random.h"
 #include "world/params.h"
@@ -54,7 +55,7 @@ uint32_t perception_look_frames(const struct params *params, uint32_t used)
 
 static bool looks_now(const struct step_context *context, uint32_t i)
 {
-    return ((uint32_t)context->tick + context->m->id[i]) % context->look_frames == 0;
+    return cruise_start_due(context, i, context->look_frames);
 }
 
 /* --- seeing ------------------------------------------------------------------------------------*/
@@ -242,7 +243,8 @@ static void fight_on(const struct step_context *context, uint32_t i, uint32_t en
 static bool in_reach(const struct step_context *context, uint32_t i, uint32_t other)
 {
     const struct entities *w = &context->committed->entities;
-    double dx = w->x[other] - w->x[i], dz = w->z[other] - w->z[i];
+    struct vec3 off = vec3_sub(step_context_position(context, w, other), entities_position(w, i));
+    double dx = off.x, dz = off.z;
     return fire_control_worth(context, i, other, dx * dx + dz * dz) &&
            fire_control_fights(context, i, other);
 }

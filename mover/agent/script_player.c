@@ -293,10 +293,11 @@ static bool fire(const struct reading *r, const struct script_step *step,
     m->trigger[i] |= step->type == STEP_FIRE ? TRIGGER_FIRE : TRIGGER_FIRE_AT;
     m->goal_x[i] = step->type == STEP_FIRE ? m->goal_x[i] : step->x;
     m->goal_z[i] = step->type == STEP_FIRE ? m->goal_z[i] : step->z;
+    struct vec3 at = {step->x, 0.0, step->z};
+    if (step->type == STEP_FIRE)
+        at = step_context_position(r->context, w, target);
     if (!(r->kind->turret_rate_rps > 0.0))
-        desired->heading_rad = step->type == STEP_FIRE
-                                   ? maths_heading(w->x[target] - m->x[i], w->z[target] - m->z[i])
-                                   : maths_heading(step->x - m->x[i], step->z - m->z[i]);
+        desired->heading_rad = maths_heading(at.x - m->x[i], at.z - m->z[i]);
     return tick >= m->until_tick[i];
 }
 

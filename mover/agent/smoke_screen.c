@@ -19,7 +19,8 @@ bool smoke_screen_between(const struct step_context *context, uint32_t a, uint32
 {
     const struct entities *w = &context->committed->entities;
     const struct kind *kinds = context->world->kinds;
-    struct vec3 to = vec3_sub(entities_position(w, b), entities_position(w, a));
+    struct vec3 to =
+        vec3_sub(step_context_position(context, w, b), step_context_position(context, w, a));
     return smoke_hides(w, &kinds[w->kind[a]], a, to, context->tick, context->dt_s) ||
            smoke_hides(w, &kinds[w->kind[b]], b, vec3_scale(to, -1.0), context->tick,
                        context->dt_s);

@@ -21,7 +21,7 @@
 
 struct vec3 target_search_eye(const struct step_context *context, uint32_t i)
 {
-    struct vec3 at = entities_position(&context->committed->entities, i);
+    struct vec3 at = step_context_position(context, &context->committed->entities, i);
     const struct kind *kind = &context->world->kinds[context->committed->entities.kind[i]];
     if (kind->domain != DOMAIN_AIR)
         at.y += EYE_SHARE * kind->height_m;
@@ -30,7 +30,7 @@ struct vec3 target_search_eye(const struct step_context *context, uint32_t i)
 
 struct vec3 target_search_middle(const struct step_context *context, uint32_t i)
 {
-    struct vec3 at = entities_position(&context->committed->entities, i);
+    struct vec3 at = step_context_position(context, &context->committed->entities, i);
     at.y += kinematics_aim_height(context, context->committed->entities.kind[i]);
     return at;
 }
@@ -63,7 +63,8 @@ static bool in_view(const struct sector *view, double dx, double dz)
 bool target_search_sees(const struct step_context *context, uint32_t i, uint32_t other)
 {
     const struct entities *w = &context->committed->entities;
-    double dx = w->x[other] - w->x[i], dz = w->z[other] - w->z[i];
+    struct vec3 off = vec3_sub(step_context_position(context, w, other), entities_position(w, i));
+    double dx = off.x, dz = off.z;
     double sight = context->world->kinds[w->kind[i]].sight_m;
     if (!(dx * dx + dz * dz < sight * sight))
         return false;
@@ -139,7 +140,8 @@ static void gather(const struct step_context *context, uint32_t i, const struct 
 static bool finds(const struct step_context *context, uint32_t i, uint32_t other, double sight)
 {
     const struct entities *w = &context->committed->entities;
-    double dx = w->x[other] - w->x[i], dz = w->z[other] - w->z[i];
+    struct vec3 off = vec3_sub(step_context_position(context, w, other), entities_position(w, i));
+    double dx = off.x, dz = off.z;
     double share = sqrt(dx * dx + dz * dz) / maths_max(sight, 1.0);
     double mean_s = maths_clamp(SEARCH_MOST_S * share, SEARCH_LEAST_S, SEARCH_MOST_S);
     double look_s = (double)context->look_frames * context->dt_s;

@@ -5,6 +5,7 @@
 #include "mover/agent/attack.h"
 #include "mover/agent/perception.h"
 #include "mover/motion/spin.h"
+#include "mover/context/cruise_start.h"
 #include "world/entity/formation.h"
 #include "world/entity/remote.h"
 #include "world/state.h"
@@ -98,8 +99,11 @@ static void sort(const struct step_context *context, const struct row_block *blo
             m->bumped[i] = 0;
             m->threat_slot[i] = m->threat_id[i] = 0;
         }
+        if (cruise_goes(m, i, context->tick - 1))
+            how = MOTION_CRUISE;
         if (how == MOTION_AGENT) {
-            if (step_context_thinks(context, i) || (events && perception_event(context, i)))
+            if (cruise_start_due(context, i, context->think_frames) ||
+                (events && perception_event(context, i)))
                 thinkers->row[thinkers->count++] = i;
             else
                 how = MOTION_COURSE;

@@ -17,6 +17,7 @@ enum motion {
     MOTION_AGENT,  /* an agent that has decided: also by its controls */
     MOTION_ALONE,  /* on a script or driven: it decides as it moves */
     MOTION_REMOTE, /* by dead reckoning: another simulator owns it */
+    MOTION_CRUISE, /* on a stretch: nothing writes to its row */
 };
 
 #define ROW_BLOCK_WORDS (CHECKSUM_ROWS / 64u)

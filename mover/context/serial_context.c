@@ -4,6 +4,7 @@
 #include "world/entity/event.h"
 #include "world/params.h"
 #include "world/state.h"
+#include "world/cruise_pose.h"
 #include "world/world.h"
 
 #include <string.h>
@@ -26,4 +27,10 @@ struct event_party serial_context_party(const struct serial_context *context, ui
     const struct entities *m = &context->moved->entities;
     return (struct event_party){
         .id = m->id[row], .kind = m->kind[row], .fixed = 0, .damage = m->damage[row]};
+}
+
+void serial_context_stop(struct serial_context *context, uint32_t row, uint64_t tick)
+{
+    const struct step_context *step = context->step;
+    cruise_pose_stop(&context->writer, step->world, step->craters, row, tick);
 }

@@ -22,4 +22,8 @@ struct event *serial_context_intent(struct serial_context *context, enum event_t
 /* A row as events name it. */
 struct event_party serial_context_party(const struct serial_context *context, uint32_t row);
 
+/* Ends the stretch of a row where it is at the tick, if it cruises then: before the rows have moved
+ * the tick of the committed world, and then that of the step. */
+void serial_context_stop(struct serial_context *context, uint32_t row, uint64_t tick);
+
 #endif

@@ -6,8 +6,10 @@
 
 #include "mover/query/line_of_sight.h"
 #include "mover/query/neighbour_index.h"
+#include "world/entity/cruise.h"
 #include "world/entity/entity.h"
 #include "world/entity/mass_properties.h"
+#include "world/state.h"
 
 struct avoidance;
 struct crater_index;
@@ -15,7 +17,6 @@ struct firing_table;
 struct ground_marks;
 struct neighbour_lists;
 struct square_bounds;
-struct state;
 struct terrain_cache_entry;
 struct world;
 
@@ -40,6 +41,7 @@ struct step_context {
     uint32_t
         look_frames;     /* [frame] from one of its looks to the next, a multiple of think_frames */
     uint32_t aim_frames; /* [frame] from one attempt to fire to the next */
+    uint32_t cruise_frames; /* [frame] of a stretch; 1: no vehicle cruises */
     double dt_s;
     struct vec3 wind; /* [m/s] */
 };
@@ -49,6 +51,14 @@ static inline bool step_context_thinks(const struct step_context *context, uint3
 {
     return neighbour_index_divides(context->neighbours->think_divisor,
                                    (uint32_t)context->tick + context->m->id[i]);
+}
+
+/* Returns where a row is that may cruise [m]: in the committed table, or in the moved one. */
+static inline struct vec3 step_context_position(const struct step_context *context,
+                                                const struct entities *e, uint32_t i)
+{
+    uint64_t tick = e == context->m ? context->tick : context->tick - 1;
+    return cruise_position(e, i, tick, context->dt_s);
 }
 
 /* The motion of a vehicle in this frame that an agent, a script or a driver has chosen. */

@@ -32,9 +32,10 @@ double ground_vehicle_debris(const struct step_context *context, uint32_t i)
                                &context->world->kinds[m->kind[i]], m->x[i], m->z[i]);
 }
 
-void ground_vehicle_begin(struct ground_vehicle *batch)
+void ground_vehicle_begin(struct ground_vehicle *batch, uint32_t frames)
 {
     memset(batch, 0, sizeof *batch);
+    batch->frames = frames;
     ground_pose_begin(&batch->pose);
 }
 
@@ -213,23 +214,57 @@ struct ahead {
     union simd_lanes x, z, lead_x, lead_z;
 };
 
+/* The time by which the rows move. */
+static double time_of(const struct step_context *context, const struct ground_vehicle *batch)
+{
+    return context->dt_s * (double)batch->frames;
+}
+
 static inline void find_ahead(const struct step_context *context, struct ground_vehicle *batch,
                               const union simd_lanes *forward, union simd_lanes *rightward,
                               struct ahead *ahead)
 {
     const f64x4 none = SIMD_EVERY(0.0);
-    const f64x4 grip = SIMD_EVERY(GROUND_GRIP * GRAVITY_MPS2 * context->dt_s);
+    const double dt_s = time_of(context, batch);
+    const f64x4 grip = SIMD_EVERY(GROUND_GRIP * GRAVITY_MPS2 * dt_s);
     for (int h = 0; h < LANE_FOURS; h++) {
         f64x4 sine = batch->pose.sine.f64x4[h], cosine = batch->pose.cosine.f64x4[h];
         f64x4 speed = forward->f64x4[h], half = batch->half_length.f64x4[h];
         kinematics_simd_approach(&rightward->f64x4[h], &none, &grip);
         batch->vx.f64x4[h] = speed * sine + rightward->f64x4[h] * cosine;
         batch->vz.f64x4[h] = SIMD_NEGATIVE(speed) * cosine + rightward->f64x4[h] * sine;
-        ahead->x.f64x4[h] = batch->pose.x.f64x4[h] + batch->vx.f64x4[h] * context->dt_s;
-        ahead->z.f64x4[h] = batch->pose.z.f64x4[h] + batch->vz.f64x4[h] * context->dt_s;
+        ahead->x.f64x4[h] = batch->pose.x.f64x4[h] + batch->vx.f64x4[h] * dt_s;
+        ahead->z.f64x4[h] = batch->pose.z.f64x4[h] + batch->vz.f64x4[h] * dt_s;
         f64x4 lead = SIMD_CHOOSE(speed < none, SIMD_NEGATIVE(half), half);
         ahead->lead_x.f64x4[h] = ahead->x.f64x4[h] + sine * lead;
         ahead->lead_z.f64x4[h] = ahead->z.f64x4[h] - cosine * lead;
+    }
+}
+
+/* Replaces the position by that at the end of a stretch: on an arc on which the speed changes
+ * evenly (world/entity/cruise.h). before: the speed when it begins; heading: that one. */
+static void find_arc_end(const struct step_context *context, struct ground_vehicle *batch,
+                         const union simd_lanes *before, const union simd_lanes *forward,
+                         const union simd_lanes *heading, struct ahead *ahead)
+{
+    const double dt_s = time_of(context, batch);
+    union simd_lanes middle, sine, cosine;
+    for (int l = 0; l < LANE_COUNT; l++) {
+        double turned = maths_wrap_half(batch->heading.lane[l] - heading->lane[l]);
+        batch->turned.lane[l] = turned;
+        middle.lane[l] = batch->heading.lane[l] - 0.5 * turned;
+    }
+    maths_sincos_lanes(&middle, &sine, &cosine);
+    for (int l = 0; l < LANE_COUNT; l++) {
+        double mean_mps = 0.5 * (before->lane[l] + forward->lane[l]);
+        double way_m = cruise_chord(mean_mps * dt_s, 0.5 * batch->turned.lane[l]);
+        double x = batch->pose.x.lane[l] + way_m * sine.lane[l];
+        double z = batch->pose.z.lane[l] - way_m * cosine.lane[l];
+        ahead->lead_x.lane[l] += x - ahead->x.lane[l];
+        ahead->lead_z.lane[l] += z - ahead->z.lane[l];
+        ahead->x.lane[l] = x;
+        ahead->z.lane[l] = z;
+        batch->gain_mps2.lane[l] = (forward->lane[l] - before->lane[l]) / dt_s;
     }
 }
 
@@ -332,8 +367,9 @@ static void set_down(const struct step_context *context, const struct ground_veh
 static inline void find_rough(const struct step_context *context, struct ground_vehicle *batch,
                               const union simd_lanes *forward)
 {
+    const double dt_s = time_of(context, batch);
     const f64x4 tilt = SIMD_EVERY(CHASSIS_TILT_RAD), step = SIMD_EVERY(CHASSIS_STEP_M);
-    const f64x4 fall = SIMD_EVERY(GRAVITY_MPS2 * context->dt_s), lift = SIMD_EVERY(CHASSIS_LIFT_M);
+    const f64x4 fall = SIMD_EVERY(GRAVITY_MPS2 * dt_s), lift = SIMD_EVERY(CHASSIS_LIFT_M);
     for (int h = 0; h < LANE_FOURS; h++) {
         f64x4 pitch = batch->pose.pitch.f64x4[h], roll = batch->pose.roll.f64x4[h];
         f64x4 drop = forward->f64x4[h] * (batch->pitch.f64x4[h] - pitch);
@@ -363,17 +399,60 @@ static void leave_rails(const struct step_context *context, const struct ground_
     m->spin_y[i] = -maths_wrap_half(turned_rad) / context->dt_s;
 }
 
+/* --- stretches ---------------------------------------------------------------------------------*/
+
+#define STRETCH_TURN_RAD 0.6 /* it turns by no more: the arc is within 8 % of its chord */
+#define STRETCH_GAIN_MPS 1.5 /* and gains or loses no more speed */
+
+/* Finds the lanes that cannot be moved by a stretch. */
+static void refuse(const struct step_context *context, struct ground_vehicle *batch,
+                   const union simd_lanes *rightward)
+{
+    const struct entities *m = context->m;
+    const double dt_s = time_of(context, batch);
+    for (int l = 0; l < batch->count; l++) {
+        uint32_t i = batch->row[l];
+        double turned = fabs(batch->turned.lane[l]);
+        double gain = fabs(batch->gain_mps2.lane[l]) * dt_s;
+        double x = 0.5 * (m->x[i] + batch->pose.x.lane[l]);
+        double z = 0.5 * (m->z[i] + batch->pose.z.lane[l]);
+        bool easy = !batch->rough.lane[l] && !batch->blocked.lane[l] &&
+                    !batch->pose.cratered.lane[l] && batch->debris.lane[l] == 1.0 &&
+                    turned <= STRETCH_TURN_RAD && gain <= STRETCH_GAIN_MPS &&
+                    rightward->lane[l] == 0.0 &&
+                    !cover_is_water(terrain_cover(&context->world->terrain, x, z));
+        batch->refused.lane[l] = easy ? 0 : -1;
+    }
+}
+
+/* Notes when the stretch of lane l ends, and how it turns until then. */
+static void begin_stretch(const struct step_context *context, const struct ground_vehicle *batch,
+                          int l)
+{
+    uint32_t i = batch->row[l];
+    context->m->cruise_tick[i] = (uint32_t)context->tick - 1 + batch->frames;
+    context->m->cruise_rps[i] = batch->turned.lane[l] / time_of(context, batch);
+    context->m->cruise_mps2[i] = batch->gain_mps2.lane[l];
+}
+
 static void write_rows(const struct step_context *context, const struct ground_vehicle *batch)
 {
     struct entities *m = context->m;
+    const double dt_s = time_of(context, batch);
     for (int l = 0; l < batch->count; l++) {
         uint32_t i = batch->row[l];
         double turned = batch->heading.lane[l] - m->heading[i];
+        if (batch->refused.lane[l])
+            continue;
+        if (batch->frames > 1)
+            begin_stretch(context, batch, l);
+        else
+            m->cruise_tick[i] = 0;
         set_down(context, batch, l);
         m->x[i] = batch->pose.x.lane[l];
         m->z[i] = batch->pose.z.lane[l];
         m->vx[i] = batch->vx.lane[l];
-        m->vy[i] = (m->y[i] - batch->y.lane[l]) / context->dt_s;
+        m->vy[i] = (m->y[i] - batch->y.lane[l]) / dt_s;
         m->vz[i] = batch->vz.lane[l];
         m->heading[i] = batch->heading.lane[l];
         m->fuel_l[i] = batch->fuel.lane[l];
@@ -386,20 +465,21 @@ void ground_vehicle_move(const struct step_context *context, struct ground_vehic
 {
     union simd_lanes sine, cosine, forward, rightward, under_power, heading;
     struct ahead ahead;
+    const double dt_s = time_of(context, batch);
     find_scars(context, batch);
     heading = batch->heading;
     maths_sincos_lanes(&batch->heading, &sine, &cosine);
     for (int h = 0; h < LANE_FOURS; h++) {
-        find_desired(batch, h, context->dt_s);
+        find_desired(batch, h, dt_s);
         f64x4 wanted = batch->wanted_mps.f64x4[h];
         f64x4 vx = batch->vx.f64x4[h], vz = batch->vz.f64x4[h];
         forward.f64x4[h] = vx * sine.f64x4[h] - vz * cosine.f64x4[h];
         rightward.f64x4[h] = vx * cosine.f64x4[h] + vz * sine.f64x4[h];
-        steer(batch, h, &forward.f64x4[h], context->dt_s);
-        burn(batch, h, &wanted, context->dt_s);
+        steer(batch, h, &forward.f64x4[h], dt_s);
+        burn(batch, h, &wanted, dt_s);
         limit(batch, h, &wanted);
         under_power.f64x4[h] = forward.f64x4[h];
-        power(batch, h, &wanted, &under_power.f64x4[h], context->dt_s);
+        power(batch, h, &wanted, &under_power.f64x4[h], dt_s);
     }
     if (memcmp((const unsigned char *)&heading, (const unsigned char *)&batch->heading,
                sizeof heading) == 0)
@@ -407,8 +487,12 @@ void ground_vehicle_move(const struct step_context *context, struct ground_vehic
     else
         maths_sincos_lanes(&batch->heading, &batch->pose.sine, &batch->pose.cosine);
     find_ahead(context, batch, &under_power, &rightward, &ahead);
+    if (batch->frames > 1)
+        find_arc_end(context, batch, &forward, &under_power, &heading, &ahead);
     change_position(context, batch, &ahead);
     ground_pose_find(context, &batch->pose);
     find_rough(context, batch, &under_power);
+    if (batch->frames > 1)
+        refuse(context, batch, &rightward);
     write_rows(context, batch);
 }

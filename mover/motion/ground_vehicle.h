@@ -7,7 +7,8 @@
 #include "mover/motion/ground_pose.h"
 
 struct ground_vehicle {
-    int count; /* lanes taken */
+    int count;       /* lanes taken */
+    uint32_t frames; /* by which the rows move: 1, or those of a stretch (world/entity/cruise.h) */
     uint32_t row[LANE_COUNT];
     union lane_masks held; /* turn and wanted_mps are the row's controls (steer, throttle) */
     /* The desired motion. */
@@ -24,10 +25,14 @@ struct ground_vehicle {
     union simd_lanes debris;  /* the share of full speed that debris at its place allows */
     union lane_masks rough;   /* result: it leaves the ground that it follows */
     union lane_masks blocked; /* result: water, a slope or the edge of the world blocks it */
+    union simd_lanes turned,
+        gain_mps2;            /* by which a stretch turns, and gains speed along its heading
+                               */
+    union lane_masks refused; /* result, of a stretch: the row was not moved */
 };
 
-/* Empties the batch. */
-void ground_vehicle_begin(struct ground_vehicle *batch);
+/* Empties a batch of rows that move by so many frames. */
+void ground_vehicle_begin(struct ground_vehicle *batch, uint32_t frames);
 
 /* Gives row i a lane. True when the batch is full. */
 bool ground_vehicle_take(const struct step_context *context, struct ground_vehicle *batch,
@@ -37,7 +42,11 @@ bool ground_vehicle_take(const struct step_context *context, struct ground_vehic
 bool ground_vehicle_take_held(const struct step_context *context, struct ground_vehicle *batch,
                               uint32_t i);
 
-/* Moves the rows of the batch. Their lanes stay taken, so that the caller can read blocked. */
+/* Moves the rows of the batch. Their lanes stay taken, so that the caller can read blocked.
+ *
+ * A batch of stretches moves a row only where the motion of one long frame is that of many short
+ * ones within some centimetres: on ground without craters, works and debris, not through water, at
+ * a speed and in a direction that change little. It leaves other rows as they were (refused). */
 void ground_vehicle_move(const struct step_context *context, struct ground_vehicle *batch);
 
 /* Writes height, pitch and roll of row i, which has ENTITY_FLAG_CHASSIS and is calm, at its new

@@ -306,6 +306,7 @@ static void take_frame(struct neighbour_index *index, const struct neighbour_ind
 {
     index->committed = frame->committed;
     index->resting = frame->resting;
+    index->fresh = frame->fresh;
     index->used = frame->used;
     index->tick = frame->tick;
     index->think_divisor = neighbour_index_divisor(frame->think_frames);
@@ -396,8 +397,9 @@ static void renew_block(struct neighbour_index *index, uint32_t begin, uint32_t 
 {
     for (uint32_t first = begin; first < end; first += 64) {
         uint32_t rows = end - first < 64 ? end - first : 64;
-        uint64_t awake =
-            (index->resting ? ~index->resting[first / 64] : UINT64_MAX) & UINT64_MAX >> (64 - rows);
+        uint64_t awake = index->resting ? ~index->resting[first / 64] : UINT64_MAX;
+        awake |= index->fresh ? index->fresh[first / 64] : 0;
+        awake &= UINT64_MAX >> (64 - rows);
         for (; awake != 0; awake &= awake - 1)
             renew(index, first + (uint32_t)__builtin_ctzll(awake));
     }

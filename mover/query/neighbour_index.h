@@ -79,6 +79,7 @@ struct neighbour_index {
     /* Of the frame: */
     const struct entities *committed;
     const uint64_t *resting; /* a bit for each row whose entry has not changed; NULL: none */
+    const uint64_t *fresh;   /* but these rest only since the last frame; NULL: none */
     uint32_t used, tick;
     uint64_t think_divisor; /* neighbour_index_divisor() of think_frames */
     bool placed;            /* key and place are set */
@@ -110,6 +111,7 @@ struct neighbour_index_frame {
     uint32_t think_frames; /* from one decision of an agent to the next */
     /* Bits of the rows that rest: they have no agent that decides. NULL: no row rests. */
     const uint64_t *resting;
+    const uint64_t *fresh; /* of these, those that moved in the last frame; NULL: none */
 };
 
 /* Indexes all rows. places: the index can be kept, which costs somewhat more. workers may be NULL.

@@ -238,7 +238,8 @@ static bool launch(struct serial_context *context, uint32_t shooter, uint32_t ta
         return false;
     const struct kind *round = &world->kinds[munition];
     if (round->delivery == DELIVERY_ARC && (point || target != SLOT_NONE))
-        return fire_shell_at(context, shooter, point ? *point : entities_position(m, target),
+        return fire_shell_at(context, shooter,
+                             point ? *point : step_context_position(context->step, m, target),
                              munition, false, round->fuze);
     uint32_t row = new_munition(context, munition, m->force[shooter]);
     if (row == SLOT_NONE)

@@ -33,7 +33,7 @@ static bool is_observed(const struct serial_context *context, const struct batte
             m->force[row] != battery->force ||
             level_distance(m, row, battery->x, battery->z) > kind->sight_m)
             continue;
-        struct vec3 eye = entities_position(m, row);
+        struct vec3 eye = step_context_position(context->step, m, row);
         eye.y += kind->domain == DOMAIN_AIR ? 0.0 : EYE_SHARE * kind->height_m;
         asked++;
         if (line_of_sight_clear(context->step->line_of_sight, eye, target))

@@ -72,6 +72,8 @@ void scenario_fires_run(struct serial_context *context)
             continue;
         if (target != SLOT_NONE && !entities_alive(m, target, target + 1))
             continue;
+        if (shooter != SLOT_NONE)
+            serial_context_stop(context, shooter, context->step->tick);
         if (order->rounds > 0)
             begin_mission(context, order);
         else if (shooter == SLOT_NONE)

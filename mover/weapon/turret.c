@@ -61,7 +61,7 @@ static struct vec3 lead_on(const struct firing_table *table, struct vec3 wind,
 struct vec3 turret_lead(const struct step_context *context, struct vec3 muzzle, uint16_t munition,
                         const struct entities *e, uint32_t target)
 {
-    struct vec3 to = vec3_sub(entities_position(e, target), muzzle);
+    struct vec3 to = vec3_sub(step_context_position(context, e, target), muzzle);
     to.y += kinematics_aim_height(context, e->kind[target]);
     if (flies_on_arc(context, munition))
         return arc_to(context, muzzle, munition, vec3_add(muzzle, to));
@@ -261,7 +261,8 @@ static bool bears(const struct step_context *context, const struct entities *row
     double most = laid_rad(kind);
     if (munition->guidance == GUIDANCE_HOMING) {
         most = munition->seeker_rad;
-        to = vec3_sub(entities_position(&context->committed->entities, target), muzzle);
+        to =
+            vec3_sub(step_context_position(context, &context->committed->entities, target), muzzle);
     } else {
         to = solution ? solution->lead
                       : turret_lead(context, muzzle, kind_munition_at(kind, aimed_at),
@@ -284,9 +285,9 @@ static bool friend_ahead(const struct step_context *context, uint32_t i, uint32_
     const struct entities *m = context->m, *w = &context->committed->entities;
     uint32_t layers = NEIGHBOUR_INDEX_LAYER(m->force[i]) | NEIGHBOUR_INDEX_LAYER(FORCE_NEUTRAL);
     struct vec3 muzzle = turret_muzzle(context, m, i);
-    double reach =
-        maths_min(FRIEND_AHEAD_M,
-                  vec3_length(vec3_sub(entities_position(w, target), entities_position(m, i))));
+    double reach = maths_min(
+        FRIEND_AHEAD_M,
+        vec3_length(vec3_sub(step_context_position(context, w, target), entities_position(m, i))));
     struct neighbour_query query =
         neighbour_query_begin(context->neighbours, layers, m->x[i], m->z[i], reach);
     const struct neighbour_index_entry *entry;
@@ -295,7 +296,7 @@ static bool friend_ahead(const struct step_context *context, uint32_t i, uint32_
         if (j == i || j == target)
             continue;
         double clear = context->world->kinds[w->kind[j]].radius_m + FRIEND_CLEAR_M;
-        struct vec3 to = vec3_sub(entities_position(w, j), muzzle);
+        struct vec3 to = vec3_sub(step_context_position(context, w, j), muzzle);
         double along = vec3_dot(to, barrel);
         if (along > 0.0 && vec3_dot(to, to) - along * along < clear * clear)
             return true;
@@ -318,7 +319,8 @@ void turret_hold_fire(const struct step_context *context, uint32_t i,
     if (kind->munition != KIND_NONE && m->rounds[i] > 0 && has_target(context, i) &&
         context->tick >= m->reload_tick[i] && !(m->flags[i] & ENTITY_FLAG_HOLD_FIRE)) {
         uint32_t target = m->target_slot[i];
-        struct vec3 to = vec3_sub(entities_position(w, target), entities_position(m, i));
+        struct vec3 to =
+            vec3_sub(step_context_position(context, w, target), entities_position(m, i));
         struct vec3 barrel =
             solution->found ? barrel_of(m, i, &solution->body) : turret_barrel(m, i);
         if (vec3_length(to) < kind->range_m &&

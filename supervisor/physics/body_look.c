@@ -1,12 +1,14 @@
 /* Copies of rows, and what explains their changes. */
 #include "supervisor/physics/body_look.h"
 
+#include "world/entity/cruise.h"
 #include "world/entity/entity.h"
 #include "world/entity/event.h"
 #include "world/entity/kind.h"
 #include "world/entity/persistent_contact.h"
 #include "world/entity/remote.h"
 #include "world/state.h"
+#include "world/cruise_pose.h"
 #include "world/world.h"
 
 #include <stdlib.h>
@@ -72,17 +74,20 @@ static bool is_at_rest(const struct motion_look *look, uint32_t until_tick, uint
            vec3_dot(look->spin, look->spin) == 0.0;
 }
 
-static void read_motion(struct motion_look *look, const struct state *state, uint32_t row,
-                        enum domain domain)
+static void read_motion(struct motion_look *look, const struct body_looks *looks,
+                        const struct world *world, const struct state *state, uint32_t row)
 {
     const struct entities *e = &state->entities;
-    *look = (struct motion_look){.pose = {.at = entities_position(e, row)},
-                                 .heading = e->heading[row],
+    enum domain domain = (enum domain)world->kinds[e->kind[row]].domain;
+    struct cruise_pose pose = cruise_pose_of(world, looks->craters, e, row, state->head->tick);
+    *look = (struct motion_look){.pose = {.at = pose.at},
+                                 .heading = pose.heading_rad,
                                  .turret = (double)e->turret[row],
                                  .gun = (double)e->gun[row],
-                                 .pitch = e->pitch[row],
-                                 .roll = e->roll[row],
-                                 .velocity = entities_velocity(e, row),
+                                 .pitch = pose.pitch_rad,
+                                 .roll = pose.roll_rad,
+                                 .velocity =
+                                     cruise_velocity(e, row, state->head->tick, world_dt_s(world)),
                                  .spin = {e->spin_x[row], e->spin_y[row], e->spin_z[row]},
                                  .wreck = e->state[row] == ENTITY_WRECK};
     look->sprung =
@@ -97,7 +102,7 @@ static void read_body(struct body_looks *looks, const struct world *world,
     struct body_look *body = &looks->body[looks->count];
     const struct row_memory *memory = &looks->memory[row];
     *body = (struct body_look){.row = row, .kind = &world->kinds[e->kind[row]]};
-    read_motion(&body->now, state, row, (enum domain)body->kind->domain);
+    read_motion(&body->now, looks, world, state, row);
     body->named = (struct measured_body){e->id[row], false, e->kind[row], body->now.pose.at};
     body->finite = all_finite(&body->now);
     body->foreign = remote_is(e, row);

@@ -90,9 +90,10 @@ struct row_memory {
 struct body_looks {
     struct body_look *body; /* in the order of their rows */
     uint32_t count, rows;
-    uint32_t foreign;          /* of the bodies */
-    uint32_t *of_row;          /* [capacity] index into body, or NO_LOOK */
-    struct row_memory *memory; /* [capacity] */
+    uint32_t foreign;                   /* of the bodies */
+    uint32_t *of_row;                   /* [capacity] index into body, or NO_LOOK */
+    struct row_memory *memory;          /* [capacity] */
+    const struct crater_index *craters; /* of the frame: for vehicles that cruise */
 };
 
 /* Returns the centre of mass, from the position [m, world axes]: a land vehicle's is above it. */

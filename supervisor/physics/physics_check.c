@@ -149,6 +149,8 @@ static int look_at(struct physics_check *check, const struct state *state,
     check->measures.time_s = (double)state->head->tick * dt_s;
     if (surface_update(&check->surface, state->craters, state->head->crater_count) != 0)
         return -1;
+    crater_index_update(&check->craters, state->head->crater_count);
+    check->looks.craters = &check->craters;
     body_looks_begin(&check->looks, check->world, state);
     look_at_bodies(check, &ground);
     if (events)
@@ -176,6 +178,7 @@ int physics_check_begin(struct physics_check *check, const struct world *world,
     choose_bounds(check);
     check->contact = calloc(world->params->contact_slots, sizeof *check->contact);
     if (check->contact && find_shapes(check) == 0 &&
+        crater_index_init(&check->craters, &world->terrain.squares, state->craters) == 0 &&
         body_looks_make(&check->looks, capacity) == 0 &&
         energy_make(&check->energy, capacity) == 0 &&
         overlaps_make(&check->overlaps, world, check->shape) == 0 &&
@@ -194,6 +197,7 @@ void physics_check_free(struct physics_check *check)
     free(check->shape);
     free(check->contact);
     surface_free(&check->surface);
+    crater_index_free(&check->craters);
     body_looks_free(&check->looks);
     overlaps_free(&check->overlaps);
     energy_free(&check->energy);

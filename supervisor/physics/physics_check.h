@@ -10,6 +10,7 @@
 #include "supervisor/physics/measure.h"
 #include "supervisor/physics/overlaps.h"
 #include "supervisor/physics/surface.h"
+#include "world/terrain/crater.h"
 
 #include <stdint.h>
 
@@ -28,6 +29,7 @@ struct physics_check {
     const struct world *world;
     struct hull_shape *shape; /* [counts.hulls] */
     struct surface surface;
+    struct crater_index craters;
     struct body_looks looks;
     struct overlaps overlaps;
     struct energy energy;

@@ -27,7 +27,7 @@ struct bench_options {
     int mode;        /* enum bench_mode */
     uint32_t burst;  /* bombs */
     uint32_t settle; /* frames before those that are measured */
-    bool json, peers, agents, driven, gl, beside, all;
+    bool json, peers, agents, driven, cruise, gl, beside, all;
     struct option_size size; /* of one picture */
     double seconds;
     uint32_t follow;  /* entity id, 0: the most active vehicle */

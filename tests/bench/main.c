@@ -32,9 +32,11 @@ static const struct bench {
      {.size = {1280, 720}, .frames = 120}},
     {"frame",
      bench_frame,
-     "[--vehicles N] [--mode MODE] [--agents] [--driven] [--burst N] [--settle F] [--threads T] "
+     "[--vehicles N] [--mode MODE] [--agents] [--driven] [--cruise] [--burst N] [--settle F] "
+     "[--threads T] "
      "[--frames F] [--json]     the steps of a frame; MODE: scenario, idle, patrol, war or dense; "
-     "--agents: as --mode war; --driven: all land vehicles on their springs; --burst: again after "
+     "--agents: as --mode war; --driven: all land vehicles on their springs; --cruise: vehicles "
+     "may cruise; --burst: again after "
      "N bombs; --settle: after F frames",
      {.vehicles = BENCH_SCENARIO_VEHICLES, .threads = 1, .frames = 1200}},
     {"heap",
@@ -84,6 +86,7 @@ static const struct option_row rows[] = {
     {"out", "DIR", NULL, .text = &given.out},
     {"peers", NULL, NULL, .flag = &given.peers},
     {"driven", NULL, NULL, .flag = &given.driven},
+    {"cruise", NULL, NULL, .flag = &given.cruise},
     {"agents", NULL, NULL, .flag = &given.agents},
     {"beside", NULL, NULL, .flag = &given.beside},
     {"all", NULL, NULL, .flag = &given.all},

@@ -216,7 +216,7 @@ void steps_respond(struct fixture *fixture, struct response_context *context)
     next->head->tick++;
     entities_copy(&next->entities, &committed->entities, 0, committed->head->used);
     memcpy(next->fixed_damage, committed->fixed_damage, view->world.counts.fixed);
-    body_motion_begin(&collider->motion, committed, next);
+    body_motion_begin(&collider->motion, committed, next, &collider->craters);
     for (uint32_t i = 0; i < next->head->used; i++)
         body_motion_compute(&collider->motion, i);
     *context = collider_response_context(collider, next);

@@ -69,6 +69,8 @@ enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED
     X(double, goal_x)      /* [m] the behaviour's destination */                                   \
     X(double, goal_z)      /* [m] */                                                               \
     X(double, fuel_l)      /* [l] */                                                               \
+    X(double, cruise_rps)  /* [rad/s] by which it turns while it cruises (cruise.h) */             \
+    X(double, cruise_mps2) /* [m/s2] by which it gains speed then, along its heading */            \
     X(float, throttle)     /* -1..1, by its driver or its agent */                                 \
     X(float, steer)        /* -1..1, by its driver or its agent: right */                          \
     X(float, climb)        /* -1..1, when driven: up (aircraft), hand brake (land, above 0) */     \
@@ -95,6 +97,7 @@ enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED
     X(uint32_t, seen_tick)   /* when it last saw its target */                                     \
     X(uint32_t, born_tick)                                                                         \
     X(uint32_t, changed_tick) /* when its damage last grew; for fire and smoke */                  \
+    X(uint32_t, cruise_tick)  /* when its stretch ends (cruise.h); past: it has none */            \
     X(uint32_t, jolt_tick)    /* when its chassis was last disturbed, while ENTITY_FLAG_CHASSIS */ \
     X(uint32_t, order_arg)    /* its area (patrol), route, formation or script */                  \
     X(uint32_t, leg)          /* its next route point or step of its script */                     \

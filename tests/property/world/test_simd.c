@@ -444,7 +444,7 @@ static void move_some(struct both *both, uint64_t *random, struct drawn *drawn)
     struct ground_vehicle land;
     struct constant_course hold;
     struct aircraft air;
-    ground_vehicle_begin(&land);
+    ground_vehicle_begin(&land, 1);
     constant_course_begin(&hold);
     aircraft_begin(&air);
     for (int again = 0; again < 3; again++) {

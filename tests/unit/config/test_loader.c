@@ -212,6 +212,7 @@ static const struct {
     {"world.contacts=300", "world = { contacts = 300; };"},
     {"world.frames=9007199254740991", "world = { frames = 9007199254740991; };"},
     {"world.pace=max", "world = { pace = \"max\"; };"},
+    {"world.cruise=true", "world = { cruise = true; };"},
     {"terrain.source=flat", "terrain = { source = \"flat\"; };"},
     {"terrain.height_m=-20.5", "terrain = { height_m = -20.5; };"},
     {"terrain.side_m=50000", "terrain = { side_m = 50000; };"},

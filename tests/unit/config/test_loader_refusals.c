@@ -51,6 +51,7 @@ static const struct refusal refusals[] = {
     /* Unknown keys. */
     {"world = {\n sede = 7; };", 2,
      "world.sede = 7: unknown key; allowed here: name, seed, hz, capacity, contacts, remotes_max, "
+     "cruise, "
      "frames, pace, "
      "wind_mps, wind_from_deg"},
     {"\nwrold = { seed = 7; };", 2,

@@ -123,7 +123,7 @@ static void test_columns_give_the_same_as_computed_paths(void **state)
         for (uint32_t row = 0; row < ROWS; row++)
             draw_row(&random, row);
         f.view.w[0].head->used = round % 2 ? ROWS : ROWS - 100; /* the rest is new */
-        body_motion_begin(motion, &f.view.w[0], next);
+        body_motion_begin(motion, &f.view.w[0], next, NULL);
         for (uint32_t row = 0; row < ROWS; row++)
             body_motion_compute(motion, row);
         memcpy(way, motion->path, sizeof way);
@@ -132,7 +132,7 @@ static void test_columns_give_the_same_as_computed_paths(void **state)
         uint32_t count = take_pairs(expected);
         memset(broad->box, 0x55, sizeof box);
         memset(motion->path, 0x55, sizeof way);
-        body_motion_begin(motion, &f.view.w[0], next);
+        body_motion_begin(motion, &f.view.w[0], next, NULL);
         broad_phase_pairs_moved(broad, input, motion, NULL, NULL);
         assert_int_equal(take_pairs(found), count);
         assert_memory_equal(found, expected, count * sizeof *found);

@@ -42,7 +42,7 @@ static void begin(void)
     next->entities.heading[0] += 0.1;
     next->entities.x[ROWS - 1] += 100.0;
     next->entities.id[ROWS - 1]++;
-    body_motion_begin(motion, &f.view.w[0], next);
+    body_motion_begin(motion, &f.view.w[0], next, NULL);
     for (uint32_t i = 0; i < ROWS; i++)
         body_motion_compute(motion, i);
 }

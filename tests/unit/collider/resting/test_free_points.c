@@ -34,6 +34,7 @@ static struct swept_body put(double east_m, double up_m)
     struct entities e = steps_rows(&f);
     const struct body_motion *motion = &f.stepper.collider.motion;
     f.stepper.collider.motion.committed = f.stepper.collider.motion.next = &f.view.w[0];
+    f.stepper.collider.motion.before = f.view.w[0].entities;
     return body_motion_standing(motion, &e, row);
 }
 

@@ -1,0 +1,58 @@
+/* The boxes around what is left of the stretches of vehicles that cruise (world/entity/cruise.h),
+ * by cell of the map. An entry stays until its vehicle ends its stretch, so a frame costs what
+ * begins, ends and is asked for. The box of an entry is that of the frame in which it was added: it
+ * holds all boxes of the same stretch that follow.
+ *
+ * This is a cache of one process. Queries may find more rows than those whose stretch is in the
+ * way; the caller compares the boxes of the frame. */
+#ifndef JOLON_COLLIDER_BROAD_PHASE_CRUISE_INDEX_H
+#define JOLON_COLLIDER_BROAD_PHASE_CRUISE_INDEX_H
+
+#include "collider/motion/pair_filter.h"
+
+#include <stdint.h>
+
+struct cruise_entry {
+    float min_x, max_x, min_z, max_z; /* [m] */
+    uint32_t next, before;            /* rows in the same cell, + 1; 0: none */
+    uint32_t cell, pad;
+};
+
+struct cruise_index {
+    struct cruise_entry *entry; /* [rows] of the rows that are held */
+    uint32_t *first;            /* [side * side] a row + 1; 0: the cell is empty */
+    uint32_t side;              /* cells along an edge of the world */
+    float cells_a_m;
+    uint64_t *held;  /* a bit for each row */
+    uint32_t words;  /* of held */
+    uint32_t count;  /* rows that are held */
+    float longest_m; /* the longest side of a box so far */
+};
+
+/* For up to so many rows in a world of this side [m]. Returns 0, or -1 with errno ENOMEM; must be
+ * freed in either case. */
+int cruise_index_init(struct cruise_index *index, uint32_t rows, double world_m);
+void cruise_index_free(struct cruise_index *index);
+
+/* Adds a row that is not held, or takes out one that is. One thread. */
+void cruise_index_add(struct cruise_index *index, uint32_t row, const struct path_box *box);
+void cruise_index_remove(struct cruise_index *index, uint32_t row);
+
+/* Takes out all rows. */
+void cruise_index_clear(struct cruise_index *index);
+
+static inline bool cruise_index_holds(const struct cruise_index *index, uint32_t row)
+{
+    return index->held[row / 64] >> row % 64 & 1;
+}
+
+/* Adds to the list every row but one whose box meets this box on the map, as a pair of both, the
+ * lower row first. Any thread, while nothing changes the index. */
+void cruise_index_pairs(const struct cruise_index *index, uint32_t row, const struct path_box *box,
+                        struct pair_list *pairs);
+
+/* Adds to the list every row whose box meets this box on the map, as pair.a; pair.b is 0. */
+void cruise_index_query(const struct cruise_index *index, const struct path_box *box,
+                        struct pair_list *found);
+
+#endif

@@ -1,0 +1,33 @@
+/* The rows that cruise (world/entity/cruise.h) and may meet something in this frame. A row whose
+ * stretch something is in the way of ends it: its columns then say where it is at the end of this
+ * frame, and it is a row like any other. Nothing else of the collider looks at rows that cruise.
+ *
+ * Which rows end their stretch follows from the tables alone, not from what the broad phase has
+ * kept: it finds more pairs than those whose boxes meet. One thread.
+ *
+ * They write to input->writer, and change input->motion. */
+#ifndef JOLON_COLLIDER_NARROW_PHASE_CRUISE_ROWS_H
+#define JOLON_COLLIDER_NARROW_PHASE_CRUISE_ROWS_H
+
+#include "collider/motion/pair_filter.h"
+
+struct contact_input;
+
+/* Ends the stretch of the row if it cruises in this frame. */
+void cruise_rows_stop(const struct contact_input *input, uint32_t row);
+
+/* Takes the pairs out of the list in which a row cruises and the boxes do not meet, and ends the
+ * stretches in the others. */
+void cruise_rows_take_pairs(const struct contact_input *input, struct pair_list *pairs);
+
+/* The same for the rows that a query for this box has found: pair.a from number `since` on. */
+void cruise_rows_take_found(const struct contact_input *input, const struct path_box *box,
+                            struct pair_list *found, uint32_t since);
+
+/* When all responses of the frame are done: ends the stretches that the rows which responses have
+ * written now are in the way of. So at the end of a frame no body is in the box around what is left
+ * of another one's stretch, and in the next frame only bodies that move can come there. found: for
+ * rows, is emptied. */
+void cruise_rows_meet_written(const struct contact_input *input, struct pair_list *found);
+
+#endif

@@ -1,0 +1,52 @@
+/* Which rows begin to cruise. */
+#include "mover/context/cruise_start.h"
+
+#include "world/entity/table_write.h"
+#include "world/world.h"
+
+#define SPREAD 7u /* frames between the turns of two neighbouring blocks: no divisor of 30 */
+
+bool cruise_start_turn(const struct step_context *context, uint32_t i)
+{
+    uint32_t frames = context->cruise_frames;
+    return frames > 1 && (context->tick + (uint64_t)(i / CHECKSUM_ROWS) * SPREAD) % frames == 0;
+}
+
+/* Returns true if the row is on its way by its order. */
+static bool is_under_way(const struct entities *m, uint32_t i)
+{
+    return m->state[i] == ENTITY_ACTIVE &&
+           (m->behaviour[i] == BEHAVIOUR_PATROL || m->behaviour[i] == BEHAVIOUR_ROUTE ||
+            m->behaviour[i] == BEHAVIOUR_WITHDRAW || m->behaviour[i] == BEHAVIOUR_BACK_OFF ||
+            m->behaviour[i] == BEHAVIOUR_FLEE);
+}
+
+/* Returns true if nothing has happened to the row, and it aims at nothing. */
+static bool is_undisturbed(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    bool aims = m->target_id[i] != 0 && context->world->kinds[m->kind[i]].munition != KIND_NONE;
+    return !aims && m->threat_id[i] == 0 && m->bumped[i] == 0 && m->trigger[i] == 0 &&
+           !(m->flags[i] & (ENTITY_FLAG_BURST | ENTITY_FLAG_CHASSIS)) && m->turret[i] == 0.0f &&
+           m->gun[i] == 0.0f && m->spin_x[i] == 0.0 && m->spin_y[i] == 0.0 && m->spin_z[i] == 0.0;
+}
+
+bool cruise_start_may(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    return cruise_start_turn(context, i) && is_under_way(m, i) && is_undisturbed(context, i) &&
+           context->world->kinds[m->kind[i]].domain == DOMAIN_LAND;
+}
+
+bool cruise_start_due(const struct step_context *context, uint32_t i, uint32_t period)
+{
+    uint32_t past = ((uint32_t)context->tick + context->m->id[i]) % period;
+    return past == 0 || (period - past < context->cruise_frames && cruise_start_may(context, i));
+}
+
+uint32_t cruise_start_think_frames(const struct step_context *context, uint32_t i)
+{
+    return context->cruise_frames > context->think_frames && cruise_start_may(context, i)
+               ? context->cruise_frames
+               : context->think_frames;
+}

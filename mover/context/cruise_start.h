@@ -1,0 +1,29 @@
+/* When a land vehicle begins to cruise (world/entity/cruise.h).
+ *
+ * The rows of a block of the table begin their stretches in the same frame, so that a frame writes
+ * to few blocks. Blocks take turns. A vehicle may begin a stretch when its block's turn comes, if
+ * it is on its way, nothing has happened to it and its gun is at rest. Its agent then decides at
+ * once whatever falls due within the stretch. The motion of the stretch is that of one long frame
+ * (mover/motion/ground_vehicle.h), which refuses what is not easy.
+ *
+ * Reads row i of the moved table. Any thread, each its own row. */
+#ifndef JOLON_MOVER_CONTEXT_CRUISE_START_H
+#define JOLON_MOVER_CONTEXT_CRUISE_START_H
+
+#include "mover/context/step_context.h"
+
+/* Returns true if the rows of the block of row i may begin a stretch in this frame. */
+bool cruise_start_turn(const struct step_context *context, uint32_t i);
+
+/* Returns true if row i may begin a stretch in this frame. */
+bool cruise_start_may(const struct step_context *context, uint32_t i);
+
+/* Returns true if something that row i's agent does every `period` frames falls due: in this frame,
+ * or within the stretch that it may begin. */
+bool cruise_start_due(const struct step_context *context, uint32_t i, uint32_t period);
+
+/* Returns how many frames there are at least from a decision of row i's agent in this frame to the
+ * next. */
+uint32_t cruise_start_think_frames(const struct step_context *context, uint32_t i);
+
+#endif

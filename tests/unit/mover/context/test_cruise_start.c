@@ -1,0 +1,195 @@
+/* Which vehicles begin to cruise, and what a stretch is. */
+#include "tests/support/steps.h"
+#include "world/entity/cruise.h"
+#include "world/params.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define FRAMES 30u /* of a stretch */
+
+static struct fixture f;
+static uint32_t tank;
+
+static uint32_t put(const char *kind, double x, enum behaviour behaviour)
+{
+    return fixture_put(&f, (struct fixture_entity){.kind = kind,
+                                                   .at = {x, FIXTURE_GROUND_M, 25000.0},
+                                                   .velocity = {0.0, 0.0, -9.0},
+                                                   .behaviour = behaviour});
+}
+
+static void open_with(const char *text)
+{
+    fixture_open(&f, text);
+    tank = put("tank", 25000.0, BEHAVIOUR_PATROL);
+    struct entities e = steps_rows(&f);
+    e.goal_x[tank] = 25000.0;
+    e.goal_z[tank] = 20000.0;
+    e.throttle[tank] = 0.75f;
+}
+
+static int open_world(void **state)
+{
+    (void)state;
+    open_with("world = { cruise = true; };");
+    return 0;
+}
+
+static bool cruises(uint32_t row)
+{
+    const struct state state = fixture_state(&f);
+    return cruise_goes(&state.entities, row, state.head->tick);
+}
+
+/* Runs until the row cruises; false if it does not within three stretches. */
+static bool begins(uint32_t row)
+{
+    for (uint32_t i = 0; i < 3 * FRAMES; i++) {
+        fixture_run(&f, 1);
+        if (cruises(row))
+            return true;
+    }
+    return false;
+}
+
+static void test_a_vehicle_on_its_way_cruises_for_half_a_second(void **state)
+{
+    (void)state;
+    assert_true(begins(tank));
+    struct state begun = fixture_state(&f);
+    uint64_t tick = begun.head->tick;
+    struct entities e = begun.entities;
+    double x = e.x[tank], z = e.z[tank], fuel = e.fuel_l[tank];
+    assert_int_equal(e.cruise_tick[tank], tick - 1 + FRAMES);
+    for (uint32_t i = 1; i < FRAMES - 1; i++) { /* nothing writes to its row */
+        fixture_run(&f, 1);
+        e = steps_rows(&f);
+        assert_true(e.x[tank] == x && e.z[tank] == z && e.fuel_l[tank] == fuel);
+    }
+    assert_true(cruises(tank));
+    fixture_run(&f, 1);
+    assert_false(cruises(tank));
+    fixture_run(&f, 1); /* and the next stretch begins */
+    assert_true(cruises(tank));
+    assert_true(steps_rows(&f).z[tank] < z - 4.0);
+}
+
+/* The stretch is the motion of the frames that it stands for. */
+static void test_a_stretch_is_the_motion_of_its_frames(void **state)
+{
+    (void)state;
+    assert_true(begins(tank));
+    fixture_run(&f, 4 * FRAMES);
+    struct state now = fixture_state(&f);
+    uint64_t frame = now.head->frame;
+    struct vec3 at = cruise_position(&now.entities, tank, now.head->tick, 1.0 / 60.0);
+    double heading = cruise_heading(&now.entities, tank, now.head->tick, 1.0 / 60.0);
+    fixture_close(&f);
+    open_with("");
+    fixture_run(&f, (uint32_t)frame);
+    struct entities e = steps_rows(&f);
+    assert_true(fabs(at.x - e.x[tank]) < 0.05 && fabs(at.z - e.z[tank]) < 0.3);
+    assert_true(fabs(maths_wrap_half(heading - e.heading[tank])) < 0.01);
+}
+
+static void test_without_the_key_nothing_cruises(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    open_with("");
+    assert_false(begins(tank));
+}
+
+static void test_long_frames_have_no_stretches(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    open_with("world = { cruise = true; hz = 2.0; };");
+    assert_false(begins(tank));
+}
+
+static void test_what_stands_fights_or_is_driven_does_not(void **state)
+{
+    (void)state;
+    uint32_t held = put("tank", 25100.0, BEHAVIOUR_HOLD),
+             idle = put("tank", 25200.0, BEHAVIOUR_IDLE);
+    uint32_t flies = put("helicopter", 25300.0, BEHAVIOUR_PATROL);
+    struct command drive = {.source = 1, .type = COMMAND_DRIVE, .entity = tank + 1};
+    drive.value[0] = 0.5;
+    steps_send(&f, RING_CLIENTS, drive);
+    for (uint32_t i = 0; i < 3 * FRAMES; i++) {
+        fixture_run(&f, 1);
+        assert_false(cruises(held) || cruises(idle) || cruises(flies) || cruises(tank));
+    }
+}
+
+/* A command for a vehicle that cruises takes effect in its frame. */
+static void test_a_command_ends_the_stretch(void **state)
+{
+    (void)state;
+    assert_true(begins(tank));
+    fixture_run(&f, 5);
+    struct state now = fixture_state(&f);
+    struct vec3 at = cruise_position(&now.entities, tank, now.head->tick, 1.0 / 60.0);
+    struct command drive = {.source = 1, .type = COMMAND_DRIVE, .entity = tank + 1};
+    drive.value[5] = 1.0;
+    steps_send(&f, RING_CLIENTS, drive);
+    fixture_run(&f, 1);
+    struct entities e = steps_rows(&f);
+    assert_false(cruises(tank));
+    assert_int_equal(e.behaviour[tank], BEHAVIOUR_DRIVEN);
+    assert_true(e.z[tank] < at.z && e.z[tank] > at.z + 1.1 * now.entities.vz[tank] / 60.0);
+}
+
+/* What comes into the way of a stretch ends it, in the frame in which it is there. */
+static void test_what_comes_into_its_way_ends_it(void **state)
+{
+    (void)state;
+    assert_true(begins(tank));
+    fixture_run(&f, 3);
+    struct command spawn = {.source = 1, .type = COMMAND_SPAWN, .kind = fixture_kind(&f, "truck")};
+    spawn.value[0] = steps_rows(&f).x[tank];
+    spawn.value[1] = steps_rows(&f).z[tank] - 5.0;
+    steps_send(&f, RING_CLIENTS, spawn);
+    assert_true(steps_rows(&f).cruise_tick[tank] > fixture_state(&f).head->tick + 10);
+    fixture_run(&f, 1);
+    assert_false(cruises(tank));
+}
+
+static void test_what_is_in_the_way_lets_none_begin(void **state)
+{
+    (void)state;
+    uint32_t stands = put("truck", 25003.5, BEHAVIOUR_HOLD); /* beside it: no collision */
+    struct entities e = steps_rows(&f);
+    e.vz[stands] = 0.0;
+    e.vz[tank] = e.throttle[tank] = 0.0f;
+    e.flags[tank] |= ENTITY_FLAG_HOLD_FIRE;
+    for (uint32_t i = 0; i < FRAMES; i++) {
+        fixture_run(&f, 1);
+        e = steps_rows(&f);
+        assert_false(cruises(tank) && e.z[tank] > 24996.0);
+    }
+}
+
+#define IN_WORLD(test)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(test, open_world, fixture_teardown, &f)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_WORLD(test_a_vehicle_on_its_way_cruises_for_half_a_second),
+        IN_WORLD(test_a_stretch_is_the_motion_of_its_frames),
+        IN_WORLD(test_without_the_key_nothing_cruises),
+        IN_WORLD(test_long_frames_have_no_stretches),
+        IN_WORLD(test_what_stands_fights_or_is_driven_does_not),
+        IN_WORLD(test_a_command_ends_the_stretch),
+        IN_WORLD(test_what_comes_into_its_way_ends_it),
+        IN_WORLD(test_what_is_in_the_way_lets_none_begin),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

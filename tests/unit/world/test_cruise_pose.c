@@ -1,0 +1,90 @@
+/* How vehicles that cruise stand on the ground, and how their stretches end. */
+#include "tests/support/steps.h"
+#include "world/entity/cruise.h"
+#include "world/params.h"
+#include "world/cruise_pose.h"
+#include "world/terrain/rest_pose.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+static struct fixture f;
+static uint32_t tank;
+
+/* A tank that cruises up a plane that rises to the east, 10 m/s. */
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { cruise = true; };");
+    steps_plane(&f, 0.1, 0.0);
+    tank = fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                                   .at = {25000.0, 0.0, 25000.0},
+                                                   .velocity = {10.0, 0.0, 0.0},
+                                                   .behaviour = BEHAVIOUR_PATROL});
+    struct state committed = fixture_state(&f);
+    committed.entities.y[tank] = steps_ground_at(&f, 25000.0, 25000.0);
+    committed.entities.cruise_tick[tank] = (uint32_t)committed.head->tick + 12;
+    return 0;
+}
+
+static void test_its_pose_is_that_of_the_ground_on_the_way(void **state)
+{
+    const struct state committed = fixture_state(&f);
+    (void)state;
+    struct cruise_pose pose =
+        cruise_pose_of(&f.view.world, NULL, &committed.entities, tank, committed.head->tick);
+    struct rest_pose stands = rest_pose_of(&f.view.world.terrain, NULL,
+                                           &f.view.world.kinds[committed.entities.kind[tank]],
+                                           24998.0, 25000.0, pose.heading_rad);
+    assert_true(fabs(pose.at.x - 24998.0) < 1e-9);
+    assert_true(fabs(pose.at.y - stands.y_m) < 1e-9 &&
+                fabs(pose.pitch_rad - stands.pitch_rad) < 1e-9);
+    assert_true(pose.pitch_rad > 0.09);
+    pose =
+        cruise_pose_of(&f.view.world, NULL, &committed.entities, tank, committed.head->tick + 12);
+    assert_true(pose.at.x == 25000.0 && pose.pitch_rad == committed.entities.pitch[tank]);
+}
+
+static void test_a_stretch_ends_where_it_is(void **state)
+{
+    struct state committed = fixture_state(&f);
+    static uint64_t changed[CHECKSUM_BLOCKS];
+    const struct table_writer writer = {&committed.entities, changed, NULL};
+    uint64_t tick = committed.head->tick;
+    (void)state;
+    struct cruise_pose before =
+        cruise_pose_of(&f.view.world, NULL, &committed.entities, tank, tick + 3);
+    assert_true(cruise_pose_stop(&writer, &f.view.world, NULL, tank, tick + 3));
+    assert_true(committed.entities.x[tank] == before.at.x);
+    assert_true(committed.entities.y[tank] == before.at.y);
+    assert_false(cruise_goes(&committed.entities, tank, tick));
+    assert_true(changed[0] & COLUMN_BIT(x) && changed[0] & COLUMN_BIT(cruise_tick));
+    assert_false(cruise_pose_stop(&writer, &f.view.world, NULL, tank, tick + 3));
+}
+
+static void test_a_copy_shows_all_where_they_are(void **state)
+{
+    struct state committed = fixture_state(&f);
+    uint64_t tick = committed.head->tick;
+    (void)state;
+    cruise_pose_settle(&committed.entities, &f.view.world, NULL, committed.head->used, tick);
+    assert_true(fabs(committed.entities.x[tank] - 24998.0) < 1e-9);
+    assert_int_equal(committed.entities.cruise_tick[tank], 0);
+}
+
+#define IN_WORLD(test)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(test, open_world, fixture_teardown, &f)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_WORLD(test_its_pose_is_that_of_the_ground_on_the_way),
+        IN_WORLD(test_a_stretch_ends_where_it_is),
+        IN_WORLD(test_a_copy_shows_all_where_they_are),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

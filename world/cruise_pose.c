@@ -1,0 +1,65 @@
+/* Poses of vehicles that cruise. */
+#include "world/cruise_pose.h"
+
+#include "world/entity/cruise.h"
+#include "world/params.h"
+#include "world/terrain/rest_pose.h"
+#include "world/world.h"
+
+/* What a stretch that ends changes. */
+#define CRUISE_COLUMNS                                                                             \
+    (COLUMN_BIT(x) | COLUMN_BIT(y) | COLUMN_BIT(z) | COLUMN_BIT(vx) | COLUMN_BIT(vy) |             \
+     COLUMN_BIT(vz) | COLUMN_BIT(heading) | COLUMN_BIT(pitch) | COLUMN_BIT(roll) |                 \
+     COLUMN_BIT(cruise_tick))
+
+struct cruise_pose cruise_pose_of(const struct world *world, const struct crater_index *craters,
+                                  const struct entities *e, uint32_t i, uint64_t tick)
+{
+    struct cruise_pose pose = {.at = entities_position(e, i),
+                               .heading_rad = e->heading[i],
+                               .pitch_rad = e->pitch[i],
+                               .roll_rad = e->roll[i]};
+    if (!cruise_goes(e, i, tick))
+        return pose;
+    double dt_s = world_dt_s(world);
+    pose.at = cruise_position(e, i, tick, dt_s);
+    pose.heading_rad = cruise_heading(e, i, tick, dt_s);
+    struct rest_pose stands = rest_pose_of(&world->terrain, craters, &world->kinds[e->kind[i]],
+                                           pose.at.x, pose.at.z, pose.heading_rad);
+    pose.at.y = stands.y_m;
+    pose.pitch_rad = stands.pitch_rad;
+    pose.roll_rad = stands.roll_rad;
+    return pose;
+}
+
+/* Writes where row i is at the tick into its columns. */
+static void settle(const struct entities *e, const struct world *world,
+                   const struct crater_index *craters, uint32_t i, uint64_t tick)
+{
+    struct cruise_pose pose = cruise_pose_of(world, craters, e, i, tick);
+    entities_set_velocity(e, i, cruise_velocity(e, i, tick, world_dt_s(world)));
+    entities_set_position(e, i, pose.at);
+    e->heading[i] = pose.heading_rad;
+    e->pitch[i] = pose.pitch_rad;
+    e->roll[i] = pose.roll_rad;
+    e->cruise_tick[i] = 0;
+}
+
+bool cruise_pose_stop(const struct table_writer *writer, const struct world *world,
+                      const struct crater_index *craters, uint32_t i, uint64_t tick)
+{
+    if (!cruise_goes(writer->entities, i, tick))
+        return false;
+    table_note(writer, i, CRUISE_COLUMNS);
+    settle(writer->entities, world, craters, i, tick);
+    return true;
+}
+
+void cruise_pose_settle(const struct entities *copy, const struct world *world,
+                        const struct crater_index *craters, uint32_t used, uint64_t tick)
+{
+    for (uint32_t i = 0; world->params->cruise && i < used; i++) {
+        if (cruise_goes(copy, i, tick))
+            settle(copy, world, craters, i, tick);
+    }
+}

@@ -1,0 +1,33 @@
+/* Where a vehicle that cruises is on the ground. Pure; any thread. */
+#ifndef JOLON_WORLD_CRUISE_POSE_H
+#define JOLON_WORLD_CRUISE_POSE_H
+
+#include "world/entity/table_write.h"
+#include "world/maths/maths.h"
+
+#include <stdint.h>
+
+struct crater_index;
+struct world;
+
+struct cruise_pose {
+    struct vec3 at;                          /* [m] */
+    double heading_rad, pitch_rad, roll_rad; /* as the columns of an entity */
+};
+
+/* Returns how row i stands at the tick: as its columns say unless it cruises then. craters: of the
+ * committed world, or NULL for none. */
+struct cruise_pose cruise_pose_of(const struct world *world, const struct crater_index *craters,
+                                  const struct entities *e, uint32_t i, uint64_t tick);
+
+/* Ends the stretch of row i at the tick, if it cruises then: its columns say from now on where it
+ * is at that tick. Returns true if it did. */
+bool cruise_pose_stop(const struct table_writer *writer, const struct world *world,
+                      const struct crater_index *craters, uint32_t i, uint64_t tick);
+
+/* Ends the stretches of all rows of a private copy of a committed frame: its columns then say where
+ * they are. The copy is no longer what the checksum is of. */
+void cruise_pose_settle(const struct entities *copy, const struct world *world,
+                        const struct crater_index *craters, uint32_t used, uint64_t tick);
+
+#endif

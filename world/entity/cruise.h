@@ -1,0 +1,94 @@
+/* How a vehicle cruises: it moves for many frames at once (docs/decisions/049-cruising.md).
+ *
+ * A land vehicle on easy ground that goes on as it did is moved by a whole stretch of half a
+ * second. Its columns then hold where it is at the end of the stretch, which cruise_tick names, and
+ * nothing writes to its row before that. Where it is at a tick on the way follows from the row: it
+ * turns and gains speed evenly, so it is on an arc. Its height, pitch and roll are those of the
+ * ground there (world/cruise_pose.h).
+ *
+ * The mover begins a stretch, and it ends by itself. The collider ends it in the frame in which it
+ * begins if anything stands, rests or cruises where it leads, and later when a body comes there. So
+ * nothing is ever in the box around what is left of a stretch but the vehicle itself.
+ *
+ * All functions are pure; any thread. tick: of the frame that is asked for. */
+#ifndef JOLON_WORLD_ENTITY_CRUISE_H
+#define JOLON_WORLD_ENTITY_CRUISE_H
+
+#include "world/entity/entity.h"
+
+#include <stdbool.h>
+
+/* A stretch lasts for so long [s], in whole frames. */
+#define CRUISE_S 0.5
+
+/* Returns the frames of a stretch; 1: the frames are so long that none pays. */
+static inline uint32_t cruise_frames(double dt_s)
+{
+    double frames = CRUISE_S / dt_s;
+    return frames < 2.0 ? 1u : (uint32_t)(frames + 0.5);
+}
+
+/* Returns true if the row's columns hold where it is after this tick. */
+static inline bool cruise_goes(const struct entities *e, uint32_t i, uint64_t tick)
+{
+    return e->cruise_tick[i] > tick;
+}
+
+/* Returns the length of the chord of an arc of this length that turns by twice half_rad, which is
+ * at most 1: to 1e-6 of it, by the series of sin(x) / x. */
+static inline double cruise_chord(double arc_m, double half_rad)
+{
+    double square = half_rad * half_rad;
+    return arc_m * (1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0)));
+}
+
+/* Returns the time from the tick to the end of the stretch [s]; 0 without one. */
+static inline double cruise_left_s(const struct entities *e, uint32_t i, uint64_t tick, double dt_s)
+{
+    return cruise_goes(e, i, tick) ? (double)(e->cruise_tick[i] - tick) * dt_s : 0.0;
+}
+
+/* Returns where the row is at the tick, on its arc. The height is between those of the ends: the
+ * ground may be some decimetres higher or lower. */
+static inline struct vec3 cruise_position(const struct entities *e, uint32_t i, uint64_t tick,
+                                          double dt_s)
+{
+    struct vec3 at = {e->x[i], e->y[i], e->z[i]};
+    double left_s = cruise_left_s(e, i, tick, dt_s), sine, cosine;
+    if (!(left_s > 0.0))
+        return at;
+    maths_sincos(e->heading[i], &sine, &cosine);
+    double forward_mps = e->vx[i] * sine - e->vz[i] * cosine;
+    double half_rad = 0.5 * e->cruise_rps[i] * left_s, way_m;
+    way_m = cruise_chord((forward_mps - 0.5 * e->cruise_mps2[i] * left_s) * left_s, half_rad);
+    maths_sincos(e->heading[i] - half_rad, &sine, &cosine);
+    at.x -= way_m * sine;
+    at.y -= e->vy[i] * left_s;
+    at.z += way_m * cosine;
+    return at;
+}
+
+/* Returns where the row heads at the tick [rad]. */
+static inline double cruise_heading(const struct entities *e, uint32_t i, uint64_t tick,
+                                    double dt_s)
+{
+    double left_s = cruise_left_s(e, i, tick, dt_s);
+    return left_s > 0.0 ? maths_wrap_turn(e->heading[i] - e->cruise_rps[i] * left_s)
+                        : e->heading[i];
+}
+
+/* Returns the velocity of the row at the tick [m/s]. */
+static inline struct vec3 cruise_velocity(const struct entities *e, uint32_t i, uint64_t tick,
+                                          double dt_s)
+{
+    struct vec3 velocity = entities_velocity(e, i);
+    double left_s = cruise_left_s(e, i, tick, dt_s), sine, cosine;
+    if (!(left_s > 0.0))
+        return velocity;
+    maths_sincos(e->heading[i], &sine, &cosine);
+    double forward_mps = velocity.x * sine - velocity.z * cosine - e->cruise_mps2[i] * left_s;
+    maths_sincos(e->heading[i] - e->cruise_rps[i] * left_s, &sine, &cosine);
+    return (struct vec3){forward_mps * sine, velocity.y, -forward_mps * cosine};
+}
+
+#endif
