@@ -155,14 +155,24 @@ void table_take(struct table to, struct table from, uint32_t block, uint32_t use
     *has = *wants;
 }
 
-/* Returns a bit for each of up to 64 cells that differ. */
-static uint64_t cells_differing(const uint8_t *p, const uint8_t *q, size_t bytes, uint32_t count)
+/* Returns a bit for each of up to 64 cells that differ, of one size. */
+#define CELLS_DIFFER(type)                                                                         \
+    for (uint32_t i = 0; i < count; i++)                                                           \
+    differ |= (uint64_t)(((const type *)p)[i] != ((const type *)q)[i]) << i
+
+static uint64_t cells_differing(const void *p, const void *q, size_t bytes, uint32_t count)
 {
     uint64_t differ = 0;
     if (memcmp(p, q, count * bytes) == 0)
         return 0;
-    for (uint32_t i = 0; i < count; i++)
-        differ |= (uint64_t)(memcmp(p + i * bytes, q + i * bytes, bytes) != 0) << i;
+    if (bytes == 8)
+        CELLS_DIFFER(uint64_t);
+    else if (bytes == 4)
+        CELLS_DIFFER(uint32_t);
+    else if (bytes == 2)
+        CELLS_DIFFER(uint16_t);
+    else
+        CELLS_DIFFER(uint8_t);
     return differ;
 }
 

@@ -377,6 +377,9 @@ VECTOR_CLONES void body_boxes_bin(const struct body_boxes *rows, struct sweep_wo
 VECTOR_CLONES void body_boxes_bin_some(const struct body_boxes *rows, struct sweep_worker *sweeper,
                                        uint32_t first, uint64_t some)
 {
-    struct block block = {0};
+    struct block block;
+    block.cruises = 0;
+    if (rows->input->rows - first < BLOCK) /* a full block sets all of it */
+        memset(&block, 0, sizeof block);
     bin_block(rows, &block, sweeper, first, some);
 }
