@@ -17,7 +17,12 @@
 #define SPEED_MOST_MPS         10000.0
 #define ACCELERATION_MOST_MPS2 1000.0
 #define RATE_MOST_RPS          20.0
-#define DRY_M                  1e7 /* no place on the earth is further from our square */
+
+/* By simulated time, which the world takes at most. It takes no other velocity than above. */
+#define SCALED_ACCELERATION_MOST_MPS2 10000.0
+#define SCALED_RATE_MOST_RPS          100.0
+
+#define DRY_M 1e7 /* no place on the earth is further from our square */
 
 #define SHOTS_A_SECOND 1000u
 #define GONE_NS        (2 * (uint64_t)NS_PER_S) /* told, and no row for so long: it was refused */
@@ -82,6 +87,7 @@ int remote_input_open(struct remote_input *input, const struct view *view, uint6
     if (remote_table_open(&input->table, view->world.params->remotes_max) != 0)
         return error_text_set(error, "remote entities: no memory for %u: %s",
                               view->world.params->remotes_max, strerror(errno));
+    input->time_scale = 1.0; /* until the first snapshot */
     input->side_m = view->world.terrain.squares.world_m;
     input->world_capacity = view->header->capacity;
     input->grace_ns = now_ns + (uint64_t)(REMOTE_INPUT_GRACE_S * 1e9);
@@ -145,6 +151,27 @@ static int16_t angle_units(double angle_rad)
 static uint64_t id_of(struct pdu_id id)
 {
     return remote_id(id.site, id.application, id.entity);
+}
+
+/* --- time --------------------------------------------------------------------------------------*/
+
+static void scale_floats(float value[3], double scale, double most)
+{
+    vec3_to_floats(value, limited(vec3_scale(vec3_of(value), scale), most));
+}
+
+/* Writes a record into the ring. Velocities of other simulators are by the clock, and those in the
+ * ring by simulated time. */
+static int append(struct remote_input *input, struct view *view, struct remote_record record)
+{
+    double scale = 1.0 / input->time_scale;
+    if (input->time_scale != 1.0 && (record.type == REMOTE_TRACK || record.type == REMOTE_STRUCK))
+        scale_floats(record.velocity, scale, SPEED_MOST_MPS);
+    if (input->time_scale != 1.0 && record.type == REMOTE_TRACK) {
+        scale_floats(record.acceleration, scale * scale, SCALED_ACCELERATION_MOST_MPS2);
+        scale_floats(record.rates, scale, SCALED_RATE_MOST_RPS);
+    }
+    return remote_ring_append(&input->table, view, &record, input->taken);
 }
 
 /* --- types -------------------------------------------------------------------------------------*/
@@ -220,7 +247,7 @@ static void put_lost(struct remote_input *input, struct view *view, struct remot
 {
     struct remote_record record = {
         .remote = entry->remote, .type = REMOTE_LOST, .slot = entry->track.slot};
-    if (remote_ring_append(&input->table, view, &record, input->taken) != 0) {
+    if (append(input, view, record) != 0) {
         input->refused[REMOTE_INPUT_RING]++; /* its row is seen again, and lost later */
         return;
     }
@@ -404,7 +431,7 @@ static void put_shot(struct remote_input *input, struct view *view,
         input->refused[REMOTE_INPUT_SHOTS]++;
         return;
     }
-    if (remote_ring_append(&input->table, view, record, input->taken) != 0) {
+    if (append(input, view, *record) != 0) {
         input->refused[REMOTE_INPUT_RING]++;
         return;
     }
@@ -653,7 +680,7 @@ static bool tell_entry(struct remote_input *input, struct view *view, struct rem
         return true;
     if (now_ns - entry->told_ns < (uint64_t)(REMOTE_INPUT_LEAST_S * 1e9))
         return false;
-    if (remote_ring_append(&input->table, view, &entry->track, input->taken) != 0) {
+    if (append(input, view, entry->track) != 0) {
         input->refused[REMOTE_INPUT_RING]++;
         return false;
     }
@@ -680,6 +707,13 @@ void remote_input_tell(struct remote_input *input, struct view *view, uint64_t n
     table->waiting_count = kept;
 }
 
+/* A world that pauses goes on at its scale. */
+static void set_time_scale(struct remote_input *input, const struct state_head *head)
+{
+    if (head->time_scale > 0.0)
+        input->time_scale = head->time_scale;
+}
+
 void remote_input_see(struct remote_input *input, struct view *view,
                       const struct snapshot *snapshot, uint64_t now_ns)
 {
@@ -687,6 +721,7 @@ void remote_input_see(struct remote_input *input, struct view *view,
     if (table->capacity == 0)
         return;
     input->taken = snapshot->head.command_cursor[RING_GATEWAY];
+    set_time_scale(input, &snapshot->head);
     remote_table_see(table, snapshot, now_ns);
     for (uint32_t i = 0; i < table->used; i++) {
         struct remote_entry *entry = &table->entry[i];

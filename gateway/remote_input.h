@@ -3,7 +3,8 @@
  * and so is a Collision of which our own collider has not told.
  *
  * Places on the earth become places of the world here, so that the step of the mover has no result
- * of them. Times are those of arrival. Time stamps only tell an Entity State that the network has
+ * of them. Velocities by the clock become those by simulated time, at the present time scale. Times
+ * are those of arrival. Time stamps only tell an Entity State that the network has
  * delayed or repeated from the next one. */
 #ifndef JOLON_GATEWAY_REMOTE_INPUT_H
 #define JOLON_GATEWAY_REMOTE_INPUT_H
@@ -77,6 +78,7 @@ struct remote_input {
     } met[REMOTE_INPUT_BODIES]; /* the last collisions that our collider has told of */
     uint32_t met_count;
     struct type_notices unknown;
+    double time_scale; /* of the last snapshot; above 0 */
     uint64_t taken;    /* of the ring, as the last snapshot has it */
     uint64_t grace_ns; /* of REMOTE_INPUT_GRACE_S: its end */
     /* Counts. */

@@ -175,6 +175,41 @@ static void test_body_axes(void **state)
     assert_true(steps_rows(&f).heading[1] - before > 0.2); /* it turns to the right */
 }
 
+static double length_of(const float v[3])
+{
+    return sqrt((double)v[0] * (double)v[0] + (double)v[1] * (double)v[1] +
+                (double)v[2] * (double)v[2]);
+}
+
+/* What is told by the clock is by simulated time in the ring, as far as the world takes it. A pause
+ * keeps the scale. */
+static void test_motion_at_other_time_scales(void **state)
+{
+    static const struct {
+        double scale, velocity, acceleration, rates;
+    } cases[] = {{2.0, 150.0, 22.5, 5.0}, {0.25, 1200.0, 1440.0, 40.0}, {0.02, 1e4, 1e4, 100.0}};
+    (void)state;
+    for (uint16_t i = 0; i < 3; i++) {
+        struct pdu pdu = state_of(5 + i, (struct vec3){25100.0, 900.0, 24900.0});
+        struct command scale = {.type = COMMAND_SCALE, .value = {cases[i].scale}};
+        assert_int_equal(steps_command(&f, scale).result, COMMAND_DONE);
+        steps_command(&f, (struct command){.type = i == 0 ? COMMAND_PAUSE : COMMAND_RESUME});
+        pass(0.1);
+        pdu.entity_state.dead_reckoning = DEAD_RECKONING_RVB;
+        pdu.entity_state.velocity[0] = 300.0f;
+        pdu.entity_state.acceleration[1] = 90.0f;
+        pdu.entity_state.angular_velocity[2] = 10.0f;
+        take(&pdu, &peer);
+        remote_input_tell(&input, &f.view, now_ns);
+        struct remote_record track = last_record();
+        assert_true(fabs(length_of(track.velocity) / cases[i].velocity - 1.0) < 1e-5);
+        assert_true(fabs(length_of(track.acceleration) / cases[i].acceleration - 1.0) < 1e-5);
+        assert_true(fabs(length_of(track.rates) / cases[i].rates - 1.0) < 1e-5);
+        pass(0.1);
+        assert_int_equal(fixture_event(&f, EVENT_INPUT, i)->input.refused, 0);
+    }
+}
+
 static void test_it_is_lost(void **state)
 {
     struct pdu pdu = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
@@ -733,6 +768,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_an_entity_state_becomes_a_row),
         TEST(test_body_axes),
+        TEST(test_motion_at_other_time_scales),
         TEST(test_it_is_lost),
         TEST(test_a_gateway_that_starts_anew),
         TEST(test_a_stranger_with_too_many),
