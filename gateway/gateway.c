@@ -342,7 +342,8 @@ static void tell_sent(const struct gateway *gateway)
 
 void gateway_close(struct gateway *gateway)
 {
-    entity_output_deactivate(&gateway->entities, &gateway->view, clock_now_ns());
+    if (process_stopped_by_parent()) /* else the next gateway goes on with the same entities */
+        entity_output_deactivate(&gateway->entities, &gateway->view, clock_now_ns());
     tell_sent(gateway);
     tell_received(gateway);
     remote_input_close(&gateway->remotes);

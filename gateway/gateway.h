@@ -37,7 +37,7 @@ void gateway_send(struct gateway *gateway);
 /* Receives until due_ns (CLOCK_MONOTONIC), or until the process is to stop. */
 void gateway_receive(struct gateway *gateway, uint64_t due_ns);
 
-/* Sends a last state of every entity, and closes. */
+/* Sends a last state of every entity if the run is over, and closes. */
 void gateway_close(struct gateway *gateway);
 
 #endif

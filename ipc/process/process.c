@@ -17,11 +17,15 @@
 
 #define BESIDE_NICENESS 5
 
-static volatile sig_atomic_t stopping;
+static volatile sig_atomic_t stopping, stopped_by_parent;
+static int parent; /* 0: none */
 
-static void on_stop(int signal_number)
+static void on_stop(int signal_number, siginfo_t *info, void *context)
 {
     (void)signal_number;
+    (void)context;
+    if (parent == 0 || (info->si_code == SI_USER && info->si_pid == parent))
+        stopped_by_parent = 1;
     stopping = 1;
 }
 
@@ -88,9 +92,15 @@ bool process_stopping(void)
     return stopping != 0;
 }
 
+bool process_stopped_by_parent(void)
+{
+    return stopped_by_parent != 0;
+}
+
 void process_signals(void)
 {
-    struct sigaction stop = {.sa_handler = on_stop}; /* no SA_RESTART: waits end early */
+    struct sigaction stop = {.sa_sigaction = on_stop,
+                             .sa_flags = SA_SIGINFO}; /* no SA_RESTART: waits end early */
     struct sigaction ignore = {.sa_handler = SIG_IGN};
     sigemptyset(&stop.sa_mask);
     sigemptyset(&ignore.sa_mask);
@@ -139,6 +149,7 @@ int process_lower_priority(int steps)
 void process_begin(int parent_pid)
 {
     process_close_inherited();
+    parent = parent_pid;
     process_signals();
     process_die_with_parent(parent_pid);
 }

@@ -11,6 +11,11 @@
 /* Returns true after SIGTERM, SIGINT or SIGHUP. Loops then end. */
 bool process_stopping(void);
 
+/* Returns true if such a signal came from the parent that process_begin() has named, or if there is
+ * none. The keeper sends it to a role when the run is over. After a signal of anybody else the
+ * keeper starts the role again. */
+bool process_stopped_by_parent(void);
+
 /* Installs the handlers of these signals and those of process_guard(). SIGPIPE is ignored. */
 void process_signals(void);
 

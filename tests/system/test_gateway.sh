@@ -31,6 +31,11 @@ check "status shows the gateway" eval '"$jolon" status -w "$name" | grep -q gate
 sleep 3
 check "a killed gateway is started again" eval 'before=$(pid gateway); "$jolon" kill -w "$name" gateway >/dev/null;
     eventually eval "[ -n \"\$(pid gateway)\" ] && [ \"\$(pid gateway)\" != $before ]"'
+for signal in TERM INT HUP; do
+    check "a gateway that somebody ends by SIG$signal is started again" eval 'before=$(pid gateway); "$jolon" kill -w "$name" gateway $signal >/dev/null;
+        eventually eval "[ -n \"\$(pid gateway)\" ] && [ \"\$(pid gateway)\" != $before ]"'
+    sleep 0.5
+done
 check "restart gateway" "$jolon" restart -w "$name" gateway
 sleep 1
 "$jolon" ctl -w "$name" pause >/dev/null
@@ -45,7 +50,7 @@ else
     skip "tshark reads the places and attitudes of the paused world" "there is no tshark here"
 fi
 "$jolon" dis dump --port "$port" --json run.pcap >pdus 2>/dev/null
-check "neither the kill nor the restart has told that the vehicles leave" python3 -I -S -c '
+check "no kill, no signal and no restart has told that the vehicles leave" python3 -I -S -c '
 import json
 last = sum(pdu["appearance"] >> 23 & 1 for pdu in map(json.loads, open("pdus")) if pdu["pdu"] == "entity-state")
 print(last)

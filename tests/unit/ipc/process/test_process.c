@@ -82,6 +82,36 @@ static void test_a_role_begins(void **state)
     assert_int_equal(child_run(begin, NULL), 0);
 }
 
+/* A role knows whether its parent has stopped it. context: where to tell the parent that it may, or
+ * NULL: the role itself sends the signal. */
+static int stop(void *context)
+{
+    int *ready = context, told = ready ? dup2(*ready, STDOUT_FILENO) : -1; /* begin closes others */
+    process_begin(getppid());
+    if (ready && (told < 0 || write(told, "", 1) != 1))
+        return 1;
+    if (!ready && raise(SIGHUP) != 0)
+        return 2;
+    while (!process_stopping())
+        continue;
+    return process_stopped_by_parent() == (ready != NULL) ? 0 : 3;
+}
+
+static void test_who_has_stopped_it(void **state)
+{
+    int ready[2];
+    char byte;
+    (void)state;
+    assert_int_equal(child_run(stop, NULL), 0);
+    assert_int_equal(pipe(ready), 0);
+    pid_t child = child_start(stop, &ready[1]);
+    assert_int_equal(read(ready[0], &byte, 1), 1);
+    assert_int_equal(kill(child, SIGTERM), 0);
+    assert_int_equal(child_wait(child), 0);
+    close(ready[0]);
+    close(ready[1]);
+}
+
 static void test_a_process_has_ended_as_a_zombie_too(void **state)
 {
     siginfo_t info;
@@ -104,6 +134,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_priority_is_lowered_from_that_of_the_start),
         cmocka_unit_test(test_a_role_begins),
+        cmocka_unit_test(test_who_has_stopped_it),
         cmocka_unit_test(test_a_process_has_ended_as_a_zombie_too),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
