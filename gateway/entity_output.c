@@ -342,12 +342,30 @@ static void set_marking(char marking[PDU_MARKING_MAX + 1], const struct world *w
         marking[i] = text[i] >= ' ' && text[i] <= '~' ? text[i] : '?';
 }
 
-static void set_parts(struct pdu *pdu, const struct row_view *view)
+/* Counts the values of parts that differ from those that were sent before. A gateway that starts
+ * anew does not know the last count, so it begins at a number that differs from one time to the
+ * next. */
+static void count_changes(struct entity_sent *sent, const struct row_view *view, uint64_t tick)
+{
+    if (sent->id != view->id) {
+        sent->turret_changes = sent->gun_changes = (uint8_t)tick;
+        return;
+    }
+    if (sent->turret != view->turret)
+        sent->turret_changes++;
+    if (sent->gun != view->gun)
+        sent->gun_changes++;
+}
+
+static void set_parts(struct pdu *pdu, const struct row_view *view, const struct entity_sent *sent)
 {
     pdu->parts = view->has_gun ? 2 : 0;
-    pdu->part[0] = (struct pdu_part){
-        .kind = PDU_PART_ARTICULATED, .type = PDU_TURRET_AZIMUTH, .value = view->turret};
+    pdu->part[0] = (struct pdu_part){.kind = PDU_PART_ARTICULATED,
+                                     .change = sent->turret_changes,
+                                     .type = PDU_TURRET_AZIMUTH,
+                                     .value = view->turret};
     pdu->part[1] = (struct pdu_part){.kind = PDU_PART_ARTICULATED,
+                                     .change = sent->gun_changes,
                                      .attached_to = 1,
                                      .type = PDU_GUN_ELEVATION,
                                      .value = view->gun};
@@ -430,7 +448,8 @@ static void send_state(struct entity_output *entities, const struct world *world
                    (struct vec3){angles.psi, angles.theta, angles.phi});
     set_motion(&pdu.entity_state, entities, view, sent);
     set_marking(pdu.entity_state.marking, world, &world->kinds[kind], view->id);
-    set_parts(&pdu, view);
+    count_changes(sent, view, entities->snapshot.head.tick);
+    set_parts(&pdu, view, sent);
     pdu_output_send(entities->output, &pdu);
     bool was_on_map = sent->id != view->id || on_map(sent);
     remember(sent, view->id, &pdu.entity_state, now_ns);

@@ -39,12 +39,13 @@ struct entity_sent {
     uint8_t force;
     uint8_t moving; /* the dead reckoning was not static */
     uint32_t appearance;
-    float turret, gun;              /* [rad] */
-    uint64_t sent_ns, heartbeat_ns; /* of the clock */
-    uint64_t frame_ns;              /* the time of the frame that was sent */
-    struct dead_reckoning state;    /* as the receivers have it */
-    uint64_t before_ns;             /* the same of the Entity State before; 0: there was none */
-    struct dead_reckoning before;   /* as receivers have it that lost the last one */
+    uint8_t turret_changes, gun_changes; /* of the values as they were sent, modulo 256 */
+    float turret, gun;                   /* [rad] */
+    uint64_t sent_ns, heartbeat_ns;      /* of the clock */
+    uint64_t frame_ns;                   /* the time of the frame that was sent */
+    struct dead_reckoning state;         /* as the receivers have it */
+    uint64_t before_ns;           /* the same of the Entity State before; 0: there was none */
+    struct dead_reckoning before; /* as receivers have it that lost the last one */
     uint32_t before_appearance;
     struct vec3 place; /* [m] and attitude [rad] of the row, as they were sent */
     double heading, pitch, roll;

@@ -204,6 +204,41 @@ static void test_changes_of_what_stands(void **state)
     }
 }
 
+/* Each part counts its own changes, and another gateway begins at another number. */
+static void test_parts_count_their_changes(void **state)
+{
+    static struct kind kinds[KIND_COUNT_MAX];
+    (void)state;
+    memcpy(kinds, world.view.world.kinds, world.view.world.counts.kinds * sizeof *kinds);
+    kinds[fixture_kind(&world, "tank")].part_count = 3; /* it has a turret */
+    world.view.world.kinds = kinds;
+    put("tank", 26000.0, 25000.0, 0.0, FORCE_BLUE);
+    run(30);
+    struct state committed = fixture_state(&world);
+    uint8_t turret = 0, gun = 0;
+    for (int i = 0; i < 300; i++) {
+        committed.entities.turret[0] = (float)((i + 1) / 2 % 7 + 1) * 0.2f;
+        committed.entities.gun[0] = (float)(i % 2 + 1) * 0.1f;
+        state_seal(&committed, world.view.world.counts.fixed);
+        now_ns += 200000000u;
+        pass();
+        assert_int_equal(count, 1);
+        assert_int_equal(received[0].parts, 2);
+        const struct pdu_part *part = received[0].part;
+        assert_true(i == 0 || part[0].change == (uint8_t)(turret + i % 2));
+        assert_true(i == 0 || part[1].change == (uint8_t)(gun + 1));
+        turret = part[0].change;
+        gun = part[1].change;
+    }
+    close_output();
+    committed.head->tick += 77;
+    state_seal(&committed, world.view.world.counts.fixed);
+    open_output(100000);
+    pass();
+    assert_int_equal(count, 1);
+    assert_int_equal(received[0].part[0].change, (uint8_t)committed.head->tick);
+}
+
 static void test_the_heartbeat(void **state)
 {
     (void)state;
@@ -509,21 +544,14 @@ static void test_an_id_beyond_the_range(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_a_vehicle_is_sent_once),
-        TEST(test_changes_of_what_stands),
-        TEST(test_the_heartbeat),
-        TEST(test_a_constant_course),
-        TEST(test_receivers_have_it_within_the_threshold),
-        TEST(test_a_missile_comes_and_goes),
-        TEST(test_a_pause_freezes),
-        TEST(test_a_lost_state_is_made_good),
-        TEST(test_the_noise_of_the_clock),
-        TEST(test_a_world_that_falls_behind),
-        TEST(test_the_rate),
-        TEST(test_a_rate_that_never_suffices),
-        TEST(test_angular_velocities),
-        TEST(test_a_new_gateway_says_the_same),
-        TEST(test_an_id_beyond_the_range),
+        TEST(test_a_vehicle_is_sent_once),      TEST(test_changes_of_what_stands),
+        TEST(test_parts_count_their_changes),   TEST(test_the_heartbeat),
+        TEST(test_a_constant_course),           TEST(test_receivers_have_it_within_the_threshold),
+        TEST(test_a_missile_comes_and_goes),    TEST(test_a_pause_freezes),
+        TEST(test_a_lost_state_is_made_good),   TEST(test_the_noise_of_the_clock),
+        TEST(test_a_world_that_falls_behind),   TEST(test_the_rate),
+        TEST(test_a_rate_that_never_suffices),  TEST(test_angular_velocities),
+        TEST(test_a_new_gateway_says_the_same), TEST(test_an_id_beyond_the_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
