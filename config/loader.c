@@ -519,8 +519,10 @@ int loader_branch(struct params *params, const char *const *overrides, int overr
         if (!changeable(key))
             return key_table_refuse(
                 error, load.origin[index], key->name, value,
-                "cannot change in a world that exists; allowed: "
-                "world.seed, hz, frames, pace and name, collision.*, renderer.*, gateway.*");
+                "cannot change in a world that exists; allowed: world.seed, hz, frames, pace, "
+                "name, "
+                "cruise and wind_*, battle.end_s and again_s, recorder.when_full, collision.*, "
+                "renderer.*, gateway.*");
         if (key_table_set_text(key, &settings, value, load.origin[index], error) != 0)
             return -1;
         settings.params.dt_s = 1.0 / settings.params.hz;

@@ -332,7 +332,7 @@ void management_receive(struct management *management, const struct pdu *pdu, ui
         management->full++;
         management->done++;
         management->done_last = one;
-        management->done_why = "too many requests wait for their time";
+        management->done_why = "too many requests wait, for their time or for the world";
         acknowledge(management, &one, PDU_RESPONSE_UNABLE, now_ns);
         return;
     }

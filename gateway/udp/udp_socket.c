@@ -54,6 +54,12 @@ static int leave_by(int out, const struct udp_address *to, unsigned interface)
 
 int udp_socket_sender(const struct udp_address *to, unsigned interface, struct error_text *error)
 {
+    char text[UDP_ADDRESS_TEXT];
+    if (udp_address_wildcard(to)) /* the system would send to this machine */
+        return error_text_set(error,
+                              "%s: is no address to send to; right would be that of a machine, of "
+                              "a broadcast such as 10.0.0.255, or of a group such as 239.1.2.3",
+                              udp_address_text(to, text, sizeof text));
     if (udp_address_link_local(to) && !udp_address_multicast(to) && interface == 0)
         return unscoped(to, error);
     int out = socket(to->any.sa_family, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);

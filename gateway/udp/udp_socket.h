@@ -8,9 +8,9 @@
 #define UDP_SOCKET_BYTES_MAX 65536u /* room for any datagram */
 #define UDP_SOCKET_AT_ONCE   32u    /* datagrams by one call */
 
-/* Opens a socket that sends to an address. interface: the number of the interface by which
- * multicast leaves; 0: the system's choice. Multicast stays within the network (TTL 1). Returns the
- * descriptor, or -1 with the reason in error. */
+/* Opens a socket that sends to an address, which is none of 0.0.0.0 and ::. interface: the number
+ * of the interface by which multicast leaves; 0: the system's choice. Multicast stays within the
+ * network (TTL 1). Returns the descriptor, or -1 with the reason in error. */
 int udp_socket_sender(const struct udp_address *to, unsigned interface, struct error_text *error);
 
 /* Opens a socket that receives what is sent to an address of this machine, to a broadcast, or to a

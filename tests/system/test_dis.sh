@@ -105,6 +105,8 @@ refuses "a text as a capture" 1 'text.pcap: is no capture' "$jolon" dis play tex
 refuses "a capture that exists" 1 'five.pcap: cannot be made: File exists' "$jolon" dis record --listen "127.0.0.1:$port" five.pcap
 refuses "an address of another machine" 1 '192.0.2.1:3000: cannot receive there' "$jolon" dis record --listen 192.0.2.1 new.pcap
 refuses "a name as an address" 2 'localhost: must be an address in numbers' "$jolon" dis send --to localhost fire
+refuses "to send to all addresses" 1 '0.0.0.0:3000: is no address to send to' "$jolon" dis send --to 0.0.0.0:3000 fire
+refuses "to play to all addresses" 1 '\[::\]:3000: is no address to send to' "$jolon" dis play --to '[::]:3000' five.pcap
 refuses "a grid that is missing" 1 'grid.gtx: cannot be read.*proj-data' "$jolon" dis undulation --grid grid.gtx 35.95 -121.25
 refuses "a text as a grid" 1 'text.pcap: is shorter than the header of a GTX grid' "$jolon" dis undulation --grid text.pcap -35.95 121.25
 refuses "one number for a place" 2 'needs a latitude from -90 to 90' "$jolon" dis undulation -121.25

@@ -49,7 +49,10 @@ static void test_changes_are_stored_and_change_the_hash(void **state)
     assert_int_equal(branch(&params, "collision.method=brute", "collision.shape=model"), 0);
     assert_int_equal(branch(&params, "world.frames=100", "world.pace=max"), 0);
     assert_int_equal(params.frame_limit, 100);
-    assert_int_equal(branch(&params, "renderer.width=640", NULL), 0);
+    assert_int_equal(branch(&params, "renderer.width=640", "gateway.site=5"), 0);
+    assert_int_equal(branch(&params, "world.wind_mps=3", "world.wind_from_deg=10"), 0);
+    assert_int_equal(branch(&params, "world.cruise=true", "recorder.when_full=pause"), 0);
+    assert_int_equal(branch(&params, "battle.end_s=50", "battle.again_s=3"), 0);
 }
 
 /* The same overrides at every start of a service leave it the same world. */

@@ -412,6 +412,8 @@ static void test_waiting_among_many(void **state)
     give(&stop);
     assert_acknowledged(0, PDU_ACKNOWLEDGE_STOP, PDU_RESPONSE_UNABLE, 3000);
     assert_int_equal(management.full, 1);
+    assert_string_equal(management.done_why,
+                        "too many requests wait, for their time or for the world");
 }
 
 /* What the rate puts off is acknowledged later. */
