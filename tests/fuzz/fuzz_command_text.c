@@ -3,6 +3,7 @@
 
 #include "ipc/topics/command_json.h"
 #include "world/runtime/check.h"
+#include "world/terrain/gridsquare.h"
 
 #include <math.h>
 #include <string.h>
@@ -26,7 +27,8 @@ static void check(struct command_text *order)
     CHECK(command_text_needs_names(order) ==
           (command_text_resolve(order, &none, 60.0, &error) != 0));
     jolon_Command round = command_text_round(order, 7, order->rounds - 1);
-    CHECK(round.x_m >= 0.0 && round.x_m <= 50000.0 && round.z_m >= 0.0 && round.z_m <= 50000.0);
+    CHECK(round.x_m >= 0.0 && round.x_m <= WORLD_SIDE_MAX_M && round.z_m >= 0.0 &&
+          round.z_m <= WORLD_SIDE_MAX_M);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
