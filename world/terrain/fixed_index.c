@@ -29,7 +29,7 @@ int fixed_index_build(const struct gridsquares *squares, const struct fixed_obje
     for (uint32_t s = 0; s < squares->count; s++)
         first[s + 1] += first[s];
     uint32_t *list = malloc((first[squares->count] + 1) * sizeof *list);
-    uint32_t *fill = malloc(squares->count * sizeof *fill);
+    uint32_t *fill = calloc(squares->count + 1, sizeof *fill);
     if (!list || !fill) {
         free(first);
         free(list);

@@ -153,13 +153,13 @@ int static_scene_init(struct static_scene *static_scene, const struct world *wor
         return -1;
     }
     static_scene->square_start =
-        malloc(((size_t)world->terrain.squares.count + 1) * sizeof *static_scene->square_start);
-    static_scene->look = malloc(world->counts.fixed + 1);
-    static_scene->plants = malloc((world->counts.fixed + 1) * sizeof *static_scene->plants);
+        calloc((size_t)world->terrain.squares.count + 1, sizeof *static_scene->square_start);
+    static_scene->look = calloc(world->counts.fixed + 1, 1);
+    static_scene->plants = calloc(world->counts.fixed + 1, sizeof *static_scene->plants);
     static_scene->blocks_a_side =
         ((uint32_t)world->terrain.squares.per_side + STATIC_SCENE_BLOCK - 1) / STATIC_SCENE_BLOCK;
-    static_scene->blocks = malloc((size_t)static_scene->blocks_a_side *
-                                  static_scene->blocks_a_side * sizeof *static_scene->blocks);
+    static_scene->blocks = calloc((size_t)static_scene->blocks_a_side * static_scene->blocks_a_side,
+                                  sizeof *static_scene->blocks);
     static_scene->skeletons = malloc((world->counts.models + 1) * sizeof *static_scene->skeletons);
     if (static_scene->square_start == NULL || static_scene->look == NULL ||
         static_scene->plants == NULL || static_scene->blocks == NULL ||
