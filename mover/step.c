@@ -122,6 +122,7 @@ struct batches {
     const struct row_block *block;
     uint8_t motion[CHECKSUM_ROWS];
     bool harmed;                         /* a hard landing has harmed a row */
+    bool begins;                         /* rows may begin to cruise */
     struct ground_vehicle land, stretch; /* moved by one frame, and by a stretch */
     struct aircraft air;
     struct constant_course course;
@@ -302,7 +303,7 @@ static void move_held(const struct step_context *context, uint32_t i, struct bat
         is_sprung(context, i, batches)) {
         agent_controls_motion(context, i, &desired);
         move_as_desired(context, i, &desired, batches);
-    } else if (cruise_start_may(context, i)) {
+    } else if (batches->begins && cruise_start_may(context, i)) {
         if (ground_vehicle_take_held(context, &batches->stretch, i))
             move_stretch(context, batches);
     } else if (ground_vehicle_take_held(context, &batches->land, i)) {
@@ -445,6 +446,7 @@ static uint64_t move_block(const struct rows *rows, const struct row_block *bloc
     struct batches batches;
     batches.block = block;
     batches.harmed = false;
+    batches.begins = cruise_start_turn(context, block->first);
     think_schedule_run(context, block, batches.motion);
     ground_vehicle_begin(&batches.land, 1);
     ground_vehicle_begin(&batches.stretch, context->cruise_frames);

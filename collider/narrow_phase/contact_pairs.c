@@ -112,8 +112,7 @@ void contact_pairs_look(struct contact_queue *contacts, const struct contact_inp
         meet_strayed(contacts, input, row, &box, resting);
         return;
     }
-    broad_phase_query(input->broad, &input->detect, &box, &contacts->near);
-    cruise_rows_take_found(input, &box, &contacts->near, 0);
+    cruise_rows_query(input, &box, &contacts->near);
     uint32_t rows = contacts->near.count;
     broad_phase_query_fixed(input->broad, &input->detect, &box, &contacts->near);
     for (uint32_t i = 0; i < contacts->near.count; i++) {

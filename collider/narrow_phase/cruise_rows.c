@@ -63,8 +63,10 @@ void cruise_rows_take_pairs(const struct contact_input *input, struct pair_list 
     }
 }
 
-void cruise_rows_take_found(const struct contact_input *input, const struct path_box *box,
-                            struct pair_list *found, uint32_t since)
+/* Takes the rows out of the list, from number `since` on, that cruise and whose boxes do not meet
+ * this one, and ends the stretches of the others. */
+static void take_found(const struct contact_input *input, const struct path_box *box,
+                       struct pair_list *found, uint32_t since)
 {
     uint32_t count = since;
     for (uint32_t i = since; i < found->count; i++) {
@@ -78,6 +80,14 @@ void cruise_rows_take_found(const struct contact_input *input, const struct path
         found->pair[count++] = found->pair[i];
     }
     found->count = count;
+}
+
+void cruise_rows_query(const struct contact_input *input, const struct path_box *box,
+                       struct pair_list *found)
+{
+    uint32_t since = found->count;
+    broad_phase_query(input->broad, &input->detect, box, found);
+    take_found(input, box, found, since);
 }
 
 void cruise_rows_meet_written(const struct contact_input *input, struct pair_list *found)
@@ -95,7 +105,7 @@ void cruise_rows_meet_written(const struct contact_input *input, struct pair_lis
             struct path_box box = pair_filter_path_box(&ends, margin);
             found->count = 0;
             cruise_index_query(&broad->cruise, &box, found);
-            cruise_rows_take_found(input, &box, found, 0);
+            take_found(input, &box, found, 0);
         }
     }
     found->count = 0;

@@ -20,9 +20,10 @@ void cruise_rows_stop(const struct contact_input *input, uint32_t row);
  * stretches in the others. */
 void cruise_rows_take_pairs(const struct contact_input *input, struct pair_list *pairs);
 
-/* The same for the rows that a query for this box has found: pair.a from number `since` on. */
-void cruise_rows_take_found(const struct contact_input *input, const struct path_box *box,
-                            struct pair_list *found, uint32_t since);
+/* broad_phase_query(), which also ends the stretches of the rows that it finds. Rows that cruise
+ * and whose boxes do not meet this one are not found. */
+void cruise_rows_query(const struct contact_input *input, const struct path_box *box,
+                       struct pair_list *found);
 
 /* When all responses of the frame are done: ends the stretches that the rows which responses have
  * written now are in the way of. So at the end of a frame no body is in the box around what is left

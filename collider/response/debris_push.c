@@ -1,7 +1,6 @@
 /* Pushes debris about on the map. */
 #include "collider/response/debris_push.h"
 
-#include "collider/broad_phase/broad_phase.h"
 #include "collider/narrow_phase/cruise_rows.h"
 #include "collider/response/explosion.h"
 #include "world/entity/kind.h"
@@ -175,8 +174,7 @@ static void push_by_all(struct response_context *context, struct debris *debris)
     struct path_box box = pair_filter_path_box(&still, reach);
     struct pair_list *near = &context->charges->near;
     near->count = 0;
-    broad_phase_query(context->broad, &context->input.detect, &box, near);
-    cruise_rows_take_found(&context->input, &box, near, 0);
+    cruise_rows_query(&context->input, &box, near);
     for (uint32_t i = 0; i < near->count; i++) {
         struct debris_contact touch;
         uint32_t row = near->pair[i].a;

@@ -174,8 +174,7 @@ static void find_rows(const struct response_context *context, const struct path_
 {
     const struct contact_queue *contacts = context->contacts;
     struct pair_list *near = &context->charges->near;
-    broad_phase_query(context->broad, &context->input.detect, box, near);
-    cruise_rows_take_found(&context->input, box, near, 0);
+    cruise_rows_query(&context->input, box, near);
     for (uint32_t i = 0; i < contacts->stray_count; i++) {
         uint32_t row = contacts->strayed[i];
         if (pair_filter_boxes_meet(box, &context->broad->box[row]) && !listed(near, row))
@@ -191,8 +190,7 @@ static void alarm(struct response_context *context, const struct charge *charge,
     struct path_box box = pair_filter_path_box(&still, reach_m);
     struct pair_list *near = &context->charges->near;
     near->count = 0;
-    broad_phase_query(context->broad, &context->input.detect, &box, near);
-    cruise_rows_take_found(&context->input, &box, near, 0);
+    cruise_rows_query(&context->input, &box, near);
     for (uint32_t n = 0; n < near->count; n++) {
         uint32_t row = near->pair[n].a;
         struct vec3 off = vec3_sub(entities_position(e, row), charge->point);

@@ -2,10 +2,10 @@
 #include "ipc/frame/snapshot.h"
 
 #include "ipc/segment/frame_check.h"
+#include "world/cruise_pose.h"
 #include "world/entity/persistent_contact.h"
 #include "world/entity/table_write.h"
 #include "world/params.h"
-#include "world/cruise_pose.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -55,7 +55,8 @@ uint32_t perception_look_frames(const struct params *params, uint32_t used)
 
 static bool looks_now(const struct step_context *context, uint32_t i)
 {
-    return cruise_start_due(context, i, context->look_frames);
+    return ((uint32_t)context->tick + context->m->id[i]) % context->look_frames == 0 ||
+           cruise_start_due(context, i, context->look_frames);
 }
 
 /* --- seeing ------------------------------------------------------------------------------------*/

@@ -86,6 +86,7 @@ static void sort(const struct step_context *context, const struct row_block *blo
     const struct entities *m = context->m;
     const bool news = (block->changed & COLUMN_BIT(id)) != 0;
     const bool spins = !row_block_lacks(block, SPIN_COLUMNS);
+    const bool begins = cruise_start_turn(context, block->first);
     const bool events = !row_block_lacks(block, EVENT_COLUMNS);
     thinkers->count = 0;
     if (!block->all)
@@ -102,7 +103,8 @@ static void sort(const struct step_context *context, const struct row_block *blo
         if (cruise_goes(m, i, context->tick - 1))
             how = MOTION_CRUISE;
         if (how == MOTION_AGENT) {
-            if (cruise_start_due(context, i, context->think_frames) ||
+            if (step_context_thinks(context, i) ||
+                (begins && cruise_start_due(context, i, context->think_frames)) ||
                 (events && perception_event(context, i)))
                 thinkers->row[thinkers->count++] = i;
             else

@@ -40,8 +40,10 @@ bool cruise_start_may(const struct step_context *context, uint32_t i)
 
 bool cruise_start_due(const struct step_context *context, uint32_t i, uint32_t period)
 {
+    if (!cruise_start_may(context, i))
+        return false;
     uint32_t past = ((uint32_t)context->tick + context->m->id[i]) % period;
-    return past == 0 || (period - past < context->cruise_frames && cruise_start_may(context, i));
+    return past == 0 || period - past < context->cruise_frames;
 }
 
 uint32_t cruise_start_think_frames(const struct step_context *context, uint32_t i)

@@ -18,8 +18,8 @@ bool cruise_start_turn(const struct step_context *context, uint32_t i);
 /* Returns true if row i may begin a stretch in this frame. */
 bool cruise_start_may(const struct step_context *context, uint32_t i);
 
-/* Returns true if something that row i's agent does every `period` frames falls due: in this frame,
- * or within the stretch that it may begin. */
+/* Returns true if something that row i's agent does every `period` frames falls due within the
+ * stretch that it may begin in this frame. */
 bool cruise_start_due(const struct step_context *context, uint32_t i, uint32_t period);
 
 /* Returns how many frames there are at least from a decision of row i's agent in this frame to the
