@@ -140,7 +140,7 @@ static double reach_of(const struct step_context *context)
     return reach_m + NEAR_M;
 }
 
-void hover_watch_wake(struct hover_watch *watch, uint64_t *resting,
+void hover_watch_wake(struct hover_watch *watch, uint64_t *resting, const uint64_t *cruising,
                       const struct step_context *context)
 {
     const struct entities *w = &context->committed->entities;
@@ -152,7 +152,7 @@ void hover_watch_wake(struct hover_watch *watch, uint64_t *resting,
         find_squares(watch, resting, context);
     for (uint32_t n = 0; n < words_of(used); n++) {
         uint64_t there = UINT64_MAX >> (used - n * 64 < 64 ? 64 - (used - n * 64) : 0);
-        for (uint64_t left = ~resting[n] & there; left != 0; left &= left - 1) {
+        for (uint64_t left = (~resting[n] | cruising[n]) & there; left != 0; left &= left - 1) {
             uint32_t i = n * 64 + (uint32_t)__builtin_ctzll(left);
             if (w->state[i] != ENTITY_FREE &&
                 context->world->kinds[w->kind[i]].domain == DOMAIN_AIR)

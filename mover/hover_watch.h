@@ -30,9 +30,9 @@ struct hover_watch {
 int hover_watch_init(struct hover_watch *watch, uint32_t words, double side_m);
 void hover_watch_free(struct hover_watch *watch);
 
-/* Wakes the rows that hover near an aircraft that does not rest: clears their bits in resting. The
- * index of neighbours is that of this frame. */
-void hover_watch_wake(struct hover_watch *watch, uint64_t *resting,
+/* Wakes the rows that hover near an aircraft that does not rest or that cruises: clears their bits
+ * in resting. The index of neighbours is that of this frame. */
+void hover_watch_wake(struct hover_watch *watch, uint64_t *resting, const uint64_t *cruising,
                       const struct step_context *context);
 
 /* Returns true if no aircraft is so near to row i, which hovers, that it is kept from it. */

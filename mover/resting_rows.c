@@ -97,7 +97,7 @@ void resting_rows_wake_craters(struct resting_rows *rows, const struct step_cont
 
 void resting_rows_wake_hovering(struct resting_rows *rows, const struct step_context *context)
 {
-    hover_watch_wake(&rows->hovering, rows->resting, context);
+    hover_watch_wake(&rows->hovering, rows->resting, rows->cruising, context);
 }
 
 /* --- this frame's rows -------------------------------------------------------------------------*/

@@ -124,7 +124,7 @@ struct batches {
     bool harmed;                         /* a hard landing has harmed a row */
     bool begins;                         /* rows may begin to cruise */
     struct ground_vehicle land, stretch; /* moved by one frame, and by a stretch */
-    struct aircraft air;
+    struct aircraft air, air_stretch;
     struct constant_course course;
 };
 
@@ -228,6 +228,25 @@ static void move_air(const struct step_context *context, struct batches *batches
     air->count = 0;
 }
 
+/* Moves aircraft by a stretch, and those that it refuses by one frame. */
+static void move_air_stretch(const struct step_context *context, struct batches *batches)
+{
+    struct aircraft *stretch = &batches->air_stretch;
+    aircraft_move(context, stretch);
+    for (int l = 0; l < stretch->count; l++) {
+        uint32_t i = stretch->row[l];
+        struct desired_motion desired;
+        if (!stretch->refused.lane[l]) {
+            batches->motion[i - batches->block->first] = MOTION_CRUISE;
+            continue;
+        }
+        agent_controls_motion(context, i, &desired);
+        if (aircraft_take(context, &batches->air, i, &desired))
+            move_air(context, batches);
+    }
+    stretch->count = 0;
+}
+
 static void move_course(const struct step_context *context, struct batches *batches)
 {
     struct constant_course *course = &batches->course;
@@ -295,15 +314,33 @@ static bool is_sprung(const struct step_context *context, uint32_t i, const stru
     return (spins || m->flags[i] & ENTITY_FLAG_CHASSIS) && chassis_takes(context, i, false);
 }
 
+/* Moves a ship or an aircraft by a stretch, or by one frame if that is refused. */
+static void begin_stretch(const struct step_context *context, uint32_t i, struct batches *batches)
+{
+    struct desired_motion desired;
+    agent_controls_motion(context, i, &desired);
+    if (context->world->kinds[context->m->kind[i]].domain == DOMAIN_AIR) {
+        if (aircraft_take(context, &batches->air_stretch, i, &desired))
+            move_air_stretch(context, batches);
+    } else if (ship_stretch(context, i, &desired)) {
+        batches->motion[i - batches->block->first] = MOTION_CRUISE;
+    } else {
+        move_as_desired(context, i, &desired, batches);
+    }
+}
+
 /* Moves a row by the controls that its agent set. */
 static void move_held(const struct step_context *context, uint32_t i, struct batches *batches)
 {
     struct desired_motion desired;
-    if (context->world->kinds[context->m->kind[i]].domain != DOMAIN_LAND ||
-        is_sprung(context, i, batches)) {
+    bool lands = context->world->kinds[context->m->kind[i]].domain == DOMAIN_LAND;
+    bool begins = batches->begins && cruise_start_may(context, i);
+    if (!lands && begins) {
+        begin_stretch(context, i, batches);
+    } else if (!lands || is_sprung(context, i, batches)) {
         agent_controls_motion(context, i, &desired);
         move_as_desired(context, i, &desired, batches);
-    } else if (batches->begins && cruise_start_may(context, i)) {
+    } else if (begins) {
         if (ground_vehicle_take_held(context, &batches->stretch, i))
             move_stretch(context, batches);
     } else if (ground_vehicle_take_held(context, &batches->land, i)) {
@@ -396,6 +433,8 @@ static void move_rest(const struct step_context *context, struct batches *batche
         move_stretch(context, batches);
     if (batches->land.count > 0)
         move_land(context, batches);
+    if (batches->air_stretch.count > 0)
+        move_air_stretch(context, batches);
     if (batches->air.count > 0)
         move_air(context, batches);
     if (batches->course.count > 0)
@@ -450,7 +489,8 @@ static uint64_t move_block(const struct rows *rows, const struct row_block *bloc
     think_schedule_run(context, block, batches.motion);
     ground_vehicle_begin(&batches.land, 1);
     ground_vehicle_begin(&batches.stretch, context->cruise_frames);
-    aircraft_begin(&batches.air);
+    aircraft_begin(&batches.air, 1);
+    aircraft_begin(&batches.air_stretch, context->cruise_frames);
     constant_course_begin(&batches.course);
     for (uint32_t i = row_block_next(block, block->first); i < block->end;
          i = row_block_next(block, i + 1))

@@ -24,6 +24,8 @@ struct cruise_pose cruise_pose_of(const struct world *world, const struct crater
     double dt_s = world_dt_s(world);
     pose.at = cruise_position(e, i, tick, dt_s);
     pose.heading_rad = cruise_heading(e, i, tick, dt_s);
+    if (world->kinds[e->kind[i]].domain != DOMAIN_LAND)
+        return pose;
     struct rest_pose stands = rest_pose_of(&world->terrain, craters, &world->kinds[e->kind[i]],
                                            pose.at.x, pose.at.z, pose.heading_rad);
     pose.at.y = stands.y_m;

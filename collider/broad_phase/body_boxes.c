@@ -42,9 +42,8 @@ struct block {
     uint64_t cruises;      /* a bit for each row that cruises */
     uint32_t tag[BLOCK];
     struct bin_record record[BLOCK];
-    uint32_t strip[BLOCK];       /* STRIP_COUNT: the row is in several strips */
-    struct path_box box[BLOCK];  /* used for a block that is not full */
-    struct path_box kept[BLOCK]; /* of rows that cruise and are not put into strips */
+    uint32_t strip[BLOCK];      /* STRIP_COUNT: the row is in several strips */
+    struct path_box box[BLOCK]; /* used for a block that is not full */
 };
 
 /* Where the paths of a block begin and end. */
@@ -60,18 +59,23 @@ static struct ends own_ends(const struct block *block)
                          {block->to[0], block->to[1], block->to[2]}};
 }
 
+static inline void put_path(struct block *block, uint32_t k, const struct path *path)
+{
+    struct vec3 to = path_at(path, 1.0);
+    block->at[0][k] = path->at.x;
+    block->at[1][k] = path->at.y;
+    block->at[2][k] = path->at.z;
+    block->to[0][k] = to.x;
+    block->to[1][k] = to.y;
+    block->to[2][k] = to.z;
+}
+
 /* Reads the ends from the computed paths. */
 static struct ends take_paths(struct block *block, const struct path *path, uint32_t count)
 {
     for (uint32_t k = 0; k < count; k++) {
-        struct vec3 to = path_at(&path[k], 1.0);
         __builtin_prefetch(&path[k + AHEAD]);
-        block->at[0][k] = path[k].at.x;
-        block->at[1][k] = path[k].at.y;
-        block->at[2][k] = path[k].at.z;
-        block->to[0][k] = to.x;
-        block->to[1][k] = to.y;
-        block->to[2][k] = to.z;
+        put_path(block, k, &path[k]);
         block->rests[k] = pair_filter_rests(&path[k]) ? BIN_RESTS : 0;
     }
     return own_ends(block);
@@ -101,7 +105,7 @@ static struct ends take_places(struct block *block, const struct body_motion *mo
 
 /* Makes the paths of rows that cruise those of their stretches. */
 static void take_stretches(const struct body_boxes *rows, struct block *block, struct ends *ends,
-                           uint32_t first, uint32_t count, uint64_t some)
+                           uint32_t first, uint32_t count)
 {
     const uint64_t tick = rows->motion->next->head->tick - 1;
     const uint32_t *until = rows->motion->next->entities.cruise_tick + first;
@@ -119,28 +123,10 @@ static void take_stretches(const struct body_boxes *rows, struct block *block, s
     }
     if (any)
         *ends = own_ends(block);
-    for (uint64_t bits = block->cruises & some; bits != 0; bits &= bits - 1) {
+    for (uint64_t bits = block->cruises; bits != 0; bits &= bits - 1) {
         uint32_t k = (uint32_t)__builtin_ctzll(bits);
         struct path path = body_motion_stretch(rows->motion, first + k);
-        struct vec3 to = path_at(&path, 1.0);
-        block->at[0][k] = path.at.x, block->at[1][k] = path.at.y, block->at[2][k] = path.at.z;
-        block->to[0][k] = to.x, block->to[1][k] = to.y, block->to[2][k] = to.z;
-    }
-}
-
-/* The box around a stretch stays as it was until the stretch ends. */
-static void keep_boxes(struct block *block, const struct path_box *box, uint32_t count,
-                       uint64_t some)
-{
-    if (block->cruises & ~some)
-        memcpy(block->kept, box, count * sizeof *box);
-}
-
-static void give_back_boxes(const struct block *block, struct path_box *box, uint64_t some)
-{
-    for (uint64_t bits = block->cruises & ~some; bits != 0; bits &= bits - 1) {
-        uint32_t k = (uint32_t)__builtin_ctzll(bits);
-        box[k] = block->kept[k];
+        put_path(block, k, &path);
     }
 }
 
@@ -226,13 +212,13 @@ static void put_records(struct block *block, uint32_t k, four_steps west, four_s
 }
 
 /* Computes boxes and records from the ends. moved: the ends are positions, and the path leads from
- * one to the other as in body_motion_path. Rows whose path has no length are marked; returns true
- * if there are any. */
+ * one to the other as in body_motion_path. count: rows, to which up to three are added. Rows whose
+ * path has no length are marked; returns true if there are any. */
 static bool bound_rows(struct block *block, const struct ends *ends, bool moved, float steps_per_m,
-                       struct path_box *box)
+                       struct path_box *box, uint32_t count)
 {
     four_masks any = {0};
-    for (uint32_t k = 0; k < BLOCK; k += 4) {
+    for (uint32_t k = 0; k < count; k += 4) {
         const four margin = *(const four *)(const void *)&block->margin[k];
         four_metres low[3], high[3];
         four_masks rests = {-1, -1, -1, -1};
@@ -290,7 +276,8 @@ static void add_spanning(const struct body_boxes *rows, struct strip_bins *bins,
     }
 }
 
-/* Adds the row to the fliers if it can reach the ground or is a round. */
+/* Adds the row to the fliers if it can reach the ground or is a round. An aircraft that cruises
+ * cannot (mover/motion/aircraft.c). */
 static void add_flier(const struct body_boxes *rows, struct sweep_worker *sweeper,
                       const struct ends *ends, uint32_t k, uint32_t tag)
 {
@@ -313,73 +300,101 @@ static void add_flier(const struct body_boxes *rows, struct sweep_worker *sweepe
     pair_list_add(&sweeper->fliers, row, 0);
 }
 
-static void add_rows(const struct body_boxes *rows, struct sweep_worker *sweeper,
-                     const struct block *block, const struct ends *ends, uint32_t first,
-                     uint64_t some)
+/* Adds the record of row k of the block, which is row `row` of the table and is in use. */
+static void add_row(const struct body_boxes *rows, struct sweep_worker *sweeper,
+                    const struct block *block, const struct ends *ends, uint32_t k, uint32_t row)
 {
     const struct entities *e = rows->input->entities;
-    const uint8_t *state = e->state + first, *behaviour = e->behaviour + first;
-    if (rows->awake) /* what is in the way of an old stretch was found when it began */
-        some &= ~block->cruises | rows->awake[first / 64];
-    for (uint32_t k = 0; k < BLOCK && some >> k != 0; k++) {
-        struct bin_record record = block->record[k];
-        if (state[k] == ENTITY_FREE || !(some >> k & 1))
-            continue;
-        record.tag |= block->rests[k] | (behaviour[k] == BEHAVIOUR_FLIGHT ? BIN_ROUND : 0) |
-                      (behaviour[k] == BEHAVIOUR_REMOTE ? BIN_REMOTE : 0);
-        if (behaviour[k] == BEHAVIOUR_FLIGHT && remote_is_munition(e, first + k))
-            record.tag |= BIN_REMOTE | BIN_AIR;
-        if (rows->wider && rows->wider[first + k] != BODY_BOX_EXACT)
-            rows->wider[first + k] = record.tag & NOT_ALL_FOUND ? BODY_BOX_ASKED : BODY_BOX_WIDER;
-        if (block->strip[k] < STRIP_COUNT)
-            strip_bins_add(&sweeper->bins, block->strip[k], record);
-        else
-            add_spanning(rows, &sweeper->bins, record);
-        if (record.tag & (BIN_ROUND | BIN_AIR))
-            add_flier(rows, sweeper, ends, k, record.tag);
-    }
+    struct bin_record record = block->record[k];
+    bool flies = e->behaviour[row] == BEHAVIOUR_FLIGHT;
+    record.tag |= block->rests[k] | (flies ? BIN_ROUND : 0) |
+                  (e->behaviour[row] == BEHAVIOUR_REMOTE ? BIN_REMOTE : 0);
+    if (flies && remote_is_munition(e, row))
+        record.tag |= BIN_REMOTE | BIN_AIR;
+    if (rows->wider && rows->wider[row] != BODY_BOX_EXACT)
+        rows->wider[row] = record.tag & NOT_ALL_FOUND ? BODY_BOX_ASKED : BODY_BOX_WIDER;
+    if (block->strip[k] < STRIP_COUNT)
+        strip_bins_add(&sweeper->bins, block->strip[k], record);
+    else
+        add_spanning(rows, &sweeper->bins, record);
+    if (record.tag & (BIN_ROUND | BIN_AIR) && !(block->cruises >> k & 1))
+        add_flier(rows, sweeper, ends, k, record.tag);
 }
 
+/* --- blocks ------------------------------------------------------------------------------------*/
+
+/* Rows first .. first + count - 1, at most BLOCK. What is in the way of an old stretch was found
+ * when it began. */
 static void bin_block(const struct body_boxes *rows, struct block *block,
-                      struct sweep_worker *sweeper, uint32_t first, uint64_t some)
+                      struct sweep_worker *sweeper, uint32_t first, uint32_t count)
 {
-    uint32_t left = rows->input->rows - first, count = left < BLOCK ? left : BLOCK;
     struct path_box *box = rows->box + first, *to = count < BLOCK ? block->box : box;
+    const uint8_t *state = rows->input->entities->state + first;
     struct ends ends;
     take_kinds(rows, block, first, count);
     if (rows->motion) {
         ends = take_places(block, rows->motion, first, count);
         if (rows->awake)
-            take_stretches(rows, block, &ends, first, count, some);
-        keep_boxes(block, box, count, some);
-        if (bound_rows(block, &ends, true, rows->steps_per_m, to))
+            take_stretches(rows, block, &ends, first, count);
+        if (bound_rows(block, &ends, true, rows->steps_per_m, to, BLOCK))
             find_resting(rows, block, first, count);
     } else {
         ends = take_paths(block, rows->input->path + first, count);
-        bound_rows(block, &ends, false, rows->steps_per_m, to);
+        bound_rows(block, &ends, false, rows->steps_per_m, to, BLOCK);
     }
     if (count < BLOCK)
         memcpy(box, block->box, count * sizeof *box);
-    give_back_boxes(block, box, some);
-    add_rows(rows, sweeper, block, &ends, first, some);
+    uint64_t old = rows->awake ? block->cruises & ~rows->awake[first / 64] : 0;
+    for (uint32_t k = 0; k < count; k++) {
+        if (state[k] != ENTITY_FREE && !(old >> k & 1))
+            add_row(rows, sweeper, block, &ends, k, first + k);
+    }
+}
+
+/* Takes a row into the block. Its path is that of its stretch if it cruises. */
+static void take_row(const struct body_boxes *rows, struct block *block, uint32_t k, uint32_t row)
+{
+    const struct entities *e = rows->input->entities;
+    const uint64_t begun = rows->motion ? rows->motion->next->head->tick - 1 : 0;
+    bool cruises = rows->awake && e->cruise_tick[row] > begun;
+    struct path path = cruises        ? body_motion_stretch(rows->motion, row)
+                       : rows->motion ? body_motion_path(rows->motion, row)
+                                      : rows->input->path[row];
+    bool wider = rows->wider && rows->wider[row] != BODY_BOX_EXACT;
+    put_path(block, k, &path);
+    block->margin[k] = rows->margin[e->kind[row]] + (wider ? BODY_BOX_WIDER_M : 0.0);
+    block->tag[k] = row | rows->flags[e->kind[row]];
+    block->rests[k] = pair_filter_rests(&path) ? BIN_RESTS : 0;
+    block->cruises |= (uint64_t)cruises << k;
 }
 
 VECTOR_CLONES void body_boxes_bin(const struct body_boxes *rows, struct sweep_worker *sweeper,
                                   uint32_t first, uint32_t end)
 {
     struct block block = {0};
-    for (uint32_t row = first; row < end; row += BLOCK) {
-        uint64_t all = UINT64_MAX >> (end - row < BLOCK ? BLOCK - (end - row) : 0);
-        bin_block(rows, &block, sweeper, row, all);
-    }
+    for (uint32_t row = first; row < end; row += BLOCK)
+        bin_block(rows, &block, sweeper, row, end - row < BLOCK ? end - row : BLOCK);
 }
 
 VECTOR_CLONES void body_boxes_bin_some(const struct body_boxes *rows, struct sweep_worker *sweeper,
                                        uint32_t first, uint64_t some)
 {
     struct block block;
+    uint32_t row[BLOCK], count = 0;
     block.cruises = 0;
-    if (rows->input->rows - first < BLOCK) /* a full block sets all of it */
-        memset(&block, 0, sizeof block);
-    bin_block(rows, &block, sweeper, first, some);
+    for (; some != 0; some &= some - 1) {
+        uint32_t i = first + (uint32_t)__builtin_ctzll(some);
+        if (rows->input->entities->state[i] == ENTITY_FREE)
+            continue;
+        row[count] = i;
+        take_row(rows, &block, count++, i);
+    }
+    for (uint32_t k = count; k % 4 != 0; k++) /* of rows that are not there */
+        take_row(rows, &block, k, row[0]);
+    const struct ends ends = own_ends(&block);
+    bound_rows(&block, &ends, false, rows->steps_per_m, block.box, count);
+    for (uint32_t k = 0; k < count; k++) {
+        rows->box[row[k]] = block.box[k];
+        add_row(rows, sweeper, &block, &ends, k, row[k]);
+    }
 }

@@ -40,8 +40,7 @@ enum body_box_wider {
 void body_boxes_bin(const struct body_boxes *rows, struct sweep_worker *sweeper, uint32_t first,
                     uint32_t end);
 
-/* The same for some rows of 64, by a bit for each; first is a multiple of 64. The boxes of the
- * others are also filled. */
+/* The same for some rows of 64, by a bit for each; first is a multiple of 64. */
 void body_boxes_bin_some(const struct body_boxes *rows, struct sweep_worker *sweeper,
                          uint32_t first, uint64_t some);
 

@@ -40,11 +40,13 @@ struct course {
     double x, z, vx, vz, ax, az;
 };
 
-static struct course course_of(const struct entities *w, uint32_t i)
+static struct course course_of(const struct step_context *context, uint32_t i)
 {
+    const struct entities *w = &context->committed->entities;
+    const struct vec3 at = step_context_position(context, w, i);
     double right = turning_mps2(w, i), sine, cosine;
     maths_sincos(w->heading[i], &sine, &cosine);
-    return (struct course){w->x[i], w->z[i], w->vx[i], w->vz[i], right * cosine, right * sine};
+    return (struct course){at.x, at.z, w->vx[i], w->vz[i], right * cosine, right * sine};
 }
 
 /* Returns true if the other row's course comes near within AHEAD_S. */
@@ -53,7 +55,7 @@ static bool meets(const struct step_context *context, uint32_t i, uint32_t other
 {
     const struct entities *w = &context->committed->entities;
     const double *reach = context->avoidance->reach_m;
-    const struct course its = course_of(w, other);
+    const struct course its = course_of(context, other);
     double vx = its.vx - own->vx, vz = its.vz - own->vz;
     double beside = reach[w->kind[i]] + reach[w->kind[other]] + BESIDE_M;
     double spread = SPREAD * sqrt(vx * vx + vz * vz);
@@ -73,7 +75,7 @@ static void keep_from(const struct step_context *context, uint32_t i, uint32_t o
 {
     const struct entities *w = &context->committed->entities;
     const struct kind *kinds = context->world->kinds;
-    double up = w->y[i] - w->y[other];
+    double its_y = step_context_position(context, w, other).y, up = w->y[i] - its_y;
     if (fabs(up) > FAR_M || !meets(context, i, other, own))
         return;
     double soon = up + LEAD_S * (w->vy[i] - w->vy[other]);
@@ -81,9 +83,9 @@ static void keep_from(const struct step_context *context, uint32_t i, uint32_t o
     double gap = 0.5 * (kinds[w->kind[i]].height_m + kinds[w->kind[other]].height_m) + OVER_M;
     double nearing = up > 0.0 ? w->vy[other] - w->vy[i] : w->vy[i] - w->vy[other];
     gap += NEARING_S * maths_max(nearing, 0.0);
-    double middle = 0.5 * (w->y[i] + w->y[other]);
+    double middle = 0.5 * (w->y[i] + its_y);
     if (above)
-        clear->low = maths_max(clear->low, w->y[other] + gap);
+        clear->low = maths_max(clear->low, its_y + gap);
     else
         clear->high = maths_min(clear->high, middle - 0.5 * gap);
 }
@@ -99,7 +101,7 @@ static void look_around(const struct step_context *context, uint32_t i, struct c
     const struct entities *w = &context->committed->entities;
     double speed = sqrt(w->vx[i] * w->vx[i] + w->vz[i] * w->vz[i]);
     double radius = aircraft_separation_reach(context, w->kind[i], speed);
-    const struct course own = course_of(w, i);
+    const struct course own = course_of(context, i);
     float x = (float)w->x[i], y = (float)w->y[i], z = (float)w->z[i];
     float square = (float)(radius * radius);
     struct neighbour_query query = neighbour_query_begin(

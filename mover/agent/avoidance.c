@@ -3,6 +3,7 @@
 
 #include "mover/agent/earthwork_obstacles.h"
 #include "mover/agent/neighbour_lists.h"
+#include "mover/context/cruise_start.h"
 #include "mover/motion/kinematics.h"
 #include "mover/query/ground_marks.h"
 #include "world/entity/hull.h"
@@ -397,7 +398,8 @@ static void see_vehicles(const struct step_context *context, uint32_t i, struct 
     const struct neighbour_index_entry *entry;
     double most = around_of(look->horizon_m);
     const struct neighbour_list *list = &context->neighbour_lists->list[i];
-    if (list->count != NEIGHBOUR_LISTS_NONE && most <= context->avoidance->around_m[m->kind[i]]) {
+    bool listed = step_context_thinks(context, i) && list->count != NEIGHBOUR_LISTS_NONE;
+    if (listed && most <= context->avoidance->around_m[m->kind[i]]) {
         entry = &context->neighbour_lists->entries[list->first];
         for (const struct neighbour_index_entry *end = entry + list->count; entry < end; entry++) {
             if (neighbour_index_within(entry, m->x[i], m->z[i], most * most))
@@ -586,7 +588,7 @@ void avoidance_steer(const struct step_context *context, uint32_t i, struct desi
         m->dodge[i] = m->ease[i] = 0.0f;
         return;
     }
-    if (step_context_thinks(context, i))
+    if (step_context_thinks(context, i) || cruise_start_due(context, i, context->think_frames))
         look_ahead(context, i, desired);
     desired->heading_rad = maths_wrap_turn(desired->heading_rad + (double)m->dodge[i]);
     desired->speed_mps *= 1.0 - (double)m->ease[i];

@@ -21,7 +21,9 @@ struct neighbour_list {
 struct neighbour_lists {
     uint32_t capacity;
     struct neighbour_index_entry *entries; /* of all lists */
-    struct neighbour_list *list;           /* [capacity] set for the rows that are due */
+    /* [capacity] Set for the rows that decide in their turn (step_context_thinks()); that of any
+     * other row may be an old one. */
+    struct neighbour_list *list;
 };
 
 /* 0, or -1 with errno ENOMEM. */

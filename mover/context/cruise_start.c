@@ -21,21 +21,33 @@ static bool is_under_way(const struct entities *m, uint32_t i)
             m->behaviour[i] == BEHAVIOUR_FLEE);
 }
 
-/* Returns true if nothing has happened to the row, and it aims at nothing. */
+/* Returns true if nothing has happened to the row, it avoids nothing and it aims at nothing. */
 static bool is_undisturbed(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
     bool aims = m->target_id[i] != 0 && context->world->kinds[m->kind[i]].munition != KIND_NONE;
     return !aims && m->threat_id[i] == 0 && m->bumped[i] == 0 && m->trigger[i] == 0 &&
            !(m->flags[i] & (ENTITY_FLAG_BURST | ENTITY_FLAG_CHASSIS)) && m->turret[i] == 0.0f &&
-           m->gun[i] == 0.0f && m->spin_x[i] == 0.0 && m->spin_y[i] == 0.0 && m->spin_z[i] == 0.0;
+           m->gun[i] == 0.0f && m->dodge[i] == 0.0f && m->ease[i] == 0.0f && m->spin_x[i] == 0.0 &&
+           m->spin_y[i] == 0.0 && m->spin_z[i] == 0.0;
+}
+
+/* Returns true if row i's vehicle is where it can cruise: not one that is aground or has landed,
+ * and not an aircraft that keeps from another one by its height
+ * (mover/agent/aircraft_separation.h). */
+static bool cruises(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    enum domain domain = (enum domain)context->world->kinds[m->kind[i]].domain;
+    if (domain == DOMAIN_AIR)
+        return !(m->flags[i] & ENTITY_FLAG_LANDED) && m->climb[i] == 0.0f;
+    return domain == DOMAIN_LAND || !(m->flags[i] & ENTITY_FLAG_AGROUND);
 }
 
 bool cruise_start_may(const struct step_context *context, uint32_t i)
 {
-    const struct entities *m = context->m;
-    return cruise_start_turn(context, i) && is_under_way(m, i) && is_undisturbed(context, i) &&
-           context->world->kinds[m->kind[i]].domain == DOMAIN_LAND;
+    return cruise_start_turn(context, i) && is_under_way(context->m, i) &&
+           is_undisturbed(context, i) && cruises(context, i);
 }
 
 bool cruise_start_due(const struct step_context *context, uint32_t i, uint32_t period)

@@ -1,10 +1,10 @@
-/* When a land vehicle begins to cruise (world/entity/cruise.h).
+/* When a vehicle begins to cruise (world/entity/cruise.h).
  *
  * The rows of a block of the table begin their stretches in the same frame, so that a frame writes
  * to few blocks. Blocks take turns. A vehicle may begin a stretch when its block's turn comes, if
- * it is on its way, nothing has happened to it and its gun is at rest. Its agent then decides at
- * once whatever falls due within the stretch. The motion of the stretch is that of one long frame
- * (mover/motion/ground_vehicle.h), which refuses what is not easy.
+ * it is on its way, nothing has happened to it, it avoids nothing and its gun is at rest. Its agent
+ * then decides at once whatever falls due within the stretch. The motion of the stretch is that of
+ * one long frame (mover/motion/ground_vehicle.h), which refuses what is not easy.
  *
  * Reads row i of the moved table. Any thread, each its own row. */
 #ifndef JOLON_MOVER_CONTEXT_CRUISE_START_H

@@ -6,6 +6,7 @@
 #include "world/maths/cpu_dispatch.h"
 #include "world/maths/rotation.h"
 #include "world/terrain/gridsquare.h"
+#include "world/terrain/square_bounds.h"
 #include "world/world.h"
 
 #include <string.h>
@@ -23,9 +24,10 @@
 #define EDGE_LEAST_M   50.0  /* as near as it wants to come */
 #define EDGE_TURN_RAD  0.5   /* a driven aircraft that is further off has its stick hard over */
 
-void aircraft_begin(struct aircraft *batch)
+void aircraft_begin(struct aircraft *batch, uint32_t frames)
 {
     memset(batch, 0, sizeof *batch);
+    batch->frames = frames;
     for (int l = 0; l < LANE_COUNT; l++)
         batch->here.patch[l] = batch->ahead.patch[l] = &batch->idle;
 }
@@ -237,11 +239,10 @@ struct lean {
     double lag; /* share of the way that a helicopter's attitude goes in the frame */
 };
 
-static inline void lean(const struct step_context *context, struct aircraft *batch,
-                        const struct lean *lean)
+static inline void lean(struct aircraft *batch, const struct lean *lean, double dt_s)
 {
-    const f64x4 rate = SIMD_EVERY(AIRFRAME_ROLL_RPS * context->dt_s);
-    const f64x4 nodding = SIMD_EVERY(NOSE_RATE_RPS * context->dt_s);
+    const f64x4 rate = SIMD_EVERY(AIRFRAME_ROLL_RPS * dt_s);
+    const f64x4 nodding = SIMD_EVERY(NOSE_RATE_RPS * dt_s);
     union simd_lanes bank, nose;
     maths_slopes_lanes(&lean->bank, &lean->flat, &bank);
     maths_slopes_lanes(&lean->nose, &lean->flat, &nose);
@@ -274,11 +275,28 @@ static void carry_spin(struct entities *m, uint32_t i, const struct aircraft *ba
     m->spin_z[i] = turned.z;
 }
 
+/* Notes when the stretch of lane l ends, and how it turns until then. */
+static void note_stretch(const struct step_context *context, const struct aircraft *batch, int l)
+{
+    struct entities *m = context->m;
+    uint32_t i = batch->row[l];
+    if (batch->frames == 1) {
+        m->cruise_tick[i] = 0;
+        return;
+    }
+    m->cruise_tick[i] = (uint32_t)context->tick - 1 + batch->frames;
+    m->cruise_rps[i] = batch->turned.lane[l] / (context->dt_s * batch->frames);
+    m->cruise_mps2[i] = batch->gain_mps2.lane[l];
+}
+
 static void write_rows(const struct step_context *context, const struct aircraft *batch)
 {
     struct entities *m = context->m;
     for (int l = 0; l < batch->count; l++) {
         uint32_t i = batch->row[l];
+        if (batch->refused.lane[l])
+            continue;
+        note_stretch(context, batch, l);
         carry_spin(m, i, batch, l);
         m->x[i] = batch->x.lane[l];
         m->y[i] = batch->y.lane[l];
@@ -331,8 +349,8 @@ struct moving {
 };
 
 /* Takes the lanes, and computes their lift. */
-static inline void rise(const struct step_context *context, struct aircraft *batch,
-                        const union simd_lanes *ground, struct moving *moving)
+static inline void rise(struct aircraft *batch, const union simd_lanes *ground,
+                        struct moving *moving, double dt_s)
 {
     union simd_lanes sine, cosine, bank_slope, bank_cosine, nose_slope, nose_cosine;
     maths_sincos_lanes(&batch->heading, &sine, &cosine);
@@ -354,27 +372,26 @@ static inline void rise(const struct step_context *context, struct aircraft *bat
     roots(&moving->through);
     for (int h = 0; h < LANE_FOURS; h++) {
         struct airframe *f = &moving->flight[h];
-        want(batch, h, &ground->f64x4[h], context->dt_s, f);
+        want(batch, h, &ground->f64x4[h], dt_s, f);
         airframe_power(f, &moving->through.f64x4[h]);
         airframe_climb(f, &moving->speed.f64x4[h]);
         airframe_lift_off(f);
-        airframe_lift(f, context->dt_s);
+        airframe_lift(f, dt_s);
         moving->lean.bank.f64x4[h] = f->turn_slope;
     }
     roots(&moving->lean.bank);
 }
 
 /* Turns and changes the speeds. */
-static inline void fly(const struct step_context *context, struct aircraft *batch,
-                       struct moving *moving)
+static inline void fly(struct aircraft *batch, struct moving *moving, double dt_s)
 {
     for (int h = 0; h < LANE_FOURS; h++) {
         struct airframe *f = &moving->flight[h];
         f->turn_slope = moving->lean.bank.f64x4[h];
-        airframe_turn(f, context->dt_s, &moving->lean.bank.f64x4[h]);
-        batch->heading.f64x4[h] += f->turning_rps * context->dt_s;
+        airframe_turn(f, dt_s, &moving->lean.bank.f64x4[h]);
+        batch->heading.f64x4[h] += f->turning_rps * dt_s;
         kinematics_simd_wrap_turn(&batch->heading.f64x4[h]);
-        push(f, context->dt_s, &moving->speed.f64x4[h], &moving->lean.nose.f64x4[h]);
+        push(f, dt_s, &moving->speed.f64x4[h], &moving->lean.nose.f64x4[h]);
         batch->spool.f64x4[h] = f->spool;
     }
     roots(&moving->speed);
@@ -388,15 +405,89 @@ static inline void fly(const struct step_context *context, struct aircraft *batc
     }
 }
 
+/* --- stretches ---------------------------------------------------------------------------------*/
+
+/* A stretch is refused whose motion is not that of many frames: its end shows how even it is. */
+#define STRETCH_TURN_RAD  0.3  /* it turns by no more */
+#define STRETCH_GAIN_MPS  3.0  /* and gains or loses no more speed */
+#define STRETCH_CLIMB_MPS 1.0  /* its climb changes by no more, at once */
+#define STRETCH_LEAN_RAD  0.03 /* and its bank and pitch, by two degrees */
+#define STRETCH_SLIP_MPS  0.01 /* it slips sideways no faster */
+#define STRETCH_SLOPE     0.6  /* the ground under it is no steeper */
+#define STRETCH_OVER_M    3.0  /* it stays so high over it, and over the rim of any new crater */
+
+/* Replaces the position by that at the end of an arc on which the speed changes evenly. */
+static void find_arc_end(struct aircraft *batch, const struct entities *m, int l,
+                         double forward_mps, double dt_s)
+{
+    uint32_t i = batch->row[l];
+    double turned = maths_wrap_half(batch->heading.lane[l] - m->heading[i]), sine, cosine;
+    maths_sincos(m->heading[i], &sine, &cosine);
+    double before_mps = m->vx[i] * sine - m->vz[i] * cosine;
+    double way_m = cruise_chord(0.5 * (before_mps + forward_mps) * dt_s, 0.5 * turned);
+    maths_sincos(m->heading[i] + 0.5 * turned, &sine, &cosine);
+    batch->x.lane[l] = m->x[i] + way_m * sine;
+    batch->z.lane[l] = m->z[i] - way_m * cosine;
+    batch->turned.lane[l] = turned;
+    batch->gain_mps2.lane[l] = (forward_mps - before_mps) / dt_s;
+}
+
+/* Returns true if lane l flies evenly for the whole stretch. */
+static bool flies_evenly(const struct aircraft *batch, const struct entities *m, int l, double dt_s)
+{
+    uint32_t i = batch->row[l];
+    return fabs(batch->turned.lane[l]) <= STRETCH_TURN_RAD &&
+           fabs(batch->gain_mps2.lane[l]) * dt_s <= STRETCH_GAIN_MPS &&
+           fabs(batch->vy.lane[l] - m->vy[i]) <= STRETCH_CLIMB_MPS &&
+           fabs(batch->roll.lane[l] - m->roll[i]) <= STRETCH_LEAN_RAD &&
+           fabs(batch->pitch.lane[l] - m->pitch[i]) <= STRETCH_LEAN_RAD;
+}
+
+/* Returns true if nothing of lane l can touch the ground, nor a new crater there: of the ground
+ * between two points no more is over the higher one than the steepest slope makes of half the way.
+ */
+static bool stays_over_ground(const struct step_context *context, const struct aircraft *batch,
+                              int l)
+{
+    const struct entities *m = context->m;
+    uint32_t i = batch->row[l];
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    double x = m->x[i], z = m->z[i], to_x = batch->x.lane[l], to_z = batch->z.lane[l];
+    struct gridsquare_box box =
+        gridsquare_box_of(&context->world->terrain.squares, maths_min(x, to_x), maths_min(z, to_z),
+                          maths_max(x, to_x), maths_max(z, to_z));
+    double way_m = sqrt((to_x - x) * (to_x - x) + (to_z - z) * (to_z - z));
+    double ground_m = maths_max(batch->ground.lane[l], kinematics_ground(context, to_x, to_z));
+    double low_m = maths_min(m->y[i], batch->y.lane[l]) - kind->bound_m - STRETCH_OVER_M;
+    return low_m > ground_m + 0.5 * STRETCH_SLOPE * way_m &&
+           square_bounds_within(context->slopes, box, square_bounds_below_slope(STRETCH_SLOPE));
+}
+
+/* Finds the lanes that cannot be moved by a stretch, and where the others are at its end. */
+static void refuse(const struct step_context *context, struct aircraft *batch,
+                   const struct moving *moving, double dt_s)
+{
+    const struct entities *m = context->m;
+    for (int l = 0; l < batch->count; l++) {
+        double forward_mps = moving->flight[l / 4].forward_mps[l % 4];
+        find_arc_end(batch, m, l, forward_mps, dt_s);
+        bool even = fabs(moving->rightward.lane[l]) <= STRETCH_SLIP_MPS && !batch->driven.lane[l] &&
+                    !batch->parked.lane[l] && !batch->blocked.lane[l] && !batch->left.lane[l] &&
+                    flies_evenly(batch, m, l, dt_s) && stays_over_ground(context, batch, l);
+        batch->refused.lane[l] = even ? 0 : -1;
+    }
+}
+
 VECTOR_CLONES
 void aircraft_move(const struct step_context *context, struct aircraft *batch)
 {
-    const f64x4 none = SIMD_EVERY(0.0), drag = SIMD_EVERY(SIDE_DRAG_MPS2 * context->dt_s);
+    const double dt_s = context->dt_s * batch->frames;
+    const f64x4 none = SIMD_EVERY(0.0), drag = SIMD_EVERY(SIDE_DRAG_MPS2 * dt_s);
     union simd_lanes sine, cosine;
     struct moving moving;
     find_highest(context, batch, &batch->ground);
-    rise(context, batch, &batch->ground, &moving);
-    fly(context, batch, &moving);
+    rise(batch, &batch->ground, &moving, dt_s);
+    fly(batch, &moving, dt_s);
     maths_sincos_lanes(&batch->heading, &sine, &cosine);
     for (int h = 0; h < LANE_FOURS; h++) {
         f64x4 speed = moving.flight[h].forward_mps, side = moving.rightward.f64x4[h];
@@ -404,9 +495,11 @@ void aircraft_move(const struct step_context *context, struct aircraft *batch)
         batch->vx.f64x4[h] = speed * sine.f64x4[h] + side * cosine.f64x4[h];
         batch->vz.f64x4[h] = side * sine.f64x4[h] - speed * cosine.f64x4[h];
         batch->vy.f64x4[h] = moving.flight[h].up_mps;
-        change_position(batch, h, context->dt_s, context->world->terrain.squares.world_m);
+        change_position(batch, h, dt_s, context->world->terrain.squares.world_m);
     }
-    moving.lean.lag = lagged(maths_min(context->dt_s / AIRFRAME_LAG_S, 1.0));
-    lean(context, batch, &moving.lean);
+    moving.lean.lag = lagged(maths_min(dt_s / AIRFRAME_LAG_S, 1.0));
+    lean(batch, &moving.lean, dt_s);
+    if (batch->frames > 1)
+        refuse(context, batch, &moving, dt_s);
     write_rows(context, batch);
 }

@@ -242,6 +242,82 @@ struct ship_moved ship_move(const struct step_context *context, uint32_t i,
     return advance(context, i, &course);
 }
 
+/* --- stretches ---------------------------------------------------------------------------------*/
+
+/* A stretch is refused whose motion is not that of many frames: its end shows how even it is. */
+#define STRETCH_TURN_RAD 0.3  /* it turns by no more */
+#define STRETCH_GAIN_MPS 1.5  /* and gains or loses no more speed */
+#define STRETCH_HEEL_RAD 0.03 /* its heel changes by no more, at once */
+#define STRETCH_RISE_M   0.01 /* and the water's height */
+#define STRETCH_SLIP_MPS 0.01 /* it slips sideways no faster */
+
+/* What a stretch changes and a refusal gives back. */
+struct ship_row {
+    double x, y, z, vx, vy, vz, heading, pitch, roll, fuel_l, harm_j;
+    uint8_t flags, trigger;
+};
+
+static struct ship_row row_of(const struct entities *m, uint32_t i)
+{
+    return (struct ship_row){m->x[i],      m->y[i],       m->z[i],      m->vx[i],   m->vy[i],
+                             m->vz[i],     m->heading[i], m->pitch[i],  m->roll[i], m->fuel_l[i],
+                             m->harm_j[i], m->flags[i],   m->trigger[i]};
+}
+
+static void give_back(struct entities *m, uint32_t i, const struct ship_row *row)
+{
+    entities_set_position(m, i, (struct vec3){row->x, row->y, row->z});
+    entities_set_velocity(m, i, (struct vec3){row->vx, row->vy, row->vz});
+    m->heading[i] = row->heading;
+    m->pitch[i] = row->pitch;
+    m->roll[i] = row->roll;
+    m->fuel_l[i] = row->fuel_l;
+    m->harm_j[i] = row->harm_j;
+    m->flags[i] = row->flags;
+    m->trigger[i] = row->trigger;
+}
+
+/* Replaces the position by that at the end of an arc on which the speed changes evenly, and notes
+ * the stretch. Returns true if the way is even and on the water. */
+static bool end_arc(const struct step_context *context, uint32_t i, const struct ship_row *row,
+                    const struct course *before, double time_s)
+{
+    struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct course after = course_of(context, i);
+    double turned = maths_wrap_half(m->heading[i] - row->heading), sine, cosine;
+    double gain_mps = after.forward - before->forward;
+    double way_m = cruise_chord((before->forward + 0.5 * gain_mps) * time_s, 0.5 * turned);
+    maths_sincos(row->heading + 0.5 * turned, &sine, &cosine);
+    m->x[i] = row->x + way_m * sine;
+    m->z[i] = row->z - way_m * cosine;
+    m->cruise_tick[i] = (uint32_t)context->tick - 1 + context->cruise_frames;
+    m->cruise_rps[i] = turned / time_s;
+    m->cruise_mps2[i] = gain_mps / time_s;
+    struct grounding end = find_grounding(context, kind, &after, entities_position(m, i));
+    return fabs(turned) <= STRETCH_TURN_RAD && fabs(gain_mps) <= STRETCH_GAIN_MPS &&
+           fabs(m->roll[i] - row->roll) <= STRETCH_HEEL_RAD &&
+           fabs(m->y[i] - row->y) <= STRETCH_RISE_M &&
+           fabs(before->rightward) <= STRETCH_SLIP_MPS && !end.bow_out && !end.stern_out &&
+           end.bow_m + end.stern_m <= 0.0;
+}
+
+bool ship_stretch(const struct step_context *context, uint32_t i,
+                  const struct desired_motion *desired)
+{
+    struct step_context longer = *context; /* one frame as long as the stretch */
+    struct entities *m = context->m;
+    const struct ship_row row = row_of(m, i);
+    const struct course before = course_of(context, i);
+    longer.dt_s = context->dt_s * context->cruise_frames;
+    struct ship_moved moved = ship_move(&longer, i, desired);
+    if (!moved.blocked && !moved.touched && end_arc(context, i, &row, &before, longer.dt_s))
+        return true;
+    give_back(m, i, &row);
+    m->cruise_tick[i] = 0;
+    return false;
+}
+
 bool ship_hold(const struct step_context *context, uint32_t i)
 {
     struct course course = course_of(context, i);

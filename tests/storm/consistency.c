@@ -12,6 +12,8 @@
 #include <unistd.h>
 
 #define REFERENCE_LIMIT_S 1800
+#define SUMMARY_BYTES                                                                              \
+    (1 << 18) /* of a battle: some 100 bytes for each of 1,024 missions and objectives */
 
 int consistency_read_world(struct consistency *consistency, const struct tested_set *set,
                            struct error_text *error)
@@ -135,7 +137,7 @@ static uint64_t hex_of(const cJSON *object, const char *key)
 static int run_reference(const char *const *arguments, struct consistency *consistency,
                          struct error_text *error)
 {
-    char text[4096];
+    static char text[SUMMARY_BYTES];
     int code = tested_set_run(arguments, text, sizeof text, REFERENCE_LIMIT_S);
     cJSON *summary = cJSON_Parse(text);
     if (!summary || whole_of(summary, "frame") != consistency->frame) {

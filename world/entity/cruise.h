@@ -1,10 +1,10 @@
 /* How a vehicle cruises: it moves for many frames at once (docs/decisions/049-cruising.md).
  *
- * A land vehicle on easy ground that goes on as it did is moved by a whole stretch of half a
- * second. Its columns then hold where it is at the end of the stretch, which cruise_tick names, and
- * nothing writes to its row before that. Where it is at a tick on the way follows from the row: it
- * turns and gains speed evenly, so it is on an arc. Its height, pitch and roll are those of the
- * ground there (world/cruise_pose.h).
+ * A vehicle that goes on as it did is moved by a whole stretch of half a second. Its columns then
+ * hold where it is at the end of the stretch, which cruise_tick names, and nothing writes to its
+ * row before that. Where it is at a tick on the way follows from the row: it turns and gains speed
+ * evenly, so it is on an arc, and climbs evenly. Height, pitch and roll of a land vehicle are those
+ * of the ground there (world/cruise_pose.h); others hold their pitch and roll.
  *
  * The mover begins a stretch, and it ends by itself. The collider ends it in the frame in which it
  * begins if anything stands, rests or cruises where it leads, and later when a body comes there. So

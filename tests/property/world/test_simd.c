@@ -258,7 +258,7 @@ static bool fly_one(const struct step_context *context, uint32_t i,
                     const struct desired_motion *desired)
 {
     struct aircraft alone;
-    aircraft_begin(&alone);
+    aircraft_begin(&alone, 1);
     aircraft_take(context, &alone, i, desired);
     aircraft_move(context, &alone);
     return alone.blocked.lane[0] != 0;
@@ -446,7 +446,7 @@ static void move_some(struct both *both, uint64_t *random, struct drawn *drawn)
     struct aircraft air;
     ground_vehicle_begin(&land, 1);
     constant_course_begin(&hold);
-    aircraft_begin(&air);
+    aircraft_begin(&air, 1);
     for (int again = 0; again < 3; again++) {
         uint32_t used = 1 + (uint32_t)fixture_random(random) % LANE_COUNT;
         drive(both, random, &land, used, drawn);
