@@ -284,7 +284,7 @@ $(ENGINES): | $(BENCH_STAMP)
 $(GROUND): $(OBJ)/supervisor/ground/main.o $(call libraries,ground ipc world)
 	$(call link,$(GROUND_LIBS) $(JSON_LIBS) $(ARCHIVE_LIBS) $(BASE_LIBS))
 # The writer of ground files uses no library of maps, so its test and the fuzz harness need none.
-GROUND_WRITER := $(call objects,$(addprefix supervisor/ground/,canvas.c convex_parts.c ground_write.c progress.c))
+GROUND_WRITER := $(call objects,$(addprefix supervisor/ground/,canvas.c convex_parts.c ground_write.c out_file.c progress.c))
 $(filter-out $(GROUND_WRITER),$(call objects,$(call sources,supervisor/ground))): | $(GROUND_STAMP)
 $(call objects,$(call sources,supervisor/ground)): CFLAGS_EXTRA = $(GROUND_CFLAGS)
 $(BIN)/jolon-keeper: $(OBJ)/supervisor/main.o $(call libraries,supervisor sandbox ipc world)
@@ -349,7 +349,7 @@ $(BUILD)/tests/unit/supervisor/%: $(call libraries,sandbox)
 $(filter $(BUILD)/tests/unit/gateway/%,$(UNIT_TESTS)): $(call libraries,gateway)
 $(addprefix $(BUILD)/tests/unit/ipc/topics/test_,dds_datagrams samples command_text): $(call libraries,datagrams)
 $(BUILD)/tests/unit/config/syntax/test_schema: $(OBJ)/docs/keys/key_tables.o
-$(addprefix $(BUILD)/tests/unit/,supervisor/ground/test_canvas supervisor/ground/test_convex_parts supervisor/ground/test_ground_write config/test_ground_objects config/test_ground_source world/terrain/test_posts_write): $(GROUND_WRITER)
+$(addprefix $(BUILD)/tests/unit/,supervisor/ground/test_canvas supervisor/ground/test_convex_parts supervisor/ground/test_ground_write supervisor/ground/test_out_file config/test_ground_objects config/test_ground_source world/terrain/test_posts_write): $(GROUND_WRITER)
 $(BUILD)/tests/unit/docs/figures/test_palette: $(OBJ)/docs/figures/palette.o
 $(BUILD)/tests/crash/test_crash: $(call objects,$(call sources,tests/crash))
 $(GOLDEN_TESTS): $(call libraries,bench)

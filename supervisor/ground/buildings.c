@@ -44,6 +44,17 @@ static uint32_t put_part(struct building_draft *draft, const struct convex_parts
     return part->count;
 }
 
+/* Returns true if a corner is too far from the middle of the draft. */
+static bool is_too_large(const struct building_draft *draft, int32_t (*corner)[2], uint32_t count)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        if (llabs((long long)corner[i][0] - draft->building.x_mm) > GROUND_BUILDING_REACH_MM ||
+            llabs((long long)corner[i][1] - draft->building.z_mm) > GROUND_BUILDING_REACH_MM)
+            return true;
+    }
+    return false;
+}
+
 /* Fills the draft from count parts. Returns false if they are too narrow, too far from each other
  * or not within the square. */
 static bool fill(struct buildings *b, struct building_draft *draft,
@@ -67,6 +78,8 @@ static bool fill(struct buildings *b, struct building_draft *draft,
     draft->building.z_mm = (int32_t)floor(box.z_mm + 0.5);
     draft->building.turn = box.turn;
     draft->building.parts = 0;
+    if (is_too_large(draft, all, corners))
+        return false;
     for (uint32_t i = 0; i < count; i++) {
         uint32_t more = put_part(draft, &part[i], draft->building.parts);
         if (!ground_file_part_fits(draft->corner + draft->corners, more)) {

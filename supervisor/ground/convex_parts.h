@@ -8,7 +8,7 @@
 #include <stdint.h>
 
 /* An outline with more corners, courtyards included, is not split. */
-#define CONVEX_PARTS_CORNERS_MAX 400u
+#define CONVEX_PARTS_CORNERS_MAX 4000u
 
 /* A polygon on the map; x goes east and z south [mm]. */
 struct convex_parts_ring {

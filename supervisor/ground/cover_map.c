@@ -63,8 +63,10 @@ int cover_map_table(struct cover_map_table *table, const char *name, struct erro
     if (!strchr(name, '/') && process_data_dir(folder, sizeof folder) == 0)
         snprintf(path, sizeof path, "%s/ground/%.40s.txt", folder, name);
     FILE *file = fopen(path, "re");
-    if (!file && !strchr(name, '/')) /* a file of this folder */
-        file = fopen(name, "re");
+    if (!file && !strchr(name, '/')) { /* a file of this folder */
+        snprintf(path, sizeof path, "%s", name);
+        file = fopen(path, "re");
+    }
     if (!file)
         return error_text_set(error,
                               "%s: no such table of classes: %s; right would be: a file, or "
@@ -129,23 +131,29 @@ static enum cover guess(const float *posts, const struct post_grid *grid, uint32
     return slope < GRASS_SLOPE || height > line_m ? COVER_GRASS : COVER_FOREST;
 }
 
+/* A class of which the table says nothing. */
+struct unknown_class {
+    const struct raster *raster;
+    int class;
+};
+
 /* Returns the cover that the rasters give, or enum cover_map_rule. */
 static uint8_t classed(struct raster **rasters, uint32_t count, const struct cover_map_table *table,
-                       uint32_t column, uint32_t row, int *unknown)
+                       uint32_t column, uint32_t row, struct unknown_class *unknown)
 {
     for (uint32_t i = 0; i < count; i++) {
         int class = raster_class(rasters[i], column, row);
         uint8_t rule = class < 0 ? COVER_MAP_NONE : table->rule[class];
         if (rule == COVER_MAP_UNKNOWN)
-            *unknown = class;
+            *unknown = (struct unknown_class){rasters[i], class};
         if (rule != COVER_MAP_NONE)
             return rule;
     }
     return COVER_MAP_NONE;
 }
 
-static int refuse_class(const struct post_grid *grid, struct raster **rasters, uint32_t column,
-                        uint32_t row, int class, struct error_text *error)
+static int refuse_class(const struct post_grid *grid, const struct unknown_class *unknown,
+                        uint32_t column, uint32_t row, struct error_text *error)
 {
     double latitude, longitude;
     projection_place(&grid->projection, column * grid->spacing_m, row * grid->spacing_m, &latitude,
@@ -155,7 +163,7 @@ static int refuse_class(const struct post_grid *grid, struct raster **rasters, u
         "%s: has class %d at latitude %.5f, longitude %.5f, of which the table of "
         "classes says nothing; right would be a line \"%d grass\" or another "
         "cover, or --classes with the table of this map",
-        raster_path(rasters[0]), class, latitude, longitude, class);
+        raster_path(unknown->raster), unknown->class, latitude, longitude, unknown->class);
 }
 
 int cover_map_fill(uint8_t *cover, float *posts, const struct post_grid *grid,
@@ -172,10 +180,10 @@ int cover_map_fill(uint8_t *cover, float *posts, const struct post_grid *grid,
         }
         for (uint32_t column = 0; column < grid->side; column++) {
             size_t at = (size_t)row * grid->side + column;
-            int unknown = -1;
+            struct unknown_class unknown = {0};
             uint8_t rule = classed(rasters, count, table, column, row, &unknown);
             if (rule == COVER_MAP_UNKNOWN)
-                return refuse_class(grid, rasters, column, row, unknown, error);
+                return refuse_class(grid, &unknown, column, row, error);
             *guessed += rule == COVER_MAP_NONE;
             if (rule == COVER_MAP_NONE)
                 rule = (uint8_t)guess(posts, grid, column, row, line_m);

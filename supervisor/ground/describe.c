@@ -70,6 +70,7 @@ static void print_json(const struct ground_file *file, const char *text)
     json_bool(object, "cover_guessed", h->flags & GROUND_COVER_GUESSED);
     json_number(object, "stretch_edge", projection_stretch(0.5 * h->side_m));
     json_bool(object, "runs", runs(h));
+    json_number(object, "world_side_m", runs(h) ? ground_file_world_side(h) : 0.0);
     json_whole(object, "bytes", h->bytes);
     json_whole(object, "road_points", file->road_points);
     json_whole(object, "buildings", file->buildings);
@@ -87,8 +88,11 @@ static void print(const struct ground_file *file, const char *text)
     printf("hash         %016" PRIx64 "\n", h->hash);
     printf("middle       latitude %.6f, longitude %.6f (WGS 84)\n", h->latitude_deg,
            h->longitude_deg);
-    printf("side         %g km; %s\n", h->side_m / 1000.0,
-           runs(h) ? "worlds run on it" : "worlds do not run on it");
+    if (runs(h))
+        printf("side         %g km, in the middle of a world of %g km\n", h->side_m / 1000.0,
+               ground_file_world_side(h) / 1000.0);
+    else
+        printf("side         %g km; worlds do not run on it\n", h->side_m / 1000.0);
     printf("posts        %u x %u, %g m apart\n", h->posts_side, h->posts_side, h->spacing_m);
     printf("heights      %g to %g m above the sea level\n", (double)h->lowest_m,
            (double)h->highest_m);

@@ -96,6 +96,7 @@ static const char *const troubles[FEATURE_TROUBLES] = {
                        "instead"),
     [FEATURE_SMALL] = "outlines are too small for buildings, and are left out",
     [FEATURE_EDGE] = "buildings across the edge of the square are left out",
+    [FEATURE_LARGE] = "buildings of more than 1 km are left out",
     [FEATURE_TALL] = "buildings have a height above 500 m, which was not used",
 };
 
@@ -120,6 +121,7 @@ static void note(struct reading *r, enum feature_trouble trouble)
     if (r->features->trouble[trouble].count++ > 0)
         return;
     r->features->trouble[trouble].map = r->map->path;
+    r->features->trouble[trouble].feature = vector_map_number(r->feature);
     r->features->trouble[trouble].latitude_deg = r->features->trouble[trouble].longitude_deg = NAN;
     if (r->track.count > 0)
         projection_place(&r->grid->projection, r->track.place[0][0], r->track.place[0][1],
@@ -291,17 +293,18 @@ static double walls_of(struct reading *r, double area_m2)
     return maths_max(height, WALLS_MIN_M);
 }
 
-/* Returns true if a corner lies within the square. */
-static bool reaches_in(const struct convex_parts *parts, double side_m)
+/* Returns how many corners lie within the square; all: how many there are. */
+static uint32_t corners_in(const struct convex_parts *parts, double side_m, uint32_t *all)
 {
+    uint32_t inside = 0;
+    *all = 0;
     for (uint32_t i = 0; i < parts->count; i++) {
-        for (uint32_t k = 0; k < parts->part[i].count; k++) {
+        for (uint32_t k = 0; k < parts->part[i].count; k++, ++*all) {
             const int32_t *c = parts->part[i].corner[k];
-            if (c[0] >= 0 && c[1] >= 0 && c[0] <= side_m * 1000.0 && c[1] <= side_m * 1000.0)
-                return true;
+            inside += c[0] >= 0 && c[1] >= 0 && c[0] <= side_m * 1000.0 && c[1] <= side_m * 1000.0;
         }
     }
-    return false;
+    return inside;
 }
 
 static void add_parts(struct reading *r, const struct convex_parts *parts)
@@ -311,12 +314,15 @@ static void add_parts(struct reading *r, const struct convex_parts *parts)
     const char *roof = vector_map_tag(r->feature, "roof:shape", buffer, sizeof buffer);
     if (height <= RIDGED_M && parts->area_m2 >= SHED_M2 && strcmp(roof, "flat") != 0)
         rise = RISE_SHARE * maths_min(height, HOUSE_M);
-    if (!reaches_in(parts, side_of(r)))
+    uint32_t all, inside = corners_in(parts, side_of(r), &all);
+    if (inside == 0)
         return;
     int added = buildings_add(&r->features->buildings, parts, height, rise, side_of(r));
     r->map->no_memory |= added < 0;
-    if (added == 0)
-        note(r, parts->area_m2 < BUILDINGS_LEAST_M2 ? FEATURE_SMALL : FEATURE_EDGE);
+    if (added == 0 && parts->area_m2 < BUILDINGS_LEAST_M2)
+        note(r, FEATURE_SMALL);
+    else if (added == 0)
+        note(r, inside == all ? FEATURE_LARGE : FEATURE_EDGE);
 }
 
 /* The smallest rectangle around the outline stands for it. */
@@ -534,7 +540,8 @@ static void take_feature(void *context, struct vector_map *map, OGRFeatureH feat
 }
 
 int features_read(struct features *features, char *const *paths, uint32_t count,
-                  const struct post_grid *grid, struct error_text *error)
+                  const struct post_grid *grid, struct vector_map_gaps *gaps,
+                  struct error_text *error)
 {
     struct reading r = {.features = features, .grid = grid};
     int result = 0;
@@ -542,7 +549,7 @@ int features_read(struct features *features, char *const *paths, uint32_t count,
     for (uint32_t i = 0; i < count && result == 0; i++)
         result =
             vector_map_read(paths[i], grid, VECTOR_MAP_POINTS | VECTOR_MAP_LINES | VECTOR_MAP_AREAS,
-                            "points, lines or areas", take_feature, &r, error);
+                            "points, lines or areas", take_feature, &r, gaps, error);
     vector_map_track_free(&r.track);
     return result;
 }

@@ -7,6 +7,8 @@
 #include "supervisor/ground/buildings.h"
 #include "supervisor/ground/raster.h"
 
+struct vector_map_gaps;
+
 enum feature_use {
     FEATURE_NONE,
     FEATURE_BUILDING,
@@ -31,6 +33,7 @@ enum feature_trouble {
     FEATURE_BOXED,    /* an outline that could not be split: its smallest rectangle stands for it */
     FEATURE_SMALL,    /* left out: a building of less than BUILDINGS_LEAST_M2 */
     FEATURE_EDGE,     /* left out: a building across the edge of the square */
+    FEATURE_LARGE,    /* left out: a building of more than GROUND_BUILDING_REACH_MM */
     FEATURE_TALL,     /* a building with a height that no building has; it is not used */
     FEATURE_TROUBLES
 };
@@ -50,10 +53,11 @@ struct features {
     struct ground_object *object; /* trees and poles that stand in the map */
     uint32_t objects, object_room;
     struct buildings buildings;
-    struct {
+    struct feature_trouble_count {
         uint32_t count;
-        double latitude_deg, longitude_deg; /* of the first */
+        double latitude_deg, longitude_deg; /* of the first; NaN: it has no place */
         const char *map;
+        long long feature; /* its number in the map */
     } trouble[FEATURE_TROUBLES];
 };
 
@@ -61,7 +65,8 @@ struct features {
  * keys and values, or from the field "fclass" of extracts as shapefiles. 0, or -1 with the reason.
  * The caller frees them in any case. */
 int features_read(struct features *features, char *const *paths, uint32_t count,
-                  const struct post_grid *grid, struct error_text *error);
+                  const struct post_grid *grid, struct vector_map_gaps *gaps,
+                  struct error_text *error);
 void features_free(struct features *features);
 
 /* Returns a sentence about a trouble, without its count and place. */

@@ -7,6 +7,7 @@
 #include "ipc/process/process.h"
 #include "ipc/segment/segment_attach.h"
 #include "ipc/segment/world_names.h"
+#include "supervisor/ground/out_file.h"
 #include "supervisor/ground/picture.h"
 #include "supervisor/ground/progress.h"
 #include "world/params.h"
@@ -204,12 +205,15 @@ int ground_export_run(int argc, char **argv)
                  "GeoTIFF: a pixel around each post or point.",
         .rows = rows,
         .plain = 2};
+    struct error_text error;
     int plain = option_table_read(&table, argc, argv);
     if (plain != (given.world ? 1 : 2))
         die_usage("ground export: needs a ground file and the name of a GeoTIFF, as in: jolon "
                   "ground export x.ground x.tif; with --world the name alone");
     if (!given.world && (given.area || given.step_m > 0.0))
         die_usage("ground export: --area and --step go with --world");
+    if (out_file_check(argv[argc - 1], argv + argc - plain, (uint32_t)plain - 1, &error) != 0)
+        die_refused("%s", error.text);
     if (given.world)
         export_world(argv[argc - 1]);
     else

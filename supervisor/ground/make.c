@@ -9,8 +9,10 @@
 #include "supervisor/ground/heights.h"
 #include "supervisor/ground/cover_map.h"
 #include "supervisor/ground/map_cover.h"
+#include "supervisor/ground/out_file.h"
 #include "supervisor/ground/progress.h"
 #include "supervisor/ground/road_map.h"
+#include "supervisor/ground/vector_map.h"
 #include "world/runtime/parse_number.h"
 #include "world/runtime/thread_pool.h"
 #include "world/terrain/terrain.h"
@@ -32,8 +34,7 @@ static struct {
     double latitude_deg, longitude_deg, side_m, spacing_m, undulation_m, trees_per_ha;
     bool placed, feet;
     const char *out, *classes, *licence;
-    const char *covers[COVERS_MAX];
-    char *roads[COVERS_MAX], *features[COVERS_MAX];
+    char *covers[COVERS_MAX], *roads[COVERS_MAX], *features[COVERS_MAX];
     uint32_t cover_count, road_count, feature_count, threads;
     uint64_t seed;
 } given = {.spacing_m = 31.25, .trees_per_ha = 25.0, .classes = "worldcover", .seed = 1991};
@@ -53,6 +54,7 @@ struct making {
     struct heights_counts counts;
     struct road_map roads;
     struct features features;
+    struct vector_map_gaps gaps;
     struct map_cover_plants plants;
     uint64_t guessed;
 };
@@ -69,15 +71,10 @@ static int take_center(const char *value, struct error_text *error)
     if (fabs(given.latitude_deg) > PROJECTION_LATITUDE_MAX_DEG)
         return error_text_set(error, "is too near the pole; allowed: latitudes up to %g degrees",
                               PROJECTION_LATITUDE_MAX_DEG);
+    /* One meridian has two names, and a place one hash. */
+    if (given.longitude_deg == -180.0)
+        given.longitude_deg = 180.0;
     given.placed = true;
-    return 0;
-}
-
-static int take_cover(const char *value, struct error_text *error)
-{
-    if (given.cover_count == COVERS_MAX)
-        return error_text_set(error, "is one too many; at most %d are allowed", COVERS_MAX);
-    given.covers[given.cover_count++] = value;
     return 0;
 }
 
@@ -87,6 +84,11 @@ static int take_map(char **maps, uint32_t *count, const char *value, struct erro
         return error_text_set(error, "is one too many; at most %d are allowed", COVERS_MAX);
     maps[(*count)++] = (char *)(uintptr_t)value;
     return 0;
+}
+
+static int take_cover(const char *value, struct error_text *error)
+{
+    return take_map(given.covers, &given.cover_count, value, error);
 }
 
 static int take_roads(const char *value, struct error_text *error)
@@ -266,11 +268,20 @@ static void tell_features(const struct making *m)
 {
     const struct buildings *b = &m->features.buildings;
     for (int i = 0; i < FEATURE_TROUBLES; i++) {
-        if (m->features.trouble[i].count > 0)
-            log_warn("%s: %u %s; the first at latitude %.5f, longitude %.5f",
-                     m->features.trouble[i].map, m->features.trouble[i].count,
-                     features_trouble_text((enum feature_trouble)i),
-                     m->features.trouble[i].latitude_deg, m->features.trouble[i].longitude_deg);
+        const struct feature_trouble_count *t = &m->features.trouble[i];
+        if (t->count > 0 && isfinite(t->latitude_deg))
+            log_warn("%s: %u %s; the first at latitude %.5f, longitude %.5f is number %lld", t->map,
+                     t->count, features_trouble_text((enum feature_trouble)i), t->latitude_deg,
+                     t->longitude_deg, t->feature);
+        else if (t->count > 0)
+            log_warn("%s: %u %s; the first is number %lld", t->map, t->count,
+                     features_trouble_text((enum feature_trouble)i), t->feature);
+    }
+    for (int i = 0; i < VECTOR_MAP_GAPS; i++) {
+        if (m->gaps.gap[i].count > 0)
+            log_warn("%s: %u %s; the first is number %lld", m->gaps.gap[i].map,
+                     m->gaps.gap[i].count, vector_map_gap_text((enum vector_map_gap)i),
+                     m->gaps.gap[i].id);
     }
     if (b->lost_m2 > 0.0)
         log_warn("%.3f of %.0f m2 of buildings are left out: parts narrower than %d mm", b->lost_m2,
@@ -293,15 +304,18 @@ static void fill(struct making *m)
     if (heights_fill(m->posts, &m->grid, m->rasters, m->count, m->pool, &m->counts, &error) != 0 ||
         cover_map_fill(m->cover, m->posts, &m->grid, m->covers, given.cover_count, m->table,
                        &m->guessed, &error) != 0 ||
-        road_map_read(&m->roads, given.roads, given.road_count, &m->grid, &error) != 0 ||
-        features_read(&m->features, given.features, given.feature_count, &m->grid, &error) != 0) {
+        road_map_read(&m->roads, given.roads, given.road_count, &m->grid, &m->gaps, &error) != 0 ||
+        features_read(&m->features, given.features, given.feature_count, &m->grid, &m->gaps,
+                      &error) != 0) {
         progress_end();
         die_refused("%s", error.text);
     }
     shape(m);
     tell_features(m);
     if (m->roads.bad > 0)
-        log_warn("%u lines of one point, or with a place that is none, are no roads", m->roads.bad);
+        log_warn("%s: %u lines of one point, or with a place that is none, are no roads; the first "
+                 "is number %lld",
+                 m->roads.bad_map, m->roads.bad, m->roads.bad_feature);
     if (m->roads.left_out > 0)
         log_warn("a ground has room for %u points of roads: %u less important roads are left out, "
                  "%.1f of %.1f km",
@@ -347,11 +361,25 @@ static void finish(struct making *m)
     free(m->table);
 }
 
+/* Refuses a file to write that is one of the maps, before anything is computed. */
+static void check_out(char *const *inputs, uint32_t count)
+{
+    struct error_text error;
+    char *classes[] = {(char *)(uintptr_t)given.classes};
+    if (out_file_check(given.out, inputs, count, &error) != 0 ||
+        out_file_check(given.out, given.covers, given.cover_count, &error) != 0 ||
+        out_file_check(given.out, given.roads, given.road_count, &error) != 0 ||
+        out_file_check(given.out, given.features, given.feature_count, &error) != 0 ||
+        out_file_check(given.out, classes, 1, &error) != 0)
+        die_refused("%s", error.text);
+}
+
 int make_run(int argc, char **argv)
 {
     struct making m = {0};
     struct error_text error;
     int inputs = read_options(argc, argv);
+    check_out(argv + argc - inputs, (uint32_t)inputs);
     begin(&m);
     open_rasters(&m, argv + argc - inputs, (uint32_t)inputs);
     fill(&m);

@@ -4,6 +4,7 @@
 #include "ipc/process/log.h"
 #include "ipc/process/option_table.h"
 #include "supervisor/ground/canvas.h"
+#include "supervisor/ground/out_file.h"
 #include "supervisor/ground/picture_features.h"
 #include "world/maths/maths.h"
 #include "world/terrain/ground_file.h"
@@ -214,11 +215,14 @@ int picture_show(int argc, char **argv)
         .rows = rows,
         .plain = 2};
     struct ground ground;
+    struct error_text error;
     if (option_table_read(&table, argc, argv) != 2)
         die_usage("ground show: needs a ground file and the name of a picture, as in: jolon ground "
                   "show x.ground x.png");
     if (given.at && given.metres <= 0.0)
         die_usage("ground show: --at goes with --metres, as in: --at 25000,25000 --metres 2000");
+    if (out_file_check(argv[argc - 1], argv + argc - 2, 1, &error) != 0)
+        die_refused("%s", error.text);
     open_ground(&ground, argv[argc - 2]);
     GDALDatasetH picture = draw(&ground);
     picture_save(picture, "PNG", argv[argc - 1], NULL);

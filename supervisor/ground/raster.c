@@ -1,6 +1,8 @@
 /* Opens, checks and orders rasters. raster_sample.c reads and samples them. */
 #include "supervisor/ground/raster.h"
 
+#include "ipc/process/log.h"
+#include "supervisor/ground/open_reason.h"
 #include "supervisor/ground/raster_internal.h"
 #include "world/maths/maths.h"
 
@@ -35,7 +37,31 @@ static int refuse_file(const char *path, struct error_text *error)
                               "%s: has %lld bytes; a tile of heights has 2884802 (1,201 x 1,201), "
                               "12967202 or 25934402 (3,601 x 3,601), and a name like N44W072.hgt",
                               path, (long long)status.st_size);
-    return error_text_set(error, "%s: GDAL cannot read it as a raster: %s", path, last_error());
+    return error_text_set(error, "%s: GDAL cannot read it as a raster: %s", path,
+                          open_reason(path));
+}
+
+/* Refuses a raw raster that is shorter than its header says, of which GDAL's driver ENVI takes the
+ * end as zeros. Packed ones begin as gzip does. */
+static int check_length(const struct raster *r, struct error_text *error)
+{
+    struct stat status;
+    unsigned char begin[2] = {0};
+    GDALDataType type = GDALGetRasterDataType(r->band);
+    long long least = (long long)r->columns * r->rows * GDALGetDataTypeSizeBytes(type);
+    if (strcmp(GDALGetDriverShortName(GDALGetDatasetDriver(r->dataset)), "ENVI") != 0 ||
+        stat(r->path, &status) != 0 || (long long)status.st_size >= least)
+        return 0;
+    FILE *file = fopen(r->path, "re");
+    bool packed = file && fread(begin, 1, sizeof begin, file) == sizeof begin && begin[0] == 0x1f &&
+                  begin[1] == 0x8b;
+    if (file)
+        fclose(file);
+    return packed ? 0
+                  : error_text_set(error,
+                                   "%s: has %lld bytes; its %d x %d pixels take %lld at least: it "
+                                   "is cut off, or its header is wrong",
+                                   r->path, (long long)status.st_size, r->columns, r->rows, least);
 }
 
 static int check_band(struct raster *r, enum raster_use use, struct error_text *error)
@@ -55,7 +81,7 @@ static int check_band(struct raster *r, enum raster_use use, struct error_text *
                               r->columns, r->rows);
     if (GDALDataTypeIsComplex(GDALGetRasterDataType(r->band)))
         return error_text_set(error, "%s: has complex numbers", r->path);
-    return 0;
+    return check_length(r, error);
 }
 
 /* Sets how heights become metres. */
@@ -101,6 +127,10 @@ static int find_place(struct raster *r, struct error_text *error)
     } else {
         OSRImportFromEPSG(earth, 4326);
         own = OSRClone(given);
+        if (OSRIsGeographic(given) && OSRGetAxesCount(given) == 3)
+            log_warn("%s: says that its heights are above the ellipsoid, which lies up to 106 m "
+                     "from the sea level; they are taken as heights above the sea level",
+                     r->path);
         OSRStripVertical(own);
         OSRSetAxisMappingStrategy(earth, OAMS_TRADITIONAL_GIS_ORDER);
         OSRSetAxisMappingStrategy(own, OAMS_TRADITIONAL_GIS_ORDER);

@@ -37,7 +37,7 @@ struct reading {
     struct line *lines;
     uint32_t used, room;
     struct vector_map_track track; /* of the line that is read */
-    uint32_t bad;
+    struct road_map *map;
     bool no_memory;
 };
 
@@ -161,17 +161,20 @@ static void add_cut(struct reading *r, uint32_t rank)
 }
 
 static void add_geometry(struct reading *r, struct vector_map *map, OGRGeometryH geometry,
-                         uint32_t rank)
+                         uint32_t rank, long long number)
 {
     OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(geometry));
     if (type == wkbLineString) {
         bool good = vector_map_track(map, geometry, &r->track) && r->track.count > 1;
-        r->bad += !good;
         if (good)
             add_cut(r, rank);
+        else if (r->map->bad++ == 0) {
+            r->map->bad_map = map->path;
+            r->map->bad_feature = number;
+        }
     } else if (type == wkbMultiLineString) {
         for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
-            add_geometry(r, map, OGR_G_GetGeometryRef(geometry, i), rank);
+            add_geometry(r, map, OGR_G_GetGeometryRef(geometry, i), rank, number);
     }
 }
 
@@ -194,7 +197,7 @@ static void take_feature(void *context, struct vector_map *map, OGRFeatureH feat
 {
     uint32_t rank = rank_of(feature);
     if (rank < WORDS)
-        add_geometry(context, map, geometry, rank);
+        add_geometry(context, map, geometry, rank, vector_map_number(feature));
 }
 
 /* The order does not depend on that of the maps or of their lines. */
@@ -238,17 +241,18 @@ static int keep(struct road_map *map, struct reading *r, struct error_text *erro
 }
 
 int road_map_read(struct road_map *map, char *const *paths, uint32_t count,
-                  const struct post_grid *grid, struct error_text *error)
+                  const struct post_grid *grid, struct vector_map_gaps *gaps,
+                  struct error_text *error)
 {
-    struct reading r = {.grid = grid};
+    struct reading r = {.grid = grid, .map = map};
     int result = 0;
     memset(map, 0, sizeof *map);
     for (uint32_t i = 0; i < count && result == 0; i++)
-        result = vector_map_read(paths[i], grid, VECTOR_MAP_LINES,
-                                 "lines, of which roads could be made", take_feature, &r, error);
+        result =
+            vector_map_read(paths[i], grid, VECTOR_MAP_LINES, "lines, of which roads could be made",
+                            take_feature, &r, gaps, error);
     if (result == 0)
         result = keep(map, &r, error);
-    map->bad = r.bad;
     for (uint32_t i = 0; i < r.used; i++)
         free(r.lines[i].points);
     free(r.lines);

@@ -6,13 +6,17 @@
 #include "supervisor/ground/raster.h"
 #include "world/terrain/ground_format.h"
 
+struct vector_map_gaps;
+
 struct road_map {
     struct ground_road_point *points; /* road after road, the more important first */
     uint32_t count;
     uint32_t roads;
-    uint32_t left_out;    /* roads for which there was no room */
-    uint32_t bad;         /* lines of one point, or with places that are none */
-    double kept_m, all_m; /* lengths, with and without those left out */
+    uint32_t left_out;     /* roads for which there was no room */
+    uint32_t bad;          /* lines of one point, or with places that are none: */
+    const char *bad_map;   /* the map of the first, */
+    long long bad_feature; /* and its number there */
+    double kept_m, all_m;  /* lengths, with and without those left out */
 };
 
 /* Reads the roads within the square from the maps at paths, in any order. In a map with a field
@@ -21,7 +25,8 @@ struct road_map {
  * most GROUND_ROAD_POINTS_MAX points are kept: of the most important roads, and of those the
  * longest. 0, or -1 with the reason. */
 int road_map_read(struct road_map *map, char *const *paths, uint32_t count,
-                  const struct post_grid *grid, struct error_text *error);
+                  const struct post_grid *grid, struct vector_map_gaps *gaps,
+                  struct error_text *error);
 void road_map_free(struct road_map *map);
 
 /* Makes the cover of posts near a road that of a road, where posts are dense enough to show one. */

@@ -1,6 +1,9 @@
 /* Reads features of maps layer by layer. */
 #include "supervisor/ground/vector_map.h"
 
+#include "supervisor/ground/open_reason.h"
+
+#include <cpl_conv.h>
 #include <cpl_error.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
@@ -77,28 +80,98 @@ static int read_layer(struct vector_map *map, OGRLayerH layer, vector_map_featur
     return map->no_memory ? error_text_memory(error) : 0;
 }
 
+static const char *const gap_texts[VECTOR_MAP_GAPS] = {
+    [VECTOR_MAP_GAP_NODES] = "ways have nodes that the map lacks, and are made of the others",
+    [VECTOR_MAP_GAP_WAY] = "ways have fewer than two nodes in the map, and are left out",
+    [VECTOR_MAP_GAP_RELATION] = "areas have ways that the map lacks, and are left out"};
+
+const char *vector_map_gap_text(enum vector_map_gap gap)
+{
+    return gap_texts[gap];
+}
+
+static void add_gap(struct vector_map_gaps *gaps, enum vector_map_gap gap, const char *map,
+                    long long id)
+{
+    if (gaps->gap[gap].count++ > 0)
+        return;
+    gaps->gap[gap].map = map;
+    gaps->gap[gap].id = id;
+}
+
+/* What is read, for the handler of GDAL's messages. */
+struct gap_reading {
+    struct vector_map_gaps *gaps;
+    const char *path;
+    enum vector_map_shapes shape;
+};
+
+/* Takes what GDAL's driver tells of missing parts, which it does in words alone. */
+static void CPL_STDCALL take_message(CPLErr class, CPLErrorNum number, const char *text)
+{
+    const struct gap_reading *reading = CPLGetErrorHandlerUserData();
+    long long id;
+    int end = 0;
+    (void)number;
+    if (class != CE_Debug)
+        return;
+    if (reading->shape == VECTOR_MAP_LINES) {
+        if (sscanf(text, "OSM: For way %lld, got only %n", &id, &end) == 1 && end > 0)
+            add_gap(reading->gaps, VECTOR_MAP_GAP_NODES, reading->path, id);
+        else if (sscanf(text, "OSM: Way %lld with %*d nodes%n", &id, &end) == 1 && end > 0)
+            add_gap(reading->gaps, VECTOR_MAP_GAP_WAY, reading->path, id);
+    } else if (reading->shape == VECTOR_MAP_AREAS &&
+               sscanf(text, "OSM: Relation %lld has missing ways%n", &id, &end) == 1 && end > 0) {
+        add_gap(reading->gaps, VECTOR_MAP_GAP_RELATION, reading->path, id);
+    }
+}
+
+/* Returns true if the map was not in the list, in which it is then. */
+static bool is_first_reading(const char *list[VECTOR_MAP_READS_MAX], const char *path)
+{
+    uint32_t i = 0;
+    while (i < VECTOR_MAP_READS_MAX && list[i] && strcmp(list[i], path) != 0)
+        i++;
+    if (i == VECTOR_MAP_READS_MAX || list[i])
+        return false;
+    list[i] = path;
+    return true;
+}
+
 static GDALDatasetH open_map(const char *path, struct error_text *error)
 {
     CPLErrorReset();
     GDALDatasetH data = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
     if (!data)
         error_text_set(error, "%s: GDAL cannot read it as a map of points, lines and areas: %s",
-                       path, CPLGetLastErrorMsg());
+                       path, open_reason(path));
     return data;
 }
 
 /* Reads one of OpenStreetMap's layers, for which the file is read as a whole. */
 static int read_osm(struct vector_map *map, uint32_t which, vector_map_feature *feature,
-                    void *context, struct error_text *error)
+                    void *context, struct vector_map_gaps *gaps, struct error_text *error)
 {
     char words[64];
+    struct gap_reading reading = {gaps, map->path, osm_layers[which].shape};
+    bool listens =
+        (reading.shape == VECTOR_MAP_LINES && is_first_reading(gaps->lines_read, map->path)) ||
+        (reading.shape == VECTOR_MAP_AREAS && is_first_reading(gaps->areas_read, map->path));
     GDALDatasetH data = open_map(map->path, error);
     if (!data)
         return -1;
     snprintf(words, sizeof words, "SET interest_layers = %s", osm_layers[which].name);
     GDALDatasetReleaseResultSet(data, GDALDatasetExecuteSQL(data, words, NULL, NULL));
     OGRLayerH layer = GDALDatasetGetLayerByName(data, osm_layers[which].name);
+    if (listens) {
+        CPLSetConfigOption("CPL_DEBUG", "OSM");
+        CPLPushErrorHandlerEx(take_message, &reading);
+    }
     int result = layer ? read_layer(map, layer, feature, context, error) : 0;
+    if (listens) {
+        CPLPopErrorHandler();
+        CPLSetConfigOption("CPL_DEBUG", NULL);
+    }
     if (result == 0 && CPLGetLastErrorType() >= CE_Failure)
         result = error_text_set(error, "%s: cannot be read: %s", map->path, CPLGetLastErrorMsg());
     GDALClose(data);
@@ -123,7 +196,7 @@ static int read_layers(struct vector_map *map, GDALDatasetH data, unsigned shape
 
 int vector_map_read(const char *path, const struct post_grid *grid, unsigned shapes,
                     const char *what, vector_map_feature *feature, void *context,
-                    struct error_text *error)
+                    struct vector_map_gaps *gaps, struct error_text *error)
 {
     struct vector_map map = {.path = path, .grid = grid};
     uint32_t read = 0;
@@ -138,7 +211,7 @@ int vector_map_read(const char *path, const struct post_grid *grid, unsigned sha
     for (uint32_t i = 0; osm && i < OSM_LAYERS && result == 0; i++) {
         read++;
         if (osm_layers[i].shape & shapes)
-            result = read_osm(&map, i, feature, context, error);
+            result = read_osm(&map, i, feature, context, gaps, error);
     }
     if (result == 0 && read == 0)
         result = error_text_set(error, "%s: has no %s", path, what);
@@ -197,6 +270,17 @@ static const char *find_in_list(const char *list, const char *key, char *buffer,
         return buffer;
     }
     return "";
+}
+
+long long vector_map_number(OGRFeatureH feature)
+{
+    static const char *const keys[] = {"osm_id", "osm_way_id"};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+        int field = OGR_F_GetFieldIndex(feature, keys[i]);
+        if (field >= 0 && OGR_F_IsFieldSetAndNotNull(feature, field))
+            return OGR_F_GetFieldAsInteger64(feature, field);
+    }
+    return OGR_F_GetFID(feature);
 }
 
 const char *vector_map_tag(OGRFeatureH feature, const char *key, char *buffer, uint32_t bytes)

@@ -16,6 +16,29 @@ struct vector_map_track {
     uint32_t count, room;
 };
 
+/* What an extract of OpenStreetMap names and does not hold. */
+enum vector_map_gap {
+    VECTOR_MAP_GAP_NODES,    /* a line has the nodes that are there */
+    VECTOR_MAP_GAP_WAY,      /* fewer than two nodes are there: the way is left out */
+    VECTOR_MAP_GAP_RELATION, /* a way is missing, or makes no outline: the area is left out */
+    VECTOR_MAP_GAPS
+};
+
+#define VECTOR_MAP_READS_MAX 256u
+
+/* Gaps of all maps that were read; a map that is read for two purposes counts once. */
+struct vector_map_gaps {
+    struct {
+        uint32_t count;
+        const char *map; /* the first, */
+        long long id;    /* and OpenStreetMap's number of its way or relation */
+    } gap[VECTOR_MAP_GAPS];
+    const char *lines_read[VECTOR_MAP_READS_MAX], *areas_read[VECTOR_MAP_READS_MAX];
+};
+
+/* Returns what is said of gaps: "ways ...". */
+const char *vector_map_gap_text(enum vector_map_gap gap);
+
 struct vector_map {
     const char *path;
     const struct post_grid *grid;
@@ -31,16 +54,19 @@ enum vector_map_shapes { VECTOR_MAP_POINTS = 1, VECTOR_MAP_LINES = 2, VECTOR_MAP
 
 /* Reads the layers of a map that may have these shapes, a bit each. what: "lines, of which roads
  * could be made", for the refusal of a map without them. 0, or -1 with the reason: no map that GDAL
- * reads, no known projection, no such layer, no memory. */
+ * reads, no known projection, no such layer, no memory. Adds what is missing to the gaps. */
 int vector_map_read(const char *path, const struct post_grid *grid, unsigned shapes,
                     const char *what, vector_map_feature *feature, void *context,
-                    struct error_text *error);
+                    struct vector_map_gaps *gaps, struct error_text *error);
 
 /* Reads the places of a point, a line or a ring into the track. Returns false if one of them is no
  * place on the earth, or without memory, which *map notes. */
 bool vector_map_track(struct vector_map *map, OGRGeometryH geometry,
                       struct vector_map_track *track);
 void vector_map_track_free(struct vector_map_track *track);
+
+/* Returns the number that OpenStreetMap gives to a feature, or, in other maps, its own. */
+long long vector_map_number(OGRFeatureH feature);
 
 /* Returns a feature's value for a key of OpenStreetMap, from a field of this name or from the list
  * "other_tags" of GDAL's driver; "" without one. A value of the list is cut to the size of buffer.

@@ -94,7 +94,10 @@ def broken_osm(there):
             file.write(f'<node id="{i + 1}" lat="{lat:.9f}" lon="{lon:.9f}" version="1"/>\n')
         for i, refs in enumerate(([1, 2, 3, 4, 1], [5, 6, 999, 7, 8, 5], [997, 998, 999, 997])):
             file.write(f'<way id="{i + 1}" version="1">' + "".join(f'<nd ref="{r}"/>' for r in refs) + '<tag k="building" v="yes"/></way>\n')
-        file.write("</osm>\n")
+        for i, refs in ((12, [1, 2, 3, 996, 5]), (13, [1]), (14, [995, 994])):  # a node is missing, one node, none
+            file.write(f'<way id="{i}" version="1">' + "".join(f'<nd ref="{r}"/>' for r in refs) + '<tag k="highway" v="track"/></way>\n')
+        file.write('<relation id="15" version="1"><member type="way" ref="1" role="outer"/><member type="way" ref="77" role="outer"/>')
+        file.write('<tag k="type" v="multipolygon"/><tag k="natural" v="water"/></relation>\n</osm>\n')
 
 
 def maps(*place):

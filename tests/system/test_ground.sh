@@ -66,7 +66,35 @@ if command -v gdal_create >/dev/null; then
     refuses_map "a map of one pixel" 'one.tif: has 1 x 1 pixels' one.tif
     echo text >words.txt
     refuses_map "a text" 'words.txt: GDAL cannot read it' words.txt
-    refuses_map "no file" 'missing.tif: GDAL cannot read it' missing.tif
+    refuses_map "no file" 'missing.tif: GDAL cannot read it as a raster: No such file or directory' missing.tif
+    refuses_map "a folder" '\.: GDAL cannot read it as a raster: it is a folder' .
+    : >empty.tif
+    refuses_map "an empty file" 'empty.tif: GDAL cannot read it as a raster: it is empty' empty.tif
+    refuses_map "no map of roads" 'missing.osm: GDAL cannot read it as a map of points, lines and areas: No such file' --roads missing.osm level.tif
+    gdal_translate -q -of ENVI level.tif raw.bil && head -c 2000000 raw.bil >part.bil && mv part.bil raw.bil
+    refuses_map "a raw map that is shorter than its header says" 'raw.bil: has 2000000 bytes; its 1000 x 1000 pixels take 4000000 at least' raw.bil
+    gdal_translate -q -a_srs EPSG:4979 level.tif ellipsoid.tif
+    check "heights above the ellipsoid are told" eval 'make ellipsoid.tif 2>err && grep -q "ellipsoid.tif: says that its heights are above the ellipsoid" err'
+
+    # What is made replaces ground files alone: no map that is read, no pipe, no folder.
+    for file in level.tif ./level.tif; do
+        out=$file refuses "a ground over its map" 1 'level.tif: is read, and what is made would replace it' make level.tif
+    done
+    ln level.tif link.ground
+    out=link.ground refuses "a ground over another name of its map" 1 'link.ground: is read' make level.tif
+    cp level.tif cover.tif
+    out=cover.tif refuses "a ground over its cover" 1 'cover.tif: is read' make --cover cover.tif level.tif
+    check "the maps are left" cmp level.tif cover.tif
+    rm link.ground cover.tif
+    mkfifo pipe && out=pipe refuses "a ground over a pipe" 1 'pipe: is a pipe or a device, not a file' make level.tif
+    make level.tif 2>/dev/null && cp x.ground kept
+    for verb in show export; do
+        refuses "$verb over its ground" 1 'x.ground: is read' "$ground" $verb x.ground x.ground
+        refuses "$verb over a pipe" 1 'pipe: is a pipe' "$ground" $verb x.ground pipe
+    done
+    check "the ground and the pipe are left" eval 'cmp x.ground kept && [ -p pipe ]'
+    rm -f kept pipe
+    check "info tells the side of a world on it" eval '"$ground" info x.ground | grep -q "^side  *1 km, in the middle of a world of 50 km$" && [ "$("$ground" info --json x.ground | json world_side_m)" = 50000 ]'
     head -c 30000 level.tif >cut.tif
     refuses_map "a map that is cut off" 'cut.tif: ' cut.tif
 
@@ -79,6 +107,7 @@ if command -v gdal_create >/dev/null; then
     map east.tif -180 1 -179.5 -1 -ot Int16 -burn 40
     center=0,179.9999
     check "a square across the date line" eval 'side=20000 make west.tif east.tif 2>err && "$ground" info --json x.ground | json highest_m | grep -qx -- 40'
+    check "the date line has one hash from both sides" eval 'for center in 0,180 0,-180; do side=20000 make west.tif east.tif >/dev/null 2>&1 && hash_of x.ground; done | uniq -c | grep -q "^ *2 "'
     check "both maps count there" eval '! grep -q "no post" err && [ "$("$ground" info x.ground | grep -c ^heights:)" = 2 ]'
 
     # Classes of cover.
@@ -89,7 +118,13 @@ if command -v gdal_create >/dev/null; then
     refuses_map "a class that the table does not know" 'strange.tif: has class 77 at latitude 10\.5.*--classes' --cover strange.tif level.tif
     echo '77 forest # of my own' >own.txt
     check "a table of one's own" eval 'make --cover strange.tif --classes ./own.txt level.tif && "$ground" check x.ground | grep -q "forest 100.0 %"'
-    echo '77 wood' >own.txt
+    map codes.tif 20 11 21 10 -ot Int16 -burn 312
+    check "CORINE's classes have codes, too" eval 'make --cover codes.tif --classes corine level.tif && "$ground" check x.ground | grep -q "forest 100.0 %"'
+    map half.tif 20 11 20.5 10 -ot Byte -burn 10
+    refuses_map "an unknown class in the second map" 'strange.tif: has class 77 at' --cover half.tif --cover strange.tif level.tif
+    echo '77 wood' >own
+    refuses_map "a table of this folder with a wrong word" 'ground: own:1: wood: no such cover' --cover strange.tif --classes own level.tif
+    mv own own.txt
     refuses_map "a table with a wrong word" 'own.txt:1: wood: no such cover; allowed: grass' --cover strange.tif --classes ./own.txt level.tif
     refuses_map "no table" 'nolist: no such table' --cover strange.tif --classes nolist level.tif
     rm -f ./*.ground

@@ -49,6 +49,10 @@ for words in '1 outlines cross themselves, and were mended; the first at latitud
 done
 check "what is good in a broken map is kept" eval '[ "$(info broken.ground buildings)" = 6 ]'
 check "OpenStreetMap with missing nodes" eval 'out=osm.ground make --features broken.osm 2>err && [ "$(info osm.ground buildings)" = 2 ]'
+check "told: nodes, ways and a road of one point that the map lacks" eval 'grep -q "broken.osm: 1 ways have nodes that the map lacks, and are made of the others; the first is number 12$" err &&
+    grep -q "broken.osm: 2 ways have fewer than two nodes in the map, and are left out; the first is number 13$" err &&
+    grep -q "broken.osm: 1 areas have ways that the map lacks, and are left out; the first is number 15$" err'
+check "a map that is read for two purposes has its gaps once" eval 'out=osm.ground make --features broken.osm --roads broken.osm 2>err && grep -q "broken.osm: 2 ways have fewer than two nodes" err'
 out=none.ground refuses "features from a text" 1 'level.prj: GDAL cannot read it as a map' make --features level.prj
 out=none.ground refuses "no such map" 1 'missing.osm: GDAL cannot read it' make --features missing.osm
 cp x.ground damaged.ground

@@ -148,6 +148,26 @@ static void test_random_outlines_are_split_exactly(void **state)
     }
 }
 
+/* As many corners as an outline of OpenStreetMap has at most, and twice as many in a relation. */
+static void test_large_outlines_are_split(void **state)
+{
+    static int32_t corner[CONVEX_PARTS_CORNERS_MAX][2], before[CONVEX_PARTS_CORNERS_MAX][2];
+    const uint32_t counts[] = {500, 2000, CONVEX_PARTS_CORNERS_MAX - 2};
+    (void)state;
+    for (uint32_t n = 0; n < sizeof counts / sizeof counts[0]; n++) {
+        for (uint32_t i = 0; i < counts[n]; i++) {
+            double sine, cosine, ray = i % 2 ? 200000.0 : 100000.0;
+            maths_sincos(TWO_PI * i / counts[n], &sine, &cosine);
+            corner[i][0] = 1000000 + (int32_t)(ray * sine);
+            corner[i][1] = 2000000 - (int32_t)(ray * cosine);
+        }
+        memcpy(before, corner, sizeof before);
+        const struct convex_parts_ring whole = {before, counts[n]};
+        assert_int_equal(split(corner, counts[n]), CONVEX_PARTS_GOOD);
+        parts_are_convex(llabs(twice_area(&whole)));
+    }
+}
+
 static void test_the_smallest_rectangle_is_found(void **state)
 {
     int32_t house[4][2];
@@ -184,6 +204,7 @@ int main(void)
         cmocka_unit_test(test_courtyards_stay_open),
         cmocka_unit_test(test_outlines_that_cross_themselves_are_told),
         cmocka_unit_test(test_random_outlines_are_split_exactly),
+        cmocka_unit_test(test_large_outlines_are_split),
         cmocka_unit_test(test_the_smallest_rectangle_is_found),
     };
     return cmocka_run_group_tests(tests, NULL, forget);
