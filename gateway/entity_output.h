@@ -20,17 +20,18 @@
 #define ENTITY_OUTPUT_ANGLE_RAD   (3.0 * RAD_PER_DEG)
 #define ENTITY_OUTPUT_HEARTBEAT_S 5.0
 
-/* The least time from one Entity State of an entity to the next, unless it comes or goes [s]: for a
- * place that is off, and for an attitude or a turret. Helicopters that manoeuvre roll through three
- * degrees in less than a tenth of a second, and are half of all PDUs. */
-#define ENTITY_OUTPUT_LEAST_S 0.1
-#define ENTITY_OUTPUT_TURNS_S 0.2
-
 /* A receiver that has lost the last Entity State still extrapolates the one before. When that is
  * further off than the threshold and what the entity moves in this time, the next one goes out [s].
  * Without it 1.4 % of the places of moving vehicles are too far off behind a network that loses
- * 5 %. Shorter times need more PDUs: 0.1 s 9 %, 0.15 s 7 %, 0.2 s 6 %, 0.3 s 4 %. */
-#define ENTITY_OUTPUT_LOST_S 0.15
+ * 5 %. Shorter times need more PDUs: 0.1 s 9 %, 0.15 s 7 %, 0.2 s 6 %, 0.3 s 4 %. Not sooner after
+ * the last one than this, because a network loses several in a row. */
+#define ENTITY_OUTPUT_LOST_S  0.15
+#define ENTITY_OUTPUT_AGAIN_S 0.1
+
+/* Rows that are followed from frame to frame between two passes: those that turn faster, or that
+ * receivers have further off, than this, because they pass a threshold before the next pass. */
+#define ENTITY_OUTPUT_FOLLOW_RPS   0.2
+#define ENTITY_OUTPUT_FOLLOW_SHARE 0.5 /* of the thresholds */
 
 /* What was sent last of a row, and how the row moves. */
 struct entity_sent {
@@ -54,6 +55,7 @@ struct entity_sent {
     uint64_t seen_tick;
     struct vec3 seen_velocity, seen_rates, acceleration, rates;
     struct mat3 seen_turn;
+    double seen_s;         /* the rates are those over so long */
     uint64_t earlier_tick; /* the frame that was seen before that one */
     struct vec3 earlier_velocity;
 };
@@ -69,6 +71,8 @@ struct entity_output {
     uint32_t capacity;
     uint64_t frame_ns;  /* the time of the snapshot's frame, by the clock */
     double offset_s;    /* of the clock over the frames' own time, smoothed (frame_time_ns()) */
+    uint32_t *followed; /* [capacity] rows between two passes */
+    uint32_t followed_count;
     uint32_t next_row;  /* where the next pass begins, so that a full rate is shared */
     uint32_t known;     /* rows with an id: 0 .. known - 1 */
     uint64_t refused;   /* entities whose id is beyond the range of applications */
@@ -88,6 +92,10 @@ bool entity_output_look(struct entity_output *entities, const struct view *view,
 
 /* Sends what is due by the snapshot. */
 void entity_output_send(struct entity_output *entities, const struct view *view, uint64_t now_ns);
+
+/* Between two passes: sends what is due by the last committed frame of the rows that the last pass
+ * has chosen, if there is a later frame. */
+void entity_output_follow(struct entity_output *entities, const struct view *view, uint64_t now_ns);
 
 /* Sends a last state with the bit "deactivated" for each entity that was sent. */
 void entity_output_deactivate(struct entity_output *entities, const struct view *view,

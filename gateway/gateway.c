@@ -302,6 +302,11 @@ void gateway_send(struct gateway *gateway)
     frame_protocol_stage_done(&gateway->view, gateway->events.frame, clock_now_ns() - begun_ns);
 }
 
+void gateway_follow(struct gateway *gateway)
+{
+    entity_output_follow(&gateway->entities, &gateway->view, clock_now_ns());
+}
+
 static void tell_received(const struct gateway *gateway)
 {
     const struct pdu_input *input = &gateway->input;

@@ -34,6 +34,9 @@ int gateway_open(struct gateway *gateway, const char *world, struct error_text *
 /* Sends what is due, as the role's work on the last frame. */
 void gateway_send(struct gateway *gateway);
 
+/* Between two of these: sends what has become due of the entities that turn fast. */
+void gateway_follow(struct gateway *gateway);
+
 /* Receives until due_ns (CLOCK_MONOTONIC), or until the process is to stop. */
 void gateway_receive(struct gateway *gateway, uint64_t due_ns);
 

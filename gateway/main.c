@@ -9,6 +9,7 @@
 #include "ipc/segment/segment_attach.h"
 
 #define PERIOD_NS (50 * (uint64_t)NS_PER_MS)
+#define LOOKS     3u /* in a period: at all entities once, then at those that turn */
 
 int main(int argc, char **argv)
 {
@@ -31,6 +32,10 @@ int main(int argc, char **argv)
     uint64_t due_ns = clock_now_ns();
     while (!process_stopping()) {
         gateway_send(&gateway);
+        for (uint64_t look = 1; look < LOOKS; look++) {
+            gateway_receive(&gateway, due_ns + look * PERIOD_NS / LOOKS);
+            gateway_follow(&gateway);
+        }
         due_ns += PERIOD_NS;
         if (due_ns <= clock_now_ns())
             due_ns = clock_now_ns() + PERIOD_NS;

@@ -108,6 +108,26 @@ int snapshot_take_poses(struct snapshot *snapshot, const struct view *view)
     return 0;
 }
 
+bool snapshot_take_rows(struct snapshot *snapshot, const struct view *view, const uint32_t *rows,
+                        uint32_t count)
+{
+    for (int i = 0; i < TRIES; i++) {
+        uint64_t frame = segment_load(&view->commit->commit);
+        const struct state *from = &view->w[frame & 1];
+        struct state_head head = *from->head;
+        if (frame == snapshot->head.frame)
+            return false;
+        for (uint32_t k = 0; k < count; k++)
+            entities_copy(&snapshot->entities, &from->entities, rows[k], 1);
+        if (still_whole(view, frame) && head.frame == frame) {
+            snapshot->head = head;
+            return true;
+        }
+        snapshot->overtaken++;
+    }
+    return false;
+}
+
 int snapshot_head(struct state_head *head, const struct view *view)
 {
     for (int i = 0; i < TRIES; i++) {

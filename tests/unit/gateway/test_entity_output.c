@@ -311,10 +311,59 @@ static void test_receivers_have_it_within_the_threshold(void **state)
     }
     print_message("a minute on patrol: %d PDUs, %.3f m and %.2f degrees at most\n", sent, worst_m,
                   worst_rad * DEG_PER_RAD);
-    /* Between two Entity States lie 0.1 s at least, and 0.2 s if only the attitude is off. */
+    /* A pass sees every third frame. */
     assert_true(worst_m < ENTITY_OUTPUT_POSITION_M + 0.5);
-    assert_true(worst_rad < ENTITY_OUTPUT_ANGLE_RAD + 10.0 * RAD_PER_DEG);
+    assert_true(worst_rad < ENTITY_OUTPUT_ANGLE_RAD + 2.0 * RAD_PER_DEG);
     assert_true(sent < 240);
+}
+
+/* Moves the row and turns it, and seals the frame, which the test makes the next. */
+static void next_frame(uint32_t row, double heading, double x)
+{
+    struct state committed = fixture_state(&world);
+    committed.entities.heading[row] = heading;
+    committed.entities.x[row] = x;
+    state_seal(&committed, world.view.world.counts.fixed);
+    fixture_run(&world, 1);
+    now_ns += FRAME_NS;
+}
+
+/* What turns is sent between two passes, too; what stands and has not been chosen is not. */
+static void test_what_turns_is_followed(void **state)
+{
+    (void)state;
+    put("helicopter", 20000.0, 25000.0, 0.0, FORCE_BLUE);
+    put("tank", 26000.0, 25000.0, 0.0, FORCE_BLUE);
+    run(30);
+    assert_int_equal(entities.followed_count, 0);
+    struct state committed = fixture_state(&world);
+    double heading = committed.entities.heading[0], x = committed.entities.x[0];
+    for (int i = 1; i <= 3; i++)
+        next_frame(0, heading + 0.02 * i, x); /* 1.2 rad/s: 3.4 degrees */
+    pass();
+    assert_int_equal(count, 1);
+    assert_int_equal(entities.followed_count, 1);
+    assert_int_equal(entities.followed[0], 0);
+    /* It turns as receivers extrapolate it: nothing. The other way by four degrees: at once. */
+    next_frame(0, heading + 0.08, x);
+    entity_output_follow(&entities, &world.view, now_ns);
+    receive();
+    assert_int_equal(count, 0);
+    next_frame(0, heading + 0.08 - 4.0 * RAD_PER_DEG, x);
+    committed = fixture_state(&world);
+    committed.entities.damage[1] = DAMAGE_MED;
+    state_seal(&committed, world.view.world.counts.fixed);
+    entity_output_follow(&entities, &world.view, now_ns);
+    receive();
+    assert_int_equal(count, 1);
+    assert_int_equal(received[0].entity_state.id.entity, 1);
+    /* Without a later frame, and in a pause, it says nothing. */
+    entity_output_follow(&entities, &world.view, now_ns);
+    receive();
+    assert_int_equal(count, 0);
+    pass();
+    assert_int_equal(count, 1);
+    assert_int_equal(received[0].entity_state.id.entity, 2);
 }
 
 static void test_a_missile_comes_and_goes(void **state)
@@ -544,14 +593,23 @@ static void test_an_id_beyond_the_range(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_a_vehicle_is_sent_once),      TEST(test_changes_of_what_stands),
-        TEST(test_parts_count_their_changes),   TEST(test_the_heartbeat),
-        TEST(test_a_constant_course),           TEST(test_receivers_have_it_within_the_threshold),
-        TEST(test_a_missile_comes_and_goes),    TEST(test_a_pause_freezes),
-        TEST(test_a_lost_state_is_made_good),   TEST(test_the_noise_of_the_clock),
-        TEST(test_a_world_that_falls_behind),   TEST(test_the_rate),
-        TEST(test_a_rate_that_never_suffices),  TEST(test_angular_velocities),
-        TEST(test_a_new_gateway_says_the_same), TEST(test_an_id_beyond_the_range),
+        TEST(test_a_vehicle_is_sent_once),
+        TEST(test_changes_of_what_stands),
+        TEST(test_parts_count_their_changes),
+        TEST(test_the_heartbeat),
+        TEST(test_a_constant_course),
+        TEST(test_receivers_have_it_within_the_threshold),
+        TEST(test_what_turns_is_followed),
+        TEST(test_a_missile_comes_and_goes),
+        TEST(test_a_pause_freezes),
+        TEST(test_a_lost_state_is_made_good),
+        TEST(test_the_noise_of_the_clock),
+        TEST(test_a_world_that_falls_behind),
+        TEST(test_the_rate),
+        TEST(test_a_rate_that_never_suffices),
+        TEST(test_angular_velocities),
+        TEST(test_a_new_gateway_says_the_same),
+        TEST(test_an_id_beyond_the_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -100,6 +100,30 @@ static void test_snapshot_is_the_committed_frame(void **state)
     fixture_close(&f);
 }
 
+/* Some rows of a copy go on to the last committed frame, and the others stay as they were. */
+static void test_rows_of_a_snapshot_go_on(void **state)
+{
+    struct snapshot snapshot;
+    static const uint32_t rows[] = {4, 1};
+    (void)state;
+    make_frame(6, 0);
+    assert_int_equal(snapshot_init(&snapshot, &view), 0);
+    assert_int_equal(snapshot_take(&snapshot, &view), 0);
+    assert_false(snapshot_take_rows(&snapshot, &view, rows, 2)); /* there is no later frame */
+    make_frame(6, 0);
+    bare_view_begin(&collider)->entities.x[4] = -1.0; /* a frame that is being made */
+    assert_true(snapshot_take_rows(&snapshot, &view, rows, 2));
+    assert_int_equal(snapshot.head.frame, 2);
+    for (uint32_t row = 0; row < 6; row++)
+        assert_true(snapshot.entities.x[row] == (row == 4 || row == 1 ? 2.0 : 1.0) + row);
+    assert_false(snapshot_take_rows(&snapshot, &view, rows, 2));
+    atomic_store(&view.commit->writing, 4); /* the buffer of frame 2 is being written */
+    snapshot.head.frame = 1;
+    assert_false(snapshot_take_rows(&snapshot, &view, rows, 2));
+    assert_int_equal(snapshot.head.frame, 1);
+    snapshot_free(&snapshot);
+}
+
 static void test_snapshot_has_the_contacts(void **state)
 {
     struct snapshot snapshot;
@@ -397,6 +421,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_rows_after_those_in_use_have_no_id),
         cmocka_unit_test(test_snapshot_is_the_committed_frame),
+        TEST(test_rows_of_a_snapshot_go_on),
         TEST(test_snapshot_has_the_contacts),
         TEST(test_frame_being_made_does_not_hinder_a_snapshot),
         TEST(test_constant_writing_is_eagain),
