@@ -35,6 +35,13 @@ static void on_stop(int signal_number, siginfo_t *info, void *context)
 static char removed[REMOVED_MAX][REMOVED_PATH];
 static volatile sig_atomic_t removed_count;
 
+/* Another mapped file, and what on_bus_error() says of it. */
+static struct {
+    const char *from;
+    size_t bytes;
+    char text[REMOVED_PATH + 128];
+} told;
+
 /* Ends the process when it touches a page that the object no longer has, because another process
  * made the object shorter. Any other bus error is a crash: the handler returns, the instruction
  * runs again without a handler, and the kernel ends the process. Runs within a role's sandbox, and
@@ -47,7 +54,10 @@ static void on_bus_error(int signal_number, siginfo_t *info, void *context)
         return;
     for (int i = 0; i < removed_count; i++)
         unlink(removed[i]);
-    die_at_once("the world's memory went away: its object in /dev/shm was made shorter");
+    const char *at = info->si_addr;
+    die_at_once(told.from && at >= told.from && at < told.from + told.bytes
+                    ? told.text
+                    : "the world's memory went away: its object in /dev/shm was made shorter");
 }
 
 void process_guard_removes(const char *path)
@@ -55,6 +65,14 @@ void process_guard_removes(const char *path)
     CHECK(removed_count < REMOVED_MAX && strlen(path) < REMOVED_PATH);
     snprintf(removed[removed_count], REMOVED_PATH, "%s", path);
     removed_count++;
+}
+
+void process_guard_tells(const void *from, size_t bytes, const char *text)
+{
+    told.from = NULL;
+    snprintf(told.text, sizeof told.text, "%s", text);
+    told.bytes = bytes;
+    told.from = from;
 }
 
 static void check_stack(void)

@@ -27,9 +27,13 @@ void process_signals(void);
  *
  * process_guard_removes() names a file, at most 5, that is removed when the object was made
  * shorter. The process that owns the world names the world's files, because it cannot clean up
- * otherwise. */
+ * otherwise.
+ *
+ * process_guard_tells() names what is said instead when a page in bytes from `from` is missing,
+ * where another file is mapped; the last call counts, and NULL ends it. Main thread. */
 void process_guard(void);
 void process_guard_removes(const char *path);
+void process_guard_tells(const void *from, size_t bytes, const char *text);
 
 /* For a process that makes a world, before the world gets its name. Blocks SIGTERM, SIGINT and
  * SIGHUP until the process ends. The user who stopped the process then finds a whole world, or

@@ -3,6 +3,7 @@
 
 #include "ipc/process/clock.h"
 #include "ipc/process/crash_point.h"
+#include "ipc/process/process.h"
 #include "ipc/segment/segment_check.h"
 #include "ipc/segment/segment_internal.h"
 #include "world/making/scenario.h"
@@ -102,6 +103,17 @@ void segment_bind(struct view *view)
         view->slot[i] = segment_part(view, REGION_SLOTS + i);
 }
 
+/* Has the posts file named if it is made shorter while a world runs on it. */
+static void guard_posts(const struct posts_file *posts, const char *ground)
+{
+    struct error_text text;
+    error_text_set(&text,
+                   "%s%s: was made shorter while a world runs on it; jolon world create on %s "
+                   "makes it again",
+                   ground, POSTS_FILE_SUFFIX, ground);
+    process_guard_tells(posts->mapped, posts->bytes, text.text);
+}
+
 /* The recipe has "HASH PATH" of the ground file. */
 int segment_map_posts(struct view *view, struct error_text *error)
 {
@@ -118,6 +130,7 @@ int segment_map_posts(struct view *view, struct error_text *error)
     of.path = path + 1;
     if (posts_file_open(&view->posts_file, &of, error) != 0)
         return -1;
+    guard_posts(&view->posts_file, of.path);
     view->world.terrain.posts = view->posts_file.posts;
     view->world.terrain.cover = view->posts_file.cover;
     return 0;

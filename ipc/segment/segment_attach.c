@@ -4,6 +4,7 @@
 #include "ipc/process/clock.h"
 #include "ipc/process/crash_point.h"
 #include "ipc/process/process.h"
+#include "ipc/process/process.h"
 #include "ipc/segment/segment_internal.h"
 #include "ipc/segment/segment_locks.h"
 #include "world/runtime/prefault.h"
@@ -251,6 +252,7 @@ void segment_detach(struct view *view)
         atomic_store(&view->slot[view->role]->pid, 0);
     }
     munmap(view->base, view->layout.total);
+    process_guard_tells(NULL, 0, "");
     posts_file_close(&view->posts_file);
     view->base = NULL;
     if (view->lock_fd >= 0) {

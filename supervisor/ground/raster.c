@@ -2,7 +2,6 @@
 #include "supervisor/ground/raster.h"
 
 #include "ipc/process/log.h"
-#include "supervisor/ground/open_reason.h"
 #include "supervisor/ground/raster_internal.h"
 #include "world/maths/maths.h"
 
@@ -27,6 +26,20 @@ static const char *last_error(void)
     return text[0] != '\0' ? text : "GDAL gives no reason";
 }
 
+/* GDAL is silent about files that no driver takes. */
+const char *raster_open_reason(const char *path)
+{
+    const char *text = CPLGetLastErrorMsg();
+    struct stat status;
+    if (text[0] != '\0')
+        return text;
+    if (stat(path, &status) != 0)
+        return strerror(errno);
+    if (S_ISDIR(status.st_mode))
+        return "it is a folder";
+    return status.st_size == 0 ? "it is empty" : "it has no format that GDAL knows";
+}
+
 /* Says why a file is no raster. GDAL is silent about a tile of SRTM that is cut off. */
 static int refuse_file(const char *path, struct error_text *error)
 {
@@ -38,7 +51,7 @@ static int refuse_file(const char *path, struct error_text *error)
                               "12967202 or 25934402 (3,601 x 3,601), and a name like N44W072.hgt",
                               path, (long long)status.st_size);
     return error_text_set(error, "%s: GDAL cannot read it as a raster: %s", path,
-                          open_reason(path));
+                          raster_open_reason(path));
 }
 
 /* Refuses a raw raster that is shorter than its header says, of which GDAL's driver ENVI takes the

@@ -60,4 +60,8 @@ double raster_height(const struct raster *raster, uint32_t column, uint32_t row)
 /* Returns the class of the pixel in which a post lies, -1 if it is void. */
 int raster_class(const struct raster *raster, uint32_t column, uint32_t row);
 
+/* Returns why GDAL could not open a map of any kind: its last message, or, where it is silent, that
+ * the file does not exist, is a folder, is empty or has another format. Valid until GDAL's next. */
+const char *raster_open_reason(const char *path);
+
 #endif

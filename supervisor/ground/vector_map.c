@@ -1,8 +1,6 @@
 /* Reads features of maps layer by layer. */
 #include "supervisor/ground/vector_map.h"
 
-#include "supervisor/ground/open_reason.h"
-
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <gdal.h>
@@ -144,7 +142,7 @@ static GDALDatasetH open_map(const char *path, struct error_text *error)
     GDALDatasetH data = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
     if (!data)
         error_text_set(error, "%s: GDAL cannot read it as a map of points, lines and areas: %s",
-                       path, open_reason(path));
+                       path, raster_open_reason(path));
     return data;
 }
 

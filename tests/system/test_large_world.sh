@@ -36,6 +36,18 @@ check "the world has little memory of its own" [ "$("$world" info --world "$name
 sed 's/65000.0, 65000.0/130001.0, 65000.0/' scene.cfg >far.cfg
 refuses "a place beyond the edge" 1 'each 0..130000 m' "$world" create --world "$name" far.cfg
 
+# --- the posts are taken away ----------------------------------------------------------------------
+"$jolon" run -w "$name" --set world.pace=real --set world.frames=100000 --without renderer --without reporter --out out4 scene.cfg >stdout 2>told &
+run=$!
+sleep 3
+cp x.ground.posts kept && truncate -s 70000 x.ground.posts
+wait $run
+status=$?
+mv kept x.ground.posts
+check "a set whose posts are cut off gives up" [ $status = 1 ] || [ $status = 3 ]
+check "the set names the file" grep -q 'x.ground.posts: was made shorter while a world runs on it; jolon world create on .*x.ground makes it again' told out4/jolon.log
+check "nothing of it is left" nothing_left "$name"
+
 # --- checkpoints ----------------------------------------------------------------------------------
 "$jolon" run -w "$name" --frames 200 --pace max --without renderer --out out3 --checkpoint half.image --every 150 scene.cfg >/dev/null 2>&1
 check "a checkpoint holds no posts" eval '[ -s half.image ] && [ "$(stat -c %s half.image)" -lt 3000000 ]'
