@@ -189,9 +189,10 @@ static uint16_t kind_of(struct remote_input *input, struct pdu_entity_type type,
 
 static uint8_t force_of(uint8_t force)
 {
-    return force == PDU_FORCE_FRIENDLY   ? FORCE_BLUE
-           : force == PDU_FORCE_OPPOSING ? FORCE_RED
-                                         : FORCE_NEUTRAL;
+    unsigned side = force > PDU_FORCE_LAST ? PDU_FORCE_OTHER : force % 3u;
+    return side == PDU_FORCE_FRIENDLY   ? FORCE_BLUE
+           : side == PDU_FORCE_OPPOSING ? FORCE_RED
+                                        : FORCE_NEUTRAL;
 }
 
 static uint8_t damage_of(uint32_t appearance)
@@ -504,7 +505,8 @@ static void take_detonation(struct remote_input *input, struct view *view, const
     end_flight(input, view, id_of(detonation->munition), from, now_ns);
     record.flown_m = (float)flown_of(input, record.event, record.remote, place, now_ns);
     bool hits = record.entity != 0 && detonation->result == PDU_RESULT_ENTITY_IMPACT;
-    if (detonation->result == PDU_RESULT_DUD)
+    if (detonation->result == PDU_RESULT_DUD ||
+        (detonation->result >= PDU_RESULT_MISS && detonation->result <= PDU_RESULT_MISS_LAST))
         return;
     if (kind == KIND_NONE) {
         input->refused[REMOTE_INPUT_TYPE]++;
@@ -707,11 +709,26 @@ void remote_input_tell(struct remote_input *input, struct view *view, uint64_t n
     table->waiting_count = kept;
 }
 
-/* A world that pauses goes on at its scale. */
+/* Tells again what the world had not taken by the last snapshot: it may have taken that after it
+ * had changed its scale, and it was by the old one. */
+static void tell_anew(struct remote_input *input)
+{
+    struct remote_table *table = &input->table;
+    for (uint32_t i = 0; i < table->used; i++) {
+        struct remote_entry *entry = &table->entry[i];
+        if (entry->remote != 0 && entry->track.remote != 0 && entry->told_at >= input->taken &&
+            entry->track.model != DEAD_RECKONING_STATIC)
+            remote_table_wait(table, entry);
+    }
+}
+
+/* A world that pauses goes on at its scale. The world itself leads what it knows to another one. */
 static void set_time_scale(struct remote_input *input, const struct state_head *head)
 {
-    if (head->time_scale > 0.0)
-        input->time_scale = head->time_scale;
+    if (!(head->time_scale > 0.0) || head->time_scale == input->time_scale)
+        return;
+    input->time_scale = head->time_scale;
+    tell_anew(input);
 }
 
 void remote_input_see(struct remote_input *input, struct view *view,
@@ -720,8 +737,8 @@ void remote_input_see(struct remote_input *input, struct view *view,
     struct remote_table *table = &input->table;
     if (table->capacity == 0)
         return;
-    input->taken = snapshot->head.command_cursor[RING_GATEWAY];
     set_time_scale(input, &snapshot->head);
+    input->taken = snapshot->head.command_cursor[RING_GATEWAY];
     remote_table_see(table, snapshot, now_ns);
     for (uint32_t i = 0; i < table->used; i++) {
         struct remote_entry *entry = &table->entry[i];

@@ -282,9 +282,12 @@ static enum command_result scale(struct serial_context *context, const struct co
                                  uint32_t *entity)
 {
     (void)entity;
+    double *time_scale = &context->moved->head->time_scale;
     if (!within(command->value[0], TIME_SCALE_MIN, TIME_SCALE_MAX))
         return COMMAND_OUT_OF_RANGE;
-    context->moved->head->time_scale = command->value[0];
+    if (context->step->world->params->remotes_max > 0 && *time_scale > 0.0)
+        remote_apply_scale(context, *time_scale / command->value[0]);
+    *time_scale = command->value[0];
     return COMMAND_DONE;
 }
 

@@ -23,4 +23,8 @@ struct remote_inputs {
 bool remote_apply(struct serial_context *context, struct remote_inputs *inputs,
                   const struct command *slot);
 
+/* Leads the motion of all remote entities, which is by simulated time, to another time scale: their
+ * owners go on by the clock. ratio: the scale until now over the new one, above 0. */
+void remote_apply_scale(struct serial_context *context, double ratio);
+
 #endif

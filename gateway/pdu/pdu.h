@@ -34,7 +34,14 @@ enum pdu_type {
 
 enum pdu_family { PDU_FAMILY_ENTITY = 1, PDU_FAMILY_WARFARE = 2, PDU_FAMILY_MANAGEMENT = 5 };
 
-enum pdu_force { PDU_FORCE_OTHER, PDU_FORCE_FRIENDLY, PDU_FORCE_OPPOSING, PDU_FORCE_NEUTRAL };
+/* Version 7 has further ones up to 30: friendly, opposing and neutral again and again. */
+enum pdu_force {
+    PDU_FORCE_OTHER,
+    PDU_FORCE_FRIENDLY,
+    PDU_FORCE_OPPOSING,
+    PDU_FORCE_NEUTRAL,
+    PDU_FORCE_LAST = 30
+};
 
 /* Bits of the appearance of any platform; the damage is a number of two bits. */
 #define PDU_APPEARANCE_MOBILITY_KILL (1u << 1) /* of land platforms */
@@ -56,7 +63,9 @@ enum pdu_detonation_result {
     PDU_RESULT_DUD = 6,
     PDU_RESULT_WATER = 14,
     PDU_RESULT_AIR_HIT = 17,
-    PDU_RESULT_BUILDING = 18
+    PDU_RESULT_BUILDING = 18,
+    PDU_RESULT_MISS = 31, /* of three kinds */
+    PDU_RESULT_MISS_LAST = 33
 };
 
 struct pdu_header {

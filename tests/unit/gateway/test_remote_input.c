@@ -4,11 +4,8 @@
 
 #include "gateway/remote_notices.h"
 
-#include "gateway/earth/euler.h"
 #include "gateway/pdu/timestamp.h"
-#include "ipc/process/clock.h"
-#include "tests/support/remotes.h"
-#include "world/params.h"
+#include "tests/unit/gateway/remote_stage.h"
 
 #include <inttypes.h>
 #include <setjmp.h>
@@ -19,103 +16,6 @@
 #include <string.h>
 
 #include <cmocka.h>
-
-static struct fixture f;
-static struct remote_input input;
-static struct type_table types;
-static struct local_frame frame;
-static struct snapshot snapshot;
-static struct error_text error;
-static struct udp_address peer, other;
-static uint64_t now_ns;
-
-static void open_input(void)
-{
-    char path[512];
-    const struct world *world = &f.view.world;
-    memset(&input, 0, sizeof input);
-    snprintf(path, sizeof path, "%s/dis/types.txt", fixture_shipped_dir());
-    assert_int_equal(type_table_read(&types, path, world->kinds, world->counts.kinds, &error), 0);
-    input.types = &types;
-    input.frame = &frame;
-    input.own = (struct entity_ids){1991, 10, 2};
-    input.clamp = true;
-    input.timeout_ns = 12 * (uint64_t)NS_PER_S;
-    assert_int_equal(remote_input_open(&input, &f.view, now_ns, &error), 0);
-}
-
-static int open_world(void **state)
-{
-    (void)state;
-    fixture_open(&f, "world = { seed = 1; capacity = 64; remotes_max = 4; }; vehicles = ();");
-    fixture_put(&f, (struct fixture_entity){.kind = "tank",
-                                            .at = {25000.0, FIXTURE_GROUND_M, 25000.0},
-                                            .force = FORCE_BLUE});
-    local_frame_make(&frame, 35.95, -121.25, -33.7, 25000.0, 25000.0);
-    assert_int_equal(snapshot_init(&snapshot, &f.view), 0);
-    assert_int_equal(udp_address_parse(&peer, "127.0.0.1:40000", 0, &error), 0);
-    assert_int_equal(udp_address_parse(&other, "127.0.0.1:40001", 0, &error), 0);
-    now_ns = 1000 * (uint64_t)NS_PER_S;
-    open_input();
-    return 0;
-}
-
-static int close_world(void **state)
-{
-    remote_input_close(&input);
-    snapshot_free(&snapshot);
-    return fixture_teardown(state);
-}
-
-/* Lets the world take what was told, and the gateway see it. */
-static void pass(double seconds)
-{
-    remote_input_tell(&input, &f.view, now_ns);
-    fixture_run(&f, 2);
-    now_ns += (uint64_t)(seconds * 1e9);
-    assert_int_equal(snapshot_take(&snapshot, &f.view), 0);
-    remote_input_see(&input, &f.view, &snapshot, now_ns);
-    remote_input_tell(&input, &f.view, now_ns);
-    fixture_run(&f, 1);
-}
-
-static struct pdu state_of(uint16_t entity, struct vec3 at)
-{
-    static struct pdu pdu;
-    struct vec3 ecef = local_frame_ecef(&frame, at);
-    struct mat3 turn = rotation_matrix(rotation_of(1.0, 0.1, -0.2));
-    struct mat3 matrix = local_frame_ecef_turn(&frame.axes, &turn);
-    struct euler angles = euler_of(&matrix);
-    memset(&pdu, 0, sizeof pdu);
-    pdu.header.type = PDU_ENTITY_STATE;
-    pdu.entity_state = (struct pdu_entity_state){.id = {7, 1, entity},
-                                                 .force = PDU_FORCE_OPPOSING,
-                                                 .type = {1, 1, 222, 1, 2, 1, 0}, /* T-72 */
-                                                 .location = {ecef.x, ecef.y, ecef.z},
-                                                 .dead_reckoning = DEAD_RECKONING_STATIC,
-                                                 .marking = "T72"};
-    vec3_to_floats(pdu.entity_state.orientation,
-                   (struct vec3){angles.psi, angles.theta, angles.phi});
-    return pdu;
-}
-
-static void take(const struct pdu *pdu, const struct udp_address *from)
-{
-    assert_true(remote_input_take(&input, &f.view, pdu, from, now_ns));
-}
-
-/* Returns the last record that was written into the ring. */
-static struct remote_record last_record(void)
-{
-    const struct command_ring_words *words = f.view.commands[RING_GATEWAY];
-    uint64_t slots = layout_ring_slots(f.view.header, RING_GATEWAY);
-    return remote_record_of(&words->slot[(segment_load(&words->head) - 1) & (slots - 1)]);
-}
-
-static uint32_t row_of(uint16_t entity)
-{
-    return remotes_row(&f, remote_id(7, 1, entity));
-}
 
 static void test_an_entity_state_becomes_a_row(void **state)
 {
@@ -173,41 +73,6 @@ static void test_body_axes(void **state)
     double before = e->heading[1];
     fixture_run(&f, 30);
     assert_true(steps_rows(&f).heading[1] - before > 0.2); /* it turns to the right */
-}
-
-static double length_of(const float v[3])
-{
-    return sqrt((double)v[0] * (double)v[0] + (double)v[1] * (double)v[1] +
-                (double)v[2] * (double)v[2]);
-}
-
-/* What is told by the clock is by simulated time in the ring, as far as the world takes it. A pause
- * keeps the scale. */
-static void test_motion_at_other_time_scales(void **state)
-{
-    static const struct {
-        double scale, velocity, acceleration, rates;
-    } cases[] = {{2.0, 150.0, 22.5, 5.0}, {0.25, 1200.0, 1440.0, 40.0}, {0.02, 1e4, 1e4, 100.0}};
-    (void)state;
-    for (uint16_t i = 0; i < 3; i++) {
-        struct pdu pdu = state_of(5 + i, (struct vec3){25100.0, 900.0, 24900.0});
-        struct command scale = {.type = COMMAND_SCALE, .value = {cases[i].scale}};
-        assert_int_equal(steps_command(&f, scale).result, COMMAND_DONE);
-        steps_command(&f, (struct command){.type = i == 0 ? COMMAND_PAUSE : COMMAND_RESUME});
-        pass(0.1);
-        pdu.entity_state.dead_reckoning = DEAD_RECKONING_RVB;
-        pdu.entity_state.velocity[0] = 300.0f;
-        pdu.entity_state.acceleration[1] = 90.0f;
-        pdu.entity_state.angular_velocity[2] = 10.0f;
-        take(&pdu, &peer);
-        remote_input_tell(&input, &f.view, now_ns);
-        struct remote_record track = last_record();
-        assert_true(fabs(length_of(track.velocity) / cases[i].velocity - 1.0) < 1e-5);
-        assert_true(fabs(length_of(track.acceleration) / cases[i].acceleration - 1.0) < 1e-5);
-        assert_true(fabs(length_of(track.rates) / cases[i].rates - 1.0) < 1e-5);
-        pass(0.1);
-        assert_int_equal(fixture_event(&f, EVENT_INPUT, i)->input.refused, 0);
-    }
 }
 
 static void test_it_is_lost(void **state)
@@ -614,10 +479,36 @@ static void test_shots(void **state)
     assert_int_equal(fixture_event(&f, EVENT_FIRE, 0)->fire.target.id, 1);
     assert_int_equal(fixture_event(&f, EVENT_DETONATION, 0)->detonation.struck_party.id, 1);
     assert_true(steps_rows(&f).harm_j[0] > 0.0);
-    hit.detonation.result = PDU_RESULT_DUD;
-    hit.detonation.event.entity = 4;
+    static const uint8_t none[] = {PDU_RESULT_DUD, PDU_RESULT_MISS, PDU_RESULT_MISS + 1,
+                                   PDU_RESULT_MISS_LAST};
+    for (uint16_t i = 0; i < sizeof none; i++) {
+        hit.detonation.result = none[i];
+        hit.detonation.event.entity = 4 + i;
+        take(&hit, &peer);
+        assert_int_equal(input.struck, 1);
+    }
+    hit.detonation.result = PDU_RESULT_MISS_LAST + 1; /* of no known meaning: it detonates */
     take(&hit, &peer);
-    assert_int_equal(input.struck, 1);
+    assert_int_equal(input.struck, 2);
+}
+
+/* Version 7 has ten of each side. */
+static void test_sides(void **state)
+{
+    static const struct {
+        uint8_t told, force;
+    } sides[] = {{0, FORCE_NEUTRAL},  {1, FORCE_BLUE},     {2, FORCE_RED},
+                 {3, FORCE_NEUTRAL},  {4, FORCE_BLUE},     {5, FORCE_RED},
+                 {6, FORCE_NEUTRAL},  {28, FORCE_BLUE},    {29, FORCE_RED},
+                 {30, FORCE_NEUTRAL}, {31, FORCE_NEUTRAL}, {255, FORCE_NEUTRAL}};
+    (void)state;
+    for (size_t i = 0; i < sizeof sides / sizeof *sides; i++) {
+        struct pdu pdu = state_of(5, (struct vec3){25100.0, FIXTURE_GROUND_M, 24900.0});
+        pdu.entity_state.force = sides[i].told;
+        take(&pdu, &peer);
+        pass(0.2);
+        assert_int_equal(steps_rows(&f).force[row_of(5)], sides[i].force);
+    }
 }
 
 /* What the world refuses is counted and told, too. */
@@ -768,7 +659,6 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_an_entity_state_becomes_a_row),
         TEST(test_body_axes),
-        TEST(test_motion_at_other_time_scales),
         TEST(test_it_is_lost),
         TEST(test_a_gateway_that_starts_anew),
         TEST(test_a_stranger_with_too_many),
@@ -783,6 +673,7 @@ int main(void)
         TEST(test_late_and_twice),
         TEST(test_what_stands_is_told_once),
         TEST(test_a_full_ring),
+        TEST(test_sides),
         TEST(test_shots),
         TEST(test_a_world_that_is_full),
         TEST(test_how_far_a_round_has_flown),
