@@ -446,6 +446,13 @@ static void remember(struct entity_sent *sent, uint32_t id, const struct pdu_ent
     sent->sent_ns = now_ns;
 }
 
+/* Returns how old the snapshot's frame is, by the clock [s]. */
+static double frame_age_s(const struct entity_output *entities, uint64_t now_ns)
+{
+    double age_s = ((double)now_ns - (double)entities->frame_ns) / 1e9;
+    return maths_clamp(age_s, 0.0, OFFSET_MOST_S);
+}
+
 static void send_state(struct entity_output *entities, const struct world *world,
                        const struct row_view *view, struct pdu_id id, uint64_t now_ns)
 {
@@ -471,7 +478,7 @@ static void send_state(struct entity_output *entities, const struct world *world
     set_marking(pdu.entity_state.marking, world, &world->kinds[kind], view->id);
     count_changes(sent, view, entities->snapshot.head.tick);
     set_parts(&pdu, view, sent);
-    pdu_output_send(entities->output, &pdu);
+    pdu_output_send(entities->output, &pdu, frame_age_s(entities, now_ns));
     bool was_on_map = sent->id != view->id || on_map(sent);
     remember(sent, view->id, &pdu.entity_state, now_ns);
     sent->id = view->id;
@@ -521,7 +528,7 @@ static void send_last(struct entity_output *entities, const struct world *world,
     set_marking(pdu.entity_state.marking, world, &world->kinds[sent->kind], sent->id);
     vec3_to_floats(pdu.entity_state.orientation,
                    (struct vec3){angles.psi, angles.theta, angles.phi});
-    pdu_output_send(entities->output, &pdu);
+    pdu_output_send(entities->output, &pdu, 0.0);
     if (entities->cot && on_map(sent))
         send_cot(entities, world, sent,
                  &(struct cot_output_entity){.position = position, .matrix = &matrix}, true);

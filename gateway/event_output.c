@@ -170,7 +170,7 @@ static void send_fire(struct event_output *events, const struct world *world,
         pdu.fire.range = (float)vec3_length(
             vec3_sub(entities_position(e, target),
                      (struct vec3){fire->point[0], fire->point[1], fire->point[2]}));
-    pdu_output_send(events->output, &pdu);
+    pdu_output_send(events->output, &pdu, 0.0);
 }
 
 static uint8_t result_of(const struct world *world, const struct event_detonation *detonation)
@@ -212,7 +212,7 @@ static void send_detonation(struct event_output *events, const struct world *wor
                  flight_velocity(events, world, munition.id, detonation->point, event->tick));
     if (detonation->struck == STRUCK_VEHICLE)
         set_point(pdu.detonation.point, events, detonation->struck_party, detonation->point);
-    pdu_output_send(events->output, &pdu);
+    pdu_output_send(events->output, &pdu, 0.0);
 }
 
 /* Sends what one of the two bodies says of their collision. */
@@ -238,7 +238,7 @@ static void send_collision(struct event_output *events, const struct world *worl
         set_velocity(pdu.collision.velocity, events, event->collision.point,
                      entity_output_velocity_before(events->entities, row, event->tick));
     set_point(pdu.collision.point, events, other, event->collision.point);
-    pdu_output_send(events->output, &pdu);
+    pdu_output_send(events->output, &pdu, 0.0);
 }
 
 static void send_event(struct event_output *events, const struct world *world,

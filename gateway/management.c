@@ -102,7 +102,7 @@ static void acknowledge(struct management *management, struct management_request
                                                  .acknowledge = flags[request->type],
                                                  .response = response,
                                                  .request = request->number};
-        pdu_output_send(management->output, &pdu);
+        pdu_output_send(management->output, &pdu, 0.0);
     }
 }
 

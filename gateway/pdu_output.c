@@ -31,7 +31,7 @@ bool pdu_output_take(struct pdu_output *output, enum pdu_output_weight weight, u
     return rate_take(&output->rate, output->rate_ps, burst, now_ns);
 }
 
-void pdu_output_send(struct pdu_output *output, struct pdu *pdu)
+void pdu_output_send(struct pdu_output *output, struct pdu *pdu, double age_s)
 {
     uint8_t bytes[PDU_WRITE_BYTES_MAX];
     struct timespec utc;
@@ -40,6 +40,6 @@ void pdu_output_send(struct pdu_output *output, struct pdu *pdu)
     pdu->header.exercise = output->exercise;
     pdu->header.status = STATUS_CONSTRUCTIVE;
     pdu->header.timestamp =
-        timestamp_of((double)(utc.tv_sec % 3600) + (double)utc.tv_nsec / 1e9, true);
+        timestamp_of((double)(utc.tv_sec % 3600) + (double)utc.tv_nsec / 1e9 - age_s, true);
     udp_output_send(&output->udp, bytes, pdu_write(pdu, bytes, sizeof bytes));
 }

@@ -29,7 +29,8 @@ int pdu_output_open(struct pdu_output *output, const char *address, uint16_t por
 /* Returns true if the rate allows one more PDU of this weight now, and takes it from the rate. */
 bool pdu_output_take(struct pdu_output *output, enum pdu_output_weight weight, uint64_t now_ns);
 
-/* Sends a PDU whose type and body are set, with the time stamp of now, in UTC. */
-void pdu_output_send(struct pdu_output *output, struct pdu *pdu);
+/* Sends a PDU whose type and body are set, with the time stamp of when it was as the PDU says:
+ * age_s ago, in UTC [s]. */
+void pdu_output_send(struct pdu_output *output, struct pdu *pdu, double age_s);
 
 #endif

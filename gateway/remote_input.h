@@ -78,9 +78,9 @@ struct remote_input {
     } met[REMOTE_INPUT_BODIES]; /* the last collisions that our collider has told of */
     uint32_t met_count;
     struct type_notices unknown;
-    double time_scale;  /* of the last snapshot; above 0 */
-    uint64_t taken;     /* of the ring, as the last snapshot has it */
-    uint64_t grace_ns;  /* of REMOTE_INPUT_GRACE_S: its end */
+    double time_scale; /* of the last snapshot; above 0 */
+    uint64_t taken;    /* of the ring, as the last snapshot has it */
+    uint64_t grace_ns; /* of REMOTE_INPUT_GRACE_S: its end */
     /* Counts. */
     uint64_t tracks, lost, fires, struck;
     uint64_t collisions; /* of others with ours, of which our collider has told, too */

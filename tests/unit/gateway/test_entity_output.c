@@ -3,6 +3,7 @@
 #include "gateway/entity_output.h"
 
 #include "gateway/pdu/pdu_read.h"
+#include "gateway/pdu/timestamp.h"
 #include "gateway/udp/udp_socket.h"
 #include "tests/support/fixture.h"
 #include "world/checksum.h"
@@ -16,6 +17,7 @@
 #include <stdio.h>
 #include <string.h>
 #include <sys/socket.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <cmocka.h>
@@ -317,6 +319,34 @@ static void test_receivers_have_it_within_the_threshold(void **state)
     assert_true(sent < 240);
 }
 
+static double utc_past_hour_s(void)
+{
+    struct timespec utc;
+    clock_gettime(CLOCK_REALTIME, &utc);
+    return (double)(utc.tv_sec % 3600) + (double)utc.tv_nsec / 1e9;
+}
+
+/* The time stamp is of the frame, and not of the pass that finds it. */
+static void test_the_time_stamp_is_of_the_frame(void **state)
+{
+    static const double ages_s[] = {0.0, 0.009};
+    (void)state;
+    put("tank", 26000.0, 25000.0, 0.0, FORCE_BLUE);
+    for (int i = 0; i < 2; i++) {
+        struct state committed = fixture_state(&world);
+        committed.entities.damage[0] = (uint8_t)(DAMAGE_LOW + 2 * i);
+        state_seal(&committed, world.view.world.counts.fixed);
+        now_ns += 10000000u * (unsigned)i;
+        double before_s = utc_past_hour_s();
+        pass(); /* the second finds the frame of the first, and takes a tenth of its age for noise
+                 */
+        double after_s = utc_past_hour_s();
+        assert_int_equal(count, 1);
+        double stamp_s = timestamp_seconds(received[0].header.timestamp) + ages_s[i];
+        assert_true(after_s < before_s || (stamp_s > before_s - 1e-4 && stamp_s < after_s + 1e-4));
+    }
+}
+
 /* Moves the row and turns it, and seals the frame, which the test makes the next. */
 static void next_frame(uint32_t row, double heading, double x)
 {
@@ -593,23 +623,15 @@ static void test_an_id_beyond_the_range(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_a_vehicle_is_sent_once),
-        TEST(test_changes_of_what_stands),
-        TEST(test_parts_count_their_changes),
-        TEST(test_the_heartbeat),
-        TEST(test_a_constant_course),
-        TEST(test_receivers_have_it_within_the_threshold),
-        TEST(test_what_turns_is_followed),
-        TEST(test_a_missile_comes_and_goes),
-        TEST(test_a_pause_freezes),
-        TEST(test_a_lost_state_is_made_good),
-        TEST(test_the_noise_of_the_clock),
-        TEST(test_a_world_that_falls_behind),
-        TEST(test_the_rate),
-        TEST(test_a_rate_that_never_suffices),
-        TEST(test_angular_velocities),
-        TEST(test_a_new_gateway_says_the_same),
-        TEST(test_an_id_beyond_the_range),
+        TEST(test_a_vehicle_is_sent_once),      TEST(test_changes_of_what_stands),
+        TEST(test_parts_count_their_changes),   TEST(test_the_heartbeat),
+        TEST(test_a_constant_course),           TEST(test_receivers_have_it_within_the_threshold),
+        TEST(test_what_turns_is_followed),      TEST(test_the_time_stamp_is_of_the_frame),
+        TEST(test_a_missile_comes_and_goes),    TEST(test_a_pause_freezes),
+        TEST(test_a_lost_state_is_made_good),   TEST(test_the_noise_of_the_clock),
+        TEST(test_a_world_that_falls_behind),   TEST(test_the_rate),
+        TEST(test_a_rate_that_never_suffices),  TEST(test_angular_velocities),
+        TEST(test_a_new_gateway_says_the_same), TEST(test_an_id_beyond_the_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
