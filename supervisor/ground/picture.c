@@ -28,6 +28,9 @@
 #define LIGHT_NORTH   0.5
 #define SHADE_DARKEST 1.0
 
+/* Rows of posts that are drawn at once. */
+#define BAND_POSTS 1024.0
+
 static struct {
     uint32_t size;
     const char *at;
@@ -42,29 +45,25 @@ static const uint8_t colours[COVER_COUNT][3] = {
     [COVER_SAND] = {225, 210, 160},  [COVER_ROAD] = {182, 188, 130},
     [COVER_SEA] = {90, 130, 175},    [COVER_LAKE] = {110, 155, 195}};
 
-/* A ground in memory. */
+/* A ground, and a window of its posts in memory: whole tiles. */
 struct ground {
     struct ground_file file;
-    float *posts;
-    uint8_t *cover;
     uint32_t side;
     double spacing_m;
+    int64_t column, row; /* the first post of the window */
+    size_t columns, rows, room;
+    float *posts; /* [room], of which [columns * rows] are used */
+    uint8_t *cover;
 };
 
 static void open_ground(struct ground *ground, const char *path)
 {
     struct error_text error;
+    *ground = (struct ground){.column = 0};
     if (ground_file_open(&ground->file, path, &error) != 0)
         die_refused("%s", error.text);
     ground->side = ground->file.header.posts_side;
     ground->spacing_m = ground->file.header.spacing_m;
-    size_t posts = (size_t)ground->side * ground->side;
-    ground->posts = malloc(posts * sizeof *ground->posts);
-    ground->cover = malloc(posts);
-    if (!ground->posts || !ground->cover)
-        die_refused("%s: no memory for its posts", path);
-    if (ground_file_posts(&ground->file, ground->posts, ground->cover, &error) != 0)
-        die_refused("%s", error.text);
 }
 
 static void close_ground(struct ground *ground)
@@ -74,13 +73,55 @@ static void close_ground(struct ground *ground)
     ground_file_close(&ground->file);
 }
 
+/* Returns the tile of a row or a column, and of those beyond the ground the nearest. */
+static uint32_t tile_at(const struct ground *ground, double post)
+{
+    return (uint32_t)maths_clamp(post, 0.0, ground->side - 1.0) / GROUND_TILE_POSTS;
+}
+
+/* Reads the tiles with the posts from low to high, columns first. */
+static void read_window(struct ground *ground, const double low[2], const double high[2])
+{
+    struct error_text error;
+    uint32_t across = ground_tiles_side(ground->side), last = ground->side;
+    uint32_t west = tile_at(ground, low[0]), east = tile_at(ground, high[0]) + 1;
+    uint32_t north = tile_at(ground, low[1]), south = tile_at(ground, high[1]) + 1;
+    ground->column = (int64_t)west * GROUND_TILE_POSTS;
+    ground->row = (int64_t)north * GROUND_TILE_POSTS;
+    ground->columns = (east == across ? last : east * GROUND_TILE_POSTS) - (size_t)ground->column;
+    ground->rows = (south == across ? last : south * GROUND_TILE_POSTS) - (size_t)ground->row;
+    if (ground->columns * ground->rows > ground->room) {
+        free(ground->posts);
+        free(ground->cover);
+        ground->room = ground->columns * ground->rows;
+        ground->posts = malloc(ground->room * sizeof *ground->posts);
+        ground->cover = malloc(ground->room);
+        if (!ground->posts || !ground->cover)
+            die_refused("%s: no memory for its posts", ground->file.path);
+    }
+    for (uint32_t row = north; row < south; row++)
+        for (uint32_t column = west; column < east; column++) {
+            size_t first = (size_t)(row - north) * GROUND_TILE_POSTS * ground->columns +
+                           (size_t)(column - west) * GROUND_TILE_POSTS;
+            if (ground_file_tile(&ground->file, row * across + column, ground->posts + first,
+                                 ground->cover + first, ground->columns, &error) != 0)
+                die_refused("%s", error.text);
+        }
+}
+
+/* Returns where a post of the window is. */
+static size_t index_of(const struct ground *ground, int64_t column, int64_t row)
+{
+    return (size_t)(row - ground->row) * ground->columns + (size_t)(column - ground->column);
+}
+
 /* Returns a height `step` posts away from a post, within the ground. */
 static double near(const struct ground *ground, int64_t column, int64_t row)
 {
     int64_t last = (int64_t)ground->side - 1;
     column = column < 0 ? 0 : column > last ? last : column;
     row = row < 0 ? 0 : row > last ? last : row;
-    return (double)ground->posts[row * ground->side + column];
+    return (double)ground->posts[index_of(ground, column, row)];
 }
 
 /* Returns the brightness of a post, 1..255, by the slope of Horn (1981) over `step` posts, as
@@ -133,30 +174,47 @@ static void choose_square(struct canvas *canvas, const struct ground *ground)
     canvas->step_m = metres / (canvas->size - 1);
 }
 
-static void draw_ground(const struct canvas *canvas, const struct ground *ground)
+/* Draws a row of the picture, whose posts are in the window. */
+static void draw_row(const struct canvas *canvas, const struct ground *ground, uint32_t row,
+                     const double first[2], double posts, int64_t step)
 {
-    double posts = canvas->step_m / ground->spacing_m; /* a pixel */
-    double first[2] = {canvas->x0 / ground->spacing_m, canvas->z0 / ground->spacing_m};
-    int64_t step = posts >= 2.0 ? ground->side / canvas->size : 1, last = ground->side - 1;
-    for (uint32_t row = 0; row < canvas->size; row++) {
-        for (uint32_t column = 0; column < canvas->size; column++) {
-            double at[2] = {first[0] + column * posts, first[1] + row * posts};
-            int64_t c = (int64_t)(at[0] + 0.5), r = (int64_t)(at[1] + 0.5);
-            c = c < last ? c : last;
-            r = r < last ? r : last;
-            double bright = posts < 1.0 ? shade_between(ground, at[0], at[1])
-                                        : shade(ground, c, r, step > 0 ? step : 1);
-            const uint8_t *colour = colours[ground->cover[r * ground->side + c]];
-            uint8_t *pixel = canvas->pixels + 3 * ((size_t)row * canvas->size + column);
-            for (int k = 0; k < 3; k++)
-                pixel[k] =
-                    (uint8_t)(given.grey ? bright + 0.5
-                                         : colour[k] * maths_min(0.15 + bright / 265.0, 1.0));
-        }
+    int64_t last = ground->side - 1;
+    for (uint32_t column = 0; column < canvas->size; column++) {
+        double at[2] = {first[0] + column * posts, first[1] + row * posts};
+        int64_t c = (int64_t)(at[0] + 0.5), r = (int64_t)(at[1] + 0.5);
+        c = c < last ? c : last;
+        r = r < last ? r : last;
+        double bright =
+            posts < 1.0 ? shade_between(ground, at[0], at[1]) : shade(ground, c, r, step);
+        const uint8_t *colour = colours[ground->cover[index_of(ground, c, r)]];
+        uint8_t *pixel = canvas->pixels + 3 * ((size_t)row * canvas->size + column);
+        for (int k = 0; k < 3; k++)
+            pixel[k] = (uint8_t)(given.grey ? bright + 0.5
+                                            : colour[k] * maths_min(0.15 + bright / 265.0, 1.0));
     }
 }
 
-static GDALDatasetH draw(const struct ground *ground)
+/* Draws band after band, so that few posts of a large ground are in memory. */
+static void draw_ground(const struct canvas *canvas, struct ground *ground)
+{
+    double posts = canvas->step_m / ground->spacing_m; /* a pixel */
+    double first[2] = {canvas->x0 / ground->spacing_m, canvas->z0 / ground->spacing_m};
+    int64_t step = posts >= 2.0 ? ground->side / canvas->size : 1;
+    step = step > 0 ? step : 1;
+    double reach = (double)step + 2.0;
+    uint32_t band = (uint32_t)maths_clamp(BAND_POSTS / posts, 1.0, canvas->size);
+    for (uint32_t row = 0; row < canvas->size; row++) {
+        if (row % band == 0) {
+            const double low[2] = {first[0] - reach, first[1] + row * posts - reach};
+            const double high[2] = {first[0] + canvas->size * posts + reach,
+                                    first[1] + (row + band) * posts + reach};
+            read_window(ground, low, high);
+        }
+        draw_row(canvas, ground, row, first, posts, step);
+    }
+}
+
+static GDALDatasetH draw(struct ground *ground)
 {
     struct canvas canvas;
     choose_square(&canvas, ground);
