@@ -490,6 +490,19 @@ static void end_flight(struct remote_input *input, struct view *view, uint64_t m
         put_lost(input, view, entry);
 }
 
+/* Returns true if a detonation has the result that it was near something. What has struck the
+ * ground may be told of some metres above ours, as the ground of its owner is another. */
+static bool bursts_in_air(uint8_t result)
+{
+    return result == PDU_RESULT_ENTITY_PROXIMATE || result == PDU_RESULT_GROUND_PROXIMATE ||
+           result == PDU_RESULT_OBJECT_PROXIMATE || result == PDU_RESULT_AIR_BURST;
+}
+
+static bool detonates(uint8_t result)
+{
+    return result != PDU_RESULT_DUD && (result < PDU_RESULT_MISS || result > PDU_RESULT_MISS_LAST);
+}
+
 static void take_detonation(struct remote_input *input, struct view *view, const struct pdu *pdu,
                             const struct udp_address *from, uint64_t now_ns)
 {
@@ -501,12 +514,13 @@ static void take_detonation(struct remote_input *input, struct view *view, const
                                    .type = REMOTE_STRUCK,
                                    .slot = slot_of(input, id_of(detonation->firer)),
                                    .entity = entity_ids_back(&input->own, detonation->target),
-                                   .kind = kind};
+                                   .kind = kind,
+                                   .model =
+                                       bursts_in_air(detonation->result) ? REMOTE_BURST_IN_AIR : 0};
     end_flight(input, view, id_of(detonation->munition), from, now_ns);
     record.flown_m = (float)flown_of(input, record.event, record.remote, place, now_ns);
     bool hits = record.entity != 0 && detonation->result == PDU_RESULT_ENTITY_IMPACT;
-    if (detonation->result == PDU_RESULT_DUD ||
-        (detonation->result >= PDU_RESULT_MISS && detonation->result <= PDU_RESULT_MISS_LAST))
+    if (!detonates(detonation->result))
         return;
     if (kind == KIND_NONE) {
         input->refused[REMOTE_INPUT_TYPE]++;

@@ -396,7 +396,8 @@ static struct approach approach_place(const struct serial_context *context,
     const struct kind *round = &context->step->world->kinds[record->kind];
     struct vec3 point = place_of(record), velocity = vec3_of(record->velocity);
     double ground = kinematics_ground(context->step, point.x, point.z);
-    if (point.y > ground + NEAR_GROUND_M)
+    bool in_air = record->model == REMOTE_BURST_IN_AIR && point.y > ground + round->radius_m;
+    if (in_air || point.y > ground + NEAR_GROUND_M)
         return (struct approach){.from = point, .in_air = true};
     const struct vec3 down = {0.0, -1.0, 0.0};
     struct vec3 along = direction_of(velocity, down);

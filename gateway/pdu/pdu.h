@@ -64,6 +64,8 @@ enum pdu_detonation_result {
     PDU_RESULT_WATER = 14,
     PDU_RESULT_AIR_HIT = 17,
     PDU_RESULT_BUILDING = 18,
+    PDU_RESULT_OBJECT_PROXIMATE = 23,
+    PDU_RESULT_AIR_BURST = 25,
     PDU_RESULT_MISS = 31, /* of three kinds */
     PDU_RESULT_MISS_LAST = 33
 };

@@ -32,6 +32,9 @@ enum remote_type {
 
 #define REMOTE_FLAG_CLAMPED 1u /* a land vehicle is set on our ground where that is near */
 
+/* STRUCK, instead of a model: it bursts where it is told, and not on the ground below. */
+#define REMOTE_BURST_IN_AIR 128u
+
 /* A record in the gateway's ring, in a slot of the size of a command. Everything is in the axes of
  * the world, also the velocity, acceleration and rates of models 6 to 9, whose axes turn with the
  * body. */
@@ -53,7 +56,7 @@ struct remote_record {
     uint16_t kind;      /* TRACK: of the row; FIRE, STRUCK: of the munition. STRUCK:
                            KIND_NONE for a body, such as a vehicle that drives into ours */
     uint8_t force;      /* enum force */
-    uint8_t model;      /* TRACK: enum dead_reckoning_model */
+    uint8_t model;      /* TRACK: enum dead_reckoning_model; STRUCK: 0 or REMOTE_BURST_IN_AIR */
     double position[3]; /* [m]; STRUCK with a target: in its body axes */
     float velocity[3];  /* [m/s] */
     union {

@@ -490,6 +490,12 @@ static void test_shots(void **state)
     hit.detonation.result = PDU_RESULT_MISS_LAST + 1; /* of no known meaning: it detonates */
     take(&hit, &peer);
     assert_int_equal(input.struck, 2);
+    assert_int_equal(last_record().model, 0);
+    hit.detonation.result = PDU_RESULT_AIR_BURST;
+    hit.detonation.event.entity = 99;
+    take(&hit, &peer);
+    assert_int_equal(last_record().model, REMOTE_BURST_IN_AIR);
+    assert_int_equal(last_record().entity, 0);
 }
 
 /* Version 7 has ten of each side. */

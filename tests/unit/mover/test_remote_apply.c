@@ -306,11 +306,35 @@ static void test_a_shell_digs_a_crater(void **state)
     assert_int_equal(fixture_event(&f, EVENT_DETONATION, 0)->detonation.struck, STRUCK_GROUND);
     const struct event_crater *crater = &fixture_event(&f, EVENT_CRATER, 0)->crater;
     assert_true(fabs(crater->point[0] - there.x) < 0.1 && fabs(crater->point[2] - there.z) < 0.1);
-    record.position[1] = FIXTURE_GROUND_M + 200.0;
-    assert_int_equal(does(record), REMOTE_TAKEN);
-    fixture_run(&f, 2);
-    assert_int_equal(fixture_event(&f, EVENT_DETONATION, 1)->detonation.struck, STRUCK_AIR);
-    assert_true(fabs(fixture_event(&f, EVENT_DETONATION, 1)->detonation.point[1] - 300.0) < 1.0);
+}
+
+/* High above the ground, or near it when it is told to burst in the air, it bursts where it is told
+ * and digs nothing. Below our ground it cannot. */
+static void test_a_burst_in_the_air(void **state)
+{
+    static const struct {
+        double high_m;
+        uint8_t model;
+        enum struck struck;
+    } cases[] = {{200.0, 0, STRUCK_AIR},
+                 {200.0, REMOTE_BURST_IN_AIR, STRUCK_AIR},
+                 {5.0, REMOTE_BURST_IN_AIR, STRUCK_AIR},
+                 {-2.0, REMOTE_BURST_IN_AIR, STRUCK_GROUND}};
+    struct remote_record record = remotes_track(&f, 0, there);
+    (void)state;
+    record.type = REMOTE_STRUCK;
+    record.kind = fixture_kind(&f, "artillery");
+    for (uint32_t i = 0; i < 4; i++) {
+        record.position[1] = FIXTURE_GROUND_M + cases[i].high_m;
+        record.model = cases[i].model;
+        assert_int_equal(does(record), REMOTE_TAKEN);
+        fixture_run(&f, 2);
+        const struct event_detonation *burst = &fixture_event(&f, EVENT_DETONATION, i)->detonation;
+        assert_int_equal(burst->struck, cases[i].struck);
+        double high_m = maths_max(cases[i].high_m, 0.0);
+        assert_true(fabs(burst->point[1] - FIXTURE_GROUND_M - high_m) < 1.0);
+        assert_int_equal(fixture_event_count(&f, EVENT_CRATER), i == 3 ? 1 : 0);
+    }
 }
 
 /* What a round still penetrates goes by how far it has flown, not by where it appears: the harm of
@@ -464,6 +488,7 @@ int main(void)
         TEST(test_a_slow_round_strikes_whom_it_names),
         TEST(test_a_round_beside_the_hull_strikes_whom_it_names),
         TEST(test_a_shell_digs_a_crater),
+        TEST(test_a_burst_in_the_air),
         TEST(test_a_far_round_pierces_less),
         TEST(test_a_body_strikes),
         TEST(test_a_munition_flies),
