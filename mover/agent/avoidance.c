@@ -1,6 +1,7 @@
 /* Finds how far each direction of the fan is free, and takes the best. */
 #include "mover/agent/avoidance.h"
 
+#include "mover/agent/driving_pace.h"
 #include "mover/agent/earthwork_obstacles.h"
 #include "mover/agent/neighbour_lists.h"
 #include "mover/context/cruise_start.h"
@@ -38,7 +39,9 @@
 #define GIVEN_WAY_S    2.5   /* the other is expected to give way if they meet later */
 #define CROSSING       0.94  /* cosine of 20 degrees: courses that differ by less do not cross */
 #define ROUNDED_MPS    1e-4  /* more than the index's rounding of velocities */
-#define CLIMB_AHEAD_S  6.0   /* how far ahead aircraft look at the ground */
+#define CLIMB_AHEAD_S  8.0   /* how far ahead aircraft look at the ground */
+#define CLIMB_PLACES   8     /* at so many places */
+#define CLIMB_SHARE    0.8   /* of its rate of climb that it relies on */
 
 /* The fan: angles off the desired heading, with their sines and cosines. Direction PRESENT is the
  * present heading. */
@@ -510,17 +513,35 @@ static double stopping_speed(const struct look *look, double free_m)
     return sqrt(2.0 * BRAKE_SHARE * BRAKES * look->kind->acceleration_mps2 * free_m);
 }
 
-/* The share of its speed that an aircraft gives up so that it can climb over the ground ahead. */
-static double climbing_ease(const struct step_context *context, uint32_t i, const struct look *look,
-                            const struct desired_motion *desired)
+/* Returns the greatest speed [m/s] at which an aircraft can climb over the ground ahead, along a
+ * direction of the fan. It keeps half of its height over each place. */
+static double climbing_speed(const struct step_context *context, uint32_t i,
+                             const struct look *look, int k, double altitude_m)
 {
     const struct entities *m = context->m;
-    double distance = look->desired_mps * CLIMB_AHEAD_S;
-    double ground = kinematics_ground(context, m->x[i] + distance * look->x[0],
-                                      m->z[i] + distance * look->z[0]);
-    double climb = ground + 0.5 * desired->altitude_m - m->y[i];
-    double most = look->kind->climb_rate_mps * CLIMB_AHEAD_S;
-    return climb > most ? 1.0 - most / climb : 0.0;
+    double way = maths_max(look->desired_mps, look->present_mps) * CLIMB_AHEAD_S, most = INFINITY;
+    for (int n = 1; n <= CLIMB_PLACES; n++) {
+        double distance = way * n / CLIMB_PLACES;
+        double ground = kinematics_ground(context, m->x[i] + distance * look->x[k],
+                                          m->z[i] + distance * look->z[k]);
+        double climb = ground + 0.5 * altitude_m - m->y[i];
+        if (climb > 0.0)
+            most = maths_min(most, CLIMB_SHARE * look->kind->climb_rate_mps * distance / climb);
+    }
+    return most;
+}
+
+/* The greatest speed that the ground ahead allows: over it, or on it. An aircraft turns slowly, so
+ * that the ground along its present heading counts as well. */
+static double ground_speed(const struct step_context *context, uint32_t i, const struct look *look,
+                           const struct desired_motion *desired)
+{
+    if (look->kind->domain == DOMAIN_AIR)
+        return maths_min(climbing_speed(context, i, look, 0, desired->altitude_m),
+                         climbing_speed(context, i, look, PRESENT, desired->altitude_m));
+    if (look->kind->domain == DOMAIN_LAND && look->sign > 0.0)
+        return driving_pace(context, i, desired->heading_rad);
+    return INFINITY;
 }
 
 /* --- the look ----------------------------------------------------------------------------------*/
@@ -558,7 +579,7 @@ static void look_ahead(const struct step_context *context, uint32_t i,
     begin(&look, context, i, desired);
     bool flies = look.kind->domain == DOMAIN_AIR;
     bool low = !flies || m->y[i] - kinematics_ground(context, m->x[i], m->z[i]) < LOW_FLIGHT_M;
-    double ease = flies ? climbing_ease(context, i, &look, desired) : 0.0;
+    double ease = 1.0 - ground_speed(context, i, &look, desired) / look.desired_mps;
     int direction = desired->speed_mps < 0.0 ? PRESENT : 0;
     see(context, i, &look, low);
     if (direction == 0 && (look.free_m[0] < look.horizon_m ||

@@ -249,6 +249,37 @@ static void test_who_must_give_way_does_not_turn_into_a_parked_friend(void **sta
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
 }
 
+/* Two ridges across the way to the east, as steep as 60 degrees. */
+static double ridges(double x, double z, const void *context)
+{
+    double at = maths_min(fabs(x - 25750.0), fabs(x - 26750.0 - 0.5 * (z - 25000.0)));
+    (void)context;
+    return 100.0 + maths_max(0.0, 430.0 - 1.7 * at);
+}
+
+static void test_aircraft_slow_down_for_ridges_that_they_have_to_climb(void **state)
+{
+    static const char *const kinds[] = {"helicopter", "helo-cow", "wishbone", "helicopter"};
+    uint32_t row[4];
+    bool over[4] = {false};
+    (void)state;
+    steps_ground(&f, ridges, NULL);
+    fixture_threads(&f, 1);
+    for (int n = 0; n < 4; n++)
+        row[n] = send(kinds[n], 25000.0, 24700.0 + 200.0 * n, 28000.0, 24000.0 + 700.0 * n);
+    for (int n = 0; n < 4; n++)
+        steps_rows(&f).y[row[n]] = 130.0;
+    for (int frame = 0; frame < 240 * HZ; frame++) {
+        fixture_run(&f, 1);
+        struct entities e = steps_rows(&f);
+        for (int n = 0; n < 4; n++) {
+            assert_true(e.state[row[n]] == ENTITY_ACTIVE);
+            over[n] |= e.x[row[n]] > 27400.0;
+        }
+    }
+    assert_true(over[0] && over[1] && over[2] && over[3]);
+}
+
 static void test_a_driver_is_left_alone(void **state)
 {
     uint32_t row = send("tank", 25000.0, 25000.0, 25500.0, 25000.0);
@@ -293,6 +324,7 @@ int main(void)
         TEST(test_it_stops_before_obstacles_that_it_cannot_pass),
         TEST(test_nobody_rams_a_row_of_parked_friends),
         TEST(test_who_must_give_way_does_not_turn_into_a_parked_friend),
+        TEST(test_aircraft_slow_down_for_ridges_that_they_have_to_climb),
         TEST(test_a_driver_is_left_alone),
         TEST(test_the_same_on_any_number_of_threads),
     };
