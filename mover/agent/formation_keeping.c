@@ -17,6 +17,7 @@
 #define LANE_AHEAD_M  20.0 /* it steers for a point of its lane at least so far ahead */
 #define LANE_AHEAD_S  2.0
 #define LANE_STRAYS_M 60.0 /* further from its leg it drives straight to the goal */
+#define LEGS_BACK     48u /* of its leader's route, on which a member of a column looks for its way */
 
 /* --- leaders -----------------------------------------------------------------------------------*/
 
@@ -91,6 +92,77 @@ static void take_the_lead(const struct step_context *context, uint32_t i,
     goal_next(context, i);
 }
 
+/* --- the way of a column -----------------------------------------------------------------------*/
+
+/* A place on a route. */
+struct route_place {
+    uint32_t leg; /* number of the point at which the leg ends */
+    double x, z;
+    double square; /* of the distance to it */
+};
+
+static const struct route_point *point_of(const struct step_context *context,
+                                          const struct route *route, uint32_t number)
+{
+    return &context->world->route_points[route->first + number % route->count];
+}
+
+/* Finds the nearest place of the legs that the leader has driven. last: the leader's leg. */
+static struct route_place nearest_place(const struct step_context *context, uint32_t i,
+                                        const struct route *route, uint32_t last)
+{
+    const struct entities *m = context->m;
+    struct route_place nearest = {.square = INFINITY};
+    for (uint32_t back = 0; back < LEGS_BACK && back + 1 < route->count; back++) {
+        uint32_t leg = (last + route->count - back) % route->count;
+        const struct route_point *from = point_of(context, route, leg + route->count - 1);
+        const struct route_point *to = point_of(context, route, leg);
+        double dx = to->x - from->x, dz = to->z - from->z;
+        double along = (m->x[i] - from->x) * dx + (m->z[i] - from->z) * dz;
+        along = maths_clamp(along / maths_max(dx * dx + dz * dz, 1e-9), 0.0, 1.0);
+        double x = from->x + along * dx, z = from->z + along * dz;
+        double square = (m->x[i] - x) * (m->x[i] - x) + (m->z[i] - z) * (m->z[i] - z);
+        if (square < nearest.square)
+            nearest = (struct route_place){leg, x, z, square};
+    }
+    return nearest;
+}
+
+/* A member of a column that is far from its place drives along the route of its leader, whose
+ * straight line may lead through houses or a wood. Returns true if it does, and sets its heading.
+ */
+static bool drive_along_route(const struct step_context *context, uint32_t i,
+                              const struct formation *formation, uint32_t leader,
+                              struct desired_motion *desired)
+{
+    const struct entities *m = context->m, *w = &context->committed->entities;
+    if (formation->order != BEHAVIOUR_ROUTE || w->order[leader] != BEHAVIOUR_ROUTE)
+        return false;
+    const struct route *route = &context->world->routes[formation->order_arg];
+    if (route->once || route->count < 3)
+        return false;
+    uint32_t last = (w->leg[leader] + route->count - 1) % route->count;
+    struct route_place at = nearest_place(context, i, route, last);
+    if (!(at.square < LANE_STRAYS_M * LANE_STRAYS_M))
+        return false;
+    double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
+    double left = maths_max(AHEAD_M, AHEAD_S * speed) - sqrt(at.square);
+    for (uint32_t n = 0; left > 0.0 && n < LEGS_BACK; n++) {
+        const struct route_point *to = point_of(context, route, at.leg);
+        double dx = to->x - at.x, dz = to->z - at.z, length = sqrt(dx * dx + dz * dz);
+        double share = length > left ? left / length : 1.0;
+        at.x += share * dx;
+        at.z += share * dz;
+        left -= length;
+        if (at.leg == last)
+            break;
+        if (left > 0.0)
+            at.leg = (at.leg + 1) % route->count;
+    }
+    desired->heading_rad = maths_heading(at.x - m->x[i], at.z - m->z[i]);
+    return true;
+}
+
 /* --- places ------------------------------------------------------------------------------------*/
 
 /* Steers to a place that moves at a speed along (sine, -cosine). */
@@ -144,6 +216,9 @@ void formation_keeping_follow(const struct step_context *context, uint32_t i,
     m->goal_z[i] = at.z - ahead * cosine + right * sine;
     double speed = maths_max(0.0, w->vx[by] * sine - w->vz[by] * cosine);
     keep_place(context, i, speed, sine, cosine, desired);
+    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    if (column && dx * dx + dz * dz > FAR_M * FAR_M)
+        (void)drive_along_route(context, i, formation, post.leader, desired);
 }
 
 /* --- routes ------------------------------------------------------------------------------------*/

@@ -127,6 +127,39 @@ static void test_two_columns_meet_on_one_road_and_pass(void **state)
         assert_true(e.x[row] > 26000.0 && e.x[row + 5] < 26000.0);
 }
 
+/* Members that have fallen behind drive along their leader's route: between it and them may be
+ * houses. */
+static void test_who_has_fallen_behind_drives_along_the_route(void **state)
+{
+    double aside = 0.0;
+    (void)state;
+    open_with("jeep", "column",
+              "route = ( [25000.0, 25000.0], [25400.0, 25000.0], [25400.0, 25400.0],"
+              " [25800.0, 25400.0], [25800.0, 26400.0], [24000.0, 26400.0] );");
+    fixture_run(&f, 20 * HZ);
+    struct entities e = steps_rows(&f);
+    e.x[0] = 25400.0; /* its leader has driven on */
+    e.z[0] = 25300.0;
+    e.leg[0] = 3;
+    e.goal_x[0] = 25400.0;
+    e.goal_z[0] = 25400.0;
+    for (uint32_t row = 1; row < COUNT; row++) {
+        e.x[row] = 25150.0 - 30.0 * row;
+        e.z[row] = 25000.0;
+    }
+    for (int frame = 0; frame < 40 * HZ; frame++) {
+        fixture_run(&f, 1);
+        e = steps_rows(&f);
+        for (uint32_t row = 1; row < COUNT; row++) {
+            double dx = maths_max(0.0, 25400.0 - e.x[row]), dz = maths_max(0.0, e.z[row] - 25000.0);
+            aside = maths_max(aside, maths_min(dx, dz));
+        }
+    }
+    print_message("at most %.0f m off the route\n", aside);
+    assert_true(aside < 25.0 && e.x[1] > 25380.0);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+}
+
 int main(void)
 {
 #define TEST(function)                                                                             \
@@ -135,6 +168,7 @@ int main(void)
         TEST(test_everybody_keeps_his_place_on_a_winding_route),
         TEST(test_a_gap_is_closed_and_a_lost_leader_replaced),
         TEST(test_it_stops_with_its_leader_and_does_not_circle),
+        TEST(test_who_has_fallen_behind_drives_along_the_route),
         TEST(test_two_columns_meet_on_one_road_and_pass),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
