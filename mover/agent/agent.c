@@ -7,6 +7,7 @@
 #include "mover/agent/fire_control.h"
 #include "mover/agent/formation_keeping.h"
 #include "mover/agent/goal.h"
+#include "mover/agent/landing_place.h"
 #include "mover/agent/mission_route.h"
 #include "mover/agent/perception.h"
 #include "mover/agent/progress.h"
@@ -27,6 +28,8 @@
 #define REVERSE_SHARE 0.4   /* share of the speed when it drives backwards */
 #define REVERSE_M     150.0 /* so far a tank drives backwards into cover */
 #define LOW_SHARE     0.4   /* of its usual height, at which an aircraft evades */
+#define SLOWS_MPS2    2.0   /* a helicopter slows down so gently for its place at the base */
+#define OVER_PLACE_M  6.0   /* and sets down from there */
 #define LEVEL_LEAST   0.6   /* of its usual height, the lowest level over its base */
 #define LEVEL_STEP    0.1   /* from level to level */
 
@@ -233,16 +236,46 @@ static void hold_level(const struct step_context *context, uint32_t i, const str
         desired->altitude_m = level * kind->cruise_altitude_m;
 }
 
+/* Returns the way to its goal on the map [m]. */
+static double way_to_goal(const struct entities *m, uint32_t i)
+{
+    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    return sqrt(dx * dx + dz * dz);
+}
+
+static bool is_helicopter(const struct kind *kind)
+{
+    return kind->domain == DOMAIN_AIR && !(kind->min_speed_mps > 0.0);
+}
+
 static void drive_to_base(const struct step_context *context, uint32_t i, const struct kind *kind,
                           struct desired_motion *desired)
 {
+    double speed = kind->max_speed_mps;
     if (goal_arrived(context, i)) /* at the end of a detour */
         goal_base(context, i);
-    drive_to_goal(context, i, kind->max_speed_mps, desired);
+    if (is_helicopter(kind))
+        speed = maths_min(speed, sqrt(2.0 * SLOWS_MPS2 * way_to_goal(context->m, i)));
+    drive_to_goal(context, i, speed, desired);
     hold_level(context, i, kind, desired);
 }
 
-/* Fuel and rounds fill up evenly. An aircraft that cannot hover circles over the base. */
+/* Flies to its place at the base and sets down there, if the place is clear. */
+static void land_at_base(const struct step_context *context, uint32_t i,
+                         struct desired_motion *desired)
+{
+    const struct entities *m = context->m;
+    goal_base(context, i);
+    double way = way_to_goal(m, i);
+    bool down = (m->flags[i] & ENTITY_FLAG_LANDED) != 0;
+    if (!down && way > OVER_PLACE_M)
+        drive_to_goal(context, i, maths_min(sqrt(2.0 * SLOWS_MPS2 * way), 0.5 * way), desired);
+    else if (down || landing_place_is_clear(context, i))
+        desired->altitude_m = 0.0;
+}
+
+/* Fuel and rounds fill up evenly. A helicopter stands on the ground meanwhile, and an aircraft that
+ * cannot hover circles over the base. */
 static void drive_resupply(const struct step_context *context, uint32_t i, const struct kind *kind,
                            struct desired_motion *desired)
 {
@@ -256,6 +289,8 @@ static void drive_resupply(const struct step_context *context, uint32_t i, const
     if (kind->min_speed_mps > 0.0)
         drive_to_goal(context, i, kind->min_speed_mps, desired);
     hold_level(context, i, kind, desired);
+    if (is_helicopter(kind))
+        land_at_base(context, i, desired);
 }
 
 /* Keeps to the right of its route, unless it has a place of its own at its points. */
