@@ -134,7 +134,7 @@ static void begin_back_off(const struct step_context *context, uint32_t i,
     }
     goal_away(context, i, progress_way_out(context, i, before == BEHAVIOUR_BACK_OFF), BACK_OFF_M);
     m->until_tick[i] =
-        after(context, progress_rests(context, i) ? REST_S + (double)(m->id[i] % 8)
+        after(context, progress_stuck(context, i) ? REST_S + (double)(m->id[i] % 8)
                                                   : row->time_s + (double)(m->id[i] % 4));
 }
 
@@ -332,7 +332,7 @@ static void drive_by_behaviour(const struct step_context *context, uint32_t i,
         drive_to_position(context, i, kind, desired);
         break;
     case BEHAVIOUR_BACK_OFF:
-        drive_either_way(context, i, progress_rests(context, i) ? 0.0 : cruise, desired);
+        drive_either_way(context, i, cruise, desired);
         break;
     case BEHAVIOUR_SCRIPT:
         script_player_motion(context, i, desired);
@@ -442,6 +442,8 @@ static void think(const struct step_context *context, uint32_t i, const struct k
     if (notice.percepts & PERCEPTION_BIT(SUPPRESSED))
         suppress(context, i, row);
     drive_by_behaviour(context, i, desired);
+    if (kind->domain != DOMAIN_AIR && !desired->driven && progress_rests(context, i))
+        desired->speed_mps = 0.0;
     if (kind->domain == DOMAIN_SEA && !desired->driven &&
         m->behaviour[i] != BEHAVIOUR_SCRIPT) /* a script's author has chosen the course */
         ship_course_keep(context, i, desired);

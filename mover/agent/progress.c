@@ -11,12 +11,14 @@
 #define SLOW_MPS   0.3  /* and reaches less than this, */
 #define SLOW_SHARE 0.06 /* or than this share of it */
 #define SIDE_RAD   1.05 /* most off the way back */
+#define TRIES_S    3.0  /* who is stuck again tries so long */
+#define PERIOD_S   12.0 /* in each of these */
 
 /* The column stalled: a count of decisions, and how often the vehicle has been stuck since it last
  * got on. */
 #define STALLED_COUNT 0x3fu
 #define STALLED_ONCE  0x40u /* it backs off */
-#define STALLED_AGAIN 0x80u /* it rests */
+#define STALLED_AGAIN 0x80u /* it rests most of the time */
 
 bool progress_stalled(const struct step_context *context, uint32_t i)
 {
@@ -38,13 +40,20 @@ bool progress_stalled(const struct step_context *context, uint32_t i)
         m->stalled[i] = (uint8_t)(before | count);
         return false;
     }
-    m->stalled[i] = before & STALLED_ONCE ? STALLED_AGAIN : STALLED_ONCE;
+    m->stalled[i] = before ? STALLED_AGAIN : STALLED_ONCE;
     return true;
+}
+
+bool progress_stuck(const struct step_context *context, uint32_t i)
+{
+    return (context->m->stalled[i] & STALLED_AGAIN) != 0;
 }
 
 bool progress_rests(const struct step_context *context, uint32_t i)
 {
-    return (context->m->stalled[i] & STALLED_AGAIN) != 0;
+    double periods =
+        ((double)context->tick * context->dt_s + (double)(context->m->id[i] % 12u)) / PERIOD_S;
+    return progress_stuck(context, i) && periods - floor(periods) >= TRIES_S / PERIOD_S;
 }
 
 double progress_way_out(const struct step_context *context, uint32_t i, bool tried)

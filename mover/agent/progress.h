@@ -8,8 +8,11 @@
  * true when that has lasted for 3 s, and counts from 0 again. For each decision once. */
 bool progress_stalled(const struct step_context *context, uint32_t i);
 
-/* Returns true if it was stuck twice without getting on in between: then it stands for a while
- * before it tries again. */
+/* Returns true if it was stuck twice or more without getting on in between. */
+bool progress_stuck(const struct step_context *context, uint32_t i);
+
+/* Returns true if it is stuck so, and stands: it tries to get on for 3 s in every 12 s, whatever it
+ * wants. */
 bool progress_rests(const struct step_context *context, uint32_t i);
 
 /* Returns the heading in which a vehicle that is stuck backs off [rad]: away from where it drove,

@@ -216,6 +216,39 @@ static void test_the_way_out_is_to_the_back(void **state)
     }
 }
 
+/* Fire interrupted the rest of a crew that was stuck, so that it pushed for 12 s. */
+static void test_nobody_pushes_for_long_under_fire(void **state)
+{
+    uint32_t pushed = 0, longest = 0, tried = 0;
+    (void)state;
+    fixture_open(&f, WORLD);
+    uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = "jeep",
+                                                           .at = {25000.0, 100.0, 25000.0},
+                                                           .force = FORCE_BLUE,
+                                                           .behaviour = BEHAVIOUR_PATROL});
+    uint32_t tank =
+        fixture_put(&f, (struct fixture_entity){
+                            .kind = "tank", .at = {25600.0, 100.0, 25000.0}, .force = FORCE_RED});
+    for (int frame = 0; frame < 180 * HZ; frame++) {
+        struct entities e = steps_rows(&f);
+        e.order[row] = BEHAVIOUR_PATROL;
+        e.x[row] = e.z[row] = 25000.0; /* a pit holds it */
+        e.vx[row] = e.vz[row] = 0.0;
+        if (frame % 7 == 0) {
+            e.threat_slot[row] = tank;
+            e.threat_id[row] = tank + 1;
+        }
+        fixture_run(&f, 1);
+        bool pushes = fabs((double)steps_rows(&f).throttle[row]) >= 0.15;
+        pushed = pushes ? pushed + 1 : 0;
+        tried += pushes && frame > 60 * HZ;
+        longest = pushed > longest ? pushed : longest;
+    }
+    print_message("pushes for %.1f s at most, and for %.0f s of two minutes\n",
+                  (double)longest / HZ, (double)tried / HZ);
+    assert_true(longest <= 10 * HZ && tried > 10 * HZ);
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_teardown(function, close_world)
@@ -228,6 +261,7 @@ int main(void)
         TEST(test_it_is_stuck_when_it_drives_for_three_seconds_in_vain),
         TEST(test_who_is_stuck_again_rests),
         TEST(test_the_way_out_is_to_the_back),
+        TEST(test_nobody_pushes_for_long_under_fire),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
