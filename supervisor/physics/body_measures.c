@@ -230,17 +230,17 @@ static void measure_jump(struct measures *measures, double dt_s, const struct bo
         speed = maths_max(speed, PASSED_ON * body->together.fastest_mps);
     if (body->together.parts)
         speed += PARTING_MPS;
-    measure_take(measures, MEASURE_OF_JUMP, maths_max(0.0, vec3_length(way) - speed * dt_s - out),
-                 &body->named, NULL);
+    /* The bounds are those of a frame of at most 1/60 s: in a longer one gravity and the ground
+     * have more time to change speed and spin. */
+    double share = maths_min(1.0, FRAME_S / dt_s);
+    double beyond_m = maths_max(0.0, vec3_length(way) - speed * dt_s - out);
+    measure_take(measures, MEASURE_OF_JUMP, beyond_m * share, &body->named, NULL);
     if (body->kind->domain != DOMAIN_AIR && !body->was->wreck)
         return;
     double spin = maths_max(vec3_length(body->now.spin), vec3_length(body->was->spin));
     double angle = rigid_pose_angle(&body->was->pose, &body->now.pose);
     if (!body->was->wreck)
         spin += body->kind->turn_rate_rps + LEANING_RPS;
-    /* The bound is that of a frame of at most 1/60 s: in a longer one gravity and the ground have
-     * more time to change the spin. */
-    double share = maths_min(1.0, FRAME_S / dt_s);
     measure_take(measures, MEASURE_OF_SNAP, maths_max(0.0, angle - spin * dt_s) * share,
                  &body->named, NULL);
 }

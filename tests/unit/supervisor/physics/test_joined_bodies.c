@@ -53,6 +53,20 @@ static double jump_of(uint32_t index, double way_m)
     return measures.of[MEASURE_OF_JUMP].worst;
 }
 
+/* Gravity and the ground change a speed more within a longer frame. */
+static void test_a_way_beyond_the_speed_counts_for_a_sixtieth_of_a_second(void **state)
+{
+    (void)state;
+    find(NULL, 0);
+    measures = (struct measures){.frame = 1};
+    body[0].named.at.x = body[0].now.pose.at.x = 0.03;
+    body_measures_motion(&measures, 0.1, &body[0]);
+    assert_true(fabs(measures.of[MEASURE_OF_JUMP].worst - 0.005) < 1e-12);
+    measures = (struct measures){.frame = 1};
+    body_measures_motion(&measures, 1.0 / 60.0, &body[0]);
+    assert_true(fabs(measures.of[MEASURE_OF_JUMP].worst - 0.03) < 1e-12);
+}
+
 static void test_groups_are_joined_and_summed(void **state)
 {
     struct neighbour_pair pair[] = {{3, 2}, {0, 2}};
@@ -139,6 +153,7 @@ int main(void)
 {
 #define TEST(name) cmocka_unit_test_setup(name, bodies_at_rest)
     const struct CMUnitTest tests[] = {
+        TEST(test_a_way_beyond_the_speed_counts_for_a_sixtieth_of_a_second),
         TEST(test_groups_are_joined_and_summed),
         TEST(test_a_body_beside_others_that_part_is_pushed_aside),
         TEST(test_impacts_are_passed_on),
