@@ -185,7 +185,10 @@ static void move(struct chassis *chassis, const struct mat3 *turn, double load_n
     if (load_n == 0.0 && shell.impulse_ns == 0.0)
         push.y = 0.5 * GRAVITY_MPS2 * dt_s; /* a free fall is exact */
     body->centre = vec3_add(body->centre, vec3_scale(vec3_add(body->velocity, push), dt_s));
-    rigid_body_turn(body, shell.spin_rps, dt_s);
+    if (chassis->rough || load_n == 0.0 || shell.impulse_ns != 0.0)
+        rigid_body_turn(body, shell.spin_rps, dt_s);
+    else /* springs and tyres hold it, beside which its own momentum is nothing */
+        body->turn = rotation_spun(body->turn, body->spin, dt_s);
 }
 
 /* Returns true if the ground rises before the body within a sub-step. */
@@ -258,7 +261,7 @@ void chassis_run_begin(struct chassis *chassis, const struct step_context *conte
     chassis->fall_j = chassis->strike_j = 0.0;
     chassis->friction = ground_grip_at(context, m->x[i], m->z[i]).friction;
     chassis->drivetrain = drivetrain_of(context, i, desired);
-    suspension_of(chassis->kind, &chassis->suspension);
+    suspension_of(chassis->kind, chassis->cratered, &chassis->suspension);
     chassis->shell.count = 0;
 }
 

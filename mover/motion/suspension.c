@@ -20,6 +20,7 @@
 #define STEEPEST     3.0  /* tangent: a wheel rolls onto an edge as onto a slope like that */
 #define LEANS_ALONG  2.0  /* tangent of the body's slope, at most */
 #define SAMPLES      9    /* points at which a wheel may touch uneven ground */
+#define EVEN_AXLES   3u   /* by which a track stands on even ground */
 
 /* Returns where the axle is over the distance between the outer axles: the middle of all axles is
  * the body's. Behind the front axle of a truck the others stand close together. */
@@ -34,11 +35,41 @@ static double axle_place(const struct kind *kind, uint32_t axle, double length_m
     return axle == 0 ? front : rear + spread * (0.5 - (double)(axle - 1) / maths_max(last - 1, 1));
 }
 
-void suspension_of(const struct kind *kind, struct suspension *suspension)
+/* Returns how far the ends of a track's axles on even ground are from its middle: so that they have
+ * the stiffness against pitch of all road wheels. length_m: between the outer road wheels. */
+static double even_half(const struct kind *kind, double length_m)
 {
-    double rate = TWO_PI * kind->heave_hz, count = 2.0 * kind->axles;
+    double squares = 0.0;
+    for (uint32_t axle = 0; axle < kind->axles; axle++) {
+        double x = axle_place(kind, axle, length_m);
+        squares += x * x;
+    }
+    return sqrt(0.5 * squares * EVEN_AXLES / kind->axles);
+}
+
+/* Places the wheels. axles: their number, of which each bears alike. */
+static void place_wheels(const struct kind *kind, struct suspension *suspension, uint32_t axles)
+{
+    const bool all = axles == kind->axles;
+    const double length = suspension->ground_m;
+    const double half = all ? 0.0 : even_half(kind, length);
+    suspension->count = 2 * axles;
+    for (uint32_t i = 0; i < suspension->count; i++) {
+        struct wheel *wheel = &suspension->wheel[i];
+        double x = all ? axle_place(kind, i / 2, length) : half * (1.0 - (double)(i / 2));
+        wheel->side = i & 1 ? 1.0 : -1.0;
+        wheel->steers = !kind->tracked && i < 2;
+        wheel->bow = !kind->tracked ? 0.0 : i < 2 ? 1.0 : i + 2 >= suspension->count ? -1.0 : 0.0;
+        wheel->place = (struct vec3){x, -suspension->sag_m, 0.5 * wheel->side * kind->track_m};
+    }
+}
+
+void suspension_of(const struct kind *kind, bool uneven, struct suspension *suspension)
+{
+    const bool fewer = kind->tracked && !uneven && kind->axles > EVEN_AXLES;
+    const uint32_t axles = fewer ? EVEN_AXLES : kind->axles;
+    double rate = TWO_PI * kind->heave_hz, count = 2.0 * axles;
     double length = kind->length_m * (kind->tracked ? TRACK_LENGTH : WHEELBASE);
-    suspension->count = 2 * kind->axles;
     suspension->sag_m = GRAVITY_MPS2 / (rate * rate);
     suspension->most_m = suspension->sag_m + kind->travel_m;
     suspension->spring_npm = kind->mass_kg * rate * rate / count;
@@ -48,15 +79,8 @@ void suspension_of(const struct kind *kind, struct suspension *suspension)
     suspension->bow_m = kind->tracked ? BOW * kind->length_m : 0.0;
     suspension->reach_m =
         kind->tracked ? maths_min(kind->step_m, BOW_RISE * suspension->bow_m) : kind->step_m;
-    for (uint32_t i = 0; i < suspension->count; i++) {
-        struct wheel *wheel = &suspension->wheel[i];
-        wheel->side = i & 1 ? 1.0 : -1.0;
-        wheel->steers = !kind->tracked && i < 2;
-        wheel->bow = !kind->tracked ? 0.0 : i < 2 ? 1.0 : i + 2 >= suspension->count ? -1.0 : 0.0;
-        wheel->place = (struct vec3){axle_place(kind, i / 2, length), -suspension->sag_m,
-                                     0.5 * wheel->side * kind->track_m};
-    }
-    double front = suspension->wheel[0].place.x;
+    place_wheels(kind, suspension, axles);
+    double front = axle_place(kind, 0, length);
     suspension->wheelbase_m = front * kind->axles / (kind->axles - 1);
     suspension->front_m = front + (kind->tracked ? suspension->bow_m : suspension->radius_m);
 }

@@ -54,8 +54,10 @@ struct suspension {
     double ground_m;    /* length of the tracks on the ground, or between the outer axles */
 };
 
-/* Finds the wheels of a kind. */
-void suspension_of(const struct kind *kind, struct suspension *suspension);
+/* Finds the wheels of a kind. uneven: there may be craters or earthworks under the body. On even
+ * ground a track of more road wheels stands on three, which are as stiff against heave and pitch as
+ * all of them. */
+void suspension_of(const struct kind *kind, bool uneven, struct suspension *suspension);
 
 /* Finds which wheels touch the ground, and their loads. Returns the sum of the loads [N]. uneven:
  * there may be craters or earthworks under the body. */

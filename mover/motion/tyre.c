@@ -9,6 +9,7 @@
 #define FRONT_GRIP 0.9  /* share of the grip of wheels that steer: they slide first */
 #define SLOW_MPS   0.25 /* a wheel that rolls more slowly slips as at this speed */
 #define SWEEPS     3
+#define SETTLED    1e-3 /* sweeps that change no impulse by this share of a grip are the last */
 #define TRACK_SIDE 0.85 /* friction of tracks to the sides over that along them */
 #define WIDE       10.0 /* radius of a turn over the track in which tracks hold least */
 #define TRACK_PULL 0.95 /* share of the grip by which tracks turn the body */
@@ -122,7 +123,7 @@ static inline double end_slip(const struct wheel *wheel, int k, const struct rig
 }
 
 /* Ends the slip of the wheel, as far as brakes, brush and grip allow. Returns true if its impulses
- * have changed. */
+ * have changed by more than SETTLED. */
 static bool solve_wheel(struct wheel *wheel, const struct response *response)
 {
     double after[WHEEL_AXES];
@@ -142,7 +143,7 @@ static bool solve_wheel(struct wheel *wheel, const struct response *response)
             continue;
         apply(wheel, k, change, response);
         wheel->impulse_ns[k] = after[k];
-        changed = true;
+        changed |= fabs(change) > SETTLED * wheel->grip_ns;
     }
     return changed;
 }
@@ -167,7 +168,7 @@ static struct skid skid_of(const struct mat3 *turn, const struct mat3 *inverse,
     return skid;
 }
 
-/* Returns true if the moment has changed. */
+/* Returns true if the moment has changed by more than SETTLED. */
 static bool solve_skid(struct skid *skid, struct rigid_body *body)
 {
     double off = skid->wanted_rps - vec3_dot(body->spin, skid->up);
@@ -175,9 +176,10 @@ static bool solve_skid(struct skid *skid, struct rigid_body *body)
         maths_clamp(skid->impulse_nms + off * skid->inertia_kgm2, -skid->most_nms, skid->most_nms);
     if (after == skid->impulse_nms)
         return false;
-    body->spin = vec3_add(body->spin, vec3_scale(skid->twist, after - skid->impulse_nms));
+    double change = after - skid->impulse_nms;
+    body->spin = vec3_add(body->spin, vec3_scale(skid->twist, change));
     skid->impulse_nms = after;
-    return true;
+    return fabs(change) > SETTLED * skid->most_nms;
 }
 
 void tyre_solve(struct suspension *suspension, struct rigid_body *body, const struct mat3 *turn,

@@ -208,7 +208,7 @@ static void table_begin(struct table_test *test, const char *kind, double roll_r
     steps_serial_context(&f, &test->step, &test->serial);
     test->body = rigid_body_take(&test->step, row);
     test->drivetrain = (struct drivetrain){.kind = steps_kind(&f, kind), .wanted_mps = mps};
-    suspension_of(test->drivetrain.kind, &test->suspension);
+    suspension_of(test->drivetrain.kind, true, &test->suspension);
 }
 
 /* Moves it for a time while the table tilts; returns the cosine of its lean on the table. */

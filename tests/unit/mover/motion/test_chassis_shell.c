@@ -38,7 +38,7 @@ static struct rigid_body body_before(const char *kind, double gap_m, double heig
         .heading_rad = HALF_PI};
     uint32_t row = fixture_put(&f, entity);
     steps_serial_context(&f, &step, &serial);
-    suspension_of(steps_kind(&f, kind), &suspension);
+    suspension_of(steps_kind(&f, kind), true, &suspension);
     chassis_shell_of(steps_kind(&f, kind), &suspension, &shell);
     return rigid_body_take(&step, row);
 }

@@ -37,7 +37,7 @@ static double load_at(double x, double height_m, bool uneven)
     struct rigid_body body = rigid_body_take(&step, row);
     struct mat3 turn = rotation_matrix(body.turn);
     body.velocity.y = rises_mps;
-    suspension_of(steps_kind(&f, "jeep"), &suspension);
+    suspension_of(steps_kind(&f, "jeep"), true, &suspension);
     return suspension_load(&suspension, &step, &body, &turn, uneven) /
            (GRAVITY_MPS2 * body.inertia.mass_kg);
 }
@@ -114,6 +114,35 @@ static void test_grip_is_the_sum_of_the_wheels(void **state)
     assert_true(fabs(suspension_grip(&suspension) - 0.4 * load * weight) < 1e-6);
 }
 
+/* The stiffness against heave [N/m] and against pitch [N m/rad]. */
+static double stiffness(const char *kind, bool uneven, double *pitch)
+{
+    double heave = 0.0;
+    suspension_of(steps_kind(&f, kind), uneven, &suspension);
+    *pitch = 0.0;
+    for (uint32_t i = 0; i < suspension.count; i++) {
+        double x = suspension.wheel[i].place.x;
+        heave += suspension.spring_npm;
+        *pitch += suspension.spring_npm * x * x;
+    }
+    return heave;
+}
+
+static void test_three_wheels_of_a_track_are_as_stiff_as_all(void **state)
+{
+    static const char *const kinds[] = {"tank", "carrier", "missile-carrier", "truck", "jeep"};
+    (void)state;
+    for (int n = 0; n < 5; n++) {
+        double pitch, pitch_even, heave = stiffness(kinds[n], true, &pitch);
+        uint32_t all = suspension.count;
+        double front = suspension.front_m, heave_even = stiffness(kinds[n], false, &pitch_even);
+        assert_true(fabs(heave_even / heave - 1.0) < 1e-12);
+        assert_true(fabs(pitch_even / pitch - 1.0) < 1e-12);
+        assert_true(suspension.front_m == front);
+        assert_int_equal(suspension.count, n < 3 ? 6 : all);
+    }
+}
+
 int main(void)
 {
 #define T(name) cmocka_unit_test_setup_teardown(name, open_world, fixture_teardown)
@@ -123,6 +152,7 @@ int main(void)
         T(test_a_wall_lifts_no_wheel),
         T(test_a_wheel_touches_an_edge_before_it_is_over_it),
         T(test_grip_is_the_sum_of_the_wheels),
+        T(test_three_wheels_of_a_track_are_as_stiff_as_all),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
