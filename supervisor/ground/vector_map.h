@@ -68,9 +68,9 @@ void vector_map_track_free(struct vector_map_track *track);
 /* Returns the number that OpenStreetMap gives to a feature, or, in other maps, its own. */
 long long vector_map_number(OGRFeatureH feature);
 
-/* Returns a feature's value for a key of OpenStreetMap, from a field of this name or from the list
- * "other_tags" of GDAL's driver; "" without one. A value of the list is cut to the size of buffer.
- */
+/* Returns a feature's value for a key of OpenStreetMap, a text that stays where it is, from a field
+ * of this name or from the list "other_tags" of GDAL's driver; "" without one. A value of the list
+ * is cut to the size of buffer. */
 const char *vector_map_tag(OGRFeatureH feature, const char *key, char *buffer, uint32_t bytes);
 
 #endif
