@@ -97,15 +97,21 @@ int snapshot_take(struct snapshot *snapshot, const struct view *view)
     return -1;
 }
 
-int snapshot_take_poses(struct snapshot *snapshot, const struct view *view)
+void snapshot_settle_poses(struct snapshot *snapshot, const struct view *view)
 {
-    int result = snapshot_take(snapshot, view);
-    if (result != 0 || !view->world.params->cruise)
-        return result;
+    if (!view->world.params->cruise)
+        return;
     crater_index_update(&snapshot->craters, snapshot->head.crater_count);
     cruise_pose_settle(&snapshot->entities, &view->world, &snapshot->craters, snapshot->head.used,
                        snapshot->head.tick);
-    return 0;
+}
+
+int snapshot_take_poses(struct snapshot *snapshot, const struct view *view)
+{
+    int result = snapshot_take(snapshot, view);
+    if (result == 0)
+        snapshot_settle_poses(snapshot, view);
+    return result;
 }
 
 bool snapshot_take_rows(struct snapshot *snapshot, const struct view *view, const uint32_t *rows,

@@ -30,8 +30,11 @@ void snapshot_free(struct snapshot *snapshot);
  * 100 copies in a row; -1 with EBADMSG when the copy fails its checksum (a damaged world). */
 int snapshot_take(struct snapshot *snapshot, const struct view *view);
 
-/* The same, and then sets the columns of the vehicles that cruise (world/entity/cruise.h) to where
- * they are in this frame: for readers that look at places, and make no digest. */
+/* Sets the columns of the vehicles that cruise (world/entity/cruise.h) to where they are in the
+ * frame of a copy: for readers that look at places, and make no digest. */
+void snapshot_settle_poses(struct snapshot *snapshot, const struct view *view);
+
+/* Copies the last committed frame with such places. */
 int snapshot_take_poses(struct snapshot *snapshot, const struct view *view);
 
 /* Brings the head and these rows of the last copy to the last committed frame, without its checksum

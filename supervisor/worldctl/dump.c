@@ -156,6 +156,7 @@ int verb_dump(const struct arguments *arguments)
     struct view view;
     struct snapshot snapshot;
     arguments_snapshot(arguments, &view, &snapshot);
+    snapshot_settle_poses(&snapshot, &view);
     if (arguments->terrain)
         dump_terrain(arguments, &view, &snapshot);
     else if (arguments->fixed)

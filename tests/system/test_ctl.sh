@@ -82,4 +82,30 @@ check "a line without an end is refused" eval \
     '! { head -c 100000 /dev/zero | tr "\0" x; echo; echo pause; } | $ctl --json - >told 2>err && [ "$(json line <told)" = 2 ]'
 check "the set stops" "$jolon" stop -w "$name"
 check "nothing is left" nothing_left "$name"
+
+# --- a world whose vehicles cruise is dumped as it is in its frame --------------------------------------
+cat >cruise.cfg <<'C'
+world = { cruise = true; };
+terrain = { source = "flat"; };
+objects = { source = "none"; };
+vehicles = ( { kind = "jeep"; count = 12; behaviour = "patrol"; area = [20000.0, 20000.0, 30000.0, 30000.0]; } );
+C
+"$jolon" start -w "$name-c" --out out-c --without renderer --without reporter cruise.cfg >told
+sleep 5
+"$jolon" ctl -w "$name-c" pause >told
+"$jolon" world dump --world "$name-c" --json >before
+"$jolon" ctl -w "$name-c" step 6 >told
+sleep 0.5
+"$jolon" world dump --world "$name-c" --json >after
+goes_on() {
+    python3 -I -S -c '
+import json, math, sys
+before, after = ([json.loads(line) for line in open(name)] for name in sys.argv[1:])
+ways = [(math.dist(a["position"], b["position"]), a["speed_mps"] * 6 / 60) for a, b in zip(before, after) if a["speed_mps"] > 3]
+print(ways)
+sys.exit(len(ways) < 6 or any(abs(way - wanted) > 0.3 * wanted for way, wanted in ways))' before after
+}
+check "each vehicle that cruises is dumped further on after six frames" goes_on
+"$jolon" stop -w "$name-c" >told
+"$bin/jolon-world" remove --world "$name-c"
 done_testing
