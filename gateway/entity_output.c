@@ -622,11 +622,13 @@ void entity_output_send(struct entity_output *entities, const struct view *view,
         if (!send_row(entities, &view->world, row, now_ns, false)) {
             entities->next_row = row;
             entities->known = rows;
+            entities->cut_short = true;
             return;
         }
     }
     entities->next_row = 0;
     entities->known = used;
+    entities->cut_short = false;
 }
 
 void entity_output_follow(struct entity_output *entities, const struct view *view, uint64_t now_ns)
@@ -634,7 +636,8 @@ void entity_output_follow(struct entity_output *entities, const struct view *vie
     const struct snapshot *snapshot = &entities->snapshot;
     const struct entities *e = &snapshot->entities;
     double scale = snapshot->head.time_scale;
-    if (entities->followed_count == 0 ||
+    /* Where the rate does not suffice, each waits for its turn. */
+    if (entities->cut_short || entities->followed_count == 0 ||
         !snapshot_take_rows(&entities->snapshot, view, entities->followed,
                             entities->followed_count) ||
         snapshot->head.paused || snapshot->head.time_scale != scale)

@@ -74,6 +74,7 @@ struct entity_output {
     uint32_t *followed; /* [capacity] rows between two passes */
     uint32_t followed_count;
     uint32_t next_row;  /* where the next pass begins, so that a full rate is shared */
+    bool cut_short;     /* the rate did not suffice for the last pass */
     uint32_t known;     /* rows with an id: 0 .. known - 1 */
     uint64_t refused;   /* entities whose id is beyond the range of applications */
     uint64_t postponed; /* passes in which the rate has put Entity States off */
@@ -94,7 +95,7 @@ bool entity_output_look(struct entity_output *entities, const struct view *view,
 void entity_output_send(struct entity_output *entities, const struct view *view, uint64_t now_ns);
 
 /* Between two passes: sends what is due by the last committed frame of the rows that the last pass
- * has chosen, if there is a later frame. */
+ * has chosen, if there is a later frame and the rate has sufficed for that pass. */
 void entity_output_follow(struct entity_output *entities, const struct view *view, uint64_t now_ns);
 
 /* Sends a last state with the bit "deactivated" for each entity that was sent. */

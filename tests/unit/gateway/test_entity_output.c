@@ -552,6 +552,33 @@ static void test_a_rate_that_never_suffices(void **state)
         assert_true(seen[i]);
 }
 
+/* What turns without end leaves the others their turns: it is not followed when the rate does not
+ * suffice. */
+static void test_a_rate_for_all_and_what_turns(void **state)
+{
+    int seen[42] = {0};
+    (void)state;
+    put("helicopter", 20000.0, 24000.0, 0.0, FORCE_BLUE);
+    for (int i = 0; i < 40; i++)
+        put("tank", 20000.0 + 50.0 * i, 25000.0, 0.0, FORCE_BLUE);
+    output.rate_ps = 20; /* 8 are heartbeats, and the helicopter wants one in each frame */
+    for (int i = 0; i < 1200; i++) {
+        struct state committed = fixture_state(&world);
+        next_frame(0, i % 2 * 10.0 * RAD_PER_DEG, committed.entities.x[0]);
+        if (i % 3 == 0)
+            pass();
+        else
+            entity_output_follow(&entities, &world.view, now_ns);
+        if (i % 3 != 0)
+            receive();
+        for (int k = 0; k < count; k++)
+            seen[received[k].entity_state.id.entity]++;
+    }
+    print_message("of 20 a second for 20 s: %d of what turns\n", seen[1]);
+    for (int i = 1; i <= 41; i++)
+        assert_true(seen[i] >= 3);
+}
+
 /* A turn about each axis of the body has the sign of DIS: roll to the right, nose up, clockwise. */
 static void test_angular_velocities(void **state)
 {
@@ -623,15 +650,25 @@ static void test_an_id_beyond_the_range(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_a_vehicle_is_sent_once),      TEST(test_changes_of_what_stands),
-        TEST(test_parts_count_their_changes),   TEST(test_the_heartbeat),
-        TEST(test_a_constant_course),           TEST(test_receivers_have_it_within_the_threshold),
-        TEST(test_what_turns_is_followed),      TEST(test_the_time_stamp_is_of_the_frame),
-        TEST(test_a_missile_comes_and_goes),    TEST(test_a_pause_freezes),
-        TEST(test_a_lost_state_is_made_good),   TEST(test_the_noise_of_the_clock),
-        TEST(test_a_world_that_falls_behind),   TEST(test_the_rate),
-        TEST(test_a_rate_that_never_suffices),  TEST(test_angular_velocities),
-        TEST(test_a_new_gateway_says_the_same), TEST(test_an_id_beyond_the_range),
+        TEST(test_a_vehicle_is_sent_once),
+        TEST(test_changes_of_what_stands),
+        TEST(test_parts_count_their_changes),
+        TEST(test_the_heartbeat),
+        TEST(test_a_constant_course),
+        TEST(test_receivers_have_it_within_the_threshold),
+        TEST(test_what_turns_is_followed),
+        TEST(test_the_time_stamp_is_of_the_frame),
+        TEST(test_a_missile_comes_and_goes),
+        TEST(test_a_pause_freezes),
+        TEST(test_a_lost_state_is_made_good),
+        TEST(test_the_noise_of_the_clock),
+        TEST(test_a_world_that_falls_behind),
+        TEST(test_the_rate),
+        TEST(test_a_rate_for_all_and_what_turns),
+        TEST(test_a_rate_that_never_suffices),
+        TEST(test_angular_velocities),
+        TEST(test_a_new_gateway_says_the_same),
+        TEST(test_an_id_beyond_the_range),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
