@@ -143,9 +143,11 @@ static struct vec3 limited(struct vec3 v, double most)
     return length <= most ? v : length < 1e30 ? vec3_scale(v, most / length) : (struct vec3){0};
 }
 
-static int16_t angle_units(double angle_rad)
+/* Returns an angle as it is in a record, at most so far from 0. An absurd one is 0. */
+static int16_t angle_units(double angle_rad, double most_rad)
 {
-    return fabs(angle_rad) < 1e6 ? (int16_t)lrint(maths_wrap_half(angle_rad) / PI * 32767.0) : 0;
+    double angle = fabs(angle_rad) < 1e6 ? maths_wrap_half(angle_rad) : 0.0;
+    return (int16_t)lrint(maths_clamp(angle, -most_rad, most_rad) / PI * 32767.0);
 }
 
 static uint64_t id_of(struct pdu_id id)
@@ -238,9 +240,9 @@ static void set_parts(struct remote_record *track, const struct pdu *pdu)
         if (part->kind != PDU_PART_ARTICULATED)
             continue;
         if (part->type == PDU_TURRET_AZIMUTH)
-            track->turret = angle_units((double)part->value);
+            track->turret = angle_units((double)part->value, PI);
         if (part->type == PDU_GUN_ELEVATION)
-            track->gun = angle_units((double)part->value);
+            track->gun = angle_units((double)part->value, 0.5 * PI);
     }
 }
 

@@ -311,6 +311,30 @@ static void test_absurd_motion(void **state)
     assert_int_equal(fixture_event(&f, EVENT_INPUT, 1)->input.refused, 0);
 }
 
+/* A turret turns all the way round, and a gun no further than straight up and down. */
+static void test_absurd_parts(void **state)
+{
+    static const struct {
+        float told;
+        double turret, gun;
+    } cases[] = {{0.5f, 0.5, 0.5},
+                 {2.5f, 2.5, 0.5 * PI},
+                 {-2.5f, -2.5, -0.5 * PI},
+                 {6.0f, -0.2832, -0.2832},
+                 {1e29f, 0.0, 0.0}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        struct pdu pdu = state_of(5, (struct vec3){25100.0, 500.0, 24900.0});
+        pdu.parts = 2;
+        pdu.part[0] = (struct pdu_part){.type = PDU_TURRET_AZIMUTH, .value = cases[i].told};
+        pdu.part[1] = (struct pdu_part){.type = PDU_GUN_ELEVATION, .value = cases[i].told};
+        take(&pdu, &peer);
+        pass(0.2);
+        assert_true(fabs((double)steps_rows(&f).turret[1] - cases[i].turret) < 1e-3);
+        assert_true(fabs((double)steps_rows(&f).gun[1] - cases[i].gun) < 1e-3);
+    }
+}
+
 static void test_types(void **state)
 {
     static const struct {
@@ -674,6 +698,7 @@ int main(void)
         TEST(test_places_that_are_none),
         TEST(test_heights_that_are_none),
         TEST(test_absurd_motion),
+        TEST(test_absurd_parts),
         TEST(test_types),
         TEST(test_often_told_is_told_seldom),
         TEST(test_late_and_twice),
