@@ -70,9 +70,11 @@ struct pair_impacts {
 struct pair_known {
     struct vec3 plane[LEVEL_GAP_PLANES]; /* unit, from a to b: normals that may separate the bodies,
                                             the first one their outer hulls; 0: none known */
-    double before_m; /* their gap in the committed frame, 0 if they were apart, or
-                        PAIR_NOT_MEASURED */
-    double apart_m;  /* they are apart by this at least when the frame begins; 0: not known */
+    double normal_x, normal_z; /* unit, from a to b: of the smallest gap of bodies that rest when
+                                  the frame begins; 0: they do not */
+    double before_m;           /* their gap in the committed frame, 0 if they were apart, or
+                                  PAIR_NOT_MEASURED */
+    double apart_m; /* they are apart by this at least when the frame begins; 0: not known */
     struct level_gap_memory memory;                       /* of their near hulls */
     struct contact_load load[PERSISTENT_CONTACT_NEAREST]; /* of the pairs of hulls in memory */
     /* On these versions of their paths the bodies certainly stay apart until the frame's end, by at

@@ -417,17 +417,48 @@ static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t 
     work_done();
 }
 
+/* Returns how far a side of a pair has come along the pair's normal [m]. */
+static double come_along(const struct end_guard *guard, const struct pair_known *known,
+                         uint32_t side)
+{
+    const struct vec3 moved = side & PAIR_FIXED ? (struct vec3){0} : guard->stands[side].moved;
+    return moved.x * known->normal_x + moved.z * known->normal_z;
+}
+
+/* Returns the side of a pair that follows the other, which leaves it, or SLOT_NONE. */
+static uint32_t follower_of(const struct end_guard *guard, const struct pair *pair,
+                            const struct pair_known *known)
+{
+    double a = come_along(guard, known, pair->a), b = come_along(guard, known, pair->b);
+    if (a > 0.0 && b > 0.0)
+        return pair->a;
+    return a < 0.0 && b < 0.0 ? pair->b : SLOT_NONE;
+}
+
+/* Marks the bodies of a pair. One that the other follows goes back only when that one is back: if
+ * both went back by the same share, they would be as near to each other as before. */
+static void mark_pair(struct end_guard *guard, const struct response_context *context,
+                      uint32_t index)
+{
+    const struct pair *pair = &context->contacts->pair[index];
+    uint32_t follower = follower_of(guard, pair, &context->contacts->known[index]);
+    if (follower != SLOT_NONE) {
+        mark(guard, context, follower);
+        if (guard->marked[follower])
+            return;
+    }
+    mark(guard, context, pair->a);
+    if (!(pair->b & PAIR_FIXED))
+        mark(guard, context, pair->b);
+}
+
 /* Marks the bodies of the pairs that end the frame deeper in each other, and the wrecks that end it
  * deeper in the ground. */
 static void mark_deeper(struct end_guard *guard, const struct response_context *context)
 {
     for (uint32_t i = 0; i < guard->pair_count; i++) {
-        const struct pair *pair = &context->contacts->pair[guard->pair[i].pair];
-        if (!guard->pair[i].deeper)
-            continue;
-        mark(guard, context, pair->a);
-        if (!(pair->b & PAIR_FIXED))
-            mark(guard, context, pair->b);
+        if (guard->pair[i].deeper)
+            mark_pair(guard, context, guard->pair[i].pair);
     }
     for (uint32_t i = 0; i < guard->count; i++) {
         if (guarded(context, guard->row[i]) && sinks(context, guard->row[i]))

@@ -10,7 +10,8 @@
 #include <errno.h>
 
 #define SWEEPS       30 /* over the bodies that part, forwards and backwards in turn */
-#define SLIDES       3  /* rounds over a body's bounds that turn its wish along them */
+#define BACK_SWEEPS  10 /* over those that make way, in the same manner */
+#define SLIDES       10 /* rounds over a body's bounds that turn its motion along them, at most */
 #define BACKS_MOST   4  /* so often a body goes half as far, the last time not at all */
 #define ROUNDING_MPS 1e-9
 
@@ -152,19 +153,31 @@ static void go_together(struct parting *parting, const struct parting_input *inp
     }
 }
 
-/* Lets one body go as far towards its wish as its bounds allow: along them, and no further than to
+/* Returns the n-th body of a sweep: forwards and backwards in turn. */
+static uint32_t in_turn(const struct parting_input *input, uint32_t sweep, uint32_t n)
+{
+    return sweep % 2 == 0 ? n : input->bodies - 1 - n;
+}
+
+/* Lets one body go as far towards a motion as its bounds allow: along them, and no further than to
  * the first. It stays within all of them. */
-static void step(struct parting *parting, const struct parting_input *input, uint32_t index)
+static void step(struct parting *parting, const struct parting_input *input, uint32_t index,
+                 double x, double z)
 {
     const struct parting_body *body = &parting->body[index];
     struct level_motion *now = &input->body[index].pushed;
-    double x = body->wish_x, z = body->wish_z, share = 1.0;
-    for (int round = 0; round < SLIDES; round++) {
+    double share = 1.0;
+    bool out = true;
+    for (int round = 0; out && round < SLIDES; round++) {
+        out = false;
         for (uint32_t i = body->first; i < body->end; i++) {
             const struct parting_bound *bound = &parting->bound[i];
             double off = least_of(input, bound) - x * bound->x - z * bound->z;
-            x += maths_max(0.0, off) * bound->x;
-            z += maths_max(0.0, off) * bound->z;
+            if (off <= 0.0)
+                continue;
+            x += off * bound->x;
+            z += off * bound->z;
+            out = true;
         }
     }
     x -= now->x;
@@ -173,7 +186,7 @@ static void step(struct parting *parting, const struct parting_input *input, uin
         const struct parting_bound *bound = &parting->bound[i];
         double closing = -(x * bound->x + z * bound->z);
         double room = now->x * bound->x + now->z * bound->z - least_of(input, bound);
-        if (closing > 0.0 && closing * share > room)
+        if (closing > 0.0 && closing * share > room + ROUNDING_MPS)
             share = maths_max(0.0, room) / closing;
     }
     now->x += share * x;
@@ -188,6 +201,33 @@ static void part_others(struct parting *parting, const struct parting_input *inp
             level_solver_part(input->body, input->point, input->points);
             return;
         }
+    }
+}
+
+/* Marks the bodies that are deep in nothing: they go only to make way for others. */
+static void mark_those_that_make_way(struct parting *parting, const struct parting_input *input)
+{
+    for (uint32_t i = 0; i < input->bodies; i++)
+        parting->body[i].makes_way = parting->body[i].goes;
+    for (uint32_t i = 0; i < input->pairs; i++) {
+        const struct level_contact *point = &input->point[input->pair[i].first];
+        if (input->pair[i].gap_m <= -RESTING_PARTS_M)
+            parting->body[point->a].makes_way = parting->body[point->b].makes_way = false;
+    }
+}
+
+/* Lets those that make way go back as far as their bounds allow: the body for which they would have
+ * gone may not have come as far as it wished. */
+static void draw_back(struct parting *parting, const struct parting_input *input)
+{
+    mark_those_that_make_way(parting, input);
+    for (uint32_t sweep = 0; sweep < BACK_SWEEPS; sweep++) {
+        for (uint32_t n = 0; n < input->bodies; n++) {
+            uint32_t i = in_turn(input, sweep, n);
+            if (parting->body[i].makes_way)
+                step(parting, input, i, 0.0, 0.0);
+        }
+        work_done();
     }
 }
 
@@ -207,10 +247,11 @@ void parting_run(struct parting *parting, const struct parting_input *input)
     go_together(parting, input);
     for (uint32_t sweep = 0; sweep < SWEEPS; sweep++) {
         for (uint32_t n = 0; n < input->bodies; n++) {
-            uint32_t i = sweep % 2 == 0 ? n : input->bodies - 1 - n;
+            uint32_t i = in_turn(input, sweep, n);
             if (parting->body[i].goes)
-                step(parting, input, i);
+                step(parting, input, i, parting->body[i].wish_x, parting->body[i].wish_z);
         }
         work_done();
     }
+    draw_back(parting, input);
 }

@@ -4,8 +4,9 @@
  * Sweeps over the points find how far each body would go. A crowd that has less room than
  * its bodies need spreads about its centre of mass instead: that parts every pair at once. Then
  * each body in turn goes as far as its points allow, where all others are by then, several times.
- * So those at the edge go first, and those behind follow. Each intermediate state keeps the bounds
- * of all points: the result does not depend on convergence. Pure; one caller. */
+ * So those at the edge go first, and those behind follow. At last those that only make way go back
+ * as far as nobody needs it. Each intermediate state keeps the bounds of all points: the result
+ * does not depend on convergence. Pure; one caller. */
 #ifndef JOLON_COLLIDER_RESTING_PARTING_H
 #define JOLON_COLLIDER_RESTING_PARTING_H
 
@@ -30,9 +31,11 @@ struct parting_body {
     bool goes;              /* it belongs to such a group */
     bool spreads;           /* its crowd is dense */
     bool back;              /* it passes a bound */
+    bool makes_way;         /* it goes, and is deep in nothing */
     uint32_t backs;         /* how often it went back */
     double x, z;            /* [m] where it is; else coincident bodies are spread */
     double wish_x, wish_z;  /* [m/s] how it would go */
+    double light;           /* [kg^-0.5] root of its inverse mass */
     double mass_kg, area_m2, centre_x, centre_z, reach_m, deepest_m; /* of a root of a crowd */
 };
 

@@ -18,7 +18,8 @@
 #define ROOM       2.0
 
 /* In masses that part light bodies would hold up heavy ones, as sweeps converge slowly between
- * them: displacements are shared by the roots of the masses, in so many sweeps over the points. */
+ * them: displacements are shared by the roots of the masses, in so many sweeps over the points at
+ * most. */
 #define WISH_SWEEPS 100
 
 /* --- groups ------------------------------------------------------------------------------------*/
@@ -165,23 +166,35 @@ static bool spread_together(struct parting *parting, const struct level_contact 
 }
 
 /* Gives the bodies of a point the speeds at which it parts, or keeps its gap: the lighter takes
- * more. */
-static void part_point(const struct parting_input *input, const struct level_contact *point)
+ * more. Returns by how much the speed at the point changes [m/s]. What others have made needless is
+ * taken back, so that nobody goes farther than he has to. The point's apart_ns is the sum of its
+ * steps, each in units of the bodies' light. */
+static double part_point(const struct parting *parting, const struct parting_input *input,
+                         struct level_contact *point)
 {
     struct level_motion *a = &input->body[point->a].pushed, *b = &input->body[point->b].pushed;
-    double light_a = sqrt(input->body[point->a].inverse_mass);
-    double light_b = sqrt(input->body[point->b].inverse_mass);
+    double light_a = parting->body[point->a].light, light_b = parting->body[point->b].light;
     double along = (b->x - a->x) * point->normal_x + (b->z - a->z) * point->normal_z;
-    double least = maths_min(point->apart_mps / PARTING_SHARE, PARTING_MPS);
-    if (least == 0.0)
-        least = point->least_mps + level_solver_closing(input->body, point);
-    if (along >= least || light_a + light_b == 0.0)
-        return;
-    double step = (least - along) / (light_a + light_b);
+    double before = point->apart_ns;
+    if (light_a + light_b == 0.0)
+        return 0.0;
+    point->apart_ns = maths_max(0.0, before + (point->part_mps - along) / (light_a + light_b));
+    double step = point->apart_ns - before;
+    if (step == 0.0)
+        return 0.0;
     a->x -= step * light_a * point->normal_x;
     a->z -= step * light_a * point->normal_z;
     b->x += step * light_b * point->normal_x;
     b->z += step * light_b * point->normal_z;
+    return fabs(step) * (light_a + light_b);
+}
+
+/* Returns the speed at which the point asks its bodies to part [m/s]. */
+static double asked(const struct parting_input *input, const struct level_contact *point)
+{
+    if (point->apart_mps > 0.0)
+        return maths_min(point->apart_mps / PARTING_SHARE, PARTING_MPS);
+    return point->least_mps + level_solver_closing(input->body, point);
 }
 
 /* Lists the points that the sweeps go over. Returns their number. */
@@ -190,8 +203,11 @@ static uint32_t list_points(struct parting *parting, const struct parting_input 
     uint32_t count = 0;
     for (uint32_t i = 0; i < input->points; i++) {
         if (parting_wishes_parts(parting, input->point[i].a) &&
-            !spread_together(parting, &input->point[i]))
+            !spread_together(parting, &input->point[i])) {
+            input->point[i].part_mps = asked(input, &input->point[i]);
+            input->point[i].apart_ns = 0.0;
             parting->wishing[count++] = i;
+        }
     }
     return count;
 }
@@ -202,6 +218,7 @@ static void part_points(struct parting *parting, const struct parting_input *inp
 {
     for (uint32_t i = 0; i < input->bodies; i++) {
         struct parting_body *body = &parting->body[i];
+        body->light = sqrt(input->body[i].inverse_mass);
         if (is_fixed(input, i) || !parting_wishes_parts(parting, i))
             continue;
         if (parting->body[i].spreads)
@@ -209,10 +226,13 @@ static void part_points(struct parting *parting, const struct parting_input *inp
         input->body[i].pushed = (struct level_motion){body->wish_x, body->wish_z, 0.0};
     }
     uint32_t count = list_points(parting, input);
-    for (uint32_t sweep = 0; sweep < WISH_SWEEPS; sweep++) {
+    double change = INFINITY;
+    for (uint32_t sweep = 0; sweep < WISH_SWEEPS && change > LEVEL_SOLVER_ENOUGH_MPS; sweep++) {
+        change = 0.0;
         for (uint32_t n = 0; n < count; n++) {
             uint32_t i = sweep % 2 == 0 ? n : count - 1 - n;
-            part_point(input, &input->point[parting->wishing[i]]);
+            struct level_contact *point = &input->point[parting->wishing[i]];
+            change = maths_max(change, part_point(parting, input, point));
         }
     }
 }

@@ -250,6 +250,8 @@ static void take(struct resting *resting, struct response_context *context, cons
         return;
     }
     context->contacts->known[taken.pair].plane[0] = gap[0].normal;
+    context->contacts->known[taken.pair].normal_x = gap[0].normal.x;
+    context->contacts->known[taken.pair].normal_z = gap[0].normal.z;
     resting->points += taken.count;
     resting->pair[resting->pairs++] = taken;
 }

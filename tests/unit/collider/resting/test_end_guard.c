@@ -117,6 +117,35 @@ static void test_at_last_it_goes_back_all_the_way(void **state)
     assert_true(next()->x[0] == WEST_M && next()->vx[0] == 0.0);
 }
 
+/* Two tanks move east, the one behind faster. */
+static void follow(double behind_m, double before_m)
+{
+    uint32_t rests = contact_queue_pair(context.contacts, &(struct pair){0, 1});
+    context.contacts->known[rests].normal_x = 1.0;
+    move(0, behind_m);
+    move(1, before_m);
+    run(2, (uint32_t[]){0, 1});
+    assert_true(steps_gap(&f, next(), 0, 1) > -SLACK_M);
+}
+
+static void test_the_body_that_follows_goes_back_before_the_other(void **state)
+{
+    (void)state;
+    follow(0.2, 0.1);
+    assert_true(fabs(next()->x[0] - WEST_M - 0.1) < 1e-9);
+    assert_true(next()->x[1] == committed()->x[1] + 0.1 && next()->vx[1] == 60.0 * 0.1);
+}
+
+/* One that leaves goes back, too, if the follower alone is not enough: it turned into him. */
+static void test_the_other_goes_back_when_the_follower_is_back(void **state)
+{
+    (void)state;
+    next()->heading[1] = 0.5;
+    follow(0.001, 0.001);
+    assert_true(next()->x[0] == WEST_M && next()->x[1] < committed()->x[1] + 0.001);
+    assert_true(next()->heading[1] < 0.5);
+}
+
 /* Two bodies that stand still because the guard has put one back hold each other. */
 static void test_the_contact_that_keeps_a_body_in_its_place_is_marked(void **state)
 {
@@ -320,6 +349,8 @@ int main(void)
         TEST(test_bodies_that_do_not_meet_are_left_alone),
         TEST(test_a_body_that_ends_in_another_goes_back_by_half),
         TEST(test_at_last_it_goes_back_all_the_way),
+        TEST(test_the_body_that_follows_goes_back_before_the_other),
+        TEST(test_the_other_goes_back_when_the_follower_is_back),
         TEST(test_the_contact_that_keeps_a_body_in_its_place_is_marked),
         TEST(test_a_contact_of_a_body_that_keeps_a_part_of_its_way_is_not_marked),
         TEST(test_bodies_of_resting_pairs_are_looked_at),
