@@ -1,6 +1,8 @@
 /* Reads features of maps layer by layer. */
 #include "supervisor/ground/vector_map.h"
 
+#include "supervisor/ground/progress.h"
+
 #include <cpl_conv.h>
 #include <cpl_error.h>
 #include <gdal.h>
@@ -84,7 +86,9 @@ static int field_of(OGRFeatureH feature, const char *key)
 static int read_layer(struct vector_map *map, OGRLayerH layer, vector_map_feature *feature,
                       void *context, struct error_text *error)
 {
+    uint32_t features = 0;
     fields_used = 0;
+    progress_count(map->path, OGR_L_GetName(layer), 0);
     map->to_earth = make_to_earth(layer);
     if (!map->to_earth)
         return error_text_set(error,
@@ -97,6 +101,8 @@ static int read_layer(struct vector_map *map, OGRLayerH layer, vector_map_featur
         if (geometry)
             feature(context, map, f, geometry);
         OGR_F_Destroy(f);
+        if (++features % 1024 == 0)
+            progress_count(map->path, OGR_L_GetName(layer), features);
     }
     OCTDestroyCoordinateTransformation(map->to_earth);
     map->to_earth = NULL;
