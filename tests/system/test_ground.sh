@@ -87,7 +87,7 @@ if command -v gdal_create >/dev/null; then
     check "the maps are left" cmp level.tif cover.tif
     rm link.ground cover.tif
     mkfifo pipe && out=pipe refuses "a ground over a pipe" 1 'pipe: is a pipe or a device, not a file' make level.tif
-    make level.tif 2>/dev/null && cp x.ground kept
+    make level.tif >/dev/null 2>&1 && cp x.ground kept
     for verb in show export; do
         refuses "$verb over its ground" 1 'x.ground: is read' "$ground" $verb x.ground x.ground
         refuses "$verb over a pipe" 1 'pipe: is a pipe' "$ground" $verb x.ground pipe
