@@ -80,7 +80,8 @@ bool chassis_takes(const struct step_context *context, uint32_t i, bool driven)
 
 /* --- rest and calm -----------------------------------------------------------------------------*/
 
-/* Returns true if the body stands still but for what springs and friction leave over. */
+/* Returns true if the body stands still but for what springs and friction leave over, and if the
+ * ground does not push it out. */
 static bool rests(const struct chassis *chassis, const struct rigid_body *before,
                   const struct rigid_body *after)
 {
@@ -89,6 +90,7 @@ static bool rests(const struct chassis *chassis, const struct rigid_body *before
     bool wants = chassis->drivetrain.wanted_mps != 0.0 || chassis->drivetrain.neutral ||
                  (chassis->kind->tracked && chassis->drivetrain.yaw_rps != 0.0);
     return !wants && vec3_length(after->velocity) <= REST_MPS &&
+           vec3_length(vec3_sub(after->centre, before->centre)) <= REST_MPS * dt_s &&
            vec3_length(after->spin) <= REST_RPS && vec3_length(faster) <= REST_MPS2 * dt_s;
 }
 

@@ -15,6 +15,7 @@
 #define MARGIN_M  0.02 /* a point this near to the ground touches it at any speed */
 #define NORMAL_M  0.02 /* the normal is that of the heights so far to each side */
 #define STEEPEST  (EARTHWORK_STEEPEST + 1.0) /* tangent of any ground, at most */
+#define DEEP_M    0.02                       /* deeper points have got new ground over them */
 #define SAME_FACE 0.95                       /* cosine between the normals of one face */
 
 void chassis_shell_of(const struct kind *kind, const struct suspension *suspension,
@@ -103,6 +104,17 @@ static bool add(struct ground_contacts *contacts, const struct rigid_body *body,
     return true;
 }
 
+/* Returns the way out of the ground for a point in it. Impacts leave none deeper than DEEP_M. Where
+ * a crater has changed the ground around the body, its walls may wedge the body; then the way out
+ * is more upwards than their normals. */
+static struct vec3 way_out(struct vec3 normal, double high)
+{
+    if (high * normal.y > -DEEP_M)
+        return normal;
+    normal.y += 1.0;
+    return vec3_scale(normal, 1.0 / vec3_length(normal));
+}
+
 /* Adds the contacts of a point within dt_s. Returns true if there is a new one. */
 static bool sweep_point(struct ground_contacts *contacts, const struct shell_ground *ground,
                         const struct rigid_body *body, const struct mat3 *inverse, struct vec3 arm,
@@ -115,7 +127,7 @@ static bool sweep_point(struct ground_contacts *contacts, const struct shell_gro
     bool added = false;
     if (high > STEEPEST * (level + MARGIN_M) + fabs(path.y))
         return false;
-    struct vec3 normal = normal_at(ground, at);
+    struct vec3 normal = way_out(normal_at(ground, at), high);
     if (high * normal.y < MARGIN_M)
         added = add(contacts, body, inverse, arm, normal, high * normal.y);
     if (high <= 0.0 || above(ground, vec3_add(at, path)) > 0.0)

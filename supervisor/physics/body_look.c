@@ -114,6 +114,7 @@ static void read_body(struct body_looks *looks, const struct world *world,
         body->parted = memory->parted;
         body->thrown = memory->thrown;
         body->spun = memory->spun;
+        body->buried_s = memory->buried_s;
     }
     if (body->known && same_angles(&body->now, body->was)) {
         body->now.pose = body->was->pose;
@@ -151,6 +152,7 @@ void body_looks_end(struct body_looks *looks)
         memory->parted = body->parts;
         memory->thrown = body->thrown;
         memory->spun = body->spun;
+        memory->buried_s = body->buried_s;
         memory->look = body->now;
     }
 }

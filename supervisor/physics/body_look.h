@@ -74,6 +74,8 @@ struct body_look {
     uint32_t parted;  /* the same in the frame before */
     bool thrown;      /* an explosion or another body made it faster than an engine does */
     bool spun;        /* the same of its spin, by an explosion or by what one has thrown */
+    double buried_s;  /* left of the time in which its shell gets out of the ground after an
+                         explosion or an impact */
     struct joined_bodies together;
 };
 
@@ -84,6 +86,7 @@ struct row_memory {
     uint32_t parted; /* bodies and walls that it overlapped since it was placed */
     bool thrown;     /* as in struct body_look */
     bool spun;
+    double buried_s;
     struct motion_look look;
 };
 

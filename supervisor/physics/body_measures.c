@@ -17,6 +17,8 @@
 #define PASSED_ON      2.0  /* a body is at most so much faster than what strikes it */
 #define PARTING_MPS    20.0 /* bodies that part push others aside no faster */
 #define LEAST_TOP      10.0 /* [m/s] top speed of kinds that hardly move by themselves */
+#define BURIED_S                                                                                   \
+    0.2 /* [s] in which a shell gets out of the ground after an explosion or an impact */
 
 static int unfinished(struct vec3 v)
 {
@@ -291,6 +293,8 @@ void body_measures_motion(struct measures *measures, double dt_s, struct body_lo
 {
     measure_speed(measures, body);
     measure_spin(measures, body);
+    bool pushed = body->blasts > 0 || body->struck > 0 || body->hits > 0;
+    body->buried_s = pushed ? BURIED_S : maths_max(0.0, body->buried_s - dt_s);
     if (body->now.sprung)
         sprung_body_measure(measures, dt_s, body);
     if (!body->known || body->commanded)

@@ -170,8 +170,9 @@ static bool stays_in_air(const struct body_look *body, double dt_s)
 void sprung_body_measure(struct measures *measures, double dt_s, const struct body_look *body)
 {
     const struct kind *kind = body->kind;
-    measure_take(measures, MEASURE_OF_SHELL_UNDERGROUND, maths_max(0.0, -body->now.springs.shell_m),
-                 &body->named, NULL);
+    if (body->buried_s <= 0.0)
+        measure_take(measures, MEASURE_OF_SHELL_UNDERGROUND,
+                     maths_max(0.0, -body->now.springs.shell_m), &body->named, NULL);
     if (!body->known || body->commanded || body->blasts > 0 || body->struck > 0 || body->hits > 0 ||
         body->touches || body->touched || !body->was->sprung)
         return;

@@ -109,6 +109,17 @@ static void test_points_rise_with_their_wheels(void **state)
     assert_int_equal(shell.count, CHASSIS_SHELL_WHEELS);
 }
 
+/* A crater that changes the ground may wedge a body between its walls: it gets out upwards. */
+static void test_new_ground_over_it_lifts_it_out(void **state)
+{
+    (void)state;
+    struct rigid_body body = body_before("tank", -0.2, 0.0);
+    body.velocity.y = -GRAVITY_MPS2 * DT_S; /* its weight */
+    struct chassis_shell_push push = press("tank", &body);
+    assert_true(push.velocity_mps.x < 0.0);
+    assert_true(push.velocity_mps.y > 0.5 * fabs(push.velocity_mps.x));
+}
+
 int main(void)
 {
 #define T(name) cmocka_unit_test_setup_teardown(name, open_world, fixture_teardown)
@@ -118,6 +129,7 @@ int main(void)
         T(test_it_gains_no_energy),
         T(test_over_level_ground_nothing_touches),
         T(test_points_rise_with_their_wheels),
+        T(test_new_ground_over_it_lifts_it_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

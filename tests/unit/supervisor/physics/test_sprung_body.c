@@ -2,6 +2,7 @@
  * its engine did not give. */
 #include "supervisor/physics/sprung_body.h"
 
+#include "supervisor/physics/body_measures.h"
 #include "supervisor/physics/physics_check.h"
 #include "tests/support/steps.h"
 #include "world/params.h"
@@ -79,6 +80,24 @@ static void test_a_shell_in_the_ground(void **state)
     assert_false(measure_good(&check.measures, MEASURE_OF_SHELL_UNDERGROUND));
 }
 
+/* A crater throws earth over it, and another vehicle pushes it into a bank. */
+static void test_a_shell_gets_out_of_the_ground_after_an_explosion(void **state)
+{
+    struct measures measures = {.frame = 1};
+    struct kind kind = {.domain = DOMAIN_LAND, .max_speed_mps = 20.0, .bound_m = 4.0};
+    struct body_look body = {.kind = &kind, .now = {.sprung = true}, .blasts = 1};
+    (void)state;
+    body.now.springs.shell_m = -0.05;
+    body_measures_motion(&measures, DT, &body);
+    body.blasts = 0;
+    for (int frame = 0; frame < 11; frame++)
+        body_measures_motion(&measures, DT, &body);
+    assert_true(measures.of[MEASURE_OF_SHELL_UNDERGROUND].worst == 0.0);
+    body_measures_motion(&measures, DT, &body);
+    body_measures_motion(&measures, DT, &body);
+    assert_true(measures.of[MEASURE_OF_SHELL_UNDERGROUND].worst == 0.05);
+}
+
 static void test_a_tank_that_falls_is_good_and_one_that_floats_is_not(void **state)
 {
     (void)state;
@@ -136,6 +155,7 @@ int main(void)
 #define T(name) cmocka_unit_test_teardown(name, end_check)
     const struct CMUnitTest tests[] = {
         T(test_a_shell_in_the_ground),
+        T(test_a_shell_gets_out_of_the_ground_after_an_explosion),
         T(test_a_tank_that_falls_is_good_and_one_that_floats_is_not),
         T(test_energy_that_no_engine_gives),
         T(test_a_drop_on_its_springs_gains_nothing),
