@@ -309,10 +309,8 @@ static int emit(const struct survey *s, uint32_t road, struct road_point *roads,
                 errno = ENOBUFS;
                 return -1;
             }
-            /* Rounded, as the digests of generated ground have it. */
-            roads[(*road_count)++] = (struct road_point){.x = (double)(float)(p[0] + dx * t),
-                                                         .z = (double)(float)(p[1] + dz * t),
-                                                         .road = road};
+            roads[(*road_count)++] = (struct road_point){
+                .x = (float)(p[0] + dx * t), .z = (float)(p[1] + dz * t), .road = road};
             if (last && ahead >= length)
                 return 0;
         }

@@ -68,7 +68,7 @@ static double nearest_share(double ax, double az, double bx, double bz, double x
 static double stretch_share(const struct survey *s, uint32_t i, double x, double z, double *off_m)
 {
     const struct road_point *a = &s->points[i], *b = a + 1;
-    return nearest_share(a->x, a->z, b->x, b->z, x, z, off_m);
+    return nearest_share((double)a->x, (double)a->z, (double)b->x, (double)b->z, x, z, off_m);
 }
 
 /* Returns true if two segments cross, and the share of each at which they do. */
@@ -97,7 +97,7 @@ static double nearest(const struct survey *s, uint32_t i, uint32_t j, double *sh
     for (uint32_t end = 0; end < 4; end++) {
         uint32_t own = end < 2 ? i : j, other = end < 2 ? j : i;
         const struct road_point *p = &s->points[own + end % 2];
-        double off, share = stretch_share(s, other, p->x, p->z, &off);
+        double off, share = stretch_share(s, other, (double)p->x, (double)p->z, &off);
         if (off >= least)
             continue;
         least = off;
@@ -118,8 +118,10 @@ static int find_near(struct survey *s, const struct road_point *a, const struct 
                      double reach_m)
 {
     struct road_walk walk =
-        road_index_walk(&s->index, maths_min(a->x, b->x) - reach_m, maths_min(a->z, b->z) - reach_m,
-                        maths_max(a->x, b->x) + reach_m, maths_max(a->z, b->z) + reach_m);
+        road_index_walk(&s->index, maths_min((double)a->x, (double)b->x) - reach_m,
+                        maths_min((double)a->z, (double)b->z) - reach_m,
+                        maths_max((double)a->x, (double)b->x) + reach_m,
+                        maths_max((double)a->z, (double)b->z) + reach_m);
     uint32_t stretch;
     s->near_count = 0;
     while (road_walk_next(&walk, &stretch)) {
@@ -170,7 +172,7 @@ static int meet_end(struct survey *s, uint32_t end)
         double off;
         if (s->points[j].road == p->road)
             continue;
-        double at = stretch_share(s, j, p->x, p->z, &off);
+        double at = stretch_share(s, j, (double)p->x, (double)p->z, &off);
         if (off > least)
             continue;
         least = off;
@@ -211,13 +213,14 @@ static void lay_nodes(struct road_graph *net, const struct survey *s, uint32_t (
     for (uint32_t i = 0; i < s->count; i++) {
         const struct road_point *a = &s->points[i], *b = a + 1;
         bool goes_on = is_stretch(s, i);
-        net->nodes[net->node_count++] = (struct road_node){a->x, a->z, 0, 0, 0};
+        net->nodes[net->node_count++] = (struct road_node){(double)a->x, (double)a->z, 0, 0, 0};
         for (; goes_on && cut < s->cut_count && s->cuts[cut].stretch == i; cut++) {
             double t = s->cuts[cut].share;
             uint32_t meeting = s->cuts[cut].meeting;
             met[meeting][seen[meeting]++] = net->node_count;
             net->nodes[net->node_count++] =
-                (struct road_node){a->x + (b->x - a->x) * t, a->z + (b->z - a->z) * t, 0, 0, 0};
+                (struct road_node){(double)a->x + ((double)b->x - (double)a->x) * t,
+                                   (double)a->z + ((double)b->z - (double)a->z) * t, 0, 0, 0};
         }
         net->nodes[net->node_count - 1].next = goes_on ? net->node_count : UINT32_MAX;
     }
