@@ -93,8 +93,10 @@ _Static_assert(BROAD_PHASE_ROWS_TAKEN == CHECKSUM_ROWS, "rows are taken by whole
      COLUMN_BIT(state) | COLUMN_BIT(behaviour) | COLUMN_BIT(flags) | COLUMN_BIT(cruise_tick) |     \
      COLUMN_BIT(cruise_rps) | COLUMN_BIT(cruise_mps2))
 
-/* Rows of a block that may move before they are taken for all. */
-#define FEW_MOVE (CHECKSUM_ROWS / 4)
+/* Rows of a block that may move before they are taken for all, without and with rows that cruise,
+ * which cost less if they are not taken. */
+#define FEW_MOVE       (CHECKSUM_ROWS / 4)
+#define FEW_MOVE_ALONG (CHECKSUM_ROWS / 4 * 3)
 
 /* Finds the rows of a block whose pose is not that of the committed frame. */
 static void find_moving(const struct step *step, uint32_t block, struct moving_rows *moving)
@@ -102,10 +104,11 @@ static void find_moving(const struct step *step, uint32_t block, struct moving_r
     const struct table committed = state_table(step->committed);
     uint32_t first = block * CHECKSUM_ROWS, old = step->committed->head->used;
     uint32_t both = old < step->used ? old : step->used;
+    uint32_t few = step->collider->broad.cruises ? FEW_MOVE_ALONG : FEW_MOVE;
     *moving = (struct moving_rows){.all = first >= both};
     if (!moving->all)
-        moving->all = !table_differing(step->moved, committed, block, both, POSE_COLUMNS, FEW_MOVE,
-                                       moving->row);
+        moving->all =
+            !table_differing(step->moved, committed, block, both, POSE_COLUMNS, few, moving->row);
     for (uint32_t row = both; !moving->all && row < step->used && row < first + CHECKSUM_ROWS;
          row++)
         moving->row[(row - first) / 64] |= (uint64_t)1 << (row - first) % 64;
