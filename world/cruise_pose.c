@@ -57,11 +57,11 @@ bool cruise_pose_stop(const struct table_writer *writer, const struct world *wor
     return true;
 }
 
-void cruise_pose_settle(const struct entities *copy, const struct world *world,
+void cruise_pose_settle(const struct entities *own, const struct world *world,
                         const struct crater_index *craters, uint32_t used, uint64_t tick)
 {
     for (uint32_t i = 0; world->params->cruise && i < used; i++) {
-        if (cruise_goes(copy, i, tick))
-            settle(copy, world, craters, i, tick);
+        if (cruise_goes(own, i, tick))
+            settle(own, world, craters, i, tick);
     }
 }

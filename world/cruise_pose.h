@@ -25,9 +25,10 @@ struct cruise_pose cruise_pose_of(const struct world *world, const struct crater
 bool cruise_pose_stop(const struct table_writer *writer, const struct world *world,
                       const struct crater_index *craters, uint32_t i, uint64_t tick);
 
-/* Ends the stretches of all rows of a private copy of a committed frame: its columns then say where
- * they are. The copy is no longer what the checksum is of. */
-void cruise_pose_settle(const struct entities *copy, const struct world *world,
+/* Ends the stretches of all rows of a frame that nobody else has: its columns then say where they
+ * are. The frame is no longer what its checksum is of. world->params are those under which the
+ * stretches began. */
+void cruise_pose_settle(const struct entities *own, const struct world *world,
                         const struct crater_index *craters, uint32_t used, uint64_t tick);
 
 #endif

@@ -164,7 +164,7 @@ struct segment_header image_segment(const struct image *image)
 bool image_branches(const struct image *image)
 {
     const struct params *then = &image->header.params, *now = &image->params;
-    return then->seed != now->seed || then->hz != now->hz ||
+    return then->seed != now->seed || then->hz != now->hz || then->cruise != now->cruise ||
            XXH3_64bits(&then->collision, sizeof then->collision) !=
                XXH3_64bits(&now->collision, sizeof now->collision);
 }

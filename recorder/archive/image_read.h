@@ -29,8 +29,8 @@ int image_peek(struct image_header *header, const char *path, struct error_text 
 /* The header of the segment that image_load() fills (segment_private, segment_begin). */
 struct segment_header image_segment(const struct image *image);
 
-/* Returns true if image->params was changed so that the run differs: another seed, time step or
- * collision method. Pace, end and pictures do not change the run. */
+/* Returns true if image->params was changed so that the run differs: another seed, time step,
+ * collision method or `cruise`. Pace, end and pictures do not change the run. */
 bool image_branches(const struct image *image);
 
 /* Fills a fresh segment with the image. The segment's words are set as if its frame had just been

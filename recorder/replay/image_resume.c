@@ -7,8 +7,10 @@
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
 #include "world/checksum.h"
+#include "world/cruise_pose.h"
 #include "recorder/replay/world_adopt.h"
 #include "recorder/replay/scenario_load.h"
+#include "world/terrain/crater.h"
 #include "world/terrain/posts_write.h"
 #include "world/provenance.h"
 
@@ -30,7 +32,7 @@ static void change_settings(const struct arguments *arguments, struct image *ima
                     image->path, image->header.frame, limit);
 }
 
-/* A run that was quit goes on from its image. */
+/* A run that was quit goes on from its image. Seals the frame. */
 static void clear_quit(struct view *view, uint64_t frame)
 {
     struct state *state = &view->w[frame & 1];
@@ -85,6 +87,24 @@ static int find_posts(struct view *view, struct error_text *error)
     return segment_map_posts(view, error);
 }
 
+/* Ends the stretches of vehicles that cruise in a branch: where they are follows from the settings
+ * under which the stretches began (world/entity/cruise.h). */
+static int end_stretches(struct view *view, const struct image *image, struct error_text *error)
+{
+    const struct state *state = &view->w[image->header.frame & 1];
+    struct world then = view->world;
+    struct crater_index craters;
+    if (!image->header.params.cruise || !image_branches(image))
+        return 0;
+    if (crater_index_init(&craters, &then.terrain.squares, state->craters) != 0)
+        return error_text_set(error, "%s: not enough memory for its craters", image->path);
+    then.params = &image->header.params;
+    crater_index_update(&craters, state->head->crater_count);
+    cruise_pose_settle(&state->entities, &then, &craters, state->head->used, state->head->tick);
+    crater_index_free(&craters);
+    return 0;
+}
+
 void image_resume_open(const struct arguments *arguments, struct image *image)
 {
     struct error_text error;
@@ -96,7 +116,8 @@ void image_resume_open(const struct arguments *arguments, struct image *image)
 int image_resume_fill(struct view *view, const struct arguments *arguments,
                       const struct image *image, struct error_text *error)
 {
-    if (image_load(view, image, error) != 0 || find_posts(view, error) != 0)
+    if (image_load(view, image, error) != 0 || find_posts(view, error) != 0 ||
+        end_stretches(view, image, error) != 0)
         return -1;
     clear_quit(view, image->header.frame);
     return write_provenance(view, arguments, image, error);

@@ -237,8 +237,7 @@ int bench_frame(struct bench_options options)
     bench_world_mode(&view, (enum bench_mode)options.mode, options.vehicles, options.burst);
     if (options.driven)
         drive_all(&view);
-    if (options.cruise)
-        ((struct params *)(uintptr_t)view.world.params)->cruise = 1;
+    ((struct params *)(uintptr_t)view.world.params)->cruise = options.cruise;
     size_t frames = options.frames;
     double *values = calloc(frames * 5, sizeof *values);
     if (!values)

@@ -62,9 +62,10 @@ drop "$name"
 
 # --- branches ---------------------------------------------------------------------------------------
 soon=$(($(sed 's/.*frame \([0-9]*\) of mid.*/\1/' <<<"$went_on") + 20))
-branch() { # setting
-    "$world" create --from mid.image --set world.pace=max --set world.frames=$soon --set "$1" \
-        --world "$name-b" >/dev/null
+branch() { # setting... ; vehicles cruise only with the method "swept"
+    local settings=(--set world.pace=max --set "world.frames=$soon" --set world.cruise=false) setting
+    for setting; do settings+=(--set "$setting"); done
+    "$world" create --from mid.image "${settings[@]}" --world "$name-b" >/dev/null
     run_roles "$name-b"
     digest "$name-b"
     drop "$name-b"
@@ -73,6 +74,17 @@ straight=$(branch collision.method=swept)
 check "another seed gives another run" [ "$(branch world.seed=7)" != "$straight" ]
 check "another method that finds the same collisions gives the same run" \
     equal "$(branch collision.method=occupancy)" "$straight"
+
+places() { # setting: where the vehicles are when the world has been made with it
+    "$world" create --from mid.image --set "$1" --world "$name-b" >/dev/null
+    "$world" dump --world "$name-b" --json | grep -o '"position":[^]]*]'
+    drop "$name-b"
+}
+places=$(places world.frames=0)
+check "a branch begins with every vehicle where it is, those that cruise too" [ -n "$places" ]
+for setting in world.cruise=false world.hz=30 collision.method=occupancy; do
+    check "... with $setting" [ "$(places "$setting")" = "$places" ]
+done
 
 # --- refusals ---------------------------------------------------------------------------------------
 create=("$world" create --world "$name")
