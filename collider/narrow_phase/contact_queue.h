@@ -66,7 +66,8 @@ struct pair_impacts {
 
 #define PAIR_NOT_MEASURED 1.0 /* [m] no gap of overlapping bodies */
 
-/* What the frame has found out about a pair. It saves work and changes no result. */
+/* What the frame has found out about a pair. It follows from the committed frame and saves work; by
+ * the normal the guard also chooses whom it sends back first. */
 struct pair_known {
     struct vec3 plane[LEVEL_GAP_PLANES]; /* unit, from a to b: normals that may separate the bodies,
                                             the first one their outer hulls; 0: none known */

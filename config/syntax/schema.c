@@ -66,8 +66,8 @@ static const struct key scenario_keys[] = {
                        "([dis.md](dis.md)). They need room in `world.capacity`, which has to be as "
                        "large at least."),
     BOOLEAN("world.cruise", S, params.cruise, STORE_U32, "false",
-            .meaning = "true: land vehicles that agents drive on easy ground are moved by half a "
-                       "second at once, unless something comes near ([decision "
+            .meaning = "true: vehicles whose agents go on as they did are moved by half a second "
+                       "at once, unless something comes near ([decision "
                        "049](decisions/049-cruising.md)). A frame of many vehicles costs less. "
                        "Only with `collision.method` \"swept\"."),
     WHOLE64("world.frames", S, params.frame_limit, 0, SCHEMA_WHOLE_MAX, "0",
