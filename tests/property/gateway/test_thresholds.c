@@ -26,8 +26,8 @@
 #define PASS     3u        /* frames from one pass to the next */
 
 /* Bounds of what is further off than a threshold: the share, and the most. */
-#define SHARE_MOST      0.002
-#define FAR_MOST_M      1.25
+#define SHARE_MOST      0.001
+#define FAR_MOST_M      1.1
 #define TURNED_MOST_RAD (6.0 * RAD_PER_DEG)
 
 /* Entity States, as a share of one for each vehicle in each frame. */
