@@ -143,7 +143,9 @@ static void find_resting(const struct body_boxes *rows, struct block *block, uin
             __builtin_prefetch(angle[i] + first + BLOCK + k);
     }
     for (uint32_t k = 0; k < count; k++) {
-        if (block->rests[k] && body_motion_rotates(rows->motion, first + k))
+        if (block->rests[k] &&
+            (body_motion_rotates(rows->motion, first + k) ||
+             (block->cruises >> k & 1 && body_motion_stretch(rows->motion, first + k).rotates)))
             block->rests[k] = 0;
     }
 }

@@ -132,7 +132,9 @@ struct path body_motion_stretch(const struct body_motion *motion, uint32_t row)
     struct vec3 low = {maths_min(at.x, to.x), maths_min(at.y, to.y), maths_min(at.z, to.z)};
     struct vec3 high = {maths_max(at.x, to.x), maths_max(at.y, to.y), maths_max(at.z, to.z)};
     low = vec3_sub(low, most);
-    return (struct path){.at = low, .along = vec3_sub(vec3_add(high, most), low)};
+    return (struct path){.at = low,
+                         .along = vec3_sub(vec3_add(high, most), low),
+                         .rotates = n->cruise_rps[row] != 0.0};
 }
 
 void body_motion_compute(struct body_motion *motion, uint32_t row)

@@ -410,7 +410,7 @@ static inline void fly(struct aircraft *batch, struct moving *moving, double dt_
 /* A stretch is refused whose motion is not that of many frames: its end shows how even it is. */
 #define STRETCH_TURN_RAD  0.3  /* it turns by no more */
 #define STRETCH_GAIN_MPS  3.0  /* and gains or loses no more speed */
-#define STRETCH_CLIMB_MPS 1.0  /* its climb changes by no more, at once */
+#define STRETCH_CLIMB_MPS 0.5  /* its climb changes by no more, at once: 30 m/s2 at 60 Hz */
 #define STRETCH_LEAN_RAD  0.03 /* and its bank and pitch, by two degrees */
 #define STRETCH_SLIP_MPS  0.01 /* it slips sideways no faster */
 #define STRETCH_SLOPE     0.6  /* the ground under it is no steeper */

@@ -1,6 +1,8 @@
 /* Paths and rotations of a frame's rows. */
 #include "collider/motion/body_motion.h"
 
+#include "collider/motion/pair_filter.h"
+
 #include "tests/support/steps.h"
 #include "world/entity/mass_properties.h"
 #include "world/terrain/fixed.h"
@@ -214,6 +216,21 @@ static void test_bodies_have_their_kinds_hulls_at_their_size(void **state)
     assert_true(fabs(maths_wrap_half(heading_of(body.to) - fixed_heading(&tree))) < 1e-9);
 }
 
+/* What turns where it stands sweeps what is beside it: it does not rest. */
+static void test_a_stretch_in_place_rests_only_if_it_does_not_turn(void **state)
+{
+    (void)state;
+    begin();
+    for (uint32_t row = 1; row < 3; row++) {
+        next->entities.cruise_tick[row] = (uint32_t)next->head->tick + 20;
+        next->entities.cruise_rps[row] = row == 1 ? 0.1 : 0.0;
+        entities_set_velocity(&next->entities, row, (struct vec3){0.0, 0.0, 0.0});
+    }
+    struct path turns = body_motion_stretch(motion, 1), stands = body_motion_stretch(motion, 2);
+    assert_false(pair_filter_rests(&turns));
+    assert_true(pair_filter_rests(&stands));
+}
+
 int main(void)
 {
 #define TEST(function)                                                                             \
@@ -226,6 +243,7 @@ int main(void)
         TEST(test_a_path_that_begins_at_the_end_has_its_last_rotation),
         TEST(test_who_spins_freely_takes_its_real_path),
         TEST(test_a_yaw_of_one_and_a_half_turns_is_swept),
+        TEST(test_a_stretch_in_place_rests_only_if_it_does_not_turn),
         TEST(test_bodies_have_their_kinds_hulls_at_their_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
