@@ -143,9 +143,7 @@ static void find_resting(const struct body_boxes *rows, struct block *block, uin
             __builtin_prefetch(angle[i] + first + BLOCK + k);
     }
     for (uint32_t k = 0; k < count; k++) {
-        if (block->rests[k] &&
-            (body_motion_rotates(rows->motion, first + k) ||
-             (block->cruises >> k & 1 && body_motion_stretch(rows->motion, first + k).rotates)))
+        if (block->rests[k] && body_motion_rotates(rows->motion, first + k))
             block->rests[k] = 0;
     }
 }
@@ -357,8 +355,7 @@ static void bin_block(const struct body_boxes *rows, struct block *block,
 static void take_row(const struct body_boxes *rows, struct block *block, uint32_t k, uint32_t row)
 {
     const struct entities *e = rows->input->entities;
-    const uint64_t begun = rows->motion ? rows->motion->next->head->tick - 1 : 0;
-    bool cruises = rows->awake && e->cruise_tick[row] > begun;
+    bool cruises = rows->awake && body_motion_cruises(rows->motion, row);
     struct path path = cruises        ? body_motion_stretch(rows->motion, row)
                        : rows->motion ? body_motion_path(rows->motion, row)
                                       : rows->input->path[row];

@@ -109,14 +109,21 @@ static void note_begin(const struct body_motion *motion, uint32_t row)
         motion->begins[i * rows + row] = values[i];
 }
 
-struct path body_motion_path(const struct body_motion *motion, uint32_t row)
+/* What turns where it stands does not rest. */
+static struct path path_of(const struct body_motion *motion, uint32_t row, struct vec3 from,
+                           struct vec3 to)
 {
-    struct vec3 to = entities_position(&motion->next->entities, row);
-    struct vec3 from = body_motion_old(motion, row) ? begins_at(motion, row).at : to;
     struct path path = {.at = from, .along = vec3_sub(to, from)};
     if (pair_filter_rests(&path))
         path.rotates = body_motion_rotates(motion, row);
     return path;
+}
+
+struct path body_motion_path(const struct body_motion *motion, uint32_t row)
+{
+    struct vec3 to = entities_position(&motion->next->entities, row);
+    struct vec3 from = body_motion_old(motion, row) ? begins_at(motion, row).at : to;
+    return path_of(motion, row, from, to);
 }
 
 struct path body_motion_stretch(const struct body_motion *motion, uint32_t row)
@@ -132,9 +139,7 @@ struct path body_motion_stretch(const struct body_motion *motion, uint32_t row)
     struct vec3 low = {maths_min(at.x, to.x), maths_min(at.y, to.y), maths_min(at.z, to.z)};
     struct vec3 high = {maths_max(at.x, to.x), maths_max(at.y, to.y), maths_max(at.z, to.z)};
     low = vec3_sub(low, most);
-    return (struct path){.at = low,
-                         .along = vec3_sub(vec3_add(high, most), low),
-                         .rotates = n->cruise_rps[row] != 0.0};
+    return path_of(motion, row, low, vec3_add(high, most));
 }
 
 void body_motion_compute(struct body_motion *motion, uint32_t row)

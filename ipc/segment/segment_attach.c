@@ -4,7 +4,6 @@
 #include "ipc/process/clock.h"
 #include "ipc/process/crash_point.h"
 #include "ipc/process/process.h"
-#include "ipc/process/process.h"
 #include "ipc/segment/segment_internal.h"
 #include "ipc/segment/segment_locks.h"
 #include "world/runtime/prefault.h"

@@ -221,9 +221,11 @@ static void test_a_stretch_in_place_rests_only_if_it_does_not_turn(void **state)
 {
     (void)state;
     begin();
+    motion->models = true; /* a sphere that turns stays where it is */
     for (uint32_t row = 1; row < 3; row++) {
         next->entities.cruise_tick[row] = (uint32_t)next->head->tick + 20;
         next->entities.cruise_rps[row] = row == 1 ? 0.1 : 0.0;
+        next->entities.heading[row] += row == 1 ? 0.03 : 0.0;
         entities_set_velocity(&next->entities, row, (struct vec3){0.0, 0.0, 0.0});
     }
     struct path turns = body_motion_stretch(motion, 1), stands = body_motion_stretch(motion, 2);
