@@ -178,6 +178,13 @@ static void take(const struct step_context *context, uint32_t i,
 
 /* --- behaviours --------------------------------------------------------------------------------*/
 
+/* Returns the way to its goal on the map [m]. */
+static double way_to_goal(const struct entities *m, uint32_t i)
+{
+    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    return sqrt(dx * dx + dz * dz);
+}
+
 static void drive_to_goal(const struct step_context *context, uint32_t i, double speed,
                           struct desired_motion *desired)
 {
@@ -219,8 +226,7 @@ static void drive_to_position(const struct step_context *context, uint32_t i,
                               const struct kind *kind, struct desired_motion *desired)
 {
     const struct entities *m = context->m;
-    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
-    double stops = sqrt(2.0 * kind->acceleration_mps2 * sqrt(dx * dx + dz * dz));
+    double stops = sqrt(2.0 * kind->acceleration_mps2 * way_to_goal(m, i));
     drive_either_way(context, i, CRUISE_SHARE * kind->max_speed_mps, desired);
     if (goal_in_position(context, i))
         stops = 0.0;
@@ -234,13 +240,6 @@ static void hold_level(const struct step_context *context, uint32_t i, const str
     double level = LEVEL_LEAST + LEVEL_STEP * (double)(context->m->id[i] % 8);
     if (kind->min_speed_mps > 0.0)
         desired->altitude_m = level * kind->cruise_altitude_m;
-}
-
-/* Returns the way to its goal on the map [m]. */
-static double way_to_goal(const struct entities *m, uint32_t i)
-{
-    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
-    return sqrt(dx * dx + dz * dz);
 }
 
 static bool is_helicopter(const struct kind *kind)

@@ -1,6 +1,7 @@
 /* Moves aircraft: bank and turn, speed, climb and lean. */
 #include "mover/motion/aircraft.h"
 
+#include "mover/context/cruise_start.h"
 #include "mover/motion/airframe.h"
 #include "mover/motion/kinematics.h"
 #include "world/maths/cpu_dispatch.h"
@@ -275,20 +276,6 @@ static void carry_spin(struct entities *m, uint32_t i, const struct aircraft *ba
     m->spin_z[i] = turned.z;
 }
 
-/* Notes when the stretch of lane l ends, and how it turns until then. */
-static void note_stretch(const struct step_context *context, const struct aircraft *batch, int l)
-{
-    struct entities *m = context->m;
-    uint32_t i = batch->row[l];
-    if (batch->frames == 1) {
-        m->cruise_tick[i] = 0;
-        return;
-    }
-    m->cruise_tick[i] = (uint32_t)context->tick - 1 + batch->frames;
-    m->cruise_rps[i] = batch->turned.lane[l] / (context->dt_s * batch->frames);
-    m->cruise_mps2[i] = batch->gain_mps2.lane[l];
-}
-
 static void write_rows(const struct step_context *context, const struct aircraft *batch)
 {
     struct entities *m = context->m;
@@ -296,7 +283,10 @@ static void write_rows(const struct step_context *context, const struct aircraft
         uint32_t i = batch->row[l];
         if (batch->refused.lane[l])
             continue;
-        note_stretch(context, batch, l);
+        if (batch->frames > 1)
+            cruise_start_note(context, i, batch->turned.lane[l], batch->gain_mps2.lane[l]);
+        else
+            m->cruise_tick[i] = 0;
         carry_spin(m, i, batch, l);
         m->x[i] = batch->x.lane[l];
         m->y[i] = batch->y.lane[l];
@@ -424,10 +414,11 @@ static void find_arc_end(struct aircraft *batch, const struct entities *m, int l
     double turned = maths_wrap_half(batch->heading.lane[l] - m->heading[i]), sine, cosine;
     maths_sincos(m->heading[i], &sine, &cosine);
     double before_mps = m->vx[i] * sine - m->vz[i] * cosine;
-    double way_m = cruise_chord(0.5 * (before_mps + forward_mps) * dt_s, 0.5 * turned);
-    maths_sincos(m->heading[i] + 0.5 * turned, &sine, &cosine);
-    batch->x.lane[l] = m->x[i] + way_m * sine;
-    batch->z.lane[l] = m->z[i] - way_m * cosine;
+    const struct vec3 from = entities_position(m, i);
+    const struct vec3 to =
+        cruise_end(from, m->heading[i], turned, 0.5 * (before_mps + forward_mps) * dt_s);
+    batch->x.lane[l] = to.x;
+    batch->z.lane[l] = to.z;
     batch->turned.lane[l] = turned;
     batch->gain_mps2.lane[l] = (forward_mps - before_mps) / dt_s;
 }

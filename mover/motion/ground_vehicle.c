@@ -2,6 +2,7 @@
  * and water. Their rolling resistance and grip are those of dirt. */
 #include "mover/motion/ground_vehicle.h"
 
+#include "mover/context/cruise_start.h"
 #include "mover/motion/chassis.h"
 #include "mover/motion/drivetrain.h"
 #include "mover/motion/kinematics.h"
@@ -425,16 +426,6 @@ static void refuse(const struct step_context *context, struct ground_vehicle *ba
     }
 }
 
-/* Notes when the stretch of lane l ends, and how it turns until then. */
-static void begin_stretch(const struct step_context *context, const struct ground_vehicle *batch,
-                          int l)
-{
-    uint32_t i = batch->row[l];
-    context->m->cruise_tick[i] = (uint32_t)context->tick - 1 + batch->frames;
-    context->m->cruise_rps[i] = batch->turned.lane[l] / time_of(context, batch);
-    context->m->cruise_mps2[i] = batch->gain_mps2.lane[l];
-}
-
 static void write_rows(const struct step_context *context, const struct ground_vehicle *batch)
 {
     struct entities *m = context->m;
@@ -445,7 +436,7 @@ static void write_rows(const struct step_context *context, const struct ground_v
         if (batch->refused.lane[l])
             continue;
         if (batch->frames > 1)
-            begin_stretch(context, batch, l);
+            cruise_start_note(context, i, batch->turned.lane[l], batch->gain_mps2.lane[l]);
         else
             m->cruise_tick[i] = 0;
         set_down(context, batch, l);

@@ -1,6 +1,7 @@
 /* Moves ships. */
 #include "mover/motion/ship.h"
 
+#include "mover/context/cruise_start.h"
 #include "mover/motion/kinematics.h"
 #include "world/state.h"
 #include "world/terrain/gridsquare.h"
@@ -285,15 +286,12 @@ static bool end_arc(const struct step_context *context, uint32_t i, const struct
     struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     const struct course after = course_of(context, i);
-    double turned = maths_wrap_half(m->heading[i] - row->heading), sine, cosine;
+    double turned = maths_wrap_half(m->heading[i] - row->heading);
     double gain_mps = after.forward - before->forward;
-    double way_m = cruise_chord((before->forward + 0.5 * gain_mps) * time_s, 0.5 * turned);
-    maths_sincos(row->heading + 0.5 * turned, &sine, &cosine);
-    m->x[i] = row->x + way_m * sine;
-    m->z[i] = row->z - way_m * cosine;
-    m->cruise_tick[i] = (uint32_t)context->tick - 1 + context->cruise_frames;
-    m->cruise_rps[i] = turned / time_s;
-    m->cruise_mps2[i] = gain_mps / time_s;
+    const struct vec3 from = {row->x, m->y[i], row->z};
+    entities_set_position(
+        m, i, cruise_end(from, row->heading, turned, (before->forward + 0.5 * gain_mps) * time_s));
+    cruise_start_note(context, i, turned, gain_mps / time_s);
     struct grounding end = find_grounding(context, kind, &after, entities_position(m, i));
     return fabs(turned) <= STRETCH_TURN_RAD && fabs(gain_mps) <= STRETCH_GAIN_MPS &&
            fabs(m->roll[i] - row->roll) <= STRETCH_HEEL_RAD &&

@@ -55,6 +55,14 @@ static void clear_terrain_cache(const struct fixture *fixture)
         atomic_store_explicit(&mover->slopes.bound[square], 0, memory_order_relaxed);
 }
 
+double steps_waves(double x, double z, const void *context)
+{
+    double sine, cosine;
+    (void)context;
+    maths_sincos(0.02 * x + 0.035 * z, &sine, &cosine);
+    return FIXTURE_GROUND_M + 4.0 * sine + 2.0 * cosine;
+}
+
 void steps_ground(const struct fixture *fixture, steps_height *height, const void *context)
 {
     const struct terrain *terrain = &fixture->view.world.terrain;

@@ -21,6 +21,9 @@ void steps_small_ring(const struct fixture *fixture, uint32_t slots);
 typedef double steps_height(double x, double z, const void *context);
 void steps_ground(const struct fixture *fixture, steps_height *height, const void *context);
 
+/* A steps_height of hills of up to 6 m, so that nothing stands level. context is not used. */
+double steps_waves(double x, double z, const void *context);
+
 /* Sets the ground to the plane 100 + east * (x - 25000) + south * (z - 25000) [m]. east, south:
  * slopes. */
 void steps_plane(const struct fixture *fixture, double east, double south);

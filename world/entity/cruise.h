@@ -42,6 +42,16 @@ static inline double cruise_chord(double arc_m, double half_rad)
     return arc_m * (1.0 - square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0)));
 }
 
+/* Returns where an arc of this length ends that begins at a place with a heading and turns by this
+ * much, on the map: the height is that of its begin. */
+static inline struct vec3 cruise_end(struct vec3 from, double heading_rad, double turned_rad,
+                                     double arc_m)
+{
+    double way_m = cruise_chord(arc_m, 0.5 * turned_rad), sine, cosine;
+    maths_sincos(heading_rad + 0.5 * turned_rad, &sine, &cosine);
+    return (struct vec3){from.x + way_m * sine, from.y, from.z - way_m * cosine};
+}
+
 /* Returns the time from the tick to the end of the stretch [s]; 0 without one. */
 static inline double cruise_left_s(const struct entities *e, uint32_t i, uint64_t tick, double dt_s)
 {

@@ -37,14 +37,6 @@ static double gap[MOST][MOST], gap_before[MOST][MOST];
 static uint32_t jumps, looks;
 static double worst_m;
 
-static double waves(double x, double z, const void *context)
-{
-    double sine, cosine;
-    (void)context;
-    maths_sincos(0.02 * x + 0.035 * z, &sine, &cosine);
-    return FIXTURE_GROUND_M + 4.0 * sine + 2.0 * cosine;
-}
-
 /* --- a frame -----------------------------------------------------------------------------------*/
 
 /* Measures all gaps, and returns how deep the deepest overlap is [m]. */
@@ -140,7 +132,7 @@ static void run(uint32_t count, uint32_t kind_count, double reach_m, bool uneven
     fixture_open(&f, "world = { seed = 1; capacity = 2048; };\n"
                      "collision = { shape = \"model\"; };\n");
     if (uneven)
-        steps_ground(&f, waves, NULL);
+        steps_ground(&f, steps_waves, NULL);
     put(count, kind_count, reach_m, random);
     fixture_continue(&f, 1); /* the ground turns them */
     double deepest = measure_gaps(count);

@@ -355,21 +355,13 @@ static void test_row_46_a_pile_pushes_nobody_into_others(void **state)
     fixture_close(&f);
 }
 
-static double waves(double x, double z, const void *context)
-{
-    double sine, cosine;
-    (void)context;
-    maths_sincos(0.02 * x + 0.035 * z, &sine, &cosine);
-    return FIXTURE_GROUND_M + 4.0 * sine + 2.0 * cosine;
-}
-
 static void run_crowd(bool uneven)
 {
     uint64_t random = fixture_seed(46);
     double height = 0.0, fast = 0.0;
     open_world("");
     if (uneven)
-        steps_ground(&f, waves, NULL);
+        steps_ground(&f, steps_waves, NULL);
     const struct vec3 at = {25000.0, steps_ground_at(&f, 25000.0, 25000.0), 25000.0};
     for (uint32_t i = 0; i < CROWD; i++)
         fixture_put(&f,

@@ -18,7 +18,7 @@
 #define JEEPS        20
 #define CROWD        100
 #define CROWD_FRAMES 300
-#define CROWD_DEEP_M 0.01 /* at the end; tests/property/collider/resting/test_parting.c has more */
+#define CROWD_DEEP_M 0.01 /* at the end; test_parting.c has more */
 #define FASTEST_MPS  3.0
 #define SLOW_S       5.0 /* of the processor, a frame: sanitizers are slow */
 
