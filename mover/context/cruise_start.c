@@ -64,12 +64,3 @@ uint32_t cruise_start_think_frames(const struct step_context *context, uint32_t 
                ? context->cruise_frames
                : context->think_frames;
 }
-
-void cruise_start_note(const struct step_context *context, uint32_t i, double turned_rad,
-                       double gain_mps2)
-{
-    struct entities *m = context->m;
-    m->cruise_tick[i] = (uint32_t)context->tick - 1 + context->cruise_frames;
-    m->cruise_rps[i] = turned_rad / (context->dt_s * (double)context->cruise_frames);
-    m->cruise_mps2[i] = gain_mps2;
-}

@@ -26,9 +26,4 @@ bool cruise_start_due(const struct step_context *context, uint32_t i, uint32_t p
  * next. */
 uint32_t cruise_start_think_frames(const struct step_context *context, uint32_t i);
 
-/* Notes in row i that its stretch begins in this frame, and how it turns [rad] and gains speed
- * [m/s2] in it. */
-void cruise_start_note(const struct step_context *context, uint32_t i, double turned_rad,
-                       double gain_mps2);
-
 #endif

@@ -1,7 +1,6 @@
 /* Moves aircraft: bank and turn, speed, climb and lean. */
 #include "mover/motion/aircraft.h"
 
-#include "mover/context/cruise_start.h"
 #include "mover/motion/airframe.h"
 #include "mover/motion/kinematics.h"
 #include "world/maths/cpu_dispatch.h"
@@ -284,7 +283,7 @@ static void write_rows(const struct step_context *context, const struct aircraft
         if (batch->refused.lane[l])
             continue;
         if (batch->frames > 1)
-            cruise_start_note(context, i, batch->turned.lane[l], batch->gain_mps2.lane[l]);
+            kinematics_cruise(context, i, batch->turned.lane[l], batch->gain_mps2.lane[l]);
         else
             m->cruise_tick[i] = 0;
         carry_spin(m, i, batch, l);

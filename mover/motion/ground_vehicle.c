@@ -2,7 +2,6 @@
  * and water. Their rolling resistance and grip are those of dirt. */
 #include "mover/motion/ground_vehicle.h"
 
-#include "mover/context/cruise_start.h"
 #include "mover/motion/chassis.h"
 #include "mover/motion/drivetrain.h"
 #include "mover/motion/kinematics.h"
@@ -436,7 +435,7 @@ static void write_rows(const struct step_context *context, const struct ground_v
         if (batch->refused.lane[l])
             continue;
         if (batch->frames > 1)
-            cruise_start_note(context, i, batch->turned.lane[l], batch->gain_mps2.lane[l]);
+            kinematics_cruise(context, i, batch->turned.lane[l], batch->gain_mps2.lane[l]);
         else
             m->cruise_tick[i] = 0;
         set_down(context, batch, l);

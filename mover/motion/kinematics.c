@@ -85,3 +85,12 @@ bool kinematics_burn(const struct step_context *context, uint32_t i, double shar
     m->fuel_l[i] = maths_max(0.0, m->fuel_l[i] - kind->fuel_lps * share * context->dt_s);
     return m->fuel_l[i] > 0.0;
 }
+
+void kinematics_cruise(const struct step_context *context, uint32_t i, double turned_rad,
+                       double gain_mps2)
+{
+    struct entities *m = context->m;
+    m->cruise_tick[i] = (uint32_t)context->tick - 1 + context->cruise_frames;
+    m->cruise_rps[i] = turned_rad / (context->dt_s * (double)context->cruise_frames);
+    m->cruise_mps2[i] = gain_mps2;
+}

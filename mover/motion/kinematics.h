@@ -69,4 +69,9 @@ static inline bool kinematics_hover_burns(const struct step_context *context, ui
  * (fuel_l 0) always has fuel. */
 bool kinematics_burn(const struct step_context *context, uint32_t i, double share);
 
+/* Notes in row i that its stretch begins in this frame, and how it turns [rad] and gains speed
+ * [m/s2] in it. */
+void kinematics_cruise(const struct step_context *context, uint32_t i, double turned_rad,
+                       double gain_mps2);
+
 #endif

@@ -1,7 +1,6 @@
 /* Moves ships. */
 #include "mover/motion/ship.h"
 
-#include "mover/context/cruise_start.h"
 #include "mover/motion/kinematics.h"
 #include "world/state.h"
 #include "world/terrain/gridsquare.h"
@@ -291,7 +290,7 @@ static bool end_arc(const struct step_context *context, uint32_t i, const struct
     const struct vec3 from = {row->x, m->y[i], row->z};
     entities_set_position(
         m, i, cruise_end(from, row->heading, turned, (before->forward + 0.5 * gain_mps) * time_s));
-    cruise_start_note(context, i, turned, gain_mps / time_s);
+    kinematics_cruise(context, i, turned, gain_mps / time_s);
     struct grounding end = find_grounding(context, kind, &after, entities_position(m, i));
     return fabs(turned) <= STRETCH_TURN_RAD && fabs(gain_mps) <= STRETCH_GAIN_MPS &&
            fabs(m->roll[i] - row->roll) <= STRETCH_HEEL_RAD &&
