@@ -502,15 +502,15 @@ static uint64_t move_block(const struct rows *rows, const struct row_block *bloc
     return few ? 0 : still_blank(rows, &batches);
 }
 
-/* Returns the columns that are different from those of the committed block: of a few rows. */
-static uint64_t differing(const struct rows *rows, const struct row_block *block)
+/* Returns those of the columns of this set that are different from those of the committed block: of
+ * a few rows. */
+static uint64_t differing(const struct rows *rows, const struct row_block *block, uint64_t columns)
 {
-    const struct entities *w = &rows->context->committed->entities;
-    uint64_t columns = 0;
+    uint32_t row[FEW_AWAKE], count = 0;
     for (uint32_t i = row_block_next(block, block->first); i < block->end;
          i = row_block_next(block, i + 1))
-        columns |= entities_differing(rows->context->m, w, i);
-    return columns;
+        row[count++] = i;
+    return table_changed(rows->moved, rows->committed, columns, row, count);
 }
 
 /* Moves the rows of a block that are awake, and hashes it while it is in the processor's cache. */
@@ -524,7 +524,7 @@ static void move_awake(const struct rows *rows, struct row_block *block, uint32_
     bool few = awake <= FEW_AWAKE && rows->known;
     uint64_t same = move_block(rows, block, few, &harmed);
     if (few)
-        *changed |= differing(rows, block);
+        *changed |= differing(rows, block, COLUMNS_ALL & ~*changed);
     else
         *changed |= COLUMNS_ALL & ~STILL_COLUMNS & ~same;
     if (harmed)

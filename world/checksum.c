@@ -139,6 +139,43 @@ uint64_t table_zero(struct table table, uint64_t columns, const uint32_t *rows, 
     return columns;
 }
 
+static bool cells_equal(const void *a, const void *b, uint8_t bytes, uint32_t row)
+{
+    return memcmp((const uint8_t *)a + (size_t)row * bytes,
+                  (const uint8_t *)b + (size_t)row * bytes, bytes) == 0;
+}
+
+/* Returns true if one column differs in any of the rows. */
+static bool any_differs(const void *a, const void *b, uint8_t bytes, const uint32_t *rows,
+                        uint32_t count)
+{
+    uint64_t differ = 0;
+    if (count == 0 || !cells_equal(a, b, bytes, rows[0]))
+        return count > 0;
+    for (uint32_t n = 1; n < count && differ == 0; n++) {
+        uint32_t row = rows[n];
+        if (bytes == 8)
+            differ = ((const uint64_t *)a)[row] ^ ((const uint64_t *)b)[row];
+        else if (bytes == 4)
+            differ = ((const uint32_t *)a)[row] ^ ((const uint32_t *)b)[row];
+        else
+            differ = !cells_equal(a, b, bytes, row);
+    }
+    return differ != 0;
+}
+
+uint64_t table_changed(struct table a, struct table b, uint64_t columns, const uint32_t *rows,
+                       uint32_t count)
+{
+    const struct cells one = cells_of(a.entities, 0), other = cells_of(b.entities, 0);
+    for (uint64_t left = columns; left != 0; left &= left - 1) {
+        int c = __builtin_ctzll(left);
+        if (!any_differs(one.column[c], other.column[c], cell_bytes[c], rows, count))
+            columns &= ~((uint64_t)1 << c);
+    }
+    return columns;
+}
+
 void table_take(struct table to, struct table from, uint32_t block, uint32_t used, bool known)
 {
     struct block_hashes *has = &to.hashes[block];

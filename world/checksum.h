@@ -60,6 +60,10 @@ uint64_t table_blank(struct table table, uint32_t block, uint32_t used,
 /* The columns of this set that are zero in each of these rows. */
 uint64_t table_zero(struct table table, uint64_t columns, const uint32_t *rows, uint32_t count);
 
+/* The columns of this set in which the two tables differ, bit by bit, in any of these rows. */
+uint64_t table_changed(struct table a, struct table b, uint64_t columns, const uint32_t *rows,
+                       uint32_t count);
+
 /* Makes a block of `to` the same as that of `from`, rows and hashes. known: this process
  * wrote to's hashes, so they are those of its rows. Then only columns whose hashes differ are
  * copied. Two different columns have the same hash with a probability of 2^-64. */

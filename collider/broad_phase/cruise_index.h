@@ -3,6 +3,9 @@
  * begins, ends and is asked for. The box of an entry is that of the frame in which it was added: it
  * holds all boxes of the same stretch that follow.
  *
+ * Short boxes, those of most land vehicles, have small cells, and long ones, of aircraft, large
+ * ones. A query looks as far beyond its own box as the longest box of the layer reaches.
+ *
  * This is a cache of one process. Queries may find more rows than those whose stretch is in the
  * way; the caller compares the boxes of the frame. */
 #ifndef JOLON_COLLIDER_BROAD_PHASE_CRUISE_INDEX_H
@@ -13,20 +16,26 @@
 #include <stdint.h>
 
 struct cruise_entry {
-    float min_x, max_x, min_z, max_z; /* [m] */
-    uint32_t next, before;            /* rows in the same cell, + 1; 0: none */
-    uint32_t cell, pad;
+    struct path_box box;
+    uint32_t next, before; /* rows in the same cell, + 1; 0: none */
 };
+
+struct cruise_layer {
+    uint32_t *first; /* [side * side] a row + 1; 0: the cell is empty */
+    uint32_t side;   /* cells along an edge of the world */
+    uint32_t count;  /* rows that are held */
+    float cells_a_m;
+    float longest_m; /* the longest side of a box so far */
+};
+
+#define CRUISE_LAYERS 2 /* short boxes, long ones */
 
 struct cruise_index {
     struct cruise_entry *entry; /* [rows] of the rows that are held */
-    uint32_t *first;            /* [side * side] a row + 1; 0: the cell is empty */
-    uint32_t side;              /* cells along an edge of the world */
-    float cells_a_m;
-    uint64_t *held;  /* a bit for each row */
-    uint32_t words;  /* of held */
-    uint32_t count;  /* rows that are held */
-    float longest_m; /* the longest side of a box so far */
+    struct cruise_layer layer[CRUISE_LAYERS];
+    uint64_t *held; /* a bit for each row */
+    uint32_t words; /* of held */
+    uint32_t count; /* rows that are held */
 };
 
 /* For up to so many rows in a world of this side [m]. Returns 0, or -1 with errno ENOMEM; must be

@@ -21,15 +21,23 @@ static bool is_under_way(const struct entities *m, uint32_t i)
             m->behaviour[i] == BEHAVIOUR_FLEE);
 }
 
-/* Returns true if nothing has happened to the row, it avoids nothing and it aims at nothing. */
+/* Returns true if the row avoids nothing, or would hold its way around it for a stretch anyway: in
+ * a crowd agents decide less often than stretches begin. */
+static bool holds_its_way(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    return (m->dodge[i] == 0.0f && m->ease[i] == 0.0f) ||
+           context->think_frames >= context->cruise_frames;
+}
+
+/* Returns true if nothing has happened to the row, and it aims at nothing. */
 static bool is_undisturbed(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
     bool aims = m->target_id[i] != 0 && context->world->kinds[m->kind[i]].munition != KIND_NONE;
     return !aims && m->threat_id[i] == 0 && m->bumped[i] == 0 && m->trigger[i] == 0 &&
            !(m->flags[i] & (ENTITY_FLAG_BURST | ENTITY_FLAG_CHASSIS)) && m->turret[i] == 0.0f &&
-           m->gun[i] == 0.0f && m->dodge[i] == 0.0f && m->ease[i] == 0.0f && m->spin_x[i] == 0.0 &&
-           m->spin_y[i] == 0.0 && m->spin_z[i] == 0.0;
+           m->gun[i] == 0.0f && m->spin_x[i] == 0.0 && m->spin_y[i] == 0.0 && m->spin_z[i] == 0.0;
 }
 
 /* Returns true if row i's vehicle is where it can cruise: not one that is aground or has landed,
@@ -47,7 +55,7 @@ static bool cruises(const struct step_context *context, uint32_t i)
 bool cruise_start_may(const struct step_context *context, uint32_t i)
 {
     return cruise_start_turn(context, i) && is_under_way(context->m, i) &&
-           is_undisturbed(context, i) && cruises(context, i);
+           is_undisturbed(context, i) && holds_its_way(context, i) && cruises(context, i);
 }
 
 bool cruise_start_due(const struct step_context *context, uint32_t i, uint32_t period)

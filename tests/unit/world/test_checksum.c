@@ -220,9 +220,31 @@ static void test_a_blank_column_is_known_by_its_hash(void **state)
     assert_true(table_zero(table_of(&a), both, few, 2) == COLUMN_BIT(spin_y));
 }
 
+static void test_changed_columns_of_a_few_rows_are_found(void **state)
+{
+    const uint32_t few[] = {3, CHECKSUM_ROWS + 5, ROWS - 1};
+    const uint64_t some = COLUMN_BIT(spin_y) | COLUMN_BIT(bumped) | COLUMN_BIT(roll);
+    (void)state;
+    table_take(table_of(&b), table_of(&a), 0, ROWS, false);
+    table_take(table_of(&b), table_of(&a), 1, ROWS, false);
+    table_take(table_of(&b), table_of(&a), 2, ROWS, false);
+    a.rows.spin_y[few[1]] = -0.0;
+    b.rows.spin_y[few[1]] = 0.0; /* bit by bit */
+    a.rows.bumped[few[2]] ^= 1;
+    a.rows.x[few[0]] += 1.0;        /* not asked for */
+    a.rows.roll[few[0] + 1] += 1.0; /* of another row */
+    assert_true(table_changed(table_of(&a), table_of(&b), some, few, 3) ==
+                (COLUMN_BIT(spin_y) | COLUMN_BIT(bumped)));
+    assert_true(table_changed(table_of(&a), table_of(&b), some, few, 2) == COLUMN_BIT(spin_y));
+    assert_true(table_changed(table_of(&a), table_of(&b), some | COLUMN_BIT(x), few, 1) ==
+                COLUMN_BIT(x));
+    assert_true(table_changed(table_of(&a), table_of(&b), some, few, 0) == 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        TABLES(test_changed_columns_of_a_few_rows_are_found),
         TABLES(test_a_table_takes_differing_columns),
         TABLES(test_differing_rows_are_found_by_columns),
         TABLES(test_what_is_known_to_be_the_same_is_not_copied),
