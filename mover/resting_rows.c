@@ -117,7 +117,6 @@ uint32_t resting_rows_awake(const struct resting_rows *rows, const struct step_c
                             struct row_block *block)
 {
     bool burns = kinematics_hover_burns(context, block->first);
-    bool ends = cruise_start_turn(context, block->first);
     uint32_t count = 0;
     for (uint32_t w = 0; w < ROW_BLOCK_WORDS; w++) {
         uint32_t row = block->first + w * 64;
@@ -129,7 +128,8 @@ uint32_t resting_rows_awake(const struct resting_rows *rows, const struct step_c
         uint64_t due = due_of(context, row, there & resting & turns);
         /* An aircraft that rests only between its turns hovers as well. */
         due |= burns ? rows->hovering.hovers[row / 64] | turns : 0;
-        due |= ends ? rows->cruising[row / 64] : 0;
+        if (rows->cruising[row / 64] != 0)
+            due |= rows->cruising[row / 64] & cruise_start_turns(context, row);
         rows->fresh[row / 64] = 0;
         block->awake[w] = there & (~resting | due);
         count += (uint32_t)__builtin_popcountll(block->awake[w]);

@@ -485,7 +485,7 @@ static uint64_t move_block(const struct rows *rows, const struct row_block *bloc
     struct batches batches;
     batches.block = block;
     batches.harmed = false;
-    batches.begins = cruise_start_turn(context, block->first);
+    batches.begins = context->cruise_frames > 1;
     think_schedule_run(context, block, batches.motion);
     ground_vehicle_begin(&batches.land, 1);
     ground_vehicle_begin(&batches.stretch, context->cruise_frames);
@@ -683,6 +683,9 @@ struct step_context mover_context(const struct mover *mover, const struct state 
 {
     const struct params *params = mover->world->params;
     uint32_t used = committed->head->used;
+    uint64_t tick = committed->head->tick + 1;
+    bool cruises = params->cruise && params->collision.method == METHOD_SWEPT;
+    uint32_t stretch = cruises ? cruise_frames(params->dt_s) : 1;
     return (struct step_context){
         .world = mover->world,
         .committed = committed,
@@ -697,13 +700,13 @@ struct step_context mover_context(const struct mover *mover, const struct state 
         .firing_tables = mover->firing_tables,
         .terrain_entries = mover->terrain_entries,
         .terrain_entries_ahead = mover->terrain_entries_ahead,
-        .tick = committed->head->tick + 1,
+        .tick = tick,
         .think_frames = perception_think_frames(params, used),
         .look_frames = perception_look_frames(params, used),
         .aim_frames = attack_aim_frames(params),
-        .cruise_frames = params->cruise && params->collision.method == METHOD_SWEPT
-                             ? cruise_frames(params->dt_s)
-                             : 1,
+        .cruise_frames = stretch,
+        .cruise_phase = (uint32_t)(tick % stretch),
+        .cruise_group_bits = cruise_start_group_bits(params->capacity),
         .dt_s = params->dt_s,
         .wind = projectile_wind(params),
     };

@@ -4,12 +4,13 @@
 #include "world/maths/maths.h"
 #include "world/runtime/reserve.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #define SHORT_M  32.0f  /* the longest side of a short box */
-#define CELL_M   64.0   /* the least side of a cell of short boxes */
-#define LONG_M   128.0  /* the least side of a cell of long ones */
+#define CELL_M   64.0   /* the least side of a cell of short boxes, in a crowd */
+#define LONG_M   128.0  /* the least side of a cell of long ones, and of any in a small world */
 #define SIDE_MAX 2048.0 /* cells along an edge */
 #define ROW_NONE UINT32_MAX
 
@@ -29,7 +30,8 @@ int cruise_index_init(struct cruise_index *index, uint32_t rows, double world_m)
     *index = (struct cruise_index){.words = words,
                                    .entry = reserve_take(rows, sizeof *index->entry),
                                    .held = calloc(words, sizeof *index->held)};
-    bool taken = layer_init(&index->layer[0], CELL_M, world_m) == 0 &&
+    double short_m = maths_clamp(world_m / sqrt((double)rows), CELL_M, LONG_M);
+    bool taken = layer_init(&index->layer[0], short_m, world_m) == 0 &&
                  layer_init(&index->layer[1], LONG_M, world_m) == 0;
     return taken && index->entry && index->held ? 0 : -1;
 }

@@ -86,7 +86,7 @@ static void sort(const struct step_context *context, const struct row_block *blo
     const struct entities *m = context->m;
     const bool news = (block->changed & COLUMN_BIT(id)) != 0;
     const bool spins = !row_block_lacks(block, SPIN_COLUMNS);
-    const bool begins = cruise_start_turn(context, block->first);
+    const bool begins = context->cruise_frames > 1;
     const bool events = !row_block_lacks(block, EVENT_COLUMNS);
     thinkers->count = 0;
     if (!block->all)

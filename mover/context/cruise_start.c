@@ -4,12 +4,34 @@
 #include "world/entity/table_write.h"
 #include "world/world.h"
 
-#define SPREAD 7u /* frames between the turns of two neighbouring blocks: no divisor of 30 */
+#define SPREAD      7u   /* frames between the turns of two neighbouring groups: no divisor of 30 */
+#define GROUP_BITS  4u   /* the least group has 16 rows */
+#define GROUPS_MOST 256u /* of rows that are not a block */
+
+uint32_t cruise_start_group_bits(uint32_t capacity)
+{
+    uint32_t bits = GROUP_BITS;
+    while (1u << bits < CHECKSUM_ROWS && (uint64_t)GROUPS_MOST << bits < capacity)
+        bits++;
+    return bits;
+}
 
 bool cruise_start_turn(const struct step_context *context, uint32_t i)
 {
-    uint32_t frames = context->cruise_frames;
-    return frames > 1 && (context->tick + (uint64_t)(i / CHECKSUM_ROWS) * SPREAD) % frames == 0;
+    uint32_t group = i >> context->cruise_group_bits;
+    return context->cruise_frames > 1 &&
+           (context->cruise_phase + group * SPREAD) % context->cruise_frames == 0;
+}
+
+uint64_t cruise_start_turns(const struct step_context *context, uint32_t first)
+{
+    uint32_t group = 1u << context->cruise_group_bits;
+    uint64_t turns = 0;
+    if (group >= 64)
+        return cruise_start_turn(context, first) ? UINT64_MAX : 0;
+    for (uint32_t k = 0; k < 64; k += group)
+        turns |= (cruise_start_turn(context, first + k) ? ((uint64_t)1 << group) - 1 : 0) << k;
+    return turns;
 }
 
 /* Returns true if the row is on its way by its order. */

@@ -1,10 +1,12 @@
 /* When a vehicle begins to cruise (world/entity/cruise.h).
  *
- * The rows of a block of the table begin their stretches in the same frame, so that a frame writes
- * to few blocks. Blocks take turns. A vehicle may begin a stretch when its block's turn comes, if
- * it is on its way, nothing has happened to it, it avoids nothing and its gun is at rest. Its agent
- * then decides at once whatever falls due within the stretch. The motion of the stretch is that of
- * one long frame (mover/motion/ground_vehicle.h), which refuses what is not easy.
+ * Rows that stand together in the table begin their stretches in the same frame, so that a frame
+ * writes to few blocks. Such groups take turns. In a large world a group is a block; a small one
+ * has smaller groups, so that each frame has its share of the work. A vehicle may begin a stretch
+ * when its group's turn comes, if it is on its way, nothing has happened to it, it avoids nothing
+ * and its gun is at rest. Its agent then decides at once whatever falls due within the stretch. The
+ * motion of the stretch is that of one long frame (mover/motion/ground_vehicle.h), which refuses
+ * what is not easy.
  *
  * Reads row i of the moved table. Any thread, each its own row. */
 #ifndef JOLON_MOVER_CONTEXT_CRUISE_START_H
@@ -12,8 +14,16 @@
 
 #include "mover/context/step_context.h"
 
-/* Returns true if the rows of the block of row i may begin a stretch in this frame. */
+/* Returns how many rows a group has in a world of this capacity, from 16 to CHECKSUM_ROWS: the
+ * logarithm to base 2. */
+uint32_t cruise_start_group_bits(uint32_t capacity);
+
+/* Returns true if the group of row i may begin its stretches in this frame. */
 bool cruise_start_turn(const struct step_context *context, uint32_t i);
+
+/* Returns the rows among the 64 from this one on whose stretches begin in this frame, a bit each.
+ * first: a multiple of 64. */
+uint64_t cruise_start_turns(const struct step_context *context, uint32_t first);
 
 /* Returns true if row i may begin a stretch in this frame. */
 bool cruise_start_may(const struct step_context *context, uint32_t i);
