@@ -13,8 +13,9 @@
 #define CONTACT_TABLE_LASTS_S 0.25
 
 /* It has not ended while its bodies are this near [m]. At a low frame rate the way of one frame
- * makes a body touch another, and the guard then puts it back by that way. */
-#define CONTACT_TABLE_PARTED_M 0.05
+ * makes a body touch another, and the guard then puts it back by that way. In a heap that presses,
+ * bodies come some centimetres apart and touch again. */
+#define CONTACT_TABLE_PARTED_M 0.15
 
 /* The key of a contact as two words, in the order of the table. */
 struct contact_key {
