@@ -97,6 +97,8 @@ static void measure_overlap(const struct body_pair *bodies, const struct hull *h
     overlap->gap->normal = bodies->line;
     if (enough_m < INFINITY)
         shallower(overlap, bodies->last);
+    else /* the line is tried at last; a normal that is deeper than it need not be measured */
+        overlap->gap->gap_m = hull_separation_now(overlap->now, bodies->line) - SURELY_M;
     faces(overlap, bodies->a, &overlap->now->a.turn, hull_a, 1.0, enough_m);
     faces(overlap, bodies->b, &overlap->now->b.turn, hull_b, -1.0, enough_m);
     shallower(overlap, bodies->line);
@@ -421,22 +423,34 @@ double level_gap_depth(const struct turned_body *a, const struct turned_body *b,
 
 /* --- whole bodies ------------------------------------------------------------------------------*/
 
-/* Puts the pairs of hulls that overlap into the list. Returns how many it holds. */
-static uint32_t list_overlaps(const struct body_pair *bodies, struct relative_pose *list)
+static struct relative_pose hulls_of(const struct body_pair *bodies, uint32_t hulls)
 {
-    const struct swept_body *a = bodies->a, *b = bodies->b;
+    return relative_pose_of(&bodies->pose_a, &bodies->a->hull[hulls / HULLS_A_MODEL],
+                            &bodies->pose_b, &bodies->b->hull[hulls % HULLS_A_MODEL], bodies->time);
+}
+
+/* Puts the pairs of hulls that overlap into the list. Returns how many it holds. */
+static uint32_t search_overlaps(const struct body_pair *bodies, struct relative_pose *list)
+{
     struct box_view view =
         box_view_of(&bodies->pose_a.turn, &bodies->pose_b.turn, bodies->between, 0.0);
     uint32_t count = 0;
-    for (uint64_t near = box_view_near(&view, a, b); near != 0 && count < OVERLAPS_MAX;
-         near &= near - 1) {
-        uint32_t bit = (uint32_t)__builtin_ctzll(near);
-        list[count] =
-            relative_pose_of(&bodies->pose_a, &a->hull[bit / HULLS_A_MODEL], &bodies->pose_b,
-                             &b->hull[bit % HULLS_A_MODEL], bodies->time);
+    for (uint64_t near = box_view_near(&view, bodies->a, bodies->b);
+         near != 0 && count < OVERLAPS_MAX; near &= near - 1) {
+        list[count] = hulls_of(bodies, (uint32_t)__builtin_ctzll(near));
         struct gjk_start start = {.guess = list[count].towards};
         count += gjk_distance_within(&list[count].a, &list[count].b, 0.0, &start).distance_m == 0.0;
     }
+    return count;
+}
+
+/* The same from a list of gaps that had room for all: those of hulls that overlap are below 0. */
+static uint32_t list_overlaps(const struct body_pair *bodies, const struct level_gap *gap,
+                              uint32_t gaps, struct relative_pose *list)
+{
+    uint32_t count = 0;
+    for (; count < gaps && count < OVERLAPS_MAX && gap[count].gap_m < 0.0; count++)
+        list[count] = hulls_of(bodies, gap[count].hulls);
     return count;
 }
 
@@ -451,13 +465,15 @@ static double along_all(const struct relative_pose *list, uint32_t count, struct
     return maths_max(gap, least_m);
 }
 
-void level_gap_whole(const struct swept_body *a, const struct swept_body *b, double time,
-                     struct level_gap *gap, uint32_t count)
+void level_gap_whole(const struct turned_body *a, const struct turned_body *b,
+                     struct level_gap *gap, uint32_t count, uint32_t room)
 {
-    struct body_pose pose_a = pose_at(a, time), pose_b = pose_at(b, time);
-    struct body_pair bodies = body_pair_of(&pose_a, &pose_b, time);
+    const struct body_pose pose_a = {.body = a->body, .turn = a->turn};
+    const struct body_pose pose_b = {.body = b->body, .turn = b->turn};
+    struct body_pair bodies = body_pair_of(&pose_a, &pose_b, 0.0);
     struct relative_pose list[OVERLAPS_MAX];
-    uint32_t overlaps = list_overlaps(&bodies, list);
+    uint32_t overlaps =
+        count < room ? list_overlaps(&bodies, gap, count, list) : search_overlaps(&bodies, list);
     struct vec3 best = bodies.line;
     double least = along_all(list, overlaps, best, -INFINITY);
     for (uint32_t i = 0; i < count && gap[i].gap_m < 0.0; i++) {

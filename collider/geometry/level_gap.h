@@ -73,10 +73,11 @@ bool level_gap_is_deeper(const struct swept_body *a, const struct swept_body *b,
 double level_gap_depth(const struct turned_body *a, const struct turned_body *b,
                        struct vec3 plane[LEVEL_GAP_PLANES], const struct level_gap_memory *memory);
 
-/* Replaces the first of the gaps that level_gap_find() found at this time, of bodies of which
- * several pairs of hulls overlap: normal and gap become those along which the whole bodies part in
- * the shortest way. The normal is that of one of the gaps, or the line between the positions. */
-void level_gap_whole(const struct swept_body *a, const struct swept_body *b, double time,
-                     struct level_gap *gap, uint32_t count);
+/* Replaces the first of the gaps that level_gap_find_more() found with this room, of bodies of
+ * which several pairs of hulls overlap: normal and gap become those along which the whole bodies
+ * part in the shortest way. The normal is that of one of the gaps, or the line between the
+ * positions. */
+void level_gap_whole(const struct turned_body *a, const struct turned_body *b,
+                     struct level_gap *gap, uint32_t count, uint32_t room);
 
 #endif

@@ -58,19 +58,33 @@ uint32_t contact_pairs_find(const struct contact_queue *contacts, const struct p
     return 0;
 }
 
-/* resting: two bodies that rest are a pair, too. */
+/* Notes with which rows the row is paired, or forgets it. Of a row in a crowd there are so many
+ * that a search for each that it meets would cost more. */
+static void note_partners(struct contact_queue *contacts, uint32_t row, uint8_t paired)
+{
+    for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
+        const struct pair *pair = &contacts->pair[contacts->link[link - 1].pair];
+        if (!(pair->b & PAIR_FIXED))
+            contacts->paired[pair->a == row ? pair->b : pair->a] = paired;
+    }
+}
+
+/* The row's partners have been noted. resting: two bodies that rest are a pair, too. */
 static void meet(struct contact_queue *contacts, const struct contact_input *input, uint32_t row,
                  uint32_t other, bool resting)
 {
     bool fixed = other & PAIR_FIXED;
     struct pair pair = {fixed || row < other ? row : other, fixed || row < other ? other : row};
-    if (other == row || contact_pairs_find(contacts, &pair))
+    if (other == row || (fixed ? contact_pairs_find(contacts, &pair) : contacts->paired[other]))
         return;
     if (!fixed)
         body_motion_require(input->motion, other);
     if (fixed || (resting ? !pair_never_meets(input->detect.entities, pair.a, pair.b)
-                          : !pair_excluded(&input->detect, pair.a, pair.b)))
+                          : !pair_excluded(&input->detect, pair.a, pair.b))) {
         contact_pairs_add(contacts, pair);
+        if (!fixed)
+            contacts->paired[other] = 1;
+    }
 }
 
 static bool box_within(const struct path_box *inner, const struct path_box *outer)
@@ -99,6 +113,19 @@ static void meet_strayed(struct contact_queue *contacts, const struct contact_in
     }
 }
 
+/* Pairs the row with all that its box meets. */
+static void meet_near(struct contact_queue *contacts, const struct contact_input *input,
+                      uint32_t row, const struct path_box *box, bool resting)
+{
+    cruise_rows_query(input, box, &contacts->near);
+    uint32_t rows = contacts->near.count;
+    broad_phase_query_fixed(input->broad, &input->detect, box, &contacts->near);
+    for (uint32_t i = 0; i < contacts->near.count; i++) {
+        const struct pair *near = &contacts->near.pair[i];
+        meet(contacts, input, row, i < rows ? near->a : near->b, resting);
+    }
+}
+
 void contact_pairs_look(struct contact_queue *contacts, const struct contact_input *input,
                         uint32_t row, bool resting, float wider_m)
 {
@@ -107,19 +134,15 @@ void contact_pairs_look(struct contact_queue *contacts, const struct contact_inp
     box.min_x -= wider_m, box.max_x += wider_m;
     box.min_z -= wider_m, box.max_z += wider_m;
     bool strays = !box_within(&box, known);
+    bool has_all = !strays && broad_phase_has_all(input->broad, row);
     contacts->near.count = 0;
-    if (!strays && broad_phase_has_all(input->broad, row)) {
-        meet_strayed(contacts, input, row, &box, resting);
+    if (has_all && contacts->stray_count == 0)
         return;
-    }
-    cruise_rows_query(input, &box, &contacts->near);
-    uint32_t rows = contacts->near.count;
-    broad_phase_query_fixed(input->broad, &input->detect, &box, &contacts->near);
-    for (uint32_t i = 0; i < contacts->near.count; i++) {
-        const struct pair *near = &contacts->near.pair[i];
-        meet(contacts, input, row, i < rows ? near->a : near->b, resting);
-    }
+    note_partners(contacts, row, 1);
+    if (!has_all)
+        meet_near(contacts, input, row, &box, resting);
     meet_strayed(contacts, input, row, &box, resting);
+    note_partners(contacts, row, 0);
     if (!strays)
         return;
     if (!contacts->strays[row])

@@ -54,11 +54,12 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
     contacts->version = calloc(rows, sizeof *contacts->version);
     contacts->strayed = reserve_take(rows, sizeof *contacts->strayed);
     contacts->strays = calloc(rows, sizeof *contacts->strays);
+    contacts->paired = calloc(rows, sizeof *contacts->paired);
     if (contacts->heap.contact && contacts->pair && contacts->met && contacts->swept &&
         contacts->marks && contacts->impacts && contacts->known && contacts->rest &&
         contacts->rest_point && contacts->due && contacts->due_row && contacts->link &&
         contacts->head && contacts->version && contacts->strayed && contacts->strays &&
-        pair_apart_init(&contacts->apart, world) == 0 &&
+        contacts->paired && pair_apart_init(&contacts->apart, world) == 0 &&
         axis_memory_init(&contacts->axes, world) == 0 &&
         pair_list_init(&contacts->near, broad_phase_found_most(world)) == 0)
         return 0;
@@ -87,6 +88,7 @@ void contact_queue_free(struct contact_queue *contacts)
     free(contacts->version);
     reserve_free(contacts->strayed);
     free(contacts->strays);
+    free(contacts->paired);
     pair_list_free(&contacts->near);
     *contacts = (struct contact_queue){0};
 }

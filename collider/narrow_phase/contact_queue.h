@@ -130,6 +130,7 @@ struct contact_queue {
     uint32_t *version; /* [capacity of the world] of each row's path; compared only for equality */
     uint32_t *strayed; /* rows whose path has left the box that the broad phase has */
     uint8_t *strays;   /* [capacity of the world] 1: the row is in strayed */
+    uint8_t *paired;   /* [capacity of the world] 1: with the row that is looked at, else 0 */
     uint32_t stray_count;
     struct due_pair *due; /* [pair_capacity] */
     uint32_t due_count;

@@ -42,28 +42,30 @@ void begun_bodies_list(struct begun_bodies *bodies, uint32_t row)
 
 struct job {
     struct begun_bodies *bodies;
-    struct body_motion *motion;
+    const struct response_context *context;
     uint32_t first; /* of the listed rows */
 };
 
 static void find_some(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct job *job = context;
+    struct body_motion *motion = job->context->motion;
     (void)worker;
     for (uint32_t i = job->first + first; i < job->first + end; i++) {
         uint32_t row = job->bodies->row[i];
         struct begun_body *body = &job->bodies->body[row];
-        body_motion_note_poses(job->motion, row);
-        body->body = body_motion_body(job->motion, row, &body->turn);
+        body_motion_note_poses(motion, row);
+        body->body = body_motion_body(motion, row, &body->turn);
         body->began = level_gap_turn(&body->body, 0.0);
         body->rate = rotation_rate(body->body.from, body->body.to);
+        body->capsule = deep_pair_capsule(job->context, row);
     }
 }
 
-void begun_bodies_find(struct begun_bodies *bodies, struct body_motion *motion,
+void begun_bodies_find(struct begun_bodies *bodies, const struct response_context *context,
                        struct thread_pool *workers)
 {
-    struct job job = {bodies, motion, bodies->found};
+    struct job job = {bodies, context, bodies->found};
     thread_pool_run(workers, find_some, &job, bodies->count - bodies->found, ROWS_A_PIECE);
     bodies->found = bodies->count;
 }

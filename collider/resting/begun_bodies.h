@@ -5,6 +5,7 @@
 
 #include "collider/geometry/level_gap.h"
 #include "collider/motion/body_motion.h"
+#include "collider/resting/deep_pair.h"
 
 struct world;
 struct thread_pool;
@@ -14,6 +15,7 @@ struct begun_body {
     struct free_turn turn;  /* what body.turn points to */
     struct mat3 began;      /* its rotation when the frame begins */
     double rate;            /* rotation_rate() of body.from and body.to */
+    struct capsule capsule; /* none of a fixed object */
 };
 
 struct begun_bodies {
@@ -31,7 +33,7 @@ void begun_bodies_free(struct begun_bodies *bodies);
 void begun_bodies_list(struct begun_bodies *bodies, uint32_t row);
 
 /* Finds the bodies of the listed rows on their present paths, on all workers (NULL: one thread). */
-void begun_bodies_find(struct begun_bodies *bodies, struct body_motion *motion,
+void begun_bodies_find(struct begun_bodies *bodies, const struct response_context *context,
                        struct thread_pool *workers);
 
 /* Forgets all: paths change. */

@@ -2,6 +2,7 @@
 #include "collider/resting/deep_pair.h"
 
 #include "collider/response/contact_impulse.h"
+#include "collider/resting/begun_bodies.h"
 #include "collider/resting/resting.h"
 #include "world/world.h"
 
@@ -14,13 +15,6 @@
 /* Bodies at one place part as if they were so far apart, times the root of their ids [m]. */
 #define COINCIDENT_M 1e-4
 #define GOLDEN_ANGLE 2.399963229728653 /* [rad] */
-
-/* A body's inner shape on the map: all points that are nearer to a line than the radius. */
-struct capsule {
-    double x, z;             /* [m] its middle */
-    double along_x, along_z; /* [m] from there to one end of the line */
-    double radius_m;
-};
 
 /* Returns true if the body covers its capsule. Aircraft do not, because they are fuselages with
  * wings and rotors, nor do ships, whose bows are narrow, nor does a wreck on its side. */
@@ -41,13 +35,13 @@ void deep_pair_place(const struct response_context *context, uint32_t row, doubl
     *z = at.z + far * sine;
 }
 
-/* Returns the capsule of a row as it stands when the frame begins: a body that turns fast points
- * elsewhere at its end. */
-static struct capsule capsule_of(const struct response_context *context, uint32_t row,
-                                 const struct kind *kind)
+struct capsule deep_pair_capsule(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = body_motion_before(context->motion, row);
+    const struct kind *kind = contact_impulse_kind(context, row);
     double sine, cosine, wide = maths_min(kind->width_m, kind->length_m);
+    if (!fills_capsule(context, row))
+        return (struct capsule){.radius_m = 0.0};
     double half = 0.5 * DEEP * (kind->length_m - wide);
     struct capsule capsule = {.radius_m = 0.5 * wide};
     maths_sincos(e->heading[row], &sine, &cosine);
@@ -117,10 +111,10 @@ static double capsule_gap(const struct capsule *a, const struct capsule *b, stru
 }
 
 /* Returns how far inside one of the body's hulls the point is, wherever its turret points [m]. */
-static double depth_within(const struct swept_body *body, struct vec3 point)
+static double depth_within(const struct begun_body *begun, struct vec3 point)
 {
-    struct mat3 turn = rotation_matrix(body->from);
-    struct vec3 at = rotation_back(&turn, vec3_sub(point, body->path.at));
+    const struct swept_body *body = &begun->body;
+    struct vec3 at = rotation_back(&begun->began, vec3_sub(point, body->path.at));
     double deepest = 0.0;
     for (uint32_t i = 0; i < body->hull_count; i++) {
         const struct hull_plane *plane = body->planes + body->hull[i].first_plane;
@@ -135,39 +129,35 @@ static double depth_within(const struct swept_body *body, struct vec3 point)
 /* Returns true if the bodies themselves are deep in each other when the frame begins. A hull may be
  * narrower than the capsule at its height: the bonnet of a truck, the trails of a howitzer. Mostly
  * a point over the middle is inside both, which proves it sooner than a search. */
-static bool are_deep(const struct response_context *context, const struct pair *pair,
-                     struct vec3 middle, double height_m)
+static bool are_deep(const struct begun_body *a, const struct begun_body *b, struct vec3 middle,
+                     double height_m)
 {
     static const double share[] = {0.35, 0.5, 0.2, 0.65};
-    struct free_turn turn_a, turn_b;
-    struct swept_body a = body_motion_body(context->motion, pair->a, &turn_a);
-    struct swept_body b = body_motion_body(context->motion, pair->b, &turn_b);
     for (uint32_t i = 0; i < sizeof share / sizeof *share; i++) {
         struct vec3 point = {middle.x, middle.y + share[i] * height_m, middle.z};
-        double in_a = depth_within(&a, point), in_b = depth_within(&b, point);
+        double in_a = depth_within(a, point), in_b = depth_within(b, point);
         if (in_a > 0.0 && in_b > 0.0 && in_a + in_b > RESTING_PARTS_M)
             return true;
     }
-    return level_gap_is_deeper(&a, &b, 0.0, RESTING_PARTS_M);
+    return level_gap_is_deeper(&a->body, &b->body, 0.0, RESTING_PARTS_M);
 }
 
 bool deep_pair_measure(const struct response_context *context, const struct pair *pair,
+                       const struct begun_body *a, const struct begun_body *b,
                        struct resting_gap *found)
 {
-    if (pair->b & PAIR_FIXED || !fills_capsule(context, pair->a) ||
-        !fills_capsule(context, pair->b))
+    double radii = a->capsule.radius_m + b->capsule.radius_m;
+    if (a->capsule.radius_m == 0.0 || b->capsule.radius_m == 0.0)
         return false;
     const struct kind *ka = contact_impulse_kind(context, pair->a);
     const struct kind *kb = contact_impulse_kind(context, pair->b);
-    struct capsule a = capsule_of(context, pair->a, ka), b = capsule_of(context, pair->b, kb);
     double y_a = context->path[pair->a].at.y, y_b = context->path[pair->b].at.y;
     struct vec3 normal, middle;
-    double gap = capsule_gap(&a, &b, &normal, &middle);
-    if (gap > (DEEP - 1.0) * (a.radius_m + b.radius_m) ||
-        fabs(y_b - y_a) > DEEP * 0.5 * (ka->height_m + kb->height_m))
+    double gap = capsule_gap(&a->capsule, &b->capsule, &normal, &middle);
+    if (gap > (DEEP - 1.0) * radii || fabs(y_b - y_a) > DEEP * 0.5 * (ka->height_m + kb->height_m))
         return false;
     middle.y = 0.5 * (y_a + y_b);
-    if (!are_deep(context, pair, middle, maths_min(ka->height_m, kb->height_m)))
+    if (!are_deep(a, b, middle, maths_min(ka->height_m, kb->height_m)))
         return false;
     found->count = 1;
     found->gap[0] =

@@ -7,11 +7,24 @@
 
 #include <stdbool.h>
 
+struct begun_body;
 struct resting_gap;
 
-/* Finds the gap of the capsules of a pair of rows. Returns false if they are not deep in each
- * other, or if a body does not cover its capsule: aircraft, ships, wrecks on a side. */
+/* A body's inner shape on the map: all points that are nearer to a line than the radius. */
+struct capsule {
+    double x, z;             /* [m] its middle */
+    double along_x, along_z; /* [m] from there to one end of the line */
+    double radius_m;         /* 0: the body does not cover its capsule */
+};
+
+/* Returns the capsule of a row as it stands when the frame begins: a body that turns fast points
+ * elsewhere at its end. Aircraft, ships and wrecks on a side do not cover theirs. */
+struct capsule deep_pair_capsule(const struct response_context *context, uint32_t row);
+
+/* Finds the gap of the capsules of two rows. Returns false if they are not deep in each other, or
+ * if a body does not cover its capsule. */
 bool deep_pair_measure(const struct response_context *context, const struct pair *pair,
+                       const struct begun_body *a, const struct begun_body *b,
                        struct resting_gap *found);
 
 /* Sets a place near the row's position, another one for each id [m]. The places of all ids are

@@ -81,17 +81,17 @@ static void measure_pair(const struct gap_job *job, uint32_t index)
     struct begun_body fixed;
     gap->apart_m = 0.0;
     recall(job, pair, gap);
-    if (deep_pair_measure(job->context, pair, gap))
-        return;
     const struct begun_bodies *begun = &job->resting->begun;
     const struct begun_body *a = begun_bodies_side(begun, motion, pair->a, NULL);
     const struct begun_body *b = begun_bodies_side(begun, motion, pair->b, &fixed);
+    if (deep_pair_measure(job->context, pair, a, b, gap))
+        return;
     const struct turned_body turned_a = {&a->body, a->began}, turned_b = {&b->body, b->began};
+    uint32_t room = job->parts ? RESTING_GAPS_MAX : LEVEL_GAPS_MAX;
     gap->count = level_gap_find_more(&turned_a, &turned_b, margin_of(job, index, a, b), gap->gap,
-                                     job->parts ? RESTING_GAPS_MAX : LEVEL_GAPS_MAX, &gap->apart_m,
-                                     &gap->memory);
+                                     room, &gap->apart_m, &gap->memory);
     if (is_deep(gap) && gap->count > 1) {
-        level_gap_whole(&a->body, &b->body, 0.0, gap->gap, gap->count);
+        level_gap_whole(&turned_a, &turned_b, gap->gap, gap->count, room);
         gap->count = 1;
     }
 }
@@ -118,7 +118,7 @@ static void measure(struct resting *resting, const struct response_context *cont
         if (!(pair->b & PAIR_FIXED))
             begun_bodies_list(&resting->begun, pair->b);
     }
-    begun_bodies_find(&resting->begun, context->motion, resting->workers);
+    begun_bodies_find(&resting->begun, context, resting->workers);
     thread_pool_run(resting->workers, measure_some, &job, resting->groups.count - first,
                     PAIRS_A_PIECE);
     for (uint32_t i = first; i < resting->groups.count; i++) {

@@ -13,13 +13,26 @@
 
 static struct fixture f;
 
+/* Measures the two vehicles of the context. Returns true if they are deep in each other. */
+static bool measure(const struct response_context *context, struct resting_gap *found)
+{
+    const struct pair pair = {0, 1};
+    struct begun_bodies begun;
+    assert_int_equal(begun_bodies_init(&begun, context->world), 0);
+    begun_bodies_list(&begun, 0);
+    begun_bodies_list(&begun, 1);
+    begun_bodies_find(&begun, context, NULL);
+    bool deep = deep_pair_measure(context, &pair, &begun.body[0], &begun.body[1], found);
+    begun_bodies_free(&begun);
+    return deep;
+}
+
 /* Returns the gap that is measured between two vehicles of a kind, the second so far to the south
  * and turned so far; 0 if they are not deep in each other. */
 static double measured(const char *kind, double south_m, double turned_rad)
 {
     struct response_context context;
     struct resting_gap found;
-    const struct pair pair = {0, 1};
     fixture_open(&f, "collision = { shape = \"model\"; };");
     for (int n = 0; n < 2; n++)
         fixture_put(
@@ -27,7 +40,7 @@ static double measured(const char *kind, double south_m, double turned_rad)
                                         .at = {25000.0, FIXTURE_GROUND_M, 25000.0 + n * south_m},
                                         .heading_rad = n * turned_rad});
     steps_respond(&f, &context);
-    bool deep = deep_pair_measure(&context, &pair, &found);
+    bool deep = measure(&context, &found);
     steps_respond_end(&context);
     fixture_close(&f);
     return deep ? found.gap[0].gap_m : 0.0;
@@ -64,7 +77,6 @@ static bool deep(const char *kind, const double x[2], const double z[2], const d
 {
     struct response_context context;
     struct resting_gap found;
-    const struct pair pair = {0, 1};
     fixture_open(&f, "collision = { shape = \"model\"; };");
     for (int n = 0; n < 2; n++)
         fixture_put(&f, (struct fixture_entity){.kind = kind,
@@ -72,7 +84,7 @@ static bool deep(const char *kind, const double x[2], const double z[2], const d
                                                 .heading_rad = heading[n]});
     steps_respond(&f, &context);
     context.next->entities.heading[1] = turned;
-    bool are = deep_pair_measure(&context, &pair, &found);
+    bool are = measure(&context, &found);
     steps_respond_end(&context);
     fixture_close(&f);
     return are;
