@@ -249,19 +249,40 @@ static bool far(const struct known *known)
     return known->apart > known->enough;
 }
 
+/* Sets up the first simplex from the corners in start. Mostly the origin still projects into all of
+ * them; else they are added one by one. */
+static void begin_warm(const struct convex *a, const struct convex *b,
+                       const struct gjk_start *start, struct simplex *simplex)
+{
+    struct corner corner[3];
+    struct face face = {.count = (int)start->count};
+    for (uint32_t i = 0; i < start->count; i++) {
+        corner[i] = corner_of(a, b, start->a[i], start->b[i]);
+        face.corner[start->count - 1 - i] = &corner[i];
+    }
+    if (project(&face)) {
+        settle(simplex, &face);
+        return;
+    }
+    face = (struct face){.corner[0] = &corner[0], .count = 1};
+    (void)project(&face); /* always possible for a single point */
+    settle(simplex, &face);
+    for (uint32_t i = 1; i < start->count; i++)
+        (void)add_corner(simplex, &corner[i], simplex->face.square);
+}
+
 /* Sets up the first simplex. */
 static void begin(const struct convex *a, const struct convex *b, const struct gjk_start *start,
                   struct simplex *simplex)
 {
-    struct corner corner = start->count > 0 ? corner_of(a, b, start->a[0], start->b[0])
-                                            : corner_along(a, b, start->guess);
-    simplex->face = (struct face){.corner[0] = &corner, .count = 1};
-    (void)project(&simplex->face); /* always possible for a single point */
-    settle(simplex, &simplex->face);
-    for (uint32_t i = 1; i < start->count; i++) {
-        corner = corner_of(a, b, start->a[i], start->b[i]);
-        (void)add_corner(simplex, &corner, simplex->face.square);
+    if (start->count > 0) {
+        begin_warm(a, b, start, simplex);
+        return;
     }
+    struct corner corner = corner_along(a, b, start->guess);
+    struct face face = {.corner[0] = &corner, .count = 1};
+    (void)project(&face);
+    settle(simplex, &face);
 }
 
 /* Runs one search. */
