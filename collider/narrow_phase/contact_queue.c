@@ -170,6 +170,16 @@ static bool stays_apart(struct contact_queue *contacts, uint32_t index, double f
     return true;
 }
 
+/* Returns true if a side of a pair, whose pose is known, stays where it is. */
+static bool lies_still(const struct contact_queue *contacts, uint32_t side)
+{
+    if (side & PAIR_FIXED)
+        return true;
+    const struct row_pose *pose = &contacts->apart.row[side];
+    struct vec3 along = pose->body.path.along;
+    return along.x == 0.0 && along.y == 0.0 && along.z == 0.0 && pose->rate == 0.0 && !pose->freely;
+}
+
 /* Sweeps one pair from a time on. Returns true, with the contact, if there is one. Bodies that rest
  * on each other touch all the time: they are swept only if they may get into each other. */
 static bool sweep_pair(struct contact_queue *contacts, const struct contact_input *input,
@@ -184,6 +194,9 @@ static bool sweep_pair(struct contact_queue *contacts, const struct contact_inpu
         return false;
     if (contacts->marks[index] & CONTACT_PARTS ||
         (contacts->proves && contact_rests_still(contacts, input, index)))
+        return false;
+    /* Bodies that do not approach have no impact, however near they are. */
+    if (contacts->proves && lies_still(contacts, pair->a) && lies_still(contacts, pair->b))
         return false;
     if (contacts->proves && stays_apart(contacts, index, from))
         return false;
