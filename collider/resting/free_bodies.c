@@ -29,6 +29,7 @@
 #define PUSH_GROUND_M -2e-3
 #define PUSH_SHARE    0.3
 #define PUSH_MPS      3.0
+#define SPRUNG_DEEP_M 0.018 /* vehicles on their springs count as no deeper in the ground */
 
 #define GROUND_FRICTION 0.7    /* of soil */
 #define PLOUGH_S2PM2    2.5e-4 /* as of a wreck on the ground (mover/motion/ground_contacts.c) */
@@ -310,7 +311,8 @@ static void take(struct free_bodies *bodies, struct response_context *context,
     bodies->pairs++;
 }
 
-/* Adds the points of a free body on the ground. */
+/* Adds the points of a free body on the ground. The springs of a vehicle let hulls into the ground,
+ * those of its wheels for one: the ground stops them, and pushes them out only slowly. */
 static void add_ground(struct free_bodies *bodies, const struct response_context *context,
                        uint32_t index)
 {
@@ -336,7 +338,9 @@ static void add_ground(struct free_bodies *bodies, const struct response_context
                                          .friction = sqrt(kind->friction * GROUND_FRICTION) +
                                                      PLOUGH_S2PM2 * speed * speed,
                                          .rolling_m = ROLLING_GROUND * vec3_length(arm)};
-        set_room(context, contact, point[i].gap_m, 0.0, PUSH_GROUND_M);
+        double most_m = side->wreck ? INFINITY : SPRUNG_DEEP_M;
+        double gap_m = maths_max(point[i].gap_m, -most_m);
+        set_room(context, contact, gap_m, 0.0, PUSH_GROUND_M);
     }
 }
 

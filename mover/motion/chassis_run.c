@@ -182,10 +182,10 @@ static void move(struct chassis *chassis, const struct mat3 *turn, double load_n
         chassis->strike_j += shell.strike_j;
     }
     struct vec3 push = shell.velocity_mps;
-    if (load_n == 0.0 && shell.impulse_ns == 0.0)
+    if (load_n == 0.0 && !shell.acts)
         push.y = 0.5 * GRAVITY_MPS2 * dt_s; /* a free fall is exact */
     body->centre = vec3_add(body->centre, vec3_scale(vec3_add(body->velocity, push), dt_s));
-    if (chassis->rough || load_n == 0.0 || shell.impulse_ns != 0.0)
+    if (chassis->rough || load_n == 0.0 || shell.acts)
         rigid_body_turn(body, shell.spin_rps, dt_s);
     else /* springs and tyres hold it, beside which its own momentum is nothing */
         body->turn = rotation_spun(body->turn, body->spin, dt_s);

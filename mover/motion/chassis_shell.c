@@ -10,13 +10,16 @@
 #define NOSE_HEIGHT  0.45 /* of the ends over the height */
 #define HARD_MPS     2.0  /* a shell that is hit more slowly takes no harm */
 
-#define ROUNDS    3    /* of paths: impulses turn the points, and these meet other ground */
-#define HALVINGS  7    /* of a path, to find where it meets the ground */
-#define MARGIN_M  0.02 /* a point this near to the ground touches it at any speed */
-#define NORMAL_M  0.02 /* the normal is that of the heights so far to each side */
-#define STEEPEST  (EARTHWORK_STEEPEST + 1.0) /* tangent of any ground, at most */
-#define DEEP_M    0.02                       /* deeper points have got new ground over them */
-#define SAME_FACE 0.95                       /* cosine between the normals of one face */
+#define ROUNDS       3    /* of paths: impulses turn the points, and these meet other ground */
+#define HALVINGS     7    /* of a path, to find where it meets the ground */
+#define MARGIN_M     0.02 /* a point this near to the ground touches it at any speed */
+#define NORMAL_M     0.02 /* the normal is that of the heights so far to each side */
+#define STEEPEST     (EARTHWORK_STEEPEST + 1.0) /* tangent of any ground, at most */
+#define DEEP_M       0.02                       /* deeper points have got new ground over them */
+#define WHEEL_DEEP_M 0.006 /* wheels in the ground are pushed out as if they were no deeper */
+#define MOST_DEEP_M  0.009 /* and other points: by 0.5 m/s */
+#define PUSHED_M     0.01  /* points this deep are pushed out though they bear nothing */
+#define SAME_FACE    0.95  /* cosine between the normals of one face */
 
 void chassis_shell_of(const struct kind *kind, const struct suspension *suspension,
                       struct chassis_shell *shell)
@@ -139,6 +142,19 @@ static bool sweep_point(struct ground_contacts *contacts, const struct shell_gro
                            : added;
 }
 
+/* Makes the contacts of a point those of a wheel: it rolls. Its spring moves it against the body.
+ * So ground that it has come into stops it, and pushes the body out only slowly. */
+static void let_roll(struct ground_contacts *contacts, struct vec3 arm)
+{
+    for (uint32_t c = 0; c < contacts->count; c++) {
+        struct ground_contact *contact = &contacts->contact[c];
+        if (contact->arm.x != arm.x || contact->arm.z != arm.z)
+            continue;
+        contact->friction = 0.0;
+        contact->gap_m = maths_max(contact->gap_m, -WHEEL_DEEP_M);
+    }
+}
+
 static bool sweep(struct ground_contacts *contacts, const struct chassis_shell *shell,
                   const struct shell_ground *ground, const struct rigid_body *body, uint32_t order,
                   double dt_s)
@@ -153,10 +169,8 @@ static bool sweep(struct ground_contacts *contacts, const struct chassis_shell *
         if (!sweep_point(contacts, ground, body, &inverse, arm, dt_s))
             continue;
         added = true;
-        for (uint32_t c = 0; (n ^ order) >= CHASSIS_SHELL_WHEELS && c < contacts->count; c++) {
-            if (contacts->contact[c].arm.x == arm.x && contacts->contact[c].arm.z == arm.z)
-                contacts->contact[c].friction = 0.0; /* a wheel rolls */
-        }
+        if ((n ^ order) >= CHASSIS_SHELL_WHEELS)
+            let_roll(contacts, arm);
     }
     return added;
 }
@@ -201,11 +215,14 @@ static struct chassis_shell_push press(const struct chassis_shell *shell,
         body->spin = before.spin;
         push.impulse_ns = ground_contacts_solve(&contacts, body, dt_s);
     }
-    if (push.impulse_ns <= 0.0)
+    push.acts = push.impulse_ns > 0.0 || ground_contacts_depth(&contacts) > PUSHED_M;
+    if (!push.acts)
         return push;
     if (fastest(&contacts) > HARD_MPS)
         push.hard_j = maths_max(0.0, ground_contacts_taken(&contacts, body));
     push.strike_j = push.hard_j * upright_share(&contacts);
+    for (uint32_t c = 0; c < contacts.count; c++)
+        contacts.contact[c].gap_m = maths_max(contacts.contact[c].gap_m, -MOST_DEEP_M);
     ground_contacts_push(&contacts, body, dt_s, &push.velocity_mps, &push.spin_rps);
     return push;
 }
@@ -226,7 +243,7 @@ struct chassis_shell_push chassis_shell_press(const struct chassis_shell *shell,
     const struct shell_ground ground = {terrain, craters};
     struct rigid_body mirrored = *body;
     struct chassis_shell_push push = press(shell, &ground, kind, body, LEFT_FIRST, dt_s);
-    if (push.impulse_ns <= 0.0)
+    if (!push.acts)
         return push;
     struct chassis_shell_push other = press(shell, &ground, kind, &mirrored, RIGHT_FIRST, dt_s);
     body->velocity = mean(body->velocity, mirrored.velocity);
@@ -234,6 +251,7 @@ struct chassis_shell_push chassis_shell_press(const struct chassis_shell *shell,
     return (struct chassis_shell_push){.velocity_mps = mean(push.velocity_mps, other.velocity_mps),
                                        .spin_rps = mean(push.spin_rps, other.spin_rps),
                                        .impulse_ns = 0.5 * (push.impulse_ns + other.impulse_ns),
+                                       .acts = true,
                                        .hard_j = 0.5 * (push.hard_j + other.hard_j),
                                        .strike_j = 0.5 * (push.strike_j + other.strike_j)};
 }

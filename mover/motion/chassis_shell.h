@@ -24,7 +24,8 @@ struct chassis_shell {
 /* What the ground does to a shell in a sub-step. */
 struct chassis_shell_push {
     struct vec3 velocity_mps, spin_rps; /* pseudo-velocity out of the ground */
-    double impulse_ns;                  /* along the normals; 0: the shell does not touch */
+    double impulse_ns;                  /* along the normals; 0: no point bears anything */
+    bool acts;                          /* a point bears something, or is deep in the ground */
     double hard_j;                      /* energy of the impact, if it is a hard one */
     double strike_j;                    /* the part of it that upright ground took */
 };

@@ -376,6 +376,48 @@ static void test_a_pushed_wreck_goes_no_farther_than_its_velocity(void **state)
     }
 }
 
+/* A jeep on its springs that lies on its side against a tank's wreck, with its lower wheels in the
+ * ground as its springs let them: the ground does not lift it by its hulls. */
+static void test_the_ground_lifts_no_sprung_vehicle_by_its_hulls(void **state)
+{
+    uint32_t touched = 0;
+    double worst = 0.0;
+    (void)state;
+    for (uint32_t n = 0; n < 24; n++) {
+        double lean = 0.8 + 0.04 * (n % 4), away = 2.4 + 0.2 * (n / 4);
+        open_world(60.0, "");
+        put_wreck("tank", (struct vec3){0.0, 0.0, 0.0}, 0.0, 0.0, 0.0);
+        uint32_t jeep = fixture_put(
+            &f, (struct fixture_entity){.kind = "jeep",
+                                        .behaviour = BEHAVIOUR_IDLE,
+                                        .at = vec3_add(middle, (struct vec3){away, 0.0, 0.0})});
+        struct entities e = steps_rows(&f);
+        e.flags[jeep] |= ENTITY_FLAG_CHASSIS;
+        e.roll[jeep] = -lean;
+        e.y[jeep] += 0.8 * maths_sin(lean) - 0.15;
+        e.vx[jeep] = -0.5;
+        for (uint32_t frame = 0; frame < 20; frame++) {
+            e = steps_rows(&f);
+            struct vec3 was = entities_position(&e, jeep), before = entities_velocity(&e, jeep);
+            uint32_t told = fixture_event_count(&f, EVENT_COLLISION);
+            fixture_continue(&f, 1);
+            e = steps_rows(&f);
+            struct vec3 after = entities_velocity(&e, jeep);
+            double speed = maths_max(vec3_length(before), vec3_length(after));
+            double way = vec3_length(vec3_sub(entities_position(&e, jeep), was));
+            touched += fixture_state(&f).head->contact_count > 0;
+            if (fixture_event_count(&f, EVENT_COLLISION) == told)
+                worst = maths_max(worst, way - speed / 60.0);
+        }
+        fixture_close(&f);
+    }
+    print_message(
+        "# figures: a leaning jeep went %.2f mm beyond its velocity, %u frames in contact\n",
+        1e3 * worst, touched);
+    assert_true(touched > 200);
+    assert_true(worst <= JUMP_M);
+}
+
 static void test_a_heap_of_wrecks(void **state)
 {
     uint64_t random = fixture_seed(3);
@@ -405,6 +447,7 @@ int main(void)
         cmocka_unit_test(test_a_wreck_falls_on_a_house),
         cmocka_unit_test(test_a_tank_pushes_a_wreck),
         cmocka_unit_test(test_a_pushed_wreck_goes_no_farther_than_its_velocity),
+        cmocka_unit_test(test_the_ground_lifts_no_sprung_vehicle_by_its_hulls),
         cmocka_unit_test(test_a_heap_of_wrecks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -120,6 +120,38 @@ static void test_new_ground_over_it_lifts_it_out(void **state)
     assert_true(push.velocity_mps.y > 0.5 * fabs(push.velocity_mps.x));
 }
 
+/* A point that leaves the ground bears nothing; deep in it, it is pushed out, and slowly. */
+static void test_a_deep_point_that_bears_nothing_is_pushed_out(void **state)
+{
+    (void)state;
+    for (double deep = 0.015; deep < 0.5; deep *= 2.0) {
+        struct rigid_body body = body_before("tank", 20.0, 0.0);
+        body.centre.y -= steps_kind(&f, "tank")->travel_m + deep;
+        body.velocity.y = 0.1;
+        struct chassis_shell_push push = press("tank", &body);
+        assert_true(push.acts && push.impulse_ns == 0.0);
+        assert_true(push.velocity_mps.y > 0.2 && push.velocity_mps.y < 0.6);
+    }
+}
+
+/* Where a spring moves a wheel into a wall, the wall stops the wheel, and hardly pushes the body.
+ */
+static void test_a_wheel_in_the_ground_hardly_pushes_the_body(void **state)
+{
+    (void)state;
+    struct rigid_body body = body_before("jeep", 0.0, 0.0);
+    chassis_shell_follow(&shell, &suspension);
+    for (uint32_t n = 0; n < CHASSIS_SHELL_WHEELS; n++) /* only the wheels can touch it */
+        shell.point[n].x = 0.0;
+    for (uint32_t n = CHASSIS_SHELL_WHEELS; n < shell.count; n++)
+        shell.point[n].x = 0.5 * steps_kind(&f, "jeep")->length_m + 0.1;
+    body.velocity.x = 3.0;
+    struct chassis_shell_push push = press("jeep", &body);
+    assert_true(push.impulse_ns > 0.0);
+    assert_true(body.velocity.x < 2.9);
+    assert_true(vec3_length(push.velocity_mps) < 0.15);
+}
+
 int main(void)
 {
 #define T(name) cmocka_unit_test_setup_teardown(name, open_world, fixture_teardown)
@@ -130,6 +162,8 @@ int main(void)
         T(test_over_level_ground_nothing_touches),
         T(test_points_rise_with_their_wheels),
         T(test_new_ground_over_it_lifts_it_out),
+        T(test_a_deep_point_that_bears_nothing_is_pushed_out),
+        T(test_a_wheel_in_the_ground_hardly_pushes_the_body),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
