@@ -28,15 +28,15 @@ static void row_of_table(const char *kind, const char *quantity, double real, do
     assert_int_equal(within, reached);
 }
 
-/* Drives a vehicle over a work 20 m before it. Returns how far it came to the north [m], or -1 if
- * it turned over. */
+/* Drives a vehicle over a work 20 m before it, for at most 60 s. Returns how far it came to the
+ * north [m], or -1 if it turned over. */
 static double drives(const char *work, const char *kind, double throttle, enum gearing gear)
 {
     fixture_open(&f, work);
     uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kind,
                                                            .at = {25000.0, 100.0, 25000.0},
                                                            .behaviour = BEHAVIOUR_DRIVEN});
-    for (uint32_t frame = 0; frame < 40 * HZ && steps_rows(&f).state[row] == ENTITY_ACTIVE; frame++)
+    for (uint32_t frame = 0; frame < 60 * HZ && steps_rows(&f).state[row] == ENTITY_ACTIVE; frame++)
         steps_pedals(&f, row, throttle, 0.0, gear);
     struct entities e = steps_rows(&f);
     double way = e.state[row] == ENTITY_ACTIVE ? 25000.0 - e.z[row] : -1.0;
@@ -73,14 +73,24 @@ static bool climbs_step(const char *kind, double height, double mps)
     return drives(work, kind, slow(kind, mps), GEAR_AUTOMATIC) > 30.0;
 }
 
-static bool crosses_trench(const char *kind, double width)
+static bool crosses_trench(const char *kind, double width, double mps)
 {
     char work[300];
     snprintf(work, sizeof work,
              "earthworks = ( { shape = \"trench\"; at = [25000.0, %.3f]; length_m = %.3f;"
              " width_m = 20.0; depth_m = 1.6; edge_m = 0.2; } );",
              24980.0 - 0.5 * width, width);
-    return drives(work, kind, slow(kind, 2.0), GEAR_AUTOMATIC) > 32.0;
+    return drives(work, kind, slow(kind, mps), GEAR_AUTOMATIC) > 32.0;
+}
+
+static bool walks_over_trench(const char *kind, double width)
+{
+    return crosses_trench(kind, width, 1.0);
+}
+
+static bool drives_over_trench(const char *kind, double width)
+{
+    return crosses_trench(kind, width, 2.0);
 }
 
 static bool climbs_grade(const char *kind, double percent)
@@ -158,14 +168,18 @@ static void test_steps(void **state)
     }
 }
 
+/* A data sheet's trench is crossed at a walk: a faster vehicle is carried on while it tips. */
 static void test_trenches(void **state)
 {
     static const double real[2] = {2.74, 2.54};
     (void)state;
     for (int k = 0; k < 2; k++) {
-        double ours = most(crosses_trench, kinds[k], 2.4, 0.05, 5.0);
-        row_of_table(kinds[k], "trench that it crosses at 2 m/s", real[k], ours, "m", 0.8 * real[k],
-                     1.3 * real[k], k == 1);
+        double walk = most(walks_over_trench, kinds[k], 2.0, 0.05, 5.0);
+        double fast = most(drives_over_trench, kinds[k], 2.0, 0.05, 5.0);
+        row_of_table(kinds[k], "trench that it crosses at 1 m/s", real[k], walk, "m", 0.8 * real[k],
+                     1.3 * real[k], true);
+        printf("| %-7s | %-36s |        | %6.2f | m    |\n", kinds[k], "the same at 2 m/s", fast);
+        assert_true(fast >= walk && fast <= 1.4 * real[k]);
     }
 }
 
