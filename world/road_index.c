@@ -40,10 +40,10 @@ struct bounds {
 static struct bounds bounds_of(const struct road_index *index, uint32_t stretch)
 {
     const struct road_point *a = &index->points[stretch], *b = a + 1;
-    return (struct bounds){.x0 = maths_min((double)a->x, (double)b->x),
-                           .z0 = maths_min((double)a->z, (double)b->z),
-                           .x1 = maths_max((double)a->x, (double)b->x),
-                           .z1 = maths_max((double)a->z, (double)b->z)};
+    return (struct bounds){.x0 = maths_min(a->x, b->x),
+                           .z0 = maths_min(a->z, b->z),
+                           .x1 = maths_max(a->x, b->x),
+                           .z1 = maths_max(a->z, b->z)};
 }
 
 static struct cells cells_of_stretch(const struct road_index *index, uint32_t stretch)

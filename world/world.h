@@ -58,7 +58,7 @@ struct fire_order {
 };
 
 struct road_point {
-    float x, z;
+    double x, z;
     uint32_t road; /* the points of one road are consecutive */
     uint32_t reserved;
 };

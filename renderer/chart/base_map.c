@@ -94,8 +94,8 @@ static void draw_roads(struct image *image, const struct map_view *view, const s
     for (uint32_t i = 0; i + 1 < world->counts.road_points; i++) {
         const struct road_point *a = &world->road_points[i], *b = a + 1;
         if (a->road == b->road)
-            image_line(image, map_point(view, (double)a->x, (double)a->z),
-                       map_point(view, (double)b->x, (double)b->z), pixels, line);
+            image_line(image, map_point(view, a->x, a->z), map_point(view, b->x, b->z), pixels,
+                       line);
     }
 }
 

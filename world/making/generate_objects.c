@@ -60,11 +60,11 @@ static bool line_up(const struct object_placement *p, const struct road_point *a
     uint32_t done = 0;
     double ahead = start_m;
     for (; a + 1 < end && a[1].road == a->road; a++) {
-        double dx = (double)(a[1].x - a->x), dz = (double)(a[1].z - a->z);
+        double dx = a[1].x - a->x, dz = a[1].z - a->z;
         double length = sqrt(dx * dx + dz * dz), off = side * POLE_OFF_M;
         while (ahead < length) {
-            double x = (double)a->x + (dx * ahead - dz * off) / length;
-            double z = (double)a->z + (dz * ahead + dx * off) / length;
+            double x = a->x + (dx * ahead - dz * off) / length;
+            double z = a->z + (dz * ahead + dx * off) / length;
             if (!object_placement_allows(p, x, z, 0.0))
                 return false;
             poles[done][0] = x;
@@ -96,8 +96,9 @@ static bool find_line(const struct object_placement *p, const struct road_point 
 /* Poles beside a road; where there are no roads, on the line from Jolon to the Mission. */
 static int add_poles(struct object_placement *p, const double jolon[2], const double mission[2])
 {
-    struct road_point straight[2] = {{.x = (float)jolon[0], .z = (float)jolon[1]},
-                                     {.x = (float)mission[0], .z = (float)mission[1]}};
+    struct road_point straight[2] = {
+        {.x = maths_as_float(jolon[0]), .z = maths_as_float(jolon[1])},
+        {.x = maths_as_float(mission[0]), .z = maths_as_float(mission[1])}};
     double poles[POLE_COUNT][2];
     bool found = p->road_count > 0 ? find_line(p, p->roads, p->road_count, poles)
                                    : find_line(p, straight, 2, poles);

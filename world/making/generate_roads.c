@@ -309,8 +309,10 @@ static int emit(const struct survey *s, uint32_t road, struct road_point *roads,
                 errno = ENOBUFS;
                 return -1;
             }
-            roads[(*road_count)++] = (struct road_point){
-                .x = (float)(p[0] + dx * t), .z = (float)(p[1] + dz * t), .road = road};
+            /* Rounded, as they have been since points of roads were floats. */
+            roads[(*road_count)++] = (struct road_point){.x = maths_as_float(p[0] + dx * t),
+                                                         .z = maths_as_float(p[1] + dz * t),
+                                                         .road = road};
             if (last && ahead >= length)
                 return 0;
         }

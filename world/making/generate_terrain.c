@@ -237,13 +237,13 @@ static void pave(const struct weave *w, uint8_t *cover, const struct road_point 
     if (w->spacing_m > ROAD_SPACING_M)
         return;
     for (uint32_t k = 0; k + 1 < count; k++) {
-        double dx = (double)(roads[k + 1].x - roads[k].x);
-        double dz = (double)(roads[k + 1].z - roads[k].z);
+        double dx = roads[k + 1].x - roads[k].x;
+        double dz = roads[k + 1].z - roads[k].z;
         if (roads[k].road != roads[k + 1].road)
             continue;
         int steps = (int)(sqrt(dx * dx + dz * dz) / (0.25 * w->spacing_m)) + 1;
         for (int i = 0; i <= steps; i++) {
-            double x = (double)roads[k].x + dx * i / steps, z = (double)roads[k].z + dz * i / steps;
+            double x = roads[k].x + dx * i / steps, z = roads[k].z + dz * i / steps;
             double column = floor(x / w->spacing_m + 0.5), row = floor(z / w->spacing_m + 0.5);
             double off_x = x - column * w->spacing_m, off_z = z - row * w->spacing_m;
             uint8_t *at = &cover[(size_t)row * w->side + (size_t)column];

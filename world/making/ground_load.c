@@ -32,8 +32,8 @@ static int load_roads(struct world_build *built, const struct ground_file *file,
     }
     int result = ground_file_roads(file, points, error);
     for (uint32_t i = 0; i < count; i++)
-        built->roads[i] = (struct road_point){.x = (float)(points[i].x_mm / 1000.0 + offset_m),
-                                              .z = (float)(points[i].z_mm / 1000.0 + offset_m),
+        built->roads[i] = (struct road_point){.x = points[i].x_mm / 1000.0 + offset_m,
+                                              .z = points[i].z_mm / 1000.0 + offset_m,
                                               .road = points[i].road};
     built->counts.road_points = count;
     free(points);

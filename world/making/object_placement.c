@@ -95,11 +95,11 @@ static bool near_road(const struct object_placement *p, double x, double z, doub
     uint32_t square = gridsquare_of(&p->terrain->squares, x, z);
     for (uint32_t k = p->leg_start[square]; k < p->leg_start[square + 1]; k++) {
         const struct road_point *a = &p->roads[p->legs[k]], *b = a + 1;
-        double dx = (double)(b->x - a->x), dz = (double)(b->z - a->z);
+        double dx = b->x - a->x, dz = b->z - a->z;
         double length = maths_max(dx * dx + dz * dz, 1e-9);
-        double t = ((x - (double)a->x) * dx + (z - (double)a->z) * dz) / length;
+        double t = ((x - a->x) * dx + (z - a->z) * dz) / length;
         t = maths_clamp(t, 0.0, 1.0);
-        if (distance2(x, z, (double)a->x + dx * t, (double)a->z + dz * t) < free_m * free_m)
+        if (distance2(x, z, a->x + dx * t, a->z + dz * t) < free_m * free_m)
             return true;
     }
     return false;

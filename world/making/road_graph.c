@@ -68,7 +68,7 @@ static double nearest_share(double ax, double az, double bx, double bz, double x
 static double stretch_share(const struct survey *s, uint32_t i, double x, double z, double *off_m)
 {
     const struct road_point *a = &s->points[i], *b = a + 1;
-    return nearest_share((double)a->x, (double)a->z, (double)b->x, (double)b->z, x, z, off_m);
+    return nearest_share(a->x, a->z, b->x, b->z, x, z, off_m);
 }
 
 /* Returns true if two segments cross, and the share of each at which they do. */
@@ -76,9 +76,9 @@ static bool crossing(const struct survey *s, uint32_t i, uint32_t j, double *sha
                      double *share_j)
 {
     const struct road_point *a = &s->points[i], *b = &s->points[j];
-    double ux = (double)(a[1].x - a[0].x), uz = (double)(a[1].z - a[0].z);
-    double vx = (double)(b[1].x - b[0].x), vz = (double)(b[1].z - b[0].z);
-    double wx = (double)(b[0].x - a[0].x), wz = (double)(b[0].z - a[0].z);
+    double ux = a[1].x - a[0].x, uz = a[1].z - a[0].z;
+    double vx = b[1].x - b[0].x, vz = b[1].z - b[0].z;
+    double wx = b[0].x - a[0].x, wz = b[0].z - a[0].z;
     double turn = ux * vz - uz * vx;
     if (turn == 0.0)
         return false;
@@ -97,7 +97,7 @@ static double nearest(const struct survey *s, uint32_t i, uint32_t j, double *sh
     for (uint32_t end = 0; end < 4; end++) {
         uint32_t own = end < 2 ? i : j, other = end < 2 ? j : i;
         const struct road_point *p = &s->points[own + end % 2];
-        double off, share = stretch_share(s, other, (double)p->x, (double)p->z, &off);
+        double off, share = stretch_share(s, other, p->x, p->z, &off);
         if (off >= least)
             continue;
         least = off;
@@ -118,10 +118,8 @@ static int find_near(struct survey *s, const struct road_point *a, const struct 
                      double reach_m)
 {
     struct road_walk walk =
-        road_index_walk(&s->index, maths_min((double)a->x, (double)b->x) - reach_m,
-                        maths_min((double)a->z, (double)b->z) - reach_m,
-                        maths_max((double)a->x, (double)b->x) + reach_m,
-                        maths_max((double)a->z, (double)b->z) + reach_m);
+        road_index_walk(&s->index, maths_min(a->x, b->x) - reach_m, maths_min(a->z, b->z) - reach_m,
+                        maths_max(a->x, b->x) + reach_m, maths_max(a->z, b->z) + reach_m);
     uint32_t stretch;
     s->near_count = 0;
     while (road_walk_next(&walk, &stretch)) {
@@ -172,7 +170,7 @@ static int meet_end(struct survey *s, uint32_t end)
         double off;
         if (s->points[j].road == p->road)
             continue;
-        double at = stretch_share(s, j, (double)p->x, (double)p->z, &off);
+        double at = stretch_share(s, j, p->x, p->z, &off);
         if (off > least)
             continue;
         least = off;
@@ -213,14 +211,13 @@ static void lay_nodes(struct road_graph *net, const struct survey *s, uint32_t (
     for (uint32_t i = 0; i < s->count; i++) {
         const struct road_point *a = &s->points[i], *b = a + 1;
         bool goes_on = is_stretch(s, i);
-        net->nodes[net->node_count++] = (struct road_node){(double)a->x, (double)a->z, 0, 0, 0};
+        net->nodes[net->node_count++] = (struct road_node){a->x, a->z, 0, 0, 0};
         for (; goes_on && cut < s->cut_count && s->cuts[cut].stretch == i; cut++) {
             double t = s->cuts[cut].share;
             uint32_t meeting = s->cuts[cut].meeting;
             met[meeting][seen[meeting]++] = net->node_count;
             net->nodes[net->node_count++] =
-                (struct road_node){(double)a->x + ((double)b->x - (double)a->x) * t,
-                                   (double)a->z + ((double)b->z - (double)a->z) * t, 0, 0, 0};
+                (struct road_node){a->x + (b->x - a->x) * t, a->z + (b->z - a->z) * t, 0, 0, 0};
         }
         net->nodes[net->node_count - 1].next = goes_on ? net->node_count : UINT32_MAX;
     }

@@ -47,6 +47,14 @@ double maths_cbrt(double value);
 double maths_wrap_turn(double angle_rad);
 double maths_wrap_half(double angle_rad);
 
+/* Returns the value rounded to a float. gcc 12 leaves the rounding of (double)(float)value out
+ * where it makes a vector of two of them, so this goes through memory. */
+static inline double maths_as_float(double value)
+{
+    volatile float rounded = (float)value;
+    return (double)rounded;
+}
+
 static inline double maths_clamp(double value, double low, double high)
 {
     return value < low ? low : value > high ? high : value;

@@ -73,8 +73,8 @@ static bool on_road(const struct road_pieces *pieces, double x, double z)
 {
     for (uint32_t i = 0; i < pieces->count; i++) {
         const struct road_point *a = pieces->from[i], *b = a + 1;
-        double dx = (double)b->x - (double)a->x, dz = (double)b->z - (double)a->z;
-        double px = x - (double)a->x, pz = z - (double)a->z, squared = dx * dx + dz * dz;
+        double dx = b->x - a->x, dz = b->z - a->z;
+        double px = x - a->x, pz = z - a->z, squared = dx * dx + dz * dz;
         double t = squared > 0.0 ? maths_clamp((px * dx + pz * dz) / squared, 0.0, 1.0) : 0.0;
         double ox = px - t * dx, oz = pz - t * dz;
         if (ox * ox + oz * oz < ROAD_CLEAR_M * ROAD_CLEAR_M)

@@ -51,8 +51,7 @@ bool nearby_roads_distances(const struct road_index *roads, double x, double z, 
         for (size_t texel = 0; !any && texel < (size_t)rows * stride; texel++)
             off[texel] = 1e9f;
         any = true;
-        near_segment(&block, (double)a->x, (double)a->z, (double)b->x - (double)a->x,
-                     (double)b->z - (double)a->z);
+        near_segment(&block, a->x, a->z, b->x - a->x, b->z - a->z);
     }
     return any;
 }

@@ -29,8 +29,9 @@ static uint8_t cover[SIDE * SIDE];
 static char path[96];
 static struct error_text error;
 
-/* Writes a ground with a slope to the east beside the scenario. Returns its hash. */
-static uint64_t put_ground(double side_m, double rise_m)
+/* Writes a ground with a slope to the east and with roads beside the scenario. Returns its hash. */
+static uint64_t put_ground_with(double side_m, double rise_m, const struct ground_road_point *roads,
+                                uint32_t road_points)
 {
     struct ground_header header = {.latitude_deg = 44.5,
                                    .longitude_deg = -71.25,
@@ -41,9 +42,15 @@ static uint64_t put_ground(double side_m, double rise_m)
     for (uint32_t i = 0; i < SIDE * SIDE; i++)
         posts[i] = ground_tile_round(rise_m * (i % SIDE));
     snprintf(path, sizeof path, "%s/x.ground", quick_config.folder);
-    const struct ground_content content = {.posts = posts, .cover = cover, .text = ""};
+    const struct ground_content content = {
+        .posts = posts, .cover = cover, .text = "", .roads = roads, .road_points = road_points};
     assert_int_equal(ground_write(path, &header, &content, NULL, &error), 0);
     return header.hash;
+}
+
+static uint64_t put_ground(double side_m, double rise_m)
+{
+    return put_ground_with(side_m, rise_m, NULL, 0);
 }
 
 static void must_load(struct scenario *scenario, const char *text, const char *override)
@@ -187,6 +194,29 @@ static void test_a_world_has_the_side_of_its_file(void **state)
     }
 }
 
+/* Roads keep their millimetres at the far corner of the largest square. */
+static void test_roads_are_exact(void **state)
+{
+    const struct ground_road_point roads[] = {
+        {1, 2, 0}, {499999999, 499999998, 0}, {333333333, 7, 1}, {333333334, 499999997, 1}};
+    struct scenario s;
+    struct world_build built;
+    (void)state;
+    uint64_t hash = put_ground_with(500000.0, 0.5, roads, 4);
+    assert_true(hash != put_ground(500000.0, 0.5) &&
+                hash == put_ground_with(500000.0, 0.5, roads, 4));
+    must_load(&s, TEXT, NULL);
+    assert_int_equal(world_build_make(&built, &s, &error), 0);
+    assert_int_equal(built.counts.road_points, 4);
+    for (int i = 0; i < 4; i++) {
+        assert_true(built.roads[i].x == roads[i].x_mm / 1000.0);
+        assert_true(built.roads[i].z == roads[i].z_mm / 1000.0);
+        assert_int_equal(built.roads[i].road, roads[i].road);
+    }
+    world_build_free(&built);
+    scenario_free(&s);
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -221,6 +251,7 @@ int main(void)
         cmocka_unit_test(test_the_gateway_is_where_the_ground_is),
         cmocka_unit_test(test_a_small_square_lies_in_the_middle),
         cmocka_unit_test(test_a_world_has_the_side_of_its_file),
+        cmocka_unit_test(test_roads_are_exact),
         cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, quick_config_make, quick_config_remove);

@@ -35,7 +35,7 @@ static void lay_roads(uint64_t *seed)
         double step = i % 9 == 0 ? 3000.0 : 60.0;
         x += fixture_uniform(seed, -step, step);
         z += fixture_uniform(seed, -step, step);
-        points[i] = (struct road_point){.x = (float)x, .z = (float)z, .road = road};
+        points[i] = (struct road_point){.x = x, .z = z, .road = road};
     }
 }
 
