@@ -4,6 +4,7 @@
 #include "ipc/process/clock.h"
 #include "world/entity/grounded.h"
 #include "world/entity/spool.h"
+#include "world/params.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -15,6 +16,14 @@ _Static_assert((int)jolon_ENTITY_FREE == (int)ENTITY_FREE &&
                "entity states in ipc/topics/status.idl");
 _Static_assert((int)jolon_GEAR_LOW == (int)GEAR_LOW && (int)GEAR_COUNT == (int)jolon_GEAR_LOW + 1,
                "gears in ipc/topics/status.idl");
+
+static void free_rows(struct entity_topic *topic)
+{
+    free(topic->entity);
+    free(topic->place);
+    topic->entity = NULL;
+    topic->place = NULL;
+}
 
 int entity_topic_open(struct entity_topic *topic, const struct view *view,
                       const struct dds_link *link, uint64_t run, struct error_text *error)
@@ -28,10 +37,13 @@ int entity_topic_open(struct entity_topic *topic, const struct view *view,
     topic->writer = dds_topics_writer(link, TOPIC_ENTITIES, error);
     if (topic->writer < 0)
         return -1;
+    const struct gateway_params *gateway = &view->world.params->gateway;
+    projection_make(&topic->projection, gateway->latitude_deg, gateway->longitude_deg,
+                    view->world.terrain.squares.world_m);
     topic->entity = calloc(topic->room, sizeof *topic->entity);
-    if (!topic->entity || snapshot_init(&topic->snapshot, view) != 0) {
-        free(topic->entity);
-        topic->entity = NULL;
+    topic->place = calloc(topic->room, sizeof *topic->place);
+    if (!topic->entity || !topic->place || snapshot_init(&topic->snapshot, view) != 0) {
+        free_rows(topic);
         return error_text_set(error, "entities: no memory for %u: %s", capacity, strerror(errno));
     }
     return 0;
@@ -40,8 +52,7 @@ int entity_topic_open(struct entity_topic *topic, const struct view *view,
 void entity_topic_close(struct entity_topic *topic)
 {
     snapshot_free(&topic->snapshot);
-    free(topic->entity);
-    topic->entity = NULL;
+    free_rows(topic);
 }
 
 /* tick is the frame's, dt_s the duration of a tick. */
@@ -119,11 +130,15 @@ static void write_part(struct entity_topic *topic)
              topic->dt_s);
         const struct entities *e = &snapshot->entities;
         const struct kind *kind = &topic->kinds[e->kind[topic->row]];
+        projection_place(&topic->projection, e->x[topic->row], e->z[topic->row],
+                         &topic->place[count].latitude_deg, &topic->place[count].longitude_deg);
         topic->entity[count].grounded = grounded_of(e, kind, topic->row);
         topic->entity[count++].spool = (float)spool_of(e, kind, topic->row);
     }
     topic->wire.entities._buffer = topic->entity;
     topic->wire.entities._length = topic->wire.entities._maximum = count;
+    topic->wire.places._buffer = topic->place;
+    topic->wire.places._length = topic->wire.places._maximum = count;
     (void)dds_write(topic->writer, &topic->wire); /* the next batch replaces a lost one */
     topic->busy = ++topic->wire.part < topic->wire.parts;
 }

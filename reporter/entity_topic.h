@@ -4,6 +4,7 @@
 
 #include "ipc/frame/snapshot.h"
 #include "ipc/topics/dds_topics.h"
+#include "world/terrain/projection.h"
 
 #include "status.h"
 
@@ -21,6 +22,8 @@ struct entity_topic {
     dds_entity_t writer;
     struct snapshot snapshot;
     jolon_Entity *entity; /* [room] */
+    jolon_Degrees *place; /* [room] theirs */
+    struct projection projection;
     uint32_t room;
     double dt_s;
     const struct kind *kinds;

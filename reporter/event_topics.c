@@ -12,6 +12,7 @@
 #include "world/entity/kind.h"
 #include "world/event_text.h"
 #include "world/params.h"
+#include "world/terrain/location.h"
 
 #include <string.h>
 
@@ -30,6 +31,8 @@ _Static_assert((int)jolon_CONTACT_END_NO_ROOM == (int)CONTACT_END_NO_ROOM &&
 _Static_assert((int)jolon_DAMAGE_DESTROYED == (int)DAMAGE_DESTROYED &&
                    (int)DAMAGE_COUNT == (int)jolon_DAMAGE_DESTROYED + 1,
                "damage in ipc/topics/status.idl");
+_Static_assert(sizeof((jolon_CraterEvent *)0)->mgrs == MGRS_TEXT_MAX,
+               "references of the grid in ipc/topics/status.idl");
 _Static_assert(TOPIC_CONTACT_END - TOPIC_EVENTS + 1 == EVENT_TOPIC_COUNT,
                "event topics are in a row");
 
@@ -95,6 +98,20 @@ union event_sample {
 typedef void fill_sample(union event_sample *sample, const jolon_EventHeader *header,
                          const struct world *world, const struct event *event);
 
+/* Sets the place on the earth of a point of the world. */
+static void set_place(jolon_Degrees *degrees, char mgrs[MGRS_TEXT_MAX], const struct world *world,
+                      const double point[3])
+{
+    const struct gateway_params *gateway = &world->params->gateway;
+    struct location_frame frame;
+    struct location_earth earth;
+    location_frame_make(&frame, gateway->latitude_deg, gateway->longitude_deg,
+                        world->terrain.squares.world_m);
+    location_earth(&earth, &frame, point[0], point[2]);
+    *degrees = (jolon_Degrees){earth.latitude_deg, earth.longitude_deg};
+    memcpy(mgrs, earth.mgrs, MGRS_TEXT_MAX);
+}
+
 static void fill_collision(union event_sample *sample, const jolon_EventHeader *header,
                            const struct world *world, const struct event *event)
 {
@@ -113,6 +130,7 @@ static void fill_collision(union event_sample *sample, const jolon_EventHeader *
         .response = (jolon_Response)from->response,
         .begins = from->begins != 0,
     };
+    set_place(&sample->collision.degrees, sample->collision.mgrs, world, from->point);
 }
 
 static void fill_fire(union event_sample *sample, const jolon_EventHeader *header,
@@ -126,6 +144,7 @@ static void fill_fire(union event_sample *sample, const jolon_EventHeader *heade
         .munition = party_of(world, &from->munition),
         .point = point_of(from->point),
     };
+    set_place(&sample->fire.degrees, sample->fire.mgrs, world, from->point);
 }
 
 static void fill_detonation(union event_sample *sample, const jolon_EventHeader *header,
@@ -140,19 +159,20 @@ static void fill_detonation(union event_sample *sample, const jolon_EventHeader 
         .explosive_kg = from->explosive_kg,
         .struck = (jolon_Struck)from->struck,
     };
+    set_place(&sample->detonation.degrees, sample->detonation.mgrs, world, from->point);
 }
 
 static void fill_crater(union event_sample *sample, const jolon_EventHeader *header,
                         const struct world *world, const struct event *event)
 {
     const struct event_crater *from = &event->crater;
-    (void)world;
     sample->crater = (jolon_CraterEvent){
         .header = *header,
         .point = point_of(from->point),
         .radius_m = from->radius_m,
         .depth_m = from->depth_m,
     };
+    set_place(&sample->crater.degrees, sample->crater.mgrs, world, from->point);
 }
 
 static void fill_agent(union event_sample *sample, const jolon_EventHeader *header,

@@ -21,6 +21,8 @@ static dds_entity_t make_endpoint(const char *name, const dds_topic_descriptor_t
                   : dds_create_reader(subscriber, topic, qos, NULL);
 }
 
+static jolon_Degrees place; /* of the own vehicle on the earth */
+
 /* Steers to the place 40 m behind the friend, the faster the farther it is. */
 static void steer(const jolon_EntityBatch *batch, uint32_t friend_id)
 {
@@ -31,6 +33,8 @@ static void steer(const jolon_EntityBatch *batch, uint32_t friend_id)
     }
     if (!own || !friend)
         return;
+    if (batch->places._length == batch->entities._length)
+        place = batch->places._buffer[own - all];
     double x = friend->x_m - 40.0 * sin(friend->heading_rad) - own->x_m;
     double z = friend->z_m + 40.0 * cos(friend->heading_rad) - own->z_m;
     double turn = remainder(atan2(x, -z) - own->heading_rad, 2.0 * M_PI), away = hypot(x, z);
@@ -49,8 +53,10 @@ static void order_fire(uint32_t at)
 static void on_shot(const jolon_FireEvent *shot, uint32_t friend_id)
 {
     static uint64_t last;
-    if (shot->header.sequence > last && shot->target.id == friend_id && !fire.target)
+    if (shot->header.sequence > last && shot->target.id == friend_id && !fire.target) {
+        printf("%u fires from %s\n", shot->shooter.id, shot->mgrs);
         order_fire(shot->shooter.id);
+    }
     last = shot->header.sequence > last ? shot->header.sequence : last;
 }
 
@@ -59,7 +65,8 @@ static void on_reply(const jolon_CommandReply *reply)
     if (!fire.target || reply->source != fire.source || reply->sequence != fire.sequence)
         return;
     if (reply->result == jolon_RESULT_DONE)
-        printf("shot at %u in frame %llu\n", fire.target, (unsigned long long)reply->frame);
+        printf("shot at %u in frame %llu from %.5f, %.5f\n", fire.target,
+               (unsigned long long)reply->frame, place.latitude_deg, place.longitude_deg);
     if (reply->result == jolon_RESULT_CANNOT)
         order_fire(fire.target); /* the gun is not laid on the target yet: try again */
     else

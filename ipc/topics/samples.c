@@ -102,12 +102,21 @@ static bool good_entity(const jolon_Entity *entity)
     return good;
 }
 
+static bool degrees(const jolon_Degrees *value)
+{
+    return fabs(value->latitude_deg) <= 90.0 && fabs(value->longitude_deg) <= 180.0;
+}
+
 static bool good_batch(const jolon_EntityBatch *batch)
 {
     bool good = batch->part < batch->parts && amount(batch->sim_time_s) &&
                 batch->total <= CAPACITY_MAX && batch->entities._length <= batch->total;
     for (uint32_t i = 0; good && i < batch->entities._length; i++)
         good = good_entity(&batch->entities._buffer[i]);
+    /* Reporters of older builds send no places. */
+    good = good && (batch->places._length == 0 || batch->places._length == batch->entities._length);
+    for (uint32_t i = 0; good && i < batch->places._length; i++)
+        good = degrees(&batch->places._buffer[i]);
     return good;
 }
 
@@ -122,6 +131,12 @@ static bool point(const jolon_Point *value)
     return number(value->x_m) && number(value->y_m) && number(value->z_m);
 }
 
+static bool place(const jolon_Degrees *value, char *mgrs)
+{
+    clean(mgrs);
+    return degrees(value);
+}
+
 static bool direction(const jolon_Direction *value)
 {
     return number((double)value->x) && number((double)value->y) && number((double)value->z);
@@ -132,25 +147,27 @@ static bool good_collision(jolon_CollisionEvent *event)
     return party(&event->a) && party(&event->b) && point(&event->point) &&
            direction(&event->normal) && direction(&event->direction) && number(event->toi) &&
            number((double)event->closing_mps) && number((double)event->angle_deg) &&
-           number((double)event->impulse_ns) && event->response <= jolon_RESPONSE_DESTROYED;
+           number((double)event->impulse_ns) && event->response <= jolon_RESPONSE_DESTROYED &&
+           place(&event->degrees, event->mgrs);
 }
 
 static bool good_fire(jolon_FireEvent *event)
 {
     return party(&event->shooter) && party(&event->target) && party(&event->munition) &&
-           point(&event->point);
+           point(&event->point) && place(&event->degrees, event->mgrs);
 }
 
 static bool good_detonation(jolon_DetonationEvent *event)
 {
     return party(&event->munition) && party(&event->victim) && point(&event->point) &&
-           number((double)event->explosive_kg) && event->struck <= jolon_STRUCK_AIR;
+           number((double)event->explosive_kg) && event->struck <= jolon_STRUCK_AIR &&
+           place(&event->degrees, event->mgrs);
 }
 
-static bool good_crater(const jolon_CraterEvent *event)
+static bool good_crater(jolon_CraterEvent *event)
 {
     return point(&event->point) && amount((double)event->radius_m) &&
-           amount((double)event->depth_m);
+           amount((double)event->depth_m) && place(&event->degrees, event->mgrs);
 }
 
 static bool good_agent(jolon_AgentEvent *event)

@@ -60,13 +60,18 @@ static void show_event(enum dds_topic topic)
         end_party(&event.collision.a);
         end_party(&event.collision.b);
         TRUTH(event.collision.begins);
+        END(event.collision.mgrs);
     } else if (topic == TOPIC_FIRE) {
         end_party(&event.fire.shooter);
         end_party(&event.fire.target);
         end_party(&event.fire.munition);
+        END(event.fire.mgrs);
     } else if (topic == TOPIC_DETONATION) {
         end_party(&event.detonation.munition);
         end_party(&event.detonation.victim);
+        END(event.detonation.mgrs);
+    } else if (topic == TOPIC_CRATER) {
+        END(event.crater.mgrs);
     } else if (topic == TOPIC_AGENT) {
         end_party(&event.agent.agent);
     } else if (topic == TOPIC_CONTACT_END) {
@@ -140,11 +145,16 @@ static bool take_world(struct world_mirror *mirror)
 static bool take_entities(struct world_mirror *mirror)
 {
     static jolon_Entity entity[ENTITIES];
+    static jolon_Degrees place[ENTITIES];
     jolon_EntityBatch batch;
-    uint8_t count;
+    uint8_t count, places;
     fill(&batch, offsetof(jolon_EntityBatch, entities));
     fill(&count, sizeof count);
+    fill(&places, sizeof places);
     fill(entity, sizeof entity);
+    fill(place, sizeof place);
+    batch.places._buffer = place;
+    batch.places._length = places % (ENTITIES + 1);
     batch.entities._buffer = entity;
     batch.entities._length = count % (ENTITIES + 1);
     mirror->batch.entity = entity;

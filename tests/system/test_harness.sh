@@ -36,6 +36,9 @@ $bin/jolon-ctl -w "$name" --timeout 30 drive Raider --brake 1 >/dev/null
 check "the raider fires at the escorted vehicle" eventually \
     "$bin/jolon-ctl" -w "$name" --timeout 30 fire Raider --target Lead
 check "the escort fires back (row 16)" eventually grep -q 'shot at 4 in frame' escort.out
+# The middle of the world, around which they drive, is 10SFE5772179693.
+check "the topics have the places of events on the earth" grep -Eq '^4 fires from 10SFE5[78][0-9]{3}(79|80)[0-9]{3}$' escort.out
+check "the topics have the places of vehicles on the earth" grep -Eq 'in frame [0-9]+ from 35\.9[45][0-9]*, -121\.2[45]' escort.out
 # The escort keeps 40 m behind its vehicle.
 escorts() {
     "$bin/jolon-monitor" -w "$name" --once --json --vehicles >state && python3 -c '

@@ -103,6 +103,15 @@ static void test_batches_fit_together(void **state)
     assert_false(samples_good(TOPIC_ENTITIES, &batch));
     batch.total = UINT32_MAX;
     assert_false(samples_good(TOPIC_ENTITIES, &batch));
+    jolon_Degrees place[2] = {{44.3, -71.3}, {-44.3, 71.3}};
+    batch = good;
+    batch.places._buffer = place;
+    batch.places._length = 1;
+    assert_false(samples_good(TOPIC_ENTITIES, &batch));
+    batch.places._length = batch.entities._length;
+    assert_true(samples_good(TOPIC_ENTITIES, &batch));
+    place[1].latitude_deg = 90.1;
+    assert_false(samples_good(TOPIC_ENTITIES, &batch));
     batch = good;
     entity[1].heading_rad = NAN;
     assert_false(samples_good(TOPIC_ENTITIES, &batch));
@@ -138,6 +147,11 @@ static void test_events(void **state)
     end.b.damage = (jolon_Damage)9;
     assert_false(samples_good(TOPIC_CONTACT_END, &end));
     jolon_CraterEvent crater = {.radius_m = -1.0F};
+    assert_false(samples_good(TOPIC_CRATER, &crater));
+    crater = (jolon_CraterEvent){.degrees = {90.0, -180.0}, .mgrs = "19T\nCK"};
+    assert_true(samples_good(TOPIC_CRATER, &crater));
+    assert_string_equal(crater.mgrs, "19T?CK");
+    crater.degrees.longitude_deg = NAN;
     assert_false(samples_good(TOPIC_CRATER, &crater));
     jolon_DetonationEvent detonation = {.victim = {.damage = (jolon_Damage)9}};
     assert_false(samples_good(TOPIC_DETONATION, &detonation));
