@@ -9,6 +9,7 @@
 #include <setjmp.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include <cmocka.h>
 
@@ -21,6 +22,9 @@
 #define CROWD_M 60.0
 #define PAIR_M  100.0 /* from one pair to the next */
 #define NEAR_M  1e-3
+#define LONG    900u  /* frames of lasting contact */
+#define STEP_M  4e-12 /* the last bit of 25 km */
+#define LOST_M  1e-6
 
 /* Places that are multiples of the distance of posts, of the strips and of the gridsquares. */
 static const struct corner {
@@ -140,6 +144,59 @@ static void test_an_impact_ends_the_same_everywhere(void **state)
     }
 }
 
+static int by_size(const void *a, const void *b)
+{
+    double p = *(const double *)a, q = *(const double *)b;
+    return (p > q) - (p < q);
+}
+
+/* Lets pairs press on each other, which begin off_m further apart. Gives where they are in the end.
+ */
+static void press(const struct corner *place, double off_m, uint64_t seed, struct vec3 at[ROWS])
+{
+    struct fixture f;
+    open_world(&f, place, "swept", "model");
+    put_pairs(&f, place, seed);
+    struct state now = fixture_state(&f);
+    for (uint32_t i = 0; i < ROWS; i++)
+        now.entities.x[i] += i % 2 ? off_m : -off_m;
+    fixture_run(&f, LONG);
+    now = fixture_state(&f);
+    for (uint32_t i = 0; i < ROWS; i++)
+        at[i] =
+            vec3_sub(entities_position(&now.entities, i), (struct vec3){place->x, 0.0, place->z});
+    fixture_close(&f);
+}
+
+/* Prints by how much rows ended elsewhere. Returns how much three of four stay below [m]. */
+static double most_differ(const char *what, const struct vec3 a[ROWS], const struct vec3 b[ROWS])
+{
+    double off[ROWS];
+    for (uint32_t i = 0; i < ROWS; i++)
+        off[i] = vec3_length(vec3_sub(a[i], b[i]));
+    qsort(off, ROWS, sizeof *off, by_size);
+    print_message("%s: half are less than %.1e m off, three of four %.1e, one %.1e\n", what,
+                  off[ROWS / 2], off[ROWS * 3 / 4], off[ROWS - 1]);
+    return off[ROWS * 3 / 4];
+}
+
+/* A few pairs that lean on each other lose the way they came within seconds, wherever they are: a
+ * start that differs by the last bit does the same in the middle of 50 km. The others do not. */
+static void test_lasting_contacts_lose_nothing(void **state)
+{
+    static struct vec3 first[ROWS], other[ROWS];
+    uint64_t seed = fixture_seed(71);
+    (void)state;
+    press(&places[0], 0.0, seed, first);
+    press(&places[0], STEP_M, seed, other);
+    assert_true(most_differ("one bit apart in 50 km", first, other) < LOST_M);
+    for (size_t p = 1; p < COUNT(places); p++) {
+        press(&places[p], 0.0, seed, other);
+        assert_true(most_differ(p == 1 ? "in the middle of 500 km" : "at its corner", first,
+                                other) < LOST_M);
+    }
+}
+
 /* Boxes are floats: none may be narrower than its body where floats are 31 mm apart. */
 static void test_the_broad_phase_misses_nothing_at_the_far_corner(void **state)
 {
@@ -189,6 +246,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_an_impact_ends_the_same_everywhere),
+        cmocka_unit_test(test_lasting_contacts_lose_nothing),
         cmocka_unit_test(test_the_broad_phase_misses_nothing_at_the_far_corner),
         cmocka_unit_test(test_a_box_holds_its_body_at_any_place),
         cmocka_unit_test(test_a_large_world_has_all_its_strips),
