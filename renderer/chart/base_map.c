@@ -13,6 +13,7 @@
 #define INDEX_CONTOUR 5   /* every fifth contour is darker */
 #define STRIP         8   /* [pixel] width of the strips that are painted */
 #define ROAD_LINE_M   24.0
+#define ROAD_STEP     0.5 /* pixels from a point that is drawn to the next */
 #define ROAD_LEAST    1.0 /* [pixel] */
 #define ROAD_MOST     2.5
 
@@ -91,11 +92,23 @@ static void draw_roads(struct image *image, const struct map_view *view, const s
 {
     const struct rgba line = {112, 58, 34, 190};
     double pixels = maths_clamp(ROAD_LINE_M / view->metres, ROAD_LEAST, ROAD_MOST);
+    struct point from = {0};
+    bool begins = true;
     for (uint32_t i = 0; i + 1 < world->counts.road_points; i++) {
         const struct road_point *a = &world->road_points[i], *b = a + 1;
-        if (a->road == b->road)
-            image_line(image, map_point(view, a->x, a->z), map_point(view, b->x, b->z), pixels,
-                       line);
+        bool goes_on = a->road == b->road;
+        struct point to = map_point(view, b->x, b->z);
+        if (begins)
+            from = map_point(view, a->x, a->z);
+        begins = !goes_on;
+        if (!goes_on)
+            continue;
+        /* On small maps many points lie in one pixel. */
+        bool last = i + 2 == world->counts.road_points || b[1].road != b->road;
+        if (!last && fabs(to.x - from.x) + fabs(to.y - from.y) < ROAD_STEP)
+            continue;
+        image_line(image, from, to, pixels, line);
+        from = to;
     }
 }
 
