@@ -244,7 +244,7 @@ static void tell_sources(struct making *m)
         note(m, "cover: guessed from slope and height at %" PRIu64 " posts\n", m->guessed);
 }
 
-/* Lakes come before roads, which end at them, and rivers after, which roads cross. */
+/* Water comes before roads, which cross it. */
 static void shape(struct making *m)
 {
     const struct terrain terrain = {.posts = m->posts,
@@ -252,9 +252,9 @@ static void shape(struct making *m)
                                     .side = m->grid.side,
                                     .spacing_m = given.side_m / (m->grid.side - 1)};
     int result = map_cover_areas(&m->features, &m->grid, m->posts, m->cover);
-    road_map_pave(&m->roads, &m->grid, m->cover);
     if (result == 0)
         result = map_cover_rivers(&m->features, &m->grid, m->cover);
+    road_map_pave(&m->roads, &m->grid, m->cover);
     if (result == 0)
         result = buildings_found(&m->features.buildings, &terrain);
     if (result == 0)

@@ -87,7 +87,7 @@ static void grow(void *context, size_t post)
 static void wet(void *context, size_t post)
 {
     struct burning *b = context;
-    if (b->cover[post] != COVER_ROAD && b->cover[post] != COVER_SEA)
+    if (b->cover[post] != COVER_SEA)
         b->cover[post] = COVER_LAKE;
 }
 

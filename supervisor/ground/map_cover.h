@@ -12,8 +12,8 @@ struct terrain;
 int map_cover_areas(const struct features *features, const struct post_grid *grid, float *posts,
                     uint8_t *cover);
 
-/* Makes posts in and along rivers water, but not where a road is: it crosses them. A river is at
- * least as wide as the posts are apart. 0; -1: no memory. */
+/* Makes posts in and along rivers water. A river is at least as wide as the posts are apart. 0; -1:
+ * no memory. */
 int map_cover_rivers(const struct features *features, const struct post_grid *grid, uint8_t *cover);
 
 /* Plants that are to be a ground's objects. */

@@ -18,6 +18,11 @@
 #define PAVE_SPACING_M 40.0
 #define PAVE_HALF_M    20.0
 
+/* Half of the width of a road over water: the cover of a place is that of the nearest post, up to
+ * 0.71 of their distance away, and so much is dry beside the middle of the road. */
+#define DAM_POSTS 0.75
+#define DAM_M     8.0
+
 /* OpenStreetMap's words, the more important first. */
 static const char *const words[] = {
     "motorway",     "motorway_link", "trunk",       "trunk_link",     "primary",
@@ -266,9 +271,29 @@ void road_map_free(struct road_map *map)
     map->points = NULL;
 }
 
+/* Makes posts around a place of a road dry. */
+static void dam(const struct post_grid *grid, const double here[2], uint8_t *cover)
+{
+    double spacing = grid->spacing_m, reach = DAM_POSTS * spacing + DAM_M;
+    double last = (double)(grid->side - 1);
+    uint32_t from[2], to[2];
+    for (int k = 0; k < 2; k++) {
+        from[k] = (uint32_t)maths_clamp(ceil((here[k] - reach) / spacing), 0.0, last);
+        to[k] = (uint32_t)maths_clamp(floor((here[k] + reach) / spacing), 0.0, last);
+    }
+    for (uint32_t row = from[1]; row <= to[1]; row++) {
+        for (uint32_t column = from[0]; column <= to[0]; column++) {
+            const double post[2] = {column * spacing, row * spacing};
+            uint8_t *at = &cover[(size_t)row * grid->side + column];
+            if (cover_is_water((enum cover) * at) && between(here, post) < reach)
+                *at = COVER_ROAD;
+        }
+    }
+}
+
 void road_map_pave(const struct road_map *map, const struct post_grid *grid, uint8_t *cover)
 {
-    for (uint32_t i = 0; i + 1 < map->count && grid->spacing_m <= PAVE_SPACING_M; i++) {
+    for (uint32_t i = 0; i + 1 < map->count; i++) {
         const struct ground_road_point *p = &map->points[i], *q = p + 1;
         const double a[2] = {p->x_mm / 1000.0, p->z_mm / 1000.0};
         const double b[2] = {q->x_mm / 1000.0, q->z_mm / 1000.0};
@@ -276,14 +301,16 @@ void road_map_pave(const struct road_map *map, const struct post_grid *grid, uin
             continue;
         int steps = (int)(between(a, b) / (0.25 * grid->spacing_m)) + 1;
         for (int n = 0; n <= steps; n++) {
-            double x = a[0] + (b[0] - a[0]) * n / steps, z = a[1] + (b[1] - a[1]) * n / steps;
-            uint32_t column = (uint32_t)(x / grid->spacing_m + 0.5);
-            uint32_t row = (uint32_t)(z / grid->spacing_m + 0.5);
-            const double here[2] = {x, z};
+            const double here[2] = {a[0] + (b[0] - a[0]) * n / steps,
+                                    a[1] + (b[1] - a[1]) * n / steps};
+            uint32_t column = (uint32_t)(here[0] / grid->spacing_m + 0.5);
+            uint32_t row = (uint32_t)(here[1] / grid->spacing_m + 0.5);
             const double post[2] = {column * grid->spacing_m, row * grid->spacing_m};
             uint8_t *at = &cover[(size_t)row * grid->side + column];
-            if (between(here, post) < PAVE_HALF_M && !cover_is_water((enum cover) * at))
+            bool shows = grid->spacing_m <= PAVE_SPACING_M && between(here, post) < PAVE_HALF_M;
+            if (shows && !cover_is_water((enum cover) * at))
                 *at = COVER_ROAD;
+            dam(grid, here, cover);
         }
     }
 }

@@ -1,10 +1,11 @@
 """Draws maps of a village and of broken features for test_ground_objects.sh, and judges what became of them. Places are
 converted by PROJ's gdaltransform.
 
-usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west and broken.geojson, and broken.osm)
+usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west, crossing and broken.geojson, and broken.osm)
        ground_features.py corner EVENTS           (does the first collision of T1 lie at the corner, within 1 mm?)
        ground_features.py wall EVENTS             (does it lie on a wall beside that corner, within 1 mm?)
        ground_features.py craters CSV RAW         (has the raster the heights of the dump, and holes?)
+       ground_features.py crossed DUMP            (has T3 passed the lake and the river?)
        ground_features.py convoy DUMP             (do six trucks drive in the valley south of Gorham?)
        ground_features.py picture RAW X Z STEP WORD...   (has the picture of 500 x 500 pixels the colours of these things?)
        ground_features.py shore DUMP LATER        (does T2 stand at the shore of the lake?)"""
@@ -67,6 +68,13 @@ def village(there):
     there.add("LineString", [(23000, 20000), (23500, 25000), (23000, 30000)], waterway="river", width="40 m")
 
 
+def crossing(there):
+    """A road leads through a lake and over a river."""
+    there.add("LineString", [(24200, 24300), (25800, 25650)], highway="secondary", bridge="yes")
+    there.add("Polygon", [(24500, 24400), (24650, 24400), (24650, 24900), (24500, 24900)], natural="water")
+    there.add("LineString", [(25100, 23500), (25000, 26500)], waterway="river", width="60")
+
+
 def broken(there):
     there.add("Polygon", box(25000, 25000, 12, 9), building="yes", name="y" * 65536)
     there.add("Polygon", [(25100, 25000), (25112, 25010), (25112, 25000), (25100, 25010)], building="yes")  # a bow: two triangles
@@ -105,6 +113,9 @@ def maps(*place):
     village(there)
     there.write("village.geojson")
     there.write("east.geojson", "west.geojson")
+    bridges = Map(*place)
+    crossing(bridges)
+    bridges.write("crossing.geojson")
     broken(Map(*place))
     broken_osm(Map(*place))
 
@@ -139,6 +150,13 @@ def shore(*paths):
     print(places)
     # It fords what is shallow, where the posts end the lake, and no more.
     raise SystemExit(not all(-20.0 < place[0] - SHORE < 45.0 for place in places) or abs(places[0][0] - places[1][0]) > 1.0)
+
+
+def crossed(path):
+    with open(path, encoding="utf-8") as file:
+        x, _, z = next(v["position"] for v in map(json.loads, file) if v.get("name") == "T3")
+    print(x, z)
+    raise SystemExit(not 25200.0 < x < 25800.0)
 
 
 def craters(csv_path, raw_path):
@@ -185,4 +203,5 @@ def picture(path, x0, z0, step, *things):
 
 
 if __name__ == "__main__":
-    {"maps": maps, "picture": picture, "convoy": convoy, "corner": corner, "craters": craters, "wall": wall, "shore": shore}[sys.argv[1]](*sys.argv[2:])
+    {"maps": maps, "picture": picture, "convoy": convoy, "corner": corner, "craters": craters, "wall": wall, "shore": shore,
+     "crossed": crossed}[sys.argv[1]](*sys.argv[2:])

@@ -112,6 +112,21 @@ sleep 2
 "$jolon" stop -w "$name" >/dev/null 2>&1
 check "a lake stops a tank at full throttle at its shore" python3 "$here/ground_features.py" shore places later
 
+# --- a road over water ------------------------------------------------------------------------------------------
+for posts in 12.5 25 125; do
+    "$ground" make --center 44.5,-71.5 --side 2000 --posts $posts --out crossing.ground --roads crossing.geojson --features crossing.geojson level.asc >/dev/null 2>&1
+    cat >crossing.cfg <<'TEXT'
+terrain = { source = "file"; file = "crossing.ground"; };
+world = { capacity = 64; };
+vehicles = ( { kind = "tank"; name = "T3"; at = [24250.0, 24342.0]; roads = true; route = ( [24250.0, 24342.0], [25780.0, 25633.0] ); } );
+TEXT
+    "$jolon" run -w "$name" --frames 7800 --pace max --without renderer --out crossing --checkpoint crossing.img crossing.cfg >/dev/null 2>&1
+    "$bin/jolon-world" create --world "$name" --set world.frames=0 --from crossing.img >/dev/null 2>&1
+    "$bin/jolon-world" dump --json --world "$name" >places
+    "$bin/jolon-world" remove --world "$name" >/dev/null 2>&1
+    check "at posts of $posts m a tank drives along a road through a lake and over a river" python3 "$here/ground_features.py" crossed places
+done
+
 # --- out again -----------------------------------------------------------------------------------------------
 cat >craters.cfg <<'TEXT'
 terrain = { source = "file"; file = "small.ground"; };
