@@ -77,6 +77,26 @@ static int check_length(const struct raster *r, struct error_text *error)
                                    r->path, (long long)status.st_size, r->columns, r->rows, least);
 }
 
+/* Refuses a TIFF without compression whose first block is shorter than its header says: GDAL reads
+ * what follows in the file instead. */
+static int check_block(const struct raster *r, struct error_text *error)
+{
+    int width = 0, height = 0;
+    const char *bytes = GDALGetMetadataItem(r->band, "BLOCK_SIZE_0_0", "TIFF");
+    if (!bytes || GDALGetMetadataItem(r->dataset, "COMPRESSION", "IMAGE_STRUCTURE") != NULL ||
+        GDALGetMetadataItem(r->band, "NBITS", "IMAGE_STRUCTURE") != NULL)
+        return 0;
+    GDALGetBlockSize(r->band, &width, &height);
+    long long least = (long long)width * (height < r->rows ? height : r->rows) *
+                      GDALGetDataTypeSizeBytes(GDALGetRasterDataType(r->band));
+    if (strtoll(bytes, NULL, 10) >= least)
+        return 0;
+    return error_text_set(error,
+                          "%s: its first block has %s bytes; %d columns take %lld at least: its "
+                          "header is wrong",
+                          r->path, bytes, r->columns, least);
+}
+
 static int check_band(struct raster *r, enum raster_use use, struct error_text *error)
 {
     int bands = GDALGetRasterCount(r->dataset);
@@ -94,7 +114,7 @@ static int check_band(struct raster *r, enum raster_use use, struct error_text *
                               r->columns, r->rows);
     if (GDALDataTypeIsComplex(GDALGetRasterDataType(r->band)))
         return error_text_set(error, "%s: has complex numbers", r->path);
-    return check_length(r, error);
+    return check_length(r, error) == 0 ? check_block(r, error) : -1;
 }
 
 /* Sets how heights become metres. */

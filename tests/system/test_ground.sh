@@ -97,6 +97,15 @@ if command -v gdal_create >/dev/null; then
     check "info tells the side of a world on it" eval '"$ground" info x.ground | grep -q "^side  *1 km, in the middle of a world of 50 km$" && [ "$("$ground" info --json x.ground | json world_side_m)" = 50000 ]'
     head -c 30000 level.tif >cut.tif
     refuses_map "a map that is cut off" 'cut.tif: ' cut.tif
+    gdal_create -q -outsize 100 100 -a_ullr 20 11 21 10 -a_srs EPSG:4326 -ot Int16 -burn 5 wide.tif
+    python3 - <<'P' # 20,000 columns instead of 100
+data = bytearray(open("wide.tif", "rb").read())
+first = int.from_bytes(data[4:8], "little")
+entry = next(at for at in range(first + 2, len(data), 12) if data[at:at + 2] == b"\0\x01")
+data[entry + 8:entry + 10] = (20000).to_bytes(2, "little")
+open("wide.tif", "wb").write(data)
+P
+    refuses_map "a TIFF whose header lies" 'wide.tif: its first block has [0-9]+ bytes; 20000 columns take [0-9]+' wide.tif
 
     # The same heights in another projection, and beyond the date line.
     gdal_create -q -outsize 100 100 -a_ullr -6000000 6000000 6000000 -6000000 -a_srs '+proj=laea +lat_0=90 +datum=WGS84' -ot Int16 -burn 77 pole.tif
