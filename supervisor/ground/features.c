@@ -78,6 +78,7 @@ static const struct {
     {"canal", KEY_FCLASS, FEATURE_RIVER},
     {"riverbank", KEY_FCLASS, FEATURE_RIVER},
     {"dock", KEY_FCLASS, FEATURE_LAKE},
+    {"coastline", KEY_NATURAL, FEATURE_COAST},
     {"wood", KEY_NATURAL, FEATURE_WOOD},
     {"forest", KEY_LANDUSE, FEATURE_WOOD},
     {"forest", KEY_FCLASS, FEATURE_WOOD},
@@ -256,12 +257,12 @@ static void take_area(struct reading *r, OGRGeometryH polygon)
     f->area[f->areas++] = area;
 }
 
-static void take_river(struct reading *r)
+/* Keeps the track as a line. */
+static void add_line(struct reading *r, double width_m)
 {
     struct features *f = r->features;
     struct feature_line *rows = room_for(r, f->line, f->lines, &f->line_room, sizeof *f->line);
-    double(*place)[2] = calloc(r->track.count, sizeof *place), width = metres_of(r, "width");
-    char buffer[WORD_MAX];
+    double(*place)[2] = calloc(r->track.count, sizeof *place);
     r->map->no_memory |= !place;
     if (rows)
         f->line = rows;
@@ -269,14 +270,42 @@ static void take_river(struct reading *r)
         free(place);
         return;
     }
+    memcpy(place, r->track.place, r->track.count * sizeof *place);
+    f->line[f->lines++] = (struct feature_line){place, r->track.count, width_m};
+}
+
+static void take_river(struct reading *r)
+{
+    char buffer[WORD_MAX];
+    double width = metres_of(r, "width");
     if (width == 0.0)
         width =
             strcmp(vector_map_tag(r->feature, keys[r->key], buffer, sizeof buffer), "canal") == 0
                 ? CANAL_M
                 : RIVER_M;
-    width = maths_min(width, RIVER_MOST_M);
-    memcpy(place, r->track.place, r->track.count * sizeof *place);
-    f->line[f->lines++] = (struct feature_line){place, r->track.count, width};
+    add_line(r, maths_min(width, RIVER_MOST_M));
+}
+
+/* An island: its outline gets the direction of a coastline. */
+static void take_island(struct reading *r, OGRGeometryH polygon)
+{
+    OGRGeometryH ring = OGR_G_GetGeometryRef(polygon, 0);
+    if (!ring || !vector_map_track(r->map, ring, &r->track) || r->track.count < 3) {
+        note(r, FEATURE_NO_PLACE);
+        return;
+    }
+    double(*place)[2] = r->track.place, twice_area = 0.0;
+    uint32_t count = r->track.count;
+    for (uint32_t i = 0; i + 1 < count; i++)
+        twice_area += place[i][0] * place[i + 1][1] - place[i + 1][0] * place[i][1];
+    for (uint32_t i = 0; twice_area > 0.0 && i < count / 2; i++) {
+        for (int k = 0; k < 2; k++) {
+            double swapped = place[i][k];
+            place[i][k] = place[count - 1 - i][k];
+            place[count - 1 - i][k] = swapped;
+        }
+    }
+    add_line(r, 0.0);
 }
 
 /* --- buildings ---------------------------------------------------------------------------------*/
@@ -460,6 +489,8 @@ static void take_line(struct reading *r, OGRGeometryH line)
         take_open(r, line);
     else if (!vector_map_track(r->map, line, &r->track) || r->track.count < 2)
         note(r, FEATURE_NO_PLACE);
+    else if (r->use == FEATURE_COAST)
+        add_line(r, 0.0);
     else if (r->use == FEATURE_RIVER)
         take_river(r);
     else
@@ -494,6 +525,8 @@ static void take_geometry(struct reading *r, OGRGeometryH geometry)
     case wkbPolygon:
         if (r->use == FEATURE_BUILDING)
             take_building(r, geometry, false);
+        else if (r->use == FEATURE_COAST)
+            take_island(r, geometry);
         else if (r->use < FEATURE_TREE)
             take_area(r, geometry);
         else

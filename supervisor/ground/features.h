@@ -16,6 +16,7 @@ enum feature_use {
     FEATURE_SCRUB, /* bushes */
     FEATURE_LAKE,  /* an area of still water, which is level */
     FEATURE_RIVER, /* an area of flowing water, or a line */
+    FEATURE_COAST, /* a line with land on its left and sea on its right; an area is an island */
     FEATURE_TREE,
     FEATURE_TREE_ROW,
     FEATURE_POLE,
@@ -38,11 +39,11 @@ enum feature_trouble {
     FEATURE_TROUBLES
 };
 
-/* A line of flowing water. */
+/* A line of flowing water, or a coastline. */
 struct feature_line {
     double (*place)[2]; /* [m] */
     uint32_t count;
-    double width_m;
+    double width_m; /* 0: a coastline */
 };
 
 struct features {

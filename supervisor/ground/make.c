@@ -56,6 +56,7 @@ struct making {
     struct features features;
     struct vector_map_gaps gaps;
     struct map_cover_plants plants;
+    struct map_cover_sea sea;
     uint64_t guessed;
 };
 
@@ -236,6 +237,8 @@ static void tell_sources(struct making *m)
     if (given.feature_count > 0)
         note(m, "features: %u buildings, %u plants and poles, %u areas, %u rivers\n",
              m->features.buildings.count, m->plants.count, m->features.areas, m->features.lines);
+    if (m->sea.posts > 0)
+        note(m, "sea: %" PRIu64 " posts beyond coastlines\n", m->sea.posts);
     if (given.licence)
         note(m, "licence: %s\n", given.licence);
     if (m->counts.filled > 0)
@@ -251,7 +254,9 @@ static void shape(struct making *m)
                                     .cover = m->cover,
                                     .side = m->grid.side,
                                     .spacing_m = given.side_m / (m->grid.side - 1)};
-    int result = map_cover_areas(&m->features, &m->grid, m->posts, m->cover);
+    int result = map_cover_coasts(&m->features, &m->grid, m->posts, m->cover, &m->sea);
+    if (result == 0)
+        result = map_cover_areas(&m->features, &m->grid, m->posts, m->cover);
     if (result == 0)
         result = map_cover_rivers(&m->features, &m->grid, m->cover);
     road_map_pave(&m->roads, &m->grid, m->cover);
@@ -267,6 +272,14 @@ static void shape(struct making *m)
 static void tell_features(const struct making *m)
 {
     const struct buildings *b = &m->features.buildings;
+    if (m->sea.torn > 0) {
+        double latitude, longitude;
+        projection_place(&m->grid.projection, m->sea.torn_x, m->sea.torn_z, &latitude, &longitude);
+        log_warn(
+            "coastlines contradict each other in %u rows of posts, and are torn or turned: the "
+            "first at latitude %.5f, longitude %.5f",
+            m->sea.torn, latitude, longitude);
+    }
     for (int i = 0; i < FEATURE_TROUBLES; i++) {
         const struct feature_trouble_count *t = &m->features.trouble[i];
         if (t->count > 0 && isfinite(t->latitude_deg))

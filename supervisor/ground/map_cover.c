@@ -6,6 +6,7 @@
 #include "world/maths/random.h"
 #include "world/terrain/terrain.h"
 
+#include <math.h>
 #include <stdlib.h>
 
 #define SQUARE_M_A_HA  10000.0
@@ -145,9 +146,152 @@ int map_cover_rivers(const struct features *features, const struct post_grid *gr
         if (features->area[i].use == FEATURE_RIVER)
             result = visit(&features->area[i], grid, wet, &b);
     }
-    for (uint32_t i = 0; i < features->lines; i++)
-        wet_line(&features->line[i], grid, &b);
+    for (uint32_t i = 0; i < features->lines; i++) {
+        if (features->line[i].width_m > 0.0)
+            wet_line(&features->line[i], grid, &b);
+    }
     return result;
+}
+
+/* --- coasts ------------------------------------------------------------------------------------*/
+
+/* Where a coastline crosses a row of posts, or their first column. */
+struct crossing {
+    uint32_t row; /* in the column: the row that follows */
+    double at;    /* along the row or column [post] */
+    bool land;    /* lies beyond, to the east or south */
+};
+
+struct crossings {
+    struct crossing *crossing;
+    uint32_t count, room;
+    bool no_memory;
+};
+
+static void add_crossing(struct crossings *list, struct crossing crossing)
+{
+    if (list->count == list->room) {
+        uint32_t room = list->room * 2 + 4096;
+        struct crossing *larger = realloc(list->crossing, room * sizeof *larger);
+        list->no_memory |= !larger;
+        if (!larger)
+            return;
+        list->crossing = larger;
+        list->room = room;
+    }
+    list->crossing[list->count++] = crossing;
+}
+
+/* Adds the crossings of a stretch from a to b [post], which has land on its left. */
+static void cross_rows(struct crossings *rows, struct crossings *column, const double a[2],
+                       const double b[2], uint32_t side)
+{
+    const struct range range =
+        range_of(maths_min(a[1], b[1]), ceil(maths_max(a[1], b[1])) - 1.0, side);
+    for (int32_t row = range.first; row <= range.last; row++) {
+        double x = a[0] + (b[0] - a[0]) * (row - a[1]) / (b[1] - a[1]);
+        add_crossing(rows, (struct crossing){(uint32_t)row, x, b[1] > a[1]});
+    }
+    if ((a[0] <= 0.0) != (b[0] <= 0.0)) {
+        double z = a[1] + (b[1] - a[1]) * (0.0 - a[0]) / (b[0] - a[0]);
+        if (z > 0.0 && z < side)
+            add_crossing(column, (struct crossing){(uint32_t)ceil(z), z, b[0] < a[0]});
+    }
+}
+
+static int by_row(const void *a, const void *b)
+{
+    const struct crossing *p = a, *q = b;
+    if (p->row != q->row)
+        return p->row < q->row ? -1 : 1;
+    return (p->at > q->at) - (p->at < q->at);
+}
+
+/* Finds for each row whether its first post is land, from the row's first crossing, or from the
+ * next row and the crossings of the column between them. */
+static void find_west(const struct crossings *rows, const struct crossings *column, uint32_t side,
+                      uint8_t *west)
+{
+    uint32_t first = rows->crossing[0].row, at = 0, beyond = 0;
+    for (uint32_t row = first; row < side; row++) {
+        west[row] = row > first ? west[row - 1] : 0;
+        for (; beyond < column->count && column->crossing[beyond].row <= row; beyond++)
+            west[row] = column->crossing[beyond].land;
+        if (at < rows->count && rows->crossing[at].row == row)
+            west[row] = !rows->crossing[at].land;
+        for (; at < rows->count && rows->crossing[at].row == row; at++) {
+            if (rows->crossing[at].at <= 0.0)
+                west[row] = rows->crossing[at].land;
+        }
+    }
+    for (uint32_t row = first; row-- > 0;) {
+        west[row] = west[row + 1];
+        for (uint32_t i = column->count; i-- > 0;) {
+            if (column->crossing[i].row == row + 1)
+                west[row] = !column->crossing[i].land;
+        }
+    }
+}
+
+/* Fills a row, of which count crossings are known. */
+static void fill_sea(const struct crossing *crossing, uint32_t count, bool land, uint32_t row,
+                     const struct post_grid *grid, float *posts, uint8_t *cover,
+                     struct map_cover_sea *sea)
+{
+    uint32_t column = 0;
+    for (uint32_t i = 0; i <= count; i++) {
+        double end = i < count ? crossing[i].at : (double)grid->side;
+        bool torn = i > 0 && i < count && crossing[i].land == land;
+        double turn = torn ? 0.5 * (crossing[i - 1].at + crossing[i].at) : end;
+        if (torn && sea->torn++ == 0) {
+            sea->torn_x = turn * grid->spacing_m;
+            sea->torn_z = row * grid->spacing_m;
+        }
+        for (; column < grid->side && column <= end; column++) {
+            size_t post = (size_t)row * grid->side + column;
+            if (column > turn ? !land : land)
+                continue;
+            posts[post] = 0.0f;
+            cover[post] = COVER_SEA;
+            sea->posts++;
+        }
+        land = i < count && crossing[i].land;
+    }
+}
+
+int map_cover_coasts(const struct features *features, const struct post_grid *grid, float *posts,
+                     uint8_t *cover, struct map_cover_sea *sea)
+{
+    struct crossings rows = {0}, column = {0};
+    *sea = (struct map_cover_sea){0};
+    for (uint32_t i = 0; i < features->lines; i++) {
+        const struct feature_line *line = &features->line[i];
+        for (uint32_t k = 0; line->width_m == 0.0 && k + 1 < line->count; k++) {
+            const double *p = line->place[k], *q = line->place[k + 1];
+            const double a[2] = {p[0] / grid->spacing_m, p[1] / grid->spacing_m};
+            const double b[2] = {q[0] / grid->spacing_m, q[1] / grid->spacing_m};
+            cross_rows(&rows, &column, a, b, grid->side);
+        }
+    }
+    uint8_t *west = calloc(grid->side, 1);
+    bool no_memory = rows.no_memory || column.no_memory || !west;
+    if (!no_memory && rows.count > 0) {
+        qsort(rows.crossing, rows.count, sizeof *rows.crossing, by_row);
+        if (column.count > 0)
+            qsort(column.crossing, column.count, sizeof *column.crossing, by_row);
+        find_west(&rows, &column, grid->side, west);
+        for (uint32_t row = 0, at = 0; row < grid->side; row++) {
+            uint32_t first = at;
+            while (at < rows.count && rows.crossing[at].row == row)
+                at++;
+            bool land = at > first ? !rows.crossing[first].land : west[row];
+            fill_sea(rows.crossing + first, at - first, land, row, grid, posts, cover, sea);
+        }
+    }
+    free(rows.crossing);
+    free(column.crossing);
+    free(west);
+    return no_memory ? -1 : 0;
 }
 
 /* --- plants ------------------------------------------------------------------------------------*/

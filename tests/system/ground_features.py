@@ -1,7 +1,7 @@
 """Draws maps of a village and of broken features for test_ground_objects.sh, and judges what became of them. Places are
 converted by PROJ's gdaltransform.
 
-usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west, crossing and broken.geojson, and broken.osm)
+usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west, crossing, coast, torn and broken.geojson, and broken.osm)
        ground_features.py corner EVENTS           (does the first collision of T1 lie at the corner, within 1 mm?)
        ground_features.py wall EVENTS             (does it lie on a wall beside that corner, within 1 mm?)
        ground_features.py craters CSV RAW         (has the raster the heights of the dump, and holes?)
@@ -75,6 +75,18 @@ def crossing(there):
     there.add("LineString", [(25100, 23500), (25000, 26500)], waterway="river", width="60")
 
 
+def coast(there, turned=False):
+    """Land in the north-west, sea in the south-east with an island, and a bay in the land. turned: a second coastline of the other
+    direction."""
+    there.add("LineString", [(25100, 26500), (25300, 25500), (24900, 25000)], natural="coastline")
+    there.add("LineString", [(24900, 25000), (25500, 24800), (26500, 24300)], natural="coastline")
+    there.add("Polygon", [(25500, 25200), (25700, 25200), (25700, 25400), (25500, 25400)], natural="coastline")
+    there.add("LineString", [(24300, 24300), (24500, 24300), (24500, 24500), (24300, 24500), (24300, 24300)], natural="coastline")
+    if turned:
+        there.add("LineString", [(24700, 24100), (24700, 25900)], natural="coastline")
+        there.add("LineString", [(24800, 24100), (24800, 25900)], natural="coastline")
+
+
 def broken(there):
     there.add("Polygon", box(25000, 25000, 12, 9), building="yes", name="y" * 65536)
     there.add("Polygon", [(25100, 25000), (25112, 25010), (25112, 25000), (25100, 25010)], building="yes")  # a bow: two triangles
@@ -116,6 +128,10 @@ def maps(*place):
     bridges = Map(*place)
     crossing(bridges)
     bridges.write("crossing.geojson")
+    for turned, path in (False, "coast.geojson"), (True, "torn.geojson"):
+        sea = Map(*place)
+        coast(sea, turned)
+        sea.write(path)
     broken(Map(*place))
     broken_osm(Map(*place))
 

@@ -127,6 +127,20 @@ TEXT
     check "at posts of $posts m a tank drives along a road through a lake and over a river" python3 "$here/ground_features.py" crossed places
 done
 
+# --- coastlines -------------------------------------------------------------------------------------------------
+coast() { "$ground" make --center 44.5,-71.5 --side 2000 --posts 10 --out coast.ground --features "$1.geojson" level.asc 2>err; }
+covers() { # at places on the way from the north-west corner, in steps of 10 m: land, bay, land, sea, island, sea
+    "$ground" export --cover coast.ground coast.tif && gdal_translate -q -of XYZ coast.tif coast.xyz &&
+        for at in '20 20' '40 40' '70 110' '140 180' '160 130' '180 130' '5 195' '195 5'; do
+            set -- $at
+            awk -v n=$(($2 * 201 + $1 + 1)) 'NR == n { printf "%s", ($3 == 6 ? "s" : "l") }' coast.xyz
+        done
+}
+check "coastlines part land and sea" eval 'coast coast && [ "$(covers)" = lslslsll ] && ! grep -q coastlines err'
+check "the file says how much is sea" eval '"$ground" info coast.ground | grep -Eq "^sea: [0-9]+ posts beyond coastlines"'
+check "coastlines that contradict each other are told" eval \
+    'coast torn && grep -q "coastlines contradict each other in [0-9]* rows of posts.* the first at latitude 44.50" err'
+
 # --- out again -----------------------------------------------------------------------------------------------
 cat >craters.cfg <<'TEXT'
 terrain = { source = "file"; file = "small.ground"; };
