@@ -153,6 +153,8 @@ static bool take_entities(struct world_mirror *mirror)
     fill(&places, sizeof places);
     fill(entity, sizeof entity);
     fill(place, sizeof place);
+    for (uint32_t i = 0; i < ENTITIES; i++)
+        TRUTH(entity[i].grounded);
     batch.places._buffer = place;
     batch.places._length = places % (ENTITIES + 1);
     batch.entities._buffer = entity;
