@@ -125,7 +125,8 @@ static void test_it_brakes_before_a_bend(void **state)
 }
 
 /* The convoy of the scenario mount-washington, from the summit back into the valley. Five of six
- * trucks turned over in the first three minutes when they braked for nothing but obstacles. */
+ * trucks turned over in the first three minutes when they braked for nothing but obstacles. A truck
+ * may slide into the one before it that waits in a bend, no harder than a walk. */
 static void test_trucks_come_down_a_mountain_on_their_wheels(void **state)
 {
     static char text[1024];
@@ -146,7 +147,7 @@ static void test_trucks_come_down_a_mountain_on_their_wheels(void **state)
         struct entities e = steps_rows(&f);
         for (uint32_t i = 0; i < 6; i++) {
             assert_int_equal(e.state[i], ENTITY_ACTIVE);
-            assert_int_equal(e.damage[i], DAMAGE_NONE);
+            assert_in_range(e.damage[i], DAMAGE_NONE, DAMAGE_LOW);
             steepest = maths_max(steepest, fabs(e.roll[i]));
             fastest = maths_max(fastest, steps_speed(&f, i));
         }
