@@ -58,7 +58,7 @@ check "spot: the tanks collide" test "$(json collisions <on.json)" -gt 1000
 # before. The watchdog must not kill the collider that computes it.
 { world; awk 'BEGIN {
     print "vehicles = ( { kind = \"jeep\"; at = [24990.0, 25000.0]; heading_deg = 90.0; speed_mps = 20.0; behaviour = \"hold\"; }"
-    for (i = 0; i < 320; i++) printf ", { kind = \"tank\"; at = [25000.0, 25000.0]; heading_deg = %.1f; }\n", i * 1.1
+    for (i = 0; i < 480; i++) printf ", { kind = \"tank\"; at = [25000.0, 25000.0]; heading_deg = %.1f; }\n", i * 0.75
     print ");" }'; } >pushed.cfg
 "$jolon" run -w "$name" --without renderer --without reporter --out long --frames 20 --json pushed.cfg >long.json 2>long.err
 check "a long frame does not end the run" equal $? 0
