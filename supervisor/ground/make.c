@@ -272,8 +272,15 @@ static void shape(struct making *m)
 static void tell_features(const struct making *m)
 {
     const struct buildings *b = &m->features.buildings;
+    double latitude, longitude;
+    if (m->sea.coast && m->sea.posts == 0) {
+        projection_place(&m->grid.projection, m->sea.coast_x, m->sea.coast_z, &latitude,
+                         &longitude);
+        log_warn("coastlines make no post sea, the first at latitude %.5f, longitude %.5f: what "
+                 "lies between posts is lost; closer posts are given by --posts",
+                 latitude, longitude);
+    }
     if (m->sea.torn > 0) {
-        double latitude, longitude;
         projection_place(&m->grid.projection, m->sea.torn_x, m->sea.torn_z, &latitude, &longitude);
         log_warn(
             "coastlines contradict each other in %u rows of posts, and are torn or turned: the "

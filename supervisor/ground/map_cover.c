@@ -8,6 +8,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define SQUARE_M_A_HA  10000.0
 #define EDGE_M         2.0 /* plants keep so far from the edge of the square */
@@ -194,7 +195,7 @@ static void cross_rows(struct crossings *rows, struct crossings *column, const d
     }
     if ((a[0] <= 0.0) != (b[0] <= 0.0)) {
         double z = a[1] + (b[1] - a[1]) * (0.0 - a[0]) / (b[0] - a[0]);
-        if (z > 0.0 && z < side)
+        if (z > 0.0 && z <= side - 1.0)
             add_crossing(column, (struct crossing){(uint32_t)ceil(z), z, b[0] < a[0]});
     }
 }
@@ -207,29 +208,30 @@ static int by_row(const void *a, const void *b)
     return (p->at > q->at) - (p->at < q->at);
 }
 
-/* Finds for each row whether its first post is land, from the row's first crossing, or from the
- * next row and the crossings of the column between them. */
+/* Finds for each row whether its first post is land, on the way down the first column: from the
+ * row's first crossing, or from the crossings of the column since the row before. Rows before the
+ * first of them are what it has on its other side. */
 static void find_west(const struct crossings *rows, const struct crossings *column, uint32_t side,
                       uint8_t *west)
 {
-    uint32_t first = rows->crossing[0].row, at = 0, beyond = 0;
-    for (uint32_t row = first; row < side; row++) {
-        west[row] = row > first ? west[row - 1] : 0;
-        for (; beyond < column->count && column->crossing[beyond].row <= row; beyond++)
-            west[row] = column->crossing[beyond].land;
-        if (at < rows->count && rows->crossing[at].row == row)
-            west[row] = !rows->crossing[at].land;
-        for (; at < rows->count && rows->crossing[at].row == row; at++) {
-            if (rows->crossing[at].at <= 0.0)
-                west[row] = rows->crossing[at].land;
+    uint32_t at = 0, beyond = 0;
+    bool known = false, land = false;
+    for (uint32_t row = 0; row < side; row++) {
+        for (; beyond < column->count && column->crossing[beyond].row <= row; beyond++) {
+            land = column->crossing[beyond].land;
+            if (!known)
+                memset(west, !land, row);
+            known = true;
         }
-    }
-    for (uint32_t row = first; row-- > 0;) {
-        west[row] = west[row + 1];
-        for (uint32_t i = column->count; i-- > 0;) {
-            if (column->crossing[i].row == row + 1)
-                west[row] = !column->crossing[i].land;
+        if (at < rows->count && rows->crossing[at].row == row) {
+            land = !rows->crossing[at].land;
+            for (; at < rows->count && rows->crossing[at].row == row; at++)
+                land = rows->crossing[at].at <= 0.0 ? rows->crossing[at].land : land;
+            if (!known)
+                memset(west, land, row);
+            known = true;
         }
+        west[row] = land;
     }
 }
 
@@ -259,6 +261,19 @@ static void fill_sea(const struct crossing *crossing, uint32_t count, bool land,
     }
 }
 
+/* Notes the first place of a coastline that lies in the square. */
+static void find_coast(const struct feature_line *line, const struct post_grid *grid,
+                       struct map_cover_sea *sea)
+{
+    double side = 2.0 * grid->projection.middle_m;
+    for (uint32_t i = 0; i < line->count && !sea->coast; i++) {
+        const double *p = line->place[i];
+        sea->coast = p[0] >= 0.0 && p[1] >= 0.0 && p[0] <= side && p[1] <= side;
+        sea->coast_x = p[0];
+        sea->coast_z = p[1];
+    }
+}
+
 int map_cover_coasts(const struct features *features, const struct post_grid *grid, float *posts,
                      uint8_t *cover, struct map_cover_sea *sea)
 {
@@ -266,6 +281,8 @@ int map_cover_coasts(const struct features *features, const struct post_grid *gr
     *sea = (struct map_cover_sea){0};
     for (uint32_t i = 0; i < features->lines; i++) {
         const struct feature_line *line = &features->line[i];
+        if (line->width_m == 0.0)
+            find_coast(line, grid, sea);
         for (uint32_t k = 0; line->width_m == 0.0 && k + 1 < line->count; k++) {
             const double *p = line->place[k], *q = line->place[k + 1];
             const double a[2] = {p[0] / grid->spacing_m, p[1] / grid->spacing_m};
@@ -275,8 +292,9 @@ int map_cover_coasts(const struct features *features, const struct post_grid *gr
     }
     uint8_t *west = calloc(grid->side, 1);
     bool no_memory = rows.no_memory || column.no_memory || !west;
-    if (!no_memory && rows.count > 0) {
-        qsort(rows.crossing, rows.count, sizeof *rows.crossing, by_row);
+    if (!no_memory && rows.count + column.count > 0) {
+        if (rows.count > 0)
+            qsort(rows.crossing, rows.count, sizeof *rows.crossing, by_row);
         if (column.count > 0)
             qsort(column.crossing, column.count, sizeof *column.crossing, by_row);
         find_west(&rows, &column, grid->side, west);
@@ -284,8 +302,9 @@ int map_cover_coasts(const struct features *features, const struct post_grid *gr
             uint32_t first = at;
             while (at < rows.count && rows.crossing[at].row == row)
                 at++;
-            bool land = at > first ? !rows.crossing[first].land : west[row];
-            fill_sea(rows.crossing + first, at - first, land, row, grid, posts, cover, sea);
+            const struct crossing *crossing = at > first ? &rows.crossing[first] : NULL;
+            bool land = crossing ? !crossing->land : west[row];
+            fill_sea(crossing, at - first, land, row, grid, posts, cover, sea);
         }
     }
     free(rows.crossing);

@@ -14,14 +14,17 @@ int map_cover_areas(const struct features *features, const struct post_grid *gri
 
 /* What was made of coastlines. */
 struct map_cover_sea {
-    uint64_t posts;        /* that are sea */
-    uint32_t torn;         /* rows in which two coastlines contradict each other */
-    double torn_x, torn_z; /* [m] the first such place */
+    uint64_t posts;          /* that are sea */
+    uint32_t torn;           /* rows in which two coastlines contradict each other */
+    double torn_x, torn_z;   /* [m] the first such place */
+    bool coast;              /* a coastline has a place in the square */
+    double coast_x, coast_z; /* [m] the first such place */
 };
 
 /* Makes what lies on the right of coastlines sea, level at 0 m. Where no line says what a post is,
- * it is what the next one along its row is. Nothing changes without coastlines in the square. 0;
- * -1: no memory. */
+ * it is what the next one along its row is, or, in a row without coastlines, along the first
+ * column. Nothing changes where no coastline crosses a row or the first column. 0; -1: no memory.
+ */
 int map_cover_coasts(const struct features *features, const struct post_grid *grid, float *posts,
                      uint8_t *cover, struct map_cover_sea *sea);
 

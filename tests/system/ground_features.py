@@ -1,7 +1,8 @@
 """Draws maps of a village and of broken features for test_ground_objects.sh, and judges what became of them. Places are
 converted by PROJ's gdaltransform.
 
-usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west, crossing, coast, torn and broken.geojson, and broken.osm)
+usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west, crossing, coast, torn, beach, islet
+                                                  and broken.geojson, and broken.osm)
        ground_features.py corner EVENTS           (does the first collision of T1 lie at the corner, within 1 mm?)
        ground_features.py wall EVENTS             (does it lie on a wall beside that corner, within 1 mm?)
        ground_features.py craters CSV RAW         (has the raster the heights of the dump, and holes?)
@@ -87,6 +88,15 @@ def coast(there, turned=False):
         there.add("LineString", [(24800, 24100), (24800, 25900)], natural="coastline")
 
 
+def small_coasts(*place):
+    """A beach from east to west between two rows of posts, with land in the south, and an island between posts."""
+    beach, islet = Map(*place), Map(*place)
+    beach.add("LineString", [(26100, 25004), (23900, 25006)], natural="coastline")
+    beach.write("beach.geojson")
+    islet.add("Polygon", [(25002, 25002), (25008, 25002), (25005, 25008)], natural="coastline")
+    islet.write("islet.geojson")
+
+
 def broken(there):
     there.add("Polygon", box(25000, 25000, 12, 9), building="yes", name="y" * 65536)
     there.add("Polygon", [(25100, 25000), (25112, 25010), (25112, 25000), (25100, 25010)], building="yes")  # a bow: two triangles
@@ -132,6 +142,7 @@ def maps(*place):
         sea = Map(*place)
         coast(sea, turned)
         sea.write(path)
+    small_coasts(*place)
     broken(Map(*place))
     broken_osm(Map(*place))
 

@@ -140,6 +140,10 @@ check "coastlines part land and sea" eval 'coast coast && [ "$(covers)" = lslsls
 check "the file says how much is sea" eval '"$ground" info coast.ground | grep -Eq "^sea: [0-9]+ posts beyond coastlines"'
 check "coastlines that contradict each other are told" eval \
     'coast torn && grep -q "coastlines contradict each other in [0-9]* rows of posts.* the first at latitude 44.50" err'
+check "a coastline between two rows of posts parts land and sea" eval \
+    'coast beach && [ "$(covers)" = ssllllls ] && "$ground" info coast.ground | grep -q "^sea: 20301 posts" && ! grep -q coastlines err'
+check "coastlines that make no sea are told" eval \
+    'coast islet && grep -q "coastlines make no post sea, the first at latitude 44\.[0-9]*, longitude -71\." err'
 
 # --- out again -----------------------------------------------------------------------------------------------
 cat >craters.cfg <<'TEXT'
