@@ -282,10 +282,9 @@ static void tell_features(const struct making *m)
     }
     if (m->sea.torn > 0) {
         projection_place(&m->grid.projection, m->sea.torn_x, m->sea.torn_z, &latitude, &longitude);
-        log_warn(
-            "coastlines contradict each other in %u rows of posts, and are torn or turned: the "
-            "first at latitude %.5f, longitude %.5f",
-            m->sea.torn, latitude, longitude);
+        log_warn("coastlines contradict each other at %u places along rows of posts or their "
+                 "first column, and are torn or turned: the first at latitude %.5f, longitude %.5f",
+                 m->sea.torn, latitude, longitude);
     }
     for (int i = 0; i < FEATURE_TROUBLES; i++) {
         const struct feature_trouble_count *t = &m->features.trouble[i];

@@ -195,8 +195,11 @@ static void cross_rows(struct crossings *rows, struct crossings *column, const d
     }
     if ((a[0] <= 0.0) != (b[0] <= 0.0)) {
         double z = a[1] + (b[1] - a[1]) * (0.0 - a[0]) / (b[0] - a[0]);
-        if (z > 0.0 && z <= side - 1.0)
-            add_crossing(column, (struct crossing){(uint32_t)ceil(z), z, b[0] < a[0]});
+        /* Posts lie just west and north of crossings at their place, here as along rows: a line
+         * that leads south-east or north-west through one crosses the column behind it. */
+        double row = (b[1] - a[1]) * (b[0] - a[0]) > 0.0 ? floor(z) + 1.0 : ceil(z);
+        if (z >= 0.0 && row < side)
+            add_crossing(column, (struct crossing){(uint32_t)row, z, b[0] < a[0]});
     }
 }
 
@@ -208,25 +211,39 @@ static int by_row(const void *a, const void *b)
     return (p->at > q->at) - (p->at < q->at);
 }
 
+/* Notes that two coastlines contradict each other at a place [post]. */
+static void tear(struct map_cover_sea *sea, const struct post_grid *grid, double x, double z)
+{
+    if (sea->torn++ > 0)
+        return;
+    sea->torn_x = x * grid->spacing_m;
+    sea->torn_z = z * grid->spacing_m;
+}
+
 /* Finds for each row whether its first post is land, on the way down the first column: from the
  * row's first crossing, or from the crossings of the column since the row before. Rows before the
  * first of them are what it has on its other side. */
-static void find_west(const struct crossings *rows, const struct crossings *column, uint32_t side,
-                      uint8_t *west)
+static void find_west(const struct crossings *rows, const struct crossings *column,
+                      const struct post_grid *grid, uint8_t *west, struct map_cover_sea *sea)
 {
     uint32_t at = 0, beyond = 0;
     bool known = false, land = false;
-    for (uint32_t row = 0; row < side; row++) {
+    for (uint32_t row = 0; row < grid->side; row++) {
         for (; beyond < column->count && column->crossing[beyond].row <= row; beyond++) {
+            if (known && column->crossing[beyond].land == land)
+                tear(sea, grid, 0.0, column->crossing[beyond].at);
             land = column->crossing[beyond].land;
             if (!known)
                 memset(west, !land, row);
             known = true;
         }
         if (at < rows->count && rows->crossing[at].row == row) {
+            bool before = land;
             land = !rows->crossing[at].land;
             for (; at < rows->count && rows->crossing[at].row == row; at++)
                 land = rows->crossing[at].at <= 0.0 ? rows->crossing[at].land : land;
+            if (known && land != before)
+                tear(sea, grid, 0.0, row);
             if (!known)
                 memset(west, land, row);
             known = true;
@@ -245,10 +262,8 @@ static void fill_sea(const struct crossing *crossing, uint32_t count, bool land,
         double end = i < count ? crossing[i].at : (double)grid->side;
         bool torn = i > 0 && i < count && crossing[i].land == land;
         double turn = torn ? 0.5 * (crossing[i - 1].at + crossing[i].at) : end;
-        if (torn && sea->torn++ == 0) {
-            sea->torn_x = turn * grid->spacing_m;
-            sea->torn_z = row * grid->spacing_m;
-        }
+        if (torn)
+            tear(sea, grid, turn, row);
         for (; column < grid->side && column <= end; column++) {
             size_t post = (size_t)row * grid->side + column;
             if (column > turn ? !land : land)
@@ -297,7 +312,7 @@ int map_cover_coasts(const struct features *features, const struct post_grid *gr
             qsort(rows.crossing, rows.count, sizeof *rows.crossing, by_row);
         if (column.count > 0)
             qsort(column.crossing, column.count, sizeof *column.crossing, by_row);
-        find_west(&rows, &column, grid->side, west);
+        find_west(&rows, &column, grid, west, sea);
         for (uint32_t row = 0, at = 0; row < grid->side; row++) {
             uint32_t first = at;
             while (at < rows.count && rows.crossing[at].row == row)

@@ -15,7 +15,8 @@ int map_cover_areas(const struct features *features, const struct post_grid *gri
 /* What was made of coastlines. */
 struct map_cover_sea {
     uint64_t posts;          /* that are sea */
-    uint32_t torn;           /* rows in which two coastlines contradict each other */
+    uint32_t torn;           /* places along rows and the first column where two coastlines
+                              * contradict each other */
     double torn_x, torn_z;   /* [m] the first such place */
     bool coast;              /* a coastline has a place in the square */
     double coast_x, coast_z; /* [m] the first such place */

@@ -1,8 +1,8 @@
 """Draws maps of a village and of broken features for test_ground_objects.sh, and judges what became of them. Places are
 converted by PROJ's gdaltransform.
 
-usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west, crossing, coast, torn, beach, islet
-                                                  and broken.geojson, and broken.osm)
+usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west, crossing, coast, torn, beach,
+                                                  strait, turned, islet and broken.geojson, and broken.osm)
        ground_features.py corner EVENTS           (does the first collision of T1 lie at the corner, within 1 mm?)
        ground_features.py wall EVENTS             (does it lie on a wall beside that corner, within 1 mm?)
        ground_features.py craters CSV RAW         (has the raster the heights of the dump, and holes?)
@@ -89,10 +89,16 @@ def coast(there, turned=False):
 
 
 def small_coasts(*place):
-    """A beach from east to west between two rows of posts, with land in the south, and an island between posts."""
+    """A beach from east to west between two rows of posts, with land in the south, a strait, the same with its
+    southern bank turned, and an island between posts."""
     beach, islet = Map(*place), Map(*place)
     beach.add("LineString", [(26100, 25004), (23900, 25006)], natural="coastline")
     beach.write("beach.geojson")
+    for path, bank in ("strait.geojson", [(26100, 25304), (23900, 25306)]), ("turned.geojson", [(23900, 25314), (26100, 25316)]):
+        two = Map(*place)
+        two.add("LineString", [(23900, 24503), (26100, 24517)], natural="coastline")
+        two.add("LineString", bank, natural="coastline")
+        two.write(path)
     islet.add("Polygon", [(25002, 25002), (25008, 25002), (25005, 25008)], natural="coastline")
     islet.write("islet.geojson")
 

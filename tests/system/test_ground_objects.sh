@@ -139,9 +139,12 @@ covers() { # at places on the way from the north-west corner, in steps of 10 m: 
 check "coastlines part land and sea" eval 'coast coast && [ "$(covers)" = lslslsll ] && ! grep -q coastlines err'
 check "the file says how much is sea" eval '"$ground" info coast.ground | grep -Eq "^sea: [0-9]+ posts beyond coastlines"'
 check "coastlines that contradict each other are told" eval \
-    'coast torn && grep -q "coastlines contradict each other in [0-9]* rows of posts.* the first at latitude 44.50" err'
+    'coast torn && grep -q "coastlines contradict each other at [0-9]* places .* the first at latitude 44.50" err'
 check "a coastline between two rows of posts parts land and sea" eval \
     'coast beach && [ "$(covers)" = ssllllls ] && "$ground" info coast.ground | grep -q "^sea: 20301 posts" && ! grep -q coastlines err'
+check "a strait from west to east is sea" eval 'coast strait && "$ground" info coast.ground | grep -q "^sea: 159[78][09] posts" && ! grep -q coastlines err'
+check "coastlines from west to east that contradict each other are told, with the place" eval \
+    'coast turned && grep -q "coastlines contradict each other at 1 places .* the first at latitude 44.4971., longitude -71.512" err'
 check "coastlines that make no sea are told" eval \
     'coast islet && grep -q "coastlines make no post sea, the first at latitude 44\.[0-9]*, longitude -71\." err'
 
