@@ -218,6 +218,14 @@ static int check_place(struct raster *r, struct error_text *error)
     return 0;
 }
 
+/* Finds whether the raster goes round the earth, with half a pixel or less missing. */
+static void find_turn(struct raster *r)
+{
+    double turn = floor(360.0 / fabs(r->transform[1]) + 0.5);
+    if (r->geographic && r->transform[2] == 0.0 && r->transform[4] == 0.0 && turn <= r->columns)
+        r->turn = (int)turn;
+}
+
 /* Sets the resolution [m], and as how many coarser pixels a fine raster is read. */
 static void set_resolution(struct raster *r, enum raster_use use)
 {
@@ -233,6 +241,10 @@ static void set_resolution(struct raster *r, enum raster_use use)
     if (use == RASTER_OF_HEIGHTS && finer > 0.0 && r->grid.spacing_m >= 2.0 * finer)
         r->coarser =
             (int)fmin(floor(r->grid.spacing_m / finer), floor(0.5 * fmin(r->columns, r->rows)));
+    /* The pixels go on behind a turn as they began. */
+    while (r->turn % r->coarser != 0)
+        r->coarser--;
+    r->turn /= r->coarser;
     r->columns /= r->coarser;
     r->rows /= r->coarser;
 }
@@ -244,6 +256,7 @@ static int fill(struct raster *r, enum raster_use use, double to_metres, struct 
     if (check_band(r, use, error) != 0 || check_place(r, error) != 0 ||
         read_unit(r, to_metres, error) != 0)
         return -1;
+    find_turn(r);
     set_resolution(r, use);
     return 0;
 }

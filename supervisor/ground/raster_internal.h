@@ -23,12 +23,14 @@ struct raster {
     bool geographic;
     int coarser;       /* it is read as pixels of so many of its own */
     int columns, rows; /* of the pixels that are read */
+    int turn; /* columns around the earth, behind which the first follow again; 0: it goes not round
+               */
 
     struct raster **neighbours;
     uint32_t neighbour_count;
 
     /* What was read for some rows of posts: pixels, and where the nodes lie in it [pixels from the
-     * corner]. */
+     * corner]. In a raster around the earth the window and nodes may go beyond its columns. */
     float *window;
     int west, north, across, down;
     double (*nodes)[2];

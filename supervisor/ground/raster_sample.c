@@ -57,13 +57,20 @@ static int place_nodes(struct raster *r, uint32_t first, uint32_t rows, struct e
     return 0;
 }
 
+/* Returns the column of the file: one beyond a turn is one of the first again. */
+static int own_column(const struct raster *r, int column)
+{
+    return r->turn > 0 ? (column % r->turn + r->turn) % r->turn : column;
+}
+
 /* Sets the window of pixels around all nodes, one more on each side. Returns false if it is empty.
  */
 static bool place_window(struct raster *r)
 {
     double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
     size_t count = (size_t)r->nodes_across * r->nodes_down;
-    const int most[2] = {r->columns, r->rows};
+    const int least[2] = {-r->turn, 0};
+    const int most[2] = {r->turn > 0 ? 2 * r->turn : r->columns, r->rows};
     for (size_t i = 0; i < count; i++) {
         for (int k = 0; k < 2; k++) {
             if (!isfinite(r->nodes[i][k]))
@@ -74,8 +81,8 @@ static bool place_window(struct raster *r)
     }
     int begin[2], end[2];
     for (int k = 0; k < 2; k++) {
-        begin[k] = (int)maths_clamp(floor(low[k]) - 2.0, 0.0, most[k]);
-        end[k] = (int)maths_clamp(floor(high[k]) + 3.0, 0.0, most[k]);
+        begin[k] = (int)maths_clamp(floor(low[k]) - 2.0, least[k], most[k]);
+        end[k] = (int)maths_clamp(floor(high[k]) + 3.0, least[k], most[k]);
     }
     r->west = begin[0];
     r->north = begin[1];
@@ -101,7 +108,7 @@ static int clean_window(struct raster *r, struct error_text *error)
                               "%s: has the height %g m in column %d, row %d; the earth has -430 to "
                               "8,849. %s",
                               r->path, metres,
-                              (r->west + (int)(i % (size_t)r->across)) * r->coarser,
+                              own_column(r, r->west + (int)(i % (size_t)r->across)) * r->coarser,
                               (r->north + (int)(i / (size_t)r->across)) * r->coarser,
                               metres > 9000.0 && metres < 30000.0 ? "If these are feet, give --feet"
                                                                   : "Is it a raster of heights?");
@@ -109,11 +116,26 @@ static int clean_window(struct raster *r, struct error_text *error)
     return 0;
 }
 
-int raster_read(struct raster *r, uint32_t first, uint32_t rows, struct error_text *error)
+/* Reads the window, in parts where it goes beyond a turn. */
+static CPLErr read_window(const struct raster *r)
 {
     GDALRasterIOExtraArg extra;
     INIT_RASTERIO_EXTRA_ARG(extra);
     extra.eResampleAlg = r->coarser > 1 ? GRIORA_Average : GRIORA_NearestNeighbour;
+    CPLErr result = CE_None;
+    int k = r->coarser, end = r->turn > 0 ? r->turn : r->columns;
+    for (int done = 0, count; done < r->across && result == CE_None; done += count) {
+        int column = own_column(r, r->west + done);
+        count = r->across - done < end - column ? r->across - done : end - column;
+        result = GDALRasterIOEx(r->band, GF_Read, column * k, r->north * k, count * k, r->down * k,
+                                r->window + done, count, r->down, GDT_Float32, 0,
+                                (GSpacing)sizeof *r->window * r->across, &extra);
+    }
+    return result;
+}
+
+int raster_read(struct raster *r, uint32_t first, uint32_t rows, struct error_text *error)
+{
     r->across = r->down = 0;
     if (place_nodes(r, first, rows, error) != 0)
         return -1;
@@ -130,9 +152,7 @@ int raster_read(struct raster *r, uint32_t first, uint32_t rows, struct error_te
         return error_text_memory(error);
     r->window = window;
     CPLErrorReset();
-    int k = r->coarser;
-    if (GDALRasterIOEx(r->band, GF_Read, r->west * k, r->north * k, r->across * k, r->down * k,
-                       window, r->across, r->down, GDT_Float32, 0, 0, &extra) != CE_None)
+    if (read_window(r) != CE_None)
         return error_text_set(error, "%s: cannot be read: %s", r->path, CPLGetLastErrorMsg());
     return clean_window(r, error);
 }
@@ -154,12 +174,13 @@ static bool post_place(const struct raster *r, uint32_t column, uint32_t row, do
         double below = node[south][k] + (node[south + east][k] - node[south][k]) * u;
         place[k] = above + (below - above) * v;
     }
-    return place[0] >= 0.0 && place[1] >= 0.0 && place[0] <= r->columns && place[1] <= r->rows;
+    bool within = r->turn > 0 ? isfinite(place[0]) : place[0] >= 0.0 && place[0] <= r->columns;
+    return within && place[1] >= 0.0 && place[1] <= r->rows;
 }
 
 static bool own_pixel(const struct raster *r, int column, int row, double *value)
 {
-    int c = column - r->west, w = row - r->north;
+    int c = own_column(r, column - r->west), w = row - r->north;
     if (c < 0 || w < 0 || c >= r->across || w >= r->down)
         return false;
     *value = (double)r->window[(size_t)w * (size_t)r->across + (size_t)c];
@@ -187,7 +208,8 @@ static double pixel(const struct raster *r, int column, int row)
                 return value;
         }
     }
-    int inside_column = column < 0 ? 0 : column < r->columns ? column : r->columns - 1;
+    int last = r->columns - 1;
+    int inside_column = r->turn > 0 ? column : column < 0 ? 0 : column < last ? column : last;
     int inside_row = row < 0 ? 0 : row < r->rows ? row : r->rows - 1;
     return own_pixel(r, inside_column, inside_row, &value) ? value : NAN;
 }
@@ -210,8 +232,8 @@ int raster_class(const struct raster *r, uint32_t column, uint32_t row)
 {
     double place[2], value;
     if (!post_place(r, column, row, place) ||
-        !own_pixel(r, (int)fmin(place[0], r->columns - 1), (int)fmin(place[1], r->rows - 1),
-                   &value) ||
+        !own_pixel(r, (int)(r->turn > 0 ? floor(place[0]) : fmin(place[0], r->columns - 1)),
+                   (int)fmin(place[1], r->rows - 1), &value) ||
         !(value >= 0.0 && value < 1000.0))
         return -1;
     return (int)value;

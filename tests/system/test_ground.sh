@@ -119,6 +119,38 @@ P
     check "the date line has one hash from both sides" eval 'for center in 0,180 0,-180; do side=20000 make west.tif east.tif >/dev/null 2>&1 && hash_of x.ground; done | uniq -c | grep -q "^ *2 "'
     check "both maps count there" eval '! grep -q "no post" err && [ "$("$ground" info x.ground | grep -c ^heights:)" = 2 ]'
 
+    # One band of the earth, from other beginnings: around the earth, with one column twice, and in parts.
+    python3 - <<'P'
+def band(name, west, columns, value=lambda row, column: (row * 37 + column % 360 * 101) % 97):
+    with open(name + ".asc", "w", encoding="ascii") as file:
+        file.write(f"ncols {columns}\nnrows 8\nxllcorner {west}\nyllcorner -4\ncellsize 1\n")
+        file.writelines(" ".join(str(value(row, west + k)) for k in range(columns)) + "\n" for row in range(8))
+    with open(name + ".prj", "w", encoding="ascii") as file:
+        file.write('GEOGCS["WGS 84",DATUM["WGS_1984",SPHEROID["WGS 84",6378137,298.257223563]],PRIMEM["Greenwich",0],UNIT["degree",0.0174532925199433]]')
+band("world", -180, 360)
+band("round", 0, 360)
+band("part", 90, 180)
+band("middle", -90, 180)
+band("more", -200, 361)
+band("west_half", -180, 180)
+band("classes", -180, 360, lambda row, column: 80 if column < 0 else 10)
+P
+    has_hash() { # HASH MAP...
+        side=300000 posts=2000 make "${@:2}" && equal "$(hash_of x.ground)" "$1"
+    }
+    for place in '0.2,180 part' '0.2,-179.99 part' '0.2,0 middle' '0.2,-0.01 middle' '0.2,160 part'; do
+        center=${place% *}
+        side=300000 posts=2000 make "${place#* }.asc" >/dev/null 2>&1
+        as_it_is=$(hash_of x.ground)
+        for map in world.asc round.asc more.asc "west_half.asc world.asc"; do
+            # shellcheck disable=SC2086 # some are two maps
+            check "a square about $center in $map, which goes round the earth" has_hash "$as_it_is" $map
+        done
+    done
+    center=0,180
+    check "classes of cover go round the earth" eval 'side=20000 make --cover classes.asc world.asc 2>err && [ ! -s err ] &&
+        "$ground" check x.ground | grep -q "forest 49.7 %, lake 50.3 %"'
+
     # Classes of cover.
     center=10.5,20.5
     map water.tif 20 11 21 10 -ot Byte -burn 80
