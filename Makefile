@@ -283,9 +283,10 @@ $(BENCH): $(OBJ)/tests/bench/main.o $(ENGINES) $(call libraries,bench physics re
 $(ENGINES): | $(BENCH_STAMP)
 $(GROUND): $(OBJ)/supervisor/ground/main.o $(call libraries,ground ipc world)
 	$(call link,$(GROUND_LIBS) $(JSON_LIBS) $(ARCHIVE_LIBS) $(BASE_LIBS))
-# The writer of ground files uses no library of maps, so its test and the fuzz harness need none.
+# The writer of ground files uses no library of maps, so its test and the fuzz harness need none. Nor does the maker of cover.
 GROUND_WRITER := $(call objects,$(addprefix supervisor/ground/,canvas.c convex_parts.c ground_write.c out_file.c progress.c))
-$(filter-out $(GROUND_WRITER),$(call objects,$(call sources,supervisor/ground))): | $(GROUND_STAMP)
+GROUND_COVER := $(call objects,$(addprefix supervisor/ground/,area.c free_ground.c map_cover.c))
+$(filter-out $(GROUND_WRITER) $(GROUND_COVER),$(call objects,$(call sources,supervisor/ground))): | $(GROUND_STAMP)
 $(call objects,$(call sources,supervisor/ground)): CFLAGS_EXTRA = $(GROUND_CFLAGS)
 $(BIN)/jolon-keeper: $(OBJ)/supervisor/main.o $(call libraries,supervisor sandbox ipc world)
 	$(call link,$(SANDBOX_LIBS) $(BASE_LIBS))
@@ -350,6 +351,7 @@ $(filter $(BUILD)/tests/unit/gateway/% $(BUILD)/tests/property/gateway/%,$(UNIT_
 $(addprefix $(BUILD)/tests/unit/ipc/topics/test_,dds_datagrams samples command_text): $(call libraries,datagrams)
 $(BUILD)/tests/unit/config/syntax/test_schema: $(OBJ)/docs/keys/key_tables.o
 $(addprefix $(BUILD)/tests/unit/,supervisor/ground/test_canvas supervisor/ground/test_convex_parts supervisor/ground/test_ground_write supervisor/ground/test_out_file config/test_ground_objects config/test_ground_source world/terrain/test_posts_write): $(GROUND_WRITER)
+$(BUILD)/tests/unit/supervisor/ground/test_map_cover: $(GROUND_COVER)
 $(BUILD)/tests/unit/docs/figures/test_palette: $(OBJ)/docs/figures/palette.o
 $(BUILD)/tests/crash/test_crash: $(call objects,$(call sources,tests/crash))
 $(GOLDEN_TESTS): $(call libraries,bench)

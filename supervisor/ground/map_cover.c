@@ -18,6 +18,11 @@
 #define BUILDING_GAP_M 1.5
 #define STEPS_MAX      1e6 /* along a stretch of a river */
 
+/* Coastlines are moved so far [post], so that none has a corner on a row: two stretches would cross
+ * the row there at one place, in no order. */
+#define OFF_EAST  1.0e-7
+#define OFF_NORTH 3.7e-8
+
 enum { DRAW_LINE, DRAW_X, DRAW_RANK, DRAW_KIND, DRAW_SIZE, DRAW_TURN };
 
 /* --- cover -------------------------------------------------------------------------------------*/
@@ -195,11 +200,8 @@ static void cross_rows(struct crossings *rows, struct crossings *column, const d
     }
     if ((a[0] <= 0.0) != (b[0] <= 0.0)) {
         double z = a[1] + (b[1] - a[1]) * (0.0 - a[0]) / (b[0] - a[0]);
-        /* Posts lie just west and north of crossings at their place, here as along rows: a line
-         * that leads south-east or north-west through one crosses the column behind it. */
-        double row = (b[1] - a[1]) * (b[0] - a[0]) > 0.0 ? floor(z) + 1.0 : ceil(z);
-        if (z >= 0.0 && row < side)
-            add_crossing(column, (struct crossing){(uint32_t)row, z, b[0] < a[0]});
+        if (z > 0.0 && z <= side - 1.0)
+            add_crossing(column, (struct crossing){(uint32_t)ceil(z), z, b[0] < a[0]});
     }
 }
 
@@ -300,8 +302,10 @@ int map_cover_coasts(const struct features *features, const struct post_grid *gr
             find_coast(line, grid, sea);
         for (uint32_t k = 0; line->width_m == 0.0 && k + 1 < line->count; k++) {
             const double *p = line->place[k], *q = line->place[k + 1];
-            const double a[2] = {p[0] / grid->spacing_m, p[1] / grid->spacing_m};
-            const double b[2] = {q[0] / grid->spacing_m, q[1] / grid->spacing_m};
+            const double a[2] = {p[0] / grid->spacing_m + OFF_EAST,
+                                 p[1] / grid->spacing_m - OFF_NORTH};
+            const double b[2] = {q[0] / grid->spacing_m + OFF_EAST,
+                                 q[1] / grid->spacing_m - OFF_NORTH};
             cross_rows(&rows, &column, a, b, grid->side);
         }
     }
