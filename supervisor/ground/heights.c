@@ -116,13 +116,15 @@ static int refuse_void(const struct post_grid *grid, struct raster **rasters, ui
 }
 
 static int fill_voids(float *posts, const struct post_grid *grid, struct raster **rasters,
-                      uint32_t count, uint64_t *filled, struct error_text *error)
+                      uint32_t count, struct heights_counts *counts, struct error_text *error)
 {
     size_t all = (size_t)grid->side * grid->side, voids = 0, at = 0;
     uint32_t most = (uint32_t)fmax(1.0, floor(HEIGHTS_FILL_M / grid->spacing_m));
-    for (size_t i = 0; i < all; i++)
-        voids += isnan(posts[i]) ? 1 : 0;
-    *filled = voids;
+    for (size_t i = 0; i < all; i++) {
+        if (isnan(posts[i]) && voids++ == 0)
+            counts->first = i;
+    }
+    counts->filled = voids;
     if (voids == 0)
         return 0;
     size_t first_bad = all;
@@ -155,5 +157,5 @@ int heights_fill(float *posts, const struct post_grid *grid, struct raster **ras
 {
     if (sample(posts, grid, rasters, count, pool, counts, error) != 0)
         return -1;
-    return fill_voids(posts, grid, rasters, count, &counts->filled, error);
+    return fill_voids(posts, grid, rasters, count, counts, error);
 }

@@ -4,6 +4,8 @@
 
 #include "supervisor/ground/raster.h"
 
+#include <stddef.h>
+
 struct thread_pool;
 
 /* Voids up to so far from known heights on both sides are interpolated [m]. */
@@ -11,7 +13,8 @@ struct thread_pool;
 
 struct heights_counts {
     uint64_t *from;  /* [count] posts with heights of each raster */
-    uint64_t filled; /* interpolated */
+    uint64_t filled; /* interpolated, */
+    size_t first;    /* and the first of them: row * side + column */
 };
 
 /* Fills posts [side * side]: each from the first raster that has all four pixels around it, in the

@@ -269,6 +269,29 @@ static void shape(struct making *m)
         die_refused("no memory for the features of the maps");
 }
 
+/* Names the place of the first post without a height, and the finest map that should have one. */
+static void tell_voids(const struct making *m)
+{
+    double latitude, longitude, extent[4];
+    const char *finest = NULL;
+    uint32_t around = 0;
+    size_t row = m->counts.first / m->grid.side, column = m->counts.first % m->grid.side;
+    projection_place(&m->grid.projection, (double)column * m->grid.spacing_m,
+                     (double)row * m->grid.spacing_m, &latitude, &longitude);
+    for (uint32_t i = 0; i < m->count; i++) {
+        raster_extent(m->rasters[i], extent);
+        /* A map beyond the date line has its longitudes a turn further. */
+        if (latitude < extent[0] || latitude > extent[2] ||
+            fmod(longitude - extent[1] + 720.0, 360.0) > extent[3] - extent[1])
+            continue;
+        finest = around++ == 0 ? raster_path(m->rasters[i]) : finest;
+    }
+    log_warn("%s%s: %" PRIu64 " posts without a height were interpolated; the first at latitude "
+             "%.5f, longitude %.5f",
+             finest ? finest : "between the maps", around > 1 ? " and the coarser maps there" : "",
+             m->counts.filled, latitude, longitude);
+}
+
 static void tell_features(const struct making *m)
 {
     const struct buildings *b = &m->features.buildings;
@@ -425,7 +448,7 @@ int make_run(int argc, char **argv)
     if (result != 0)
         die_refused("%s", error.text);
     if (m.counts.filled > 0)
-        log_warn("%" PRIu64 " posts without a height were interpolated", m.counts.filled);
+        tell_voids(&m);
     if (m.guessed > 0)
         log_warn("no map of cover for %" PRIu64 " of %" PRIu64
                  " posts: their cover is guessed from "
