@@ -93,12 +93,15 @@ static const char *const troubles[FEATURE_TROUBLES] = {
     [FEATURE_SHAPE] = "buildings or woods that are points or lines are left out",
     [FEATURE_OPEN] = "outlines are open, and were closed",
     [FEATURE_MENDED] = "outlines cross themselves, and were mended",
+    [FEATURE_CROSSED] = ("woods or waters have outlines that cross, or holes outside of them: what "
+                         "an odd number of sides encloses counts"),
     [FEATURE_BOXED] = ("outlines could not be split, and have the smallest rectangle around them "
                        "instead"),
     [FEATURE_SMALL] = "outlines are too small for buildings, and are left out",
     [FEATURE_EDGE] = "buildings across the edge of the square are left out",
     [FEATURE_LARGE] = "buildings of more than 1 km are left out",
-    [FEATURE_TALL] = "buildings have a height above 500 m, which was not used",
+    [FEATURE_HEIGHT] =
+        "buildings have a height that is no number from 0 to 500 m, and was not used",
 };
 
 struct reading {
@@ -232,6 +235,25 @@ static bool touches(const struct reading *r, const struct area *area)
            area->high[1] >= 0.0;
 }
 
+static bool is_closed(OGRGeometryH line)
+{
+    int last = OGR_G_GetPointCount(line) - 1;
+    return last > 0 && OGR_G_GetX(line, 0) == OGR_G_GetX(line, last) &&
+           OGR_G_GetY(line, 0) == OGR_G_GetY(line, last);
+}
+
+/* Tells of outlines that are open, which it closes. */
+static void close_rings(struct reading *r, OGRGeometryH polygon)
+{
+    for (int i = 0; i < OGR_G_GetGeometryCount(polygon); i++) {
+        OGRGeometryH ring = OGR_G_GetGeometryRef(polygon, i);
+        if (is_closed(ring) || !vector_map_track(r->map, ring, &r->track) || r->track.count < 3)
+            continue;
+        note(r, FEATURE_OPEN);
+        OGR_G_CloseRings(ring);
+    }
+}
+
 static void take_area(struct reading *r, OGRGeometryH polygon)
 {
     struct features *f = r->features;
@@ -255,6 +277,10 @@ static void take_area(struct reading *r, OGRGeometryH polygon)
     }
     f->area = rows;
     f->area[f->areas++] = area;
+    if (!OGR_G_IsValid(polygon)) {
+        note(r, FEATURE_CROSSED);
+        CPLErrorReset(); /* GDAL says why */
+    }
 }
 
 /* Keeps the track as a line. */
@@ -310,13 +336,19 @@ static void take_island(struct reading *r, OGRGeometryH polygon)
 
 /* --- buildings ---------------------------------------------------------------------------------*/
 
+static bool has(const struct reading *r, const char *key)
+{
+    char buffer[WORD_MAX];
+    return *vector_map_tag(r->feature, key, buffer, sizeof buffer) != '\0';
+}
+
 static double walls_of(struct reading *r, double area_m2)
 {
     double height = metres_of(r, "height"), storeys = metres_of(r, "building:levels");
     if (height == 0.0 && storeys > 0.0)
         height = storeys * STOREY_M;
-    if (height > WALLS_MAX_M)
-        note(r, FEATURE_TALL);
+    if (height > WALLS_MAX_M || (height == 0.0 && (has(r, "height") || has(r, "building:levels"))))
+        note(r, FEATURE_HEIGHT);
     if (height == 0.0 || height > WALLS_MAX_M)
         height = area_m2 < SHED_M2 ? SHED_M : area_m2 < HALL_M2 ? HOUSE_M : HALL_M;
     return maths_max(height, WALLS_MIN_M);
@@ -339,13 +371,13 @@ static uint32_t corners_in(const struct convex_parts *parts, double side_m, uint
 static void add_parts(struct reading *r, const struct convex_parts *parts)
 {
     char buffer[WORD_MAX];
+    uint32_t all, inside = corners_in(parts, side_of(r), &all);
+    if (inside == 0)
+        return;
     double height = walls_of(r, parts->area_m2), rise = 0.0;
     const char *roof = vector_map_tag(r->feature, "roof:shape", buffer, sizeof buffer);
     if (height <= RIDGED_M && parts->area_m2 >= SHED_M2 && strcmp(roof, "flat") != 0)
         rise = RISE_SHARE * maths_min(height, HOUSE_M);
-    uint32_t all, inside = corners_in(parts, side_of(r), &all);
-    if (inside == 0)
-        return;
     int added = buildings_add(&r->features->buildings, parts, height, rise, side_of(r));
     r->map->no_memory |= added < 0;
     if (added == 0 && parts->area_m2 < BUILDINGS_LEAST_M2)
@@ -461,8 +493,7 @@ static void take_building(struct reading *r, OGRGeometryH polygon, bool mended)
 static void take_open(struct reading *r, OGRGeometryH line)
 {
     int count = OGR_G_GetPointCount(line);
-    bool closed = count > 1 && OGR_G_GetX(line, 0) == OGR_G_GetX(line, count - 1) &&
-                  OGR_G_GetY(line, 0) == OGR_G_GetY(line, count - 1);
+    bool closed = is_closed(line);
     if (!vector_map_track(r->map, line, &r->track) || count < (closed ? 4 : 3)) {
         note(r, count < 3 ? FEATURE_SHAPE : FEATURE_NO_PLACE);
         return;
@@ -515,6 +546,11 @@ static void take_outline_object(struct reading *r, OGRGeometryH polygon)
 
 static void take_geometry(struct reading *r, OGRGeometryH geometry)
 {
+    r->track.count = 0;
+    if (!geometry || OGR_G_IsEmpty(geometry)) {
+        note(r, FEATURE_NO_PLACE);
+        return;
+    }
     switch ((int)wkbFlatten(OGR_G_GetGeometryType(geometry))) {
     case wkbPoint:
         take_point(r, geometry);
@@ -523,6 +559,7 @@ static void take_geometry(struct reading *r, OGRGeometryH geometry)
         take_line(r, geometry);
         break;
     case wkbPolygon:
+        close_rings(r, geometry);
         if (r->use == FEATURE_BUILDING)
             take_building(r, geometry, false);
         else if (r->use == FEATURE_COAST)
@@ -566,7 +603,6 @@ static void take_feature(void *context, struct vector_map *map, OGRFeatureH feat
     struct reading *r = context;
     r->map = map;
     r->feature = feature;
-    r->track.count = 0;
     r->use = use_of(feature, &r->key);
     if (r->use != FEATURE_NONE)
         take_geometry(r, geometry);

@@ -27,15 +27,16 @@ enum feature_use {
 
 /* What was wrong with features. */
 enum feature_trouble {
-    FEATURE_NO_PLACE, /* left out: a place that is none, or too few of them */
+    FEATURE_NO_PLACE, /* left out: no place, one that is none, or too few of them */
     FEATURE_SHAPE,    /* left out: a building or a wood that is a point or a line */
     FEATURE_OPEN,     /* an outline that was open, and is closed */
-    FEATURE_MENDED,   /* an outline that crossed itself */
+    FEATURE_MENDED,   /* an outline of a building that crossed itself */
+    FEATURE_CROSSED,  /* an area whose outlines cross, or with a hole outside of it */
     FEATURE_BOXED,    /* an outline that could not be split: its smallest rectangle stands for it */
     FEATURE_SMALL,    /* left out: a building of less than BUILDINGS_LEAST_M2 */
     FEATURE_EDGE,     /* left out: a building across the edge of the square */
     FEATURE_LARGE,    /* left out: a building of more than GROUND_BUILDING_REACH_MM */
-    FEATURE_TALL,     /* a building with a height that no building has; it is not used */
+    FEATURE_HEIGHT,   /* a building with a height that no building has; it is not used */
     FEATURE_TROUBLES
 };
 

@@ -355,8 +355,8 @@ static void fill(struct making *m)
     shape(m);
     tell_features(m);
     if (m->roads.bad > 0)
-        log_warn("%s: %u lines of one point, or with a place that is none, are no roads; the first "
-                 "is number %lld",
+        log_warn("%s: %u lines of one point or none, or with a place that is none, are no roads; "
+                 "the first is number %lld",
                  m->roads.bad_map, m->roads.bad, m->roads.bad_feature);
     if (m->roads.left_out > 0)
         log_warn("a ground has room for %u points of roads: %u less important roads are left out, "

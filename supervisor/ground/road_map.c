@@ -168,9 +168,10 @@ static void add_cut(struct reading *r, uint32_t rank)
 static void add_geometry(struct reading *r, struct vector_map *map, OGRGeometryH geometry,
                          uint32_t rank, long long number)
 {
-    OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(geometry));
+    OGRwkbGeometryType type =
+        geometry ? wkbFlatten(OGR_G_GetGeometryType(geometry)) : wkbLineString;
     if (type == wkbLineString) {
-        bool good = vector_map_track(map, geometry, &r->track) && r->track.count > 1;
+        bool good = geometry && vector_map_track(map, geometry, &r->track) && r->track.count > 1;
         if (good)
             add_cut(r, rank);
         else if (r->map->bad++ == 0) {

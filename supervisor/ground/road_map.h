@@ -13,7 +13,7 @@ struct road_map {
     uint32_t count;
     uint32_t roads;
     uint32_t left_out;     /* roads for which there was no room */
-    uint32_t bad;          /* lines of one point, or with places that are none: */
+    uint32_t bad;          /* lines of one point or none, or with places that are none: */
     const char *bad_map;   /* the map of the first, */
     long long bad_feature; /* and its number there */
     double kept_m, all_m;  /* lengths, with and without those left out */

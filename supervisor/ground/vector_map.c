@@ -97,9 +97,7 @@ static int read_layer(struct vector_map *map, OGRLayerH layer, vector_map_featur
                               map->path, map->path);
     for (OGRFeatureH f = OGR_L_GetNextFeature(layer); f && !map->no_memory;
          f = OGR_L_GetNextFeature(layer)) {
-        OGRGeometryH geometry = OGR_F_GetGeometryRef(f);
-        if (geometry)
-            feature(context, map, f, geometry);
+        feature(context, map, f, OGR_F_GetGeometryRef(f));
         OGR_F_Destroy(f);
         if (++features % 1024 == 0)
             progress_count(map->path, OGR_L_GetName(layer), features);

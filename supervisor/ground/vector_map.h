@@ -46,7 +46,7 @@ struct vector_map {
     bool no_memory;
 };
 
-/* Called for each feature that has a geometry. */
+/* Called for each feature. geometry: NULL if it has none. */
 typedef void vector_map_feature(void *context, struct vector_map *map, OGRFeatureH feature,
                                 OGRGeometryH geometry);
 

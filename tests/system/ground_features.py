@@ -112,10 +112,18 @@ def broken(there):
     there.add("Polygon", box(25400, 25000, 1, 1), building="yes")
     there.add("Polygon", [(25500, 25000), (25510, 25000), (25510, 25000.004), (25505, 25008)], building="yes", height="high")
     there.add("Polygon", box(25600, 25000, 12, 9), building="yes", height="1e308")
+    for x, height in (25640, "-5"), (25680, "nan"):
+        there.add("Polygon", box(x, 25000, 12, 9), building="yes", height=height)
+    there.add("Polygon", [(26000, 26000), (26200, 26200), (26200, 26000), (26000, 26200)], natural="water")  # a bow
+    there.add("LineString", [(26400, 26000), (26500, 26000), (26450, 26090)], natural="wood")
+    there.add("Polygon", box(26600, 26000, 80, 60), natural="wood")  # its ring is opened below
     there.add("Polygon", box(80000, 25000, 12, 9), building="yes")  # elsewhere
     rows = there.write("broken.geojson")
+    del rows[-2]["geometry"]["coordinates"][0][-1]
     rows[-1]["geometry"]["coordinates"][0][1] = [-71.5, 95.0]
     rows.append({"type": "Feature", "properties": {"natural": "water"}, "geometry": {"type": "Polygon", "coordinates": [[[-71.5, 44.5], [-71.5, 44.6]]]}})
+    rows.append({"type": "Feature", "properties": {"building": "yes", "highway": "track"}, "geometry": None})
+    rows.append({"type": "Feature", "properties": {"natural": "water"}, "geometry": {"type": "Polygon", "coordinates": []}})
     with open("broken.geojson", "w", encoding="utf-8") as file:
         json.dump({"type": "FeatureCollection", "features": rows}, file)
 

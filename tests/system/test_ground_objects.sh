@@ -46,13 +46,15 @@ check "the picture of half a kilometre has a building to its corner" python3 "$h
 refuses "a picture of a place in another country" 2 'show: --at: that place is [0-9]+ km from the middle' "$ground" show --at 48N,11E --metres 500 x.ground near.png
 refuses "a picture about a place without its size" 2 '--at goes with --metres' "$ground" show --at 25000,25000 x.ground near.png
 
-check "broken features are mended or left out" eval 'out=broken.ground make --features broken.geojson 2>err && "$ground" check broken.ground'
-for words in '1 outlines cross themselves, and were mended; the first at latitude 44.499' '1 outlines are open, and were closed; the first at' \
+check "broken features are mended or left out" eval 'out=broken.ground make --features broken.geojson --roads broken.geojson 2>err && "$ground" check broken.ground'
+for words in '1 outlines cross themselves, and were mended; the first at latitude 44.499' '3 outlines are open, and were closed; the first at' \
     '[0-9]+ buildings or woods that are points or lines are left out' '1 buildings across the edge of the square are left out' \
-    '1 buildings have a height above 500 m, which was not used' '1 outlines are too small for buildings' '2 features with too few places, or with one that is none'; do
+    '4 buildings have a height that is no number from 0 to 500 m, and was not used; the first at' \
+    '1 woods or waters have outlines that cross, or holes outside of them: .*; the first at latitude 44.4[0-9]*, longitude -71.4' '1 outlines are too small for buildings' '4 features with too few places, or with one that is none' \
+    '1 lines of one point or none, or with a place that is none, are no roads'; do
     check "told: $words" grep -Eq "broken.geojson: $words" err
 done
-check "what is good in a broken map is kept" eval '[ "$(info broken.ground buildings)" = 6 ]'
+check "what is good in a broken map is kept" eval '[ "$(info broken.ground buildings)" = 8 ]'
 check "OpenStreetMap with missing nodes" eval 'out=osm.ground make --features broken.osm 2>err && [ "$(info osm.ground buildings)" = 2 ]'
 check "told: nodes, ways and a road of one point that the map lacks" eval 'grep -q "broken.osm: 1 ways have nodes that the map lacks, and are made of the others; the first is number 12$" err &&
     grep -q "broken.osm: 2 ways have fewer than two nodes in the map, and are left out; the first is number 13$" err &&
