@@ -616,9 +616,9 @@ int features_read(struct features *features, char *const *paths, uint32_t count,
     int result = 0;
     *features = (struct features){0};
     for (uint32_t i = 0; i < count && result == 0; i++)
-        result =
-            vector_map_read(paths[i], grid, VECTOR_MAP_POINTS | VECTOR_MAP_LINES | VECTOR_MAP_AREAS,
-                            "points, lines or areas", take_feature, &r, gaps, error);
+        result = vector_map_read(
+            paths[i], grid, VECTOR_MAP_POINTS | VECTOR_MAP_LINES | VECTOR_MAP_AREAS,
+            "points, lines or areas that become features", take_feature, &r, gaps, error);
     vector_map_track_free(&r.track);
     return result;
 }

@@ -319,6 +319,9 @@ static void tell_features(const struct making *m)
             log_warn("%s: %u %s; the first is number %lld", t->map, t->count,
                      features_trouble_text((enum feature_trouble)i), t->feature);
     }
+    for (uint32_t i = 0; i < m->gaps.outsides; i++)
+        log_warn("%s: nothing of it is used: within the square it has no %s",
+                 m->gaps.outside[i].map, m->gaps.outside[i].what);
     for (int i = 0; i < VECTOR_MAP_GAPS; i++) {
         if (m->gaps.gap[i].count > 0)
             log_warn("%s: %u %s; the first is number %lld", m->gaps.gap[i].map,

@@ -242,7 +242,24 @@ int vector_map_read(const char *path, const struct post_grid *grid, unsigned sha
     }
     if (result == 0 && read == 0)
         result = error_text_set(error, "%s: has no %s", path, what);
+    if (!map.inside && gaps->outsides < VECTOR_MAP_READS_MAX) {
+        gaps->outside[gaps->outsides].map = path;
+        gaps->outside[gaps->outsides++].what = what;
+    }
     return result;
+}
+
+static bool touches_square(const struct vector_map *map, const struct vector_map_track *track)
+{
+    double low[2] = {INFINITY, INFINITY}, high[2] = {-INFINITY, -INFINITY};
+    double side = 2.0 * map->grid->projection.middle_m;
+    for (uint32_t i = 0; i < track->count; i++) {
+        for (int k = 0; k < 2; k++) {
+            low[k] = fmin(low[k], track->place[i][k]);
+            high[k] = fmax(high[k], track->place[i][k]);
+        }
+    }
+    return low[0] <= side && low[1] <= side && high[0] >= 0.0 && high[1] >= 0.0;
 }
 
 bool vector_map_track(struct vector_map *map, OGRGeometryH geometry, struct vector_map_track *track)
@@ -270,6 +287,7 @@ bool vector_map_track(struct vector_map *map, OGRGeometryH geometry, struct vect
         projection_world(&map->grid->projection, y, x, &track->place[i][0], &track->place[i][1]);
     }
     track->count = (uint32_t)count;
+    map->inside = map->inside || touches_square(map, track);
     return true;
 }
 

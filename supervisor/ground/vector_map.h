@@ -34,6 +34,11 @@ struct vector_map_gaps {
         long long id;    /* and OpenStreetMap's number of its way or relation */
     } gap[VECTOR_MAP_GAPS];
     const char *lines_read[VECTOR_MAP_READS_MAX], *areas_read[VECTOR_MAP_READS_MAX];
+    /* Readings in which no track came near the square: of these maps, for these shapes. */
+    struct {
+        const char *map, *what;
+    } outside[VECTOR_MAP_READS_MAX];
+    uint32_t outsides;
 };
 
 /* Returns what is said of gaps: "ways ...". */
@@ -44,6 +49,7 @@ struct vector_map {
     const struct post_grid *grid;
     OGRCoordinateTransformationH to_earth; /* of the layer that is read */
     bool no_memory;
+    bool inside; /* the rectangle around one of the tracks touches the square */
 };
 
 /* Called for each feature. geometry: NULL if it has none. */
@@ -54,7 +60,8 @@ enum vector_map_shapes { VECTOR_MAP_POINTS = 1, VECTOR_MAP_LINES = 2, VECTOR_MAP
 
 /* Reads the layers of a map that may have these shapes, a bit each. what: "lines, of which roads
  * could be made", for the refusal of a map without them. 0, or -1 with the reason: no map that GDAL
- * reads, no known projection, no such layer, no memory. Adds what is missing to the gaps. */
+ * reads, no known projection, no such layer, no memory. Adds what is missing to the gaps, and the
+ * map if none of the tracks that were read of it touches the square. */
 int vector_map_read(const char *path, const struct post_grid *grid, unsigned shapes,
                     const char *what, vector_map_feature *feature, void *context,
                     struct vector_map_gaps *gaps, struct error_text *error);

@@ -55,6 +55,11 @@ for words in '1 outlines cross themselves, and were mended; the first at latitud
     check "told: $words" grep -Eq "broken.geojson: $words" err
 done
 check "what is good in a broken map is kept" eval '[ "$(info broken.ground buildings)" = 8 ]'
+python3 "$here/ground_features.py" maps 46 8 50000 && mkdir alps && mv ./*.geojson ./*.osm alps
+python3 "$here/ground_features.py" maps 44.5 -71.5 50000
+check "a map that lies elsewhere is told, for each use" eval 'out=none.ground make --features alps/village.geojson --roads alps/village.geojson 2>err &&
+    grep -q "alps/village.geojson: nothing of it is used: within the square it has no lines, of which roads could be made$" err &&
+    grep -q "alps/village.geojson: nothing of it is used: within the square it has no points, lines or areas that become features$" err'
 check "OpenStreetMap with missing nodes" eval 'out=osm.ground make --features broken.osm 2>err && [ "$(info osm.ground buildings)" = 2 ]'
 check "told: nodes, ways and a road of one point that the map lacks" eval 'grep -q "broken.osm: 1 ways have nodes that the map lacks, and are made of the others; the first is number 12$" err &&
     grep -q "broken.osm: 2 ways have fewer than two nodes in the map, and are left out; the first is number 13$" err &&
