@@ -10,9 +10,11 @@
 #include "supervisor/ground/out_file.h"
 #include "supervisor/ground/picture.h"
 #include "supervisor/ground/progress.h"
+#include "world/maths/maths.h"
 #include "world/params.h"
 #include "world/terrain/gridsquare.h"
 #include "world/terrain/ground_file.h"
+#include "world/terrain/location.h"
 #include "world/terrain/terrain.h"
 
 #include <ogr_srs_api.h>
@@ -21,6 +23,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Pixels along an edge. */
 #define SIDE_MAX 20001.0
@@ -105,6 +108,34 @@ static void export_file(const char *path, const char *to)
     ground_file_close(&file);
 }
 
+/* Reads two corners of an area [m]: west, north, east, south. Four numbers have three commas, as
+ * have two places in degrees; two of the MGRS have one. */
+static int read_area(const char *text, const struct location_frame *frame, double area[4],
+                     struct error_text *error)
+{
+    char first[2 * LOCATION_TEXT_MAX];
+    struct location place[2];
+    double x[2], z[2];
+    const char *split = strchr(text, ',');
+    if (split && strchr(split + 1, ','))
+        split = strchr(split + 1, ',');
+    if (!split || (size_t)(split - text) >= sizeof first)
+        return error_text_set(error, "has one corner");
+    (void)snprintf(first, sizeof first, "%.*s", (int)(split - text), text);
+    if (location_read(&place[0], first, error) != 0 ||
+        location_read(&place[1], split + 1, error) != 0)
+        return -1;
+    for (int i = 0; i < 2; i++) {
+        if (location_world(&place[i], frame, &x[i], &z[i], error) != 0)
+            return -1;
+    }
+    area[0] = maths_min(x[0], x[1]);
+    area[1] = maths_min(z[0], z[1]);
+    area[2] = maths_max(x[0], x[1]);
+    area[3] = maths_max(z[0], z[1]);
+    return 0;
+}
+
 /* Finds the area of the world and the distance of its points. */
 static struct placing place_world(const struct view *view)
 {
@@ -112,14 +143,13 @@ static struct placing place_world(const struct view *view)
     const double side_m = view->world.terrain.squares.world_m;
     double a[4] = {0.0, 0.0, side_m, side_m};
     double step = given.step_m > 0.0 ? given.step_m : view->world.terrain.spacing_m;
-    char rest;
-    if (given.area &&
-        (sscanf(given.area, "%lf,%lf,%lf,%lf%c", &a[0], &a[1], &a[2], &a[3], &rest) != 4 ||
-         !(a[0] >= 0.0 && a[1] >= 0.0 && a[2] >= a[0] && a[3] >= a[1] && a[2] <= side_m &&
-           a[3] <= side_m)))
-        die_usage("ground export: --area %s: must be X0,Z0,X1,Z1 in metres, 0 to %g, X0 <= X1 and "
-                  "Z0 <= Z1",
-                  given.area, side_m);
+    struct location_frame frame;
+    struct error_text error;
+    location_frame_make(&frame, gateway->latitude_deg, gateway->longitude_deg, side_m);
+    if (given.area && read_area(given.area, &frame, a, &error) != 0)
+        die_usage("ground export: --area %s: must be X0,Z0,X1,Z1 in metres, 0 to %g, or two places "
+                  "in degrees or by the MGRS: %s",
+                  given.area, side_m, error.text);
     double columns = floor((a[2] - a[0]) / step) + 1.0, rows = floor((a[3] - a[1]) / step) + 1.0;
     if (columns > SIDE_MAX || rows > SIDE_MAX)
         die_usage("ground export: --step %g: makes %.0f x %.0f points; at most %.0f along an edge "
@@ -192,7 +222,9 @@ int ground_export_run(int argc, char **argv)
          .flag = &given.cover},
         {"world", "NAME", "the present ground of a world, with its craters and earthworks",
          .text = &given.world, .take = segment_name_option, .letter = 'w'},
-        {"area", "X0,Z0,X1,Z1", "of the world, in metres (default: all of it)",
+        {"area", "PLACE,PLACE",
+         "two corners in the world: X0,Z0,X1,Z1 in metres, degrees with letters, or MGRS (default: "
+         "all of it)",
          .text = &given.area},
         {"step", "METRES", "between points of the world (default: as its posts)",
          .real = &given.step_m, .low = 0.05, .high = 10000.0},

@@ -29,7 +29,7 @@ static const char usage[] =
     "  show FILE PICTURE.png          draw it, or a part of it, as a shaded picture\n"
     "    --size PIXELS  --at PLACE  --metres M  --grey\n"
     "  export FILE OUT.tif            write its heights, or its cover, as a GeoTIFF\n"
-    "    --cover  --world NAME  --area X0,Z0,X1,Z1  --step METRES\n"
+    "    --cover  --world NAME  --area PLACE,PLACE  --step METRES\n"
     "jolon ground VERB --help explains the options of a verb.\n"
     "A scenario runs on a ground file by: terrain = { source = \"file\"; file = \"x.ground\"; };\n";
 

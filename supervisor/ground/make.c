@@ -15,6 +15,7 @@
 #include "supervisor/ground/vector_map.h"
 #include "world/runtime/parse_number.h"
 #include "world/runtime/thread_pool.h"
+#include "world/terrain/location.h"
 #include "world/terrain/terrain.h"
 
 #include <inttypes.h>
@@ -66,9 +67,16 @@ static int take_center(const char *value, struct error_text *error)
     const char *comma = strchr(value, ',');
     snprintf(latitude, sizeof latitude, "%.*s", comma ? (int)(comma - value) : 0, value);
     if (!comma || !parse_real(latitude, -90.0, 90.0, &given.latitude_deg) ||
-        !parse_real(comma + 1, -180.0, 180.0, &given.longitude_deg))
-        return error_text_set(error, "must be LATITUDE,LONGITUDE in degrees, south and west "
-                                     "negative, as 44.27,-71.30");
+        !parse_real(comma + 1, -180.0, 180.0, &given.longitude_deg)) {
+        struct location place;
+        struct error_text reason;
+        if (location_read(&place, value, &reason) != 0 || !place.on_earth)
+            return error_text_set(error, "must be LATITUDE,LONGITUDE in degrees, south and west "
+                                         "negative, as 44.27,-71.30, or with letters, as "
+                                         "44.27N,71.30W, or a reference of the MGRS");
+        given.latitude_deg = place.latitude_deg;
+        given.longitude_deg = place.longitude_deg;
+    }
     if (fabs(given.latitude_deg) > PROJECTION_LATITUDE_MAX_DEG)
         return error_text_set(error, "is too near the pole; allowed: latitudes up to %g degrees",
                               PROJECTION_LATITUDE_MAX_DEG);
@@ -120,8 +128,8 @@ static int read_options(int argc, char **argv)
 {
     static const char *center, *cover, *roads, *features;
     static const struct option_row rows[] = {
-        {"center", "LAT,LON", "the middle of the square, in degrees of WGS 84", .text = &center,
-         .take = take_center},
+        {"center", "LAT,LON", "the middle of the square, in degrees of WGS 84, or by the MGRS",
+         .text = &center, .take = take_center},
         {"side", "METRES", "the side of the square: 1000 to 500000, a multiple of 125",
          .real = &given.side_m, .low = GROUND_SIDE_MIN_M, .high = GROUND_SIDE_MAX_M},
         {"posts", "METRES", "between neighbouring posts (default 31.25)", .real = &given.spacing_m,

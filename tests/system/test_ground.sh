@@ -37,6 +37,12 @@ if command -v gdal_create >/dev/null; then
     check "without a map of cover, the file says that its cover is guessed" eval '[ "$(json cover_guessed <info)" = True ] && grep -q "guessed from slope" err'
     check "the warning counts the posts" grep -q '81 of 81 posts' err
 
+    # 10.5,20.5 in other forms
+    center=10.5N,20.5E
+    check "a middle in degrees with letters is the same" eval 'make level.tif 2>/dev/null && "$ground" info --json x.ground | json hash | grep -qx -- "$(json hash <info)"'
+    center=34PDS4528760739
+    check "a middle by the MGRS lies within a metre" eval 'make level.tif 2>/dev/null && "$ground" info --json x.ground | json latitude_deg | grep -Eq "^10\.(50000|49999)"'
+    center=10.5,20.5
     map sea.tif 20 11 21 10 -ot Int16 -burn -430
     check "ground below the sea level is kept" eval 'make sea.tif 2>/dev/null && "$ground" info --json x.ground | json highest_m | grep -qx -- -430'
     map feet.tif 20 11 21 10 -ot Int16 -burn 14505
@@ -183,6 +189,10 @@ center=44,7
 side=50001 refuses "a side that is no multiple of 125 m" 2 'side 50001: must be a multiple of 125 m' make x.tif
 side=1000 posts=300 refuses "posts that do not divide the side" 2 'posts 300: the side, 1000 m' make x.tif
 side=900 refuses "a side that is too short" 2 '1000 to 500000|1000..500000' make x.tif
+for center in here 100,200 44.5,71.5,3; do
+    refuses "a middle at $center" 2 'center .*: must be LATITUDE,LONGITUDE in degrees, south and west negative.*or a reference of the MGRS' make x.tif
+done
+center=44,7
 refuses "a place that is none" 2 'center' "$ground" make --center 44 --side 1000 --out x.ground x.tif
 
 # --- a real tile -------------------------------------------------------------------------------------------

@@ -165,6 +165,15 @@ TEXT
 "$bin/jolon-world" create --world "$name" --set world.frames=0 --from craters.img >/dev/null 2>&1
 check "the ground of a world is exported" "$ground" export --world "$name" --area 24680,24680,24740,24730 --step 0.5 craters.tif
 "$bin/jolon-world" dump --world "$name" --terrain 24680,24680,24740,24730,0.5 >craters.csv
+corner_at() { # EAST NORTH: the place so many metres from the middle, in degrees with letters
+    echo "$1 $2" | gdaltransform -s_srs '+proj=tmerc +lat_0=44.5 +lon_0=-71.5 +datum=WGS84' -t_srs EPSG:4326 |
+        awk '{ printf "%.9fN,%.9fW", $2, -$1 }'
+}
+for area in 24740,24730,24680,24680 "$(corner_at -320 320),$(corner_at -259.8 269.8)"; do
+    "$ground" export --world "$name" --area "$area" --step 0.5 corners.tif
+    check "the corners $area are the same area" eval 'gdalinfo -json corners.tif | json size | grep -q "\[121, 101\]" &&
+        gdalinfo -json corners.tif | json geoTransform.0 | grep -Eq "^-320\.2[45]" && gdalinfo -json corners.tif | json geoTransform.3 | grep -Eq "^320\.2[45]"'
+done
 "$ground" export --world "$name" --cover all.tif
 refuses_export() { # PATTERN OPTION...: in one line, with status 2
     local pattern=$1
@@ -172,6 +181,7 @@ refuses_export() { # PATTERN OPTION...: in one line, with status 2
     "$ground" export --world "$name" "$@" x.tif 2>err
     [ $? = 2 ] && [ "$(wc -l <err)" = 1 ] && grep -Eq -- "$pattern" err
 }
+check "an area of one corner is refused" refuses_export 'area 10,20: must be X0,Z0,X1,Z1 .* two places' --area 10,20
 check "an area beyond the world is refused" refuses_export 'area 0,0,60000,10: must be X0,Z0,X1,Z1' --area 0,0,60000,10
 check "too fine a step is refused" refuses_export 'step 0.5: makes 100001 x 100001 points' --step 0.5
 "$bin/jolon-world" remove --world "$name" >/dev/null 2>&1

@@ -58,6 +58,19 @@ static bool ends_in_letter(const char *text)
     return isalpha((unsigned char)text[strlen(text) - 1]);
 }
 
+/* Refuses metres below 0, which may be meant for degrees. */
+static int refuse_negative(const struct location *place, const char *text, struct error_text *error)
+{
+    char meant[2 * NUMBER_MAX] = "44.2705N,71.3033W";
+    if (fabs(place->x) <= 90.0 && fabs(place->z) <= 180.0)
+        (void)snprintf(meant, sizeof meant, "%.10g%c,%.10g%c", fabs(place->x),
+                       place->x < 0.0 ? 'S' : 'N', fabs(place->z), place->z < 0.0 ? 'W' : 'E');
+    return error_text_set(error,
+                          "'%.64s': metres east and south of the north-west corner are not below "
+                          "0; degrees need letters, as %s",
+                          text, meant);
+}
+
 int location_read(struct location *place, const char *text, struct error_text *error)
 {
     const char *comma = strchr(text, ','), *zone = text + strspn(text, " ");
@@ -79,9 +92,11 @@ int location_read(struct location *place, const char *text, struct error_text *e
         return 0;
     }
     place->on_earth = false;
-    if (!parse_real(first, -1e9, 1e9, &place->x) || !parse_real(second, -1e9, 1e9, &place->z))
+    /* strtod() would read hexadecimal numbers. */
+    if (strpbrk(text, "xX") || !parse_real(first, -1e9, 1e9, &place->x) ||
+        !parse_real(second, -1e9, 1e9, &place->z))
         return error_text_set(error, "'%.64s': not a place; " FORMS, text);
-    return 0;
+    return place->x < 0.0 || place->z < 0.0 ? refuse_negative(place, text, error) : 0;
 }
 
 /* The distance of two places on a sphere [km], good to 1 %. */

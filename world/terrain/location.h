@@ -34,7 +34,7 @@ void location_frame_make(struct location_frame *frame, double latitude_deg, doub
                          double side_m);
 
 /* Reads a place in one of the three forms. Returns 0, or -1 with the reason: what is wrong and what
- * would be right. Metres are any numbers. */
+ * would be right. Metres are any decimal numbers from 0 on. */
 int location_read(struct location *place, const char *text, struct error_text *error);
 
 /* Gives a place's coordinates in the world [m]. Returns 0, or -1 with the reason if it lies outside
