@@ -123,7 +123,8 @@ def broken(there):
     rows[-1]["geometry"]["coordinates"][0][1] = [-71.5, 95.0]
     rows.append({"type": "Feature", "properties": {"natural": "water"}, "geometry": {"type": "Polygon", "coordinates": [[[-71.5, 44.5], [-71.5, 44.6]]]}})
     rows.append({"type": "Feature", "properties": {"building": "yes", "highway": "track"}, "geometry": None})
-    rows.append({"type": "Feature", "properties": {"natural": "water"}, "geometry": {"type": "Polygon", "coordinates": []}})
+    for shape, empty in ("Polygon", [[]]), ("MultiPolygon", []):
+        rows.append({"type": "Feature", "properties": {"natural": "water"}, "geometry": {"type": shape, "coordinates": empty}})
     with open("broken.geojson", "w", encoding="utf-8") as file:
         json.dump({"type": "FeatureCollection", "features": rows}, file)
 

@@ -50,7 +50,7 @@ check "broken features are mended or left out" eval 'out=broken.ground make --fe
 for words in '1 outlines cross themselves, and were mended; the first at latitude 44.499' '3 outlines are open, and were closed; the first at' \
     '[0-9]+ buildings or woods that are points or lines are left out' '1 buildings across the edge of the square are left out' \
     '4 buildings have a height that is no number from 0 to 500 m, and was not used; the first at' \
-    '1 woods or waters have outlines that cross, or holes outside of them: .*; the first at latitude 44.4[0-9]*, longitude -71.4' '1 outlines are too small for buildings' '4 features with too few places, or with one that is none' \
+    '1 woods or waters have outlines that cross, or holes outside of them: .*; the first at latitude 44.4[0-9]*, longitude -71.4' '1 outlines are too small for buildings' '5 features with too few places, or with one that is none' \
     '1 lines of one point or none, or with a place that is none, are no roads'; do
     check "told: $words" grep -Eq "broken.geojson: $words" err
 done
