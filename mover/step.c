@@ -122,7 +122,6 @@ struct batches {
     const struct row_block *block;
     uint8_t motion[CHECKSUM_ROWS];
     bool harmed;                         /* a hard landing has harmed a row */
-    bool begins;                         /* rows may begin to cruise */
     struct ground_vehicle land, stretch; /* moved by one frame, and by a stretch */
     struct aircraft air, air_stretch;
     struct constant_course course;
@@ -334,7 +333,7 @@ static void move_held(const struct step_context *context, uint32_t i, struct bat
 {
     struct desired_motion desired;
     bool lands = context->world->kinds[context->m->kind[i]].domain == DOMAIN_LAND;
-    bool begins = batches->begins && cruise_start_may(context, i);
+    bool begins = context->cruise_frames > 1 && cruise_start_may(context, i);
     if (!lands && begins) {
         begin_stretch(context, i, batches);
     } else if (!lands || is_sprung(context, i, batches)) {
@@ -485,7 +484,6 @@ static uint64_t move_block(const struct rows *rows, const struct row_block *bloc
     struct batches batches;
     batches.block = block;
     batches.harmed = false;
-    batches.begins = context->cruise_frames > 1;
     think_schedule_run(context, block, batches.motion);
     ground_vehicle_begin(&batches.land, 1);
     ground_vehicle_begin(&batches.stretch, context->cruise_frames);

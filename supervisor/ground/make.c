@@ -221,6 +221,7 @@ static void note_raster(struct making *m, const struct raster *raster, const cha
 
 static void tell_sources(struct making *m)
 {
+    uint32_t rivers = 0;
     for (uint32_t i = 0; i < m->count; i++) {
         if (m->counts.from[i] == 0)
             log_warn(
@@ -242,9 +243,11 @@ static void tell_sources(struct making *m)
         const char *name = strrchr(given.features[i], '/');
         note(m, "features: %s\n", name ? name + 1 : given.features[i]);
     }
+    for (uint32_t i = 0; i < m->features.lines; i++)
+        rivers += m->features.line[i].width_m > 0.0; /* others are coastlines */
     if (given.feature_count > 0)
         note(m, "features: %u buildings, %u plants and poles, %u areas, %u rivers\n",
-             m->features.buildings.count, m->plants.count, m->features.areas, m->features.lines);
+             m->features.buildings.count, m->plants.count, m->features.areas, rivers);
     if (m->sea.posts > 0)
         note(m, "sea: %" PRIu64 " posts beyond coastlines\n", m->sea.posts);
     if (given.licence)

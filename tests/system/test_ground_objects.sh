@@ -145,6 +145,7 @@ covers() { # at places on the way from the north-west corner, in steps of 10 m: 
 }
 check "coastlines part land and sea" eval 'coast coast && [ "$(covers)" = lslslsll ] && ! grep -q coastlines err'
 check "the file says how much is sea" eval '"$ground" info coast.ground | grep -Eq "^sea: [0-9]+ posts beyond coastlines"'
+check "a coastline is no river" eval '"$ground" info coast.ground | grep -Eq "^features: .* 0 rivers$"'
 check "coastlines that contradict each other are told" eval \
     'coast torn && grep -q "coastlines contradict each other at [0-9]* places .* the first at latitude 44.50" err'
 check "a coastline between two rows of posts parts land and sea" eval \
