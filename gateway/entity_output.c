@@ -4,7 +4,6 @@
 #include "gateway/cot_event.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
-#include "world/entity/cruise.h"
 #include "world/entity/disabled.h"
 #include "world/entity/remote.h"
 #include "world/maths/random.h"
@@ -638,14 +637,14 @@ void entity_output_follow(struct entity_output *entities, const struct view *vie
     double scale = snapshot->head.time_scale;
     /* Where the rate does not suffice, each waits for its turn. */
     if (entities->cut_short || entities->followed_count == 0 ||
-        !snapshot_take_rows(&entities->snapshot, view, entities->followed,
-                            entities->followed_count) ||
+        !snapshot_take_row_poses(&entities->snapshot, view, entities->followed,
+                                 entities->followed_count) ||
         snapshot->head.paused || snapshot->head.time_scale != scale)
         return; /* the next pass sees it */
     entities->frame_ns = (uint64_t)((frame_s(snapshot, &view->world) + entities->offset_s) * 1e9);
     for (uint32_t k = 0; k < entities->followed_count; k++) {
         uint32_t row = entities->followed[k];
-        if (entities->sent[row].id == e->id[row] && !cruise_goes(e, row, snapshot->head.tick) &&
+        if (entities->sent[row].id == e->id[row] &&
             !send_row(entities, &view->world, row, now_ns, true))
             return;
     }

@@ -57,11 +57,16 @@ bool cruise_pose_stop(const struct table_writer *writer, const struct world *wor
     return true;
 }
 
+void cruise_pose_settle_row(const struct entities *own, const struct world *world,
+                            const struct crater_index *craters, uint32_t i, uint64_t tick)
+{
+    if (cruise_goes(own, i, tick))
+        settle(own, world, craters, i, tick);
+}
+
 void cruise_pose_settle(const struct entities *own, const struct world *world,
                         const struct crater_index *craters, uint32_t used, uint64_t tick)
 {
-    for (uint32_t i = 0; world->params->cruise && i < used; i++) {
-        if (cruise_goes(own, i, tick))
-            settle(own, world, craters, i, tick);
-    }
+    for (uint32_t i = 0; world->params->cruise && i < used; i++)
+        cruise_pose_settle_row(own, world, craters, i, tick);
 }

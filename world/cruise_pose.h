@@ -31,4 +31,8 @@ bool cruise_pose_stop(const struct table_writer *writer, const struct world *wor
 void cruise_pose_settle(const struct entities *own, const struct world *world,
                         const struct crater_index *craters, uint32_t used, uint64_t tick);
 
+/* Does the same for row i alone. */
+void cruise_pose_settle_row(const struct entities *own, const struct world *world,
+                            const struct crater_index *craters, uint32_t i, uint64_t tick);
+
 #endif

@@ -114,8 +114,20 @@ int snapshot_take_poses(struct snapshot *snapshot, const struct view *view)
     return result;
 }
 
-bool snapshot_take_rows(struct snapshot *snapshot, const struct view *view, const uint32_t *rows,
+/* Sets the columns of these rows, which are those of the head's frame, to where they are in it. */
+static void settle_rows(struct snapshot *snapshot, const struct view *view, const uint32_t *rows,
                         uint32_t count)
+{
+    if (!view->world.params->cruise)
+        return;
+    crater_index_update(&snapshot->craters, snapshot->head.crater_count);
+    for (uint32_t k = 0; k < count; k++)
+        cruise_pose_settle_row(&snapshot->entities, &view->world, &snapshot->craters, rows[k],
+                               snapshot->head.tick);
+}
+
+bool snapshot_take_row_poses(struct snapshot *snapshot, const struct view *view,
+                             const uint32_t *rows, uint32_t count)
 {
     for (int i = 0; i < TRIES; i++) {
         uint64_t frame = segment_load(&view->commit->commit);
@@ -127,6 +139,7 @@ bool snapshot_take_rows(struct snapshot *snapshot, const struct view *view, cons
             entities_copy(&snapshot->entities, &from->entities, rows[k], 1);
         if (still_whole(view, frame) && head.frame == frame) {
             snapshot->head = head;
+            settle_rows(snapshot, view, rows, count);
             return true;
         }
         snapshot->overtaken++;

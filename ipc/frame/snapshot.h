@@ -37,13 +37,13 @@ void snapshot_settle_poses(struct snapshot *snapshot, const struct view *view);
 /* Copies the last committed frame with such places. */
 int snapshot_take_poses(struct snapshot *snapshot, const struct view *view);
 
-/* Brings the head and these rows of the last copy to the last committed frame, without its checksum
- * and without contacts and damage of fixed objects: for readers that follow a few rows from frame
- * to frame, and take the next whole copy soon. A row that cruises has the end of its stretch.
+/* Brings the head and these rows of the last copy to the last committed frame, with the places of
+ * those that cruise, without its checksum and without contacts and damage of fixed objects: for
+ * readers that follow a few rows from frame to frame, and take the next whole copy soon.
  * Returns false if there is no later frame, or if the world wrote the buffer during 100 copies in a
  * row. */
-bool snapshot_take_rows(struct snapshot *snapshot, const struct view *view, const uint32_t *rows,
-                        uint32_t count);
+bool snapshot_take_row_poses(struct snapshot *snapshot, const struct view *view,
+                             const uint32_t *rows, uint32_t count);
 
 /* Copies the head alone, with the same errors. */
 int snapshot_head(struct state_head *head, const struct view *view);

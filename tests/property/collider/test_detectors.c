@@ -13,9 +13,9 @@
 #define FRAMES 300
 
 /* 300 vehicles on 400 m x 400 m of trees, a third of which never gives way, so that there are
- * always collisions. */
+ * always collisions. None cruises, because only the method "swept" knows that. */
 static const char battle[] =
-    "world = { seed = %llu; hz = 20.0; capacity = 1024; };\n"
+    "world = { seed = %llu; hz = 20.0; capacity = 1024; cruise = false; };\n"
     "objects = ( { kind = \"building\"; at = [25000.0, 25000.0]; },\n"
     "            { kind = \"tree\"; at = [24900.0, 25050.0]; },\n"
     "            { kind = \"pine\"; at = [24950.0, 24920.0]; },\n"

@@ -109,17 +109,17 @@ static void test_rows_of_a_snapshot_go_on(void **state)
     make_frame(6, 0);
     assert_int_equal(snapshot_init(&snapshot, &view), 0);
     assert_int_equal(snapshot_take(&snapshot, &view), 0);
-    assert_false(snapshot_take_rows(&snapshot, &view, rows, 2)); /* there is no later frame */
+    assert_false(snapshot_take_row_poses(&snapshot, &view, rows, 2)); /* there is no later frame */
     make_frame(6, 0);
     bare_view_begin(&collider)->entities.x[4] = -1.0; /* a frame that is being made */
-    assert_true(snapshot_take_rows(&snapshot, &view, rows, 2));
+    assert_true(snapshot_take_row_poses(&snapshot, &view, rows, 2));
     assert_int_equal(snapshot.head.frame, 2);
     for (uint32_t row = 0; row < 6; row++)
         assert_true(snapshot.entities.x[row] == (row == 4 || row == 1 ? 2.0 : 1.0) + row);
-    assert_false(snapshot_take_rows(&snapshot, &view, rows, 2));
+    assert_false(snapshot_take_row_poses(&snapshot, &view, rows, 2));
     atomic_store(&view.commit->writing, 4); /* the buffer of frame 2 is being written */
     snapshot.head.frame = 1;
-    assert_false(snapshot_take_rows(&snapshot, &view, rows, 2));
+    assert_false(snapshot_take_row_poses(&snapshot, &view, rows, 2));
     assert_int_equal(snapshot.head.frame, 1);
     snapshot_free(&snapshot);
 }
