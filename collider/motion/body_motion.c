@@ -17,8 +17,8 @@
 #include <string.h>
 
 /* The ground on the way of a stretch is at most this share of its length above or below its ends:
- * no vehicle on easy ground is on a steeper slope (mover/motion/chassis.h); others climb evenly.
- * And the arc is within this share of its chord (mover/motion limits the turn). */
+ * no vehicle on easy ground is on a steeper slope (mover/motion/chassis.h). The climb of others
+ * changes evenly. And the arc is within this share of its chord (mover/motion limits the turn). */
 #define STRETCH_SLOPE 0.5
 #define STRETCH_ARC   0.1
 
@@ -134,7 +134,9 @@ struct path body_motion_stretch(const struct body_motion *motion, uint32_t row)
         cruise_position(n, row, motion->next->head->tick - 1, world_dt_s(motion->world));
     double x = to.x - at.x, z = to.z - at.z, length = sqrt(x * x + z * z);
     bool on_land = motion->world->kinds[n->kind[row]].domain == DOMAIN_LAND;
-    struct vec3 most = {STRETCH_ARC * length, on_land ? STRETCH_SLOPE * length : 0.0,
+    double left_s = cruise_left_s(n, row, motion->next->head->tick - 1, world_dt_s(motion->world));
+    double sag_m = fabs((double)n->cruise_climb_mps2[row]) * left_s * left_s / 8.0;
+    struct vec3 most = {STRETCH_ARC * length, on_land ? STRETCH_SLOPE * length : sag_m,
                         STRETCH_ARC * length};
     struct vec3 low = {maths_min(at.x, to.x), maths_min(at.y, to.y), maths_min(at.z, to.z)};
     struct vec3 high = {maths_max(at.x, to.x), maths_max(at.y, to.y), maths_max(at.z, to.z)};

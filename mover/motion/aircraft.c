@@ -275,6 +275,21 @@ static void carry_spin(struct entities *m, uint32_t i, const struct aircraft *ba
     m->spin_z[i] = turned.z;
 }
 
+/* Notes in the row of lane l, which is as it was, how it flies a stretch. */
+static void begin_stretch(const struct step_context *context, const struct aircraft *batch, int l)
+{
+    const struct entities *m = context->m;
+    uint32_t i = batch->row[l];
+    const struct cruise_changes changes = {
+        .turned_rad = batch->turned.lane[l],
+        .gain_mps2 = batch->gain_mps2.lane[l],
+        .climbed_mps = batch->vy.lane[l] - m->vy[i],
+        .pitched_rad = batch->pitch.lane[l] - m->pitch[i],
+        .rolled_rad = batch->roll.lane[l] - m->roll[i],
+    };
+    kinematics_cruise(context, i, &changes);
+}
+
 static void write_rows(const struct step_context *context, const struct aircraft *batch)
 {
     struct entities *m = context->m;
@@ -283,7 +298,7 @@ static void write_rows(const struct step_context *context, const struct aircraft
         if (batch->refused.lane[l])
             continue;
         if (batch->frames > 1)
-            kinematics_cruise(context, i, batch->turned.lane[l], batch->gain_mps2.lane[l]);
+            begin_stretch(context, batch, l);
         else
             m->cruise_tick[i] = 0;
         carry_spin(m, i, batch, l);
@@ -399,13 +414,13 @@ static inline void fly(struct aircraft *batch, struct moving *moving, double dt_
 /* A stretch is refused whose motion is not that of many frames: its end shows how even it is. */
 #define STRETCH_TURN_RAD  0.3  /* it turns by no more */
 #define STRETCH_GAIN_MPS  3.0  /* and gains or loses no more speed */
-#define STRETCH_CLIMB_MPS 0.5  /* its climb changes by no more, at once: 30 m/s2 at 60 Hz */
-#define STRETCH_LEAN_RAD  0.03 /* and its bank and pitch, by two degrees */
+#define STRETCH_CLIMB_MPS 3.0  /* its climb changes by no more */
+#define STRETCH_LEAN_RAD  0.15 /* and its bank and pitch, by nine degrees */
 #define STRETCH_SLIP_MPS  0.01 /* it slips sideways no faster */
 #define STRETCH_SLOPE     0.6  /* the ground under it is no steeper */
 #define STRETCH_OVER_M    3.0  /* it stays so high over it, and over the rim of any new crater */
 
-/* Replaces the position by that at the end of an arc on which the speed changes evenly. */
+/* Replaces the position by that at the end of an arc on which speed and climb change evenly. */
 static void find_arc_end(struct aircraft *batch, const struct entities *m, int l,
                          double forward_mps, double dt_s)
 {
@@ -417,6 +432,7 @@ static void find_arc_end(struct aircraft *batch, const struct entities *m, int l
     const struct vec3 to =
         cruise_end(from, m->heading[i], turned, 0.5 * (before_mps + forward_mps) * dt_s);
     batch->x.lane[l] = to.x;
+    batch->y.lane[l] = from.y + 0.5 * (m->vy[i] + batch->vy.lane[l]) * dt_s;
     batch->z.lane[l] = to.z;
     batch->turned.lane[l] = turned;
     batch->gain_mps2.lane[l] = (forward_mps - before_mps) / dt_s;
@@ -433,9 +449,9 @@ static bool flies_evenly(const struct aircraft *batch, const struct entities *m,
            fabs(batch->pitch.lane[l] - m->pitch[i]) <= STRETCH_LEAN_RAD;
 }
 
-/* Returns true if nothing of lane l can touch the ground, nor a new crater there: of the ground
- * between two points no more is over the higher one than the steepest slope makes of half the way.
- */
+/* Returns true if nothing of lane l can touch the ground, nor a new crater there. It is over all
+ * that stands in these squares; or of the ground between two points no more is over the higher one
+ * than the steepest slope makes of half the way. */
 static bool stays_over_ground(const struct step_context *context, const struct aircraft *batch,
                               int l)
 {
@@ -448,7 +464,11 @@ static bool stays_over_ground(const struct step_context *context, const struct a
                           maths_max(x, to_x), maths_max(z, to_z));
     double way_m = sqrt((to_x - x) * (to_x - x) + (to_z - z) * (to_z - z));
     double ground_m = maths_max(batch->ground.lane[l], kinematics_ground(context, to_x, to_z));
-    double low_m = maths_min(m->y[i], batch->y.lane[l]) - kind->bound_m - STRETCH_OVER_M;
+    double sag_m = fabs(batch->vy.lane[l] - m->vy[i]) * context->dt_s * batch->frames / 8.0;
+    double low_m = maths_min(m->y[i], batch->y.lane[l]) - sag_m - kind->bound_m - STRETCH_OVER_M;
+    if (square_bounds_within(&context->line_of_sight->skyline, box,
+                             square_bounds_below_height(low_m)))
+        return true;
     return low_m > ground_m + 0.5 * STRETCH_SLOPE * way_m &&
            square_bounds_within(context->slopes, box, square_bounds_below_slope(STRETCH_SLOPE));
 }

@@ -435,7 +435,9 @@ static void write_rows(const struct step_context *context, const struct ground_v
         if (batch->refused.lane[l])
             continue;
         if (batch->frames > 1)
-            kinematics_cruise(context, i, batch->turned.lane[l], batch->gain_mps2.lane[l]);
+            kinematics_cruise(context, i,
+                              &(struct cruise_changes){.turned_rad = batch->turned.lane[l],
+                                                       .gain_mps2 = batch->gain_mps2.lane[l]});
         else
             m->cruise_tick[i] = 0;
         set_down(context, batch, l);

@@ -86,11 +86,15 @@ bool kinematics_burn(const struct step_context *context, uint32_t i, double shar
     return m->fuel_l[i] > 0.0;
 }
 
-void kinematics_cruise(const struct step_context *context, uint32_t i, double turned_rad,
-                       double gain_mps2)
+void kinematics_cruise(const struct step_context *context, uint32_t i,
+                       const struct cruise_changes *changes)
 {
     struct entities *m = context->m;
+    const double per_s = 1.0 / (context->dt_s * (double)context->cruise_frames);
     m->cruise_tick[i] = (uint32_t)context->tick - 1 + context->cruise_frames;
-    m->cruise_rps[i] = turned_rad / (context->dt_s * (double)context->cruise_frames);
-    m->cruise_mps2[i] = gain_mps2;
+    m->cruise_rps[i] = changes->turned_rad * per_s;
+    m->cruise_mps2[i] = changes->gain_mps2;
+    m->cruise_climb_mps2[i] = (float)(changes->climbed_mps * per_s);
+    m->cruise_pitch_rps[i] = (float)(changes->pitched_rad * per_s);
+    m->cruise_roll_rps[i] = (float)(changes->rolled_rad * per_s);
 }

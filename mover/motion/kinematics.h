@@ -69,9 +69,14 @@ static inline bool kinematics_hover_burns(const struct step_context *context, ui
  * (fuel_l 0) always has fuel. */
 bool kinematics_burn(const struct step_context *context, uint32_t i, double share);
 
-/* Notes in row i that its stretch begins in this frame, and how it turns [rad] and gains speed
- * [m/s2] in it. */
-void kinematics_cruise(const struct step_context *context, uint32_t i, double turned_rad,
-                       double gain_mps2);
+/* What a row changes by while it cruises (world/entity/cruise.h). */
+struct cruise_changes {
+    double turned_rad, gain_mps2;                /* in all; a second */
+    double climbed_mps, pitched_rad, rolled_rad; /* in all, of aircraft; else 0 */
+};
+
+/* Notes in row i that its stretch begins in this frame, and what changes in it. */
+void kinematics_cruise(const struct step_context *context, uint32_t i,
+                       const struct cruise_changes *changes);
 
 #endif

@@ -290,7 +290,8 @@ static bool end_arc(const struct step_context *context, uint32_t i, const struct
     const struct vec3 from = {row->x, m->y[i], row->z};
     entities_set_position(
         m, i, cruise_end(from, row->heading, turned, (before->forward + 0.5 * gain_mps) * time_s));
-    kinematics_cruise(context, i, turned, gain_mps / time_s);
+    kinematics_cruise(
+        context, i, &(struct cruise_changes){.turned_rad = turned, .gain_mps2 = gain_mps / time_s});
     struct grounding end = find_grounding(context, kind, &after, entities_position(m, i));
     return fabs(turned) <= STRETCH_TURN_RAD && fabs(gain_mps) <= STRETCH_GAIN_MPS &&
            fabs(m->roll[i] - row->roll) <= STRETCH_HEEL_RAD &&

@@ -3,8 +3,9 @@
  * A vehicle that goes on as it did is moved by a whole stretch of half a second. Its columns then
  * hold where it is at the end of the stretch, which cruise_tick names, and nothing writes to its
  * row before that. Where it is at a tick on the way follows from the row: it turns and gains speed
- * evenly, so it is on an arc, and climbs evenly. Height, pitch and roll of a land vehicle are those
- * of the ground there (world/cruise_pose.h); others hold their pitch and roll.
+ * evenly, so it is on an arc. Height, pitch and roll of a land vehicle are those of the ground
+ * there (world/cruise_pose.h). Those of a ship change little; the climb, the pitch and the roll of
+ * an aircraft change evenly.
  *
  * The mover begins a stretch, and it ends by itself. The collider ends it in the frame in which it
  * begins if anything stands, rests or cruises where it leads, and later when a body comes there. So
@@ -73,7 +74,7 @@ static inline struct vec3 cruise_position(const struct entities *e, uint32_t i, 
     way_m = cruise_chord((forward_mps - 0.5 * e->cruise_mps2[i] * left_s) * left_s, half_rad);
     maths_sincos(e->heading[i] - half_rad, &sine, &cosine);
     at.x -= way_m * sine;
-    at.y -= e->vy[i] * left_s;
+    at.y -= (e->vy[i] - 0.5 * (double)e->cruise_climb_mps2[i] * left_s) * left_s;
     at.z += way_m * cosine;
     return at;
 }
@@ -87,6 +88,12 @@ static inline double cruise_heading(const struct entities *e, uint32_t i, uint64
                         : e->heading[i];
 }
 
+/* Returns how fast the row climbs so long before the end of its stretch [m/s]. */
+static inline double cruise_climb(const struct entities *e, uint32_t i, double left_s)
+{
+    return e->vy[i] - (double)e->cruise_climb_mps2[i] * left_s;
+}
+
 /* Returns the velocity of the row at the tick [m/s]. */
 static inline struct vec3 cruise_velocity(const struct entities *e, uint32_t i, uint64_t tick,
                                           double dt_s)
@@ -98,7 +105,7 @@ static inline struct vec3 cruise_velocity(const struct entities *e, uint32_t i, 
     maths_sincos(e->heading[i], &sine, &cosine);
     double forward_mps = velocity.x * sine - velocity.z * cosine - e->cruise_mps2[i] * left_s;
     maths_sincos(e->heading[i] - e->cruise_rps[i] * left_s, &sine, &cosine);
-    return (struct vec3){forward_mps * sine, velocity.y, -forward_mps * cosine};
+    return (struct vec3){forward_mps * sine, cruise_climb(e, i, left_s), -forward_mps * cosine};
 }
 
 #endif

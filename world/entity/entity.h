@@ -84,6 +84,9 @@ enum damage { DAMAGE_NONE, DAMAGE_LOW, DAMAGE_MED, DAMAGE_HIGH, DAMAGE_DESTROYED
                            /* far the engine of an aircraft is below its full power (spool.h) */   \
     X(float, ease)         /* 0..1: share of its speed that it gives up for obstacles ahead */     \
     X(float, bump_heading) /* [rad] away from the obstacle that it ran into */                     \
+    X(float, cruise_climb_mps2) /* [m/s2] by which an aircraft's climb grows while it cruises */   \
+    X(float, cruise_pitch_rps)  /* [rad/s] by which its pitch and its roll grow then */            \
+    X(float, cruise_roll_rps)                                                                      \
     X(uint64_t, driver) /* the one source of commands that drives it, until until_tick; 0: none */ \
     X(uint32_t, id)                                                                                \
     X(uint32_t, target_slot) /* what it attacks, flees, or homes on */                             \

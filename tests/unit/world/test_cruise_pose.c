@@ -76,6 +76,27 @@ static void test_a_copy_shows_all_where_they_are(void **state)
     assert_int_equal(committed.entities.cruise_tick[tank], 0);
 }
 
+/* A helicopter leans into its turn and lowers its nose on the way. */
+static void test_an_aircraft_leans_evenly(void **state)
+{
+    (void)state;
+    uint32_t i = fixture_put(&f, (struct fixture_entity){.kind = "helicopter",
+                                                         .at = {25000.0, 500.0, 26000.0},
+                                                         .velocity = {40.0, 0.0, 0.0},
+                                                         .behaviour = BEHAVIOUR_PATROL});
+    struct state committed = fixture_state(&f);
+    struct entities *e = &committed.entities;
+    uint64_t tick = committed.head->tick;
+    e->cruise_tick[i] = (uint32_t)tick + 12; /* 0.2 s */
+    e->pitch[i] = -0.1, e->cruise_pitch_rps[i] = -0.25f;
+    e->roll[i] = 0.2, e->cruise_roll_rps[i] = 0.5f;
+    struct cruise_pose pose = cruise_pose_of(&f.view.world, NULL, e, i, tick);
+    assert_true(fabs(pose.pitch_rad + 0.05) < 1e-9 && fabs(pose.roll_rad - 0.1) < 1e-9);
+    cruise_pose_settle_row(e, &f.view.world, NULL, i, tick + 6);
+    assert_true(fabs(e->pitch[i] + 0.075) < 1e-9 && fabs(e->roll[i] - 0.15) < 1e-9);
+    assert_int_equal(e->cruise_tick[i], 0);
+}
+
 #define IN_WORLD(test)                                                                             \
     cmocka_unit_test_prestate_setup_teardown(test, open_world, fixture_teardown, &f)
 
@@ -85,6 +106,7 @@ int main(void)
         IN_WORLD(test_its_pose_is_that_of_the_ground_on_the_way),
         IN_WORLD(test_a_stretch_ends_where_it_is),
         IN_WORLD(test_a_copy_shows_all_where_they_are),
+        IN_WORLD(test_an_aircraft_leans_evenly),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

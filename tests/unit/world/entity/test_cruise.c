@@ -115,6 +115,21 @@ static void test_it_turns_evenly_and_gains_speed(void **state)
     }
 }
 
+/* A climb that changes evenly: its height is that of the mean climb of what is left. */
+static void test_an_aircraft_climbs_ever_faster(void **state)
+{
+    (void)state;
+    set_stretch(0.0, 0.0);
+    e.cruise_climb_mps2[0] = 4.0f;
+    for (uint64_t tick = ENDS - 30; tick < ENDS; tick += 5) {
+        double left_s = cruise_left_s(&e, 0, tick, DT_S);
+        double climb = cruise_velocity(&e, 0, tick, DT_S).y;
+        assert_true(fabs(climb - (0.5 - 4.0 * left_s)) < EXACT_M);
+        assert_true(fabs(cruise_position(&e, 0, tick, DT_S).y -
+                         (50.0 - 0.5 * (climb + 0.5) * left_s)) < EXACT_M);
+    }
+}
+
 static void test_velocity_and_heading_on_the_way(void **state)
 {
     (void)state;
@@ -142,6 +157,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_the_columns_hold_the_end, make_row, free_row),
         cmocka_unit_test_setup_teardown(test_straight_on_at_one_speed, make_row, free_row),
         cmocka_unit_test_setup_teardown(test_it_turns_evenly_and_gains_speed, make_row, free_row),
+        cmocka_unit_test_setup_teardown(test_an_aircraft_climbs_ever_faster, make_row, free_row),
         cmocka_unit_test_setup_teardown(test_velocity_and_heading_on_the_way, make_row, free_row),
         cmocka_unit_test(test_chord),
     };
