@@ -313,15 +313,41 @@ static bool is_sprung(const struct step_context *context, uint32_t i, const stru
     return (spins || m->flags[i] & ENTITY_FLAG_CHASSIS) && chassis_takes(context, i, false);
 }
 
+/* Moves a land vehicle by a stretch of so many frames with those that wait for the same. */
+static void begin_land_stretch(const struct step_context *context, uint32_t i, uint32_t frames,
+                               struct batches *batches)
+{
+    if (batches->stretch.frames != frames) {
+        if (batches->stretch.count > 0)
+            move_stretch(context, batches);
+        ground_vehicle_begin(&batches->stretch, frames);
+    }
+    if (ground_vehicle_take_held(context, &batches->stretch, i))
+        move_stretch(context, batches);
+}
+
+static void begin_air_stretch(const struct step_context *context, uint32_t i,
+                              const struct desired_motion *desired, uint32_t frames,
+                              struct batches *batches)
+{
+    if (batches->air_stretch.frames != frames) {
+        if (batches->air_stretch.count > 0)
+            move_air_stretch(context, batches);
+        aircraft_begin(&batches->air_stretch, frames);
+    }
+    if (aircraft_take(context, &batches->air_stretch, i, desired))
+        move_air_stretch(context, batches);
+}
+
 /* Moves a ship or an aircraft by a stretch, or by one frame if that is refused. */
-static void begin_stretch(const struct step_context *context, uint32_t i, struct batches *batches)
+static void begin_stretch(const struct step_context *context, uint32_t i, uint32_t frames,
+                          struct batches *batches)
 {
     struct desired_motion desired;
     agent_controls_motion(context, i, &desired);
     if (context->world->kinds[context->m->kind[i]].domain == DOMAIN_AIR) {
-        if (aircraft_take(context, &batches->air_stretch, i, &desired))
-            move_air_stretch(context, batches);
-    } else if (ship_stretch(context, i, &desired)) {
+        begin_air_stretch(context, i, &desired, frames, batches);
+    } else if (ship_stretch(context, i, &desired, frames)) {
         batches->motion[i - batches->block->first] = MOTION_CRUISE;
     } else {
         move_as_desired(context, i, &desired, batches);
@@ -333,15 +359,14 @@ static void move_held(const struct step_context *context, uint32_t i, struct bat
 {
     struct desired_motion desired;
     bool lands = context->world->kinds[context->m->kind[i]].domain == DOMAIN_LAND;
-    bool begins = context->cruise_frames > 1 && cruise_start_may(context, i);
-    if (!lands && begins) {
-        begin_stretch(context, i, batches);
+    uint32_t frames = context->cruise_frames > 1 ? cruise_start_frames(context, i) : 0;
+    if (!lands && frames > 0) {
+        begin_stretch(context, i, frames, batches);
     } else if (!lands || is_sprung(context, i, batches)) {
         agent_controls_motion(context, i, &desired);
         move_as_desired(context, i, &desired, batches);
-    } else if (begins) {
-        if (ground_vehicle_take_held(context, &batches->stretch, i))
-            move_stretch(context, batches);
+    } else if (frames > 0) {
+        begin_land_stretch(context, i, frames, batches);
     } else if (ground_vehicle_take_held(context, &batches->land, i)) {
         move_land(context, batches);
     }

@@ -25,9 +25,8 @@ struct cruise_pose cruise_pose_of(const struct world *world, const struct crater
     pose.at = cruise_position(e, i, tick, dt_s);
     pose.heading_rad = cruise_heading(e, i, tick, dt_s);
     if (world->kinds[e->kind[i]].domain != DOMAIN_LAND) {
-        double left_s = cruise_left_s(e, i, tick, dt_s);
-        pose.pitch_rad -= (double)e->cruise_pitch_rps[i] * left_s;
-        pose.roll_rad -= (double)e->cruise_roll_rps[i] * left_s;
+        pose.pitch_rad = cruise_pitch(e, i, tick, dt_s);
+        pose.roll_rad = cruise_roll(e, i, tick, dt_s);
         return pose;
     }
     struct rest_pose stands = rest_pose_of(&world->terrain, craters, &world->kinds[e->kind[i]],

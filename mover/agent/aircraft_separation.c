@@ -28,10 +28,10 @@ struct clearance {
 };
 
 /* Its acceleration [m/s2] towards its right in a turn, by its bank. */
-static double turning_mps2(const struct entities *w, uint32_t i)
+static double turning_mps2(const struct step_context *context, const struct entities *w, uint32_t i)
 {
-    double sine, cosine;
-    maths_sincos(maths_clamp(w->roll[i], -STEEPEST_RAD, STEEPEST_RAD), &sine, &cosine);
+    double roll = cruise_roll(w, i, step_context_tick(context, w), context->dt_s), sine, cosine;
+    maths_sincos(maths_clamp(roll, -STEEPEST_RAD, STEEPEST_RAD), &sine, &cosine);
     return GRAVITY_MPS2 * sine / cosine;
 }
 
@@ -44,9 +44,10 @@ static struct course course_of(const struct step_context *context, uint32_t i)
 {
     const struct entities *w = &context->committed->entities;
     const struct vec3 at = step_context_position(context, w, i);
-    double right = turning_mps2(w, i), sine, cosine;
-    maths_sincos(w->heading[i], &sine, &cosine);
-    return (struct course){at.x, at.z, w->vx[i], w->vz[i], right * cosine, right * sine};
+    const struct vec3 velocity = step_context_velocity(context, w, i);
+    double right = turning_mps2(context, w, i), sine, cosine;
+    maths_sincos(step_context_heading(context, w, i), &sine, &cosine);
+    return (struct course){at.x, at.z, velocity.x, velocity.z, right * cosine, right * sine};
 }
 
 /* Returns true if the other row's course comes near within AHEAD_S. */
@@ -76,12 +77,13 @@ static void keep_from(const struct step_context *context, uint32_t i, uint32_t o
     const struct entities *w = &context->committed->entities;
     const struct kind *kinds = context->world->kinds;
     double its_y = step_context_position(context, w, other).y, up = w->y[i] - its_y;
+    double its_vy = step_context_velocity(context, w, other).y;
     if (fabs(up) > FAR_M || !meets(context, i, other, own))
         return;
-    double soon = up + LEAD_S * (w->vy[i] - w->vy[other]);
+    double soon = up + LEAD_S * (w->vy[i] - its_vy);
     bool above = fabs(soon) > LEVEL_M ? soon > 0.0 : i < other;
     double gap = 0.5 * (kinds[w->kind[i]].height_m + kinds[w->kind[other]].height_m) + OVER_M;
-    double nearing = up > 0.0 ? w->vy[other] - w->vy[i] : w->vy[i] - w->vy[other];
+    double nearing = up > 0.0 ? its_vy - w->vy[i] : w->vy[i] - its_vy;
     gap += NEARING_S * maths_max(nearing, 0.0);
     double middle = 0.5 * (w->y[i] + its_y);
     if (above)

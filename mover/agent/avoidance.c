@@ -391,8 +391,9 @@ static void see_vehicle(const struct step_context *context, uint32_t i, struct l
         !may_meet(look, PRESENT, dx, dz, vx, vz, reach))
         return;
     struct vec3 off = vec3_sub(step_context_position(context, w, j), entities_position(m, i));
+    struct vec3 velocity = step_context_velocity(context, w, j);
     if (fabs(off.y) <= apart)
-        limit_by_moving(look, off.x, off.z, w->vx[j], w->vz[j], reach);
+        limit_by_moving(look, off.x, off.z, velocity.x, velocity.z, reach);
 }
 
 static void see_vehicles(const struct step_context *context, uint32_t i, struct look *look)

@@ -41,7 +41,8 @@ bool fire_control_suits(const struct step_context *context, uint32_t i, uint32_t
         return false;
     case AIR_TARGETS_SLOW:
         return other->min_speed_mps == 0.0 &&
-               vec3_length(entities_velocity(&context->committed->entities, target)) < SLOW_MPS;
+               vec3_length(step_context_velocity(context, &context->committed->entities, target)) <
+                   SLOW_MPS;
     default:
         return true;
     }

@@ -210,11 +210,12 @@ void formation_keeping_follow(const struct step_context *context, uint32_t i,
     double ahead, right, sine, cosine;
     formation_place((enum formation_shape)formation->shape, formation->spacing_m,
                     column ? 1 : post.rank, &ahead, &right);
-    maths_sincos(w->heading[by], &sine, &cosine);
+    maths_sincos(step_context_heading(context, w, by), &sine, &cosine);
     struct vec3 at = step_context_position(context, w, by);
+    struct vec3 velocity = step_context_velocity(context, w, by);
     m->goal_x[i] = at.x + ahead * sine + right * cosine;
     m->goal_z[i] = at.z - ahead * cosine + right * sine;
-    double speed = maths_max(0.0, w->vx[by] * sine - w->vz[by] * cosine);
+    double speed = maths_max(0.0, velocity.x * sine - velocity.z * cosine);
     keep_place(context, i, speed, sine, cosine, desired);
     double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
     if (column && dx * dx + dz * dz > FAR_M * FAR_M)

@@ -7,6 +7,7 @@
 #define SPREAD      7u   /* frames between the turns of two neighbouring groups: no divisor of 30 */
 #define GROUP_BITS  4u   /* the least group has 16 rows */
 #define GROUPS_MOST 256u /* of rows that are not a block */
+#define TRY_FRAMES  10u  /* after so many frames rows that do not cruise try again */
 
 uint32_t cruise_start_group_bits(uint32_t capacity)
 {
@@ -16,11 +17,16 @@ uint32_t cruise_start_group_bits(uint32_t capacity)
     return bits;
 }
 
-bool cruise_start_turn(const struct step_context *context, uint32_t i)
+/* Returns how many frames ago row i's group had its turn. */
+static uint32_t since_turn(const struct step_context *context, uint32_t i)
 {
     uint32_t group = i >> context->cruise_group_bits;
-    return context->cruise_frames > 1 &&
-           (context->cruise_phase + group * SPREAD) % context->cruise_frames == 0;
+    return (context->cruise_phase + group * SPREAD) % context->cruise_frames;
+}
+
+bool cruise_start_turn(const struct step_context *context, uint32_t i)
+{
+    return context->cruise_frames > 1 && since_turn(context, i) == 0;
 }
 
 uint64_t cruise_start_turns(const struct step_context *context, uint32_t first)
@@ -74,23 +80,33 @@ static bool cruises(const struct step_context *context, uint32_t i)
     return domain == DOMAIN_LAND || !(m->flags[i] & ENTITY_FLAG_AGROUND);
 }
 
-bool cruise_start_may(const struct step_context *context, uint32_t i)
+/* Returns the frames from this one to the group's next turn if row i may try to cruise now; else
+ * 0. */
+static uint32_t tries_for(const struct step_context *context, uint32_t i)
 {
-    return cruise_start_turn(context, i) && is_under_way(context->m, i) &&
-           is_undisturbed(context, i) && holds_its_way(context, i) && cruises(context, i);
+    uint32_t since = context->cruise_frames > 1 ? since_turn(context, i) : 1;
+    uint32_t left = context->cruise_frames - since;
+    return since == 0 || (since % TRY_FRAMES == 0 && left >= TRY_FRAMES) ? left : 0;
+}
+
+uint32_t cruise_start_frames(const struct step_context *context, uint32_t i)
+{
+    uint32_t frames = tries_for(context, i);
+    return frames > 0 && is_under_way(context->m, i) && is_undisturbed(context, i) &&
+                   holds_its_way(context, i) && cruises(context, i)
+               ? frames
+               : 0;
 }
 
 bool cruise_start_due(const struct step_context *context, uint32_t i, uint32_t period)
 {
-    if (!cruise_start_may(context, i))
-        return false;
+    uint32_t frames = cruise_start_frames(context, i);
     uint32_t past = ((uint32_t)context->tick + context->m->id[i]) % period;
-    return past == 0 || period - past < context->cruise_frames;
+    return frames > 0 && (past == 0 || period - past < frames);
 }
 
 uint32_t cruise_start_think_frames(const struct step_context *context, uint32_t i)
 {
-    return context->cruise_frames > context->think_frames && cruise_start_may(context, i)
-               ? context->cruise_frames
-               : context->think_frames;
+    uint32_t frames = cruise_start_frames(context, i);
+    return frames > context->think_frames ? frames : context->think_frames;
 }

@@ -55,12 +55,30 @@ static inline bool step_context_thinks(const struct step_context *context, uint3
                                    (uint32_t)context->tick + context->m->id[i]);
 }
 
-/* Returns where a row is that may cruise [m]: in the committed table, or in the moved one. */
+/* Returns the tick of a table: of the committed one, or of the moved one. */
+static inline uint64_t step_context_tick(const struct step_context *context,
+                                         const struct entities *e)
+{
+    return e == context->m ? context->tick : context->tick - 1;
+}
+
+/* Return where a row is that may cruise [m], how fast [m/s], and where it heads [rad]. */
 static inline struct vec3 step_context_position(const struct step_context *context,
                                                 const struct entities *e, uint32_t i)
 {
-    uint64_t tick = e == context->m ? context->tick : context->tick - 1;
-    return cruise_position(e, i, tick, context->dt_s);
+    return cruise_position(e, i, step_context_tick(context, e), context->dt_s);
+}
+
+static inline struct vec3 step_context_velocity(const struct step_context *context,
+                                                const struct entities *e, uint32_t i)
+{
+    return cruise_velocity(e, i, step_context_tick(context, e), context->dt_s);
+}
+
+static inline double step_context_heading(const struct step_context *context,
+                                          const struct entities *e, uint32_t i)
+{
+    return cruise_heading(e, i, step_context_tick(context, e), context->dt_s);
 }
 
 /* The motion of a vehicle in this frame that an agent, a script or a driver has chosen. */

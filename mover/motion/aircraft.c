@@ -281,6 +281,7 @@ static void begin_stretch(const struct step_context *context, const struct aircr
     const struct entities *m = context->m;
     uint32_t i = batch->row[l];
     const struct cruise_changes changes = {
+        .frames = batch->frames,
         .turned_rad = batch->turned.lane[l],
         .gain_mps2 = batch->gain_mps2.lane[l],
         .climbed_mps = batch->vy.lane[l] - m->vy[i],

@@ -436,7 +436,8 @@ static void write_rows(const struct step_context *context, const struct ground_v
             continue;
         if (batch->frames > 1)
             kinematics_cruise(context, i,
-                              &(struct cruise_changes){.turned_rad = batch->turned.lane[l],
+                              &(struct cruise_changes){.frames = batch->frames,
+                                                       .turned_rad = batch->turned.lane[l],
                                                        .gain_mps2 = batch->gain_mps2.lane[l]});
         else
             m->cruise_tick[i] = 0;

@@ -90,8 +90,8 @@ void kinematics_cruise(const struct step_context *context, uint32_t i,
                        const struct cruise_changes *changes)
 {
     struct entities *m = context->m;
-    const double per_s = 1.0 / (context->dt_s * (double)context->cruise_frames);
-    m->cruise_tick[i] = (uint32_t)context->tick - 1 + context->cruise_frames;
+    const double per_s = 1.0 / (context->dt_s * (double)changes->frames);
+    m->cruise_tick[i] = (uint32_t)context->tick - 1 + changes->frames;
     m->cruise_rps[i] = changes->turned_rad * per_s;
     m->cruise_mps2[i] = changes->gain_mps2;
     m->cruise_climb_mps2[i] = (float)(changes->climbed_mps * per_s);

@@ -71,6 +71,7 @@ bool kinematics_burn(const struct step_context *context, uint32_t i, double shar
 
 /* What a row changes by while it cruises (world/entity/cruise.h). */
 struct cruise_changes {
+    uint32_t frames;                             /* of the stretch */
     double turned_rad, gain_mps2;                /* in all; a second */
     double climbed_mps, pitched_rad, rolled_rad; /* in all, of aircraft; else 0 */
 };

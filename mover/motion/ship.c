@@ -280,18 +280,19 @@ static void give_back(struct entities *m, uint32_t i, const struct ship_row *row
 /* Replaces the position by that at the end of an arc on which the speed changes evenly, and notes
  * the stretch. Returns true if the way is even and on the water. */
 static bool end_arc(const struct step_context *context, uint32_t i, const struct ship_row *row,
-                    const struct course *before, double time_s)
+                    const struct course *before, uint32_t frames)
 {
     struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     const struct course after = course_of(context, i);
     double turned = maths_wrap_half(m->heading[i] - row->heading);
-    double gain_mps = after.forward - before->forward;
+    double gain_mps = after.forward - before->forward, time_s = context->dt_s * frames;
     const struct vec3 from = {row->x, m->y[i], row->z};
     entities_set_position(
         m, i, cruise_end(from, row->heading, turned, (before->forward + 0.5 * gain_mps) * time_s));
-    kinematics_cruise(
-        context, i, &(struct cruise_changes){.turned_rad = turned, .gain_mps2 = gain_mps / time_s});
+    kinematics_cruise(context, i,
+                      &(struct cruise_changes){
+                          .frames = frames, .turned_rad = turned, .gain_mps2 = gain_mps / time_s});
     struct grounding end = find_grounding(context, kind, &after, entities_position(m, i));
     return fabs(turned) <= STRETCH_TURN_RAD && fabs(gain_mps) <= STRETCH_GAIN_MPS &&
            fabs(m->roll[i] - row->roll) <= STRETCH_HEEL_RAD &&
@@ -301,15 +302,15 @@ static bool end_arc(const struct step_context *context, uint32_t i, const struct
 }
 
 bool ship_stretch(const struct step_context *context, uint32_t i,
-                  const struct desired_motion *desired)
+                  const struct desired_motion *desired, uint32_t frames)
 {
     struct step_context longer = *context; /* one frame as long as the stretch */
     struct entities *m = context->m;
     const struct ship_row row = row_of(m, i);
     const struct course before = course_of(context, i);
-    longer.dt_s = context->dt_s * context->cruise_frames;
+    longer.dt_s = context->dt_s * frames;
     struct ship_moved moved = ship_move(&longer, i, desired);
-    if (!moved.blocked && !moved.touched && end_arc(context, i, &row, &before, longer.dt_s))
+    if (!moved.blocked && !moved.touched && end_arc(context, i, &row, &before, frames))
         return true;
     give_back(m, i, &row);
     m->cruise_tick[i] = 0;

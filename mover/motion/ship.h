@@ -25,11 +25,11 @@ struct ship_moved {
 struct ship_moved ship_move(const struct step_context *context, uint32_t i,
                             const struct desired_motion *desired);
 
-/* Moves row i by a stretch (world/entity/cruise.h). Returns false if that is refused, for a way
- * that is not even or that leads to the shore or the edge of the world: the row then stays as it
- * is. */
+/* Moves row i by a stretch of so many frames (world/entity/cruise.h). Returns false if that is
+ * refused, for a way that is not even or that leads to the shore or the edge of the world: the row
+ * then stays as it is. */
 bool ship_stretch(const struct step_context *context, uint32_t i,
-                  const struct desired_motion *desired);
+                  const struct desired_motion *desired, uint32_t frames);
 
 /* Row i holds its course. Changes its velocity if it is aground; its position stays. Returns true
  * if flags, trigger and harm_j may have changed. */

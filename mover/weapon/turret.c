@@ -66,7 +66,7 @@ struct vec3 turret_lead(const struct step_context *context, struct vec3 muzzle, 
     if (flies_on_arc(context, munition))
         return arc_to(context, muzzle, munition, vec3_add(muzzle, to));
     return lead_on(&context->firing_tables[munition], context->wind, muzzle.y, to,
-                   entities_velocity(e, target));
+                   step_context_velocity(context, e, target));
 }
 
 struct vec3 turret_lead_point(const struct step_context *context, struct vec3 muzzle,

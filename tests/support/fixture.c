@@ -139,7 +139,8 @@ void fixture_scenario(struct scenario *scenario, const char *text)
     assert_true(fd >= 0);
     FILE *file = fdopen(fd, "w");
     assert_non_null(file);
-    fprintf(file, "%s%s%s%s\n", unless(text, "world =", "world = { seed = 1; capacity = 64; };\n"),
+    fprintf(file, "%s%s%s%s\n",
+            unless(text, "world =", "world = { seed = 1; capacity = 64; cruise = false; };\n"),
             unless(text, "terrain =",
                    "terrain = { source = \"flat\"; height_m = 100.0; spacing_m = 125.0; };\n"),
             unless(text, "collision =", "collision = { shape = \"sphere\"; };\n"), text);

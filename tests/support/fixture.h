@@ -37,7 +37,7 @@ const char *fixture_data_dir(void);
 const char *fixture_shipped_dir(void);
 
 /* Reads a scenario from text. Groups that the text does not mention are set so that tests are fast:
- *     world = { seed = 1; capacity = 64; };
+ *     world = { seed = 1; capacity = 64; cruise = false; };
  *     terrain = { source = "flat"; height_m = 100.0; spacing_m = 125.0; };   (so no objects)
  *     collision = { shape = "sphere"; };   (every kind has one small model: fixture_data_dir())
  * With shape = "model" in the text, the kinds are the shipped ones with their own models. */

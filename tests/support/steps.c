@@ -4,6 +4,7 @@
 #include "collider/geometry/level_gap.h"
 #include "mover/motion/kinematics.h"
 #include "mover/weapon/turret.h"
+#include "world/entity/cruise.h"
 #include "world/entity/persistent_contact.h"
 #include "world/params.h"
 #include "world/terrain/terrain_cache.h"
@@ -121,6 +122,20 @@ double steps_speed(const struct fixture *fixture, uint32_t row)
 {
     struct entities e = steps_rows(fixture);
     return vec3_length(entities_velocity(&e, row));
+}
+
+struct vec3 steps_position(const struct fixture *fixture, uint32_t row)
+{
+    struct state state = fixture_state(fixture);
+    return cruise_position(&state.entities, row, state.head->tick,
+                           world_dt_s(&fixture->view.world));
+}
+
+struct vec3 steps_velocity(const struct fixture *fixture, uint32_t row)
+{
+    struct state state = fixture_state(fixture);
+    return cruise_velocity(&state.entities, row, state.head->tick,
+                           world_dt_s(&fixture->view.world));
 }
 
 uint32_t steps_find(const struct fixture *fixture, uint32_t id)

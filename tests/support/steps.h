@@ -41,6 +41,10 @@ double steps_ground_at(const struct fixture *fixture, double x, double z);
 struct entities steps_rows(const struct fixture *fixture);
 double steps_speed(const struct fixture *fixture, uint32_t row);
 
+/* Return where a row is in the committed frame, and its velocity, also if it cruises. */
+struct vec3 steps_position(const struct fixture *fixture, uint32_t row);
+struct vec3 steps_velocity(const struct fixture *fixture, uint32_t row);
+
 /* Returns to a frame 0 without entities, events and craters, which is cheaper than another world.
  * Kinds and ground stay. */
 void steps_empty(struct fixture *fixture);

@@ -94,6 +94,17 @@ static inline double cruise_climb(const struct entities *e, uint32_t i, double l
     return e->vy[i] - (double)e->cruise_climb_mps2[i] * left_s;
 }
 
+/* Return how an aircraft leans at the tick [rad]. */
+static inline double cruise_pitch(const struct entities *e, uint32_t i, uint64_t tick, double dt_s)
+{
+    return e->pitch[i] - (double)e->cruise_pitch_rps[i] * cruise_left_s(e, i, tick, dt_s);
+}
+
+static inline double cruise_roll(const struct entities *e, uint32_t i, uint64_t tick, double dt_s)
+{
+    return e->roll[i] - (double)e->cruise_roll_rps[i] * cruise_left_s(e, i, tick, dt_s);
+}
+
 /* Returns the velocity of the row at the tick [m/s]. */
 static inline struct vec3 cruise_velocity(const struct entities *e, uint32_t i, uint64_t tick,
                                           double dt_s)

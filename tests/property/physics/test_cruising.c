@@ -125,8 +125,10 @@ static uint32_t count_bad(const struct physics_check *check)
             (i == MEASURE_OF_JUMP && check->measures.of[i].worst <= JUMP_M))
             continue;
         bad++;
-        print_message("%s: %g in frame %llu\n", measure_word((enum measure_kind)i),
-                      check->measures.of[i].worst, (unsigned long long)check->measures.of[i].frame);
+        print_message("%s: %g in frame %llu, entities %u and %u\n",
+                      measure_word((enum measure_kind)i), check->measures.of[i].worst,
+                      (unsigned long long)check->measures.of[i].frame,
+                      check->measures.of[i].body[0].id, check->measures.of[i].body[1].id);
     }
     return bad;
 }

@@ -19,7 +19,7 @@ static struct fixture f;
 static int open_world(void **state)
 {
     (void)state;
-    fixture_open(&f, "world = { remotes_max = 20; };");
+    fixture_open(&f, "world = { remotes_max = 20; cruise = false; };");
     return 0;
 }
 

@@ -25,8 +25,7 @@ static double side_by_side; /* [m] between the positions of tanks that touch */
 static int open_world(void **state)
 {
     (void)state;
-    fixture_open(&f, "world = { seed = 1; capacity = 64; cruise = false; };"
-                     "objects = ( { kind = \"building\"; at = [24986.0, 25000.0]; } );"
+    fixture_open(&f, "objects = ( { kind = \"building\"; at = [24986.0, 25000.0]; } );"
                      "collision = { shape = \"model\"; };");
     for (uint32_t i = 0; i < ROWS; i++)
         fixture_put(&f, (struct fixture_entity){

@@ -15,7 +15,7 @@ static struct fixture f;
 static int open_world(void **state)
 {
     (void)state;
-    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; };");
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; cruise = false; };");
     return 0;
 }
 

@@ -14,6 +14,8 @@
 
 #define HZ 20
 
+#define BESIDE_M 20.0 /* two that pass so far from each other need not be above each other */
+
 static struct fixture f;
 
 static int close_world(void **state)
@@ -50,15 +52,15 @@ static void cross(const char *kind, double angle)
                       angle);
     for (int frame = 0; frame < 20 * HZ; frame++) {
         fixture_run(&f, 1);
-        struct entities e = steps_rows(&f);
-        struct vec3 off = vec3_sub(entities_position(&e, a), entities_position(&e, b));
+        struct vec3 off = vec3_sub(steps_position(&f, a), steps_position(&f, b));
         if (vec3_length(off) < least) {
             least = vec3_length(off);
             apart = fabs(off.y);
         }
     }
     double size = steps_kind(&f, kind)->radius_m;
-    if (!(least > 2.0 * size && apart > 0.5 * steps_kind(&f, kind)->height_m + 4.0))
+    bool beside = least > 2.0 * size + BESIDE_M;
+    if (!(least > 2.0 * size && (beside || apart > 0.5 * steps_kind(&f, kind)->height_m + 4.0)))
         fail_msg(
             "two of the kind %s that cross at %.1f rad pass at %.1f m, %.1f m above each other",
             kind, angle, least, apart);

@@ -17,7 +17,7 @@
 #define FAR_EAST "[25400.0, 25000.0], [25600.0, 25000.0]"
 #define FAR_WEST "[24600.0, 25000.0], [24400.0, 25000.0]"
 #define MODELS   "collision = { shape = \"model\"; };"
-#define WORLD    "world = { seed = 1; capacity = 64; hz = 20.0; };"
+#define WORLD    "world = { seed = 1; capacity = 64; hz = 20.0; cruise = false; };"
 #define TRUCK(at)                                                                                  \
     "{ kind = \"truck\"; at = [" at ", 25000.0]; heading_deg = 90.0; route = (" FAR_EAST "); }"
 

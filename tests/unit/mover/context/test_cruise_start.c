@@ -3,6 +3,7 @@
 #include "tests/support/steps.h"
 #include "world/entity/cruise.h"
 #include "world/entity/table_write.h"
+#include "world/cruise_pose.h"
 #include "world/params.h"
 
 #include <stdarg.h>
@@ -59,10 +60,16 @@ static bool begins(uint32_t row)
     return false;
 }
 
+/* Before its group has its turn it begins by a shorter stretch, which ends there. */
 static void test_a_vehicle_on_its_way_cruises_for_half_a_second(void **state)
 {
     (void)state;
     assert_true(begins(tank));
+    struct state first = fixture_state(&f);
+    uint32_t left = first.entities.cruise_tick[tank] - (uint32_t)first.head->tick + 1;
+    assert_true(left == FRAMES || left == 20 || left == 10);
+    if (left < FRAMES)
+        fixture_run(&f, left);
     struct state begun = fixture_state(&f);
     uint64_t tick = begun.head->tick;
     struct entities e = begun.entities;
@@ -97,6 +104,25 @@ static void test_a_stretch_is_the_motion_of_its_frames(void **state)
     struct entities e = steps_rows(&f);
     assert_true(fabs(at.x - e.x[tank]) < 0.05 && fabs(at.z - e.z[tank]) < 0.3);
     assert_true(fabs(maths_wrap_half(heading - e.heading[tank])) < 0.01);
+}
+
+/* It does not wait for the next turn of its group. */
+static void test_one_whose_stretch_has_ended_tries_again(void **state)
+{
+    (void)state;
+    assert_true(begins(tank));
+    fixture_run(&f, FRAMES);
+    uint32_t moved = 0;
+    struct entities e = steps_rows(&f);
+    struct state now = fixture_state(&f);
+    static uint64_t changed[CHECKSUM_BLOCKS];
+    const struct table_writer writer = {&e, changed, NULL};
+    assert_true(cruise_pose_stop(&writer, &f.view.world, NULL, tank, now.head->tick));
+    for (; !cruises(tank) && moved < FRAMES; moved++)
+        fixture_run(&f, 1);
+    assert_in_range(moved, 1, 10);
+    now = fixture_state(&f);
+    assert_int_equal((now.entities.cruise_tick[tank] + 1 - now.head->tick) % 10, 0);
 }
 
 static void test_without_the_key_nothing_cruises(void **state)
@@ -240,6 +266,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_WORLD(test_a_vehicle_on_its_way_cruises_for_half_a_second),
         IN_WORLD(test_a_stretch_is_the_motion_of_its_frames),
+        IN_WORLD(test_one_whose_stretch_has_ended_tries_again),
         IN_WORLD(test_without_the_key_nothing_cruises),
         IN_WORLD(test_long_frames_have_no_stretches),
         IN_WORLD(test_what_stands_fights_or_is_driven_does_not),

@@ -1,6 +1,5 @@
 /* Aircraft: height over the ground, least speed, hovering, bank, the world's edge, empty tanks. */
 #include "tests/support/steps.h"
-#include "world/entity/cruise.h"
 #include "world/terrain/gridsquare.h"
 
 #include <stdarg.h>
@@ -137,13 +136,6 @@ static void test_patrols_stay_inside_the_world(void **state)
     }
 }
 
-/* The velocity of a row, also of one that cruises. */
-static struct vec3 velocity_of(uint32_t row)
-{
-    const struct entities e = steps_rows(&f);
-    return cruise_velocity(&e, row, fixture_state(&f).head->tick, 1.0 / HZ);
-}
-
 /* The hardest acceleration of a flight towards the edge, gravity included [g]. Fails if the
  * aircraft leaves the world. */
 static double turns_back(const char *name, double off_m, double heading, bool driven)
@@ -158,12 +150,12 @@ static double turns_back(const char *name, double off_m, double heading, bool dr
         steps_drive(&f, row, 1.0, 0.0, 0.0);
     for (int frame = 0; frame < (int)(40.0 * HZ); frame++) {
         e = steps_rows(&f);
-        struct vec3 before = velocity_of(row);
+        struct vec3 before = steps_velocity(&f, row);
         e.goal_x[row] = 60000.0, e.goal_z[row] = 25000.0; /* its agent wants to go on */
         fixture_run(&f, 1);
         e = steps_rows(&f);
         assert_int_equal(e.state[row], ENTITY_ACTIVE);
-        struct vec3 felt = vec3_scale(vec3_sub(velocity_of(row), before), HZ);
+        struct vec3 felt = vec3_scale(vec3_sub(steps_velocity(&f, row), before), HZ);
         felt.y += GRAVITY_MPS2;
         hardest = maths_max(hardest, vec3_length(felt) / GRAVITY_MPS2);
     }
