@@ -18,9 +18,15 @@
 
 /* The ground on the way of a stretch is at most this share of its length above or below its ends:
  * no vehicle on easy ground is on a steeper slope (mover/motion/chassis.h). The climb of others
- * changes evenly. And the arc is within this share of its chord (mover/motion limits the turn). */
+ * changes evenly. */
 #define STRETCH_SLOPE 0.5
-#define STRETCH_ARC   0.1
+
+/* What is left of a stretch is within so many times the height of its arc over its chord, and this
+ * much for each second that is left. One would do for its places. But what is around the rest of a
+ * stretch has to be within what was around it before: else a collider that begins anew, and
+ * compares all rows, would end a stretch that another one does not. */
+#define STRETCH_ARCS       3.0
+#define STRETCH_AROUND_MPS 0.1
 
 #define BEGINS 6u /* columns of body_motion.before that are the collider's own */
 
@@ -126,18 +132,38 @@ struct path body_motion_path(const struct body_motion *motion, uint32_t row)
     return path_of(motion, row, from, to);
 }
 
-struct path body_motion_stretch(const struct body_motion *motion, uint32_t row)
+struct body_line body_motion_line(const struct body_motion *motion, uint32_t row)
 {
     const struct entities *n = &motion->next->entities;
-    struct vec3 to = entities_position(n, row);
-    struct vec3 at =
-        cruise_position(n, row, motion->next->head->tick - 1, world_dt_s(motion->world));
-    double x = to.x - at.x, z = to.z - at.z, length = sqrt(x * x + z * z);
-    bool on_land = motion->world->kinds[n->kind[row]].domain == DOMAIN_LAND;
+    uint64_t tick = motion->next->head->tick - 1;
+    double dt_s = world_dt_s(motion->world), left_s = cruise_left_s(n, row, tick, dt_s);
+    struct body_line line = {cruise_position(n, row, tick, dt_s), entities_position(n, row), 0.0};
+    double x = line.to.x - line.from.x, z = line.to.z - line.from.z, way_m = sqrt(x * x + z * z);
+    double arc_m = fabs(n->cruise_rps[row]) * left_s * way_m / 8.0;
+    if (way_m > 0.0)
+        line.around_m = STRETCH_ARCS * arc_m + STRETCH_AROUND_MPS * left_s;
+    return line;
+}
+
+/* Returns how far above or below its line what is left of a stretch may be [m]. */
+static double rise_of(const struct body_motion *motion, uint32_t row, const struct body_line *line)
+{
+    const struct entities *n = &motion->next->entities;
+    double x = line->to.x - line->from.x, z = line->to.z - line->from.z;
     double left_s = cruise_left_s(n, row, motion->next->head->tick - 1, world_dt_s(motion->world));
-    double sag_m = fabs((double)n->cruise_climb_mps2[row]) * left_s * left_s / 8.0;
-    struct vec3 most = {STRETCH_ARC * length, on_land ? STRETCH_SLOPE * length : sag_m,
-                        STRETCH_ARC * length};
+    double climb_mps2 = fabs((double)n->cruise_climb_mps2[row]);
+    if (motion->world->kinds[n->kind[row]].domain == DOMAIN_LAND)
+        return STRETCH_SLOPE * sqrt(x * x + z * z);
+    if (climb_mps2 == 0.0)
+        return 0.0;
+    return STRETCH_ARCS * climb_mps2 * left_s * left_s / 8.0 + STRETCH_AROUND_MPS * left_s;
+}
+
+struct path body_motion_stretch(const struct body_motion *motion, uint32_t row)
+{
+    const struct body_line line = body_motion_line(motion, row);
+    const struct vec3 at = line.from, to = line.to;
+    const struct vec3 most = {line.around_m, rise_of(motion, row, &line), line.around_m};
     struct vec3 low = {maths_min(at.x, to.x), maths_min(at.y, to.y), maths_min(at.z, to.z)};
     struct vec3 high = {maths_max(at.x, to.x), maths_max(at.y, to.y), maths_max(at.z, to.z)};
     low = vec3_sub(low, most);

@@ -76,6 +76,16 @@ void body_motion_compute(struct body_motion *motion, uint32_t row);
 /* Returns the same path without storing it. */
 struct path body_motion_path(const struct body_motion *motion, uint32_t row);
 
+/* A line on the map that a body stays near to: its centre within around_m. */
+struct body_line {
+    struct vec3 from, to;
+    double around_m;
+};
+
+/* Returns the line from where a row that cruises in this frame is when it begins to the end of its
+ * stretch. */
+struct body_line body_motion_line(const struct body_motion *motion, uint32_t row);
+
 /* Returns a path for the box around what is left of the stretch of a row that cruises in this
  * frame: it begins where the frame does, and its heights hold those of the ground between. */
 struct path body_motion_stretch(const struct body_motion *motion, uint32_t row);

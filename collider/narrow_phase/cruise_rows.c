@@ -16,28 +16,95 @@ void cruise_rows_stop(const struct contact_input *input, uint32_t row)
     motion->computed[row] = 0;
 }
 
+static double margin_of(const struct contact_input *input, uint32_t row)
+{
+    const struct kind *kind = &input->motion->world->kinds[input->detect.entities->kind[row]];
+    double margin = pair_filter_margin(input->motion->world, kind);
+    return input->broad->wider[row] != BODY_BOX_EXACT ? margin + BODY_BOX_WIDER_M : margin;
+}
+
 /* The row's box in this frame, to the bit as the broad phase computes it anew. */
 static struct path_box box_of(const struct contact_input *input, uint32_t row)
 {
-    const struct kind *kind = &input->motion->world->kinds[input->detect.entities->kind[row]];
     struct path path = body_motion_cruises(input->motion, row)
                            ? body_motion_stretch(input->motion, row)
                            : body_motion_path(input->motion, row);
-    double margin = pair_filter_margin(input->motion->world, kind);
-    if (input->broad->wider[row] != BODY_BOX_EXACT)
-        margin += BODY_BOX_WIDER_M;
-    return pair_filter_path_box(&path, margin);
+    return pair_filter_path_box(&path, margin_of(input, row));
 }
 
+/* The line that the row's body is within around_m of in this frame, or until its stretch ends. */
+static struct body_line line_of(const struct contact_input *input, uint32_t row)
+{
+    struct body_line line;
+    if (body_motion_cruises(input->motion, row)) {
+        line = body_motion_line(input->motion, row);
+    } else {
+        struct path path = body_motion_path(input->motion, row);
+        line = (struct body_line){path.at, path_at(&path, 1.0), 0.0};
+    }
+    line.around_m += margin_of(input, row);
+    return line;
+}
+
+static struct body_line fixed_line(const struct contact_input *input, uint32_t object)
+{
+    const struct world *world = input->detect.world;
+    struct vec3 at = fixed_position(&world->fixed[object]);
+    return (struct body_line){
+        at, at, pair_filter_fixed_reach(world, &world->fixed[object]) + pair_filter_slack(world)};
+}
+
+/* Returns the square of the distance on the map from a point to a line [m2]. */
+static double square_from(struct vec3 point, const struct body_line *line)
+{
+    double dx = line->to.x - line->from.x, dz = line->to.z - line->from.z;
+    double x = point.x - line->from.x, z = point.z - line->from.z;
+    double square = dx * dx + dz * dz;
+    double share = square > 0.0 ? maths_clamp((x * dx + z * dz) / square, 0.0, 1.0) : 0.0;
+    x -= share * dx;
+    z -= share * dz;
+    return x * x + z * z;
+}
+
+/* Returns true if both points are on one side of the straight line through the ends of another
+ * one. */
+static bool beside(struct vec3 p, struct vec3 q, const struct body_line *line)
+{
+    double dx = line->to.x - line->from.x, dz = line->to.z - line->from.z;
+    double a = dx * (p.z - line->from.z) - dz * (p.x - line->from.x);
+    double b = dx * (q.z - line->from.z) - dz * (q.x - line->from.x);
+    return (a > 0.0 && b > 0.0) || (a < 0.0 && b < 0.0);
+}
+
+/* Returns true if two bodies stay so near to their lines that they cannot meet on the map. Lines
+ * that do not cross are nearest to each other at an end of one of them. */
+static bool apart(const struct body_line *a, const struct body_line *b)
+{
+    double reach = a->around_m + b->around_m, square = reach * reach;
+    return (beside(a->from, a->to, b) || beside(b->from, b->to, a)) &&
+           square_from(a->from, b) > square && square_from(a->to, b) > square &&
+           square_from(b->from, a) > square && square_from(b->to, a) > square;
+}
+
+/* Returns true unless the boxes or the lines of a pair, of which one cruises, are apart. */
 static bool meet(const struct contact_input *input, const struct pair *pair)
 {
-    struct path_box a = box_of(input, pair->a), b;
-    if (pair->b & PAIR_FIXED)
-        return pair_filter_box_meets_fixed(&input->detect, &a,
-                                           &input->detect.world->fixed[pair->b & ~PAIR_FIXED]);
-    b = box_of(input, pair->b);
-    return pair_filter_boxes_meet(&a, &b) &&
-           !pair_never_meets(input->detect.entities, pair->a, pair->b);
+    struct path_box a = box_of(input, pair->a);
+    struct body_line first, second;
+    if (pair->b & PAIR_FIXED) {
+        uint32_t object = pair->b & ~PAIR_FIXED;
+        if (!pair_filter_box_meets_fixed(&input->detect, &a, &input->detect.world->fixed[object]))
+            return false;
+        second = fixed_line(input, object);
+    } else {
+        struct path_box b = box_of(input, pair->b);
+        if (!pair_filter_boxes_meet(&a, &b) ||
+            pair_never_meets(input->detect.entities, pair->a, pair->b))
+            return false;
+        second = line_of(input, pair->b);
+    }
+    first = line_of(input, pair->a);
+    return !apart(&first, &second);
 }
 
 static bool has_cruising(const struct contact_input *input, const struct pair *pair)

@@ -4,6 +4,7 @@
 #include "collider/motion/pair_filter.h"
 
 #include "tests/support/steps.h"
+#include "world/entity/cruise.h"
 #include "world/entity/mass_properties.h"
 #include "world/terrain/fixed.h"
 #include "world/world.h"
@@ -233,6 +234,60 @@ static void test_a_stretch_in_place_rests_only_if_it_does_not_turn(void **state)
     assert_true(pair_filter_rests(&stands));
 }
 
+static void random_stretch(uint64_t *seed, uint32_t row, double turn_rad, double gain_mps)
+{
+    struct entities *e = &next->entities;
+    double heading = fixture_uniform(seed, 0.0, TWO_PI), sine, cosine;
+    double rest_mps =
+        fixture_uniform(seed, 0.0, 1.0) < 0.3 ? 0.0 : fixture_uniform(seed, 0.0, 60.0);
+    double gain = fixture_uniform(seed, -gain_mps, gain_mps);
+    double mps = maths_max(rest_mps + maths_max(gain, 0.0), 0.0);
+    maths_sincos(heading, &sine, &cosine);
+    e->heading[row] = heading;
+    e->cruise_rps[row] = fixture_uniform(seed, -turn_rad, turn_rad) / 0.5;
+    e->cruise_mps2[row] = gain / 0.5;
+    e->cruise_climb_mps2[row] = (float)fixture_uniform(seed, -6.0, 6.0);
+    entities_set_velocity(
+        e, row, (struct vec3){mps * sine, fixture_uniform(seed, -5.0, 5.0), -mps * cosine});
+}
+
+static bool holds(const struct path *outer, const struct path *inner)
+{
+    struct vec3 low = inner->at, high = path_at(inner, 1.0), end = path_at(outer, 1.0);
+    const double slack = 1e-9;
+    return outer->at.x <= low.x + slack && outer->at.y <= low.y + slack &&
+           outer->at.z <= low.z + slack && high.x <= end.x + slack && high.y <= end.y + slack &&
+           high.z <= end.z + slack;
+}
+
+/* Whoever begins to look at a stretch on its way sees no more around it than who has seen it begin:
+ * what is around the rest of it holds all its places, and is within what was around it before. */
+static void test_what_is_around_a_stretch_only_shrinks(void **state)
+{
+    uint64_t seed = fixture_seed(1991);
+    (void)state;
+    begin();
+    uint32_t row = fixture_put(
+        &f, (struct fixture_entity){.kind = "helicopter", .at = {25000.0, 500.0, 26000.0}});
+    begin();
+    const uint32_t frames = (uint32_t)(CRUISE_S / world_dt_s(&f.view.world) + 0.5);
+    for (int n = 0; n < 2000; n++) {
+        struct path before = {0};
+        random_stretch(&seed, row, n % 2 ? 0.6 : 0.3, n % 2 ? 1.5 : 3.0);
+        for (uint32_t left = frames; left > 0; left--) {
+            next->entities.cruise_tick[row] = (uint32_t)next->head->tick - 1 + left;
+            struct path around = body_motion_stretch(motion, row);
+            struct body_line line = body_motion_line(motion, row);
+            struct path at = {.at = line.from};
+            assert_true(holds(&around, &at));
+            if (left < frames) {
+                assert_true(holds(&before, &around));
+            }
+            before = around;
+        }
+    }
+}
+
 int main(void)
 {
 #define TEST(function)                                                                             \
@@ -246,6 +301,7 @@ int main(void)
         TEST(test_who_spins_freely_takes_its_real_path),
         TEST(test_a_yaw_of_one_and_a_half_turns_is_swept),
         TEST(test_a_stretch_in_place_rests_only_if_it_does_not_turn),
+        TEST(test_what_is_around_a_stretch_only_shrinks),
         TEST(test_bodies_have_their_kinds_hulls_at_their_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
