@@ -198,7 +198,8 @@ static struct gjk_start start_of(const struct body_pair *bodies, uint32_t hulls,
     return start;
 }
 
-/* Remembers where a search ended, if there is room. */
+/* Remembers where a search ended, if there is room. The vertices are in an order of their own: a
+ * search that begins where it ends then ends with the same bits the next time. */
 static void remember(struct body_pair *bodies, uint32_t hulls, const struct gjk_start *end)
 {
     if (end->count == 0 || bodies->remembered == SEARCHES_MAX)
@@ -206,8 +207,16 @@ static void remember(struct body_pair *bodies, uint32_t hulls, const struct gjk_
     struct nearest_vertices *known = &bodies->after[bodies->remembered++];
     *known = (struct nearest_vertices){.hulls = (uint8_t)hulls, .count = (uint8_t)end->count};
     for (uint32_t k = 0; k < end->count; k++) {
-        known->a[k] = (uint8_t)end->a[k];
-        known->b[k] = (uint8_t)end->b[k];
+        uint8_t a = (uint8_t)end->a[k], b = (uint8_t)end->b[k];
+        uint32_t place = k;
+        for (; place > 0 &&
+               (known->a[place - 1] > a || (known->a[place - 1] == a && known->b[place - 1] > b));
+             place--) {
+            known->a[place] = known->a[place - 1];
+            known->b[place] = known->b[place - 1];
+        }
+        known->a[place] = a;
+        known->b[place] = b;
     }
 }
 

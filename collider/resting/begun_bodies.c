@@ -9,6 +9,7 @@
 
 #include <errno.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define ROWS_A_PIECE 16u
 
@@ -17,8 +18,10 @@ int begun_bodies_init(struct begun_bodies *bodies, const struct world *world)
     uint32_t rows = world->params->capacity;
     *bodies = (struct begun_bodies){.body = reserve_take(rows, sizeof *bodies->body),
                                     .known = calloc(rows, sizeof *bodies->known),
+                                    .version = calloc(rows, sizeof *bodies->version),
+                                    .from = calloc(rows, sizeof *bodies->from),
                                     .row = reserve_take(rows, sizeof *bodies->row)};
-    if (bodies->body && bodies->known && bodies->row)
+    if (bodies->body && bodies->known && bodies->version && bodies->from && bodies->row)
         return 0;
     begun_bodies_free(bodies);
     errno = ENOMEM;
@@ -29,6 +32,8 @@ void begun_bodies_free(struct begun_bodies *bodies)
 {
     reserve_free(bodies->body);
     free(bodies->known);
+    free(bodies->version);
+    free(bodies->from);
     reserve_free(bodies->row);
     *bodies = (struct begun_bodies){0};
 }
@@ -46,19 +51,50 @@ struct job {
     uint32_t first; /* of the listed rows */
 };
 
+static struct begun_from from_of(const struct body_motion *motion, uint32_t row)
+{
+    const struct entities *w = body_motion_before(motion, row), *e = &motion->next->entities;
+    return (struct begun_from){.path = motion->path[row],
+                               .angle = {w->heading[row], w->pitch[row], w->roll[row],
+                                         e->heading[row], e->pitch[row], e->roll[row]},
+                               .spin = {w->spin_x[row], w->spin_y[row], w->spin_z[row]},
+                               .turret = w->turret[row],
+                               .gun = w->gun[row],
+                               .id = e->id[row],
+                               .kind = e->kind[row],
+                               .known = 1};
+}
+
+/* Returns true if the row's body follows from the same as before, to the bit. */
+static bool is_same(const struct begun_from *from, const struct begun_from *before)
+{
+    return memcmp((const unsigned char *)from, (const unsigned char *)before, sizeof *from) == 0;
+}
+
+static void find_body(const struct job *job, uint32_t row)
+{
+    struct body_motion *motion = job->context->motion;
+    struct begun_body *body = &job->bodies->body[row];
+    body_motion_note_poses(motion, row);
+    body->body = body_motion_body(motion, row, &body->turn);
+    body->began = level_gap_turn(&body->body, 0.0);
+    body->rate = rotation_rate(body->body.from, body->body.to);
+    body->capsule = deep_pair_capsule(job->context, row);
+}
+
 static void find_some(void *context, uint32_t first, uint32_t end, uint32_t worker)
 {
     const struct job *job = context;
-    struct body_motion *motion = job->context->motion;
     (void)worker;
     for (uint32_t i = job->first + first; i < job->first + end; i++) {
         uint32_t row = job->bodies->row[i];
-        struct begun_body *body = &job->bodies->body[row];
-        body_motion_note_poses(motion, row);
-        body->body = body_motion_body(motion, row, &body->turn);
-        body->began = level_gap_turn(&body->body, 0.0);
-        body->rate = rotation_rate(body->body.from, body->body.to);
-        body->capsule = deep_pair_capsule(job->context, row);
+        struct begun_from *before = &job->bodies->from[row];
+        const struct begun_from from = from_of(job->context->motion, row);
+        if (is_same(&from, before))
+            continue;
+        find_body(job, row);
+        job->bodies->version[row]++;
+        *before = from;
     }
 }
 

@@ -18,11 +18,26 @@ struct begun_body {
     struct capsule capsule; /* none of a fixed object */
 };
 
+/* All that a row's body follows from. */
+struct begun_from {
+    struct path path;
+    double angle[6]; /* heading, pitch and roll, when the frame begins and where the mover has it */
+    double spin[3];  /* when the frame begins */
+    float turret, gun;
+    uint32_t id;
+    uint16_t kind;
+    uint16_t known; /* 1: a body has been found from it */
+};
+
 struct begun_bodies {
     struct begun_body *body; /* [capacity of the world] */
-    uint8_t *known;          /* [capacity of the world] 1: the row's body has been found */
-    uint32_t *row;           /* the rows of which it has */
-    uint32_t count, found;   /* rows, and those of which the body has been found */
+    struct begun_from *from; /* [capacity of the world] of the body that was found last */
+    /* [capacity of the world] how often a row's body has been another one than before: what was
+     * measured of a body with the same number is true of it. */
+    uint64_t *version;
+    uint8_t *known; /* [capacity of the world] 1: the row's body has been found in this frame */
+    uint32_t *row;  /* the rows of which it has */
+    uint32_t count, found; /* rows, and those of which the body has been found */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */

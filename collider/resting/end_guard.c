@@ -495,18 +495,26 @@ static void run_round(struct end_guard *guard, struct response_context *context)
     }
 }
 
+/* Lists a side of a pair unless it ends the frame where it began it. */
+static void look_at_side(struct end_guard *guard, const struct response_context *context,
+                         uint32_t side)
+{
+    if (!(side & PAIR_FIXED) &&
+        (context->motion->change[side] != 0 || body_motion_moves(context->motion, side)))
+        look_at(guard, side);
+}
+
 /* Lists the bodies of the pairs that rest or have met, even if nothing changed their motion. Pairs
  * that rest are not swept, and an impact may find bodies that do not close by their velocities: it
  * gives no impulse, and the pair is not swept again. */
-static void look_at_met(struct end_guard *guard, const struct contact_queue *contacts)
+static void look_at_met(struct end_guard *guard, const struct response_context *context)
 {
+    const struct contact_queue *contacts = context->contacts;
     for (uint32_t i = 0; i < contacts->pair_count; i++) {
-        const struct pair *pair = &contacts->pair[i];
         if (!(contacts->marks[i] & CONTACT_RESTS) && contacts->met[i] == 0)
             continue;
-        look_at(guard, pair->a);
-        if (!(pair->b & PAIR_FIXED))
-            look_at(guard, pair->b);
+        look_at_side(guard, context, contacts->pair[i].a);
+        look_at_side(guard, context, contacts->pair[i].b);
     }
 }
 
@@ -566,7 +574,7 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
         if (!free->owned[row] && guarded(context, row) && path_change_grounded(context, row))
             ground_placement_put(context, row, entities_position(e, row), e->heading[row]);
     }
-    look_at_met(guard, context->contacts);
+    look_at_met(guard, context);
     if (!context->contacts_sleep || motion->changes != 0)
         look_at_drifting(guard, context);
     while (guard->count > 0)

@@ -8,6 +8,7 @@
 #include "collider/resting/parting.h"
 #include "collider/resting/parting_ways.h"
 #include "collider/resting/resting_gaps.h"
+#include "collider/resting/stalled.h"
 #include "world/entity/mass_properties.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
@@ -19,19 +20,19 @@
 
 #define ROUNDING_M 1e-6 /* smaller overlaps of the skins are rounding */
 
-/* The share of a point's impulses of the last frame with which it begins. */
-#define WARM_SHARE 0.97
-
 int resting_init(struct resting *resting, const struct world *world, struct thread_pool *workers)
 {
     uint32_t rows = world->params->capacity;
     uint64_t pairs = world->params->contact_slots;
     *resting = (struct resting){.workers = workers, .capacity = world->params->contact_slots};
     resting->gap = reserve_take(pairs, sizeof *resting->gap);
+    resting->gap_before = reserve_take(pairs, sizeof *resting->gap_before);
     resting->pair = reserve_take(pairs, sizeof *resting->pair);
     resting->point = reserve_take(pairs * RESTING_POINTS_MAX, sizeof *resting->point);
     resting->body = reserve_take(rows + pairs, sizeof *resting->body);
     resting->row = reserve_take(rows + pairs, sizeof *resting->row);
+    resting->pressed_ns = reserve_take(rows + pairs, sizeof *resting->pressed_ns);
+    resting->stands = reserve_take(rows + pairs, sizeof *resting->stands);
     resting->body_of = calloc(rows, sizeof *resting->body_of);
     resting->moved = reserve_take(rows, sizeof *resting->moved);
     resting->leaving = calloc(rows, sizeof *resting->leaving);
@@ -39,8 +40,9 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
         begun_bodies_init(&resting->begun, world) == 0 &&
         parting_init(&resting->parting, rows + pairs, pairs * RESTING_POINTS_MAX) == 0 &&
         neighbours_init(&resting->neighbours, world) == 0 && level_exit_init(&resting->exit) == 0 &&
-        resting->gap && resting->pair && resting->point && resting->body && resting->row &&
-        resting->body_of && resting->moved && resting->leaving)
+        resting->gap && resting->gap_before && resting->pair && resting->point && resting->body &&
+        resting->row && resting->pressed_ns && resting->stands && resting->body_of &&
+        resting->moved && resting->leaving)
         return 0;
     resting_free(resting);
     errno = ENOMEM;
@@ -56,10 +58,13 @@ void resting_free(struct resting *resting)
     level_exit_free(&resting->exit);
     free(resting->leaving);
     reserve_free(resting->gap);
+    reserve_free(resting->gap_before);
     reserve_free(resting->pair);
     reserve_free(resting->point);
     reserve_free(resting->body);
     reserve_free(resting->row);
+    reserve_free(resting->pressed_ns);
+    reserve_free(resting->stands);
     free(resting->body_of);
     reserve_free(resting->moved);
     *resting = (struct resting){0};
@@ -184,8 +189,8 @@ static void report(struct response_context *context, const struct pair *pair,
 
 /* --- pairs -------------------------------------------------------------------------------------*/
 
-/* Lets the points of a gap begin with a share of the impulses that its hulls bore a frame ago.
- * Where two points have become one, it bears both. */
+/* Lets the points of a gap begin with the impulses that its hulls bore a frame ago. Where two
+ * points have become one, it bears both. */
 static void warm(const struct resting_gap *found, const struct level_gap *gap,
                  struct level_contact *point)
 {
@@ -196,8 +201,8 @@ static void warm(const struct resting_gap *found, const struct level_gap *gap,
             continue;
         for (uint32_t p = 0; p < 2; p++) {
             struct level_contact *of = &point[gap->points == 2 ? p : 0];
-            of->normal_ns += WARM_SHARE * (double)load->normal_ns[p];
-            of->friction_ns += WARM_SHARE * (double)load->friction_ns[p];
+            of->normal_ns += (double)load->normal_ns[p];
+            of->friction_ns += (double)load->friction_ns[p];
         }
         return;
     }
@@ -330,7 +335,9 @@ static void move_bodies(struct resting *resting, struct response_context *contex
         if (row == SLOT_NONE)
             continue;
         resting->body_of[row] = 0;
-        if (!changed(&resting->body[i]))
+        if (resting->stands[i])
+            stalled_stop(context, row);
+        if (resting->stands[i] || !changed(&resting->body[i]))
             continue;
         move(context, row, &resting->body[i]);
         resting->moved[resting->moved_count++] = row;
@@ -409,6 +416,7 @@ void resting_solve(struct resting *resting, struct response_context *context)
                                                            .bodies = resting->bodies,
                                                            .points = resting->points,
                                                            .pairs = resting->pairs});
+    stalled_find(resting, context);
     mark(resting, context);
     move_bodies(resting, context);
 }

@@ -46,6 +46,12 @@ struct resting_gap {
     bool went;      /* and has been given it */
     struct level_gap_memory memory;
     const struct persistent_contact *known; /* the pair's row in the committed table, or NULL */
+    /* Of what it was measured: the pair's key in the table, the versions of its bodies
+     * (begun_bodies.h), and the memory that the search began with. */
+    uint64_t key, version[2];
+    struct level_gap_memory began;
+    bool repeats;                     /* the same would be found again */
+    const struct resting_gap *before; /* of the same pair in the frame before, or NULL */
 };
 
 /* The collider's own memory, kept from frame to frame. */
@@ -58,12 +64,16 @@ struct resting {
     struct level_exit exit;
     uint32_t *leaving;       /* [capacity of the world] pairs of the row that need a way out */
     struct resting_gap *gap; /* [groups.count] */
+    struct resting_gap *gap_before; /* [before] of the table's pairs in the frame before, by key */
+    uint32_t before;
     struct resting_pair *pair;
     uint32_t pairs, capacity;
     struct level_contact *point;
     uint32_t points;
     struct level_body *body;
-    uint32_t *row; /* [bodies] SLOT_NONE for a fixed object */
+    uint32_t *row;      /* [bodies] SLOT_NONE for a fixed object */
+    double *pressed_ns; /* [bodies] impulses of all its contacts along their normals [N s] */
+    bool *stands;       /* [bodies] true: it stays where it is (collider/resting/stalled.h) */
     uint32_t bodies;
     uint32_t *body_of; /* [capacity of the world] body + 1, else 0 */
     uint32_t *moved;   /* rows whose motion the contacts changed */

@@ -26,11 +26,15 @@ static void make_room(struct resting *resting, const struct world *world, uint32
     if (pairs <= resting->capacity)
         return;
     resting->gap = reserve_grow(resting->gap, kept, more, sizeof *resting->gap);
+    resting->gap_before =
+        reserve_grow(resting->gap_before, resting->before, more, sizeof *resting->gap_before);
     resting->pair = reserve_grow(resting->pair, 0, more, sizeof *resting->pair);
     resting->point =
         reserve_grow(resting->point, 0, more * RESTING_POINTS_MAX, sizeof *resting->point);
     resting->body = reserve_grow(resting->body, 0, bodies, sizeof *resting->body);
     resting->row = reserve_grow(resting->row, 0, bodies, sizeof *resting->row);
+    resting->pressed_ns = reserve_grow(resting->pressed_ns, 0, bodies, sizeof *resting->pressed_ns);
+    resting->stands = reserve_grow(resting->stands, 0, bodies, sizeof *resting->stands);
     resting->capacity = (uint32_t)more;
 }
 
@@ -64,13 +68,34 @@ static double margin_of(const struct gap_job *job, uint32_t index, const struct 
     return index < job->resting->groups.known ? NEAR_M + nearing(a, b) : 0.0;
 }
 
-/* Finds what the table remembers of a pair. */
+/* Sets what the table remembers of a pair, and of which bodies it is measured. */
 static void recall(const struct gap_job *job, const struct pair *pair, struct resting_gap *gap)
 {
-    gap->known = contact_table_find(job->context, pair->a, pair->b);
+    const uint64_t *version = job->resting->begun.version;
     gap->memory = (struct level_gap_memory){0};
     if (gap->known)
         memcpy(gap->memory.nearest, gap->known->nearest, sizeof gap->memory.nearest);
+    gap->began = gap->memory;
+    gap->version[0] = version[pair->a];
+    gap->version[1] = pair->b & PAIR_FIXED ? 0 : version[pair->b];
+}
+
+/* Takes what was measured in the frame before, if that was of the same bodies in the same places on
+ * the same paths, and began with the same memory. It saves work and changes no bit. */
+static bool take_before(struct resting_gap *gap)
+{
+    const struct resting_gap *before = gap->before;
+    if (!before || !before->repeats || before->version[0] != gap->version[0] ||
+        before->version[1] != gap->version[1] ||
+        memcmp((const unsigned char *)&before->began, (const unsigned char *)&gap->began,
+               sizeof gap->began) != 0)
+        return false;
+    memcpy(gap->gap, before->gap, before->count * sizeof *gap->gap);
+    gap->count = before->count;
+    gap->apart_m = before->apart_m;
+    gap->memory = before->memory;
+    gap->repeats = true;
+    return true;
 }
 
 static void measure_pair(const struct gap_job *job, uint32_t index)
@@ -79,17 +104,21 @@ static void measure_pair(const struct gap_job *job, uint32_t index)
     const struct pair *pair = &job->resting->groups.pair[index];
     struct resting_gap *gap = &job->resting->gap[index];
     struct begun_body fixed;
-    gap->apart_m = 0.0;
     recall(job, pair, gap);
+    if (!job->parts && take_before(gap))
+        return;
+    gap->apart_m = 0.0;
     const struct begun_bodies *begun = &job->resting->begun;
     const struct begun_body *a = begun_bodies_side(begun, motion, pair->a, NULL);
     const struct begun_body *b = begun_bodies_side(begun, motion, pair->b, &fixed);
+    gap->repeats = false;
     if (deep_pair_measure(job->context, pair, a, b, gap))
         return;
     const struct turned_body turned_a = {&a->body, a->began}, turned_b = {&b->body, b->began};
     uint32_t room = job->parts ? RESTING_GAPS_MAX : LEVEL_GAPS_MAX;
     gap->count = level_gap_find_more(&turned_a, &turned_b, margin_of(job, index, a, b), gap->gap,
                                      room, &gap->apart_m, &gap->memory);
+    gap->repeats = !job->parts && !is_deep(gap); /* parting changes gaps */
     if (is_deep(gap) && gap->count > 1) {
         level_gap_whole(&turned_a, &turned_b, gap->gap, gap->count, room);
         gap->count = 1;
@@ -106,12 +135,47 @@ static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t 
     work_done();
 }
 
+/* Keeps the gaps of the frame before, and finds among them those of the table's pairs. Both lists
+ * rise by their keys. */
+static void begin_gaps(struct resting *resting, const struct response_context *context)
+{
+    struct resting_gap *last = resting->gap;
+    uint32_t k = 0;
+    resting->gap = resting->gap_before;
+    resting->gap_before = last;
+    make_room(resting, context->world, 0, resting->groups.count);
+    last = resting->gap_before;
+    for (uint32_t i = 0; i < resting->groups.known; i++) {
+        const struct pair *pair = &resting->groups.pair[i];
+        struct resting_gap *gap = &resting->gap[i];
+        gap->known = contact_table_find(context, pair->a, pair->b);
+        gap->key = persistent_contact_key(gap->known);
+        while (k < resting->before && last[k].key < gap->key)
+            k++;
+        gap->before = k < resting->before && last[k].key == gap->key ? &last[k] : NULL;
+    }
+    resting->before = resting->groups.known;
+}
+
+/* Looks up pairs that are not in the list of the table: those of bodies that are new, and of
+ * neighbours. */
+static void begin_others(struct resting *resting, const struct response_context *context,
+                         uint32_t first)
+{
+    for (uint32_t i = first; i < resting->groups.count; i++) {
+        const struct pair *pair = &resting->groups.pair[i];
+        resting->gap[i].known = contact_table_find(context, pair->a, pair->b);
+        resting->gap[i].before = NULL;
+    }
+}
+
 /* Measures the pairs from the first on. */
 static void measure(struct resting *resting, const struct response_context *context, uint32_t first,
                     bool parts)
 {
     struct gap_job job = {resting, context, first, parts};
     make_room(resting, context->world, first, resting->groups.count);
+    begin_others(resting, context, first > resting->groups.known ? first : resting->groups.known);
     for (uint32_t i = first; i < resting->groups.count; i++) {
         const struct pair *pair = &resting->groups.pair[i];
         begun_bodies_list(&resting->begun, pair->a);
@@ -161,6 +225,7 @@ static void measure_neighbours(struct resting *resting, struct response_context 
 void resting_gaps_measure(struct resting *resting, struct response_context *context)
 {
     neighbours_begin(&resting->neighbours);
+    begin_gaps(resting, context);
     measure(resting, context, 0, false);
     for (uint32_t i = 0; i < resting->groups.count; i++) {
         if (is_deep(&resting->gap[i]))
