@@ -11,6 +11,11 @@
 #include <errno.h>
 #include <stdlib.h>
 
+/* Newton's steps by which an orientation is found that gains no energy, and the longest turn of
+ * one: a longer one would be a pose beside the way. */
+#define GAIN_STEPS    5
+#define GAIN_MOST_RAD 0.1
+
 int drift_guard_init(struct drift_guard *drift, const struct world *world)
 {
     uint32_t rows = world->params->capacity;
@@ -67,6 +72,25 @@ static struct vec3 own_momentum(const struct response_context *context, uint32_t
     return free_rotation_momentum(mass_of(context, row).moment, pose_of(e, row), spin_of(e, row));
 }
 
+/* Returns an orientation beside this one in which a body with this momentum has no more than this
+ * energy of rotation, twice. Its energy changes with a turn by the product of turn, spin and
+ * momentum. A share of a turn that contacts have changed is not quite on the way on which the body
+ * would turn freely, without a gain of energy. */
+static struct quat without_gain(struct vec3 moment, struct quat turned, struct vec3 momentum,
+                                double twice_j)
+{
+    for (int i = 0; i < GAIN_STEPS; i++) {
+        struct vec3 spin = free_rotation_spin(moment, turned, momentum);
+        struct vec3 slope = vec3_cross(spin, momentum);
+        double gain = vec3_dot(spin, momentum) - twice_j, square = vec3_dot(slope, slope);
+        double turn_rad = 0.5 * gain / sqrt(square);
+        if (!(gain > 0.0) || !(turn_rad < GAIN_MOST_RAD))
+            break;
+        turned = rotation_spun(turned, vec3_scale(slope, -0.5 * gain / square), 1.0);
+    }
+    return turned;
+}
+
 void drift_guard_send_back(struct response_context *context, uint32_t row, double share)
 {
     const struct entities *w = &context->motion->before;
@@ -77,6 +101,9 @@ void drift_guard_send_back(struct response_context *context, uint32_t row, doubl
     struct quat to =
         share < 0.0 ? pose_of(w, row) : body_motion_orientation(context->motion, row, time);
     double heading, pitch, roll;
+    if (share >= 0.0)
+        to = without_gain(mass_of(context, row).moment, to, momentum,
+                          vec3_dot(momentum, spin_of(&context->next->entities, row)));
     rotation_angles(to, &heading, &pitch, &roll);
     table_set_position(&context->writer, row, at);
     table_set_heading(&context->writer, row, heading);

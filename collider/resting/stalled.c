@@ -78,7 +78,8 @@ void stalled_stop(struct response_context *context, uint32_t row)
     const struct entities *w = body_motion_before(context->motion, row);
     const struct vec3 rest = {0.0, 0.0, 0.0};
     held_rest_put_back(context, row);
-    if (!(w->flags[row] & ENTITY_FLAG_CHASSIS)) /* it stands on the ground, which may have changed */
+    if (!(w->flags[row] &
+          ENTITY_FLAG_CHASSIS)) /* it stands on the ground, which may have changed */
         ground_placement_put(context, row, entities_position(w, row), w->heading[row]);
     table_set_velocity(&context->writer, row, rest);
     table_set_spin(&context->writer, row, rest);

@@ -119,6 +119,27 @@ static void test_a_body_goes_back_along_its_path(void **state)
     same(sums_of().angular, before.angular);
 }
 
+/* Contacts have turned the body besides: a share of that turn is not on the way of a free one. */
+static void test_a_share_of_another_turn_gains_no_energy(void **state)
+{
+    struct entities *e = &context.next->entities;
+    double pitch = e->pitch[0];
+    (void)state;
+    for (int i = -4; i <= 4; i++) {
+        e->pitch[0] = pitch + 0.01 * i;
+        const struct sums before = sums_of();
+        double energy = before.energy;
+        struct vec3 spin = {e->spin_x[0], e->spin_y[0], e->spin_z[0]};
+        double heading = e->heading[0], roll = e->roll[0];
+        drift_guard_send_back(&context, 0, 0.25);
+        same(sums_of().angular, before.angular);
+        if (sums_of().energy > energy * (1.0 + 1e-9))
+            fail_msg("turned by %g: energy %.17g of %.17g J", 0.01 * i, sums_of().energy, energy);
+        e->heading[0] = heading, e->roll[0] = roll;
+        e->spin_x[0] = spin.x, e->spin_y[0] = spin.y, e->spin_z[0] = spin.z;
+    }
+}
+
 /* After an impact in the middle of the frame a share is one of what is left of the path. */
 static void test_a_share_is_one_of_the_path_since_the_last_impact(void **state)
 {
@@ -188,6 +209,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_only_aircraft_that_nobody_steers_drift),
         TEST(test_a_body_goes_back_along_its_path),
+        TEST(test_a_share_of_another_turn_gains_no_energy),
         TEST(test_a_share_is_one_of_the_path_since_the_last_impact),
         TEST(test_what_goes_to_its_begin_gets_its_momenta_back),
         TEST(test_momenta_are_not_shared_with_what_does_not_drift),
