@@ -19,17 +19,20 @@ static struct vec3 centre_velocity(const struct entities *e, const struct kind *
     return vec3_add(entities_velocity(e, row), vec3_cross(spin, rotation_apply(&axes, up)));
 }
 
-/* Returns true if the mover has changed the velocity of a wreck by its weight and nothing else. */
-static bool falls(const struct body_motion *motion, uint32_t row)
+bool free_fall_only(const struct body_motion *motion, uint32_t row)
 {
     const struct entities *w = &motion->before, *n = &motion->next->entities;
     const struct kind *kind = &motion->world->kinds[n->kind[row]];
-    if (!body_motion_old(motion, row) || w->state[row] != ENTITY_WRECK ||
-        n->state[row] != ENTITY_WRECK)
+    if (!body_motion_old(motion, row) || w->state[row] != n->state[row])
         return false;
     struct vec3 change = vec3_sub(centre_velocity(n, kind, row), centre_velocity(w, kind, row));
     change.y += GRAVITY_MPS2 * world_dt_s(motion->world);
     return vec3_length(change) < ROUNDING_MPS;
+}
+
+static bool falls(const struct body_motion *motion, uint32_t row)
+{
+    return motion->next->entities.state[row] == ENTITY_WRECK && free_fall_only(motion, row);
 }
 
 double free_fall_left_mps(const struct body_motion *motion, uint32_t row, double time)

@@ -5,6 +5,9 @@
 
 #include "collider/motion/body_motion.h"
 
+/* Returns true if the mover has changed the velocity of a row by its weight and nothing else. */
+bool free_fall_only(const struct body_motion *motion, uint32_t row);
+
 /* Returns the downward speed that its weight gives the row between the time and the frame's end
  * [m/s]; 0 if it does not fall freely. The first call for a row in a frame must be before its next
  * row changes. */

@@ -1,6 +1,7 @@
 /* Gathers free bodies and their points, and solves them. */
 #include "collider/resting/free_bodies.h"
 
+#include "collider/motion/free_fall.h"
 #include "collider/response/contact_impulse.h"
 #include "collider/response/contact_table.h"
 #include "collider/response/path_change.h"
@@ -92,7 +93,8 @@ static void begin_wreck(const struct response_context *context, struct free_side
         vec3_add(entities_velocity(w, row), vec3_cross(body->moved.spin, side->arm)), side->fall);
 }
 
-/* Any other body begins with the motion that it has had so far in this frame. */
+/* Any other body begins with the motion that it has had so far in this frame. The path of a vehicle
+ * in the air has the mean speed of the frame, which its weight makes faster until the end. */
 static void begin_moved(const struct response_context *context, struct free_side *side,
                         struct free_body *body)
 {
@@ -101,6 +103,8 @@ static void begin_moved(const struct response_context *context, struct free_side
     body->moved.spin = vec3_scale(rotation_speed(turn.from, turn.to, 0.0), hz);
     body->moved.velocity = vec3_add(vec3_scale(context->path[side->row].along, hz),
                                     vec3_cross(body->moved.spin, side->arm));
+    if (side->is_free && free_fall_only(context->motion, side->row))
+        body->moved.velocity.y -= 0.5 * GRAVITY_MPS2 * world_dt_s(context->world);
 }
 
 /* An aircraft begins with its velocity and its committed spin, less what its pilot has stopped of

@@ -418,6 +418,38 @@ static void test_the_ground_lifts_no_sprung_vehicle_by_its_hulls(void **state)
     assert_true(worst <= JUMP_M);
 }
 
+/* A vehicle in the air falls with its whole weight beside a wreck that it does not touch. It lost
+ * half of it, because the path of its fall has the mean speed of the frame. */
+static void test_a_vehicle_falls_freely_beside_a_wreck(void **state)
+{
+    double worst = 0.0;
+    uint32_t looks = 0;
+    (void)state;
+    open_world(60.0, "");
+    put_wreck("tank", (struct vec3){0.0, 0.0, 0.0}, 0.0, 0.0, 0.0);
+    uint32_t jeep = fixture_put(
+        &f, (struct fixture_entity){.kind = "jeep",
+                                    .behaviour = BEHAVIOUR_IDLE,
+                                    .at = vec3_add(middle, (struct vec3){0.0, 0.0, 0.0})});
+    fixture_run(&f, 1);
+    struct entities e = steps_rows(&f);
+    e.flags[jeep] |= ENTITY_FLAG_CHASSIS;
+    e.y[jeep] += 1.2;
+    for (double away = 0.0; steps_gap(&f, &e, 0, jeep) < 0.005; away += 0.002)
+        e.x[jeep] = middle.x + away; /* as near as contacts are */
+    for (uint32_t frame = 0; frame < 20; frame++) {
+        double vy = steps_rows(&f).vy[jeep];
+        fixture_run(&f, 1);
+        e = steps_rows(&f);
+        worst = maths_max(worst, fabs((e.vy[jeep] - vy) * 60.0 + GRAVITY_MPS2));
+        looks++;
+    }
+    print_message("# figures: beside a wreck a vehicle in the air fell %.3f m/s2 off its weight\n",
+                  worst);
+    assert_true(looks == 20 && worst < 0.5);
+    fixture_close(&f);
+}
+
 static void test_a_heap_of_wrecks(void **state)
 {
     uint64_t random = fixture_seed(3);
@@ -448,6 +480,7 @@ int main(void)
         cmocka_unit_test(test_a_tank_pushes_a_wreck),
         cmocka_unit_test(test_a_pushed_wreck_goes_no_farther_than_its_velocity),
         cmocka_unit_test(test_the_ground_lifts_no_sprung_vehicle_by_its_hulls),
+        cmocka_unit_test(test_a_vehicle_falls_freely_beside_a_wreck),
         cmocka_unit_test(test_a_heap_of_wrecks),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
