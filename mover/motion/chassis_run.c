@@ -6,6 +6,7 @@
 #include "mover/motion/ground_vehicle.h"
 #include "mover/motion/kinematics.h"
 #include "mover/query/ground_marks.h"
+#include "world/terrain/terrain_cache.h"
 #include "world/world.h"
 
 /* Sub-steps are at most so long [s]: where all wheels bear, and where one is on its bump stop or
@@ -151,7 +152,7 @@ static bool shell_is_near(const struct chassis *chassis, const struct mat3 *turn
 {
     const struct suspension *suspension = &chassis->suspension;
     double most = suspension->sag_m + NEAR_STOPS * chassis->kind->travel_m;
-    if (turn->m[1][1] < UPRIGHT || chassis->cratered || chassis->rough)
+    if (turn->m[1][1] < UPRIGHT || chassis->cratered || chassis->bent || chassis->rough)
         return true;
     for (uint32_t i = 0; i < suspension->count; i++) {
         if (suspension->wheel[i].squeeze_m > most)
@@ -206,7 +207,8 @@ static bool ground_rises(const struct chassis *chassis, const struct mat3 *turn)
 /* Returns true if the underside is or the ends are about to touch uneven ground. */
 static bool is_scraping(struct chassis *chassis, const struct mat3 *turn)
 {
-    for (unsigned n = 0; chassis->cratered && n < CHASSIS_SHELL_ENDS; n++) {
+    const bool uneven = chassis->cratered || chassis->bent;
+    for (unsigned n = 0; uneven && n < CHASSIS_SHELL_ENDS; n++) {
         struct vec3 point = shell_of(chassis)->point[n];
         point.y -= chassis->body.inertia.centre_m;
         const struct vec3 at = vec3_add(chassis->body.centre, rotation_apply(turn, point));
@@ -257,6 +259,8 @@ void chassis_run_begin(struct chassis *chassis, const struct step_context *conte
         maths_max(chassis->kind->max_speed_mps, 1e-9) * ground_vehicle_debris(context, i);
     chassis->cratered = marks & GROUND_MARKS_CRATER;
     chassis->littered = marks & GROUND_MARKS_DEBRIS;
+    chassis->bent = terrain_cache_bend(&context->world->terrain, &context->terrain_entries[i],
+                                       m->x[i], m->z[i]) > chassis_shell_bend(chassis->kind);
     chassis->level = true;
     chassis->fall_j = chassis->strike_j = 0.0;
     chassis->friction = ground_grip_at(context, m->x[i], m->z[i]).friction;

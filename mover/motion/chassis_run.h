@@ -22,6 +22,7 @@ struct chassis {
     double strike_j; /* the same by upright ground: a wall, a bank */
     struct chassis_shell shell; /* of no points until it is needed */
     bool cratered, littered;    /* there may be craters, debris under it */
+    bool bent;                  /* its shell may get into the ground of a hollow */
     bool rough;                 /* a wheel is on its bump stop or bears next to nothing */
     bool level;                 /* every wheel bears in every sub-step */
 };

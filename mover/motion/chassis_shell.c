@@ -21,25 +21,57 @@
 #define PUSHED_M     0.01  /* points this deep are pushed out though they bear nothing */
 #define SAME_FACE    0.95  /* cosine between the normals of one face */
 
+/* Returns point n of the shell of a kind, but for those before the outer wheels: one of four each
+ * of the underside, of the ends and of the roof. */
+static struct vec3 point_of(const struct kind *kind, uint32_t n)
+{
+    const double half = 0.5 * kind->length_m, nose = NOSE_HEIGHT * kind->height_m;
+    const double reach = suspension_reach(kind);
+    const double belly = kind->length_m * (kind->tracked ? BELLY_TRACKS : BELLY_WHEELS);
+    const double under = kind->tracked ? 0.0 : CLEARANCE * reach;
+    const double ends = kind->tracked ? maths_min(nose, reach) : nose;
+    const struct vec3 corner[3] = {{belly, maths_max(kind->travel_m, under), 0.0},
+                                   {half, maths_max(kind->travel_m, ends), 0.0},
+                                   {half, kind->height_m, 0.0}};
+    struct vec3 at = corner[n / 4];
+    at.z = 0.5 * kind->width_m;
+    return (struct vec3){n & 1 ? at.x : -at.x, at.y, n & 2 ? at.z : -at.z};
+}
+
 void chassis_shell_of(const struct kind *kind, const struct suspension *suspension,
                       struct chassis_shell *shell)
 {
-    const double wide = 0.5 * kind->width_m, nose = NOSE_HEIGHT * kind->height_m;
-    const double reach = suspension->reach_m, half = 0.5 * kind->length_m;
-    const double under =
-        kind->tracked ? kind->travel_m : maths_max(kind->travel_m, CLEARANCE * reach);
-    const double ends = kind->tracked ? maths_min(nose, reach) : nose;
-    const struct vec3 corner[4] = {
-        {kind->length_m * (kind->tracked ? BELLY_TRACKS : BELLY_WHEELS), under, wide},
-        {half, maths_max(ends, kind->travel_m), wide},
-        {half, kind->height_m, wide},
-        {maths_min(suspension->front_m, half), reach, 0.5 * kind->track_m},
-    };
+    const double front = maths_min(suspension->front_m, 0.5 * kind->length_m);
+    const double wide = 0.5 * kind->track_m;
     shell->count = kind->tracked ? CHASSIS_SHELL_WHEELS : CHASSIS_SHELL_POINTS;
-    for (uint32_t n = 0; n < shell->count; n++) {
-        struct vec3 at = corner[n / 4];
-        shell->point[n] = (struct vec3){n & 1 ? at.x : -at.x, at.y, n & 2 ? at.z : -at.z};
+    for (uint32_t n = 0; n < CHASSIS_SHELL_WHEELS; n++)
+        shell->point[n] = point_of(kind, n);
+    for (uint32_t n = CHASSIS_SHELL_WHEELS; n < shell->count; n++)
+        shell->point[n] =
+            (struct vec3){n & 1 ? front : -front, suspension->reach_m, n & 2 ? wide : -wide};
+}
+
+double chassis_shell_bend(const struct kind *kind)
+{
+    double least = INFINITY;
+    for (uint32_t n = 0; n < CHASSIS_SHELL_ENDS; n += 4) {
+        struct vec3 point = point_of(kind, n);
+        double away = sqrt(point.x * point.x + point.z * point.z);
+        least = maths_min(least, 2.0 * point.y / maths_max(away, 1e-9));
     }
+    return least;
+}
+
+double chassis_shell_depth(const struct terrain *terrain, const struct kind *kind, struct vec3 at,
+                           const struct mat3 *turn)
+{
+    double deepest = -INFINITY;
+    for (uint32_t n = 0; n < CHASSIS_SHELL_ENDS; n++) {
+        struct vec3 point = vec3_add(at, rotation_apply(turn, point_of(kind, n)));
+        double ground = terrain_base_height(terrain, point.x, point.z);
+        deepest = maths_max(deepest, ground - point.y);
+    }
+    return deepest;
 }
 
 void chassis_shell_follow(struct chassis_shell *shell, const struct suspension *suspension)

@@ -30,6 +30,15 @@ struct chassis_shell_push {
     double strike_j;                    /* the part of it that upright ground took */
 };
 
+/* Returns the tangent by which the slopes of the ground under a vehicle of this kind must differ
+ * before underside or ends of its shell get into it, where it stands in a single bend. */
+double chassis_shell_bend(const struct kind *kind);
+
+/* Returns how deep the deepest point of underside and ends is in the ground without craters [m],
+ * below 0 for a height over it. at: the position. */
+double chassis_shell_depth(const struct terrain *terrain, const struct kind *kind, struct vec3 at,
+                           const struct mat3 *turn);
+
 /* Finds the shell of a kind. Its underside is as high as the wheels can rise, and on wheels at
  * least 3/4 as high as the step that they climb. */
 void chassis_shell_of(const struct kind *kind, const struct suspension *suspension,

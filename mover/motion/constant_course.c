@@ -55,7 +55,7 @@ static void set_down(const struct step_context *context, const struct ground_pos
     struct entities *m = context->m;
     if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
         const struct vec3 ground = {pose->y.lane[l], pose->pitch.lane[l], pose->roll.lane[l]};
-        ground_vehicle_ease(context, i, m->x[i], m->z[i], ground);
+        ground_vehicle_ease(context, i, ground);
         return;
     }
     m->y[i] = pose->y.lane[l];

@@ -3,7 +3,9 @@
 #include "mover/motion/ground_vehicle.h"
 
 #include "mover/motion/chassis.h"
+#include "mover/motion/chassis_shell.h"
 #include "mover/motion/drivetrain.h"
+#include "mover/motion/fording.h"
 #include "mover/motion/kinematics.h"
 #include "mover/motion/kinematics_simd.h"
 #include "mover/query/ground_debris.h"
@@ -11,6 +13,7 @@
 #include "world/maths/cpu_dispatch.h"
 #include "world/state.h"
 #include "world/terrain/gridsquare.h"
+#include "world/terrain/rest_pose.h"
 #include "world/world.h"
 
 #include <string.h>
@@ -57,6 +60,7 @@ static void find_scars(const struct step_context *context, struct ground_vehicle
 static void take_kind(struct ground_vehicle *batch, int l, const struct kind *kind)
 {
     const struct ground_grip dirt = ground_grip_of(COVER_GRASS);
+    batch->bend.lane[l] = chassis_shell_bend(kind);
     batch->full_mps.lane[l] = kind->max_speed_mps;
     batch->acceleration.lane[l] = kind->acceleration_mps2;
     batch->turn_rate.lane[l] = kind->turn_rate_rps;
@@ -299,26 +303,52 @@ static inline void passable(const struct step_context *context, const struct gro
         heed_fords(context, batch, x, z, pass);
 }
 
+/* Finds the lanes that come to water so fast that their brakes do not stop them in the frame. They
+ * go on as far as their kind can ford. */
+static void run_into_water(const struct step_context *context, struct ground_vehicle *batch,
+                           const struct ahead *ahead, union lane_masks *stays)
+{
+    const double stops_mps = GROUND_GRIP * GRAVITY_MPS2 * time_of(context, batch);
+    for (int l = 0; l < batch->count; l++) {
+        const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
+        double vx = batch->vx.lane[l], vz = batch->vz.lane[l];
+        if (!stays->lane[l] || vx * vx + vz * vz <= stops_mps * stops_mps ||
+            !fording_passable(context, kind, ahead->x.lane[l], ahead->z.lane[l]) ||
+            !fording_passable(context, kind, ahead->lead_x.lane[l], ahead->lead_z.lane[l]))
+            continue;
+        stays->lane[l] = 0;
+        batch->wades.lane[l] = -1;
+    }
+}
+
 /* Moves the vehicle there unless it is blocked. */
 static inline void change_position(const struct step_context *context, struct ground_vehicle *batch,
                                    const struct ahead *ahead)
 {
     const f64x4 none = SIMD_EVERY(0.0);
-    union lane_masks pass, lead_pass;
+    union lane_masks pass, lead_pass, stays;
+    four_masks any = {0};
     terrain_cache_find(&context->world->terrain, &batch->pose.ground, &ahead->x, &ahead->z);
     bool dry =
         terrain_cache_dry(&context->world->terrain, &batch->pose.ground, &batch->half_length);
     passable(context, batch, &ahead->x, &ahead->z, dry, &pass);
     passable(context, batch, &ahead->lead_x, &ahead->lead_z, dry, &lead_pass);
+    memset(&batch->wades, 0, sizeof batch->wades);
     for (int h = 0; h < LANE_FOURS; h++) {
         f64x4 x = batch->pose.x.f64x4[h], z = batch->pose.z.f64x4[h];
         four_masks moves = (ahead->x.f64x4[h] != x) | (ahead->z.f64x4[h] != z);
-        four_masks stays = moves & ~(pass.f64x4[h] & lead_pass.f64x4[h]);
-        batch->blocked.f64x4[h] |= stays;
-        batch->pose.x.f64x4[h] = SIMD_CHOOSE(stays, x, ahead->x.f64x4[h]);
-        batch->pose.z.f64x4[h] = SIMD_CHOOSE(stays, z, ahead->z.f64x4[h]);
-        batch->vx.f64x4[h] = SIMD_CHOOSE(stays, none, batch->vx.f64x4[h]);
-        batch->vz.f64x4[h] = SIMD_CHOOSE(stays, none, batch->vz.f64x4[h]);
+        stays.f64x4[h] = moves & ~(pass.f64x4[h] & lead_pass.f64x4[h]);
+        batch->blocked.f64x4[h] |= stays.f64x4[h];
+        any |= stays.f64x4[h];
+    }
+    if (SIMD_ANY(any))
+        run_into_water(context, batch, ahead, &stays);
+    for (int h = 0; h < LANE_FOURS; h++) {
+        f64x4 x = batch->pose.x.f64x4[h], z = batch->pose.z.f64x4[h];
+        batch->pose.x.f64x4[h] = SIMD_CHOOSE(stays.f64x4[h], x, ahead->x.f64x4[h]);
+        batch->pose.z.f64x4[h] = SIMD_CHOOSE(stays.f64x4[h], z, ahead->z.f64x4[h]);
+        batch->vx.f64x4[h] = SIMD_CHOOSE(stays.f64x4[h], none, batch->vx.f64x4[h]);
+        batch->vz.f64x4[h] = SIMD_CHOOSE(stays.f64x4[h], none, batch->vz.f64x4[h]);
         /* Points that are further from the start are beyond the start square's crater mark. */
         f64x4 far = SIMD_ABS(batch->pose.x.f64x4[h] - x) + SIMD_ABS(batch->pose.z.f64x4[h] - z) +
                     batch->pose.half_length.f64x4[h] + batch->pose.half_width.f64x4[h];
@@ -331,19 +361,23 @@ static inline void change_position(const struct step_context *context, struct gr
 #define EASE_MPS 0.04
 #define EASE_RPS 0.04
 
-void ground_vehicle_ease(const struct step_context *context, uint32_t i, double to_x, double to_z,
+void ground_vehicle_ease(const struct step_context *context, uint32_t i,
                          struct vec3 height_pitch_roll)
 {
     struct entities *m = context->m;
-    double x = context->committed->entities.x[i], z = context->committed->entities.z[i];
-    double most_m = EASE_MPS * context->dt_s, most_rad = EASE_RPS * context->dt_s;
-    double pitch = height_pitch_roll.y, roll = height_pitch_roll.z;
-    double risen = kinematics_ground(context, to_x, to_z) - kinematics_ground(context, x, z);
-    m->y[i] = kinematics_approach(m->y[i] + risen, height_pitch_roll.x, most_m);
-    m->pitch[i] = kinematics_approach(m->pitch[i], pitch, most_rad);
-    m->roll[i] = kinematics_approach(m->roll[i], roll, most_rad);
+    const struct entities *w = &context->committed->entities;
+    const struct rest_pose before =
+        rest_pose_of(&context->world->terrain, context->craters, &context->world->kinds[m->kind[i]],
+                     w->x[i], w->z[i], w->heading[i]);
+    const double most_m = EASE_MPS * context->dt_s, most_rad = EASE_RPS * context->dt_s;
+    double up = kinematics_approach(w->y[i] - before.y_m, 0.0, most_m);
+    double pitch = kinematics_approach(w->pitch[i] - before.pitch_rad, 0.0, most_rad);
+    double roll = kinematics_approach(w->roll[i] - before.roll_rad, 0.0, most_rad);
+    m->y[i] = height_pitch_roll.x + up;
+    m->pitch[i] = height_pitch_roll.y + pitch;
+    m->roll[i] = height_pitch_roll.z + roll;
     m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
-    if (m->y[i] == height_pitch_roll.x && m->pitch[i] == pitch && m->roll[i] == roll)
+    if (up == 0.0 && pitch == 0.0 && roll == 0.0)
         m->flags[i] &= (uint8_t)~ENTITY_FLAG_CHASSIS;
 }
 
@@ -354,7 +388,7 @@ static void set_down(const struct step_context *context, const struct ground_veh
     if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
         const struct vec3 ground = {batch->pose.y.lane[l], batch->pose.pitch.lane[l],
                                     batch->pose.roll.lane[l]};
-        ground_vehicle_ease(context, i, batch->pose.x.lane[l], batch->pose.z.lane[l], ground);
+        ground_vehicle_ease(context, i, ground);
         return;
     }
     m->y[i] = batch->pose.y.lane[l];
@@ -362,8 +396,58 @@ static void set_down(const struct step_context *context, const struct ground_veh
     m->roll[i] = batch->pose.roll.lane[l];
 }
 
+/* Returns how fast a row climbs that leaves the ground with this pitch [m/s]. */
+static double climb_of(const struct ground_vehicle *batch, int l, double heading, double pitch)
+{
+    double sine, cosine;
+    maths_sincos(heading, &sine, &cosine);
+    return (batch->vx.lane[l] * sine - batch->vz.lane[l] * cosine) * pitch *
+           (1.0 + pitch * pitch / 3.0);
+}
+
+/* Returns true if the row, which has moved, has a corner of its shell in the ground of a hollow, or
+ * would have one if it left the ground in the next frame, and has none if it leaves the ground now.
+ * One that was put down so goes on until it is out. */
+static bool gets_into_ground(const struct step_context *context, const struct ground_vehicle *batch,
+                             int l)
+{
+    const uint32_t i = batch->row[l];
+    const struct entities *w = &context->committed->entities;
+    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    const struct terrain *terrain = &context->world->terrain;
+    const struct ground_pose *pose = &batch->pose;
+    const double heading = batch->heading.lane[l], dt_s = time_of(context, batch);
+    struct vec3 at = {pose->x.lane[l], pose->y.lane[l], pose->z.lane[l]};
+    const struct vec3 way = {batch->vx.lane[l] * dt_s,
+                             climb_of(batch, l, heading, pose->pitch.lane[l]) * dt_s,
+                             batch->vz.lane[l] * dt_s};
+    struct mat3 turn =
+        rotation_matrix(rotation_of(heading, pose->pitch.lane[l], pose->roll.lane[l]));
+    if (chassis_shell_depth(terrain, kind, at, &turn) <= 0.0 &&
+        chassis_shell_depth(terrain, kind, vec3_add(at, way), &turn) <= 0.0)
+        return false;
+    turn = rotation_matrix(rotation_of(heading, batch->pitch.lane[l], w->roll[i]));
+    at.y = batch->y.lane[l] + climb_of(batch, l, heading, batch->pitch.lane[l]) * dt_s;
+    return chassis_shell_depth(terrain, kind, at, &turn) <= 0.0;
+}
+
+static inline void find_hollows(const struct step_context *context, struct ground_vehicle *batch)
+{
+    union simd_lanes bend;
+    four_masks any = {0};
+    terrain_cache_bends(&batch->pose.ground, &bend);
+    for (int h = 0; h < LANE_FOURS; h++)
+        any |= bend.f64x4[h] > batch->bend.f64x4[h];
+    if (!SIMD_ANY(any))
+        return;
+    for (int l = 0; l < batch->count; l++) {
+        if (bend.lane[l] > batch->bend.lane[l] && gets_into_ground(context, batch, l))
+            batch->rough.lane[l] = -1;
+    }
+}
+
 /* Finds the lanes whose ground is too rough for a body that follows it: it leans, crosses the edge
- * of a crater, or leaves the ground over a crest. */
+ * of a crater, runs into water, leaves the ground over a crest, or gets into that of a hollow. */
 static inline void find_rough(const struct step_context *context, struct ground_vehicle *batch,
                               const union simd_lanes *forward)
 {
@@ -373,10 +457,11 @@ static inline void find_rough(const struct step_context *context, struct ground_
     for (int h = 0; h < LANE_FOURS; h++) {
         f64x4 pitch = batch->pose.pitch.f64x4[h], roll = batch->pose.roll.f64x4[h];
         f64x4 drop = forward->f64x4[h] * (batch->pitch.f64x4[h] - pitch);
-        batch->rough.f64x4[h] = (SIMD_ABS(pitch) > tilt) | (SIMD_ABS(roll) > tilt) |
-                                (batch->pose.step.f64x4[h] > step) |
+        batch->rough.f64x4[h] = batch->wades.f64x4[h] | (SIMD_ABS(pitch) > tilt) |
+                                (SIMD_ABS(roll) > tilt) | (batch->pose.step.f64x4[h] > step) |
                                 (batch->pose.lift.f64x4[h] > lift) | (drop > fall);
     }
+    find_hollows(context, batch);
 }
 
 /* Makes a row on rough ground a body on its springs, which goes on as before: an edge under it has
@@ -388,9 +473,7 @@ static void leave_rails(const struct step_context *context, const struct ground_
     struct entities *m = context->m;
     if (!batch->rough.lane[l])
         return;
-    double sine, cosine, pitch = batch->pitch.lane[l];
-    maths_sincos(m->heading[i], &sine, &cosine);
-    double climb = (m->vx[i] * sine - m->vz[i] * cosine) * pitch * (1.0 + pitch * pitch / 3.0);
+    double pitch = batch->pitch.lane[l], climb = climb_of(batch, l, m->heading[i], pitch);
     chassis_disturb(context, i);
     m->vy[i] = climb;
     m->y[i] = batch->y.lane[l] + climb * context->dt_s;

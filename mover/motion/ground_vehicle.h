@@ -20,10 +20,12 @@ struct ground_vehicle {
     union simd_lanes full_mps, acceleration, turn_rate, max_slope, half_length, burn_lps,
         idle_share;
     union simd_lanes power_wpkg, gears, rolling, lateral, curve; /* drivetrain.h; curve: 1/m */
+    union simd_lanes bend;                                       /* chassis_shell_bend() */
     union lane_masks tank;                                       /* it has one */
     union lane_masks parked;  /* its engine is off (kinematics.h) */
     union simd_lanes debris;  /* the share of full speed that debris at its place allows */
     union lane_masks rough;   /* result: it leaves the ground that it follows */
+    union lane_masks wades;   /* it comes to water too fast for its brakes */
     union lane_masks blocked; /* result: water, a slope or the edge of the world blocks it */
     union simd_lanes turned,
         gain_mps2;            /* by which a stretch turns, and gains speed along its heading
@@ -49,10 +51,10 @@ bool ground_vehicle_take_held(const struct step_context *context, struct ground_
  * a speed and in a direction that change little. It leaves other rows as they were (refused). */
 void ground_vehicle_move(const struct step_context *context, struct ground_vehicle *batch);
 
-/* Writes height, pitch and roll of row i, which has ENTITY_FLAG_CHASSIS and is calm, at its new
- * place on the map: they go with the ground and ease to those of a row that follows it, bit by bit.
- * Takes the flag away when they agree. */
-void ground_vehicle_ease(const struct step_context *context, uint32_t i, double to_x, double to_z,
+/* Writes height, pitch and roll of row i, which has ENTITY_FLAG_CHASSIS and is calm. It goes with
+ * the ground, and what it differs by from a row that follows the ground eases to nothing, bit by
+ * bit. height_pitch_roll: of such a row at its new place. Takes the flag away when they agree. */
+void ground_vehicle_ease(const struct step_context *context, uint32_t i,
                          struct vec3 height_pitch_roll);
 
 /* Returns the share of full speed that debris leaves row i where it is. */

@@ -64,6 +64,11 @@ static void place_wheels(const struct kind *kind, struct suspension *suspension,
     }
 }
 
+double suspension_reach(const struct kind *kind)
+{
+    return kind->tracked ? maths_min(kind->step_m, BOW_RISE * BOW * kind->length_m) : kind->step_m;
+}
+
 void suspension_of(const struct kind *kind, bool uneven, struct suspension *suspension)
 {
     const bool fewer = kind->tracked && !uneven && kind->axles > EVEN_AXLES;
@@ -77,8 +82,7 @@ void suspension_of(const struct kind *kind, bool uneven, struct suspension *susp
     suspension->ground_m = length;
     suspension->radius_m = WHEEL_RADIUS * kind->height_m;
     suspension->bow_m = kind->tracked ? BOW * kind->length_m : 0.0;
-    suspension->reach_m =
-        kind->tracked ? maths_min(kind->step_m, BOW_RISE * suspension->bow_m) : kind->step_m;
+    suspension->reach_m = suspension_reach(kind);
     place_wheels(kind, suspension, axles);
     double front = axle_place(kind, 0, length);
     suspension->wheelbase_m = front * kind->axles / (kind->axles - 1);

@@ -39,6 +39,26 @@ static inline void patch_begin(const struct terrain *terrain, four_cells *post)
     *post = (begin & within) | (last & ~within);
 }
 
+/* Returns by how much the slopes between neighbouring posts differ, along their columns and rows
+ * together, as a tangent. */
+static float bend_of(const struct terrain *terrain, const float *post)
+{
+    float least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY};
+    for (int line = 0; line < TERRAIN_CACHE_SIDE; line++) {
+        for (int n = 0; n < PATCH_CELLS; n++) {
+            const float *east = post + line * TERRAIN_CACHE_SIDE + n;
+            const float *south = post + n * TERRAIN_CACHE_SIDE + line;
+            const float rise[2] = {east[1] - east[0], south[TERRAIN_CACHE_SIDE] - south[0]};
+            for (int axis = 0; axis < 2; axis++) {
+                least[axis] = rise[axis] < least[axis] ? rise[axis] : least[axis];
+                most[axis] = rise[axis] > most[axis] ? rise[axis] : most[axis];
+            }
+        }
+    }
+    double east_m = (double)(most[0] - least[0]), south_m = (double)(most[1] - least[1]);
+    return (float)(sqrt(east_m * east_m + south_m * south_m) / terrain->spacing_m);
+}
+
 static void copy_posts(const struct terrain *terrain, struct terrain_cache_entry *patch,
                        uint32_t column, uint32_t row)
 {
@@ -51,6 +71,7 @@ static void copy_posts(const struct terrain *terrain, struct terrain_cache_entry
         if (cover_is_water((enum cover)terrain->cover[post]))
             patch->water |= (uint16_t)(1u << i);
     }
+    patch->bend = bend_of(terrain, patch->post);
 }
 
 VECTOR_CLONES
@@ -146,6 +167,28 @@ bool terrain_cache_dry(const struct terrain *terrain, const struct terrain_cache
     for (int h = 0; h < LANE_FOURS; h++)
         far |= reach_m->f64x4[h] > most;
     return water == 0 && SIMD_ANY(far) == 0;
+}
+
+void terrain_cache_bends(const struct terrain_cache *cache, union simd_lanes *bend)
+{
+    for (int l = 0; l < LANE_COUNT; l++)
+        bend->lane[l] = (double)cache->patch[l]->bend;
+}
+
+/* patch_begin() of the post that is nearest to a place. */
+static uint32_t patch_begin_at(const struct terrain *terrain, double metres)
+{
+    double post = floor(metres / terrain->spacing_m + 0.5) - TERRAIN_CACHE_SIDE / 2;
+    return (uint32_t)maths_clamp(post, 0.0, (double)terrain->side - TERRAIN_CACHE_SIDE);
+}
+
+double terrain_cache_bend(const struct terrain *terrain, struct terrain_cache_entry *entry,
+                          double x, double z)
+{
+    uint32_t column = patch_begin_at(terrain, x), row = patch_begin_at(terrain, z);
+    if (!entry->held || entry->column != column || entry->row != row)
+        copy_posts(terrain, entry, column, row);
+    return (double)entry->bend;
 }
 
 VECTOR_CLONES

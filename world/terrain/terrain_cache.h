@@ -17,6 +17,7 @@ struct terrain_cache_entry {
     uint16_t water;       /* bit i: there is water around post i */
     uint16_t held;        /* 1: the entry is filled */
     float post[TERRAIN_CACHE_SIDE * TERRAIN_CACHE_SIDE];
+    float bend; /* by how much the slopes between the posts differ at most, as a tangent */
 };
 
 /* The entries of the bodies. The terrain has at least TERRAIN_CACHE_SIDE posts a side. */
@@ -41,6 +42,13 @@ void terrain_cache_heights(const struct terrain *terrain, const struct terrain_c
  * costs less than to ask for the water. */
 bool terrain_cache_dry(const struct terrain *terrain, const struct terrain_cache *cache,
                        const union simd_lanes *reach_m);
+
+/* Finds by how much the slopes of the ground about each body differ at most, as a tangent. */
+void terrain_cache_bends(const struct terrain_cache *cache, union simd_lanes *bend);
+
+/* Returns the same for one body at (x, z). Fills its entry with the posts about it. */
+double terrain_cache_bend(const struct terrain *terrain, struct terrain_cache_entry *entry,
+                          double x, double z);
 
 /* Whether there is water at a point of each body, as by terrain_cover(). Fast if the entry has the
  * posts. */

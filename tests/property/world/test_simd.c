@@ -5,14 +5,17 @@
 #include "mover/agent/agent.h"
 #include "mover/motion/aircraft.h"
 #include "mover/motion/chassis.h"
+#include "mover/motion/chassis_shell.h"
 #include "mover/motion/constant_course.h"
 #include "mover/motion/drivetrain.h"
+#include "mover/motion/fording.h"
 #include "mover/motion/ground_vehicle.h"
 #include "mover/motion/kinematics.h"
 #include "mover/query/ground_marks.h"
 #include "tests/support/steps.h"
 #include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
+#include "world/terrain/terrain_cache.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -183,6 +186,43 @@ static void speeds_of(const struct entities *m, uint32_t i, double *forward, dou
     kinematics_along(m, i, sine, cosine, forward, rightward);
 }
 
+/* How deep the shell of row i is with this pose at a place. */
+static double shell_depth(const struct step_context *context, uint32_t i, struct vec3 at,
+                          double pitch, double roll)
+{
+    const struct entities *m = context->m;
+    struct mat3 turn = rotation_matrix(rotation_of(m->heading[i], pitch, roll));
+    return chassis_shell_depth(&context->world->terrain, &context->world->kinds[m->kind[i]], at,
+                               &turn);
+}
+
+static double climb_of(const struct entities *m, uint32_t i, double pitch)
+{
+    double sine, cosine;
+    maths_sincos(m->heading[i], &sine, &cosine);
+    return (m->vx[i] * sine - m->vz[i] * cosine) * pitch * (1.0 + pitch * pitch / 3.0);
+}
+
+/* Returns true if its shell is in the ground where the ground bends, or would be in a frame, and
+ * would not be if it had kept its height, pitch and roll. */
+static bool enters_ground(const struct step_context *context, uint32_t i, double y, double pitch,
+                          double roll)
+{
+    const struct entities *m = context->m;
+    struct terrain_cache_entry entry = {.held = 0};
+    double bend = terrain_cache_bend(&context->world->terrain, &entry, m->x[i], m->z[i]);
+    struct vec3 at = {m->x[i], m->y[i], m->z[i]}, next = at;
+    struct vec3 way = {m->vx[i] * context->dt_s, climb_of(m, i, m->pitch[i]) * context->dt_s,
+                       m->vz[i] * context->dt_s};
+    next = vec3_add(at, way);
+    if (bend <= chassis_shell_bend(&context->world->kinds[m->kind[i]]) ||
+        (shell_depth(context, i, at, m->pitch[i], m->roll[i]) <= 0.0 &&
+         shell_depth(context, i, next, m->pitch[i], m->roll[i]) <= 0.0))
+        return false;
+    at.y = y + climb_of(m, i, pitch) * context->dt_s;
+    return shell_depth(context, i, at, pitch, roll) <= 0.0;
+}
+
 static bool drive_one(const struct step_context *context, uint32_t i,
                       const struct desired_motion *desired)
 {
@@ -211,12 +251,16 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     double vz = -forward * cosine + rightward * sine;
     double x = m->x[i] + vx * context->dt_s, z = m->z[i] + vz * context->dt_s;
     double lead = forward < 0.0 ? -kind->length_m * 0.5 : kind->length_m * 0.5;
-    bool goes = x != m->x[i] || z != m->z[i];
+    bool goes = x != m->x[i] || z != m->z[i], wades = false;
     if (goes &&
         (!passable(context, x + sine * lead, z - cosine * lead) || !passable(context, x, z))) {
         blocked = true;
-        x = m->x[i], z = m->z[i];
-        vx = vz = 0.0;
+        wades = vx * vx + vz * vz >
+                    0.7 * GRAVITY_MPS2 * context->dt_s * 0.7 * GRAVITY_MPS2 * context->dt_s &&
+                fording_passable(context, kind, x, z) &&
+                fording_passable(context, kind, x + sine * lead, z - cosine * lead);
+        x = wades ? x : m->x[i], z = wades ? z : m->z[i];
+        vx = wades ? vx : 0.0, vz = wades ? vz : 0.0;
     }
     double y = standing_height(context, i, x, z), before = m->y[i], roll = m->roll[i];
     entities_set_velocity(m, i, (struct vec3){vx, (y - before) / context->dt_s, vz});
@@ -225,8 +269,9 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     if (fabs(m->pitch[i]) > CHASSIS_TILT_RAD || fabs(m->roll[i]) > CHASSIS_TILT_RAD ||
         forward * (pitch - m->pitch[i]) > GRAVITY_MPS2 * context->dt_s ||
         crater_step(context, i) > CHASSIS_STEP_M ||
-        y - kinematics_ground(context, x, z) > CHASSIS_LIFT_M) {
-        double climb = (vx * sine - vz * cosine) * pitch * (1.0 + pitch * pitch / 3.0);
+        y - kinematics_ground(context, x, z) > CHASSIS_LIFT_M || wades ||
+        enters_ground(context, i, before, pitch, roll)) {
+        double climb = climb_of(m, i, pitch);
         chassis_disturb(context, i);
         m->vy[i] = climb;
         m->y[i] = before + climb * context->dt_s;
@@ -246,7 +291,7 @@ static void hold_one(const struct step_context *context, uint32_t i)
     if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
         const struct vec3 ground = {m->y[i], m->pitch[i], m->roll[i]};
         m->y[i] = before, m->pitch[i] = pitch, m->roll[i] = roll;
-        ground_vehicle_ease(context, i, m->x[i], m->z[i], ground);
+        ground_vehicle_ease(context, i, ground);
     }
     m->vy[i] = (m->y[i] - before) / context->dt_s;
 }

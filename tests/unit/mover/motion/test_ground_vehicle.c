@@ -1,8 +1,11 @@
 /* Land vehicles: the terrain under them, slopes, water, the edge of the world, the brakes. */
+#include "mover/motion/chassis_shell.h"
 #include "tests/support/steps.h"
 #include "world/params.h"
+#include "world/state.h"
 #include "world/terrain/fixed.h"
 #include "world/terrain/gridsquare.h"
+#include "world/terrain/rest_pose.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -140,6 +143,59 @@ static void test_a_vehicle_stops_at_the_foot_of_a_cliff_and_climbs_a_hill(void *
     assert_true(steps_rows(&f).x[row] > 25030.0);
 }
 
+/* --- hollows -----------------------------------------------------------------------------------*/
+
+#define VALLEY 0.3 /* tangent of both sides: less than 25 degrees */
+
+static double valley(double x, double z, const void *context)
+{
+    (void)z, (void)context;
+    return 100.0 + VALLEY * fabs(x - 25000.0);
+}
+
+/* Returns how deep the shell of a row is in the ground [m]. */
+static double shell_depth(uint32_t row)
+{
+    struct entities e = steps_rows(&f);
+    struct mat3 turn = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
+    return chassis_shell_depth(&f.view.world.terrain, &f.view.world.kinds[e.kind[row]],
+                               entities_position(&e, row), &turn);
+}
+
+/* The plane through five heights of a valley's floor lies in its sides. A tank whose shell would
+ * get into them takes to its springs before. It was up to 0.37 m deep in them. */
+static void test_no_shell_gets_into_the_ground_of_a_hollow(void **state)
+{
+    double deepest = -1.0;
+    uint32_t sprung = 0;
+    (void)state;
+    steps_ground(&f, valley, NULL);
+    for (int n = 0; n < 12; n++) {
+        double heading = 90.0 + 7.5 * n;
+        uint32_t row = put_tank(24960.0 + 2.0 * n, 25000.0 + 60.0 * n, heading, 6.0);
+        struct entities e = steps_rows(&f);
+        e.behaviour[row] = BEHAVIOUR_PATROL;
+        e.goal_x[row] = 25060.0 - 4.0 * n;
+        e.goal_z[row] = e.z[row] + (e.goal_x[row] - e.x[row]) * 0.13 * n;
+        const struct rest_pose pose =
+            rest_pose_of(&f.view.world.terrain, NULL, steps_kind(&f, "tank"), e.x[row], e.z[row],
+                         e.heading[row]);
+        e.pitch[row] = pose.pitch_rad;
+        e.roll[row] = pose.roll_rad;
+    }
+    for (int frame = 0; frame < 12 * (int)HZ; frame++) {
+        fixture_run(&f, 1);
+        for (uint32_t row = 0; row < 12; row++) {
+            deepest = maths_max(deepest, shell_depth(row));
+            sprung += (steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS) != 0;
+        }
+    }
+    print_message("# figures: a shell %.1f mm in the sides of a valley, %u looks on springs\n",
+                  1e3 * deepest, sprung);
+    assert_true(sprung > 100);
+    assert_true(deepest < 0.02);
+}
+
 /* --- borders -----------------------------------------------------------------------------------*/
 
 static void test_deep_water_stops_it(void **state)
@@ -159,6 +215,30 @@ static void test_deep_water_stops_it(void **state)
     double deep = 25062.5 + steps_kind(&f, "tank")->ford_m / 0.05;
     assert_true(bow <= deep && bow > deep - 1.5);
     assert_true(steps_speed(&f, row) < 0.5);
+}
+
+/* An agent that runs into a lake stops by its brakes, in the water. It stopped within a frame. */
+static void test_water_stops_no_vehicle_within_a_frame(void **state)
+{
+    double most_mps2 = 0.0, farthest = 0.0;
+    (void)state;
+    steps_cover(&f, COVER_LAKE, 25125.0, 0.0, 50000.0, 50000.0); /* from x = 25062.5 on */
+    uint32_t row = put_tank(25058.0, 25010.0, 90.0, 10.0);
+    struct entities e = steps_rows(&f);
+    e.behaviour[row] = BEHAVIOUR_PATROL;
+    e.goal_x[row] = 25200.0;
+    e.goal_z[row] = 25010.0;
+    for (int frame = 0; frame < 10 * (int)HZ; frame++) {
+        double vx = steps_rows(&f).vx[row], vz = steps_rows(&f).vz[row];
+        fixture_run(&f, 1);
+        e = steps_rows(&f);
+        most_mps2 = maths_max(most_mps2, HZ * hypot(e.vx[row] - vx, e.vz[row] - vz));
+        farthest = maths_max(farthest, e.x[row]);
+    }
+    double bow = farthest + 0.5 * steps_kind(&f, "tank")->length_m;
+    assert_true(most_mps2 < 12.0);
+    assert_true(farthest > 25062.5 && bow < 25062.5 + steps_kind(&f, "tank")->ford_m / 0.05);
+    assert_true(steps_rows(&f).x[row] < 25062.5); /* it is out again */
 }
 
 static void test_it_can_back_away_from_the_shore(void **state)
@@ -583,7 +663,9 @@ int main(void)
         TEST(test_slopes_limit_speed),
         TEST(test_ground_steeper_than_max_slope_is_not_climbed),
         TEST(test_a_vehicle_stops_at_the_foot_of_a_cliff_and_climbs_a_hill),
+        TEST(test_no_shell_gets_into_the_ground_of_a_hollow),
         TEST(test_deep_water_stops_it),
+        TEST(test_water_stops_no_vehicle_within_a_frame),
         TEST(test_it_can_back_away_from_the_shore),
         TEST(test_the_worlds_edge_stops_it),
         TEST(test_it_gains_speed_at_its_acceleration_and_brakes_as_the_ground_holds),

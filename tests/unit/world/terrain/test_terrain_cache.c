@@ -105,6 +105,42 @@ static void test_a_body_near_its_place_needs_its_patch_alone(void **state)
     assert_memory_equal(&height, &before, sizeof height);
 }
 
+/* A step on the ground along a line, and back, differ in height by no more than the slopes do. */
+static void test_the_slopes_about_a_body_differ_by_no_more(void **state)
+{
+    uint64_t random = fixture_seed(4);
+    struct terrain_cache footing = {.patch = {NULL}};
+    union simd_lanes x, z, bend;
+    double closest = 0.0;
+    (void)state;
+    fixture_roughen(posts, cover, SIDE * SIDE, &random);
+    memset(patches, 0, sizeof patches);
+    for (int l = 0; l < LANE_COUNT; l++)
+        footing.patch[l] = &patches[l];
+    for (int i = 0; i < 5000; i++) {
+        for (int l = 0; l < LANE_COUNT; l++) {
+            x.lane[l] = fixture_uniform(&random, 200.0, WORLD_SIDE_DEFAULT_M - 200.0);
+            z.lane[l] = fixture_uniform(&random, 200.0, WORLD_SIDE_DEFAULT_M - 200.0);
+        }
+        terrain_cache_find(&terrain, &footing, &x, &z);
+        terrain_cache_bends(&footing, &bend);
+        for (int l = 0; l < LANE_COUNT; l++) {
+            struct terrain_cache_entry entry = {.held = 0};
+            double east = fixture_uniform(&random, -30.0, 30.0);
+            double south = fixture_uniform(&random, -30.0, 30.0);
+            double here = terrain_base_height(&terrain, x.lane[l], z.lane[l]);
+            double there = terrain_base_height(&terrain, x.lane[l] + east, z.lane[l] + south);
+            double back = terrain_base_height(&terrain, x.lane[l] - east, z.lane[l] - south);
+            double share = fabs(there + back - 2.0 * here) /
+                           maths_max(bend.lane[l] * sqrt(east * east + south * south), 1e-9);
+            assert_true(terrain_cache_bend(&terrain, &entry, x.lane[l], z.lane[l]) == bend.lane[l]);
+            assert_true(terrain_cache_bend(&terrain, &entry, x.lane[l], z.lane[l]) == bend.lane[l]);
+            closest = maths_max(closest, share);
+        }
+    }
+    assert_true(closest <= 1.0 && closest > 0.5);
+}
+
 /* A post in a thousand is wet. */
 static void wet_few(uint64_t *random)
 {
@@ -150,6 +186,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_lanes_are_one_point_at_a_time),
         cmocka_unit_test(test_a_body_near_its_place_needs_its_patch_alone),
+        cmocka_unit_test(test_the_slopes_about_a_body_differ_by_no_more),
         cmocka_unit_test(test_where_it_is_dry_no_point_near_is_wet),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
