@@ -46,7 +46,8 @@ struct explosion_impulse explosion_impulse_on(const struct explosion_impulse_tar
         return on_body;
     for (unsigned n = 0; n < 8; n++) {
         struct vec3 point = gauss_point(target, n);
-        double here = explosion_impulse_pas(explosive_kg, vec3_length(vec3_add(line, point)));
+        double here = explosion_impulse_pas(EXPLOSION_IMPULSE_CASED * explosive_kg,
+                                            vec3_length(vec3_add(line, point)));
         sum += here;
         moment = vec3_add(moment, vec3_scale(point, here));
     }

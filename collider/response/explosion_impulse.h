@@ -21,8 +21,12 @@
  * a wall no longer holds: the impulse stays what it is there [m/kg^(1/3)]. */
 #define EXPLOSION_IMPULSE_LEAST_Z 0.5
 
-/* Returns the impulse per area [Pa s] at a distance [m] from a charge, both >= 0. It is 0 for a
- * charge of nothing. */
+/* A case of steel takes a part of the energy, so that a round pushes as a bare charge of this share
+ * of its explosive does. */
+#define EXPLOSION_IMPULSE_CASED 0.6
+
+/* Returns the impulse per area [Pa s] at a distance [m] from a bare charge, both >= 0. It is 0 for
+ * a charge of nothing. */
 double explosion_impulse_pas(double explosive_kg, double distance_m);
 
 /* A body that an explosion pushes: a box with the sides of its kind. */
@@ -37,10 +41,10 @@ struct explosion_impulse {
     struct vec3 point;      /* [m, world] where it acts */
 };
 
-/* Returns the whole impulse on the body: the impulse per area times the area that the box shows to
- * the charge. Both the impulse per area and the point follow from its values at eight points of the
- * box (Gauss's rule with two points an axis), so the nearer end is pushed harder and the body turns
- * away. A charge at the centre pushes nothing. */
+/* Returns the whole impulse of a round's charge on the body: the impulse per area times the area
+ * that the box shows to the charge. Both the impulse per area and the point follow from its values
+ * at eight points of the box (Gauss's rule with two points an axis), so the nearer end is pushed
+ * harder and the body turns away. A charge at the centre pushes nothing. */
 struct explosion_impulse explosion_impulse_on(const struct explosion_impulse_target *target,
                                               struct vec3 charge, double explosive_kg);
 

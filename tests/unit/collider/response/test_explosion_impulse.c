@@ -63,7 +63,7 @@ static struct explosion_impulse on(const struct kind *kind, const struct mat3 *t
 static void test_it_acts_along_the_line_on_the_side_that_faces_the_charge(void **state)
 {
     const double far = 1000.0; /* all points are equally far */
-    double pas = explosion_impulse_pas(1.0, far);
+    double pas = explosion_impulse_pas(EXPLOSION_IMPULSE_CASED, far);
     (void)state;
     struct explosion_impulse front = on(&jeep, &straight, far, 0.0, 0.0);
     struct explosion_impulse side = on(&jeep, &straight, 0.0, 0.0, -far);
