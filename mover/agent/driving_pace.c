@@ -6,6 +6,7 @@
 #include "world/state.h"
 #include "world/terrain/gridsquare.h"
 #include "world/terrain/square_bounds.h"
+#include "world/terrain/terrain_cache.h"
 #include "world/world.h"
 
 #define BRAKE_SHARE  0.4   /* of the hardest braking, by which it slows down in time */
@@ -98,7 +99,8 @@ static void heed_ground(const struct step_context *context, uint32_t i, struct p
         double x = m->x[i] + way_m * pace->sine, z = m->z[i] - way_m * pace->cosine;
         if (!world_holds(context->world, x, z))
             return;
-        (void)terrain_base_plane(&context->world->terrain, x, z, &east, &south);
+        terrain_cache_slopes(&context->world->terrain, &context->terrain_entries[i], x, z, &east,
+                             &south);
         heed_slope(pace, east, south, way_m);
     }
 }

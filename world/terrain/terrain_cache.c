@@ -191,6 +191,34 @@ double terrain_cache_bend(const struct terrain *terrain, struct terrain_cache_en
     return (double)entry->bend;
 }
 
+/* One of cells_of(). */
+static inline uint32_t cell_at(const struct terrain *terrain, double metres, double *fraction)
+{
+    const double last = (double)(terrain->side - 2);
+    double cells = maths_clamp(metres / terrain->spacing_m, 0.0, last + 1.0);
+    uint32_t cell = (uint32_t)maths_min(cells, last);
+    *fraction = cells - (double)cell;
+    return cell;
+}
+
+void terrain_cache_slopes(const struct terrain *terrain, const struct terrain_cache_entry *entry,
+                          double x, double z, double *east, double *south)
+{
+    double u, v;
+    uint32_t right = cell_at(terrain, x, &u) - entry->column;
+    uint32_t down = cell_at(terrain, z, &v) - entry->row;
+    if (!entry->held || right >= PATCH_CELLS || down >= PATCH_CELLS) {
+        (void)terrain_base_plane(terrain, x, z, east, south);
+        return;
+    }
+    size_t north_east = u >= v;
+    const float *north = entry->post + (size_t)down * TERRAIN_CACHE_SIDE + right;
+    const float *along = north + (1 - north_east) * TERRAIN_CACHE_SIDE;
+    const float *side = north + north_east;
+    *east = ((double)along[1] - (double)along[0]) / terrain->spacing_m;
+    *south = ((double)side[TERRAIN_CACHE_SIDE] - (double)side[0]) / terrain->spacing_m;
+}
+
 VECTOR_CLONES
 void terrain_cache_water(const struct terrain *terrain, const struct terrain_cache *cache,
                          const union simd_lanes *x, const union simd_lanes *z,

@@ -50,6 +50,11 @@ void terrain_cache_bends(const struct terrain_cache *cache, union simd_lanes *be
 double terrain_cache_bend(const struct terrain *terrain, struct terrain_cache_entry *entry,
                           double x, double z);
 
+/* Finds the slopes to the east and to the south of the ground at a point as terrain_base_plane()
+ * does, to the bit. Fast if the entry of a body near has the posts; it does not change. */
+void terrain_cache_slopes(const struct terrain *terrain, const struct terrain_cache_entry *entry,
+                          double x, double z, double *east, double *south);
+
 /* Whether there is water at a point of each body, as by terrain_cover(). Fast if the entry has the
  * posts. */
 void terrain_cache_water(const struct terrain *terrain, const struct terrain_cache *cache,

@@ -105,6 +105,25 @@ static void test_a_body_near_its_place_needs_its_patch_alone(void **state)
     assert_memory_equal(&height, &before, sizeof height);
 }
 
+static void test_slopes_are_those_of_the_ground(void **state)
+{
+    uint64_t random = fixture_seed(5);
+    struct terrain_cache_entry entry = {.held = 0};
+    (void)state;
+    fixture_roughen(posts, cover, SIDE * SIDE, &random);
+    for (int i = 0; i < 50000; i++) {
+        double x = place(&random), z = place(&random), reach = i % 5 ? 60.0 : 600.0;
+        double px = x + fixture_uniform(&random, -reach, reach);
+        double pz = z + fixture_uniform(&random, -reach, reach);
+        double east, south, wanted_east, wanted_south;
+        if (i % 7 > 0)
+            (void)terrain_cache_bend(&terrain, &entry, x, z); /* fills it */
+        terrain_cache_slopes(&terrain, &entry, px, pz, &east, &south);
+        (void)terrain_base_plane(&terrain, px, pz, &wanted_east, &wanted_south);
+        assert_true(east == wanted_east && south == wanted_south);
+    }
+}
+
 /* A step on the ground along a line, and back, differ in height by no more than the slopes do. */
 static void test_the_slopes_about_a_body_differ_by_no_more(void **state)
 {
@@ -186,6 +205,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_lanes_are_one_point_at_a_time),
         cmocka_unit_test(test_a_body_near_its_place_needs_its_patch_alone),
+        cmocka_unit_test(test_slopes_are_those_of_the_ground),
         cmocka_unit_test(test_the_slopes_about_a_body_differ_by_no_more),
         cmocka_unit_test(test_where_it_is_dry_no_point_near_is_wet),
     };
