@@ -303,6 +303,36 @@ static inline void passable(const struct step_context *context, const struct gro
         heed_fords(context, batch, x, z, pass);
 }
 
+/* Lets the lanes brake that have water where they would come to a stop: a driver sees it. before:
+ * their speeds when the frame begins. */
+static void brake_for_water(const struct step_context *context, struct ground_vehicle *batch,
+                            const union simd_lanes *before, struct ahead *ahead)
+{
+    const double dt_s = time_of(context, batch);
+    for (int l = 0; l < batch->count; l++) {
+        double sine = batch->pose.sine.lane[l], cosine = batch->pose.cosine.lane[l];
+        double x = batch->pose.x.lane[l], z = batch->pose.z.lane[l], forward = before->lane[l];
+        double hardest =
+            maths_min(BRAKES * batch->acceleration.lane[l], GROUND_GRIP * GRAVITY_MPS2);
+        double way = batch->half_length.lane[l] + forward * forward / (2.0 * hardest);
+        way = forward < 0.0 ? -way : way;
+        double slower = kinematics_approach(forward, 0.0, hardest * dt_s);
+        double now = batch->vx.lane[l] * sine - batch->vz.lane[l] * cosine;
+        if (batch->pose.ground.patch[l]->water == 0 || now * forward <= 0.0 ||
+            fabs(now) <= fabs(slower) ||
+            !cover_is_water(
+                terrain_cover(&context->world->terrain, x + way * sine, z - way * cosine)))
+            continue;
+        double less_x = (slower - now) * sine, less_z = (now - slower) * cosine;
+        batch->vx.lane[l] += less_x;
+        batch->vz.lane[l] += less_z;
+        ahead->x.lane[l] += less_x * dt_s;
+        ahead->z.lane[l] += less_z * dt_s;
+        ahead->lead_x.lane[l] += less_x * dt_s;
+        ahead->lead_z.lane[l] += less_z * dt_s;
+    }
+}
+
 /* Finds the lanes that come to water so fast that their brakes do not stop them in the frame. They
  * go on as far as their kind can ford. */
 static void run_into_water(const struct step_context *context, struct ground_vehicle *batch,
@@ -323,7 +353,7 @@ static void run_into_water(const struct step_context *context, struct ground_veh
 
 /* Moves the vehicle there unless it is blocked. */
 static inline void change_position(const struct step_context *context, struct ground_vehicle *batch,
-                                   const struct ahead *ahead)
+                                   const union simd_lanes *before, struct ahead *ahead)
 {
     const f64x4 none = SIMD_EVERY(0.0);
     union lane_masks pass, lead_pass, stays;
@@ -331,6 +361,8 @@ static inline void change_position(const struct step_context *context, struct gr
     terrain_cache_find(&context->world->terrain, &batch->pose.ground, &ahead->x, &ahead->z);
     bool dry =
         terrain_cache_dry(&context->world->terrain, &batch->pose.ground, &batch->half_length);
+    if (!dry && batch->frames == 1)
+        brake_for_water(context, batch, before, ahead);
     passable(context, batch, &ahead->x, &ahead->z, dry, &pass);
     passable(context, batch, &ahead->lead_x, &ahead->lead_z, dry, &lead_pass);
     memset(&batch->wades, 0, sizeof batch->wades);
@@ -565,7 +597,7 @@ void ground_vehicle_move(const struct step_context *context, struct ground_vehic
     find_ahead(context, batch, &under_power, &rightward, &ahead);
     if (batch->frames > 1)
         find_arc_end(context, batch, &forward, &under_power, &heading, &ahead);
-    change_position(context, batch, &ahead);
+    change_position(context, batch, &forward, &ahead);
     ground_pose_find(context, &batch->pose);
     find_rough(context, batch, &under_power);
     if (batch->frames > 1)

@@ -223,6 +223,14 @@ static bool enters_ground(const struct step_context *context, uint32_t i, double
     return shell_depth(context, i, at, pitch, roll) <= 0.0;
 }
 
+/* Returns true if one of the nine posts about a place is wet. */
+static bool is_near_water(const struct step_context *context, double x, double z)
+{
+    struct terrain_cache_entry entry = {.held = 0};
+    (void)terrain_cache_bend(&context->world->terrain, &entry, x, z);
+    return entry.water != 0;
+}
+
 static bool drive_one(const struct step_context *context, uint32_t i,
                       const struct desired_motion *desired)
 {
@@ -244,6 +252,7 @@ static bool drive_one(const struct step_context *context, uint32_t i,
         blocked = true;
     limit = maths_min(limit, debris_share(context, kind, m->x[i], m->z[i]) * kind->max_speed_mps);
     wanted = maths_clamp(wanted, -limit, limit);
+    double brakes = maths_min(BRAKES * kind->acceleration_mps2, 0.7 * GRAVITY_MPS2), fast = forward;
     forward = powered(context, kind, pitch, forward, wanted);
     rightward = kinematics_approach(rightward, 0.0, 0.7 * GRAVITY_MPS2 * context->dt_s);
 
@@ -251,6 +260,16 @@ static bool drive_one(const struct step_context *context, uint32_t i,
     double vz = -forward * cosine + rightward * sine;
     double x = m->x[i] + vx * context->dt_s, z = m->z[i] + vz * context->dt_s;
     double lead = forward < 0.0 ? -kind->length_m * 0.5 : kind->length_m * 0.5;
+    double slower = kinematics_approach(fast, 0.0, brakes * context->dt_s);
+    double now = vx * sine - vz * cosine, way = kind->length_m * 0.5 + fast * fast / (2.0 * brakes);
+    way = fast < 0.0 ? -way : way;
+    if (is_near_water(context, x, z) && now * fast > 0.0 && fabs(now) > fabs(slower) &&
+        cover_is_water(terrain_cover(&context->world->terrain, m->x[i] + way * sine,
+                                     m->z[i] - way * cosine))) {
+        double less_x = (slower - now) * sine, less_z = (now - slower) * cosine;
+        vx += less_x, vz += less_z;
+        x += less_x * context->dt_s, z += less_z * context->dt_s;
+    }
     bool goes = x != m->x[i] || z != m->z[i], wades = false;
     if (goes &&
         (!passable(context, x + sine * lead, z - cosine * lead) || !passable(context, x, z))) {
