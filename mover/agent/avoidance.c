@@ -35,6 +35,8 @@
 #define SWEEP_COST     0.10  /* of a turn of 90 degrees off the present heading, at full speed */
 #define LEFT_COST      0.03  /* of turning left, so that two vehicles that meet both turn right */
 #define SHARP_SHARE    0.25  /* share of its speed in turns of 90 degrees and more */
+#define ROLLS_MPS      2.0   /* a faster vehicle does not turn in place */
+#define CREEP_M        0.5   /* it goes on so far while it turns past an obstacle beside it */
 #define STRAYS         0.05  /* how far bodies leave their course, as a share of the distance */
 #define GIVEN_WAY_S    2.5   /* the other is expected to give way if they meet later */
 #define CROSSING       0.94  /* cosine of 20 degrees: courses that differ by less do not cross */
@@ -70,6 +72,9 @@ struct look {
     double speed_mps; /* along the fan: the speed that it can reach within a second */
     double horizon_m;
     double half_width, half_length, gap;
+    double nose_m;                 /* how far it reaches ahead of its middle: its gun, too */
+    double left_m, right_m;        /* and to the sides */
+    double think_s;                /* until it decides again */
     double x[FAN + 1], z[FAN + 1]; /* the fan's directions, unit */
     double free_m[FAN + 1];        /* how far each is free; at most the horizon */
 };
@@ -94,6 +99,18 @@ static double reach_of(const struct world *world, const struct kind *kind)
             farthest = maths_max(farthest, level);
     }
     return sqrt(farthest);
+}
+
+/* How far the model of a kind reaches ahead of its middle, with its gun straight ahead. */
+static double nose_of(const struct world *world, const struct kind *kind)
+{
+    double farthest = 0.5 * kind->length_m;
+    for (uint32_t h = 0; h < kind->hull_count && world->params->collision.shape == SHAPE_MODEL;
+         h++) {
+        const struct hull *hull = &world->hulls[kind->first_hull + h];
+        farthest = maths_max(farthest, hull->centre.x + hull->half.x);
+    }
+    return farthest;
 }
 
 /* By the collider's impulses a bush bends, and an object that breaks costs the vehicle the object's
@@ -154,8 +171,11 @@ int avoidance_init(struct avoidance *avoidance, const struct world *world)
         if (kind->domain < DOMAIN_MUNITION) {
             avoidance->reach_m[k] =
                 0.5 * sqrt(kind->length_m * kind->length_m + kind->width_m * kind->width_m);
+            avoidance->nose_m[k] = nose_of(world, kind);
             avoidance->high_m[k] = (float)(0.5 * kind->height_m + AVOIDANCE_ROUNDED_M);
-            avoidance->gap_m[k] = (float)(gap_of(kind) + AVOIDANCE_ROUNDED_M);
+            avoidance->gap_m[k] = kind->domain == DOMAIN_LAND
+                                      ? INFINITY
+                                      : (float)(gap_of(kind) + AVOIDANCE_ROUNDED_M);
             avoidance->around_m[k] = around_of(horizon_of(kind, kind->max_speed_mps));
             avoidance->slope[k] = slope_of(kind);
         }
@@ -182,6 +202,17 @@ static void direct(struct look *look, int k)
     look->free_m[k] = look->horizon_m;
 }
 
+/* Sets how far it reaches ahead and to its sides, with its gun where it points. */
+static void reach_out(struct look *look, const struct kind *kind, double gun_m, double turret_rad)
+{
+    double sine = 0.0, cosine = 1.0;
+    if (kind->part_count > 0)
+        maths_sincos(turret_rad, &sine, &cosine);
+    look->nose_m = maths_max(look->half_length, look->sign * gun_m * cosine);
+    look->right_m = maths_max(look->half_width, look->sign * gun_m * sine);
+    look->left_m = maths_max(look->half_width, -look->sign * gun_m * sine);
+}
+
 static void begin(struct look *look, const struct step_context *context, uint32_t i,
                   const struct desired_motion *desired)
 {
@@ -194,6 +225,9 @@ static void begin(struct look *look, const struct step_context *context, uint32_
     look->desired_mps = speed;
     look->half_width = 0.5 * kind->width_m;
     look->half_length = 0.5 * kind->length_m;
+    reach_out(look, kind, context->avoidance->nose_m[m->kind[i]], (double)m->turret[i]);
+    if (kind->domain != DOMAIN_AIR)
+        look->think_s = context->dt_s * (double)cruise_start_think_frames(context, i);
     look->gap = gap_of(kind);
     look->horizon_m = horizon_of(kind, speed);
     maths_sincos(desired->heading_rad, &look->sine, &look->cosine);
@@ -221,7 +255,7 @@ static void open_fan(struct look *look)
 static void limit_by_standing(struct look *look, double dx, double dz, double reach_m)
 {
     double beside = reach_m + look->half_width + look->gap;
-    double ahead = reach_m + look->half_length + look->gap;
+    double ahead = reach_m + look->nose_m + look->gap;
     for (int k = 0; k <= FAN; k += look->step) {
         double along = dx * look->x[k] + dz * look->z[k];
         double across = fabs(dx * look->z[k] - dz * look->x[k]);
@@ -257,7 +291,7 @@ static bool may_meet(const struct look *look, int k, double dx, double dz, doubl
     double along = dx * ux + dz * uz, across = fabs(dx * uz - dz * ux); /* times closing */
     double beside =
         reach_m + look->gap + AVOIDANCE_ROUNDED_M + maths_max(look->half_width, look->half_length);
-    double ahead = reach_m + look->half_length + look->gap + AVOIDANCE_ROUNDED_M;
+    double ahead = reach_m + look->nose_m + look->gap + AVOIDANCE_ROUNDED_M;
     return along > -rounded && across < beside * closing + STRAYS * along + rounded &&
            speed * (along - ahead * closing - rounded) <
                look->horizon_m * (square + ROUNDED_MPS * (closing + 1.0));
@@ -269,7 +303,7 @@ static void limit_by_moving(struct look *look, double dx, double dz, double vx, 
                             double reach_m)
 {
     double beside = reach_m + look->half_width + look->gap;
-    double ahead = reach_m + look->half_length + look->gap;
+    double ahead = reach_m + look->nose_m + look->gap;
     bool other_gives_way = gives_way(look, dx, dz, vx, vz);
     for (int k = 0; k <= FAN; k += look->step) {
         double speed = k == PRESENT ? look->present_mps : look->speed_mps;
@@ -302,10 +336,11 @@ static void limit_by_box(struct look *look, double dx, double dz, double ux, dou
         double cosine = fabs(ux * look->x[k] + uz * look->z[k]);
         double sine = fabs(ux * look->z[k] - uz * look->x[k]);
         double along = dx * look->x[k] + dz * look->z[k];
-        double across = fabs(dx * look->z[k] - dz * look->x[k]) - half * sine - width * cosine;
-        double reach = half * cosine + width * sine, begins = along - reach - look->half_length;
-        double beside = look->half_width + (begins > 0.0 ? look->gap + STRAYS * begins : 0.0);
-        if (along > 0.0 && across < beside)
+        double right = dz * look->x[k] - dx * look->z[k], spread = half * sine + width * cosine;
+        double reach = half * cosine + width * sine, begins = along - reach - look->nose_m;
+        double gap = begins > 0.0 ? look->gap + STRAYS * begins : 0.0;
+        if (along > 0.0 && right - spread < look->right_m + gap &&
+            right + spread > -look->left_m - gap)
             look->free_m[k] = maths_min(look->free_m[k], maths_max(0.0, begins - look->gap));
     }
 }
@@ -379,8 +414,10 @@ static void see_vehicle(const struct step_context *context, uint32_t i, struct l
                         const struct neighbour_index_entry *at)
 {
     const struct entities *m = context->m, *w = &context->committed->entities;
-    double apart =
-        0.5 * (look->kind->height_m + context->world->kinds[at->kind].height_m) + look->gap;
+    const struct kind *other = &context->world->kinds[at->kind];
+    double apart = 0.5 * (look->kind->height_m + other->height_m) + look->gap;
+    if (look->kind->domain == DOMAIN_LAND && other->domain == DOMAIN_LAND)
+        apart = INFINITY; /* a road down a slope leads to one that is far below */
     double reach = context->avoidance->reach_m[at->kind];
     double dx = (double)at->x - m->x[i], dz = (double)at->z - m->z[i];
     double vx = (double)at->vx, vz = (double)at->vz;
@@ -508,10 +545,34 @@ static int best(const struct look *look, double dodge_rad)
     return found;
 }
 
-/* The speed from which it can stop within free_m. */
+/* How far the directions are free through which it turns from its present heading to a direction.
+ */
+static double turn_free(const struct look *look, int direction)
+{
+    double x = look->x[PRESENT], z = look->z[PRESENT], least = look->horizon_m;
+    double across = x * look->z[direction] - z * look->x[direction];
+    double along = x * look->x[direction] + z * look->z[direction];
+    for (int k = 0; k < FAN; k += look->step) {
+        bool between = (x * look->z[k] - z * look->x[k]) * across > 0.0 &&
+                       x * look->x[k] + z * look->z[k] > along;
+        if (between)
+            least = maths_min(least, look->free_m[k]);
+    }
+    return least;
+}
+
+/* How far it goes on when it brakes now. */
+static double stopping_way(const struct look *look)
+{
+    return look->present_mps * look->present_mps /
+           (2.0 * BRAKE_SHARE * BRAKES * look->kind->acceleration_mps2);
+}
+
+/* The speed from which it can stop within free_m, when it brakes after its next decision. */
 static double stopping_speed(const struct look *look, double free_m)
 {
-    return sqrt(2.0 * BRAKE_SHARE * BRAKES * look->kind->acceleration_mps2 * free_m);
+    double brake = BRAKE_SHARE * BRAKES * look->kind->acceleration_mps2, late_s = look->think_s;
+    return brake * (sqrt(late_s * late_s + 2.0 * free_m / brake) - late_s);
 }
 
 /* Returns the greatest speed [m/s] at which an aircraft can climb over the ground ahead, along a
@@ -576,7 +637,7 @@ static void look_ahead(const struct step_context *context, uint32_t i,
                        const struct desired_motion *desired)
 {
     struct entities *m = context->m;
-    struct look look;
+    struct look look = {0};
     begin(&look, context, i, desired);
     bool flies = look.kind->domain == DOMAIN_AIR;
     bool low = !flies || m->y[i] - kinematics_ground(context, m->x[i], m->z[i]) < LOW_FLIGHT_M;
@@ -589,13 +650,24 @@ static void look_ahead(const struct step_context *context, uint32_t i,
     if (direction != 0 && direction != PRESENT)
         look.free_m[PRESENT] =
             maths_min(look.free_m[PRESENT], works_free(context, i, &look, PRESENT));
-    double free_m = look.free_m[direction];
-    if (look.x[direction] * look.x[PRESENT] + look.z[direction] * look.z[PRESENT] < fan_cosine[1])
-        free_m = maths_min(free_m, look.free_m[PRESENT]); /* it has not turned there yet */
+    double free_m = look.free_m[direction], off = 0.0;
+    if (look.x[direction] * look.x[PRESENT] + look.z[direction] * look.z[PRESENT] < fan_cosine[1]) {
+        double turn_m = flies ? look.horizon_m : turn_free(&look, direction);
+        if (turn_m < stopping_way(&look) && turn_m < look.free_m[PRESENT]) {
+            direction = PRESENT; /* it slows down before it turns */
+            off = maths_wrap_half(m->heading[i] - desired->heading_rad);
+        }
+        free_m = maths_min(free_m, maths_min(maths_max(turn_m, CREEP_M), look.free_m[PRESENT]));
+    }
     if (free_m < look.horizon_m)
         ease = maths_max(ease, 1.0 - stopping_speed(&look, free_m) / look.desired_mps);
-    m->dodge[i] = direction < FAN ? (float)fan_rad[direction] : 0.0f; /* backwards it only slows */
+    m->dodge[i] = (float)(direction < FAN ? fan_rad[direction] : off); /* backwards it only slows */
     m->ease[i] = (float)maths_max(ease, 0.0);
+}
+
+static bool rolls(const struct entities *m, uint32_t i)
+{
+    return m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i] > ROLLS_MPS * ROLLS_MPS;
 }
 
 void avoidance_steer(const struct step_context *context, uint32_t i, struct desired_motion *desired)
@@ -608,6 +680,8 @@ void avoidance_steer(const struct step_context *context, uint32_t i, struct desi
     }
     if (!(fabs(desired->speed_mps) > 0.0)) {
         m->dodge[i] = m->ease[i] = 0.0f;
+        if (kind->domain == DOMAIN_LAND && rolls(m, i))
+            desired->heading_rad = m->heading[i]; /* it stops before it turns in place */
         return;
     }
     if (step_context_thinks(context, i) || cruise_start_due(context, i, context->think_frames))

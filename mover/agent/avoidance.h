@@ -19,12 +19,15 @@ struct avoidance {
     /* [m] Radius of the obstacle that a body of a kind is; of a fixed object, at the height of land
      * vehicles: a tree's trunk, not its crown. */
     double reach_m[KIND_COUNT_MAX];
+    /* Of vehicle kinds [m]: how far the model reaches ahead of its middle, with its gun. */
+    double nose_m[KIND_COUNT_MAX];
     /* Of vehicle kinds: a bit for each fixed kind that does not damage it. Kinds with an outline
      * are looked at one by one. */
     uint64_t harmless[KIND_COUNT_MAX];
     /* Of vehicle kinds: the tangent of the slope that is too steep. */
     double slope[KIND_COUNT_MAX];
-    /* Of vehicle kinds [m], rounded up: half the height, and the vertical gap to others. */
+    /* Of vehicle kinds [m], rounded up: half the height, and the vertical gap beyond which others
+     * do not matter. On a slope other land vehicles matter that are far above or below. */
     float high_m[KIND_COUNT_MAX], gap_m[KIND_COUNT_MAX];
     /* Of vehicle kinds [m]: the radius in which one at full speed looks for other vehicles. */
     double around_m[KIND_COUNT_MAX];

@@ -188,6 +188,16 @@ static void keep_place(const struct step_context *context, uint32_t i, double sp
         desired->speed_mps = maths_max(desired->speed_mps, STANDS_MPS); /* the others catch up */
 }
 
+/* On the route of its leader it does not drive up to the vehicle at this point, which drives at
+ * this speed, where its place in the column lies behind it. */
+static void keep_behind(const struct entities *m, uint32_t i, struct vec3 at, double speed,
+                        double spacing_m, struct desired_motion *desired)
+{
+    double dx = at.x - m->x[i], dz = at.z - m->z[i];
+    double most = speed + CATCH_UP_PS * (sqrt(dx * dx + dz * dz) - spacing_m);
+    desired->speed_mps = maths_min(desired->speed_mps, maths_max(most, STANDS_MPS));
+}
+
 void formation_keeping_follow(const struct step_context *context, uint32_t i,
                               struct desired_motion *desired)
 {
@@ -218,8 +228,9 @@ void formation_keeping_follow(const struct step_context *context, uint32_t i,
     double speed = maths_max(0.0, velocity.x * sine - velocity.z * cosine);
     keep_place(context, i, speed, sine, cosine, desired);
     double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
-    if (column && dx * dx + dz * dz > FAR_M * FAR_M)
-        (void)drive_along_route(context, i, formation, post.leader, desired);
+    if (column && dx * dx + dz * dz > FAR_M * FAR_M &&
+        drive_along_route(context, i, formation, post.leader, desired))
+        keep_behind(m, i, at, speed, formation->spacing_m, desired);
 }
 
 /* --- routes ------------------------------------------------------------------------------------*/

@@ -83,8 +83,9 @@ static void test_a_wood_is_crossed(void **state)
     assert_true(crossed >= 11 && hits <= 1); /* some thickets are too narrow to turn in */
 }
 
-/* Rows of houses 16 m long on both sides of a street, their roofs 7 m from its middle. */
-static void open_street(bool outlines)
+/* Rows of houses 16 m long on both sides of a street, their roofs 7 m from its middle, and more
+ * settings. */
+static void open_street(bool outlines, const char *more)
 {
     char text[4096];
     int length = snprintf(text, sizeof text,
@@ -95,7 +96,7 @@ static void open_street(bool outlines)
                            "%s{ kind = \"building\"; at = [%d.0, %.1f]; heading_deg = %d.0; }",
                            n ? "," : "", 25060 + n / 2 * 18, 25000.0 + (n % 2 ? 13.0 : -13.0),
                            n % 2 ? 90 : 270);
-    snprintf(text + length, sizeof text - (size_t)length, ");");
+    snprintf(text + length, sizeof text - (size_t)length, "); %s", more);
     fixture_close(&f);
     fixture_open(&f, text);
     uint16_t kind = kind_find(f.view.world.kinds, f.view.world.counts.kinds, "building");
@@ -123,11 +124,74 @@ static void test_a_street_between_outlines_is_free(void **state)
 {
     double gets_m;
     (void)state;
-    open_street(false);
+    open_street(false, "");
     assert_true(drive_along(&gets_m) > 15.0); /* around the houses */
-    open_street(true);
+    open_street(true, "");
     assert_true(drive_along(&gets_m) < 2.0);
     assert_true(gets_m > 400.0);
+}
+
+/* A tank that is told to face a house beside the street rolls to a stop along the street before it
+ * turns. */
+static void test_it_stops_in_a_street_before_it_turns(void **state)
+{
+    (void)state;
+    open_street(true,
+                "scripts = ( { name = \"s\"; steps = ( { go = [25600.0, 25000.0]; speed_mps = "
+                "15.0; }, { at_s = 12.0; face_deg = 180.0; } ); } ); vehicles = ( { kind = "
+                "\"tank\"; at = [25000.0, 25000.0]; heading_deg = 90.0; script = \"s\"; } );");
+    fixture_run(&f, 12 * HZ - 1);
+    assert_true(steps_speed(&f, 0) > 10.0);
+    fixture_run(&f, 10 * HZ);
+    assert_true(fabs(maths_wrap_half(steps_rows(&f).heading[0] - PI)) < 0.05);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+}
+
+/* A tank's gun reaches 1.8 m further than its hull, to wherever it points. */
+static void test_the_gun_does_not_touch_a_house(void **state)
+{
+    (void)state;
+    for (int n = 0; n < 4; n++) {
+        fixture_close(&f);
+        fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; };"
+                         "collision = { shape = \"model\"; }; objects = ("
+                         "{ kind = \"building\"; at = [25080.0, 24987.6]; heading_deg = 270.0; },"
+                         "{ kind = \"building\"; at = [25080.0, 25012.4]; heading_deg = 90.0; },"
+                         "{ kind = \"building\"; at = [25150.0, 25000.0]; heading_deg = 0.0; });");
+        uint16_t kind = kind_find(f.view.world.kinds, f.view.world.counts.kinds, "building");
+        ((struct kind *)(uintptr_t)f.view.world.kinds)[kind].outline = true;
+        uint32_t row = send("tank", 25000.0, 25000.0, 25400.0, 25000.0);
+        steps_rows(&f).turret[row] = (float)(0.5 * PI * n);
+        for (int frame = 0; frame < 20 * HZ; frame++) {
+            steps_rows(&f).turret[row] = (float)(maths_wrap_half(0.5 * PI * n));
+            fixture_run(&f, 1);
+        }
+        print_message("gun %d degrees off: at x = %.1f\n", 90 * n, steps_rows(&f).x[row]);
+        assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
+    }
+}
+
+/* On a slope of 10 % another vehicle is further below than it is high, from 40 m on. */
+static double slope(double x, double z, const void *context)
+{
+    (void)context;
+    (void)z;
+    return 100.0 - 0.1 * (x - 25000.0);
+}
+
+static void test_it_sees_one_that_stands_down_the_slope(void **state)
+{
+    (void)state;
+    steps_ground(&f, slope, NULL);
+    fixture_threads(&f, 1);
+    fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {25200.0, 80.0, 25000.0}});
+    uint32_t row = send("truck", 25000.0, 25000.0, 25500.0, 25000.0);
+    while (steps_rows(&f).dodge[row] == 0.0f && steps_rows(&f).x[row] < 25190.0)
+        fixture_run(&f, 1);
+    print_message("goes around it from %.0f m on\n", 25200.0 - steps_rows(&f).x[row]);
+    assert_true(steps_rows(&f).x[row] < 25140.0);
+    fixture_run(&f, 20 * HZ);
+    assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
 }
 
 static void test_head_on_they_pass_each_other_on_the_right(void **state)
@@ -322,6 +386,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_a_wood_is_crossed),
         TEST(test_a_street_between_outlines_is_free),
+        TEST(test_it_stops_in_a_street_before_it_turns),
+        TEST(test_the_gun_does_not_touch_a_house),
+        TEST(test_it_sees_one_that_stands_down_the_slope),
         TEST(test_head_on_they_pass_each_other_on_the_right),
         TEST(test_crossing_traffic_does_not_meet),
         TEST(test_it_stops_before_obstacles_that_it_cannot_pass),
