@@ -48,11 +48,13 @@ static double action_near(const struct effects *effects, struct vec3 position, d
     return maths_min(sum, ACTION_MAX);
 }
 
-/* Returns true if the row is a round in the air that a living vehicle fired. */
+/* Returns true if the row is a round in the air that a living vehicle fired. A howitzer's shell
+ * does not count: it comes down far from the gun. */
 static bool is_round(const struct frame_view *frame_view, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
     return e->state[slot] == ENTITY_ACTIVE && e->behaviour[slot] == BEHAVIOUR_FLIGHT &&
+           frame_view->world->kinds[e->kind[slot]].delivery != DELIVERY_ARC &&
            entities_alive(e, e->owner_slot[slot], e->owner_id[slot]);
 }
 

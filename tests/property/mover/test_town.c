@@ -63,8 +63,9 @@ static void test_agents_do_not_run_into_houses(void **state)
         }
         fixture_close(&f);
     }
-    print_message("%u seeds: %u shots, %u times a house was touched, %u times with more than %.0f m/s\n",
-                  seeds, shots, hits, hard, HARD_MPS);
+    print_message(
+        "%u seeds: %u shots, %u times a house was touched, %u times with more than %.0f m/s\n",
+        seeds, shots, hits, hard, HARD_MPS);
     assert_true(shots > 0);
     assert_true(hits <= 10 * seeds && hard <= 2 * seeds);
 }

@@ -28,7 +28,7 @@
 #define SEED     7u
 #define CAPACITY 16u
 
-enum { TANK, TREE, HOUSE, POLE, TOWER, SHRUB, KINDS };
+enum { TANK, TREE, HOUSE, POLE, TOWER, SHRUB, ROUND, SHELL, KINDS };
 enum { BUSH, TANKS, MAST, OAK, COTTAGE, FIXED }; /* in gridsquare order */
 
 static const struct kind kinds[KINDS] = {
@@ -39,6 +39,8 @@ static const struct kind kinds[KINDS] = {
               .width_m = 3.6,
               .height_m = 2.4,
               .fuel_l = 1000.0},
+    [ROUND] = {.name = "round", .domain = DOMAIN_MUNITION},
+    [SHELL] = {.name = "shell", .domain = DOMAIN_MUNITION, .delivery = DELIVERY_ARC},
     [TREE] = {.name = "oak",
               .domain = DOMAIN_FIXED,
               .object_class = OBJECT_TREE,
@@ -626,8 +628,7 @@ static void test_follow_goes_to_the_fire(void **context)
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), driver);
     uint32_t round = put_tank(s, 20500.0, 20000.0, 0.0);
     s->entities.behaviour[round] = BEHAVIOUR_FLIGHT;
-    s->entities.kind[round] =
-        kind_find(s->frame_view.world->kinds, s->frame_view.world->counts.kinds, "shell");
+    s->entities.kind[round] = ROUND;
     s->entities.owner_slot[round] = shooter;
     s->entities.owner_id[round] = s->entities.id[shooter];
     s->entities.target_slot[round] = target;
@@ -640,6 +641,11 @@ static void test_follow_goes_to_the_fire(void **context)
     s->entities.vx[target] = 4.0;
     s->head.tick = 400;
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), shooter);
+    /* A howitzer shows nothing but a gun: its shells come down kilometres away. */
+    s->entities.kind[round] = SHELL;
+    s->entities.vx[target] = 0.0;
+    s->head.tick = 600;
+    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), driver);
 }
 
 static void test_statistics_equal_the_table(void **context)
