@@ -12,6 +12,7 @@
 #include "ipc/topics/event_lines.h"
 
 #include <curses.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
@@ -111,12 +112,24 @@ static void draw_events(const struct recent_events *events, int top, int rows)
                         PAIR_PLAIN);
 }
 
+/* Writes text in two rows, broken between words. */
+static void put_two_rows(int row, int column, const char *text)
+{
+    char first[STATUS_PANEL_LINE];
+    size_t width = COLS > column ? (size_t)(COLS - column) : 1, end = strlen(text);
+    if (end > width)
+        for (end = width; end > 0 && text[end] != ' '; end--)
+            continue;
+    snprintf(first, sizeof first, "%.*s", (int)end, text);
+    curses_text_put(row, column, first, A_DIM, PAIR_PLAIN);
+    if (text[end] == ' ')
+        curses_text_put(row + 1, column, text + end + 1, A_DIM, PAIR_PLAIN);
+}
+
 static void draw_help(const char *inputs)
 {
     const char *keys, *meaning;
-    size_t length = strlen(inputs), width = COLS > 2 ? (size_t)COLS - 2 : 1;
-    for (size_t row = 0; row < 2 && row * width < length; row++)
-        curses_text_put(2 + (int)row, 2, inputs + row * width, A_DIM, PAIR_PLAIN);
+    put_two_rows(2, 2, inputs);
     for (uint32_t i = 0; terminal_keys_help(i, &keys, &meaning); i++) {
         curses_text_put(5 + (int)i, 2, keys, A_BOLD, PAIR_PLAIN);
         curses_text_put(5 + (int)i, 14, meaning, A_NORMAL, PAIR_PLAIN);

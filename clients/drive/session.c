@@ -341,7 +341,7 @@ static void read_drive_reply(struct session *session, uint64_t now_ns)
     if (reply.result == jolon_RESULT_DONE) {
         if (session->state == SESSION_TAKING)
             session_notify(session, now_ns,
-                           "you drive %s from frame %llu; hold w to go, h shows the keys", label,
+                           "you drive %s; hold w to go, h shows the keys (frame %llu)", label,
                            (unsigned long long)reply.frame);
         session->state = SESSION_DRIVING;
         return;

@@ -70,6 +70,10 @@ def end(child):
 
 child, terminal = start("T1")
 wait("the wheel", lambda: b"you drive T1 (tank 1)" in shown)
+os.write(terminal, b"h")
+wait("the help, without a broken word",
+     lambda: b"map nearer, wider" in shown and (b"daemon" not in shown or b"answer" in shown))
+os.write(terminal, b"h")
 if termios.tcgetattr(terminal)[3] & termios.ECHO:
     sys.exit("the terminal echoes keys")
 before = tank()
