@@ -10,6 +10,7 @@
 
 #define HOVER_S        12.0 /* a helicopter's cycle: it hovers, then flies to another side */
 #define HOVER_SHARE    0.6  /* share of the cycle in which it hovers */
+#define HARMS_SHARE    0.95 /* of the distance from which its rounds penetrate */
 #define TOO_NEAR_SHARE 0.25 /* share of the range: if the target is nearer it backs away */
 #define SIDE_RAD       1.7  /* direction to the other side, off its target */
 #define ROCKET_SHARE   0.48 /* of the range, from which a helicopter fires rockets */
@@ -28,10 +29,11 @@ struct aim {
     bool seen;
 };
 
-static void stand_off(const struct kind *kind, const struct aim *aim, double share,
+/* Drives up to a distance from its target. */
+static void stand_off(const struct kind *kind, const struct aim *aim, double distance,
                       struct desired_motion *desired)
 {
-    bool there = aim->seen && aim->distance <= share * kind->range_m;
+    bool there = aim->seen && aim->distance <= distance;
     desired->heading_rad = aim->heading;
     desired->speed_mps = there ? 0.0 : kind->max_speed_mps;
 }
@@ -44,7 +46,7 @@ static void hover(const struct step_context *context, uint32_t i, const struct k
         ((double)context->tick * context->dt_s + (double)(context->m->id[i] % 12u)) / HOVER_S;
     double phase = round - floor(round);
     bool near = aim->distance <= share * kind->range_m;
-    stand_off(kind, aim, share, desired);
+    stand_off(kind, aim, share * kind->range_m, desired);
     desired->altitude_m = (near ? POP_UP_SHARE : LOW_SHARE) * kind->cruise_altitude_m;
     if (near && phase < HOVER_SHARE && !aim->seen)
         desired->speed_mps = phase < POP_UP_PHASE ? 0.0 : desired->speed_mps;
@@ -100,6 +102,15 @@ static void await(const struct step_context *context, uint32_t i, const struct a
         desired->speed_mps = 0.0;
 }
 
+/* The distance at which it stops before its target: where its rounds penetrate. */
+static double stand_off_m(const struct step_context *context, uint32_t i, const struct kind *kind,
+                          const struct behaviour_table *table)
+{
+    return maths_min(table->stand_off * kind->range_m,
+                     HARMS_SHARE *
+                         fire_control_harms_from_m(context, i, context->m->target_slot[i]));
+}
+
 void attack_motion(const struct step_context *context, uint32_t i,
                    const struct behaviour_table *table, struct desired_motion *desired)
 {
@@ -123,7 +134,7 @@ void attack_motion(const struct step_context *context, uint32_t i,
         pass(context, i, kind, &aim, table->stand_off, desired);
         break;
     default: /* a charge is a stand-off at distance 0 */
-        stand_off(kind, &aim, table->stand_off, desired);
+        stand_off(kind, &aim, stand_off_m(context, i, kind, table), desired);
         await(context, i, &aim, desired);
         break;
     }

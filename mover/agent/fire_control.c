@@ -18,6 +18,7 @@
 #define SLOW_MPS           15.0  /* a faster helicopter is as hard to hit as a jet */
 #define KEPT_SHARE         0.64  /* of its rounds: the rest of a tank's 55 is 20 for half an hour */
 #define KEPT_REACH         0.3   /* share of the range at which it fires the rounds that it keeps */
+#define CLOSE_SHARE        0.15  /* so near it also fires at what it harms only from behind */
 #define SELF_DEFENCE       0.4   /* share of the range at which air defence fires at the ground */
 #define ENGAGED_M          300.0 /* it chooses targets so far beyond its reach, and drives closer */
 #define POSITION_S         5.0 /* guns that load faster change their place about so often, times 2-4 */
@@ -89,6 +90,18 @@ static bool keeps_rounds(const struct entities *m, uint32_t i, const struct kind
            (double)m->rounds[i] <= KEPT_SHARE * (double)kind->rounds;
 }
 
+double fire_control_harms_from_m(const struct step_context *context, uint32_t i, uint32_t target)
+{
+    const struct kind *kinds = context->world->kinds;
+    const struct kind *kind = &kinds[context->m->kind[i]];
+    const struct kind *other = &kinds[context->committed->entities.kind[target]];
+    if (kind->domain != DOMAIN_LAND || kind->munition == KIND_NONE ||
+        !fire_control_harms(context, i, target))
+        return INFINITY;
+    return maths_max(armour_reach_m(other, &kinds[kind_munition_at(kind, other)]),
+                     CLOSE_SHARE * kind->range_m);
+}
+
 double fire_control_reach_m(const struct step_context *context, uint32_t i, uint32_t target)
 {
     const struct kind *kinds = context->world->kinds;
@@ -102,7 +115,7 @@ double fire_control_reach_m(const struct step_context *context, uint32_t i, uint
         reach *= other->min_speed_mps > 0.0 ? FLYING_SHARE : HOVERING_SHARE;
     if (keeps_rounds(context->m, i, kind))
         reach *= KEPT_REACH;
-    return reach;
+    return maths_min(reach, fire_control_harms_from_m(context, i, target));
 }
 
 bool fire_control_worth(const struct step_context *context, uint32_t i, uint32_t target,

@@ -60,6 +60,17 @@ bool armour_yields(const struct kind *vehicle, const struct kind *round, bool fr
            round->penetration_mm > RAMP_FROM * thinnest;
 }
 
+double armour_reach_m(const struct kind *vehicle, const struct kind *round)
+{
+    double thinner = maths_min(vehicle->armour_mm[ASPECT_FRONT], vehicle->armour_mm[ASPECT_SIDE]);
+    double over = round->penetration_mm - RAMP_FROM * thinner;
+    if (!(round->penetration_mm > 0.0) || thinner < ARMOUR_LEAST_MM)
+        return INFINITY;
+    if (!(over > 0.0))
+        return 0.0;
+    return round->penetration_loss > 0.0 ? 1000.0 * over / round->penetration_loss : INFINITY;
+}
+
 double armour_penetration(const struct kind *round, double flown_m)
 {
     return maths_max(0.0, round->penetration_mm - 0.001 * flown_m * round->penetration_loss);

@@ -45,6 +45,10 @@ struct armour_hit armour_hit_of(const struct kind *vehicle, double penetration_m
  * also sees the top. */
 bool armour_yields(const struct kind *vehicle, const struct kind *round, bool from_above);
 
+/* Returns how far the round may fly and still get through the front or the sides of the vehicle,
+ * square to them [m]; 0 where it never does, INFINITY where it always does. */
+double armour_reach_m(const struct kind *vehicle, const struct kind *round);
+
 /* Returns what the round still penetrates after flown_m [mm]. */
 double armour_penetration(const struct kind *round, double flown_m);
 

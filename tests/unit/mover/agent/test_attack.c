@@ -391,6 +391,26 @@ static void test_another_burst_keeps_a_crew_in_cover(void **state)
     }
 }
 
+/* A carrier whose burst penetrates a tank's side from 800 m on stops within that, and not where
+ * half of its range would let it stop. */
+static void test_a_carrier_drives_to_where_its_rounds_penetrate(void **state)
+{
+    (void)state;
+    uint32_t row =
+        put("carrier", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t target =
+        put("tank", (struct vec3){25000.0, 100.0, 23950.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    for (int frame = 0; frame < 60 * HZ; frame++) {
+        attack(row, target);
+        steps_rows(&f).reload_tick[row] =
+            UINT32_MAX; /* it does not fire, and does not move after it */
+        fixture_run(&f, 1);
+    }
+    double away = steps_rows(&f).z[row] - steps_rows(&f).z[target];
+    print_message("it stops %.0f m away\n", away);
+    assert_true(away > 600.0 && away < 800.0);
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
@@ -407,6 +427,7 @@ int main(void)
         TEST(test_a_crew_does_not_leave_a_place_that_hides_its_hull),
         TEST(test_a_crew_that_flees_takes_the_nearest_cover),
         TEST(test_another_burst_keeps_a_crew_in_cover),
+        TEST(test_a_carrier_drives_to_where_its_rounds_penetrate),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -215,6 +215,19 @@ static void test_rounds_are_kept_for_targets_that_can_be_hit(void **state)
     assert_true(reach("ship", "jet", 1.0) == 1.0); /* its missiles home */
 }
 
+/* A carrier's burst penetrates 75 mm less 15 a kilometre, a tank has 70 at its sides: 63 of its 70
+ * are certain to hold no longer from 800 m on. A tank's shaped charge penetrates everything
+ * anywhere, and a jeep's bullets only what has no armour. */
+static void test_a_gun_fires_from_where_its_rounds_penetrate(void **state)
+{
+    (void)state;
+    assert_true(fabs(2000.0 * reach("carrier", "tank", 1.0) - 800.0) < 1.0);
+    assert_true(reach("carrier", "carrier", 1.0) == 1.0);
+    assert_true(reach("carrier", "truck", 1.0) == 1.0);
+    assert_true(reach("tank", "carrier", 1.0) == 1.0);
+    assert_true(reach("jeep", "jeep", 1.0) == 1.0);
+}
+
 /* --- reactions ---------------------------------------------------------------------------------*/
 
 static int ascending(const void *p, const void *q)
@@ -300,6 +313,7 @@ int main(void)
         TEST(test_a_tank_fires_no_round_at_a_jet),
         TEST(test_a_fast_helicopter_is_no_target_for_a_tank_gun),
         TEST(test_rounds_are_kept_for_targets_that_can_be_hit),
+        TEST(test_a_gun_fires_from_where_its_rounds_penetrate),
         TEST(test_the_reaction_has_a_least_time_and_the_kinds_median),
         TEST(test_a_gun_that_loads_for_longer_is_not_loaded_sooner),
         TEST(test_crews_reply_after_a_human_time),
