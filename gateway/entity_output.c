@@ -125,12 +125,6 @@ static uint32_t appearance_of(const struct world *world, const struct snapshot *
     return appearance | (snapshot->head.paused ? PDU_APPEARANCE_FROZEN : 0);
 }
 
-static struct vec3 limited(struct vec3 v, double most)
-{
-    double length = vec3_length(v);
-    return length > most ? vec3_scale(v, most / length) : v;
-}
-
 /* Returns the angular velocity that turns one attitude into another within dt_s [rad/s, body axes
  * of DIS]. */
 static struct vec3 rates_between(const struct mat3 *from, const struct mat3 *to, double dt_s)
@@ -177,9 +171,9 @@ static void observe(struct entity_sent *sent, const struct snapshot *snapshot, u
     if (sent->seen_id != e->id[row] || past_s > 1.0) {
         sent->acceleration = sent->rates = sent->seen_rates = (struct vec3){0};
     } else if (past_s > 0.0) {
-        sent->acceleration = limited(
+        sent->acceleration = vec3_limited(
             vec3_scale(vec3_sub(velocity, sent->seen_velocity), 1.0 / past_s), ACCELERATION_MOST);
-        struct vec3 rates = limited(rates_between(&sent->seen_turn, turn, past_s), RATE_MOST);
+        struct vec3 rates = vec3_limited(rates_between(&sent->seen_turn, turn, past_s), RATE_MOST);
         sent->rates = lasting_rates(rates, sent->seen_rates, 0.5 * (past_s + sent->seen_s));
         if (!follows) {
             sent->seen_rates = rates;

@@ -137,12 +137,6 @@ static struct vec3 vec3_of(const float value[3])
     return (struct vec3){(double)value[0], (double)value[1], (double)value[2]};
 }
 
-static struct vec3 limited(struct vec3 v, double most)
-{
-    double length = vec3_length(v);
-    return length <= most ? v : length < 1e30 ? vec3_scale(v, most / length) : (struct vec3){0};
-}
-
 /* Returns an angle as it is in a record, at most so far from 0. An absurd one is 0. */
 static int16_t angle_units(double angle_rad, double most_rad)
 {
@@ -159,7 +153,7 @@ static uint64_t id_of(struct pdu_id id)
 
 static void scale_floats(float value[3], double scale, double most)
 {
-    vec3_to_floats(value, limited(vec3_scale(vec3_of(value), scale), most));
+    vec3_to_floats(value, vec3_limited(vec3_scale(vec3_of(value), scale), most));
 }
 
 /* Writes a record into the ring. Velocities of other simulators are by the clock, and those in the
@@ -220,9 +214,9 @@ static void set_motion(struct remote_record *track, const struct mat3 *axes,
         state->appearance & PDU_APPEARANCE_FROZEN)
         model = DEAD_RECKONING_STATIC;
     track->model = model;
-    struct vec3 velocity = limited(vec3_of(state->velocity), SPEED_MOST_MPS);
-    struct vec3 acceleration = limited(vec3_of(state->acceleration), ACCELERATION_MOST_MPS2);
-    struct vec3 rates = limited(vec3_of(state->angular_velocity), RATE_MOST_RPS);
+    struct vec3 velocity = vec3_limited(vec3_of(state->velocity), SPEED_MOST_MPS);
+    struct vec3 acceleration = vec3_limited(vec3_of(state->acceleration), ACCELERATION_MOST_MPS2);
+    struct vec3 rates = vec3_limited(vec3_of(state->angular_velocity), RATE_MOST_RPS);
     if (model >= DEAD_RECKONING_FPB) {
         velocity = rotation_apply(&matrix, velocity);
         acceleration = rotation_apply(&matrix, acceleration);
@@ -533,15 +527,15 @@ static void take_detonation(struct remote_input *input, struct view *view, const
     struct vec3 at = place;
     /* Where it is in the body of our vehicle holds also if we have the vehicle elsewhere. */
     if (hits)
-        place = local_frame_body_from_dis(limited(vec3_of(detonation->point), 1e3));
+        place = local_frame_body_from_dis(vec3_limited(vec3_of(detonation->point), 1e3));
     else
         record.entity = 0;
     record.position[0] = place.x;
     record.position[1] = place.y;
     record.position[2] = place.z;
     const struct mat3 axes = local_frame_axes(input->frame, at);
-    vec3_to_floats(record.velocity,
-                   rotation_back(&axes, limited(vec3_of(detonation->velocity), SPEED_MOST_MPS)));
+    vec3_to_floats(record.velocity, rotation_back(&axes, vec3_limited(vec3_of(detonation->velocity),
+                                                                      SPEED_MOST_MPS)));
     put_shot(input, view, &record, &at, now_ns);
 }
 
@@ -624,7 +618,7 @@ static void take_collision(struct remote_input *input, const struct pdu *pdu, ui
     }
     if (!(body.restitution >= 0.0f && body.restitution <= 1.0f))
         record.restitution = body.restitution > 1.0f ? 1.0f : 0.0f;
-    struct vec3 point = local_frame_body_from_dis(limited(vec3_of(body.point), 1e3));
+    struct vec3 point = local_frame_body_from_dis(vec3_limited(vec3_of(body.point), 1e3));
     record.position[0] = point.x;
     record.position[1] = point.y;
     record.position[2] = point.z;
@@ -634,7 +628,7 @@ static void take_collision(struct remote_input *input, const struct pdu *pdu, ui
                                  ? local_frame_axes(input->frame, issuer->place)
                                  : input->frame->axes;
     vec3_to_floats(record.velocity,
-                   rotation_back(&axes, limited(vec3_of(body.velocity), SPEED_MOST_MPS)));
+                   rotation_back(&axes, vec3_limited(vec3_of(body.velocity), SPEED_MOST_MPS)));
     await_collider(input, &record, now_ns);
 }
 

@@ -525,21 +525,15 @@ bool remote_apply(struct serial_context *context, struct remote_inputs *inputs,
 
 /* --- the time scale ----------------------------------------------------------------------------*/
 
-static struct vec3 limited(struct vec3 v, double most)
-{
-    double length = vec3_length(v);
-    return length > most ? vec3_scale(v, most / length) : v;
-}
-
 static void scale_row(struct serial_context *context, uint32_t row, double ratio)
 {
     const struct entities *m = &context->moved->entities;
-    struct vec3 acceleration =
-        limited(vec3_scale(remote_acceleration(m, row), ratio * ratio), ACCELERATION_MOST_MPS2);
+    struct vec3 acceleration = vec3_limited(vec3_scale(remote_acceleration(m, row), ratio * ratio),
+                                            ACCELERATION_MOST_MPS2);
     struct vec3 spin = {m->spin_x[row], m->spin_y[row], m->spin_z[row]};
     table_set_velocity(&context->writer, row,
-                       limited(vec3_scale(entities_velocity(m, row), ratio), SPEED_MOST_MPS));
-    table_set_spin(&context->writer, row, limited(vec3_scale(spin, ratio), RATE_MOST_RPS));
+                       vec3_limited(vec3_scale(entities_velocity(m, row), ratio), SPEED_MOST_MPS));
+    table_set_spin(&context->writer, row, vec3_limited(vec3_scale(spin, ratio), RATE_MOST_RPS));
     table_set_climb(&context->writer, row, (float)acceleration.x);
     table_set_traverse(&context->writer, row, (float)acceleration.y);
     table_set_elevate(&context->writer, row, (float)acceleration.z);

@@ -242,18 +242,13 @@ static void hold_level(const struct step_context *context, uint32_t i, const str
         desired->altitude_m = level * kind->cruise_altitude_m;
 }
 
-static bool is_helicopter(const struct kind *kind)
-{
-    return kind->domain == DOMAIN_AIR && !(kind->min_speed_mps > 0.0);
-}
-
 static void drive_to_base(const struct step_context *context, uint32_t i, const struct kind *kind,
                           struct desired_motion *desired)
 {
     double speed = kind->max_speed_mps;
     if (goal_arrived(context, i)) /* at the end of a detour */
         goal_base(context, i);
-    if (is_helicopter(kind))
+    if (kind_hovers(kind))
         speed = maths_min(speed, sqrt(2.0 * SLOWS_MPS2 * way_to_goal(context->m, i)));
     drive_to_goal(context, i, speed, desired);
     hold_level(context, i, kind, desired);
@@ -288,7 +283,7 @@ static void drive_resupply(const struct step_context *context, uint32_t i, const
     if (kind->min_speed_mps > 0.0)
         drive_to_goal(context, i, kind->min_speed_mps, desired);
     hold_level(context, i, kind, desired);
-    if (is_helicopter(kind))
+    if (kind_hovers(kind))
         land_at_base(context, i, desired);
 }
 

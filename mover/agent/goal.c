@@ -231,8 +231,7 @@ static void base_place(const struct step_context *context, uint32_t i, double *x
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     const struct force_base *base = &context->world->params->base[m->force[i] % FORCE_COUNT];
     double sine, cosine, number = (double)(m->id[i] % HOME_PLACES);
-    bool hovers = kind->domain == DOMAIN_AIR && kind->min_speed_mps <= 0.0;
-    double away = hovers ? HOME_ROOM_M * sqrt(number) : 0.0;
+    double away = kind_hovers(kind) ? HOME_ROOM_M * sqrt(number) : 0.0;
     maths_sincos(GOLDEN_RAD * number, &sine, &cosine);
     *x = world_clamp(context->world, base->x + away * sine);
     *z = world_clamp(context->world, base->z - away * cosine);

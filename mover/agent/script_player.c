@@ -143,11 +143,6 @@ static double speed_now(const struct reading *r)
     return sqrt(m->vx[r->i] * m->vx[r->i] + m->vz[r->i] * m->vz[r->i]);
 }
 
-static bool hovers(const struct reading *r)
-{
-    return r->kind->domain == DOMAIN_AIR && !(r->kind->min_speed_mps > 0.0);
-}
-
 /* Braking that it can rely on [m/s2]. A helicopter has to lean back first. */
 static double slowing(const struct reading *r)
 {
@@ -187,7 +182,7 @@ static void desire_point(const struct reading *r, const struct script_step *step
     if (metres > THERE_M)
         desired->heading_rad = maths_heading(step->x - m->x[r->i], step->z - m->z[r->i]);
     if (step->halt) {
-        double late = hovers(r) ? FOLLOW_S * slowing(r) : 0.0;
+        double late = kind_hovers(r->kind) ? FOLLOW_S * slowing(r) : 0.0;
         speed = maths_min(speed, maths_max(sqrt(2.0 * slowing(r) * metres) - late, 0.0));
     }
     double off = maths_wrap_half(desired->heading_rad - m->heading[r->i]);

@@ -153,6 +153,12 @@ struct kind {
     double low_m, high_m; /* lowest and highest point over the position, upright */
 };
 
+/* Returns true if it is an aircraft that can hover, such as a helicopter. */
+static inline bool kind_hovers(const struct kind *kind)
+{
+    return kind->domain == DOMAIN_AIR && !(kind->min_speed_mps > 0.0);
+}
+
 /* Returns the munition that a vehicle fires at one of another kind, KIND_NONE for none. Thin armour
  * is below KIND_LIGHT_MM at the sides. */
 #define KIND_LIGHT_MM 45.0

@@ -107,6 +107,14 @@ static inline double vec3_length(struct vec3 a)
     return sqrt(vec3_dot(a, a));
 }
 
+/* Returns v, or a vector of its direction that is `most` long if it is longer; none if its length
+ * is no number. */
+static inline struct vec3 vec3_limited(struct vec3 v, double most)
+{
+    double length = vec3_length(v);
+    return length <= most ? v : length < INFINITY ? vec3_scale(v, most / length) : (struct vec3){0};
+}
+
 /* a + (b - a) * t */
 static inline struct vec3 vec3_lerp(struct vec3 a, struct vec3 b, double t)
 {

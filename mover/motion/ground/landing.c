@@ -24,11 +24,6 @@
 #define REST_MPS2    0.5
 #define REST_DEPTH_M 0.02
 
-static bool hovers(const struct kind *kind)
-{
-    return !(kind->min_speed_mps > 0.0);
-}
-
 /* --- touch-down --------------------------------------------------------------------------------*/
 
 /* How a body meets the ground. */
@@ -57,7 +52,7 @@ static bool is_gentle(const struct kind *kind, const struct touchdown *touch)
 {
     if (touch->level < LEVEL)
         return false;
-    if (hovers(kind))
+    if (kind_hovers(kind))
         return touch->closing_mps < LANDING_HARD_MPS && touch->along_mps < SKIDS_MPS;
     return touch->closing_mps < BELLY_MPS && touch->along_mps < BELLY_SHARE * kind->min_speed_mps;
 }
@@ -70,7 +65,7 @@ static double harm_of(const struct kind *kind, double closing_mps)
     double harm = maths_max(0.0, (closing_mps * closing_mps - soft) / (hard - soft));
     if (closing_mps <= LANDING_SOFT_MPS)
         harm = 0.0;
-    return hovers(kind) ? harm : maths_max(harm, BELLY_HARM);
+    return kind_hovers(kind) ? harm : maths_max(harm, BELLY_HARM);
 }
 
 /* Returns the height of the lowest point of row i over the ground [m]. */
@@ -112,7 +107,7 @@ static bool wants_up(const struct step_context *context, uint32_t i, const struc
                      const struct desired_motion *desired)
 {
     bool fuel = !(kind->fuel_l > 0.0) || context->m->fuel_l[i] > 0.0;
-    if (desired == NULL || !hovers(kind) || !fuel)
+    if (desired == NULL || !kind_hovers(kind) || !fuel)
         return false;
     return desired->driven ? desired->climb_mps > 0.0 : desired->altitude_m > CLIMBS_M;
 }
@@ -125,7 +120,7 @@ static double lift_of(const struct step_context *context, uint32_t i,
     const double full = (1.0 + AIRFRAME_COLLECTIVE) * GRAVITY_MPS2;
     struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
-    if (desired == NULL || !hovers(kind))
+    if (desired == NULL || !kind_hovers(kind))
         return 0.0;
     if (!desired->driven)
         return up ? full : 0.0;

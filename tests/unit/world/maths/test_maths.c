@@ -199,6 +199,10 @@ static void test_clamp_and_vectors(void **state)
     assert_true(maths_min(1.0, 2.0) == 1.0 && maths_max(1.0, 2.0) == 2.0);
     assert_true(vec3_dot(a, b) == 22.0);
     assert_true(vec3_length((struct vec3){2.0, 3.0, 6.0}) == 7.0);
+    assert_true(vec3_limited(a, 4.0).y == 2.0);
+    assert_true(fabs(vec3_length(vec3_limited((struct vec3){2e300, 0.0, 0.0}, 4.0))) == 0.0);
+    assert_true(vec3_limited((struct vec3){NAN, 0.0, 1.0}, 4.0).z == 0.0);
+    assert_true(vec3_limited((struct vec3){0.0, 0.0, -64.0}, 4.0).z == -4.0);
     struct vec3 middle = vec3_lerp(a, b, 0.5);
     assert_true(middle.x == 3.0 && middle.y == 0.0 && middle.z == 5.0);
     struct vec3 start = vec3_lerp(a, b, 0.0);
