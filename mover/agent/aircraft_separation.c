@@ -50,25 +50,33 @@ static struct course course_of(const struct step_context *context, uint32_t i)
     return (struct course){at.x, at.z, velocity.x, velocity.z, right * cosine, right * sine};
 }
 
-/* Returns true if the other row's course comes near within AHEAD_S. */
+/* Returns true if the courses come near each other within AHEAD_S. share: how much of their banks
+ * they hold, 0 or 1. */
+static bool come_near(const struct course *own, const struct course *its, double beside,
+                      double share)
+{
+    double vx = its->vx - own->vx, vz = its->vz - own->vz;
+    double spread = SPREAD * sqrt(vx * vx + vz * vz);
+    for (uint32_t n = 0; n * SAMPLE_S <= AHEAD_S; n++) {
+        double t = n * SAMPLE_S, half = 0.5 * share * t * t;
+        double most = beside + spread * maths_max(t, SAMPLE_S);
+        double dx = its->x - own->x + vx * t + (its->ax - own->ax) * half;
+        double dz = its->z - own->z + vz * t + (its->az - own->az) * half;
+        if (dx * dx + dz * dz < most * most)
+            return true;
+    }
+    return false;
+}
+
+/* Returns true if the other row comes near, with its bank or when both roll out of their turns. */
 static bool meets(const struct step_context *context, uint32_t i, uint32_t other,
                   const struct course *own)
 {
     const struct entities *w = &context->committed->entities;
     const double *reach = context->avoidance->reach_m;
     const struct course its = course_of(context, other);
-    double vx = its.vx - own->vx, vz = its.vz - own->vz;
     double beside = reach[w->kind[i]] + reach[w->kind[other]] + BESIDE_M;
-    double spread = SPREAD * sqrt(vx * vx + vz * vz);
-    for (uint32_t n = 0; n * SAMPLE_S <= AHEAD_S; n++) {
-        double t = n * SAMPLE_S, half = 0.5 * t * t;
-        double most = beside + spread * maths_max(t, SAMPLE_S);
-        double dx = its.x - own->x + vx * t + (its.ax - own->ax) * half;
-        double dz = its.z - own->z + vz * t + (its.az - own->az) * half;
-        if (dx * dx + dz * dz < most * most)
-            return true;
-    }
-    return false;
+    return come_near(own, &its, beside, 1.0) || come_near(own, &its, beside, 0.0);
 }
 
 static void keep_from(const struct step_context *context, uint32_t i, uint32_t other,

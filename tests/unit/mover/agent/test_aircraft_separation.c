@@ -114,6 +114,30 @@ static void test_a_dense_herd_does_not_collide(void **state)
     assert_int_equal(collisions, 0);
 }
 
+/* Two fly past each other because one turns away. Rolls it out, they meet. */
+static void test_one_that_may_roll_out_of_its_turn_is_kept_from(void **state)
+{
+    (void)state;
+    uint32_t row[2];
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; };");
+    for (int n = 0; n < 2; n++)
+        row[n] = fixture_put(
+            &f, (struct fixture_entity){.kind = "helicopter",
+                                        .at = {25000.0 + 100.0 * n, 147.0 + n, 25000.0 + 30.0 * n},
+                                        .velocity = {n == 0 ? 30.0 : -30.0, 0.0, 0.0},
+                                        .heading_rad = n == 0 ? HALF_PI : 3.0 * HALF_PI,
+                                        .behaviour = BEHAVIOUR_PATROL});
+    struct entities e = steps_rows(&f);
+    for (int n = 0; n < 2; n++) {
+        e.behaviour[row[n]] = e.order[row[n]] = BEHAVIOUR_PATROL;
+        e.goal_x[row[n]] = n == 0 ? 27000.0 : 23000.0;
+        e.goal_z[row[n]] = n == 0 ? 25000.0 : 26000.0;
+    }
+    e.roll[row[1]] = -1.0f;
+    fixture_run(&f, 8);
+    assert_true(steps_rows(&f).climb[row[1]] > 0.0f);
+}
+
 static double least_gap(uint32_t first, uint32_t end)
 {
     struct entities e = steps_rows(&f);
@@ -154,6 +178,7 @@ int main(void)
         cmocka_unit_test_teardown(test_two_that_meet_pass_above_and_below, close_world),
         cmocka_unit_test_teardown(test_a_crowd_on_patrol_does_not_collide, close_world),
         cmocka_unit_test_teardown(test_a_dense_herd_does_not_collide, close_world),
+        cmocka_unit_test_teardown(test_one_that_may_roll_out_of_its_turn_is_kept_from, close_world),
         cmocka_unit_test_teardown(test_those_at_their_base_do_not_collide, close_world),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
