@@ -128,6 +128,27 @@ static void test_a_helicopter_arrives_from_afar_at_its_time(void **state)
     }
 }
 
+/* It flies through a point on its way to the next, at up to 15 m/s: a quarter of a second before
+ * its time it is up to 4 m off, and at its time it is there. */
+static void test_a_helicopter_flies_through_its_point_at_its_time(void **state)
+{
+    (void)state;
+    for (double metres = 200.0; metres <= 600.0; metres += 200.0) {
+        char steps[160];
+        snprintf(steps, sizeof steps,
+                 "{ at_s = 40.0; arrive = [25000.0, %.1f]; }, { at_s = 80.0; arrive = [25300.0, "
+                 "%.1f]; }",
+                 25000.0 - metres, 25000.0 - metres);
+        open_script("helicopter", "", steps);
+        run_s(40.0);
+        print_message("from %.0f m: %.2f m off after 40 s, at %.1f m/s\n", metres,
+                      off(25000.0, 25000.0 - metres), speed());
+        assert_true(off(25000.0, 25000.0 - metres) < 0.3);
+        assert_true(speed() > 3.0);
+        fixture_close(&f);
+    }
+}
+
 static void test_one_step_follows_the_other(void **state)
 {
     (void)state;
@@ -360,6 +381,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_it_arrives_at_its_time),
         cmocka_unit_test(test_a_helicopter_arrives_from_afar_at_its_time),
+        cmocka_unit_test(test_a_helicopter_flies_through_its_point_at_its_time),
         cmocka_unit_test(test_one_step_follows_the_other),
         cmocka_unit_test(test_a_wait_lasts_as_long_as_it_says),
         cmocka_unit_test(test_a_time_cuts_off_the_steps_before_it),
