@@ -68,15 +68,18 @@ static bool come_near(const struct course *own, const struct course *its, double
     return false;
 }
 
-/* Returns true if the other row comes near, with its bank or when both roll out of their turns. */
+/* Returns true if the other row comes near, with its bank or, of two that can hover, when both roll
+ * out of their turns. Aeroplanes hold theirs for longer. */
 static bool meets(const struct step_context *context, uint32_t i, uint32_t other,
                   const struct course *own)
 {
     const struct entities *w = &context->committed->entities;
     const double *reach = context->avoidance->reach_m;
+    const struct kind *kinds = context->world->kinds;
     const struct course its = course_of(context, other);
+    bool nimble = kind_hovers(&kinds[w->kind[i]]) && kind_hovers(&kinds[w->kind[other]]);
     double beside = reach[w->kind[i]] + reach[w->kind[other]] + BESIDE_M;
-    return come_near(own, &its, beside, 1.0) || come_near(own, &its, beside, 0.0);
+    return come_near(own, &its, beside, 1.0) || (nimble && come_near(own, &its, beside, 0.0));
 }
 
 static void keep_from(const struct step_context *context, uint32_t i, uint32_t other,

@@ -1,11 +1,12 @@
 /* Aircraft keep apart by height.
  *
  * When an agent flies, it looks for other aircraft that come near it within a few seconds if both
- * hold their speed, and their bank or roll out of it. Of two such aircraft the higher one stays
- * above and the lower one below. The lower one goes down by half of the gap, as far as the ground
- * allows; the higher one goes up until it has the whole gap below it. One between two others goes
- * up. Both of a pair find the same from the committed table, so they need no agreement; this is how
- * airliners resolve a conflict (RTCA DO-185, TCAS II). Any thread, each its own row. */
+ * hold their speed, and their bank, which helicopters may also roll out of. Of two such aircraft
+ * the higher one stays above and the lower one below. The lower one goes down by half of the gap,
+ * as far as the ground allows; the higher one goes up until it has the whole gap below it. One
+ * between two others goes up. Both of a pair find the same from the committed table, so they need
+ * no agreement; this is how airliners resolve a conflict (RTCA DO-185, TCAS II). Any thread, each
+ * its own row. */
 #ifndef JOLON_MOVER_AGENT_AIRCRAFT_SEPARATION_H
 #define JOLON_MOVER_AGENT_AIRCRAFT_SEPARATION_H
 
