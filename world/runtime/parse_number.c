@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <stdlib.h>
+#include <string.h>
 
 bool parse_whole(const char *text, uint64_t least, uint64_t most, uint64_t *value)
 {
@@ -18,5 +19,7 @@ bool parse_real(const char *text, double low, double high, double *value)
     char *end;
     errno = 0;
     *value = strtod(text, &end);
-    return errno == 0 && end != text && *end == '\0' && *value >= low && *value <= high;
+    /* strtod() reads hexadecimal numbers, too. */
+    return errno == 0 && end != text && *end == '\0' && !strpbrk(text, "xX") && *value >= low &&
+           *value <= high;
 }

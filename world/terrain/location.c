@@ -92,9 +92,7 @@ int location_read(struct location *place, const char *text, struct error_text *e
         return 0;
     }
     place->on_earth = false;
-    /* strtod() would read hexadecimal numbers. */
-    if (strpbrk(text, "xX") || !parse_real(first, -1e9, 1e9, &place->x) ||
-        !parse_real(second, -1e9, 1e9, &place->z))
+    if (!parse_real(first, -1e9, 1e9, &place->x) || !parse_real(second, -1e9, 1e9, &place->z))
         return error_text_set(error, "'%.64s': not a place; " FORMS, text);
     return place->x < 0.0 || place->z < 0.0 ? refuse_negative(place, text, error) : 0;
 }

@@ -17,7 +17,8 @@ static void test_no_numbers(void **state)
 {
     static const char *const whole[] = {
         "", " 1", "1 ", "+1", "-1", "1.0", "1e3", "0x1", "one", "1,0", "18446744073709551616"};
-    static const char *const real[] = {"", "1 ", "1,5", "one", "1e", "--1", "1e999", "nan"};
+    static const char *const real[] = {"",    "1 ",    "1,5", "one",  "1e",
+                                       "--1", "1e999", "nan", "0x10", "-0X1p3"};
     uint64_t number;
     double value;
     (void)state;
