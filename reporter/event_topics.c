@@ -8,11 +8,11 @@
 #include "ipc/process/log.h"
 
 #include "status.h"
+#include "world/earth_location.h"
 #include "world/entity/event.h"
 #include "world/entity/kind.h"
 #include "world/event_text.h"
 #include "world/params.h"
-#include "world/terrain/location.h"
 
 #include <string.h>
 
@@ -41,6 +41,7 @@ int event_topics_open(struct event_topics *events, const struct view *view,
 {
     struct state_head head;
     *events = (struct event_topics){.run = run};
+    earth_location_frame(&events->earth, view->world.params, view->world.terrain.squares.world_m);
     for (uint32_t i = 0; i < EVENT_TOPIC_COUNT; i++) {
         events->writer[i] = dds_topics_writer(link, (enum dds_topic)(TOPIC_EVENTS + i), error);
         if (events->writer[i] < 0)
@@ -95,31 +96,33 @@ union event_sample {
     jolon_ContactEndEvent contact_end;
 };
 
+/* The world of the events, and where it lies on the earth. */
+struct event_scene {
+    const struct world *world;
+    const struct location_frame *earth;
+};
+
 typedef void fill_sample(union event_sample *sample, const jolon_EventHeader *header,
-                         const struct world *world, const struct event *event);
+                         const struct event_scene *scene, const struct event *event);
 
 /* Sets the place on the earth of a point of the world. */
-static void set_place(jolon_Degrees *degrees, char mgrs[MGRS_TEXT_MAX], const struct world *world,
-                      const double point[3])
+static void set_place(jolon_Degrees *degrees, char mgrs[MGRS_TEXT_MAX],
+                      const struct event_scene *scene, const double point[3])
 {
-    const struct gateway_params *gateway = &world->params->gateway;
-    struct location_frame frame;
     struct location_earth earth;
-    location_frame_make(&frame, gateway->latitude_deg, gateway->longitude_deg,
-                        world->terrain.squares.world_m);
-    location_earth(&earth, &frame, point[0], point[2]);
+    location_earth(&earth, scene->earth, point[0], point[2]);
     *degrees = (jolon_Degrees){earth.latitude_deg, earth.longitude_deg};
     memcpy(mgrs, earth.mgrs, MGRS_TEXT_MAX);
 }
 
 static void fill_collision(union event_sample *sample, const jolon_EventHeader *header,
-                           const struct world *world, const struct event *event)
+                           const struct event_scene *scene, const struct event *event)
 {
     const struct event_collision *from = &event->collision;
     sample->collision = (jolon_CollisionEvent){
         .header = *header,
-        .a = party_of(world, &from->a),
-        .b = party_of(world, &from->b),
+        .a = party_of(scene->world, &from->a),
+        .b = party_of(scene->world, &from->b),
         .point = point_of(from->point),
         .normal = direction_of(from->normal),
         .toi = from->toi,
@@ -130,40 +133,40 @@ static void fill_collision(union event_sample *sample, const jolon_EventHeader *
         .response = (jolon_Response)from->response,
         .begins = from->begins != 0,
     };
-    set_place(&sample->collision.degrees, sample->collision.mgrs, world, from->point);
+    set_place(&sample->collision.degrees, sample->collision.mgrs, scene, from->point);
 }
 
 static void fill_fire(union event_sample *sample, const jolon_EventHeader *header,
-                      const struct world *world, const struct event *event)
+                      const struct event_scene *scene, const struct event *event)
 {
     const struct event_fire *from = &event->fire;
     sample->fire = (jolon_FireEvent){
         .header = *header,
-        .shooter = party_of(world, &from->shooter),
-        .target = party_of(world, &from->target),
-        .munition = party_of(world, &from->munition),
+        .shooter = party_of(scene->world, &from->shooter),
+        .target = party_of(scene->world, &from->target),
+        .munition = party_of(scene->world, &from->munition),
         .point = point_of(from->point),
     };
-    set_place(&sample->fire.degrees, sample->fire.mgrs, world, from->point);
+    set_place(&sample->fire.degrees, sample->fire.mgrs, scene, from->point);
 }
 
 static void fill_detonation(union event_sample *sample, const jolon_EventHeader *header,
-                            const struct world *world, const struct event *event)
+                            const struct event_scene *scene, const struct event *event)
 {
     const struct event_detonation *from = &event->detonation;
     sample->detonation = (jolon_DetonationEvent){
         .header = *header,
-        .munition = party_of(world, &from->munition),
-        .victim = party_of(world, &from->struck_party),
+        .munition = party_of(scene->world, &from->munition),
+        .victim = party_of(scene->world, &from->struck_party),
         .point = point_of(from->point),
         .explosive_kg = from->explosive_kg,
         .struck = (jolon_Struck)from->struck,
     };
-    set_place(&sample->detonation.degrees, sample->detonation.mgrs, world, from->point);
+    set_place(&sample->detonation.degrees, sample->detonation.mgrs, scene, from->point);
 }
 
 static void fill_crater(union event_sample *sample, const jolon_EventHeader *header,
-                        const struct world *world, const struct event *event)
+                        const struct event_scene *scene, const struct event *event)
 {
     const struct event_crater *from = &event->crater;
     sample->crater = (jolon_CraterEvent){
@@ -172,16 +175,16 @@ static void fill_crater(union event_sample *sample, const jolon_EventHeader *hea
         .radius_m = from->radius_m,
         .depth_m = from->depth_m,
     };
-    set_place(&sample->crater.degrees, sample->crater.mgrs, world, from->point);
+    set_place(&sample->crater.degrees, sample->crater.mgrs, scene, from->point);
 }
 
 static void fill_agent(union event_sample *sample, const jolon_EventHeader *header,
-                       const struct world *world, const struct event *event)
+                       const struct event_scene *scene, const struct event *event)
 {
     const struct event_agent *from = &event->agent;
     sample->agent = (jolon_AgentEvent){
         .header = *header,
-        .agent = party_of(world, &from->agent),
+        .agent = party_of(scene->world, &from->agent),
         .before = (jolon_Behaviour)from->from,
         .after = (jolon_Behaviour)from->to,
         .because = (jolon_AgentReason)from->because,
@@ -189,13 +192,13 @@ static void fill_agent(union event_sample *sample, const jolon_EventHeader *head
 }
 
 static void fill_contact_end(union event_sample *sample, const jolon_EventHeader *header,
-                             const struct world *world, const struct event *event)
+                             const struct event_scene *scene, const struct event *event)
 {
     const struct event_contact_end *from = &event->contact_end;
     sample->contact_end = (jolon_ContactEndEvent){
         .header = *header,
-        .a = party_of(world, &from->a),
-        .b = party_of(world, &from->b),
+        .a = party_of(scene->world, &from->a),
+        .b = party_of(scene->world, &from->b),
         .lasted_s = from->lasted_s,
         .impacts = from->impacts,
         .impulse_ns = from->impulse_ns,
@@ -210,7 +213,7 @@ static fill_sample *const fill[] = {
 };
 
 /* Returns false when DDS had no room, and the event must be written again. */
-static bool publish_one(struct event_topics *events, const struct world *world,
+static bool publish_one(struct event_topics *events, const struct event_scene *scene,
                         const struct event *event, bool publish)
 {
     uint32_t topic = event->type - 1;
@@ -222,11 +225,11 @@ static bool publish_one(struct event_topics *events, const struct world *world,
             events->previous[topic] == UINT64_MAX ? event->sequence : events->previous[topic],
         .frame = event->frame,
         .index = event->index,
-        .time_s = (double)event->tick * world->params->dt_s,
+        .time_s = (double)event->tick * scene->world->params->dt_s,
     };
     if (publish) {
         union event_sample sample;
-        fill[topic](&sample, &header, world, event);
+        fill[topic](&sample, &header, scene, event);
         code = dds_write(events->writer[topic], &sample);
     }
     if (code == DDS_RETCODE_TIMEOUT)
@@ -252,6 +255,7 @@ static void count_gap(struct event_topics *events)
 bool event_topics_publish(struct event_topics *events, const struct view *view, uint64_t until_ns)
 {
     uint64_t commit = atomic_load_explicit(&view->commit->commit, memory_order_acquire);
+    const struct event_scene scene = {&view->world, &events->earth};
     while (clock_now_ns() < until_ns) {
         uint32_t count = events_read(view, &events->cursor, events->event, EVENT_TOPICS_AT_ONCE);
         count_gap(events);
@@ -264,7 +268,7 @@ bool event_topics_publish(struct event_topics *events, const struct view *view, 
             bool publish = event->sequence >= events->publish_from ||
                            event->frame >= events->publish_from_frame;
             if (event->type > EVENT_NONE && event->type <= EVENT_TOPIC_COUNT &&
-                !publish_one(events, &view->world, event, publish)) {
+                !publish_one(events, &scene, event, publish)) {
                 events->cursor.next = event->sequence;
                 return false;
             }

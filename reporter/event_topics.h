@@ -9,6 +9,7 @@
 #include "ipc/frame/event_cursor.h"
 #include "ipc/topics/dds_topics.h"
 #include "world/entity/event.h"
+#include "world/terrain/location.h"
 
 #define EVENT_TOPICS_AGAIN   4096u
 #define EVENT_TOPICS_AGAIN_S 1.0 /* [s of simulation] before the predecessor's last frame */
@@ -20,6 +21,7 @@ struct event_topics {
     struct event_cursor cursor;
     uint64_t publish_from;       /* earlier events only set previous, ... */
     uint64_t publish_from_frame; /* ... unless their frame is at least this */
+    struct location_frame earth; /* where the world lies */
     uint64_t run;
     uint64_t frame; /* the last frame of which every event was published */
     uint64_t logged_ns;
