@@ -13,9 +13,10 @@
 #define INDEX_CONTOUR 5   /* every fifth contour is darker */
 #define STRIP         8   /* [pixel] width of the strips that are painted */
 #define ROAD_LINE_M   24.0
-#define ROAD_STEP     0.5 /* pixels from a point that is drawn to the next */
+#define ROAD_STEP     1.0 /* pixels from a point that is drawn to the next */
 #define ROAD_LEAST    1.0 /* [pixel] */
 #define ROAD_MOST     2.5
+#define ROAD_COLOUR_M (ROAD_LINE_M / ROAD_MOST) /* coarser maps show roads as lines alone */
 
 static const struct rgba beyond = {22, 26, 30, 255}; /* outside of the world */
 
@@ -185,6 +186,20 @@ static void copy_row(struct base_map *base, int64_t row, int64_t x0, int64_t x1,
     }
 }
 
+/* Returns the roads that the ground's colour shows, NULL if none: on coarse maps the lines cover
+ * it. Sets errno to ENOMEM without memory. */
+static const struct road_index *roads_of_colour(struct base_map *base)
+{
+    if (base->metres >= ROAD_COLOUR_M)
+        return NULL;
+    if (!base->has_roads &&
+        road_index_make(&base->roads, base->world->road_points, base->world->counts.road_points,
+                        base->world->terrain.squares.world_m) != 0)
+        return NULL;
+    base->has_roads = true;
+    return &base->roads;
+}
+
 static int paint_part(struct base_map *base, struct base_map_part part)
 {
     if (part.x0 >= part.x1 || part.y0 >= part.y1)
@@ -195,14 +210,12 @@ static int paint_part(struct base_map *base, struct base_map_part part)
                             .width = (uint32_t)(part.x1 - part.x0),
                             .height = (uint32_t)(part.y1 - part.y0)};
     struct image image;
-    if (!base->has_roads &&
-        road_index_make(&base->roads, base->world->road_points, base->world->counts.road_points,
-                        base->world->terrain.squares.world_m) != 0)
+    const struct road_index *roads = roads_of_colour(base);
+    if (roads == NULL && base->metres < ROAD_COLOUR_M)
         return -1;
-    base->has_roads = true;
     if (image_init(&image, view.width, view.height) != 0)
         return -1;
-    int result = paint_view(&image, &view, base->world, &base->roads);
+    int result = paint_view(&image, &view, base->world, roads);
     for (int64_t row = part.y0; result == 0 && row < part.y1; row++)
         copy_row(base, row, part.x0, part.x1,
                  image.pixels + (size_t)(row - part.y0) * view.width * 4, true);

@@ -24,7 +24,7 @@ struct base_map {
     double metres;             /* [m] a pixel; 0: nothing is painted yet */
     struct base_map_part held; /* the painted part in the ring */
     uint64_t painted;          /* [pixel] painted since it was opened */
-    struct road_index roads;   /* made for the first painting; owned */
+    struct road_index roads;   /* made when a scale first needs it; owned */
     bool has_roads;
 };
 
