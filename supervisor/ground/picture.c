@@ -154,6 +154,29 @@ static double shade_between(const struct ground *ground, double column, double r
     return (1.0 - south) * upper + south * lower;
 }
 
+/* Returns the middle of the picture in the square of the file [m]. Places count as in a scenario: a
+ * small square lies in the middle of a larger world. */
+static void choose_middle(double middle[2], const struct ground_header *header)
+{
+    double world_side = ground_file_world_side(header);
+    double offset = 0.5 * (world_side - header->side_m);
+    struct location place;
+    struct location_frame frame;
+    struct error_text error;
+    location_frame_make(&frame, header->latitude_deg, header->longitude_deg, world_side);
+    if (location_read(&place, given.at, &error) != 0 ||
+        location_world(&place, &frame, &middle[0], &middle[1], &error) != 0)
+        die_usage("ground show: --at: %s", error.text);
+    for (int k = 0; k < 2; k++) {
+        middle[k] -= offset;
+        if (middle[k] < 0.0 || middle[k] > header->side_m)
+            die_usage("ground show: --at %s: lies beyond the square of the file, which goes from "
+                      "%g,%g to %g,%g in a world of %g km",
+                      given.at, offset, offset, offset + header->side_m, offset + header->side_m,
+                      world_side / 1000.0);
+    }
+}
+
 /* The square of the ground that is drawn. */
 static void choose_square(struct canvas *canvas, const struct ground *ground)
 {
@@ -161,13 +184,8 @@ static void choose_square(struct canvas *canvas, const struct ground *ground)
     double metres =
         given.metres > 0.0 && given.metres < header->side_m ? given.metres : header->side_m;
     double middle[2] = {0.5 * header->side_m, 0.5 * header->side_m};
-    struct location place;
-    struct location_frame frame;
-    struct error_text error;
-    location_frame_make(&frame, header->latitude_deg, header->longitude_deg, header->side_m);
-    if (given.at && (location_read(&place, given.at, &error) != 0 ||
-                     location_world(&place, &frame, &middle[0], &middle[1], &error) != 0))
-        die_usage("ground show: --at: %s", error.text);
+    if (given.at)
+        choose_middle(middle, header);
     canvas->x0 = maths_clamp(middle[0] - 0.5 * metres, 0.0, header->side_m - metres);
     canvas->z0 = maths_clamp(middle[1] - 0.5 * metres, 0.0, header->side_m - metres);
     canvas->size = given.size < ground->side || given.metres > 0.0 ? given.size : ground->side;
@@ -258,7 +276,7 @@ int picture_show(int argc, char **argv)
          "width and height (default 1000; of a whole square at most one pixel a post)",
          .u32 = &given.size, .least = 16, .most = 20001},
         {"at", "PLACE",
-         "the middle of the picture, with --metres: X,Z in metres in the square, degrees as "
+         "the middle of the picture, with --metres: X,Z in metres as in a scenario, degrees as "
          "44.2705N,71.3033W, or MGRS",
          .text = &given.at},
         {"metres", "M", "width and height of the ground in the picture (default: all of it)",
