@@ -8,6 +8,7 @@
 #include <inttypes.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #define STRIP_ROWS 256u
 
@@ -93,19 +94,42 @@ static float between(const float *posts, const struct post_grid *grid, uint32_t 
     return weights > 0.0 ? ground_tile_round(sum / weights) : NAN;
 }
 
+/* Returns a longitude from -180 to 180 degrees. */
+static double wrap_degrees(double longitude)
+{
+    return longitude - 360.0 * round(longitude / 360.0);
+}
+
+/* Finds what the rasters cover [deg]: south, west, north, east. West is further than east where
+ * they lie across the date line. */
+static void extent_of_all(double has[4], const struct post_grid *grid, struct raster **rasters,
+                          uint32_t count)
+{
+    const double none[4] = {90.0, 1e9, -90.0, -1e9};
+    memcpy(has, none, sizeof none);
+    for (uint32_t i = 0; i < count; i++) {
+        double extent[4];
+        raster_extent(rasters[i], extent);
+        /* Maps count longitudes from -180 or from 0 degrees. */
+        double off = 0.5 * (extent[1] + extent[3]) - grid->longitude_deg;
+        for (int k = 0; k < 4; k++) {
+            double own = k % 2 == 0 ? extent[k] : extent[k] - (off - wrap_degrees(off));
+            has[k] = k < 2 ? fmin(has[k], own) : fmax(has[k], own);
+        }
+    }
+    bool around = has[3] - has[1] > 359.9999;
+    has[1] = around ? -180.0 : wrap_degrees(has[1]);
+    has[3] = around ? 180.0 : wrap_degrees(has[3]);
+}
+
 static int refuse_void(const struct post_grid *grid, struct raster **rasters, uint32_t count,
                        size_t post, uint64_t voids, struct error_text *error)
 {
     double x = (double)(post % grid->side) * grid->spacing_m;
     double z = (double)(post / grid->side) * grid->spacing_m;
-    double latitude, longitude, has[4] = {90.0, 1e9, -90.0, -1e9};
+    double latitude, longitude, has[4];
     projection_place(&grid->projection, x, z, &latitude, &longitude);
-    for (uint32_t i = 0; i < count; i++) {
-        double extent[4];
-        raster_extent(rasters[i], extent);
-        for (int k = 0; k < 4; k++)
-            has[k] = k < 2 ? fmin(has[k], extent[k]) : fmax(has[k], extent[k]);
-    }
+    extent_of_all(has, grid, rasters, count);
     return error_text_set(
         error,
         "%s%s: no height at latitude %.5f, longitude %.5f (x %.0f, z %.0f m), nor within %g m on "

@@ -66,6 +66,10 @@ if command -v gdal_create >/dev/null; then
     refuses_map "a map that lies elsewhere" 'away.tif.*the files have latitude 10.0000 to 11.0000, longitude 40.0000 to 41.0000' away.tif
     center=10.999,20.5
     refuses_map "a map of half of the square" 'level.tif.*nor within 500 m' level.tif
+    map turned.tif 287.5 45 288.5 44 -ot Int16 -burn 5
+    center=44.999,-72
+    refuses_map "a map of 0 to 360 degrees has its longitudes told from -180 to 180" \
+        'turned.tif: no height at latitude 45.00[0-9]+, longitude -72.00.* latitude 44.0000 to 45.0000, longitude -72.5000 to -71.5000' turned.tif
     center=10.5,20.5
     map colours.tif 20 11 21 10 -ot Byte -bands 3 -burn 1 -burn 2 -burn 3
     refuses_map "a picture" 'colours.tif: has 3 bands' colours.tif
