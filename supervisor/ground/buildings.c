@@ -152,8 +152,9 @@ static int by_place(const void *left, const void *right)
         return a->x_mm < b->x_mm ? -1 : 1;
     if (a->z_mm != b->z_mm)
         return a->z_mm < b->z_mm ? -1 : 1;
+    /* The one with a courtyard, if one map has the outline without it, too. */
     if (p->corners != q->corners)
-        return p->corners < q->corners ? -1 : 1;
+        return p->corners > q->corners ? -1 : 1;
     if (a->eaves_mm != b->eaves_mm)
         return a->eaves_mm > b->eaves_mm ? -1 : 1;
     return memcmp(p->corner, q->corner, p->corners * sizeof *p->corner);

@@ -42,50 +42,54 @@ enum key {
 static const char *const keys[KEYS] = {"building", "power",    "man_made", "natural",
                                        "landuse",  "waterway", "water",    "fclass"};
 
+/* What a closed line is, unless area=yes says that it is an outline. */
+enum closed { OUTLINE, LINE };
+
 /* The first row that fits counts. A value of NULL fits every word but "no". */
-static const struct {
+static const struct word {
     const char *value;
     enum key key;
     enum feature_use use;
+    enum closed closed;
 } words[] = {
-    {"roof", KEY_BUILDING, FEATURE_NONE},
-    {NULL, KEY_BUILDING, FEATURE_BUILDING},
-    {"building", KEY_FCLASS, FEATURE_BUILDING},
-    {"tower", KEY_POWER, FEATURE_TOWER},
-    {"pole", KEY_POWER, FEATURE_POLE},
-    {"line", KEY_POWER, FEATURE_TOWER},
-    {"minor_line", KEY_POWER, FEATURE_POLE},
-    {"water_tower", KEY_MAN_MADE, FEATURE_WATERTOWER},
-    {"water_tower", KEY_FCLASS, FEATURE_WATERTOWER},
-    {"utility_pole", KEY_MAN_MADE, FEATURE_POLE},
-    {"mast", KEY_MAN_MADE, FEATURE_TOWER},
-    {"communications_tower", KEY_MAN_MADE, FEATURE_TOWER},
-    {"tree", KEY_NATURAL, FEATURE_TREE},
-    {"tree", KEY_FCLASS, FEATURE_TREE},
-    {"tree_row", KEY_NATURAL, FEATURE_TREE_ROW},
-    {"river", KEY_WATER, FEATURE_RIVER},
-    {"canal", KEY_WATER, FEATURE_RIVER},
-    {"water", KEY_NATURAL, FEATURE_LAKE},
-    {"reservoir", KEY_LANDUSE, FEATURE_LAKE},
-    {"basin", KEY_LANDUSE, FEATURE_LAKE},
-    {"water", KEY_FCLASS, FEATURE_LAKE},
-    {"reservoir", KEY_FCLASS, FEATURE_LAKE},
-    {"river", KEY_WATERWAY, FEATURE_RIVER},
-    {"canal", KEY_WATERWAY, FEATURE_RIVER},
-    {"riverbank", KEY_WATERWAY, FEATURE_RIVER},
-    {"dock", KEY_WATERWAY, FEATURE_LAKE},
-    {"river", KEY_FCLASS, FEATURE_RIVER},
-    {"canal", KEY_FCLASS, FEATURE_RIVER},
-    {"riverbank", KEY_FCLASS, FEATURE_RIVER},
-    {"dock", KEY_FCLASS, FEATURE_LAKE},
-    {"coastline", KEY_NATURAL, FEATURE_COAST},
-    {"wood", KEY_NATURAL, FEATURE_WOOD},
-    {"forest", KEY_LANDUSE, FEATURE_WOOD},
-    {"forest", KEY_FCLASS, FEATURE_WOOD},
-    {"scrub", KEY_NATURAL, FEATURE_SCRUB},
-    {"heath", KEY_NATURAL, FEATURE_SCRUB},
-    {"scrub", KEY_FCLASS, FEATURE_SCRUB},
-    {"heath", KEY_FCLASS, FEATURE_SCRUB},
+    {"roof", KEY_BUILDING, FEATURE_NONE, OUTLINE},
+    {NULL, KEY_BUILDING, FEATURE_BUILDING, OUTLINE},
+    {"building", KEY_FCLASS, FEATURE_BUILDING, OUTLINE},
+    {"tower", KEY_POWER, FEATURE_TOWER, OUTLINE},
+    {"pole", KEY_POWER, FEATURE_POLE, OUTLINE},
+    {"line", KEY_POWER, FEATURE_TOWER, LINE},
+    {"minor_line", KEY_POWER, FEATURE_POLE, LINE},
+    {"water_tower", KEY_MAN_MADE, FEATURE_WATERTOWER, OUTLINE},
+    {"water_tower", KEY_FCLASS, FEATURE_WATERTOWER, OUTLINE},
+    {"utility_pole", KEY_MAN_MADE, FEATURE_POLE, OUTLINE},
+    {"mast", KEY_MAN_MADE, FEATURE_TOWER, OUTLINE},
+    {"communications_tower", KEY_MAN_MADE, FEATURE_TOWER, OUTLINE},
+    {"tree", KEY_NATURAL, FEATURE_TREE, OUTLINE},
+    {"tree", KEY_FCLASS, FEATURE_TREE, OUTLINE},
+    {"tree_row", KEY_NATURAL, FEATURE_TREE_ROW, LINE},
+    {"river", KEY_WATER, FEATURE_RIVER, OUTLINE},
+    {"canal", KEY_WATER, FEATURE_RIVER, OUTLINE},
+    {"water", KEY_NATURAL, FEATURE_LAKE, OUTLINE},
+    {"reservoir", KEY_LANDUSE, FEATURE_LAKE, OUTLINE},
+    {"basin", KEY_LANDUSE, FEATURE_LAKE, OUTLINE},
+    {"water", KEY_FCLASS, FEATURE_LAKE, OUTLINE},
+    {"reservoir", KEY_FCLASS, FEATURE_LAKE, OUTLINE},
+    {"river", KEY_WATERWAY, FEATURE_RIVER, LINE},
+    {"canal", KEY_WATERWAY, FEATURE_RIVER, LINE},
+    {"riverbank", KEY_WATERWAY, FEATURE_RIVER, OUTLINE},
+    {"dock", KEY_WATERWAY, FEATURE_LAKE, OUTLINE},
+    {"river", KEY_FCLASS, FEATURE_RIVER, LINE},
+    {"canal", KEY_FCLASS, FEATURE_RIVER, LINE},
+    {"riverbank", KEY_FCLASS, FEATURE_RIVER, OUTLINE},
+    {"dock", KEY_FCLASS, FEATURE_LAKE, OUTLINE},
+    {"coastline", KEY_NATURAL, FEATURE_COAST, LINE},
+    {"wood", KEY_NATURAL, FEATURE_WOOD, OUTLINE},
+    {"forest", KEY_LANDUSE, FEATURE_WOOD, OUTLINE},
+    {"forest", KEY_FCLASS, FEATURE_WOOD, OUTLINE},
+    {"scrub", KEY_NATURAL, FEATURE_SCRUB, OUTLINE},
+    {"heath", KEY_NATURAL, FEATURE_SCRUB, OUTLINE},
+    {"scrub", KEY_FCLASS, FEATURE_SCRUB, OUTLINE},
+    {"heath", KEY_FCLASS, FEATURE_SCRUB, OUTLINE},
 };
 
 static const char *const troubles[FEATURE_TROUBLES] = {
@@ -102,6 +106,7 @@ static const char *const troubles[FEATURE_TROUBLES] = {
     [FEATURE_LARGE] = "buildings of more than 1 km are left out",
     [FEATURE_HEIGHT] =
         "buildings have a height that is no number from 0 to 500 m, and was not used",
+    [FEATURE_WIDTH] = "rivers have a width that is no number from 0 to 2000 m, and was not used",
 };
 
 struct reading {
@@ -110,7 +115,7 @@ struct reading {
     struct vector_map *map;
     OGRFeatureH feature;
     enum feature_use use;
-    enum key key;
+    const struct word *word; /* which says so */
     struct vector_map_track track;
 };
 
@@ -149,6 +154,12 @@ static double metres_of(const struct reading *r, const char *key)
     while (*end == ' ')
         end++;
     return *end == '\'' || strncmp(end, "ft", 2) == 0 ? metres * METRES_A_FOOT : metres;
+}
+
+static bool has(const struct reading *r, const char *key)
+{
+    char buffer[WORD_MAX];
+    return *vector_map_tag(r->feature, key, buffer, sizeof buffer) != '\0';
 }
 
 /* Returns larger memory for one more row, or the same. NULL: no memory, which is noted. */
@@ -304,12 +315,16 @@ static void take_river(struct reading *r)
 {
     char buffer[WORD_MAX];
     double width = metres_of(r, "width");
+    if (width > RIVER_MOST_M || (width == 0.0 && has(r, "width"))) {
+        note(r, FEATURE_WIDTH);
+        width = 0.0;
+    }
     if (width == 0.0)
-        width =
-            strcmp(vector_map_tag(r->feature, keys[r->key], buffer, sizeof buffer), "canal") == 0
-                ? CANAL_M
-                : RIVER_M;
-    add_line(r, maths_min(width, RIVER_MOST_M));
+        width = strcmp(vector_map_tag(r->feature, keys[r->word->key], buffer, sizeof buffer),
+                       "canal") == 0
+                    ? CANAL_M
+                    : RIVER_M;
+    add_line(r, width);
 }
 
 /* An island: its outline gets the direction of a coastline. */
@@ -335,12 +350,6 @@ static void take_island(struct reading *r, OGRGeometryH polygon)
 }
 
 /* --- buildings ---------------------------------------------------------------------------------*/
-
-static bool has(const struct reading *r, const char *key)
-{
-    char buffer[WORD_MAX];
-    return *vector_map_tag(r->feature, key, buffer, sizeof buffer) != '\0';
-}
 
 static double walls_of(struct reading *r, double area_m2)
 {
@@ -489,8 +498,36 @@ static void take_building(struct reading *r, OGRGeometryH polygon, bool mended)
 
 /* --- features ----------------------------------------------------------------------------------*/
 
+/* A tower that is drawn as an outline stands in its middle. */
+static void take_outline_object(struct reading *r, OGRGeometryH polygon)
+{
+    double middle[2] = {0.0, 0.0};
+    OGRGeometryH ring = OGR_G_GetGeometryRef(polygon, 0);
+    if (!ring || !vector_map_track(r->map, ring, &r->track)) {
+        note(r, FEATURE_NO_PLACE);
+        return;
+    }
+    for (uint32_t i = 0; i < r->track.count; i++) {
+        middle[0] += r->track.place[i][0] / r->track.count;
+        middle[1] += r->track.place[i][1] / r->track.count;
+    }
+    add_object_at(r, middle, 0.0);
+}
+
+static void take_polygon(struct reading *r, OGRGeometryH polygon)
+{
+    if (r->use == FEATURE_BUILDING)
+        take_building(r, polygon, false);
+    else if (r->use == FEATURE_COAST)
+        take_island(r, polygon);
+    else if (r->use < FEATURE_TREE)
+        take_area(r, polygon);
+    else
+        take_outline_object(r, polygon);
+}
+
 /* Makes a polygon of a line whose ends may be apart. */
-static void take_open(struct reading *r, OGRGeometryH line)
+static void take_outline(struct reading *r, OGRGeometryH line)
 {
     int count = OGR_G_GetPointCount(line);
     bool closed = is_closed(line);
@@ -506,18 +543,26 @@ static void take_open(struct reading *r, OGRGeometryH line)
         note(r, FEATURE_OPEN);
     OGR_G_CloseRings(ring);
     OGR_G_AddGeometryDirectly(polygon, ring);
-    if (r->use == FEATURE_BUILDING)
-        take_building(r, polygon, false);
-    else
-        take_area(r, polygon);
+    take_polygon(r, polygon);
     OGR_G_DestroyGeometry(polygon);
+}
+
+/* Returns true if a line is the outline of an area. */
+static bool is_outline(const struct reading *r, OGRGeometryH line)
+{
+    char buffer[WORD_MAX];
+    if (r->use == FEATURE_BUILDING || r->use == FEATURE_WOOD || r->use == FEATURE_SCRUB ||
+        r->use == FEATURE_LAKE)
+        return true;
+    return is_closed(line) &&
+           (r->word->closed == OUTLINE ||
+            strcmp(vector_map_tag(r->feature, "area", buffer, sizeof buffer), "yes") == 0);
 }
 
 static void take_line(struct reading *r, OGRGeometryH line)
 {
-    if (r->use == FEATURE_BUILDING || r->use == FEATURE_WOOD || r->use == FEATURE_SCRUB ||
-        r->use == FEATURE_LAKE)
-        take_open(r, line);
+    if (is_outline(r, line))
+        take_outline(r, line);
     else if (!vector_map_track(r->map, line, &r->track) || r->track.count < 2)
         note(r, FEATURE_NO_PLACE);
     else if (r->use == FEATURE_COAST)
@@ -526,22 +571,6 @@ static void take_line(struct reading *r, OGRGeometryH line)
         take_river(r);
     else
         add_row(r);
-}
-
-/* A tower that is drawn as an outline stands in its middle. */
-static void take_outline_object(struct reading *r, OGRGeometryH polygon)
-{
-    double middle[2] = {0.0, 0.0};
-    OGRGeometryH ring = OGR_G_GetGeometryRef(polygon, 0);
-    if (!ring || !vector_map_track(r->map, ring, &r->track)) {
-        note(r, FEATURE_NO_PLACE);
-        return;
-    }
-    for (uint32_t i = 0; i < r->track.count; i++) {
-        middle[0] += r->track.place[i][0] / r->track.count;
-        middle[1] += r->track.place[i][1] / r->track.count;
-    }
-    add_object_at(r, middle, 0.0);
 }
 
 static void take_geometry(struct reading *r, OGRGeometryH geometry)
@@ -560,14 +589,7 @@ static void take_geometry(struct reading *r, OGRGeometryH geometry)
         break;
     case wkbPolygon:
         close_rings(r, geometry);
-        if (r->use == FEATURE_BUILDING)
-            take_building(r, geometry, false);
-        else if (r->use == FEATURE_COAST)
-            take_island(r, geometry);
-        else if (r->use < FEATURE_TREE)
-            take_area(r, geometry);
-        else
-            take_outline_object(r, geometry);
+        take_polygon(r, geometry);
         break;
     case wkbMultiPoint:
     case wkbMultiLineString:
@@ -582,7 +604,8 @@ static void take_geometry(struct reading *r, OGRGeometryH geometry)
     }
 }
 
-static enum feature_use use_of(OGRFeatureH feature, enum key *key)
+/* Returns the word that says what a feature is, NULL if there is none. */
+static const struct word *word_of(OGRFeatureH feature)
 {
     char buffer[KEYS][WORD_MAX];
     const char *value[KEYS];
@@ -590,11 +613,10 @@ static enum feature_use use_of(OGRFeatureH feature, enum key *key)
         value[i] = vector_map_tag(feature, keys[i], buffer[i], WORD_MAX);
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         const char *word = value[words[i].key];
-        *key = words[i].key;
         if (*word && (words[i].value ? strcmp(word, words[i].value) == 0 : strcmp(word, "no") != 0))
-            return words[i].use;
+            return &words[i];
     }
-    return FEATURE_NONE;
+    return NULL;
 }
 
 static void take_feature(void *context, struct vector_map *map, OGRFeatureH feature,
@@ -603,9 +625,27 @@ static void take_feature(void *context, struct vector_map *map, OGRFeatureH feat
     struct reading *r = context;
     r->map = map;
     r->feature = feature;
-    r->use = use_of(feature, &r->key);
+    r->word = word_of(feature);
+    r->use = r->word ? r->word->use : FEATURE_NONE;
     if (r->use != FEATURE_NONE)
         take_geometry(r, geometry);
+}
+
+/* Where two areas overlap the later one counts, so their order must not be that of the maps: the
+ * larger come first. */
+static int by_extent(const void *left, const void *right)
+{
+    const struct area *p = left, *q = right;
+    double extent[2] = {(p->high[0] - p->low[0]) * (p->high[1] - p->low[1]),
+                        (q->high[0] - q->low[0]) * (q->high[1] - q->low[1])};
+    if (extent[0] != extent[1])
+        return extent[0] > extent[1] ? -1 : 1;
+    if (p->rings != q->rings)
+        return p->rings < q->rings ? -1 : 1;
+    int order = memcmp(p->end, q->end, p->rings * sizeof *p->end);
+    if (order == 0)
+        order = memcmp(p->place, q->place, p->end[p->rings - 1] * sizeof *p->place);
+    return order != 0 ? order : (int)p->use - (int)q->use;
 }
 
 int features_read(struct features *features, char *const *paths, uint32_t count,
@@ -619,6 +659,8 @@ int features_read(struct features *features, char *const *paths, uint32_t count,
         result = vector_map_read(
             paths[i], grid, VECTOR_MAP_POINTS | VECTOR_MAP_LINES | VECTOR_MAP_AREAS,
             "points, lines or areas that become features", take_feature, &r, gaps, error);
+    if (features->areas > 0)
+        qsort(features->area, features->areas, sizeof *features->area, by_extent);
     vector_map_track_free(&r.track);
     return result;
 }

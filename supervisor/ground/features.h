@@ -37,6 +37,7 @@ enum feature_trouble {
     FEATURE_EDGE,     /* left out: a building across the edge of the square */
     FEATURE_LARGE,    /* left out: a building of more than GROUND_BUILDING_REACH_MM */
     FEATURE_HEIGHT,   /* a building with a height that no building has; it is not used */
+    FEATURE_WIDTH,    /* the same of a river's width */
     FEATURE_TROUBLES
 };
 
@@ -48,7 +49,7 @@ struct feature_line {
 };
 
 struct features {
-    struct area *area; /* use: FEATURE_WOOD, _SCRUB, _LAKE or _RIVER */
+    struct area *area; /* use: FEATURE_WOOD, _SCRUB, _LAKE or _RIVER; the larger first */
     uint32_t areas, area_room;
     struct feature_line *line;
     uint32_t lines, line_room;

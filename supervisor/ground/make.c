@@ -303,6 +303,25 @@ static void tell_voids(const struct making *m)
              m->counts.filled, latitude, longitude);
 }
 
+static void tell_gaps(const struct making *m)
+{
+    bool any = false;
+    for (int i = 0; i < VECTOR_MAP_GAPS; i++) {
+        const struct vector_map_gap_count *gap = &m->gaps.gap[i];
+        const char *text = vector_map_gap_text((enum vector_map_gap)i);
+        any |= gap->count > 0;
+        if (gap->count > 0 && isfinite(gap->latitude_deg))
+            log_warn("%s: %u %s; the first at latitude %.5f, longitude %.5f is number %lld",
+                     gap->map, gap->count, text, gap->latitude_deg, gap->longitude_deg, gap->id);
+        else if (gap->count > 0)
+            log_warn("%s: %u %s; the first is number %lld", gap->map, gap->count, text, gap->id);
+    }
+    if (any)
+        log_warn(
+            "right would be a map with whole ways and areas, as osmium extract --strategy smart "
+            "makes it");
+}
+
 static void tell_features(const struct making *m)
 {
     const struct buildings *b = &m->features.buildings;
@@ -333,12 +352,7 @@ static void tell_features(const struct making *m)
     for (uint32_t i = 0; i < m->gaps.outsides; i++)
         log_warn("%s: nothing of it is used: within the square it has no %s",
                  m->gaps.outside[i].map, m->gaps.outside[i].what);
-    for (int i = 0; i < VECTOR_MAP_GAPS; i++) {
-        if (m->gaps.gap[i].count > 0)
-            log_warn("%s: %u %s; the first is number %lld", m->gaps.gap[i].map,
-                     m->gaps.gap[i].count, vector_map_gap_text((enum vector_map_gap)i),
-                     m->gaps.gap[i].id);
-    }
+    tell_gaps(m);
     if (b->lost_m2 > 0.0)
         log_warn("%.3f of %.0f m2 of buildings are left out: parts narrower than %d mm", b->lost_m2,
                  b->area_m2, GROUND_PART_WIDTH_MM);

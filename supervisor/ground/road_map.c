@@ -187,6 +187,7 @@ static void add_geometry(struct reading *r, struct vector_map *map, OGRGeometryH
 /* Returns the rank of a feature's word, WORDS if it is no road. */
 static uint32_t rank_of(OGRFeatureH feature)
 {
+    char buffer[8];
     int field = OGR_F_GetFieldIndex(feature, "highway");
     uint32_t rank = 0;
     field = field >= 0 ? field : OGR_F_GetFieldIndex(feature, "fclass");
@@ -195,6 +196,9 @@ static uint32_t rank_of(OGRFeatureH feature)
     const char *word = OGR_F_GetFieldAsString(feature, field);
     while (rank < WORDS && strcmp(word, words[rank]) != 0)
         rank++;
+    /* The outline of a yard is no road. */
+    if (rank < WORDS && strcmp(vector_map_tag(feature, "area", buffer, sizeof buffer), "yes") == 0)
+        return WORDS;
     return rank;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cpl_conv.h>
 #include <cpl_error.h>
+#include <cpl_vsi.h>
 #include <gdal.h>
 #include <ogr_srs_api.h>
 
@@ -22,6 +23,19 @@ static const struct {
                   {"lines", VECTOR_MAP_LINES},
                   {"multipolygons", VECTOR_MAP_AREAS}};
 #define OSM_LAYERS (sizeof osm_layers / sizeof osm_layers[0])
+
+/* How GDAL's driver reads OpenStreetMap, instead of its osmconf.ini. A closed way is a line, never
+ * an area: of lines alone the driver tells missing nodes, and it need not keep the outlines of all
+ * buildings to the end of the file. Parts of relations have no words and are told, too. Other keys
+ * than those that are asked for would only cost time. */
+#define OSM_KEYS                                                                                   \
+    "osm_id=yes\nother_tags=no\nattributes=highway,building,power,man_made,natural,landuse,"       \
+    "waterway,water,area,width,height,building:levels,roof:shape\n"
+#define OSM_SETTINGS_PATH "/vsimem/jolon-osm.ini"
+static char osm_settings[] =
+    "closed_ways_are_polygons=\nreport_all_ways=yes\n"
+    "attribute_name_laundering=no\n"
+    "[points]\n" OSM_KEYS "[lines]\n" OSM_KEYS "[multipolygons]\n" OSM_KEYS;
 
 static unsigned shapes_of(OGRwkbGeometryType type)
 {
@@ -83,6 +97,18 @@ static int field_of(OGRFeatureH feature, const char *key)
     return field;
 }
 
+/* Notes where the way is that has the first gap: GDAL tells the gap before it gives the way. */
+static void place_gap(struct vector_map *map, OGRFeatureH feature, OGRGeometryH geometry)
+{
+    if (vector_map_number(feature) != map->unplaced->id)
+        return;
+    if (geometry && OGR_G_GetPointCount(geometry) > 0) {
+        map->unplaced->latitude_deg = OGR_G_GetY(geometry, 0);
+        map->unplaced->longitude_deg = OGR_G_GetX(geometry, 0);
+    }
+    map->unplaced = NULL;
+}
+
 static int read_layer(struct vector_map *map, OGRLayerH layer, vector_map_feature *feature,
                       void *context, struct error_text *error)
 {
@@ -97,6 +123,8 @@ static int read_layer(struct vector_map *map, OGRLayerH layer, vector_map_featur
                               map->path, map->path);
     for (OGRFeatureH f = OGR_L_GetNextFeature(layer); f && !map->no_memory;
          f = OGR_L_GetNextFeature(layer)) {
+        if (map->unplaced)
+            place_gap(map, f, OGR_F_GetGeometryRef(f));
         feature(context, map, f, OGR_F_GetGeometryRef(f));
         OGR_F_Destroy(f);
         if (++features % 1024 == 0)
@@ -117,21 +145,24 @@ const char *vector_map_gap_text(enum vector_map_gap gap)
     return gap_texts[gap];
 }
 
-static void add_gap(struct vector_map_gaps *gaps, enum vector_map_gap gap, const char *map,
-                    long long id)
-{
-    if (gaps->gap[gap].count++ > 0)
-        return;
-    gaps->gap[gap].map = map;
-    gaps->gap[gap].id = id;
-}
-
 /* What is read, for the handler of GDAL's messages. */
 struct gap_reading {
+    struct vector_map *map;
     struct vector_map_gaps *gaps;
-    const char *path;
     enum vector_map_shapes shape;
 };
+
+static void add_gap(const struct gap_reading *reading, enum vector_map_gap which, long long id)
+{
+    struct vector_map_gap_count *gap = &reading->gaps->gap[which];
+    if (gap->count++ > 0)
+        return;
+    gap->map = reading->map->path;
+    gap->id = id;
+    gap->latitude_deg = gap->longitude_deg = NAN;
+    if (which == VECTOR_MAP_GAP_NODES)
+        reading->map->unplaced = gap;
+}
 
 /* Takes what GDAL's driver tells of missing parts, which it does in words alone. */
 static void CPL_STDCALL take_message(CPLErr class, CPLErrorNum number, const char *text)
@@ -144,12 +175,12 @@ static void CPL_STDCALL take_message(CPLErr class, CPLErrorNum number, const cha
         return;
     if (reading->shape == VECTOR_MAP_LINES) {
         if (sscanf(text, "OSM: For way %lld, got only %n", &id, &end) == 1 && end > 0)
-            add_gap(reading->gaps, VECTOR_MAP_GAP_NODES, reading->path, id);
+            add_gap(reading, VECTOR_MAP_GAP_NODES, id);
         else if (sscanf(text, "OSM: Way %lld with %*d nodes%n", &id, &end) == 1 && end > 0)
-            add_gap(reading->gaps, VECTOR_MAP_GAP_WAY, reading->path, id);
+            add_gap(reading, VECTOR_MAP_GAP_WAY, id);
     } else if (reading->shape == VECTOR_MAP_AREAS &&
                sscanf(text, "OSM: Relation %lld has missing ways%n", &id, &end) == 1 && end > 0) {
-        add_gap(reading->gaps, VECTOR_MAP_GAP_RELATION, reading->path, id);
+        add_gap(reading, VECTOR_MAP_GAP_RELATION, id);
     }
 }
 
@@ -165,8 +196,19 @@ static bool is_first_reading(const char *list[VECTOR_MAP_READS_MAX], const char 
     return true;
 }
 
+/* Lets GDAL's driver of OpenStreetMap read as osm_settings say. */
+static void set_osm(void)
+{
+    VSILFILE *file = VSIFileFromMemBuffer(OSM_SETTINGS_PATH, (GByte *)osm_settings,
+                                          sizeof osm_settings - 1, FALSE);
+    if (file)
+        VSIFCloseL(file);
+    CPLSetConfigOption("OSM_CONFIG_FILE", OSM_SETTINGS_PATH);
+}
+
 static GDALDatasetH open_map(const char *path, struct error_text *error)
 {
+    set_osm();
     CPLErrorReset();
     GDALDatasetH data = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
     if (!data)
@@ -180,7 +222,7 @@ static int read_osm(struct vector_map *map, uint32_t which, vector_map_feature *
                     void *context, struct vector_map_gaps *gaps, struct error_text *error)
 {
     char words[64];
-    struct gap_reading reading = {gaps, map->path, osm_layers[which].shape};
+    struct gap_reading reading = {map, gaps, osm_layers[which].shape};
     bool listens =
         (reading.shape == VECTOR_MAP_LINES && is_first_reading(gaps->lines_read, map->path)) ||
         (reading.shape == VECTOR_MAP_AREAS && is_first_reading(gaps->areas_read, map->path));
@@ -199,6 +241,7 @@ static int read_osm(struct vector_map *map, uint32_t which, vector_map_feature *
         CPLPopErrorHandler();
         CPLSetConfigOption("CPL_DEBUG", NULL);
     }
+    map->unplaced = NULL;
     if (result == 0 && CPLGetLastErrorType() >= CE_Failure)
         result = error_text_set(error, "%s: cannot be read: %s", map->path, CPLGetLastErrorMsg());
     GDALClose(data);

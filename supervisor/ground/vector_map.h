@@ -18,7 +18,7 @@ struct vector_map_track {
 
 /* What an extract of OpenStreetMap names and does not hold. */
 enum vector_map_gap {
-    VECTOR_MAP_GAP_NODES,    /* a line has the nodes that are there */
+    VECTOR_MAP_GAP_NODES,    /* a line or an outline has the nodes that are there */
     VECTOR_MAP_GAP_WAY,      /* fewer than two nodes are there: the way is left out */
     VECTOR_MAP_GAP_RELATION, /* a way is missing, or makes no outline: the area is left out */
     VECTOR_MAP_GAPS
@@ -26,13 +26,16 @@ enum vector_map_gap {
 
 #define VECTOR_MAP_READS_MAX 256u
 
+struct vector_map_gap_count {
+    uint32_t count;
+    const char *map;                    /* the first, */
+    long long id;                       /* OpenStreetMap's number of its way or relation, */
+    double latitude_deg, longitude_deg; /* and where it begins; NaN: nowhere in the map */
+};
+
 /* Gaps of all maps that were read; a map that is read for two purposes counts once. */
 struct vector_map_gaps {
-    struct {
-        uint32_t count;
-        const char *map; /* the first, */
-        long long id;    /* and OpenStreetMap's number of its way or relation */
-    } gap[VECTOR_MAP_GAPS];
+    struct vector_map_gap_count gap[VECTOR_MAP_GAPS];
     const char *lines_read[VECTOR_MAP_READS_MAX], *areas_read[VECTOR_MAP_READS_MAX];
     /* Readings in which no track came near the square: of these maps, for these shapes. */
     struct {
@@ -48,11 +51,13 @@ struct vector_map {
     const char *path;
     const struct post_grid *grid;
     OGRCoordinateTransformationH to_earth; /* of the layer that is read */
+    struct vector_map_gap_count *unplaced; /* its way is still to come */
     bool no_memory;
     bool inside; /* the rectangle around one of the tracks touches the square */
 };
 
-/* Called for each feature. geometry: NULL if it has none. */
+/* Called for each feature. geometry: NULL if it has none. Closed ways of OpenStreetMap are lines.
+ */
 typedef void vector_map_feature(void *context, struct vector_map *map, OGRFeatureH feature,
                                 OGRGeometryH geometry);
 

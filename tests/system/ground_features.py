@@ -2,7 +2,8 @@
 converted by PROJ's gdaltransform.
 
 usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west, crossing, coast, torn, beach,
-                                                  strait, turned, islet and broken.geojson, and broken.osm)
+                                                  strait, turned, islet, over, under and broken.geojson, and
+                                                  broken and closed.osm)
        ground_features.py corner EVENTS           (does the first collision of T1 lie at the corner, within 1 mm?)
        ground_features.py wall EVENTS             (does it lie on a wall beside that corner, within 1 mm?)
        ground_features.py craters CSV RAW         (has the raster the heights of the dump, and holes?)
@@ -129,20 +130,53 @@ def broken(there):
         json.dump({"type": "FeatureCollection", "features": rows}, file)
 
 
-def broken_osm(there):
-    there.features = [("Polygon", box(25000 + 40 * i, 25000, 12, 9), {}) for i in range(2)]
-    rings = [row["geometry"]["coordinates"][0] for row in there.write("good.geojson")]
-    nodes = [p for ring in rings for p in ring[:4]]
-    with open("broken.osm", "w", encoding="utf-8") as file:
+def write_osm(path, nodes, ways, more=""):
+    """ways: number, numbers of nodes, which begin at 1, key, value, key, value ..."""
+    with open(path, "w", encoding="utf-8") as file:
         file.write('<osm version="0.6">\n')
         for i, (lon, lat) in enumerate(nodes):
             file.write(f'<node id="{i + 1}" lat="{lat:.9f}" lon="{lon:.9f}" version="1"/>\n')
-        for i, refs in enumerate(([1, 2, 3, 4, 1], [5, 6, 999, 7, 8, 5], [997, 998, 999, 997])):
-            file.write(f'<way id="{i + 1}" version="1">' + "".join(f'<nd ref="{r}"/>' for r in refs) + '<tag k="building" v="yes"/></way>\n')
-        for i, refs in ((12, [1, 2, 3, 996, 5]), (13, [1]), (14, [995, 994])):  # a node is missing, one node, none
-            file.write(f'<way id="{i}" version="1">' + "".join(f'<nd ref="{r}"/>' for r in refs) + '<tag k="highway" v="track"/></way>\n')
-        file.write('<relation id="15" version="1"><member type="way" ref="1" role="outer"/><member type="way" ref="77" role="outer"/>')
-        file.write('<tag k="type" v="multipolygon"/><tag k="natural" v="water"/></relation>\n</osm>\n')
+        for number, refs, *tags in ways:
+            file.write(f'<way id="{number}" version="1">' + "".join(f'<nd ref="{r}"/>' for r in refs))
+            file.write("".join(f'<tag k="{k}" v="{v}"/>' for k, v in zip(tags[::2], tags[1::2])) + "</way>\n")
+        file.write(more + "</osm>\n")
+
+
+def corners_of_boxes(there, count):
+    there.features = [("Polygon", box(25000 + 40 * i, 25000, 12, 9), {}) for i in range(count)]
+    return [p for row in there.write("good.geojson") for p in row["geometry"]["coordinates"][0][:4]]
+
+
+def broken_osm(there):
+    building, track = ("building", "yes"), ("highway", "track")
+    write_osm("broken.osm", corners_of_boxes(there, 2),
+              [(1, [1, 2, 3, 4, 1], *building), (2, [5, 6, 999, 7, 8, 5], *building), (3, [997, 998, 999, 997], *building),
+               # Without words, as outlines of relations are; as an area.
+               (4, [1, 2, 3, 991, 1]), (5, [5, 6, 7, 992, 5], "natural", "water", "area", "yes"),
+               # A node is missing, one node, none.
+               (12, [1, 2, 3, 996, 5], *track), (13, [1], *track), (14, [995, 994], *track)],
+              '<relation id="15" version="1"><member type="way" ref="1" role="outer"/><member type="way" ref="77" role="outer"/>'
+              '<tag k="type" v="multipolygon"/><tag k="natural" v="water"/></relation>\n')
+
+
+def closed_osm(there):
+    """Ways that are closed: two buildings, a lake, a river's banks; a river, a yard, a road, a water tower, a power line of five towers."""
+    rings = [[4 * i + k for k in (1, 2, 3, 4, 1)] for i in range(9)]
+    words = [("building", "yes", "building:levels", "2"), ("building", "house", "area", "yes"), ("natural", "water"),
+             ("natural", "water", "water", "river"), ("waterway", "river", "width", "wide"), ("highway", "service", "area", "yes"),
+             ("highway", "service"), ("man_made", "water_tower"), ("power", "line")]
+    write_osm("closed.osm", corners_of_boxes(there, 9), [(i + 1, ring, *words[i]) for i, ring in enumerate(rings)])
+
+
+def overlapping(*place):
+    """A wood and a part of a lake; scrub and another part."""
+    over, under = Map(*place), Map(*place)
+    over.add("Polygon", box(25000, 25000, 800, 600), natural="wood")
+    over.add("Polygon", box(27000, 25000, 800, 600), natural="water")
+    under.add("Polygon", box(25300, 25100, 800, 600), natural="scrub")
+    under.add("Polygon", box(27300, 25100, 800, 600), natural="water")
+    over.write("over.geojson")
+    under.write("under.geojson")
 
 
 def maps(*place):
@@ -158,8 +192,10 @@ def maps(*place):
         coast(sea, turned)
         sea.write(path)
     small_coasts(*place)
+    overlapping(*place)
     broken(Map(*place))
     broken_osm(Map(*place))
+    closed_osm(Map(*place))
 
 
 def first_collision(path):

@@ -44,6 +44,11 @@ check "no trees are planted if none are wanted" eval '[ "$(info bare.ground obje
 check "the picture has the lake, the road and the village" python3 "$here/ground_features.py" picture x.raw 0 0 100.2004008 lake village road
 check "the picture of half a kilometre has a building to its corner" python3 "$here/ground_features.py" picture near.raw 24850.5 24750.5 1 corner
 refuses "a picture of a place in another country" 2 'show: --at: that place is [0-9]+ km from the middle' "$ground" show --at 48N,11E --metres 500 x.ground near.png
+"$ground" make --center 44.5,-71.5 --side 2000 --posts 12.5 --out small.ground --features village.geojson --roads village.geojson level.asc >/dev/null 2>&1
+"$ground" show --size 500 --at 25100,25000 --metres 499 small.ground small.png && gdal_translate -q -of ENVI -co INTERLEAVE=BIP small.png small.raw
+check "metres are those of a scenario in a small square, too" python3 "$here/ground_features.py" picture small.raw 24850.5 24750.5 1 corner
+refuses "a picture of a place beyond a small square" 2 'show: --at 20000,25000: lies beyond the square of the file, which goes from 24000,24000 to 26000,26000 in a world of 50 km' \
+    "$ground" show --at 20000,25000 --metres 500 small.ground near.png
 refuses "a picture about a place without its size" 2 '--at goes with --metres' "$ground" show --at 25000,25000 x.ground near.png
 
 check "broken features are mended or left out" eval 'out=broken.ground make --features broken.geojson --roads broken.geojson 2>err && "$ground" check broken.ground'
@@ -61,10 +66,20 @@ check "a map that lies elsewhere is told, for each use" eval 'out=none.ground ma
     grep -q "alps/village.geojson: nothing of it is used: within the square it has no lines, of which roads could be made$" err &&
     grep -q "alps/village.geojson: nothing of it is used: within the square it has no points, lines or areas that become features$" err'
 check "OpenStreetMap with missing nodes" eval 'out=osm.ground make --features broken.osm 2>err && [ "$(info osm.ground buildings)" = 2 ]'
-check "told: nodes, ways and a road of one point that the map lacks" eval 'grep -q "broken.osm: 1 ways have nodes that the map lacks, and are made of the others; the first is number 12$" err &&
-    grep -q "broken.osm: 2 ways have fewer than two nodes in the map, and are left out; the first is number 13$" err &&
-    grep -q "broken.osm: 1 areas have ways that the map lacks, and are left out; the first is number 15$" err'
-check "a map that is read for two purposes has its gaps once" eval 'out=osm.ground make --features broken.osm --roads broken.osm 2>err && grep -q "broken.osm: 2 ways have fewer than two nodes" err'
+check "told: nodes of outlines and lines, ways and a road of one point that the map lacks" eval 'grep -Eq "broken.osm: 4 ways have nodes that the map lacks, and are made of the others; the first at latitude 44\.[0-9]+, longitude -71\.[0-9]+ is number 2$" err &&
+    grep -q "broken.osm: 3 ways have fewer than two nodes in the map, and are left out; the first is number 13$" err &&
+    grep -q "broken.osm: 1 areas have ways that the map lacks, and are left out; the first is number 15$" err &&
+    grep -q "osmium extract --strategy smart" err'
+check "a map that is read for two purposes has its gaps once" eval 'out=osm.ground make --features broken.osm --roads broken.osm 2>err && grep -q "broken.osm: 3 ways have fewer than two nodes" err'
+check "closed ways of OpenStreetMap are outlines, unless they are lines" eval 'out=closed.ground make --trees 0 --features closed.osm --roads closed.osm 2>err && "$ground" info closed.ground | grep -q "^features: 2 buildings, 5 plants and poles, 2 areas, 1 rivers$" &&
+    "$ground" info closed.ground | grep -q "^roads: 1, "'
+check "a river with a width that is none is told" grep -Eq "closed.osm: 1 rivers have a width that is no number from 0 to 2000 m, and was not used; the first at latitude 44\.[0-9]+, longitude -71\.[0-9]+ is number 5$" err
+for order in 'over.geojson under.geojson' 'under.geojson over.geojson'; do
+    # shellcheck disable=SC2086 # two maps
+    out=overlap.ground make $(printf -- '--features %s ' $order) >/dev/null 2>&1
+    info overlap.ground hash
+done >hashes
+check "areas of two maps that overlap make the same ground in any order" eval '[ "$(uniq hashes | wc -l)" = 1 ] && [ "$(wc -l <hashes)" = 2 ]'
 out=none.ground refuses "features from a text" 1 'level.prj: GDAL cannot read it as a map' make --features level.prj
 out=none.ground refuses "no such map" 1 'missing.osm: GDAL cannot read it' make --features missing.osm
 cp x.ground damaged.ground
