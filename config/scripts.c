@@ -4,8 +4,10 @@
 #include "config/syntax/entry.h"
 #include "config/syntax/schema.h"
 #include "config/waypoints.h"
+#include "world/earth_location.h"
 #include "world/entity/script.h"
 #include "world/making/scenario.h"
+#include "world/making/scenario_settings.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -206,14 +208,17 @@ static int read_file(struct entry *entry, const char *name, XXH3_state_t *hash)
 {
     struct scenario *scenario = entry->scenario;
     struct source source;
+    struct location_frame frame;
     char folder[PATH_MAX];
     int count = -1;
+    earth_location_frame(&frame, &scenario->settings->params, scenario->settings->side_m);
     folder_of(entry->keys.file, folder, sizeof(folder));
     if (source_read_in(&source, folder, name, WAYPOINTS_BYTES_MAX, entry->error) != 0)
         return -1;
     XXH3_64bits_update(hash, source.text, source.bytes);
     if (reserve_steps(scenario, waypoints_lines(source.text), source.path, entry->error) == 0)
-        count = waypoints_read(&source, &scenario->steps[scenario->step_count], entry->error);
+        count =
+            waypoints_read(&source, &frame, &scenario->steps[scenario->step_count], entry->error);
     source_free(&source);
     if (count < 0)
         return -1;

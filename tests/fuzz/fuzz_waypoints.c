@@ -39,7 +39,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     /* Not one step more: the sanitizer detects a step beyond the end. */
     struct scenario_step *steps = malloc(lines * sizeof *steps);
     CHECK(steps || lines == 0);
-    int count = waypoints_read(&source, steps, &error);
+    struct location_frame frame;
+    location_frame_make(&frame, 44.28, -71.28, WORLD_SIDE_DEFAULT_M);
+    int count = waypoints_read(&source, &frame, steps, &error);
     if (count < 0)
         support_check_line(&error);
     else

@@ -74,9 +74,8 @@ check "a map that is read for two purposes has its gaps once" eval 'out=osm.grou
 check "closed ways of OpenStreetMap are outlines, unless they are lines" eval 'out=closed.ground make --trees 0 --features closed.osm --roads closed.osm 2>err && "$ground" info closed.ground | grep -q "^features: 2 buildings, 5 plants and poles, 2 areas, 1 rivers$" &&
     "$ground" info closed.ground | grep -q "^roads: 1, "'
 check "a river with a width that is none is told" grep -Eq "closed.osm: 1 rivers have a width that is no number from 0 to 2000 m, and was not used; the first at latitude 44\.[0-9]+, longitude -71\.[0-9]+ is number 5$" err
-for order in 'over.geojson under.geojson' 'under.geojson over.geojson'; do
-    # shellcheck disable=SC2086 # two maps
-    out=overlap.ground make $(printf -- '--features %s ' $order) >/dev/null 2>&1
+for order in 'over under' 'under over'; do
+    out=overlap.ground make --features "${order% *}.geojson" --features "${order#* }.geojson" >/dev/null 2>&1
     info overlap.ground hash
 done >hashes
 check "areas of two maps that overlap make the same ground in any order" eval '[ "$(uniq hashes | wc -l)" = 1 ] && [ "$(wc -l <hashes)" = 2 ]'
@@ -147,6 +146,26 @@ TEXT
     "$bin/jolon-world" dump --json --world "$name" >places
     "$bin/jolon-world" remove --world "$name" >/dev/null 2>&1
     check "at posts of $posts m a tank drives along a road through a lake and over a river" python3 "$here/ground_features.py" crossed places
+done
+
+# A lake with cliffs of 10 m: columns of pixels of 10 m.
+{
+    printf 'ncols 240\nnrows 240\nxllcorner -1200\nyllcorner -1200\ncellsize 10\n'
+    awk 'BEGIN { for (i = 0; i < 240 * 240; i++) printf "%d%s", (i % 240 >= 110 && i % 240 < 130 ? 70 : 80), (i % 240 == 239 ? "\n" : " ") }'
+} >cliff.asc
+gdal_translate -q -a_srs '+proj=tmerc +lat_0=44.5 +lon_0=-71.5 +datum=WGS84' cliff.asc cliff.tif
+for posts in 12.5 25; do
+    "$ground" make --center 44.5,-71.5 --side 2000 --posts $posts --out cliff.ground --roads gorge.geojson --features gorge.geojson cliff.tif >/dev/null 2>&1
+    cat >cliff.cfg <<'TEXT'
+terrain = { source = "file"; file = "cliff.ground"; };
+world = { capacity = 64; };
+vehicles = ( { kind = "truck"; name = "T3"; at = [24110.0, 25329.0]; roads = true; route = ( [24110.0, 25329.0], [25890.0, 24671.0] ); } );
+TEXT
+    "$jolon" run -w "$name" --frames 9000 --pace max --without renderer --out cliff --checkpoint cliff.img cliff.cfg >/dev/null 2>&1
+    "$bin/jolon-world" create --world "$name" --set world.frames=0 --from cliff.img >/dev/null 2>&1
+    "$bin/jolon-world" dump --json --world "$name" >places
+    "$bin/jolon-world" remove --world "$name" >/dev/null 2>&1
+    check "at posts of $posts m a truck crosses a lake 10 m below its banks" python3 "$here/ground_features.py" crossed places
 done
 
 # --- coastlines -------------------------------------------------------------------------------------------------
