@@ -270,7 +270,8 @@ static void shape(struct making *m)
         result = map_cover_areas(&m->features, &m->grid, m->posts, m->cover);
     if (result == 0)
         result = map_cover_rivers(&m->features, &m->grid, m->cover);
-    road_map_pave(&m->roads, &m->grid, m->cover);
+    if (result == 0)
+        result = road_map_pave(&m->roads, &m->grid, m->posts, m->cover);
     if (result == 0)
         result = buildings_found(&m->features.buildings, &terrain);
     if (result == 0)

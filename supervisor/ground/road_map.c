@@ -3,6 +3,7 @@
 
 #include "supervisor/ground/vector_map.h"
 #include "world/maths/maths.h"
+#include "world/terrain/ground_tile.h"
 #include "world/terrain/terrain.h"
 
 #include <math.h>
@@ -22,6 +23,7 @@
  * 0.71 of their distance away, and so much is dry beside the middle of the road. */
 #define DAM_POSTS 0.75
 #define DAM_M     8.0
+#define DAM_GRADE 0.15 /* a truck drives up and down it */
 
 /* OpenStreetMap's words, the more important first. */
 static const char *const words[] = {
@@ -276,46 +278,147 @@ void road_map_free(struct road_map *map)
     map->points = NULL;
 }
 
-/* Makes posts around a place of a road dry. */
-static void dam(const struct post_grid *grid, const double here[2], uint8_t *cover)
+/* A place on a road, a quarter of the distance of posts from the next. */
+struct road_step {
+    double place[2], level_m; /* [m] level: of a dam there */
+    bool is_bank;             /* dry ground that is no shore */
+};
+
+static size_t nearest_post(const struct post_grid *grid, const double here[2])
+{
+    uint32_t column = (uint32_t)(here[0] / grid->spacing_m + 0.5);
+    uint32_t row = (uint32_t)(here[1] / grid->spacing_m + 0.5);
+    return (size_t)row * grid->side + column;
+}
+
+/* Returns true if a post is dry and one of those around it is water. */
+static bool is_shore(const struct post_grid *grid, const uint8_t *cover, size_t at)
+{
+    size_t column = at % grid->side, row = at / grid->side, last = grid->side - 1;
+    for (size_t r = row > 0 ? row - 1 : 0; r <= row + 1 && r <= last; r++) {
+        for (size_t c = column > 0 ? column - 1 : 0; c <= column + 1 && c <= last; c++) {
+            if (cover_is_water((enum cover)cover[r * grid->side + c]))
+                return !cover_is_water((enum cover)cover[at]);
+        }
+    }
+    return false;
+}
+
+/* Raises a post of water or shore to the dam. */
+static void raise_post(const struct post_grid *grid, const struct road_step *step, size_t at,
+                       float *posts, const uint8_t *cover)
+{
+    if (step->level_m > (double)posts[at] &&
+        (cover_is_water((enum cover)cover[at]) || is_shore(grid, cover, at)))
+        posts[at] = ground_tile_round(step->level_m);
+}
+
+/* Raises the posts that are as near to a place of a road as its dam is wide, or makes them dry. */
+static void dam(const struct post_grid *grid, const struct road_step *step, bool raises,
+                float *posts, uint8_t *cover)
 {
     double spacing = grid->spacing_m, reach = DAM_POSTS * spacing + DAM_M;
     double last = (double)(grid->side - 1);
     uint32_t from[2], to[2];
     for (int k = 0; k < 2; k++) {
-        from[k] = (uint32_t)maths_clamp(ceil((here[k] - reach) / spacing), 0.0, last);
-        to[k] = (uint32_t)maths_clamp(floor((here[k] + reach) / spacing), 0.0, last);
+        from[k] = (uint32_t)maths_clamp(ceil((step->place[k] - reach) / spacing), 0.0, last);
+        to[k] = (uint32_t)maths_clamp(floor((step->place[k] + reach) / spacing), 0.0, last);
     }
     for (uint32_t row = from[1]; row <= to[1]; row++) {
         for (uint32_t column = from[0]; column <= to[0]; column++) {
             const double post[2] = {column * spacing, row * spacing};
-            uint8_t *at = &cover[(size_t)row * grid->side + column];
-            if (cover_is_water((enum cover) * at) && between(here, post) < reach)
-                *at = COVER_ROAD;
+            size_t at = (size_t)row * grid->side + column;
+            if (between(step->place, post) >= reach)
+                continue;
+            if (raises)
+                raise_post(grid, step, at, posts, cover);
+            else if (cover_is_water((enum cover)cover[at]))
+                cover[at] = COVER_ROAD;
         }
     }
 }
 
-void road_map_pave(const struct road_map *map, const struct post_grid *grid, uint8_t *cover)
+/* Fills the steps of a road of points [count]; returns their number. With steps of NULL it counts
+ * them alone. */
+static size_t find_steps(const struct ground_road_point *points, uint32_t count, double apart_m,
+                         struct road_step *steps)
 {
-    for (uint32_t i = 0; i + 1 < map->count; i++) {
-        const struct ground_road_point *p = &map->points[i], *q = p + 1;
-        const double a[2] = {p->x_mm / 1000.0, p->z_mm / 1000.0};
-        const double b[2] = {q->x_mm / 1000.0, q->z_mm / 1000.0};
-        if (p->road != q->road)
-            continue;
-        int steps = (int)(between(a, b) / (0.25 * grid->spacing_m)) + 1;
-        for (int n = 0; n <= steps; n++) {
-            const double here[2] = {a[0] + (b[0] - a[0]) * n / steps,
-                                    a[1] + (b[1] - a[1]) * n / steps};
-            uint32_t column = (uint32_t)(here[0] / grid->spacing_m + 0.5);
-            uint32_t row = (uint32_t)(here[1] / grid->spacing_m + 0.5);
-            const double post[2] = {column * grid->spacing_m, row * grid->spacing_m};
-            uint8_t *at = &cover[(size_t)row * grid->side + column];
-            bool shows = grid->spacing_m <= PAVE_SPACING_M && between(here, post) < PAVE_HALF_M;
-            if (shows && !cover_is_water((enum cover) * at))
-                *at = COVER_ROAD;
-            dam(grid, here, cover);
+    size_t used = 0;
+    for (uint32_t i = 0; i + 1 < count; i++) {
+        const double a[2] = {points[i].x_mm / 1000.0, points[i].z_mm / 1000.0};
+        const double b[2] = {points[i + 1].x_mm / 1000.0, points[i + 1].z_mm / 1000.0};
+        int parts = (int)(between(a, b) / apart_m) + 1;
+        for (int n = 0; n <= parts; n++, used++) {
+            if (!steps)
+                continue;
+            steps[used] = (struct road_step){
+                .place = {a[0] + (b[0] - a[0]) * n / parts, a[1] + (b[1] - a[1]) * n / parts}};
         }
     }
+    return used;
+}
+
+/* Finds how high a dam is at each step: from both banks it falls by DAM_GRADE, on the shore, too,
+ * where that is steeper. */
+static void find_levels(struct road_step *steps, size_t count, const struct post_grid *grid,
+                        const float *posts, const uint8_t *cover)
+{
+    double from_first = -INFINITY, from_last = -INFINITY;
+    for (size_t n = 0; n < count; n++) {
+        size_t at = nearest_post(grid, steps[n].place);
+        bool water = cover_is_water((enum cover)cover[at]);
+        bool bank = !water && !is_shore(grid, cover, at);
+        if (n > 0)
+            from_first -= DAM_GRADE * between(steps[n - 1].place, steps[n].place);
+        if (!water && (bank || (double)posts[at] > from_first))
+            from_first = (double)posts[at];
+        steps[n].level_m = from_first;
+        steps[n].is_bank = bank;
+    }
+    for (size_t n = count; n-- > 0;) {
+        if (n + 1 < count)
+            from_last -= DAM_GRADE * between(steps[n + 1].place, steps[n].place);
+        if (steps[n].is_bank || steps[n].level_m > from_last)
+            from_last = steps[n].level_m;
+        steps[n].level_m = from_last;
+    }
+}
+
+static int pave(const struct ground_road_point *points, uint32_t count,
+                const struct post_grid *grid, float *posts, uint8_t *cover)
+{
+    double apart_m = 0.25 * grid->spacing_m;
+    size_t used = find_steps(points, count, apart_m, NULL);
+    struct road_step *steps = calloc(used + 1, sizeof *steps);
+    if (!steps)
+        return -1;
+    (void)find_steps(points, count, apart_m, steps);
+    find_levels(steps, used, grid, posts, cover);
+    for (size_t n = 0; n < used; n++)
+        dam(grid, &steps[n], true, posts, cover);
+    for (size_t n = 0; n < used; n++) {
+        size_t at = nearest_post(grid, steps[n].place);
+        const double post[2] = {(double)(at % grid->side) * grid->spacing_m,
+                                (double)(at / grid->side) * grid->spacing_m};
+        if (grid->spacing_m <= PAVE_SPACING_M && between(steps[n].place, post) < PAVE_HALF_M &&
+            !cover_is_water((enum cover)cover[at]))
+            cover[at] = COVER_ROAD;
+        dam(grid, &steps[n], false, posts, cover);
+    }
+    free(steps);
+    return 0;
+}
+
+int road_map_pave(const struct road_map *map, const struct post_grid *grid, float *posts,
+                  uint8_t *cover)
+{
+    uint32_t first = 0;
+    int result = 0;
+    for (uint32_t i = 1; i <= map->count && result == 0; i++) {
+        if (i < map->count && map->points[i].road == map->points[first].road)
+            continue;
+        result = pave(map->points + first, i - first, grid, posts, cover);
+        first = i;
+    }
+    return result;
 }

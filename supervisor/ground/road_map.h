@@ -30,7 +30,9 @@ int road_map_read(struct road_map *map, char *const *paths, uint32_t count,
 void road_map_free(struct road_map *map);
 
 /* Makes the cover of posts near a road that of a road, where posts are dense enough to show one,
- * and wherever it crosses water: agents drive on roads, and a bridge is a dam. */
-void road_map_pave(const struct road_map *map, const struct post_grid *grid, uint8_t *cover);
+ * and wherever it crosses water: agents drive on roads, and a bridge is a dam. From a bank that is
+ * higher than the water the dam falls slowly. 0; -1: no memory. */
+int road_map_pave(const struct road_map *map, const struct post_grid *grid, float *posts,
+                  uint8_t *cover);
 
 #endif

@@ -2,7 +2,7 @@
 converted by PROJ's gdaltransform.
 
 usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west, crossing, coast, torn, beach,
-                                                  strait, turned, islet, over, under and broken.geojson, and
+                                                  strait, turned, islet, gorge, over, under and broken.geojson, and
                                                   broken and closed.osm)
        ground_features.py corner EVENTS           (does the first collision of T1 lie at the corner, within 1 mm?)
        ground_features.py wall EVENTS             (does it lie on a wall beside that corner, within 1 mm?)
@@ -75,6 +75,12 @@ def crossing(there):
     there.add("LineString", [(24200, 24300), (25800, 25650)], highway="secondary", bridge="yes")
     there.add("Polygon", [(24500, 24400), (24650, 24400), (24650, 24900), (24500, 24900)], natural="water")
     there.add("LineString", [(25100, 23500), (25000, 26500)], waterway="river", width="60")
+
+
+def gorge(there):
+    """A road leads through a lake between cliffs, aslant over the rows of posts."""
+    there.add("LineString", [(24100, 25333), (25900, 24667)], highway="primary")
+    there.add("Polygon", box(25000, 25000, 200, 2000), natural="water")
 
 
 def coast(there, turned=False):
@@ -187,6 +193,9 @@ def maps(*place):
     bridges = Map(*place)
     crossing(bridges)
     bridges.write("crossing.geojson")
+    cliffs = Map(*place)
+    gorge(cliffs)
+    cliffs.write("gorge.geojson")
     for turned, path in (False, "coast.geojson"), (True, "torn.geojson"):
         sea = Map(*place)
         coast(sea, turned)
@@ -234,7 +243,7 @@ def crossed(path):
     with open(path, encoding="utf-8") as file:
         x, _, z = next(v["position"] for v in map(json.loads, file) if v.get("name") == "T3")
     print(x, z)
-    raise SystemExit(not 25200.0 < x < 25800.0)
+    raise SystemExit(not 25200.0 < x < 25900.0)
 
 
 def craters(csv_path, raw_path):
