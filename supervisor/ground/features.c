@@ -631,6 +631,15 @@ static void take_feature(void *context, struct vector_map *map, OGRFeatureH feat
         take_geometry(r, geometry);
 }
 
+static int by_place(const double *p, const double *q)
+{
+    for (int k = 0; k < 2; k++) {
+        if (p[k] != q[k])
+            return p[k] < q[k] ? -1 : 1;
+    }
+    return 0;
+}
+
 /* Where two areas overlap the later one counts, so their order must not be that of the maps: the
  * larger come first. */
 static int by_extent(const void *left, const void *right)
@@ -640,12 +649,36 @@ static int by_extent(const void *left, const void *right)
                         (q->high[0] - q->low[0]) * (q->high[1] - q->low[1])};
     if (extent[0] != extent[1])
         return extent[0] > extent[1] ? -1 : 1;
-    if (p->rings != q->rings)
-        return p->rings < q->rings ? -1 : 1;
-    int order = memcmp(p->end, q->end, p->rings * sizeof *p->end);
+    int order = by_place(p->low, q->low);
+    if (order == 0)
+        order = by_place(p->high, q->high);
+    if (order == 0)
+        order = (int)p->use - (int)q->use;
+    if (order == 0 && p->rings != q->rings)
+        order = p->rings < q->rings ? -1 : 1;
+    if (order == 0)
+        order = memcmp(p->end, q->end, p->rings * sizeof *p->end);
     if (order == 0)
         order = memcmp(p->place, q->place, p->end[p->rings - 1] * sizeof *p->place);
-    return order != 0 ? order : (int)p->use - (int)q->use;
+    return order;
+}
+
+/* Puts the areas in order. Of an outline that a map has with holes and without them, as a relation
+ * of OpenStreetMap and as its outer way, the one with holes counts. */
+static void order_areas(struct features *f)
+{
+    uint32_t kept = 0;
+    if (f->areas > 0)
+        qsort(f->area, f->areas, sizeof *f->area, by_extent);
+    for (uint32_t i = 0; i < f->areas; i++) {
+        struct area *own = &f->area[i], *next = own + 1;
+        if (i + 1 < f->areas && own->use == next->use && own->rings < next->rings &&
+            by_place(own->low, next->low) == 0 && by_place(own->high, next->high) == 0)
+            area_free(own);
+        else
+            f->area[kept++] = *own;
+    }
+    f->areas = kept;
 }
 
 int features_read(struct features *features, char *const *paths, uint32_t count,
@@ -659,8 +692,7 @@ int features_read(struct features *features, char *const *paths, uint32_t count,
         result = vector_map_read(
             paths[i], grid, VECTOR_MAP_POINTS | VECTOR_MAP_LINES | VECTOR_MAP_AREAS,
             "points, lines or areas that become features", take_feature, &r, gaps, error);
-    if (features->areas > 0)
-        qsort(features->area, features->areas, sizeof *features->area, by_extent);
+    order_areas(features);
     vector_map_track_free(&r.track);
     return result;
 }

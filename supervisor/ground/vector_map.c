@@ -25,17 +25,18 @@ static const struct {
 #define OSM_LAYERS (sizeof osm_layers / sizeof osm_layers[0])
 
 /* How GDAL's driver reads OpenStreetMap, instead of its osmconf.ini. A closed way is a line, never
- * an area: of lines alone the driver tells missing nodes, and it need not keep the outlines of all
- * buildings to the end of the file. Parts of relations have no words and are told, too. Other keys
- * than those that are asked for would only cost time. */
+ * an area, because of lines alone the driver tells missing nodes. Parts of relations have no words
+ * and are told, too. Other keys than those that are asked for would only cost time. */
 #define OSM_KEYS                                                                                   \
     "osm_id=yes\nother_tags=no\nattributes=highway,building,power,man_made,natural,landuse,"       \
     "waterway,water,area,width,height,building:levels,roof:shape\n"
-#define OSM_SETTINGS_PATH "/vsimem/jolon-osm.ini"
-static char osm_settings[] =
-    "closed_ways_are_polygons=\nreport_all_ways=yes\n"
-    "attribute_name_laundering=no\n"
-    "[points]\n" OSM_KEYS "[lines]\n" OSM_KEYS "[multipolygons]\n" OSM_KEYS;
+#define OSM_LAYERS_KEYS                                                                            \
+    "report_all_ways=yes\nattribute_name_laundering=no\n"                                          \
+    "[points]\n" OSM_KEYS "[lines]\n" OSM_KEYS "[multipolygons]\n" OSM_KEYS
+static char osm_settings[] = "closed_ways_are_polygons=\n" OSM_LAYERS_KEYS;
+/* For relations closed ways are areas, so that one without words has those of its outer way. */
+static char osm_relations[] =
+    "closed_ways_are_polygons=building,natural,landuse,waterway\n" OSM_LAYERS_KEYS;
 
 static unsigned shapes_of(OGRwkbGeometryType type)
 {
@@ -73,6 +74,8 @@ static OGRCoordinateTransformationH make_to_earth(OGRLayerH layer)
     return made;
 }
 
+static const char osm_way_id[] = "osm_way_id";
+
 /* Numbers of the fields of the layer that is read: GDAL compares the names of all fields with a
  * key, which took a seventh of the time of an extract of OpenStreetMap. */
 #define FIELDS_MAX 16u
@@ -109,6 +112,13 @@ static void place_gap(struct vector_map *map, OGRFeatureH feature, OGRGeometryH 
     map->unplaced = NULL;
 }
 
+/* Returns true for an area of OpenStreetMap that is a closed way. */
+static bool is_way(OGRFeatureH feature)
+{
+    int field = field_of(feature, osm_way_id);
+    return field >= 0 && OGR_F_IsFieldSetAndNotNull(feature, field);
+}
+
 static int read_layer(struct vector_map *map, OGRLayerH layer, vector_map_feature *feature,
                       void *context, struct error_text *error)
 {
@@ -125,7 +135,8 @@ static int read_layer(struct vector_map *map, OGRLayerH layer, vector_map_featur
          f = OGR_L_GetNextFeature(layer)) {
         if (map->unplaced)
             place_gap(map, f, OGR_F_GetGeometryRef(f));
-        feature(context, map, f, OGR_F_GetGeometryRef(f));
+        if (!map->relations_alone || !is_way(f))
+            feature(context, map, f, OGR_F_GetGeometryRef(f));
         OGR_F_Destroy(f);
         if (++features % 1024 == 0)
             progress_count(map->path, OGR_L_GetName(layer), features);
@@ -196,19 +207,18 @@ static bool is_first_reading(const char *list[VECTOR_MAP_READS_MAX], const char 
     return true;
 }
 
-/* Lets GDAL's driver of OpenStreetMap read as osm_settings say. */
-static void set_osm(void)
+/* Lets GDAL's driver of OpenStreetMap read as these settings say [bytes, with the NUL]. */
+static void set_osm(char *settings, size_t bytes)
 {
-    VSILFILE *file = VSIFileFromMemBuffer(OSM_SETTINGS_PATH, (GByte *)osm_settings,
-                                          sizeof osm_settings - 1, FALSE);
+    static const char path[] = "/vsimem/jolon-osm.ini";
+    VSILFILE *file = VSIFileFromMemBuffer(path, (GByte *)settings, bytes - 1, FALSE);
     if (file)
         VSIFCloseL(file);
-    CPLSetConfigOption("OSM_CONFIG_FILE", OSM_SETTINGS_PATH);
+    CPLSetConfigOption("OSM_CONFIG_FILE", path);
 }
 
 static GDALDatasetH open_map(const char *path, struct error_text *error)
 {
-    set_osm();
     CPLErrorReset();
     GDALDatasetH data = GDALOpenEx(path, GDAL_OF_VECTOR | GDAL_OF_READONLY, NULL, NULL, NULL);
     if (!data)
@@ -226,6 +236,11 @@ static int read_osm(struct vector_map *map, uint32_t which, vector_map_feature *
     bool listens =
         (reading.shape == VECTOR_MAP_LINES && is_first_reading(gaps->lines_read, map->path)) ||
         (reading.shape == VECTOR_MAP_AREAS && is_first_reading(gaps->areas_read, map->path));
+    map->relations_alone = reading.shape == VECTOR_MAP_AREAS;
+    if (map->relations_alone)
+        set_osm(osm_relations, sizeof osm_relations);
+    else
+        set_osm(osm_settings, sizeof osm_settings);
     GDALDatasetH data = open_map(map->path, error);
     if (!data)
         return -1;
@@ -364,7 +379,7 @@ static const char *find_in_list(const char *list, const char *key, char *buffer,
 
 long long vector_map_number(OGRFeatureH feature)
 {
-    static const char *const keys[] = {"osm_id", "osm_way_id"};
+    static const char *const keys[] = {"osm_id", osm_way_id};
     for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
         int field = field_of(feature, keys[i]);
         if (field >= 0 && OGR_F_IsFieldSetAndNotNull(feature, field))

@@ -52,6 +52,7 @@ struct vector_map {
     const struct post_grid *grid;
     OGRCoordinateTransformationH to_earth; /* of the layer that is read */
     struct vector_map_gap_count *unplaced; /* its way is still to come */
+    bool relations_alone;                  /* closed ways were read as lines */
     bool no_memory;
     bool inside; /* the rectangle around one of the tracks touches the square */
 };

@@ -3,7 +3,7 @@ converted by PROJ's gdaltransform.
 
 usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west, crossing, coast, torn, beach,
                                                   strait, turned, islet, gorge, over, under and broken.geojson, and
-                                                  broken and closed.osm)
+                                                  broken, closed and rings.osm)
        ground_features.py corner EVENTS           (does the first collision of T1 lie at the corner, within 1 mm?)
        ground_features.py wall EVENTS             (does it lie on a wall beside that corner, within 1 mm?)
        ground_features.py craters CSV RAW         (has the raster the heights of the dump, and holes?)
@@ -174,6 +174,17 @@ def closed_osm(there):
     write_osm("closed.osm", corners_of_boxes(there, 9), [(i + 1, ring, *words[i]) for i, ring in enumerate(rings)])
 
 
+def ring_osm(there):
+    """A lake and a building as the outer ways of relations without words of their own, as OpenStreetMap had them."""
+    there.features = [("Polygon", box(25000, 25000, side, side), {}) for side in (400, 200)] + \
+                     [("Polygon", box(25300, 25000, side, side), {}) for side in (40, 20)]
+    nodes = [p for row in there.write("good.geojson") for p in row["geometry"]["coordinates"][0][:4]]
+    rings = [[4 * i + k for k in (1, 2, 3, 4, 1)] for i in range(4)]
+    members = "".join(f'<relation id="{i + 9}" version="1"><member type="way" ref="{2 * i + 1}" role="outer"/><member type="way" ref="{2 * i + 2}" '
+                      'role="inner"/><tag k="type" v="multipolygon"/></relation>\n' for i in range(2))
+    write_osm("rings.osm", nodes, [(1, rings[0], "natural", "water"), (2, rings[1]), (3, rings[2], "building", "yes"), (4, rings[3])], members)
+
+
 def overlapping(*place):
     """A wood and a part of a lake; scrub and another part."""
     over, under = Map(*place), Map(*place)
@@ -205,6 +216,7 @@ def maps(*place):
     broken(Map(*place))
     broken_osm(Map(*place))
     closed_osm(Map(*place))
+    ring_osm(Map(*place))
 
 
 def first_collision(path):

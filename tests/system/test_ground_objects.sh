@@ -73,6 +73,9 @@ check "told: nodes of outlines and lines, ways and a road of one point that the 
 check "a map that is read for two purposes has its gaps once" eval 'out=osm.ground make --features broken.osm --roads broken.osm 2>err && grep -q "broken.osm: 3 ways have fewer than two nodes" err'
 check "closed ways of OpenStreetMap are outlines, unless they are lines" eval 'out=closed.ground make --trees 0 --features closed.osm --roads closed.osm 2>err && "$ground" info closed.ground | grep -q "^features: 2 buildings, 5 plants and poles, 2 areas, 1 rivers$" &&
     "$ground" info closed.ground | grep -q "^roads: 1, "'
+"$ground" make --center 44.5,-71.5 --side 2000 --posts 12.5 --out rings.ground --trees 0 --features rings.osm level.asc >/dev/null 2>&1
+check "a lake has its island if its outer way has the words, and a building with a courtyard counts once" eval \
+    '"$ground" info rings.ground | grep -q "^features: 1 buildings, 0 plants and poles, 1 areas" && "$ground" check rings.ground | grep -q "lake 3\.2 %"'
 check "a river with a width that is none is told" grep -Eq "closed.osm: 1 rivers have a width that is no number from 0 to 2000 m, and was not used; the first at latitude 44\.[0-9]+, longitude -71\.[0-9]+ is number 5$" err
 for order in 'over under' 'under over'; do
     out=overlap.ground make --features "${order% *}.geojson" --features "${order#* }.geojson" >/dev/null 2>&1
