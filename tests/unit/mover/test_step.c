@@ -210,7 +210,7 @@ static void open_crowd(struct fixture *f, const char *behaviour)
 {
     char text[512];
     snprintf(text, sizeof text,
-             "world = { seed = 4; capacity = 4096; };\n"
+             "world = { seed = 4; capacity = 4096; cruise = false; };\n"
              "vehicles = ( { kind = \"tank\"; count = 2100; behaviour = \"%s\";\n"
              "    area = [10000.0, 10000.0, 40000.0, 40000.0]; },\n"
              "  { kind = \"truck\"; route = ( [1000.0, 2000.0], [2000.0, 2000.0] ); } );\n",

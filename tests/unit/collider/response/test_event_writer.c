@@ -117,6 +117,8 @@ static void test_the_key_is_frame_and_index_from_zero_in_every_frame(void **stat
     (void)state;
     fixture_open(&f, "world = { seed = 3; hz = 20.0; capacity = 256; };\n"
                      "vehicles = ( { kind = \"jeep\"; count = 120;\n"
+                     "  area = [25000.0, 25000.0, 25100.0, 25100.0]; },\n"
+                     "  { kind = \"jeep\"; count = 20; behaviour = \"hold\"; speed_mps = 8.0;\n"
                      "  area = [25000.0, 25000.0, 25100.0, 25100.0]; } );\n");
     for (int n = 0; n < 40; n++)
         steps_send(&f, RING_CLIENTS, (struct command){.type = COMMAND_NONE});
