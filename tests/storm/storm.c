@@ -122,13 +122,18 @@ static void begin(struct storm *storm)
     if (tested_set_start(&storm->set, &storm->options, &error) != 0)
         die_refused("%s", error.text);
     if (recovery_monitor_start(&storm->monitor, &storm->set.view) != 0 ||
-        invariant_monitor_start(&storm->invariants, &storm->set, storm->options.seed) != 0)
-        die_refused("cannot start a thread: %s", strerror(errno));
+        invariant_monitor_start(&storm->invariants, &storm->set, storm->options.seed) != 0) {
+        int because = errno;
+        (void)tested_set_stop(&storm->set);
+        die_refused("cannot start a thread: %s", strerror(because));
+    }
     fault_injector_begin(&storm->injector, &storm->set, &storm->monitor, storm->options.seed);
     if (storm->options.commands > 0) {
         storm->sender = sender_start(&storm->options, &error);
-        if (!storm->sender)
+        if (!storm->sender) {
+            (void)tested_set_stop(&storm->set);
             die_refused("%s", error.text);
+        }
     }
 }
 

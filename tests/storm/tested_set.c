@@ -243,7 +243,11 @@ int tested_set_start(struct tested_set *set, const struct storm_options *options
     *set = (struct tested_set){.options = options};
     if (start(set, error) != 0)
         return -1;
-    return segment_attach(&set->view, options->world, ROLE_NONE, error);
+    if (segment_attach(&set->view, options->world, ROLE_NONE, error) != 0) {
+        (void)tested_set_stop(set); /* it is a world of another build */
+        return -1;
+    }
+    return 0;
 }
 
 int tested_set_restart(struct tested_set *set, struct error_text *error)
