@@ -35,8 +35,8 @@ extern const uint32_t generate_table1[OBJECT_CLASS_COUNT];
 
 /* Fills objects [GENERATE_TABLE1_TOTAL] in gridsquare order: exactly Table 1 by class, each of a
  * kind of that class (kinds of one class are mixed), at most 18 in a square, 3.9 on average in
- * occupied squares, none in water. Trees and bushes are in the hills, poles along roads (without
- * roads on the line from Jolon to the Mission). No bounding spheres touch, and none but the poles'
+ * occupied squares, none in water. Trees and bushes are in the hills, poles along a road (where
+ * none has room on a straight line). No bounding spheres touch, and none but the poles'
  * is within 8 m of a road's middle. y is the ground's height; radius and height come from the kind
  * (trees and bushes vary by up to 20 %). Returns 0; -1 with errno ENOMEM, EINVAL if a class has no
  * kind, or ENOSPC if there is too little dry ground. */

@@ -20,6 +20,7 @@
 #define POLE_COUNT     54
 #define POLE_START_M   700.0 /* from the road's beginning, a junction, and between tries */
 #define POLE_STARTS    5
+#define POLE_LINES     4096u /* tried across the country where no road has room */
 
 #define TRIES      16000u /* places tried for one object: out to some 300 m */
 #define ROCK_TRIES 200u
@@ -93,16 +94,33 @@ static bool find_line(const struct object_placement *p, const struct road_point 
     return false;
 }
 
-/* Poles beside a road; where there are no roads, on the line from Jolon to the Mission. */
+/* Finds a straight line of poles somewhere, where the ground is dry and no road crosses. */
+static bool find_open_line(const struct object_placement *p, double poles[POLE_COUNT][2])
+{
+    const double last = p->terrain->squares.world_m;
+    for (uint32_t i = 0; i < POLE_LINES; i++) {
+        double x = random_between(p->seed, i, POLE_LINES, RANDOM_OBJECT_X, 0.0, last);
+        double z = random_between(p->seed, i, POLE_LINES, RANDOM_OBJECT_Z, 0.0, last);
+        double sine, cosine, way_m = POLE_SPACING_M * POLE_COUNT;
+        maths_sincos(2.39996 * i, &sine, &cosine);
+        const struct road_point line[2] = {{.x = x, .z = z},
+                                           {.x = x + way_m * sine, .z = z - way_m * cosine}};
+        if (line_up(p, line, line + 2, 0.0, 1.0, poles))
+            return true;
+    }
+    return false;
+}
+
+/* Poles beside a road; where no road has room, on the line from Jolon to the Mission, or another
+ * one. */
 static int add_poles(struct object_placement *p, const double jolon[2], const double mission[2])
 {
     struct road_point straight[2] = {
         {.x = maths_as_float(jolon[0]), .z = maths_as_float(jolon[1])},
         {.x = maths_as_float(mission[0]), .z = maths_as_float(mission[1])}};
     double poles[POLE_COUNT][2];
-    bool found = p->road_count > 0 ? find_line(p, p->roads, p->road_count, poles)
-                                   : find_line(p, straight, 2, poles);
-    if (!found) {
+    if (!find_line(p, p->roads, p->road_count, poles) && !find_line(p, straight, 2, poles) &&
+        !find_open_line(p, poles)) {
         errno = ENOSPC;
         return -1;
     }
@@ -147,10 +165,14 @@ static int add_built(struct object_placement *p)
     };
     uint32_t numbers[OBJECT_CLASS_COUNT] = {0};
     double at[2][2];
+    /* In a smaller world the two places are nearer to each other. */
+    const double share = maths_min(p->terrain->squares.world_m / WORLD_SIDE_DEFAULT_M, 1.0);
     for (int i = 0; i < 2; i++) {
         const struct geography_place *place =
             &geography_places[i == 0 ? GEOGRAPHY_MISSION : GEOGRAPHY_JOLON];
         generate_place(place->latitude_deg, place->longitude_deg, &at[i][0], &at[i][1]);
+        at[i][0] *= share;
+        at[i][1] *= share;
     }
     if (add_poles(p, at[1], at[0]) != 0)
         return -1;

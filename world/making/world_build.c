@@ -14,6 +14,7 @@
 #include "world/runtime/error_text.h"
 #include "world/making/generate.h"
 #include "world/making/ground_load.h"
+#include "world/making/plant_placement.h"
 #include "world/making/mission_build.h"
 #include "world/making/vehicle_placement.h"
 #include "world/terrain/fixed_index.h"
@@ -97,6 +98,20 @@ static void list_objects(struct world_build *built, const struct terrain *terrai
     qsort_r(built->fixed, scenario->object_count, sizeof *built->fixed, by_square, &squares);
 }
 
+/* Says why Table 1 could not be planted, by errno. */
+static int tell_objects(struct error_text *error)
+{
+    if (errno == EINVAL)
+        return error_text_set(error, "objects: a class of Table 1 has no kind in config/kinds");
+    if (errno == ENOSPC)
+        return error_text_set(error,
+                              "objects.source = table1: the ground has no room for the %u objects "
+                              "of Table 1, which need %u gridsquares of dry land without roads; "
+                              "right would be file, none, or a list of objects",
+                              GENERATE_TABLE1_TOTAL, PLANT_PLACEMENT_SQUARES);
+    return error_text_memory(error);
+}
+
 static int build_objects(struct world_build *built, struct error_text *error)
 {
     const struct scenario *scenario = built->scenario;
@@ -113,10 +128,7 @@ static int build_objects(struct world_build *built, struct error_text *error)
         generate_table1_objects(built->fixed, &terrain, scenario->kinds, scenario->kind_count,
                                 built->roads, built->counts.road_points,
                                 scenario->settings->params.seed) != 0)
-        return errno == EINVAL
-                   ? error_text_set(error,
-                                    "objects: a class of Table 1 has no kind in config/kinds")
-                   : error_text_memory(error);
+        return tell_objects(error);
     if (fixed_index_build(&terrain.squares, built->fixed, count, scenario->kinds,
                           &built->reach_start, &built->reach) != 0)
         return error_text_memory(error);

@@ -517,22 +517,69 @@ static void objects_follow_from_the_seed(void **state)
     free(other);
 }
 
+/* Level ground without roads, of this side in gridsquares. */
+static void make_flat(struct ground *flat, uint32_t squares)
+{
+    uint32_t side = squares + 1;
+    *flat =
+        (struct ground){.posts = malloc(side * side * sizeof(float)), .cover = malloc(side * side)};
+    assert_non_null(flat->posts);
+    assert_non_null(flat->cover);
+    generate_flat(flat->posts, flat->cover, side, 12.5);
+    flat->terrain = (struct terrain){
+        .posts = flat->posts, .cover = flat->cover, .side = side, .spacing_m = 125.0};
+    flat->terrain.squares = gridsquares_of(125.0 * squares);
+}
+
 /* Row 2: level ground without roads holds them too. */
 static void flat_ground_holds_table_1(void **state)
 {
     (void)state;
-    struct ground flat = {.posts = malloc(401 * 401 * sizeof(float)), .cover = malloc(401 * 401)};
-    assert_non_null(flat.posts);
-    assert_non_null(flat.cover);
-    generate_flat(flat.posts, flat.cover, 401, 12.5);
-    flat.terrain = (struct terrain){.posts = flat.posts,
-                                    .cover = flat.cover,
-                                    .side = 401,
-                                    .spacing_m = 125.0,
-                                    .squares = GRIDSQUARES_DEFAULT_INIT};
+    struct ground flat;
+    make_flat(&flat, 400);
     struct fixed_object *made = make_objects(&flat, SEED);
     for (uint32_t i = 0; i < GENERATE_TABLE1_TOTAL; i++)
         assert_true(made[i].y == 12.5f);
+    free(made);
+    free_ground(&flat);
+}
+
+/* A road of a town has no room for 3 km of poles, and one leads over the line from Jolon to the
+ * Mission: they stand on another line. */
+static void poles_stand_where_no_road_has_room(void **state)
+{
+    (void)state;
+    struct ground flat;
+    make_flat(&flat, 400);
+    flat.roads = malloc(8 * sizeof *flat.roads);
+    assert_non_null(flat.roads);
+    for (uint32_t i = 0; i < 8; i++)
+        flat.roads[flat.road_count++] = (struct road_point){
+            .x = 25000.0 + 500.0 * i, .z = i % 2 ? 24000.0 : 15000.0, .road = i / 2};
+    struct fixed_object *made = make_objects(&flat, SEED);
+    uint32_t poles = 0;
+    for (uint32_t i = 0; i < GENERATE_TABLE1_TOTAL; i++)
+        poles += kinds[made[i].kind].object_class == OBJECT_POLE;
+    assert_int_equal(poles, 54);
+    free(made);
+    free_ground(&flat);
+}
+
+/* A smaller world holds them from some 13 km on; a smaller one has no room, and says so. */
+static void smaller_worlds_hold_table_1_while_there_is_room(void **state)
+{
+    (void)state;
+    struct ground flat;
+    make_flat(&flat, 112);
+    free(make_objects(&flat, SEED));
+    free_ground(&flat);
+    make_flat(&flat, 96);
+    struct fixed_object *made = malloc(GENERATE_TABLE1_TOTAL * sizeof *made);
+    assert_non_null(made);
+    errno = 0;
+    assert_int_equal(generate_table1_objects(made, &flat.terrain, kinds, KIND_COUNT, NULL, 0, SEED),
+                     -1);
+    assert_int_equal(errno, ENOSPC);
     free(made);
     free_ground(&flat);
 }
@@ -734,6 +781,8 @@ int main(void)
         cmocka_unit_test(squares_are_as_full_as_in_table_1),
         cmocka_unit_test(objects_follow_from_the_seed),
         cmocka_unit_test(flat_ground_holds_table_1),
+        cmocka_unit_test(poles_stand_where_no_road_has_room),
+        cmocka_unit_test(smaller_worlds_hold_table_1_while_there_is_room),
         cmocka_unit_test(water_holds_nothing),
         cmocka_unit_test(objects_lie_in_the_order_of_squares),
         cmocka_unit_test(objects_stand_apart),
