@@ -388,8 +388,8 @@ static int outer_make(struct shell *shell, const struct connected_pieces *pieces
         return -1;
     for (uint32_t i = 0; i < pieces->count; i++) {
         const struct convex_hull *hull = &pieces->piece[i].hull;
-        if (!(parts >> pieces->piece[i].part & 1u))
-            continue;
+        if (!(parts >> pieces->piece[i].part & 1u) || hull->point_count == 0)
+            continue; /* an empty hull has no points to copy from */
         memcpy(point + taken, hull->point, hull->point_count * sizeof(*point));
         taken += hull->point_count;
     }
