@@ -60,7 +60,8 @@ int posts_file_open(struct posts_file *file, const struct posts_file_ground *gro
                     struct error_text *error);
 void posts_file_close(struct posts_file *file);
 
-/* Reads all of an open file and compares it with its hashes. 0, or -1 with the reason. */
+/* Reads all of an open file and compares it with its hashes: 1.3 GB of a square of 500 km. 0, or -1
+ * with the reason. */
 int posts_file_verify(const struct posts_file *file, struct error_text *error);
 
 #endif

@@ -107,6 +107,7 @@ static int fill(struct writing *w)
     return fsync(w->fd) == 0 && rename(w->aside, w->path) == 0 ? 0 : failed(w);
 }
 
+/* Reads all of the file: a world must not run on another ground than its hash says. */
 static bool is_there(const struct writing *w)
 {
     const struct ground_header *ground = &w->file->header;
@@ -116,8 +117,9 @@ static bool is_there(const struct writing *w)
     struct error_text reason;
     if (posts_file_open(&found, &wanted, &reason) != 0)
         return false;
+    bool whole = posts_file_verify(&found, &reason) == 0;
     posts_file_close(&found);
-    return true;
+    return whole;
 }
 
 /* Opens the file aside for this maker alone. One that another maker left is taken over. */
