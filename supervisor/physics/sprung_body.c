@@ -8,6 +8,8 @@
 
 #define GRAVITY_MPS2 9.80665
 #define SHELL        12u
+#define ASIDE_M      0.015 /* a point of the shell so far from the open is not deeper than this */
+#define HALF_ROOT    0.70710678118654752
 #define SLOPE_M      0.5  /* between the heights that give the slope under a wheel */
 #define AIR_M        0.05 /* wheels and shell of a vehicle in the air are higher over the ground */
 #define STEEPEST     2.0  /* the height over a wall falls so much faster than the way to it */
@@ -114,6 +116,22 @@ static void look_at_wheels(const struct surface *surface, struct body_look *body
     }
 }
 
+/* Returns how high a point is over the ground [m]. One in the ground beside a wall, such as the
+ * edge where two craters meet, is no deeper than its way out to the side: ASIDE_M, if that is
+ * enough. */
+static double clear_of(const struct surface *surface, struct vec3 at)
+{
+    static const double way[8][2] = {
+        {1.0, 0.0},  {HALF_ROOT, HALF_ROOT},   {0.0, 1.0},  {-HALF_ROOT, HALF_ROOT},
+        {-1.0, 0.0}, {-HALF_ROOT, -HALF_ROOT}, {0.0, -1.0}, {HALF_ROOT, -HALF_ROOT}};
+    double high = at.y - surface_height(surface, at.x, at.z);
+    for (int i = 0; i < 8 && high < -ASIDE_M; i++) {
+        if (at.y >= surface_height(surface, at.x + ASIDE_M * way[i][0], at.z + ASIDE_M * way[i][1]))
+            return -ASIDE_M;
+    }
+    return high;
+}
+
 void sprung_body_look(const struct surface *surface, struct body_look *body)
 {
     struct sprung_look *look = &body->now.springs;
@@ -121,7 +139,7 @@ void sprung_body_look(const struct surface *surface, struct body_look *body)
     for (uint32_t i = 0; i < SHELL; i++) {
         const struct vec3 own = rigid_pose_out(&body->now.pose, shell_point(body->kind, i));
         const struct vec3 at = vec3_add(body->named.at, own);
-        look->shell_m = maths_min(look->shell_m, at.y - surface_height(surface, at.x, at.z));
+        look->shell_m = maths_min(look->shell_m, clear_of(surface, at));
     }
     look_at_wheels(surface, body, look);
 }

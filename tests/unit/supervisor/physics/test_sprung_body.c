@@ -80,6 +80,41 @@ static void test_a_shell_in_the_ground(void **state)
     assert_false(measure_good(&check.measures, MEASURE_OF_SHELL_UNDERGROUND));
 }
 
+/* Where two craters meet the ground has a step. A body as small as a point, 5 cm below its upper
+ * side: 1 cm from the step it is no deeper than its way out, and further away it is that deep. */
+static void test_a_shell_beside_a_step_is_as_deep_as_its_way_out(void **state)
+{
+    const struct crater craters[] = {
+        {.x = 25000.0, .z = 25000.0, .radius_m = 2.1f, .depth_m = 0.84f},
+        {.x = 25001.92, .z = 24999.44, .radius_m = 2.1f, .depth_m = 0.84f}};
+    const struct kind point = {
+        .domain = DOMAIN_LAND, .axles = 2, .heave_hz = 1.0, .tracked = 1, .length_m = 1e-9};
+    struct surface surface = {.terrain = &f.view.world.terrain};
+    struct body_look body = {.kind = &point};
+    double step_x = 0.0, step_z = 0.0;
+    (void)state;
+    assert_int_equal(surface_update(&surface, craters, 2), 0);
+    for (double z = 24996.0; z < 25004.0 && !(step_x > 0.0); z += 0.05) {
+        for (double x = 24996.0; x < 25006.0 && !(step_x > 0.0); x += 0.002) {
+            double west = surface_height(&surface, x, z), east;
+            east = surface_height(&surface, x + 0.002, z);
+            if (west - east > 0.06)
+                step_x = x, step_z = z;
+        }
+    }
+    assert_true(step_x > 0.0);
+    body.now.pose = rigid_pose_of((struct vec3){0.0, 0.0, 0.0}, 0.0, 0.0, 0.0);
+    body.named.at = (struct vec3){step_x - 0.01, 0.0, step_z};
+    body.named.at.y = surface_height(&surface, step_x - 0.01, step_z) - 0.05;
+    sprung_body_look(&surface, &body);
+    assert_true(body.now.springs.shell_m == -0.015);
+    body.named.at.x = step_x - 0.1;
+    body.named.at.y = surface_height(&surface, step_x - 0.1, step_z) - 0.05;
+    sprung_body_look(&surface, &body);
+    assert_true(fabs(body.now.springs.shell_m + 0.05) < 1e-6);
+    surface_free(&surface);
+}
+
 /* A crater throws earth over it, and another vehicle pushes it into a bank. */
 static void test_a_shell_gets_out_of_the_ground_after_an_explosion(void **state)
 {
@@ -155,6 +190,7 @@ int main(void)
 #define T(name) cmocka_unit_test_teardown(name, end_check)
     const struct CMUnitTest tests[] = {
         T(test_a_shell_in_the_ground),
+        T(test_a_shell_beside_a_step_is_as_deep_as_its_way_out),
         T(test_a_shell_gets_out_of_the_ground_after_an_explosion),
         T(test_a_tank_that_falls_is_good_and_one_that_floats_is_not),
         T(test_energy_that_no_engine_gives),
