@@ -97,15 +97,29 @@ static int check_block(const struct raster *r, struct error_text *error)
                           r->path, bytes, r->columns, least);
 }
 
-static int check_band(struct raster *r, enum raster_use use, struct error_text *error)
+/* Sets the band, and its mask. One that GDAL makes of the mark of voids alone is not needed. */
+static int find_band(struct raster *r, struct error_text *error)
 {
     int bands = GDALGetRasterCount(r->dataset);
-    if (bands != 1)
+    bool alpha = bands == 2 && GDALGetRasterColorInterpretation(GDALGetRasterBand(r->dataset, 2)) ==
+                                   GCI_AlphaBand;
+    r->band = bands > 0 ? GDALGetRasterBand(r->dataset, 1) : NULL;
+    int flags = r->band ? GDALGetMaskFlags(r->band) : 0;
+    if (bands != 1 && !(alpha && (flags & GMF_ALPHA)))
         return error_text_set(error,
-                              "%s: has %d bands; a raster of heights or classes has one. Right "
-                              "would be: gdal_translate -b 1 %s ONE.tif, if band 1 has them",
-                              r->path, bands, r->path);
-    r->band = GDALGetRasterBand(r->dataset, 1);
+                              "%s: has %d bands; a raster of heights or classes has one%s. Right "
+                              "would be: gdal_translate -b 1%s %s ONE.tif, if band 1 has them",
+                              r->path, bands, alpha ? ", or a second of transparency as bytes" : "",
+                              alpha ? " -mask 2" : "", r->path);
+    if (!(flags & GMF_ALL_VALID) && flags != GMF_NODATA)
+        r->mask = GDALGetMaskBand(r->band);
+    return 0;
+}
+
+static int check_band(struct raster *r, enum raster_use use, struct error_text *error)
+{
+    if (find_band(r, error) != 0)
+        return -1;
     if (use == RASTER_OF_HEIGHTS && GDALGetRasterColorTable(r->band) != NULL)
         return error_text_set(error, "%s: is a picture with a table of colours, not heights",
                               r->path);

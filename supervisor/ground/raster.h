@@ -28,7 +28,7 @@ enum raster_use { RASTER_OF_HEIGHTS, RASTER_OF_CLASSES };
 
 /* Opens a raster for these posts. to_metres: what heights are multiplied by; 0: what the file says
  * of its unit. NULL with the reason: no such file, no raster, no or no known place on the earth,
- * more than one band, colours, fewer than 2 x 2 pixels. */
+ * more than one band (besides one of transparency), colours, fewer than 2 x 2 pixels. */
 struct raster *raster_open(const char *path, enum raster_use use, const struct post_grid *grid,
                            double to_metres, struct error_text *error);
 void raster_close(struct raster *raster);

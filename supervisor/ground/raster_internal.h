@@ -14,6 +14,7 @@ struct raster {
     struct post_grid grid;
     GDALDatasetH dataset;
     GDALRasterBandH band;
+    GDALRasterBandH mask; /* 0 where the file says that there is nothing; NULL: it has none */
     OGRCoordinateTransformationH from_earth, to_earth;
     double transform[6], inverse[6];
     double extent[4];    /* [deg] south, west, north, east */

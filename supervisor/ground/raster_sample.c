@@ -116,8 +116,9 @@ static int clean_window(struct raster *r, struct error_text *error)
     return 0;
 }
 
-/* Reads the window, in parts where it goes beyond a turn. */
-static CPLErr read_window(const struct raster *r)
+/* Reads rows of the window from a band, in parts where they go beyond a turn. row: of the window.
+ */
+static CPLErr read_rows(const struct raster *r, GDALRasterBandH band, int row, int rows, float *to)
 {
     GDALRasterIOExtraArg extra;
     INIT_RASTERIO_EXTRA_ARG(extra);
@@ -127,10 +128,33 @@ static CPLErr read_window(const struct raster *r)
     for (int done = 0, count; done < r->across && result == CE_None; done += count) {
         int column = own_column(r, r->west + done);
         count = r->across - done < end - column ? r->across - done : end - column;
-        result = GDALRasterIOEx(r->band, GF_Read, column * k, r->north * k, count * k, r->down * k,
-                                r->window + done, count, r->down, GDT_Float32, 0,
-                                (GSpacing)sizeof *r->window * r->across, &extra);
+        result = GDALRasterIOEx(band, GF_Read, column * k, (r->north + row) * k, count * k,
+                                rows * k, to + done, count, rows, GDT_Float32, 0,
+                                (GSpacing)sizeof *to * r->across, &extra);
     }
+    return result;
+}
+
+static int refuse_reading(const struct raster *r, struct error_text *error)
+{
+    return error_text_set(error, "%s: cannot be read: %s", r->path, CPLGetLastErrorMsg());
+}
+
+/* Makes voids of the pixels of the window under the file's mask. */
+static int mask_window(struct raster *r, struct error_text *error)
+{
+    int result = 0;
+    float *mask = calloc((size_t)r->across, sizeof *mask);
+    if (!mask)
+        return error_text_memory(error);
+    for (int row = 0; row < r->down && result == 0; row++) {
+        float *pixels = r->window + (size_t)row * (size_t)r->across;
+        if (read_rows(r, r->mask, row, 1, mask) != CE_None)
+            result = refuse_reading(r, error);
+        for (int i = 0; i < r->across; i++)
+            pixels[i] = mask[i] > 0.0f ? pixels[i] : NAN;
+    }
+    free(mask);
     return result;
 }
 
@@ -152,8 +176,10 @@ int raster_read(struct raster *r, uint32_t first, uint32_t rows, struct error_te
         return error_text_memory(error);
     r->window = window;
     CPLErrorReset();
-    if (read_window(r) != CE_None)
-        return error_text_set(error, "%s: cannot be read: %s", r->path, CPLGetLastErrorMsg());
+    if (read_rows(r, r->band, 0, r->down, r->window) != CE_None)
+        return refuse_reading(r, error);
+    if (r->mask != NULL && mask_window(r, error) != 0)
+        return -1;
     return clean_window(r, error);
 }
 

@@ -58,6 +58,34 @@ if command -v gdal_create >/dev/null; then
     gdal_translate -q -a_srs EPSG:4326 hole.asc hole.tif
     check "a pixel of 1e38 is mended, with the map, the number and the place" eval \
         'make hole.tif 2>err && grep -Eq "hole.tif: [0-9]+ posts without a height were interpolated; the first at latitude 10.501[0-9]{2}, longitude 20.498[0-9]{2}$" err'
+    # The same holes as a mark of voids, and with 0 m below a mask within, beside and as a second band.
+    python3 - <<'P'
+import random
+draw = random.Random(17)
+rows = [[0 if abs(r - 150) < 4 and abs(c - 150) < 4 else draw.randint(290, 310) for c in range(300)] for r in range(300)]
+head = "ncols 300\nnrows 300\nxllcorner 20.49\nyllcorner 10.49\ncellsize 0.0000666666666666\n"
+for name, of in (("void.asc", lambda v: v), ("shown.asc", lambda v: 255 if v else 0)):
+    open(name, "w").write(head + "\n".join(" ".join(str(of(v)) for v in row) for row in rows) + "\n")
+P
+    gdal_translate -q -a_srs EPSG:4326 -ot Int16 -a_nodata none void.asc zero.tif
+    gdal_translate -q -a_srs EPSG:4326 -ot Int16 -a_nodata 0 void.asc marked.tif
+    gdal_translate -q -a_srs EPSG:4326 -ot Int16 -a_nodata none shown.asc shown.tif
+    gdalbuildvrt -q -separate both.vrt zero.tif shown.tif
+    gdal_translate -q --config GDAL_TIFF_INTERNAL_MASK YES -b 1 -mask 2 both.vrt within.tif
+    gdal_translate -q --config GDAL_TIFF_INTERNAL_MASK NO -b 1 -mask 2 both.vrt beside.tif
+    gdal_translate -q -ot UInt16 -colorinterp gray,alpha both.vrt alpha.tif
+    gdal_translate -q -colorinterp gray,alpha both.vrt other.tif
+    refuses_map "a band of transparency that GDAL does not heed" 'other.tif: has 2 bands; .* -b 1 -mask 2 other.tif' other.tif
+    for posts in 5 25; do
+        make marked.tif >/dev/null 2>&1 && hash_of x.ground >marked
+        for file in within beside alpha; do
+            check "heights under a mask ($file, posts of $posts m) are voids" eval 'make $file.tif 2>err && grep -q "$file.tif: [0-9]* posts without a height" err && equal "$(hash_of x.ground)" "$(cat marked)"'
+        done
+    done
+    gdal_translate -q -b 2 -mask 2 both.vrt shown-alone.tif
+    echo '255 forest' >shown.txt
+    check "cover under a mask is guessed" eval 'make --cover shown-alone.tif --classes ./shown.txt marked.tif 2>err && grep -q "no map of cover for 4 of 1681 posts" err'
+    posts=125
     gdal_translate -q -a_srs EPSG:4326 -tr 0.006 0.006 hole.tif coarse.tif
     check "of several maps the finest is named" eval 'make coarse.tif hole.tif 2>err && grep -q "hole.tif and the coarser maps there: " err'
     map void.tif 20 11 21 10 -ot Int16 -burn -32768 -a_nodata -32768
