@@ -131,6 +131,14 @@ static int check_band(struct raster *r, enum raster_use use, struct error_text *
     return check_length(r, error) == 0 ? check_block(r, error) : -1;
 }
 
+/* Returns the unit of heights that the file's place on the earth has with a vertical datum [m]. */
+static double unit_of_place(const struct raster *r)
+{
+    OGRSpatialReferenceH given = GDALGetSpatialRef(r->dataset);
+    bool vertical = given != NULL && OSRIsCompound(given);
+    return vertical ? OSRGetTargetLinearUnits(given, "VERT_CS", NULL) : 1.0;
+}
+
 /* Sets how heights become metres. */
 static int read_unit(struct raster *r, double to_metres, struct error_text *error)
 {
@@ -142,7 +150,7 @@ static int read_unit(struct raster *r, double to_metres, struct error_text *erro
     r->offset = GDALGetRasterOffset(r->band, &given);
     r->offset = given ? r->offset : 0.0;
     if (to_metres == 0.0) {
-        to_metres = 1.0;
+        to_metres = unit[0] == '\0' ? unit_of_place(r) : 1.0;
         if (strcasecmp(unit, "ft") == 0 || strcasecmp(unit, "feet") == 0 ||
             strcasecmp(unit, "foot") == 0)
             to_metres = METRES_PER_FOOT;
@@ -174,7 +182,7 @@ static int find_place(struct raster *r, struct error_text *error)
     } else {
         OSRImportFromEPSG(earth, 4326);
         own = OSRClone(given);
-        if (OSRIsGeographic(given) && OSRGetAxesCount(given) == 3)
+        if (OSRGetAxesCount(given) == 3 && !OSRIsCompound(given))
             log_warn("%s: says that its heights are above the ellipsoid, which lies up to 106 m "
                      "from the sea level; they are taken as heights above the sea level",
                      r->path);

@@ -121,6 +121,15 @@ P
     gdal_translate -q -a_srs EPSG:4979 level.tif ellipsoid.tif
     check "heights above the ellipsoid are told" eval 'make ellipsoid.tif 2>err && grep -q "ellipsoid.tif: says that its heights are above the ellipsoid" err'
 
+    for datum in EPSG:4326+5773 EPSG:4326+3855 EPSG:32634+5773; do
+        gdal_translate -q -a_srs $datum level.tif sea-level.tif
+        [ $datum = EPSG:32634+5773 ] && gdalwarp -q -overwrite -s_srs EPSG:4326 -t_srs EPSG:32634 level.tif utm.tif && gdal_translate -q -a_srs $datum utm.tif sea-level.tif
+        check "heights above the sea level of $datum are not warned of" eval 'make sea-level.tif 2>err && ! grep -q ellipsoid err'
+    done
+    for form in GTiff VRT; do # with a unit of the band, and without one
+        gdal_translate -q -of $form -a_srs EPSG:4269+6360 level.tif survey
+        check "feet of a vertical datum become metres ($form)" eval 'make survey 2>err && ! grep -q ellipsoid err && "$ground" info --json x.ground | json highest_m | grep -qx -- 91.4375'
+    done
     # What is made replaces ground files alone: no map that is read, no pipe, no folder.
     for file in level.tif ./level.tif; do
         out=$file refuses "a ground over its map" 1 'level.tif: is read, and what is made would replace it' make level.tif
