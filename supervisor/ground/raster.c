@@ -45,11 +45,21 @@ static int refuse_file(const char *path, struct error_text *error)
 {
     const char *ending = strrchr(path, '.'), *reason = CPLGetLastErrorMsg();
     struct stat status;
-    if (reason[0] == '\0' && ending && strcasecmp(ending, ".hgt") == 0 && stat(path, &status) == 0)
-        return error_text_set(error,
-                              "%s: has %lld bytes; a tile of heights has 2884802 (1,201 x 1,201), "
-                              "12967202 or 25934402 (3,601 x 3,601), and a name like N44W072.hgt",
-                              path, (long long)status.st_size);
+    if (reason[0] == '\0' && ending && strcasecmp(ending, ".hgt") == 0 &&
+        stat(path, &status) == 0) {
+        long long bytes = (long long)status.st_size;
+        if (bytes == 2884802 || bytes == 12970802 || bytes == 25934402)
+            return error_text_set(error,
+                                  "%s: is as long as a tile of heights, but its name does not say "
+                                  "where it lies; right would be the latitude and longitude of its "
+                                  "south-west corner, as N44W072.hgt",
+                                  path);
+        return error_text_set(
+            error,
+            "%s: has %lld bytes; a tile of heights has 2884802 (1,201 x 1,201), "
+            "12970802 or 25934402 (1,801 or 3,601 x 3,601), and a name like N44W072.hgt",
+            path, bytes);
+    }
     return error_text_set(error, "%s: GDAL cannot read it as a raster: %s", path,
                           raster_open_reason(path));
 }

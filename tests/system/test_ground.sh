@@ -262,6 +262,9 @@ gdal_translate -q -srcwin 700 0 501 1201 "$tile" half-east.tif
 out=halves.ground make half-east.tif half-west.tif >/dev/null 2>&1
 check "two halves of a map join without a seam" equal "$(hash_of halves.ground)" "$(hash_of t1.ground)"
 check "every block is good" "$ground" check t1.ground
+cp "$tile" mountains.hgt
+out=none.ground refuses "a tile whose name says no place" 1 'mountains.hgt: is as long as a tile of heights, but its name does not say where' make mountains.hgt
+rm mountains.hgt
 mkdir cut && head -c 2000000 "$tile" >cut/N44W072.hgt
 out=cut/x.ground refuses "a tile that is cut off" 1 'N44W072.hgt: has 2000000 bytes; a tile of heights has 2884802' make cut/N44W072.hgt
 python3 - "$tile" <<'TEXT'
