@@ -85,6 +85,16 @@ static struct {
 } fields[FIELDS_MAX];
 static uint32_t fields_used;
 
+/* GDAL alone takes "Building" for "building", where a map has both. */
+static int find_field(OGRFeatureH feature, const char *key)
+{
+    for (int i = 0; i < OGR_F_GetFieldCount(feature); i++) {
+        if (strcmp(OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, i)), key) == 0)
+            return i;
+    }
+    return OGR_F_GetFieldIndex(feature, key);
+}
+
 /* Returns the number of a field, -1 without one. key: a text that stays where it is. */
 static int field_of(OGRFeatureH feature, const char *key)
 {
@@ -92,7 +102,7 @@ static int field_of(OGRFeatureH feature, const char *key)
         if (fields[i].key == key)
             return fields[i].field;
     }
-    int field = OGR_F_GetFieldIndex(feature, key);
+    int field = find_field(feature, key);
     if (fields_used < FIELDS_MAX) {
         fields[fields_used].key = key;
         fields[fields_used++].field = field;

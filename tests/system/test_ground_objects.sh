@@ -35,6 +35,9 @@ check "what several maps have counts once" equal "$(info halves.ground hash)" "$
 ogr2ogr -q -f GPKG village.gpkg village.geojson -nln village -dialect SQLite -sql 'SELECT * FROM village' 2>/dev/null
 out=gpkg.ground make --features village.gpkg --roads village.geojson >/dev/null 2>&1
 check "a GeoPackage of the same features gives the same hash" equal "$(info gpkg.ground hash)" "$(info x.ground hash)"
+sed '0,/"properties": {/s//"properties": {"Building": null, /' village.geojson >twice.geojson
+out=twice.ground make --features twice.geojson --roads village.geojson >/dev/null 2>&1
+check "a field of the same name with a capital letter changes nothing" eval 'grep -q Building twice.geojson && equal "$(info twice.ground hash)" "$(info x.ground hash)"'
 out=other.ground make --features village.geojson --roads village.geojson --seed 7 >/dev/null 2>&1
 check "another seed gives other woods" eval '[ "$(info other.ground hash)" != "$(info x.ground hash)" ]'
 out=bare.ground make --features village.geojson --trees 0 >/dev/null 2>&1
