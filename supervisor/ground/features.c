@@ -27,6 +27,7 @@
 #define TOWER_PERCENT 250u /* of a pole's size */
 #define WORD_MAX      64u
 #define METRES_A_FOOT 0.3048
+#define WITHIN_SHARE  0.02 /* of a hole may lie outside of its outline */
 
 enum key {
     KEY_BUILDING,
@@ -99,6 +100,7 @@ static const char *const troubles[FEATURE_TROUBLES] = {
     [FEATURE_MENDED] = "outlines cross themselves, and were mended",
     [FEATURE_CROSSED] = ("woods or waters have outlines that cross, or holes outside of them: what "
                          "an odd number of sides encloses counts"),
+    [FEATURE_NOTCHED] = "holes touch the outline around them, and are cut out of it",
     [FEATURE_BOXED] = ("outlines could not be split, and have the smallest rectangle around them "
                        "instead"),
     [FEATURE_SMALL] = "outlines are too small for buildings, and are left out",
@@ -440,11 +442,38 @@ static bool read_ring(struct reading *r, OGRGeometryH geometry, struct convex_pa
 
 static void take_building(struct reading *r, OGRGeometryH polygon, bool mended);
 
-/* Lets GDAL mend an outline that crosses itself. Returns false if it cannot. */
+/* Returns what a ring of a polygon encloses, mended by GDAL; NULL if it cannot. */
+static OGRGeometryH enclosed(OGRGeometryH polygon, int ring)
+{
+    OGRGeometryH alone = OGR_G_CreateGeometry(wkbPolygon);
+    OGR_G_AddGeometry(alone, OGR_G_GetGeometryRef(polygon, ring));
+    OGRGeometryH good = OGR_G_MakeValid(alone);
+    OGR_G_DestroyGeometry(alone);
+    return good;
+}
+
+/* Mends a polygon whose rings cross themselves or others: what the outline encloses without what
+ * the courtyards do. GDAL alone fills a courtyard that has a side on the outline. Returns NULL if
+ * it cannot. */
+static OGRGeometryH mended_polygon(OGRGeometryH polygon)
+{
+    OGRGeometryH good = enclosed(polygon, 0);
+    for (int i = 1; i < OGR_G_GetGeometryCount(polygon) && good; i++) {
+        OGRGeometryH yard = enclosed(polygon, i);
+        OGRGeometryH less = yard ? OGR_G_Difference(good, yard) : NULL;
+        if (yard)
+            OGR_G_DestroyGeometry(yard);
+        OGR_G_DestroyGeometry(good);
+        good = less;
+    }
+    CPLErrorReset();
+    return good;
+}
+
+/* Mends an outline that crosses itself. Returns false if it cannot be mended. */
 static bool mend(struct reading *r, OGRGeometryH polygon)
 {
-    OGRGeometryH good = OGR_G_MakeValid(polygon);
-    CPLErrorReset();
+    OGRGeometryH good = mended_polygon(polygon);
     if (!good)
         return false;
     OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(good));
@@ -573,6 +602,79 @@ static void take_line(struct reading *r, OGRGeometryH line)
         add_row(r);
 }
 
+static void take_geometry(struct reading *r, OGRGeometryH geometry);
+
+/* One of the polygons of an area. */
+struct polygon {
+    OGRGeometryH shape;
+    OGREnvelope box;
+    double area;
+    uint32_t around; /* how many of the others it lies within */
+};
+
+/* Returns true if a polygon lies within another, but for what rounding of its corners moves. */
+static bool lies_within(const struct polygon *inner, const struct polygon *outer)
+{
+    const OGREnvelope *in = &inner->box, *out = &outer->box;
+    double beyond = WITHIN_SHARE * fmax(in->MaxX - in->MinX, in->MaxY - in->MinY);
+    if (inner->area >= outer->area || in->MinX < out->MinX - beyond ||
+        in->MinY < out->MinY - beyond || in->MaxX > out->MaxX + beyond ||
+        in->MaxY > out->MaxY + beyond)
+        return false;
+    OGRGeometryH both = OGR_G_Intersection(inner->shape, outer->shape);
+    CPLErrorReset(); /* there is none of polygons that cross themselves, which stay as they are */
+    bool within = both && OGR_G_Area(both) > (1.0 - WITHIN_SHARE) * inner->area;
+    if (both)
+        OGR_G_DestroyGeometry(both);
+    return within;
+}
+
+/* Takes a polygon without the holes among the others. */
+static void take_cut(struct reading *r, const struct polygon *own, const struct polygon *polygon,
+                     uint32_t count)
+{
+    OGRGeometryH rest = OGR_G_Clone(own->shape);
+    for (uint32_t i = 0; i < count && rest; i++) {
+        if (polygon[i].around % 2 == 0 || !lies_within(&polygon[i], own))
+            continue;
+        OGRGeometryH less = OGR_G_Difference(rest, polygon[i].shape);
+        CPLErrorReset();
+        if (!less) /* the hole crosses itself */
+            continue;
+        OGR_G_DestroyGeometry(rest);
+        rest = less;
+        if (vector_map_track(r->map, OGR_G_GetGeometryRef(polygon[i].shape, 0), &r->track))
+            note(r, FEATURE_NOTCHED);
+    }
+    if (rest && !OGR_G_IsEmpty(rest))
+        take_geometry(r, rest);
+    if (rest)
+        OGR_G_DestroyGeometry(rest);
+}
+
+/* Takes the polygons of one area. GDAL makes a polygon of its own of a hole that touches its
+ * outline: one that lies within an odd number of others is a hole of them. */
+static void take_areas(struct reading *r, OGRGeometryH areas)
+{
+    uint32_t count = (uint32_t)OGR_G_GetGeometryCount(areas);
+    struct polygon *polygon = calloc((size_t)count + 1, sizeof *polygon);
+    r->map->no_memory |= !polygon;
+    for (uint32_t i = 0; i < count && polygon; i++) {
+        polygon[i].shape = OGR_G_GetGeometryRef(areas, (int)i);
+        polygon[i].area = OGR_G_Area(polygon[i].shape);
+        OGR_G_GetEnvelope(polygon[i].shape, &polygon[i].box);
+    }
+    for (uint32_t i = 0; i < count && polygon; i++) {
+        for (uint32_t k = 0; k < count; k++)
+            polygon[i].around += lies_within(&polygon[i], &polygon[k]);
+    }
+    for (uint32_t i = 0; i < count && polygon; i++) {
+        if (polygon[i].around % 2 == 0)
+            take_cut(r, &polygon[i], polygon, count);
+    }
+    free(polygon);
+}
+
 static void take_geometry(struct reading *r, OGRGeometryH geometry)
 {
     r->track.count = 0;
@@ -591,9 +693,11 @@ static void take_geometry(struct reading *r, OGRGeometryH geometry)
         close_rings(r, geometry);
         take_polygon(r, geometry);
         break;
+    case wkbMultiPolygon:
+        take_areas(r, geometry);
+        break;
     case wkbMultiPoint:
     case wkbMultiLineString:
-    case wkbMultiPolygon:
     case wkbGeometryCollection:
         for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++)
             take_geometry(r, OGR_G_GetGeometryRef(geometry, i));

@@ -32,6 +32,7 @@ enum feature_trouble {
     FEATURE_OPEN,     /* an outline that was open, and is closed */
     FEATURE_MENDED,   /* an outline of a building that crossed itself */
     FEATURE_CROSSED,  /* an area whose outlines cross, or with a hole outside of it */
+    FEATURE_NOTCHED,  /* a hole that touches the outline around it */
     FEATURE_BOXED,    /* an outline that could not be split: its smallest rectangle stands for it */
     FEATURE_SMALL,    /* left out: a building of less than BUILDINGS_LEAST_M2 */
     FEATURE_EDGE,     /* left out: a building across the edge of the square */

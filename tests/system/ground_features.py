@@ -3,7 +3,7 @@ converted by PROJ's gdaltransform.
 
 usage: ground_features.py maps LAT LON SIDE_M     (writes village, east, west, crossing, coast, torn, beach,
                                                   strait, turned, islet, gorge, over, under and broken.geojson, and
-                                                  broken, closed and rings.osm)
+                                                  broken, closed, rings and notched.osm)
        ground_features.py corner EVENTS           (does the first collision of T1 lie at the corner, within 1 mm?)
        ground_features.py wall EVENTS             (does it lie on a wall beside that corner, within 1 mm?)
        ground_features.py craters CSV RAW         (has the raster the heights of the dump, and holes?)
@@ -185,6 +185,18 @@ def ring_osm(there):
     write_osm("rings.osm", nodes, [(1, rings[0], "natural", "water"), (2, rings[1]), (3, rings[2], "building", "yes"), (4, rings[3])], members)
 
 
+def notched_osm(there):
+    """A building and a lake with holes on their western sides, whose corners are no nodes of the outlines."""
+    there.features = [("Polygon", box(*where), {}) for where in
+                      ((25000, 25000, 40, 40), (24990, 25003, 20, 20), (25500, 25000, 400, 400), (25400, 25030, 200, 200))]
+    nodes = [p for row in there.write("good.geojson") for p in row["geometry"]["coordinates"][0][:4]]
+    ways = [(i + 1, [4 * i + k for k in (1, 2, 3, 4, 1)]) for i in range(4)]
+    members = "".join(f'<relation id="{i + 9}" version="1"><member type="way" ref="{2 * i + 1}" role="outer"/><member type="way" ref="{2 * i + 2}" '
+                      f'role="inner"/><tag k="type" v="multipolygon"/><tag k="{key}" v="{word}"/></relation>\n'
+                      for i, (key, word) in enumerate((("building", "yes"), ("natural", "water"))))
+    write_osm("notched.osm", nodes, ways, members)
+
+
 def overlapping(*place):
     """A wood and a part of a lake; scrub and another part."""
     over, under = Map(*place), Map(*place)
@@ -217,6 +229,7 @@ def maps(*place):
     broken_osm(Map(*place))
     closed_osm(Map(*place))
     ring_osm(Map(*place))
+    notched_osm(Map(*place))
 
 
 def first_collision(path):

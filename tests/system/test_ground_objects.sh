@@ -79,6 +79,16 @@ check "closed ways of OpenStreetMap are outlines, unless they are lines" eval 'o
 "$ground" make --center 44.5,-71.5 --side 2000 --posts 12.5 --out rings.ground --trees 0 --features rings.osm level.asc >/dev/null 2>&1
 check "a lake has its island if its outer way has the words, and a building with a courtyard counts once" eval \
     '"$ground" info rings.ground | grep -q "^features: 1 buildings, 0 plants and poles, 1 areas" && "$ground" check rings.ground | grep -q "lake 3\.2 %"'
+"$ground" make --center 44.5,-71.5 --side 2000 --posts 12.5 --out notched.ground --trees 0 --features notched.osm level.asc >/dev/null 2>notched
+check "holes on the outline of a lake and a building are cut out" eval \
+    '"$ground" info notched.ground | grep -q "^features: 1 buildings, 0 plants and poles, 1 areas" && "$ground" check notched.ground | grep -q "lake 3\.[0-2] %"'
+check "they are told, with the place" eval 'grep -Eq "notched.osm: 1 holes touch the outline around them, and are cut out of it; the first at latitude 44\.[0-9]+, longitude -71\.[0-9]+ is number 10$" notched &&
+    grep -Eq "notched.osm: 1 outlines cross themselves, and were mended; the first at latitude 44\.[0-9]+, longitude -71\.[0-9]+ is number 9$" notched'
+"$ground" show --size 100 --at 25000,25000 --metres 100 notched.ground notched.png && gdal_translate -q -of ENVI -co INTERLEAVE=BIP notched.png notched.raw
+check "the building is open where its hole is" python3 -c '
+data = open("notched.raw", "rb").read()
+field, hole, wall = (data[3 * (z * 100 + x):][:3] for x, z in ((5, 5), (40, 53), (60, 53)))
+raise SystemExit(field != hole or field == wall)'
 check "a river with a width that is none is told" grep -Eq "closed.osm: 1 rivers have a width that is no number from 0 to 2000 m, and was not used; the first at latitude 44\.[0-9]+, longitude -71\.[0-9]+ is number 5$" err
 for order in 'over under' 'under over'; do
     out=overlap.ground make --features "${order% *}.geojson" --features "${order#* }.geojson" >/dev/null 2>&1
