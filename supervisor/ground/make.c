@@ -80,9 +80,11 @@ static int take_center(const char *value, struct error_text *error)
     if (fabs(given.latitude_deg) > PROJECTION_LATITUDE_MAX_DEG)
         return error_text_set(error, "is too near the pole; allowed: latitudes up to %g degrees",
                               PROJECTION_LATITUDE_MAX_DEG);
-    /* One meridian has two names, and a place one hash. */
+    /* One meridian has two names, as zero has, and a place one hash. */
     if (given.longitude_deg == -180.0)
         given.longitude_deg = 180.0;
+    given.latitude_deg += 0.0;
+    given.longitude_deg += 0.0;
     given.placed = true;
     return 0;
 }

@@ -1,10 +1,11 @@
-/* Keeps maps, pipes and devices from being replaced by what is made. */
+/* Keeps maps, pipes and devices from being replaced by what is made, and pipes from being read. */
 #include "supervisor/ground/out_file.h"
 
 #include "world/runtime/error_text.h"
 
 #include <errno.h>
 #include <limits.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -28,19 +29,25 @@ int out_file_check(const char *path, char *const *maps, uint32_t count, struct e
     struct stat out, map;
     if (check_folder(path, error) != 0)
         return -1;
-    if (stat(path, &out) != 0)
-        return 0;
-    if (!S_ISREG(out.st_mode))
+    bool old = stat(path, &out) == 0;
+    if (old && !S_ISREG(out.st_mode))
         return error_text_set(error,
                               "%s: is %s, not a file; right would be the name of a new file, or "
                               "of one that may be replaced",
                               path, S_ISDIR(out.st_mode) ? "a folder" : "a pipe or a device");
     for (uint32_t i = 0; i < count; i++) {
-        if (stat(maps[i], &map) == 0 && map.st_dev == out.st_dev && map.st_ino == out.st_ino)
+        if (stat(maps[i], &map) != 0)
+            continue;
+        if (old && map.st_dev == out.st_dev && map.st_ino == out.st_ino)
             return error_text_set(error,
                                   "%s: is read, and what is made would replace it; right would be "
                                   "another name",
                                   path);
+        if (!S_ISREG(map.st_mode) && !S_ISDIR(map.st_mode))
+            return error_text_set(error,
+                                  "%s: is a pipe or a device, which cannot be read as a map; right "
+                                  "would be a file with its content",
+                                  maps[i]);
     }
     return 0;
 }

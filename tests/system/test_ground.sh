@@ -146,6 +146,10 @@ P
         refuses "$verb over its ground" 1 'x.ground: is read' "$ground" $verb x.ground x.ground
         refuses "$verb over a pipe" 1 'pipe: is a pipe' "$ground" $verb x.ground pipe
     done
+    for input in pipe "--cover pipe level.tif" "--roads pipe level.tif" "--features pipe level.tif" "--classes ./pipe level.tif"; do
+        # shellcheck disable=SC2086 # options and their values
+        refuses "a pipe as an input: $input" 1 'pipe: is a pipe or a device, which cannot be read as a map' timeout 10 "$ground" make --center $center --side 1000 --posts 125 --out none.ground $input
+    done
     check "the ground and the pipe are left" eval 'cmp x.ground kept && [ -p pipe ]'
     rm -f kept pipe
     check "info tells the side of a world on it" eval '"$ground" info x.ground | grep -q "^side  *1 km, in the middle of a world of 50 km$" && [ "$("$ground" info --json x.ground | json world_side_m)" = 50000 ]'
@@ -172,6 +176,8 @@ P
     check "a square across the date line" eval 'side=20000 make west.tif east.tif 2>err && "$ground" info --json x.ground | json highest_m | grep -qx -- 40'
     check "the date line has one hash from both sides" eval 'for center in 0,180 0,-180; do side=20000 make west.tif east.tif >/dev/null 2>&1 && hash_of x.ground; done | uniq -c | grep -q "^ *2 "'
     check "both maps count there" eval '! grep -q "no post" err && [ "$("$ground" info x.ground | grep -c ^heights:)" = 2 ]'
+    map equator.tif -1 1 1 -1 -ot Int16 -burn 40
+    check "a place on the equator and the first meridian has one hash" eval 'for center in 0,0 -0.0,-0 0S,0W 0N,0E; do make equator.tif >/dev/null 2>&1 && hash_of x.ground; done | uniq -c | grep -q "^ *4 "'
 
     # One band of the earth, from other beginnings: around the earth, with one column twice, and in parts.
     python3 - <<'P'

@@ -69,13 +69,16 @@ static void maps_are_not_replaced(void **state)
     }
 }
 
-static void only_files_are_replaced(void **state)
+static void only_files_are_replaced_and_read(void **state)
 {
     struct error_text error;
+    char pipe[] = "pipe", *maps[] = {pipe};
     (void)state;
     assert_int_equal(mkfifo("pipe", 0644), 0);
     assert_int_equal(out_file_check("pipe", NULL, 0, &error), -1);
     assert_true(strstr(error.text, "pipe: is a pipe or a device") != NULL);
+    assert_int_equal(out_file_check("new.ground", maps, 1, &error), -1);
+    assert_true(strstr(error.text, "pipe: is a pipe or a device, which cannot be read") != NULL);
     assert_int_equal(out_file_check("/dev/null", NULL, 0, &error), -1);
     assert_int_equal(out_file_check("../../tmp", NULL, 0, &error), -1);
     assert_true(strstr(error.text, "is a folder") != NULL);
@@ -94,7 +97,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(files_may_be_new_or_old),
         cmocka_unit_test(maps_are_not_replaced),
-        cmocka_unit_test(only_files_are_replaced),
+        cmocka_unit_test(only_files_are_replaced_and_read),
         cmocka_unit_test(the_folder_has_to_exist),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
