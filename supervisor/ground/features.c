@@ -10,24 +10,25 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STOREY_M      3.0
-#define HOUSE_M       5.5 /* walls of a building whose height is not known ... */
-#define HALL_M        8.0 /* ... of one of HALL_M2 or more ... */
-#define SHED_M        2.6 /* ... and of one below SHED_M2 */
-#define HALL_M2       450.0
-#define SHED_M2       32.0
-#define RIDGED_M      11.0 /* higher walls have flat roofs */
-#define RISE_SHARE    0.45 /* of a ridge over the walls, of their height */
-#define WALLS_MIN_M   2.0
-#define WALLS_MAX_M   500.0
-#define RIVER_M       16.0 /* width of a river whose width is not known */
-#define RIVER_MOST_M  2000.0
-#define CANAL_M       10.0
-#define ROW_APART_M   10.0 /* of trees in a row */
-#define TOWER_PERCENT 250u /* of a pole's size */
-#define WORD_MAX      64u
-#define METRES_A_FOOT 0.3048
-#define WITHIN_SHARE  0.02 /* of a hole may lie outside of its outline */
+#define STOREY_M       3.0
+#define HOUSE_M        5.5 /* walls of a building whose height is not known ... */
+#define HALL_M         8.0 /* ... of one of HALL_M2 or more ... */
+#define SHED_M         2.6 /* ... and of one below SHED_M2 */
+#define HALL_M2        450.0
+#define SHED_M2        32.0
+#define RIDGED_M       11.0 /* higher walls have flat roofs */
+#define RISE_SHARE     0.45 /* of a ridge over the walls, of their height */
+#define WALLS_MIN_M    2.0
+#define WALLS_MAX_M    500.0
+#define RIVER_M        16.0 /* width of a river whose width is not known */
+#define RIVER_MOST_M   2000.0
+#define CANAL_M        10.0
+#define ROW_APART_M    10.0 /* of trees in a row */
+#define TOWER_PERCENT  250u /* of a pole's size */
+#define WORD_MAX       64u
+#define METRES_A_FOOT  0.3048
+#define COURT_MOST_DEG 0.01 /* of latitude; no building is longer */
+#define WITHIN_SHARE   0.02 /* of a hole may lie outside of its outline */
 
 enum key {
     KEY_BUILDING,
@@ -111,6 +112,13 @@ static const char *const troubles[FEATURE_TROUBLES] = {
     [FEATURE_WIDTH] = "rivers have a width that is no number from 0 to 2000 m, and was not used",
 };
 
+/* An outline with courtyards, of a relation of OpenStreetMap without words that are known. Until
+ * 2017 the words of such a one stood on the way that is its outline. */
+struct court {
+    OGRGeometryH shape;
+    OGREnvelope box;
+};
+
 struct reading {
     struct features *features;
     const struct post_grid *grid;
@@ -119,6 +127,9 @@ struct reading {
     enum feature_use use;
     const struct word *word; /* which says so */
     struct vector_map_track track;
+    struct court *court; /* of the map that is read; in the order of by_box if sorted */
+    uint32_t courts, court_room;
+    bool sorted;
 };
 
 const char *features_trouble_text(enum feature_trouble trouble)
@@ -525,6 +536,64 @@ static void take_building(struct reading *r, OGRGeometryH polygon, bool mended)
     free(ring);
 }
 
+/* --- courtyards --------------------------------------------------------------------------------*/
+
+static int by_box(const void *left, const void *right)
+{
+    const OGREnvelope *p = &((const struct court *)left)->box;
+    const OGREnvelope *q = &((const struct court *)right)->box;
+    const double off[4] = {p->MinX - q->MinX, p->MinY - q->MinY, p->MaxX - q->MaxX,
+                           p->MaxY - q->MaxY};
+    for (int i = 0; i < 4; i++) {
+        if (off[i] != 0.0)
+            return off[i] < 0.0 ? -1 : 1;
+    }
+    return 0;
+}
+
+/* Keeps the outlines with courtyards of a relation that does not say what it is. */
+static void keep_courts(struct reading *r, OGRGeometryH geometry)
+{
+    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++) {
+        struct court court = {.shape = OGR_G_GetGeometryRef(geometry, i)};
+        OGR_G_GetEnvelope(court.shape, &court.box);
+        if (wkbFlatten(OGR_G_GetGeometryType(court.shape)) != wkbPolygon ||
+            OGR_G_GetGeometryCount(court.shape) < 2 ||
+            court.box.MaxY - court.box.MinY > COURT_MOST_DEG)
+            continue;
+        struct court *rows = room_for(r, r->court, r->courts, &r->court_room, sizeof *r->court);
+        if (!rows)
+            return;
+        court.shape = OGR_G_Clone(court.shape);
+        r->court = rows;
+        r->court[r->courts++] = court;
+        r->sorted = false;
+    }
+}
+
+/* Returns the outline with courtyards whose outer ring a way is, NULL if there is none. */
+static OGRGeometryH find_court(struct reading *r, OGRGeometryH way)
+{
+    struct court court = {.shape = way};
+    if (r->courts == 0)
+        return NULL;
+    if (!r->sorted)
+        qsort(r->court, r->courts, sizeof *r->court, by_box);
+    r->sorted = true;
+    OGR_G_GetEnvelope(way, &court.box);
+    const struct court *found = bsearch(&court, r->court, r->courts, sizeof *r->court, by_box);
+    return found ? found->shape : NULL;
+}
+
+static void forget_courts(struct reading *r)
+{
+    for (uint32_t i = 0; i < r->courts; i++)
+        OGR_G_DestroyGeometry(r->court[i].shape);
+    free(r->court);
+    r->court = NULL;
+    r->courts = r->court_room = 0;
+}
+
 /* --- features ----------------------------------------------------------------------------------*/
 
 /* A tower that is drawn as an outline stands in its middle. */
@@ -572,7 +641,8 @@ static void take_outline(struct reading *r, OGRGeometryH line)
         note(r, FEATURE_OPEN);
     OGR_G_CloseRings(ring);
     OGR_G_AddGeometryDirectly(polygon, ring);
-    take_polygon(r, polygon);
+    OGRGeometryH court = r->use == FEATURE_BUILDING ? find_court(r, polygon) : NULL;
+    take_polygon(r, court ? court : polygon);
     OGR_G_DestroyGeometry(polygon);
 }
 
@@ -733,6 +803,8 @@ static void take_feature(void *context, struct vector_map *map, OGRFeatureH feat
     r->use = r->word ? r->word->use : FEATURE_NONE;
     if (r->use != FEATURE_NONE)
         take_geometry(r, geometry);
+    else if (!r->word && map->relations_alone && geometry)
+        keep_courts(r, geometry);
 }
 
 static int by_place(const double *p, const double *q)
@@ -792,10 +864,12 @@ int features_read(struct features *features, char *const *paths, uint32_t count,
     struct reading r = {.features = features, .grid = grid};
     int result = 0;
     *features = (struct features){0};
-    for (uint32_t i = 0; i < count && result == 0; i++)
+    for (uint32_t i = 0; i < count && result == 0; i++) {
         result = vector_map_read(
             paths[i], grid, VECTOR_MAP_POINTS | VECTOR_MAP_LINES | VECTOR_MAP_AREAS,
             "points, lines or areas that become features", take_feature, &r, gaps, error);
+        forget_courts(&r);
+    }
     order_areas(features);
     vector_map_track_free(&r.track);
     return result;

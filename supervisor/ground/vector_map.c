@@ -15,13 +15,13 @@
 #include <string.h>
 
 /* OpenStreetMap's layers. Each is read alone, because the others would fill the memory. Relations
- * of lines are the same lines once more. */
+ * of lines are the same lines once more. Areas come before the lines that are their outlines. */
 static const struct {
     const char *name;
     enum vector_map_shapes shape;
 } osm_layers[] = {{"points", VECTOR_MAP_POINTS},
-                  {"lines", VECTOR_MAP_LINES},
-                  {"multipolygons", VECTOR_MAP_AREAS}};
+                  {"multipolygons", VECTOR_MAP_AREAS},
+                  {"lines", VECTOR_MAP_LINES}};
 #define OSM_LAYERS (sizeof osm_layers / sizeof osm_layers[0])
 
 /* How GDAL's driver reads OpenStreetMap, instead of its osmconf.ini. A closed way is a line, never

@@ -57,8 +57,8 @@ struct vector_map {
     bool inside; /* the rectangle around one of the tracks touches the square */
 };
 
-/* Called for each feature. geometry: NULL if it has none. Closed ways of OpenStreetMap are lines.
- */
+/* Called for each feature. geometry: NULL if it has none. Closed ways of OpenStreetMap are lines,
+ * and come after its relations, which are areas. */
 typedef void vector_map_feature(void *context, struct vector_map *map, OGRFeatureH feature,
                                 OGRGeometryH geometry);
 

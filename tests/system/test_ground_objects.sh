@@ -76,19 +76,24 @@ check "told: nodes of outlines and lines, ways and a road of one point that the 
 check "a map that is read for two purposes has its gaps once" eval 'out=osm.ground make --features broken.osm --roads broken.osm 2>err && grep -q "broken.osm: 3 ways have fewer than two nodes" err'
 check "closed ways of OpenStreetMap are outlines, unless they are lines" eval 'out=closed.ground make --trees 0 --features closed.osm --roads closed.osm 2>err && "$ground" info closed.ground | grep -q "^features: 2 buildings, 5 plants and poles, 2 areas, 1 rivers$" &&
     "$ground" info closed.ground | grep -q "^roads: 1, "'
+# is_open GROUND X HOLE_X HOLE_Z WALL_X WALL_Z: of 100 m around X, 25000, has the hole [m] the colour of the field, and the wall another?
+is_open() {
+    "$ground" show --size 100 --at "$2,25000" --metres 100 "$1" open.png && gdal_translate -q -of ENVI -co INTERLEAVE=BIP open.png open.raw && python3 -c '
+import sys
+data, at = open("open.raw", "rb").read(), list(map(int, sys.argv[1:]))
+field, hole, wall = (data[3 * (z * 100 + x):][:3] for x, z in ((5, 5), at[:2], at[2:]))
+raise SystemExit(field != hole or field == wall)' "${@:3}"
+}
 "$ground" make --center 44.5,-71.5 --side 2000 --posts 12.5 --out rings.ground --trees 0 --features rings.osm level.asc >/dev/null 2>&1
 check "a lake has its island if its outer way has the words, and a building with a courtyard counts once" eval \
     '"$ground" info rings.ground | grep -q "^features: 1 buildings, 0 plants and poles, 1 areas" && "$ground" check rings.ground | grep -q "lake 3\.2 %"'
+check "the courtyard of such a building is open" is_open rings.ground 25300 50 50 35 50
 "$ground" make --center 44.5,-71.5 --side 2000 --posts 12.5 --out notched.ground --trees 0 --features notched.osm level.asc >/dev/null 2>notched
 check "holes on the outline of a lake and a building are cut out" eval \
     '"$ground" info notched.ground | grep -q "^features: 1 buildings, 0 plants and poles, 1 areas" && "$ground" check notched.ground | grep -q "lake 3\.[0-2] %"'
 check "they are told, with the place" eval 'grep -Eq "notched.osm: 1 holes touch the outline around them, and are cut out of it; the first at latitude 44\.[0-9]+, longitude -71\.[0-9]+ is number 10$" notched &&
     grep -Eq "notched.osm: 1 outlines cross themselves, and were mended; the first at latitude 44\.[0-9]+, longitude -71\.[0-9]+ is number 9$" notched'
-"$ground" show --size 100 --at 25000,25000 --metres 100 notched.ground notched.png && gdal_translate -q -of ENVI -co INTERLEAVE=BIP notched.png notched.raw
-check "the building is open where its hole is" python3 -c '
-data = open("notched.raw", "rb").read()
-field, hole, wall = (data[3 * (z * 100 + x):][:3] for x, z in ((5, 5), (40, 53), (60, 53)))
-raise SystemExit(field != hole or field == wall)'
+check "the building is open where its hole is" is_open notched.ground 25000 40 53 60 53
 check "a river with a width that is none is told" grep -Eq "closed.osm: 1 rivers have a width that is no number from 0 to 2000 m, and was not used; the first at latitude 44\.[0-9]+, longitude -71\.[0-9]+ is number 5$" err
 for order in 'over under' 'under over'; do
     out=overlap.ground make --features "${order% *}.geojson" --features "${order#* }.geojson" >/dev/null 2>&1
