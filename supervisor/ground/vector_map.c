@@ -237,6 +237,29 @@ static GDALDatasetH open_map(const char *path, struct error_text *error)
     return data;
 }
 
+/* Returns true for OpenStreetMap as XML: such files are small, and editors save them with nodes in
+ * any order and numbers below zero, which GDAL's own index of nodes does not take. */
+static bool is_xml(const char *path)
+{
+    char begin[4] = "";
+    VSILFILE *file = VSIFOpenL(path, "rb");
+    size_t read = file ? VSIFReadL(begin, 1, sizeof begin, file) : 0;
+    if (file)
+        VSIFCloseL(file);
+    return read > 0 && (begin[0] == '<' || memcmp(begin, "\xef\xbb\xbf<", sizeof begin) == 0);
+}
+
+static int refuse_osm(const char *path, struct error_text *error)
+{
+    const char *reason = CPLGetLastErrorMsg();
+    return error_text_set(error, "%s: cannot be read: %s%s", path, reason,
+                          strstr(reason, "CUSTOM_INDEXING")
+                              ? "; right would be a map with its nodes in order, as osmium sort "
+                                "and, for numbers below "
+                                "zero, osmium renumber make it, or the same as .osm"
+                              : "");
+}
+
 /* Reads one of OpenStreetMap's layers, for which the file is read as a whole. */
 static int read_osm(struct vector_map *map, uint32_t which, vector_map_feature *feature,
                     void *context, struct vector_map_gaps *gaps, struct error_text *error)
@@ -251,6 +274,7 @@ static int read_osm(struct vector_map *map, uint32_t which, vector_map_feature *
         set_osm(osm_relations, sizeof osm_relations);
     else
         set_osm(osm_settings, sizeof osm_settings);
+    CPLSetConfigOption("OSM_USE_CUSTOM_INDEXING", is_xml(map->path) ? "NO" : NULL);
     GDALDatasetH data = open_map(map->path, error);
     if (!data)
         return -1;
@@ -268,7 +292,7 @@ static int read_osm(struct vector_map *map, uint32_t which, vector_map_feature *
     }
     map->unplaced = NULL;
     if (result == 0 && CPLGetLastErrorType() >= CE_Failure)
-        result = error_text_set(error, "%s: cannot be read: %s", map->path, CPLGetLastErrorMsg());
+        result = refuse_osm(map->path, error);
     GDALClose(data);
     return result;
 }

@@ -87,6 +87,12 @@ raise SystemExit(field != hole or field == wall)' "${@:3}"
 "$ground" make --center 44.5,-71.5 --side 2000 --posts 12.5 --out rings.ground --trees 0 --features rings.osm level.asc >/dev/null 2>&1
 check "a lake has its island if its outer way has the words, and a building with a courtyard counts once" eval \
     '"$ground" info rings.ground | grep -q "^features: 1 buildings, 0 plants and poles, 1 areas" && "$ground" check rings.ground | grep -q "lake 3\.2 %"'
+sed -E 's/(id|ref)="/&-/g' rings.osm >below.osm
+{ grep -v '<node\|</osm\|<way\|<relation' rings.osm; grep '<node' rings.osm | sort -r; grep '<way\|<relation\|</osm' rings.osm; } >turned.osm
+for map in below turned; do
+    "$ground" make --center 44.5,-71.5 --side 2000 --posts 12.5 --out $map.ground --trees 0 --features $map.osm level.asc >/dev/null 2>&1
+    check "numbers below zero and nodes in any order make the same ground ($map)" equal "$(info $map.ground hash)" "$(info rings.ground hash)"
+done
 check "the courtyard of such a building is open" is_open rings.ground 25300 50 50 35 50
 "$ground" make --center 44.5,-71.5 --side 2000 --posts 12.5 --out notched.ground --trees 0 --features notched.osm level.asc >/dev/null 2>notched
 check "holes on the outline of a lake and a building are cut out" eval \
