@@ -10,25 +10,23 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define STOREY_M       3.0
-#define HOUSE_M        5.5 /* walls of a building whose height is not known ... */
-#define HALL_M         8.0 /* ... of one of HALL_M2 or more ... */
-#define SHED_M         2.6 /* ... and of one below SHED_M2 */
-#define HALL_M2        450.0
-#define SHED_M2        32.0
-#define RIDGED_M       11.0 /* higher walls have flat roofs */
-#define RISE_SHARE     0.45 /* of a ridge over the walls, of their height */
-#define WALLS_MIN_M    2.0
-#define WALLS_MAX_M    500.0
-#define RIVER_M        16.0 /* width of a river whose width is not known */
-#define RIVER_MOST_M   2000.0
-#define CANAL_M        10.0
-#define ROW_APART_M    10.0 /* of trees in a row */
-#define TOWER_PERCENT  250u /* of a pole's size */
-#define WORD_MAX       64u
-#define METRES_A_FOOT  0.3048
-#define COURT_MOST_DEG 0.01 /* of latitude; no building is longer */
-#define WITHIN_SHARE   0.02 /* of a hole may lie outside of its outline */
+#define STOREY_M      3.0
+#define HOUSE_M       5.5 /* walls of a building whose height is not known ... */
+#define HALL_M        8.0 /* ... of one of HALL_M2 or more ... */
+#define SHED_M        2.6 /* ... and of one below SHED_M2 */
+#define HALL_M2       450.0
+#define SHED_M2       32.0
+#define RIDGED_M      11.0 /* higher walls have flat roofs */
+#define RISE_SHARE    0.45 /* of a ridge over the walls, of their height */
+#define WALLS_MIN_M   2.0
+#define WALLS_MAX_M   500.0
+#define RIVER_M       16.0 /* width of a river whose width is not known */
+#define RIVER_MOST_M  2000.0
+#define CANAL_M       10.0
+#define ROW_APART_M   10.0 /* of trees in a row */
+#define TOWER_PERCENT 250u /* of a pole's size */
+#define WORD_MAX      64u
+#define METRES_A_FOOT 0.3048
 
 enum key {
     KEY_BUILDING,
@@ -112,13 +110,6 @@ static const char *const troubles[FEATURE_TROUBLES] = {
     [FEATURE_WIDTH] = "rivers have a width that is no number from 0 to 2000 m, and was not used",
 };
 
-/* An outline with courtyards, of a relation of OpenStreetMap without words that are known. Until
- * 2017 the words of such a one stood on the way that is its outline. */
-struct court {
-    OGRGeometryH shape;
-    OGREnvelope box;
-};
-
 struct reading {
     struct features *features;
     const struct post_grid *grid;
@@ -127,9 +118,7 @@ struct reading {
     enum feature_use use;
     const struct word *word; /* which says so */
     struct vector_map_track track;
-    struct court *court; /* of the map that is read; in the order of by_box if sorted */
-    uint32_t courts, court_room;
-    bool sorted;
+    struct vector_map_courts courts; /* of the map that is read */
 };
 
 const char *features_trouble_text(enum feature_trouble trouble)
@@ -453,38 +442,10 @@ static bool read_ring(struct reading *r, OGRGeometryH geometry, struct convex_pa
 
 static void take_building(struct reading *r, OGRGeometryH polygon, bool mended);
 
-/* Returns what a ring of a polygon encloses, mended by GDAL; NULL if it cannot. */
-static OGRGeometryH enclosed(OGRGeometryH polygon, int ring)
-{
-    OGRGeometryH alone = OGR_G_CreateGeometry(wkbPolygon);
-    OGR_G_AddGeometry(alone, OGR_G_GetGeometryRef(polygon, ring));
-    OGRGeometryH good = OGR_G_MakeValid(alone);
-    OGR_G_DestroyGeometry(alone);
-    return good;
-}
-
-/* Mends a polygon whose rings cross themselves or others: what the outline encloses without what
- * the courtyards do. GDAL alone fills a courtyard that has a side on the outline. Returns NULL if
- * it cannot. */
-static OGRGeometryH mended_polygon(OGRGeometryH polygon)
-{
-    OGRGeometryH good = enclosed(polygon, 0);
-    for (int i = 1; i < OGR_G_GetGeometryCount(polygon) && good; i++) {
-        OGRGeometryH yard = enclosed(polygon, i);
-        OGRGeometryH less = yard ? OGR_G_Difference(good, yard) : NULL;
-        if (yard)
-            OGR_G_DestroyGeometry(yard);
-        OGR_G_DestroyGeometry(good);
-        good = less;
-    }
-    CPLErrorReset();
-    return good;
-}
-
 /* Mends an outline that crosses itself. Returns false if it cannot be mended. */
 static bool mend(struct reading *r, OGRGeometryH polygon)
 {
-    OGRGeometryH good = mended_polygon(polygon);
+    OGRGeometryH good = vector_map_mend(polygon);
     if (!good)
         return false;
     OGRwkbGeometryType type = wkbFlatten(OGR_G_GetGeometryType(good));
@@ -536,64 +497,6 @@ static void take_building(struct reading *r, OGRGeometryH polygon, bool mended)
     free(ring);
 }
 
-/* --- courtyards --------------------------------------------------------------------------------*/
-
-static int by_box(const void *left, const void *right)
-{
-    const OGREnvelope *p = &((const struct court *)left)->box;
-    const OGREnvelope *q = &((const struct court *)right)->box;
-    const double off[4] = {p->MinX - q->MinX, p->MinY - q->MinY, p->MaxX - q->MaxX,
-                           p->MaxY - q->MaxY};
-    for (int i = 0; i < 4; i++) {
-        if (off[i] != 0.0)
-            return off[i] < 0.0 ? -1 : 1;
-    }
-    return 0;
-}
-
-/* Keeps the outlines with courtyards of a relation that does not say what it is. */
-static void keep_courts(struct reading *r, OGRGeometryH geometry)
-{
-    for (int i = 0; i < OGR_G_GetGeometryCount(geometry); i++) {
-        struct court court = {.shape = OGR_G_GetGeometryRef(geometry, i)};
-        OGR_G_GetEnvelope(court.shape, &court.box);
-        if (wkbFlatten(OGR_G_GetGeometryType(court.shape)) != wkbPolygon ||
-            OGR_G_GetGeometryCount(court.shape) < 2 ||
-            court.box.MaxY - court.box.MinY > COURT_MOST_DEG)
-            continue;
-        struct court *rows = room_for(r, r->court, r->courts, &r->court_room, sizeof *r->court);
-        if (!rows)
-            return;
-        court.shape = OGR_G_Clone(court.shape);
-        r->court = rows;
-        r->court[r->courts++] = court;
-        r->sorted = false;
-    }
-}
-
-/* Returns the outline with courtyards whose outer ring a way is, NULL if there is none. */
-static OGRGeometryH find_court(struct reading *r, OGRGeometryH way)
-{
-    struct court court = {.shape = way};
-    if (r->courts == 0)
-        return NULL;
-    if (!r->sorted)
-        qsort(r->court, r->courts, sizeof *r->court, by_box);
-    r->sorted = true;
-    OGR_G_GetEnvelope(way, &court.box);
-    const struct court *found = bsearch(&court, r->court, r->courts, sizeof *r->court, by_box);
-    return found ? found->shape : NULL;
-}
-
-static void forget_courts(struct reading *r)
-{
-    for (uint32_t i = 0; i < r->courts; i++)
-        OGR_G_DestroyGeometry(r->court[i].shape);
-    free(r->court);
-    r->court = NULL;
-    r->courts = r->court_room = 0;
-}
-
 /* --- features ----------------------------------------------------------------------------------*/
 
 /* A tower that is drawn as an outline stands in its middle. */
@@ -641,7 +544,8 @@ static void take_outline(struct reading *r, OGRGeometryH line)
         note(r, FEATURE_OPEN);
     OGR_G_CloseRings(ring);
     OGR_G_AddGeometryDirectly(polygon, ring);
-    OGRGeometryH court = r->use == FEATURE_BUILDING ? find_court(r, polygon) : NULL;
+    OGRGeometryH court =
+        r->use == FEATURE_BUILDING ? vector_map_courts_find(&r->courts, polygon) : NULL;
     take_polygon(r, court ? court : polygon);
     OGR_G_DestroyGeometry(polygon);
 }
@@ -674,38 +578,13 @@ static void take_line(struct reading *r, OGRGeometryH line)
 
 static void take_geometry(struct reading *r, OGRGeometryH geometry);
 
-/* One of the polygons of an area. */
-struct polygon {
-    OGRGeometryH shape;
-    OGREnvelope box;
-    double area;
-    uint32_t around; /* how many of the others it lies within */
-};
-
-/* Returns true if a polygon lies within another, but for what rounding of its corners moves. */
-static bool lies_within(const struct polygon *inner, const struct polygon *outer)
-{
-    const OGREnvelope *in = &inner->box, *out = &outer->box;
-    double beyond = WITHIN_SHARE * fmax(in->MaxX - in->MinX, in->MaxY - in->MinY);
-    if (inner->area >= outer->area || in->MinX < out->MinX - beyond ||
-        in->MinY < out->MinY - beyond || in->MaxX > out->MaxX + beyond ||
-        in->MaxY > out->MaxY + beyond)
-        return false;
-    OGRGeometryH both = OGR_G_Intersection(inner->shape, outer->shape);
-    CPLErrorReset(); /* there is none of polygons that cross themselves, which stay as they are */
-    bool within = both && OGR_G_Area(both) > (1.0 - WITHIN_SHARE) * inner->area;
-    if (both)
-        OGR_G_DestroyGeometry(both);
-    return within;
-}
-
 /* Takes a polygon without the holes among the others. */
-static void take_cut(struct reading *r, const struct polygon *own, const struct polygon *polygon,
-                     uint32_t count)
+static void take_cut(struct reading *r, const struct vector_map_polygon *own,
+                     const struct vector_map_polygon *polygon, uint32_t count)
 {
     OGRGeometryH rest = OGR_G_Clone(own->shape);
     for (uint32_t i = 0; i < count && rest; i++) {
-        if (polygon[i].around % 2 == 0 || !lies_within(&polygon[i], own))
+        if (polygon[i].around % 2 == 0 || !vector_map_lies_within(&polygon[i], own))
             continue;
         OGRGeometryH less = OGR_G_Difference(rest, polygon[i].shape);
         CPLErrorReset();
@@ -727,17 +606,8 @@ static void take_cut(struct reading *r, const struct polygon *own, const struct 
 static void take_areas(struct reading *r, OGRGeometryH areas)
 {
     uint32_t count = (uint32_t)OGR_G_GetGeometryCount(areas);
-    struct polygon *polygon = calloc((size_t)count + 1, sizeof *polygon);
+    struct vector_map_polygon *polygon = vector_map_polygons(areas);
     r->map->no_memory |= !polygon;
-    for (uint32_t i = 0; i < count && polygon; i++) {
-        polygon[i].shape = OGR_G_GetGeometryRef(areas, (int)i);
-        polygon[i].area = OGR_G_Area(polygon[i].shape);
-        OGR_G_GetEnvelope(polygon[i].shape, &polygon[i].box);
-    }
-    for (uint32_t i = 0; i < count && polygon; i++) {
-        for (uint32_t k = 0; k < count; k++)
-            polygon[i].around += lies_within(&polygon[i], &polygon[k]);
-    }
     for (uint32_t i = 0; i < count && polygon; i++) {
         if (polygon[i].around % 2 == 0)
             take_cut(r, &polygon[i], polygon, count);
@@ -804,7 +674,7 @@ static void take_feature(void *context, struct vector_map *map, OGRFeatureH feat
     if (r->use != FEATURE_NONE)
         take_geometry(r, geometry);
     else if (!r->word && map->relations_alone && geometry)
-        keep_courts(r, geometry);
+        map->no_memory |= !vector_map_courts_keep(&r->courts, geometry);
 }
 
 static int by_place(const double *p, const double *q)
@@ -868,7 +738,7 @@ int features_read(struct features *features, char *const *paths, uint32_t count,
         result = vector_map_read(
             paths[i], grid, VECTOR_MAP_POINTS | VECTOR_MAP_LINES | VECTOR_MAP_AREAS,
             "points, lines or areas that become features", take_feature, &r, gaps, error);
-        forget_courts(&r);
+        vector_map_courts_free(&r.courts);
     }
     order_areas(features);
     vector_map_track_free(&r.track);

@@ -389,6 +389,127 @@ void vector_map_track_free(struct vector_map_track *track)
     *track = (struct vector_map_track){0};
 }
 
+#define COURT_MOST_DEG 0.01 /* of latitude; no building is longer */
+#define WITHIN_SHARE   0.02 /* of a hole may lie outside of its outline */
+
+/* Returns what a ring of a polygon encloses, mended by GDAL; NULL if it cannot. */
+static OGRGeometryH enclosed(OGRGeometryH polygon, int ring)
+{
+    OGRGeometryH alone = OGR_G_CreateGeometry(wkbPolygon);
+    OGR_G_AddGeometry(alone, OGR_G_GetGeometryRef(polygon, ring));
+    OGRGeometryH good = OGR_G_MakeValid(alone);
+    OGR_G_DestroyGeometry(alone);
+    return good;
+}
+
+/* GDAL alone fills a hole that has a side on the outline. */
+OGRGeometryH vector_map_mend(OGRGeometryH polygon)
+{
+    OGRGeometryH good = enclosed(polygon, 0);
+    for (int i = 1; i < OGR_G_GetGeometryCount(polygon) && good; i++) {
+        OGRGeometryH yard = enclosed(polygon, i);
+        OGRGeometryH less = yard ? OGR_G_Difference(good, yard) : NULL;
+        if (yard)
+            OGR_G_DestroyGeometry(yard);
+        OGR_G_DestroyGeometry(good);
+        good = less;
+    }
+    CPLErrorReset();
+    return good;
+}
+
+bool vector_map_lies_within(const struct vector_map_polygon *inner,
+                            const struct vector_map_polygon *outer)
+{
+    const OGREnvelope *in = &inner->box, *out = &outer->box;
+    double beyond = WITHIN_SHARE * fmax(in->MaxX - in->MinX, in->MaxY - in->MinY);
+    if (inner->area >= outer->area || in->MinX < out->MinX - beyond ||
+        in->MinY < out->MinY - beyond || in->MaxX > out->MaxX + beyond ||
+        in->MaxY > out->MaxY + beyond)
+        return false;
+    OGRGeometryH both = OGR_G_Intersection(inner->shape, outer->shape);
+    CPLErrorReset(); /* there is none of polygons that cross themselves, which stay as they are */
+    bool within = both && OGR_G_Area(both) > (1.0 - WITHIN_SHARE) * inner->area;
+    if (both)
+        OGR_G_DestroyGeometry(both);
+    return within;
+}
+
+struct vector_map_polygon *vector_map_polygons(OGRGeometryH areas)
+{
+    uint32_t count = (uint32_t)OGR_G_GetGeometryCount(areas);
+    struct vector_map_polygon *polygon = calloc((size_t)count + 1, sizeof *polygon);
+    for (uint32_t i = 0; i < count && polygon; i++) {
+        polygon[i].shape = OGR_G_GetGeometryRef(areas, (int)i);
+        polygon[i].area = OGR_G_Area(polygon[i].shape);
+        OGR_G_GetEnvelope(polygon[i].shape, &polygon[i].box);
+    }
+    for (uint32_t i = 0; i < count && polygon; i++) {
+        for (uint32_t k = 0; k < count; k++)
+            polygon[i].around += vector_map_lies_within(&polygon[i], &polygon[k]);
+    }
+    return polygon;
+}
+
+static int by_box(const void *left, const void *right)
+{
+    const OGREnvelope *p = &((const struct vector_map_court *)left)->box;
+    const OGREnvelope *q = &((const struct vector_map_court *)right)->box;
+    const double off[4] = {p->MinX - q->MinX, p->MinY - q->MinY, p->MaxX - q->MaxX,
+                           p->MaxY - q->MaxY};
+    for (int i = 0; i < 4; i++) {
+        if (off[i] != 0.0)
+            return off[i] < 0.0 ? -1 : 1;
+    }
+    return 0;
+}
+
+bool vector_map_courts_keep(struct vector_map_courts *courts, OGRGeometryH areas)
+{
+    for (int i = 0; i < OGR_G_GetGeometryCount(areas); i++) {
+        struct vector_map_court court = {.shape = OGR_G_GetGeometryRef(areas, i)};
+        OGR_G_GetEnvelope(court.shape, &court.box);
+        if (wkbFlatten(OGR_G_GetGeometryType(court.shape)) != wkbPolygon ||
+            OGR_G_GetGeometryCount(court.shape) < 2 ||
+            court.box.MaxY - court.box.MinY > COURT_MOST_DEG)
+            continue;
+        if (courts->count == courts->room) {
+            uint32_t room = courts->room * 2 + 256;
+            struct vector_map_court *larger = realloc(courts->court, room * sizeof *larger);
+            if (!larger)
+                return false;
+            courts->court = larger;
+            courts->room = room;
+        }
+        court.shape = OGR_G_Clone(court.shape);
+        courts->court[courts->count++] = court;
+        courts->sorted = false;
+    }
+    return true;
+}
+
+OGRGeometryH vector_map_courts_find(struct vector_map_courts *courts, OGRGeometryH way)
+{
+    struct vector_map_court court = {.shape = way};
+    if (courts->count == 0)
+        return NULL;
+    if (!courts->sorted)
+        qsort(courts->court, courts->count, sizeof *courts->court, by_box);
+    courts->sorted = true;
+    OGR_G_GetEnvelope(way, &court.box);
+    const struct vector_map_court *found =
+        bsearch(&court, courts->court, courts->count, sizeof *courts->court, by_box);
+    return found ? found->shape : NULL;
+}
+
+void vector_map_courts_free(struct vector_map_courts *courts)
+{
+    for (uint32_t i = 0; i < courts->count; i++)
+        OGR_G_DestroyGeometry(courts->court[i].shape);
+    free(courts->court);
+    *courts = (struct vector_map_courts){0};
+}
+
 static const char other_tags[] = "other_tags";
 
 /* Finds a key in a list "a"=>"b","c"=>"d", in which a backslash stands before quotes. */

@@ -78,6 +78,43 @@ bool vector_map_track(struct vector_map *map, OGRGeometryH geometry,
                       struct vector_map_track *track);
 void vector_map_track_free(struct vector_map_track *track);
 
+/* Mends a polygon whose rings cross themselves or others: what the outline encloses, without what
+ * the holes do. Returns a geometry that the caller destroys; NULL if GDAL cannot. */
+OGRGeometryH vector_map_mend(OGRGeometryH polygon);
+
+/* One of the polygons of an area. */
+struct vector_map_polygon {
+    OGRGeometryH shape; /* of the area */
+    OGREnvelope box;
+    double area;
+    uint32_t around; /* how many of the others it lies within */
+};
+
+/* Returns true if a polygon lies within another, but for what rounding of its corners moves. */
+bool vector_map_lies_within(const struct vector_map_polygon *inner,
+                            const struct vector_map_polygon *outer);
+
+/* Returns a row for each polygon of an area, which the caller frees; NULL without memory. */
+struct vector_map_polygon *vector_map_polygons(OGRGeometryH areas);
+
+/* Outlines with courtyards, of relations of OpenStreetMap without words that are known. Until 2017
+ * the words of such a one stood on the way that is its outline. */
+struct vector_map_courts {
+    struct vector_map_court {
+        OGRGeometryH shape;
+        OGREnvelope box;
+    } * court;
+    uint32_t count, room;
+    bool sorted;
+};
+
+/* Keeps a relation's outlines that have courtyards. Returns false without memory. */
+bool vector_map_courts_keep(struct vector_map_courts *courts, OGRGeometryH areas);
+
+/* Returns the outline with courtyards whose extent is that of a way; NULL if there is none. */
+OGRGeometryH vector_map_courts_find(struct vector_map_courts *courts, OGRGeometryH way);
+void vector_map_courts_free(struct vector_map_courts *courts);
+
 /* Returns the number that OpenStreetMap gives to a feature, or, in other maps, its own. */
 long long vector_map_number(OGRFeatureH feature);
 
