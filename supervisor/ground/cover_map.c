@@ -42,6 +42,9 @@ static int take_line(struct cover_map_table *table, const char *line, const char
         return error_text_set(error,
                               "%s:%d: must be a class from 0 to %d and a word, as: 10 forest", path,
                               number, COVER_MAP_CLASSES - 1);
+    if (table->rule[class] != COVER_MAP_UNKNOWN)
+        return error_text_set(error, "%s:%d: class %d has a cover already, in a line before", path,
+                              number, class);
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         if (strcmp(words[i].word, word) == 0) {
             table->rule[class] = words[i].rule;

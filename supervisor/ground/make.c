@@ -38,7 +38,7 @@ static struct {
     char *covers[COVERS_MAX], *roads[COVERS_MAX], *features[COVERS_MAX];
     uint32_t cover_count, road_count, feature_count, threads;
     uint64_t seed;
-} given = {.spacing_m = 31.25, .trees_per_ha = 25.0, .classes = "worldcover", .seed = 1991};
+} given = {.spacing_m = 31.25, .trees_per_ha = 25.0, .seed = 1991};
 
 /* What is made. */
 struct making {
@@ -169,6 +169,10 @@ static int read_options(int argc, char **argv)
         die_usage(
             "ground make: needs --center, --side, --out and a raster of heights, as in: jolon "
             "ground make --center 44.27,-71.30 --side 50000 --out x.ground N44W072.hgt");
+    if (given.classes && given.cover_count == 0)
+        die_usage("ground make: --classes goes with --cover, whose classes it explains");
+    if (!given.classes)
+        given.classes = "worldcover";
     check_sides();
     return inputs;
 }

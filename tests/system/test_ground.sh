@@ -146,7 +146,7 @@ P
         refuses "$verb over its ground" 1 'x.ground: is read' "$ground" $verb x.ground x.ground
         refuses "$verb over a pipe" 1 'pipe: is a pipe' "$ground" $verb x.ground pipe
     done
-    for input in pipe "--cover pipe level.tif" "--roads pipe level.tif" "--features pipe level.tif" "--classes ./pipe level.tif"; do
+    for input in pipe "--cover pipe level.tif" "--roads pipe level.tif" "--features pipe level.tif" "--cover level.tif --classes ./pipe level.tif"; do
         # shellcheck disable=SC2086 # options and their values
         refuses "a pipe as an input: $input" 1 'pipe: is a pipe or a device, which cannot be read as a map' timeout 10 "$ground" make --center $center --side 1000 --posts 125 --out none.ground $input
     done
@@ -227,6 +227,9 @@ P
     refuses_map "a table of this folder with a wrong word" 'ground: own:1: wood: no such cover' --cover strange.tif --classes own level.tif
     mv own own.txt
     refuses_map "a table with a wrong word" 'own.txt:1: wood: no such cover; allowed: grass' --cover strange.tif --classes ./own.txt level.tif
+    printf '10 forest\n77 rock\n10 grass\n' >twice.txt
+    refuses_map "a table with a class twice" 'twice.txt:3: class 10 has a cover already' --cover strange.tif --classes ./twice.txt level.tif
+    refuses "a table without a map of cover" 2 '--classes goes with --cover' make --classes nlcd level.tif
     refuses_map "no table" 'nolist: no such table' --cover strange.tif --classes nolist level.tif
     rm -f ./*.ground
 else
