@@ -216,6 +216,23 @@ static int find_place(struct raster *r, struct error_text *error)
     return result;
 }
 
+/* Of a projected raster around a pole, the pole and all longitudes lie within its edge. */
+static void extend_to_poles(struct raster *r)
+{
+    for (int south = 0; south < 2 && !r->geographic; south++) {
+        double x = 0.0, y = south ? -90.0 : 90.0;
+        bool found = OCTTransform(r->from_earth, 1, &x, &y, NULL) != 0;
+        double c = r->inverse[0] + x * r->inverse[1] + y * r->inverse[2];
+        double w = r->inverse[3] + x * r->inverse[4] + y * r->inverse[5];
+        if (!found || !(c >= 0.0 && c <= r->columns && w >= 0.0 && w <= r->rows))
+            continue;
+        r->extent[south ? 0 : 2] = south ? -90.0 : 90.0;
+        r->extent[1] = -180.0;
+        r->extent[3] = 180.0;
+    }
+    CPLErrorReset(); /* of projections without a pole */
+}
+
 static int check_place(struct raster *r, struct error_text *error)
 {
     if (GDALGetGeoTransform(r->dataset, r->transform) != CE_None ||
@@ -247,6 +264,7 @@ static int check_place(struct raster *r, struct error_text *error)
         e[2] = fmax(e[2], y);
         e[3] = fmax(e[3], x);
     }
+    extend_to_poles(r);
     return 0;
 }
 

@@ -169,6 +169,7 @@ P
     gdal_create -q -outsize 100 100 -a_ullr -6000000 6000000 6000000 -6000000 -a_srs '+proj=laea +lat_0=90 +datum=WGS84' -ot Int16 -burn 77 pole.tif
     center=83,-179.9
     check "a map around the pole" eval 'make pole.tif 2>/dev/null && "$ground" info --json x.ground | json lowest_m | grep -qx -- 77'
+    center=30,0 refuses_map "a map around the pole is said to reach it" 'the files have latitude [0-9.]+ to 90.0000, longitude -180.0000 to 180.0000$' pole.tif
     center=90,0 refuses "a square at the pole" 2 'too near the pole' make pole.tif
     map west.tif 179.5 1 180 -1 -ot Int16 -burn 40
     map east.tif -180 1 -179.5 -1 -ot Int16 -burn 40
