@@ -7,6 +7,7 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -122,6 +123,18 @@ static void extent_of_all(double has[4], const struct post_grid *grid, struct ra
     has[3] = around ? 180.0 : wrap_degrees(has[3]);
 }
 
+/* Returns true if the middle lies in what the rasters cover once latitude and longitude are
+ * exchanged, and not before. */
+static bool is_exchanged(const struct post_grid *grid, const double has[4])
+{
+    double latitude, longitude, middle = grid->projection.middle_m;
+    projection_place(&grid->projection, middle, middle, &latitude, &longitude);
+    bool within =
+        latitude >= has[0] && latitude <= has[2] && longitude >= has[1] && longitude <= has[3];
+    return !within && longitude >= has[0] && longitude <= has[2] && latitude >= has[1] &&
+           latitude <= has[3];
+}
+
 static int refuse_void(const struct post_grid *grid, struct raster **rasters, uint32_t count,
                        size_t post, uint64_t voids, struct error_text *error)
 {
@@ -134,9 +147,11 @@ static int refuse_void(const struct post_grid *grid, struct raster **rasters, ui
         error,
         "%s%s: no height at latitude %.5f, longitude %.5f (x %.0f, z %.0f m), nor within %g m on "
         "both sides, and so at %" PRIu64 " of %" PRIu64 " posts; the files have latitude %.4f to "
-        "%.4f, longitude %.4f to %.4f",
+        "%.4f, longitude %.4f to %.4f%s",
         raster_path(rasters[0]), count > 1 ? " and the others" : "", latitude, longitude, x, z,
-        HEIGHTS_FILL_M, voids, (uint64_t)grid->side * grid->side, has[0], has[2], has[1], has[3]);
+        HEIGHTS_FILL_M, voids, (uint64_t)grid->side * grid->side, has[0], has[2], has[1], has[3],
+        is_exchanged(grid, has) ? ". Is --center LONGITUDE,LATITUDE instead of LATITUDE,LONGITUDE?"
+                                : "");
 }
 
 static int fill_voids(float *posts, const struct post_grid *grid, struct raster **rasters,

@@ -92,6 +92,8 @@ P
     refuses_map "a map of voids" 'no height at' void.tif
     map away.tif 40 11 41 10 -ot Int16 -burn 5
     refuses_map "a map that lies elsewhere" 'away.tif.*the files have latitude 10.0000 to 11.0000, longitude 40.0000 to 41.0000' away.tif
+    center=20.5,10.5
+    refuses_map "a middle with its longitude first" 'longitude 20.0000 to 21.0000. Is --center LONGITUDE,LATITUDE instead of LATITUDE,LONGITUDE\?$' level.tif
     center=10.999,20.5
     refuses_map "a map of half of the square" 'level.tif.*nor within 500 m' level.tif
     map turned.tif 287.5 45 288.5 44 -ot Int16 -burn 5
