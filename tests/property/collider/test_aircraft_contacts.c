@@ -61,7 +61,8 @@ static void run_and_look(double hz, uint64_t *random)
     char text[128];
     double deepest = 0.0, stood = 0.0;
     snprintf(text, sizeof text,
-             "world = { seed = 1; hz = %g; capacity = 64; cruise = false; };\ncollision = { shape = \"model\"; };",
+             "world = { seed = 1; hz = %g; capacity = 64; cruise = false; };\ncollision = { shape "
+             "= \"model\"; };",
              hz);
     fixture_open(&f, text);
     steps_kind(&f, "helicopter")->resistance_j = 1e12;
