@@ -26,13 +26,19 @@ size_t entities_row_bytes(void)
     return total;
 }
 
+/* Returns the place of a column, and goes on to that of the next one. */
+static void *take_column(unsigned char **at, uint32_t capacity, size_t cell)
+{
+    void *column = *at;
+    *at += column_bytes(capacity, cell);
+    return column;
+}
+
 void entities_bind(struct entities *entities, uint32_t capacity, void *base)
 {
     unsigned char *at = base;
     entities->capacity = capacity;
-#define X(type, name)                                                                              \
-    entities->name = (type *)(void *)at;                                                           \
-    at += column_bytes(capacity, sizeof(type));
+#define X(type, name) entities->name = take_column(&at, capacity, sizeof(type));
     ENTITY_COLUMNS(X)
 #undef X
 }
