@@ -137,7 +137,9 @@ struct body_line body_motion_line(const struct body_motion *motion, uint32_t row
     const struct entities *n = &motion->next->entities;
     uint64_t tick = motion->next->head->tick - 1;
     double dt_s = world_dt_s(motion->world), left_s = cruise_left_s(n, row, tick, dt_s);
-    struct body_line line = {cruise_position(n, row, tick, dt_s), entities_position(n, row), 0.0};
+    struct body_line line = {.from = cruise_position(n, row, tick, dt_s),
+                             .to = entities_position(n, row),
+                             .left_s = left_s};
     double x = line.to.x - line.from.x, z = line.to.z - line.from.z, way_m = sqrt(x * x + z * z);
     double arc_m = fabs(n->cruise_rps[row]) * left_s * way_m / 8.0;
     if (way_m > 0.0)
@@ -150,8 +152,7 @@ static double rise_of(const struct body_motion *motion, uint32_t row, const stru
 {
     const struct entities *n = &motion->next->entities;
     double x = line->to.x - line->from.x, z = line->to.z - line->from.z;
-    double left_s = cruise_left_s(n, row, motion->next->head->tick - 1, world_dt_s(motion->world));
-    double climb_mps2 = fabs((double)n->cruise_climb_mps2[row]);
+    double climb_mps2 = fabs((double)n->cruise_climb_mps2[row]), left_s = line->left_s;
     if (motion->world->kinds[n->kind[row]].domain == DOMAIN_LAND)
         return STRETCH_SLOPE * sqrt(x * x + z * z);
     if (climb_mps2 == 0.0)

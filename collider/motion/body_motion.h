@@ -76,10 +76,10 @@ void body_motion_compute(struct body_motion *motion, uint32_t row);
 /* Returns the same path without storing it. */
 struct path body_motion_path(const struct body_motion *motion, uint32_t row);
 
-/* A line on the map that a body stays near to: its centre within around_m. */
+/* A line on the map that a body stays near to: its centre within around_m. left_s: of a stretch. */
 struct body_line {
     struct vec3 from, to;
-    double around_m;
+    double around_m, left_s;
 };
 
 /* Returns the line from where a row that cruises in this frame is when it begins to the end of its

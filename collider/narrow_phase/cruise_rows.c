@@ -40,7 +40,7 @@ static struct body_line line_of(const struct contact_input *input, uint32_t row)
         line = body_motion_line(input->motion, row);
     } else {
         struct path path = body_motion_path(input->motion, row);
-        line = (struct body_line){path.at, path_at(&path, 1.0), 0.0};
+        line = (struct body_line){.from = path.at, .to = path_at(&path, 1.0)};
     }
     line.around_m += margin_of(input, row);
     return line;
@@ -50,8 +50,10 @@ static struct body_line fixed_line(const struct contact_input *input, uint32_t o
 {
     const struct world *world = input->detect.world;
     struct vec3 at = fixed_position(&world->fixed[object]);
-    return (struct body_line){
-        at, at, pair_filter_fixed_reach(world, &world->fixed[object]) + pair_filter_slack(world)};
+    return (struct body_line){.from = at,
+                              .to = at,
+                              .around_m = pair_filter_fixed_reach(world, &world->fixed[object]) +
+                                          pair_filter_slack(world)};
 }
 
 /* Returns the square of the distance on the map from a point to a line [m2]. */
@@ -59,8 +61,7 @@ static double square_from(struct vec3 point, const struct body_line *line)
 {
     double dx = line->to.x - line->from.x, dz = line->to.z - line->from.z;
     double x = point.x - line->from.x, z = point.z - line->from.z;
-    double square = dx * dx + dz * dz;
-    double share = square > 0.0 ? maths_clamp((x * dx + z * dz) / square, 0.0, 1.0) : 0.0;
+    double share = maths_nearest_share(x, z, dx, dz);
     x -= share * dx;
     z -= share * dz;
     return x * x + z * z;

@@ -161,6 +161,12 @@ sleep 2
 check "a lake stops a tank at full throttle at its shore" python3 "$here/ground_features.py" shore places later
 
 # --- a road over water ------------------------------------------------------------------------------------------
+drive() { # frames name: runs name.cfg for so long, and writes where its vehicles are to places
+    "$jolon" run -w "$name" --frames "$1" --pace max --without renderer --out "$2" --checkpoint "$2.img" "$2.cfg" >/dev/null 2>&1
+    "$bin/jolon-world" create --world "$name" --set world.frames=0 --from "$2.img" >/dev/null 2>&1
+    "$bin/jolon-world" dump --json --world "$name" >places
+    "$bin/jolon-world" remove --world "$name" >/dev/null 2>&1
+}
 for posts in 12.5 25 125; do
     "$ground" make --center 44.5,-71.5 --side 2000 --posts $posts --out crossing.ground --roads crossing.geojson --features crossing.geojson level.asc >/dev/null 2>&1
     cat >crossing.cfg <<'TEXT'
@@ -168,10 +174,7 @@ terrain = { source = "file"; file = "crossing.ground"; };
 world = { capacity = 64; };
 vehicles = ( { kind = "tank"; name = "T3"; at = [24250.0, 24342.0]; roads = true; route = ( [24250.0, 24342.0], [25780.0, 25633.0] ); } );
 TEXT
-    "$jolon" run -w "$name" --frames 7800 --pace max --without renderer --out crossing --checkpoint crossing.img crossing.cfg >/dev/null 2>&1
-    "$bin/jolon-world" create --world "$name" --set world.frames=0 --from crossing.img >/dev/null 2>&1
-    "$bin/jolon-world" dump --json --world "$name" >places
-    "$bin/jolon-world" remove --world "$name" >/dev/null 2>&1
+    drive 7800 crossing
     check "at posts of $posts m a tank drives along a road through a lake and over a river" python3 "$here/ground_features.py" crossed places
 done
 
@@ -188,10 +191,7 @@ terrain = { source = "file"; file = "cliff.ground"; };
 world = { capacity = 64; };
 vehicles = ( { kind = "truck"; name = "T3"; at = [24110.0, 25329.0]; roads = true; route = ( [24110.0, 25329.0], [25890.0, 24671.0] ); } );
 TEXT
-    "$jolon" run -w "$name" --frames 9000 --pace max --without renderer --out cliff --checkpoint cliff.img cliff.cfg >/dev/null 2>&1
-    "$bin/jolon-world" create --world "$name" --set world.frames=0 --from cliff.img >/dev/null 2>&1
-    "$bin/jolon-world" dump --json --world "$name" >places
-    "$bin/jolon-world" remove --world "$name" >/dev/null 2>&1
+    drive 9000 cliff
     check "at posts of $posts m a truck crosses a lake 10 m below its banks" python3 "$here/ground_features.py" crossed places
 done
 

@@ -57,9 +57,7 @@ static int add_meeting(struct survey *s, uint32_t a, double a_share, uint32_t b,
 static double nearest_share(double ax, double az, double bx, double bz, double x, double z,
                             double *off_m)
 {
-    double dx = bx - ax, dz = bz - az, square = dx * dx + dz * dz;
-    double share =
-        square > 0.0 ? maths_clamp(((x - ax) * dx + (z - az) * dz) / square, 0.0, 1.0) : 0.0;
+    double dx = bx - ax, dz = bz - az, share = maths_nearest_share(x - ax, z - az, dx, dz);
     double ox = x - ax - dx * share, oz = z - az - dz * share;
     *off_m = sqrt(ox * ox + oz * oz);
     return share;

@@ -60,6 +60,14 @@ static inline double maths_clamp(double value, double low, double high)
     return value < low ? low : value > high ? high : value;
 }
 
+/* Returns the share of the way (dx, dz) at which it is nearest to the point (x, z) from its start,
+ * 0..1; 0 for a way without length. */
+static inline double maths_nearest_share(double x, double z, double dx, double dz)
+{
+    double square = dx * dx + dz * dz;
+    return square > 0.0 ? maths_clamp((x * dx + z * dz) / square, 0.0, 1.0) : 0.0;
+}
+
 static inline double maths_min(double a, double b)
 {
     return a < b ? a : b;

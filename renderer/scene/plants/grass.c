@@ -74,8 +74,7 @@ static bool on_road(const struct road_pieces *pieces, double x, double z)
     for (uint32_t i = 0; i < pieces->count; i++) {
         const struct road_point *a = pieces->from[i], *b = a + 1;
         double dx = b->x - a->x, dz = b->z - a->z;
-        double px = x - a->x, pz = z - a->z, squared = dx * dx + dz * dz;
-        double t = squared > 0.0 ? maths_clamp((px * dx + pz * dz) / squared, 0.0, 1.0) : 0.0;
+        double px = x - a->x, pz = z - a->z, t = maths_nearest_share(px, pz, dx, dz);
         double ox = px - t * dx, oz = pz - t * dz;
         if (ox * ox + oz * oz < ROAD_CLEAR_M * ROAD_CLEAR_M)
             return true;

@@ -90,16 +90,22 @@ static double moved_m(const struct vec3 *at, uint32_t row)
     return vec3_length(vec3_sub(entities_position(&e, row), *at));
 }
 
-static void test_tanks_that_push_each_other_head_on_stand(void **state)
+/* Two tanks push each other head on for 5 s; at: where they are then. */
+static void push_head_on(struct vec3 *at)
 {
-    struct vec3 at[TANKS_MOST];
-    (void)state;
     put(8.0, 0.0, 2.0);
     put(8.0, PI, 2.0);
     set_throttle(0, 1.0);
     set_throttle(1, 1.0);
     fixture_continue(&f, (uint32_t)(5.0 * HZ));
     note(at);
+}
+
+static void test_tanks_that_push_each_other_head_on_stand(void **state)
+{
+    struct vec3 at[TANKS_MOST];
+    (void)state;
+    push_head_on(at);
     fixture_continue(&f, (uint32_t)(2.0 * HZ));
     assert_int_equal(standing(at), 2);
     assert_int_equal(fixture_state(&f).head->contact_count, 1);
@@ -112,12 +118,7 @@ static void test_a_tank_that_stands_drives_off(void **state)
     (void)state;
     for (double throttle = -1.0; throttle <= -0.1; throttle += 0.3) {
         steps_empty(&f);
-        put(8.0, 0.0, 2.0);
-        put(8.0, PI, 2.0);
-        set_throttle(0, 1.0);
-        set_throttle(1, 1.0);
-        fixture_continue(&f, (uint32_t)(5.0 * HZ));
-        note(at);
+        push_head_on(at);
         set_throttle(0, throttle);
         set_throttle(1, 0.0);
         fixture_continue(&f, (uint32_t)(4.0 * HZ));

@@ -531,6 +531,17 @@ static void make_flat(struct ground *flat, uint32_t squares)
     flat->terrain.squares = gridsquares_of(125.0 * squares);
 }
 
+static void assert_no_room(const struct ground *ground)
+{
+    struct fixed_object *made = malloc(GENERATE_TABLE1_TOTAL * sizeof *made);
+    assert_non_null(made);
+    errno = 0;
+    assert_int_equal(
+        generate_table1_objects(made, &ground->terrain, kinds, KIND_COUNT, NULL, 0, SEED), -1);
+    assert_int_equal(errno, ENOSPC);
+    free(made);
+}
+
 /* Row 2: level ground without roads holds them too. */
 static void flat_ground_holds_table_1(void **state)
 {
@@ -574,13 +585,7 @@ static void smaller_worlds_hold_table_1_while_there_is_room(void **state)
     free(make_objects(&flat, SEED));
     free_ground(&flat);
     make_flat(&flat, 96);
-    struct fixed_object *made = malloc(GENERATE_TABLE1_TOTAL * sizeof *made);
-    assert_non_null(made);
-    errno = 0;
-    assert_int_equal(generate_table1_objects(made, &flat.terrain, kinds, KIND_COUNT, NULL, 0, SEED),
-                     -1);
-    assert_int_equal(errno, ENOSPC);
-    free(made);
+    assert_no_room(&flat);
     free_ground(&flat);
 }
 
@@ -588,20 +593,10 @@ static void smaller_worlds_hold_table_1_while_there_is_room(void **state)
 static void water_holds_nothing(void **state)
 {
     (void)state;
-    struct ground sea = {.posts = calloc(401 * 401, sizeof(float)), .cover = malloc(401 * 401)};
-    struct fixed_object *made = malloc(GENERATE_TABLE1_TOTAL * sizeof *made);
-    assert_non_null(made);
+    struct ground sea;
+    make_flat(&sea, 400);
     memset(sea.cover, COVER_SEA, 401 * 401);
-    sea.terrain = (struct terrain){.posts = sea.posts,
-                                   .cover = sea.cover,
-                                   .side = 401,
-                                   .spacing_m = 125.0,
-                                   .squares = GRIDSQUARES_DEFAULT_INIT};
-    errno = 0;
-    assert_int_equal(generate_table1_objects(made, &sea.terrain, kinds, KIND_COUNT, NULL, 0, SEED),
-                     -1);
-    assert_int_equal(errno, ENOSPC);
-    free(made);
+    assert_no_room(&sea);
     free_ground(&sea);
 }
 
