@@ -5,7 +5,6 @@
 #include "mover/agent/perception.h"
 #include "mover/motion/kinematics.h"
 #include "mover/motion/remote_motion.h"
-#include "mover/context/cruise_start.h"
 #include "mover/motion/ground/wreck.h"
 #include "world/entity/kind.h"
 #include "world/state.h"
@@ -29,8 +28,9 @@ int resting_rows_init(struct resting_rows *rows, uint32_t capacity, double side_
     *rows = (struct resting_rows){.resting = calloc(words_of(capacity), sizeof *rows->resting),
                                   .turns = calloc(words_of(capacity), sizeof *rows->turns),
                                   .cruising = calloc(words_of(capacity), sizeof *rows->cruising),
-                                  .fresh = calloc(words_of(capacity), sizeof *rows->fresh)};
-    if (rows->resting && rows->turns && rows->cruising && rows->fresh &&
+                                  .fresh = calloc(words_of(capacity), sizeof *rows->fresh),
+                                  .ends = calloc(words_of(capacity), sizeof *rows->ends)};
+    if (rows->resting && rows->turns && rows->cruising && rows->fresh && rows->ends &&
         hover_watch_init(&rows->hovering, (uint32_t)words_of(capacity), side_m) == 0)
         return 0;
     resting_rows_free(rows);
@@ -43,6 +43,7 @@ void resting_rows_free(struct resting_rows *rows)
     free(rows->turns);
     free(rows->cruising);
     free(rows->fresh);
+    free(rows->ends);
     hover_watch_free(&rows->hovering);
     *rows = (struct resting_rows){0};
 }
@@ -113,6 +114,24 @@ static uint64_t due_of(const struct step_context *context, uint32_t first, uint6
     return due;
 }
 
+/* Returns those of the cruising rows of a word whose stretches have ended, and notes when the next
+ * one of the others ends. */
+static uint64_t ended_of(const struct resting_rows *rows, const struct step_context *context,
+                         uint32_t first)
+{
+    uint64_t ended = 0;
+    uint32_t next = UINT32_MAX;
+    for (uint64_t left = rows->cruising[first / 64]; left != 0; left &= left - 1) {
+        uint32_t k = (uint32_t)__builtin_ctzll(left), end = context->m->cruise_tick[first + k];
+        if (end < context->tick)
+            ended |= left & -left;
+        else
+            next = end < next ? end : next;
+    }
+    rows->ends[first / 64] = next;
+    return ended;
+}
+
 uint32_t resting_rows_awake(const struct resting_rows *rows, const struct step_context *context,
                             struct row_block *block)
 {
@@ -128,8 +147,8 @@ uint32_t resting_rows_awake(const struct resting_rows *rows, const struct step_c
         uint64_t due = due_of(context, row, there & resting & turns);
         /* An aircraft that rests only between its turns hovers as well. */
         due |= burns ? rows->hovering.hovers[row / 64] | turns : 0;
-        if (rows->cruising[row / 64] != 0)
-            due |= rows->cruising[row / 64] & cruise_start_turns(context, row);
+        if (rows->cruising[row / 64] != 0 && rows->ends[row / 64] < context->tick)
+            due |= ended_of(rows, context, row);
         rows->fresh[row / 64] = 0;
         block->awake[w] = there & (~resting | due);
         count += (uint32_t)__builtin_popcountll(block->awake[w]);
@@ -234,6 +253,8 @@ static void settle_row(struct resting_rows *rows, const struct step_context *con
     if (rest == REST_CRUISE) { /* whatever has changed, it changes no more */
         rows->cruising[i / 64] |= bit;
         rows->fresh[i / 64] |= bit;
+        if (context->m->cruise_tick[i] < rows->ends[i / 64])
+            rows->ends[i / 64] = context->m->cruise_tick[i];
         *resting |= bit;
     } else if (rest == REST_NONE || has_changed(rows, context, i, rest))
         *resting &= ~bit;

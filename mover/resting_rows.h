@@ -26,6 +26,7 @@ struct resting_rows {
     uint64_t *cruising; /* and those that are moved when their stretch ends */
     uint64_t *fresh;    /* those whose stretch has begun in the last step: their entry in the index
                            of neighbours is not yet right */
+    uint32_t *ends;     /* [capacity / 64] no stretch of these rows ends before this tick */
     struct hover_watch hovering;
     uint32_t craters; /* that have woken the rows near them */
     bool never;       /* for tests: no row rests */

@@ -4,10 +4,11 @@
 #include "world/entity/table_write.h"
 #include "world/world.h"
 
-#define SPREAD      7u   /* frames between the turns of two neighbouring groups: no divisor of 30 */
-#define GROUP_BITS  4u   /* the least group has 16 rows */
-#define GROUPS_MOST 256u /* of rows that are not a block */
-#define TRY_FRAMES  10u  /* after so many frames rows that do not cruise try again */
+#define SPREAD       7u /* frames between the turns of two neighbouring groups: no divisor of 30 */
+#define GROUP_BITS   4u /* the least group has 16 rows */
+#define GROUPS_MOST  256u /* of rows that are not a block */
+#define TRY_FRAMES   10u  /* after so many frames rows that do not cruise try again */
+#define LEAST_FRAMES 5u   /* of a stretch */
 
 uint32_t cruise_start_group_bits(uint32_t capacity)
 {
@@ -24,22 +25,6 @@ static uint32_t since_turn(const struct step_context *context, uint32_t i)
     return (context->cruise_phase + group * SPREAD) % context->cruise_frames;
 }
 
-bool cruise_start_turn(const struct step_context *context, uint32_t i)
-{
-    return context->cruise_frames > 1 && since_turn(context, i) == 0;
-}
-
-uint64_t cruise_start_turns(const struct step_context *context, uint32_t first)
-{
-    uint32_t group = 1u << context->cruise_group_bits;
-    uint64_t turns = 0;
-    if (group >= 64)
-        return cruise_start_turn(context, first) ? UINT64_MAX : 0;
-    for (uint32_t k = 0; k < 64; k += group)
-        turns |= (cruise_start_turn(context, first + k) ? ((uint64_t)1 << group) - 1 : 0) << k;
-    return turns;
-}
-
 /* Returns true if the row is on its way by its order. */
 static bool is_under_way(const struct entities *m, uint32_t i)
 {
@@ -49,8 +34,8 @@ static bool is_under_way(const struct entities *m, uint32_t i)
             m->behaviour[i] == BEHAVIOUR_FLEE);
 }
 
-/* Returns true if the row avoids nothing, or would hold its way around it for a stretch anyway: in
- * a crowd agents decide less often than stretches begin. */
+/* Returns true if the row avoids nothing and need not slow down, or would hold its way and its
+ * speed for a stretch anyway: in a crowd agents decide less often than stretches begin. */
 static bool holds_its_way(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
@@ -84,16 +69,29 @@ static bool cruises(const struct step_context *context, uint32_t i)
  * 0. */
 static uint32_t tries_for(const struct step_context *context, uint32_t i)
 {
-    uint32_t since = context->cruise_frames > 1 ? since_turn(context, i) : 1;
+    uint32_t since = since_turn(context, i);
     uint32_t left = context->cruise_frames - since;
     return since == 0 || (since % TRY_FRAMES == 0 && left >= TRY_FRAMES) ? left : 0;
 }
 
+/* Returns the frames from this one to the next decision of row i's agent if it decides in this
+ * frame; else 0. So few that a stretch does not pay count as none. Aircraft that avoid something
+ * are moved in each frame: they climb and turn while they do. */
+static uint32_t decides_for(const struct step_context *context, uint32_t i)
+{
+    bool flies = context->world->kinds[context->m->kind[i]].domain == DOMAIN_AIR;
+    return !flies && context->think_frames >= LEAST_FRAMES && step_context_thinks(context, i)
+               ? context->think_frames
+               : 0;
+}
+
 uint32_t cruise_start_frames(const struct step_context *context, uint32_t i)
 {
-    uint32_t frames = tries_for(context, i);
+    if (context->cruise_frames == 1)
+        return 0;
+    uint32_t frames = holds_its_way(context, i) ? tries_for(context, i) : decides_for(context, i);
     return frames > 0 && is_under_way(context->m, i) && is_undisturbed(context, i) &&
-                   holds_its_way(context, i) && cruises(context, i)
+                   cruises(context, i)
                ? frames
                : 0;
 }

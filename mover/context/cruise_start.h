@@ -3,11 +3,13 @@
  * Rows that stand together in the table begin their stretches in the same frame, so that a frame
  * writes to few blocks. Such groups take turns. In a large world a group is a block; a small one
  * has smaller groups, so that each frame has its share of the work. A vehicle may begin a stretch
- * when its group's turn comes, if it is on its way, nothing has happened to it, it avoids nothing
- * and its gun is at rest. One that could not, or whose stretch has ended early, tries again some
- * frames later: for a shorter stretch, to the next turn of its group. Its agent then decides at
- * once whatever falls due within the stretch. The motion of the stretch is that of one long frame
- * (mover/motion/ground_vehicle.h), which refuses what is not easy.
+ * when its group's turn comes, if it is on its way, nothing has happened to it and its gun is at
+ * rest. One that could not, or whose stretch has ended early, tries again some frames later: for a
+ * shorter stretch, to the next turn of its group. A land vehicle or a ship that avoids something or
+ * has to slow down, also for the ground ahead, begins its stretches when its agent decides, and
+ * they last until the next decision. Its agent then decides at once whatever falls due within the
+ * stretch. The motion of the stretch is that of one long frame (mover/motion/ground_vehicle.h),
+ * which refuses what is not easy.
  *
  * Reads row i of the moved table. Any thread, each its own row. */
 #ifndef JOLON_MOVER_CONTEXT_CRUISE_START_H
@@ -18,13 +20,6 @@
 /* Returns how many rows a group has in a world of this capacity, from 16 to CHECKSUM_ROWS: the
  * logarithm to base 2. */
 uint32_t cruise_start_group_bits(uint32_t capacity);
-
-/* Returns true if the group of row i has its turn in this frame: all its stretches end here. */
-bool cruise_start_turn(const struct step_context *context, uint32_t i);
-
-/* Returns the rows among the 64 from this one on whose groups have their turn, a bit each.
- * first: a multiple of 64. */
-uint64_t cruise_start_turns(const struct step_context *context, uint32_t first);
 
 /* Returns how many frames a stretch has that row i may begin in this frame; 0: it may not. */
 uint32_t cruise_start_frames(const struct step_context *context, uint32_t i);

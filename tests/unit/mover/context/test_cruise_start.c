@@ -146,13 +146,12 @@ static void test_what_stands_fights_or_is_driven_does_not(void **state)
     (void)state;
     uint32_t held = put("tank", 25100.0, BEHAVIOUR_HOLD),
              idle = put("tank", 25200.0, BEHAVIOUR_IDLE);
-    uint32_t flies = put("helicopter", 25300.0, BEHAVIOUR_PATROL);
     struct command drive = {.source = 1, .type = COMMAND_DRIVE, .entity = tank + 1};
     drive.value[0] = 0.5;
     steps_send(&f, RING_CLIENTS, drive);
     for (uint32_t i = 0; i < 3 * FRAMES; i++) {
         fixture_run(&f, 1);
-        assert_false(cruises(held) || cruises(idle) || cruises(flies) || cruises(tank));
+        assert_false(cruises(held) || cruises(idle) || cruises(tank));
     }
 }
 
@@ -204,20 +203,33 @@ static void test_what_is_in_the_way_lets_none_begin(void **state)
     }
 }
 
+/* One that goes around something decides as often as without stretches, and cruises in between. */
+static void test_one_that_avoids_something_cruises_until_it_decides(void **state)
+{
+    uint32_t dodges = 0, went = 0;
+    (void)state;
+    fixture_put(&f, (struct fixture_entity){.kind = "truck",
+                                            .at = {25000.0, FIXTURE_GROUND_M, 24930.0},
+                                            .behaviour = BEHAVIOUR_HOLD});
+    for (uint32_t i = 0; i < 6 * FRAMES; i++) {
+        fixture_run(&f, 1);
+        struct state now = fixture_state(&f);
+        if (now.entities.dodge[tank] == 0.0f)
+            continue;
+        dodges++;
+        if (!cruise_goes(&now.entities, tank, now.head->tick))
+            continue;
+        went++;
+        assert_in_range(now.entities.cruise_tick[tank] - now.head->tick, 1, 5);
+    }
+    assert_true(dodges > 2 * FRAMES);
+    assert_true(went > dodges / 2);
+}
+
 #define IN_WORLD(test)                                                                             \
     cmocka_unit_test_prestate_setup_teardown(test, open_world, fixture_teardown, &f)
 
 /* --- turns ------------------------------------------------------------------------------------*/
-
-#define TURN_ROWS 4096u
-
-static struct step_context context_of(uint32_t capacity, uint32_t frames, uint64_t tick)
-{
-    return (struct step_context){.tick = tick,
-                                 .cruise_frames = frames,
-                                 .cruise_phase = (uint32_t)(tick % frames),
-                                 .cruise_group_bits = cruise_start_group_bits(capacity)};
-}
 
 static void test_groups_are_blocks_in_large_worlds(void **state)
 {
@@ -227,38 +239,6 @@ static void test_groups_are_blocks_in_large_worlds(void **state)
     assert_int_equal(1u << cruise_start_group_bits(4097), 32);
     assert_int_equal(1u << cruise_start_group_bits(200000), CHECKSUM_ROWS);
     assert_int_equal(1u << cruise_start_group_bits(UINT32_MAX), CHECKSUM_ROWS);
-}
-
-/* Each row has one turn in the frames of a stretch, whenever they begin, and the mask of 64 rows
- * says the same as each row's own turn. */
-static void test_each_row_has_one_turn(void **state)
-{
-    static uint8_t turns[TURN_ROWS];
-    const uint32_t capacities[] = {500, 4096, 20000, 1000000}, lengths[] = {30, 5, 120, 7};
-    (void)state;
-    for (uint32_t c = 0; c < 16; c++) {
-        uint32_t frames = lengths[c % 4];
-        for (uint32_t i = 0; i < TURN_ROWS; i++)
-            turns[i] = 0;
-        for (uint64_t tick = 1234567; tick < 1234567 + frames; tick++) {
-            struct step_context context = context_of(capacities[c / 4], frames, tick);
-            for (uint32_t i = 0; i < TURN_ROWS; i++) {
-                bool turn = cruise_start_turn(&context, i);
-                turns[i] += turn;
-                assert_int_equal(cruise_start_turns(&context, i / 64 * 64) >> i % 64 & 1, turn);
-            }
-        }
-        for (uint32_t i = 0; i < TURN_ROWS; i++)
-            assert_int_equal(turns[i], 1);
-    }
-}
-
-static void test_nobody_begins_where_nobody_cruises(void **state)
-{
-    struct step_context context = context_of(500, 1, 30);
-    (void)state;
-    assert_false(cruise_start_turn(&context, 0));
-    assert_int_equal(cruise_start_turns(&context, 0), 0);
 }
 
 int main(void)
@@ -273,9 +253,8 @@ int main(void)
         IN_WORLD(test_a_command_ends_the_stretch),
         IN_WORLD(test_what_comes_into_its_way_ends_it),
         IN_WORLD(test_what_is_in_the_way_lets_none_begin),
+        IN_WORLD(test_one_that_avoids_something_cruises_until_it_decides),
         cmocka_unit_test(test_groups_are_blocks_in_large_worlds),
-        cmocka_unit_test(test_each_row_has_one_turn),
-        cmocka_unit_test(test_nobody_begins_where_nobody_cruises),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
