@@ -63,8 +63,9 @@ static struct swept_body outer_of(const struct swept_body *body)
 }
 
 /* Tests the bodies with one outer hull each first, so that bodies that pass each other cost one
- * pair of hulls and not dozens. The pieces within touch no sooner than the outer hulls. Returns
- * false if the outer hulls never touch; else *from is when. */
+ * pair of hulls and not dozens. The pieces within touch no sooner than the outer hulls, and may
+ * meet at once where these touch already. Returns false if the outer hulls never touch; else *from
+ * is when. */
 static bool outer_impact(const struct swept_body *a, const struct swept_body *b, double *from)
 {
     struct swept_body outer_a, outer_b;
@@ -73,15 +74,13 @@ static bool outer_impact(const struct swept_body *a, const struct swept_body *b,
         return true;
     outer_a = outer_of(a);
     outer_b = outer_of(b);
-    bool meet = time_of_impact_find(&outer_a, &outer_b, *from, &impact);
-    if (meet && impact.toi == *from)
-        return true;
     if (!far_apart(&outer_a, &outer_b, *from) &&
         time_of_impact_within(&outer_a, &outer_b, *from, SKIN_M))
-        return true; /* the outer hulls part, but the pieces within may meet */
-    if (meet)
-        *from = impact.toi;
-    return meet;
+        return true;
+    if (!time_of_impact_find(&outer_a, &outer_b, *from, &impact))
+        return false;
+    *from = impact.toi;
+    return true;
 }
 
 static bool touch_hulls(const struct body_motion *motion, const struct pair *pair, double from,
