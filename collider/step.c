@@ -3,6 +3,7 @@
 
 #include "collider/narrow_phase/cruise_rows.h"
 #include "collider/remote_rows.h"
+#include "collider/resting/held_rest.h"
 #include "collider/resting/sleeping_contacts.h"
 #include "collider/resting/turret_guard.h"
 #include "collider/response/damage.h"
@@ -262,8 +263,10 @@ static void collide_all(struct step *step, struct response_context *context)
     damage_overturned(context);
     if (collider->broad.cruises)
         cruise_rows_meet_written(&context->input, &collider->pairs);
-    if (!sleeping_contacts_keep(context))
+    if (!sleeping_contacts_keep(context)) {
         contact_table_finish(&collider->table, context);
+        held_rest_let_go(context);
+    }
     thread_pool_let_go(collider->workers);
 }
 

@@ -161,8 +161,8 @@ uint32_t resting_rows_awake(const struct resting_rows *rows, const struct step_c
 
 static bool is_still(const struct entities *m, uint32_t i)
 {
-    return m->vx[i] == 0.0 && m->vy[i] == 0.0 && m->vz[i] == 0.0 && m->spin_x[i] == 0.0 &&
-           m->spin_y[i] == 0.0 && m->spin_z[i] == 0.0 && !(m->flags[i] & ENTITY_FLAG_CHASSIS);
+    return entities_still(m, i) &&
+           (!(m->flags[i] & ENTITY_FLAG_CHASSIS) || m->jolt_tick[i] == ENTITY_PINNED);
 }
 
 /* Returns true if nothing that the row knows lets it do anything else than stand. */

@@ -351,12 +351,15 @@ static void renew(struct response_context *context, const struct persistent_cont
 
 /* Puts a known contact without an impact or a load in this frame, or ends it. gap: of its bodies,
  * or NULL if it says nothing about the contact. Bodies that overlapped in the last frame have been
- * looked at in this one, and do no longer: their group may sleep. */
+ * looked at in this one, and do no longer: their group may sleep. Where a body moves, none holds the
+ * other. */
 static void keep(struct response_context *context, const struct persistent_contact *known,
                  const struct contact_gap *gap)
 {
     struct persistent_contact contact = *known;
     contact.flags &= (uint16_t)~PERSISTENT_CONTACT_OVERLAPS;
+    if (one_may_part(context, known))
+        contact.flags &= (uint16_t)~PERSISTENT_CONTACT_HOLDS;
     memset(contact.load, 0, sizeof contact.load);
     if (gone(context, known)) {
         end(context, known, CONTACT_END_GONE);

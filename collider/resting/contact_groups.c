@@ -371,6 +371,13 @@ static void keep_awake(struct contact_groups *groups)
     groups->count = kept;
 }
 
+/* Puts a row of a group that is asleep back. A contact holds it, or it would not have moved. */
+static void put_row_back(struct response_context *context, uint32_t row)
+{
+    held_rest_put_back(context, row);
+    held_rest_pin(context, row);
+}
+
 /* What is asleep stands still: the bodies that contacts hold go back. all: pairs, with those that
  * are not kept. */
 static void put_back(const struct contact_groups *groups, struct response_context *context,
@@ -379,9 +386,9 @@ static void put_back(const struct contact_groups *groups, struct response_contex
     for (uint32_t i = groups->count; i < all; i++) {
         const struct pair *pair = &groups->pair[i];
         if (body_motion_moves(context->motion, pair->a))
-            held_rest_put_back(context, pair->a);
+            put_row_back(context, pair->a);
         if (!(pair->b & PAIR_FIXED) && body_motion_moves(context->motion, pair->b))
-            held_rest_put_back(context, pair->b);
+            put_row_back(context, pair->b);
     }
 }
 

@@ -1,6 +1,7 @@
 /* Compares rows of two tables. */
 #include "collider/resting/held_rest.h"
 
+#include "world/entity/persistent_contact.h"
 #include "world/params.h"
 #include "world/world.h"
 
@@ -10,18 +11,13 @@
 /* Springs that a contact keeps from lifting or lowering a side tilt a body no faster. */
 #define TILTED_RPS2 3.0
 
-static bool is_still(const struct entities *e, uint32_t row)
-{
-    return e->vx[row] == 0.0 && e->vy[row] == 0.0 && e->vz[row] == 0.0 && e->spin_x[row] == 0.0 &&
-           e->spin_y[row] == 0.0 && e->spin_z[row] == 0.0;
-}
-
 bool held_rest_ended(const struct response_context *context, uint32_t row)
 {
     const struct entities *w = &context->motion->before, *e = &context->next->entities;
-    return body_motion_old(context->motion, row) && is_still(e, row) && e->x[row] == w->x[row] &&
-           e->y[row] == w->y[row] && e->z[row] == w->z[row] && e->heading[row] == w->heading[row] &&
-           e->pitch[row] == w->pitch[row] && e->roll[row] == w->roll[row];
+    return body_motion_old(context->motion, row) && entities_still(e, row) &&
+           e->x[row] == w->x[row] && e->y[row] == w->y[row] && e->z[row] == w->z[row] &&
+           e->heading[row] == w->heading[row] && e->pitch[row] == w->pitch[row] &&
+           e->roll[row] == w->roll[row];
 }
 
 bool held_rest_stays(const struct response_context *context, uint32_t row)
@@ -29,11 +25,50 @@ bool held_rest_stays(const struct response_context *context, uint32_t row)
     const struct entities *w = &context->motion->before, *e = &context->next->entities;
     double dt_s = world_dt_s(context->world);
     return body_motion_old(context->motion, row) && e->state[row] == ENTITY_ACTIVE &&
-           w->flags[row] & ENTITY_FLAG_CHASSIS && is_still(w, row) &&
+           w->flags[row] & ENTITY_FLAG_CHASSIS && entities_still(w, row) &&
            vec3_length(entities_velocity(e, row)) <= DRIVEN_MPS2 * dt_s &&
            fabs(e->spin_y[row]) <= TURNED_RPS2 * dt_s &&
            fabs(e->spin_x[row]) + fabs(e->spin_z[row]) <= TILTED_RPS2 * dt_s;
 }
+
+/* --- vehicles that are pinned ------------------------------------------------------------------*/
+
+void held_rest_pin(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    if (e->jolt_tick[row] != ENTITY_PINNED)
+        table_set_jolt_tick(&context->writer, row, ENTITY_PINNED);
+}
+
+static void let_go(const struct response_context *context, uint32_t row, uint32_t id)
+{
+    const struct entities *e = &context->next->entities;
+    if (entities_alive(e, row, id) && e->flags[row] & ENTITY_FLAG_CHASSIS &&
+        e->jolt_tick[row] == ENTITY_PINNED)
+        table_set_jolt_tick(&context->writer, row, (uint32_t)context->next->head->tick);
+}
+
+void held_rest_let_go(const struct response_context *context)
+{
+    const struct state *committed = context->motion->committed, *next = context->next;
+    uint32_t n = 0, count = next->head->contact_count;
+    for (uint32_t i = 0; i < committed->head->contact_count; i++) {
+        const struct persistent_contact *held = &committed->contacts[i];
+        uint64_t key = persistent_contact_key(held);
+        if (!(held->flags & PERSISTENT_CONTACT_HOLDS))
+            continue;
+        while (n < count && persistent_contact_key(&next->contacts[n]) < key)
+            n++;
+        if (n < count && persistent_contact_key(&next->contacts[n]) == key &&
+            next->contacts[n].flags & PERSISTENT_CONTACT_HOLDS)
+            continue;
+        let_go(context, held->a_row, held->a_id);
+        if (!(held->b_id & PERSISTENT_CONTACT_FIXED))
+            let_go(context, held->b_row, held->b_id);
+    }
+}
+
+/* --- rows that go back -------------------------------------------------------------------------*/
 
 void held_rest_keep_springs(struct response_context *context, uint32_t row)
 {

@@ -18,6 +18,14 @@ bool held_rest_stays(const struct response_context *context, uint32_t row);
 /* Puts a row back to where it began the frame. Nothing of the frame must have been solved yet. */
 void held_rest_put_back(struct response_context *context, uint32_t row);
 
+/* Pins a row that has been put back: the mover leaves it where it stands (mover/motion/chassis.h),
+ * so that nothing in its heap moves and all of it sleeps. */
+void held_rest_pin(const struct response_context *context, uint32_t row);
+
+/* Lets the pinned rows go of which a contact holds no longer what it held in the frame before. The
+ * frame's list of contacts must be finished. */
+void held_rest_let_go(const struct response_context *context);
+
 /* A vehicle that leaves its springs takes the pose of one that stands. Where a contact keeps it in
  * the pose that it had, it stays on them. */
 void held_rest_keep_springs(struct response_context *context, uint32_t row);

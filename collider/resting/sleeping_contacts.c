@@ -36,7 +36,8 @@ static bool leaves(const struct response_context *context, uint32_t row, uint32_
 
 static bool sleeps(const struct response_context *context, const struct persistent_contact *contact)
 {
-    if (contact->flags != 0 || !rests(context, contact->a_row, contact->a_id) || bears(contact))
+    if (contact->flags & PERSISTENT_CONTACT_OVERLAPS ||
+        !rests(context, contact->a_row, contact->a_id) || bears(contact))
         return false;
     return contact->b_id & PERSISTENT_CONTACT_FIXED
                ? leaves(context, contact->a_row, contact->b_id & ~PERSISTENT_CONTACT_FIXED)

@@ -75,7 +75,7 @@ bool chassis_takes(const struct step_context *context, uint32_t i, bool driven)
         take_slope(context, i);
     }
     double calm = (double)((uint32_t)context->tick - m->jolt_tick[i]) * context->dt_s;
-    return driven || calm < CHASSIS_CALM_S;
+    return driven || calm < CHASSIS_CALM_S || m->jolt_tick[i] == ENTITY_PINNED;
 }
 
 /* --- rest and calm -----------------------------------------------------------------------------*/
@@ -167,12 +167,33 @@ static bool burn(const struct step_context *context, uint32_t i, const struct ki
                            maths_max(kind->idle_share, fabs(desired->speed_mps) / full));
 }
 
+/* Returns true if a contact keeps row i from moving, and it does not want to. Its springs would
+ * move it, and the collider would put it back. */
+static bool stays_pinned(const struct step_context *context, uint32_t i,
+                         const struct desired_motion *desired)
+{
+    const struct entities *m = context->m;
+    bool turns = desired->driven ? desired->turn != (double)m->dodge[i]
+                                 : desired->heading_rad != m->heading[i];
+    bool yaws =
+        desired->driven && desired->turn != 0.0 && context->world->kinds[m->kind[i]].tracked;
+    return m->jolt_tick[i] == ENTITY_PINNED && desired->speed_mps == 0.0 && !turns && !yaws &&
+           desired->gear != GEAR_NEUTRAL && entities_still(m, i);
+}
+
 bool chassis_move(const struct step_context *context, uint32_t i,
                   const struct desired_motion *desired)
 {
     struct entities *m = context->m;
     struct chassis chassis;
     double x = m->x[i], z = m->z[i];
+    if (stays_pinned(context, i, desired)) {
+        if (!kinematics_parked(m, i))
+            (void)burn(context, i, &context->world->kinds[m->kind[i]], desired);
+        return false;
+    }
+    if (m->jolt_tick[i] == ENTITY_PINNED)
+        m->jolt_tick[i] = (uint32_t)context->tick;
     chassis_run_begin(&chassis, context, i, desired);
     if (!burn(context, i, chassis.kind, desired))
         chassis.most_mps = 0.0;

@@ -148,6 +148,10 @@ _Static_assert(ENTITY_COLUMN_COUNT <= 64, "a set of columns is one word");
     128u /* and of an aircraft: it stands or slides on the ground (mover/motion/ground/landing.h)  \
           */
 
+/* In jolt_tick of a vehicle with ENTITY_FLAG_CHASSIS: a contact keeps it from moving, and the mover
+ * leaves it where it stands (mover/motion/chassis.h, collider/resting/held_rest.h). */
+#define ENTITY_PINNED UINT32_MAX
+
 /* How a driven vehicle's throttle acts on its wheels; a driver's choice, in flags. */
 enum gearing {
     GEAR_AUTOMATIC, /* forwards, or backwards when the throttle is negative */
@@ -208,6 +212,13 @@ static inline struct vec3 entities_position(const struct entities *e, uint32_t i
 static inline struct vec3 entities_velocity(const struct entities *e, uint32_t i)
 {
     return (struct vec3){e->vx[i], e->vy[i], e->vz[i]};
+}
+
+/* Returns true if row i neither moves nor turns. */
+static inline bool entities_still(const struct entities *e, uint32_t i)
+{
+    return e->vx[i] == 0.0 && e->vy[i] == 0.0 && e->vz[i] == 0.0 && e->spin_x[i] == 0.0 &&
+           e->spin_y[i] == 0.0 && e->spin_z[i] == 0.0;
 }
 
 static inline void entities_set_position(const struct entities *e, uint32_t i, struct vec3 p)

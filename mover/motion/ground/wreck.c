@@ -20,12 +20,6 @@
 #define HELD_MPS 1e-3
 #define HELD_RPS 1e-3
 
-static bool is_still(const struct entities *m, uint32_t i)
-{
-    return m->vx[i] == 0.0 && m->vy[i] == 0.0 && m->vz[i] == 0.0 && m->spin_x[i] == 0.0 &&
-           m->spin_y[i] == 0.0 && m->spin_z[i] == 0.0;
-}
-
 static bool is_slower(const struct entities *m, uint32_t i, double most_mps, double most_rps)
 {
     struct vec3 spin = {m->spin_x[i], m->spin_y[i], m->spin_z[i]};
@@ -58,7 +52,7 @@ static void drift(const struct step_context *context, uint32_t i)
     kinematics_advance(context, &m->x[i], &m->vx[i]);
     kinematics_advance(context, &m->z[i], &m->vz[i]);
     bool sinks = sinking_hull(context, i);
-    if (!turned && !sinks && is_still(m, i))
+    if (!turned && !sinks && entities_still(m, i))
         m->until_tick[i] = (uint32_t)context->tick;
 }
 
@@ -138,7 +132,7 @@ static void tumble(const struct step_context *context, uint32_t i)
 
 bool wreck_rests(const struct step_context *context, uint32_t i)
 {
-    return is_due(context, i) && is_still(context->m, i);
+    return is_due(context, i) && entities_still(context->m, i);
 }
 
 void wreck_row(const struct step_context *context, uint32_t i)

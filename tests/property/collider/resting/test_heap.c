@@ -130,6 +130,61 @@ static void test_a_heap_goes_the_same_way_on_any_number_of_threads(void **state)
     }
 }
 
+/* --- rest --------------------------------------------------------------------------------------*/
+
+#define RESTING_TANKS 24u
+#define WORLDS        4u
+
+static void set_throttle(uint32_t row, float throttle)
+{
+    steps_rows(&f).throttle[row] = throttle;
+    fixture_forget_copies(&f);
+}
+
+/* Returns a row that a contact holds off its springs, or SLOT_NONE. */
+static uint32_t find_pinned(void)
+{
+    const struct entities e = steps_rows(&f);
+    for (uint32_t row = 0; row < RESTING_TANKS; row++) {
+        if (e.flags[row] & ENTITY_FLAG_CHASSIS && e.jolt_tick[row] == ENTITY_PINNED)
+            return row;
+    }
+    return SLOT_NONE;
+}
+
+/* Tanks that stop pushing sleep, also where they hold each other off their springs. A pinned one
+ * drives off when its driver wants to, and all others that it held move freely again. */
+static void test_tanks_that_hold_each_other_off_their_springs_sleep(void **state)
+{
+    (void)state;
+    uint64_t seed = fixture_seed(38);
+    uint32_t pinned = 0;
+    for (uint32_t world = 0; world < WORLDS; world++) {
+        open_world(60.0);
+        put_rings(RESTING_TANKS, fixture_uniform(&seed, 0.0, 1.0));
+        let_push(RESTING_TANKS);
+        fixture_continue(&f, 300);
+        for (uint32_t row = 0; row < RESTING_TANKS; row++)
+            set_throttle(row, 0.0f);
+        fixture_continue(&f, 300);
+        assert_true(f.stepper.collider.slept);
+        uint64_t before = fixture_digest(&f);
+        fixture_continue(&f, 1);
+        assert_true(f.stepper.collider.slept && fixture_digest(&f) != before);
+        for (uint32_t row = find_pinned(); row != SLOT_NONE; row = find_pinned()) {
+            pinned++;
+            for (uint32_t i = 0; i < RESTING_TANKS; i++)
+                set_throttle(i, i % 2 ? 1.0f : -1.0f);
+            fixture_continue(&f, 60);
+            assert_true(steps_rows(&f).jolt_tick[row] != ENTITY_PINNED);
+        }
+        assert_true(steps_deepest(&f, RESTING_TANKS) <= OVERLAP_M);
+        fixture_close(&f);
+    }
+    print_message("%u tanks were pinned\n", pinned);
+    assert_true(pinned > 0);
+}
+
 /* --- ends --------------------------------------------------------------------------------------*/
 
 /* A tank runs into another, pushes it and drives back: one contact ends. */
@@ -162,6 +217,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_rows_36_46_rings_press_without_overlap),
         cmocka_unit_test(test_a_heap_goes_the_same_way_on_any_number_of_threads),
+        cmocka_unit_test(test_tanks_that_hold_each_other_off_their_springs_sleep),
         cmocka_unit_test(test_the_end_of_a_contact_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

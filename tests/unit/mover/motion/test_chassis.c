@@ -446,6 +446,28 @@ static uint32_t put_agent(const char *kind, double height_m, double mps)
     return row;
 }
 
+/* A body that a contact keeps off its springs is not moved, until its driver wants it to go. */
+static void test_a_pinned_body_stands_until_it_is_driven(void **state)
+{
+    (void)state;
+    uint32_t row = put("tank", 25000.0, 0.0);
+    fixture_run(&f, HZ);
+    struct entities e = steps_rows(&f);
+    double pitch = e.pitch[row] -= 0.02;
+    e.flags[row] |= ENTITY_FLAG_CHASSIS;
+    e.jolt_tick[row] = ENTITY_PINNED;
+    const struct vec3 at = entities_position(&e, row);
+    fixture_run(&f, 5 * HZ);
+    e = steps_rows(&f);
+    assert_true(e.pitch[row] == pitch && e.x[row] == at.x && e.y[row] == at.y && e.z[row] == at.z);
+    assert_true(entities_still(&e, row) && e.jolt_tick[row] == ENTITY_PINNED);
+    e.throttle[row] = 1.0f;
+    fixture_run(&f, HZ);
+    e = steps_rows(&f);
+    assert_true(e.x[row] > at.x && fabs(e.pitch[row] - pitch) > 1e-3);
+    assert_true(e.jolt_tick[row] != ENTITY_PINNED);
+}
+
 static void test_it_goes_back_to_the_ground_without_a_jump(void **state)
 {
     static const char *const kinds[] = {"tank", "carrier", "jeep", "truck"};
@@ -711,6 +733,7 @@ int main(void)
         T(test_ride_height_and_jounce_at_10_and_60_hz),
         T(test_it_lands_from_a_metre_on_its_wheels),
         T(test_it_stands_on_a_side_slope_without_creeping),
+        T(test_a_pinned_body_stands_until_it_is_driven),
         T(test_it_goes_back_to_the_ground_without_a_jump),
         T(test_it_goes_to_its_springs_without_a_jump),
         T(test_an_undisturbed_agent_follows_the_ground),
