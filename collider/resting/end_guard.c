@@ -52,7 +52,7 @@ int end_guard_init(struct end_guard *guard, const struct world *world, struct th
     guard->sent_back = calloc(rows, sizeof *guard->sent_back);
     if (guard->pair && guard->stands && guard->posed && guard->posed_row && guard->row &&
         guard->back && guard->touched && guard->listed && guard->marked && guard->sent_back &&
-        drift_guard_init(&guard->drifting, world) == 0)
+        drift_guard_init(&guard->drifting, world) == 0 && level_exit_init(&guard->exit) == 0)
         return 0;
     end_guard_free(guard);
     errno = ENOMEM;
@@ -62,6 +62,7 @@ int end_guard_init(struct end_guard *guard, const struct world *world, struct th
 void end_guard_free(struct end_guard *guard)
 {
     drift_guard_free(&guard->drifting);
+    level_exit_free(&guard->exit);
     reserve_free(guard->pair);
     reserve_free(guard->stands);
     free(guard->posed);
@@ -371,8 +372,8 @@ static void add_pair(struct end_guard *guard, const struct contact_queue *contac
     guard->pair[guard->pair_count++] = (struct guard_pair){.pair = index};
 }
 
-/* Lists the row's pairs, except those whose bodies have to part. A pair of two rows that are looked
- * at is listed once. */
+/* Lists the row's pairs, except those that are so deep that they part as capsules. A pair of two
+ * rows that are looked at is listed once. */
 static void add_pairs_of(struct end_guard *guard, const struct response_context *context,
                          uint32_t row)
 {
@@ -382,7 +383,7 @@ static void add_pairs_of(struct end_guard *guard, const struct response_context 
         const struct pair *pair = &contacts->pair[index];
         uint32_t other = pair->a == row ? pair->b : pair->a;
         bool fixed = other & PAIR_FIXED;
-        if (contacts->marks[index] & CONTACT_PARTS)
+        if (contacts->marks[index] & CONTACT_CAPSULES)
             continue;
         if (fixed ? !contact_groups_is_wall(context, other & ~PAIR_FIXED)
                   : (guard->listed[other] && other < row) || !guarded(context, other))
@@ -452,6 +453,32 @@ static void mark_pair(struct end_guard *guard, const struct response_context *co
         mark(guard, context, pair->b);
 }
 
+/* Returns the length of the way of the pair's first body out of the other, in a table [m]. */
+static double way_out(struct end_guard *guard, const struct response_context *context,
+                      const struct entities *e, const struct pair *pair)
+{
+    const struct swept_body a = body_motion_standing(context->motion, e, pair->a);
+    const struct swept_body b = body_motion_standing(context->motion, e, pair->b);
+    struct vec3 normal;
+    level_exit_begin(&guard->exit);
+    level_exit_add(&guard->exit, &a, &b, false);
+    double way_m = level_exit_find(&guard->exit, false, &normal);
+    return way_m < INFINITY ? way_m : 0.0;
+}
+
+/* Bodies that part get deeper only if their way out of each other gets longer: a gun that leaves a
+ * hull through its length gets deeper into it before it is out. */
+static void heed_ways(struct end_guard *guard, const struct response_context *context)
+{
+    for (uint32_t i = 0; i < guard->pair_count; i++) {
+        struct guard_pair *one = &guard->pair[i];
+        const struct pair *pair = &context->contacts->pair[one->pair];
+        if (one->deeper && context->contacts->marks[one->pair] & CONTACT_PARTS)
+            one->deeper = way_out(guard, context, &context->next->entities, pair) >
+                          way_out(guard, context, &context->motion->before, pair) + EXACT_M;
+    }
+}
+
 /* Marks the bodies of the pairs that end the frame deeper in each other, and the wrecks that end it
  * deeper in the ground. */
 static void mark_deeper(struct end_guard *guard, const struct response_context *context)
@@ -480,6 +507,7 @@ static void run_round(struct end_guard *guard, struct response_context *context)
     thread_pool_run(guard->workers, stand_some, &round, guard->posed_count - round.posed,
                     ROWS_A_PIECE);
     thread_pool_run(guard->workers, measure_some, &round, guard->pair_count, PAIRS_A_PIECE);
+    heed_ways(guard, context);
     mark_deeper(guard, context);
     for (uint32_t i = 0; i < guard->count; i++)
         guard->listed[guard->row[i]] = 0;

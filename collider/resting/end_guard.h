@@ -39,6 +39,7 @@ struct end_guard {
     uint8_t *marked;    /* [capacity of the world] 1: in back */
     uint8_t *sent_back; /* [capacity of the world] how often a row has gone back in this frame */
     struct drift_guard drifting;
+    struct level_exit exit; /* a search for ways out of bodies */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. workers may be NULL and stays the caller's. */

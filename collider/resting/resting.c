@@ -235,6 +235,7 @@ static void take(struct resting *resting, struct response_context *context, cons
         return;
     struct resting_pair taken = {.first = resting->points,
                                  .gaps = gaps,
+                                 .capsules = found->capsules,
                                  .gap_m = gap[0].gap_m,
                                  .gap = gap,
                                  .pair = found->pair};
@@ -389,7 +390,7 @@ static void mark(struct resting *resting, struct response_context *context)
         if (bears)
             *marks |= CONTACT_PRESSED;
         if (pair->gap_m <= -RESTING_PARTS_M)
-            *marks |= CONTACT_PARTS;
+            *marks |= CONTACT_PARTS | (pair->capsules ? CONTACT_CAPSULES : 0u);
         if (pair->gap_m < -ROUNDING_M)
             *marks |= CONTACT_OVERLAPS;
     }

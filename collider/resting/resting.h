@@ -32,6 +32,7 @@ struct resting_pair {
     uint32_t pair;         /* index into contacts->pair */
     uint32_t first, count; /* its points, those of each gap in turn */
     uint32_t gaps;
+    bool capsules;               /* as in resting_gap */
     const struct level_gap *gap; /* the smallest, until the next frame */
     double gap_m;                /* the smallest, at the frame's beginning; below 0: overlap */
 };
@@ -41,6 +42,7 @@ struct resting_gap {
     struct level_gap gap[RESTING_GAPS_MAX]; /* smallest first; LEVEL_GAPS_MAX unless bodies part */
     uint32_t count;
     uint32_t pair;  /* index into contacts->pair, if there are gaps */
+    bool capsules;  /* it was measured between capsules (collider/resting/deep_pair.h) */
     double apart_m; /* the bodies are apart by this at least */
     bool leaves;    /* it needs a way out (collider/resting/parting_ways.h) */
     bool went;      /* and has been given it */

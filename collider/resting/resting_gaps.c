@@ -58,13 +58,20 @@ struct gap_job {
     bool parts;     /* pairs of a neighbourhood */
 };
 
+/* Returns how near hulls have to be of which one may part from others [m]. */
+static double parting_margin(const struct gap_job *job, const struct begun_body *a,
+                             const struct begun_body *b)
+{
+    return NEAR_M + nearing(a, b) + 2.0 * PARTING_MPS * world_dt_s(job->context->world);
+}
+
 /* Returns how near two bodies of a pair have to be. One that is not in the table, nor in a
  * neighbourhood, is near only if it overlaps [m]. */
 static double margin_of(const struct gap_job *job, uint32_t index, const struct begun_body *a,
                         const struct begun_body *b)
 {
     if (job->parts)
-        return NEAR_M + nearing(a, b) + 2.0 * PARTING_MPS * world_dt_s(job->context->world);
+        return parting_margin(job, a, b);
     return index < job->resting->groups.known ? NEAR_M + nearing(a, b) : 0.0;
 }
 
@@ -93,9 +100,27 @@ static bool take_before(struct resting_gap *gap)
     memcpy(gap->gap, before->gap, before->count * sizeof *gap->gap);
     gap->count = before->count;
     gap->apart_m = before->apart_m;
+    gap->capsules = false;
     gap->memory = before->memory;
     gap->repeats = true;
     return true;
+}
+
+/* Two bodies part along one normal for all of their hulls that overlap. Those of the others that
+ * are near bound them as well: a way along a face may lead one of them into the other body. */
+static void part_whole(const struct turned_body *a, const struct turned_body *b, double margin_m,
+                       struct resting_gap *gap)
+{
+    gap->count = level_gap_find_more(a, b, margin_m, gap->gap, RESTING_GAPS_MAX, &gap->apart_m,
+                                     &gap->memory);
+    uint32_t kept = 1;
+    if (gap->count > 1 && gap->gap[1].gap_m < 0.0)
+        level_gap_whole(a, b, gap->gap, gap->count, RESTING_GAPS_MAX);
+    for (uint32_t i = 1; i < gap->count; i++) {
+        if (gap->gap[i].gap_m >= 0.0)
+            gap->gap[kept++] = gap->gap[i];
+    }
+    gap->count = kept;
 }
 
 static void measure_pair(const struct gap_job *job, uint32_t index)
@@ -112,17 +137,16 @@ static void measure_pair(const struct gap_job *job, uint32_t index)
     const struct begun_body *a = begun_bodies_side(begun, motion, pair->a, NULL);
     const struct begun_body *b = begun_bodies_side(begun, motion, pair->b, &fixed);
     gap->repeats = false;
-    if (deep_pair_measure(job->context, pair, a, b, gap))
+    gap->capsules = deep_pair_measure(job->context, pair, a, b, gap);
+    if (gap->capsules)
         return;
     const struct turned_body turned_a = {&a->body, a->began}, turned_b = {&b->body, b->began};
     uint32_t room = job->parts ? RESTING_GAPS_MAX : LEVEL_GAPS_MAX;
     gap->count = level_gap_find_more(&turned_a, &turned_b, margin_of(job, index, a, b), gap->gap,
                                      room, &gap->apart_m, &gap->memory);
     gap->repeats = !job->parts && !is_deep(gap); /* parting changes gaps */
-    if (is_deep(gap) && gap->count > 1) {
-        level_gap_whole(&turned_a, &turned_b, gap->gap, gap->count, room);
-        gap->count = 1;
-    }
+    if (is_deep(gap))
+        part_whole(&turned_a, &turned_b, parting_margin(job, a, b), gap);
 }
 
 /* Measures pairs first .. end - 1 of the job. */
