@@ -41,11 +41,12 @@ struct resting_pair {
 struct resting_gap {
     struct level_gap gap[RESTING_GAPS_MAX]; /* smallest first; LEVEL_GAPS_MAX unless bodies part */
     uint32_t count;
-    uint32_t pair;  /* index into contacts->pair, if there are gaps */
-    bool capsules;  /* it was measured between capsules (collider/resting/deep_pair.h) */
-    double apart_m; /* the bodies are apart by this at least */
-    bool leaves;    /* it needs a way out (collider/resting/parting_ways.h) */
-    bool went;      /* and has been given it */
+    uint32_t pair;   /* index into contacts->pair, if there are gaps */
+    bool capsules;   /* it was measured between capsules (collider/resting/deep_pair.h) */
+    double apart_m;  /* the bodies are apart by this at least */
+    double pieces_m; /* of a pair that parts by its pieces: their gap, else PAIR_NOT_MEASURED */
+    bool leaves;     /* it needs a way out (collider/resting/parting_ways.h) */
+    bool went;       /* and has been given it */
     struct level_gap_memory memory;
     const struct persistent_contact *known; /* the pair's row in the committed table, or NULL */
     /* Of what it was measured: the pair's key in the table, the versions of its bodies

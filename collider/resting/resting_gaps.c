@@ -101,6 +101,7 @@ static bool take_before(struct resting_gap *gap)
     gap->count = before->count;
     gap->apart_m = before->apart_m;
     gap->capsules = false;
+    gap->pieces_m = PAIR_NOT_MEASURED;
     gap->memory = before->memory;
     gap->repeats = true;
     return true;
@@ -114,6 +115,7 @@ static void part_whole(const struct turned_body *a, const struct turned_body *b,
     gap->count = level_gap_find_more(a, b, margin_m, gap->gap, RESTING_GAPS_MAX, &gap->apart_m,
                                      &gap->memory);
     uint32_t kept = 1;
+    gap->pieces_m = gap->gap[0].gap_m;
     if (gap->count > 1 && gap->gap[1].gap_m < 0.0)
         level_gap_whole(a, b, gap->gap, gap->count, RESTING_GAPS_MAX);
     for (uint32_t i = 1; i < gap->count; i++) {
@@ -137,6 +139,7 @@ static void measure_pair(const struct gap_job *job, uint32_t index)
     const struct begun_body *a = begun_bodies_side(begun, motion, pair->a, NULL);
     const struct begun_body *b = begun_bodies_side(begun, motion, pair->b, &fixed);
     gap->repeats = false;
+    gap->pieces_m = PAIR_NOT_MEASURED;
     gap->capsules = deep_pair_measure(job->context, pair, a, b, gap);
     if (gap->capsules)
         return;
@@ -216,6 +219,7 @@ static void measure(struct resting *resting, const struct response_context *cont
         gap->pair = contact_queue_pair(context->contacts, &resting->groups.pair[i]);
         context->contacts->known[gap->pair].apart_m = gap->apart_m;
         context->contacts->known[gap->pair].memory = gap->memory;
+        context->contacts->known[gap->pair].before_m = gap->pieces_m;
     }
 }
 
