@@ -351,8 +351,8 @@ static void renew(struct response_context *context, const struct persistent_cont
 
 /* Puts a known contact without an impact or a load in this frame, or ends it. gap: of its bodies,
  * or NULL if it says nothing about the contact. Bodies that overlapped in the last frame have been
- * looked at in this one, and do no longer: their group may sleep. Where a body moves, none holds the
- * other. */
+ * looked at in this one, and do no longer: their group may sleep. Where a body moves, none holds
+ * the other. */
 static void keep(struct response_context *context, const struct persistent_contact *known,
                  const struct contact_gap *gap)
 {

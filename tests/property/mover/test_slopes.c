@@ -29,10 +29,10 @@ static void open_slope(double rise, uint64_t *random)
     steps_plane(&f, rise, 0.0);
     for (uint32_t i = 0; i < ROWS; i++) {
         double z = 25000.0 + 40.0 * i;
-        fixture_put(&f, (struct fixture_entity){.kind = kinds[i],
-                                                .at = {25000.0, steps_ground_at(&f, 25000.0, z), z},
-                                                .heading_rad =
-                                                    fixture_uniform(random, 0.0, TWO_PI)});
+        fixture_put(&f,
+                    (struct fixture_entity){.kind = kinds[i],
+                                            .at = {25000.0, steps_ground_at(&f, 25000.0, z), z},
+                                            .heading_rad = fixture_uniform(random, 0.0, TWO_PI)});
         steps_rows(&f).behaviour[i] = steps_rows(&f).order[i] = BEHAVIOUR_IDLE;
     }
     fixture_run(&f, 2); /* they take the pose of the ground */

@@ -263,7 +263,8 @@ static void test_an_overlap_may_last_but_not_grow(void **state)
 }
 
 /* Level normals overstate how deep a slanted gun is: a pair that does not part is held. Bodies that
- * part get no deeper, either, unless they are so deep that only their capsules say where they go. */
+ * part get no deeper, either, unless they are so deep that only their capsules say where they go.
+ */
 static void test_deep_overlaps_have_to_part_first(void **state)
 {
     (void)state;
