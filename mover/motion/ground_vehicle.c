@@ -519,12 +519,31 @@ static void leave_rails(const struct step_context *context, const struct ground_
 #define STRETCH_TURN_RAD 0.6 /* it turns by no more: the arc is within 8 % of its chord */
 #define STRETCH_GAIN_MPS 1.5 /* and gains or loses no more speed */
 
+/* Returns true if the row, which has moved by a stretch, came near ground that bends so much that a
+ * shell may get into it. The patch of its place holds the ground half a post's spacing away. */
+static bool passes_hollow(const struct step_context *context, const struct ground_vehicle *batch,
+                          int l, double bend)
+{
+    const struct entities *m = context->m;
+    const struct terrain *terrain = &context->world->terrain;
+    const double x = batch->pose.x.lane[l], back_x = m->x[batch->row[l]] - x;
+    const double z = batch->pose.z.lane[l], back_z = m->z[batch->row[l]] - z;
+    const double way_m = sqrt(back_x * back_x + back_z * back_z);
+    const double looks = ceil(way_m / (0.5 * terrain->spacing_m));
+    struct terrain_cache_entry patch = {0};
+    for (double n = 1.0; n < looks && bend <= batch->bend.lane[l]; n += 1.0)
+        bend = terrain_cache_bend(terrain, &patch, x + back_x * n / looks, z + back_z * n / looks);
+    return bend > batch->bend.lane[l];
+}
+
 /* Finds the lanes that cannot be moved by a stretch. */
 static void refuse(const struct step_context *context, struct ground_vehicle *batch,
                    const union simd_lanes *rightward)
 {
     const struct entities *m = context->m;
     const double dt_s = time_of(context, batch);
+    union simd_lanes bend;
+    terrain_cache_bends(&batch->pose.ground, &bend);
     for (int l = 0; l < batch->count; l++) {
         uint32_t i = batch->row[l];
         double turned = fabs(batch->turned.lane[l]);
@@ -534,7 +553,7 @@ static void refuse(const struct step_context *context, struct ground_vehicle *ba
         bool easy = !batch->rough.lane[l] && !batch->blocked.lane[l] &&
                     !batch->pose.cratered.lane[l] && batch->debris.lane[l] == 1.0 &&
                     turned <= STRETCH_TURN_RAD && gain <= STRETCH_GAIN_MPS &&
-                    rightward->lane[l] == 0.0 &&
+                    rightward->lane[l] == 0.0 && !passes_hollow(context, batch, l, bend.lane[l]) &&
                     !cover_is_water(terrain_cover(&context->world->terrain, x, z));
         batch->refused.lane[l] = easy ? 0 : -1;
     }

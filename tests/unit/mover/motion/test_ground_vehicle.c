@@ -1,6 +1,8 @@
 /* Land vehicles: the terrain under them, slopes, water, the edge of the world, the brakes. */
 #include "mover/motion/chassis_shell.h"
 #include "tests/support/steps.h"
+#include "world/cruise_pose.h"
+#include "world/entity/cruise.h"
 #include "world/params.h"
 #include "world/state.h"
 #include "world/terrain/fixed.h"
@@ -157,18 +159,23 @@ static double valley(double x, double z, const void *context)
 static double shell_depth(uint32_t row)
 {
     struct entities e = steps_rows(&f);
-    struct mat3 turn = rotation_matrix(rotation_of(e.heading[row], e.pitch[row], e.roll[row]));
-    return chassis_shell_depth(&f.view.world.terrain, &f.view.world.kinds[e.kind[row]],
-                               entities_position(&e, row), &turn);
+    const struct cruise_pose pose =
+        cruise_pose_of(&f.view.world, NULL, &e, row, fixture_state(&f).head->tick);
+    struct mat3 turn =
+        rotation_matrix(rotation_of(pose.heading_rad, pose.pitch_rad, pose.roll_rad));
+    return chassis_shell_depth(&f.view.world.terrain, &f.view.world.kinds[e.kind[row]], pose.at,
+                               &turn);
 }
 
-/* The plane through five heights of a valley's floor lies in its sides. A tank whose shell would
- * get into them takes to its springs before. It was up to 0.37 m deep in them. */
-static void test_no_shell_gets_into_the_ground_of_a_hollow(void **state)
+struct shells_seen {
+    double deepest_m;          /* in the ground */
+    uint32_t sprung, cruising; /* looks at a row */
+};
+
+/* Lets twelve tanks cross a valley in all directions. */
+static struct shells_seen cross_valley(void)
 {
-    double deepest = -1.0;
-    uint32_t sprung = 0;
-    (void)state;
+    struct shells_seen seen = {.deepest_m = -1.0};
     steps_ground(&f, valley, NULL);
     for (int n = 0; n < 12; n++) {
         double heading = 90.0 + 7.5 * n;
@@ -186,14 +193,38 @@ static void test_no_shell_gets_into_the_ground_of_a_hollow(void **state)
     for (int frame = 0; frame < 12 * (int)HZ; frame++) {
         fixture_run(&f, 1);
         for (uint32_t row = 0; row < 12; row++) {
-            deepest = maths_max(deepest, shell_depth(row));
-            sprung += (steps_rows(&f).flags[row] & ENTITY_FLAG_CHASSIS) != 0;
+            struct entities e = steps_rows(&f);
+            seen.deepest_m = maths_max(seen.deepest_m, shell_depth(row));
+            seen.sprung += (e.flags[row] & ENTITY_FLAG_CHASSIS) != 0;
+            seen.cruising += cruise_goes(&e, row, fixture_state(&f).head->tick);
         }
     }
-    print_message("# figures: a shell %.1f mm in the sides of a valley, %u looks on springs\n",
-                  1e3 * deepest, sprung);
-    assert_true(sprung > 100);
-    assert_true(deepest < 0.02);
+    print_message("# figures: a shell %.1f mm in the sides of a valley, %u looks on springs, %u "
+                  "while it cruised\n",
+                  1e3 * seen.deepest_m, seen.sprung, seen.cruising);
+    return seen;
+}
+
+/* The plane through five heights of a valley's floor lies in its sides. A tank whose shell would
+ * get into them takes to its springs before. It was up to 0.37 m deep in them. */
+static void test_no_shell_gets_into_the_ground_of_a_hollow(void **state)
+{
+    (void)state;
+    struct shells_seen seen = cross_valley();
+    assert_true(seen.sprung > 100 && seen.cruising == 0);
+    assert_true(seen.deepest_m < 0.02);
+}
+
+/* A stretch does not ask at each tick: it does not lead there. */
+static void test_no_stretch_leads_through_a_hollow(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, "world = { seed = 1; capacity = 64; cruise = true; }; "
+                     "terrain = { source = \"flat\"; height_m = 100.0; spacing_m = 31.25; };");
+    struct shells_seen seen = cross_valley();
+    assert_true(seen.sprung > 100 && seen.cruising > 100);
+    assert_true(seen.deepest_m < 0.02);
 }
 
 /* --- borders -----------------------------------------------------------------------------------*/
@@ -664,6 +695,7 @@ int main(void)
         TEST(test_ground_steeper_than_max_slope_is_not_climbed),
         TEST(test_a_vehicle_stops_at_the_foot_of_a_cliff_and_climbs_a_hill),
         TEST(test_no_shell_gets_into_the_ground_of_a_hollow),
+        TEST(test_no_stretch_leads_through_a_hollow),
         TEST(test_deep_water_stops_it),
         TEST(test_water_stops_no_vehicle_within_a_frame),
         TEST(test_it_can_back_away_from_the_shore),
