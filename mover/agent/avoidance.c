@@ -14,6 +14,7 @@
 #include "world/terrain/fixed_index.h"
 #include "world/terrain/gridsquare.h"
 #include "world/terrain/square_bounds.h"
+#include "world/terrain/terrain_cache.h"
 #include "world/world.h"
 
 #include <stddef.h>
@@ -491,6 +492,28 @@ static double works_free(const struct step_context *context, uint32_t i, const s
                : look->horizon_m;
 }
 
+/* Returns how steep the ground is at a place near row i, as a tangent. */
+static double steepness(const struct step_context *context, uint32_t i, double x, double z)
+{
+    double east, south;
+    terrain_cache_slopes(&context->world->terrain, &context->terrain_entries[i], x, z, &east,
+                         &south);
+    return sqrt(east * east + south * south);
+}
+
+/* Returns true if a land vehicle cannot get from one height to another within a way, up or down, or
+ * would slide off the ground there. Where it stands on ground as steep it may go on. */
+static bool too_steep(const struct step_context *context, uint32_t i, double rise_m, double way_m,
+                      double x, double z)
+{
+    const struct entities *m = context->m;
+    double most = context->avoidance->slope[m->kind[i]];
+    if (fabs(rise_m) >= most * way_m)
+        return true;
+    double there = steepness(context, i, x, z);
+    return there >= most && there > steepness(context, i, m->x[i], m->z[i]);
+}
+
 /* How far the ground allows it to go in direction k. Where the ground is not surely passable, two
  * points of it are tested. */
 static double ground_free(const struct step_context *context, uint32_t i, const struct look *look,
@@ -513,8 +536,7 @@ static double ground_free(const struct step_context *context, uint32_t i, const 
             return maths_min(before_m, free_m);
         if (look->kind->domain == DOMAIN_LAND) {
             double y = kinematics_ground(context, x, z);
-            if (y > before_y &&
-                maths_atan2(y - before_y, distance - before_m) >= look->kind->max_slope_rad)
+            if (too_steep(context, i, y - before_y, distance - before_m, x, z))
                 return maths_min(before_m, free_m);
             before_y = y;
         }

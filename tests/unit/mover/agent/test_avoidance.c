@@ -316,6 +316,31 @@ static void test_who_must_give_way_does_not_turn_into_a_parked_friend(void **sta
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 0);
 }
 
+/* A plateau whose eastern side falls by 50 degrees. */
+static double plateau(double x, double z, const void *context)
+{
+    (void)z, (void)context;
+    return 400.0 - 1.2 * maths_clamp(x - 25000.0, 0.0, 300.0);
+}
+
+static void test_nobody_drives_down_a_mountain_side(void **state)
+{
+    static const char *const kinds[] = {"tank", "jeep", "truck", "carrier"};
+    uint32_t row[4];
+    (void)state;
+    steps_ground(&f, plateau, NULL);
+    fixture_threads(&f, 1);
+    for (int n = 0; n < 4; n++) {
+        row[n] = send(kinds[n], 24800.0, 24700.0 + 200.0 * n, 25600.0, 24700.0 + 200.0 * n);
+        steps_rows(&f).y[row[n]] = 400.0;
+    }
+    for (int frame = 0; frame < 60 * HZ; frame++) {
+        fixture_run(&f, 1);
+        for (int n = 0; n < 4; n++)
+            assert_true(steps_rows(&f).x[row[n]] < 25005.0);
+    }
+}
+
 /* Two ridges across the way to the east, as steep as 60 degrees. */
 static double ridges(double x, double z, const void *context)
 {
@@ -394,6 +419,7 @@ int main(void)
         TEST(test_it_stops_before_obstacles_that_it_cannot_pass),
         TEST(test_nobody_rams_a_row_of_parked_friends),
         TEST(test_who_must_give_way_does_not_turn_into_a_parked_friend),
+        TEST(test_nobody_drives_down_a_mountain_side),
         TEST(test_aircraft_slow_down_for_ridges_that_they_have_to_climb),
         TEST(test_a_driver_is_left_alone),
         TEST(test_the_same_on_any_number_of_threads),
