@@ -72,7 +72,7 @@ struct body_look {
     bool touched;     /* the same in the frame before */
     uint32_t parts;   /* bodies and walls that it overlaps since one of the two was placed */
     uint32_t parted;  /* the same in the frame before */
-    bool thrown;      /* an explosion or another body made it faster than an engine does */
+    bool thrown;      /* an explosion, another body or a fall made it faster than an engine does */
     bool spun;        /* the same of its spin, by an explosion or by what one has thrown */
     double buried_s;  /* left of the time in which its shell gets out of the ground after an
                          explosion or an impact */

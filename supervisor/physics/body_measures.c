@@ -16,6 +16,7 @@
 #define ONE_IMPACT     2u   /* counts of a touch group */
 #define PASSED_ON      2.0  /* a body is at most so much faster than what strikes it */
 #define PARTING_MPS    20.0 /* bodies that part push others aside no faster */
+#define HOLDS          0.65 /* friction of dirt: steeper slopes are too steep for brakes */
 #define LEAST_TOP      10.0 /* [m/s] top speed of kinds that hardly move by themselves */
 #define BURIED_S                                                                                   \
     0.2 /* [s] in which a shell gets out of the ground after an explosion or an impact */
@@ -265,15 +266,23 @@ static void measure_acceleration(struct measures *measures, double dt_s,
                  maths_max(0.0, vec3_length(change) / dt_s - steered), &body->named, NULL);
 }
 
-/* Engines bound the speed of what they drive. An explosion or another body may throw a body faster;
- * it then is left out until it is slow again. */
+/* Returns true if a vehicle on its springs goes down so steeply that no brake holds it: it slides
+ * or falls. What it gains so is a part of the measure of its energy. */
+static bool slides_down(const struct body_look *body)
+{
+    const struct vec3 velocity = body->now.velocity;
+    return body->now.sprung && -velocity.y > HOLDS * vec3_length(level(velocity, true));
+}
+
+/* Engines bound the speed of what they drive. An explosion or another body may throw a body faster,
+ * and it may fall or slide; it then is left out until it is slow again. */
 static void measure_speed(struct measures *measures, struct body_look *body)
 {
     double top = maths_max(body->kind->max_speed_mps, LEAST_TOP);
     double share = vec3_length(level(body->now.velocity, true)) / top;
     bool faster = share > measure_bound(measures, MEASURE_OF_SPEED);
-    body->thrown =
-        faster && (body->thrown || body->blasts > 0 || body->struck > 0 || body->hits > 0);
+    body->thrown = faster && (body->thrown || body->blasts > 0 || body->struck > 0 ||
+                              body->hits > 0 || slides_down(body));
     if (!body->thrown)
         measure_take(measures, MEASURE_OF_SPEED, share, &body->named, NULL);
 }
