@@ -185,6 +185,14 @@ static bool stays_in_air(const struct body_look *body, double dt_s)
     return before > AIR_M && now > AIR_M && before + now > STEEPEST * fastest * dt_s;
 }
 
+/* Returns true if the body goes with the ground, or rests. One that comes back from its springs
+ * eases to the height and the angles of the ground without any spin; the climb in a bend of the
+ * ground is then no work of its springs. */
+static bool goes_with_ground(const struct motion_look *look)
+{
+    return look->spin.x == 0.0 && look->spin.y == 0.0 && look->spin.z == 0.0;
+}
+
 void sprung_body_measure(struct measures *measures, double dt_s, const struct body_look *body)
 {
     const struct kind *kind = body->kind;
@@ -200,6 +208,8 @@ void sprung_body_measure(struct measures *measures, double dt_s, const struct bo
     push.y += GRAVITY_MPS2;
     if (stays_in_air(body, dt_s))
         measure_take(measures, MEASURE_OF_FLOATING, vec3_length(push), &body->named, NULL);
+    if (goes_with_ground(body->was) && goes_with_ground(&body->now))
+        return;
     double engine = kind->power_w / kind->mass_kg * dt_s;
     measure_take(
         measures, MEASURE_OF_SPRUNG_ENERGY,
