@@ -74,6 +74,14 @@ double tyre_side_share(const struct kind *kind, double forward_mps, double yaw_r
     return TRACK_SIDE / (0.925 + 0.15 * wide);
 }
 
+/* Returns the share of the grip that a wheel has to its side: that of the turn, and that of
+ * standing tracks for tracks which slide aside as fast as they roll. */
+static double side_share(const struct tyre_demand *demand, double slip)
+{
+    return maths_max(demand->side,
+                     maths_min(slip, tyre_side_share(demand->drivetrain->kind, 0.0, 0.0)));
+}
+
 /* Lets the hand brake hold a wheel. A wheel that does not roll slides along its slip, so that it
  * hardly holds to the sides. slip: to the side over along. */
 static void pull_hand_brake(struct wheel *wheel, double share, double slip)
@@ -105,7 +113,7 @@ static void prepare(struct wheel *wheel, const struct response *response, const 
     wheel->grip_ns = grip * wheel->load_n * demand->dt_s;
     wheel->most_ns[WHEEL_ALONG] = demand->force.brake_n * share * demand->dt_s;
     wheel->most_ns[WHEEL_ACROSS] =
-        demand->side * wheel->grip_ns * brush(slip, stiffness, wheel->friction);
+        side_share(demand, slip) * wheel->grip_ns * brush(slip, stiffness, wheel->friction);
     wheel->drive_ns =
         maths_clamp(demand->force.drive_n * share * demand->dt_s, -wheel->grip_ns, wheel->grip_ns);
     if (!wheel->steers && demand->drivetrain->hand_brake > 0.0)

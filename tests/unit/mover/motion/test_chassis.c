@@ -176,6 +176,22 @@ static void test_wheels_catch_a_slide(void **state)
     }
 }
 
+/* Tracks that slide aside hold with their whole friction, though they turn as in a wide circle. */
+static void test_a_tank_that_slides_aside_is_held(void **state)
+{
+    (void)state;
+    reopen("");
+    uint32_t row = put("tank", 25000.0, 6.0);
+    struct entities e = steps_rows(&f);
+    e.vz[row] = 20.0;
+    e.spin_y[row] = 0.2;
+    steps_drive(&f, row, 0.3, 0.2, 0.0);
+    fixture_run(&f, 2 * HZ);
+    e = steps_rows(&f);
+    row_of_table("tank, slides aside on dirt, slowing", 0.6 * GRAVITY_MPS2,
+                 0.5 * (20.0 - e.vz[row]), "m/s2", 5.0, 6.4);
+}
+
 static void test_a_tank_turns_on_the_spot(void **state)
 {
     (void)state;
@@ -726,6 +742,7 @@ int main(void)
         T(test_power_and_brakes),
         T(test_turning),
         T(test_wheels_catch_a_slide),
+        T(test_a_tank_that_slides_aside_is_held),
         T(test_a_tank_turns_on_the_spot),
         T(test_a_laden_truck_rolls_in_a_hard_turn_and_a_jeep_does_not),
         T(test_static_tilt),
