@@ -16,7 +16,7 @@
 #define ONE_IMPACT     2u   /* counts of a touch group */
 #define PASSED_ON      2.0  /* a body is at most so much faster than what strikes it */
 #define PARTING_MPS    20.0 /* bodies that part push others aside no faster */
-#define HOLDS          0.65 /* friction of dirt: steeper slopes are too steep for brakes */
+#define HOLDS          0.5  /* friction of tracks to their side on sand: no brake holds it there */
 #define LEAST_TOP      10.0 /* [m/s] top speed of kinds that hardly move by themselves */
 #define BURIED_S                                                                                   \
     0.2 /* [s] in which a shell gets out of the ground after an explosion or an impact */

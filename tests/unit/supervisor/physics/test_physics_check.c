@@ -721,7 +721,7 @@ static void test_a_body_that_slides_down(void **state)
     now.entities.vx[tank] = 0.3 * fast;
     next();
     now.entities.vx[tank] = fast;
-    now.entities.vy[tank] = -0.5 * fast;
+    now.entities.vy[tank] = -0.4 * fast;
     next();
     is_bad(MEASURE_OF_SPEED, 3.0);
 }
