@@ -4,8 +4,6 @@
 #include "mover/motion/drivetrain.h"
 #include "mover/motion/kinematics.h"
 #include "world/state.h"
-#include "world/terrain/gridsquare.h"
-#include "world/terrain/square_bounds.h"
 #include "world/terrain/terrain_cache.h"
 #include "world/world.h"
 
@@ -61,17 +59,6 @@ static void limit(struct pace *pace, double speed_mps, double way_m)
 
 /* --- slopes ------------------------------------------------------------------------------------*/
 
-/* Returns true only if no ground on the way slopes by GENTLE. */
-static bool surely_gentle(const struct step_context *context, const struct pace *pace, double x,
-                          double z)
-{
-    double end_x = x + pace->way_m * pace->sine, end_z = z - pace->way_m * pace->cosine;
-    struct gridsquare_box box =
-        gridsquare_box_of(&context->world->terrain.squares, maths_min(x, end_x),
-                          maths_min(z, end_z), maths_max(x, end_x), maths_max(z, end_z));
-    return square_bounds_within(context->slopes, box, square_bounds_below_slope(GENTLE));
-}
-
 /* Limits the speed by the slope of the ground at a place, after a way. */
 static void heed_slope(struct pace *pace, double east, double south, double way_m)
 {
@@ -92,8 +79,6 @@ static void heed_slope(struct pace *pace, double east, double south, double way_
 static void heed_ground(const struct step_context *context, uint32_t i, struct pace *pace)
 {
     const struct entities *m = context->m;
-    if (surely_gentle(context, pace, m->x[i], m->z[i]))
-        return;
     for (int n = 0; n < PLACES; n++) {
         double way_m = pace->way_m * n / (PLACES - 1), east, south;
         double x = m->x[i] + way_m * pace->sine, z = m->z[i] - way_m * pace->cosine;
