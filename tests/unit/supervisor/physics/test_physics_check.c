@@ -703,29 +703,6 @@ static void test_a_body_that_is_thrown(void **state)
     is_bad(MEASURE_OF_SPEED, 3.0);
 }
 
-/* A vehicle that slides down a mountain side is faster than its engine makes it; one that goes down
- * a slope that its brakes hold is not. */
-static void test_a_body_that_slides_down(void **state)
-{
-    uint32_t tank = put("tank", MIDDLE, 100.0);
-    double fast = 3.0 * steps_kind(&f, "tank")->max_speed_mps;
-    (void)state;
-    now.entities.flags[tank] |= ENTITY_FLAG_CHASSIS;
-    begin();
-    now.entities.vx[tank] = fast;
-    now.entities.vy[tank] = -fast;
-    next();
-    now.entities.vy[tank] = 0.0; /* where it comes to the foot */
-    next();
-    assert_true(measure_good(&check.measures, MEASURE_OF_SPEED));
-    now.entities.vx[tank] = 0.3 * fast;
-    next();
-    now.entities.vx[tank] = fast;
-    now.entities.vy[tank] = -0.4 * fast;
-    next();
-    is_bad(MEASURE_OF_SPEED, 3.0);
-}
-
 static void test_a_jump(void **state)
 {
     uint32_t tank = put("tank", MIDDLE, 100.0);
@@ -812,7 +789,6 @@ int main(void)
         TEST(test_bodies_that_pressed_share_their_energy),
         TEST(test_speed_and_spin),
         TEST(test_a_body_that_is_thrown),
-        TEST(test_a_body_that_slides_down),
         TEST(test_a_jump),
         TEST(test_a_wreck_that_snaps),
         TEST(test_no_numbers_and_no_world),

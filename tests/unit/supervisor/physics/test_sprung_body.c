@@ -186,6 +186,26 @@ static void test_a_climb_with_the_ground_is_no_energy_of_springs(void **state)
     assert_false(measure_good(&check.measures, MEASURE_OF_SPRUNG_ENERGY));
 }
 
+/* A vehicle that slides down a mountain side is faster than its engine makes it, until it is slow
+ * again; one that goes down a slope which its brakes hold is not. */
+static void test_a_slide_is_faster_than_the_engine(void **state)
+{
+    double fast = 3.0 * steps_kind(&f, "tank")->max_speed_mps;
+    (void)state;
+    begin(0.0, -fast);
+    now.entities.vx[0] = fast;
+    next();
+    now.entities.vy[0] = 0.0; /* where it comes to the foot */
+    next();
+    assert_true(measure_good(&check.measures, MEASURE_OF_SPEED));
+    now.entities.vx[0] = 0.3 * fast;
+    next();
+    now.entities.vx[0] = fast;
+    now.entities.vy[0] = -0.4 * fast;
+    next();
+    assert_false(measure_good(&check.measures, MEASURE_OF_SPEED));
+}
+
 /* Its springs give back what a drop pressed into them. */
 static void test_a_drop_on_its_springs_gains_nothing(void **state)
 {
@@ -215,6 +235,7 @@ int main(void)
         T(test_a_tank_that_falls_is_good_and_one_that_floats_is_not),
         T(test_energy_that_no_engine_gives),
         T(test_a_climb_with_the_ground_is_no_energy_of_springs),
+        T(test_a_slide_is_faster_than_the_engine),
         T(test_a_drop_on_its_springs_gains_nothing),
     };
     return cmocka_run_group_tests(tests, open_world, close_world);
