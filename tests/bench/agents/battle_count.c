@@ -7,6 +7,7 @@
 
 #define PUSHES_LEAST 0.15 /* of the full throttle */
 #define PUSHES_MPS   0.3  /* slower than this it does not get on */
+#define MOVING_MPS   1.0  /* slower than this a gun fires as one that stands */
 
 bool battle_count_begin(struct battle_count *count, const struct view *view)
 {
@@ -62,12 +63,29 @@ static bool was_active(const struct battle_count *count, const struct state *bef
            before->entities.id[row] == party->id && before->entities.state[row] == ENTITY_ACTIVE;
 }
 
-static void take_fire(struct battle_count *count, const struct event *event)
+/* Returns how accurate the shooter of a round is. */
+static enum battle_shooter shooter_of(const struct view *view, const struct state *before,
+                                      const struct event_fire *fire)
+{
+    const struct kind *round = &view->world.kinds[fire->munition.kind];
+    uint32_t row = fire->shooter.id - 1;
+    bool differs = round->dispersion_moving_rad > round->dispersion_rad;
+    return fire->shooter.id != 0 && differs && row < before->entities.capacity &&
+                   vec3_length(entities_velocity(&before->entities, row)) > MOVING_MPS
+               ? BATTLE_MOVING
+               : BATTLE_HALTED;
+}
+
+static void take_fire(struct battle_count *count, const struct view *view,
+                      const struct state *before, const struct event *event)
 {
     const struct event_fire *fire = &event->fire;
-    uint32_t target = fire->target.id != 0 ? fire->target.kind : BATTLE_GROUND;
+    uint16_t target = fire->target.id != 0 ? fire->target.kind : BATTLE_GROUND;
+    enum battle_shooter shooter = shooter_of(view, before, fire);
     count->shots[minute_of(count, event->tick)]++;
-    count->by[fire->munition.kind][target].fired++;
+    count->by[fire->munition.kind][target][shooter].fired++;
+    count->flying[fire->munition.id % BATTLE_FLYING] =
+        (struct battle_round){fire->munition.id, fire->target.id, target, (uint8_t)shooter};
     if (fire->shooter.id != 0)
         count->rounds[fire->shooter.kind][target]++;
 }
@@ -76,15 +94,17 @@ static void take_detonation(struct battle_count *count, const struct state *befo
                             const struct event *event)
 {
     const struct event_detonation *end = &event->detonation;
-    struct battle_tally *tally = &count->by[end->munition.kind][end->struck_party.kind];
-    if (end->struck != STRUCK_VEHICLE)
+    const struct battle_round *round = &count->flying[end->munition.id % BATTLE_FLYING];
+    if (round->id != end->munition.id)
         return;
-    if (!was_active(count, before, &end->struck_party)) {
-        tally->wrecks++;
-        return;
-    }
-    tally->hits++;
-    tally->ended += end->struck_party.damage == DAMAGE_DESTROYED;
+    struct battle_tally *tally = &count->by[end->munition.kind][round->target_kind][round->shooter];
+    struct event_party target = {.id = round->target};
+    bool struck = end->struck == STRUCK_VEHICLE && was_active(count, before, &end->struck_party);
+    bool own = struck && end->struck_party.id == round->target;
+    tally->hits += own;
+    tally->others += struck && !own;
+    tally->late += !struck && round->target != 0 && !was_active(count, before, &target);
+    tally->ended += struck && end->struck_party.damage == DAMAGE_DESTROYED;
 }
 
 /* Counts a pair of aircraft that touches. */
@@ -121,7 +141,7 @@ static void take_event(struct battle_count *count, const struct view *view,
                        const struct state *before, const struct event *event)
 {
     if (event->type == EVENT_FIRE)
-        take_fire(count, event);
+        take_fire(count, view, before, event);
     if (event->type == EVENT_DETONATION)
         take_detonation(count, before, event);
     if (event->type == EVENT_COLLISION)
