@@ -8,20 +8,20 @@
 #include "world/state.h"
 #include "world/world.h"
 
-#define HOVER_S        12.0 /* a helicopter's cycle: it hovers, then flies to another side */
-#define HOVER_SHARE    0.6  /* share of the cycle in which it hovers */
-#define HARMS_SHARE    0.95 /* of the distance from which its rounds penetrate */
-#define TOO_NEAR_SHARE 0.25 /* share of the range: if the target is nearer it backs away */
-#define SIDE_RAD       1.7  /* direction to the other side, off its target */
-#define ROCKET_SHARE   0.48 /* of the range, from which a helicopter fires rockets */
-#define NEARLY_M       50.0 /* so far out of range it begins to lay its gun */
-#define BREAK_OFF      0.2  /* share of the range at which a jet's pass ends */
-#define BREAK_SHARE    0.6  /* nearer than this share a jet that cannot fire yet turns away */
-#define BREAK_RAD      2.1  /* so far off its target */
-#define LOW_SHARE      0.4  /* of its usual height, at which a helicopter changes sides */
-#define POP_UP_SHARE   1.3  /* and from which it fires */
-#define POP_UP_PHASE   0.35 /* share of the cycle in which it waits for a sight of its target */
-#define AIM_HZ         20.0 /* how often an agent tries to fire a loaded gun */
+#define HOVER_S         12.0 /* a helicopter's cycle: it hovers, then flies to another side */
+#define HOVER_SHARE     0.6  /* share of the cycle in which it hovers */
+#define EFFECTIVE_SHARE 0.95 /* of the distance from which its rounds hit and penetrate */
+#define TOO_NEAR_SHARE  0.25 /* share of the range: if the target is nearer it backs away */
+#define SIDE_RAD        1.7  /* direction to the other side, off its target */
+#define ROCKET_SHARE    0.48 /* of the range, from which a helicopter fires rockets */
+#define NEARLY_M        50.0 /* so far out of range it begins to lay its gun */
+#define BREAK_OFF       0.2  /* share of the range at which a jet's pass ends */
+#define BREAK_SHARE     0.6  /* nearer than this share a jet that cannot fire yet turns away */
+#define BREAK_RAD       2.1  /* so far off its target */
+#define LOW_SHARE       0.4  /* of its usual height, at which a helicopter changes sides */
+#define POP_UP_SHARE    1.3  /* and from which it fires */
+#define POP_UP_PHASE    0.35 /* share of the cycle in which it waits for a sight of its target */
+#define AIM_HZ          20.0 /* how often an agent tries to fire a loaded gun */
 
 /* The target where the agent last saw it. */
 struct aim {
@@ -102,13 +102,13 @@ static void await(const struct step_context *context, uint32_t i, const struct a
         desired->speed_mps = 0.0;
 }
 
-/* The distance at which it stops before its target: where its rounds penetrate. */
+/* The distance at which it stops before its target: where its rounds hit and penetrate. */
 static double stand_off_m(const struct step_context *context, uint32_t i, const struct kind *kind,
                           const struct behaviour_table *table)
 {
     return maths_min(table->stand_off * kind->range_m,
-                     HARMS_SHARE *
-                         fire_control_harms_from_m(context, i, context->m->target_slot[i]));
+                     EFFECTIVE_SHARE *
+                         fire_control_effective_m(context, i, context->m->target_slot[i]));
 }
 
 void attack_motion(const struct step_context *context, uint32_t i,

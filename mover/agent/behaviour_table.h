@@ -26,7 +26,7 @@ enum perceived {
     PERCEPT_LEASE_OVER,   /* event: its driver has sent no command in time */
     PERCEPT_ENEMY,        /* *event: it sees an enemy */
     PERCEPT_OUTNUMBERED,  /* *event: many more enemies than friends are near */
-    PERCEPT_NO_ROUNDS,    /* it has no rounds left */
+    PERCEPT_NO_ROUNDS,    /* it has no rounds left, or none for a target so far away */
     PERCEPT_LOW_FUEL,     /* *its fuel is only just enough for the path to its base */
     PERCEPT_ARMED,        /* it can fire, and its orders are not to hold fire */
     PERCEPT_AT_WILL,      /* its orders are to attack enemies on sight */

@@ -15,11 +15,12 @@
 /* Shares of the range at which a gun that is not meant for aircraft fires at them. */
 #define HOVERING_SHARE     0.5
 #define FLYING_SHARE       0.3
-#define SLOW_MPS           15.0  /* a faster helicopter is as hard to hit as a jet */
-#define KEPT_SHARE         0.64  /* of its rounds: the rest of a tank's 55 is 20 for half an hour */
-#define KEPT_REACH         0.3   /* share of the range at which it fires the rounds that it keeps */
-#define CLOSE_SHARE        0.15  /* so near it also fires at what it harms only from behind */
-#define SELF_DEFENCE       0.4   /* share of the range at which air defence fires at the ground */
+#define SLOW_MPS           15.0 /* a faster helicopter is as hard to hit as a jet */
+#define KEPT_SHARE         0.64 /* of its rounds: the rest of a tank's 55 is 20 for half an hour */
+#define KEPT_REACH         0.3  /* share of the range at which it fires the rounds that it keeps */
+#define CLOSE_SHARE        0.15 /* so near it also fires at what it harms only from behind */
+#define SPREADS            1.25 /* errors of the aim that a target is wide and high where it fires */
+#define SELF_DEFENCE       0.4  /* share of the range at which air defence fires at the ground */
 #define ENGAGED_M          300.0 /* it chooses targets so far beyond its reach, and drives closer */
 #define POSITION_S         5.0 /* guns that load faster change their place about so often, times 2-4 */
 #define PASSES             2u  /* missiles of a jet's sortie */
@@ -90,7 +91,17 @@ static bool keeps_rounds(const struct entities *m, uint32_t i, const struct kind
            (double)m->rounds[i] <= KEPT_SHARE * (double)kind->rounds;
 }
 
-double fire_control_harms_from_m(const struct step_context *context, uint32_t i, uint32_t target)
+/* Returns from how near a gun hits the other kind. One that is more accurate when it stands fires
+ * single aimed rounds, and its crew waits until the errors of its aim, as it drives, are not much
+ * larger than the target. Automatic guns spread theirs over more than the target. [m] */
+static double hits_from_m(const struct kind *round, const struct kind *other)
+{
+    if (round->dispersion_moving_rad <= round->dispersion_rad)
+        return INFINITY;
+    return sqrt(other->width_m * other->height_m) / (SPREADS * round->dispersion_moving_rad);
+}
+
+double fire_control_effective_m(const struct step_context *context, uint32_t i, uint32_t target)
 {
     const struct kind *kinds = context->world->kinds;
     const struct kind *kind = &kinds[context->m->kind[i]];
@@ -98,8 +109,9 @@ double fire_control_harms_from_m(const struct step_context *context, uint32_t i,
     if (kind->domain != DOMAIN_LAND || kind->munition == KIND_NONE ||
         !fire_control_harms(context, i, target))
         return INFINITY;
-    return maths_max(armour_reach_m(other, &kinds[kind_munition_at(kind, other)]),
-                     CLOSE_SHARE * kind->range_m);
+    const struct kind *round = &kinds[kind_munition_at(kind, other)];
+    double harms_m = maths_max(armour_reach_m(other, round), CLOSE_SHARE * kind->range_m);
+    return maths_min(harms_m, hits_from_m(round, other));
 }
 
 double fire_control_reach_m(const struct step_context *context, uint32_t i, uint32_t target)
@@ -115,7 +127,17 @@ double fire_control_reach_m(const struct step_context *context, uint32_t i, uint
         reach *= other->min_speed_mps > 0.0 ? FLYING_SHARE : HOVERING_SHARE;
     if (keeps_rounds(context->m, i, kind))
         reach *= KEPT_REACH;
-    return maths_min(reach, fire_control_harms_from_m(context, i, target));
+    return maths_min(reach, fire_control_effective_m(context, i, target));
+}
+
+bool fire_control_spares(const struct step_context *context, uint32_t i, uint32_t target)
+{
+    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    struct vec3 off =
+        vec3_sub(step_context_position(context, &context->committed->entities, target),
+                 entities_position(context->m, i));
+    double reach = fire_control_reach_m(context, i, target);
+    return keeps_rounds(context->m, i, kind) && off.x * off.x + off.z * off.z > reach * reach;
 }
 
 bool fire_control_worth(const struct step_context *context, uint32_t i, uint32_t target,

@@ -21,13 +21,17 @@ bool fire_control_harms(const struct step_context *context, uint32_t i, uint32_t
  * rams what it attacks. It takes cover from others. */
 bool fire_control_fights(const struct step_context *context, uint32_t i, uint32_t target);
 
-/* Returns from how near the gun of row i, a land vehicle, penetrates the front or the sides of the
- * committed row target [m]; INFINITY where the distance does not matter. */
-double fire_control_harms_from_m(const struct step_context *context, uint32_t i, uint32_t target);
+/* Returns from how near the gun of row i, a land vehicle, hits the committed row target and
+ * penetrates its front or its sides [m]; INFINITY where the distance does not matter. */
+double fire_control_effective_m(const struct step_context *context, uint32_t i, uint32_t target);
 
 /* Returns the range at which row i fires at the committed row target [m]: the range of its gun
  * where a hit is likely, less at aircraft, and less when the rounds are low. */
 double fire_control_reach_m(const struct step_context *context, uint32_t i, uint32_t target);
+
+/* Returns true if the committed row target is too far away for the last rounds of row i, which it
+ * keeps for what is near. */
+bool fire_control_spares(const struct step_context *context, uint32_t i, uint32_t target);
 
 /* Returns true if row i would choose the committed row target, which is at this distance, squared
  * [m^2]. An unarmed row minds every enemy in its sight. */

@@ -133,6 +133,19 @@ static bool low_fuel(const struct step_context *context, uint32_t i)
     return m->fuel_l[i] < FUEL_MARGIN * needed_l + FUEL_RESERVE * kind->fuel_l;
 }
 
+/* Returns true if it has no rounds left; also if it spares its last ones in a fight from which it
+ * may go. */
+static bool without_rounds(const struct step_context *context, uint32_t i, uint32_t percepts)
+{
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    if (kind->munition == KIND_NONE || kind->rounds == 0)
+        return false;
+    bool may_go = (percepts & PERCEPTION_BIT(TARGET)) && !(percepts & PERCEPTION_BIT(STAND));
+    return m->rounds[i] == 0 || (m->behaviour[i] == BEHAVIOUR_ATTACK && may_go &&
+                                 fire_control_spares(context, i, m->target_slot[i]));
+}
+
 static bool has_arrived(const struct step_context *context, uint32_t i)
 {
     enum behaviour behaviour = (enum behaviour)context->m->behaviour[i];
@@ -149,8 +162,6 @@ static uint32_t notice_state(const struct step_context *context, uint32_t i)
     uint8_t flags = m->flags[i];
     if (kind->fuel_l > 0.0 && m->fuel_l[i] <= 0.0)
         percepts |= PERCEPTION_BIT(NO_FUEL);
-    if (kind->munition != KIND_NONE && m->rounds[i] == 0 && kind->rounds > 0)
-        percepts |= PERCEPTION_BIT(NO_ROUNDS);
     if (perception_armed(context, i))
         percepts |= PERCEPTION_BIT(ARMED);
     if (flags & ENTITY_FLAG_FIRE_AT_WILL)
@@ -161,6 +172,8 @@ static uint32_t notice_state(const struct step_context *context, uint32_t i)
         percepts |= entities_alive(w, target, m->target_id[i]) && w->state[target] == ENTITY_ACTIVE
                         ? PERCEPTION_BIT(TARGET)
                         : PERCEPTION_BIT(TARGET_GONE);
+    if (without_rounds(context, i, percepts))
+        percepts |= PERCEPTION_BIT(NO_ROUNDS);
     if (context->tick >= m->until_tick[i])
         percepts |= PERCEPTION_BIT(TIME_OVER);
     if (m->behaviour[i] == BEHAVIOUR_DRIVEN && m->driver[i] != 0 &&

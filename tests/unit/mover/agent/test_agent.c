@@ -244,7 +244,8 @@ static void test_an_attacker_closes_in_to_its_stand_off_and_fires(void **state)
     uint32_t row = put("tank", 24500.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
     (void)state;
     steps_kind(&f, "ship")->resistance_j = 1e12;
-    steps_kind(&f, "ship")->mass_kg = 1e12; /* the shells' blasts do not push it along */
+    steps_kind(&f, "ship")->mass_kg = 1e12;         /* the shells' blasts do not push it along */
+    steps_rows(&f).flags[row] |= ENTITY_FLAG_STAND; /* it does not leave to be supplied */
     attack(row, enemy, 1000.0);
     steps_rows(&f).reload_tick[row] = 0;
     fixture_run(&f, (uint32_t)(20.0 * HZ)); /* 330 m: still out of range */

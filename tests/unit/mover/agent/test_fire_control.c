@@ -228,6 +228,48 @@ static void test_a_gun_fires_from_where_its_rounds_penetrate(void **state)
     assert_true(reach("jeep", "jeep", 1.0) == 1.0);
 }
 
+/* A jeep is 1.6 m wide and 1.7 m high, and the shaped charge of a tank that drives errs by 1.1
+ * mrad: at 1.2 km that is 0.8 of the jeep. From 2 km 8 of 100 rounds hit jeeps in battles. */
+static void test_a_tank_fires_at_a_jeep_from_where_it_can_hit_it(void **state)
+{
+    (void)state;
+    assert_true(fabs(2000.0 * reach("tank", "jeep", 1.0) - 1200.0) < 5.0);
+    assert_true(reach("tank", "carrier", 1.0) == 1.0 && reach("tank", "tank", 1.0) == 1.0);
+    assert_true(reach("carrier", "jeep", 1.0) == 1.0); /* bursts spread over it */
+}
+
+/* A tank with 30 of its 55 rounds, which it keeps for targets within 600 m, has seen another one
+ * that far away. It must not stay before it without a shot. Returns its behaviour after a minute.
+ */
+static enum behaviour with_kept_rounds(double away_m, uint8_t flags, uint32_t *fired)
+{
+    uint32_t row = put("tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    put("tank", (struct vec3){25000.0, 100.0, 25000.0 - away_m}, FORCE_RED, BEHAVIOUR_HOLD);
+    struct entities e = steps_rows(&f);
+    enum behaviour behaviour = BEHAVIOUR_IDLE;
+    e.rounds[row] = 30;
+    e.flags[row] |= flags | ENTITY_FLAG_FIRE_AT_WILL;
+    for (int frame = 0; frame < (int)(60.0 * HZ) && behaviour != BEHAVIOUR_WITHDRAW; frame++) {
+        fixture_run(&f, 1);
+        behaviour = (enum behaviour)steps_rows(&f).behaviour[row];
+    }
+    *fired = 30 - steps_rows(&f).rounds[row];
+    steps_empty(&f);
+    return behaviour;
+}
+
+static void test_who_spares_its_last_rounds_goes_for_more(void **state)
+{
+    uint32_t fired;
+    (void)state;
+    assert_int_equal(with_kept_rounds(850.0, 0, &fired), BEHAVIOUR_WITHDRAW);
+    assert_int_equal(fired, 0);
+    with_kept_rounds(450.0, 0, &fired);
+    assert_true(fired > 0);
+    assert_true(with_kept_rounds(850.0, ENTITY_FLAG_STAND, &fired) != BEHAVIOUR_WITHDRAW);
+    assert_int_equal(fired, 0);
+}
+
 /* --- reactions ---------------------------------------------------------------------------------*/
 
 static int ascending(const void *p, const void *q)
@@ -314,6 +356,8 @@ int main(void)
         TEST(test_a_fast_helicopter_is_no_target_for_a_tank_gun),
         TEST(test_rounds_are_kept_for_targets_that_can_be_hit),
         TEST(test_a_gun_fires_from_where_its_rounds_penetrate),
+        TEST(test_a_tank_fires_at_a_jeep_from_where_it_can_hit_it),
+        TEST(test_who_spares_its_last_rounds_goes_for_more),
         TEST(test_the_reaction_has_a_least_time_and_the_kinds_median),
         TEST(test_a_gun_that_loads_for_longer_is_not_loaded_sooner),
         TEST(test_crews_reply_after_a_human_time),
