@@ -155,6 +155,18 @@ static struct annotated_picture_source source_of(const struct render_session *se
                                              .fps = rate};
 }
 
+/* Aims the camera of a picture. That of a vehicle which nobody has named looks at what happens. */
+static void aim(const struct render_session *session, struct view_picture *picture,
+                const struct frame_view *frame_view, struct camera *camera)
+{
+    bool chosen = picture->spec.vehicle == 0 && session->options.follow == 0;
+    if (chosen && picture->slot != SLOT_NONE)
+        view_camera_watch(&picture->view_camera,
+                          follow_direction(frame_view, &session->effects, picture->slot));
+    view_camera_update(&picture->view_camera, &picture->camera_options, frame_view, picture->slot,
+                       camera);
+}
+
 int view_pictures_camera(struct render_session *session, struct view_picture *picture,
                          const struct frame_view *frame_view,
                          const struct quality_control_level *level,
@@ -164,8 +176,7 @@ int view_pictures_camera(struct render_session *session, struct view_picture *pi
     struct image *drawn = canvas(session, target->image, level);
     picture->camera_options.width = drawn->width;
     picture->camera_options.height = drawn->height;
-    view_camera_update(&picture->view_camera, &picture->camera_options, frame_view, picture->slot,
-                       &camera);
+    aim(session, picture, frame_view, &camera);
     scene_build(&session->draw_list, &camera, &session->static_scene, frame_view,
                 &session->effects);
     if (session->draw_list.omitted > 0 && log_due(&session->warned_ns, WARNING_INTERVAL_NS))
@@ -206,8 +217,7 @@ static int draw_map(struct render_session *session, struct view_picture *picture
     picture->camera_options.view = VIEW_CHASE;
     picture->camera_options.width = session->image.width;
     picture->camera_options.height = session->image.height;
-    view_camera_update(&picture->view_camera, &picture->camera_options, frame_view, picture->slot,
-                       &camera);
+    aim(session, picture, frame_view, &camera);
     struct annotated_picture_source source =
         source_of(session, picture, frame_view, &camera, session->rate);
     if (annotated_picture_map(&session->annotated, &session->image, &source) != 0)

@@ -40,7 +40,7 @@ struct golden {
 };
 
 static const struct golden goldens[] = {
-    {.name = "battle", .frame = 1200, .view = VIEW_CHASE},
+    {.name = "battle", .frame = 1200, .view = VIEW_CHASE, .follow = 1},
     {.name = "inside", .frame = 900, .view = VIEW_INSIDE},
     {.name = "overhead", .frame = 900, .view = VIEW_OVERHEAD},
     {.name = "coast",
@@ -81,7 +81,7 @@ static const struct golden goldens[] = {
               .above_m = 12.0,
               .heading_rad = 0.15,
               .pitch_rad = -0.2}},
-    {.name = "effects", .scenario = "effects", .frame = 345, .view = VIEW_CHASE},
+    {.name = "effects", .scenario = "effects", .frame = 345, .view = VIEW_CHASE, .follow = 10},
     {.name = "broadside", .scenario = "figure-a3-broadside", .frame = 200, .view = VIEW_ORBIT},
     {.name = "stump", .scenario = "figure-a6-tree-fast", .frame = 200, .view = VIEW_CHASE},
     {.name = "tower", .scenario = "figure-a9-tower-fast", .frame = 210, .view = VIEW_CHASE},

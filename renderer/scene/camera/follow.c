@@ -12,14 +12,21 @@
 #define AHEAD_M        160.0 /* neighbours count where the camera looks */
 #define NEIGHBOURS_MAX 10
 #define FIRES          16.0 /* its round is in the air */
+#define SMALL_MM       50.0 /* rounds that penetrate less than this ... */
+#define SMALL_SHARE    0.5  /* ... count so much less */
 #define FIRED_AT       14.0 /* a round is in the air that was fired at it */
 #define FIGHTS         5.0
 #define NO_ENEMY       4.0 /* less for vehicles of no force while others fight */
 #define BETTER         4.0 /* so much livelier is the vehicle to which the camera changes */
 #define ACTION_LIFE_S  20.0
 #define ACTION_NEAR_M  450.0
-#define ACTION_MAX     12.0
-#define OBJECTS_MAX    10 /* most fixed objects nearby that count */
+#define ACTION_MAX     16.0
+#define TARGET_NEAR_M  1200.0 /* a target so near counts ... */
+#define TARGET_NEAR    8.0    /* ... up to so much */
+#define NEIGHBOUR      0.6    /* what each of the neighbours counts */
+#define WATCH_M        900.0  /* effects so near are watched ... */
+#define WATCH_LEAST    0.2    /* ... if they are together so strong */
+#define OBJECTS_MAX    10     /* most fixed objects nearby that count */
 
 static int32_t cell_axis(const struct world *world, double metres)
 {
@@ -43,9 +50,48 @@ static double action_near(const struct effects *effects, struct vec3 position, d
         double age = now_s - effect->time_s;
         double off = vec3_length(vec3_sub(effect->point, position));
         if (age < ACTION_LIFE_S && off < ACTION_NEAR_M)
-            sum += 2.0 * (1.0 - off / ACTION_NEAR_M);
+            sum += 3.0 * (1.0 - off / ACTION_NEAR_M);
     }
     return maths_min(sum, ACTION_MAX);
+}
+
+/* Returns the vector from a vehicle to its target, or a zero vector if it has none. */
+static struct vec3 to_target(const struct frame_view *frame_view, uint32_t slot)
+{
+    const struct entities *e = frame_view->entities;
+    enum behaviour behaviour = (enum behaviour)e->behaviour[slot];
+    uint32_t target = e->target_slot[slot];
+    bool fights = behaviour == BEHAVIOUR_ATTACK || behaviour == BEHAVIOUR_REPOSITION ||
+                  behaviour == BEHAVIOUR_FLEE;
+    if (!fights || e->target_id[slot] == 0 || !entities_alive(e, target, e->target_id[slot]))
+        return (struct vec3){0.0, 0.0, 0.0};
+    return vec3_sub(entities_position(e, target), entities_position(e, slot));
+}
+
+/* Returns the sum of the directions of recent effects, less for old and far ones. */
+static struct vec3 to_effects(const struct effects *effects, struct vec3 position, double now_s)
+{
+    struct vec3 sum = {0.0, 0.0, 0.0};
+    for (uint32_t i = 0; i < effects->count; i++) {
+        struct vec3 off = vec3_sub(effects->effect[i].point, position);
+        double age_s = now_s - effects->effect[i].time_s, way_m = vec3_length(off);
+        if (age_s < ACTION_LIFE_S && way_m < WATCH_M && way_m > 1.0)
+            sum = vec3_add(sum, vec3_scale(off, (1.0 - age_s / ACTION_LIFE_S) *
+                                                    (1.0 - way_m / WATCH_M) / way_m));
+    }
+    return sum;
+}
+
+double follow_direction(const struct frame_view *frame_view, const struct effects *effects,
+                        uint32_t slot)
+{
+    const struct entities *e = frame_view->entities;
+    struct vec3 way = to_target(frame_view, slot);
+    if (vec3_length(way) == 0.0)
+        way = to_effects(effects, entities_position(e, slot),
+                         state_time_s(frame_view->world, frame_view->head));
+    bool happens = sqrt(way.x * way.x + way.z * way.z) >= WATCH_LEAST;
+    return happens ? maths_heading(way.x, way.z) : e->heading[slot];
 }
 
 /* Returns true if the row is a round in the air that a living vehicle fired. A howitzer's shell
@@ -68,10 +114,13 @@ static bool is_target(const struct entities *e, uint32_t round, uint32_t slot)
     return e->target_slot[round] == slot && e->target_id[round] == e->id[slot];
 }
 
-/* What one round in the air adds to a vehicle. */
-static double fire_of(const struct entities *e, uint32_t round, uint32_t slot)
+/* What one round in the air adds to a vehicle. The fire of machine guns is hardly to be seen. */
+static double fire_of(const struct frame_view *frame_view, uint32_t round, uint32_t slot)
 {
-    return is_owner(e, round, slot) ? FIRES : is_target(e, round, slot) ? FIRED_AT : 0.0;
+    const struct entities *e = frame_view->entities;
+    double mm = frame_view->world->kinds[e->kind[round]].penetration_mm;
+    double share = mm > 0.0 && mm < SMALL_MM ? SMALL_SHARE : 1.0;
+    return share * (is_owner(e, round, slot) ? FIRES : is_target(e, round, slot) ? FIRED_AT : 0.0);
 }
 
 /* The most that a round in the air adds to a vehicle. */
@@ -80,9 +129,16 @@ static double fire_near(const struct frame_view *frame_view, uint32_t slot)
     double most = 0.0;
     for (uint32_t i = 0; i < frame_view->head->used; i++) {
         if (is_round(frame_view, i))
-            most = maths_max(most, fire_of(frame_view->entities, i, slot));
+            most = maths_max(most, fire_of(frame_view, i, slot));
     }
     return most;
+}
+
+/* Returns true if the kind fires along an arc: what it does is to be seen elsewhere. */
+static bool is_howitzer(const struct frame_view *frame_view, const struct kind *kind)
+{
+    return kind->munition != KIND_NONE &&
+           frame_view->world->kinds[kind->munition].delivery == DELIVERY_ARC;
 }
 
 static double liveliness(const struct frame_view *frame_view, const struct effects *effects,
@@ -92,8 +148,11 @@ static double liveliness(const struct frame_view *frame_view, const struct effec
     const struct kind *kind = &frame_view->world->kinds[e->kind[slot]];
     struct vec3 position = entities_position(e, slot);
     double speed = vec3_length(entities_velocity(e, slot));
-    double score = 0.4 * (neighbours < NEIGHBOURS_MAX ? neighbours : NEIGHBOURS_MAX);
-    score += kind->domain == DOMAIN_LAND ? 5.0 : kind->domain == DOMAIN_AIR ? 0.5 : 0.0;
+    double score = NEIGHBOUR * (neighbours < NEIGHBOURS_MAX ? neighbours : NEIGHBOURS_MAX);
+    score += is_howitzer(frame_view, kind) ? 0.0
+             : kind->domain == DOMAIN_LAND ? 5.0
+             : kind->domain == DOMAIN_AIR  ? 0.5
+                                           : 0.0;
     score += speed > 3.0 ? 5.0 : 0.0;
     score -= e->force[slot] == FORCE_NEUTRAL ? NO_ENEMY : 0.0;
     score -= e->damage[slot];
@@ -103,6 +162,8 @@ static double liveliness(const struct frame_view *frame_view, const struct effec
         gridsquare_of(&frame_view->world->terrain.squares, position.x, position.z), &around);
     score += 0.25 * (objects < OBJECTS_MAX ? objects : OBJECTS_MAX);
     score += e->behaviour[slot] == BEHAVIOUR_ATTACK ? FIGHTS : 0.0;
+    double way = vec3_length(to_target(frame_view, slot));
+    score += way > 0.0 ? TARGET_NEAR * maths_max(0.0, 1.0 - way / TARGET_NEAR_M) : 0.0;
     return score +
            action_near(effects, position, state_time_s(frame_view->world, frame_view->head));
 }
@@ -116,8 +177,9 @@ static double score_of(const struct frame_view *frame_view, const struct effects
                        uint16_t *neighbours, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
-    double ahead_x = e->x[slot] + AHEAD_M * maths_sin(e->heading[slot]);
-    double ahead_z = e->z[slot] - AHEAD_M * maths_cos(e->heading[slot]);
+    double looks_rad = follow_direction(frame_view, effects, slot);
+    double ahead_x = e->x[slot] + AHEAD_M * maths_sin(looks_rad);
+    double ahead_z = e->z[slot] - AHEAD_M * maths_cos(looks_rad);
     return liveliness(frame_view, effects, slot,
                       *cell_of(frame_view->world, neighbours, ahead_x, ahead_z));
 }
@@ -145,7 +207,8 @@ static void offer_fighters(struct choice *choice, const struct frame_view *frame
         for (int n = 0; n < 2 && is_round(frame_view, i); n++) {
             if (of[n] < frame_view->head->used)
                 offer(choice, frame_view, of[n],
-                      score_of(frame_view, effects, neighbours, of[n]) + fire_of(e, i, of[n]));
+                      score_of(frame_view, effects, neighbours, of[n]) +
+                          fire_of(frame_view, i, of[n]));
         }
     }
 }

@@ -19,10 +19,16 @@ struct follow {
 /* Returns the slot of the vehicle to follow, or SLOT_NONE if there is none. first_id (0: none) is
  * preferred until it has been a wreck for FOLLOW_WRECK_S, or as long as it exists if only is set.
  * Next comes the vehicle followed so far, until FOLLOW_KEEP_S have passed or it is an old wreck.
- * Otherwise the liveliest is selected: one that fires (no howitzer) or is fired at, attacks, is on
- * land, moves, is among others and near recent effects. The vehicle followed so far is kept unless
- * another one is much livelier. The same frames and history give the same selection. */
+ * Otherwise the liveliest is selected: one that fires (no howitzer) or is fired at, attacks, has
+ * its target near, is on land, moves, and has others and recent effects in its picture. The vehicle
+ * followed so far is kept unless another one is much livelier. The same frames and history give the
+ * same selection. */
 uint32_t follow_choose(struct follow *follow, const struct frame_view *frame_view,
                        const struct effects *effects, uint32_t first_id, bool only);
+
+/* Returns the direction in which something happens around the vehicle in a slot [rad, heading]:
+ * that of its target, or of the explosions and wrecks of the last seconds, or else its own. */
+double follow_direction(const struct frame_view *frame_view, const struct effects *effects,
+                        uint32_t slot);
 
 #endif

@@ -19,6 +19,8 @@
 #define CHASE_ASIDE_RAD   0.24 /* slightly from the side: straight from behind a body looks flat */
 #define CHASE_PITCH_SHARE 0.5  /* share of the vehicle's pitch that the camera follows */
 #define EASE_TURN_S       0.5  /* time after which a third of a turn is left */
+#define EASE_WATCH_S      1.5  /* the same for a camera that looks at what happens */
+#define WATCH_AWAY        1.7  /* so many times as far away, through a lens as much longer */
 #define EASE_LIFT_S       0.4
 
 #define ORBIT_AWAY_M  22.0
@@ -40,6 +42,7 @@ struct subject {
     struct vec3 position;
     double heading_rad, pitch_rad;
     double scale; /* size relative to a tank */
+    double away;  /* how many times as far away the camera is */
 };
 
 static struct subject subject_of(const struct frame_view *frame_view, uint32_t slot)
@@ -48,8 +51,8 @@ static struct subject subject_of(const struct frame_view *frame_view, uint32_t s
     double middle = 0.5 * frame_view->world->terrain.squares.world_m;
     if (slot == SLOT_NONE) {
         double ground = terrain_height(&frame_view->world->terrain, NULL, middle, middle);
-        return (struct subject){.position = {middle, ground, middle},
-                                .scale = OVERLOOK_M / CHASE_UP_M};
+        return (struct subject){
+            .position = {middle, ground, middle}, .scale = OVERLOOK_M / CHASE_UP_M, .away = 1.0};
     }
     double radius = frame_view->world->kinds[e->kind[slot]].radius_m;
     return (struct subject){
@@ -57,6 +60,7 @@ static struct subject subject_of(const struct frame_view *frame_view, uint32_t s
         .heading_rad = e->heading[slot],
         .pitch_rad = e->pitch[slot],
         .scale = maths_clamp(radius / TANK_RADIUS_M, SCALE_MIN, SCALE_MAX),
+        .away = 1.0,
     };
 }
 
@@ -124,21 +128,22 @@ static void chase(struct view_camera *state, const struct frame_view *frame_view
                   const struct subject *subject, double passed_s, struct vec3 *eye,
                   struct vec3 *target)
 {
-    double left = left_after(passed_s, EASE_TURN_S), scale = subject->scale;
+    double scale = subject->scale;
+    double back = CHASE_BACK_M * scale * subject->away;
+    double beyond = CHASE_BEYOND_M * scale * subject->away;
+    double left = left_after(passed_s, state->watches ? EASE_WATCH_S : EASE_TURN_S);
     double tilt = CHASE_PITCH_SHARE * subject->pitch_rad;
     state->tilt_rad = tilt + (state->tilt_rad - tilt) * left;
     state->heading_rad =
         subject->heading_rad + maths_wrap_half(state->heading_rad - subject->heading_rad) * left;
     double sine, cosine, rise = maths_sin(state->tilt_rad);
     struct vec3 p = subject->position;
-    maths_sincos(state->heading_rad + CHASE_ASIDE_RAD, &sine, &cosine);
-    *eye = (struct vec3){p.x - sine * CHASE_BACK_M * scale,
-                         p.y + (CHASE_UP_M - CHASE_BACK_M * rise) * scale,
-                         p.z + cosine * CHASE_BACK_M * scale};
+    maths_sincos(state->heading_rad + CHASE_ASIDE_RAD / subject->away, &sine, &cosine);
+    *eye = (struct vec3){p.x - sine * back, p.y + CHASE_UP_M * scale - back * rise,
+                         p.z + cosine * back};
     maths_sincos(state->heading_rad, &sine, &cosine);
-    *target = (struct vec3){p.x + sine * CHASE_BEYOND_M * scale,
-                            p.y + (1.0 + CHASE_BEYOND_M * rise) * scale,
-                            p.z - cosine * CHASE_BEYOND_M * scale};
+    *target =
+        (struct vec3){p.x + sine * beyond, p.y + scale + beyond * rise, p.z - cosine * beyond};
     lift(state, frame_view, subject, passed_s, eye);
     /* From high above the camera looks at the vehicle itself, which would otherwise leave the
      * picture. */
@@ -216,6 +221,26 @@ static void inside(const struct frame_view *frame_view, uint32_t slot,
     camera_turn(camera, eye, ahead, axes.up, lens);
 }
 
+void view_camera_watch(struct view_camera *state, double heading_rad)
+{
+    state->watches = true;
+    state->watch_rad = heading_rad;
+}
+
+/* Turns the subject to what its camera watches, and takes the longer lens. */
+static void watch(const struct view_camera *state, struct subject *subject,
+                  struct camera_lens *lens)
+{
+    if (!state->watches)
+        return;
+    subject->pitch_rad *= maths_cos(state->watch_rad - subject->heading_rad);
+    subject->heading_rad = state->watch_rad;
+    subject->away = WATCH_AWAY;
+    double sine, cosine;
+    maths_sincos(0.5 * lens->field_rad, &sine, &cosine);
+    lens->field_rad = 2.0 * maths_atan2(sine, WATCH_AWAY * cosine);
+}
+
 void view_camera_update(struct view_camera *state, const struct view_camera_options *options,
                         const struct frame_view *frame_view, uint32_t slot, struct camera *camera)
 {
@@ -241,8 +266,10 @@ void view_camera_update(struct view_camera *state, const struct view_camera_opti
         orbit(state, frame_view, &subject, passed_s, &eye, &target);
         break;
     default:
+        watch(state, &subject, &lens);
         chase(state, frame_view, &subject, passed_s, &eye, &target);
         break;
     }
+    state->watches = false;
     camera_look_through(camera, eye, target, &lens);
 }

@@ -28,7 +28,7 @@
 #define SEED     7u
 #define CAPACITY 16u
 
-enum { TANK, TREE, HOUSE, POLE, TOWER, SHRUB, ROUND, SHELL, KINDS };
+enum { TANK, TREE, HOUSE, POLE, TOWER, SHRUB, ROUND, SHELL, BULLET, HOWITZER, KINDS };
 enum { BUSH, TANKS, MAST, OAK, COTTAGE, FIXED }; /* in gridsquare order */
 
 static const struct kind kinds[KINDS] = {
@@ -41,6 +41,8 @@ static const struct kind kinds[KINDS] = {
               .fuel_l = 1000.0},
     [ROUND] = {.name = "round", .domain = DOMAIN_MUNITION},
     [SHELL] = {.name = "shell", .domain = DOMAIN_MUNITION, .delivery = DELIVERY_ARC},
+    [BULLET] = {.name = "bullet", .domain = DOMAIN_MUNITION, .penetration_mm = 20.0},
+    [HOWITZER] = {.name = "howitzer", .domain = DOMAIN_LAND, .radius_m = 4.0, .munition = SHELL},
     [TREE] = {.name = "oak",
               .domain = DOMAIN_FIXED,
               .object_class = OBJECT_TREE,
@@ -648,6 +650,58 @@ static void test_follow_goes_to_the_fire(void **context)
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), driver);
 }
 
+/* Of two tanks that drive the one behind whose target are others is livelier, a gun that fires at
+ * what is kilometres away is not, and the fire of machine guns counts less than that of tanks. */
+static void test_follow_weighs_what_is_to_be_seen(void **context)
+{
+    struct scene_stage *s = *context;
+    struct follow follow = {.id = 0};
+    struct entities *e = &s->entities;
+    uint32_t driver = put_tank(s, 10000.0, 10000.0, 0.0);
+    uint32_t gun = put_tank(s, 20000.0, 20000.0, 0.0);
+    e->vx[driver] = 10.0;
+    e->kind[gun] = HOWITZER;
+    for (int n = 0; n < 8; n++)
+        put_tank(s, 20000.0, 19850.0, 0.0);
+    e->vx[put_tank(s, 40000.0, 40000.0, 0.0)] = 10.0;
+    assert_true(follow_choose(&follow, &s->frame_view, &s->effects, 0, false) != gun);
+    uint32_t rounds[2] = {s->head.used, s->head.used + 1}, shooters[2] = {driver, gun};
+    for (int n = 0; n < 2; n++) {
+        put_tank(s, 20500.0, 20000.0, 0.0);
+        e->behaviour[rounds[n]] = BEHAVIOUR_FLIGHT;
+        e->kind[rounds[n]] = ROUND;
+        e->owner_slot[rounds[n]] = shooters[n];
+        e->owner_id[rounds[n]] = e->id[shooters[n]];
+    }
+    e->kind[gun] = TANK;
+    e->vx[gun] = 10.0;
+    e->kind[rounds[1]] = BULLET;
+    struct follow first = {.id = 0};
+    assert_int_equal(follow_choose(&first, &s->frame_view, &s->effects, 0, false), driver);
+}
+
+/* It looks at its target, without one at recent explosions, and otherwise ahead. */
+static void test_follow_looks_at_what_happens(void **context)
+{
+    struct scene_stage *s = *context;
+    struct entities *e = &s->entities;
+    uint32_t row = put_tank(s, 10000.0, 10000.0, 1.0);
+    uint32_t target = put_tank(s, 11000.0, 10000.0, 0.0);
+    s->head.tick = 100;
+    assert_true(follow_direction(&s->frame_view, &s->effects, row) == 1.0);
+    struct effect *effect = effects_allocate(&s->effects);
+    *effect = (struct effect){.point = {10000.0, e->y[row], 10200.0}, .time_s = 9.0};
+    assert_true(fabs(follow_direction(&s->frame_view, &s->effects, row) - PI) < 0.01);
+    e->behaviour[row] = BEHAVIOUR_ATTACK;
+    e->target_slot[row] = target;
+    e->target_id[row] = e->id[target];
+    assert_true(fabs(follow_direction(&s->frame_view, &s->effects, row) - HALF_PI) < 0.01);
+    e->state[target] = ENTITY_FREE; /* it is gone */
+    assert_true(fabs(follow_direction(&s->frame_view, &s->effects, row) - PI) < 0.01);
+    effect->point.z = 13000.0;
+    assert_true(follow_direction(&s->frame_view, &s->effects, row) == 1.0);
+}
+
 static void test_statistics_equal_the_table(void **context)
 {
     struct scene_stage *s = *context;
@@ -724,6 +778,8 @@ int main(void)
         TEST(test_fire_and_detonation_are_visible),
         TEST(test_follow_keeps_its_choice),
         TEST(test_follow_goes_to_the_fire),
+        TEST(test_follow_weighs_what_is_to_be_seen),
+        TEST(test_follow_looks_at_what_happens),
         TEST(test_statistics_equal_the_table),
         TEST(test_tracks_remember_positions),
     };

@@ -295,6 +295,37 @@ static void test_chase_eases_into_a_turn(void **context)
     assert_true(vec3_length(vec3_sub(before.eye, camera.eye)) < 0.8);
 }
 
+/* A camera that watches something turns to it softly. Through its longer lens the vehicle is as
+ * large as before, and as near to the middle of the picture. */
+static void test_a_watching_camera_turns_and_keeps_the_size(void **context)
+{
+    struct stage *s = *context;
+    struct view_camera aim = {.id = 0}, cold = {.id = 0};
+    struct view_camera_options wish = wish_of(VIEW_CHASE);
+    struct camera usual, before, camera;
+    put(s, TANK, 20000.0, 30000.0);
+    s->entities.heading[0] = 0.0;
+    view_camera_update(&cold, &wish, &s->frame_view, 0, &usual);
+    double most = 0.0;
+    for (int i = 0; i < 600; i++) {
+        before = camera;
+        s->head.tick++;
+        view_camera_watch(&aim, i < 300 ? 0.0 : HALF_PI);
+        view_camera_update(&aim, &wish, &s->frame_view, 0, &camera);
+        most = i > 0 ? maths_max(most, angle_between(before.forward, camera.forward)) : most;
+    }
+    assert_true(most < 0.03);
+    assert_true(fabs(maths_heading(camera.forward.x, camera.forward.z) - HALF_PI) < 0.2);
+    struct vec3 at = entities_position(&s->entities, 0);
+    double size = camera_pixels(&camera, 1.0, vec3_length(vec3_sub(at, camera.eye)));
+    double usually = camera_pixels(&usual, 1.0, vec3_length(vec3_sub(at, usual.eye)));
+    assert_true(fabs(size / usually - 1.0) < 0.15);
+    assert_true(scene_stage_in_picture(&camera, at));
+    assert_true(camera.tan_x < 0.65 * usual.tan_x);
+    view_camera_update(&aim, &wish, &s->frame_view, 0, &camera); /* it no longer watches */
+    assert_true(camera.tan_x == usual.tan_x);
+}
+
 /* The picture rate hardly changes the camera's position. */
 static void test_easing_does_not_depend_on_the_rate(void **context)
 {
@@ -395,6 +426,7 @@ int main(void)
         TEST(test_field_of_view_is_as_wished),
         TEST(test_the_crew_looks_out_above_its_polygons),
         TEST(test_chase_eases_into_a_turn),
+        TEST(test_a_watching_camera_turns_and_keeps_the_size),
         TEST(test_easing_does_not_depend_on_the_rate),
         TEST(test_camera_restarts_after_a_break),
         TEST(test_orbit_goes_around_in_its_time),
