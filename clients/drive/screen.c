@@ -113,7 +113,7 @@ static void draw_events(const struct recent_events *events, int top, int rows)
 }
 
 /* Writes text in two rows, broken between words. */
-static void put_two_rows(int row, int column, const char *text)
+static void put_two_rows(int row, int column, const char *text, attr_t attributes)
 {
     char first[STATUS_PANEL_LINE];
     size_t width = COLS > column ? (size_t)(COLS - column) : 1, end = strlen(text);
@@ -121,19 +121,39 @@ static void put_two_rows(int row, int column, const char *text)
         for (end = width; end > 0 && text[end] != ' '; end--)
             continue;
     snprintf(first, sizeof first, "%.*s", (int)end, text);
-    curses_text_put(row, column, first, A_DIM, PAIR_PLAIN);
+    curses_text_put(row, column, first, attributes, PAIR_PLAIN);
     if (text[end] == ' ')
-        curses_text_put(row + 1, column, text + end + 1, A_DIM, PAIR_PLAIN);
+        curses_text_put(row + 1, column, text + end + 1, attributes, PAIR_PLAIN);
 }
 
 static void draw_help(const char *inputs)
 {
     const char *keys, *meaning;
-    put_two_rows(2, 2, inputs);
+    put_two_rows(2, 2, inputs, A_DIM);
     for (uint32_t i = 0; terminal_keys_help(i, &keys, &meaning); i++) {
         curses_text_put(5 + (int)i, 2, keys, A_BOLD, PAIR_PLAIN);
         curses_text_put(5 + (int)i, 14, meaning, A_NORMAL, PAIR_PLAIN);
     }
+}
+
+/* Draws the other drivers, and below them a warning or the notice. A long notice takes both rows.
+ */
+static void draw_notice(const struct session *session, uint64_t now_ns)
+{
+    char warning[STATUS_PANEL_LINE], others[STATUS_PANEL_LINE];
+    bool noticed = session->notices &&
+                   (now_ns - session->notice_ns < NOTICE_NS || session->state != SESSION_DRIVING);
+    event_lines_silence(warning, sizeof warning, session->mirror, now_ns);
+    if (!warning[0] && noticed && strlen(session->notice) > (size_t)COLS) {
+        put_two_rows(LINES - 3, 0, session->notice, A_BOLD);
+        return;
+    }
+    status_panel_others(others, session);
+    curses_text_put(LINES - 3, 0, others, A_DIM, PAIR_PLAIN);
+    if (warning[0])
+        curses_text_put(LINES - 2, 0, warning, A_BOLD, PAIR_WARN);
+    else if (noticed)
+        curses_text_put(LINES - 2, 0, session->notice, A_BOLD, PAIR_PLAIN);
 }
 
 static void draw_foot(const struct session *session, uint64_t now_ns)
@@ -141,14 +161,7 @@ static void draw_foot(const struct session *session, uint64_t now_ns)
     char line[STATUS_PANEL_LINE];
     status_panel_look(line, session);
     curses_text_put(LINES - 4, 0, line, A_NORMAL, PAIR_PLAIN);
-    status_panel_others(line, session);
-    curses_text_put(LINES - 3, 0, line, A_DIM, PAIR_PLAIN);
-    event_lines_silence(line, sizeof line, session->mirror, now_ns);
-    if (line[0])
-        curses_text_put(LINES - 2, 0, line, A_BOLD, PAIR_WARN);
-    else if (session->notices &&
-             (now_ns - session->notice_ns < NOTICE_NS || session->state != SESSION_DRIVING))
-        curses_text_put(LINES - 2, 0, session->notice, A_BOLD, PAIR_PLAIN);
+    draw_notice(session, now_ns);
     curses_text_put(
         LINES - 1, 0,
         "w s throttle  a d steer  b brake  arrows aim  t lock  space fire  h help  q quit", A_DIM,

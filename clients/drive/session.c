@@ -228,10 +228,21 @@ static void send_fire(struct session *session)
     session->fire = command_client_send(session->client, &command);
 }
 
+/* Says that its vehicle is lost, and what to do. self: NULL: it was removed. */
+static void tell_loss(struct session *session, const jolon_Entity *self, uint64_t now_ns)
+{
+    char label[64];
+    session_notify(
+        session, now_ns, "your %s is %s; n takes the next vehicle, o the nearest of its force",
+        session_label(session->mirror, session->vehicle, label), self ? "destroyed" : "gone");
+}
+
 static void fire(struct session *session, uint64_t now_ns)
 {
     session->lay_until_ns = 0;
-    if (!has_lease(session))
+    if (!has_lease(session) && session->loss_told)
+        tell_loss(session, session_entity(session), now_ns);
+    else if (!has_lease(session))
         session_notify(session, now_ns, "you drive nothing that could fire; enter takes it");
     else if (session->fire == 0) /* one shot at a time: the gun reloads anyway */
         send_fire(session);
@@ -444,9 +455,7 @@ static void check_losses(struct session *session, uint64_t now_ns)
     session->state = SESSION_WATCHING;
     command_client_forget(session->client, session->drive);
     session->drive = 0;
-    session_notify(session, now_ns,
-                   "your %s is %s; n takes the next vehicle, o the nearest of its force",
-                   session_label(mirror, session->vehicle, label), self ? "destroyed" : "gone");
+    tell_loss(session, self, now_ns);
 }
 
 /* Takes the first vehicle of this world: the wanted one, or any. */

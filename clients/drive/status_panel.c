@@ -7,12 +7,17 @@
 #include "world/enum_names.h"
 #include "world/maths/maths.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #define LOOK_CONE_RAD 0.2
 #define LOOK_RANGE_M  5000.0
 #define GAUGE_CELLS   10
+
+/* A damaged land vehicle does not drive if it stands with so much throttle. */
+#define STOPPED_THROTTLE 0.3
+#define STOPPED_MPS      0.2
 
 static double degrees(float rad)
 {
@@ -123,7 +128,9 @@ static void put_weapon(char (*row)[STATUS_PANEL_COLUMNS], const struct session *
         return;
     }
     (void)snprintf(row[0], STATUS_PANEL_COLUMNS, "rounds    %u of %u", e->rounds, kind->rounds);
-    if (e->reload_s > 0.0f)
+    if (e->state != jolon_ENTITY_ACTIVE)
+        (void)snprintf(row[1], STATUS_PANEL_COLUMNS, "gun       destroyed");
+    else if (e->reload_s > 0.0f)
         (void)snprintf(row[1], STATUS_PANEL_COLUMNS, "gun       reloads %.1f s",
                        (double)e->reload_s);
     else
@@ -169,8 +176,10 @@ void status_panel_statistics(char row[STATUS_PANEL_ROWS][STATUS_PANEL_COLUMNS],
     if (kind->fuel_l > 0.0f)
         (void)snprintf(row[12], STATUS_PANEL_COLUMNS, "fuel      %5.1f l    %.13s",
                        (double)e->fuel_l, level(bar, (double)e->fuel_l / (double)kind->fuel_l));
-    (void)snprintf(row[13], STATUS_PANEL_COLUMNS, "damage    %s",
-                   damage_name((enum damage)e->damage));
+    bool stopped = e->damage >= jolon_DAMAGE_MED && kind->domain == jolon_DOMAIN_LAND &&
+                   fabs((double)e->throttle) > STOPPED_THROTTLE && speed < STOPPED_MPS;
+    (void)snprintf(row[13], STATUS_PANEL_COLUMNS, "damage    %s%s",
+                   damage_name((enum damage)e->damage), stopped ? ": it does not drive" : "");
     (void)snprintf(row[14], STATUS_PANEL_COLUMNS, "behaviour %s",
                    behaviour_name((enum behaviour)e->behaviour));
 }

@@ -92,3 +92,14 @@ wait("the wheel again", lambda: b"you drive T1 (tank 1)" in shown)
 os.kill(child, signal.SIGABRT)
 if os.WTERMSIG(end(child)) != signal.SIGABRT:
     sys.exit("the status hides a crash")
+
+# A notice that is longer than the screen is wide takes two rows.
+spawned = subprocess.run([jolon, "ctl", "--json", "spawn", "jeep", "--at", "3000,3000", "-w", world], capture_output=True)
+jeep = str(json.loads(spawned.stdout)["entity"])
+child, terminal = start(jeep)
+fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 60, 0, 0))
+wait("the wheel on a narrow screen", lambda: b"you drive" in shown)
+subprocess.run([jolon, "ctl", "remove", jeep, "-w", world], capture_output=True)
+wait("every word about its loss", lambda: b"its force" in shown)
+os.write(terminal, b"q")
+end(child)
