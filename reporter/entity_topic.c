@@ -2,8 +2,7 @@
 #include "reporter/entity_topic.h"
 
 #include "ipc/process/clock.h"
-#include "world/entity/grounded.h"
-#include "world/entity/spool.h"
+#include "reporter/entity_sample.h"
 #include "world/params.h"
 
 #include <errno.h>
@@ -11,12 +10,6 @@
 #include <string.h>
 
 _Static_assert(ENTITY_TOPIC_PART <= jolon_ENTITIES_PER_BATCH, "batches in ipc/topics/status.idl");
-_Static_assert((int)jolon_ENTITY_FREE == (int)ENTITY_FREE &&
-                   (int)jolon_ENTITY_WRECK == (int)ENTITY_WRECK,
-               "entity states in ipc/topics/status.idl");
-_Static_assert((int)jolon_GEAR_LOW == (int)GEAR_LOW && (int)GEAR_COUNT == (int)jolon_GEAR_LOW + 1,
-               "gears in ipc/topics/status.idl");
-
 static void free_rows(struct entity_topic *topic)
 {
     free(topic->entity);
@@ -32,8 +25,7 @@ int entity_topic_open(struct entity_topic *topic, const struct view *view,
     *topic =
         (struct entity_topic){.room = capacity < ENTITY_TOPIC_PART ? capacity : ENTITY_TOPIC_PART};
     topic->wire.run = run;
-    topic->dt_s = world_dt_s(&view->world);
-    topic->kinds = view->world.kinds;
+    topic->world = &view->world;
     topic->writer = dds_topics_writer(link, TOPIC_ENTITIES, error);
     if (topic->writer < 0)
         return -1;
@@ -53,39 +45,6 @@ void entity_topic_close(struct entity_topic *topic)
 {
     snapshot_free(&topic->snapshot);
     free_rows(topic);
-}
-
-/* tick is the frame's, dt_s the duration of a tick. */
-static void fill(jolon_Entity *to, const struct entities *from, uint32_t row, uint64_t tick,
-                 double dt_s)
-{
-    uint32_t ready = from->reload_tick[row];
-    *to = (jolon_Entity){
-        .id = from->id[row],
-        .kind = from->kind[row],
-        .state = (jolon_EntityState)from->state[row],
-        .force = (jolon_Force)from->force[row],
-        .behaviour = (jolon_Behaviour)from->behaviour[row],
-        .damage = (jolon_Damage)from->damage[row],
-        .x_m = from->x[row],
-        .y_m = from->y[row],
-        .z_m = from->z[row],
-        .vx_mps = (float)from->vx[row],
-        .vy_mps = (float)from->vy[row],
-        .vz_mps = (float)from->vz[row],
-        .heading_rad = (float)from->heading[row],
-        .pitch_rad = (float)from->pitch[row],
-        .roll_rad = (float)from->roll[row],
-        .turret_rad = from->turret[row],
-        .gun_rad = from->gun[row],
-        .target = from->target_id[row],
-        .rounds = from->rounds[row],
-        .fuel_l = (float)from->fuel_l[row],
-        .driver = from->driver[row],
-        .throttle = from->throttle[row],
-        .gear = (jolon_Gear)entity_gear(from->flags[row]),
-        .reload_s = ready > tick ? (float)((double)(ready - tick) * dt_s) : 0.0f,
-    };
 }
 
 static uint32_t count_entities(const struct snapshot *snapshot)
@@ -126,14 +85,10 @@ static void write_part(struct entity_topic *topic)
     for (; topic->row < snapshot->head.used && count < topic->room; topic->row++) {
         if (snapshot->entities.state[topic->row] == ENTITY_FREE)
             continue;
-        fill(&topic->entity[count], &snapshot->entities, topic->row, snapshot->head.tick,
-             topic->dt_s);
         const struct entities *e = &snapshot->entities;
-        const struct kind *kind = &topic->kinds[e->kind[topic->row]];
         projection_place(&topic->projection, e->x[topic->row], e->z[topic->row],
                          &topic->place[count].latitude_deg, &topic->place[count].longitude_deg);
-        topic->entity[count].grounded = grounded_of(e, kind, topic->row);
-        topic->entity[count++].spool = (float)spool_of(e, kind, topic->row);
+        topic->entity[count++] = entity_sample_of(topic->world, snapshot, topic->row);
     }
     topic->wire.entities._buffer = topic->entity;
     topic->wire.entities._length = topic->wire.entities._maximum = count;

@@ -25,8 +25,7 @@ struct entity_topic {
     jolon_Degrees *place; /* [room] theirs */
     struct projection projection;
     uint32_t room;
-    double dt_s;
-    const struct kind *kinds;
+    const struct world *world;
     jolon_EntityBatch wire;      /* the next part to be written */
     bool busy;                   /* parts of the snapshot are still to be written */
     uint32_t row;                /* where the next part begins */

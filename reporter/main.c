@@ -8,6 +8,7 @@
 #include "ipc/segment/segment_attach.h"
 #include "reporter/entity_topic.h"
 #include "reporter/event_topics.h"
+#include "reporter/motion_topic.h"
 #include "reporter/options.h"
 #include "reporter/remote_commands.h"
 #include "reporter/status_topics.h"
@@ -33,6 +34,7 @@ struct reporter {
     struct remote_commands remote;
     bool takes_commands;
     struct entity_topic entities;
+    struct motion_topic motions;
     uint64_t frame_due_ns, names_due_ns;
 };
 
@@ -44,7 +46,8 @@ static int open_topics(struct reporter *reporter, struct error_text *error)
         status_topics_world(&reporter->status, view, error) != 0 ||
         status_topics_names(&reporter->status, view, error) != 0 ||
         event_topics_open(&reporter->events, view, link, reporter->status.run, error) != 0 ||
-        entity_topic_open(&reporter->entities, view, link, reporter->status.run, error) != 0)
+        entity_topic_open(&reporter->entities, view, link, reporter->status.run, error) != 0 ||
+        motion_topic_open(&reporter->motions, view, link, reporter->status.run, error) != 0)
         return -1;
     if (reporter->takes_commands &&
         remote_commands_open(&reporter->remote, view->name, link, error) != 0)
@@ -76,6 +79,7 @@ static bool poll_once(struct reporter *reporter)
         !event_topics_publish(&reporter->events, &reporter->view, begun_ns + EVENTS_LIMIT_NS);
     publish_status(reporter, begun_ns);
     more |= entity_topic_publish(&reporter->entities, &reporter->view, clock_now_ns());
+    more |= motion_topic_publish(&reporter->motions, &reporter->view, clock_now_ns());
     if (begun_ns >= reporter->names_due_ns) {
         reporter->names_due_ns = begun_ns + NS_PER_S;
         status_topics_markings(&reporter->status, &reporter->view, &reporter->entities.snapshot);
@@ -135,6 +139,7 @@ int main(int argc, char **argv)
     }
 
     publish_last(&reporter);
+    motion_topic_close(&reporter.motions);
     entity_topic_close(&reporter.entities);
     segment_detach(&reporter.view);
     dds_link_close(&reporter.link, EXIT_OK);

@@ -37,6 +37,29 @@ struct cruise_pose cruise_pose_of(const struct world *world, const struct crater
     return pose;
 }
 
+struct told_motion cruise_pose_motion(const struct world *world, const struct crater_index *craters,
+                                      const struct entities *e, uint32_t i, uint64_t tick)
+{
+    double dt_s = world_dt_s(world), left_s = cruise_left_s(e, i, tick, dt_s);
+    struct cruise_pose pose = cruise_pose_of(world, craters, e, i, tick);
+    struct told_motion motion = {.at = pose.at,
+                                 .velocity = cruise_velocity(e, i, tick, dt_s),
+                                 .heading_rad = pose.heading_rad,
+                                 .pitch_rad = pose.pitch_rad,
+                                 .roll_rad = pose.roll_rad};
+    if (!(left_s > 0.0))
+        return motion;
+    motion.turn_rps = (float)e->cruise_rps[i];
+    motion.gain_mps2 = (float)e->cruise_mps2[i];
+    motion.climb_mps2 = e->cruise_climb_mps2[i];
+    motion.pitch_rps = (float)((e->pitch[i] - pose.pitch_rad) / left_s);
+    motion.roll_rps = (float)(maths_wrap_half(e->roll[i] - pose.roll_rad) / left_s);
+    motion.lasts_s = (float)left_s;
+    if (world->kinds[e->kind[i]].domain == DOMAIN_LAND)
+        motion.velocity.y = (e->y[i] - pose.at.y) / left_s; /* the ground between rises evenly */
+    return motion;
+}
+
 /* Writes where row i is at the tick into its columns. */
 static void settle(const struct entities *e, const struct world *world,
                    const struct crater_index *craters, uint32_t i, uint64_t tick)

@@ -2,6 +2,7 @@
 #ifndef JOLON_WORLD_CRUISE_POSE_H
 #define JOLON_WORLD_CRUISE_POSE_H
 
+#include "world/entity/told_motion.h"
 #include "world/entity/table_write.h"
 #include "world/maths/maths.h"
 
@@ -19,6 +20,12 @@ struct cruise_pose {
  * committed world, or NULL for none. */
 struct cruise_pose cruise_pose_of(const struct world *world, const struct crater_index *craters,
                                   const struct entities *e, uint32_t i, uint64_t tick);
+
+/* Returns how row i moves from the tick on: as it cruises then, else straight on. At the end of its
+ * stretch it is where its columns say; between, a land vehicle is up to some decimetres off the
+ * ground. */
+struct told_motion cruise_pose_motion(const struct world *world, const struct crater_index *craters,
+                                      const struct entities *e, uint32_t i, uint64_t tick);
 
 /* Ends the stretch of row i at the tick, if it cruises then: its columns say from now on where it
  * is at that tick. Returns true if it did. */

@@ -1,4 +1,5 @@
-/* Writes the frame, its counters, the entities of an area and the requested vehicle. */
+/* Writes the frame, its counters, the entities of an area and the requested vehicle.
+ */
 #include "clients/console/state_json.h"
 
 #include "clients/console/world_json.h"
@@ -65,17 +66,23 @@ static void put_head(struct json_writer *json, const struct world_query *query)
     put_times(json, "frame_ms", &view->slot[ROLE_COLLIDER]->whole);
 }
 
+/* --- the entities -----------------------------------------------------------------------------*/
+
 struct area_asked {
     double x0, z0, x1, z1;
-    uint64_t most;
+    uint64_t most;          /* entities */
+    bool motions;           /* since was given: */
+    uint64_t since, stride; /* the frame and the stride of the client's last answer */
 };
 
 static bool read_area(const struct world_query *query, struct area_asked *area,
                       struct http_answer *answer)
 {
-    const char *given = query_text(&query->arguments, "area");
+    const struct query *arguments = &query->arguments;
+    const char *given = query_text(arguments, "area");
     const double side_m = query->reader->view.world.terrain.squares.world_m;
-    *area = (struct area_asked){0.0, 0.0, side_m, side_m, 0};
+    *area =
+        (struct area_asked){.x1 = side_m, .z1 = side_m, .motions = *query_text(arguments, "since")};
     int used = 0;
     if (*given && (sscanf(given, "%lf,%lf,%lf,%lf%n", &area->x0, &area->z0, &area->x1, &area->z1,
                           &used) != 4 ||
@@ -84,16 +91,29 @@ static bool read_area(const struct world_query *query, struct area_asked *area,
                           "area=%.60s: not four numbers, the lower ones first", given);
         return false;
     }
-    return query_whole(&query->arguments, "most", 0, ENTITIES_MAX, ENTITIES, &area->most, answer);
+    return query_whole(arguments, "most", 0, ENTITIES_MAX, ENTITIES, &area->most, answer) &&
+           query_whole(arguments, "since", 0, INT64_MAX, 0, &area->since, answer) &&
+           query_whole(arguments, "stride", 0, UINT32_MAX, 0, &area->stride, answer);
+}
+
+static bool is_within(const struct area_asked *area, double x, double z)
+{
+    return x >= area->x0 && x <= area->x1 && z >= area->z0 && z <= area->z1;
 }
 
 static bool within(const struct area_asked *area, const struct entities *e, uint32_t row)
 {
-    return e->state[row] != ENTITY_FREE && e->x[row] >= area->x0 && e->x[row] <= area->x1 &&
-           e->z[row] >= area->z0 && e->z[row] <= area->z1;
+    return e->state[row] != ENTITY_FREE && is_within(area, e->x[row], e->z[row]);
 }
 
-static void put_entity(struct json_writer *json, const struct world_query *query, uint32_t row)
+/* What is written of a row: where and how fast it is. */
+struct place {
+    double x, z, heading_rad, speed_mps;
+};
+
+/* Begins an entity's array, with the members that each has. */
+static void begin_entity(struct json_writer *json, const struct world_query *query, uint32_t row,
+                         const struct place *place)
 {
     const struct entities *e = &query->reader->snapshot.entities;
     json_writer_begin(json, '[');
@@ -103,14 +123,119 @@ static void put_entity(struct json_writer *json, const struct world_query *query
     json_writer_whole(json, e->behaviour[row]);
     json_writer_whole(json, e->state[row]);
     json_writer_whole(json, e->damage[row]);
-    json_writer_number(json, e->x[row], 1);
-    json_writer_number(json, e->z[row], 1);
-    json_writer_number(json, e->heading[row], 3);
-    json_writer_number(json, vec3_length(entities_velocity(e, row)), 1);
+    json_writer_number(json, place->x, 1);
+    json_writer_number(json, place->z, 1);
+    json_writer_number(json, place->heading_rad, 3);
+    json_writer_number(json, place->speed_mps, 1);
     json_writer_number(json, (double)e->turret[row], 3);
     json_writer_whole(json, world_query_driver(query, row));
+}
+
+static void put_entity(struct json_writer *json, const struct world_query *query, uint32_t row)
+{
+    const struct entities *e = &query->reader->snapshot.entities;
+    const struct place place = {e->x[row], e->z[row], e->heading[row],
+                                vec3_length(entities_velocity(e, row))};
+    begin_entity(json, query, row, &place);
     json_writer_end(json, ']');
 }
+
+/* Writes a row as it was told last. Members at the end that are zero are left out. */
+static void put_motion(struct json_writer *json, const struct world_query *query, uint32_t row)
+{
+    const struct motion_told *told = &query->reader->motions.told[row];
+    const struct told_motion *motion = &told->motion;
+    const struct place place = {motion->at.x, motion->at.z, motion->heading_rad,
+                                vec3_length(motion->velocity)};
+    begin_entity(json, query, row, &place);
+    json_writer_whole(json, row);
+    json_writer_number(json, (double)told->tick * world_dt_s(&query->reader->view.world), 3);
+    if (motion->lasts_s > 0.0F || vec3_dot(motion->velocity, motion->velocity) > 0.0) {
+        json_writer_number(json, motion->velocity.x, 2);
+        json_writer_number(json, motion->velocity.z, 2);
+    }
+    if (motion->lasts_s > 0.0F) {
+        json_writer_number(json, (double)motion->turn_rps, 4);
+        json_writer_number(json, (double)motion->gain_mps2, 3);
+        json_writer_number(json, (double)motion->lasts_s, 3);
+    }
+    json_writer_end(json, ']');
+}
+
+/* Returns true if the client has to be told a row of the area: it does not go on as it was told, or
+ * it was not in the area. */
+static bool is_news(const struct world_query *query, const struct area_asked *area, uint32_t row)
+{
+    const struct motion_table *motions = &query->reader->motions;
+    const struct motion_told *told = &motions->told[row];
+    if (motion_table_told(motions, row, area->since + 1))
+        return true;
+    const uint64_t frames = motions->frame - area->since;
+    const uint64_t tick = motions->tick > frames ? motions->tick - frames : 0; /* unless paused */
+    const double after_s =
+        tick > told->tick ? (double)(tick - told->tick) * world_dt_s(&query->reader->view.world)
+                          : 0.0;
+    const struct told_motion then = told_motion_at(&told->motion, after_s);
+    return !is_within(area, then.at.x, then.at.z);
+}
+
+/* Writes the rows from which entities have left since. */
+static void put_gone(struct json_writer *json, const struct motion_table *motions, uint64_t since)
+{
+    json_writer_key(json, "gone");
+    json_writer_begin(json, '[');
+    for (uint32_t row = 0; row < motions->used; row++) {
+        if (motion_table_told(motions, row, since + 1) &&
+            motions->told[row].marks.state == ENTITY_FREE)
+            json_writer_whole(json, row);
+    }
+    json_writer_end(json, ']');
+}
+
+/* If the area has more entities than are requested, only the multiples of an id stride are written,
+ * so that the next answer has the same ones. */
+static uint64_t stride_of(uint64_t count, uint64_t most)
+{
+    uint64_t stride = most > 0 ? (count + most - 1) / most : 0;
+    return stride > 0 ? stride : 1;
+}
+
+/* Writes the entities of the area: all of them, or for a client that computes where they are those
+ * that do not go on as it was told (ipc/frame/motion_table.h). */
+static void put_entities(struct json_writer *json, const struct world_query *query,
+                         const struct area_asked *area)
+{
+    const struct snapshot *snapshot = &query->reader->snapshot;
+    const struct motion_table *motions = &query->reader->motions;
+    const struct entities *e = &snapshot->entities;
+    uint64_t count = 0, shown = 0;
+    for (uint32_t row = 0; row < snapshot->head.used; row++)
+        count += within(area, e, row);
+    const uint64_t stride = stride_of(count, area->most);
+    const bool whole = !area->motions || area->stride != stride ||
+                       area->since < motions->from_frame || area->since > motions->frame;
+    json_writer_key(json, "entities");
+    json_writer_begin(json, '[');
+    for (uint32_t row = 0; row < snapshot->head.used && shown < area->most; row++) {
+        if (!within(area, e, row) || e->id[row] % stride != 0)
+            continue;
+        shown++;
+        if (!area->motions)
+            put_entity(json, query, row);
+        else if (whole || is_news(query, area, row))
+            put_motion(json, query, row);
+    }
+    json_writer_end(json, ']');
+    json_writer_key_whole(json, "left_out", count - shown);
+    if (!area->motions)
+        return;
+    json_writer_key_bool(json, "whole", whole);
+    json_writer_key_whole(json, "stride", stride);
+    if (!whole)
+        put_gone(json, motions, area->since);
+}
+
+/* --- the rest ---------------------------------------------------------------------------------*/
 
 /* In a world with missions: who holds what, and the phases. */
 static void put_battle(struct json_writer *json, const struct world *world,
@@ -141,30 +266,6 @@ static void put_battle(struct json_writer *json, const struct world *world,
     }
     json_writer_end(json, '}');
     json_writer_end(json, '}');
-}
-
-/* If the area has more entities than are requested, only the multiples of an id stride are written,
- * so that the next answer has the same ones. */
-static void put_entities(struct json_writer *json, const struct world_query *query,
-                         const struct area_asked *area)
-{
-    const struct snapshot *snapshot = &query->reader->snapshot;
-    const struct entities *e = &snapshot->entities;
-    uint64_t count = 0, put = 0;
-    for (uint32_t row = 0; row < snapshot->head.used; row++)
-        count += within(area, e, row);
-    uint64_t stride = area->most > 0 ? (count + area->most - 1) / area->most : 0;
-    stride = stride > 0 ? stride : 1;
-    json_writer_key(json, "entities");
-    json_writer_begin(json, '[');
-    for (uint32_t row = 0; row < snapshot->head.used && put < area->most; row++) {
-        if (!within(area, e, row) || e->id[row] % stride != 0)
-            continue;
-        put_entity(json, query, row);
-        put++;
-    }
-    json_writer_end(json, ']');
-    json_writer_key_whole(json, "left_out", count - put);
 }
 
 /* In a world with room for remote entities: the markings of those in the area, by their ids. */
@@ -301,7 +402,7 @@ void state_json(const struct world_query *query, struct http_answer *answer)
     uint64_t me = 0;
     if (!read_area(query, &area, answer) ||
         !query_whole(&query->arguments, "me", 0, UINT32_MAX, 0, &me, answer) ||
-        !world_query_copied(query, answer))
+        !(area.motions ? world_query_told : world_query_copied)(query, answer))
         return;
     uint32_t row = world_reader_row(query->reader, (uint32_t)me);
     json_writer_begin(json, '{');

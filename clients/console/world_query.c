@@ -13,15 +13,26 @@ bool world_query_attached(const struct world_query *query, struct http_answer *a
     return false;
 }
 
-bool world_query_copied(const struct world_query *query, struct http_answer *answer)
+/* Returns true if the result is that of a whole frame. */
+static bool is_read(const struct world_query *query, struct http_answer *answer, int result)
 {
-    if (!world_query_attached(query, answer))
-        return false;
-    if (world_reader_copy(query->reader, query->now_ns) == 0)
+    if (result == 0)
         return true;
     http_answer_error(answer, HTTP_ANSWER_AWAY, "jolon world check tells what is wrong with it",
                       "%s", query->reader->detail.text);
     return false;
+}
+
+bool world_query_copied(const struct world_query *query, struct http_answer *answer)
+{
+    return world_query_attached(query, answer) &&
+           is_read(query, answer, world_reader_copy(query->reader, query->now_ns));
+}
+
+bool world_query_told(const struct world_query *query, struct http_answer *answer)
+{
+    return world_query_attached(query, answer) &&
+           is_read(query, answer, world_reader_tell(query->reader, query->now_ns));
 }
 
 uint32_t world_query_driver(const struct world_query *query, uint32_t row)

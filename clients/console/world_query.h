@@ -25,6 +25,9 @@ bool world_query_attached(const struct world_query *asked, struct http_answer *a
  * whole frame to read. */
 bool world_query_copied(const struct world_query *asked, struct http_answer *answer);
 
+/* Also brings its motions up to date. */
+bool world_query_told(const struct world_query *asked, struct http_answer *answer);
+
 /* Returns the driver of a row's vehicle: 0 no client, 1 another client, 2 the requesting player. */
 uint32_t world_query_driver(const struct world_query *asked, uint32_t row);
 

@@ -24,8 +24,9 @@ static void detach(struct world_reader *reader)
     if (!reader->attached)
         return;
     snapshot_free(&reader->snapshot);
+    motion_table_free(&reader->motions);
     segment_detach(&reader->view);
-    reader->attached = reader->copied = false;
+    reader->attached = reader->copied = reader->told = false;
     reader->rate_count = reader->rate_next = 0;
 }
 
@@ -140,7 +141,11 @@ int world_reader_copy(struct world_reader *reader, uint64_t now_ns)
     pause_ns = pause_ns > WORLD_READER_COPY_NS ? pause_ns : WORLD_READER_COPY_NS;
     if (reader->copied && now_ns - reader->copied_ns < pause_ns)
         return 0;
-    int result = snapshot_take_poses(&reader->snapshot, &reader->view);
+    int result = snapshot_take(&reader->snapshot, &reader->view);
+    if (result == 0 && reader->told)
+        motion_table_update(&reader->motions, &reader->view.world, &reader->snapshot);
+    if (result == 0)
+        snapshot_settle_poses(&reader->snapshot, &reader->view);
     uint64_t done_ns = clock_now_ns();
     reader->spent_ns = done_ns - now_ns;
     reader->copied_ns = now_ns;
@@ -151,6 +156,20 @@ int world_reader_copy(struct world_reader *reader, uint64_t now_ns)
         error_text_set(&reader->detail, "world \"%s\": no frame of it can be read whole",
                        reader->name);
     return reader->copied ? 0 : -1;
+}
+
+int world_reader_tell(struct world_reader *reader, uint64_t now_ns)
+{
+    if (reader->attached && !reader->told) {
+        if (motion_table_init(&reader->motions, reader->view.header->capacity) != 0) {
+            error_text_set(&reader->detail, "world \"%s\": no memory for its motions",
+                           reader->name);
+            return -1;
+        }
+        reader->told = true;
+        reader->copied = false; /* the next copy is also told */
+    }
+    return world_reader_copy(reader, now_ns);
 }
 
 /* Returns the place of the oldest sample. */

@@ -6,7 +6,7 @@
 #ifndef JOLON_CLIENTS_CONSOLE_WORLD_READER_H
 #define JOLON_CLIENTS_CONSOLE_WORLD_READER_H
 
-#include "ipc/frame/snapshot.h"
+#include "ipc/frame/motion_table.h"
 #include "world/entity/kind.h"
 
 #include <stdbool.h>
@@ -27,6 +27,8 @@ struct world_reader {
     double time_s, scale; /* of the simulation, at the last turn */
     struct snapshot snapshot;
     bool copied; /* the snapshot holds a frame */
+    bool told;   /* motions has been asked for, and is brought up to date with each copy */
+    struct motion_table motions;
     uint64_t copied_ns, spent_ns;
     struct {
         uint64_t at_ns, commit;
@@ -44,6 +46,10 @@ bool world_reader_turn(struct world_reader *reader, uint64_t now_ns);
 /* Brings the snapshot up to date. Returns 0, or -1 if there is no world or no complete frame of it;
  * detail then says why. */
 int world_reader_copy(struct world_reader *reader, uint64_t now_ns);
+
+/* Brings the snapshot and the motions up to date, which are made at the first call. As
+ * world_reader_copy(). */
+int world_reader_tell(struct world_reader *reader, uint64_t now_ns);
 
 /* Returns the frame rate over the last second [1/s]. */
 double world_reader_rate_hz(const struct world_reader *reader);

@@ -95,7 +95,8 @@ static void open_all(struct drive *drive)
     if (check_world(options, &error) != 0 ||
         inputs_open(&drive->inputs, options->input, options->device, &error) != 0 ||
         dds_link_open(&drive->link, &options->link, options->world, &error) != 0 ||
-        world_mirror_open(&drive->mirror, &drive->link, options->world, true, &error) != 0 ||
+        world_mirror_open(&drive->mirror, &drive->link, options->world, WORLD_MIRROR_MOTIONS,
+                          &error) != 0 ||
         event_merge_open(&drive->merge, &drive->link, recent_events_format, &error) != 0 ||
         command_route_open(&drive->route, &drive->client, options->remote, &drive->link,
                            options->world, &error) != 0)

@@ -42,7 +42,8 @@ int session_open(struct session *session, struct error_text *error)
     if (session->wake_fd < 0)
         return error_text_set(error, "eventfd: %s", strerror(errno));
     if (dds_link_open(&session->link, &options->link, options->world, error) != 0 ||
-        world_mirror_open(&session->mirror, &session->link, options->world, true, error) != 0 ||
+        world_mirror_open(&session->mirror, &session->link, options->world, WORLD_MIRROR_BATCHES,
+                          error) != 0 ||
         command_route_open(&session->route, &session->client, options->remote, &session->link,
                            options->world, error) != 0 ||
         listen_to(session, session->mirror.reader, WORLD_MIRROR_READERS, error) != 0 ||

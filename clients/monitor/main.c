@@ -78,7 +78,9 @@ int main(int argc, char **argv)
         log_warn("cannot lower its priority: %s", strerror(errno));
     if (dds_link_open(&link, &options.link, options.world, &error) != 0 ||
         (!options.events &&
-         world_mirror_open(&mirror, &link, options.world, screen || options.json, &error) != 0) ||
+         world_mirror_open(&mirror, &link, options.world,
+                           screen || options.json ? WORLD_MIRROR_MOTIONS : WORLD_MIRROR_NOTHING,
+                           &error) != 0) ||
         ((options.events || screen) &&
          event_merge_open(&merge, &link, screen ? event_lines_event : event_json, &error) != 0))
         die_refused("%s", error.text);

@@ -33,6 +33,8 @@ static const struct {
     [TOPIC_COMMAND] = {"Command", &jolon_Command_desc, 256, 0},
     [TOPIC_REPLY] = {"CommandReply", &jolon_CommandReply_desc, 256, 0},
     [TOPIC_NAMES] = {"EntityNames", &jolon_EntityNames_desc, 1, 0},
+    /* Without a key, so that the parts come in their order; a whole batch has at most 128. */
+    [TOPIC_MOTIONS] = {"MotionBatch", &jolon_MotionBatch_desc, 256, DDS_SECS(1)},
 };
 
 _Static_assert(TOPIC_EVENTS + EVENT_TOPIC_COUNT == TOPIC_COMMAND, "event topics are in a row");

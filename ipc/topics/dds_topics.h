@@ -19,6 +19,7 @@ enum dds_topic {
         TOPIC_COMMAND,
     TOPIC_REPLY,
     TOPIC_NAMES,
+    TOPIC_MOTIONS,
     TOPIC_COUNT,
     TOPIC_EVENTS =
         TOPIC_ENTITIES + 1 /* the first of EVENT_TOPIC_COUNT, in the order of the types */

@@ -14,6 +14,10 @@
 #define NUMBER_MAX 1e15
 #define SIDE_MIN_M 1.0
 
+/* Likewise for the courses of motions. */
+#define RATE_MAX     1e4f
+#define COURSE_MAX_S 60.0f
+
 static bool number(double value)
 {
     return fabs(value) <= NUMBER_MAX; /* false for NaN */
@@ -120,6 +124,32 @@ static bool good_batch(const jolon_EntityBatch *batch)
     return good;
 }
 
+static bool good_course(const jolon_Course *course)
+{
+    const float rates[] = {course->turn_rps, course->pitch_rps, course->roll_rps, course->gain_mps2,
+                           course->climb_mps2};
+    bool good = course->lasts_s >= 0.0F && course->lasts_s <= COURSE_MAX_S;
+    for (size_t i = 0; good && i < sizeof rates / sizeof rates[0]; i++)
+        good = fabsf(rates[i]) <= RATE_MAX;
+    return good;
+}
+
+static bool good_motions(const jolon_MotionBatch *batch)
+{
+    const uint32_t count = batch->entities._length, *rows = batch->rows._buffer;
+    bool good =
+        batch->part < batch->parts && amount(batch->sim_time_s) && count == batch->rows._length;
+    for (uint32_t i = 0; good && i < count; i++)
+        good = good_entity(&batch->entities._buffer[i]) && rows[i] < CAPACITY_MAX &&
+               (i == 0 || rows[i] > rows[i - 1]);
+    for (uint32_t i = 0; good && i < batch->courses._length; i++) {
+        const jolon_Course *course = &batch->courses._buffer[i];
+        good = good_course(course) && course->entity < count &&
+               (i == 0 || course->entity > course[-1].entity);
+    }
+    return good;
+}
+
 static bool party(jolon_Party *value)
 {
     clean(value->kind);
@@ -200,6 +230,8 @@ bool samples_good(enum dds_topic topic, void *sample)
         return good_frame(sample);
     case TOPIC_ENTITIES:
         return good_batch(sample);
+    case TOPIC_MOTIONS:
+        return good_motions(sample);
 #define X(tag, word)                                                                               \
     case TOPIC_##tag:                                                                              \
         return good_event(sample) && good_##word(sample);

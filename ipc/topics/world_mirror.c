@@ -9,18 +9,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const enum dds_topic topics[WORLD_MIRROR_READERS] = {TOPIC_WORLD, TOPIC_PROCESS, TOPIC_FRAME,
-                                                            TOPIC_ENTITIES};
-
 int world_mirror_open(struct world_mirror *mirror, const struct dds_link *link, const char *world,
-                      bool entities, struct error_text *error)
+                      enum world_mirror_entities entities, struct error_text *error)
 {
-    *mirror =
-        (struct world_mirror){.link = link,
-                              .name = world,
-                              .readers = entities ? WORLD_MIRROR_READERS : WORLD_MIRROR_ENTITIES};
+    *mirror = (struct world_mirror){
+        .link = link,
+        .name = world,
+        .topic = {TOPIC_WORLD, TOPIC_PROCESS, TOPIC_FRAME,
+                  entities == WORLD_MIRROR_MOTIONS ? TOPIC_MOTIONS : TOPIC_ENTITIES},
+        .readers = entities == WORLD_MIRROR_NOTHING ? WORLD_MIRROR_ENTITIES : WORLD_MIRROR_READERS};
     for (int i = 0; i < mirror->readers; i++) {
-        mirror->reader[i] = dds_topics_reader(link, topics[i], error);
+        mirror->reader[i] = dds_topics_reader(link, mirror->topic[i], error);
         if (mirror->reader[i] < 0)
             return -1;
     }
@@ -33,6 +32,7 @@ int world_mirror_open(struct world_mirror *mirror, const struct dds_link *link, 
 void world_mirror_close(struct world_mirror *mirror)
 {
     name_table_close(&mirror->names);
+    motion_mirror_close(&mirror->motions);
     free(mirror->batch.entity);
     free(mirror->pending.entity);
     mirror->batch.entity = mirror->pending.entity = NULL;
@@ -89,6 +89,21 @@ static bool grow(struct world_mirror_batch *batch, uint32_t count)
     return true;
 }
 
+static void take_motions(struct world_mirror *mirror, const void *sample)
+{
+    struct world_mirror_batch *batch = &mirror->batch;
+    if (!motion_mirror_take(&mirror->motions, sample))
+        return;
+    batch->count = 0;
+    if (!grow(batch, mirror->motions.count))
+        return; /* without memory there are no entities to be seen */
+    motion_mirror_entities(&mirror->motions, batch->entity);
+    batch->count = mirror->motions.count;
+    batch->run = mirror->motions.run;
+    batch->frame = mirror->motions.frame;
+    mirror->has_batch = true;
+}
+
 static void take_entities(struct world_mirror *mirror, const void *sample)
 {
     const jolon_EntityBatch *from = sample;
@@ -125,6 +140,20 @@ static void take_entities(struct world_mirror *mirror, const void *sample)
     }
 }
 
+static void take(struct world_mirror *mirror, enum dds_topic topic, const void *sample)
+{
+    if (topic == TOPIC_WORLD)
+        take_world(mirror, sample);
+    else if (topic == TOPIC_PROCESS)
+        take_process(mirror, sample);
+    else if (topic == TOPIC_FRAME)
+        take_frame(mirror, sample);
+    else if (topic == TOPIC_ENTITIES)
+        take_entities(mirror, sample);
+    else
+        take_motions(mirror, sample);
+}
+
 /* WorldInfo is written once. When its writer has left, a new reader gets it from the successor. */
 static void check_world_writer(struct world_mirror *mirror)
 {
@@ -137,12 +166,10 @@ static void check_world_writer(struct world_mirror *mirror)
 
 void world_mirror_take(struct world_mirror *mirror)
 {
-    static void (*const take[WORLD_MIRROR_READERS])(struct world_mirror *, const void *) = {
-        take_world, take_process, take_frame, take_entities};
     for (int i = 0; i < mirror->readers; i++) {
-        struct samples from = {.reader = mirror->reader[i], .topic = topics[i]};
+        struct samples from = {.reader = mirror->reader[i], .topic = mirror->topic[i]};
         while (samples_next(&from)) {
-            take[i](mirror, from.sample);
+            take(mirror, mirror->topic[i], from.sample);
             if (i == WORLD_MIRROR_WORLD)
                 mirror->world_writer = from.writer;
         }

@@ -7,6 +7,7 @@
 #define JOLON_IPC_TOPICS_WORLD_MIRROR_H
 
 #include "ipc/topics/dds_topics.h"
+#include "ipc/topics/motion_mirror.h"
 #include "ipc/topics/names_reader.h"
 
 #include "status.h"
@@ -31,9 +32,17 @@ enum world_mirror_reader {
     WORLD_MIRROR_READERS
 };
 
+/* What a mirror reads of the entities, which are most of the data. */
+enum world_mirror_entities {
+    WORLD_MIRROR_NOTHING,
+    WORLD_MIRROR_BATCHES, /* exact */
+    WORLD_MIRROR_MOTIONS  /* less data; 0.25 m off (ipc/frame/motion_table.h) */
+};
+
 struct world_mirror {
     const struct dds_link *link; /* the caller's */
     dds_entity_t reader[WORLD_MIRROR_READERS];
+    enum dds_topic topic[WORLD_MIRROR_READERS];
     int readers; /* number of readers; the entities' reader is the last */
     dds_entity_t waitset;
     struct names_reader names_reader;
@@ -61,12 +70,13 @@ struct world_mirror {
         bool part[WORLD_MIRROR_PARTS_MAX]; /* it has come */
     } batch, pending;
     bool has_batch;
+    struct motion_mirror motions; /* from which the batch is computed with WORLD_MIRROR_MOTIONS */
 };
 
-/* Makes the readers on the link, which must outlive the mirror. Entities, which are most of the
- * data, are read only if entities is true. Returns 0, or -1 with the reason. */
+/* Makes the readers on the link, which must outlive the mirror. Returns 0, or -1 with the reason.
+ */
 int world_mirror_open(struct world_mirror *mirror, const struct dds_link *link, const char *world,
-                      bool entities, struct error_text *error);
+                      enum world_mirror_entities entities, struct error_text *error);
 void world_mirror_close(struct world_mirror *mirror);
 
 /* Takes the samples that have come. Does not block. */

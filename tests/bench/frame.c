@@ -5,6 +5,7 @@
 #include "tests/bench/burst.h"
 #include "tests/bench/world.h"
 
+#include "ipc/frame/motion_table.h"
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
@@ -18,6 +19,7 @@
 #include <time.h>
 
 #define MOTION_FRAMES 60u /* in which changes of controls are counted; even */
+#define TELL_FRAMES   6u  /* between two batches of motions */
 #define SETTLE_FRAMES 60u /* after a burst, before frames are measured again */
 
 /* Of each frame [ms]: wall time of the stages and of both, and processor time of all threads. */
@@ -46,6 +48,7 @@ struct result {
     double woken;                      /* rows moved in a frame, median */
     double motion_frames;              /* for which a vehicle's controls stay the same, mean */
     double steady; /* share of the rows that keep heading and level velocity in a frame, percent */
+    double told;   /* rows that a batch of motions tells, every TELL_FRAMES frames, mean */
 };
 
 struct burst {
@@ -103,23 +106,46 @@ static void run(struct frame_stepper *stepper, const struct times *times)
     }
 }
 
-/* Finds the mean life of a motion, and how many rows go on as they did. Runs MOTION_FRAMES frames,
- * which are not timed, because looking at the rows between two frames would slow them. */
+struct telling {
+    struct motion_table table;
+    struct snapshot snapshot;
+    double rows; /* told after the first batch */
+};
+
+static void tell(struct telling *telling, const struct view *view, bool first)
+{
+    if (snapshot_take(&telling->snapshot, view) != 0)
+        die_refused("cannot read a frame: %s", strerror(errno));
+    motion_table_update(&telling->table, &view->world, &telling->snapshot);
+    telling->rows += first ? 0.0 : telling->table.count;
+}
+
+/* Finds the mean life of a motion, how many rows go on as they did, and how many receivers of
+ * motions are told. Runs MOTION_FRAMES frames, which are not timed, because looking at the rows
+ * between two frames would slow them. */
 static void find_motions(struct frame_stepper *stepper, struct result *result)
 {
     const struct state *state = &stepper->view->w[frame_stepper_frame(stepper) & 1];
     double rows = state->head->used * (double)MOTION_FRAMES;
     struct controls *controls = calloc(stepper->view->world.params->capacity, sizeof *controls);
     struct changes changes = {0};
-    if (!controls)
+    struct telling telling = {0};
+    if (!controls || snapshot_init(&telling.snapshot, stepper->view) != 0 ||
+        motion_table_init(&telling.table, stepper->view->header->capacity) != 0)
         die_refused("out of memory");
     count_changes(stepper, controls, &changes);
     changes = (struct changes){0};
-    for (uint32_t i = 0; i < MOTION_FRAMES; i++) {
+    tell(&telling, stepper->view, true);
+    for (uint32_t i = 1; i <= MOTION_FRAMES; i++) {
         frame_stepper_step(stepper, NULL);
         count_changes(stepper, controls, &changes);
+        if (i % TELL_FRAMES == 0)
+            tell(&telling, stepper->view, false);
     }
+    motion_table_free(&telling.table);
+    snapshot_free(&telling.snapshot);
     free(controls);
+    result->told = telling.rows / (MOTION_FRAMES / TELL_FRAMES);
     result->motion_frames = rows / (changes.controls > 0.0 ? changes.controls : 1.0);
     result->steady = 100.0 * changes.steady / rows;
 }
@@ -190,12 +216,12 @@ static void print_json(const struct bench_options *options, const struct result 
     printf("{\"vehicles\":%u,\"mode\":\"%s\",\"threads\":%u,\"frames\":%u,\"mover_ms\":%.6f,"
            "\"collider_ms\":%.6f,\"frame_ms\":%.6f,\"frame_p99_ms\":%.6f,\"cpu_ms\":%.6f,"
            "\"first_ms\":%.6f,\"first_cpu_ms\":%.6f,\"second_ms\":%.6f,\"second_worst_ms\":%.6f,"
-           "\"woken\":%.0f,\"motion_frames\":%.1f,\"steady\":%.1f,",
+           "\"woken\":%.0f,\"motion_frames\":%.1f,\"steady\":%.1f,\"told\":%.0f,",
            options->vehicles, bench_mode_word((enum bench_mode)options->mode), options->threads,
            options->frames, result->mover_ms, result->collider_ms, result->frame_ms,
            result->slow_ms, result->cpu_ms, result->first_ms, result->first_cpu_ms,
            result->second_ms, result->second_worst_ms, result->woken, result->motion_frames,
-           result->steady);
+           result->steady, result->told);
     if (options->burst > 0)
         printf("\"burst\":%u,\"burst_frames\":%u,\"burst_worst_ms\":%.6f,\"after_ms\":%.6f,"
                "\"after_cpu_ms\":%.6f,\"rows\":%u,\"rows_after\":%u,",
@@ -210,15 +236,16 @@ static void print_text(const struct bench_options *options, const struct result 
                        const struct burst *burst, const struct counters *tally)
 {
     printf("%u vehicles, %s, %u thread(s), %u frames: mover %.3f ms, collider %.3f ms, frame %.3f "
-           "ms (p99 %.3f), processor time %.3f ms, %.0f rows moved; first frame %.3f ms (%.3f), "
+           "ms (p99 %.3f), processor time %.3f ms, %.0f rows moved, %.0f told; first frame %.3f ms "
+           "(%.3f), "
            "first second %.3f ms "
            "(worst frame %.3f); %llu collisions, %llu shots, %llu changes of mind, %llu destroyed",
            options->vehicles, bench_mode_word((enum bench_mode)options->mode), options->threads,
            options->frames, result->mover_ms, result->collider_ms, result->frame_ms,
-           result->slow_ms, result->cpu_ms, result->woken, result->first_ms, result->first_cpu_ms,
-           result->second_ms, result->second_worst_ms, (unsigned long long)tally->collisions,
-           (unsigned long long)tally->fires, (unsigned long long)tally->agent_changes,
-           (unsigned long long)tally->destroyed);
+           result->slow_ms, result->cpu_ms, result->woken, result->told, result->first_ms,
+           result->first_cpu_ms, result->second_ms, result->second_worst_ms,
+           (unsigned long long)tally->collisions, (unsigned long long)tally->fires,
+           (unsigned long long)tally->agent_changes, (unsigned long long)tally->destroyed);
     if (options->burst > 0)
         printf("; %u bombs in %u frames (worst %.3f ms), then frame %.3f ms, processor time %.3f "
                "ms; rows in use %u before, %u after",

@@ -164,6 +164,43 @@ static bool take_entities(struct world_mirror *mirror)
     return samples_good(TOPIC_ENTITIES, &batch);
 }
 
+/* Takes a whole batch of motions and one a moment later. */
+static bool take_motions(struct world_mirror *mirror)
+{
+    static jolon_Entity entity[ENTITIES], seen[ENTITIES];
+    static jolon_Course course[ENTITIES];
+    uint32_t rows[ENTITIES];
+    jolon_MotionBatch batch = {.parts = 1, .whole = true};
+    uint8_t count, courses;
+    double later_s;
+    fill(&batch.sim_time_s, sizeof batch.sim_time_s);
+    fill(&later_s, sizeof later_s);
+    fill(&count, sizeof count);
+    fill(&courses, sizeof courses);
+    fill(entity, sizeof entity);
+    fill(course, sizeof course);
+    for (uint32_t i = 0; i < ENTITIES; i++) {
+        TRUTH(entity[i].grounded);
+        rows[i] = i;
+    }
+    batch.rows._buffer = rows;
+    batch.entities._buffer = entity;
+    batch.courses._buffer = course;
+    batch.rows._length = batch.entities._length = count % (ENTITIES + 1);
+    batch.courses._length = courses % (ENTITIES + 1);
+    bool taken =
+        samples_good(TOPIC_MOTIONS, &batch) && motion_mirror_take(&mirror->motions, &batch);
+    batch.rows._length = batch.entities._length = batch.courses._length = 0;
+    batch.sim_time_s = later_s;
+    batch.whole = false;
+    if (taken && samples_good(TOPIC_MOTIONS, &batch))
+        (void)motion_mirror_take(&mirror->motions, &batch);
+    motion_mirror_entities(&mirror->motions, seen);
+    mirror->batch.entity = seen;
+    mirror->batch.count = mirror->motions.count;
+    return taken;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static struct world_mirror mirror;
@@ -187,7 +224,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fill(&mirror.role[0], sizeof mirror.role[0]);
     END(mirror.role[0].role);
     mirror.role_count = samples_good(TOPIC_PROCESS, &mirror.role[0]);
-    mirror.has_batch = what & 1 && take_entities(&mirror);
+    mirror.has_batch = what & 1 && (what & 2 ? take_motions(&mirror) : take_entities(&mirror));
     if (!mirror.has_batch)
         mirror.batch.count = 0;
     fill(name, sizeof name);
@@ -200,5 +237,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (mirror.has_world || !(what & 64))
         show(&mirror);
     name_table_close(&mirror.names);
+    motion_mirror_close(&mirror.motions);
     return 0;
 }

@@ -158,6 +158,39 @@ static void write_batch(struct hostile *hostile)
     (void)dds_write(hostile->writer[TOPIC_ENTITIES], &batch);
 }
 
+static void write_motions(struct hostile *hostile)
+{
+    static uint32_t rows[ENTITIES];
+    static jolon_Course courses[ENTITIES];
+    jolon_MotionBatch batch = {.part = (uint32_t)(often(hostile) ? 0 : whole(hostile)),
+                               .parts = (uint32_t)(often(hostile) ? 1 : whole(hostile)),
+                               .run = hostile->run,
+                               .frame = whole(hostile),
+                               .sim_time_s = number(hostile),
+                               .whole = draw(hostile) & 1,
+                               .rows = {._buffer = rows},
+                               .entities = {._buffer = hostile->entity},
+                               .courses = {._buffer = courses}};
+    uint32_t count = (uint32_t)(draw(hostile) % ENTITIES);
+    batch.rows._length = batch.rows._maximum = often(hostile) ? count : count / 2;
+    batch.entities._length = batch.entities._maximum = count;
+    batch.courses._length = batch.courses._maximum = count;
+    for (uint32_t i = 0; i < count; i++) {
+        rows[i] = often(hostile) ? 3 * i : (uint32_t)whole(hostile);
+        courses[i] = (jolon_Course){.entity = often(hostile) ? i : (uint32_t)whole(hostile),
+                                    .turn_rps = (float)number(hostile),
+                                    .gain_mps2 = (float)number(hostile),
+                                    .lasts_s = (float)number(hostile)};
+        hostile->entity[i] = (jolon_Entity){.id = (uint32_t)whole(hostile),
+                                            .kind = (uint16_t)whole(hostile),
+                                            .state = (jolon_EntityState)(draw(hostile) % 3),
+                                            .x_m = number(hostile),
+                                            .vx_mps = (float)number(hostile),
+                                            .heading_rad = (float)number(hostile)};
+    }
+    (void)dds_write(hostile->writer[TOPIC_MOTIONS], &batch);
+}
+
 static jolon_EventHeader header(struct hostile *hostile)
 {
     return (jolon_EventHeader){.run = often(hostile) ? hostile->run : draw(hostile),
@@ -222,7 +255,8 @@ void hostile_write(const struct dds_link *link, uint64_t seed, uint64_t length_n
 {
     static struct hostile hostile;
     static void (*const writes[])(struct hostile *) = {write_world, write_names, write_process,
-                                                       write_frame, write_batch, write_events};
+                                                       write_frame, write_batch, write_motions,
+                                                       write_events};
     struct error_text error;
     hostile.state = seed;
     hostile.frames = dds_topics_reader(link, TOPIC_FRAME, &error);

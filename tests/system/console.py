@@ -2,6 +2,7 @@
 import concurrent.futures
 import http.client
 import json
+import math
 import sys
 import time
 
@@ -82,6 +83,61 @@ def reading():
     check("wrong queries are refused with the reason", all(status == 400 and text["error"] and text["next"]
                                                       for status, text in answers), answers)
     check("an unknown path is answered with 404", ask("/etc/passwd")[0] == 404 and ask("/../main.c")[0] == 404)
+
+
+def reckoned(told, time_s):
+    """Returns where an entity is at a time that was told with its motion (docs/console.md)."""
+    x, z, heading = told[6:9]
+    at_s, vx, vz, turn, gain, lasts = (told[13:] + [0] * 6)[:6]
+    after = max(time_s - at_s, 0)
+    turning = min(after, lasts)
+    forward = vx * math.sin(heading) - vz * math.cos(heading)
+    right = vx * math.cos(heading) + vz * math.sin(heading)
+    for i in range(100):  # in small steps, unlike the page
+        angle = heading + turn * turning * (i + 0.5) / 100
+        along = forward + gain * turning * (i + 0.5) / 100
+        x += (along * math.sin(angle) + right * math.cos(angle)) * turning / 100
+        z += (right * math.sin(angle) - along * math.cos(angle)) * turning / 100
+    heading, forward, after = heading + turn * turning, forward + gain * turning, after - turning
+    return (x + (forward * math.sin(heading) + right * math.cos(heading)) * after,
+            z + (right * math.sin(heading) - forward * math.cos(heading)) * after)
+
+
+def motions():
+    """Follows the motions of all entities, and compares them with where they are."""
+    first = state("most=20000&since=0&stride=0")
+    check("a first answer with motions is whole", first["whole"] and len(first["entities"]) >= 500 and
+          "gone" not in first, len(first["entities"]))
+    told = {one[12]: one for one in first["entities"]}
+    frame, sizes, compared, off, wholes, unknown = first["frame"], [], 0, [], 0, 0
+    for _ in range(40):
+        time.sleep(0.12)
+        now = state(f"most=20000&since={frame}&stride={first['stride']}")
+        exact = state("most=20000")  # of the same copy of the world, unless that is 0.1 s old by now
+        for row in now["gone"]:
+            told.pop(row, None)
+        told.update((one[12], one) for one in now["entities"])
+        frame = now["frame"]
+        sizes.append(len(now["entities"]))
+        wholes += now["whole"]
+        if exact["frame"] != frame:
+            continue
+        compared += 1
+        unknown += len({one[0] for one in told.values()} ^ {one[0] for one in exact["entities"]})
+        places = {one[0]: one[6:8] for one in exact["entities"]}
+        off += [math.dist(reckoned(one, now["time_s"]), places[one[0]]) for one in told.values() if one[0] in places]
+    check("answers with since are not whole", wholes == 0, wholes)
+    check("all entities are known by their motions", unknown == 0, unknown)
+    check("motions and places were compared", compared >= 5, compared)
+    check("who follows the motions has each entity where it is", max(off) < 0.5, max(off))
+    check("most entities go on as they were told", sum(sizes) < 0.4 * len(sizes) * len(told), sizes)
+    check("another stride is answered whole", state(f"most=100&since={frame}&stride=1")["whole"])
+    check("a frame that is to come is answered whole", state(f"most=20000&since={frame + 100000}&stride=1")["whole"])
+    x, z = next(iter(told.values()))[6:8]
+    area = f"area={x - 50},{z - 50},{x + 50},{z + 50}"
+    near = state(f"most=20000&stride=1&since={state('most=0')['frame']}&{area}")
+    check("a small area is told only its own motions", all(abs(one[6] - x) < 60 and abs(one[7] - z) < 60 for one in near["entities"]))
+    check("a wrong frame is refused", ask("/api/state?since=-1")[0] == 400)
 
 
 def playing():
@@ -244,5 +300,5 @@ def refusals():
     check("no refused command reached the world", state()["tally"]["commands"] == before)
 
 
-for part in (reading, playing, ruling, killing, pictures, refusals):
+for part in (reading, motions, playing, ruling, killing, pictures, refusals):
     part()

@@ -4,6 +4,7 @@
  */
 
 import { Refusal } from './api.js';
+import { entityAt, ROW } from './motion.js';
 
 /**
  * A vehicle or munition of a state, as the server sends it.
@@ -18,6 +19,7 @@ const EVERY_MS = 100;
 const HIDDEN_MS = 1000;
 const AGAIN_MS = 1000;
 const MOST = 5000;
+const WHOLE_MS = 5000;
 
 export class World extends EventTarget {
   /** @param {import('./api.js').Api} api */
@@ -36,6 +38,11 @@ export class World extends EventTarget {
     this.before = new Map();
     /** @type {Map<number, string>} who drives a vehicle, by its id */
     this.players = new Map();
+    /** @type {Map<number, number[]>} what the server has told of each row, as motion.js reads it */
+    this.told = new Map();
+    this.stride = 0;
+    this.toldArea = '';
+    this.wholeAt = 0;
     this.arrived = 0;
     this.gap = EVERY_MS;
     /** @type {string} what is wrong with the connection, '' for nothing */
@@ -77,11 +84,16 @@ export class World extends EventTarget {
   }
 
   async look() {
-    const query = { area: this.area.map(Math.round).join(','), most: MOST };
+    const area = this.area.map(Math.round).join(',');
+    const anew = area !== this.toldArea || performance.now() - this.wholeAt > WHOLE_MS;
+    const query = { area, most: MOST, since: this.state?.frame ?? 0, stride: anew ? 0 : this.stride };
     if (this.me) query.me = this.me;
     const state = await this.api.get('state', query);
     if (this.state && state.frame < this.state.frame) await this.meet();
     const arrived = performance.now();
+    if (state.whole) this.wholeAt = arrived;
+    this.toldArea = area;
+    this.hear(state);
     const same = this.state !== null && state.frame === this.state.frame;
     if (!same || this.before.size === 0) {
       if (this.arrived) this.gap += 0.3 * (Math.min(arrived - this.arrived, 1000) - this.gap);
@@ -95,6 +107,15 @@ export class World extends EventTarget {
     this.now = new Map(state.entities.map((entity) => [entity[ID], entity]));
     this.players = new Map((state.players ?? []).map((player) => [player.vehicle, player.name]));
     this.dispatchEvent(new Event('state'));
+  }
+
+  /** Notes what a state tells, and writes where all entities are into it. */
+  hear(state) {
+    if (state.whole) this.told.clear();
+    for (const row of state.gone ?? []) this.told.delete(row);
+    for (const entity of state.entities) this.told.set(entity[ROW], entity);
+    this.stride = state.stride;
+    state.entities = [...this.told.values()].map((told) => entityAt(told, state.time_s));
   }
 
   /** The present moment's place between the last two states, 0 to 1 and a little beyond. */

@@ -1,6 +1,8 @@
 /* The samples that a reporter could have written, and the cleaning of their texts. */
 #include "ipc/topics/samples.h"
 
+#include "world/entity/entity.h"
+
 #include "status.h"
 
 #include <math.h>
@@ -117,6 +119,44 @@ static void test_batches_fit_together(void **state)
     assert_false(samples_good(TOPIC_ENTITIES, &batch));
 }
 
+static void test_motions_fit_together(void **state)
+{
+    jolon_Entity entity[2] = {{.id = 1}, {.id = 2}};
+    uint32_t row[2] = {3, 8};
+    jolon_Course course[2] = {{.entity = 0, .lasts_s = 0.5F}, {.entity = 1, .turn_rps = 0.1F}};
+    const jolon_MotionBatch good = {.parts = 1,
+                                    .rows = {._length = 2, ._buffer = row},
+                                    .entities = {._length = 2, ._buffer = entity},
+                                    .courses = {._length = 2, ._buffer = course}};
+    jolon_MotionBatch batch = good;
+    (void)state;
+    assert_true(samples_good(TOPIC_MOTIONS, &batch));
+    batch.part = 1;
+    assert_false(samples_good(TOPIC_MOTIONS, &batch));
+    batch = good;
+    batch.rows._length = 1;
+    assert_false(samples_good(TOPIC_MOTIONS, &batch));
+    batch = good;
+    row[1] = 3;
+    assert_false(samples_good(TOPIC_MOTIONS, &batch));
+    row[1] = CAPACITY_MAX;
+    assert_false(samples_good(TOPIC_MOTIONS, &batch));
+    row[1] = 8;
+    course[1].entity = 2;
+    assert_false(samples_good(TOPIC_MOTIONS, &batch));
+    course[1].entity = 0;
+    assert_false(samples_good(TOPIC_MOTIONS, &batch));
+    course[1].entity = 1;
+    course[1].turn_rps = NAN;
+    assert_false(samples_good(TOPIC_MOTIONS, &batch));
+    course[1].turn_rps = 0.0F;
+    course[1].lasts_s = -1.0F;
+    assert_false(samples_good(TOPIC_MOTIONS, &batch));
+    course[1].lasts_s = 0.0F;
+    entity[1].x_m = INFINITY;
+    assert_false(samples_good(TOPIC_MOTIONS, &batch));
+}
+
 static void test_names_rise(void **state)
 {
     jolon_EntityName name[3] = {{.id = 1}, {.id = 4}, {.id = 9}};
@@ -165,6 +205,7 @@ int main(void)
         cmocka_unit_test(test_roles_are_those_there_are),
         cmocka_unit_test(test_worlds),
         cmocka_unit_test(test_batches_fit_together),
+        cmocka_unit_test(test_motions_fit_together),
         cmocka_unit_test(test_names_rise),
         cmocka_unit_test(test_events),
     };
