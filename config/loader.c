@@ -362,7 +362,8 @@ static uint32_t event_slots_for(uint32_t capacity)
 
 static uint32_t contact_slots_for(uint32_t capacity)
 {
-    uint32_t slots = PERSISTENT_CONTACTS_AN_ENTITY * capacity;
+    uint32_t full = capacity < PERSISTENT_CONTACT_ENTITIES ? capacity : PERSISTENT_CONTACT_ENTITIES;
+    uint32_t slots = PERSISTENT_CONTACTS_AN_ENTITY * full + (capacity - full);
     return slots > PERSISTENT_CONTACT_SLOTS_MIN ? slots : PERSISTENT_CONTACT_SLOTS_MIN;
 }
 

@@ -57,7 +57,7 @@ static const struct key scenario_keys[] = {
     WHOLE32("world.capacity", S, params.capacity, CAPACITY_MIN, CAPACITY_MAX, "4096",
             .meaning = "How many vehicles and munitions the world can hold at one time."),
     WHOLE32("world.contacts", S, params.contact_slots, 1, PERSISTENT_CONTACT_SLOTS_MAX, NULL,
-            .unset = "4 times `world.capacity`, at least 256",
+            .unset = "4 times `world.capacity` up to 16384, 1 for each further slot, at least 256",
             .meaning = "How many pairs of bodies can press on each other at one time. The world "
                        "counts the contacts for which there is no room, as `contacts_refused`."),
     WHOLE32("world.remotes_max", S, params.remotes_max, 0, REMOTE_ROWS_MAX,

@@ -17,8 +17,10 @@
 
 #define PERSISTENT_CONTACT_IMPACTS_MAX UINT16_MAX
 
-/* The default length of the list: for each slot of the world's capacity, but at least. */
+/* The default length of the list: for each slot of the world's capacity, up to so many slots, and
+ * one more for each slot beyond; but at least. No crowd of that size is one heap. */
 #define PERSISTENT_CONTACTS_AN_ENTITY 4u
+#define PERSISTENT_CONTACT_ENTITIES   16384u
 #define PERSISTENT_CONTACT_SLOTS_MIN  256u
 #define PERSISTENT_CONTACT_SLOTS_MAX  (1u << 22) /* 4 for each slot of the largest capacity */
 

@@ -103,8 +103,9 @@ static void test_sizes_follow_capacity(void **state)
         {"world.capacity=16", 65536, 1056, 256},
         {"world.capacity=65", 65536, 1154, 260},
         {"world.capacity=4097", 131072, 8192, 16388},
-        {"world.capacity=65536", 1048576, 65536, 262144},
-        {"world.capacity=1048576", 1048576, 65536, 4194304},
+        {"world.capacity=16384", 262144, 16384, 65536},
+        {"world.capacity=65536", 1048576, 65536, 114688},
+        {"world.capacity=1048576", 1048576, 65536, 1097728},
         {"world.contacts=1", 65536, 4096, 1},
     };
 
