@@ -1,5 +1,5 @@
-/* From PDUs to records. */
-#include "gateway/remote_input.h"
+/* From PDUs to records: Entity State, and what all have in common. */
+#include "gateway/remote_input_internal.h"
 
 #include "gateway/earth/euler.h"
 #include "gateway/pdu/timestamp.h"
@@ -14,7 +14,6 @@
 
 #define HEIGHT_MOST_M          50000.0
 #define HEIGHT_LEAST_M         -1000.0 /* no ground and no submarine is deeper */
-#define SPEED_MOST_MPS         10000.0
 #define ACCELERATION_MOST_MPS2 1000.0
 #define RATE_MOST_RPS          20.0
 
@@ -24,17 +23,11 @@
 
 #define DRY_M 1e7 /* no place on the earth is further from our square */
 
-#define SHOTS_A_SECOND 1000u
-#define GONE_NS        (2 * (uint64_t)NS_PER_S) /* told, and no row for so long: it was refused */
+#define GONE_NS (2 * (uint64_t)NS_PER_S) /* told, and no row for so long: it was refused */
 
 #define PLATFORM  1 /* kinds of types of DIS */
 #define MUNITION  2
 #define LIFE_FORM 3
-
-#define MASS_MOST_KG 1e9f
-
-/* Collisions and munitions number their events apart. */
-#define COLLISION_EVENT ((uint64_t)1 << 48)
 
 /* --- opening -----------------------------------------------------------------------------------*/
 
@@ -113,7 +106,7 @@ static bool in_square(const struct remote_input *input, struct vec3 at)
 }
 
 /* Returns true if a place is one of the world, and else counts why not. */
-static bool in_world(struct remote_input *input, struct vec3 at)
+bool remote_input_in_world(struct remote_input *input, struct vec3 at)
 {
     bool high = at.y >= HEIGHT_LEAST_M && at.y <= HEIGHT_MOST_M; /* false for NaN */
     if (!in_square(input, at))
@@ -124,7 +117,7 @@ static bool in_world(struct remote_input *input, struct vec3 at)
 }
 
 /* Returns a place of the world. One that is nowhere near is outside the square. */
-static struct vec3 world_place(const struct remote_input *input, const double location[3])
+struct vec3 remote_input_place(const struct remote_input *input, const double location[3])
 {
     struct vec3 ecef = {location[0], location[1], location[2]};
     if (!within(vec3_sub(ecef, input->frame->origin), DRY_M))
@@ -132,21 +125,11 @@ static struct vec3 world_place(const struct remote_input *input, const double lo
     return local_frame_world(input->frame, ecef);
 }
 
-static struct vec3 vec3_of(const float value[3])
-{
-    return (struct vec3){(double)value[0], (double)value[1], (double)value[2]};
-}
-
 /* Returns an angle as it is in a record, at most so far from 0. An absurd one is 0. */
 static int16_t angle_units(double angle_rad, double most_rad)
 {
     double angle = fabs(angle_rad) < 1e6 ? maths_wrap_half(angle_rad) : 0.0;
     return (int16_t)lrint(maths_clamp(angle, -most_rad, most_rad) / PI * 32767.0);
-}
-
-static uint64_t id_of(struct pdu_id id)
-{
-    return remote_id(id.site, id.application, id.entity);
 }
 
 /* --- time --------------------------------------------------------------------------------------*/
@@ -158,11 +141,11 @@ static void scale_floats(float value[3], double scale, double most)
 
 /* Writes a record into the ring. Velocities of other simulators are by the clock, and those in the
  * ring by simulated time. */
-static int append(struct remote_input *input, struct view *view, struct remote_record record)
+int remote_input_append(struct remote_input *input, struct view *view, struct remote_record record)
 {
     double scale = 1.0 / input->time_scale;
     if (input->time_scale != 1.0 && (record.type == REMOTE_TRACK || record.type == REMOTE_STRUCK))
-        scale_floats(record.velocity, scale, SPEED_MOST_MPS);
+        scale_floats(record.velocity, scale, REMOTE_INPUT_SPEED_MPS);
     if (input->time_scale != 1.0 && record.type == REMOTE_TRACK) {
         scale_floats(record.acceleration, scale * scale, SCALED_ACCELERATION_MOST_MPS2);
         scale_floats(record.rates, scale, SCALED_RATE_MOST_RPS);
@@ -172,7 +155,7 @@ static int append(struct remote_input *input, struct view *view, struct remote_r
 
 /* --- types -------------------------------------------------------------------------------------*/
 
-static uint16_t kind_of(struct remote_input *input, struct pdu_entity_type type, bool munition)
+uint16_t remote_input_kind(struct remote_input *input, struct pdu_entity_type type, bool munition)
 {
     bool same;
     uint16_t kind = type_table_kind(input->types, type, munition, &same);
@@ -214,7 +197,7 @@ static void set_motion(struct remote_record *track, const struct mat3 *axes,
         state->appearance & PDU_APPEARANCE_FROZEN)
         model = DEAD_RECKONING_STATIC;
     track->model = model;
-    struct vec3 velocity = vec3_limited(vec3_of(state->velocity), SPEED_MOST_MPS);
+    struct vec3 velocity = vec3_limited(vec3_of(state->velocity), REMOTE_INPUT_SPEED_MPS);
     struct vec3 acceleration = vec3_limited(vec3_of(state->acceleration), ACCELERATION_MOST_MPS2);
     struct vec3 rates = vec3_limited(vec3_of(state->angular_velocity), RATE_MOST_RPS);
     if (model >= DEAD_RECKONING_FPB) {
@@ -240,11 +223,11 @@ static void set_parts(struct remote_record *track, const struct pdu *pdu)
     }
 }
 
-static void put_lost(struct remote_input *input, struct view *view, struct remote_entry *entry)
+void remote_input_lose(struct remote_input *input, struct view *view, struct remote_entry *entry)
 {
     struct remote_record record = {
         .remote = entry->remote, .type = REMOTE_LOST, .slot = entry->track.slot};
-    if (append(input, view, record) != 0) {
+    if (remote_input_append(input, view, record) != 0) {
         input->refused[REMOTE_INPUT_RING]++; /* its row is seen again, and lost later */
         return;
     }
@@ -255,8 +238,8 @@ static void put_lost(struct remote_input *input, struct view *view, struct remot
 /* Who comes first with an identifier is its owner. An address may have several simulators, one a
  * port. One that starts anew there, on another port, gets the entities that its predecessor no
  * longer sends. */
-static bool is_owner(const struct remote_input *input, const struct remote_entry *entry,
-                     const struct udp_address *from, uint64_t now_ns)
+bool remote_input_owns(const struct remote_input *input, const struct remote_entry *entry,
+                       const struct udp_address *from, uint64_t now_ns)
 {
     uint64_t sender = remote_table_owner(from);
     bool same_host = (entry->owner ^ sender) >> REMOTE_TABLE_PORT_BITS == 0;
@@ -278,13 +261,13 @@ static struct remote_entry *admit(struct remote_input *input, uint64_t remote, s
                                   const struct udp_address *from, uint64_t now_ns)
 {
     struct remote_entry *entry = remote_table_find(&input->table, remote);
-    if (!in_world(input, place))
+    if (!remote_input_in_world(input, place))
         return NULL;
     if (!entry && !(entry = remote_table_add(&input->table, remote, now_ns))) {
         input->refused[REMOTE_INPUT_FULL]++;
         return NULL;
     }
-    if (!is_owner(input, entry, from, now_ns) || !continues(input, entry, place, now_ns)) {
+    if (!remote_input_owns(input, entry, from, now_ns) || !continues(input, entry, place, now_ns)) {
         input->refused[REMOTE_INPUT_TWIN]++;
         input->twin = remote;
         input->twin_from = *from;
@@ -326,13 +309,13 @@ static void take_last(struct remote_input *input, struct view *view, const struc
 {
     uint64_t remote = id_of(pdu->entity_state.id);
     struct remote_entry *entry = remote_table_find(&input->table, remote);
-    if (!entry || !is_owner(input, entry, from, now_ns))
+    if (!entry || !remote_input_owns(input, entry, from, now_ns))
         return;
     uint32_t at = input->gone_count++ % REMOTE_INPUT_GONE;
     input->gone[at].remote = remote;
     input->gone[at].heard_ns = now_ns;
     input->gone[at].stamp = pdu->header.timestamp;
-    put_lost(input, view, entry);
+    remote_input_lose(input, view, entry);
 }
 
 /* Returns true if two records say the same, byte by byte. Records have no padding. */
@@ -376,12 +359,12 @@ static void take_state(struct remote_input *input, struct view *view, const stru
     }
     bool flies = state->type.kind == MUNITION;
     bool shown = flies || state->type.kind == PLATFORM || state->type.kind == LIFE_FORM;
-    uint16_t kind = shown ? kind_of(input, state->type, flies) : KIND_NONE;
+    uint16_t kind = shown ? remote_input_kind(input, state->type, flies) : KIND_NONE;
     if (kind == KIND_NONE) {
         input->refused[REMOTE_INPUT_TYPE]++;
         return;
     }
-    struct vec3 place = world_place(input, state->location);
+    struct vec3 place = remote_input_place(input, state->location);
     if ((!entry && is_gone(input, remote, pdu, now_ns)) ||
         !(entry = admit(input, remote, place, from, now_ns)))
         return;
@@ -411,244 +394,7 @@ static void take_state(struct remote_input *input, struct view *view, const stru
     remote_table_wait(&input->table, entry);
 }
 
-/* --- Fire and Detonation -----------------------------------------------------------------------*/
-
-/* Writes the record of a shot. place: where it was in the world, NULL: nobody knows. */
-static void put_shot(struct remote_input *input, struct view *view,
-                     const struct remote_record *record, const struct vec3 *place, uint64_t now_ns)
-{
-    struct told_event shot = event_memory_of(record, now_ns);
-    shot.placed = place != NULL;
-    shot.place = place ? *place : (struct vec3){0};
-    if (event_memory_has(&input->heard, &shot)) {
-        input->repeated++;
-        return;
-    }
-    if (!rate_take(&input->shots, SHOTS_A_SECOND, SHOTS_A_SECOND, now_ns)) {
-        input->refused[REMOTE_INPUT_SHOTS]++;
-        return;
-    }
-    if (append(input, view, *record) != 0) {
-        input->refused[REMOTE_INPUT_RING]++;
-        return;
-    }
-    event_memory_note(&input->heard, &shot);
-    if (record->type == REMOTE_FIRE)
-        input->fires++;
-    else
-        input->struck++;
-}
-
-static uint32_t slot_of(const struct remote_input *input, uint64_t remote)
-{
-    const struct remote_entry *entry = remote ? remote_table_find(&input->table, remote) : NULL;
-    return entry ? entry->track.slot : SLOT_NONE;
-}
-
-static void take_fire(struct remote_input *input, struct view *view, const struct pdu *pdu,
-                      uint64_t now_ns)
-{
-    const struct pdu_fire *fire = &pdu->fire;
-    struct vec3 place = world_place(input, fire->location);
-    uint16_t kind = kind_of(input, fire->munition_type, true);
-    struct remote_record record = {.remote = id_of(fire->firer),
-                                   .event = id_of(fire->event),
-                                   .type = REMOTE_FIRE,
-                                   .slot = slot_of(input, id_of(fire->firer)),
-                                   .entity = entity_ids_back(&input->own, fire->target),
-                                   .kind = kind,
-                                   .position = {place.x, place.y, place.z}};
-    if (kind == KIND_NONE)
-        input->refused[REMOTE_INPUT_TYPE]++;
-    else if (in_world(input, place))
-        put_shot(input, view, &record, &place, now_ns);
-}
-
-/* Returns how far a munition has flown, by the Fire of its event, or from who fired it. 0 when
- * neither is known: it is then taken for one from a muzzle right here. */
-static double flown_of(const struct remote_input *input, uint64_t event, uint64_t firer,
-                       struct vec3 to, uint64_t now_ns)
-{
-    const struct told_event *fire = event_memory_fire(&input->heard, event, firer, now_ns);
-    const struct remote_entry *entry = firer ? remote_table_find(&input->table, firer) : NULL;
-    if (fire)
-        return vec3_length(vec3_sub(to, fire->place));
-    return entry && entry->placed ? vec3_length(vec3_sub(to, entry->place)) : 0.0;
-}
-
-/* A munition that detonates is no longer in flight. */
-static void end_flight(struct remote_input *input, struct view *view, uint64_t munition,
-                       const struct udp_address *from, uint64_t now_ns)
-{
-    struct remote_entry *entry = munition ? remote_table_find(&input->table, munition) : NULL;
-    if (entry && is_owner(input, entry, from, now_ns) &&
-        view->world.kinds[entry->track.kind].domain == DOMAIN_MUNITION && entry->track.remote != 0)
-        put_lost(input, view, entry);
-}
-
-/* Returns true if a detonation has the result that it was near something. What has struck the
- * ground may be told of some metres above ours, as the ground of its owner is another. */
-static bool bursts_in_air(uint8_t result)
-{
-    return result == PDU_RESULT_ENTITY_PROXIMATE || result == PDU_RESULT_GROUND_PROXIMATE ||
-           result == PDU_RESULT_OBJECT_PROXIMATE || result == PDU_RESULT_AIR_BURST;
-}
-
-static bool detonates(uint8_t result)
-{
-    return result != PDU_RESULT_DUD && (result < PDU_RESULT_MISS || result > PDU_RESULT_MISS_LAST);
-}
-
-static void take_detonation(struct remote_input *input, struct view *view, const struct pdu *pdu,
-                            const struct udp_address *from, uint64_t now_ns)
-{
-    const struct pdu_detonation *detonation = &pdu->detonation;
-    uint16_t kind = kind_of(input, detonation->munition_type, true);
-    struct vec3 place = world_place(input, detonation->location);
-    struct remote_record record = {.remote = id_of(detonation->firer),
-                                   .event = id_of(detonation->event),
-                                   .type = REMOTE_STRUCK,
-                                   .slot = slot_of(input, id_of(detonation->firer)),
-                                   .entity = entity_ids_back(&input->own, detonation->target),
-                                   .kind = kind,
-                                   .model =
-                                       bursts_in_air(detonation->result) ? REMOTE_BURST_IN_AIR : 0};
-    end_flight(input, view, id_of(detonation->munition), from, now_ns);
-    record.flown_m = (float)flown_of(input, record.event, record.remote, place, now_ns);
-    bool hits = record.entity != 0 && detonation->result == PDU_RESULT_ENTITY_IMPACT;
-    if (!detonates(detonation->result))
-        return;
-    if (kind == KIND_NONE) {
-        input->refused[REMOTE_INPUT_TYPE]++;
-        return;
-    }
-    if (!in_world(input, place))
-        return;
-    struct vec3 at = place;
-    /* Where it is in the body of our vehicle holds also if we have the vehicle elsewhere. */
-    if (hits)
-        place = local_frame_body_from_dis(vec3_limited(vec3_of(detonation->point), 1e3));
-    else
-        record.entity = 0;
-    record.position[0] = place.x;
-    record.position[1] = place.y;
-    record.position[2] = place.z;
-    const struct mat3 axes = local_frame_axes(input->frame, at);
-    vec3_to_floats(record.velocity, rotation_back(&axes, vec3_limited(vec3_of(detonation->velocity),
-                                                                      SPEED_MOST_MPS)));
-    put_shot(input, view, &record, &at, now_ns);
-}
-
-/* --- Collision ---------------------------------------------------------------------------------*/
-
-void remote_input_met(struct remote_input *input, uint32_t entity, uint64_t remote, uint64_t now_ns)
-{
-    uint32_t at = input->met_count++ % REMOTE_INPUT_BODIES;
-    input->met[at].entity = entity;
-    input->met[at].remote = remote;
-    input->met[at].heard_ns = now_ns;
-}
-
-static bool has_met(const struct remote_input *input, const struct remote_record *record,
-                    uint64_t heard_ns)
-{
-    for (uint32_t i = 0; i < REMOTE_INPUT_BODIES; i++) {
-        if (input->met[i].entity == record->entity && input->met[i].remote == record->remote &&
-            input->met[i].heard_ns + (uint64_t)(REMOTE_INPUT_BEFORE_S * 1e9) > heard_ns)
-            return true;
-    }
-    return false;
-}
-
-/* Lets a collision wait for our own collider. A free place has no time. */
-static void await_collider(struct remote_input *input, const struct remote_record *record,
-                           uint64_t now_ns)
-{
-    for (uint32_t i = 0; i < REMOTE_INPUT_BODIES; i++) {
-        if (input->bodies[i].heard_ns != 0)
-            continue;
-        input->bodies[i].heard_ns = now_ns;
-        input->bodies[i].record = *record;
-        return;
-    }
-    input->refused[REMOTE_INPUT_BODY]++;
-}
-
-/* What a Collision and a Collision-Elastic say alike. */
-struct body {
-    struct pdu_id issuer, other, event;
-    const float *velocity, *point;
-    float mass_kg, restitution;
-};
-
-static struct body body_of(const struct pdu *pdu)
-{
-    const struct pdu_collision *c = &pdu->collision;
-    const struct pdu_collision_elastic *e = &pdu->collision_elastic;
-    if (pdu->header.type == PDU_COLLISION)
-        return (struct body){c->issuer,
-                             c->other,
-                             c->event,
-                             c->velocity,
-                             c->point,
-                             c->mass,
-                             c->collision_type == 1 ? 1.0f : 0.0f};
-    return (struct body){e->issuer, e->other, e->event,      e->velocity,
-                         e->point,  e->mass,  e->restitution};
-}
-
-/* A collision of two of others is theirs. */
-static void take_collision(struct remote_input *input, const struct pdu *pdu, uint64_t now_ns)
-{
-    struct body body = body_of(pdu);
-    struct remote_record record = {.remote = id_of(body.issuer),
-                                   .event =
-                                       id_of(body.event) ? id_of(body.event) | COLLISION_EVENT : 0,
-                                   .type = REMOTE_STRUCK,
-                                   .slot = slot_of(input, id_of(body.issuer)),
-                                   .entity = entity_ids_back(&input->own, body.other),
-                                   .kind = KIND_NONE,
-                                   .mass_kg = body.mass_kg,
-                                   .restitution = body.restitution};
-    if (record.entity == 0)
-        return;
-    if (!(body.mass_kg > 0.0f && body.mass_kg <= MASS_MOST_KG)) {
-        input->refused[REMOTE_INPUT_BODY]++;
-        return;
-    }
-    if (!(body.restitution >= 0.0f && body.restitution <= 1.0f))
-        record.restitution = body.restitution > 1.0f ? 1.0f : 0.0f;
-    struct vec3 point = local_frame_body_from_dis(vec3_limited(vec3_of(body.point), 1e3));
-    record.position[0] = point.x;
-    record.position[1] = point.y;
-    record.position[2] = point.z;
-    /* A Collision has no place: its axes are those at the body that strikes, where it is known. */
-    const struct remote_entry *issuer = remote_table_find(&input->table, record.remote);
-    const struct mat3 axes = issuer && issuer->placed
-                                 ? local_frame_axes(input->frame, issuer->place)
-                                 : input->frame->axes;
-    vec3_to_floats(record.velocity,
-                   rotation_back(&axes, vec3_limited(vec3_of(body.velocity), SPEED_MOST_MPS)));
-    await_collider(input, &record, now_ns);
-}
-
-/* Tells of the collisions that our collider has not told of in time. */
-static void tell_bodies(struct remote_input *input, struct view *view, uint64_t now_ns)
-{
-    for (uint32_t i = 0; i < REMOTE_INPUT_BODIES; i++) {
-        uint64_t heard_ns = input->bodies[i].heard_ns;
-        if (heard_ns == 0)
-            continue;
-        bool met = has_met(input, &input->bodies[i].record, heard_ns);
-        if (!met && now_ns - heard_ns < (uint64_t)(REMOTE_INPUT_AFTER_S * 1e9))
-            continue;
-        if (met)
-            input->collisions++;
-        else
-            put_shot(input, view, &input->bodies[i].record, NULL, now_ns);
-        input->bodies[i].heard_ns = 0;
-    }
-}
+/* --- PDUs --------------------------------------------------------------------------------------*/
 
 bool remote_input_take(struct remote_input *input, struct view *view, const struct pdu *pdu,
                        const struct udp_address *from, uint64_t now_ns)
@@ -660,14 +406,14 @@ bool remote_input_take(struct remote_input *input, struct view *view, const stru
         take_state(input, view, pdu, from, now_ns);
         break;
     case PDU_FIRE:
-        take_fire(input, view, pdu, now_ns);
+        remote_input_fire(input, view, pdu, now_ns);
         break;
     case PDU_DETONATION:
-        take_detonation(input, view, pdu, from, now_ns);
+        remote_input_detonation(input, view, pdu, from, now_ns);
         break;
     case PDU_COLLISION:
     case PDU_COLLISION_ELASTIC:
-        take_collision(input, pdu, now_ns);
+        remote_input_collision(input, pdu, now_ns);
         break;
     default:
         return false;
@@ -692,7 +438,7 @@ static bool tell_entry(struct remote_input *input, struct view *view, struct rem
         return true;
     if (now_ns - entry->told_ns < (uint64_t)(REMOTE_INPUT_LEAST_S * 1e9))
         return false;
-    if (append(input, view, entry->track) != 0) {
+    if (remote_input_append(input, view, entry->track) != 0) {
         input->refused[REMOTE_INPUT_RING]++;
         return false;
     }
@@ -707,7 +453,7 @@ void remote_input_tell(struct remote_input *input, struct view *view, uint64_t n
 {
     struct remote_table *table = &input->table;
     uint32_t kept = 0;
-    tell_bodies(input, view, now_ns);
+    remote_input_tell_bodies(input, view, now_ns);
     for (uint32_t i = 0; i < table->waiting_count; i++) {
         uint32_t index = table->waiting[i];
         struct remote_entry *entry = &table->entry[index];
@@ -758,7 +504,7 @@ void remote_input_see(struct remote_input *input, struct view *view,
         if (!here)
             entry->track.slot = SLOT_NONE;
         if (here && now_ns - entry->heard_ns > input->timeout_ns)
-            put_lost(input, view, entry);
+            remote_input_lose(input, view, entry);
         else if (!here && now_ns - entry->seen_ns > GONE_NS)
             remote_table_remove(table, entry); /* it has left the world, or was refused */
     }
