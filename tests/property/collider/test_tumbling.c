@@ -28,13 +28,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 /* --- pairs -------------------------------------------------------------------------------------*/
 
 static struct vec3 direction(uint64_t *random)
@@ -324,7 +317,8 @@ static void test_row_23_nothing_is_missed_at_several_turns_a_frame(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_rows_39_43_tumbling_pairs_keep_momentum_and_gain_no_energy),
         TEST(test_row_23_nothing_is_missed_at_several_turns_a_frame),

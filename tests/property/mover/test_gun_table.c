@@ -26,13 +26,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static void row_of(const char *what, double real, double low, double high, double ours)
 {
     print_message("# %-46s %9.4g %9.4g\n", what, real, ours);
@@ -201,7 +194,8 @@ static void test_turrets(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_flight),      TEST(test_howitzer), TEST(test_dispersion),
         TEST(test_penetration), TEST(test_rates),    TEST(test_turrets),

@@ -21,13 +21,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 /* Puts a helicopter into the air that has the order to stand. */
 static uint32_t hover(double x, double up_m)
 {
@@ -138,7 +131,8 @@ static void test_those_that_hover_near_each_other_come_to_rest(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_one_that_hovers_alone_has_no_turns),
         TEST(test_it_burns_the_fuel_of_ten_seconds_at_once),

@@ -23,13 +23,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put(const char *kind, double z, enum behaviour behaviour)
 {
     struct fixture_entity entity = {.kind = kind, .at = {25000.0, 100.0, z}, .force = FORCE_RED};
@@ -150,7 +143,8 @@ static void test_a_remote_row_that_stands_rests(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_what_has_nothing_to_do_rests),
         TEST(test_a_restarted_mover_knows_no_row_at_rest),

@@ -33,13 +33,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static bool touch(struct fixed_object p, struct fixed_object q)
 {
     bool touches = joined_walls_touch(&p, &q, f.view.world.kinds);
@@ -144,7 +137,8 @@ static void test_neighbours_of_what_breaks_take_no_more_than_breaking_takes(void
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_footprints_that_are_nearer_than_the_gap_touch),
         TEST(test_both_neighbours_take_their_share),

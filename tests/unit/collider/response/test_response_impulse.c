@@ -28,13 +28,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put(const char *kind, double x, double z, double heading_deg, double mph)
 {
     double heading = heading_deg * RAD_PER_DEG, mps = mph * MPS_PER_MPH;
@@ -178,7 +171,8 @@ static void test_a_fast_tank_leaves_a_stump_and_goes_on(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_two_tanks_at_20_mph_and_a_severe_angle_are_highly_damaged),
         TEST(test_two_tanks_at_20_mph_and_a_smaller_angle_are_dented_and_bounce),

@@ -20,13 +20,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 struct outcome_of_crash {
     double speed_mps, harm_j, plastic_m, elastic_m;
 };
@@ -75,7 +68,8 @@ static void test_row_26_moldability_changes_damage_and_what_stays(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_row_26_rigidity_changes_damage_and_dents),
         TEST(test_row_26_moldability_changes_damage_and_what_stays),

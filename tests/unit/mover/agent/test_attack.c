@@ -26,13 +26,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put(const char *kind, struct vec3 at, enum force force, enum behaviour behaviour)
 {
     uint32_t row =
@@ -413,7 +406,8 @@ static void test_a_carrier_drives_to_where_its_rounds_penetrate(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_jets_that_attack_fire_within_a_minute),
         TEST(test_a_jet_extends_after_its_shot_and_flies_home_after_two),

@@ -27,13 +27,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static bool lost(uint32_t row)
 {
     struct step_context step;
@@ -100,7 +93,8 @@ static void test_a_group_with_half_losses_withdraws_when_fired_upon(void **state
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_half_of_an_areas_group_is_three_of_six),
         TEST(test_a_formation_counts_its_leader),

@@ -23,13 +23,6 @@
 
 static struct fixture f;
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 /* Runs the world, without word of impacts: a contact that lasts has none. Returns the longest time
  * for which one of the first rows drove at less than 0.3 m/s with its throttle open [s]. */
 static double longest_push(uint32_t rows, int seconds)
@@ -251,7 +244,8 @@ static void test_nobody_pushes_for_long_under_fire(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_teardown(function, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, NULL, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_two_trucks_nose_to_nose_give_up_and_pass),
         TEST(test_a_truck_gives_up_against_a_house),

@@ -22,13 +22,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint32_t put(const char *kind, double x, double z, enum force force,
                     enum behaviour behaviour)
 {
@@ -136,7 +129,8 @@ static void test_no_crew_takes_a_wreck_or_what_is_out_of_reach(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_the_time_to_find_a_target_grows_with_the_distance),
         TEST(test_crews_side_by_side_take_different_targets),

@@ -26,13 +26,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 /* A truck that stands this high over the ground. */
 static struct rigid_body truck(double height, struct vec3 velocity)
 {
@@ -150,7 +143,8 @@ static void test_a_point_is_pushed_out_at_a_limited_speed(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_points_that_can_reach_the_ground_are_found),
         TEST(test_a_point_arrives_on_the_ground_and_not_under_it),

@@ -34,13 +34,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static void fell(uint8_t stored)
 {
     for (int buffer = 0; buffer < 2; buffer++)
@@ -96,7 +89,7 @@ static void test_pushed_debris_is_left_to_the_collider_but_gives_less_grip(void 
     assert_true(ground_grip_at(&context, 25400.0, 25403.0).wheels > dirt);
 }
 
-#define TEST(name) cmocka_unit_test_setup_teardown(name, open_world, close_world)
+#define TEST(name) cmocka_unit_test_prestate_setup_teardown(name, open_world, fixture_teardown, &f)
 
 int main(void)
 {

@@ -21,13 +21,6 @@ static int open_world(void **state)
     return 0;
 }
 
-static int close_world(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static uint16_t kind_of(const char *name)
 {
     return kind_find(f.view.world.kinds, f.view.world.counts.kinds, name);
@@ -136,7 +129,8 @@ static void test_what_has_no_drag_needs_no_table(void **state)
 
 int main(void)
 {
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
         TEST(test_times_of_flight_are_the_published_ones),
         TEST(test_rounds_pass_through_the_point_at_any_height),

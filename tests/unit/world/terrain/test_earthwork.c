@@ -41,13 +41,6 @@ static int open_course(void **state)
     return 0;
 }
 
-static int close_course(void **state)
-{
-    (void)state;
-    fixture_close(&f);
-    return 0;
-}
-
 static double height(double x, double z)
 {
     return terrain_height(&f.view.world.terrain, NULL, x, z) - FIXTURE_GROUND_M;
@@ -247,7 +240,8 @@ static void test_a_vehicle_drives_up_the_ramp(void **state)
     assert_true(highest > 1.5 && steepest > 0.1);
 }
 
-#define TEST(function) cmocka_unit_test_setup_teardown(function, open_course, close_course)
+#define TEST(function)                                                                             \
+    cmocka_unit_test_prestate_setup_teardown(function, open_course, fixture_teardown, &f)
 
 int main(void)
 {
