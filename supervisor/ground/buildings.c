@@ -1,5 +1,6 @@
 /* From parts of outlines to buildings of a ground file. */
 #include "supervisor/ground/buildings.h"
+#include "supervisor/ground/grown_list.h"
 
 #include "world/maths/maths.h"
 #include "world/terrain/ground_file.h"
@@ -103,14 +104,10 @@ static int add_one(struct buildings *b, const struct convex_parts_ring *part, ui
     uint32_t corners = 0;
     for (uint32_t i = 0; i < count; i++)
         corners += part[i].count;
-    if (b->used == b->room) {
-        uint32_t room = b->room * 2 + 1024;
-        struct building_draft *larger = realloc(b->draft, room * sizeof *larger);
-        if (!larger)
-            return -1;
-        b->draft = larger;
-        b->room = room;
-    }
+    struct building_draft *drafts = grown_list(b->draft, b->used, &b->room, 1024, sizeof *drafts);
+    if (!drafts)
+        return -1;
+    b->draft = drafts;
     struct building_draft *draft = &b->draft[b->used];
     int32_t(*all)[2] = calloc(corners, sizeof *all);
     *draft = (struct building_draft){.corner = calloc(corners, sizeof *draft->corner)};

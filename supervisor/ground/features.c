@@ -1,5 +1,6 @@
 /* Sorts the features of maps by their words, and reads their shapes. */
 #include "supervisor/ground/features.h"
+#include "supervisor/ground/grown_list.h"
 
 #include "supervisor/ground/vector_map.h"
 #include "world/maths/maths.h"
@@ -167,12 +168,8 @@ static bool has(const struct reading *r, const char *key)
 /* Returns larger memory for one more row, or the same. NULL: no memory, which is noted. */
 static void *room_for(struct reading *r, void *rows, uint32_t used, uint32_t *room, size_t bytes)
 {
-    if (used < *room)
-        return rows;
-    void *larger = realloc(rows, (*room * 2 + 256) * bytes);
+    void *larger = grown_list(rows, used, room, 256, bytes);
     r->map->no_memory |= !larger;
-    if (larger)
-        *room = *room * 2 + 256;
     return larger;
 }
 

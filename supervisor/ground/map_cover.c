@@ -1,5 +1,6 @@
 /* Cover from areas, and plants in them. */
 #include "supervisor/ground/map_cover.h"
+#include "supervisor/ground/grown_list.h"
 
 #include "supervisor/ground/free_ground.h"
 #include "world/maths/maths.h"
@@ -176,15 +177,12 @@ struct crossings {
 
 static void add_crossing(struct crossings *list, struct crossing crossing)
 {
-    if (list->count == list->room) {
-        uint32_t room = list->room * 2 + 4096;
-        struct crossing *larger = realloc(list->crossing, room * sizeof *larger);
-        list->no_memory |= !larger;
-        if (!larger)
-            return;
-        list->crossing = larger;
-        list->room = room;
-    }
+    struct crossing *larger =
+        grown_list(list->crossing, list->count, &list->room, 4096, sizeof *larger);
+    list->no_memory |= !larger;
+    if (!larger)
+        return;
+    list->crossing = larger;
     list->crossing[list->count++] = crossing;
 }
 
@@ -351,14 +349,10 @@ struct planting {
 
 static bool add_plant(struct planting *p, const struct plant *plant)
 {
-    if (p->used == p->room) {
-        uint32_t room = p->room * 2 + 4096;
-        struct plant *larger = realloc(p->plant, room * sizeof *larger);
-        if (!larger)
-            return false;
-        p->plant = larger;
-        p->room = room;
-    }
+    struct plant *larger = grown_list(p->plant, p->used, &p->room, 4096, sizeof *larger);
+    if (!larger)
+        return false;
+    p->plant = larger;
     p->plant[p->used++] = *plant;
     return true;
 }

@@ -1,5 +1,6 @@
 /* Lines of maps become roads. */
 #include "supervisor/ground/road_map.h"
+#include "supervisor/ground/grown_list.h"
 
 #include "supervisor/ground/vector_map.h"
 #include "world/maths/maths.h"
@@ -88,15 +89,11 @@ static uint32_t simplify(double (*track)[2], uint32_t count)
 static void add_line(struct reading *r, double (*track)[2], uint32_t count, uint32_t rank)
 {
     double length = 0.0;
-    if (r->used == r->room) {
-        uint32_t room = r->room * 2 + 1024;
-        struct line *lines = realloc(r->lines, room * sizeof *lines);
-        r->no_memory |= !lines;
-        if (!lines)
-            return;
-        r->lines = lines;
-        r->room = room;
-    }
+    struct line *lines = grown_list(r->lines, r->used, &r->room, 1024, sizeof *lines);
+    r->no_memory |= !lines;
+    if (!lines)
+        return;
+    r->lines = lines;
     struct line line = {.rank = rank, .points = calloc(count, sizeof *line.points)};
     r->no_memory |= !line.points;
     if (!line.points)

@@ -1,5 +1,6 @@
 /* Reads features of maps layer by layer. */
 #include "supervisor/ground/vector_map.h"
+#include "supervisor/ground/grown_list.h"
 
 #include "supervisor/ground/progress.h"
 
@@ -473,14 +474,11 @@ bool vector_map_courts_keep(struct vector_map_courts *courts, OGRGeometryH areas
             OGR_G_GetGeometryCount(court.shape) < 2 ||
             court.box.MaxY - court.box.MinY > COURT_MOST_DEG)
             continue;
-        if (courts->count == courts->room) {
-            uint32_t room = courts->room * 2 + 256;
-            struct vector_map_court *larger = realloc(courts->court, room * sizeof *larger);
-            if (!larger)
-                return false;
-            courts->court = larger;
-            courts->room = room;
-        }
+        struct vector_map_court *larger =
+            grown_list(courts->court, courts->count, &courts->room, 256, sizeof *larger);
+        if (!larger)
+            return false;
+        courts->court = larger;
         court.shape = OGR_G_Clone(court.shape);
         courts->court[courts->count++] = court;
         courts->sorted = false;
