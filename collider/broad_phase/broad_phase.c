@@ -66,6 +66,9 @@ void broad_phase_free(struct broad_phase *broad)
 void broad_phase_touch(const struct broad_phase *broad, uint32_t rows)
 {
     prefault_own(broad->box, rows * sizeof *broad->box);
+    query_index_touch(&broad->index, rows);
+    if (broad->world->params->cruise)
+        cruise_index_touch(&broad->cruise, rows);
     for (uint32_t i = 0; i < broad->sweepers; i++)
         strip_bins_touch(&broad->sweeper[i].bins, rows);
 }

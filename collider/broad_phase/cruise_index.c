@@ -2,6 +2,7 @@
 #include "collider/broad_phase/cruise_index.h"
 
 #include "world/maths/maths.h"
+#include "world/runtime/prefault.h"
 #include "world/runtime/reserve.h"
 
 #include <math.h>
@@ -43,6 +44,15 @@ void cruise_index_free(struct cruise_index *index)
     reserve_free(index->entry);
     free(index->held);
     *index = (struct cruise_index){0};
+}
+
+void cruise_index_touch(const struct cruise_index *index, uint32_t rows)
+{
+    for (int l = 0; l < CRUISE_LAYERS; l++) {
+        const struct cruise_layer *layer = &index->layer[l];
+        prefault_own(layer->first, (size_t)layer->side * layer->side * sizeof *layer->first);
+    }
+    prefault_own(index->entry, rows * sizeof *index->entry);
 }
 
 static uint32_t axis_of(const struct cruise_layer *layer, float metres)

@@ -43,6 +43,9 @@ struct cruise_index {
 int cruise_index_init(struct cruise_index *index, uint32_t rows, double world_m);
 void cruise_index_free(struct cruise_index *index);
 
+/* Takes the pages of so many rows from the kernel before the first frame. */
+void cruise_index_touch(const struct cruise_index *index, uint32_t rows);
+
 /* Adds a row that is not held, or takes out one that is. One thread. */
 void cruise_index_add(struct cruise_index *index, uint32_t row, const struct path_box *box);
 void cruise_index_remove(struct cruise_index *index, uint32_t row);

@@ -1,6 +1,7 @@
 /* A counting sort by strip and column. */
 #include "collider/broad_phase/query_index.h"
 
+#include "world/runtime/prefault.h"
 #include "world/runtime/reserve.h"
 
 #include <string.h>
@@ -21,6 +22,12 @@ void query_index_free(struct query_index *index)
     reserve_free(index->record);
     reserve_free(index->first);
     *index = (struct query_index){0};
+}
+
+void query_index_touch(const struct query_index *index, uint32_t rows)
+{
+    prefault_own(index->record, rows * sizeof *index->record);
+    prefault_own(index->first, (CELLS + 2) * sizeof *index->first);
 }
 
 static uint32_t cell_of(uint32_t strip, int32_t x)

@@ -26,6 +26,9 @@ struct query_index {
 int query_index_init(struct query_index *index, uint32_t rows);
 void query_index_free(struct query_index *index);
 
+/* Takes the pages of so many rows in one strip each from the kernel before the first frame. */
+void query_index_touch(const struct query_index *index, uint32_t rows);
+
 /* Builds the index of one worker's bins after the other. Does nothing if there are more records
  * than it can hold: built then stays false. */
 void query_index_build(struct query_index *index, const struct strip_bins *const *bins,

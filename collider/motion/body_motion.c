@@ -72,6 +72,10 @@ void body_motion_touch(const struct body_motion *motion, uint32_t rows)
     prefault_own(motion->change, rows * sizeof *motion->change);
     prefault_own(motion->parting_rps, rows * sizeof *motion->parting_rps);
     prefault_own(motion->fall, rows * sizeof *motion->fall);
+    prefault_own(motion->pose, 2 * (size_t)rows * sizeof *motion->pose);
+    for (uint64_t i = 0; motion->world->params->cruise && i < BEGINS; i++)
+        prefault_own(motion->begins + i * motion->world->params->capacity,
+                     rows * sizeof *motion->begins);
 }
 
 void body_motion_begin(struct body_motion *motion, const struct state *committed,

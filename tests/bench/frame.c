@@ -16,6 +16,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <time.h>
 
 #define MOTION_FRAMES 60u /* in which changes of controls are counted; even */
@@ -25,7 +26,8 @@
 /* Of each frame [ms]: wall time of the stages and of both, and processor time of all threads. */
 struct times {
     double *mover_ms, *collider_ms, *frame_ms, *cpu_ms;
-    double *woken; /* rows that were moved */
+    double *woken;  /* rows that were moved */
+    double *faults; /* pages that were taken from the kernel */
     uint32_t frames;
 };
 
@@ -44,6 +46,7 @@ struct changes {
 struct result {
     double mover_ms, collider_ms, frame_ms, slow_ms, cpu_ms; /* medians, and a p99 */
     double first_ms, first_cpu_ms;                           /* the first frame */
+    double first_faults;               /* pages that the first frame took from the kernel */
     double second_ms, second_worst_ms; /* frames of the first simulated second: sum and worst */
     double woken;                      /* rows moved in a frame, median */
     double motion_frames;              /* for which a vehicle's controls stay the same, mean */
@@ -63,6 +66,13 @@ static double cpu_now_ms(void)
     struct timespec t;
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return (double)t.tv_sec * 1e3 + (double)t.tv_nsec / 1e6;
+}
+
+static double faults_now(void)
+{
+    struct rusage usage;
+    (void)getrusage(RUSAGE_SELF, &usage);
+    return (double)usage.ru_minflt;
 }
 
 static void begin(struct frame_stepper *stepper, struct view *view, uint32_t threads)
@@ -92,7 +102,7 @@ static void count_changes(const struct frame_stepper *stepper, struct controls *
 static void run(struct frame_stepper *stepper, const struct times *times)
 {
     for (uint32_t i = 0; i < times->frames; i++) {
-        double cpu = cpu_now_ms();
+        double cpu = cpu_now_ms(), faults = faults_now();
         uint64_t t0 = clock_now_ns();
         frame_stepper_move(stepper, NULL);
         uint64_t t1 = clock_now_ns();
@@ -103,6 +113,7 @@ static void run(struct frame_stepper *stepper, const struct times *times)
         times->frame_ms[i] = (double)(t2 - t0) / 1e6;
         times->cpu_ms[i] = cpu_now_ms() - cpu;
         times->woken[i] = (double)stepper->mover.moved_rows;
+        times->faults[i] = faults_now() - faults;
     }
 }
 
@@ -153,7 +164,9 @@ static void find_motions(struct frame_stepper *stepper, struct result *result)
 /* Sorts the times. */
 static struct result result_of(const struct times *times, double dt_s)
 {
-    struct result result = {.first_ms = times->frame_ms[0], .first_cpu_ms = times->cpu_ms[0]};
+    struct result result = {.first_ms = times->frame_ms[0],
+                            .first_cpu_ms = times->cpu_ms[0],
+                            .first_faults = times->faults[0]};
     for (uint32_t i = 0; i < times->frames && (double)i * dt_s < 1.0; i++) {
         result.second_ms += times->frame_ms[i];
         if (times->frame_ms[i] > result.second_worst_ms)
@@ -215,13 +228,14 @@ static void print_json(const struct bench_options *options, const struct result 
 {
     printf("{\"vehicles\":%u,\"mode\":\"%s\",\"threads\":%u,\"frames\":%u,\"mover_ms\":%.6f,"
            "\"collider_ms\":%.6f,\"frame_ms\":%.6f,\"frame_p99_ms\":%.6f,\"cpu_ms\":%.6f,"
-           "\"first_ms\":%.6f,\"first_cpu_ms\":%.6f,\"second_ms\":%.6f,\"second_worst_ms\":%.6f,"
+           "\"first_ms\":%.6f,\"first_cpu_ms\":%.6f,\"first_faults\":%.0f,\"second_ms\":%.6f,"
+           "\"second_worst_ms\":%.6f,"
            "\"woken\":%.0f,\"motion_frames\":%.1f,\"steady\":%.1f,\"told\":%.0f,",
            options->vehicles, bench_mode_word((enum bench_mode)options->mode), options->threads,
            options->frames, result->mover_ms, result->collider_ms, result->frame_ms,
            result->slow_ms, result->cpu_ms, result->first_ms, result->first_cpu_ms,
-           result->second_ms, result->second_worst_ms, result->woken, result->motion_frames,
-           result->steady, result->told);
+           result->first_faults, result->second_ms, result->second_worst_ms, result->woken,
+           result->motion_frames, result->steady, result->told);
     if (options->burst > 0)
         printf("\"burst\":%u,\"burst_frames\":%u,\"burst_worst_ms\":%.6f,\"after_ms\":%.6f,"
                "\"after_cpu_ms\":%.6f,\"rows\":%u,\"rows_after\":%u,",
@@ -266,7 +280,7 @@ int bench_frame(struct bench_options options)
         drive_all(&view);
     ((struct params *)(uintptr_t)view.world.params)->cruise = options.cruise;
     size_t frames = options.frames;
-    double *values = calloc(frames * 5, sizeof *values);
+    double *values = calloc(frames * 6, sizeof *values);
     if (!values)
         die_refused("out of memory");
     const struct times times = {values,
@@ -274,6 +288,7 @@ int bench_frame(struct bench_options options)
                                 values + 2 * frames,
                                 values + 3 * frames,
                                 values + 4 * frames,
+                                values + 5 * frames,
                                 options.frames};
     begin(&stepper, &view, options.threads);
     for (uint32_t i = 0; i < options.settle; i++)
