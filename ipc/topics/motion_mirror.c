@@ -15,6 +15,26 @@ void motion_mirror_close(struct motion_mirror *mirror)
     *mirror = (struct motion_mirror){0};
 }
 
+void motion_mirrors_close(struct motion_mirrors *mirrors)
+{
+    for (uint32_t i = 0; i < MOTION_MIRRORS; i++)
+        motion_mirror_close(&mirrors->of[i]);
+}
+
+struct motion_mirror *motion_mirrors_for(struct motion_mirrors *mirrors, uint64_t writer)
+{
+    struct motion_mirror *mirror = &mirrors->of[0];
+    for (uint32_t i = 0; i < MOTION_MIRRORS && mirror->writer != writer; i++) {
+        if (mirrors->of[i].writer == writer || mirrors->of[i].taken < mirror->taken)
+            mirror = &mirrors->of[i];
+    }
+    if (mirror->writer != writer)
+        motion_mirror_close(mirror);
+    mirror->writer = writer;
+    mirror->taken = ++mirrors->taken;
+    return mirror;
+}
+
 /* Makes room for rows below this one. Returns false without memory. */
 static bool grow(struct motion_mirror *mirror, uint32_t rows)
 {
@@ -64,7 +84,10 @@ bool motion_mirror_take(struct motion_mirror *mirror, const jolon_MotionBatch *b
 {
     uint32_t count = batch->entities._length, next = 0;
     if (mirror->run != batch->run) { /* another world */
+        const uint64_t writer = mirror->writer, taken = mirror->taken;
         motion_mirror_close(mirror);
+        mirror->writer = writer;
+        mirror->taken = taken;
         mirror->run = batch->run;
     }
     if (count && !grow(mirror, batch->rows._buffer[count - 1] + 1))

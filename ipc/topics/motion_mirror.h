@@ -15,6 +15,7 @@ struct motion_mirror_row {
 };
 
 struct motion_mirror {
+    uint64_t writer, taken; /* who tells, and the number of its last sample among all; 0: free */
     struct motion_mirror_row *row; /* [room] */
     uint32_t room, used;
     uint32_t count; /* rows that are not empty */
@@ -24,6 +25,20 @@ struct motion_mirror {
     uint32_t whole;       /* number of the last whole batch */
     uint32_t whole_parts; /* that are still to come of it */
 };
+
+/* What each writer tells is kept apart, so that one who tells what is false leaves nothing behind.
+ * Of more writers the one that was silent for longest is forgotten, until its next whole batch. */
+#define MOTION_MIRRORS 4u
+
+struct motion_mirrors {
+    struct motion_mirror of[MOTION_MIRRORS];
+    uint64_t taken; /* samples */
+};
+
+void motion_mirrors_close(struct motion_mirrors *mirrors);
+
+/* Returns the mirror for a sample of this writer, which is any number but 0. */
+struct motion_mirror *motion_mirrors_for(struct motion_mirrors *mirrors, uint64_t writer);
 
 void motion_mirror_close(struct motion_mirror *mirror);
 

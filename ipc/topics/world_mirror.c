@@ -32,7 +32,7 @@ int world_mirror_open(struct world_mirror *mirror, const struct dds_link *link, 
 void world_mirror_close(struct world_mirror *mirror)
 {
     name_table_close(&mirror->names);
-    motion_mirror_close(&mirror->motions);
+    motion_mirrors_close(&mirror->motions);
     free(mirror->batch.entity);
     free(mirror->pending.entity);
     mirror->batch.entity = mirror->pending.entity = NULL;
@@ -89,18 +89,19 @@ static bool grow(struct world_mirror_batch *batch, uint32_t count)
     return true;
 }
 
-static void take_motions(struct world_mirror *mirror, const void *sample)
+static void take_motions(struct world_mirror *mirror, const void *sample, uint64_t writer)
 {
     struct world_mirror_batch *batch = &mirror->batch;
-    if (!motion_mirror_take(&mirror->motions, sample))
+    struct motion_mirror *motions = motion_mirrors_for(&mirror->motions, writer);
+    if (!motion_mirror_take(motions, sample))
         return;
     batch->count = 0;
-    if (!grow(batch, mirror->motions.count))
+    if (!grow(batch, motions->count))
         return; /* without memory there are no entities to be seen */
-    motion_mirror_entities(&mirror->motions, batch->entity);
-    batch->count = mirror->motions.count;
-    batch->run = mirror->motions.run;
-    batch->frame = mirror->motions.frame;
+    motion_mirror_entities(motions, batch->entity);
+    batch->count = motions->count;
+    batch->run = motions->run;
+    batch->frame = motions->frame;
     mirror->has_batch = true;
 }
 
@@ -140,7 +141,8 @@ static void take_entities(struct world_mirror *mirror, const void *sample)
     }
 }
 
-static void take(struct world_mirror *mirror, enum dds_topic topic, const void *sample)
+static void take(struct world_mirror *mirror, enum dds_topic topic, const void *sample,
+                 dds_instance_handle_t writer)
 {
     if (topic == TOPIC_WORLD)
         take_world(mirror, sample);
@@ -151,7 +153,7 @@ static void take(struct world_mirror *mirror, enum dds_topic topic, const void *
     else if (topic == TOPIC_ENTITIES)
         take_entities(mirror, sample);
     else
-        take_motions(mirror, sample);
+        take_motions(mirror, sample, writer);
 }
 
 /* WorldInfo is written once. When its writer has left, a new reader gets it from the successor. */
@@ -169,7 +171,7 @@ void world_mirror_take(struct world_mirror *mirror)
     for (int i = 0; i < mirror->readers; i++) {
         struct samples from = {.reader = mirror->reader[i], .topic = mirror->topic[i]};
         while (samples_next(&from)) {
-            take(mirror, mirror->topic[i], from.sample);
+            take(mirror, mirror->topic[i], from.sample, from.writer);
             if (i == WORLD_MIRROR_WORLD)
                 mirror->world_writer = from.writer;
         }

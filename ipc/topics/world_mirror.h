@@ -70,7 +70,7 @@ struct world_mirror {
         bool part[WORLD_MIRROR_PARTS_MAX]; /* it has come */
     } batch, pending;
     bool has_batch;
-    struct motion_mirror motions; /* from which the batch is computed with WORLD_MIRROR_MOTIONS */
+    struct motion_mirrors motions; /* from which the batch is computed with WORLD_MIRROR_MOTIONS */
 };
 
 /* Makes the readers on the link, which must outlive the mirror. Returns 0, or -1 with the reason.

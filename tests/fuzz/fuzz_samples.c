@@ -189,15 +189,15 @@ static bool take_motions(struct world_mirror *mirror)
     batch.rows._length = batch.entities._length = count % (ENTITIES + 1);
     batch.courses._length = courses % (ENTITIES + 1);
     bool taken =
-        samples_good(TOPIC_MOTIONS, &batch) && motion_mirror_take(&mirror->motions, &batch);
+        samples_good(TOPIC_MOTIONS, &batch) && motion_mirror_take(&mirror->motions.of[0], &batch);
     batch.rows._length = batch.entities._length = batch.courses._length = 0;
     batch.sim_time_s = later_s;
     batch.whole = false;
     if (taken && samples_good(TOPIC_MOTIONS, &batch))
-        (void)motion_mirror_take(&mirror->motions, &batch);
-    motion_mirror_entities(&mirror->motions, seen);
+        (void)motion_mirror_take(&mirror->motions.of[0], &batch);
+    motion_mirror_entities(&mirror->motions.of[0], seen);
     mirror->batch.entity = seen;
-    mirror->batch.count = mirror->motions.count;
+    mirror->batch.count = mirror->motions.of[0].count;
     return taken;
 }
 
@@ -237,6 +237,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (mirror.has_world || !(what & 64))
         show(&mirror);
     name_table_close(&mirror.names);
-    motion_mirror_close(&mirror.motions);
+    motion_mirrors_close(&mirror.motions);
     return 0;
 }

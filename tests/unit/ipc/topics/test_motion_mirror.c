@@ -162,6 +162,33 @@ static void test_what_leads_nowhere_stays(void **state)
     assert_near(seen[0].x_m, 1e15, 0.0);
 }
 
+static bool take_from(struct motion_mirrors *mirrors, uint64_t writer, bool whole, uint32_t count,
+                      const struct one *ones)
+{
+    jolon_MotionBatch batch = batch_of(whole, 2.0, count, ones);
+    return motion_mirror_take(motion_mirrors_for(mirrors, writer), &batch);
+}
+
+/* Who tells what is false leaves nothing behind, and no true writer is forgotten for it. */
+static void test_writers_are_kept_apart(void **state)
+{
+    static struct motion_mirrors mirrors;
+    const struct one false_one = {2, 99, 0.0, 0.0F};
+    jolon_Entity seen[3];
+    (void)state;
+    assert_true(take_from(&mirrors, 7, true, 3, three));
+    assert_true(take_from(&mirrors, 8, true, 1, &false_one));
+    for (uint64_t writer = 9; writer < 40; writer++) {
+        assert_true(take_from(&mirrors, writer, true, 1, &false_one));
+        assert_true(take_from(&mirrors, 7, false, 1, &three[0]));
+    }
+    assert_int_equal(motion_mirrors_for(&mirrors, 7)->count, 3);
+    motion_mirror_entities(motion_mirrors_for(&mirrors, 7), seen);
+    assert_int_equal(seen[1].id, 5);
+    assert_false(take_from(&mirrors, 8, false, 1, &false_one)); /* forgotten by now */
+    motion_mirrors_close(&mirrors);
+}
+
 static void test_another_run_begins_anew(void **state)
 {
     jolon_MotionBatch batch;
@@ -185,6 +212,7 @@ int main(void)
         cmocka_unit_test_teardown(test_a_whole_batch_drops_what_it_does_not_hold, close_mirror),
         cmocka_unit_test_teardown(test_a_whole_batch_without_a_part_drops_nothing, close_mirror),
         cmocka_unit_test_teardown(test_what_leads_nowhere_stays, close_mirror),
+        cmocka_unit_test(test_writers_are_kept_apart),
         cmocka_unit_test_teardown(test_another_run_begins_anew, close_mirror),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
