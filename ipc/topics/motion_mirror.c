@@ -84,11 +84,11 @@ bool motion_mirror_take(struct motion_mirror *mirror, const jolon_MotionBatch *b
 {
     uint32_t count = batch->entities._length, next = 0;
     if (mirror->run != batch->run) { /* another world */
-        const uint64_t writer = mirror->writer, taken = mirror->taken;
-        motion_mirror_close(mirror);
-        mirror->writer = writer;
-        mirror->taken = taken;
         mirror->run = batch->run;
+        mirror->whole++;
+        drop_others(mirror);
+        mirror->known = false;
+        mirror->whole_parts = 0;
     }
     if (count && !grow(mirror, batch->rows._buffer[count - 1] + 1))
         return false; /* the next whole batch tries again */
