@@ -195,7 +195,7 @@ bool world_mirror_live(const struct world_mirror *mirror, uint64_t now_ns)
 bool world_mirror_whole(const struct world_mirror *mirror)
 {
     return mirror->has_world && mirror->frame_ns && mirror->role_count &&
-           (mirror->has_batch || mirror->readers <= WORLD_MIRROR_ENTITIES);
+           ((mirror->has_batch && mirror->names.known) || mirror->readers <= WORLD_MIRROR_ENTITIES);
 }
 
 const jolon_Entity *world_mirror_entity(const struct world_mirror *mirror, uint32_t id)

@@ -89,7 +89,7 @@ void world_mirror_wait(const struct world_mirror *mirror, uint64_t until_ns);
 bool world_mirror_live(const struct world_mirror *mirror, uint64_t now_ns);
 
 /* Returns true if one sample of everything that is read has come: world, frame, processes,
- * entities. */
+ * entities and their names. */
 bool world_mirror_whole(const struct world_mirror *mirror);
 
 /* Returns the entity of the last whole batch with this id, NULL when there is none. */
