@@ -90,7 +90,7 @@ static bool sees(const struct step_context *context, uint32_t i, const struct ki
         return false;
     sight->to = vec3_sub(step_context_position(context, w, target), entities_position(m, i));
     sight->to.y += kinematics_aim_height(context, w->kind[target]);
-    sight->closing = vec3_sub(entities_velocity(w, target), velocity);
+    sight->closing = vec3_sub(step_context_velocity(context, w, target), velocity);
     if (lead_of(velocity, sight->to) <= kind->seeker_rad && !is_decoyed(context, i, kind, sight))
         return true;
     m->target_slot[i] = m->target_id[i] = 0;

@@ -1,5 +1,6 @@
 /* Missiles: motor and drag, the seeker's cone, failures and decoys, and how many hit. */
 #include "tests/support/steps.h"
+#include "world/entity/cruise.h"
 #include "world/params.h"
 
 #include <stdarg.h>
@@ -95,6 +96,41 @@ static void test_what_leaves_the_seekers_cone_is_lost_for_good(void **state)
             assert_true(fabs(maths_wrap_half(steps_rows(&f).heading[row] - heading)) < 1e-9);
         }
     }
+}
+
+/* Returns where a missile heads after a frame that flies at a tank with these velocity and place,
+ * or with a stretch of which they are the end. */
+static double heads_at(struct vec3 at, struct vec3 velocity, double turns_rps, uint32_t frames)
+{
+    uint32_t tank =
+        fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = at, .velocity = velocity});
+    struct entities e = steps_rows(&f);
+    e.cruise_tick[tank] = frames > 0 ? (uint32_t)fixture_state(&f).head->tick + frames : 0;
+    e.cruise_rps[tank] = turns_rps;
+    e.heading[tank] = maths_heading(velocity.x, velocity.z);
+    uint32_t row =
+        put_missile(tank, (struct vec3){25010.0, 320.0, 24500.0}, (struct vec3){0.0, 0.0, -200.0});
+    fixture_run(&f, 1);
+    return steps_rows(&f).heading[row];
+}
+
+/* What it flies at moves as it does now, not as at the end of its stretch. */
+static void test_it_leads_what_cruises_by_its_velocity_of_now(void **state)
+{
+    const uint32_t frames = 30;
+    const struct vec3 end = {25000.0, 300.0, 24000.0}, velocity = {15.0, 0.0, 0.0};
+    (void)state;
+    perfect();
+    double heads = heads_at(end, velocity, 1.0, frames);
+    struct entities e = steps_rows(&f);
+    const uint64_t tick = fixture_state(&f).head->tick - 1;
+    const double dt_s = world_dt_s(&f.view.world);
+    struct vec3 at = cruise_position(&e, 0, tick, dt_s), goes = cruise_velocity(&e, 0, tick, dt_s);
+    fixture_close(&f);
+    fixture_open(&f, "");
+    perfect();
+    assert_true(fabs(goes.z) > 5.0); /* another velocity than that of the end */
+    assert_true(fabs(heads_at(at, goes, 0.0, 0) - heads) < 1e-12);
 }
 
 /* --- how many hit ------------------------------------------------------------------------------*/
@@ -300,6 +336,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         TEST(test_a_missile_reaches_a_crossing_jet),
         TEST(test_what_leaves_the_seekers_cone_is_lost_for_good),
+        TEST(test_it_leads_what_cruises_by_its_velocity_of_now),
         TEST(test_missiles_hit_as_often_as_real_ones),
         TEST(test_flares_save_every_fourth_jet_or_more),
         TEST(test_perfect_missiles_miss_little),
