@@ -67,14 +67,6 @@ static void publish_status(struct reporter *reporter, uint64_t now_ns)
     status_topics_frame(&reporter->status, &reporter->view, now_ns);
 }
 
-/* Returns the newest snapshot: each of the two topics takes its own while it has readers. */
-static const struct snapshot *newest_snapshot(const struct reporter *reporter)
-{
-    const struct snapshot *exact = &reporter->entities.snapshot;
-    const struct snapshot *told = &reporter->motions.snapshot;
-    return told->head.frame > exact->head.frame ? told : exact;
-}
-
 /* Returns true when more work is waiting. */
 static bool poll_once(struct reporter *reporter)
 {
@@ -90,7 +82,9 @@ static bool poll_once(struct reporter *reporter)
     more |= motion_topic_publish(&reporter->motions, &reporter->view, clock_now_ns());
     if (begun_ns >= reporter->names_due_ns) {
         reporter->names_due_ns = begun_ns + NS_PER_S;
-        status_topics_markings(&reporter->status, &reporter->view, newest_snapshot(reporter));
+        status_topics_markings(
+            &reporter->status, &reporter->view,
+            snapshot_later(&reporter->entities.snapshot, &reporter->motions.snapshot));
     }
     uint64_t stage_ns = clock_now_ns() - begun_ns;
     log_frame(reporter->events.frame);

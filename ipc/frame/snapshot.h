@@ -37,6 +37,13 @@ void snapshot_settle_poses(struct snapshot *snapshot, const struct view *view);
 /* Copies the last committed frame with such places. */
 int snapshot_take_poses(struct snapshot *snapshot, const struct view *view);
 
+/* Returns the one of two copies that is of a later frame. Pure; any thread. */
+static inline const struct snapshot *snapshot_later(const struct snapshot *a,
+                                                    const struct snapshot *b)
+{
+    return a->head.frame > b->head.frame ? a : b;
+}
+
 /* Brings the head and these rows of the last copy to the last committed frame, with the places of
  * those that cruise, without its checksum and without contacts and damage of fixed objects: for
  * readers that follow a few rows from frame to frame, and take the next whole copy soon.
