@@ -9,7 +9,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-_Static_assert(ENTITY_TOPIC_PART <= jolon_ENTITIES_PER_BATCH, "batches in ipc/topics/status.idl");
+_Static_assert(BATCH_PACE_PART <= jolon_ENTITIES_PER_BATCH, "batches in ipc/topics/status.idl");
+
 static void free_rows(struct entity_topic *topic)
 {
     free(topic->entity);
@@ -22,10 +23,8 @@ int entity_topic_open(struct entity_topic *topic, const struct view *view,
                       const struct dds_link *link, uint64_t run, struct error_text *error)
 {
     uint32_t capacity = view->header->capacity;
-    *topic =
-        (struct entity_topic){.room = capacity < ENTITY_TOPIC_PART ? capacity : ENTITY_TOPIC_PART};
+    *topic = (struct entity_topic){.room = capacity < BATCH_PACE_PART ? capacity : BATCH_PACE_PART};
     topic->wire.run = run;
-    topic->world = &view->world;
     topic->writer = dds_topics_writer(link, TOPIC_ENTITIES, error);
     if (topic->writer < 0)
         return -1;
@@ -55,13 +54,6 @@ static uint32_t count_entities(const struct snapshot *snapshot)
     return count;
 }
 
-static bool has_subscribers(const struct entity_topic *topic)
-{
-    dds_publication_matched_status_t matched;
-    return dds_get_publication_matched_status(topic->writer, &matched) >= 0 &&
-           matched.current_count > 0;
-}
-
 /* Takes a new snapshot, to be written from its first row. Returns false when none could be
  * taken. */
 static bool begin(struct entity_topic *topic, const struct view *view)
@@ -73,12 +65,12 @@ static bool begin(struct entity_topic *topic, const struct view *view)
     topic->wire.sim_time_s = state_time_s(&view->world, head);
     topic->wire.total = count_entities(&topic->snapshot);
     topic->wire.part = 0;
-    topic->wire.parts = topic->wire.total ? (topic->wire.total + topic->room - 1) / topic->room : 1;
+    topic->wire.parts = batch_pace_parts(topic->wire.total, topic->room);
     topic->row = 0;
     return true;
 }
 
-static void write_part(struct entity_topic *topic)
+static void write_part(struct entity_topic *topic, const struct world *world)
 {
     const struct snapshot *snapshot = &topic->snapshot;
     uint32_t count = 0;
@@ -88,7 +80,7 @@ static void write_part(struct entity_topic *topic)
         const struct entities *e = &snapshot->entities;
         projection_place(&topic->projection, e->x[topic->row], e->z[topic->row],
                          &topic->place[count].latitude_deg, &topic->place[count].longitude_deg);
-        topic->entity[count++] = entity_sample_of(topic->world, snapshot, topic->row);
+        topic->entity[count++] = entity_sample_of(world, snapshot, topic->row);
     }
     topic->wire.entities._buffer = topic->entity;
     topic->wire.entities._length = topic->wire.entities._maximum = count;
@@ -101,19 +93,12 @@ static void write_part(struct entity_topic *topic)
 bool entity_topic_publish(struct entity_topic *topic, const struct view *view, uint64_t now_ns)
 {
     if (!topic->busy) {
-        if (now_ns < topic->due_ns)
+        if (!batch_pace_due(&topic->pace, now_ns) || dds_topics_readers(topic->writer, NULL) == 0 ||
+            !begin(topic, view))
             return false;
-        topic->due_ns += ENTITY_TOPIC_PERIOD_NS;
-        if (topic->due_ns <= now_ns)
-            topic->due_ns = now_ns + ENTITY_TOPIC_PERIOD_NS;
-        if (!has_subscribers(topic) || !begin(topic, view))
-            return false;
-        topic->begun_ns = now_ns;
-        topic->spent_ns = 0;
+        batch_pace_begin(&topic->pace, now_ns);
     }
-    write_part(topic);
-    topic->spent_ns += clock_now_ns() - now_ns;
-    if (topic->spent_ns * ENTITY_TOPIC_SHARE > ENTITY_TOPIC_PERIOD_NS)
-        topic->due_ns = topic->begun_ns + topic->spent_ns * ENTITY_TOPIC_SHARE;
+    write_part(topic, &view->world);
+    batch_pace_spent(&topic->pace, clock_now_ns() - now_ns);
     return topic->busy;
 }

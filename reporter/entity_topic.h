@@ -4,19 +4,10 @@
 
 #include "ipc/frame/snapshot.h"
 #include "ipc/topics/dds_topics.h"
+#include "reporter/batch_pace.h"
 #include "world/terrain/projection.h"
 
 #include "status.h"
-
-#define ENTITY_TOPIC_PERIOD_NS 100000000u
-
-/* Entities in one sample, far below what the type allows. Writing a sample takes about 5 ms, and
- * between two samples this process takes commands and sends its heartbeat. */
-#define ENTITY_TOPIC_PART 8192u
-
-/* Batches may take one part in so many of the time. A world that is too large for ten batches a
- * second gets fewer, and does not occupy a whole processor. */
-#define ENTITY_TOPIC_SHARE 8u
 
 struct entity_topic {
     dds_entity_t writer;
@@ -25,12 +16,10 @@ struct entity_topic {
     jolon_Degrees *place; /* [room] theirs */
     struct projection projection;
     uint32_t room;
-    const struct world *world;
-    jolon_EntityBatch wire;      /* the next part to be written */
-    bool busy;                   /* parts of the snapshot are still to be written */
-    uint32_t row;                /* where the next part begins */
-    uint64_t begun_ns, spent_ns; /* of this batch */
-    uint64_t due_ns;
+    jolon_EntityBatch wire; /* the next part to be written */
+    bool busy;              /* parts of the snapshot are still to be written */
+    uint32_t row;           /* where the next part begins */
+    struct batch_pace pace;
 };
 
 /* Makes the writer. Returns 0, or -1 with the reason. */

@@ -2,13 +2,14 @@
 #include "reporter/motion_topic.h"
 
 #include "ipc/process/clock.h"
+#include "ipc/topics/entity_place.h"
 #include "reporter/entity_sample.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
-_Static_assert(MOTION_TOPIC_PART <= jolon_ENTITIES_PER_BATCH, "batches in ipc/topics/status.idl");
+_Static_assert(BATCH_PACE_PART <= jolon_ENTITIES_PER_BATCH, "batches in ipc/topics/status.idl");
 
 static void free_memory(struct motion_topic *topic)
 {
@@ -25,8 +26,7 @@ int motion_topic_open(struct motion_topic *topic, const struct view *view,
                       const struct dds_link *link, uint64_t run, struct error_text *error)
 {
     uint32_t capacity = view->header->capacity;
-    *topic =
-        (struct motion_topic){.room = capacity < MOTION_TOPIC_PART ? capacity : MOTION_TOPIC_PART};
+    *topic = (struct motion_topic){.room = capacity < BATCH_PACE_PART ? capacity : BATCH_PACE_PART};
     topic->wire.run = run;
     topic->writer = dds_topics_writer(link, TOPIC_MOTIONS, error);
     if (topic->writer < 0)
@@ -54,14 +54,13 @@ void motion_topic_close(struct motion_topic *topic)
 static bool begin(struct motion_topic *topic, const struct view *view, uint64_t now_ns)
 {
     const struct state_head *head = &topic->snapshot.head;
-    dds_publication_matched_status_t matched;
-    if (dds_get_publication_matched_status(topic->writer, &matched) < 0 ||
-        matched.current_count == 0 || snapshot_take(&topic->snapshot, view) != 0)
+    uint32_t readers;
+    if (dds_topics_readers(topic->writer, &readers) == 0 ||
+        snapshot_take(&topic->snapshot, view) != 0)
         return false;
-    bool whole =
-        matched.total_count != topic->readers || now_ns - topic->whole_ns >= MOTION_TOPIC_WHOLE_NS;
+    bool whole = readers != topic->readers || now_ns - topic->whole_ns >= MOTION_TOPIC_WHOLE_NS;
     if (whole) {
-        topic->readers = matched.total_count;
+        topic->readers = readers;
         topic->whole_ns = now_ns;
         motion_table_clear(&topic->table);
     }
@@ -70,8 +69,7 @@ static bool begin(struct motion_topic *topic, const struct view *view, uint64_t 
     topic->wire.sim_time_s = state_time_s(&view->world, head);
     topic->wire.whole = whole;
     topic->wire.part = 0;
-    topic->wire.parts =
-        topic->table.count ? (topic->table.count + topic->room - 1) / topic->room : 1;
+    topic->wire.parts = batch_pace_parts(topic->table.count, topic->room);
     topic->next = 0;
     return true;
 }
@@ -86,17 +84,8 @@ static void add(struct motion_topic *topic, const struct view *view, uint32_t ro
         topic->entity[at] = (jolon_Entity){.id = told->id, .state = jolon_ENTITY_FREE};
         return;
     }
-    jolon_Entity *entity = &topic->entity[at];
-    *entity = entity_sample_of(&view->world, &topic->snapshot, row);
-    entity->x_m = motion->at.x;
-    entity->y_m = motion->at.y;
-    entity->z_m = motion->at.z;
-    entity->vx_mps = (float)motion->velocity.x;
-    entity->vy_mps = (float)motion->velocity.y;
-    entity->vz_mps = (float)motion->velocity.z;
-    entity->heading_rad = (float)motion->heading_rad;
-    entity->pitch_rad = (float)motion->pitch_rad;
-    entity->roll_rad = (float)motion->roll_rad;
+    topic->entity[at] = entity_sample_of(&view->world, &topic->snapshot, row);
+    entity_place_set(&topic->entity[at], motion);
     if (motion->lasts_s > 0.0F)
         topic->course[topic->wire.courses._length++] =
             (jolon_Course){.entity = at,
@@ -130,19 +119,11 @@ static void write_part(struct motion_topic *topic, const struct view *view)
 bool motion_topic_publish(struct motion_topic *topic, const struct view *view, uint64_t now_ns)
 {
     if (!topic->busy) {
-        if (now_ns < topic->due_ns)
+        if (!batch_pace_due(&topic->pace, now_ns) || !begin(topic, view, now_ns))
             return false;
-        topic->due_ns += MOTION_TOPIC_PERIOD_NS;
-        if (topic->due_ns <= now_ns)
-            topic->due_ns = now_ns + MOTION_TOPIC_PERIOD_NS;
-        if (!begin(topic, view, now_ns))
-            return false;
-        topic->begun_ns = now_ns;
-        topic->spent_ns = 0;
+        batch_pace_begin(&topic->pace, now_ns);
     }
     write_part(topic, view);
-    topic->spent_ns += clock_now_ns() - now_ns;
-    if (topic->spent_ns * MOTION_TOPIC_SHARE > MOTION_TOPIC_PERIOD_NS)
-        topic->due_ns = topic->begun_ns + topic->spent_ns * MOTION_TOPIC_SHARE;
+    batch_pace_spent(&topic->pace, clock_now_ns() - now_ns);
     return topic->busy;
 }

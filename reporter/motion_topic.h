@@ -6,15 +6,11 @@
 
 #include "ipc/frame/motion_table.h"
 #include "ipc/topics/dds_topics.h"
+#include "reporter/batch_pace.h"
 
 #include "status.h"
 
-#define MOTION_TOPIC_PERIOD_NS 100000000u
-#define MOTION_TOPIC_WHOLE_NS  10000000000u /* between whole batches */
-
-/* Entities in one sample, and the share of the time: as in entity_topic.h. */
-#define MOTION_TOPIC_PART  8192u
-#define MOTION_TOPIC_SHARE 8u
+#define MOTION_TOPIC_WHOLE_NS 10000000000u /* between whole batches */
 
 struct motion_topic {
     dds_entity_t writer;
@@ -24,13 +20,12 @@ struct motion_topic {
     jolon_Entity *entity; /* [room] of these rows */
     jolon_Course *course; /* [room] */
     uint32_t room;
-    jolon_MotionBatch wire;      /* the next part to be written */
-    bool busy;                   /* parts of the snapshot are still to be written */
-    uint32_t next;               /* the row with which the next part begins */
-    uint32_t readers;            /* that there ever were */
-    uint64_t whole_ns;           /* when the last whole batch began */
-    uint64_t begun_ns, spent_ns; /* of this batch */
-    uint64_t due_ns;
+    jolon_MotionBatch wire; /* the next part to be written */
+    bool busy;              /* parts of the snapshot are still to be written */
+    uint32_t next;          /* the row with which the next part begins */
+    uint32_t readers;       /* that there ever were */
+    uint64_t whole_ns;      /* when the last whole batch began */
+    struct batch_pace pace;
 };
 
 /* Makes the writer. Returns 0, or -1 with the reason. */

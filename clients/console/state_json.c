@@ -1,5 +1,4 @@
-/* Writes the frame, its counters, the entities of an area and the requested vehicle.
- */
+/* Writes the frame, its counters, the entities of an area and the requested vehicle. */
 #include "clients/console/state_json.h"
 
 #include "clients/console/world_json.h"

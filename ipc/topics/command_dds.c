@@ -52,9 +52,7 @@ static bool receive(void *self, jolon_CommandReply *reply)
 static bool reachable(void *self)
 {
     const struct command_dds *dds = self;
-    dds_publication_matched_status_t matched = {0};
-    return dds_get_publication_matched_status(dds->commands, &matched) >= 0 &&
-           matched.current_count > 0;
+    return dds_topics_readers(dds->commands, NULL) > 0;
 }
 
 static int descriptor(void *self)

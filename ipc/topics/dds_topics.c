@@ -94,6 +94,15 @@ static dds_return_t attach(dds_entity_t waitset, dds_entity_t reader)
     return code < 0 ? code : dds_waitset_attach(waitset, reader, reader);
 }
 
+uint32_t dds_topics_readers(dds_entity_t writer, uint32_t *ever)
+{
+    dds_publication_matched_status_t matched = {0};
+    bool known = dds_get_publication_matched_status(writer, &matched) >= 0;
+    if (ever)
+        *ever = known ? matched.total_count : 0;
+    return known ? matched.current_count : 0;
+}
+
 bool dds_topics_writer_left(dds_entity_t reader, dds_instance_handle_t writer)
 {
     dds_instance_handle_t writers[16];

@@ -37,6 +37,9 @@ dds_entity_t dds_topics_writer(const struct dds_link *link, enum dds_topic topic
 dds_entity_t dds_topics_waitset(const struct dds_link *link, const dds_entity_t *readers,
                                 size_t count, struct error_text *error);
 
+/* Returns how many readers a writer has now. ever: NULL, or set to how many it has ever had. */
+uint32_t dds_topics_readers(dds_entity_t writer, uint32_t *ever);
+
 /* Returns true if the writer of a sample is no longer matched with the reader, and another writer
  * is. */
 bool dds_topics_writer_left(dds_entity_t reader, dds_instance_handle_t writer);

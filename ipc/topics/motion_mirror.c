@@ -1,13 +1,11 @@
 /* Follows the batches of motions. */
 #include "ipc/topics/motion_mirror.h"
 
-#include "world/entity/told_motion.h"
+#include "ipc/topics/entity_place.h"
+#include "ipc/topics/samples.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#define NUMBER_MAX 1e15 /* as in samples.c */
 
 void motion_mirror_close(struct motion_mirror *mirror)
 {
@@ -116,7 +114,7 @@ static bool is_sane(const struct told_motion *motion)
                               motion->heading_rad, motion->pitch_rad,  motion->roll_rad};
     bool sane = true;
     for (size_t i = 0; sane && i < sizeof numbers / sizeof numbers[0]; i++)
-        sane = fabs(numbers[i]) <= NUMBER_MAX; /* false for NaN */
+        sane = samples_number(numbers[i]);
     return sane;
 }
 
@@ -142,15 +140,7 @@ static jolon_Entity entity_at(const struct motion_mirror_row *row, double time_s
     struct told_motion now = told_motion_at(&told, after_s);
     if (!is_sane(&now))
         return entity;
-    entity.x_m = now.at.x;
-    entity.y_m = now.at.y;
-    entity.z_m = now.at.z;
-    entity.vx_mps = (float)now.velocity.x;
-    entity.vy_mps = (float)now.velocity.y;
-    entity.vz_mps = (float)now.velocity.z;
-    entity.heading_rad = (float)now.heading_rad;
-    entity.pitch_rad = (float)now.pitch_rad;
-    entity.roll_rad = (float)now.roll_rad;
+    entity_place_set(&entity, &now);
     entity.reload_s = (float)maths_max(0.0, (double)entity.reload_s - after_s);
     return entity;
 }

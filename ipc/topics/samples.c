@@ -18,7 +18,7 @@
 #define RATE_MAX     1e4f
 #define COURSE_MAX_S 60.0f
 
-static bool number(double value)
+bool samples_number(double value)
 {
     return fabs(value) <= NUMBER_MAX; /* false for NaN */
 }
@@ -51,13 +51,13 @@ static bool good_world(jolon_WorldInfo *world)
                 amount(world->side_m) && fabs(world->latitude_deg) <= 90.0 &&
                 fabs(world->longitude_deg) <= 180.0 && world->kinds._length <= 64;
     for (uint32_t i = 0; good && i < jolon_MAP_CELLS; i++)
-        good = number((double)world->height_m[i]);
+        good = samples_number((double)world->height_m[i]);
     for (uint32_t i = 0; good && i < world->kinds._length; i++) {
         jolon_KindInfo *kind = &world->kinds._buffer[i];
         clean(kind->name);
-        good = kind->domain <= jolon_DOMAIN_FIXED && number((double)kind->length_m) &&
-               number((double)kind->max_speed_mps) && number((double)kind->range_m) &&
-               number((double)kind->fuel_l);
+        good = kind->domain <= jolon_DOMAIN_FIXED && samples_number((double)kind->length_m) &&
+               samples_number((double)kind->max_speed_mps) &&
+               samples_number((double)kind->range_m) && samples_number((double)kind->fuel_l);
     }
     clean(world->world);
     clean(world->ground);
@@ -100,9 +100,10 @@ static bool good_entity(const jolon_Entity *entity)
     bool good = entity->state <= jolon_ENTITY_WRECK && entity->force <= jolon_FORCE_RED &&
                 entity->behaviour <= jolon_BEHAVIOUR_REMOTE &&
                 entity->damage <= jolon_DAMAGE_DESTROYED && entity->gear <= jolon_GEAR_LOW &&
-                number(entity->x_m) && number(entity->y_m) && number(entity->z_m);
+                samples_number(entity->x_m) && samples_number(entity->y_m) &&
+                samples_number(entity->z_m);
     for (size_t i = 0; good && i < sizeof numbers / sizeof numbers[0]; i++)
-        good = number((double)numbers[i]);
+        good = samples_number((double)numbers[i]);
     return good;
 }
 
@@ -158,7 +159,7 @@ static bool party(jolon_Party *value)
 
 static bool point(const jolon_Point *value)
 {
-    return number(value->x_m) && number(value->y_m) && number(value->z_m);
+    return samples_number(value->x_m) && samples_number(value->y_m) && samples_number(value->z_m);
 }
 
 static bool place(const jolon_Degrees *value, char *mgrs)
@@ -169,16 +170,17 @@ static bool place(const jolon_Degrees *value, char *mgrs)
 
 static bool direction(const jolon_Direction *value)
 {
-    return number((double)value->x) && number((double)value->y) && number((double)value->z);
+    return samples_number((double)value->x) && samples_number((double)value->y) &&
+           samples_number((double)value->z);
 }
 
 static bool good_collision(jolon_CollisionEvent *event)
 {
     return party(&event->a) && party(&event->b) && point(&event->point) &&
-           direction(&event->normal) && direction(&event->direction) && number(event->toi) &&
-           number((double)event->closing_mps) && number((double)event->angle_deg) &&
-           number((double)event->impulse_ns) && event->response <= jolon_RESPONSE_DESTROYED &&
-           place(&event->degrees, event->mgrs);
+           direction(&event->normal) && direction(&event->direction) &&
+           samples_number(event->toi) && samples_number((double)event->closing_mps) &&
+           samples_number((double)event->angle_deg) && samples_number((double)event->impulse_ns) &&
+           event->response <= jolon_RESPONSE_DESTROYED && place(&event->degrees, event->mgrs);
 }
 
 static bool good_fire(jolon_FireEvent *event)
@@ -190,7 +192,7 @@ static bool good_fire(jolon_FireEvent *event)
 static bool good_detonation(jolon_DetonationEvent *event)
 {
     return party(&event->munition) && party(&event->victim) && point(&event->point) &&
-           number((double)event->explosive_kg) && event->struck <= jolon_STRUCK_AIR &&
+           samples_number((double)event->explosive_kg) && event->struck <= jolon_STRUCK_AIR &&
            place(&event->degrees, event->mgrs);
 }
 
@@ -209,7 +211,7 @@ static bool good_agent(jolon_AgentEvent *event)
 static bool good_contact_end(jolon_ContactEndEvent *event)
 {
     return party(&event->a) && party(&event->b) && amount(event->lasted_s) &&
-           number((double)event->impulse_ns) && event->because <= jolon_CONTACT_END_NO_ROOM;
+           samples_number((double)event->impulse_ns) && event->because <= jolon_CONTACT_END_NO_ROOM;
 }
 
 static bool good_event(const jolon_EventHeader *header)

@@ -23,4 +23,8 @@ bool samples_next(struct samples *samples);
  * EntityNames. In its texts, bytes that are no printable UTF-8 become '?'. */
 bool samples_good(enum dds_topic topic, void *sample);
 
+/* Returns true for a number that arithmetic can take: it is finite, and not far beyond those of any
+ * world. Any thread. */
+bool samples_number(double value);
+
 #endif
