@@ -26,6 +26,10 @@
 #define LAY_NS       (8 * (uint64_t)NS_PER_S)
 #define LAY_RETRY_NS (100 * (uint64_t)NS_PER_MS)
 
+/* The first data may be a second old (ipc/topics/dds_topics.c): a vehicle that is newer comes
+ * later. */
+#define MISSED_LIMIT_NS (1500 * (uint64_t)NS_PER_MS)
+
 #define IDLE_NS      (20 * (uint64_t)NS_PER_MS)
 #define FRAME_MIN_NS (2 * (uint64_t)NS_PER_MS)
 #define RATE_MIN_HZ  1.0
@@ -458,6 +462,19 @@ static void check_losses(struct session *session, uint64_t now_ns)
     tell_loss(session, self, now_ns);
 }
 
+/* Waits for the wanted vehicle, which is not in the world's data, or ends with the reason. */
+static void miss_wanted(struct session *session, const char *reason, uint64_t now_ns)
+{
+    if (!session->missed_ns)
+        session->missed_ns = now_ns;
+    if (now_ns - session->missed_ns < MISSED_LIMIT_NS) {
+        session->state = SESSION_WAITING;
+        return;
+    }
+    session_notify(session, now_ns, "%s", reason);
+    session->refused = session->ended = true;
+}
+
 /* Takes the first vehicle of this world: the wanted one, or any. */
 static void take_first(struct session *session, uint64_t now_ns)
 {
@@ -472,15 +489,13 @@ static void take_first(struct session *session, uint64_t now_ns)
     choice.from = 0;
     uint32_t id = session->wanted ? vehicle_choice_by_text(mirror, &choice, session->wanted, &error)
                                   : vehicle_choice_next(mirror, &choice, 1);
-    if (id) {
+    if (id)
         take_vehicle(session, id, now_ns);
-    } else if (session->wanted) {
-        session_notify(session, now_ns, "%s", error.text);
-        session->refused = session->ended = true;
-    } else {
+    else if (session->wanted)
+        miss_wanted(session, error.text, now_ns);
+    else
         session_notify(session, now_ns, "no vehicle is free in world \"%s\"; n tries again",
                        mirror->name);
-    }
 }
 
 uint64_t session_turn(struct session *session, uint64_t now_ns)
@@ -507,7 +522,7 @@ uint64_t session_turn(struct session *session, uint64_t now_ns)
     if (mirror->has_world && session->run && mirror->world.run != session->run) {
         session->state = SESSION_WAITING;
         session->vehicle = session->target = 0;
-        session->run = 0;
+        session->run = session->missed_ns = 0;
         session_notify(session, now_ns, "another world has begun under this name");
     }
     if (session->state == SESSION_WAITING)

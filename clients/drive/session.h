@@ -30,7 +30,8 @@ struct session {
     struct command_client *client;
     const char *wanted; /* id, name, kind or force of the first vehicle; NULL: any */
     bool ended;
-    bool refused; /* ended because there is no vehicle like `wanted` */
+    bool refused;       /* ended because there is no vehicle like `wanted` */
+    uint64_t missed_ns; /* when `wanted` was first looked for in vain, 0: it was not */
 
     enum session_state state;
     uint64_t run;
