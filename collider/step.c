@@ -41,6 +41,7 @@ int collider_init(struct collider *collider, const struct world *world,
         end_guard_init(&collider->guard, world, workers) != 0 ||
         charges_init(&collider->charges, world) != 0 ||
         pair_list_init(&collider->pairs, pair_filter_pairs_first(world)) != 0 ||
+        pair_list_init(&collider->ends, 2 * (uint64_t)pair_filter_pairs_first(world)) != 0 ||
         !(collider->workspace = method_workspace_create(world, &collider->broad))) {
         collider_free(collider);
         errno = ENOMEM;
@@ -64,6 +65,7 @@ void collider_free(struct collider *collider)
     charges_free(&collider->charges);
     method_workspace_free(collider->workspace);
     pair_list_free(&collider->pairs);
+    pair_list_free(&collider->ends);
     *collider = (struct collider){0};
 }
 
@@ -196,7 +198,7 @@ static void end_stretches(const struct step *step, const struct response_context
         if (!(contact->b_id & PERSISTENT_CONTACT_FIXED))
             cruise_rows_stop(&context->input, contact->b_row);
     }
-    cruise_rows_take_pairs(&context->input, &collider->pairs);
+    cruise_rows_take_pairs(&context->input, &collider->pairs, &collider->ends);
     broad_phase_hold(&collider->broad, &collider->motion);
 }
 

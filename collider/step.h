@@ -44,6 +44,7 @@ struct collider {
     struct charges charges;
     struct method_workspace *workspace;
     struct pair_list pairs; /* what the method found */
+    struct pair_list ends;  /* rows, and the ticks at which their stretches end earlier */
     bool slept; /* all contacts did in the last frame: the helpers need not stay awake */
     /* state_fixed_hash() of frame fixed_hash_frame; UINT64_MAX: none yet */
     uint64_t fixed_hash, fixed_hash_frame;

@@ -174,19 +174,43 @@ static void move_land(const struct step_context *context, struct batches *batche
     land->count = 0;
 }
 
-/* Moves rows by a stretch, and those that it refuses by one frame. */
-static void move_stretch(const struct step_context *context, struct batches *batches)
+/* Moves rows by a stretch. Returns how many it refuses, and which. */
+static uint32_t stretch_rows(const struct step_context *context, struct batches *batches,
+                             uint32_t refused[LANE_COUNT])
 {
     struct ground_vehicle *stretch = &batches->stretch;
+    uint32_t count = 0;
     ground_vehicle_move(context, stretch);
     for (int l = 0; l < stretch->count; l++) {
-        uint32_t i = stretch->row[l];
-        if (!stretch->refused.lane[l])
-            batches->motion[i - batches->block->first] = MOTION_CRUISE;
-        else if (ground_vehicle_take_held(context, &batches->land, i))
-            move_land(context, batches);
+        if (stretch->refused.lane[l])
+            refused[count++] = stretch->row[l];
+        else
+            batches->motion[stretch->row[l] - batches->block->first] = MOTION_CRUISE;
     }
     stretch->count = 0;
+    return count;
+}
+
+/* Moves rows by a stretch, those that it refuses by half of it, and so on, and those that a short
+ * one refuses by one frame. */
+static void move_stretch(const struct step_context *context, struct batches *batches)
+{
+    const uint32_t frames = batches->stretch.frames;
+    uint32_t refused[LANE_COUNT], count = stretch_rows(context, batches, refused);
+    while (count > 0 && batches->stretch.frames > context->cruise_short) {
+        uint32_t half = batches->stretch.frames / 2;
+        ground_vehicle_begin(&batches->stretch,
+                             half > context->cruise_short ? half : context->cruise_short);
+        for (uint32_t n = 0; n < count; n++)
+            (void)ground_vehicle_take_held(context, &batches->stretch, refused[n]);
+        count = stretch_rows(context, batches, refused);
+    }
+    for (uint32_t n = 0; n < count; n++) {
+        if (ground_vehicle_take_held(context, &batches->land, refused[n]))
+            move_land(context, batches);
+    }
+    if (batches->stretch.frames != frames)
+        ground_vehicle_begin(&batches->stretch, frames);
 }
 
 /* Notes that a ship or an aircraft is or was on the ground: more than its motion changes. */
@@ -709,6 +733,9 @@ struct step_context mover_context(const struct mover *mover, const struct state 
     uint64_t tick = committed->head->tick + 1;
     bool cruises = params->cruise && params->collision.method == METHOD_SWEPT;
     uint32_t stretch = cruises ? cruise_frames(params->dt_s) : 1;
+    uint32_t thinks = perception_think_frames(params, used);
+    thinks = thinks > mover->decides_every ? thinks : mover->decides_every;
+    uint32_t longest = cruises ? cruise_start_longest(params->dt_s, thinks) : 1;
     return (struct step_context){
         .world = mover->world,
         .committed = committed,
@@ -724,11 +751,12 @@ struct step_context mover_context(const struct mover *mover, const struct state 
         .terrain_entries = mover->terrain_entries,
         .terrain_entries_ahead = mover->terrain_entries_ahead,
         .tick = tick,
-        .think_frames = perception_think_frames(params, used),
+        .think_frames = thinks,
         .look_frames = perception_look_frames(params, used),
         .aim_frames = attack_aim_frames(params),
-        .cruise_frames = stretch,
-        .cruise_phase = (uint32_t)(tick % stretch),
+        .cruise_frames = longest,
+        .cruise_short = stretch,
+        .cruise_phase = (uint32_t)(tick % longest),
         .cruise_group_bits = cruise_start_group_bits(params->capacity),
         .dt_s = params->dt_s,
         .wind = projectile_wind(params),
@@ -747,7 +775,7 @@ static void index_neighbours(struct mover *mover, const struct step_context *con
                                                 .fresh = mover->resting.fresh};
     neighbour_index_update(&mover->neighbours, &frame, mover->workers);
     neighbour_lists_gather(&mover->neighbour_lists, &mover->neighbours, mover->world,
-                           &mover->avoidance, mover->workers);
+                           &mover->avoidance, avoidance_ahead(context), mover->workers);
 }
 
 void mover_step(struct mover *mover, const struct state *committed, struct moved *moved,

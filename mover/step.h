@@ -45,6 +45,8 @@ struct mover {
     struct block_hashes blank;         /* of a block that is all zero */
     uint64_t left;                     /* checksum that the last step left; 0: none */
     _Atomic uint32_t moved_rows;       /* rows that the last step has moved */
+    uint32_t
+        decides_every; /* [frame] tests let agents decide no more often, as in a large world; 0 */
 };
 
 /* craters: the world's list. workers may be NULL and stays the caller's. 0, or -1 with errno

@@ -10,7 +10,9 @@
 #define CRUISE_COLUMNS                                                                             \
     (COLUMN_BIT(x) | COLUMN_BIT(y) | COLUMN_BIT(z) | COLUMN_BIT(vx) | COLUMN_BIT(vy) |             \
      COLUMN_BIT(vz) | COLUMN_BIT(heading) | COLUMN_BIT(pitch) | COLUMN_BIT(roll) |                 \
-     COLUMN_BIT(cruise_tick))
+     COLUMN_BIT(fuel_l) | COLUMN_BIT(cruise_tick))
+
+#define AIR_IDLE_SHARE 0.2 /* of the fuel at full speed: an aircraft burns no less */
 
 struct cruise_pose cruise_pose_of(const struct world *world, const struct crater_index *craters,
                                   const struct entities *e, uint32_t i, uint64_t tick)
@@ -60,11 +62,24 @@ struct told_motion cruise_pose_motion(const struct world *world, const struct cr
     return motion;
 }
 
+/* Returns the fuel that row i has at the tick: that of all of its stretch was burnt when it began
+ * (mover/motion/kinematics.h). */
+static double fuel_at(const struct world *world, const struct entities *e, uint32_t i,
+                      uint64_t tick)
+{
+    const struct kind *kind = &world->kinds[e->kind[i]];
+    double idle = kind->domain == DOMAIN_AIR ? AIR_IDLE_SHARE : kind->idle_share;
+    double share = maths_max(fabs((double)e->throttle[i]), idle);
+    double left_l = share * kind->fuel_lps * cruise_left_s(e, i, tick, world_dt_s(world));
+    return e->fuel_l[i] > 0.0 ? e->fuel_l[i] + left_l : e->fuel_l[i];
+}
+
 /* Writes where row i is at the tick into its columns. */
 static void settle(const struct entities *e, const struct world *world,
                    const struct crater_index *craters, uint32_t i, uint64_t tick)
 {
     struct cruise_pose pose = cruise_pose_of(world, craters, e, i, tick);
+    e->fuel_l[i] = fuel_at(world, e, i, tick);
     entities_set_velocity(e, i, cruise_velocity(e, i, tick, world_dt_s(world)));
     entities_set_position(e, i, pose.at);
     e->heading[i] = pose.heading_rad;
@@ -73,13 +88,15 @@ static void settle(const struct entities *e, const struct world *world,
     e->cruise_tick[i] = 0;
 }
 
-bool cruise_pose_stop(const struct table_writer *writer, const struct world *world,
-                      const struct crater_index *craters, uint32_t i, uint64_t tick)
+bool cruise_pose_end(const struct table_writer *writer, const struct world *world,
+                     const struct crater_index *craters, uint32_t i, uint64_t tick, uint64_t now)
 {
     if (!cruise_goes(writer->entities, i, tick))
         return false;
     table_note(writer, i, CRUISE_COLUMNS);
     settle(writer->entities, world, craters, i, tick);
+    if (tick > now)
+        writer->entities->cruise_tick[i] = (uint32_t)tick;
     return true;
 }
 

@@ -28,9 +28,10 @@ struct told_motion cruise_pose_motion(const struct world *world, const struct cr
                                       const struct entities *e, uint32_t i, uint64_t tick);
 
 /* Ends the stretch of row i at the tick, if it cruises then: its columns say from now on where it
- * is at that tick. Returns true if it did. */
-bool cruise_pose_stop(const struct table_writer *writer, const struct world *world,
-                      const struct crater_index *craters, uint32_t i, uint64_t tick);
+ * is at that tick, and what fuel it has by then. now: the tick of the frame, at most `tick`.
+ * Returns true if it did. */
+bool cruise_pose_end(const struct table_writer *writer, const struct world *world,
+                     const struct crater_index *craters, uint32_t i, uint64_t tick, uint64_t now);
 
 /* Ends the stretches of all rows of a frame that nobody else has: its columns then say where they
  * are. The frame is no longer what its checksum is of. world->params are those under which the

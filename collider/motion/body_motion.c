@@ -2,6 +2,7 @@
 #include "collider/motion/body_motion.h"
 
 #include "collider/motion/pair_filter.h"
+#include "world/entity/hull.h"
 #include "world/entity/kind.h"
 #include "world/entity/mass_properties.h"
 #include "world/maths/maths.h"
@@ -30,6 +31,21 @@
 
 #define BEGINS 6u /* columns of body_motion.before that are the collider's own */
 
+/* Leaning to the side brings what is high to the side, and leaning forwards does not. */
+static double beside_of(const struct world *world, const struct kind *kind)
+{
+    double square = 0.0;
+    if (kind->domain != DOMAIN_LAND || kind->hull_count == 0 ||
+        world->params->collision.shape != SHAPE_MODEL)
+        return INFINITY;
+    const struct hull *hull = &world->hulls[kind->outer_hull];
+    for (uint32_t v = 0; v < hull->vertex_count; v++) {
+        struct vec3 at = world->hull_vertices[hull->first_vertex + v];
+        square = maths_max(square, at.y * at.y + at.z * at.z);
+    }
+    return sqrt(square);
+}
+
 int body_motion_init(struct body_motion *motion, const struct world *world)
 {
     uint32_t capacity = world->params->capacity;
@@ -48,6 +64,8 @@ int body_motion_init(struct body_motion *motion, const struct world *world)
         body_motion_free(motion);
         return -1;
     }
+    for (uint32_t k = 0; k < world->counts.kinds && k < KIND_COUNT_MAX; k++)
+        motion->beside_m[k] = beside_of(world, &world->kinds[k]);
     return 0;
 }
 
@@ -136,18 +154,46 @@ struct path body_motion_path(const struct body_motion *motion, uint32_t row)
     return path_of(motion, row, from, to);
 }
 
-struct body_line body_motion_line(const struct body_motion *motion, uint32_t row)
+struct body_line body_motion_line_until(const struct body_motion *motion, uint32_t row,
+                                        uint64_t tick)
 {
     const struct entities *n = &motion->next->entities;
-    uint64_t tick = motion->next->head->tick - 1;
-    double dt_s = world_dt_s(motion->world), left_s = cruise_left_s(n, row, tick, dt_s);
-    struct body_line line = {.from = cruise_position(n, row, tick, dt_s),
-                             .to = entities_position(n, row),
+    const uint64_t now = motion->next->head->tick - 1;
+    const double dt_s = world_dt_s(motion->world), left_s = (double)(tick - now) * dt_s;
+    struct body_line line = {.from = cruise_position(n, row, now, dt_s),
+                             .to = cruise_position(n, row, tick, dt_s),
                              .left_s = left_s};
     double x = line.to.x - line.from.x, z = line.to.z - line.from.z, way_m = sqrt(x * x + z * z);
     double arc_m = fabs(n->cruise_rps[row]) * left_s * way_m / 8.0;
     if (way_m > 0.0)
         line.around_m = STRETCH_ARCS * arc_m + STRETCH_AROUND_MPS * left_s;
+    return line;
+}
+
+struct body_line body_motion_line(const struct body_motion *motion, uint32_t row)
+{
+    return body_motion_line_until(motion, row, motion->next->entities.cruise_tick[row]);
+}
+
+/* A body whose ends are within its reach and whose sides are `beside` from its axis is within
+ * `beside` of an axis that is longer than the way by the root of the difference of their squares at
+ * each end. Its axis is off the line by half of its turn. */
+struct body_line body_motion_line_around(const struct body_motion *motion, uint32_t row,
+                                         uint64_t tick, double reach_m)
+{
+    const struct entities *n = &motion->next->entities;
+    struct body_line line = body_motion_line_until(motion, row, tick);
+    double beside = motion->beside_m[n->kind[row]];
+    double x = line.to.x - line.from.x, z = line.to.z - line.from.z, way_m = sqrt(x * x + z * z);
+    if (!(beside < reach_m) || !(way_m > 0.0)) {
+        line.around_m += reach_m;
+        return line;
+    }
+    double longer = sqrt(reach_m * reach_m - beside * beside) / way_m;
+    line.around_m += beside + pair_filter_slack(motion->world) +
+                     0.5 * fabs(n->cruise_rps[row]) * line.left_s * reach_m;
+    line.from = (struct vec3){line.from.x - longer * x, line.from.y, line.from.z - longer * z};
+    line.to = (struct vec3){line.to.x + longer * x, line.to.y, line.to.z + longer * z};
     return line;
 }
 

@@ -54,6 +54,9 @@ struct body_motion {
      * compared, so that it saves work and changes no result. */
     struct known_pose *pose;
     double *begins; /* [6 * capacity] the columns of before that are not the committed ones */
+    /* How far a land vehicle of a kind reaches to its sides on the map, wherever it leans, while
+     * its gun points ahead [m]; INFINITY: as far as ahead. */
+    double beside_m[KIND_COUNT_MAX];
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */
@@ -83,8 +86,16 @@ struct body_line {
 };
 
 /* Returns the line from where a row that cruises in this frame is when it begins to the end of its
- * stretch. */
+ * stretch, or to where it is at a tick before. */
 struct body_line body_motion_line(const struct body_motion *motion, uint32_t row);
+struct body_line body_motion_line_until(const struct body_motion *motion, uint32_t row,
+                                        uint64_t tick);
+
+/* Makes a line to a tick before the end one that all of the body stays near to, not just its
+ * centre: longer at both ends, and wider by what is beside the body instead of by all of its reach
+ * reach_m. */
+struct body_line body_motion_line_around(const struct body_motion *motion, uint32_t row,
+                                         uint64_t tick, double reach_m);
 
 /* Returns a path for the box around what is left of the stretch of a row that cruises in this
  * frame: it begins where the frame does, and its heights hold those of the ground between. */

@@ -4,16 +4,25 @@
 #include "collider/narrow_phase/contact_queue.h"
 #include "world/state.h"
 #include "world/cruise_pose.h"
+#include "world/maths/sort.h"
 #include "world/terrain/fixed.h"
 #include "world/world.h"
 
-void cruise_rows_stop(const struct contact_input *input, uint32_t row)
+#define LEAST_TICKS 6u /* a stretch that would be shorter ends at once */
+
+/* Ends the stretch of the row at the tick if it cruises then. */
+static void end_at(const struct contact_input *input, uint32_t row, uint64_t tick)
 {
     struct body_motion *motion = input->motion;
-    if (!body_motion_cruises(motion, row))
-        return;
-    cruise_pose_stop(&input->writer, motion->world, motion->craters, row, motion->next->head->tick);
-    motion->computed[row] = 0;
+    if (cruise_pose_end(&input->writer, motion->world, motion->craters, row, tick,
+                        motion->next->head->tick))
+        motion->computed[row] = 0;
+}
+
+void cruise_rows_stop(const struct contact_input *input, uint32_t row)
+{
+    if (body_motion_cruises(input->motion, row))
+        end_at(input, row, input->motion->next->head->tick);
 }
 
 static double margin_of(const struct contact_input *input, uint32_t row)
@@ -32,17 +41,19 @@ static struct path_box box_of(const struct contact_input *input, uint32_t row)
     return pair_filter_path_box(&path, margin_of(input, row));
 }
 
-/* The line that the row's body is within around_m of in this frame, or until its stretch ends. */
-static struct body_line line_of(const struct contact_input *input, uint32_t row)
+/* The line that the row's body is within around_m of in this frame, or until its stretch ends, but
+ * no longer than to the tick. */
+static struct body_line line_of(const struct contact_input *input, uint32_t row, uint64_t tick)
 {
+    const struct body_motion *motion = input->motion;
     struct body_line line;
-    if (body_motion_cruises(input->motion, row)) {
-        line = body_motion_line(input->motion, row);
-    } else {
-        struct path path = body_motion_path(input->motion, row);
-        line = (struct body_line){.from = path.at, .to = path_at(&path, 1.0)};
+    if (body_motion_cruises(motion, row)) {
+        uint64_t end = motion->next->entities.cruise_tick[row];
+        return body_motion_line_around(motion, row, tick < end ? tick : end, margin_of(input, row));
     }
-    line.around_m += margin_of(input, row);
+    struct path path = body_motion_path(motion, row);
+    line = (struct body_line){
+        .from = path.at, .to = path_at(&path, 1.0), .around_m = margin_of(input, row)};
     return line;
 }
 
@@ -87,25 +98,31 @@ static bool apart(const struct body_line *a, const struct body_line *b)
            square_from(b->from, a) > square && square_from(b->to, a) > square;
 }
 
+/* Returns true if the bodies of a pair, of which one cruises, may come near to each other up to the
+ * tick. */
+static bool meet_until(const struct contact_input *input, const struct pair *pair, uint64_t tick)
+{
+    const struct body_line first = line_of(input, pair->a, tick);
+    const struct body_line second = pair->b & PAIR_FIXED ? fixed_line(input, pair->b & ~PAIR_FIXED)
+                                                         : line_of(input, pair->b, tick);
+    return !apart(&first, &second);
+}
+
 /* Returns true unless the boxes or the lines of a pair, of which one cruises, are apart. */
 static bool meet(const struct contact_input *input, const struct pair *pair)
 {
     struct path_box a = box_of(input, pair->a);
-    struct body_line first, second;
     if (pair->b & PAIR_FIXED) {
-        uint32_t object = pair->b & ~PAIR_FIXED;
-        if (!pair_filter_box_meets_fixed(&input->detect, &a, &input->detect.world->fixed[object]))
+        const struct fixed_object *object = &input->detect.world->fixed[pair->b & ~PAIR_FIXED];
+        if (!pair_filter_box_meets_fixed(&input->detect, &a, object))
             return false;
-        second = fixed_line(input, object);
     } else {
         struct path_box b = box_of(input, pair->b);
         if (!pair_filter_boxes_meet(&a, &b) ||
             pair_never_meets(input->detect.entities, pair->a, pair->b))
             return false;
-        second = line_of(input, pair->b);
     }
-    first = line_of(input, pair->a);
-    return !apart(&first, &second);
+    return meet_until(input, pair, UINT64_MAX);
 }
 
 static bool has_cruising(const struct contact_input *input, const struct pair *pair)
@@ -114,20 +131,74 @@ static bool has_cruising(const struct contact_input *input, const struct pair *p
            (!(pair->b & PAIR_FIXED) && body_motion_cruises(input->motion, pair->b));
 }
 
-/* Stretches end after all pairs have been looked at, so that their order does not matter. */
-void cruise_rows_take_pairs(const struct contact_input *input, struct pair_list *pairs)
+/* Returns the tick at which the row's stretch ends; that of this frame if it does not cruise. */
+static uint64_t end_of(const struct contact_input *input, uint32_t row)
 {
+    const struct body_motion *motion = input->motion;
+    return body_motion_cruises(motion, row) ? motion->next->entities.cruise_tick[row]
+                                            : motion->next->head->tick;
+}
+
+/* Returns the tick up to which the stretches of a pair may go on that meet later: that of this
+ * frame if they have to end now. */
+static uint64_t may_go_on(const struct contact_input *input, const struct pair *pair)
+{
+    const uint64_t now = input->motion->next->head->tick;
+    uint64_t last = end_of(input, pair->a);
+    if (!(pair->b & PAIR_FIXED) && end_of(input, pair->b) > last)
+        last = end_of(input, pair->b);
+    for (uint64_t ticks = (last - now) / 2; ticks >= LEAST_TICKS; ticks /= 2) {
+        if (!meet_until(input, pair, now + ticks))
+            return now + ticks;
+    }
+    return now;
+}
+
+/* Notes that the row's stretch must not go on beyond the tick. */
+static void note_end(struct pair_list *ends, const struct contact_input *input, uint32_t row,
+                     uint64_t tick)
+{
+    if (body_motion_cruises(input->motion, row) && end_of(input, row) > tick)
+        pair_list_add(ends, row, (uint32_t)tick);
+}
+
+/* Ends the stretch of the row at the tick, or at once if a shorter one leads another way. */
+static void shorten(const struct contact_input *input, uint32_t row, uint64_t tick)
+{
+    const struct entities *e = &input->motion->next->entities;
+    const uint64_t now = input->motion->next->head->tick;
+    double left_s = cruise_left_s(e, row, now - 1, world_dt_s(input->motion->world));
+    bool same = cruise_off(e->cruise_rps[row], e->cruise_mps2[row], left_s) <= CRUISE_OFF_M;
+    end_at(input, row, same ? tick : now);
+}
+
+/* Ends are made after all pairs have been looked at, and each row's first one, so that their order
+ * does not matter. */
+void cruise_rows_take_pairs(const struct contact_input *input, struct pair_list *pairs,
+                            struct pair_list *ends)
+{
+    const uint64_t now = input->motion->next->head->tick;
     uint32_t count = 0;
+    ends->count = 0;
     for (uint32_t i = 0; i < pairs->count; i++) {
         const struct pair pair = pairs->pair[i];
-        if (!has_cruising(input, &pair) || meet(input, &pair))
+        uint64_t until = now;
+        if (has_cruising(input, &pair)) {
+            if (!meet(input, &pair))
+                continue;
+            until = may_go_on(input, &pair);
+            note_end(ends, input, pair.a, until);
+            if (!(pair.b & PAIR_FIXED))
+                note_end(ends, input, pair.b, until);
+        }
+        if (until == now)
             pairs->pair[count++] = pair;
     }
     pairs->count = count;
-    for (uint32_t i = 0; i < count; i++) {
-        cruise_rows_stop(input, pairs->pair[i].a);
-        if (!(pairs->pair[i].b & PAIR_FIXED))
-            cruise_rows_stop(input, pairs->pair[i].b);
+    sort_words(ends->pair, ends->count);
+    for (uint32_t i = 0; i < ends->count; i++) {
+        if (i == 0 || ends->pair[i].a != ends->pair[i - 1].a)
+            shorten(input, ends->pair[i].a, ends->pair[i].b);
     }
 }
 

@@ -16,9 +16,11 @@ struct contact_input;
 /* Ends the stretch of the row if it cruises in this frame. */
 void cruise_rows_stop(const struct contact_input *input, uint32_t row);
 
-/* Takes the pairs out of the list in which a row cruises and the boxes do not meet, and ends the
- * stretches in the others. */
-void cruise_rows_take_pairs(const struct contact_input *input, struct pair_list *pairs);
+/* Takes the pairs out of the list in which a row cruises and that do not come near to each other.
+ * The stretches in the others end before they do; if that is soon, at once, and the pair stays in
+ * the list. ends: its content is lost. */
+void cruise_rows_take_pairs(const struct contact_input *input, struct pair_list *pairs,
+                            struct pair_list *ends);
 
 /* broad_phase_query(), which also ends the stretches of the rows that it finds. Rows that cruise
  * and whose boxes do not meet this one are not found. */

@@ -179,6 +179,8 @@ int avoidance_init(struct avoidance *avoidance, const struct world *world)
                                       : (float)(gap_of(kind) + AVOIDANCE_ROUNDED_M);
             avoidance->around_m[k] = around_of(horizon_of(kind, kind->max_speed_mps));
             avoidance->slope[k] = slope_of(kind);
+            if (kind->domain == DOMAIN_LAND)
+                avoidance->fastest_mps = maths_max(avoidance->fastest_mps, kind->max_speed_mps);
         }
     }
     for (uint32_t square = 0; square < squares; square++) {
@@ -281,20 +283,25 @@ static bool gives_way(const struct look *look, double dx, double dz, double vx, 
 }
 
 /* Returns false only if the obstacle, which moves at (vx, vz), cannot be met before the horizon
- * along direction k; this holds for the rounded values of the index too. Needs no division. */
+ * along direction k; this holds for the rounded values of the index too. It may be up to ahead_s
+ * further back on its way than (dx, dz). Needs no division. */
 static bool may_meet(const struct look *look, int k, double dx, double dz, double vx, double vz,
-                     double reach_m)
+                     double reach_m, double ahead_s)
 {
     double speed = k == PRESENT ? look->present_mps : look->speed_mps;
     double ux = speed * look->x[k] - vx, uz = speed * look->z[k] - vz;
     double square = ux * ux + uz * uz, closing = sqrt(square);
     double rounded = ROUNDED_MPS * (fabs(dx) + fabs(dz));
-    double along = dx * ux + dz * uz, across = fabs(dx * uz - dz * ux); /* times closing */
+    double along = dx * ux + dz * uz, across = dx * uz - dz * ux; /* times closing */
+    double back_along = along - ahead_s * (vx * ux + vz * uz);
+    double back_across = across - ahead_s * (vx * uz - vz * ux);
+    double first = maths_min(along, back_along), last = maths_max(along, back_along);
+    double off = across * back_across < 0.0 ? 0.0 : maths_min(fabs(across), fabs(back_across));
     double beside =
         reach_m + look->gap + AVOIDANCE_ROUNDED_M + maths_max(look->half_width, look->half_length);
     double ahead = reach_m + look->nose_m + look->gap + AVOIDANCE_ROUNDED_M;
-    return along > -rounded && across < beside * closing + STRAYS * along + rounded &&
-           speed * (along - ahead * closing - rounded) <
+    return last > -rounded && off < beside * closing + STRAYS * last + rounded &&
+           speed * (first - ahead * closing - rounded) <
                look->horizon_m * (square + ROUNDED_MPS * (closing + 1.0));
 }
 
@@ -411,6 +418,12 @@ static void see_fixed(const struct step_context *context, uint32_t i, struct loo
         }
 }
 
+double avoidance_ahead(const struct step_context *context)
+{
+    uint32_t longer = context->cruise_frames - context->cruise_short;
+    return context->avoidance->fastest_mps * context->dt_s * (double)longer;
+}
+
 static void see_vehicle(const struct step_context *context, uint32_t i, struct look *look,
                         const struct neighbour_index_entry *at)
 {
@@ -423,10 +436,11 @@ static void see_vehicle(const struct step_context *context, uint32_t i, struct l
     double dx = (double)at->x - m->x[i], dz = (double)at->z - m->z[i];
     double vx = (double)at->vx, vz = (double)at->vz;
     uint32_t j = at->row;
+    double ahead_s = context->dt_s * (double)(context->cruise_frames - context->cruise_short);
     if (j == i || fabs((double)at->y - m->y[i]) > apart + AVOIDANCE_ROUNDED_M)
         return;
-    if (look->step == PRESENT && !may_meet(look, 0, dx, dz, vx, vz, reach) &&
-        !may_meet(look, PRESENT, dx, dz, vx, vz, reach))
+    if (look->step == PRESENT && !may_meet(look, 0, dx, dz, vx, vz, reach, ahead_s) &&
+        !may_meet(look, PRESENT, dx, dz, vx, vz, reach, ahead_s))
         return;
     struct vec3 off = vec3_sub(step_context_position(context, w, j), entities_position(m, i));
     struct vec3 velocity = step_context_velocity(context, w, j);
@@ -438,10 +452,11 @@ static void see_vehicles(const struct step_context *context, uint32_t i, struct 
 {
     const struct entities *m = context->m;
     const struct neighbour_index_entry *entry;
-    double most = around_of(look->horizon_m);
+    const double ahead_m = avoidance_ahead(context);
+    double most = around_of(look->horizon_m) + ahead_m;
     const struct neighbour_list *list = &context->neighbour_lists->list[i];
     bool listed = step_context_thinks(context, i) && list->count != NEIGHBOUR_LISTS_NONE;
-    if (listed && most <= context->avoidance->around_m[m->kind[i]]) {
+    if (listed && most <= context->avoidance->around_m[m->kind[i]] + ahead_m) {
         entry = &context->neighbour_lists->entries[list->first];
         for (const struct neighbour_index_entry *end = entry + list->count; entry < end; entry++) {
             if (neighbour_index_within(entry, m->x[i], m->z[i], most * most))

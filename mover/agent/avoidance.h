@@ -31,6 +31,7 @@ struct avoidance {
     float high_m[KIND_COUNT_MAX], gap_m[KIND_COUNT_MAX];
     /* Of vehicle kinds [m]: the radius in which one at full speed looks for other vehicles. */
     double around_m[KIND_COUNT_MAX];
+    double fastest_mps; /* the top speed of all land vehicles */
     /* A bit for each gridsquare that a fixed object reaches into. */
     uint64_t *occupied;
 };
@@ -38,6 +39,10 @@ struct avoidance {
 /* Returns 0, or -1 with errno ENOMEM; must be freed in either case. */
 int avoidance_init(struct avoidance *avoidance, const struct world *world);
 void avoidance_free(struct avoidance *avoidance);
+
+/* Returns how far on its way an entry of the neighbour index may be, beyond what half a second is:
+ * it is where its stretch ends (world/entity/cruise.h) [m]. */
+double avoidance_ahead(const struct step_context *context);
 
 /* Looks if row i is due, and changes the desired motion by dodge and ease. */
 void avoidance_steer(const struct step_context *context, uint32_t i,

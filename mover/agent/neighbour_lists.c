@@ -37,6 +37,7 @@ struct gathering {
     struct neighbour_index *index;
     const struct world *world;
     const struct avoidance *avoidance;
+    double ahead_m;
 };
 
 /* Gathers the vehicles within the farthest look of the looker's kind into entries first .. end - 1.
@@ -47,7 +48,7 @@ static uint32_t gather(const struct gathering *g, const struct neighbour_index_e
 {
     struct neighbour_index_entry *entries = g->lists->entries;
     const float *high = g->avoidance->high_m;
-    double radius = g->avoidance->around_m[looker->kind] + AVOIDANCE_ROUNDED_M;
+    double radius = g->avoidance->around_m[looker->kind] + g->ahead_m + AVOIDANCE_ROUNDED_M;
     float x = looker->x, z = looker->z, y = looker->y, square = (float)(radius * radius);
     float apart = high[looker->kind] + g->avoidance->gap_m[looker->kind];
     struct neighbour_query query = neighbour_query_begin(
@@ -96,9 +97,9 @@ static void gather_bands(void *context, uint32_t begin, uint32_t end, uint32_t w
 
 void neighbour_lists_gather(struct neighbour_lists *lists, struct neighbour_index *index,
                             const struct world *world, const struct avoidance *avoidance,
-                            struct thread_pool *workers)
+                            double ahead_m, struct thread_pool *workers)
 {
-    struct gathering gathering = {lists, index, world, avoidance};
+    struct gathering gathering = {lists, index, world, avoidance, ahead_m};
     workers = index->used > NEIGHBOUR_INDEX_ALONE ? workers : NULL;
     thread_pool_run(workers, gather_bands, &gathering, index->side, 1);
 }

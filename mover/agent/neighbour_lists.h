@@ -34,10 +34,11 @@ void neighbour_lists_free(struct neighbour_lists *lists);
 void neighbour_lists_touch(const struct neighbour_lists *lists, uint32_t rows);
 
 /* Gathers the lists of all rows whose entry is due. Notes in the index which rows of cells have no
- * agent that decides. workers may be NULL. */
+ * agent that decides. ahead_m: how much further away than its farthest look an entry is held that
+ * may be in it (avoidance_ahead()). workers may be NULL. */
 void neighbour_lists_gather(struct neighbour_lists *lists, struct neighbour_index *index,
                             const struct world *world, const struct avoidance *avoidance,
-                            struct thread_pool *workers);
+                            double ahead_m, struct thread_pool *workers);
 
 /* Notes that the row has no list until its entry is due again. */
 static inline void neighbour_lists_none(struct neighbour_lists *lists, uint32_t row)

@@ -9,6 +9,9 @@
 #define GROUPS_MOST  256u /* of rows that are not a block */
 #define TRY_FRAMES   10u  /* after so many frames rows that do not cruise try again */
 #define LEAST_FRAMES 5u   /* of a stretch */
+#define DECISIONS    4u   /* after so many decisions that changed nothing an agent looks again */
+#define NEAR_GOAL_M                                                                                \
+    40.0 /* so near to its goal its stretches are short: it decides when it is there */
 
 uint32_t cruise_start_group_bits(uint32_t capacity)
 {
@@ -16,6 +19,15 @@ uint32_t cruise_start_group_bits(uint32_t capacity)
     while (1u << bits < CHECKSUM_ROWS && (uint64_t)GROUPS_MOST << bits < capacity)
         bits++;
     return bits;
+}
+
+uint32_t cruise_start_longest(double dt_s, uint32_t think_frames)
+{
+    uint32_t least = cruise_frames(dt_s), most = (uint32_t)(CRUISE_LONG_S / dt_s + 0.5);
+    uint32_t frames = DECISIONS * think_frames;
+    if (least == 1 || frames <= least)
+        return least;
+    return frames < most ? frames : most;
 }
 
 /* Returns how many frames ago row i's group had its turn. */
@@ -40,7 +52,7 @@ static bool holds_its_way(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
     return (m->dodge[i] == 0.0f && m->ease[i] == 0.0f) ||
-           context->think_frames >= context->cruise_frames;
+           context->think_frames >= context->cruise_short;
 }
 
 /* Returns true if nothing has happened to the row, and it aims at nothing. */
@@ -66,12 +78,22 @@ static bool cruises(const struct step_context *context, uint32_t i)
 }
 
 /* Returns the frames from this one to the group's next turn if row i may try to cruise now; else
- * 0. */
+ * 0. Where stretches are longer than decisions are apart, a row that tries again does not decide
+ * before its turn: it tries a stretch that ends before, and a longer one when it decides. */
 static uint32_t tries_for(const struct step_context *context, uint32_t i)
 {
     uint32_t since = since_turn(context, i);
     uint32_t left = context->cruise_frames - since;
-    return since == 0 || (since % TRY_FRAMES == 0 && left >= TRY_FRAMES) ? left : 0;
+    if (since == 0)
+        return left;
+    if (context->cruise_frames > context->cruise_short) {
+        uint32_t past = ((uint32_t)context->tick + context->m->id[i]) % context->think_frames;
+        uint32_t rest = context->think_frames - past;
+        if (past == 0)
+            return left >= TRY_FRAMES ? left : 0;
+        left = rest < left ? rest : left;
+    }
+    return since % TRY_FRAMES == 0 && left >= TRY_FRAMES ? left : 0;
 }
 
 /* Returns the frames from this one to the next decision of row i's agent if it decides in this
@@ -85,15 +107,26 @@ static uint32_t decides_for(const struct step_context *context, uint32_t i)
                : 0;
 }
 
+/* Returns true if row i drives on land and does not come to its goal within so many frames. */
+static bool drives_far(const struct step_context *context, uint32_t i, uint32_t frames)
+{
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    double dx = m->goal_x[i] - m->x[i], dz = m->goal_z[i] - m->z[i];
+    double way_m = kind->max_speed_mps * context->dt_s * (double)frames + NEAR_GOAL_M;
+    return kind->domain == DOMAIN_LAND && dx * dx + dz * dz > way_m * way_m;
+}
+
 uint32_t cruise_start_frames(const struct step_context *context, uint32_t i)
 {
     if (context->cruise_frames == 1)
         return 0;
     uint32_t frames = holds_its_way(context, i) ? tries_for(context, i) : decides_for(context, i);
-    return frames > 0 && is_under_way(context->m, i) && is_undisturbed(context, i) &&
-                   cruises(context, i)
-               ? frames
-               : 0;
+    if (frames == 0 || !is_under_way(context->m, i) || !is_undisturbed(context, i) ||
+        !cruises(context, i))
+        return 0;
+    return frames > context->cruise_short && !drives_far(context, i, frames) ? context->cruise_short
+                                                                             : frames;
 }
 
 bool cruise_start_due(const struct step_context *context, uint32_t i, uint32_t period)

@@ -21,6 +21,11 @@
  * logarithm to base 2. */
 uint32_t cruise_start_group_bits(uint32_t capacity);
 
+/* Returns the frames of the longest stretch of a land vehicle in a world with frames of dt_s, whose
+ * agents decide every think_frames: as long as DECISIONS of them, from CRUISE_S to CRUISE_LONG_S.
+ */
+uint32_t cruise_start_longest(double dt_s, uint32_t think_frames);
+
 /* Returns how many frames a stretch has that row i may begin in this frame; 0: it may not. */
 uint32_t cruise_start_frames(const struct step_context *context, uint32_t i);
 

@@ -32,5 +32,5 @@ struct event_party serial_context_party(const struct serial_context *context, ui
 void serial_context_stop(struct serial_context *context, uint32_t row, uint64_t tick)
 {
     const struct step_context *step = context->step;
-    cruise_pose_stop(&context->writer, step->world, step->craters, row, tick);
+    cruise_pose_end(&context->writer, step->world, step->craters, row, tick, tick);
 }

@@ -518,6 +518,7 @@ static void leave_rails(const struct step_context *context, const struct ground_
 
 #define STRETCH_TURN_RAD 0.6 /* it turns by no more: the arc is within 8 % of its chord */
 #define STRETCH_GAIN_MPS 1.5 /* and gains or loses no more speed */
+#define STRETCH_OFF_M    0.5 /* the ground is no further off the line through its ends */
 
 /* Returns true if the row, which has moved by a stretch, came near ground that bends so much that a
  * shell may get into it. The patch of its place holds the ground half a post's spacing away. */
@@ -536,6 +537,66 @@ static bool passes_hollow(const struct step_context *context, const struct groun
     return bend > batch->bend.lane[l];
 }
 
+/* Returns true if there may be craters, earthworks or debris on the way of a row that has moved by
+ * a stretch. */
+static bool passes_marks(const struct step_context *context, const struct ground_vehicle *batch,
+                         int l)
+{
+    const struct entities *m = context->m;
+    const double x = m->x[batch->row[l]], to_x = batch->pose.x.lane[l];
+    const double z = m->z[batch->row[l]], to_z = batch->pose.z.lane[l];
+    if (batch->frames <= context->cruise_short)
+        return batch->pose.cratered.lane[l] != 0 || batch->debris.lane[l] != 1.0;
+    struct gridsquare_box box =
+        gridsquare_box_of(&context->world->terrain.squares, maths_min(x, to_x), maths_min(z, to_z),
+                          maths_max(x, to_x), maths_max(z, to_z));
+    return ground_marks_within(context->ground_marks, box,
+                               GROUND_MARKS_CRATER | GROUND_MARKS_DEBRIS);
+}
+
+/* Returns true if the ground at this share of the way back from the end of a long stretch is not
+ * such as that of a short one has to be at its end: it is too steep for a body that follows it, or
+ * further above or below the line through the ends than the places of others may be off. */
+static bool is_uneven(const struct step_context *context, const struct ground_vehicle *batch, int l,
+                      double share)
+{
+    const struct entities *m = context->m;
+    const struct ground_pose *pose = &batch->pose;
+    const uint32_t i = batch->row[l];
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct terrain *terrain = &context->world->terrain;
+    const struct vec3 end = {pose->x.lane[l], pose->y.lane[l], pose->z.lane[l]};
+    const double turned = share * batch->turned.lane[l], way_s = share * time_of(context, batch);
+    const double heading = batch->heading.lane[l];
+    const double forward =
+        batch->vx.lane[l] * pose->sine.lane[l] - batch->vz.lane[l] * pose->cosine.lane[l];
+    const double arc_m = (forward - 0.5 * batch->gain_mps2.lane[l] * way_s) * way_s;
+    const struct vec3 at = cruise_end(end, heading, -turned, -arc_m);
+    const struct rest_pose stands =
+        rest_pose_of(terrain, context->craters, kind, at.x, at.z, heading - turned);
+    const double line_y = end.y + share * (m->y[i] - end.y);
+    return fabs(stands.pitch_rad) > CHASSIS_TILT_RAD || fabs(stands.roll_rad) > CHASSIS_TILT_RAD ||
+           fabs(stands.y_m - line_y) > STRETCH_OFF_M ||
+           cover_is_water(terrain_cover(terrain, at.x, at.z));
+}
+
+/* Returns true if a row that has moved by a long stretch passes ground that a short one refuses, or
+ * if its way would be another one if it had to end earlier. */
+static bool passes_uneven(const struct step_context *context, const struct ground_vehicle *batch,
+                          int l)
+{
+    const uint32_t pieces = batch->frames / context->cruise_short;
+    const double dt_s = time_of(context, batch);
+    if (pieces > 1 &&
+        cruise_off(batch->turned.lane[l] / dt_s, batch->gain_mps2.lane[l], dt_s) > CRUISE_OFF_M)
+        return true;
+    for (uint32_t n = 1; n < pieces; n++) {
+        if (is_uneven(context, batch, l, (double)n / (double)pieces))
+            return true;
+    }
+    return false;
+}
+
 /* Finds the lanes that cannot be moved by a stretch. */
 static void refuse(const struct step_context *context, struct ground_vehicle *batch,
                    const union simd_lanes *rightward)
@@ -551,10 +612,11 @@ static void refuse(const struct step_context *context, struct ground_vehicle *ba
         double x = 0.5 * (m->x[i] + batch->pose.x.lane[l]);
         double z = 0.5 * (m->z[i] + batch->pose.z.lane[l]);
         bool easy = !batch->rough.lane[l] && !batch->blocked.lane[l] &&
-                    !batch->pose.cratered.lane[l] && batch->debris.lane[l] == 1.0 &&
-                    turned <= STRETCH_TURN_RAD && gain <= STRETCH_GAIN_MPS &&
-                    rightward->lane[l] == 0.0 && !passes_hollow(context, batch, l, bend.lane[l]) &&
-                    !cover_is_water(terrain_cover(&context->world->terrain, x, z));
+                    !passes_marks(context, batch, l) && turned <= STRETCH_TURN_RAD &&
+                    gain <= STRETCH_GAIN_MPS && rightward->lane[l] == 0.0 &&
+                    !passes_hollow(context, batch, l, bend.lane[l]) &&
+                    !cover_is_water(terrain_cover(&context->world->terrain, x, z)) &&
+                    !passes_uneven(context, batch, l);
         batch->refused.lane[l] = easy ? 0 : -1;
     }
 }

@@ -19,8 +19,10 @@
 
 #include <stdbool.h>
 
-/* A stretch lasts for so long [s], in whole frames. */
-#define CRUISE_S 0.5
+/* A stretch lasts for so long [s], in whole frames. In a world in which agents decide seldom, those
+ * of land vehicles last for up to CRUISE_LONG_S (mover/context/cruise_start.h). */
+#define CRUISE_S      0.5
+#define CRUISE_LONG_S 2.0
 
 /* Returns the frames of a stretch; 1: the frames are so long that none pays. */
 static inline uint32_t cruise_frames(double dt_s)
@@ -52,6 +54,16 @@ static inline struct vec3 cruise_end(struct vec3 from, double heading_rad, doubl
     maths_sincos(heading_rad + 0.5 * turned_rad, &sine, &cosine);
     return (struct vec3){from.x + way_m * sine, from.y, from.z - way_m * cosine};
 }
+
+/* Returns how far at most the way of what is left of a stretch is from that of a shorter one which
+ * ends on it [m]: the formula for an arc is exact only if the speed or the heading stays. */
+static inline double cruise_off(double rps, double mps2, double left_s)
+{
+    return fabs(rps * mps2) * left_s * left_s * left_s / 12.0;
+}
+
+/* A stretch is made shorter, and a long one begins, if its way is no further off [m]. */
+#define CRUISE_OFF_M 0.001
 
 /* Returns the time from the tick to the end of the stretch [s]; 0 without one. */
 static inline double cruise_left_s(const struct entities *e, uint32_t i, uint64_t tick, double dt_s)

@@ -40,12 +40,15 @@
 struct setting {
     const char *hz, *ground, *vehicles;
     double low_x_m, low_z_m, side_m; /* where bombs fall */
+    uint32_t decides_every;          /* [frame] as agents do in a large world; 0: in this one */
 };
 
 static const char on_land[] = GROUP("tank", 60, PATROL) GROUP("jeep", 60, PATROL)
     GROUP("truck", 50, PATROL) GROUP("carrier", 30, PATROL "force = \"blue\";")
         GROUP("helicopter", 10, PATROL) GROUP("truck", 20, IDLE) GROUP("helicopter", 4, IDLE)
             WIDE("helicopter", 16) WIDE("helo-cow", 10) WIDE("jet", 9);
+static const char far_apart[] =
+    WIDE("tank", 80) WIDE("jeep", 60) WIDE("truck", 60) WIDE("carrier", 20) WIDE("helicopter", 20);
 static const char at_sea[] = COAST("ship", 70) COAST("helicopter", 10) COAST("jet", 4);
 
 #define LEVEL "source = \"flat\"; height_m = 100.0;"
@@ -150,6 +153,7 @@ static struct seen judge(const struct setting *setting, uint64_t seed)
     fixture_open(&begun, text);
     begun.stepper.mover.resting.never = true;
     begun.stepper.collider.broad.resting.never = true;
+    kept.stepper.mover.decides_every = setting->decides_every;
     struct state state = fixture_state(&kept);
     assert_int_equal(physics_check_begin(&check, &kept.view.world, &state), 0);
     for (uint32_t i = 0; i < FRAMES; i++) {
@@ -157,6 +161,7 @@ static struct seen judge(const struct setting *setting, uint64_t seed)
             send_any(&kept, &begun, setting, &seed);
         if (fixture_random(&seed) % 30 == 0)
             fixture_threads(&begun, 1 + (uint32_t)(fixture_random(&seed) % 3));
+        begun.stepper.mover.decides_every = setting->decides_every;
         fixture_continue(&kept, 1);
         fixture_continue(&begun, 1);
         if (fixture_digest(&kept) != fixture_digest(&begun))
@@ -196,28 +201,36 @@ static void judge_seeds(const struct setting *setting, uint64_t seed)
 static void test_level_ground(void **state)
 {
     (void)state;
-    const struct setting setting = {"60.0", LEVEL, on_land, 24800.0, 24800.0, 400.0};
+    const struct setting setting = {"60.0", LEVEL, on_land, 24800.0, 24800.0, 400.0, 0};
     judge_seeds(&setting, fixture_seed(1));
 }
 
 static void test_long_frames(void **state)
 {
     (void)state;
-    const struct setting setting = {"10.0", LEVEL, on_land, 24800.0, 24800.0, 400.0};
+    const struct setting setting = {"10.0", LEVEL, on_land, 24800.0, 24800.0, 400.0, 0};
     judge_seeds(&setting, fixture_seed(2));
 }
 
 static void test_hills(void **state)
 {
     (void)state;
-    const struct setting setting = {"60.0", HILLY, on_land, 24800.0, 24800.0, 400.0};
+    const struct setting setting = {"60.0", HILLY, on_land, 24800.0, 24800.0, 400.0, 0};
     judge_seeds(&setting, fixture_seed(3));
+}
+
+/* In a large world agents decide seldom, and stretches are as long as two seconds. */
+static void test_long_stretches(void **state)
+{
+    (void)state;
+    const struct setting setting = {"60.0", HILLY, far_apart, 24000.0, 24000.0, 2000.0, 33};
+    judge_seeds(&setting, fixture_seed(6));
 }
 
 static void test_sea(void **state)
 {
     (void)state;
-    const struct setting setting = {"60.0", HILLY, at_sea, 2600.0, 33000.0, 1000.0};
+    const struct setting setting = {"60.0", HILLY, at_sea, 2600.0, 33000.0, 1000.0, 0};
     judge_seeds(&setting, fixture_seed(4));
 }
 
@@ -244,11 +257,9 @@ static void test_agents_look_ahead(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_level_ground),
-        cmocka_unit_test(test_long_frames),
-        cmocka_unit_test(test_hills),
-        cmocka_unit_test(test_sea),
-        cmocka_unit_test(test_agents_look_ahead),
+        cmocka_unit_test(test_level_ground), cmocka_unit_test(test_long_frames),
+        cmocka_unit_test(test_hills),        cmocka_unit_test(test_long_stretches),
+        cmocka_unit_test(test_sea),          cmocka_unit_test(test_agents_look_ahead),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -58,12 +58,41 @@ static void test_a_stretch_ends_where_it_is(void **state)
     (void)state;
     struct cruise_pose before =
         cruise_pose_of(&f.view.world, NULL, &committed.entities, tank, tick + 3);
-    assert_true(cruise_pose_stop(&writer, &f.view.world, NULL, tank, tick + 3));
+    assert_true(cruise_pose_end(&writer, &f.view.world, NULL, tank, tick + 3, tick + 3));
     assert_true(committed.entities.x[tank] == before.at.x);
     assert_true(committed.entities.y[tank] == before.at.y);
     assert_false(cruise_goes(&committed.entities, tank, tick));
     assert_true(changed[0] & COLUMN_BIT(x) && changed[0] & COLUMN_BIT(cruise_tick));
-    assert_false(cruise_pose_stop(&writer, &f.view.world, NULL, tank, tick + 3));
+    assert_false(cruise_pose_end(&writer, &f.view.world, NULL, tank, tick + 3, tick + 3));
+}
+
+/* A stretch that is made shorter leads the same way, and the fuel for what is left of it is not
+ * burnt. */
+static void test_a_shorter_stretch_leads_the_same_way(void **state)
+{
+    struct state committed = fixture_state(&f);
+    struct entities *e = &committed.entities;
+    static uint64_t changed[CHECKSUM_BLOCKS];
+    const struct table_writer writer = {e, changed, NULL};
+    const uint64_t tick = committed.head->tick;
+    struct cruise_pose way[7];
+    (void)state;
+    e->cruise_rps[tank] = 0.2, e->cruise_mps2[tank] = 1.5;
+    const double off_m = cruise_off(0.2, 1.5, 12.0 * world_dt_s(&f.view.world));
+    e->throttle[tank] = 0.75F, e->fuel_l[tank] = 100.0;
+    for (uint64_t n = 0; n < 7; n++)
+        way[n] = cruise_pose_of(&f.view.world, NULL, e, tank, tick + n);
+    assert_true(cruise_pose_end(&writer, &f.view.world, NULL, tank, tick + 6, tick));
+    assert_int_equal(e->cruise_tick[tank], tick + 6);
+    assert_true(e->x[tank] == way[6].at.x && e->y[tank] == way[6].at.y);
+    for (uint64_t n = 0; n < 7; n++) {
+        struct cruise_pose pose = cruise_pose_of(&f.view.world, NULL, e, tank, tick + n);
+        assert_true(vec3_length(vec3_sub(pose.at, way[n].at)) < off_m && off_m < CRUISE_OFF_M);
+        assert_true(fabs(pose.heading_rad - way[n].heading_rad) < 1e-9);
+    }
+    const double burns_lps = 0.75 * f.view.world.kinds[e->kind[tank]].fuel_lps;
+    assert_true(burns_lps > 0.0 && fabs(e->fuel_l[tank] - 100.0 - 0.1 * burns_lps) < 1e-9);
+    assert_false(cruise_pose_end(&writer, &f.view.world, NULL, tank, tick + 6, tick));
 }
 
 static void test_a_copy_shows_all_where_they_are(void **state)
@@ -105,6 +134,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         IN_WORLD(test_its_pose_is_that_of_the_ground_on_the_way),
         IN_WORLD(test_a_stretch_ends_where_it_is),
+        IN_WORLD(test_a_shorter_stretch_leads_the_same_way),
         IN_WORLD(test_a_copy_shows_all_where_they_are),
         IN_WORLD(test_an_aircraft_leans_evenly),
     };

@@ -22,15 +22,26 @@ static struct fixture f;
 static struct state *next;
 static struct body_motion *motion;
 
-static int open_world(void **state)
+static int open_with(const char *text)
 {
-    (void)state;
-    fixture_open(&f, "world = { seed = 1; capacity = 1024; };");
+    fixture_open(&f, text);
     for (uint32_t i = 0; i < ROWS; i++)
         fixture_put(
             &f, (struct fixture_entity){.kind = "jet", .at = {1000.0 + 20.0 * i, 900.0, 5000.0}});
     motion = &f.stepper.collider.motion;
     return 0;
+}
+
+static int open_world(void **state)
+{
+    (void)state;
+    return open_with("world = { seed = 1; capacity = 1024; };");
+}
+
+static int open_models(void **state)
+{
+    (void)state;
+    return open_with("world = { seed = 1; capacity = 1024; }; collision = { shape = \"model\"; };");
 }
 
 /* The next frame: row 0 has moved 6 m east and turned a tenth to the right, and the last row has a
@@ -288,6 +299,63 @@ static void test_what_is_around_a_stretch_only_shrinks(void **state)
     }
 }
 
+/* Returns the distance on the map from a point to a line. */
+static double distance_from(struct vec3 point, const struct body_line *line)
+{
+    double dx = line->to.x - line->from.x, dz = line->to.z - line->from.z;
+    double x = point.x - line->from.x, z = point.z - line->from.z;
+    double share = maths_nearest_share(x, z, dx, dz);
+    return hypot(x - share * dx, z - share * dz);
+}
+
+/* The corners of a vehicle are near its line, wherever it is on it. What is around the rest of the
+ * line is within what was around it before, to the centimetre by which lines are wider. */
+static void test_what_is_around_a_vehicle_only_shrinks(void **state)
+{
+    uint64_t seed = fixture_seed(1992);
+    (void)state;
+    begin();
+    uint32_t row =
+        fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25000.0, 100.0, 26000.0}});
+    begin();
+    const struct kind *kind = &f.view.world.kinds[next->entities.kind[row]];
+    const struct hull *hull = &f.view.world.hulls[kind->outer_hull];
+    const double reach_m = kind->reach_m + 0.01;
+    assert_true(motion->beside_m[next->entities.kind[row]] < 0.6 * reach_m);
+    for (int n = 0; n < 2000; n++) {
+        struct body_line before = {0};
+        const double long_s = n % 2 ? CRUISE_S : CRUISE_LONG_S;
+        const uint32_t frames = (uint32_t)(long_s / world_dt_s(&f.view.world) + 0.5);
+        random_stretch(&seed, row, 0.6, 1.5);
+        next->entities.cruise_rps[row] *= CRUISE_S / long_s;
+        next->entities.cruise_mps2[row] *= CRUISE_S / long_s;
+        for (uint32_t left = frames; left > 0; left--) {
+            next->entities.cruise_tick[row] = (uint32_t)next->head->tick - 1 + left;
+            uint64_t end = next->entities.cruise_tick[row];
+            struct body_line line = body_motion_line_around(motion, row, end, reach_m);
+            struct body_line half = body_motion_line_around(motion, row, end - left / 2, reach_m);
+            struct vec3 at =
+                cruise_position(&next->entities, row, end - left, world_dt_s(&f.view.world));
+            double heading =
+                cruise_heading(&next->entities, row, end - left, world_dt_s(&f.view.world));
+            double lean = fixture_uniform(&seed, -0.4, 0.4);
+            struct mat3 turn = rotation_matrix(rotation_of(heading, lean, -lean));
+            for (uint32_t v = 0; v < hull->vertex_count && left % 10 == 0; v++) {
+                struct vec3 corner =
+                    rotation_apply(&turn, f.view.world.hull_vertices[hull->first_vertex + v]);
+                assert_true(distance_from(vec3_add(at, corner), &half) <= half.around_m);
+            }
+            if (left < frames) {
+                assert_true(distance_from(line.from, &before) + line.around_m <=
+                            before.around_m + 0.01);
+                assert_true(distance_from(line.to, &before) + line.around_m <=
+                            before.around_m + 0.01);
+            }
+            before = line;
+        }
+    }
+}
+
 int main(void)
 {
 #define TEST(function)                                                                             \
@@ -302,6 +370,8 @@ int main(void)
         TEST(test_a_yaw_of_one_and_a_half_turns_is_swept),
         TEST(test_a_stretch_in_place_rests_only_if_it_does_not_turn),
         TEST(test_what_is_around_a_stretch_only_shrinks),
+        cmocka_unit_test_prestate_setup_teardown(test_what_is_around_a_vehicle_only_shrinks,
+                                                 open_models, fixture_teardown, &f),
         TEST(test_bodies_have_their_kinds_hulls_at_their_size),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

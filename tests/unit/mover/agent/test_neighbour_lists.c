@@ -75,7 +75,7 @@ static uint32_t gather(uint32_t think, struct thread_pool *workers)
     const struct neighbour_index_frame frame = {
         .committed = &e, .side_m = 50000.0, .used = VEHICLES, .tick = 0, .think_frames = think};
     neighbour_index_build(&neighbours, &frame, true, workers);
-    neighbour_lists_gather(&lists, &neighbours, &f.view.world, &avoidance, workers);
+    neighbour_lists_gather(&lists, &neighbours, &f.view.world, &avoidance, 0.0, workers);
     for (uint32_t i = 0; i < VEHICLES; i++) {
         const struct neighbour_list *list = &lists.list[i];
         if (e.id[i] % think != 0 || list->count == NEIGHBOUR_LISTS_NONE)

@@ -117,7 +117,8 @@ static void test_one_whose_stretch_has_ended_tries_again(void **state)
     struct state now = fixture_state(&f);
     static uint64_t changed[CHECKSUM_BLOCKS];
     const struct table_writer writer = {&e, changed, NULL};
-    assert_true(cruise_pose_stop(&writer, &f.view.world, NULL, tank, now.head->tick));
+    assert_true(
+        cruise_pose_end(&writer, &f.view.world, NULL, tank, now.head->tick, now.head->tick));
     for (; !cruises(tank) && moved < FRAMES; moved++)
         fixture_run(&f, 1);
     assert_in_range(moved, 1, 10);
