@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# jolon replay LOG --physics: two tanks on level ground, heaps and four minutes of the default world are
-# good; output, JSON and exit codes.
+# jolon replay LOG --physics: two tanks on level ground, heaps, short scenes and four minutes of the default
+# world are good; output, JSON and exit codes.
 physics_hour=$(cd "$(dirname "$0")/.." && pwd)/physics-hour
+scenes=$(cd "$(dirname "$0")/../../config/scenarios" && pwd)
 . "$(dirname "$0")/lib.sh"
 
 run() { # OUT SCENARIO FRAMES: records a run of so many frames
@@ -104,6 +105,11 @@ done
 check "15 s of 90 tanks in rings are within the bounds" replay ring/commands.log --physics
 check "15 s of a crowd among obstacles are within the bounds" replay crowd/commands.log --physics
 check "15 s of a pile that parts are within the bounds" replay pile/commands.log --physics
+
+# --- scenes that end within seconds ------------------------------------------------------------------
+for scene in "$scenes"/figure-a*.cfg "$scenes"/{tank,truck,jeep}*.cfg; do
+    check "$(basename "$scene" .cfg) is within the bounds, also beyond its end" "$physics_hour" "$bin" "$scene" 600
+done
 
 # --- the default world --------------------------------------------------------------------------------
 # Its first four minutes, with fire, craters, crashes and wrecks. `make judge` looks at an hour.
