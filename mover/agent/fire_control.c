@@ -91,9 +91,9 @@ static bool keeps_rounds(const struct entities *m, uint32_t i, const struct kind
            (double)m->rounds[i] <= KEPT_SHARE * (double)kind->rounds;
 }
 
-/* Returns from how near a gun hits the other kind. One that is more accurate when it stands fires
- * single aimed rounds, and its crew waits until the errors of its aim, as it drives, are not much
- * larger than the target. Automatic guns spread theirs over more than the target. [m] */
+/* Returns from how near a gun hits the other kind. The crew of one that is more accurate when it
+ * stands aims, and waits until the errors of its aim, as it drives, are not much larger than the
+ * target. The others, machine guns, spread their rounds over more than the target. [m] */
 static double hits_from_m(const struct kind *round, const struct kind *other)
 {
     if (round->dispersion_moving_rad <= round->dispersion_rad)

@@ -14,7 +14,8 @@
 
 #include <cmocka.h>
 
-#define SQUARE_M 2.3
+#define SQUARE_M 2.3  /* a tank or carrier */
+#define JEEP_M   1.65 /* a jeep, as wide and high */
 #define ROUNDS   1500u
 
 static struct fixture f;
@@ -94,31 +95,31 @@ static void test_howitzer(void **state)
 /* --- dispersion --------------------------------------------------------------------------------*/
 
 /* Fires rounds at a point and returns the share that passes a square around the mean at this range.
- * speed: of the tank, as a share of its top speed. */
-static double hits(double speed, double range_m)
+ * speed: of the shooter, as a share of its top speed. */
+static double hits(const char *shooter, double square_m, double speed, double range_m)
 {
     struct step_context step;
     struct serial_context context;
     steps_empty(&f);
-    double most = steps_kind(&f, "tank")->max_speed_mps;
-    steps_kind(&f, "tank")->rounds = 2 * ROUNDS;
-    uint32_t tank =
-        fixture_put(&f, (struct fixture_entity){.kind = "tank",
+    double most = steps_kind(&f, shooter)->max_speed_mps;
+    steps_kind(&f, shooter)->rounds = 2 * ROUNDS;
+    uint32_t row =
+        fixture_put(&f, (struct fixture_entity){.kind = shooter,
                                                 .at = {25000.0, FIXTURE_GROUND_M, 25000.0},
                                                 .velocity = {0.0, 0.0, -speed * most}});
-    steps_rows(&f).rounds[tank] = 2 * ROUNDS;
+    steps_rows(&f).rounds[row] = 2 * ROUNDS;
     steps_serial_context(&f, &step, &context);
     struct vec3 mean = {0.0, 0.0, 0.0};
     uint32_t used = f.view.m.head->used, in = 0;
     for (uint32_t n = 0; n < ROUNDS; n++) {
-        assert_true(fire_shoot_at(&context, tank, 25000.0, 25000.0 - range_m, KIND_NONE));
+        assert_true(fire_shoot_at(&context, row, 25000.0, 25000.0 - range_m, KIND_NONE));
         mean = vec3_add(mean, entities_velocity(&f.view.m.entities, used + n));
     }
     for (uint32_t n = 0; n < ROUNDS; n++) {
         struct vec3 v = entities_velocity(&f.view.m.entities, used + n);
         double far = range_m / v.z;
-        in += fabs(v.x * far - mean.x / mean.z * range_m) <= 0.5 * SQUARE_M &&
-              fabs(v.y * far - mean.y / mean.z * range_m) <= 0.5 * SQUARE_M;
+        in += fabs(v.x * far - mean.x / mean.z * range_m) <= 0.5 * square_m &&
+              fabs(v.y * far - mean.y / mean.z * range_m) <= 0.5 * square_m;
     }
     return (double)in / ROUNDS;
 }
@@ -133,7 +134,32 @@ static void test_dispersion(void **state)
             double p = real[moving][km - 1];
             snprintf(what, sizeof what, "2.3 m square at %d km, %s", km,
                      moving ? "moving" : "halted");
-            row_of(what, p, p - 0.04, p + 0.04, hits(moving ? 0.6 : 0.0, 1000.0 * km));
+            row_of(what, p, p - 0.04, p + 0.04,
+                   hits("tank", SQUARE_M, moving ? 0.6 : 0.0, 1000.0 * km));
+        }
+    }
+}
+
+/* A round of a carrier's burst errs by 0.5 mrad about the aim, and the aim by 0.5 mrad, or by 1
+ * mrad as it drives. The real shares are those of the normal distribution. */
+static void test_bursts(void **state)
+{
+    static const struct {
+        const char *at;
+        double square_m, range_m, real[2]; /* halted, moving */
+    } row[] = {{"a jeep at 0.6 km", JEEP_M, 600.0, {0.90, 0.62}},
+               {"a jeep at 1 km", JEEP_M, 1000.0, {0.58, 0.30}},
+               {"a jeep at 1.2 km", JEEP_M, 1200.0, {0.45, 0.22}},
+               {"a carrier at 1 km", SQUARE_M, 1000.0, {0.81, 0.50}},
+               {"a carrier at 2 km", SQUARE_M, 2000.0, {0.35, 0.16}}};
+    (void)state;
+    for (size_t n = 0; n < sizeof row / sizeof row[0]; n++) {
+        for (int moving = 0; moving < 2; moving++) {
+            char what[64];
+            double p = row[n].real[moving];
+            snprintf(what, sizeof what, "burst at %s, %s", row[n].at, moving ? "moving" : "halted");
+            row_of(what, p, p - 0.04, p + 0.04,
+                   hits("carrier", row[n].square_m, moving ? 0.6 : 0.0, row[n].range_m));
         }
     }
 }
@@ -197,7 +223,7 @@ int main(void)
 #define TEST(function)                                                                             \
     cmocka_unit_test_prestate_setup_teardown(function, open_world, fixture_teardown, &f)
     const struct CMUnitTest tests[] = {
-        TEST(test_flight),      TEST(test_howitzer), TEST(test_dispersion),
+        TEST(test_flight),      TEST(test_howitzer), TEST(test_dispersion), TEST(test_bursts),
         TEST(test_penetration), TEST(test_rates),    TEST(test_turrets),
     };
     print_message("# %-46s %9s %9s\n", "quantity", "real", "ours");

@@ -223,7 +223,7 @@ static void test_a_gun_fires_from_where_its_rounds_penetrate(void **state)
     (void)state;
     assert_true(fabs(2000.0 * reach("carrier", "tank", 1.0) - 800.0) < 1.0);
     assert_true(reach("carrier", "carrier", 1.0) == 1.0);
-    assert_true(reach("carrier", "truck", 1.0) == 1.0);
+    assert_true(reach("carrier", "truck", 1.0) > 0.9);
     assert_true(reach("tank", "carrier", 1.0) == 1.0);
     assert_true(reach("jeep", "jeep", 1.0) == 1.0);
 }
@@ -235,7 +235,9 @@ static void test_a_tank_fires_at_a_jeep_from_where_it_can_hit_it(void **state)
     (void)state;
     assert_true(fabs(2000.0 * reach("tank", "jeep", 1.0) - 1200.0) < 5.0);
     assert_true(reach("tank", "carrier", 1.0) == 1.0 && reach("tank", "tank", 1.0) == 1.0);
-    assert_true(reach("carrier", "jeep", 1.0) == 1.0); /* bursts spread over it */
+    assert_true(fabs(2000.0 * reach("carrier", "jeep", 1.0) - 1200.0) < 20.0);
+    assert_true(reach("carrier", "flak", 1.0) == 1.0);
+    assert_true(reach("jeep", "jeep", 1.0) == 1.0); /* a machine gun spreads over it */
 }
 
 /* A tank with 30 of its 55 rounds, which it keeps for targets within 600 m, has seen another one
