@@ -30,6 +30,7 @@
  * destroyed. */
 #define FALL_HARM 4.0
 
+#define WATER_MPS2 30.0 /* by which water that is too deep slows a vehicle */
 /* --- the modes ---------------------------------------------------------------------------------*/
 
 void chassis_disturb(const struct step_context *context, uint32_t i)
@@ -139,25 +140,53 @@ static bool is_calm(const struct chassis *chassis)
 
 /* --- the row -----------------------------------------------------------------------------------*/
 
-/* Stops a row at deep water. Returns true if it was stopped. */
+/* Slows a row in water that is too deep for it. Returns false if it is so slow that it stops. */
+static bool slow_in_water(const struct step_context *context, uint32_t i)
+{
+    struct entities *m = context->m;
+    double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
+    double slower = speed - WATER_MPS2 * context->dt_s;
+    if (slower < CHASSIS_FORD_MPS)
+        return false;
+    m->vx[i] *= slower / speed;
+    m->vz[i] *= slower / speed;
+    return true;
+}
+
+/* Stops a row that comes from x, z to deep water, or to the edge of the world. One that is fast
+ * gets some metres too deep while the water slows it, and may leave it at a walk where that is not
+ * further than four times its length. One that flies over the water is not stopped. Returns true if
+ * water or the edge is in its way. */
 static bool stop_at_depth(const struct step_context *context, uint32_t i, double x, double z)
 {
     struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct terrain *terrain = &context->world->terrain;
     double sine, cosine;
     maths_sincos(m->heading[i], &sine, &cosine);
     double lead = m->vx[i] * sine - m->vz[i] * cosine < 0.0 ? -0.5 : 0.5;
     lead *= kind->length_m;
-    if ((m->x[i] == x && m->z[i] == z) ||
-        (fording_passable(context, kind, m->x[i], m->z[i]) &&
-         fording_passable(context, kind, m->x[i] + sine * lead, m->z[i] - cosine * lead)))
+    double nose_x = m->x[i] + sine * lead, nose_z = m->z[i] - cosine * lead;
+    if ((m->x[i] == x && m->z[i] == z) || (fording_passable(context, kind, m->x[i], m->z[i]) &&
+                                           fording_passable(context, kind, nose_x, nose_z)))
         return false;
+    if (world_holds(context->world, m->x[i], m->z[i]) &&
+        world_holds(context->world, nose_x, nose_z)) {
+        double over_m = m->y[i] - kinematics_ground(context, m->x[i], m->z[i]);
+        if (over_m > terrain_water_depth(terrain, m->x[i], m->z[i]) + CHASSIS_STEP_M)
+            return false;
+        if (slow_in_water(context, i))
+            return true;
+        if (!fording_passable(context, kind, x, z) &&
+            fording_passable(context, kind, m->x[i] + 8.0 * sine * lead,
+                             m->z[i] - 8.0 * cosine * lead))
+            return false;
+    }
     m->x[i] = x;
     m->z[i] = z;
     m->vx[i] = m->vz[i] = 0.0;
     return true;
 }
-
 /* Burns fuel for the desired speed. Returns false if there is none. */
 static bool burn(const struct step_context *context, uint32_t i, const struct kind *kind,
                  const struct desired_motion *desired)

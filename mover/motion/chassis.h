@@ -28,6 +28,9 @@
 #define CHASSIS_LOW_CLIMB 1.2                /* share of max_slope_rad that low gear climbs */
 #define CHASSIS_STEP_M    0.3
 
+/* A vehicle in water wants no more than this [m/s]. */
+#define CHASSIS_FORD_MPS 2.0
+
 /* Edges under the corners of a body may lift a vehicle that follows the ground by so much. The
  * wheels of a body on its springs do not stand on such edges, so with more it would come to float.
  */

@@ -18,7 +18,6 @@
 #define FAST_SHARE 0.3 /* of the travel of a wheel, in a sub-step */
 
 #define SCRAPE_M 0.1 /* a shell that is no higher may touch the ground */
-#define FORD_MPS 2.0 /* a vehicle in water is no faster */
 #define LEAST_LOAD                                                                                 \
     0.1                 /* of a wheel over its load at rest: one that bears less is off the ground \
                          */
@@ -93,7 +92,7 @@ static void want(struct chassis *chassis, const struct mat3 *turn)
     if (climb >= steepest)
         most = 0.0;
     else if (fording_is_water(chassis->context, at.x, at.z))
-        most = maths_min(most, FORD_MPS);
+        most = maths_min(most, CHASSIS_FORD_MPS);
     chassis->drivetrain.wanted_mps = maths_clamp(desired->speed_mps, -most, most);
     chassis->drivetrain.slowing = desired->driven ? desired->brake : 1.0;
     if (fabs(chassis->drivetrain.wanted_mps) < fabs(desired->speed_mps))

@@ -103,7 +103,8 @@ static bool climbs_grade(const char *kind, double percent)
     return drives(work, kind, 1.0, GEAR_LOW) > 20.0 + 600.0 / percent;
 }
 
-/* Stands and drives along a bank: its slope is across the way. */
+/* Stands and drives along a bank: its slope is across the way. Data sheets say how steep a driver
+ * is allowed to do that, which for a truck is a third of the slope at which it would tip over. */
 static bool holds_side_slope(const char *kind, double percent)
 {
     char work[300];
@@ -198,7 +199,7 @@ static void test_side_slopes(void **state)
     static const double real[KINDS] = {40.0, 40.0, 40.0, 25.0};
     (void)state;
     for (int k = 0; k < KINDS; k++)
-        row_of_table(kinds[k], "side slope that it drives along", real[k],
+        row_of_table(kinds[k], "side slope (real: allowed)", real[k],
                      most(holds_side_slope, kinds[k], 20.0, 5.0, 60.0), "%", real[k], 60.0, true);
 }
 
@@ -210,6 +211,44 @@ static void test_fords(void **state)
         row_of_table(kinds[k], "ford that it crosses", real[k],
                      most(fords, kinds[k], 0.3, 0.1, 1.6), "m", real[k] - 0.15, real[k] + 0.01,
                      true);
+}
+
+/* A jeep at full speed flies over a ford that is too deep for it from a ramp, or drives into it. It
+ * is slowed in the water and not in the air, by no more than water and bed can do, and it stands
+ * there. One that drove in leaves it again backwards. */
+static void test_deep_water_slows(void **state)
+{
+    (void)state;
+    for (int flies = 0; flies < 2; flies++) {
+        char work[400];
+        snprintf(work, sizeof work,
+                 "earthworks = ( { shape = \"ramp\"; at = [25000.0, 24850.0]; length_m = 10.0;"
+                 " width_m = 20.0; height_m = %.2f; }, { shape = \"ford\"; at = [25000.0, 24815.0];"
+                 " length_m = 50.0; width_m = 20.0; depth_m = 1.2; edge_m = 4.0; } );",
+                 flies ? 1.5 : 0.02);
+        fixture_open(&f, work);
+        uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = "jeep",
+                                                               .at = {25000.0, 100.0, 25100.0},
+                                                               .behaviour = BEHAVIOUR_DRIVEN});
+        double before = 0.0, in_air = 0.0, worst = 0.0;
+        for (uint32_t frame = 0; frame < 30 * HZ; frame++) {
+            steps_pedals(&f, row, 1.0, 0.0, GEAR_AUTOMATIC);
+            struct entities e = steps_rows(&f);
+            double speed = steps_speed(&f, row), lost = (before - speed) * HZ;
+            double *most = e.y[row] > 100.5 && e.z[row] < 24840.0 ? &in_air : &worst;
+            *most = maths_max(*most, lost);
+            before = speed;
+        }
+        double at = 24850.0 - steps_rows(&f).z[row];
+        printf("| jeep    | deep ford, %s | stands at %4.1f m, at most %3.0f m/s2\n",
+               flies ? "flies in " : "drives in", at, worst);
+        assert_true(in_air < 1.0 && worst < 150.0 && steps_speed(&f, row) < 0.05);
+        assert_true(flies ? at > 25.0 && at < 35.0 : at > 14.0 && at < 26.0);
+        for (uint32_t frame = 0; frame < 30 * HZ && !flies; frame++)
+            steps_pedals(&f, row, -1.0, 0.0, GEAR_AUTOMATIC);
+        assert_true(flies || 24850.0 - steps_rows(&f).z[row] < 5.0);
+        fixture_close(&f);
+    }
 }
 
 /* --- speed -------------------------------------------------------------------------------------*/
@@ -257,9 +296,13 @@ static void test_speed_on_a_road(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_walls),           cmocka_unit_test(test_steps),
-        cmocka_unit_test(test_trenches),        cmocka_unit_test(test_grades),
-        cmocka_unit_test(test_side_slopes),     cmocka_unit_test(test_fords),
+        cmocka_unit_test(test_walls),
+        cmocka_unit_test(test_steps),
+        cmocka_unit_test(test_trenches),
+        cmocka_unit_test(test_grades),
+        cmocka_unit_test(test_side_slopes),
+        cmocka_unit_test(test_fords),
+        cmocka_unit_test(test_deep_water_slows),
         cmocka_unit_test(test_speed_on_a_road),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
