@@ -17,23 +17,18 @@
 
 /* Shares of rounds that hit, of those whose target was still there, as they are published for real
  * weapons [%]. Tank guns: a target of 2.3 m at 1 to 3 km, from a tank that stands or drives.
- * Bursts: their rounds, at 2.3 m at 1 to 2 km and at a jeep's 1.65 m at 0.6 to 1.2 km. Missiles:
- * their reliability, their fuzes and decoys; Pentagon Labyrinth, 2011. */
+ * Bursts: their rounds, at 2.3 m at 0.8 to 2 km and at a jeep's 1.65 m at 0.6 to 1.2 km.
+ * Missiles: their reliability, their fuzes and decoys; Pentagon Labyrinth, 2011. */
 static const struct {
     const char *munition, *target;
     enum battle_shooter shooter;
     double least, most;
 } facts[] = {
-    {"shell", "tank", BATTLE_HALTED, 31.0, 96.0},
-    {"shell", "tank", BATTLE_MOVING, 9.0, 56.0},
-    {"heat", "carrier", BATTLE_HALTED, 31.0, 96.0},
-    {"heat", "carrier", BATTLE_MOVING, 9.0, 56.0},
-    {"burst", "carrier", BATTLE_HALTED, 35.0, 81.0},
-    {"burst", "carrier", BATTLE_MOVING, 16.0, 50.0},
-    {"burst", "jeep", BATTLE_HALTED, 45.0, 90.0},
-    {"burst", "jeep", BATTLE_MOVING, 22.0, 62.0},
-    {"missile", "jet", BATTLE_HALTED, 35.0, 60.0},
-    {"missile", "tank", BATTLE_HALTED, 60.0, 80.0},
+    {"shell", "tank", BATTLE_HALTED, 31.0, 96.0},    {"shell", "tank", BATTLE_MOVING, 9.0, 56.0},
+    {"heat", "carrier", BATTLE_HALTED, 31.0, 96.0},  {"heat", "carrier", BATTLE_MOVING, 9.0, 56.0},
+    {"burst", "carrier", BATTLE_HALTED, 35.0, 90.0}, {"burst", "carrier", BATTLE_MOVING, 9.0, 44.0},
+    {"burst", "jeep", BATTLE_HALTED, 45.0, 90.0},    {"burst", "jeep", BATTLE_MOVING, 12.0, 41.0},
+    {"missile", "jet", BATTLE_HALTED, 35.0, 60.0},   {"missile", "tank", BATTLE_HALTED, 60.0, 80.0},
 };
 
 static uint32_t longest_push(const struct battle_count *count, const struct view *view)

@@ -222,8 +222,9 @@ static void test_a_gun_fires_from_where_its_rounds_penetrate(void **state)
 {
     (void)state;
     assert_true(fabs(2000.0 * reach("carrier", "tank", 1.0) - 800.0) < 1.0);
-    assert_true(reach("carrier", "carrier", 1.0) == 1.0);
-    assert_true(reach("carrier", "truck", 1.0) > 0.9);
+    assert_true(fabs(2000.0 * reach("carrier", "carrier", 1.0) - 1514.0) <
+                5.0); /* it sees 2.84 m */
+    assert_true(reach("carrier", "truck", 1.0) > 0.65);
     assert_true(reach("tank", "carrier", 1.0) == 1.0);
     assert_true(reach("jeep", "jeep", 1.0) == 1.0);
 }
@@ -235,8 +236,7 @@ static void test_a_tank_fires_at_a_jeep_from_where_it_can_hit_it(void **state)
     (void)state;
     assert_true(fabs(2000.0 * reach("tank", "jeep", 1.0) - 1200.0) < 5.0);
     assert_true(reach("tank", "carrier", 1.0) == 1.0 && reach("tank", "tank", 1.0) == 1.0);
-    assert_true(fabs(2000.0 * reach("carrier", "jeep", 1.0) - 1200.0) < 20.0);
-    assert_true(reach("carrier", "flak", 1.0) == 1.0);
+    assert_true(fabs(2000.0 * reach("carrier", "jeep", 1.0) - 880.0) < 5.0);
     assert_true(reach("jeep", "jeep", 1.0) == 1.0); /* a machine gun spreads over it */
 }
 
