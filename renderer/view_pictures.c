@@ -160,9 +160,10 @@ static void aim(const struct render_session *session, struct view_picture *pictu
                 const struct frame_view *frame_view, struct camera *camera)
 {
     bool chosen = picture->spec.vehicle == 0 && session->options.follow == 0;
-    if (chosen && picture->slot != SLOT_NONE)
-        view_camera_watch(&picture->view_camera,
-                          follow_direction(frame_view, &session->effects, picture->slot));
+    if (chosen && picture->slot != SLOT_NONE) {
+        struct follow_sight sight = follow_look(frame_view, &session->effects, picture->slot);
+        view_camera_watch(&picture->view_camera, sight.heading_rad, sight.far_m);
+    }
     view_camera_update(&picture->view_camera, &picture->camera_options, frame_view, picture->slot,
                        camera);
 }

@@ -16,11 +16,11 @@
 #define SMALL_SHARE    0.5  /* ... count so much less */
 #define FIRED_AT       14.0 /* a round is in the air that was fired at it */
 #define FIGHTS         5.0
-#define NO_ENEMY       4.0 /* less for vehicles of no force while others fight */
-#define BETTER         4.0 /* so much livelier is the vehicle to which the camera changes */
-#define ACTION_LIFE_S  20.0
-#define ACTION_NEAR_M  450.0
-#define ACTION_MAX     16.0
+#define NO_ENEMY       4.0   /* less for vehicles of no force while others fight */
+#define BETTER         4.0   /* so much livelier is the vehicle to which the camera changes */
+#define ACTION         10.0  /* what an effect counts beside the vehicle, less ... */
+#define ACTION_NEAR_M  450.0 /* ... further away, nothing from here on */
+#define ACTION_MAX     30.0
 #define TARGET_NEAR_M  1200.0 /* a target so near counts ... */
 #define TARGET_NEAR    8.0    /* ... up to so much */
 #define NEIGHBOUR      0.6    /* what each of the neighbours counts */
@@ -42,15 +42,24 @@ static bool is_vehicle(const struct frame_view *frame_view, uint32_t slot)
            frame_view->world->kinds[e->kind[slot]].domain != DOMAIN_MUNITION;
 }
 
+/* Returns how much there is of an effect to be seen: 1 for an explosion that has just happened, 0
+ * for what is over. Muzzles flash for a moment, and wrecks burn. */
+static double seen(const struct effect *effect, double now_s)
+{
+    static const double share[EFFECT_TYPE_COUNT] = {
+        [EFFECT_FLASH] = 0.2, [EFFECT_EXPLOSION] = 1.0, [EFFECT_BURST] = 1.0, [EFFECT_SPLASH] = 0.7,
+        [EFFECT_HIT] = 0.2,   [EFFECT_CRASH] = 0.5,     [EFFECT_DECOY] = 0.7, [EFFECT_WRECK] = 2.5};
+    enum effect_type type = (enum effect_type)effect->type;
+    return share[type] * maths_max(0.0, 1.0 - (now_s - effect->time_s) / effects_life_s(type));
+}
+
 static double action_near(const struct effects *effects, struct vec3 position, double now_s)
 {
     double sum = 0.0;
     for (uint32_t i = 0; i < effects->count; i++) {
-        const struct effect *effect = &effects->effect[i];
-        double age = now_s - effect->time_s;
-        double off = vec3_length(vec3_sub(effect->point, position));
-        if (age < ACTION_LIFE_S && off < ACTION_NEAR_M)
-            sum += 3.0 * (1.0 - off / ACTION_NEAR_M);
+        double off = vec3_length(vec3_sub(effects->effect[i].point, position));
+        if (off < ACTION_NEAR_M)
+            sum += ACTION * seen(&effects->effect[i], now_s) * (1.0 - off / ACTION_NEAR_M);
     }
     return maths_min(sum, ACTION_MAX);
 }
@@ -68,30 +77,43 @@ static struct vec3 to_target(const struct frame_view *frame_view, uint32_t slot)
     return vec3_sub(entities_position(e, target), entities_position(e, slot));
 }
 
-/* Returns the sum of the directions of recent effects, less for old and far ones. */
-static struct vec3 to_effects(const struct effects *effects, struct vec3 position, double now_s)
+static double level(struct vec3 way)
 {
-    struct vec3 sum = {0.0, 0.0, 0.0};
-    for (uint32_t i = 0; i < effects->count; i++) {
-        struct vec3 off = vec3_sub(effects->effect[i].point, position);
-        double age_s = now_s - effects->effect[i].time_s, way_m = vec3_length(off);
-        if (age_s < ACTION_LIFE_S && way_m < WATCH_M && way_m > 1.0)
-            sum = vec3_add(sum, vec3_scale(off, (1.0 - age_s / ACTION_LIFE_S) *
-                                                    (1.0 - way_m / WATCH_M) / way_m));
-    }
-    return sum;
+    return sqrt(way.x * way.x + way.z * way.z);
 }
 
-double follow_direction(const struct frame_view *frame_view, const struct effects *effects,
-                        uint32_t slot)
+/* Returns the middle of the directions of the effects, and their mean distance, counting old and
+ * far ones less. far_m is 0 if there is too little to be seen. */
+static struct follow_sight to_effects(const struct effects *effects, struct vec3 position,
+                                      double now_s)
+{
+    struct vec3 sum = {0.0, 0.0, 0.0};
+    double all = 0.0, far_m = 0.0;
+    for (uint32_t i = 0; i < effects->count; i++) {
+        struct vec3 off = vec3_sub(effects->effect[i].point, position);
+        double way_m = level(off);
+        if (way_m > WATCH_M || way_m < 1.0)
+            continue;
+        double counts = seen(&effects->effect[i], now_s) * (1.0 - way_m / WATCH_M);
+        sum = vec3_add(sum, vec3_scale(off, counts / way_m));
+        all += counts;
+        far_m += counts * way_m;
+    }
+    if (level(sum) < WATCH_LEAST)
+        return (struct follow_sight){0.0, 0.0};
+    return (struct follow_sight){maths_heading(sum.x, sum.z), far_m / all};
+}
+
+struct follow_sight follow_look(const struct frame_view *frame_view, const struct effects *effects,
+                                uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
     struct vec3 way = to_target(frame_view, slot);
-    if (vec3_length(way) == 0.0)
-        way = to_effects(effects, entities_position(e, slot),
-                         state_time_s(frame_view->world, frame_view->head));
-    bool happens = sqrt(way.x * way.x + way.z * way.z) >= WATCH_LEAST;
-    return happens ? maths_heading(way.x, way.z) : e->heading[slot];
+    if (level(way) > 0.0)
+        return (struct follow_sight){maths_heading(way.x, way.z), level(way)};
+    struct follow_sight sight = to_effects(effects, entities_position(e, slot),
+                                           state_time_s(frame_view->world, frame_view->head));
+    return sight.far_m > 0.0 ? sight : (struct follow_sight){e->heading[slot], 0.0};
 }
 
 /* Returns true if the row is a round in the air that a living vehicle fired. A howitzer's shell
@@ -177,7 +199,7 @@ static double score_of(const struct frame_view *frame_view, const struct effects
                        uint16_t *neighbours, uint32_t slot)
 {
     const struct entities *e = frame_view->entities;
-    double looks_rad = follow_direction(frame_view, effects, slot);
+    double looks_rad = follow_look(frame_view, effects, slot).heading_rad;
     double ahead_x = e->x[slot] + AHEAD_M * maths_sin(looks_rad);
     double ahead_z = e->z[slot] - AHEAD_M * maths_cos(looks_rad);
     return liveliness(frame_view, effects, slot,

@@ -20,7 +20,9 @@
 #define CHASE_PITCH_SHARE 0.5  /* share of the vehicle's pitch that the camera follows */
 #define EASE_TURN_S       0.5  /* time after which a third of a turn is left */
 #define EASE_WATCH_S      1.5  /* the same for a camera that looks at what happens */
-#define WATCH_AWAY        1.7  /* so many times as far away, through a lens as much longer */
+#define WATCH_AWAY        1.7 /* at least so many times as far away, through a lens as much longer */
+#define WATCH_AWAY_MAX    4.0
+#define WATCH_M           280.0 /* what is so far away is as large as it would be beside the camera */
 #define EASE_LIFT_S       0.4
 
 #define ORBIT_AWAY_M  22.0
@@ -221,24 +223,27 @@ static void inside(const struct frame_view *frame_view, uint32_t slot,
     camera_turn(camera, eye, ahead, axes.up, lens);
 }
 
-void view_camera_watch(struct view_camera *state, double heading_rad)
+void view_camera_watch(struct view_camera *state, double heading_rad, double far_m)
 {
     state->watches = true;
     state->watch_rad = heading_rad;
+    state->watch_m = far_m;
 }
 
 /* Turns the subject to what its camera watches, and takes the longer lens. */
-static void watch(const struct view_camera *state, struct subject *subject,
+static void watch(struct view_camera *state, double passed_s, struct subject *subject,
                   struct camera_lens *lens)
 {
     if (!state->watches)
         return;
+    double away = maths_clamp(state->watch_m / WATCH_M, WATCH_AWAY, WATCH_AWAY_MAX);
+    state->away = away + (state->away - away) * left_after(passed_s, EASE_WATCH_S);
     subject->pitch_rad *= maths_cos(state->watch_rad - subject->heading_rad);
     subject->heading_rad = state->watch_rad;
-    subject->away = WATCH_AWAY;
+    subject->away = state->away;
     double sine, cosine;
     maths_sincos(0.5 * lens->field_rad, &sine, &cosine);
-    lens->field_rad = 2.0 * maths_atan2(sine, WATCH_AWAY * cosine);
+    lens->field_rad = 2.0 * maths_atan2(sine, state->away * cosine);
 }
 
 void view_camera_update(struct view_camera *state, const struct view_camera_options *options,
@@ -266,7 +271,7 @@ void view_camera_update(struct view_camera *state, const struct view_camera_opti
         orbit(state, frame_view, &subject, passed_s, &eye, &target);
         break;
     default:
-        watch(state, &subject, &lens);
+        watch(state, passed_s, &subject, &lens);
         chase(state, frame_view, &subject, passed_s, &eye, &target);
         break;
     }

@@ -37,16 +37,18 @@ struct view_camera {
     double time_s;        /* simulation time of the last picture ... */
     struct vec3 position; /* ... and the vehicle's position then */
     double heading_rad, tilt_rad, lift_m;
-    bool watches; /* the next picture is taken in this direction */
-    double watch_rad;
-    bool placed; /* eye and target of VIEW_FREE are set */
+    bool watches;              /* the next picture is taken in this direction ... */
+    double watch_rad, watch_m; /* ... of what is so far from the vehicle; 0: of nothing */
+    double away;               /* how many times as far away the camera is as usual */
+    bool placed;               /* eye and target of VIEW_FREE are set */
     struct vec3 eye, target;
 };
 
 /* Lets VIEW_CHASE look in a direction [rad, heading] in the next picture, instead of along the
  * hull, and from further away through a longer lens: the vehicle is as large, and what happens
- * beyond it is larger. The camera turns there within about three seconds. */
-void view_camera_watch(struct view_camera *state, double heading_rad);
+ * beyond it, far_m from it (0: nothing), is larger. The further away it is, the longer is the lens.
+ * The camera turns there within about three seconds. */
+void view_camera_watch(struct view_camera *state, double heading_rad, double far_m);
 
 /* Computes the camera for a frame and updates the state. slot: the vehicle; SLOT_NONE if there is
  * none, and then all views except a free one with a given pose look at the middle of the world.

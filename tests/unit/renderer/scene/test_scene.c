@@ -650,6 +650,35 @@ static void test_follow_goes_to_the_fire(void **context)
     assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), driver);
 }
 
+/* Explosions and burning wrecks beside a vehicle draw the camera, those that are over do not, and
+ * neither does the flash of a gun. */
+static void test_follow_goes_to_what_burns(void **context)
+{
+    struct scene_stage *s = *context;
+    uint32_t driver = put_tank(s, 10000.0, 10000.0, 0.0);
+    s->entities.vx[driver] = 10.0;
+    uint32_t other = put_tank(s, 20000.0, 20000.0, 0.0);
+    struct effect *effect = effects_allocate(&s->effects);
+    static const struct {
+        uint32_t type;
+        double age_s;
+        bool draws;
+    } cases[] = {{EFFECT_FLASH, 0.1, false},
+                 {EFFECT_BURST, 0.5, true},
+                 {EFFECT_BURST, 8.0, false},
+                 {EFFECT_WRECK, 20.0, true},
+                 {EFFECT_WRECK, EFFECT_LIFE_S, false}};
+    s->head.tick = 1000;
+    for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
+        struct follow first = {.id = 0};
+        *effect = (struct effect){.point = {20020.0, s->entities.y[other], 20000.0},
+                                  .time_s = 100.0 - cases[n].age_s,
+                                  .type = cases[n].type};
+        assert_int_equal(follow_choose(&first, &s->frame_view, &s->effects, 0, false),
+                         cases[n].draws ? other : driver);
+    }
+}
+
 /* Of two tanks that drive the one behind whose target are others is livelier, a gun that fires at
  * what is kilometres away is not, and the fire of machine guns counts less than that of tanks. */
 static void test_follow_weighs_what_is_to_be_seen(void **context)
@@ -688,18 +717,19 @@ static void test_follow_looks_at_what_happens(void **context)
     uint32_t row = put_tank(s, 10000.0, 10000.0, 1.0);
     uint32_t target = put_tank(s, 11000.0, 10000.0, 0.0);
     s->head.tick = 100;
-    assert_true(follow_direction(&s->frame_view, &s->effects, row) == 1.0);
+    assert_true(follow_look(&s->frame_view, &s->effects, row).heading_rad == 1.0);
     struct effect *effect = effects_allocate(&s->effects);
-    *effect = (struct effect){.point = {10000.0, e->y[row], 10200.0}, .time_s = 9.0};
-    assert_true(fabs(follow_direction(&s->frame_view, &s->effects, row) - PI) < 0.01);
+    *effect = (struct effect){
+        .point = {10000.0, e->y[row], 10200.0}, .time_s = 9.0, .type = EFFECT_BURST};
+    assert_true(fabs(follow_look(&s->frame_view, &s->effects, row).heading_rad - PI) < 0.01);
     e->behaviour[row] = BEHAVIOUR_ATTACK;
     e->target_slot[row] = target;
     e->target_id[row] = e->id[target];
-    assert_true(fabs(follow_direction(&s->frame_view, &s->effects, row) - HALF_PI) < 0.01);
+    assert_true(fabs(follow_look(&s->frame_view, &s->effects, row).heading_rad - HALF_PI) < 0.01);
     e->state[target] = ENTITY_FREE; /* it is gone */
-    assert_true(fabs(follow_direction(&s->frame_view, &s->effects, row) - PI) < 0.01);
+    assert_true(fabs(follow_look(&s->frame_view, &s->effects, row).heading_rad - PI) < 0.01);
     effect->point.z = 13000.0;
-    assert_true(follow_direction(&s->frame_view, &s->effects, row) == 1.0);
+    assert_true(follow_look(&s->frame_view, &s->effects, row).heading_rad == 1.0);
 }
 
 static void test_statistics_equal_the_table(void **context)
@@ -778,6 +808,7 @@ int main(void)
         TEST(test_fire_and_detonation_are_visible),
         TEST(test_follow_keeps_its_choice),
         TEST(test_follow_goes_to_the_fire),
+        TEST(test_follow_goes_to_what_burns),
         TEST(test_follow_weighs_what_is_to_be_seen),
         TEST(test_follow_looks_at_what_happens),
         TEST(test_statistics_equal_the_table),

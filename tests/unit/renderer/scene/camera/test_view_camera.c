@@ -310,7 +310,7 @@ static void test_a_watching_camera_turns_and_keeps_the_size(void **context)
     for (int i = 0; i < 600; i++) {
         before = camera;
         s->head.tick++;
-        view_camera_watch(&aim, i < 300 ? 0.0 : HALF_PI);
+        view_camera_watch(&aim, i < 300 ? 0.0 : HALF_PI, i < 300 ? 0.0 : 1000.0);
         view_camera_update(&aim, &wish, &s->frame_view, 0, &camera);
         most = i > 0 ? maths_max(most, angle_between(before.forward, camera.forward)) : most;
     }
