@@ -235,7 +235,7 @@ LAG            := $(BUILD)/tests/lag/lag
 FLOOD          := $(BUILD)/tests/flood/flood
 VIDEO_PROBE    := $(BUILD)/tests/video_probe/video_probe
 
-.PHONY: all ground run test tests check examples figures docs game rtps storm crash fuzz fuzzers model bench bench-render install uninstall format lint clean help
+.PHONY: all ground run test tests check examples figures docs game rtps storm crash fuzz fuzzers model bench bench-render acceptance install uninstall format lint clean help
 all: $(if $(CRASHPOINTS),$(CRASH_PROGRAMS),$(PROGRAMS) $(GROUND_HERE))
 ifeq ($(GROUND_HERE)$(CRASHPOINTS)$(COUNTING),)
 all:
@@ -450,6 +450,14 @@ rtps: all $(PEER)
 storm: all $(STORM)
 	@$(STORM) --kills $(KILLS) $(if $(SEED),--seed $(SEED)) $(if $(SCENARIO),--scenario $(SCENARIO)) $(STORMY)
 
+# What tests compare with real figures: quantity, real, ours.
+ACCEPTANCE := unit/mover/motion/test_chassis property/mover/test_obstacles unit/mover/motion/test_ground_vehicle \
+        unit/mover/motion/test_airframe unit/mover/motion/ground/test_landing property/mover/test_aircraft_acceptance \
+        unit/mover/motion/test_ship property/mover/test_gun_table unit/mover/motion/test_missile \
+        property/physics/test_blows unit/mover/agent/test_fire_control
+acceptance: $(ACCEPTANCE:%=$(BUILD)/tests/%)
+	@tests/acceptance $(BUILD) $^
+
 # The physics of an hour of the default world; make judge [FRAMES=216000] [SCENARIO=file]
 FRAMES   ?= 216000
 judge: all
@@ -529,6 +537,7 @@ help:
 	@echo 'make rtps [PACKETS=1000000] [SEED=n]       mutated datagrams against a reporter'
 	@echo 'make game [SECONDS=300] [SEED=n]          two players and a program at once, while everything is killed'
 	@echo 'make storm [KILLS=1000] [SEED=n]           kill processes at random and check the consequences'
+	@echo 'make acceptance                         print what is compared with real vehicles: quantity, real, ours'
 	@echo 'make judge [FRAMES=216000]               judge the physics of an hour of the default world'
 	@echo 'make model [MODEL=short|usual|full]      check the frame protocol with spin'
 	@echo 'make bench                              build jolon-bench, measure; results in tests/bench/results/'

@@ -382,12 +382,15 @@ static void test_ride_height_and_jounce_at_10_and_60_hz(void **state)
         double slow = jounce(kinds[n], "world = { hz = 10; };", 10, 0.3, &slow_m, slow_at);
         for (int look = 0; look < LOOKS; look++)
             apart = maths_max(apart, fabs(slow_at[look] - fast_at[look]));
+        char what[64];
         printf("%s: jounce %.3f at 60 Hz, %.3f at 10 Hz; rest %.4f, %.4f m\n", kinds[n], fast, slow,
                fast_m, slow_m);
-        printf("%s: its heights at 10 and at 60 Hz differ by %.4f of its jounce at most\n",
-               kinds[n], apart / fast);
-        assert_true(fabs(slow_m - fast_m) < 0.01 && fabs(fast_m) < 0.01);
-        assert_true(apart < 0.1 * fast); /* a frame of 1/10 s may pass over the lowest point */
+        snprintf(what, sizeof what, "%s, ride height, 10 less 60 Hz", kinds[n]);
+        row_of_table(what, 0.0, 1000.0 * (slow_m - fast_m), "mm", -10.0, 10.0);
+        /* A frame of 1/10 s may pass over the lowest point. */
+        snprintf(what, sizeof what, "%s, heights after a drop differ, 10, 60 Hz", kinds[n]);
+        row_of_table(what, 0.0, 100.0 * apart / fast, "%", 0.0, 10.0);
+        assert_true(fabs(fast_m) < 0.01);
     }
 }
 
