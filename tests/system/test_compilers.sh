@@ -15,12 +15,12 @@ fi
 
 busy=$source_dir/tests/system/busy.cfg # everything that can happen, close together
 
-# run AS BIN [options]: AS.json is the summary.
+# run AS BIN [options]: AS.json is the summary. scenario, frames: another scenario than the busy one.
 run() {
     local as=$1 with=$2
     shift 2
-    "$with/jolon" run -w "$name" --without renderer --without reporter --pace max --frames 420 --json \
-        --out "$folder/$as" "$@" "$busy" >"$as.json" 2>"$as.err" || sed 's/^/# /' "$as.err"
+"$with/jolon" run -w "$name" --without renderer --without reporter --pace max --frames "${frames:-420}" --json \
+        --out "$folder/$as" "$@" "${scenario:-$busy}" >"$as.json" 2>"$as.err" || sed 's/^/# /' "$as.err"
 }
 
 # Prints the digests in AS.json: of the world and of its events.
@@ -31,6 +31,8 @@ first=$(digests first)
 check "the run has many collisions" [ "$(json collisions <first.json)" -gt 50 ]
 check "the run has many detonations" [ "$(json detonations <first.json)" -gt 25 ]
 run figure8 "$bin" --set collision.response=figure8
+scenario=hunter-liggett frames=7200 run battle "$bin" # agents fight in its second minute
+check "the battle has detonations of what agents fire" [ "$(json detonations <battle.json)" -gt 100 ]
 for threads in 2 4; do
     run threads "$bin" --threads $threads
     check "$threads threads give the same digests" equal "$(digests threads)" "$first"
@@ -75,7 +77,7 @@ for compiler in gcc clang-14; do
         what="$compiler $level"
         tree=build/compilers/$compiler${level//[ =]/-}
         check "$what builds" build "$tree" $compiler "$level" jolon-world
-        for log in first figure8; do
+        for log in first figure8 battle; do
             check "$what, $log: the digests are the same" "$source_dir/$tree/bin/jolon-world" replay --threads 2 "$folder/$log/commands.log"
         done
         check "$what: there is no fused instruction" "$source_dir/tests/fused" "$source_dir/$tree/obj"
