@@ -1,6 +1,7 @@
 /* Finds the rows that rest, and wakes them. */
 #include "mover/resting_rows.h"
 
+#include "mover/agent/attack.h"
 #include "mover/agent/neighbour_lists.h"
 #include "mover/agent/perception.h"
 #include "mover/motion/kinematics.h"
@@ -103,13 +104,17 @@ void resting_rows_wake_hovering(struct resting_rows *rows, const struct step_con
 
 /* --- this frame's rows -------------------------------------------------------------------------*/
 
-/* Returns those of the rows of a word that decide in this frame. */
+/* Returns those of the rows of a word that decide in this frame, or may fire. */
 static uint64_t due_of(const struct step_context *context, uint32_t first, uint64_t word)
 {
+    const uint64_t aims = neighbour_index_divisor(context->aim_frames);
     uint64_t due = 0;
     for (; word != 0; word &= word - 1) {
-        uint32_t k = (uint32_t)__builtin_ctzll(word);
-        due |= (uint64_t)step_context_thinks(context, first + k) << k;
+        uint32_t k = (uint32_t)__builtin_ctzll(word), i = first + k;
+        bool is_due = step_context_thinks(context, i) ||
+                      (neighbour_index_divides(aims, (uint32_t)context->tick + context->m->id[i]) &&
+                       attack_ready(context, i));
+        due |= (uint64_t)is_due << k;
     }
     return due;
 }
@@ -175,7 +180,27 @@ static bool is_at_ease(const struct step_context *context, uint32_t i)
            !perception_hurt_soon(context, i);
 }
 
-enum rest { REST_NONE, REST_TURNS, REST_HOVERS, REST_CRUISE, REST_ALL };
+/* Returns true if row i stands with a gun that is laid on its target, and will until its agent
+ * decides or fires. What it decided in this frame it does already. */
+static bool stands_laid(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    return m->target_id[i] != 0 && m->throttle[i] == 0.0f && m->steer[i] == 0.0f &&
+           m->traverse[i] == 0.0f && m->elevate[i] == 0.0f && m->trigger[i] == 0 &&
+           kind->domain == DOMAIN_LAND && kind->munition != KIND_NONE && entities_still(m, i) &&
+           m->threat_id[i] == 0 && m->bumped[i] == 0 &&
+           !(m->flags[i] & (ENTITY_FLAG_BURST | ENTITY_FLAG_CHASSIS)) &&
+           !perception_hurt_soon(context, i);
+}
+
+/* Columns by which a decision acts on later ones alone, and fuel that is burnt in a turn. */
+#define DECIDED_COLUMNS                                                                            \
+    (COLUMN_BIT(fuel_l) | COLUMN_BIT(goal_x) | COLUMN_BIT(goal_z) | COLUMN_BIT(target_slot) |      \
+     COLUMN_BIT(target_id) | COLUMN_BIT(until_tick) | COLUMN_BIT(seen_tick) |                      \
+     COLUMN_BIT(reload_tick) | COLUMN_BIT(traverse) | COLUMN_BIT(elevate))
+
+enum rest { REST_NONE, REST_TURNS, REST_LAID, REST_HOVERS, REST_CRUISE, REST_ALL };
 
 static bool has_rest(const struct resting_rows *rows, uint32_t i)
 {
@@ -218,8 +243,9 @@ static enum rest rest_of(const struct resting_rows *rows, const struct step_cont
         return is_still(m, i) && m->trigger[i] == 0 && m->target_id[i] == 0 ? REST_ALL : REST_NONE;
     case MOTION_COURSE:
     case MOTION_AGENT:
-        return is_at_ease(context, i) ? rest_of_agent(rows, context, i, motion == MOTION_AGENT)
-                                      : REST_NONE;
+        return is_at_ease(context, i)    ? rest_of_agent(rows, context, i, motion == MOTION_AGENT)
+               : stands_laid(context, i) ? REST_LAID
+                                         : REST_NONE;
     case MOTION_CRUISE:
         return REST_CRUISE;
     case MOTION_REMOTE:
@@ -238,6 +264,8 @@ static bool has_changed(const struct resting_rows *rows, const struct step_conte
     uint64_t columns = entities_differing(context->m, &context->committed->entities, i);
     if (rest == REST_HOVERS && only_burns(rows, i))
         columns &= ~COLUMN_BIT(fuel_l);
+    if (rest == REST_LAID)
+        columns &= ~DECIDED_COLUMNS;
     return columns != 0;
 }
 
@@ -261,7 +289,7 @@ static void settle_row(struct resting_rows *rows, const struct step_context *con
     else
         *resting |= bit;
     hover_watch_note(&rows->hovering, context, i, rest == REST_HOVERS);
-    *turns = rest == REST_TURNS ? *turns | bit : *turns & ~bit;
+    *turns = rest == REST_TURNS || rest == REST_LAID ? *turns | bit : *turns & ~bit;
 }
 
 _Static_assert(KINEMATICS_HOVER_ROWS == CHECKSUM_ROWS, "a block burns its fuel in one frame");
@@ -271,7 +299,7 @@ _Static_assert(BEHAVIOUR_IDLE == 0 && MOTION_HOLD < 4 && MOTION_COURSE >= 4 &&
                "may_rest() compares bytes");
 
 /* Returns false if none of eight rows rests or can begin to: all have an agent or a driver here,
- * and no behaviour is to stand. True is possible otherwise. first: a multiple of 8. */
+ * and no behaviour is to stand or to attack. True is possible otherwise. first: a multiple of 8. */
 static bool may_rest(const struct resting_rows *rows, const struct entities *m, uint32_t first,
                      const uint8_t *motion)
 {
@@ -281,8 +309,11 @@ static bool may_rest(const struct resting_rows *rows, const struct entities *m, 
     memcpy(&behaviour, m->behaviour + first, sizeof behaviour);
     uint64_t no_agent = (how - 4 * ones) & ~how & tops; /* a byte is below 4 */
     uint64_t idle = (behaviour - ones) & ~behaviour & tops;
+    uint64_t other = behaviour ^ BEHAVIOUR_ATTACK * ones;
+    uint64_t attack = (other - ones) & ~other & tops;
     uint64_t remote = (how + (0x80 - MOTION_REMOTE) * ones) & tops;
-    return (no_agent | idle | remote | (rows->resting[first / 64] >> first % 64 & 0xff)) != 0;
+    return (no_agent | idle | attack | remote | (rows->resting[first / 64] >> first % 64 & 0xff)) !=
+           0;
 }
 
 static void settle(struct resting_rows *rows, const struct step_context *context, uint32_t i,

@@ -38,8 +38,9 @@
 #define SETTLE_AIR_S 1.2
 #define SETTLE_SEA_S 6.0
 
-/* A driver who travels corrects the course and the speed only when they are further off than this.
- * So a decision that confirms them leaves the controls as they are. */
+/* A driver who travels corrects the course and the speed only when they are further off than this,
+ * and one who stands the heading. So a decision that confirms them leaves the controls as they are.
+ */
 #define COURSE_OFF_RAD 0.005 /* 5 m beside a goal a kilometre ahead */
 #define SPEED_OFF      0.01f /* of full speed */
 
@@ -379,7 +380,8 @@ static void set_controls(const struct step_context *context, uint32_t i, const s
     double off = maths_wrap_half(desired->heading_rad - m->heading[i]);
     float throttle = throttle_for(kind, desired);
     bool holds = travels(m, i, kind) && throttle != 0.0f;
-    if (holds && fabs(off) <= COURSE_OFF_RAD)
+    bool stands = kind->domain == DOMAIN_LAND && throttle == 0.0f;
+    if ((holds || stands) && fabs(off) <= COURSE_OFF_RAD)
         off = 0.0;
     m->steer[i] = (float)maths_clamp(off / maths_max(turn, 1e-9), -1.0, 1.0);
     if (!holds || fabsf(throttle - m->throttle[i]) > SPEED_OFF)

@@ -91,7 +91,7 @@ static inline int take_row(const struct step_context *context, struct ground_veh
     batch->heading.lane[l] = m->heading[i];
     batch->pitch.lane[l] = m->pitch[i];
     batch->fuel.lane[l] = m->fuel_l[i];
-    batch->parked.lane[l] = -(int64_t)kinematics_parked(m, i);
+    batch->burns.lane[l] = kinematics_parked(m, i) ? 0.0 : 1.0;
     return l;
 }
 
@@ -109,6 +109,8 @@ bool ground_vehicle_take_held(const struct step_context *context, struct ground_
                               uint32_t i)
 {
     int l = take_row(context, batch, i);
+    if (batch->frames == 1)
+        batch->burns.lane[l] = (double)kinematics_burn_frames(context, i);
     batch->turn.lane[l] = (double)context->m->steer[i];
     batch->wanted_mps.lane[l] = (double)context->m->throttle[i];
     batch->held.lane[l] = -1;
@@ -146,14 +148,14 @@ static inline void steer(struct ground_vehicle *batch, int h, const f64x4 *forwa
     kinematics_simd_steer(&batch->heading.f64x4[h], &helm, &rate, dt_s);
 }
 
-/* Burns fuel for the desired speed as kinematics_burn() does, unless the engine is off. Without
+/* Burns fuel for the desired speed as kinematics_burn() does, of as many frames as are due. Without
  * fuel the speed is 0. */
 static inline void burn(struct ground_vehicle *batch, int h, f64x4 *wanted, double dt_s)
 {
     const f64x4 none = SIMD_EVERY(0.0), least = SIMD_EVERY(1e-9);
     f64x4 share = SIMD_ABS(*wanted) / SIMD_MAX(batch->full_mps.f64x4[h], least);
     share = SIMD_MAX(share, batch->idle_share.f64x4[h]);
-    share = SIMD_CHOOSE(batch->parked.f64x4[h], none, share);
+    share *= batch->burns.f64x4[h];
     four_masks dry;
     kinematics_simd_burn(&batch->fuel.f64x4[h], &batch->burn_lps.f64x4[h], &share,
                          &batch->tank.f64x4[h], dt_s, &dry);

@@ -47,6 +47,19 @@ static inline bool kinematics_parked(const struct entities *m, uint32_t i)
            m->throttle[i] == 0.0f && m->vx[i] == 0.0 && m->vz[i] == 0.0;
 }
 
+/* Returns how many frames' fuel the engine of row i, a land vehicle with an agent, burns in this
+ * one. Where it stands, it burns in its turn to decide that of the frames to the next one, so that
+ * nothing changes between. */
+static inline uint32_t kinematics_burn_frames(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    if (kinematics_parked(m, i))
+        return 0;
+    if (m->throttle[i] != 0.0f || m->vx[i] != 0.0 || m->vz[i] != 0.0)
+        return 1;
+    return step_context_thinks(context, i) ? context->think_frames : 0;
+}
+
 /* Helicopters with the order to stand burn the fuel of so many seconds at once while they hover. */
 #define KINEMATICS_HOVER_S    10.0
 #define KINEMATICS_HOVER_ROWS 1024u

@@ -11,6 +11,7 @@
 #define MUZZLE_SHARE   0.7   /* of the shooter's height */
 #define LAID_RAD       0.004 /* a turret's gun fires when it is so near to its solution */
 #define HULL_LAID_RAD  0.06  /* the same where the hull aims */
+#define STAYS_RAD      0.002 /* a gun so near to its solution stays until it fires */
 #define FRIEND_AHEAD_M 300.0 /* a gunner looks for friends so far ahead */
 #define FRIEND_CLEAR_M 1.0   /* added to the radius of a friend */
 #define LEAD_STEPS     4     /* iterations for the flight time: its error is then about 1e-4 */
@@ -156,15 +157,18 @@ static void lay_by_rates(const struct step_context *context, uint32_t i, const s
 
 static float share_of(double off, double most)
 {
-    return (float)maths_clamp(off / maths_max(most, 1e-9), -1.0, 1.0);
+    return fabs(off) <= STAYS_RAD ? 0.0f
+                                  : (float)maths_clamp(off / maths_max(most, 1e-9), -1.0, 1.0);
 }
 
-/* Sets the rates that reach these angles by the next decision of the agent. */
+/* Sets the rates that reach these angles by the next decision of the agent. A gun that is laid well
+ * enough does not move: it is laid exactly when it fires. */
 static void set_rates(const struct step_context *context, uint32_t i, const struct kind *kind,
                       double turret, double gun)
 {
     struct entities *m = context->m;
     double time_s = (double)context->think_frames * context->dt_s;
+    gun = maths_clamp(gun, kind->gun_low_rad, kind->gun_high_rad);
     m->traverse[i] =
         share_of(maths_wrap_half(turret - (double)m->turret[i]), kind->turret_rate_rps * time_s);
     m->elevate[i] = share_of(gun - (double)m->gun[i], kind->gun_rate_rps * time_s);

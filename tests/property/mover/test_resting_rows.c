@@ -65,6 +65,14 @@ static const char herds[] =
     "vehicles = (" HERD("truck", 1500, IDLE) FIGHTERS HERD("jeep", 1000, IDLE)
         HERD("helicopter", 1200, IDLE) HERD("helicopter", 20, PATROL) FAR " );";
 
+/* Two forces that stand and fire at each other, among others that stand. */
+static const char duels[] =
+    "world = { seed = 7; capacity = 4096; }; collision = { shape = \"model\"; };"
+    "terrain = { source = \"flat\"; height_m = 100.0; }; vehicles = (" STANDING HERD(
+        "tank", 60, IDLE "force = \"red\"; fire_at_will = true;")
+        HERD("tank", 60, IDLE "force = \"blue\"; fire_at_will = true;")
+            HERD("helicopter", 16, PATROL) FAR " );";
+
 #define ROWS 629u
 
 static struct command random_command(uint64_t *random, uint64_t number)
@@ -106,6 +114,17 @@ static uint32_t count_remotes_at_rest(const struct fixture *f)
     return count;
 }
 
+/* Counts the rows at rest whose guns are laid on a target. */
+static uint32_t count_laid(const struct fixture *f)
+{
+    const struct resting_rows *rows = &f->stepper.mover.resting;
+    const struct state state = fixture_state(f);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < state.head->used; i++)
+        count += state.entities.target_id[i] != 0 && (rows->resting[i / 64] >> i % 64 & 1);
+    return count;
+}
+
 static uint32_t count_hovering(const struct fixture *f)
 {
     const struct resting_rows *rows = &f->stepper.mover.resting;
@@ -139,6 +158,7 @@ struct seen {
     uint32_t left_hover;  /* frames in which rows woke that hovered alone */
     uint32_t kept, left;  /* frames with records that are kept, and in which some are let go */
     uint32_t craters, destroyed;
+    uint32_t laid;    /* rows at rest with a laid gun, in all frames */
     uint32_t remotes; /* frames with more than ten entities of others at rest */
 };
 
@@ -189,6 +209,7 @@ static struct seen compare(const char *scenario, uint64_t seed)
         struct state a = fixture_state(&rests), b = fixture_state(&moves);
         assert_int_equal(a.head->event_digest, b.head->event_digest);
         assert_int_equal(steps_state_hash(&rests, &a), steps_state_hash(&moves, &b));
+        seen.laid += count_laid(&rests);
         seen.remotes += count_remotes_at_rest(&rests) > 10;
         uint32_t count = count_resting(&rests), kept = count_kept(&rests);
         uint32_t hovering = count_hovering(&rests);
@@ -239,6 +260,15 @@ static void test_bodies_that_rest_change_no_bit(void **state)
     compare(shaped, seed);
 }
 
+static void test_guns_that_are_laid_change_no_bit(void **state)
+{
+    uint64_t seed = fixture_seed(18);
+    (void)state;
+    struct seen seen = compare(duels, seed);
+    print_message("rows at rest with a laid gun, in all frames: %u\n", seen.laid);
+    assert_true(seen.laid > 2000);
+}
+
 static void test_herds_that_rest_change_no_bit(void **state)
 {
     uint64_t seed = fixture_seed(16);
@@ -253,6 +283,7 @@ int main(void)
         cmocka_unit_test(test_rows_that_rest_change_no_bit),
         cmocka_unit_test(test_entities_of_others_that_rest_change_no_bit),
         cmocka_unit_test(test_bodies_that_rest_change_no_bit),
+        cmocka_unit_test(test_guns_that_are_laid_change_no_bit),
         cmocka_unit_test(test_herds_that_rest_change_no_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

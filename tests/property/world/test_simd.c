@@ -245,7 +245,10 @@ static bool drive_one(const struct step_context *context, uint32_t i,
 
     double wanted = desired->speed_mps;
     double share = maths_max(fabs(wanted) / maths_max(kind->max_speed_mps, 1e-9), kind->idle_share);
-    if (!kinematics_burn(context, i, kinematics_parked(m, i) ? 0.0 : share))
+    double frames = kinematics_parked(m, i) ? 0.0 : 1.0;
+    if (desired->held)
+        frames = (double)kinematics_burn_frames(context, i);
+    if (!kinematics_burn(context, i, share * frames))
         wanted = 0.0;
     double limit = slope_speed(kind, wanted < 0.0 ? -pitch : pitch);
     if (fabs(wanted) > 0.0 && limit <= 0.0)

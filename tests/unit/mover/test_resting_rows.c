@@ -112,6 +112,30 @@ static void test_a_command_wakes_the_row(void **state)
     assert_true(steps_speed(&f, tank) > 1.0);
 }
 
+/* A tank stands and fires at a truck, which no round harms. It rests while it loads. */
+static void test_a_laid_gun_rests_until_it_fires(void **state)
+{
+    uint32_t red = put("tank", 25000.0, BEHAVIOUR_IDLE),
+             blue = put("truck", 24500.0, BEHAVIOUR_HOLD);
+    uint32_t rested = 0, loaded;
+    (void)state;
+    steps_kind(&f, "truck")->resistance_j = 1e12;
+    struct entities e = steps_rows(&f);
+    e.force[blue] = FORCE_BLUE;
+    e.flags[red] = ENTITY_FLAG_FIRE_AT_WILL | ENTITY_FLAG_STAND;
+    fixture_run(&f, 1);
+    fixture_continue(&f, 20 * SECOND);
+    loaded = steps_rows(&f).rounds[red];
+    for (uint32_t frame = 0; frame < 30 * SECOND; frame++) {
+        fixture_continue(&f, 1);
+        rested += rests(red) && has_turns(red) && steps_rows(&f).target_id[red] != 0;
+    }
+    print_message("rested in %u of %u frames, fired %u rounds\n", rested, 30 * SECOND,
+                  loaded - steps_rows(&f).rounds[red]);
+    assert_true(loaded - steps_rows(&f).rounds[red] >= 2);
+    assert_true(rested > 20 * SECOND);
+}
+
 static void test_a_remote_row_that_stands_rests(void **state)
 {
     const struct vec3 place = {25000.0, 100.0, 26000.0}, beside = {25000.0, 100.0, 26100.0};
@@ -150,6 +174,7 @@ int main(void)
         TEST(test_a_restarted_mover_knows_no_row_at_rest),
         TEST(test_a_crater_wakes_what_stands_at_its_rim),
         TEST(test_a_command_wakes_the_row),
+        TEST(test_a_laid_gun_rests_until_it_fires),
         TEST(test_a_remote_row_that_stands_rests),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
