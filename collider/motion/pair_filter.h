@@ -130,6 +130,15 @@ static inline bool pair_filter_boxes_meet(const struct path_box *a, const struct
            b->min_z <= a->max_z && a->min_y <= b->max_y && b->min_y <= a->max_y;
 }
 
+/* Returns true if no bound of the first box is beyond that of the second. */
+static inline bool pair_filter_box_within(const struct path_box *inner,
+                                          const struct path_box *outer)
+{
+    return inner->min_x >= outer->min_x && inner->max_x <= outer->max_x &&
+           inner->min_y >= outer->min_y && inner->max_y <= outer->max_y &&
+           inner->min_z >= outer->min_z && inner->max_z <= outer->max_z;
+}
+
 /* Returns the box around a fixed object, rounded outwards. */
 struct path_box pair_filter_fixed_box(const struct world *world, const struct fixed_object *object);
 

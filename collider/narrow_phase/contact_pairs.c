@@ -87,13 +87,6 @@ static void meet(struct contact_queue *contacts, const struct contact_input *inp
     }
 }
 
-static bool box_within(const struct path_box *inner, const struct path_box *outer)
-{
-    return inner->min_x >= outer->min_x && inner->max_x <= outer->max_x &&
-           inner->min_y >= outer->min_y && inner->max_y <= outer->max_y &&
-           inner->min_z >= outer->min_z && inner->max_z <= outer->max_z;
-}
-
 static struct path_box box_union(const struct path_box *a, const struct path_box *b)
 {
     return (struct path_box){
@@ -133,7 +126,7 @@ void contact_pairs_look(struct contact_queue *contacts, const struct contact_inp
     struct path_box box = pair_filter_box(&input->detect, row);
     box.min_x -= wider_m, box.max_x += wider_m;
     box.min_z -= wider_m, box.max_z += wider_m;
-    bool strays = !box_within(&box, known);
+    bool strays = !pair_filter_box_within(&box, known);
     bool has_all = !strays && broad_phase_has_all(input->broad, row);
     contacts->near.count = 0;
     if (has_all && contacts->stray_count == 0)

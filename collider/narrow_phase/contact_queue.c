@@ -61,6 +61,7 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
         contacts->head && contacts->version && contacts->strayed && contacts->strays &&
         contacts->paired && pair_apart_init(&contacts->apart, world) == 0 &&
         axis_memory_init(&contacts->axes, world) == 0 &&
+        alone_rows_init(&contacts->alone, world, workers) == 0 &&
         pair_list_init(&contacts->near, broad_phase_found_most(world)) == 0)
         return 0;
     contact_queue_free(contacts);
@@ -90,6 +91,7 @@ void contact_queue_free(struct contact_queue *contacts)
     free(contacts->strays);
     free(contacts->paired);
     pair_list_free(&contacts->near);
+    alone_rows_free(&contacts->alone);
     *contacts = (struct contact_queue){0};
 }
 
@@ -423,6 +425,13 @@ void contact_queue_look(struct contact_queue *contacts, const struct contact_inp
 {
     if (!method_discrete((enum method)input->detect.world->params->collision.method))
         contact_pairs_look(contacts, input, row, resting, 0.0f);
+}
+
+void contact_queue_find_alone(struct contact_queue *contacts, const struct contact_input *input,
+                              const uint32_t *row, uint32_t count)
+{
+    if (!method_discrete((enum method)input->detect.world->params->collision.method))
+        alone_rows_find(&contacts->alone, input, row, count);
 }
 
 void contact_queue_look_wider(struct contact_queue *contacts, const struct contact_input *input,

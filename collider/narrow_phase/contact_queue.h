@@ -5,6 +5,7 @@
 
 #include "collider/broad_phase/broad_phase.h"
 #include "collider/geometry/level_gap.h"
+#include "collider/narrow_phase/alone_rows.h"
 #include "collider/narrow_phase/axis_memory.h"
 #include "collider/narrow_phase/narrow_phase.h"
 #include "collider/narrow_phase/pair_apart.h"
@@ -138,6 +139,7 @@ struct contact_queue {
     uint32_t *due_row; /* [capacity of the world] rows that have to be prepared */
     uint32_t due_rows;
     struct pair_list near; /* result of a query */
+    struct alone_rows alone;
     struct pair_apart apart;
     struct axis_memory axes;
     bool proves; /* pairs that certainly stay apart are not swept: bodies are hulls */
@@ -176,6 +178,16 @@ uint32_t contact_queue_pair(struct contact_queue *contacts, const struct pair *p
  * phase has. resting: also those of two bodies that rest. Nothing is swept. */
 void contact_queue_look(struct contact_queue *contacts, const struct contact_input *input,
                         uint32_t row, bool resting);
+
+/* Prepares contact_queue_alone() of these rows, on all workers. */
+void contact_queue_find_alone(struct contact_queue *contacts, const struct contact_input *input,
+                              const uint32_t *row, uint32_t count);
+
+/* Returns true if nothing is near a row of the last search, and a look would find no pair. */
+static inline bool contact_queue_alone(const struct contact_queue *contacts, uint32_t row)
+{
+    return contacts->alone.alone[row] && contacts->head[row] == 0 && contacts->stray_count == 0;
+}
 
 /* The same with a box that is so much wider to all four sides [m], and with bodies that rest. */
 void contact_queue_look_wider(struct contact_queue *contacts, const struct contact_input *input,

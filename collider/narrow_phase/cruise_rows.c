@@ -202,6 +202,15 @@ void cruise_rows_take_pairs(const struct contact_input *input, struct pair_list 
     }
 }
 
+bool cruise_rows_box_meets(const struct contact_input *input, uint32_t row,
+                           const struct path_box *box)
+{
+    if (!body_motion_cruises(input->motion, row))
+        return true;
+    const struct path_box its = box_of(input, row);
+    return pair_filter_boxes_meet(box, &its);
+}
+
 /* Takes the rows out of the list, from number `since` on, that cruise and whose boxes do not meet
  * this one, and ends the stretches of the others. */
 static void take_found(const struct contact_input *input, const struct path_box *box,
@@ -210,12 +219,9 @@ static void take_found(const struct contact_input *input, const struct path_box 
     uint32_t count = since;
     for (uint32_t i = since; i < found->count; i++) {
         uint32_t row = found->pair[i].a;
-        if (body_motion_cruises(input->motion, row)) {
-            struct path_box its = box_of(input, row);
-            if (!pair_filter_boxes_meet(box, &its))
-                continue;
-            cruise_rows_stop(input, row);
-        }
+        if (!cruise_rows_box_meets(input, row, box))
+            continue;
+        cruise_rows_stop(input, row);
         found->pair[count++] = found->pair[i];
     }
     found->count = count;

@@ -22,6 +22,11 @@ void cruise_rows_stop(const struct contact_input *input, uint32_t row);
 void cruise_rows_take_pairs(const struct contact_input *input, struct pair_list *pairs,
                             struct pair_list *ends);
 
+/* Returns false if the row cruises and its box of this frame does not meet this one, although the
+ * box that the broad phase has kept may. Any thread. */
+bool cruise_rows_box_meets(const struct contact_input *input, uint32_t row,
+                           const struct path_box *box);
+
 /* broad_phase_query(), which also ends the stretches of the rows that it finds. Rows that cruise
  * and whose boxes do not meet this one are not found. */
 void cruise_rows_query(const struct contact_input *input, const struct path_box *box,

@@ -26,8 +26,9 @@ int contact_groups_init(struct contact_groups *groups, const struct world *world
     groups->awake = calloc(rows, sizeof *groups->awake);
     groups->ground = calloc(rows, sizeof *groups->ground);
     groups->asked = reserve_take(rows, sizeof *groups->asked);
+    groups->begun = reserve_take(rows, sizeof *groups->begun);
     if (groups->pair && groups->stirred && groups->parent && groups->awake && groups->ground &&
-        groups->asked)
+        groups->asked && groups->begun)
         return 0;
     contact_groups_free(groups);
     errno = ENOMEM;
@@ -42,6 +43,7 @@ void contact_groups_free(struct contact_groups *groups)
     free(groups->awake);
     free(groups->ground);
     reserve_free(groups->asked);
+    reserve_free(groups->begun);
     *groups = (struct contact_groups){0};
 }
 
@@ -422,8 +424,9 @@ static void add_pairs_of(struct contact_groups *groups, struct response_context 
     }
 }
 
-/* Adds the pairs of the block's bodies that were not there in the committed frame. */
-static void add_new(struct contact_groups *groups, struct response_context *context, uint32_t block)
+/* Lists the block's bodies that were not there in the committed frame. */
+static void list_new(struct contact_groups *groups, const struct response_context *context,
+                     uint32_t block)
 {
     const struct entities *e = &context->next->entities;
     uint32_t first = block * CHECKSUM_ROWS, used = context->next->head->used;
@@ -432,8 +435,7 @@ static void add_new(struct contact_groups *groups, struct response_context *cont
         if (e->state[row] == ENTITY_FREE || e->behaviour[row] == BEHAVIOUR_FLIGHT ||
             !is_new(context, row) || !path_change_grounded(context, row))
             continue;
-        body_motion_require(context->motion, row);
-        add_pairs_of(groups, context, row);
+        groups->begun[groups->begun_count++] = row;
     }
 }
 
@@ -447,25 +449,23 @@ static bool may_be_new(const struct response_context *context, uint32_t block)
            committed->hashes[block].column[COLUMN_id] != next->hashes[block].column[COLUMN_id];
 }
 
-/* Returns how many bodies of the block have to be looked at. */
-static uint32_t count_new(const struct response_context *context, uint32_t block)
-{
-    uint32_t first = block * CHECKSUM_ROWS, used = context->next->head->used, count = 0;
-    uint32_t end = used - first < CHECKSUM_ROWS ? used : first + CHECKSUM_ROWS;
-    for (uint32_t row = first; row < end; row++)
-        count += is_new(context, row);
-    return count;
-}
-
 static void find_new(struct contact_groups *groups, struct response_context *context)
 {
-    uint32_t blocks = block_count(context->next->head->used), count = 0;
-    for (uint32_t block = 0; block < blocks; block++)
-        count += may_be_new(context, block) ? count_new(context, block) : 0;
-    broad_phase_expect_queries(context->broad, count);
+    uint32_t blocks = block_count(context->next->head->used);
+    groups->begun_count = 0;
     for (uint32_t block = 0; block < blocks; block++) {
         if (may_be_new(context, block))
-            add_new(groups, context, block);
+            list_new(groups, context, block);
+    }
+    broad_phase_expect_queries(context->broad, groups->begun_count);
+    contact_queue_find_alone(context->contacts, &context->input, groups->begun,
+                             groups->begun_count);
+    for (uint32_t i = 0; i < groups->begun_count; i++) {
+        uint32_t row = groups->begun[i];
+        if (contact_queue_alone(context->contacts, row))
+            continue;
+        body_motion_require(context->motion, row);
+        add_pairs_of(groups, context, row);
     }
 }
 

@@ -19,6 +19,8 @@ struct contact_groups {
     uint8_t *ground; /* [capacity of the world] what is known of a row in this search; 0: nothing */
     uint32_t *asked; /* rows of which something is */
     uint32_t asked_count;
+    uint32_t *begun; /* [capacity of the world] bodies that are new in this frame */
+    uint32_t begun_count;
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */
