@@ -5,8 +5,9 @@
 #include "world/state.h"
 #include "world/world.h"
 
-#define THERE_M  150.0 /* so near to the end of a route or to an area */
-#define STRONGER 3u    /* times the enemy's vehicles: who holds an objective */
+#define THERE_M   150.0 /* so near to the end of a route or to an area */
+#define ROUNDED_M 1.0   /* more than the index of neighbours rounds */
+#define STRONGER  3u    /* times the enemy's vehicles: who holds an objective */
 
 /* --- who is where ------------------------------------------------------------------------------*/
 
@@ -16,26 +17,39 @@ bool mission_conditions_active(const struct serial_context *context, uint32_t sl
     return entities_alive(m, slot, slot + 1) && m->state[slot] == ENTITY_ACTIVE;
 }
 
-/* A vehicle that cruises counts where its stretch ends. */
-static bool within(const struct entities *m, uint32_t row, const struct objective *objective)
+static bool within(const struct objective *objective, struct vec3 at)
 {
-    return m->x[row] >= objective->x0 && m->x[row] <= objective->x1 && m->z[row] >= objective->z0 &&
-           m->z[row] <= objective->z1;
+    return at.x >= objective->x0 && at.x <= objective->x1 && at.z >= objective->z0 &&
+           at.z <= objective->z1;
+}
+
+/* Counts the vehicles of each force that were in the objective when the frame began, by the index
+ * of neighbours: those elsewhere cost nothing. */
+static void count_present(const struct step_context *step, const struct objective *objective,
+                          uint32_t present[FORCE_COUNT])
+{
+    const struct entities *w = &step->committed->entities;
+    const struct kind *kinds = step->world->kinds;
+    const struct neighbour_index_entry *entry;
+    double wide_m = objective->x1 - objective->x0, deep_m = objective->z1 - objective->z0;
+    struct neighbour_query query = neighbour_query_begin(
+        step->neighbours, NEIGHBOUR_INDEX_LIVING, objective->x0 + 0.5 * wide_m,
+        objective->z0 + 0.5 * deep_m, 0.5 * sqrt(wide_m * wide_m + deep_m * deep_m) + ROUNDED_M);
+    while ((entry = neighbour_query_next(&query))) {
+        uint32_t row = entry->row;
+        enum domain domain = (enum domain)kinds[w->kind[row]].domain;
+        if ((domain == DOMAIN_LAND || domain == DOMAIN_SEA) &&
+            within(objective, step_context_position(step, w, row)))
+            present[w->force[row] % FORCE_COUNT]++;
+    }
 }
 
 enum force mission_conditions_count(const struct serial_context *context, uint32_t objective)
 {
-    const struct world *world = context->step->world;
-    const struct entities *m = &context->moved->entities;
     struct objective_state *state = &context->moved->head->battle.objective[objective];
-    uint32_t present[FORCE_COUNT] = {0}, used = context->moved->head->used;
+    uint32_t present[FORCE_COUNT] = {0};
     enum force before = (enum force)state->owner;
-    for (uint32_t row = 0; row < used; row++) {
-        if (m->state[row] == ENTITY_ACTIVE && within(m, row, &world->objectives[objective]) &&
-            (world->kinds[m->kind[row]].domain == DOMAIN_LAND ||
-             world->kinds[m->kind[row]].domain == DOMAIN_SEA))
-            present[m->force[row] % FORCE_COUNT]++;
-    }
+    count_present(context->step, &context->step->world->objectives[objective], present);
     for (int force = 0; force < FORCE_COUNT; force++)
         state->present[force] =
             (uint16_t)(present[force] < UINT16_MAX ? present[force] : UINT16_MAX);

@@ -5,7 +5,8 @@
 #include "mover/context/serial_context.h"
 #include "world/entity/mission.h"
 
-/* Counts the vehicles in an objective, and changes its owner. Returns the owner before. */
+/* Counts the vehicles that were in an objective when the frame began, and changes its owner.
+ * Returns the owner before. */
 enum force mission_conditions_count(const struct serial_context *context, uint32_t objective);
 
 /* Returns how many vehicles of a mission are active. */

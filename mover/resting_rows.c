@@ -156,7 +156,8 @@ uint32_t resting_rows_awake(const struct resting_rows *rows, const struct step_c
             due |= ended_of(rows, context, row);
         rows->fresh[row / 64] = 0;
         block->awake[w] = there & (~resting | due);
-        count += (uint32_t)__builtin_popcountll(block->awake[w]);
+        if (block->awake[w] != 0) /* a call where the processor may not count bits */
+            count += (uint32_t)__builtin_popcountll(block->awake[w]);
     }
     block->all = count == block->end - block->first;
     return count;

@@ -143,6 +143,26 @@ static void test_an_equal_enemy_keeps_an_objective(void **state)
     fixture_close(&f);
 }
 
+/* The truck comes onto the hill a second and a half after its stretch of two seconds has begun; its
+ * columns are those of the end. */
+static void test_who_cruises_counts_where_it_is(void **state)
+{
+    (void)state;
+    open_mission("A", HOLD_UNTIL("enemy_in = \"hill\";"), "");
+    const struct entities rows = steps_rows(&f);
+    rows.x[2] = 25010.0;
+    rows.z[2] = 25100.0;
+    rows.heading[2] = HALF_PI;
+    rows.vx[2] = 20.0;
+    rows.cruise_tick[2] = (uint32_t)fixture_state(&f).head->tick + 2 * HZ;
+    run_s(1.3);
+    assert_true(now()->cruise_tick[2] > fixture_state(&f).head->tick);
+    assert_int_equal(battle()->objective[0].present[FORCE_RED], 0);
+    fixture_continue(&f, 2 * HZ);
+    assert_int_equal(battle()->objective[0].present[FORCE_RED], 1);
+    fixture_close(&f);
+}
+
 /* Red holds the hill and nobody is on it. */
 static void test_conditions_are_joined(void **state)
 {
@@ -485,6 +505,7 @@ int main(void)
         cmocka_unit_test(test_arrival_ends_a_phase),
         cmocka_unit_test(test_objectives_end_a_phase),
         cmocka_unit_test(test_an_equal_enemy_keeps_an_objective),
+        cmocka_unit_test(test_who_cruises_counts_where_it_is),
         cmocka_unit_test(test_losses_end_a_phase),
         cmocka_unit_test(test_another_mission_ends_a_phase),
         cmocka_unit_test(test_a_phase_says_whom_to_fire_at),
