@@ -278,6 +278,7 @@ static bool measure(struct body_pair *bodies, uint32_t hulls, double margin_m, b
         return false;
     }
     bodies->apart_m = maths_min(bodies->apart_m, gjk.distance_m);
+    gap->plane = gjk.normal;
     if (gjk.distance_m > 0.0) {
         measure_distance(bodies, &gjk, gap);
     } else {
@@ -428,6 +429,38 @@ double level_gap_depth(const struct turned_body *a, const struct turned_body *b,
     bodies.before = memory;
     search(&bodies, &gap_m, NULL, 0);
     return gap_m;
+}
+
+/* --- planes ------------------------------------------------------------------------------------*/
+
+/* Returns how far a hull reaches along a normal from the position of its body. */
+static double reach_along(const struct turned_body *body, const struct hull *hull,
+                          struct vec3 normal)
+{
+    struct vec3 own = rotation_back(&body->turn, normal);
+    const struct vec3 *vertex = body->body->vertices + hull->first_vertex;
+    double most = vec3_dot(vertex[0], own);
+    for (uint32_t i = 1; i < hull->vertex_count; i++)
+        most = maths_max(most, vec3_dot(vertex[i], own));
+    return most * body->body->scale;
+}
+
+bool level_gap_planes_hold(const struct turned_body *a, const struct turned_body *b,
+                           const struct level_gap *gap, uint32_t count)
+{
+    struct vec3 between = vec3_sub(b->body->path.at, a->body->path.at);
+    for (uint32_t i = 0; i < count; i++) {
+        const struct hull *hull_a = &a->body->hull[gap[i].hulls / HULLS_A_MODEL];
+        const struct hull *hull_b = &b->body->hull[gap[i].hulls % HULLS_A_MODEL];
+        struct vec3 plane = gap[i].plane;
+        if (!is_known(plane) || turret_path_turns(&a->body->turret, hull_a) ||
+            turret_path_turns(&b->body->turret, hull_b) ||
+            vec3_dot(plane, between) - reach_along(a, hull_a, plane) -
+                    reach_along(b, hull_b, vec3_scale(plane, -1.0)) <=
+                SURELY_M)
+            return false;
+    }
+    return true;
 }
 
 /* --- whole bodies ------------------------------------------------------------------------------*/

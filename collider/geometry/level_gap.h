@@ -25,6 +25,7 @@ struct level_gap {
     struct vec3 point[2]; /* [m, world] the ends of the contact, across the normal */
     uint32_t points;      /* 1 or 2 */
     uint32_t hulls;       /* HULLS_A_MODEL * hull of a + hull of b */
+    struct vec3 plane;    /* unit, from a to b: across it the hulls are apart; 0: they overlap */
 };
 
 /* The memory of a pair of bodies: where the search for the nearest points of its near hulls ended,
@@ -72,6 +73,11 @@ bool level_gap_is_deeper(const struct swept_body *a, const struct swept_body *b,
  * are not searched. memory: of this pair, or NULL. */
 double level_gap_depth(const struct turned_body *a, const struct turned_body *b,
                        struct vec3 plane[LEVEL_GAP_PLANES], const struct level_gap_memory *memory);
+
+/* Returns true if the planes of these gaps, which were found when the bodies were elsewhere, still
+ * separate their hulls, so that none of these overlap. False says nothing. */
+bool level_gap_planes_hold(const struct turned_body *a, const struct turned_body *b,
+                           const struct level_gap *gap, uint32_t count);
 
 /* Replaces the first of the gaps that level_gap_find_more() found with this room, of bodies of
  * which several pairs of hulls overlap: normal and gap become those along which the whole bodies

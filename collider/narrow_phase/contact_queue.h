@@ -78,6 +78,8 @@ struct pair_known {
     double before_m;           /* their gap in the committed frame, 0 if they were apart, or
                                   PAIR_NOT_MEASURED */
     double apart_m; /* they are apart by this at least when the frame begins; 0: not known */
+    uint32_t gap;   /* index + 1 into the gaps of resting contacts (collider/resting/resting.h), 0:
+                       they are not near enough for one */
     struct level_gap_memory memory;                       /* of their near hulls */
     struct contact_load load[PERSISTENT_CONTACT_NEAREST]; /* of the pairs of hulls in memory */
     /* On these versions of their paths the bodies certainly stay apart until the frame's end, by at

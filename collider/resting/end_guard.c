@@ -197,19 +197,29 @@ static bool proved_apart(const struct end_guard *guard, const struct response_co
     return way_m + APART_M < context->contacts->known[index].stays_m;
 }
 
-/* Returns true if the bodies were farther apart when the frame began than they have come since
- * then. Nothing has to be measured again. */
-static bool far_apart(const struct end_guard *guard, const struct pair *pair,
-                      const struct pair_known *known)
+/* Returns how far the points of two bodies have come relative to each other since the frame began,
+ * at most [m]. */
+static double come_of(const struct end_guard *guard, const struct pair *pair)
 {
     const struct placed_body *a = &guard->stands[pair->a];
-    struct vec3 way = a->moved;
-    double least = known->apart_m - APART_M - a->turned_m;
-    if (!(pair->b & PAIR_FIXED)) {
-        way = vec3_sub(way, guard->stands[pair->b].moved);
-        least -= guard->stands[pair->b].turned_m;
-    }
-    return least > 0.0 && vec3_dot(way, way) < least * least;
+    if (pair->b & PAIR_FIXED)
+        return vec3_length(a->moved) + a->turned_m;
+    const struct placed_body *b = &guard->stands[pair->b];
+    return vec3_length(vec3_sub(a->moved, b->moved)) + a->turned_m + b->turned_m;
+}
+
+/* Returns true if hulls that were near when the frame began are still separated by the planes
+ * across their nearest points, and all others were farther apart than they have come since then. */
+static bool hulls_apart(const struct end_guard *guard, const struct pair *pair,
+                        const struct pair_known *known, double come_m)
+{
+    if (known->gap == 0 || pair->b & PAIR_FIXED)
+        return false;
+    const struct resting_gap *gap = &guard->resting->gap[known->gap - 1];
+    const struct placed_body *a = &guard->stands[pair->a], *b = &guard->stands[pair->b];
+    const struct turned_body turned_a = {&a->body, a->turn}, turned_b = {&b->body, b->turn};
+    return come_m + APART_M < gap->margin_m &&
+           level_gap_planes_hold(&turned_a, &turned_b, gap->gap, gap->count);
 }
 
 /* Returns true if the ground holds both sides of a pair. Those of them that are deep have been
@@ -228,7 +238,9 @@ static bool deeper(const struct end_guard *guard, const struct response_context 
 {
     const struct pair *pair = &context->contacts->pair[index];
     struct pair_known *known = &context->contacts->known[index];
-    if (far_apart(guard, pair, known) || proved_apart(guard, context, index))
+    double come_m = come_of(guard, pair);
+    if (come_m + APART_M < known->apart_m || proved_apart(guard, context, index) ||
+        hulls_apart(guard, pair, known, come_m))
         return false;
     double after = gap_after(guard, context, pair, known);
     if (after >= -ROUNDING_M)
@@ -589,6 +601,7 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
 {
     const struct body_motion *motion = context->motion;
     const struct entities *e = &context->next->entities;
+    guard->resting = resting;
     guard->drift = free->drift;
     guard->count = guard->touched_count = guard->posed_count = 0;
     for (uint32_t i = 0; i < resting->moved_count; i++)

@@ -28,6 +28,7 @@ struct end_guard {
     uint8_t *posed;             /* [capacity of the world] 1: it is known how the row stands */
     uint32_t *posed_row;        /* the rows of which it is */
     uint32_t posed_count;
+    const struct resting *resting;
     const struct vec3 *drift; /* free_bodies.h */
     uint32_t *row;            /* rows to look at in this round */
     uint32_t count;

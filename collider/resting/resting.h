@@ -44,6 +44,7 @@ struct resting_gap {
     uint32_t pair;   /* index into contacts->pair, if there are gaps */
     bool capsules;   /* it was measured between capsules (collider/resting/deep_pair.h) */
     double apart_m;  /* the bodies are apart by this at least */
+    double margin_m; /* hulls that are not in gap are apart by this at least; 0: not known */
     double pieces_m; /* of a pair that parts by its pieces: their gap, else PAIR_NOT_MEASURED */
     bool leaves;     /* it needs a way out (collider/resting/parting_ways.h) */
     bool went;       /* and has been given it */

@@ -1,6 +1,7 @@
 /* Measures pairs of the table, of new bodies and of neighbours, on all workers. */
 #include "collider/resting/resting_gaps.h"
 
+#include "collider/narrow_phase/contact_pairs.h"
 #include "collider/response/contact_table.h"
 #include "collider/resting/deep_pair.h"
 #include "world/params.h"
@@ -100,6 +101,7 @@ static bool take_before(struct resting_gap *gap)
     memcpy(gap->gap, before->gap, before->count * sizeof *gap->gap);
     gap->count = before->count;
     gap->apart_m = before->apart_m;
+    gap->margin_m = before->margin_m;
     gap->capsules = false;
     gap->pieces_m = PAIR_NOT_MEASURED;
     gap->memory = before->memory;
@@ -134,7 +136,7 @@ static void measure_pair(const struct gap_job *job, uint32_t index)
     recall(job, pair, gap);
     if (!job->parts && take_before(gap))
         return;
-    gap->apart_m = 0.0;
+    gap->apart_m = gap->margin_m = 0.0;
     const struct begun_bodies *begun = &job->resting->begun;
     const struct begun_body *a = begun_bodies_side(begun, motion, pair->a, NULL);
     const struct begun_body *b = begun_bodies_side(begun, motion, pair->b, &fixed);
@@ -145,11 +147,15 @@ static void measure_pair(const struct gap_job *job, uint32_t index)
         return;
     const struct turned_body turned_a = {&a->body, a->began}, turned_b = {&b->body, b->began};
     uint32_t room = job->parts ? RESTING_GAPS_MAX : LEVEL_GAPS_MAX;
-    gap->count = level_gap_find_more(&turned_a, &turned_b, margin_of(job, index, a, b), gap->gap,
-                                     room, &gap->apart_m, &gap->memory);
+    double margin_m = margin_of(job, index, a, b);
+    gap->count = level_gap_find_more(&turned_a, &turned_b, margin_m, gap->gap, room, &gap->apart_m,
+                                     &gap->memory);
+    gap->margin_m = gap->count < room ? margin_m : 0.0;
     gap->repeats = !job->parts && !is_deep(gap); /* parting changes gaps */
-    if (is_deep(gap))
+    if (is_deep(gap)) {
+        gap->margin_m = 0.0;
         part_whole(&turned_a, &turned_b, parting_margin(job, a, b), gap);
+    }
 }
 
 /* Measures pairs first .. end - 1 of the job. */
@@ -214,12 +220,19 @@ static void measure(struct resting *resting, const struct response_context *cont
                     PAIRS_A_PIECE);
     for (uint32_t i = first; i < resting->groups.count; i++) {
         struct resting_gap *gap = &resting->gap[i];
+        const struct pair *pair = &resting->groups.pair[i];
+        uint32_t place = gap->count > 0 ? contact_queue_pair(context->contacts, pair) + 1
+                                        : contact_pairs_find(context->contacts, pair);
+        if (place == 0)
+            continue;
+        struct pair_known *known = &context->contacts->known[place - 1];
+        known->apart_m = gap->apart_m;
         if (gap->count == 0)
             continue;
-        gap->pair = contact_queue_pair(context->contacts, &resting->groups.pair[i]);
-        context->contacts->known[gap->pair].apart_m = gap->apart_m;
-        context->contacts->known[gap->pair].memory = gap->memory;
-        context->contacts->known[gap->pair].before_m = gap->pieces_m;
+        gap->pair = place - 1;
+        known->gap = i + 1;
+        known->memory = gap->memory;
+        known->before_m = gap->pieces_m;
     }
 }
 
