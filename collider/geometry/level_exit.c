@@ -17,6 +17,9 @@
  * twice of that is no place to stay in [m]. */
 #define CLEAR_M 0.01
 
+/* Hulls that are farther apart on the map are left out at first, if a body leaves one other [m]. */
+#define REACH_M 0.5
+
 /* Directions that differ less are the same [square of the difference of unit vectors]. */
 #define SAME 1e-18
 
@@ -59,12 +62,12 @@ void level_exit_begin(struct level_exit *search)
     search->planes = search->hulls_count = 0;
 }
 
-/* Adds a plane. Returns false if it separates the hulls. */
-static bool add_plane(struct level_exit *search, const struct relative_pose *now,
-                      struct vec3 normal, double clear_m)
+/* Adds a plane with a normal from the body to the other. Returns false if it separates the hulls.
+ */
+static bool add_plane(struct level_exit *search, struct vec3 normal, double separation,
+                      double clear_m)
 {
     double level = sqrt(normal.x * normal.x + normal.z * normal.z);
-    double separation = hull_separation_now(now, normal);
     search->plane[search->planes++] =
         (struct exit_plane){normal.x, normal.z, separation - clear_m * level};
     return separation < 0.0;
@@ -99,17 +102,32 @@ static void add_hulls(struct level_exit *search, const struct relative_pose *now
         return;
     make_room(search, hull_a->plane_count + hull_b->plane_count);
     hulls.first = search->planes;
-    for (uint32_t i = 0; i < hull_a->plane_count; i++)
-        hulls.overlaps &= add_plane(search, now, rotation_apply(&now->a.turn, a[i].normal), clear);
-    for (uint32_t i = 0; i < hull_b->plane_count; i++)
-        hulls.overlaps &= add_plane(
-            search, now, vec3_scale(rotation_apply(&now->b.turn, b[i].normal), -1.0), clear);
+    for (uint32_t i = 0; i < hull_a->plane_count; i++) {
+        struct vec3 normal = rotation_apply(&now->a.turn, a[i].normal), to;
+        gjk_support(&now->b, vec3_scale(normal, -1.0), &to);
+        double far = vec3_dot(normal, vec3_add(now->between, to));
+        hulls.overlaps &= add_plane(search, normal, far - a[i].offset_m * now->a.scale, clear);
+    }
+    for (uint32_t i = 0; i < hull_b->plane_count; i++) {
+        struct vec3 normal = vec3_scale(rotation_apply(&now->b.turn, b[i].normal), -1.0), to;
+        gjk_support(&now->a, normal, &to);
+        double far = vec3_dot(normal, vec3_sub(now->between, to));
+        hulls.overlaps &= add_plane(search, normal, far - b[i].offset_m * now->b.scale, clear);
+    }
     hulls.end = search->planes;
     search->hulls[search->hulls_count++] = hulls;
 }
 
-void level_exit_add(struct level_exit *search, const struct swept_body *body,
-                    const struct swept_body *other, bool bars)
+/* Returns true if two hulls are farther apart on the map than a way leads. */
+static bool out_of_reach(const struct relative_pose *now, double radii_m, double reach_m)
+{
+    double x = now->towards.x * now->centres_m, z = now->towards.z * now->centres_m;
+    return sqrt(x * x + z * z) - radii_m > reach_m + CLEAR_M;
+}
+
+/* Adds the hulls of another body that a way of this length can reach. */
+static void add_body(struct level_exit *search, const struct swept_body *body,
+                     const struct swept_body *other, bool bars, double reach_m)
 {
     const struct rotation_path turn_a = rotation_path_of(body), turn_b = rotation_path_of(other);
     const struct body_pose pose_a = body_pose_at(&turn_a, body->path.since);
@@ -120,9 +138,17 @@ void level_exit_add(struct level_exit *search, const struct swept_body *body,
             const struct hull *hull_a = &body->hull[i], *hull_b = &other->hull[j];
             const struct relative_pose now =
                 relative_pose_of(&pose_a, hull_a, &pose_b, hull_b, time);
-            add_hulls(search, &now, body, hull_a, other, hull_b, bars);
+            double radii_m = hull_a->radius_m * body->scale + hull_b->radius_m * other->scale;
+            if (!out_of_reach(&now, radii_m, reach_m))
+                add_hulls(search, &now, body, hull_a, other, hull_b, bars);
         }
     }
+}
+
+void level_exit_add(struct level_exit *search, const struct swept_body *body,
+                    const struct swept_body *other, bool bars)
+{
+    add_body(search, body, other, bars, INFINITY);
 }
 
 /* --- ways --------------------------------------------------------------------------------------*/
@@ -323,7 +349,8 @@ static void try_corners(struct level_exit *search, bool bars, struct best_way *b
     list_edges(search, best->length_m);
     for (uint32_t i = 0; i < search->edges; i++) {
         for (uint32_t j = i + 1; j < search->edges; j++) {
-            if (search->edge[i].hulls != search->edge[j].hulls)
+            if (search->edge[i].hulls != search->edge[j].hulls &&
+                search->edge[j].far_m < best->length_m)
                 try_corner(search, bars, &search->edge[i], &search->edge[j], best);
         }
     }
@@ -342,4 +369,18 @@ double level_exit_find(struct level_exit *search, bool bars, struct vec3 *normal
     if (best.length_m < INFINITY)
         *normal = (struct vec3){best.x, 0.0, best.z};
     return best.length_m;
+}
+
+double level_exit_of(struct level_exit *search, const struct swept_body *body,
+                     const struct swept_body *other, struct vec3 *normal)
+{
+    double reach_m = REACH_M;
+    for (;;) {
+        level_exit_begin(search);
+        add_body(search, body, other, false, reach_m);
+        double way_m = level_exit_find(search, false, normal);
+        if (way_m <= reach_m || way_m == INFINITY)
+            return way_m;
+        reach_m = way_m;
+    }
 }

@@ -32,7 +32,8 @@ struct body_pair {
     struct vec3 last;   /* the normal of the last overlap, or the line */
     struct vec3 *plane; /* [LEVEL_GAP_PLANES] normals that may separate hulls, or NULL */
     double apart_m;     /* all hulls measured so far are apart by this at least */
-    const struct level_gap_memory *before;       /* where searches begin, or NULL */
+    const struct level_gap_memory *before; /* where searches begin, or NULL */
+    uint64_t known; /* pairs of hulls that have been measured, as in box_view_near() */
     struct nearest_vertices after[SEARCHES_MAX]; /* where they ended */
     uint32_t remembered;                         /* entries of after */
 };
@@ -106,14 +107,16 @@ static void measure_overlap(const struct body_pair *bodies, const struct hull *h
 
 /* --- one pair of hulls -------------------------------------------------------------------------*/
 
-/* The ends of the contact, across the normal; without a manifold the point midway. */
+/* The ends of the contact, across the normal; the point midway without a manifold, and of hulls
+ * that only have to part. */
 static void find_points(const struct body_pair *bodies, const struct relative_pose *now,
                         struct vec3 normal, struct vec3 middle, struct level_gap *gap)
 {
     struct contact_manifold patch;
     struct vec3 at = path_at(&bodies->a->path, bodies->time), low = middle, high = middle;
     double least = 0.0, most = 0.0;
-    if (contact_manifold_between(&now->a, &now->b, normal, &patch)) {
+    if (gap->gap_m > -LEVEL_GAP_PARTS_M &&
+        contact_manifold_between(&now->a, &now->b, normal, &patch)) {
         least = INFINITY, most = -INFINITY;
         for (uint32_t i = 0; i < patch.count; i++) {
             double across = patch.corner[i].z * gap->normal.x - patch.corner[i].x * gap->normal.z;
@@ -225,6 +228,10 @@ static struct nearest_vertices recall(const struct body_pair *bodies, uint32_t h
     for (uint32_t i = 0; i < bodies->remembered; i++) {
         if (bodies->after[i].hulls == hulls)
             return bodies->after[i];
+    }
+    for (uint32_t i = 0; bodies->known >> hulls & 1 && i < PERSISTENT_CONTACT_NEAREST; i++) {
+        if (bodies->before->nearest[i].hulls == hulls)
+            return bodies->before->nearest[i];
     }
     return (struct nearest_vertices){.hulls = (uint8_t)hulls};
 }
@@ -340,18 +347,19 @@ static struct body_pair body_pair_of(const struct body_pose *a, const struct bod
                               .last = line};
 }
 
-/* Measures each pair of hulls that may be as near as *margin_m. Puts the gaps into the list and
- * returns how many it holds. list NULL: reduces *margin_m to the least gap instead. Hulls that
- * overlap are all measured, because the deepest overlap is found only by its own normals. */
+/* Measures each pair of hulls that may be as near as *margin_m. Puts the gaps into the list, which
+ * has count, and returns how many it holds. list NULL: reduces *margin_m to the least gap instead.
+ * Hulls that overlap are all measured, because the deepest overlap is found only by its own
+ * normals. */
 static uint32_t search(struct body_pair *bodies, double *margin_m, struct level_gap *list,
-                       uint32_t room)
+                       uint32_t count, uint32_t room)
 {
     const struct swept_body *a = bodies->a, *b = bodies->b;
     struct box_view view = box_view_of(&bodies->pose_a.turn, &bodies->pose_b.turn, bodies->between,
                                        maths_max(*margin_m, 0.0));
-    uint32_t count = 0;
+    uint64_t near = box_view_near(&view, a, b) & ~bodies->known;
     bodies->apart_m = maths_max(*margin_m, 0.0);
-    for (uint64_t near = box_view_near(&view, a, b); near != 0; near &= near - 1) {
+    for (; near != 0; near &= near - 1) {
         uint32_t bit = (uint32_t)__builtin_ctzll(near);
         struct level_gap one;
         if (!measure(bodies, bit, *margin_m, list != NULL, &one))
@@ -370,7 +378,7 @@ static uint32_t find(const struct body_pose *a, const struct body_pose *b, doubl
 {
     struct body_pair bodies = body_pair_of(a, b, time);
     bodies.before = memory;
-    uint32_t count = search(&bodies, &margin_m, gap, room);
+    uint32_t count = search(&bodies, &margin_m, gap, 0, room);
     *apart_m = bodies.apart_m;
     *memory = memory_of(&bodies, gap, count);
     return count;
@@ -394,12 +402,27 @@ uint32_t level_gap_find_more(const struct turned_body *a, const struct turned_bo
     return find(&pose_a, &pose_b, 0.0, margin_m, gap, room, apart_m, memory);
 }
 
+uint32_t level_gap_find_wider(const struct turned_body *a, const struct turned_body *b,
+                              double margin_m, struct level_gap *gap, uint32_t count, uint32_t room,
+                              struct level_gap_memory *memory)
+{
+    const struct body_pose pose_a = {.body = a->body, .turn = a->turn};
+    const struct body_pose pose_b = {.body = b->body, .turn = b->turn};
+    struct body_pair bodies = body_pair_of(&pose_a, &pose_b, 0.0);
+    bodies.before = memory;
+    for (uint32_t i = 0; i < count; i++)
+        bodies.known |= (uint64_t)1 << gap[i].hulls;
+    count = search(&bodies, &margin_m, gap, count, room);
+    *memory = memory_of(&bodies, gap, count);
+    return count;
+}
+
 double level_gap_least(const struct swept_body *a, const struct swept_body *b, double time,
                        double margin_m)
 {
     struct body_pose pose_a = pose_at(a, time), pose_b = pose_at(b, time);
     struct body_pair bodies = body_pair_of(&pose_a, &pose_b, time);
-    search(&bodies, &margin_m, NULL, 0);
+    search(&bodies, &margin_m, NULL, 0, 0);
     return margin_m;
 }
 
@@ -427,7 +450,7 @@ double level_gap_depth(const struct turned_body *a, const struct turned_body *b,
     double gap_m = 0.0;
     bodies.plane = plane;
     bodies.before = memory;
-    search(&bodies, &gap_m, NULL, 0);
+    search(&bodies, &gap_m, NULL, 0, 0);
     return gap_m;
 }
 

@@ -15,6 +15,10 @@
 /* A normal with a smaller horizontal part is too steep for bodies that the ground holds. */
 #define LEVEL_MIN 0.2
 
+/* Hulls that overlap by more than this bear no load, and only have to part: they have one point
+ * [m]. */
+#define LEVEL_GAP_PARTS_M 0.02
+
 /* Normals that are tried for a pair of bodies before any search. */
 #define LEVEL_GAP_PLANES 2
 
@@ -58,6 +62,13 @@ struct mat3 level_gap_turn(const struct swept_body *body, double time);
 uint32_t level_gap_find_more(const struct turned_body *a, const struct turned_body *b,
                              double margin_m, struct level_gap *gap, uint32_t room, double *apart_m,
                              struct level_gap_memory *memory);
+
+/* Adds to the count gaps that level_gap_find_more() found with a smaller margin, as many as there
+ * were, and with this memory, those of the hulls that are farther apart. Returns how many there
+ * are. */
+uint32_t level_gap_find_wider(const struct turned_body *a, const struct turned_body *b,
+                              double margin_m, struct level_gap *gap, uint32_t count, uint32_t room,
+                              struct level_gap_memory *memory);
 
 /* Returns the smallest of those gaps [m], or margin_m if all are larger. */
 double level_gap_least(const struct swept_body *a, const struct swept_body *b, double time,

@@ -77,6 +77,7 @@ struct pair_known {
                                   the frame begins; 0: they do not */
     double before_m;           /* their gap in the committed frame, 0 if they were apart, or
                                   PAIR_NOT_MEASURED */
+    double way_m;   /* of bodies that part: how far it is out of each other then; 0: not known */
     double apart_m; /* they are apart by this at least when the frame begins; 0: not known */
     uint32_t gap;   /* index + 1 into the gaps of resting contacts (collider/resting/resting.h), 0:
                        they are not near enough for one */

@@ -9,6 +9,9 @@
 /* Capsules nearer than this share of the sum of their radii are deep in each other. */
 #define DEEP 0.9
 
+/* Bodies whose capsules are nearer may overlap: most of them have square corners [m]. */
+#define NEAR_M 1.0
+
 /* A body that leans more does not cover the capsule [rad]. */
 #define STANDS_RAD 0.5
 
@@ -163,4 +166,11 @@ bool deep_pair_measure(const struct response_context *context, const struct pair
     found->gap[0] =
         (struct level_gap){.normal = normal, .gap_m = gap, .point = {middle}, .points = 1};
     return true;
+}
+
+bool deep_pair_is_near(const struct begun_body *a, const struct begun_body *b)
+{
+    struct vec3 normal, middle;
+    return a->capsule.radius_m > 0.0 && b->capsule.radius_m > 0.0 &&
+           capsule_gap(&a->capsule, &b->capsule, &normal, &middle) < NEAR_M;
 }

@@ -27,6 +27,9 @@ bool deep_pair_measure(const struct response_context *context, const struct pair
                        const struct begun_body *a, const struct begun_body *b,
                        struct resting_gap *found);
 
+/* Returns true if the capsules of two bodies are so near that the bodies may well overlap. */
+bool deep_pair_is_near(const struct begun_body *a, const struct begun_body *b);
+
 /* Sets a place near the row's position, another one for each id [m]. The places of all ids are
  * spread evenly over a disc, so that bodies at one place part in all directions. */
 void deep_pair_place(const struct response_context *context, uint32_t row, double *x, double *z);

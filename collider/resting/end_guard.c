@@ -19,6 +19,7 @@
 #define ROUNDING_M     1e-5 /* a depth up to this is none */
 #define APART_M        1e-6 /* bodies that are farther apart than they can have come do not touch */
 #define EXACT_M        1e-8 /* error of a depth: less is no deepening of a greater depth */
+#define SHALLOW_M      0.3  /* a way out that is not longer is always measured at the frame's end */
 #define SINKS_M        0.02 /* as deep may a wreck at rest be in the ground */
 #define PAIRS_A_PIECE  8u
 #define ROWS_A_PIECE   16u
@@ -245,6 +246,8 @@ static bool deeper(const struct end_guard *guard, const struct response_context 
     double after = gap_after(guard, context, pair, known);
     if (after >= -ROUNDING_M)
         return false;
+    if (known->way_m > 0.0 && known->way_m <= SHALLOW_M)
+        return true; /* see heed_ways() */
     double before = gap_before(context, pair, known);
     return (before > -RESTING_PARTS_M || held(context, pair)) && after < before - EXACT_M;
 }
@@ -472,14 +475,24 @@ static double way_out(struct end_guard *guard, const struct response_context *co
     const struct swept_body a = body_motion_standing(context->motion, e, pair->a);
     const struct swept_body b = body_motion_standing(context->motion, e, pair->b);
     struct vec3 normal;
-    level_exit_begin(&guard->exit);
-    level_exit_add(&guard->exit, &a, &b, false);
-    double way_m = level_exit_find(&guard->exit, false, &normal);
+    double way_m = level_exit_of(&guard->exit, &a, &b, &normal);
     return way_m < INFINITY ? way_m : 0.0;
 }
 
+/* Returns how long the way was when the frame began [m]. */
+static double way_before(struct end_guard *guard, const struct response_context *context,
+                         uint32_t index)
+{
+    struct pair_known *known = &context->contacts->known[index];
+    if (known->way_m == 0.0)
+        known->way_m =
+            way_out(guard, context, &context->motion->before, &context->contacts->pair[index]);
+    return known->way_m;
+}
+
 /* Bodies that part get deeper only if their way out of each other gets longer: a gun that leaves a
- * hull through its length gets deeper into it before it is out. */
+ * hull through its length gets deeper into it before it is out, and one that slants into an edge by
+ * 1 mm seems to be deep in it. */
 static void heed_ways(struct end_guard *guard, const struct response_context *context)
 {
     for (uint32_t i = 0; i < guard->pair_count; i++) {
@@ -487,7 +500,7 @@ static void heed_ways(struct end_guard *guard, const struct response_context *co
         const struct pair *pair = &context->contacts->pair[one->pair];
         if (one->deeper && context->contacts->marks[one->pair] & CONTACT_PARTS)
             one->deeper = way_out(guard, context, &context->next->entities, pair) >
-                          way_out(guard, context, &context->motion->before, pair) + EXACT_M;
+                          way_before(guard, context, one->pair) + EXACT_M;
     }
 }
 

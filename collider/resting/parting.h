@@ -11,6 +11,7 @@
 #define JOLON_COLLIDER_RESTING_PARTING_H
 
 #include "collider/response/response.h"
+#include "collider/resting/crowds.h"
 #include "collider/resting/level_solver.h"
 
 #include <stdbool.h>
@@ -24,19 +25,16 @@ struct resting_pair;
 
 /* A body of this frame's resting contacts. */
 struct parting_body {
-    uint32_t parent, crowd; /* body + 1: of bodies near each other, and of those deep in another */
-    uint32_t first, end;    /* its bounds in parting.bound */
-    uint32_t members;       /* of a root of a crowd: its bodies */
-    bool parts;             /* of a root: two of its bodies are deep in each other */
-    bool goes;              /* it belongs to such a group */
-    bool spreads;           /* its crowd is dense */
-    bool back;              /* it passes a bound */
-    bool makes_way;         /* it goes, and is deep in nothing */
-    uint32_t backs;         /* how often it went back */
-    double x, z;            /* [m] where it is; else coincident bodies are spread */
-    double wish_x, wish_z;  /* [m/s] how it would go */
-    double light;           /* [kg^-0.5] root of its inverse mass */
-    double mass_kg, area_m2, centre_x, centre_z, reach_m, deepest_m; /* of a root of a crowd */
+    uint32_t parent;       /* of bodies near each other */
+    uint32_t first, end;   /* its bounds in parting.bound */
+    bool parts;            /* of a root: two of its bodies are deep in each other */
+    bool goes;             /* it belongs to such a group */
+    bool spreads;          /* its crowd is dense */
+    bool back;             /* it passes a bound */
+    bool makes_way;        /* it goes, and is deep in nothing */
+    uint32_t backs;        /* how often it went back */
+    double wish_x, wish_z; /* [m/s] how it would go */
+    double light;          /* [kg^-0.5] root of its inverse mass */
 };
 
 /* The body's speed along a direction is at least that of the other body along it, less the slack.
@@ -59,6 +57,7 @@ struct parting {
  * those of a pair beside each other. */
 struct parting_input {
     const struct response_context *context;
+    struct crowds *crowds; /* of all bodies that are deep in each other, measured */
     const uint32_t *row;
     struct level_body *body;
     struct level_contact *point;

@@ -55,15 +55,13 @@ static double way_from_walls(struct resting *resting, struct response_context *c
     return way < INFINITY ? way : level_exit_find(&resting->exit, false, normal);
 }
 
-static double way_from_body(struct resting *resting, struct response_context *context,
+static double way_from_body(struct resting *resting, const struct response_context *context,
                             const struct pair *pair, struct vec3 *normal)
 {
     struct free_turn turn_a, turn_b;
     const struct swept_body a = body_motion_body(context->motion, pair->a, &turn_a);
     const struct swept_body b = body_motion_side(context->motion, pair->b, &turn_b);
-    level_exit_begin(&resting->exit);
-    level_exit_add(&resting->exit, &a, &b, false);
-    return level_exit_find(&resting->exit, false, normal);
+    return level_exit_of(&resting->exit, &a, &b, normal);
 }
 
 /* Counts for each row the pairs that need a way. */
@@ -79,13 +77,35 @@ static void count_pairs(struct resting *resting, int change)
     }
 }
 
-static void go(struct resting_gap *gap, double way, struct vec3 normal)
+/* Lets a pair part by a way. Returns false if it has none, or a pair that is not deep needs none.
+ */
+static bool go(struct resting_gap *gap, double way, struct vec3 normal)
 {
     if (way == INFINITY || (way < RESTING_PARTS_M && !is_deep(gap)))
-        return;
+        return false;
     gap->gap[0].normal = normal;
     gap->gap[0].gap_m = -way;
-    gap->count = 1;
+    gap->capsules = false;
+    return true;
+}
+
+/* Sets the way of a pair of bodies. Others may push those that overlap more than each other along
+ * the way: their hulls that are near bound them too. Bodies of a crowd have no ways while it
+ * spreads, nor as long as they part as capsules. */
+static void leave_body(struct resting *resting, const struct response_context *context,
+                       uint32_t index)
+{
+    const struct pair *pair = &resting->groups.pair[index];
+    struct resting_gap *gap = &resting->gap[index];
+    struct vec3 normal = {0.0, 0.0, 0.0};
+    bool alone = resting->leaving[pair->a] == 1 && resting->leaving[pair->b] == 1;
+    if (!alone && (!is_deep(gap) || gap->capsules || gap->spreads))
+        return;
+    double way = way_from_body(resting, context, pair, &normal);
+    if (!go(gap, way, normal))
+        return;
+    gap->count = alone ? 1 : gap->count;
+    context->contacts->known[gap->pair].way_m = way;
 }
 
 /* Sets the ways of a row out of its walls, of which pair first is one. */
@@ -100,7 +120,8 @@ static void leave_walls(struct resting *resting, struct response_context *contex
         if (pair->a != row || !(pair->b & PAIR_FIXED) || gap->count == 0 ||
             gap->gap[0].gap_m >= 0.0)
             continue;
-        go(gap, way, normal);
+        if (go(gap, way, normal))
+            gap->count = 1;
         gap->went = true;
     }
 }
@@ -118,13 +139,12 @@ void parting_ways_find(struct resting *resting, struct response_context *context
     count_pairs(resting, 1);
     for (uint32_t i = 0; i < resting->groups.count; i++) {
         const struct pair *pair = &resting->groups.pair[i];
-        struct vec3 normal = {0.0, 0.0, 0.0};
         if (!resting->gap[i].leaves || resting->gap[i].went)
             continue;
         if (pair->b & PAIR_FIXED)
             leave_walls(resting, context, i);
-        else if (resting->leaving[pair->a] == 1 && resting->leaving[pair->b] == 1)
-            go(&resting->gap[i], way_from_body(resting, context, pair, &normal), normal);
+        else
+            leave_body(resting, context, i);
     }
     count_pairs(resting, -1);
 }

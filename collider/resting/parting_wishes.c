@@ -1,7 +1,6 @@
 /* Groups by union-find; wishes by sweeps over the points, or by spreading. */
 #include "collider/resting/parting_wishes.h"
 
-#include "collider/resting/deep_pair.h"
 #include "collider/resting/resting.h"
 #include "world/world.h"
 
@@ -11,11 +10,6 @@
 
 /* So far at most is a body moved in a frame by the recovery of shallow overlaps [m]. */
 #define RECOVERED_MOST_M 0.006
-
-/* The edge of a dense crowd spreads so fast, until its bodies have this share of the room that they
- * cover. */
-#define SPREAD_MPS 20.0
-#define ROOM       2.0
 
 /* In masses that part light bodies would hold up heavy ones, as sweeps converge slowly between
  * them: displacements are shared by the roots of the masses, in so many sweeps over the points at
@@ -36,21 +30,11 @@ static uint32_t root_of(struct parting_body *body, uint32_t i)
     return i;
 }
 
-static uint32_t crowd_of(struct parting_body *body, uint32_t i)
-{
-    while (body[i].crowd != i)
-        i = body[i].crowd = body[body[i].crowd].crowd;
-    return i;
-}
-
 /* The lower root becomes that of both. */
-static void join(struct parting_body *body, uint32_t p, uint32_t q, bool deep)
+static void join(struct parting_body *body, uint32_t p, uint32_t q)
 {
     uint32_t a = root_of(body, p), b = root_of(body, q);
     body[a > b ? a : b].parent = a > b ? b : a;
-    a = crowd_of(body, p), b = crowd_of(body, q);
-    if (deep)
-        body[a > b ? a : b].crowd = a > b ? b : a;
 }
 
 double parting_wishes_speed(const struct parting_input *input, const struct resting_pair *pair)
@@ -65,18 +49,16 @@ bool parting_wishes_group(struct parting *parting, const struct parting_input *i
 {
     bool any = false;
     for (uint32_t i = 0; i < input->bodies; i++)
-        parting->body[i] = (struct parting_body){.parent = i, .crowd = i};
+        parting->body[i] = (struct parting_body){.parent = i};
     for (uint32_t i = 0; i < input->pairs; i++) {
         const struct level_contact *point = &input->point[input->pair[i].first];
         if (!is_fixed(input, point->b))
-            join(parting->body, point->a, point->b, input->pair[i].gap_m <= -RESTING_PARTS_M);
+            join(parting->body, point->a, point->b);
     }
     for (uint32_t i = 0; i < input->pairs; i++) {
         bool deep = input->pair[i].gap_m <= -RESTING_PARTS_M;
         uint32_t a = input->point[input->pair[i].first].a;
-        struct parting_body *crowd = &parting->body[crowd_of(parting->body, a)];
         parting->body[root_of(parting->body, a)].parts |= deep;
-        crowd->deepest_m = maths_max(crowd->deepest_m, -input->pair[i].gap_m);
         any |= deep;
     }
     return any;
@@ -88,60 +70,6 @@ bool parting_wishes_parts(struct parting *parting, uint32_t body)
 }
 
 /* --- wishes ------------------------------------------------------------------------------------*/
-
-static const struct kind *kind_of(const struct parting_input *input, uint32_t body)
-{
-    const struct response_context *context = input->context;
-    return &context->world->kinds[context->next->entities.kind[input->row[body]]];
-}
-
-/* Returns true if the bodies of the crowd need more room than the disc about them has. Two bodies
- * have a way of their own (collider/resting/parting_ways.h). */
-static bool is_dense(const struct parting_body *root)
-{
-    double reach = root->reach_m + sqrt(root->area_m2 / (PI * root->members));
-    return root->members > 2 && PI * reach * reach < ROOM * root->area_m2;
-}
-
-/* Sums masses, areas and places of each crowd at its root. */
-static void measure_crowds(struct parting *parting, const struct parting_input *input)
-{
-    for (uint32_t i = 0; i < input->bodies; i++) {
-        struct parting_body *body = &parting->body[i], *root;
-        if (is_fixed(input, i) || !parting_wishes_parts(parting, i))
-            continue;
-        const struct kind *kind = kind_of(input, i);
-        root = &parting->body[crowd_of(parting->body, i)];
-        deep_pair_place(input->context, input->row[i], &body->x, &body->z);
-        root->members++;
-        root->mass_kg += kind->mass_kg;
-        root->area_m2 += kind->length_m * kind->width_m;
-        root->centre_x += kind->mass_kg * body->x;
-        root->centre_z += kind->mass_kg * body->z;
-    }
-    for (uint32_t i = 0; i < input->bodies; i++) {
-        struct parting_body *body = &parting->body[i], *root;
-        root = &parting->body[crowd_of(parting->body, i)];
-        if (root->mass_kg == 0.0)
-            continue;
-        double x = body->x - root->centre_x / root->mass_kg;
-        double z = body->z - root->centre_z / root->mass_kg;
-        root->reach_m = maths_max(root->reach_m, sqrt(x * x + z * z));
-    }
-    for (uint32_t i = 0; i < input->bodies; i++)
-        parting->body[i].spreads = is_dense(&parting->body[crowd_of(parting->body, i)]);
-}
-
-/* A crowd that is dense spreads: the farther from its centre, the faster, but by no more than parts
- * its deepest pair. */
-static void spread(const struct parting_input *input, const struct parting_body *root,
-                   struct parting_body *body)
-{
-    double edge = maths_min(SPREAD_MPS, 0.5 * root->deepest_m / world_dt_s(input->context->world));
-    double rate = edge / root->reach_m;
-    body->wish_x = rate * (body->x - root->centre_x / root->mass_kg);
-    body->wish_z = rate * (body->z - root->centre_z / root->mass_kg);
-}
 
 static void limit(struct level_motion *pushed, double most_mps)
 {
@@ -159,10 +87,10 @@ void parting_wishes_limit(const struct parting_input *input, struct level_motion
 
 /* Those that are deep in each other in a dense crowd do not bound each other: spreading parts them
  * all, though a pair may first get deeper. */
-static bool spread_together(struct parting *parting, const struct level_contact *point)
+static bool spread_together(const struct parting_input *input, const struct level_contact *point)
 {
-    return crowd_of(parting->body, point->a) == crowd_of(parting->body, point->b) &&
-           parting->body[point->a].spreads;
+    const struct pair rows = {input->row[point->a], input->row[point->b]};
+    return !is_fixed(input, point->b) && crowds_spread_together(input->crowds, &rows);
 }
 
 /* Gives the bodies of a point the speeds at which it parts, or keeps its gap: the lighter takes
@@ -203,7 +131,7 @@ static uint32_t list_points(struct parting *parting, const struct parting_input 
     uint32_t count = 0;
     for (uint32_t i = 0; i < input->points; i++) {
         if (parting_wishes_parts(parting, input->point[i].a) &&
-            !spread_together(parting, &input->point[i])) {
+            !spread_together(input, &input->point[i])) {
             input->point[i].part_mps = asked(input, &input->point[i]);
             input->point[i].apart_ns = 0.0;
             parting->wishing[count++] = i;
@@ -221,8 +149,10 @@ static void part_points(struct parting *parting, const struct parting_input *inp
         body->light = sqrt(input->body[i].inverse_mass);
         if (is_fixed(input, i) || !parting_wishes_parts(parting, i))
             continue;
-        if (parting->body[i].spreads)
-            spread(input, &parting->body[crowd_of(parting->body, i)], body);
+        body->spreads = crowds_spreads(input->crowds, input->row[i]);
+        if (body->spreads)
+            crowds_spread(input->crowds, input->context, input->row[i], &body->wish_x,
+                          &body->wish_z);
         input->body[i].pushed = (struct level_motion){body->wish_x, body->wish_z, 0.0};
     }
     uint32_t count = list_points(parting, input);
@@ -255,7 +185,6 @@ static void make_wishes(struct parting *parting, const struct parting_input *inp
 
 void parting_wishes_make(struct parting *parting, const struct parting_input *input)
 {
-    measure_crowds(parting, input);
     part_points(parting, input);
     make_wishes(parting, input);
 }

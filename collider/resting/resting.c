@@ -27,6 +27,7 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
     *resting = (struct resting){.workers = workers, .capacity = world->params->contact_slots};
     resting->gap = reserve_take(pairs, sizeof *resting->gap);
     resting->gap_before = reserve_take(pairs, sizeof *resting->gap_before);
+    resting->put_off = reserve_take(pairs, sizeof *resting->put_off);
     resting->pair = reserve_take(pairs, sizeof *resting->pair);
     resting->point = reserve_take(pairs * RESTING_POINTS_MAX, sizeof *resting->point);
     resting->body = reserve_take(rows + pairs, sizeof *resting->body);
@@ -38,11 +39,12 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
     resting->leaving = calloc(rows, sizeof *resting->leaving);
     if (contact_groups_init(&resting->groups, world) == 0 &&
         begun_bodies_init(&resting->begun, world) == 0 &&
+        crowds_init(&resting->crowds, world) == 0 &&
         parting_init(&resting->parting, rows + pairs, pairs * RESTING_POINTS_MAX) == 0 &&
         neighbours_init(&resting->neighbours, world) == 0 && level_exit_init(&resting->exit) == 0 &&
-        resting->gap && resting->gap_before && resting->pair && resting->point && resting->body &&
-        resting->row && resting->pressed_ns && resting->stands && resting->body_of &&
-        resting->moved && resting->leaving)
+        resting->gap && resting->gap_before && resting->put_off && resting->pair &&
+        resting->point && resting->body && resting->row && resting->pressed_ns && resting->stands &&
+        resting->body_of && resting->moved && resting->leaving)
         return 0;
     resting_free(resting);
     errno = ENOMEM;
@@ -53,12 +55,14 @@ void resting_free(struct resting *resting)
 {
     contact_groups_free(&resting->groups);
     begun_bodies_free(&resting->begun);
+    crowds_free(&resting->crowds);
     parting_free(&resting->parting);
     neighbours_free(&resting->neighbours);
     level_exit_free(&resting->exit);
     free(resting->leaving);
     reserve_free(resting->gap);
     reserve_free(resting->gap_before);
+    reserve_free(resting->put_off);
     reserve_free(resting->pair);
     reserve_free(resting->point);
     reserve_free(resting->body);
@@ -410,6 +414,7 @@ void resting_solve(struct resting *resting, struct response_context *context)
     level_solver_run(resting->body, resting->bodies, resting->point, resting->points);
     stop_in_walls(resting, context);
     parting_run(&resting->parting, &(struct parting_input){.context = context,
+                                                           .crowds = &resting->crowds,
                                                            .row = resting->row,
                                                            .body = resting->body,
                                                            .point = resting->point,

@@ -10,6 +10,7 @@
 #include "collider/geometry/level_gap.h"
 #include "collider/resting/begun_bodies.h"
 #include "collider/resting/contact_groups.h"
+#include "collider/resting/crowds.h"
 #include "collider/resting/level_solver.h"
 #include "collider/resting/neighbours.h"
 #include "collider/resting/parting.h"
@@ -21,7 +22,7 @@ struct thread_pool;
 
 /* Bodies that begin the frame deeper in each other than this only have to part: they have no
  * impacts, and the guard at the frame's end does not hold them back from each other [m]. */
-#define RESTING_PARTS_M 0.02
+#define RESTING_PARTS_M LEVEL_GAP_PARTS_M
 
 /* Of bodies that part, and of their neighbours, so many pairs of hulls count. */
 #define RESTING_GAPS_MAX   12u
@@ -42,7 +43,9 @@ struct resting_gap {
     struct level_gap gap[RESTING_GAPS_MAX]; /* smallest first; LEVEL_GAPS_MAX unless bodies part */
     uint32_t count;
     uint32_t pair;   /* index into contacts->pair, if there are gaps */
-    bool capsules;   /* it was measured between capsules (collider/resting/deep_pair.h) */
+    bool capsules;   /* it is so deep that it parts as capsules (collider/resting/deep_pair.h) */
+    bool put_off;    /* it is measured when the crowds are known */
+    bool spreads;    /* it parts with a crowd that spreads: its normal and its bounds are unknown */
     double apart_m;  /* the bodies are apart by this at least */
     double margin_m; /* hulls that are not in gap are apart by this at least; 0: not known */
     double pieces_m; /* of a pair that parts by its pieces: their gap, else PAIR_NOT_MEASURED */
@@ -63,6 +66,7 @@ struct resting {
     struct thread_pool *workers;
     struct contact_groups groups;
     struct begun_bodies begun;
+    struct crowds crowds;
     struct parting parting;
     struct neighbours neighbours;
     struct level_exit exit;
@@ -70,6 +74,7 @@ struct resting {
     struct resting_gap *gap; /* [groups.count] */
     struct resting_gap *gap_before; /* [before] of the table's pairs in the frame before, by key */
     uint32_t before;
+    uint32_t *put_off; /* gaps that are measured when the crowds are known */
     struct resting_pair *pair;
     uint32_t pairs, capacity;
     struct level_contact *point;

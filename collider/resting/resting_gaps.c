@@ -16,6 +16,9 @@
  * no load on each other [m]. */
 #define NEAR_M 0.02
 
+/* Pairs of a crowd that spreads are not measured if they are deeper than this [m]. */
+#define SPREADS_M 0.3
+
 #define PAIRS_A_PIECE 4u
 
 /* Makes room for so many pairs. There may be more than contacts in the table, because bodies that
@@ -29,6 +32,7 @@ static void make_room(struct resting *resting, const struct world *world, uint32
     resting->gap = reserve_grow(resting->gap, kept, more, sizeof *resting->gap);
     resting->gap_before =
         reserve_grow(resting->gap_before, resting->before, more, sizeof *resting->gap_before);
+    resting->put_off = reserve_grow(resting->put_off, 0, more, sizeof *resting->put_off);
     resting->pair = reserve_grow(resting->pair, 0, more, sizeof *resting->pair);
     resting->point =
         reserve_grow(resting->point, 0, more * RESTING_POINTS_MAX, sizeof *resting->point);
@@ -102,8 +106,6 @@ static bool take_before(struct resting_gap *gap)
     gap->count = before->count;
     gap->apart_m = before->apart_m;
     gap->margin_m = before->margin_m;
-    gap->capsules = false;
-    gap->pieces_m = PAIR_NOT_MEASURED;
     gap->memory = before->memory;
     gap->repeats = true;
     return true;
@@ -111,13 +113,18 @@ static bool take_before(struct resting_gap *gap)
 
 /* Two bodies part along one normal for all of their hulls that overlap. Those of the others that
  * are near bound them as well: a way along a face may lead one of them into the other body. */
-static void part_whole(const struct turned_body *a, const struct turned_body *b, double margin_m,
-                       struct resting_gap *gap)
+static void part_whole(const struct turned_body *a, const struct turned_body *b, double searched_m,
+                       double margin_m, struct resting_gap *gap)
 {
-    gap->count = level_gap_find_more(a, b, margin_m, gap->gap, RESTING_GAPS_MAX, &gap->apart_m,
-                                     &gap->memory);
-    uint32_t kept = 1;
     gap->pieces_m = gap->gap[0].gap_m;
+    if (gap->spreads) {
+        gap->count = 1; /* it is not bounded */
+        return;
+    }
+    if (searched_m < margin_m)
+        gap->count = level_gap_find_wider(a, b, margin_m, gap->gap, gap->count, RESTING_GAPS_MAX,
+                                          &gap->memory);
+    uint32_t kept = 1;
     if (gap->count > 1 && gap->gap[1].gap_m < 0.0)
         level_gap_whole(a, b, gap->gap, gap->count, RESTING_GAPS_MAX);
     for (uint32_t i = 1; i < gap->count; i++) {
@@ -127,6 +134,35 @@ static void part_whole(const struct turned_body *a, const struct turned_body *b,
     gap->count = kept;
 }
 
+/* Measures a pair whose bodies are not so deep that they part as capsules. */
+static void measure_exactly(const struct gap_job *job, uint32_t index, const struct begun_body *a,
+                            const struct begun_body *b)
+{
+    struct resting_gap *gap = &job->resting->gap[index];
+    const struct turned_body turned_a = {&a->body, a->began}, turned_b = {&b->body, b->began};
+    double margin_m = margin_of(job, index, a, b);
+    gap->put_off = false;
+    gap->count = level_gap_find_more(&turned_a, &turned_b, margin_m, gap->gap, RESTING_GAPS_MAX,
+                                     &gap->apart_m, &gap->memory);
+    gap->margin_m = gap->count < RESTING_GAPS_MAX ? margin_m : 0.0;
+    gap->repeats = !job->parts && !is_deep(gap); /* parting changes gaps */
+    gap->spreads &= is_deep(gap);
+    if (is_deep(gap)) {
+        gap->margin_m = 0.0;
+        part_whole(&turned_a, &turned_b, margin_m, parting_margin(job, a, b), gap);
+    } else if (!job->parts && gap->count > LEVEL_GAPS_MAX) {
+        gap->count = LEVEL_GAPS_MAX;
+        gap->margin_m = 0.0;
+    }
+}
+
+/* Returns true if the pair may have overlapped a frame ago. */
+static bool overlapped(const struct gap_job *job, const struct resting_gap *gap)
+{
+    return job->parts || !gap->known || gap->known->flags & PERSISTENT_CONTACT_OVERLAPS;
+}
+
+/* Measures a pair, unless it is to be put off until it is known whether its crowd spreads. */
 static void measure_pair(const struct gap_job *job, uint32_t index)
 {
     const struct body_motion *motion = job->context->motion;
@@ -134,28 +170,50 @@ static void measure_pair(const struct gap_job *job, uint32_t index)
     struct resting_gap *gap = &job->resting->gap[index];
     struct begun_body fixed;
     recall(job, pair, gap);
+    gap->capsules = gap->put_off = gap->spreads = gap->repeats = false;
+    gap->pieces_m = PAIR_NOT_MEASURED;
     if (!job->parts && take_before(gap))
         return;
     gap->apart_m = gap->margin_m = 0.0;
     const struct begun_bodies *begun = &job->resting->begun;
     const struct begun_body *a = begun_bodies_side(begun, motion, pair->a, NULL);
     const struct begun_body *b = begun_bodies_side(begun, motion, pair->b, &fixed);
-    gap->repeats = false;
-    gap->pieces_m = PAIR_NOT_MEASURED;
     gap->capsules = deep_pair_measure(job->context, pair, a, b, gap);
     if (gap->capsules)
         return;
-    const struct turned_body turned_a = {&a->body, a->began}, turned_b = {&b->body, b->began};
-    uint32_t room = job->parts ? RESTING_GAPS_MAX : LEVEL_GAPS_MAX;
-    double margin_m = margin_of(job, index, a, b);
-    gap->count = level_gap_find_more(&turned_a, &turned_b, margin_m, gap->gap, room, &gap->apart_m,
-                                     &gap->memory);
-    gap->margin_m = gap->count < room ? margin_m : 0.0;
-    gap->repeats = !job->parts && !is_deep(gap); /* parting changes gaps */
-    if (is_deep(gap)) {
-        gap->margin_m = 0.0;
-        part_whole(&turned_a, &turned_b, parting_margin(job, a, b), gap);
-    }
+    gap->count = 0;
+    gap->put_off = overlapped(job, gap) && deep_pair_is_near(a, b);
+    if (!gap->put_off)
+        measure_exactly(job, index, a, b);
+}
+
+/* Bodies of a crowd that spreads do not bound each other: of a pair that is as deep no more has to
+ * be known. */
+static bool is_deep_in_crowd(const struct begun_body *a, const struct begun_body *b,
+                             struct resting_gap *gap)
+{
+    gap->capsules = gap->spreads && level_gap_is_deeper(&a->body, &b->body, 0.0, SPREADS_M);
+    if (!gap->capsules)
+        return false;
+    gap->count = 1;
+    gap->gap[0] = (struct level_gap){.normal = {1.0, 0.0, 0.0},
+                                     .gap_m = -SPREADS_M,
+                                     .point = {vec3_lerp(a->body.path.at, b->body.path.at, 0.5)},
+                                     .points = 1};
+    return true;
+}
+
+/* Measures a pair that was put off, or is measured again. */
+static void measure_put_off(const struct gap_job *job, uint32_t index)
+{
+    const struct body_motion *motion = job->context->motion;
+    const struct pair *pair = &job->resting->groups.pair[index];
+    const struct begun_bodies *begun = &job->resting->begun;
+    struct begun_body fixed;
+    const struct begun_body *a = begun_bodies_side(begun, motion, pair->a, NULL);
+    const struct begun_body *b = begun_bodies_side(begun, motion, pair->b, &fixed);
+    if (!is_deep_in_crowd(a, b, &job->resting->gap[index]))
+        measure_exactly(job, index, a, b);
 }
 
 /* Measures pairs first .. end - 1 of the job. */
@@ -165,6 +223,16 @@ static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t 
     (void)worker;
     for (uint32_t i = job->first + first; i < job->first + end; i++)
         measure_pair(job, i);
+    work_done();
+}
+
+/* The same of those that were put off. */
+static void measure_some_put_off(void *argument, uint32_t first, uint32_t end, uint32_t worker)
+{
+    const struct gap_job *job = argument;
+    (void)worker;
+    for (uint32_t i = first; i < end; i++)
+        measure_put_off(job, job->resting->put_off[i]);
     work_done();
 }
 
@@ -202,6 +270,56 @@ static void begin_others(struct resting *resting, const struct response_context 
     }
 }
 
+/* Tells the queue what is known of a pair. */
+static void tell(struct resting *resting, const struct response_context *context, uint32_t index)
+{
+    struct resting_gap *gap = &resting->gap[index];
+    const struct pair *pair = &resting->groups.pair[index];
+    uint32_t place = gap->count > 0 ? contact_queue_pair(context->contacts, pair) + 1
+                                    : contact_pairs_find(context->contacts, pair);
+    if (place == 0)
+        return;
+    struct pair_known *known = &context->contacts->known[place - 1];
+    known->apart_m = gap->apart_m;
+    if (gap->count == 0)
+        return;
+    gap->pair = place - 1;
+    known->gap = index + 1;
+    known->memory = gap->memory;
+    known->before_m = gap->pieces_m;
+}
+
+/* Joins the bodies of all deep pairs. */
+static void find_crowds(struct resting *resting, const struct response_context *context)
+{
+    crowds_forget(&resting->crowds);
+    for (uint32_t i = 0; i < resting->groups.count; i++) {
+        if (is_deep(&resting->gap[i]))
+            crowds_join(&resting->crowds, &resting->groups.pair[i], -resting->gap[i].gap[0].gap_m);
+    }
+    crowds_measure(&resting->crowds, context);
+}
+
+/* Measures the pairs that were put off, from the first on. */
+static void measure_those_put_off(struct gap_job *job)
+{
+    struct resting *resting = job->resting;
+    uint32_t count = 0;
+    for (uint32_t i = job->first; i < resting->groups.count; i++) {
+        if (resting->gap[i].put_off)
+            resting->put_off[count++] = i;
+    }
+    if (count == 0)
+        return;
+    find_crowds(resting, job->context);
+    for (uint32_t i = 0; i < count; i++) {
+        struct resting_gap *gap = &resting->gap[resting->put_off[i]];
+        gap->spreads =
+            crowds_spread_together(&resting->crowds, &resting->groups.pair[resting->put_off[i]]);
+    }
+    thread_pool_run(resting->workers, measure_some_put_off, job, count, PAIRS_A_PIECE);
+}
+
 /* Measures the pairs from the first on. */
 static void measure(struct resting *resting, const struct response_context *context, uint32_t first,
                     bool parts)
@@ -218,22 +336,28 @@ static void measure(struct resting *resting, const struct response_context *cont
     begun_bodies_find(&resting->begun, context, resting->workers);
     thread_pool_run(resting->workers, measure_some, &job, resting->groups.count - first,
                     PAIRS_A_PIECE);
-    for (uint32_t i = first; i < resting->groups.count; i++) {
+    measure_those_put_off(&job);
+    for (uint32_t i = first; i < resting->groups.count; i++)
+        tell(resting, context, i);
+}
+
+/* Finds the crowds of all pairs. A crowd may spread no longer when all of its bodies are known:
+ * then its pairs are measured after all. */
+static void settle_crowds(struct resting *resting, const struct response_context *context)
+{
+    struct gap_job job = {resting, context, 0, true};
+    uint32_t count = 0;
+    find_crowds(resting, context);
+    for (uint32_t i = 0; i < resting->groups.count; i++) {
         struct resting_gap *gap = &resting->gap[i];
-        const struct pair *pair = &resting->groups.pair[i];
-        uint32_t place = gap->count > 0 ? contact_queue_pair(context->contacts, pair) + 1
-                                        : contact_pairs_find(context->contacts, pair);
-        if (place == 0)
+        if (!gap->spreads || crowds_spread_together(&resting->crowds, &resting->groups.pair[i]))
             continue;
-        struct pair_known *known = &context->contacts->known[place - 1];
-        known->apart_m = gap->apart_m;
-        if (gap->count == 0)
-            continue;
-        gap->pair = place - 1;
-        known->gap = i + 1;
-        known->memory = gap->memory;
-        known->before_m = gap->pieces_m;
+        gap->spreads = false;
+        resting->put_off[count++] = i;
     }
+    thread_pool_run(resting->workers, measure_some_put_off, &job, count, PAIRS_A_PIECE);
+    for (uint32_t i = 0; i < count; i++)
+        tell(resting, context, resting->put_off[i]);
 }
 
 /* Measures the pairs within reach of the bodies that part, and of these all that they may push. */
@@ -241,7 +365,8 @@ static void measure_neighbours(struct resting *resting, struct response_context 
 {
     struct contact_groups *groups = &resting->groups;
     struct neighbours *neighbours = &resting->neighbours;
-    const struct gap_job again = {resting, context, 0, true};
+    struct gap_job again = {resting, context, 0, true};
+    uint32_t near = 0;
     const double reach_m = 2.0 * PARTING_MPS * world_dt_s(context->world);
     uint32_t table = groups->count, measured = table;
     for (uint32_t i = 0; i < table; i++) {
@@ -258,8 +383,9 @@ static void measure_neighbours(struct resting *resting, struct response_context 
     for (uint32_t i = 0; i < table; i++) {
         if (resting->gap[i].count > 0 && !is_deep(&resting->gap[i]) &&
             neighbours_has(neighbours, &groups->pair[i]))
-            measure_pair(&again, i);
+            resting->put_off[near++] = i;
     }
+    thread_pool_run(resting->workers, measure_some_put_off, &again, near, PAIRS_A_PIECE);
     neighbours_unmark(context);
 }
 
@@ -272,7 +398,10 @@ void resting_gaps_measure(struct resting *resting, struct response_context *cont
         if (is_deep(&resting->gap[i]))
             neighbours_add(&resting->neighbours, &resting->groups.pair[i]);
     }
-    if (resting->neighbours.count > 0)
+    crowds_forget(&resting->crowds);
+    if (resting->neighbours.count > 0) {
         measure_neighbours(resting, context);
+        settle_crowds(resting, context);
+    }
     begun_bodies_forget(&resting->begun);
 }

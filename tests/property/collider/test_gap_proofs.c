@@ -1,5 +1,6 @@
 /* The guard at a frame's end skips hulls that a known plane separates. It has to find the same
  * depth to the bit as the search of all hulls. SEED=n tries other pairs. */
+#include "collider/geometry/level_exit.h"
 #include "collider/geometry/level_gap.h"
 #include "collider/narrow_phase/separating_axis.h"
 #include "tests/support/steps.h"
@@ -12,8 +13,9 @@
 
 #include <cmocka.h>
 
-#define PAIRS 3000
-#define MOVES 8 /* of each pair, with the planes of the place before */
+#define PAIRS     3000
+#define GAPS_MOST 64u
+#define MOVES     8 /* of each pair, with the planes of the place before */
 
 static const char *const kinds[] = {"tank", "jeep", "truck", "helicopter"};
 
@@ -222,6 +224,65 @@ static void test_a_memory_changes_no_gap(void **state)
     fixture_close(&f);
 }
 
+/* A search that is continued with a wider margin finds what one with that margin finds at once. */
+static void test_a_search_can_be_continued(void **state)
+{
+    const double first_m = 0.05, margin_m = 0.5;
+    (void)state;
+    uint64_t random = fixture_seed(17);
+    uint32_t more = 0;
+    fixture_open(&f, "world = { seed = 1; };\ncollision = { shape = \"model\"; };\n");
+    for (uint32_t i = 0; i < PAIRS; i++) {
+        struct swept_body a = random_body(&random), b = random_body(&random);
+        struct level_gap once[GAPS_MOST], twice[GAPS_MOST];
+        struct level_gap_memory memory = random_memory(&random), same = memory;
+        double apart;
+        const struct turned_body turned_a = {&a, level_gap_turn(&a, 0.0)};
+        const struct turned_body turned_b = {&b, level_gap_turn(&b, 0.0)};
+        uint32_t count =
+            level_gap_find_more(&turned_a, &turned_b, margin_m, once, GAPS_MOST, &apart, &memory);
+        uint32_t first =
+            level_gap_find_more(&turned_a, &turned_b, first_m, twice, GAPS_MOST, &apart, &same);
+        assert_int_equal(
+            level_gap_find_wider(&turned_a, &turned_b, margin_m, twice, first, GAPS_MOST, &same),
+            count);
+        for (uint32_t g = 0; g < count; g++)
+            assert_true(fabs(once[g].gap_m - twice[g].gap_m) < 1e-6);
+        more += first > 0 && count > first;
+    }
+    print_message("%u searches went on\n", more);
+    assert_true(more > PAIRS / 20);
+    fixture_close(&f);
+}
+
+/* The way out of one body is the same if only the hulls within its reach are looked at. Rarely a
+ * face of a hull beyond shows a shorter one, by chance: where two edges of hulls meet no face does.
+ */
+static void test_hulls_out_of_reach_change_no_way(void **state)
+{
+    struct level_exit search;
+    (void)state;
+    uint64_t random = fixture_seed(18);
+    uint32_t ways = 0, longer = 0;
+    assert_int_equal(level_exit_init(&search), 0);
+    fixture_open(&f, "world = { seed = 1; };\ncollision = { shape = \"model\"; };\n");
+    for (uint32_t i = 0; i < PAIRS / 4; i++) {
+        struct swept_body a = random_body(&random), b = random_body(&random);
+        struct vec3 normal, same;
+        level_exit_begin(&search);
+        level_exit_add(&search, &a, &b, false);
+        double way_m = level_exit_find(&search, false, &normal);
+        double same_m = level_exit_of(&search, &a, &b, &same);
+        assert_true(same_m >= way_m - 1e-9 && (same_m < INFINITY || way_m == INFINITY));
+        longer += same_m > way_m + 1e-9;
+        ways += way_m < INFINITY && way_m > 0.5;
+    }
+    print_message("%u ways longer than half a metre, %u not the shortest\n", ways, longer);
+    assert_true(ways > PAIRS / 20 && longer < PAIRS / 200);
+    fixture_close(&f);
+    level_exit_free(&search);
+}
+
 /* An axis that is found, in whatever way, is kept, and shows the same again. */
 static void test_an_axis_that_is_found_holds(void **state)
 {
@@ -254,6 +315,8 @@ int main(void)
         cmocka_unit_test(test_the_distance_of_all_hulls_is_told),
         cmocka_unit_test(test_planes_that_hold_prove_a_gap),
         cmocka_unit_test(test_a_memory_changes_no_gap),
+        cmocka_unit_test(test_a_search_can_be_continued),
+        cmocka_unit_test(test_hulls_out_of_reach_change_no_way),
         cmocka_unit_test(test_an_axis_that_is_found_holds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

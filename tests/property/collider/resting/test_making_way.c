@@ -53,9 +53,7 @@ static double way_of(const struct entities *e, uint32_t i, uint32_t j)
     const struct swept_body a = body_motion_standing(motion, e, i);
     const struct swept_body b = body_motion_standing(motion, e, j);
     struct vec3 normal;
-    level_exit_begin(&way_out);
-    level_exit_add(&way_out, &a, &b, false);
-    double way_m = level_exit_find(&way_out, false, &normal);
+    double way_m = level_exit_of(&way_out, &a, &b, &normal);
     return way_m < INFINITY ? way_m : 0.0;
 }
 

@@ -18,6 +18,7 @@
 static struct fixture f;
 static struct response_context context;
 static struct parting parting;
+static struct crowds crowds;
 static struct level_body body[BODIES];
 static struct level_contact point[2];
 static struct resting_pair pair[2];
@@ -37,6 +38,7 @@ static int open_world(void **state)
     }
     steps_respond(&f, &context);
     assert_int_equal(parting_init(&parting, BODIES, 2), 0);
+    assert_int_equal(crowds_init(&crowds, &f.view.world), 0);
     double dt_s = world_dt_s(&f.view.world);
     point[0] = (struct level_contact){
         .a = 0, .b = 1, .normal_x = 1.0, .apart_mps = PARTING_SHARE * DEPTH_M / dt_s};
@@ -44,6 +46,7 @@ static int open_world(void **state)
     pair[0] = (struct resting_pair){.first = 0, .count = 1, .gap_m = -DEPTH_M};
     pair[1] = (struct resting_pair){.first = 1, .count = 1, .gap_m = CONTACT_REST_M};
     input = (struct parting_input){.context = &context,
+                                   .crowds = &crowds,
                                    .row = row,
                                    .body = body,
                                    .point = point,
@@ -58,6 +61,7 @@ static int close_world(void **state)
 {
     (void)state;
     parting_free(&parting);
+    crowds_free(&crowds);
     steps_respond_end(&context);
     fixture_close(&f);
     return 0;
