@@ -139,10 +139,10 @@ static bool are_deep(const struct begun_body *a, const struct begun_body *b, str
     for (uint32_t i = 0; i < sizeof share / sizeof *share; i++) {
         struct vec3 point = {middle.x, middle.y + share[i] * height_m, middle.z};
         double in_a = depth_within(a, point), in_b = depth_within(b, point);
-        if (in_a > 0.0 && in_b > 0.0 && in_a + in_b > RESTING_PARTS_M)
+        if (in_a > 0.0 && in_b > 0.0 && in_a + in_b > DEEP_PAIR_M)
             return true;
     }
-    return level_gap_is_deeper(&a->body, &b->body, 0.0, RESTING_PARTS_M);
+    return level_gap_is_deeper(&a->body, &b->body, 0.0, DEEP_PAIR_M);
 }
 
 bool deep_pair_measure(const struct response_context *context, const struct pair *pair,

@@ -51,9 +51,11 @@ int end_guard_init(struct end_guard *guard, const struct world *world, struct th
     guard->listed = calloc(rows, sizeof *guard->listed);
     guard->marked = calloc(rows, sizeof *guard->marked);
     guard->sent_back = calloc(rows, sizeof *guard->sent_back);
+    guard->drawn = calloc(rows, sizeof *guard->drawn);
     if (guard->pair && guard->stands && guard->posed && guard->posed_row && guard->row &&
         guard->back && guard->touched && guard->listed && guard->marked && guard->sent_back &&
-        drift_guard_init(&guard->drifting, world) == 0 && level_exit_init(&guard->exit) == 0)
+        guard->drawn && drift_guard_init(&guard->drifting, world) == 0 &&
+        level_exit_init(&guard->exit) == 0)
         return 0;
     end_guard_free(guard);
     errno = ENOMEM;
@@ -74,6 +76,7 @@ void end_guard_free(struct end_guard *guard)
     free(guard->listed);
     free(guard->marked);
     free(guard->sent_back);
+    free(guard->drawn);
     *guard = (struct end_guard){.count = 0};
 }
 
@@ -609,6 +612,96 @@ static void mark_holding(const struct end_guard *guard, struct response_context 
     }
 }
 
+/* --- rows that made way ------------------------------------------------------------------------*/
+
+/* A body that has made way keeps so much of it [m]. Without any room a crowd on uneven ground
+ * locks: bodies that lean differently where they go are in each other by a millimetre, and go back.
+ */
+#define ROOM_M     0.009
+#define DRAWN_MOST 4 /* passes over all that have */
+
+/* Returns true if one of the row's pairs ends the frame deeper than it began it. */
+static bool any_deeper(struct end_guard *guard, const struct response_context *context,
+                       uint32_t row)
+{
+    bool any = false;
+    uint32_t known = guard->posed_count;
+    guard->pair_count = 0;
+    add_pairs_of(guard, context, row);
+    for (; known < guard->posed_count; known++)
+        stand_at_end(guard, context, guard->posed_row[known]);
+    for (uint32_t i = 0; i < guard->pair_count; i++)
+        guard->pair[i].deeper = deeper(guard, context, guard->pair[i].pair);
+    heed_ways(guard, context);
+    for (uint32_t i = 0; i < guard->pair_count; i++)
+        any |= guard->pair[i].deeper;
+    return any;
+}
+
+/* Sets where a row would be if it had not made way. Returns false if it did not, or went back. */
+static bool home_of(const struct end_guard *guard, const struct resting *resting,
+                    const struct response_context *context, uint32_t index, struct vec3 *home)
+{
+    const struct level_motion *pushed = &resting->body[index].pushed;
+    uint32_t row = resting->row[index];
+    if (row == SLOT_NONE || !resting->parting.body[index].makes_way || !guarded(context, row) ||
+        context->motion->change[row] != 0 || (guard->sent_back[row] != 0 && !guard->drawn[row]))
+        return false;
+    double dt_s = world_dt_s(context->world);
+    const struct path *path = &context->path[row];
+    *home = vec3_add(path->at, path->along);
+    home->x -= pushed->x * dt_s;
+    home->z -= pushed->z * dt_s;
+    return true;
+}
+
+/* Lets a row that has made way go back, as far as none of its pairs gets deeper by it. Returns true
+ * if it has moved. */
+static bool draw_back(struct end_guard *guard, struct response_context *context, uint32_t row,
+                      struct vec3 home)
+{
+    const struct entities *e = &context->next->entities;
+    const struct vec3 at = entities_position(e, row), way = vec3_sub(at, home);
+    double far = sqrt(way.x * way.x + way.z * way.z), pitch = e->pitch[row], roll = e->roll[row];
+    const double keep[] = {ROOM_M / far, 0.25, 0.5, 0.75};
+    if (far <= ROOM_M + ROUNDING_M)
+        return false;
+    list_pose(guard, row);
+    if (guard->sent_back[row] == 0)
+        guard->touched[guard->touched_count++] = row;
+    guard->sent_back[row] = guard->drawn[row] = 1;
+    for (uint32_t i = 0; i < sizeof keep / sizeof *keep; i++) {
+        ground_placement_put(context, row, vec3_lerp(home, at, keep[i]), e->heading[row]);
+        stand_now(guard, context, row);
+        if (!any_deeper(guard, context, row))
+            return true;
+    }
+    table_set_position(&context->writer, row, at);
+    table_set_pitch(&context->writer, row, pitch);
+    table_set_roll(&context->writer, row, roll);
+    stand_now(guard, context, row);
+    return false;
+}
+
+/* Draws the rows back that have made way for others, one after the other, and those behind them:
+ * whom they made way for may have been sent back, or have come past their corner. */
+static void draw_all_back(struct end_guard *guard, const struct resting *resting,
+                          struct response_context *context)
+{
+    bool any = true;
+    for (uint32_t pass = 0; any && pass < DRAWN_MOST; pass++) {
+        any = false;
+        for (uint32_t n = 0; n < resting->bodies; n++) {
+            uint32_t i = pass % 2 == 0 ? n : resting->bodies - 1 - n;
+            struct vec3 home;
+            if (home_of(guard, resting, context, i, &home))
+                any |= draw_back(guard, context, resting->row[i], home);
+        }
+    }
+    for (uint32_t i = 0; i < guard->touched_count; i++)
+        guard->drawn[guard->touched[i]] = 0;
+}
+
 void end_guard_run(struct end_guard *guard, const struct resting *resting,
                    const struct free_bodies *free, struct response_context *context)
 {
@@ -633,6 +726,7 @@ void end_guard_run(struct end_guard *guard, const struct resting *resting,
         look_at_drifting(guard, context);
     while (guard->count > 0)
         run_round(guard, context);
+    draw_all_back(guard, resting, context);
     for (uint32_t i = 0; i < guard->touched_count; i++)
         mark_holding(guard, context, guard->touched[i]);
     for (uint32_t i = 0; i < guard->touched_count; i++) {

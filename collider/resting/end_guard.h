@@ -39,6 +39,7 @@ struct end_guard {
     uint8_t *listed;    /* [capacity of the world] 1: in row */
     uint8_t *marked;    /* [capacity of the world] 1: in back */
     uint8_t *sent_back; /* [capacity of the world] how often a row has gone back in this frame */
+    uint8_t *drawn;     /* [capacity of the world] 1: it had made way, and was drawn back */
     struct drift_guard drifting;
     struct level_exit exit; /* a search for ways out of bodies */
 };

@@ -11,6 +11,9 @@
 /* So far at most is a body moved in a frame by the recovery of shallow overlaps [m]. */
 #define RECOVERED_MOST_M 0.006
 
+/* Bodies that a contact kept from moving a frame ago go so much farther apart [m]. */
+#define LEANS_M 0.01
+
 /* In masses that part light bodies would hold up heavy ones, as sweeps converge slowly between
  * them: displacements are shared by the roots of the masses, in so many sweeps over the points at
  * most. */
@@ -117,22 +120,28 @@ static double part_point(const struct parting *parting, const struct parting_inp
     return fabs(step) * (light_a + light_b);
 }
 
-/* Returns the speed at which the point asks its bodies to part [m/s]. */
-static double asked(const struct parting_input *input, const struct level_contact *point)
+/* Returns the speed at which the point asks its bodies to part [m/s]. Bodies that kept each other
+ * where they were lean differently as soon as they move: they need more room. */
+static double asked(const struct parting_input *input, const struct resting_pair *pair,
+                    const struct level_contact *point)
 {
+    double more = pair->holds ? LEANS_M / world_dt_s(input->context->world) : 0.0;
     if (point->apart_mps > 0.0)
-        return maths_min(point->apart_mps / PARTING_SHARE, PARTING_MPS);
-    return point->least_mps + level_solver_closing(input->body, point);
+        return maths_min(point->apart_mps / PARTING_SHARE + more, PARTING_MPS);
+    return point->least_mps + level_solver_closing(input->body, point) + more;
 }
 
 /* Lists the points that the sweeps go over. Returns their number. */
 static uint32_t list_points(struct parting *parting, const struct parting_input *input)
 {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < input->points; i++) {
-        if (parting_wishes_parts(parting, input->point[i].a) &&
-            !spread_together(input, &input->point[i])) {
-            input->point[i].part_mps = asked(input, &input->point[i]);
+    for (uint32_t p = 0; p < input->pairs; p++) {
+        const struct resting_pair *pair = &input->pair[p];
+        const struct level_contact *first = &input->point[pair->first];
+        if (!parting_wishes_parts(parting, first->a) || spread_together(input, first))
+            continue;
+        for (uint32_t i = pair->first; i < pair->first + pair->count; i++) {
+            input->point[i].part_mps = asked(input, pair, &input->point[i]);
             input->point[i].apart_ns = 0.0;
             parting->wishing[count++] = i;
         }

@@ -240,6 +240,8 @@ static void take(struct resting *resting, struct response_context *context, cons
     struct resting_pair taken = {.first = resting->points,
                                  .gaps = gaps,
                                  .capsules = found->capsules,
+                                 .holds =
+                                     found->known && found->known->flags & PERSISTENT_CONTACT_HOLDS,
                                  .gap_m = gap[0].gap_m,
                                  .gap = gap,
                                  .pair = found->pair};

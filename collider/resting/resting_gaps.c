@@ -16,9 +16,6 @@
  * no load on each other [m]. */
 #define NEAR_M 0.02
 
-/* Pairs of a crowd that spreads are not measured if they are deeper than this [m]. */
-#define SPREADS_M 0.3
-
 #define PAIRS_A_PIECE 4u
 
 /* Makes room for so many pairs. There may be more than contacts in the table, because bodies that
@@ -192,12 +189,12 @@ static void measure_pair(const struct gap_job *job, uint32_t index)
 static bool is_deep_in_crowd(const struct begun_body *a, const struct begun_body *b,
                              struct resting_gap *gap)
 {
-    gap->capsules = gap->spreads && level_gap_is_deeper(&a->body, &b->body, 0.0, SPREADS_M);
+    gap->capsules = gap->spreads && level_gap_is_deeper(&a->body, &b->body, 0.0, DEEP_PAIR_M);
     if (!gap->capsules)
         return false;
     gap->count = 1;
     gap->gap[0] = (struct level_gap){.normal = {1.0, 0.0, 0.0},
-                                     .gap_m = -SPREADS_M,
+                                     .gap_m = -DEEP_PAIR_M,
                                      .point = {vec3_lerp(a->body.path.at, b->body.path.at, 0.5)},
                                      .points = 1};
     return true;

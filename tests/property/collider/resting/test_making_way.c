@@ -15,16 +15,16 @@
 
 #define MOST         50u
 #define FRAMES       200u
-#define PARTED_AFTER 150u  /* frames: 2.5 s */
-#define PARTED_M     0.01  /* less counts as parted */
-#define OVERLAP_M    2e-5  /* less is none */
-#define JUMP_M       0.01  /* by so much a way is longer than the speed allows */
-#define TOUCH_M      0.02  /* bodies nearer than this may push each other */
-#define NEAR_M       0.3   /* gaps are measured up to this */
-#define DEEPER_M     1e-3  /* a pair that gets deeper by more has grown */
-#define SHALLOW_M    0.3   /* bodies that are deeper part as capsules, or spread */
-#define GROWN_MOST   2u    /* pairs: 9 to 16 before the guard heeded them */
-#define JUMPS_SHARE  0.002 /* so many bodies jump in a frame: 0.005 to 0.007 did before */
+#define PARTED_AFTER 150u /* frames: 2.5 s */
+#define PARTED_M     0.01 /* less counts as parted */
+#define OVERLAP_M    2e-5 /* less is none */
+#define JUMP_M       0.01 /* by so much a way is longer than the speed allows */
+#define TOUCH_M      0.02 /* bodies nearer than this may push each other */
+#define NEAR_M       0.3  /* gaps are measured up to this */
+#define DEEPER_M     1e-3 /* a pair that gets deeper by more has grown */
+#define SHALLOW_M    0.3  /* bodies that are deeper part as capsules, or spread */
+#define GROWN_MOST   1u   /* pairs: 9 to 16 before the guard heeded them */
+#define JUMPS_SHARE  3e-4 /* so many bodies jump in a frame: 2e-4 to 1e-3 did before */
 
 static const char *const kinds[] = {"tank", "truck", "jeep", "carrier"};
 
@@ -63,7 +63,7 @@ static void count_grown(uint32_t count)
     const struct entities e = steps_rows(&f);
     for (uint32_t i = 0; i < count; i++) {
         for (uint32_t j = i + 1; j < count; j++) {
-            double by_pieces = gap_before[i][j] - gap[i][j];
+            double by_pieces = maths_min(gap_before[i][j], 0.0) - gap[i][j];
             if (gap[i][j] >= 0.0 || gap_before[i][j] < -SHALLOW_M || by_pieces <= DEEPER_M)
                 continue;
             double longer_m = maths_min(by_pieces, way_of(&e, i, j) - way_of(&was, i, j));
