@@ -2,7 +2,6 @@
  * 5, 12, 13 and 33). Nothing here is drawn. */
 #include "renderer/scene/scene.h"
 
-#include "renderer/scene/camera/follow.h"
 #include "renderer/scene/frame/body_axes.h"
 #include "renderer/scene/frame/statistics.h"
 #include "renderer/chart/track.h"
@@ -28,7 +27,7 @@
 #define SEED     7u
 #define CAPACITY 16u
 
-enum { TANK, TREE, HOUSE, POLE, TOWER, SHRUB, ROUND, SHELL, BULLET, HOWITZER, KINDS };
+enum { TANK, TREE, HOUSE, POLE, TOWER, SHRUB, KINDS };
 enum { BUSH, TANKS, MAST, OAK, COTTAGE, FIXED }; /* in gridsquare order */
 
 static const struct kind kinds[KINDS] = {
@@ -39,10 +38,6 @@ static const struct kind kinds[KINDS] = {
               .width_m = 3.6,
               .height_m = 2.4,
               .fuel_l = 1000.0},
-    [ROUND] = {.name = "round", .domain = DOMAIN_MUNITION},
-    [SHELL] = {.name = "shell", .domain = DOMAIN_MUNITION, .delivery = DELIVERY_ARC},
-    [BULLET] = {.name = "bullet", .domain = DOMAIN_MUNITION, .penetration_mm = 20.0},
-    [HOWITZER] = {.name = "howitzer", .domain = DOMAIN_LAND, .radius_m = 4.0, .munition = SHELL},
     [TREE] = {.name = "oak",
               .domain = DOMAIN_FIXED,
               .object_class = OBJECT_TREE,
@@ -588,149 +583,7 @@ static void test_fire_and_detonation_are_visible(void **context)
     assert_int_equal(s->list.particle_count, quiet);
 }
 
-/* --- choice, tracks, statistics --------------------------------------------------------------- */
-
-static void test_follow_keeps_its_choice(void **context)
-{
-    struct scene_stage *s = *context;
-    struct follow follow = {.id = 0};
-    put_tank(s, 10000.0, 10000.0, 0.0);
-    uint32_t moving = put_tank(s, 20000.0, 20000.0, 0.0);
-    s->entities.vx[moving] = 10.0;
-    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), moving);
-    s->entities.vx[moving] = 0.0;
-    s->entities.vx[0] = 10.0;
-    s->head.tick = 50; /* after 5 s it is kept, though another is livelier */
-    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), moving);
-    s->head.tick = 200;
-    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), 0);
-    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 2, false), 1);
-    s->entities.state[1] = ENTITY_WRECK;
-    s->entities.changed_tick[1] = 200;
-    struct follow nobody = {.id = 0}; /* a renderer that has just started also sees it burn */
-    assert_int_equal(follow_choose(&nobody, &s->frame_view, &s->effects, 2, false), 1);
-    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 2, false), 1);
-    s->head.tick = 200 + 10 * (uint64_t)(FOLLOW_WRECK_S + 1.0);
-    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 2, false), 0);
-    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 2, true), 1);
-}
-
-/* A tank that drives among others is quiet beside one whose round is in the air, and so is a herd.
- */
-static void test_follow_goes_to_the_fire(void **context)
-{
-    struct scene_stage *s = *context;
-    struct follow follow = {.id = 0};
-    uint32_t driver = put_tank(s, 10000.0, 10000.0, 0.0);
-    for (int n = 0; n < 12; n++)
-        put_tank(s, 10000.0, 9850.0, 0.0);
-    s->entities.vx[driver] = 10.0;
-    uint32_t shooter = put_tank(s, 20000.0, 20000.0, 0.0);
-    uint32_t target = put_tank(s, 21000.0, 20000.0, 0.0);
-    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), driver);
-    uint32_t round = put_tank(s, 20500.0, 20000.0, 0.0);
-    s->entities.behaviour[round] = BEHAVIOUR_FLIGHT;
-    s->entities.kind[round] = ROUND;
-    s->entities.owner_slot[round] = shooter;
-    s->entities.owner_id[round] = s->entities.id[shooter];
-    s->entities.target_slot[round] = target;
-    s->entities.target_id[round] = s->entities.id[target];
-    s->head.tick = 50; /* not before FOLLOW_KEEP_S */
-    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), driver);
-    s->head.tick = 200;
-    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), shooter);
-    /* The target is as lively when it fires, but not so much livelier that the camera changes. */
-    s->entities.vx[target] = 4.0;
-    s->head.tick = 400;
-    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), shooter);
-    /* A howitzer shows nothing but a gun: its shells come down kilometres away. */
-    s->entities.kind[round] = SHELL;
-    s->entities.vx[target] = 0.0;
-    s->head.tick = 600;
-    assert_int_equal(follow_choose(&follow, &s->frame_view, &s->effects, 0, false), driver);
-}
-
-/* Explosions and burning wrecks beside a vehicle draw the camera, those that are over do not, and
- * neither does the flash of a gun. */
-static void test_follow_goes_to_what_burns(void **context)
-{
-    struct scene_stage *s = *context;
-    uint32_t driver = put_tank(s, 10000.0, 10000.0, 0.0);
-    s->entities.vx[driver] = 10.0;
-    uint32_t other = put_tank(s, 20000.0, 20000.0, 0.0);
-    struct effect *effect = effects_allocate(&s->effects);
-    static const struct {
-        uint32_t type;
-        double age_s;
-        bool draws;
-    } cases[] = {{EFFECT_FLASH, 0.1, false},
-                 {EFFECT_BURST, 0.5, true},
-                 {EFFECT_BURST, 8.0, false},
-                 {EFFECT_WRECK, 20.0, true},
-                 {EFFECT_WRECK, EFFECT_LIFE_S, false}};
-    s->head.tick = 1000;
-    for (size_t n = 0; n < sizeof cases / sizeof cases[0]; n++) {
-        struct follow first = {.id = 0};
-        *effect = (struct effect){.point = {20020.0, s->entities.y[other], 20000.0},
-                                  .time_s = 100.0 - cases[n].age_s,
-                                  .type = cases[n].type};
-        assert_int_equal(follow_choose(&first, &s->frame_view, &s->effects, 0, false),
-                         cases[n].draws ? other : driver);
-    }
-}
-
-/* Of two tanks that drive the one behind whose target are others is livelier, a gun that fires at
- * what is kilometres away is not, and the fire of machine guns counts less than that of tanks. */
-static void test_follow_weighs_what_is_to_be_seen(void **context)
-{
-    struct scene_stage *s = *context;
-    struct follow follow = {.id = 0};
-    struct entities *e = &s->entities;
-    uint32_t driver = put_tank(s, 10000.0, 10000.0, 0.0);
-    uint32_t gun = put_tank(s, 20000.0, 20000.0, 0.0);
-    e->vx[driver] = 10.0;
-    e->kind[gun] = HOWITZER;
-    for (int n = 0; n < 8; n++)
-        put_tank(s, 20000.0, 19850.0, 0.0);
-    e->vx[put_tank(s, 40000.0, 40000.0, 0.0)] = 10.0;
-    assert_true(follow_choose(&follow, &s->frame_view, &s->effects, 0, false) != gun);
-    uint32_t rounds[2] = {s->head.used, s->head.used + 1}, shooters[2] = {driver, gun};
-    for (int n = 0; n < 2; n++) {
-        put_tank(s, 20500.0, 20000.0, 0.0);
-        e->behaviour[rounds[n]] = BEHAVIOUR_FLIGHT;
-        e->kind[rounds[n]] = ROUND;
-        e->owner_slot[rounds[n]] = shooters[n];
-        e->owner_id[rounds[n]] = e->id[shooters[n]];
-    }
-    e->kind[gun] = TANK;
-    e->vx[gun] = 10.0;
-    e->kind[rounds[1]] = BULLET;
-    struct follow first = {.id = 0};
-    assert_int_equal(follow_choose(&first, &s->frame_view, &s->effects, 0, false), driver);
-}
-
-/* It looks at its target, without one at recent explosions, and otherwise ahead. */
-static void test_follow_looks_at_what_happens(void **context)
-{
-    struct scene_stage *s = *context;
-    struct entities *e = &s->entities;
-    uint32_t row = put_tank(s, 10000.0, 10000.0, 1.0);
-    uint32_t target = put_tank(s, 11000.0, 10000.0, 0.0);
-    s->head.tick = 100;
-    assert_true(follow_look(&s->frame_view, &s->effects, row).heading_rad == 1.0);
-    struct effect *effect = effects_allocate(&s->effects);
-    *effect = (struct effect){
-        .point = {10000.0, e->y[row], 10200.0}, .time_s = 9.0, .type = EFFECT_BURST};
-    assert_true(fabs(follow_look(&s->frame_view, &s->effects, row).heading_rad - PI) < 0.01);
-    e->behaviour[row] = BEHAVIOUR_ATTACK;
-    e->target_slot[row] = target;
-    e->target_id[row] = e->id[target];
-    assert_true(fabs(follow_look(&s->frame_view, &s->effects, row).heading_rad - HALF_PI) < 0.01);
-    e->state[target] = ENTITY_FREE; /* it is gone */
-    assert_true(fabs(follow_look(&s->frame_view, &s->effects, row).heading_rad - PI) < 0.01);
-    effect->point.z = 13000.0;
-    assert_true(follow_look(&s->frame_view, &s->effects, row).heading_rad == 1.0);
-}
+/* --- tracks, statistics --------------------------------------------------------------- */
 
 static void test_statistics_equal_the_table(void **context)
 {
@@ -806,11 +659,6 @@ int main(void)
         TEST(test_a_tower_sags_and_then_lies),
         TEST(test_a_building_collapses_in_steps),
         TEST(test_fire_and_detonation_are_visible),
-        TEST(test_follow_keeps_its_choice),
-        TEST(test_follow_goes_to_the_fire),
-        TEST(test_follow_goes_to_what_burns),
-        TEST(test_follow_weighs_what_is_to_be_seen),
-        TEST(test_follow_looks_at_what_happens),
         TEST(test_statistics_equal_the_table),
         TEST(test_tracks_remember_positions),
     };
