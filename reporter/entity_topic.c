@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-_Static_assert(BATCH_PACE_PART <= jolon_ENTITIES_PER_BATCH, "batches in ipc/topics/status.idl");
+_Static_assert(PUBLISH_PACE_PART <= jolon_ENTITIES_PER_BATCH, "batches in ipc/topics/status.idl");
 
 static void free_rows(struct entity_topic *topic)
 {
@@ -23,7 +23,8 @@ int entity_topic_open(struct entity_topic *topic, const struct view *view,
                       const struct dds_link *link, uint64_t run, struct error_text *error)
 {
     uint32_t capacity = view->header->capacity;
-    *topic = (struct entity_topic){.room = capacity < BATCH_PACE_PART ? capacity : BATCH_PACE_PART};
+    *topic =
+        (struct entity_topic){.room = capacity < PUBLISH_PACE_PART ? capacity : PUBLISH_PACE_PART};
     topic->wire.run = run;
     topic->writer = dds_topics_writer(link, TOPIC_ENTITIES, error);
     if (topic->writer < 0)
@@ -65,7 +66,7 @@ static bool begin(struct entity_topic *topic, const struct view *view)
     topic->wire.sim_time_s = state_time_s(&view->world, head);
     topic->wire.total = count_entities(&topic->snapshot);
     topic->wire.part = 0;
-    topic->wire.parts = batch_pace_parts(topic->wire.total, topic->room);
+    topic->wire.parts = publish_pace_parts(topic->wire.total, topic->room);
     topic->row = 0;
     return true;
 }
@@ -93,12 +94,12 @@ static void write_part(struct entity_topic *topic, const struct world *world)
 bool entity_topic_publish(struct entity_topic *topic, const struct view *view, uint64_t now_ns)
 {
     if (!topic->busy) {
-        if (!batch_pace_due(&topic->pace, now_ns) || dds_topics_readers(topic->writer, NULL) == 0 ||
-            !begin(topic, view))
+        if (!publish_pace_due(&topic->pace, now_ns) ||
+            dds_topics_readers(topic->writer, NULL) == 0 || !begin(topic, view))
             return false;
-        batch_pace_begin(&topic->pace, now_ns);
+        publish_pace_begin(&topic->pace, now_ns);
     }
     write_part(topic, &view->world);
-    batch_pace_spent(&topic->pace, clock_now_ns() - now_ns);
+    publish_pace_spent(&topic->pace, clock_now_ns() - now_ns);
     return topic->busy;
 }

@@ -4,7 +4,7 @@
 
 #include "ipc/frame/snapshot.h"
 #include "ipc/topics/dds_topics.h"
-#include "reporter/batch_pace.h"
+#include "reporter/publish_pace.h"
 #include "world/terrain/projection.h"
 
 #include "status.h"
@@ -19,7 +19,7 @@ struct entity_topic {
     jolon_EntityBatch wire; /* the next part to be written */
     bool busy;              /* parts of the snapshot are still to be written */
     uint32_t row;           /* where the next part begins */
-    struct batch_pace pace;
+    struct publish_pace pace;
 };
 
 /* Makes the writer. Returns 0, or -1 with the reason. */

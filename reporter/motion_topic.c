@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-_Static_assert(BATCH_PACE_PART <= jolon_ENTITIES_PER_BATCH, "batches in ipc/topics/status.idl");
+_Static_assert(PUBLISH_PACE_PART <= jolon_ENTITIES_PER_BATCH, "batches in ipc/topics/status.idl");
 
 static void free_memory(struct motion_topic *topic)
 {
@@ -26,7 +26,8 @@ int motion_topic_open(struct motion_topic *topic, const struct view *view,
                       const struct dds_link *link, uint64_t run, struct error_text *error)
 {
     uint32_t capacity = view->header->capacity;
-    *topic = (struct motion_topic){.room = capacity < BATCH_PACE_PART ? capacity : BATCH_PACE_PART};
+    *topic =
+        (struct motion_topic){.room = capacity < PUBLISH_PACE_PART ? capacity : PUBLISH_PACE_PART};
     topic->wire.run = run;
     topic->writer = dds_topics_writer(link, TOPIC_MOTIONS, error);
     if (topic->writer < 0)
@@ -69,7 +70,7 @@ static bool begin(struct motion_topic *topic, const struct view *view, uint64_t 
     topic->wire.sim_time_s = state_time_s(&view->world, head);
     topic->wire.whole = whole;
     topic->wire.part = 0;
-    topic->wire.parts = batch_pace_parts(topic->table.count, topic->room);
+    topic->wire.parts = publish_pace_parts(topic->table.count, topic->room);
     topic->next = 0;
     return true;
 }
@@ -119,11 +120,11 @@ static void write_part(struct motion_topic *topic, const struct view *view)
 bool motion_topic_publish(struct motion_topic *topic, const struct view *view, uint64_t now_ns)
 {
     if (!topic->busy) {
-        if (!batch_pace_due(&topic->pace, now_ns) || !begin(topic, view, now_ns))
+        if (!publish_pace_due(&topic->pace, now_ns) || !begin(topic, view, now_ns))
             return false;
-        batch_pace_begin(&topic->pace, now_ns);
+        publish_pace_begin(&topic->pace, now_ns);
     }
     write_part(topic, view);
-    batch_pace_spent(&topic->pace, clock_now_ns() - now_ns);
+    publish_pace_spent(&topic->pace, clock_now_ns() - now_ns);
     return topic->busy;
 }

@@ -6,7 +6,7 @@
 
 #include "ipc/frame/motion_table.h"
 #include "ipc/topics/dds_topics.h"
-#include "reporter/batch_pace.h"
+#include "reporter/publish_pace.h"
 
 #include "status.h"
 
@@ -25,7 +25,7 @@ struct motion_topic {
     uint32_t next;          /* the row with which the next part begins */
     uint32_t readers;       /* that there ever were */
     uint64_t whole_ns;      /* when the last whole batch began */
-    struct batch_pace pace;
+    struct publish_pace pace;
 };
 
 /* Makes the writer. Returns 0, or -1 with the reason. */

@@ -42,7 +42,7 @@ void crowds_forget(struct crowds *crowds)
     crowds->count = 0;
 }
 
-static uint32_t root_of(struct crowd_body *body, uint32_t row)
+static uint32_t root_of(struct crowds_body *body, uint32_t row)
 {
     while (body[row].parent != row)
         row = body[row].parent = body[body[row].parent].parent;
@@ -54,7 +54,7 @@ static void add(struct crowds *crowds, uint32_t row)
     if (crowds->listed[row])
         return;
     crowds->listed[row] = 1;
-    crowds->body[row] = (struct crowd_body){.parent = row};
+    crowds->body[row] = (struct crowds_body){.parent = row};
     crowds->row[crowds->count++] = row;
 }
 
@@ -66,21 +66,21 @@ void crowds_join(struct crowds *crowds, const struct pair *pair, double depth_m)
         add(crowds, pair->b);
         b = root_of(crowds->body, pair->b);
     }
-    struct crowd_body *root = &crowds->body[a < b ? a : b], *other = &crowds->body[a < b ? b : a];
+    struct crowds_body *root = &crowds->body[a < b ? a : b], *other = &crowds->body[a < b ? b : a];
     other->parent = a < b ? a : b;
     root->deepest_m = maths_max(depth_m, maths_max(root->deepest_m, other->deepest_m));
 }
 
 /* Returns true if the bodies of the crowd need more room than the disc about them has. Two bodies
  * have a way of their own (collider/resting/parting_ways.h). */
-static bool is_dense(const struct crowd_body *root)
+static bool is_dense(const struct crowds_body *root)
 {
     double reach = root->reach_m + sqrt(root->area_m2 / (PI * root->members));
     return root->members > 2 && PI * reach * reach < ROOM * root->area_m2;
 }
 
 /* Sets where a row is from the centre of its crowd [m]. */
-static void from_centre(const struct crowd_body *root, const struct response_context *context,
+static void from_centre(const struct crowds_body *root, const struct response_context *context,
                         uint32_t row, double *x, double *z)
 {
     deep_pair_place(context, row, x, z);
@@ -91,13 +91,13 @@ static void from_centre(const struct crowd_body *root, const struct response_con
 void crowds_measure(struct crowds *crowds, const struct response_context *context)
 {
     for (uint32_t i = 0; i < crowds->count; i++) {
-        struct crowd_body *body = &crowds->body[crowds->row[i]];
-        *body = (struct crowd_body){.parent = body->parent, .deepest_m = body->deepest_m};
+        struct crowds_body *body = &crowds->body[crowds->row[i]];
+        *body = (struct crowds_body){.parent = body->parent, .deepest_m = body->deepest_m};
     }
     for (uint32_t i = 0; i < crowds->count; i++) {
         uint32_t row = crowds->row[i];
         const struct kind *kind = &context->world->kinds[context->next->entities.kind[row]];
-        struct crowd_body *root = &crowds->body[root_of(crowds->body, row)];
+        struct crowds_body *root = &crowds->body[root_of(crowds->body, row)];
         double x, z;
         deep_pair_place(context, row, &x, &z);
         root->members++;
@@ -108,13 +108,13 @@ void crowds_measure(struct crowds *crowds, const struct response_context *contex
     }
     for (uint32_t i = 0; i < crowds->count; i++) {
         uint32_t row = crowds->row[i];
-        struct crowd_body *root = &crowds->body[root_of(crowds->body, row)];
+        struct crowds_body *root = &crowds->body[root_of(crowds->body, row)];
         double x, z;
         from_centre(root, context, row, &x, &z);
         root->reach_m = maths_max(root->reach_m, sqrt(x * x + z * z));
     }
     for (uint32_t i = 0; i < crowds->count; i++) {
-        struct crowd_body *body = &crowds->body[crowds->row[i]];
+        struct crowds_body *body = &crowds->body[crowds->row[i]];
         body->dense = body->parent == crowds->row[i] && is_dense(body);
     }
 }
@@ -133,7 +133,7 @@ bool crowds_spread_together(struct crowds *crowds, const struct pair *pair)
 void crowds_spread(struct crowds *crowds, const struct response_context *context, uint32_t row,
                    double *x_mps, double *z_mps)
 {
-    const struct crowd_body *root = &crowds->body[root_of(crowds->body, row)];
+    const struct crowds_body *root = &crowds->body[root_of(crowds->body, row)];
     double edge = maths_min(SPREAD_MPS, 0.5 * root->deepest_m / world_dt_s(context->world));
     double rate = edge / root->reach_m, x, z;
     from_centre(root, context, row, &x, &z);

@@ -12,7 +12,7 @@
 struct world;
 
 /* A row in a crowd. */
-struct crowd_body {
+struct crowds_body {
     uint32_t parent; /* row */
     bool dense;      /* of a root, as all below */
     uint32_t members;
@@ -22,8 +22,8 @@ struct crowd_body {
 
 /* The collider's own memory. */
 struct crowds {
-    struct crowd_body *body; /* [capacity of the world] */
-    uint8_t *listed;         /* [capacity of the world] 1: in row */
+    struct crowds_body *body; /* [capacity of the world] */
+    uint8_t *listed;          /* [capacity of the world] 1: in row */
     uint32_t *row;
     uint32_t count;
 };

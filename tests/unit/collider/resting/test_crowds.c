@@ -22,9 +22,9 @@ static void open_world(double apart_m)
 {
     fixture_open(&f, "collision = { shape = \"model\"; };");
     for (uint32_t i = 0; i < TANKS; i++)
-        fixture_put(&f,
-                    (struct fixture_entity){
-                        .kind = "tank", .at = {25000.0 + apart_m * i, FIXTURE_GROUND_M, 25000.0}});
+        fixture_put(
+            &f, (struct fixture_entity){.kind = "tank",
+                                        .at = {25000.0 + apart_m * i, FIXTURE_GROUND_M, 25000.0}});
     steps_respond(&f, &context);
     assert_int_equal(crowds_init(&crowds, &f.view.world), 0);
 }

@@ -1,5 +1,5 @@
 /* Plans batches. */
-#include "reporter/batch_pace.h"
+#include "reporter/publish_pace.h"
 
 #define PERIOD_NS 100000000u
 
@@ -7,7 +7,7 @@
  * second gets fewer, and does not occupy a whole processor. */
 #define SHARE 8u
 
-bool batch_pace_due(struct batch_pace *pace, uint64_t now_ns)
+bool publish_pace_due(struct publish_pace *pace, uint64_t now_ns)
 {
     if (now_ns < pace->due_ns)
         return false;
@@ -17,20 +17,20 @@ bool batch_pace_due(struct batch_pace *pace, uint64_t now_ns)
     return true;
 }
 
-void batch_pace_begin(struct batch_pace *pace, uint64_t now_ns)
+void publish_pace_begin(struct publish_pace *pace, uint64_t now_ns)
 {
     pace->begun_ns = now_ns;
     pace->spent_ns = 0;
 }
 
-void batch_pace_spent(struct batch_pace *pace, uint64_t spent_ns)
+void publish_pace_spent(struct publish_pace *pace, uint64_t spent_ns)
 {
     pace->spent_ns += spent_ns;
     if (pace->spent_ns * SHARE > PERIOD_NS)
         pace->due_ns = pace->begun_ns + pace->spent_ns * SHARE;
 }
 
-uint32_t batch_pace_parts(uint32_t entities, uint32_t room)
+uint32_t publish_pace_parts(uint32_t entities, uint32_t room)
 {
     return entities > 0 ? (entities + room - 1) / room : 1;
 }
