@@ -9,6 +9,9 @@
 /* Capsules nearer than this share of the sum of their radii are deep in each other. */
 #define DEEP 0.9
 
+/* Of bodies whose capsules overlap by so many times DEEP_PAIR_M it is enough that they overlap. */
+#define SURELY -2.0
+
 /* Bodies whose capsules are nearer may overlap: most of them have square corners [m]. */
 #define NEAR_M 1.0
 
@@ -129,20 +132,20 @@ static double depth_within(const struct begun_body *begun, struct vec3 point)
     return deepest;
 }
 
-/* Returns true if the bodies themselves are deep in each other when the frame begins. A hull may be
- * narrower than the capsule at its height: the bonnet of a truck, the trails of a howitzer. Mostly
- * a point over the middle is inside both, which proves it sooner than a search. */
+/* Returns true if the bodies themselves are so deep in each other when the frame begins. A hull may
+ * be narrower than the capsule at its height: the bonnet of a truck, the trails of a howitzer.
+ * Mostly a point over the middle is inside both, which proves it sooner than a search. */
 static bool are_deep(const struct begun_body *a, const struct begun_body *b, struct vec3 middle,
-                     double height_m)
+                     double height_m, double depth_m)
 {
     static const double share[] = {0.35, 0.5, 0.2, 0.65};
     for (uint32_t i = 0; i < sizeof share / sizeof *share; i++) {
         struct vec3 point = {middle.x, middle.y + share[i] * height_m, middle.z};
         double in_a = depth_within(a, point), in_b = depth_within(b, point);
-        if (in_a > 0.0 && in_b > 0.0 && in_a + in_b > DEEP_PAIR_M)
+        if (in_a > 0.0 && in_b > 0.0 && in_a + in_b > depth_m)
             return true;
     }
-    return level_gap_is_deeper(&a->body, &b->body, 0.0, DEEP_PAIR_M);
+    return level_gap_is_deeper(&a->body, &b->body, 0.0, depth_m);
 }
 
 bool deep_pair_measure(const struct response_context *context, const struct pair *pair,
@@ -160,7 +163,8 @@ bool deep_pair_measure(const struct response_context *context, const struct pair
     if (gap > (DEEP - 1.0) * radii || fabs(y_b - y_a) > DEEP * 0.5 * (ka->height_m + kb->height_m))
         return false;
     middle.y = 0.5 * (y_a + y_b);
-    if (!are_deep(a, b, middle, maths_min(ka->height_m, kb->height_m)))
+    double enough_m = gap < SURELY * DEEP_PAIR_M ? RESTING_PARTS_M : DEEP_PAIR_M;
+    if (!are_deep(a, b, middle, maths_min(ka->height_m, kb->height_m), enough_m))
         return false;
     found->count = 1;
     found->gap[0] =

@@ -10,7 +10,8 @@
 struct begun_body;
 struct resting_gap;
 
-/* Bodies that are no deeper in each other by their hulls do not part as capsules [m]. */
+/* Bodies that are no deeper in each other by their hulls do not part as capsules, unless these are
+ * twice as deep [m]. */
 #define DEEP_PAIR_M 0.3
 
 /* A body's inner shape on the map: all points that are nearer to a line than the radius. */
