@@ -66,11 +66,12 @@ static const struct key scenario_keys[] = {
                        "([dis.md](dis.md)). They need room in `world.capacity`, which has to be as "
                        "large at least."),
     BOOLEAN("world.cruise", S, params.cruise, STORE_U32, "true",
-            .meaning = "true: vehicles whose agents go on as they did are moved by half a second "
-                       "at once, unless something comes near ([decision "
-                       "049](decisions/049-cruising.md)). A frame of many vehicles costs less. "
-                       "false: each vehicle is moved in each frame, as with every "
-                       "`collision.method` but \"swept\"."),
+            .meaning =
+                "true: vehicles whose agents go on as they did are moved by half a second or more "
+                "at once, unless something comes near ([decision "
+                "049](decisions/049-cruising.md)). A frame of many vehicles costs less. "
+                "false: each vehicle is moved in each frame, as with every "
+                "`collision.method` but \"swept\"."),
     WHOLE64("world.frames", S, params.frame_limit, 0, SCHEMA_WHOLE_MAX, "0",
             .meaning = "The run ends with this frame. 0: the run has no last frame."),
     CHOICE("world.pace", S, params.pace, STORE_U32, WORDS(paces), "real",

@@ -77,8 +77,8 @@ def close(is_, right):
     if isinstance(right, int):
         return int(is_) % (1 << 32) == right  # open-dis has signed numbers of 32 bits
     # tshark shows six digits of single floats and fifteen of double ones.
-    # tshark cuts clock times, which are above 1e7 s here, to milliseconds.
-    return abs(float(is_) - right) <= (2e-3 if abs(right) > 1e7 else 5e-4 if abs(right) > 1e5 else 1e-5 * max(1.0, abs(right)))
+    # tshark cuts times to milliseconds: those of the clock, which are above 1e7 s here, and those of simulations.
+    return abs(float(is_) - right) <= (2e-3 if abs(right) > 1e7 else 1e-3 if abs(right) > 1e5 else 1e-5 * max(1.0, abs(right)))
 
 
 def compare(what, got, fields):
