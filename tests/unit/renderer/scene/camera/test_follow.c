@@ -199,10 +199,8 @@ static void test_follow_looks_at_what_happens(void **context)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        TEST(test_follow_keeps_its_choice),
-        TEST(test_follow_goes_to_the_fire),
-        TEST(test_follow_goes_to_what_burns),
-        TEST(test_follow_weighs_what_is_to_be_seen),
+        TEST(test_follow_keeps_its_choice),      TEST(test_follow_goes_to_the_fire),
+        TEST(test_follow_goes_to_what_burns),    TEST(test_follow_weighs_what_is_to_be_seen),
         TEST(test_follow_looks_at_what_happens),
     };
     return cmocka_run_group_tests_name("follow", tests, NULL, NULL);
