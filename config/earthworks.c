@@ -12,6 +12,7 @@
 #define FREEBOARD_M 0.25 /* from the ground down to the water of a ford */
 #define EDGE_SHARE  0.6  /* of the height: an edge of 59 degrees */
 #define FORD_GRADE  0.1
+#define ROUNDED_M   1e-9 /* more than sums of lengths are rounded by */
 
 #define BIT(key) (1u << (key))
 
@@ -73,7 +74,7 @@ static int check_slopes(const struct entry *entry, const struct earthwork *work)
     if (work->side_m < least)
         return entry_refuse(entry, EARTHWORK_KEY_EDGE,
                             "makes too steep a face; allowed: at least %.4g m", least);
-    if (work->back_m < least || work->back_m + work->front_m > length)
+    if (work->back_m < least || work->back_m + work->front_m > length + ROUNDED_M)
         return entry_refuse(entry, EARTHWORK_KEY_LENGTH,
                             "is too short for the slopes of its ends; allowed: at least %.4g m",
                             work->shape == EARTHWORK_RAMP ? work->front_m + least

@@ -11,6 +11,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 #include <cmocka.h>
 
@@ -243,6 +244,24 @@ static void test_a_vehicle_drives_up_the_ramp(void **state)
 #define TEST(function)                                                                             \
     cmocka_unit_test_prestate_setup_teardown(function, open_course, fixture_teardown, &f)
 
+/* The slopes of a ramp fill its length, whatever their sum is rounded to: 3.35 m with an edge of
+ * 0.365 m was too short by a bit. */
+static void test_ramps_of_any_length_are_right(void **state)
+{
+    char text[32768];
+    size_t used = (size_t)snprintf(text, sizeof text, "earthworks = (");
+    (void)state;
+    for (int i = 0; i < 200; i++)
+        used += (size_t)snprintf(text + used, sizeof text - used,
+                                 "%s { shape = \"ramp\"; at = [%d.0, 1000.0]; length_m = %.2f; "
+                                 "width_m = 4.0; height_m = 0.5; edge_m = 0.365; }",
+                                 i > 0 ? "," : "", 1000 + 20 * i, 3.0 + 0.05 * i);
+    snprintf(text + used, sizeof text - used, ");");
+    fixture_open(&f, text);
+    assert_int_equal(f.view.world.terrain.earthworks.count, 200);
+    fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -253,6 +272,7 @@ int main(void)
         TEST(test_ford_and_its_water),
         TEST(test_skid_pan),
         TEST(test_vehicles_are_lifted_over_works),
+        cmocka_unit_test(test_ramps_of_any_length_are_right),
         cmocka_unit_test(test_a_world_without_works_has_none),
         cmocka_unit_test(test_index_finds_every_work),
         cmocka_unit_test(test_the_ground_is_continuous),
