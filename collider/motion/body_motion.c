@@ -154,8 +154,8 @@ struct path body_motion_path(const struct body_motion *motion, uint32_t row)
     return path_of(motion, row, from, to);
 }
 
-struct body_line body_motion_line_until(const struct body_motion *motion, uint32_t row,
-                                        uint64_t tick)
+/* Returns the line of a row that cruises in this frame to where it is at a tick of its stretch. */
+static struct body_line line_until(const struct body_motion *motion, uint32_t row, uint64_t tick)
 {
     const struct entities *n = &motion->next->entities;
     const uint64_t now = motion->next->head->tick - 1;
@@ -172,7 +172,7 @@ struct body_line body_motion_line_until(const struct body_motion *motion, uint32
 
 struct body_line body_motion_line(const struct body_motion *motion, uint32_t row)
 {
-    return body_motion_line_until(motion, row, motion->next->entities.cruise_tick[row]);
+    return line_until(motion, row, motion->next->entities.cruise_tick[row]);
 }
 
 /* A body whose ends are within its reach and whose sides are `beside` from its axis is within
@@ -182,7 +182,7 @@ struct body_line body_motion_line_around(const struct body_motion *motion, uint3
                                          uint64_t tick, double reach_m)
 {
     const struct entities *n = &motion->next->entities;
-    struct body_line line = body_motion_line_until(motion, row, tick);
+    struct body_line line = line_until(motion, row, tick);
     double beside = motion->beside_m[n->kind[row]];
     double x = line.to.x - line.from.x, z = line.to.z - line.from.z, way_m = sqrt(x * x + z * z);
     if (!(beside < reach_m) || !(way_m > 0.0)) {

@@ -86,14 +86,12 @@ struct body_line {
 };
 
 /* Returns the line from where a row that cruises in this frame is when it begins to the end of its
- * stretch, or to where it is at a tick before. */
+ * stretch. */
 struct body_line body_motion_line(const struct body_motion *motion, uint32_t row);
-struct body_line body_motion_line_until(const struct body_motion *motion, uint32_t row,
-                                        uint64_t tick);
 
-/* Makes a line to a tick before the end one that all of the body stays near to, not just its
- * centre: longer at both ends, and wider by what is beside the body instead of by all of its reach
- * reach_m. */
+/* Returns the line to where it is at a tick of its stretch. All of the body stays near to this one,
+ * not just its centre: it is longer at both ends, and wider by what is beside the body instead of
+ * by all of its reach reach_m. */
 struct body_line body_motion_line_around(const struct body_motion *motion, uint32_t row,
                                          uint64_t tick, double reach_m);
 

@@ -12,14 +12,9 @@
 
 #define ROWS_A_PIECE 256u
 
-static uint32_t threads_of(const struct thread_pool *workers)
-{
-    return workers ? thread_pool_threads(workers) : 1;
-}
-
 int alone_rows_init(struct alone_rows *rows, const struct world *world, struct thread_pool *workers)
 {
-    uint32_t threads = threads_of(workers), lists = 0;
+    uint32_t threads = thread_pool_threads(workers), lists = 0;
     *rows = (struct alone_rows){.workers = workers,
                                 .near = calloc(threads, sizeof *rows->near),
                                 .alone = calloc(world->params->capacity, sizeof *rows->alone)};
@@ -35,7 +30,7 @@ int alone_rows_init(struct alone_rows *rows, const struct world *world, struct t
 
 void alone_rows_free(struct alone_rows *rows)
 {
-    for (uint32_t i = 0; rows->near && i < threads_of(rows->workers); i++)
+    for (uint32_t i = 0; rows->near && i < thread_pool_threads(rows->workers); i++)
         pair_list_free(&rows->near[i]);
     free(rows->near);
     free(rows->alone);

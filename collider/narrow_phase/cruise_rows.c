@@ -41,20 +41,26 @@ static struct path_box box_of(const struct contact_input *input, uint32_t row)
     return pair_filter_path_box(&path, margin_of(input, row));
 }
 
+/* Returns the tick at which the row's stretch ends; that of this frame if it does not cruise. */
+static uint64_t end_of(const struct contact_input *input, uint32_t row)
+{
+    const struct body_motion *motion = input->motion;
+    return body_motion_cruises(motion, row) ? motion->next->entities.cruise_tick[row]
+                                            : motion->next->head->tick;
+}
+
 /* The line that the row's body is within around_m of in this frame, or until its stretch ends, but
  * no longer than to the tick. */
 static struct body_line line_of(const struct contact_input *input, uint32_t row, uint64_t tick)
 {
     const struct body_motion *motion = input->motion;
-    struct body_line line;
+    const double reach_m = margin_of(input, row);
     if (body_motion_cruises(motion, row)) {
-        uint64_t end = motion->next->entities.cruise_tick[row];
-        return body_motion_line_around(motion, row, tick < end ? tick : end, margin_of(input, row));
+        uint64_t end = end_of(input, row);
+        return body_motion_line_around(motion, row, tick < end ? tick : end, reach_m);
     }
     struct path path = body_motion_path(motion, row);
-    line = (struct body_line){
-        .from = path.at, .to = path_at(&path, 1.0), .around_m = margin_of(input, row)};
-    return line;
+    return (struct body_line){.from = path.at, .to = path_at(&path, 1.0), .around_m = reach_m};
 }
 
 static struct body_line fixed_line(const struct contact_input *input, uint32_t object)
@@ -129,14 +135,6 @@ static bool has_cruising(const struct contact_input *input, const struct pair *p
 {
     return body_motion_cruises(input->motion, pair->a) ||
            (!(pair->b & PAIR_FIXED) && body_motion_cruises(input->motion, pair->b));
-}
-
-/* Returns the tick at which the row's stretch ends; that of this frame if it does not cruise. */
-static uint64_t end_of(const struct contact_input *input, uint32_t row)
-{
-    const struct body_motion *motion = input->motion;
-    return body_motion_cruises(motion, row) ? motion->next->entities.cruise_tick[row]
-                                            : motion->next->head->tick;
 }
 
 /* Returns the tick up to which the stretches of a pair may go on that meet later: that of this

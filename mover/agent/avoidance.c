@@ -76,6 +76,7 @@ struct look {
     double nose_m;                 /* how far it reaches ahead of its middle: its gun, too */
     double left_m, right_m;        /* and to the sides */
     double think_s;                /* until it decides again */
+    double ahead_s;                /* by which the index may hold others further on their way */
     double x[FAN + 1], z[FAN + 1]; /* the fan's directions, unit */
     double free_m[FAN + 1];        /* how far each is free; at most the horizon */
 };
@@ -216,6 +217,17 @@ static void reach_out(struct look *look, const struct kind *kind, double gun_m, 
     look->left_m = maths_max(look->half_width, -look->sign * gun_m * sine);
 }
 
+/* How long ago the index may have been right about a vehicle, beyond half a second [s]. */
+static double ahead_of(const struct step_context *context)
+{
+    return context->dt_s * (double)(context->cruise_frames - context->cruise_short);
+}
+
+double avoidance_ahead(const struct step_context *context)
+{
+    return context->avoidance->fastest_mps * ahead_of(context);
+}
+
 static void begin(struct look *look, const struct step_context *context, uint32_t i,
                   const struct desired_motion *desired)
 {
@@ -231,6 +243,7 @@ static void begin(struct look *look, const struct step_context *context, uint32_
     reach_out(look, kind, context->avoidance->nose_m[m->kind[i]], (double)m->turret[i]);
     if (kind->domain != DOMAIN_AIR)
         look->think_s = context->dt_s * (double)cruise_start_think_frames(context, i);
+    look->ahead_s = ahead_of(context);
     look->gap = gap_of(kind);
     look->horizon_m = horizon_of(kind, speed);
     maths_sincos(desired->heading_rad, &look->sine, &look->cosine);
@@ -283,18 +296,18 @@ static bool gives_way(const struct look *look, double dx, double dz, double vx, 
 }
 
 /* Returns false only if the obstacle, which moves at (vx, vz), cannot be met before the horizon
- * along direction k; this holds for the rounded values of the index too. It may be up to ahead_s
- * further back on its way than (dx, dz). Needs no division. */
+ * along direction k; this holds for the rounded values of the index too. It may be up to
+ * look->ahead_s further back on its way than (dx, dz). Needs no division. */
 static bool may_meet(const struct look *look, int k, double dx, double dz, double vx, double vz,
-                     double reach_m, double ahead_s)
+                     double reach_m)
 {
     double speed = k == PRESENT ? look->present_mps : look->speed_mps;
     double ux = speed * look->x[k] - vx, uz = speed * look->z[k] - vz;
     double square = ux * ux + uz * uz, closing = sqrt(square);
     double rounded = ROUNDED_MPS * (fabs(dx) + fabs(dz));
     double along = dx * ux + dz * uz, across = dx * uz - dz * ux; /* times closing */
-    double back_along = along - ahead_s * (vx * ux + vz * uz);
-    double back_across = across - ahead_s * (vx * uz - vz * ux);
+    double back_along = along - look->ahead_s * (vx * ux + vz * uz);
+    double back_across = across - look->ahead_s * (vx * uz - vz * ux);
     double first = maths_min(along, back_along), last = maths_max(along, back_along);
     double off = across * back_across < 0.0 ? 0.0 : maths_min(fabs(across), fabs(back_across));
     double beside =
@@ -418,12 +431,6 @@ static void see_fixed(const struct step_context *context, uint32_t i, struct loo
         }
 }
 
-double avoidance_ahead(const struct step_context *context)
-{
-    uint32_t longer = context->cruise_frames - context->cruise_short;
-    return context->avoidance->fastest_mps * context->dt_s * (double)longer;
-}
-
 static void see_vehicle(const struct step_context *context, uint32_t i, struct look *look,
                         const struct neighbour_index_entry *at)
 {
@@ -436,11 +443,10 @@ static void see_vehicle(const struct step_context *context, uint32_t i, struct l
     double dx = (double)at->x - m->x[i], dz = (double)at->z - m->z[i];
     double vx = (double)at->vx, vz = (double)at->vz;
     uint32_t j = at->row;
-    double ahead_s = context->dt_s * (double)(context->cruise_frames - context->cruise_short);
     if (j == i || fabs((double)at->y - m->y[i]) > apart + AVOIDANCE_ROUNDED_M)
         return;
-    if (look->step == PRESENT && !may_meet(look, 0, dx, dz, vx, vz, reach, ahead_s) &&
-        !may_meet(look, PRESENT, dx, dz, vx, vz, reach, ahead_s))
+    if (look->step == PRESENT && !may_meet(look, 0, dx, dz, vx, vz, reach) &&
+        !may_meet(look, PRESENT, dx, dz, vx, vz, reach))
         return;
     struct vec3 off = vec3_sub(step_context_position(context, w, j), entities_position(m, i));
     struct vec3 velocity = step_context_velocity(context, w, j);

@@ -10,8 +10,7 @@
 #define TRY_FRAMES   10u  /* after so many frames rows that do not cruise try again */
 #define LEAST_FRAMES 5u   /* of a stretch */
 #define DECISIONS    4u   /* after so many decisions that changed nothing an agent looks again */
-#define NEAR_GOAL_M                                                                                \
-    40.0 /* so near to its goal its stretches are short: it decides when it is there */
+#define NEAR_GOAL_M  40.0 /* nearer to its goal stretches are short: it decides when there */
 
 uint32_t cruise_start_group_bits(uint32_t capacity)
 {
@@ -35,6 +34,12 @@ static uint32_t since_turn(const struct step_context *context, uint32_t i)
 {
     uint32_t group = i >> context->cruise_group_bits;
     return (context->cruise_phase + group * SPREAD) % context->cruise_frames;
+}
+
+/* Returns how many frames ago something was due that row i's agent does every `period` frames. */
+static uint32_t since_due(const struct step_context *context, uint32_t i, uint32_t period)
+{
+    return ((uint32_t)context->tick + context->m->id[i]) % period;
 }
 
 /* Returns true if the row is on its way by its order. */
@@ -82,18 +87,18 @@ static bool cruises(const struct step_context *context, uint32_t i)
  * before its turn: it tries a stretch that ends before, and a longer one when it decides. */
 static uint32_t tries_for(const struct step_context *context, uint32_t i)
 {
+    const bool lasts = context->cruise_frames > context->cruise_short;
     uint32_t since = since_turn(context, i);
     uint32_t left = context->cruise_frames - since;
-    if (since == 0)
+    if (since == 0 || (lasts && left >= TRY_FRAMES && step_context_thinks(context, i)))
         return left;
-    if (context->cruise_frames > context->cruise_short) {
-        uint32_t past = ((uint32_t)context->tick + context->m->id[i]) % context->think_frames;
-        uint32_t rest = context->think_frames - past;
-        if (past == 0)
-            return left >= TRY_FRAMES ? left : 0;
+    if (since % TRY_FRAMES != 0)
+        return 0;
+    if (lasts) {
+        uint32_t rest = context->think_frames - since_due(context, i, context->think_frames);
         left = rest < left ? rest : left;
     }
-    return since % TRY_FRAMES == 0 && left >= TRY_FRAMES ? left : 0;
+    return left >= TRY_FRAMES ? left : 0;
 }
 
 /* Returns the frames from this one to the next decision of row i's agent if it decides in this
@@ -132,7 +137,7 @@ uint32_t cruise_start_frames(const struct step_context *context, uint32_t i)
 bool cruise_start_due(const struct step_context *context, uint32_t i, uint32_t period)
 {
     uint32_t frames = cruise_start_frames(context, i);
-    uint32_t past = ((uint32_t)context->tick + context->m->id[i]) % period;
+    uint32_t past = since_due(context, i, period);
     return frames > 0 && (past == 0 || period - past < frames);
 }
 

@@ -31,6 +31,7 @@
 #define FALL_HARM 4.0
 
 #define WATER_MPS2 30.0 /* by which water that is too deep slows a vehicle */
+
 /* --- the modes ---------------------------------------------------------------------------------*/
 
 void chassis_disturb(const struct step_context *context, uint32_t i)
@@ -187,6 +188,7 @@ static bool stop_at_depth(const struct step_context *context, uint32_t i, double
     m->vx[i] = m->vz[i] = 0.0;
     return true;
 }
+
 /* Burns fuel for the desired speed. Returns false if there is none. */
 static bool burn(const struct step_context *context, uint32_t i, const struct kind *kind,
                  const struct desired_motion *desired)

@@ -38,6 +38,21 @@ struct scene_stage *scene_stage_new(uint32_t capacity, uint32_t fixed)
     return s;
 }
 
+uint32_t scene_stage_put(struct scene_stage *stage, uint16_t kind, double x, double z,
+                         double heading)
+{
+    uint32_t slot = stage->head.used++;
+    const struct entities *e = &stage->entities;
+    e->id[slot] = slot + 1;
+    e->state[slot] = ENTITY_ACTIVE;
+    e->kind[slot] = kind;
+    e->force[slot] = FORCE_BLUE;
+    e->x[slot] = x;
+    e->z[slot] = z;
+    e->heading[slot] = heading;
+    return slot;
+}
+
 void scene_stage_ready(struct scene_stage *stage)
 {
     assert_int_equal(crater_index_init(&stage->index, &GRIDSQUARES_DEFAULT, stage->craters), 0);

@@ -41,6 +41,10 @@ struct scene_stage {
  * the parameter capacity, the terrain, and the arrays that the world points to. */
 struct scene_stage *scene_stage_new(uint32_t capacity, uint32_t fixed);
 
+/* Adds an active blue entity of a kind at (x, z), at height 0. Returns its slot. */
+uint32_t scene_stage_put(struct scene_stage *stage, uint16_t kind, double x, double z,
+                         double heading);
+
 /* Prepares the scenes, when the test has filled the world. */
 void scene_stage_ready(struct scene_stage *stage);
 

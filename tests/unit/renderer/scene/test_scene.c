@@ -134,16 +134,8 @@ static int open_stage(void **context)
 /* Adds a tank on the ground at (x, z). Returns its slot. */
 static uint32_t put_tank(struct scene_stage *s, double x, double z, double heading)
 {
-    uint32_t slot = s->head.used++;
-    const struct entities *e = &s->entities;
-    e->id[slot] = slot + 1;
-    e->state[slot] = ENTITY_ACTIVE;
-    e->kind[slot] = TANK;
-    e->force[slot] = FORCE_BLUE;
-    e->x[slot] = x;
-    e->z[slot] = z;
-    e->y[slot] = terrain_base_height(&s->world.terrain, x, z);
-    e->heading[slot] = heading;
+    uint32_t slot = scene_stage_put(s, TANK, x, z, heading);
+    s->entities.y[slot] = terrain_base_height(&s->world.terrain, x, z);
     return slot;
 }
 

@@ -37,19 +37,9 @@ static int open_stage(void **context)
     return 0;
 }
 
-/* Adds a tank at (x, z). Returns its slot. */
 static uint32_t put_tank(struct scene_stage *s, double x, double z, double heading)
 {
-    uint32_t slot = s->head.used++;
-    const struct entities *e = &s->entities;
-    e->id[slot] = slot + 1;
-    e->state[slot] = ENTITY_ACTIVE;
-    e->kind[slot] = TANK;
-    e->force[slot] = FORCE_BLUE;
-    e->x[slot] = x;
-    e->z[slot] = z;
-    e->heading[slot] = heading;
-    return slot;
+    return scene_stage_put(s, TANK, x, z, heading);
 }
 
 static void test_follow_keeps_its_choice(void **context)
