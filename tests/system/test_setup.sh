@@ -57,15 +57,18 @@ check "make bench builds the benchmarks" grep -q 'bin/jolon-bench' bench.plan
 check "no engine is in the list of packages" eval '! grep -q "libode\|libbullet" "$top/packages.txt"'
 
 # --- the build -----------------------------------------------------------------------------------
+# steps PART...: what a build of them prints of compilations. The name of a temporary folder may hold
+# "CC" as well, and make names it in what it says of files that are up to date.
+steps() { build "$@" | grep '\] CC '; }
 mapfile -t sources < <(cd "$top" && find mover -name '*.c' | sort | head -n 3)
 parts=("${sources[@]/#/$folder/tree/obj/}")
 parts=("${parts[@]/%.c/.o}")
-check "steps are numbered up to their count" equal "$(build "${parts[@]}" | sed 's/ CC .*//' | sort | xargs)" \
+check "steps are numbered up to their count" equal "$(steps "${parts[@]}" | sed 's/ CC .*//' | sort | xargs)" \
     "[1/3] [2/3] [3/3]"
-check "no step is printed when all is done" equal "$(build "${parts[@]}" | grep -c CC)" 0
+check "no step is printed when all is done" equal "$(steps "${parts[@]}")" ""
 rm "${parts[0]}"
-check "existing objects are no steps" equal "$(build "${parts[@]}" | grep CC)" "[1/1] CC ${sources[0]}"
-check "other flags make every object a step" equal "$(build OPT='-O0 -g1' "${parts[@]}" | grep -c '/3\] CC ')" 3
+check "existing objects are no steps" equal "$(steps "${parts[@]}")" "[1/1] CC ${sources[0]}"
+check "other flags make every object a step" equal "$(steps OPT='-O0 -g1' "${parts[@]}" | grep -c '/3\]')" 3
 rm "${parts[@]}"
 check "make -s prints nothing" equal "$(build -s "${parts[@]}")" ""
 check "no compiler is asked before it is installed" equal "$(build CC=no-such-compiler help | grep 'not found')" ""
