@@ -104,13 +104,15 @@ static bool apart(const struct body_line *a, const struct body_line *b)
            square_from(b->from, a) > square && square_from(b->to, a) > square;
 }
 
-/* Returns true if the bodies of a pair, of which one cruises, may come near to each other up to the
- * tick. */
-static bool meet_until(const struct contact_input *input, const struct pair *pair, uint64_t tick)
+/* Returns true if the bodies of a pair, of which one cruises, may come near to each other where the
+ * stretch of each of them goes on no longer than to its tick. */
+static bool meet_until(const struct contact_input *input, const struct pair *pair, uint64_t a_tick,
+                       uint64_t b_tick)
 {
-    const struct body_line first = line_of(input, pair->a, tick);
-    const struct body_line second = pair->b & PAIR_FIXED ? fixed_line(input, pair->b & ~PAIR_FIXED)
-                                                         : line_of(input, pair->b, tick);
+    const struct body_line first = line_of(input, pair->a, a_tick);
+    const struct body_line second = pair->b & PAIR_FIXED
+                                        ? fixed_line(input, pair->b & ~PAIR_FIXED)
+                                        : line_of(input, pair->b, b_tick);
     return !apart(&first, &second);
 }
 
@@ -128,7 +130,7 @@ static bool meet(const struct contact_input *input, const struct pair *pair)
             pair_never_meets(input->detect.entities, pair->a, pair->b))
             return false;
     }
-    return meet_until(input, pair, UINT64_MAX);
+    return meet_until(input, pair, UINT64_MAX, UINT64_MAX);
 }
 
 static bool has_cruising(const struct contact_input *input, const struct pair *pair)
@@ -137,19 +139,42 @@ static bool has_cruising(const struct contact_input *input, const struct pair *p
            (!(pair->b & PAIR_FIXED) && body_motion_cruises(input->motion, pair->b));
 }
 
-/* Returns the tick up to which the stretches of a pair may go on that meet later: that of this
- * frame if they have to end now. */
-static uint64_t may_go_on(const struct contact_input *input, const struct pair *pair)
+/* Returns true if the row's stretch can be made shorter, and still leads the same way. */
+static bool may_shorten(const struct contact_input *input, uint32_t row)
+{
+    const struct entities *e = &input->motion->next->entities;
+    const uint64_t now = input->motion->next->head->tick;
+    double left_s = cruise_left_s(e, row, now - 1, world_dt_s(input->motion->world));
+    return body_motion_cruises(input->motion, row) &&
+           cruise_off(e->cruise_rps[row], e->cruise_mps2[row], left_s) <= CRUISE_OFF_M;
+}
+
+/* Returns the tick up to which the stretch of a pair's row a may go on (cuts_a), of its row b, or
+ * of both, if the other one goes on to its end: that of this frame if they have to end now. It is
+ * the last one to an eighth of the time. */
+static uint64_t last_apart(const struct contact_input *input, const struct pair *pair, bool cuts_a,
+                           bool cuts_b)
 {
     const uint64_t now = input->motion->next->head->tick;
-    uint64_t last = end_of(input, pair->a);
-    if (!(pair->b & PAIR_FIXED) && end_of(input, pair->b) > last)
+    uint64_t last = now, least = 0, most;
+    if (cuts_a)
+        last = end_of(input, pair->a);
+    if (cuts_b && end_of(input, pair->b) > last)
         last = end_of(input, pair->b);
-    for (uint64_t ticks = (last - now) / 2; ticks >= LEAST_TICKS; ticks /= 2) {
-        if (!meet_until(input, pair, now + ticks))
-            return now + ticks;
+    for (most = last - now; least == 0 && most / 2 >= LEAST_TICKS;) {
+        uint64_t tick = now + most / 2;
+        if (meet_until(input, pair, cuts_a ? tick : UINT64_MAX, cuts_b ? tick : UINT64_MAX))
+            most /= 2;
+        else
+            least = most / 2;
     }
-    return now;
+    for (uint64_t step = least / 2; step > least / 16 && step > 0; step /= 2) {
+        uint64_t tick = now + least + step;
+        if (least + step < most &&
+            !meet_until(input, pair, cuts_a ? tick : UINT64_MAX, cuts_b ? tick : UINT64_MAX))
+            least += step;
+    }
+    return now + least;
 }
 
 /* Notes that the row's stretch must not go on beyond the tick. */
@@ -160,14 +185,29 @@ static void note_end(struct pair_list *ends, const struct contact_input *input, 
         pair_list_add(ends, row, (uint32_t)tick);
 }
 
-/* Ends the stretch of the row at the tick, or at once if a shorter one leads another way. */
-static void shorten(const struct contact_input *input, uint32_t row, uint64_t tick)
+/* Notes which stretches of a pair that meets must not go on, and for how long: of two that cruise
+ * that of the one which loses less by it. Returns false if both have to end now. */
+static bool shorten_pair(const struct contact_input *input, const struct pair *pair,
+                         struct pair_list *ends)
 {
-    const struct entities *e = &input->motion->next->entities;
     const uint64_t now = input->motion->next->head->tick;
-    double left_s = cruise_left_s(e, row, now - 1, world_dt_s(input->motion->world));
-    bool same = cruise_off(e->cruise_rps[row], e->cruise_mps2[row], left_s) <= CRUISE_OFF_M;
-    end_at(input, row, same ? tick : now);
+    const bool moves_b = !(pair->b & PAIR_FIXED);
+    const bool a = may_shorten(input, pair->a), b = moves_b && may_shorten(input, pair->b);
+    uint64_t a_tick = a ? last_apart(input, pair, true, false) : now;
+    uint64_t b_tick = b ? last_apart(input, pair, false, true) : now;
+    if (a_tick == now && b_tick == now) {
+        uint64_t both = a && b ? last_apart(input, pair, true, true) : now;
+        note_end(ends, input, pair->a, both);
+        if (moves_b)
+            note_end(ends, input, pair->b, both);
+        return both > now;
+    }
+    uint64_t a_loses = end_of(input, pair->a) - a_tick;
+    if (b_tick == now || (a_tick > now && a_loses <= end_of(input, pair->b) - b_tick))
+        note_end(ends, input, pair->a, a_tick);
+    else
+        note_end(ends, input, pair->b, b_tick);
+    return true;
 }
 
 /* Ends are made after all pairs have been looked at, and each row's first one, so that their order
@@ -175,28 +215,20 @@ static void shorten(const struct contact_input *input, uint32_t row, uint64_t ti
 void cruise_rows_take_pairs(const struct contact_input *input, struct pair_list *pairs,
                             struct pair_list *ends)
 {
-    const uint64_t now = input->motion->next->head->tick;
     uint32_t count = 0;
     ends->count = 0;
     for (uint32_t i = 0; i < pairs->count; i++) {
         const struct pair pair = pairs->pair[i];
-        uint64_t until = now;
-        if (has_cruising(input, &pair)) {
-            if (!meet(input, &pair))
-                continue;
-            until = may_go_on(input, &pair);
-            note_end(ends, input, pair.a, until);
-            if (!(pair.b & PAIR_FIXED))
-                note_end(ends, input, pair.b, until);
-        }
-        if (until == now)
-            pairs->pair[count++] = pair;
+        if (has_cruising(input, &pair) &&
+            (!meet(input, &pair) || shorten_pair(input, &pair, ends)))
+            continue;
+        pairs->pair[count++] = pair;
     }
     pairs->count = count;
     sort_words(ends->pair, ends->count);
     for (uint32_t i = 0; i < ends->count; i++) {
         if (i == 0 || ends->pair[i].a != ends->pair[i - 1].a)
-            shorten(input, ends->pair[i].a, ends->pair[i].b);
+            end_at(input, ends->pair[i].a, ends->pair[i].b);
     }
 }
 

@@ -17,8 +17,9 @@ struct contact_input;
 void cruise_rows_stop(const struct contact_input *input, uint32_t row);
 
 /* Takes the pairs out of the list in which a row cruises and that do not come near to each other.
- * The stretches in the others end before they do; if that is soon, at once, and the pair stays in
- * the list. ends: its content is lost. */
+ * Of the others the stretch of one row ends before they do, that which loses less by it, or both
+ * do; if that is soon, both end at once, and the pair stays in the list. ends: its content is lost.
+ */
 void cruise_rows_take_pairs(const struct contact_input *input, struct pair_list *pairs,
                             struct pair_list *ends);
 

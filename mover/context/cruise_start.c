@@ -8,7 +8,6 @@
 #define GROUP_BITS   4u /* the least group has 16 rows */
 #define GROUPS_MOST  256u /* of rows that are not a block */
 #define TRY_FRAMES   10u  /* after so many frames rows that do not cruise try again */
-#define LEAST_FRAMES 5u   /* of a stretch */
 #define DECISIONS    4u   /* after so many decisions that changed nothing an agent looks again */
 #define NEAR_GOAL_M  40.0 /* nearer to its goal stretches are short: it decides when there */
 
@@ -82,15 +81,24 @@ static bool cruises(const struct step_context *context, uint32_t i)
     return domain == DOMAIN_LAND || !(m->flags[i] & ENTITY_FLAG_AGROUND);
 }
 
+/* Returns true if row i's stretch has ended by itself just now. */
+static bool has_ended(const struct step_context *context, uint32_t i)
+{
+    return context->m->cruise_tick[i] != 0 &&
+           context->m->cruise_tick[i] + 1u == (uint32_t)context->tick;
+}
+
 /* Returns the frames from this one to the group's next turn if row i may try to cruise now; else
- * 0. Where stretches are longer than decisions are apart, a row that tries again does not decide
- * before its turn: it tries a stretch that ends before, and a longer one when it decides. */
+ * 0. A row that something has stopped or that was refused tries again every TRY_FRAMES. Where
+ * stretches are longer than decisions are apart, it does not decide before its turn: it tries a
+ * stretch that ends before, and a longer one when it decides. */
 static uint32_t tries_for(const struct step_context *context, uint32_t i)
 {
     const bool lasts = context->cruise_frames > context->cruise_short;
     uint32_t since = since_turn(context, i);
     uint32_t left = context->cruise_frames - since;
-    if (since == 0 || (lasts && left >= TRY_FRAMES && step_context_thinks(context, i)))
+    if (since == 0 || (left >= CRUISE_START_LEAST && has_ended(context, i)) ||
+        (lasts && left >= TRY_FRAMES && step_context_thinks(context, i)))
         return left;
     if (since % TRY_FRAMES != 0)
         return 0;
@@ -107,7 +115,7 @@ static uint32_t tries_for(const struct step_context *context, uint32_t i)
 static uint32_t decides_for(const struct step_context *context, uint32_t i)
 {
     bool flies = context->world->kinds[context->m->kind[i]].domain == DOMAIN_AIR;
-    return !flies && context->think_frames >= LEAST_FRAMES && step_context_thinks(context, i)
+    return !flies && context->think_frames >= CRUISE_START_LEAST && step_context_thinks(context, i)
                ? context->think_frames
                : 0;
 }

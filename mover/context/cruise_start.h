@@ -4,8 +4,8 @@
  * writes to few blocks. Such groups take turns. In a large world a group is a block; a small one
  * has smaller groups, so that each frame has its share of the work. A vehicle may begin a stretch
  * when its group's turn comes, if it is on its way, nothing has happened to it and its gun is at
- * rest. One that could not, or whose stretch has ended early, tries again some frames later: for a
- * shorter stretch, to the next turn of its group. A land vehicle or a ship that avoids something or
+ * rest. One that could not, or that something has stopped, tries again some frames later, and one
+ * whose stretch was made shorter when that ends: for a stretch to the next turn of its group. A land vehicle or a ship that avoids something or
  * has to slow down, also for the ground ahead, begins its stretches when its agent decides, and
  * they last until the next decision. Its agent then decides at once whatever falls due within the
  * stretch. The motion of the stretch is that of one long frame (mover/motion/ground_vehicle.h),
@@ -16,6 +16,8 @@
 #define JOLON_MOVER_CONTEXT_CRUISE_START_H
 
 #include "mover/context/step_context.h"
+
+#define CRUISE_START_LEAST 5u /* [frame] of a stretch: a shorter one does not pay */
 
 /* Returns how many rows a group has in a world of this capacity, from 16 to CHECKSUM_ROWS: the
  * logarithm to base 2. */

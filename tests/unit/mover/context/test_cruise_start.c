@@ -126,6 +126,24 @@ static void test_one_whose_stretch_has_ended_tries_again(void **state)
     assert_int_equal((now.entities.cruise_tick[tank] + 1 - now.head->tick) % 10, 0);
 }
 
+/* One whose stretch was made shorter does not wait when it ends. */
+static void test_one_whose_stretch_ends_by_itself_begins_anew(void **state)
+{
+    (void)state;
+    assert_true(begins(tank));
+    fixture_run(&f, FRAMES + 3);
+    struct entities e = steps_rows(&f);
+    const uint64_t tick = fixture_state(&f).head->tick;
+    static uint64_t changed[CHECKSUM_BLOCKS];
+    const struct table_writer writer = {&e, changed, NULL};
+    assert_true(cruises(tank));
+    assert_true(cruise_pose_end(&writer, &f.view.world, NULL, tank, tick + 6, tick));
+    fixture_run(&f, 6);
+    assert_false(cruises(tank));
+    fixture_run(&f, 1);
+    assert_true(cruises(tank));
+}
+
 static void test_without_the_key_nothing_cruises(void **state)
 {
     (void)state;
@@ -248,6 +266,7 @@ int main(void)
         IN_WORLD(test_a_vehicle_on_its_way_cruises_for_half_a_second),
         IN_WORLD(test_a_stretch_is_the_motion_of_its_frames),
         IN_WORLD(test_one_whose_stretch_has_ended_tries_again),
+        IN_WORLD(test_one_whose_stretch_ends_by_itself_begins_anew),
         IN_WORLD(test_without_the_key_nothing_cruises),
         IN_WORLD(test_long_frames_have_no_stretches),
         IN_WORLD(test_what_stands_fights_or_is_driven_does_not),

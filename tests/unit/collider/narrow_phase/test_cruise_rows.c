@@ -1,0 +1,151 @@
+/* Which stretches are made shorter. */
+#include "collider/narrow_phase/cruise_rows.h"
+#include "tests/support/steps.h"
+#include "world/entity/cruise.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define WHOLE 60u /* frames of a stretch */
+#define MPS   10.0
+
+static struct fixture f;
+static uint32_t tank, truck;
+static struct response_context context;
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { cruise = true; };");
+    tank = fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25000.0, 0.0, 25000.0}});
+    truck = fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {26000.0, 0.0, 25000.0}});
+    fixture_run(&f, 1);
+    steps_respond(&f, &context);
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    steps_respond_end(&context);
+    fixture_close(&f);
+    return 0;
+}
+
+/* Makes a row cruise from this frame on for so many frames, to a place to which it heads. turns:
+ * [rad/s], gains: [m/s2]. */
+static void make_cruise(uint32_t row, struct vec3 to, double heading_rad, double turns, double gains)
+{
+    const struct entities *e = &context.next->entities;
+    entities_set_position(e, row, to);
+    entities_set_velocity(e, row,
+                          (struct vec3){MPS * sin(heading_rad), 0.0, -MPS * cos(heading_rad)});
+    e->heading[row] = heading_rad;
+    e->cruise_rps[row] = turns;
+    e->cruise_mps2[row] = gains;
+    e->cruise_tick[row] = (uint32_t)context.next->head->tick + WHOLE;
+}
+
+/* Returns how many frames of its stretch a row has left. */
+static uint32_t left_of(uint32_t row)
+{
+    const uint32_t end = context.next->entities.cruise_tick[row];
+    const uint32_t tick = (uint32_t)context.next->head->tick;
+    return end > tick ? end - tick : 0;
+}
+
+/* The tank goes north and the truck west, for a second, and the truck ends its stretch so far east
+ * of the middle of the tank's way. Returns true if the two are a pair for the narrow phase. */
+static bool cross(double east_m, double turns, double gains)
+{
+    struct pair_list pairs, ends;
+    make_cruise(tank, (struct vec3){25000.0, 0.0, 25000.0}, 0.0, turns, gains);
+    make_cruise(truck, (struct vec3){25000.0 + east_m, 0.0, 25005.0}, -0.5 * M_PI, 0.0, 0.0);
+    assert_int_equal(pair_list_init(&pairs, 16), 0);
+    assert_int_equal(pair_list_init(&ends, 16), 0);
+    pair_list_add(&pairs, tank, truck);
+    cruise_rows_take_pairs(&context.input, &pairs, &ends);
+    bool left = pairs.count > 0;
+    pair_list_free(&pairs);
+    pair_list_free(&ends);
+    return left;
+}
+
+/* While their ways are apart both go on to their ends. Of two ways that meet that of the truck,
+ * which comes there last, is made shorter, the less the later that is. */
+static void test_of_two_whose_ways_meet_one_goes_on(void **state)
+{
+    uint32_t before = WHOLE, shorter = 0;
+    (void)state;
+    for (double east_m = 9.0; east_m > 0.0; east_m -= 0.5) {
+        assert_false(cross(east_m, 0.0, 0.0));
+        assert_int_equal(left_of(tank), WHOLE);
+        assert_in_range(left_of(truck), WHOLE / 4, before);
+        before = left_of(truck);
+        shorter += before < WHOLE;
+    }
+    assert_in_range(shorter, 2, 16);
+}
+
+/* What is left is not less than seven eighths of the time for which the ways are apart. */
+static void test_a_stretch_goes_on_for_as_long_as_it_may(void **state)
+{
+    (void)state;
+    assert_false(cross(4.0, 0.0, 0.0));
+    const uint32_t found = left_of(truck);
+    assert_true(found < WHOLE);
+    uint32_t frames = found;
+    for (uint32_t more = found; more <= WHOLE; more++) { /* the same way, but ended so late */
+        const double back_m = MPS * (double)(WHOLE - more) / 60.0;
+        struct pair_list pairs, ends;
+        make_cruise(tank, (struct vec3){25000.0, 0.0, 25000.0}, 0.0, 0.0, 0.0);
+        make_cruise(truck, (struct vec3){25004.0 + back_m, 0.0, 25005.0}, -0.5 * M_PI, 0.0, 0.0);
+        context.next->entities.cruise_tick[truck] -= WHOLE - more;
+        assert_int_equal(pair_list_init(&pairs, 16), 0);
+        assert_int_equal(pair_list_init(&ends, 16), 0);
+        pair_list_add(&pairs, tank, truck);
+        cruise_rows_take_pairs(&context.input, &pairs, &ends);
+        if (left_of(truck) == more)
+            frames = more;
+        pair_list_free(&pairs);
+        pair_list_free(&ends);
+    }
+    assert_in_range(found, frames - frames / 8 - 1, frames);
+}
+
+/* One that turns and gains speed would go another way if its stretch were shorter, so the other one
+ * gives way. */
+static void test_one_that_cannot_be_made_shorter_goes_on(void **state)
+{
+    (void)state;
+    assert_false(cross(4.0, 0.3, 1.0));
+    assert_int_equal(left_of(tank), WHOLE);
+    assert_in_range(left_of(truck), WHOLE / 4, WHOLE - 1);
+}
+
+/* Where they are near already both end, and the narrow phase looks at them. */
+static void test_two_that_are_near_both_end(void **state)
+{
+    (void)state;
+    const double way_m = MPS * (double)WHOLE / 60.0;
+    assert_true(cross(4.0 - way_m, 0.0, 0.0));
+    assert_int_equal(left_of(tank), 0);
+    assert_int_equal(left_of(truck), 0);
+}
+
+#define IN_WORLD(test) cmocka_unit_test_setup_teardown(test, open_world, close_world)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        IN_WORLD(test_of_two_whose_ways_meet_one_goes_on),
+        IN_WORLD(test_a_stretch_goes_on_for_as_long_as_it_may),
+        IN_WORLD(test_one_that_cannot_be_made_shorter_goes_on),
+        IN_WORLD(test_two_that_are_near_both_end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
