@@ -1,6 +1,7 @@
 /* Moves ships. */
 #include "mover/motion/ship.h"
 
+#include "mover/context/ground_strike.h"
 #include "mover/motion/kinematics.h"
 #include "world/state.h"
 #include "world/terrain/gridsquare.h"
@@ -338,23 +339,10 @@ void ship_tell_aground(struct serial_context *context, uint32_t i)
     const struct entities *m = step->m;
     struct vec3 before = entities_velocity(&step->committed->entities, i);
     double sine, cosine, speed = vec3_length(before);
-    struct event *event = serial_context_intent(context, EVENT_COLLISION);
-    context->moved->head->tally.collisions++;
-    if (event == NULL)
-        return;
     maths_sincos(m->heading[i], &sine, &cosine);
     double end = before.x * sine - before.z * cosine < 0.0 ? -0.5 : 0.5;
     end *= step->world->kinds[m->kind[i]].length_m;
-    struct event_collision *hit = &event->collision;
-    hit->a = serial_context_party(context, i);
-    hit->b = (struct event_party){0, KIND_NONE, 1, DAMAGE_NONE};
-    hit->point[0] = m->x[i] + end * sine;
-    hit->point[1] = m->y[i];
-    hit->point[2] = m->z[i] - end * cosine;
-    if (speed > 0.0) {
-        vec3_to_floats(hit->normal, vec3_scale(before, 1.0 / speed));
-        vec3_to_floats(hit->direction_a, vec3_scale(before, 1.0 / speed));
-    }
-    hit->closing_mps = (float)speed;
-    hit->response = RESPONSE_STOP;
+    struct vec3 at = {m->x[i] + end * sine, m->y[i], m->z[i] - end * cosine};
+    struct vec3 ahead = speed > 0.0 ? vec3_scale(before, 1.0 / speed) : (struct vec3){0};
+    (void)ground_strike_tell(context, i, at, ahead, RESPONSE_STOP);
 }

@@ -3,6 +3,7 @@
 
 #include "mover/motion/airframe.h"
 #include "mover/motion/ground/ground_body.h"
+#include "mover/context/ground_strike.h"
 #include "mover/motion/kinematics.h"
 #include "world/state.h"
 #include "world/terrain/gridsquare.h"
@@ -169,22 +170,5 @@ void landing_move(const struct step_context *context, uint32_t i,
 
 void landing_tell_hard(struct serial_context *context, uint32_t i)
 {
-    const struct step_context *step = context->step;
-    const struct entities *m = step->m;
-    struct vec3 before = entities_velocity(&step->committed->entities, i);
-    struct vec3 at = entities_position(m, i);
-    struct vec3 normal = terrain_normal(&step->world->terrain, step->craters, at.x, at.z);
-    struct event *event = serial_context_intent(context, EVENT_COLLISION);
-    context->moved->head->tally.collisions++;
-    if (event == NULL)
-        return;
-    struct event_collision *hit = &event->collision;
-    hit->a = serial_context_party(context, i);
-    hit->b = (struct event_party){0, KIND_NONE, 1, DAMAGE_NONE};
-    hit->point[0] = at.x, hit->point[1] = at.y, hit->point[2] = at.z;
-    vec3_to_floats(hit->normal, vec3_scale(normal, -1.0));
-    if (vec3_length(before) > 0.0)
-        vec3_to_floats(hit->direction_a, vec3_scale(before, 1.0 / vec3_length(before)));
-    hit->closing_mps = (float)maths_max(0.0, -vec3_dot(before, normal));
-    hit->response = RESPONSE_SLOW;
+    (void)ground_strike_tell_below(context, i, RESPONSE_SLOW);
 }

@@ -2,6 +2,7 @@
 #include "mover/motion/ground/wreck.h"
 
 #include "mover/motion/ground/ground_body.h"
+#include "mover/context/ground_strike.h"
 #include "mover/motion/kinematics.h"
 #include "mover/motion/sinking.h"
 #include "mover/motion/spin.h"
@@ -75,26 +76,14 @@ static void break_up(const struct step_context *context, uint32_t i, double take
 void wreck_tell_broken(struct serial_context *context, uint32_t i)
 {
     const struct step_context *step = context->step;
-    const struct entities *m = step->m;
     struct vec3 before = entities_velocity(&step->committed->entities, i);
-    struct vec3 change = vec3_sub(entities_velocity(m, i), before), at = entities_position(m, i);
-    struct vec3 normal = terrain_normal(&step->world->terrain, step->craters, at.x, at.z);
-    struct event *event = serial_context_intent(context, EVENT_COLLISION);
+    struct vec3 change = vec3_sub(entities_velocity(step->m, i), before);
+    struct event_collision *hit = ground_strike_tell_below(context, i, RESPONSE_DESTROYED);
     table_set_changed_tick(&context->writer, i, (uint32_t)step->tick);
-    context->moved->head->tally.collisions++;
-    if (event == NULL)
+    if (hit == NULL)
         return;
-    struct event_collision *hit = &event->collision;
-    hit->a = serial_context_party(context, i);
-    hit->b = (struct event_party){0, KIND_NONE, 1, DAMAGE_NONE};
-    hit->point[0] = at.x, hit->point[1] = at.y, hit->point[2] = at.z;
-    vec3_to_floats(hit->normal, vec3_scale(normal, -1.0));
-    if (vec3_length(before) > 0.0)
-        vec3_to_floats(hit->direction_a, vec3_scale(before, 1.0 / vec3_length(before)));
     hit->toi = 1.0;
-    hit->closing_mps = (float)maths_max(0.0, -vec3_dot(before, normal));
-    hit->impulse_ns = (float)(step->world->kinds[m->kind[i]].mass_kg * vec3_length(change));
-    hit->response = RESPONSE_DESTROYED;
+    hit->impulse_ns = (float)(step->world->kinds[step->m->kind[i]].mass_kg * vec3_length(change));
 }
 
 /* Notes that the row is slow, or that it is not, and brings it to rest when it has been slow for
