@@ -128,7 +128,8 @@ static void move_stretch(const struct step_context *context, struct batches *bat
     uint32_t refused[LANE_COUNT], count = stretch_rows(context, batches, refused);
     while (count > 0 && batches->stretch.frames / 2 >= CRUISE_START_LEAST) {
         uint32_t half = batches->stretch.frames / 2;
-        bool skips = half < context->cruise_short && batches->stretch.frames > context->cruise_short;
+        bool skips =
+            half < context->cruise_short && batches->stretch.frames > context->cruise_short;
         ground_vehicle_begin(&batches->stretch, skips ? context->cruise_short : half);
         for (uint32_t n = 0; n < count; n++)
             (void)ground_vehicle_take_held(context, &batches->stretch, refused[n]);

@@ -110,9 +110,8 @@ static bool meet_until(const struct contact_input *input, const struct pair *pai
                        uint64_t b_tick)
 {
     const struct body_line first = line_of(input, pair->a, a_tick);
-    const struct body_line second = pair->b & PAIR_FIXED
-                                        ? fixed_line(input, pair->b & ~PAIR_FIXED)
-                                        : line_of(input, pair->b, b_tick);
+    const struct body_line second = pair->b & PAIR_FIXED ? fixed_line(input, pair->b & ~PAIR_FIXED)
+                                                         : line_of(input, pair->b, b_tick);
     return !apart(&first, &second);
 }
 
@@ -219,8 +218,7 @@ void cruise_rows_take_pairs(const struct contact_input *input, struct pair_list 
     ends->count = 0;
     for (uint32_t i = 0; i < pairs->count; i++) {
         const struct pair pair = pairs->pair[i];
-        if (has_cruising(input, &pair) &&
-            (!meet(input, &pair) || shorten_pair(input, &pair, ends)))
+        if (has_cruising(input, &pair) && (!meet(input, &pair) || shorten_pair(input, &pair, ends)))
             continue;
         pairs->pair[count++] = pair;
     }

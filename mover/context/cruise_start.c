@@ -4,12 +4,12 @@
 #include "world/entity/table_write.h"
 #include "world/world.h"
 
-#define SPREAD       7u /* frames between the turns of two neighbouring groups: no divisor of 30 */
-#define GROUP_BITS   4u /* the least group has 16 rows */
-#define GROUPS_MOST  256u /* of rows that are not a block */
-#define TRY_FRAMES   10u  /* after so many frames rows that do not cruise try again */
-#define DECISIONS    4u   /* after so many decisions that changed nothing an agent looks again */
-#define NEAR_GOAL_M  40.0 /* nearer to its goal stretches are short: it decides when there */
+#define SPREAD      7u   /* frames between the turns of two neighbouring groups: no divisor of 30 */
+#define GROUP_BITS  4u   /* the least group has 16 rows */
+#define GROUPS_MOST 256u /* of rows that are not a block */
+#define TRY_FRAMES  10u  /* after so many frames rows that do not cruise try again */
+#define DECISIONS   4u   /* after so many decisions that changed nothing an agent looks again */
+#define NEAR_GOAL_M 40.0 /* nearer to its goal stretches are short: it decides when there */
 
 uint32_t cruise_start_group_bits(uint32_t capacity)
 {

@@ -5,11 +5,11 @@
  * has smaller groups, so that each frame has its share of the work. A vehicle may begin a stretch
  * when its group's turn comes, if it is on its way, nothing has happened to it and its gun is at
  * rest. One that could not, or that something has stopped, tries again some frames later, and one
- * whose stretch was made shorter when that ends: for a stretch to the next turn of its group. A land vehicle or a ship that avoids something or
- * has to slow down, also for the ground ahead, begins its stretches when its agent decides, and
- * they last until the next decision. Its agent then decides at once whatever falls due within the
- * stretch. The motion of the stretch is that of one long frame (mover/motion/ground_vehicle.h),
- * which refuses what is not easy.
+ * whose stretch was made shorter when that ends: for a stretch to the next turn of its group. A
+ * land vehicle or a ship that avoids something or has to slow down, also for the ground ahead,
+ * begins its stretches when its agent decides, and they last until the next decision. Its agent
+ * then decides at once whatever falls due within the stretch. The motion of the stretch is that of
+ * one long frame (mover/motion/ground_vehicle.h), which refuses what is not easy.
  *
  * Reads row i of the moved table. Any thread, each its own row. */
 #ifndef JOLON_MOVER_CONTEXT_CRUISE_START_H

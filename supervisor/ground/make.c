@@ -30,6 +30,9 @@
 #define INPUTS_MAX    4096
 #define METRES_A_FOOT 0.3048
 #define TREES_MAX     10000.0 /* a hectare */
+#define TREES_PER_HA  25.0
+#define SEED          1991u
+#define NOT_GIVEN     (-1.0) /* of the trees; of the seed UINT64_MAX */
 
 static struct {
     double latitude_deg, longitude_deg, side_m, spacing_m, undulation_m, trees_per_ha;
@@ -38,7 +41,7 @@ static struct {
     char *covers[COVERS_MAX], *roads[COVERS_MAX], *features[COVERS_MAX];
     uint32_t cover_count, road_count, feature_count, threads;
     uint64_t seed;
-} given = {.spacing_m = 31.25, .trees_per_ha = 25.0, .seed = 1991};
+} given = {.spacing_m = 31.25, .trees_per_ha = NOT_GIVEN, .seed = UINT64_MAX};
 
 /* What is made. */
 struct making {
@@ -173,6 +176,13 @@ static int read_options(int argc, char **argv)
         die_usage("ground make: --classes goes with --cover, whose classes it explains");
     if (!given.classes)
         given.classes = "worldcover";
+    if ((given.trees_per_ha != NOT_GIVEN || given.seed != UINT64_MAX) && given.feature_count == 0)
+        die_usage("ground make: --trees and --seed go with --features, in whose woods and scrub "
+                  "plants stand");
+    if (given.trees_per_ha == NOT_GIVEN)
+        given.trees_per_ha = TREES_PER_HA;
+    if (given.seed == UINT64_MAX)
+        given.seed = SEED;
     check_sides();
     return inputs;
 }

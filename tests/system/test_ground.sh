@@ -232,6 +232,8 @@ P
     refuses_map "a table with a wrong word" 'own.txt:1: wood: no such cover; allowed: grass' --cover strange.tif --classes ./own.txt level.tif
     printf '10 forest\n77 rock\n10 grass\n' >twice.txt
     refuses_map "a table with a class twice" 'twice.txt:3: class 10 has a cover already' --cover strange.tif --classes ./twice.txt level.tif
+    refuses "trees without a map of woods" 2 '--trees and --seed go with --features' make --trees 5 level.tif
+    refuses "a seed of trees without a map of woods" 2 '--trees and --seed go with --features' make --seed 5 level.tif
     refuses "a table without a map of cover" 2 '--classes goes with --cover' make --classes nlcd level.tif
     refuses_map "no table" 'nolist: no such table' --cover strange.tif --classes nolist level.tif
     rm -f ./*.ground

@@ -22,7 +22,8 @@ static int open_world(void **state)
     (void)state;
     fixture_open(&f, "world = { cruise = true; };");
     tank = fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25000.0, 0.0, 25000.0}});
-    truck = fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {26000.0, 0.0, 25000.0}});
+    truck =
+        fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {26000.0, 0.0, 25000.0}});
     fixture_run(&f, 1);
     steps_respond(&f, &context);
     return 0;
@@ -38,7 +39,8 @@ static int close_world(void **state)
 
 /* Makes a row cruise from this frame on for so many frames, to a place to which it heads. turns:
  * [rad/s], gains: [m/s2]. */
-static void make_cruise(uint32_t row, struct vec3 to, double heading_rad, double turns, double gains)
+static void make_cruise(uint32_t row, struct vec3 to, double heading_rad, double turns,
+                        double gains)
 {
     const struct entities *e = &context.next->entities;
     entities_set_position(e, row, to);
