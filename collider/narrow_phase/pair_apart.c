@@ -34,6 +34,9 @@ void pair_apart_prepare(struct pair_apart *apart, const struct body_motion *moti
     if (pose->rate > 0.0 && pose->body.path.since < 1.0)
         pose->spin_y =
             rotation_speed(pose->body.from, pose->body.to, 0.0).y / (1.0 - pose->body.path.since);
+    if (!pose->freely)
+        pose->side =
+            axis_side_of(&pose->body, &pose->from, &pose->to, pose->rate, pose->body.path.since);
     pose->known = true;
 }
 
@@ -60,7 +63,19 @@ static struct row_pose fixed_pose(const struct pair_apart *apart, uint32_t objec
 {
     struct row_pose pose = {.body = body_motion_fixed(apart->world, object)};
     pose.from = pose.to = rotation_matrix(pose.body.from);
+    pose.side = axis_side_of(&pose.body, &pose.from, &pose.to, 0.0, 0.0);
     return pose;
+}
+
+/* Returns the side of a body from a time on. Most proofs begin with the body's path, and a body has
+ * many neighbours. */
+static const struct axis_side *side_from(const struct row_pose *pose, double time,
+                                         struct axis_side *room)
+{
+    if (time == pose->body.path.since)
+        return &pose->side;
+    *room = axis_side_of(&pose->body, &pose->from, &pose->to, pose->rate, time);
+    return room;
 }
 
 bool pair_apart_stays(const struct pair_apart *apart, const struct pair *pair, double time,
@@ -79,7 +94,8 @@ bool pair_apart_stays(const struct pair_apart *apart, const struct pair *pair, d
         return true;
     if (a->freely || b->freely)
         return false;
-    struct axis_side side_a = axis_side_of(&a->body, &a->from, &a->to, a->rate, time);
-    struct axis_side side_b = axis_side_of(&b->body, &b->from, &b->to, b->rate, time);
-    return separating_axis_find(&side_a, &side_b, margin_m, nearest, axis, apart_m);
+    struct axis_side room_a, room_b;
+    const struct axis_side *side_a = side_from(a, time, &room_a);
+    const struct axis_side *side_b = side_from(b, time, &room_b);
+    return separating_axis_find(side_a, side_b, margin_m, nearest, axis, apart_m);
 }

@@ -11,10 +11,11 @@
 struct row_pose {
     struct swept_body body;
     struct mat3 from, to;
-    double spin_y; /* [rad a frame] about the vertical, at path.since */
-    double rate;   /* rotation_rate() from one to the other */
-    bool freely;   /* it turns by no fixed axis, and only its sphere is tested */
-    bool known;    /* the row's path has not changed since */
+    struct axis_side side; /* from path.since on, unless it turns freely */
+    double spin_y;         /* [rad a frame] about the vertical, at path.since */
+    double rate;           /* rotation_rate() from one to the other */
+    bool freely;           /* it turns by no fixed axis, and only its sphere is tested */
+    bool known;            /* the row's path has not changed since */
 };
 
 struct pair_apart {
