@@ -89,17 +89,38 @@ static void forget_ground(struct contact_groups *groups)
 }
 
 /* A wreck on the ground tips over if the ground alone makes it turn about a level axis as fast as
- * this: something else carries it, or it rolls [rad/s2, rad/s]. */
+ * this: something else carries it, or it rolls [rad/s2]. */
 #define TIPS_RPS2 0.5
-#define TIPS_RPS  0.05
+
+/* It rocks if one of its ends leaves or meets the ground faster than this. A held body has no
+ * weight for those on it: one that rocks would lift them, and lose nothing [m/s]. */
+#define ROCKS_MPS 0.05
+
+static double square(double x, double z)
+{
+    return x * x + z * z;
+}
+
+/* Returns true if an end of a wreck leaves or meets the ground. */
+static bool rocks(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = &context->next->entities;
+    struct vec3 velocity = entities_velocity(e, row);
+    double half_m = 0.5 * context->world->kinds[e->kind[row]].length_m;
+    double end_mps = half_m * sqrt(square(e->spin_x[row], e->spin_z[row]));
+    if (vec3_length(velocity) + end_mps <= ROCKS_MPS)
+        return false; /* the common case */
+    struct vec3 normal = terrain_normal(&context->world->terrain, context->input.detect.craters,
+                                        e->x[row], e->z[row]);
+    return fabs(vec3_dot(velocity, normal)) + end_mps > ROCKS_MPS;
+}
 
 static bool tips(const struct response_context *context, uint32_t row)
 {
     const struct entities *w = &context->motion->before, *e = &context->next->entities;
     double x = e->spin_x[row] - w->spin_x[row], z = e->spin_z[row] - w->spin_z[row];
     double most = TIPS_RPS2 * world_dt_s(context->world);
-    double now = e->spin_x[row] * e->spin_x[row] + e->spin_z[row] * e->spin_z[row];
-    return x * x + z * z > most * most || now > TIPS_RPS * TIPS_RPS;
+    return square(x, z) > most * most || rocks(context, row);
 }
 
 bool contact_groups_is_piloted(const struct response_context *context, uint32_t row)

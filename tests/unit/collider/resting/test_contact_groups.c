@@ -368,6 +368,23 @@ static void test_a_wreck_above_the_ground_is_free(void **state)
     assert_true(contact_groups_is_free(&context, 1) && !contact_groups_is_free(&context, 0));
 }
 
+/* A held body has no weight: one that rocks would lift what lies on it. */
+static void test_a_wreck_that_rocks_is_free(void **state)
+{
+    (void)state;
+    make_wreck(1, 0.0);
+    steps_respond(&f, &context);
+    const struct entities *e = &context.next->entities;
+    assert_false(contact_groups_is_free(&context, 1));
+    e->vx[1] = 3.0; /* it slides */
+    assert_false(contact_groups_is_free(&context, 1));
+    e->vy[1] = 0.06;
+    assert_true(contact_groups_is_free(&context, 1));
+    e->vy[1] = 0.0;
+    context.motion->before.spin_x[1] = e->spin_x[1] = 0.02; /* its ends: 7 cm/s */
+    assert_true(contact_groups_is_free(&context, 1));
+}
+
 static void test_a_wreck_wakes_when_what_it_leans_on_is_gone(void **state)
 {
     (void)state;
@@ -406,6 +423,7 @@ int main(void)
         TEST(test_a_new_body_that_overlaps_is_found),
         TEST(test_two_new_bodies_are_one_pair),
         TEST(test_a_wreck_above_the_ground_is_free),
+        TEST(test_a_wreck_that_rocks_is_free),
         TEST(test_a_wreck_wakes_when_what_it_leans_on_is_gone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
