@@ -285,8 +285,8 @@ static void add_flier(const struct body_boxes *rows, struct sweep_worker *sweepe
     uint32_t row = tag & BIN_ROW;
     struct vec3 at = {ends->at[0][k], ends->at[1][k], ends->at[2][k]};
     struct vec3 to = {ends->to[0][k], ends->to[1][k], ends->to[2][k]};
-    if (!(tag & BIN_ROUND) && rows->motion && rows->motion->models) {
-        double lower = ground_impact_lower(rows->margin[input->entities->kind[row]]);
+    if (!(tag & BIN_ROUND) && rows->motion) {
+        double lower = ground_impact_lower(input->world, input->entities->kind[row]);
         at.y -= lower;
         to.y -= lower;
     }

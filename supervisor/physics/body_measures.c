@@ -89,6 +89,15 @@ static struct vec3 box_corner(const struct kind *kind, uint32_t i)
                          (i & 4 ? 0.5 : -0.5) * kind->width_m};
 }
 
+/* Returns how far the farthest of the points that touch the ground is from the position [m]. */
+static double reach_of(const struct ground_look *ground, const struct kind *kind)
+{
+    double reach = kind->bound_m;
+    for (uint32_t i = 0; ground->boxes && i < BOX_CORNERS; i++)
+        reach = maths_max(reach, vec3_length(box_corner(kind, i)));
+    return reach;
+}
+
 /* Returns how high a wreck's lowest corner is over the ground below that corner. */
 static double lowest_corner(const struct ground_look *ground, const struct body_look *body)
 {
@@ -103,11 +112,11 @@ static double lowest_corner(const struct ground_look *ground, const struct body_
     return lowest;
 }
 
-/* Returns how far a point of the body may move in the frame. */
-static double way_of(const struct body_look *body, double dt_s)
+/* Returns how far a point of the body, within this reach of its position, may move in the frame. */
+static double way_of(const struct body_look *body, double reach_m, double dt_s)
 {
     const struct motion_look *now = &body->now;
-    return dt_s * (vec3_length(now->velocity) + vec3_length(now->spin) * body->kind->bound_m);
+    return dt_s * (vec3_length(now->velocity) + vec3_length(now->spin) * reach_m);
 }
 
 /* Measures a wreck's depth in the ground if it has grown. One that a vehicle had may stay. Wrecks
@@ -127,8 +136,8 @@ static void measure_corners(struct measures *measures, const struct ground_look 
 {
     const struct kind *kind = body->kind;
     const struct vec3 at = body->named.at;
-    double bound = kind->bound_m;
-    double near = LEAST_DEPTH_M + (body->now.wreck ? way_of(body, ground->dt_s) : 0.0);
+    double bound = reach_of(ground, kind);
+    double near = LEAST_DEPTH_M + (body->now.wreck ? way_of(body, bound, ground->dt_s) : 0.0);
     body->now.lowest_m = body->now.height_m;
     if (kind->domain == DOMAIN_SEA || kind->hull_count == 0 ||
         at.y - bound > surface_part_most(part, bound, bound) + near)
@@ -178,7 +187,8 @@ void body_measures_ground(struct measures *measures, const struct ground_look *g
         body->now.at_rest |= body->now.wreck;
         return;
     }
-    const struct surface_part part = surface_around(surface, at.x, at.z, body->kind->bound_m);
+    const struct surface_part part =
+        surface_around(surface, at.x, at.z, reach_of(ground, body->kind));
     body->now.height_m = at.y - (part.flat ? part.at_m : surface_height(surface, at.x, at.z));
     if (!part.flat)
         body->now.height_m -= standing_height(surface, body);

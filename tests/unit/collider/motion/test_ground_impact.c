@@ -30,10 +30,9 @@ static uint32_t put(double height, struct vec3 velocity, double pitch)
     return row;
 }
 
-static void test_a_diving_aircraft_crashes_when_its_nose_touches(void **state)
+static void dive(const char *scenario)
 {
-    (void)state;
-    fixture_open(&f, "collision = { shape = \"model\"; };");
+    fixture_open(&f, scenario);
     uint32_t row = put(60.0, (struct vec3){60.0, -90.0, 0.0}, -0.98);
     uint32_t frames = 0;
     for (; steps_rows(&f).state[row] == ENTITY_ACTIVE && frames < 120; frames++) {
@@ -46,6 +45,19 @@ static void test_a_diving_aircraft_crashes_when_its_nose_touches(void **state)
     assert_true(e.pitch[row] == -0.98 && e.vx[row] == 60.0 && e.vy[row] == -90.0);
     assert_int_equal(fixture_event_count(&f, EVENT_COLLISION), 1);
     fixture_close(&f);
+}
+
+static void test_a_diving_aircraft_crashes_when_its_nose_touches(void **state)
+{
+    (void)state;
+    dive("collision = { shape = \"model\"; };");
+}
+
+/* It collides with others as a sphere, and with the ground as a box. */
+static void test_a_diving_sphere_crashes_when_its_box_touches(void **state)
+{
+    (void)state;
+    dive("collision = { shape = \"sphere\"; };");
 }
 
 static void test_an_aircraft_low_over_the_ground_does_not(void **state)
@@ -66,6 +78,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_a_diving_aircraft_crashes_when_its_nose_touches),
+        cmocka_unit_test(test_a_diving_sphere_crashes_when_its_box_touches),
         cmocka_unit_test(test_an_aircraft_low_over_the_ground_does_not),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
