@@ -8,6 +8,7 @@
 #define LEVEL_LEAST 0.2  /* the level part of a normal along which a body may leave */
 #define PLACE_M     0.02 /* a narrower gap between pieces is no place */
 #define OUT_M       1e-9 /* a shorter way is none */
+#define LINES_MAX   512u /* edges that are nearer than the shortest way along a normal */
 
 /* The level displacements of b at which two pieces overlap: no face separates them. */
 struct piece_pair {
@@ -93,6 +94,73 @@ static uint32_t list_pairs(const struct parting_pieces *a, const struct parting_
     return count;
 }
 
+/* --- corners -----------------------------------------------------------------------------------*/
+
+/* An edge of a polygon: the level displacements with x * d.x + z * d.z = far_m, of which those
+ * beyond it are outside. */
+struct edge {
+    double x, z, far_m; /* (x, z): unit */
+};
+
+/* Lists the edges that are nearer than most [m]. Returns how many there are. */
+static uint32_t list_edges(const struct piece_pair *pairs, uint32_t count, double most,
+                           struct edge edge[LINES_MAX])
+{
+    uint32_t edges = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const struct piece_pair *pair = &pairs[i];
+        for (uint32_t k = 0; k < pair->p->faces + pair->q->faces && edges < LINES_MAX; k++) {
+            struct vec3 normal = face_normal(pair, k);
+            double level = sqrt(normal.x * normal.x + normal.z * normal.z);
+            if (level < LEVEL_LEAST)
+                continue;
+            double far_m = -separation(pair, normal) / level;
+            edge[edges] = (struct edge){normal.x / level, normal.z / level, far_m};
+            edges += fabs(far_m) < most;
+        }
+    }
+    return edges;
+}
+
+/* Returns true if b overlaps no piece after a level displacement. */
+static bool is_out(const struct piece_pair *pairs, uint32_t count, double x, double z)
+{
+    for (uint32_t i = 0; i < count; i++) {
+        const struct piece_pair *pair = &pairs[i];
+        bool apart = false;
+        for (uint32_t k = 0; k < pair->p->faces + pair->q->faces && !apart; k++) {
+            struct vec3 normal = face_normal(pair, k);
+            apart = separation(pair, normal) + normal.x * x + normal.z * z >= -OUT_M;
+        }
+        if (!apart)
+            return false;
+    }
+    return true;
+}
+
+/* Returns the distance of the nearest place in which the edges of two polygons cross, at most most.
+ * b has a little room there: it goes on across both edges by half of what a place needs. */
+static double nearest_corner(const struct piece_pair *pairs, uint32_t count, double most)
+{
+    struct edge edge[LINES_MAX];
+    uint32_t edges = list_edges(pairs, count, most, edge);
+    for (uint32_t i = 0; i < edges; i++) {
+        for (uint32_t j = 0; j < i; j++) {
+            const struct edge *p = &edge[i], *q = &edge[j];
+            double sine = p->x * q->z - p->z * q->x;
+            if (fabs(sine) < 1e-6)
+                continue;
+            double x = (p->far_m * q->z - q->far_m * p->z) / sine;
+            double z = (q->far_m * p->x - p->far_m * q->x) / sine;
+            double room = 0.5 * PLACE_M, far = sqrt(x * x + z * z);
+            if (far < most &&
+                is_out(pairs, count, x + room * (p->x + q->x), z + room * (p->z + q->z)))
+                most = far;
+        }
+    }
+    return most;
+}
+
 double parting_distance_find(const struct parting_pieces *a, const struct parting_pieces *b)
 {
     struct piece_pair pairs[PARTING_PIECES_MAX];
@@ -111,5 +179,7 @@ double parting_distance_find(const struct parting_pieces *a, const struct partin
             least = maths_min(least, way_along(pairs, count, direction, least));
         }
     }
-    return least < HUGE_VAL && least > OUT_M ? least : 0.0;
+    if (!(least < HUGE_VAL && least > OUT_M))
+        return 0.0;
+    return nearest_corner(pairs, count, least);
 }

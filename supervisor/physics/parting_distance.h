@@ -19,9 +19,9 @@ struct parting_pieces {
 #define PARTING_PIECES_MAX 64u /* pairs of pieces */
 
 /* Returns the length of the shortest level way [m], 0 if no pieces overlap. It is a straight line
- * along the normal of a face, made level. The faces of both bodies tell where two pieces overlap,
- * so that pieces which only axes across two edges separate count as overlapping. a has the scale
- * 1. */
+ * along the normal of a face, made level, or to a place in which the edges of two pieces cross. The
+ * faces of both bodies tell where two pieces overlap, so that pieces which only axes across two
+ * edges separate count as overlapping. a has the scale 1. */
 double parting_distance_find(const struct parting_pieces *a, const struct parting_pieces *b);
 
 #endif

@@ -91,6 +91,13 @@ static void test_the_way_out_of_two_pieces_gets_shorter(void **state)
     is(after, 1.7);
 }
 
+/* Along a normal both pieces are left after 2.5 m; the place beside both is nearer. */
+static void test_a_corner_between_two_pieces_is_nearer(void **state)
+{
+    (void)state;
+    is(way((struct vec3){1.5, 0.0, -0.5}, (struct vec3){-0.5, 0.0, 1.5}), 0.70710678118654752);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -98,6 +105,7 @@ int main(void)
         cmocka_unit_test(test_nothing_is_left_upwards),
         cmocka_unit_test(test_the_way_does_not_lead_into_another_piece),
         cmocka_unit_test(test_the_way_out_of_two_pieces_gets_shorter),
+        cmocka_unit_test(test_a_corner_between_two_pieces_is_nearer),
     };
     return cmocka_run_group_tests(tests, find_cubes, free_cubes);
 }
