@@ -618,7 +618,8 @@ static void mark_holding(const struct end_guard *guard, struct response_context 
  * locks: bodies that lean differently where they go are in each other by a millimetre, and go back.
  */
 #define ROOM_M     0.009
-#define DRAWN_MOST 4 /* passes over all that have */
+#define DRAWN_MOST 4  /* passes over all that have */
+#define HALVINGS   4u /* of the part of its way in which it gets deep again */
 
 /* Returns true if one of the row's pairs ends the frame deeper than it began it. */
 static bool any_deeper(struct end_guard *guard, const struct response_context *context,
@@ -655,6 +656,15 @@ static bool home_of(const struct end_guard *guard, const struct resting *resting
     return true;
 }
 
+/* Puts a row to a place. Returns true if none of its pairs gets deeper by it. */
+static bool try_at(struct end_guard *guard, struct response_context *context, uint32_t row,
+                   struct vec3 at)
+{
+    ground_placement_put(context, row, at, context->next->entities.heading[row]);
+    stand_now(guard, context, row);
+    return !any_deeper(guard, context, row);
+}
+
 /* Lets a row that has made way go back, as far as none of its pairs gets deeper by it. Returns true
  * if it has moved. */
 static bool draw_back(struct end_guard *guard, struct response_context *context, uint32_t row,
@@ -663,24 +673,31 @@ static bool draw_back(struct end_guard *guard, struct response_context *context,
     const struct entities *e = &context->next->entities;
     const struct vec3 at = entities_position(e, row), way = vec3_sub(at, home);
     double far = sqrt(way.x * way.x + way.z * way.z), pitch = e->pitch[row], roll = e->roll[row];
-    const double keep[] = {ROOM_M / far, 0.25, 0.5, 0.75};
     if (far <= ROOM_M + ROUNDING_M)
         return false;
     list_pose(guard, row);
     if (guard->sent_back[row] == 0)
         guard->touched[guard->touched_count++] = row;
     guard->sent_back[row] = guard->drawn[row] = 1;
-    for (uint32_t i = 0; i < sizeof keep / sizeof *keep; i++) {
-        ground_placement_put(context, row, vec3_lerp(home, at, keep[i]), e->heading[row]);
-        stand_now(guard, context, row);
-        if (!any_deeper(guard, context, row))
-            return true;
+    double deep = ROOM_M / far, out = 1.0;
+    if (try_at(guard, context, row, vec3_lerp(home, at, deep)))
+        return true;
+    for (uint32_t i = 0; i < HALVINGS; i++) {
+        double middle = 0.5 * (deep + out);
+        if (try_at(guard, context, row, vec3_lerp(home, at, middle)))
+            out = middle;
+        else
+            deep = middle;
     }
-    table_set_position(&context->writer, row, at);
-    table_set_pitch(&context->writer, row, pitch);
-    table_set_roll(&context->writer, row, roll);
+    if (out < 1.0) {
+        ground_placement_put(context, row, vec3_lerp(home, at, out), e->heading[row]);
+    } else {
+        table_set_position(&context->writer, row, at);
+        table_set_pitch(&context->writer, row, pitch);
+        table_set_roll(&context->writer, row, roll);
+    }
     stand_now(guard, context, row);
-    return false;
+    return out < 1.0;
 }
 
 /* Draws the rows back that have made way for others, one after the other, and those behind them:
