@@ -30,8 +30,6 @@
  * destroyed. */
 #define FALL_HARM 4.0
 
-#define WATER_MPS2 30.0 /* by which water that is too deep slows a vehicle */
-
 /* --- the modes ---------------------------------------------------------------------------------*/
 
 void chassis_disturb(const struct step_context *context, uint32_t i)
@@ -107,13 +105,22 @@ static void hold(const struct step_context *context, uint32_t i, struct rigid_bo
 }
 
 /* Returns true if row i lies as a vehicle there that follows the ground. Otherwise it would be
- * lifted from its wheels when it follows the ground, beside a wall for one. */
-static bool lies_on_ground(const struct step_context *context, uint32_t i)
+ * lifted from its wheels when it follows the ground, beside a wall for one. Nor may such a vehicle
+ * be in the ground there. uneven: craters or earthworks may be under it. */
+static bool lies_on_ground(const struct step_context *context, uint32_t i, bool uneven)
 {
     const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct terrain *terrain = &context->world->terrain;
     struct rest_pose pose =
-        rest_pose_of(&context->world->terrain, context->craters, &context->world->kinds[m->kind[i]],
-                     m->x[i], m->z[i], m->heading[i]);
+        rest_pose_of(terrain, context->craters, kind, m->x[i], m->z[i], m->heading[i]);
+    if (uneven) {
+        const struct vec3 at = {m->x[i], pose.y_m, m->z[i]};
+        const struct mat3 turn =
+            rotation_matrix(rotation_of(m->heading[i], pose.pitch_rad, pose.roll_rad));
+        if (chassis_shell_depth(terrain, context->craters, kind, at, &turn) > 0.0)
+            return false;
+    }
     return fabs(m->y[i] - pose.y_m) <= CHASSIS_LIFT_M &&
            fabs(maths_wrap_half(m->pitch[i] - pose.pitch_rad)) <= CALM_TILT_RAD &&
            fabs(maths_wrap_half(m->roll[i] - pose.roll_rad)) <= CALM_TILT_RAD;
@@ -141,48 +148,18 @@ static bool is_calm(const struct chassis *chassis)
 
 /* --- the row -----------------------------------------------------------------------------------*/
 
-/* Slows a row in water that is too deep for it. Returns false if it is so slow that it stops. */
-static bool slow_in_water(const struct step_context *context, uint32_t i)
+/* Puts a row back to x, z if it or its nose has left the world. Returns true if so. */
+static bool stop_at_edge(const struct step_context *context, uint32_t i, double x, double z)
 {
     struct entities *m = context->m;
-    double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
-    double slower = speed - WATER_MPS2 * context->dt_s;
-    if (slower < CHASSIS_FORD_MPS)
-        return false;
-    m->vx[i] *= slower / speed;
-    m->vz[i] *= slower / speed;
-    return true;
-}
-
-/* Stops a row that comes from x, z to deep water, or to the edge of the world. One that is fast
- * gets some metres too deep while the water slows it, and may leave it at a walk where that is not
- * further than four times its length. One that flies over the water is not stopped. Returns true if
- * water or the edge is in its way. */
-static bool stop_at_depth(const struct step_context *context, uint32_t i, double x, double z)
-{
-    struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    const struct terrain *terrain = &context->world->terrain;
     double sine, cosine;
     maths_sincos(m->heading[i], &sine, &cosine);
     double lead = m->vx[i] * sine - m->vz[i] * cosine < 0.0 ? -0.5 : 0.5;
-    lead *= kind->length_m;
-    double nose_x = m->x[i] + sine * lead, nose_z = m->z[i] - cosine * lead;
-    if ((m->x[i] == x && m->z[i] == z) || (fording_passable(context, kind, m->x[i], m->z[i]) &&
-                                           fording_passable(context, kind, nose_x, nose_z)))
+    lead *= context->world->kinds[m->kind[i]].length_m;
+    if ((m->x[i] == x && m->z[i] == z) ||
+        (world_holds(context->world, m->x[i], m->z[i]) &&
+         world_holds(context->world, m->x[i] + sine * lead, m->z[i] - cosine * lead)))
         return false;
-    if (world_holds(context->world, m->x[i], m->z[i]) &&
-        world_holds(context->world, nose_x, nose_z)) {
-        double over_m = m->y[i] - kinematics_ground(context, m->x[i], m->z[i]);
-        if (over_m > terrain_water_depth(terrain, m->x[i], m->z[i]) + CHASSIS_STEP_M)
-            return false;
-        if (slow_in_water(context, i))
-            return true;
-        if (!fording_passable(context, kind, x, z) &&
-            fording_passable(context, kind, m->x[i] + 8.0 * sine * lead,
-                             m->z[i] - 8.0 * cosine * lead))
-            return false;
-    }
     m->x[i] = x;
     m->z[i] = z;
     m->vx[i] = m->vz[i] = 0.0;
@@ -238,8 +215,8 @@ bool chassis_move(const struct step_context *context, uint32_t i,
         m->dodge[i] = (float)chassis.drivetrain.wheel;
     if (chassis.fall_j + chassis.strike_j > 0.0)
         m->harm_j[i] += FALL_HARM * chassis.fall_j + chassis.strike_j;
-    bool blocked = stop_at_depth(context, i, x, z);
-    if (desired->driven || !is_calm(&chassis) || !lies_on_ground(context, i))
+    bool blocked = stop_at_edge(context, i, x, z) || chassis.drowns;
+    if (desired->driven || !is_calm(&chassis) || !lies_on_ground(context, i, chassis.cratered))
         m->jolt_tick[i] = (uint32_t)context->tick;
     return blocked || (desired->speed_mps != 0.0 && chassis.drivetrain.wanted_mps == 0.0);
 }

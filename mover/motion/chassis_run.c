@@ -21,6 +21,8 @@
 #define LEAST_LOAD                                                                                 \
     0.1                 /* of a wheel over its load at rest: one that bears less is off the ground \
                          */
+#define WATER_MPS2 30.0 /* by which water that is too deep slows a vehicle */
+#define CREEP_MPS  0.05 /* a slower vehicle goes where it wants to */
 #define UPRIGHT    0.95 /* cosine: a body that leans less stands on its wheels alone */
 #define NEAR_STOPS 0.7  /* share of the travel from which the shell may touch */
 
@@ -99,6 +101,39 @@ static void want(struct chassis *chassis, const struct mat3 *turn)
         chassis->drivetrain.slowing = 1.0; /* the ground slows it as well */
 }
 
+/* Returns true if the place is one that the kind can neither drive nor ford through. */
+static bool is_deep(const struct chassis *chassis, double x, double z)
+{
+    return world_holds(chassis->context->world, x, z) &&
+           !fording_passable(chassis->context, chassis->kind, x, z);
+}
+
+/* Returns true if water that is too deep slows or holds the body: under its middle, or where its
+ * nose would be when it stands. One that is fast gets some metres too deep, and may leave the water
+ * at a walk where that is not further than four times its length. One that flies over the water is
+ * not slowed. load_n: of the wheels; dt_s: the sub-step. */
+static bool is_drowning(const struct chassis *chassis, const struct mat3 *turn, double load_n,
+                        double dt_s)
+{
+    const struct step_context *context = chassis->context;
+    const struct vec3 centre = {0.0, -chassis->body.inertia.centre_m, 0.0};
+    const struct vec3 at = vec3_add(chassis->body.centre, rotation_apply(turn, centre));
+    const struct vec3 velocity = chassis->body.velocity;
+    double x = turn->m[0][0], z = turn->m[2][0], level = maths_max(sqrt(x * x + z * z), 1e-9);
+    double forward = (velocity.x * x + velocity.z * z) / level;
+    double way = fabs(forward) > CREEP_MPS ? forward : chassis->desired.speed_mps;
+    double lead = (way < 0.0 ? -0.5 : 0.5) * chassis->kind->length_m / level;
+    double nose = lead + forward * (dt_s + fabs(forward) / (2.0 * WATER_MPS2)) / level;
+    bool deep = is_deep(chassis, at.x, at.z);
+    if (!deep && !is_deep(chassis, at.x + nose * x, at.z + nose * z))
+        return false;
+    if (load_n == 0.0 && at.y > kinematics_ground(context, at.x, at.z) +
+                                    terrain_water_depth(&context->world->terrain, at.x, at.z))
+        return false;
+    return sqrt(velocity.x * velocity.x + velocity.z * velocity.z) >= CHASSIS_FORD_MPS || !deep ||
+           !fording_passable(context, chassis->kind, at.x + 8.0 * lead * x, at.z + 8.0 * lead * z);
+}
+
 /* --- a sub-step
  * ---------------------------------------------------------------------------------*/
 
@@ -120,7 +155,17 @@ static struct vec3 push_up(struct chassis *chassis, const struct mat3 *inverse, 
     return push;
 }
 
-/* Acts on the body by springs, weight and tyres. load_n: of all wheels. */
+/* Water takes from the speed on the map, and holds what is slow. */
+static void slow_in_water(struct rigid_body *body, double dt_s)
+{
+    struct vec3 *velocity = &body->velocity;
+    double speed = sqrt(velocity->x * velocity->x + velocity->z * velocity->z);
+    double share = maths_max(0.0, speed - WATER_MPS2 * dt_s) / maths_max(speed, 1e-9);
+    velocity->x *= share;
+    velocity->z *= share;
+}
+
+/* Acts on the body by springs, weight, tyres and deep water. load_n: of all wheels. */
 static void wheels(struct chassis *chassis, const struct mat3 *turn, double load_n, double dt_s)
 {
     struct rigid_body *body = &chassis->body;
@@ -144,6 +189,8 @@ static void wheels(struct chassis *chassis, const struct mat3 *turn, double load
                                        .dt_s = dt_s};
     if (ground.grip_n > 0.0)
         tyre_solve(&chassis->suspension, body, turn, &inverse, &demand);
+    if (chassis->drowns)
+        slow_in_water(body, dt_s);
 }
 
 /* Returns true if the shell may touch the ground. */
@@ -261,6 +308,7 @@ void chassis_run_begin(struct chassis *chassis, const struct step_context *conte
     chassis->bent = terrain_cache_bend(&context->world->terrain, &context->terrain_entries[i],
                                        m->x[i], m->z[i]) > chassis_shell_bend(chassis->kind);
     chassis->level = true;
+    chassis->drowns = false;
     chassis->fall_j = chassis->strike_j = 0.0;
     chassis->friction = ground_grip_at(context, m->x[i], m->z[i]).friction;
     chassis->drivetrain = drivetrain_of(context, i, desired);
@@ -278,6 +326,7 @@ void chassis_run(struct chassis *chassis)
         double load = find_load(chassis, &turn);
         want(chassis, &turn);
         chassis->rough = is_rough(chassis, &turn);
+        chassis->drowns = is_drowning(chassis, &turn, load, dt_s);
         int parts = chassis->rough ? more : 1;
         for (int p = 0; p < parts; p++) {
             if (p > 0)

@@ -25,6 +25,7 @@ struct chassis {
     bool bent;                  /* its shell may get into the ground of a hollow */
     bool rough;                 /* a wheel is on its bump stop or bears next to nothing */
     bool level;                 /* every wheel bears in every sub-step */
+    bool drowns;                /* water that is too deep slows or holds it */
 };
 
 /* Prepares row i for a frame with this desired motion. The fuel of the row is not burnt. */

@@ -62,13 +62,13 @@ double chassis_shell_bend(const struct kind *kind)
     return least;
 }
 
-double chassis_shell_depth(const struct terrain *terrain, const struct kind *kind, struct vec3 at,
-                           const struct mat3 *turn)
+double chassis_shell_depth(const struct terrain *terrain, const struct crater_index *craters,
+                           const struct kind *kind, struct vec3 at, const struct mat3 *turn)
 {
     double deepest = -INFINITY;
     for (uint32_t n = 0; n < CHASSIS_SHELL_ENDS; n++) {
         struct vec3 point = vec3_add(at, rotation_apply(turn, point_of(kind, n)));
-        double ground = terrain_base_height(terrain, point.x, point.z);
+        double ground = terrain_height(terrain, craters, point.x, point.z);
         deepest = maths_max(deepest, ground - point.y);
     }
     return deepest;

@@ -34,10 +34,10 @@ struct chassis_shell_push {
  * before underside or ends of its shell get into it, where it stands in a single bend. */
 double chassis_shell_bend(const struct kind *kind);
 
-/* Returns how deep the deepest point of underside and ends is in the ground without craters [m],
- * below 0 for a height over it. at: the position. */
-double chassis_shell_depth(const struct terrain *terrain, const struct kind *kind, struct vec3 at,
-                           const struct mat3 *turn);
+/* Returns how deep the deepest point of underside and ends is in the ground [m], below 0 for a
+ * height over it. craters: those that may be under the body, or NULL; at: the position. */
+double chassis_shell_depth(const struct terrain *terrain, const struct crater_index *craters,
+                           const struct kind *kind, struct vec3 at, const struct mat3 *turn);
 
 /* Finds the shell of a kind. Its underside is as high as the wheels can rise, and on wheels at
  * least 3/4 as high as the step that they climb. */

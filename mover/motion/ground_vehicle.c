@@ -395,24 +395,44 @@ static inline void change_position(const struct step_context *context, struct gr
 #define EASE_MPS 0.04
 #define EASE_RPS 0.04
 
+/* Returns height, pitch and roll of a row that comes back to those of the ground. */
+static struct vec3 eased(const struct step_context *context, uint32_t i,
+                         struct vec3 height_pitch_roll)
+{
+    const struct entities *w = &context->committed->entities;
+    const struct rest_pose before =
+        rest_pose_of(&context->world->terrain, context->craters,
+                     &context->world->kinds[context->m->kind[i]], w->x[i], w->z[i], w->heading[i]);
+    const double most_m = EASE_MPS * context->dt_s, most_rad = EASE_RPS * context->dt_s;
+    const struct vec3 off = {
+        kinematics_approach(w->y[i] - before.y_m, 0.0, most_m),
+        kinematics_approach(w->pitch[i] - before.pitch_rad, 0.0, most_rad),
+        kinematics_approach(w->roll[i] - before.roll_rad, 0.0, most_rad),
+    };
+    return vec3_add(height_pitch_roll, off);
+}
+
 void ground_vehicle_ease(const struct step_context *context, uint32_t i,
                          struct vec3 height_pitch_roll)
 {
     struct entities *m = context->m;
-    const struct entities *w = &context->committed->entities;
-    const struct rest_pose before =
-        rest_pose_of(&context->world->terrain, context->craters, &context->world->kinds[m->kind[i]],
-                     w->x[i], w->z[i], w->heading[i]);
-    const double most_m = EASE_MPS * context->dt_s, most_rad = EASE_RPS * context->dt_s;
-    double up = kinematics_approach(w->y[i] - before.y_m, 0.0, most_m);
-    double pitch = kinematics_approach(w->pitch[i] - before.pitch_rad, 0.0, most_rad);
-    double roll = kinematics_approach(w->roll[i] - before.roll_rad, 0.0, most_rad);
-    m->y[i] = height_pitch_roll.x + up;
-    m->pitch[i] = height_pitch_roll.y + pitch;
-    m->roll[i] = height_pitch_roll.z + roll;
+    const struct vec3 to = eased(context, i, height_pitch_roll);
+    m->y[i] = to.x;
+    m->pitch[i] = to.y;
+    m->roll[i] = to.z;
     m->spin_x[i] = m->spin_y[i] = m->spin_z[i] = 0.0;
-    if (up == 0.0 && pitch == 0.0 && roll == 0.0)
+    if (to.x == height_pitch_roll.x && to.y == height_pitch_roll.y && to.z == height_pitch_roll.z)
         m->flags[i] &= (uint8_t)~ENTITY_FLAG_CHASSIS;
+}
+
+/* Returns height, pitch and roll that the ground gives the row, which has moved. */
+static struct vec3 set_on(const struct step_context *context, const struct ground_vehicle *batch,
+                          int l)
+{
+    const uint32_t i = batch->row[l];
+    const struct vec3 ground = {batch->pose.y.lane[l], batch->pose.pitch.lane[l],
+                                batch->pose.roll.lane[l]};
+    return context->m->flags[i] & ENTITY_FLAG_CHASSIS ? eased(context, i, ground) : ground;
 }
 
 static void set_down(const struct step_context *context, const struct ground_vehicle *batch, int l)
@@ -439,44 +459,61 @@ static double climb_of(const struct ground_vehicle *batch, int l, double heading
            (1.0 + pitch * pitch / 3.0);
 }
 
-/* Returns true if the row, which has moved, has a corner of its shell in the ground of a hollow, or
- * would have one if it left the ground in the next frame, and has none if it leaves the ground now.
- * One that was put down so goes on until it is out. */
-static bool gets_into_ground(const struct step_context *context, const struct ground_vehicle *batch,
-                             int l)
+#define LEAVES_DEEP_M 0.01 /* from this depth the ground pushes a shell out that leaves it */
+
+/* How a row that has moved gets into the ground. */
+enum entry { STAYS_OUT, LEAVES_HERE, LEAVES_BEFORE };
+
+/* Looks whether the row, which has moved, has a corner of its shell in the ground of a hollow, a
+ * work or a crater, or would have one if it left the ground in the next frame. It then leaves the
+ * ground here, if it has none in it so, or where it was before the frame. One that was put down in
+ * the ground goes on until it is out. */
+static enum entry entry_of(const struct step_context *context, const struct ground_vehicle *batch,
+                           int l)
 {
     const uint32_t i = batch->row[l];
-    const struct entities *w = &context->committed->entities;
-    const struct kind *kind = &context->world->kinds[context->m->kind[i]];
+    const struct entities *w = &context->committed->entities, *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
     const struct terrain *terrain = &context->world->terrain;
     const struct ground_pose *pose = &batch->pose;
+    const struct crater_index *craters = pose->cratered.lane[l] ? context->craters : NULL;
     const double heading = batch->heading.lane[l], dt_s = time_of(context, batch);
-    struct vec3 at = {pose->x.lane[l], pose->y.lane[l], pose->z.lane[l]};
-    const struct vec3 way = {batch->vx.lane[l] * dt_s,
-                             climb_of(batch, l, heading, pose->pitch.lane[l]) * dt_s,
+    const struct vec3 stands = set_on(context, batch, l);
+    struct vec3 at = {pose->x.lane[l], stands.x, pose->z.lane[l]};
+    const struct vec3 way = {batch->vx.lane[l] * dt_s, climb_of(batch, l, heading, stands.y) * dt_s,
                              batch->vz.lane[l] * dt_s};
-    struct mat3 turn =
-        rotation_matrix(rotation_of(heading, pose->pitch.lane[l], pose->roll.lane[l]));
-    if (chassis_shell_depth(terrain, kind, at, &turn) <= 0.0 &&
-        chassis_shell_depth(terrain, kind, vec3_add(at, way), &turn) <= 0.0)
-        return false;
+    struct mat3 turn = rotation_matrix(rotation_of(heading, stands.y, stands.z));
+    if (chassis_shell_depth(terrain, craters, kind, at, &turn) <= 0.0 &&
+        chassis_shell_depth(terrain, craters, kind, vec3_add(at, way), &turn) <= 0.0)
+        return STAYS_OUT;
     turn = rotation_matrix(rotation_of(heading, batch->pitch.lane[l], w->roll[i]));
     at.y = batch->y.lane[l] + climb_of(batch, l, heading, batch->pitch.lane[l]) * dt_s;
-    return chassis_shell_depth(terrain, kind, at, &turn) <= 0.0;
+    if (chassis_shell_depth(terrain, craters, kind, at, &turn) <= 0.0)
+        return LEAVES_HERE;
+    turn = rotation_matrix(rotation_of(m->heading[i], batch->pitch.lane[l], w->roll[i]));
+    at = (struct vec3){m->x[i], batch->y.lane[l], m->z[i]};
+    return pose->cratered.lane[l] &&
+                   chassis_shell_depth(terrain, craters, kind, at, &turn) <= LEAVES_DEEP_M
+               ? LEAVES_BEFORE
+               : STAYS_OUT;
 }
 
 static inline void find_hollows(const struct step_context *context, struct ground_vehicle *batch)
 {
     union simd_lanes bend;
     four_masks any = {0};
+    memset(&batch->walled, 0, sizeof batch->walled);
     terrain_cache_bends(&batch->pose.ground, &bend);
     for (int h = 0; h < LANE_FOURS; h++)
-        any |= bend.f64x4[h] > batch->bend.f64x4[h];
+        any |= (bend.f64x4[h] > batch->bend.f64x4[h]) | batch->pose.cratered.f64x4[h];
     if (!SIMD_ANY(any))
         return;
     for (int l = 0; l < batch->count; l++) {
-        if (bend.lane[l] > batch->bend.lane[l] && gets_into_ground(context, batch, l))
-            batch->rough.lane[l] = -1;
+        if (!(bend.lane[l] > batch->bend.lane[l]) && !batch->pose.cratered.lane[l])
+            continue;
+        enum entry entry = entry_of(context, batch, l);
+        batch->rough.lane[l] |= -(int64_t)(entry != STAYS_OUT);
+        batch->walled.lane[l] = -(int64_t)(entry == LEAVES_BEFORE);
     }
 }
 
@@ -499,7 +536,7 @@ static inline void find_rough(const struct step_context *context, struct ground_
 }
 
 /* Makes a row on rough ground a body on its springs, which goes on as before: an edge under it has
- * lifted it by geometry, which must not become a speed. */
+ * lifted it by geometry, which must not become a speed. It does not get into a wall. */
 static void leave_rails(const struct step_context *context, const struct ground_vehicle *batch,
                         int l, double turned_rad)
 {
@@ -513,6 +550,8 @@ static void leave_rails(const struct step_context *context, const struct ground_
     m->y[i] = batch->y.lane[l] + climb * context->dt_s;
     m->pitch[i] = pitch;
     m->roll[i] = context->committed->entities.roll[i];
+    if (batch->walled.lane[l])
+        m->y[i] = batch->y.lane[l];
     m->spin_y[i] = -maths_wrap_half(turned_rad) / context->dt_s;
 }
 
@@ -640,12 +679,14 @@ static void write_rows(const struct step_context *context, const struct ground_v
         else
             m->cruise_tick[i] = 0;
         set_down(context, batch, l);
-        m->x[i] = batch->pose.x.lane[l];
-        m->z[i] = batch->pose.z.lane[l];
+        if (!batch->walled.lane[l]) {
+            m->x[i] = batch->pose.x.lane[l];
+            m->z[i] = batch->pose.z.lane[l];
+            m->heading[i] = batch->heading.lane[l];
+        }
         m->vx[i] = batch->vx.lane[l];
         m->vy[i] = (m->y[i] - batch->y.lane[l]) / dt_s;
         m->vz[i] = batch->vz.lane[l];
-        m->heading[i] = batch->heading.lane[l];
         m->fuel_l[i] = batch->fuel.lane[l];
         leave_rails(context, batch, l, turned);
     }

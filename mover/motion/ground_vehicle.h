@@ -22,10 +22,11 @@ struct ground_vehicle {
     union simd_lanes power_wpkg, gears, rolling, lateral, curve; /* drivetrain.h; curve: 1/m */
     union simd_lanes bend;                                       /* chassis_shell_bend() */
     union lane_masks tank;                                       /* it has one */
-    union simd_lanes burns;   /* frames whose fuel it burns (kinematics_burn_frames()) */
-    union simd_lanes debris;  /* the share of full speed that debris at its place allows */
-    union lane_masks rough;   /* result: it leaves the ground that it follows */
-    union lane_masks wades;   /* it comes to water too fast for its brakes */
+    union simd_lanes burns;  /* frames whose fuel it burns (kinematics_burn_frames()) */
+    union simd_lanes debris; /* the share of full speed that debris at its place allows */
+    union lane_masks rough;  /* result: it leaves the ground that it follows */
+    union lane_masks walled; /* rough, and its place would be in the ground: it keeps the old one */
+    union lane_masks wades;  /* it comes to water too fast for its brakes */
     union lane_masks blocked; /* result: water, a slope or the edge of the world blocks it */
     union simd_lanes turned,
         gain_mps2;            /* by which a stretch turns, and gains speed along its heading

@@ -61,13 +61,20 @@ static bool follows(const struct vehicle_placement *placement, uint32_t slot)
     return placement->rank.group->formed && slot != placement->rank.leader;
 }
 
-/* A land vehicle stands on the ground as it will in the frames to come. */
+/* A land vehicle stands on the ground as it will in the frames to come. Where the edges of works
+ * are under it, it is let down on them from above, as a body on its springs. */
 static void set_on_ground(const struct world_build *built, uint32_t slot)
 {
     const struct terrain terrain = world_build_terrain(built);
     const struct entities *e = &built->first;
-    struct rest_pose pose = rest_pose_of(&terrain, NULL, &built->scenario->kinds[e->kind[slot]],
-                                         e->x[slot], e->z[slot], e->heading[slot]);
+    const struct kind *kind = &built->scenario->kinds[e->kind[slot]];
+    double clear_y_m;
+    struct rest_pose pose =
+        rest_pose_of(&terrain, NULL, kind, e->x[slot], e->z[slot], e->heading[slot]);
+    if (rest_pose_bends(&terrain, kind, e->x[slot], e->z[slot], e->heading[slot], &clear_y_m)) {
+        pose = (struct rest_pose){.y_m = clear_y_m};
+        e->flags[slot] |= ENTITY_FLAG_CHASSIS;
+    }
     e->y[slot] = pose.y_m;
     e->pitch[slot] = pose.pitch_rad;
     e->roll[slot] = pose.roll_rad;

@@ -20,3 +20,42 @@ struct rest_pose rest_pose_of(const struct terrain *terrain, const struct crater
                               .pitch_rad = maths_atan2(front - back, 2.0 * length),
                               .roll_rad = maths_atan2(left - right, 2.0 * width)};
 }
+
+#define ALONG  8 /* parts in which the length and the width are looked at, even numbers */
+#define ACROSS 6
+
+static double work_at(const struct terrain *terrain, const struct crater_footing *footing,
+                      double along, double across)
+{
+    double x, z;
+    crater_footing_point(footing, along, across, &x, &z);
+    return earthwork_offset(&terrain->earthworks, x, z);
+}
+
+bool rest_pose_bends(const struct terrain *terrain, const struct kind *kind, double x, double z,
+                     double heading_rad, double *clear_y_m)
+{
+    struct crater_footing footing = {.x = x, .z = z};
+    double bend = 0.0;
+    if (terrain->earthworks.count == 0)
+        return false;
+    footing.half_length = maths_max(kind->length_m * 0.5, KIND_STANCE_LEAST_M);
+    footing.half_width = maths_max(kind->width_m * 0.5, KIND_STANCE_LEAST_M);
+    maths_sincos(heading_rad, &footing.sine, &footing.cosine);
+    const double middle = work_at(terrain, &footing, 0.0, 0.0);
+    const double pitch =
+        0.5 * (work_at(terrain, &footing, 1.0, 0.0) - work_at(terrain, &footing, -1.0, 0.0));
+    const double roll =
+        0.5 * (work_at(terrain, &footing, 0.0, 1.0) - work_at(terrain, &footing, 0.0, -1.0));
+    *clear_y_m = -HUGE_VAL;
+    for (int i = -ALONG / 2; i <= ALONG / 2; i++) {
+        for (int k = -ACROSS / 2; k <= ACROSS / 2; k++) {
+            double along = 2.0 * i / ALONG, across = 2.0 * k / ACROSS, px, pz;
+            crater_footing_point(&footing, along, across, &px, &pz);
+            double work = earthwork_offset(&terrain->earthworks, px, pz);
+            bend = maths_max(bend, fabs(work - middle - along * pitch - across * roll));
+            *clear_y_m = maths_max(*clear_y_m, terrain_base_height(terrain, px, pz));
+        }
+    }
+    return bend > REST_POSE_BEND_M;
+}

@@ -18,4 +18,12 @@ struct rest_pose {
 struct rest_pose rest_pose_of(const struct terrain *terrain, const struct crater_index *craters,
                               const struct kind *kind, double x, double z, double heading_rad);
 
+/* Works that bend by more under a land vehicle do not bear it as five heights do [m]. */
+#define REST_POSE_BEND_M 0.06
+
+/* Returns true if earthworks bend so much under a land vehicle that comes there. *clear_y_m: the
+ * height at which it is over all of them when it is level. */
+bool rest_pose_bends(const struct terrain *terrain, const struct kind *kind, double x, double z,
+                     double heading_rad, double *clear_y_m);
+
 #endif

@@ -192,8 +192,8 @@ static double shell_depth(const struct step_context *context, uint32_t i, struct
 {
     const struct entities *m = context->m;
     struct mat3 turn = rotation_matrix(rotation_of(m->heading[i], pitch, roll));
-    return chassis_shell_depth(&context->world->terrain, &context->world->kinds[m->kind[i]], at,
-                               &turn);
+    return chassis_shell_depth(&context->world->terrain, context->craters,
+                               &context->world->kinds[m->kind[i]], at, &turn);
 }
 
 static double climb_of(const struct entities *m, uint32_t i, double pitch)
@@ -203,24 +203,37 @@ static double climb_of(const struct entities *m, uint32_t i, double pitch)
     return (m->vx[i] * sine - m->vz[i] * cosine) * pitch * (1.0 + pitch * pitch / 3.0);
 }
 
-/* Returns true if its shell is in the ground where the ground bends, or would be in a frame, and
- * would not be if it had kept its height, pitch and roll. */
-static bool enters_ground(const struct step_context *context, uint32_t i, double y, double pitch,
-                          double roll)
+/* Where a row was. */
+struct place {
+    double x, y, z, heading, pitch, roll;
+};
+
+/* Returns 0 if its shell is not in the ground where the ground bends or where works and craters may
+ * be, and would not be in a frame; 1 if it would not be if it had kept its height, pitch and roll;
+ * 2 if it was not where it was before. */
+static int enters_ground(const struct step_context *context, uint32_t i, const struct place *was)
 {
-    const struct entities *m = context->m;
+    struct entities *m = context->m;
     struct terrain_cache_entry entry = {.held = 0};
     double bend = terrain_cache_bend(&context->world->terrain, &entry, m->x[i], m->z[i]);
     struct vec3 at = {m->x[i], m->y[i], m->z[i]}, next = at;
     struct vec3 way = {m->vx[i] * context->dt_s, climb_of(m, i, m->pitch[i]) * context->dt_s,
                        m->vz[i] * context->dt_s};
+    bool marked = ground_marks_at(context->ground_marks, was->x, was->z) & GROUND_MARKS_CRATER;
     next = vec3_add(at, way);
-    if (bend <= chassis_shell_bend(&context->world->kinds[m->kind[i]]) ||
+    if ((bend <= chassis_shell_bend(&context->world->kinds[m->kind[i]]) && !marked) ||
         (shell_depth(context, i, at, m->pitch[i], m->roll[i]) <= 0.0 &&
          shell_depth(context, i, next, m->pitch[i], m->roll[i]) <= 0.0))
-        return false;
-    at.y = y + climb_of(m, i, pitch) * context->dt_s;
-    return shell_depth(context, i, at, pitch, roll) <= 0.0;
+        return 0;
+    at.y = was->y + climb_of(m, i, was->pitch) * context->dt_s;
+    if (shell_depth(context, i, at, was->pitch, was->roll) <= 0.0)
+        return 1;
+    double heading = m->heading[i];
+    m->heading[i] = was->heading;
+    double depth =
+        shell_depth(context, i, (struct vec3){was->x, was->y, was->z}, was->pitch, was->roll);
+    m->heading[i] = heading;
+    return marked && depth <= 0.01 ? 2 : 0;
 }
 
 /* Returns true if one of the nine posts about a place is wet. */
@@ -284,15 +297,16 @@ static bool drive_one(const struct step_context *context, uint32_t i,
         x = wades ? x : m->x[i], z = wades ? z : m->z[i];
         vx = wades ? vx : 0.0, vz = wades ? vz : 0.0;
     }
+    const struct place was = {m->x[i], m->y[i], m->z[i], heading, pitch, m->roll[i]};
     double y = standing_height(context, i, x, z), before = m->y[i], roll = m->roll[i];
     entities_set_velocity(m, i, (struct vec3){vx, (y - before) / context->dt_s, vz});
     entities_set_position(m, i, (struct vec3){x, y, z});
     stand_on_ground(context, i);
+    int enters = enters_ground(context, i, &was);
     if (fabs(m->pitch[i]) > CHASSIS_TILT_RAD || fabs(m->roll[i]) > CHASSIS_TILT_RAD ||
         forward * (pitch - m->pitch[i]) > GRAVITY_MPS2 * context->dt_s ||
         crater_step(context, i) > CHASSIS_STEP_M ||
-        y - kinematics_ground(context, x, z) > CHASSIS_LIFT_M || wades ||
-        enters_ground(context, i, before, pitch, roll)) {
+        y - kinematics_ground(context, x, z) > CHASSIS_LIFT_M || wades || enters != 0) {
         double climb = climb_of(m, i, pitch);
         chassis_disturb(context, i);
         m->vy[i] = climb;
@@ -300,6 +314,10 @@ static bool drive_one(const struct step_context *context, uint32_t i,
         m->pitch[i] = pitch;
         m->roll[i] = roll;
         m->spin_y[i] = -maths_wrap_half(m->heading[i] - heading) / context->dt_s;
+        if (enters == 2) {
+            m->x[i] = was.x, m->y[i] = was.y, m->z[i] = was.z;
+            m->heading[i] = was.heading;
+        }
     }
     return blocked;
 }

@@ -177,6 +177,30 @@ static void test_vehicles_stand_on_slopes(void **state)
     fixture_close(&f);
 }
 
+/* A scenario may put a vehicle on the edge of a bank, across a trench, or beside them. It comes
+ * down on an edge from above, level and on its springs, and else stands on the ground. */
+static void test_edges_of_works_bear_no_vehicle_as_a_plane_does(void **state)
+{
+    (void)state;
+    fixture_open(&f, "earthworks = ( { shape = \"table\"; at = [25000.0, 25000.0]; width_m = 30.0;"
+                     " length_m = 30.0; height_m = 1.5; edge_m = 0.3; } );"
+                     "vehicles = ( { name = \"edge\"; kind = \"tank\"; at = [25000.0, 24985.0];"
+                     " heading_deg = 0.0; behaviour = \"idle\"; },"
+                     " { name = \"top\"; kind = \"tank\"; at = [25000.0, 25000.0];"
+                     " heading_deg = 0.0; behaviour = \"idle\"; },"
+                     " { name = \"beside\"; kind = \"tank\"; at = [25030.0, 25000.0];"
+                     " heading_deg = 0.0; behaviour = \"idle\"; } );");
+    const struct state now = fixture_state(&f);
+    const double y[] = {101.5, 101.5, 100.0};
+    for (uint32_t i = 0; i < 3; i++) {
+        check_near(now.entities.y[i], y[i]);
+        check_near(now.entities.pitch[i], 0.0);
+        assert_int_equal(now.entities.flags[i] & ENTITY_FLAG_CHASSIS,
+                         i == 0 ? ENTITY_FLAG_CHASSIS : 0);
+    }
+    fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -186,6 +210,7 @@ int main(void)
         cmocka_unit_test(test_a_taken_place_gives_one_near_it),
         cmocka_unit_test(test_a_base_is_amid_its_force),
         cmocka_unit_test(test_vehicles_stand_on_slopes),
+        cmocka_unit_test(test_edges_of_works_bear_no_vehicle_as_a_plane_does),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
