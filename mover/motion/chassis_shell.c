@@ -6,36 +6,47 @@
 
 #define BELLY_TRACKS 0.22 /* half length of the underside over the length: on tracks */
 #define BELLY_WHEELS 0.15 /* on wheels */
-#define CLEARANCE    0.75 /* of the underside on wheels, at least, over the step that they climb */
-#define NOSE_HEIGHT  0.45 /* of the ends over the height */
-#define HARD_MPS     2.0  /* a shell that is hit more slowly takes no harm */
+#define SIDE_TRACKS  0.29 /* the same of the outer wheels beside which the sides have points */
+#define SIDE_WHEELS  0.34
+#define SIDE_HEIGHT                                                                                \
+    0.6 /* of the sides of tracks over the step that they climb: edges get under them */
+#define CLEARANCE   0.75 /* of the underside on wheels, at least, over the step that they climb */
+#define NOSE_HEIGHT 0.45 /* of the ends over the height */
+#define HARD_MPS    2.0  /* a shell that is hit more slowly takes no harm */
 
-#define ROUNDS       3    /* of paths: impulses turn the points, and these meet other ground */
-#define HALVINGS     7    /* of a path, to find where it meets the ground */
-#define MARGIN_M     0.02 /* a point this near to the ground touches it at any speed */
-#define NORMAL_M     0.02 /* the normal is that of the heights so far to each side */
-#define STEEPEST     (EARTHWORK_STEEPEST + 1.0) /* tangent of any ground, at most */
-#define DEEP_M       0.02                       /* deeper points have got new ground over them */
-#define WHEEL_DEEP_M 0.006 /* wheels in the ground are pushed out as if they were no deeper */
-#define MOST_DEEP_M  0.009 /* and other points: by 0.5 m/s */
-#define PUSHED_M     0.01  /* points this deep are pushed out though they bear nothing */
-#define SAME_FACE    0.95  /* cosine between the normals of one face */
+#define ROUNDS        3    /* of paths: impulses turn the points, and these meet other ground */
+#define HALVINGS      7    /* of a path, to find where it meets the ground */
+#define MARGIN_M      0.02 /* a point this near to the ground touches it at any speed */
+#define ROUNDING_M    1e-6 /* by which rounding lets a point that rests sink */
+#define NORMAL_M      0.02 /* the normal is that of the heights so far to each side */
+#define STEEPEST      (EARTHWORK_STEEPEST + 1.0) /* tangent of any ground, at most */
+#define DEEP_M        0.02                       /* deeper points have got new ground over them */
+#define WHEEL_DEEP_M  0.006 /* wheels in the ground are pushed out as if they were no deeper */
+#define MOST_DEEP_M   0.009 /* and other points: by 0.5 m/s */
+#define PUSH_MOST_MPS 0.5   /* by which no point of the body is pushed out faster */
+#define PUSHED_M      0.01  /* points this deep are pushed out though they bear nothing */
+#define SAME_FACE     0.95  /* cosine between the normals of one face */
 
 /* Returns point n of the shell of a kind, but for those before the outer wheels: one of four each
- * of the underside, of the ends and of the roof. */
+ * of the underside, of the ends, of the sides beside the outer wheels, in the middle of the
+ * underside and of the ends, and of the roof. */
 static struct vec3 point_of(const struct kind *kind, uint32_t n)
 {
     const double half = 0.5 * kind->length_m, nose = NOSE_HEIGHT * kind->height_m;
     const double reach = suspension_reach(kind);
     const double belly = kind->length_m * (kind->tracked ? BELLY_TRACKS : BELLY_WHEELS);
-    const double under = kind->tracked ? 0.0 : CLEARANCE * reach;
-    const double ends = kind->tracked ? maths_min(nose, reach) : nose;
-    const struct vec3 corner[3] = {{belly, maths_max(kind->travel_m, under), 0.0},
-                                   {half, maths_max(kind->travel_m, ends), 0.0},
-                                   {half, kind->height_m, 0.0}};
-    struct vec3 at = corner[n / 4];
-    at.z = 0.5 * kind->width_m;
-    return (struct vec3){n & 1 ? at.x : -at.x, at.y, n & 2 ? at.z : -at.z};
+    const double side = kind->length_m * (kind->tracked ? SIDE_TRACKS : SIDE_WHEELS);
+    const double under = maths_max(kind->travel_m, kind->tracked ? 0.0 : CLEARANCE * reach);
+    const double ends = maths_max(kind->travel_m, kind->tracked ? maths_min(nose, reach) : nose);
+    const struct vec3 corner[5] = {
+        {belly, under, 0.0},
+        {half, ends, 0.0},
+        {side, maths_max(under, kind->tracked ? SIDE_HEIGHT * reach : reach), 0.0},
+        {n & 2 ? half : belly, n & 2 ? ends : under, 0.0},
+        {half, kind->height_m, 0.0}};
+    const struct vec3 at = corner[n / 4];
+    const double wide = n / 4 == CHASSIS_SHELL_MIDDLE / 4 ? 0.0 : 0.5 * kind->width_m;
+    return (struct vec3){n & 1 ? at.x : -at.x, at.y, n & 2 ? wide : -wide};
 }
 
 void chassis_shell_of(const struct kind *kind, const struct suspension *suspension,
@@ -86,6 +97,11 @@ void chassis_shell_follow(struct chassis_shell *shell, const struct suspension *
 /* The bit of a point's number that says on which side it is. */
 enum { LEFT_FIRST = 0, RIGHT_FIRST = 2 };
 
+static inline bool is_middle(uint32_t n)
+{
+    return n / 4 == CHASSIS_SHELL_MIDDLE / 4;
+}
+
 /* --- paths -------------------------------------------------------------------------------------*/
 
 struct shell_ground {
@@ -110,14 +126,15 @@ static struct vec3 normal_at(const struct shell_ground *ground, struct vec3 at)
     return vec3_scale(normal, 1.0 / vec3_length(normal));
 }
 
-/* Returns the share of the path at which a point comes into the ground. Its end is in the ground
- * and its start is not. */
-static double meets(const struct shell_ground *ground, struct vec3 at, struct vec3 path)
+/* Returns the share of the path at which a point comes below a height over the ground. Its end is
+ * below it and its start is not. */
+static double meets(const struct shell_ground *ground, struct vec3 at, struct vec3 path,
+                    double floor_m)
 {
     double out = 0.0, in = 1.0;
     for (int n = 0; n < HALVINGS; n++) {
         double half = 0.5 * (out + in);
-        if (above(ground, vec3_add(at, vec3_scale(path, half))) > 0.0)
+        if (above(ground, vec3_add(at, vec3_scale(path, half))) > floor_m)
             out = half;
         else
             in = half;
@@ -144,10 +161,9 @@ static bool add(struct ground_contacts *contacts, const struct rigid_body *body,
  * is more upwards than their normals. */
 static struct vec3 way_out(struct vec3 normal, double high)
 {
-    if (high * normal.y > -DEEP_M)
-        return normal;
-    normal.y += 1.0;
-    return vec3_scale(normal, 1.0 / vec3_length(normal));
+    struct vec3 out = {normal.x, normal.y + 1.0, normal.z};
+    out = vec3_scale(out, 1.0 / vec3_length(out));
+    return high * normal.y > -DEEP_M || vec3_dot(out, normal) > SAME_FACE ? normal : out;
 }
 
 /* Adds the contacts of a point within dt_s. Returns true if there is a new one. */
@@ -165,9 +181,11 @@ static bool sweep_point(struct ground_contacts *contacts, const struct shell_gro
     struct vec3 normal = way_out(normal_at(ground, at), high);
     if (high * normal.y < MARGIN_M)
         added = add(contacts, body, inverse, arm, normal, high * normal.y);
-    if (high <= 0.0 || above(ground, vec3_add(at, path)) > 0.0)
+    /* One that is in the ground gets no deeper. */
+    double floor_m = maths_min(high, 0.0) - ROUNDING_M;
+    if (above(ground, vec3_add(at, path)) > floor_m)
         return added;
-    double share = meets(ground, at, path);
+    double share = meets(ground, at, path, floor_m);
     normal = normal_at(ground, vec3_add(at, vec3_scale(path, share)));
     double closing_m = -vec3_dot(path, normal);
     return closing_m > 0.0 ? add(contacts, body, inverse, arm, normal, share * closing_m) || added
@@ -195,13 +213,14 @@ static bool sweep(struct ground_contacts *contacts, const struct chassis_shell *
     const struct mat3 inverse = mass_properties_inverse_world(&body->inertia, &turn);
     bool added = false;
     for (uint32_t n = 0; n < shell->count; n++) {
-        struct vec3 point = shell->point[n ^ order];
+        const uint32_t k = is_middle(n) ? n : n ^ order;
+        struct vec3 point = shell->point[k];
         point.y -= body->inertia.centre_m;
         const struct vec3 arm = rotation_apply(&turn, point);
         if (!sweep_point(contacts, ground, body, &inverse, arm, dt_s))
             continue;
         added = true;
-        if ((n ^ order) >= CHASSIS_SHELL_WHEELS)
+        if (k >= CHASSIS_SHELL_WHEELS)
             let_roll(contacts, arm);
     }
     return added;
@@ -256,6 +275,10 @@ static struct chassis_shell_push press(const struct chassis_shell *shell,
     for (uint32_t c = 0; c < contacts.count; c++)
         contacts.contact[c].gap_m = maths_max(contacts.contact[c].gap_m, -MOST_DEEP_M);
     ground_contacts_push(&contacts, body, dt_s, &push.velocity_mps, &push.spin_rps);
+    double fast = vec3_length(push.velocity_mps) + vec3_length(push.spin_rps) * kind->bound_m;
+    double share = maths_min(1.0, PUSH_MOST_MPS / maths_max(fast, 1e-9));
+    push.velocity_mps = vec3_scale(push.velocity_mps, share);
+    push.spin_rps = vec3_scale(push.spin_rps, share);
     return push;
 }
 

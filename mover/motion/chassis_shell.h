@@ -11,10 +11,12 @@
 #include "mover/motion/ground_contacts.h"
 #include "mover/motion/suspension.h"
 
-/* Four points each of the underside, of the ends, of the roof, and before the outer wheels. */
-#define CHASSIS_SHELL_POINTS 16u
+/* Four points each of the underside, of the ends, of the sides beside the outer wheels, in the
+ * middle of underside and ends, of the roof, and before the outer wheels. */
+#define CHASSIS_SHELL_POINTS 24u
 #define CHASSIS_SHELL_ENDS   8u  /* the first points are those of the underside and of the ends */
-#define CHASSIS_SHELL_WHEELS 12u /* the last points rise with their wheels; tracks have none */
+#define CHASSIS_SHELL_MIDDLE 12u /* the four of the middle, which have no left and right */
+#define CHASSIS_SHELL_WHEELS 20u /* the last points rise with their wheels; tracks have none */
 
 struct chassis_shell {
     struct vec3 point[CHASSIS_SHELL_POINTS]; /* [m] body axes */

@@ -18,7 +18,6 @@
 #define BOW          0.21 /* length of the end of a track over the vehicle's */
 #define BOW_RISE     0.7  /* tangent of its slope */
 #define STEEPEST     3.0  /* tangent: a wheel rolls onto an edge as onto a slope like that */
-#define LEANS_ALONG  2.0  /* tangent of the body's slope, at most */
 #define SAMPLES      9    /* points at which a wheel may touch uneven ground */
 #define EVEN_AXLES   3u   /* by which a track stands on even ground */
 
@@ -136,8 +135,9 @@ static double sample(const struct suspension *suspension, const struct wheel *wh
 
 /* How a body stands on uneven ground. */
 struct wheel_footing {
-    struct vec3 ahead; /* its heading on the map, unit */
-    double slope;      /* of its plane along the heading, as a tangent */
+    struct vec3 ahead;      /* its heading on the map, unit */
+    double level, rise, up; /* of its forward axis: the parts on the map and upwards; of its
+                               upward axis: the part upwards */
 };
 
 /* Finds where a wheel touches uneven ground. */
@@ -157,14 +157,16 @@ static struct wheel_contact contact_uneven(const struct suspension *suspension,
     struct wheel_contact contact = {here, 0.0, normal_of(east, south)};
     for (int n = 0; n < SAMPLES; n++) {
         double d = sample(suspension, wheel, n);
-        double height = height_at(context, at.x + d * ahead.x, at.z + d * ahead.z);
-        double over = height - here - steep * d - rim(suspension, wheel, d, &slope);
-        if (over <= most || height > wall + d * footing->slope)
+        double far = d * footing->level, rise = d * footing->rise;
+        double height = height_at(context, at.x + far * ahead.x, at.z + far * ahead.z);
+        double plane = maths_max(rise, steep * far); /* of the body or the ground */
+        double over = height - here - plane - rim(suspension, wheel, d, &slope) * footing->up;
+        if (over <= most || height > wall + rise)
             continue;
         most = over;
         slope += steep;
         contact =
-            (struct wheel_contact){here + over, d, normal_of(slope * ahead.x, slope * ahead.z)};
+            (struct wheel_contact){here + over, far, normal_of(slope * ahead.x, slope * ahead.z)};
     }
     return contact;
 }
@@ -248,9 +250,10 @@ double suspension_load(struct suspension *suspension, const struct step_context 
 {
     struct vec3 ahead = {turn->m[0][0], 0.0, turn->m[2][0]};
     double level = maths_max(vec3_length(ahead), 1e-9);
-    const struct wheel_footing footing = {
-        .ahead = vec3_scale(ahead, 1.0 / level),
-        .slope = maths_clamp(turn->m[1][0] / level, -LEANS_ALONG, LEANS_ALONG)};
+    const struct wheel_footing footing = {.ahead = vec3_scale(ahead, 1.0 / level),
+                                          .level = level,
+                                          .rise = turn->m[1][0],
+                                          .up = turn->m[1][1]};
     for (uint32_t i = 0; i < suspension->count; i++) {
         struct wheel *wheel = &suspension->wheel[i];
         struct vec3 place = wheel->place;

@@ -22,7 +22,10 @@ struct world;
 struct sprung_look {
     double wheel_m;     /* its lowest wheel over the ground, as if without load; below 0: pressed */
     double shell_m;     /* the lowest point of its shell over the ground */
-    double spring_jpkg; /* energy in its springs over its mass */
+    double rim_m;       /* the lowest of the fronts of its outer wheels over the ground */
+    double water_m;     /* depth of the ford under it */
+    double spring_jpkg; /* energy that its springs give back over its mass, at least */
+    double spring_most_jpkg; /* and at most: edges touch a wheel at any place of its rim */
 };
 
 /* A frame in a body's life. */

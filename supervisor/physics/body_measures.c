@@ -9,6 +9,7 @@
 
 #define HELD_M         1e-3 /* a body that is no farther off the ground is on it */
 #define LEAST_DEPTH_M  0.05 /* a corner that is no higher over the ground touches it */
+#define CLEARS         0.75 /* of the step that a vehicle climbs: its underside is so high */
 #define LEANING_RPS    3.0  /* an aircraft banks and pitches so fast */
 #define BOX_CORNERS    8u
 #define FRAME_S        (1.0 / 60.0)
@@ -46,6 +47,14 @@ void body_measures_numbers(struct measures *measures, const struct body_look *bo
 
 /* --- the ground --------------------------------------------------------------------------------*/
 
+/* Returns true if a corner is one of the wheels and tracks, which springs move and edges bend, or
+ * of a gun beyond the ends, which its crew lifts and turns out of the way. */
+static bool is_moved(const struct kind *kind, struct vec3 corner)
+{
+    double under = maths_max(kind->travel_m, CLEARS * kind->step_m);
+    return corner.y < under || fabs(corner.x) > 0.5 * kind->length_m + LEAST_DEPTH_M;
+}
+
 /* Returns how deep the deepest corner of a hull is under a ground that is not one plane, at least
  * deepest. */
 static double deepest_corner(const struct surface *surface, const struct hull_shape *shape,
@@ -59,6 +68,8 @@ static double deepest_corner(const struct surface *surface, const struct hull_sh
     for (uint32_t i = 0; i < shape->vertices; i++) {
         const struct vec3 to = rigid_pose_out(&body->now.pose, shape->vertex[i]);
         const struct vec3 corner = vec3_add(body->named.at, to);
+        if (body->now.sprung && is_moved(body->kind, shape->vertex[i]))
+            continue;
         if (surface_part_most(part, to.x, to.z) - corner.y > deepest)
             deepest = maths_max(deepest, surface_height(surface, corner.x, corner.z) - corner.y);
     }

@@ -7,11 +7,12 @@
 #include <stddef.h>
 
 #define GRAVITY_MPS2 9.80665
-#define SHELL        12u
+#define SHELL        20u
 #define ASIDE_M      0.015 /* a point of the shell so far from the open is not deeper than this */
 #define HALF_ROOT    0.70710678118654752
 #define SLOPE_M      0.5  /* between the heights that give the slope under a wheel */
 #define AIR_M        0.05 /* wheels and shell of a vehicle in the air are higher over the ground */
+#define LEANS_MOST   0.3  /* cosine: the least of a wheel's axis and the normal of the ground */
 #define STEEPEST     2.0  /* the height over a wall falls so much faster than the way to it */
 #define WHEEL        0.22 /* radius of a wheel over the height of its vehicle, or more */
 #define TRACK_END    0.21 /* length of the end of a track over the length */
@@ -25,16 +26,32 @@ static double square_of(double value)
 
 /* --- shell and wheels --------------------------------------------------------------------------*/
 
-/* Returns point i of the shell: underside, as high as the wheels can rise, ends and roof. */
+/* Returns how far in front of the middle the outer axles are, and how high tracks climb [m]. */
+static double outer_axle(const struct kind *kind)
+{
+    return kind->length_m * (kind->tracked ? 0.29 : 0.34);
+}
+
+static double climbs(const struct kind *kind)
+{
+    double bow = 0.7 * TRACK_END * kind->length_m;
+    return kind->tracked ? maths_min(kind->step_m, bow) : kind->step_m;
+}
+
+/* Returns point i of the shell: four of the underside, as high as the wheels can rise, of the ends,
+ * of the sides beside the outer axles, of the middle of underside and ends, and of the roof. */
 static struct vec3 shell_point(const struct kind *kind, uint32_t i)
 {
     const bool tracked = kind->tracked != 0;
-    double length = kind->length_m * (i >= 4 ? 0.5 : tracked ? 0.22 : 0.15);
+    const double belly = kind->length_m * (tracked ? 0.22 : 0.15), half = 0.5 * kind->length_m;
     double under = maths_max(kind->travel_m, tracked ? 0.0 : 0.75 * kind->step_m);
     double nose = maths_min(0.45 * kind->height_m, tracked ? kind->step_m : kind->height_m);
-    double height = i < 4 ? under : i < 8 ? maths_max(nose, kind->travel_m) : kind->height_m;
-    return (struct vec3){i & 1 ? length : -length, height,
-                         i & 2 ? 0.5 * kind->width_m : -0.5 * kind->width_m};
+    double side = maths_max(under, climbs(kind) * (tracked ? 0.6 : 1.0));
+    nose = maths_max(nose, kind->travel_m);
+    const double x[] = {belly, half, outer_axle(kind), i & 2 ? half : belly, half};
+    const double y[] = {under, nose, side, i & 2 ? nose : under, kind->height_m};
+    double wide = i / 4 == 3 ? 0.0 : 0.5 * kind->width_m;
+    return (struct vec3){i & 1 ? x[i / 4] : -x[i / 4], y[i / 4], i & 2 ? wide : -wide};
 }
 
 static double sag_of(const struct kind *kind)
@@ -56,30 +73,39 @@ static double axle_at(const struct kind *kind, uint32_t axle)
     return -front / behind + spread * (0.5 - (axle - 1.0) / maths_max(behind - 1.0, 1.0));
 }
 
-/* Returns how far the ground presses a wheel, along the body's upward axis [m]. Below 0: how high
- * it is over the ground, and more. */
-static double squeeze_of(const struct surface *surface, const struct body_look *body,
-                         struct vec3 wheel)
+/* How the ground presses a wheel. */
+struct press {
+    double squeeze_m; /* along the body's upward axis; below 0: how high it is over the ground */
+    double leans;     /* cosine of that axis and the normal of the ground */
+};
+
+static struct press press_of(const struct surface *surface, const struct body_look *body,
+                             struct vec3 wheel)
 {
     const struct vec3 at = vec3_add(body->named.at, rigid_pose_out(&body->now.pose, wheel));
     const struct vec3 up = body->now.pose.up;
     double ground = surface_height(surface, at.x, at.z), half = 0.5 * SLOPE_M;
     if (at.y >= ground)
-        return ground - at.y;
+        return (struct press){ground - at.y, 1.0};
     double east =
         (surface_height(surface, at.x + half, at.z) - surface_height(surface, at.x - half, at.z)) /
         SLOPE_M;
     double south =
         (surface_height(surface, at.x, at.z + half) - surface_height(surface, at.x, at.z - half)) /
         SLOPE_M;
-    return (ground - at.y) / maths_max(0.3, up.y - up.x * east - up.z * south);
+    double along = up.y - up.x * east - up.z * south;
+    return (struct press){(ground - at.y) / maths_max(LEANS_MOST, along),
+                          along / sqrt(1.0 + east * east + south * south)};
 }
 
-/* Returns the energy in a spring over the mass [J/kg]. Its bump stop gives nothing back. */
-static double spring_jpkg(const struct kind *kind, double squeeze_m)
+/* Returns the energy that a spring can give back over the mass [J/kg]: its force acts along the
+ * normal of the ground. Its bump stop gives nothing back, and a wheel that leans too much bears
+ * nothing. */
+static double spring_jpkg(const struct kind *kind, const struct press *press)
 {
     double share = 0.5 * square_of(TWO_PI * kind->heave_hz) / (2.0 * kind->axles);
-    return share * square_of(maths_clamp(squeeze_m, 0.0, sag_of(kind) + kind->travel_m));
+    return maths_max(0.0, press->leans) * share *
+           square_of(maths_clamp(press->squeeze_m, 0.0, sag_of(kind) + kind->travel_m));
 }
 
 /* Returns how high a wheel is over the ground that its rim or the end of its track may touch. */
@@ -97,23 +123,54 @@ static double height_of(const struct surface *surface, const struct body_look *b
     return lowest;
 }
 
+/* What the springs of an axle may hold over the mass [J/kg]: edges touch a wheel at any place of
+ * its rim. */
+struct held {
+    double least, most;
+};
+
+static void add_axle(const struct surface *surface, const struct body_look *body, uint32_t axle,
+                     struct held *held)
+{
+    const struct kind *kind = body->kind;
+    double bar = 0.5 * ROLL_BAR * square_of(TWO_PI * kind->heave_hz) / (2.0 * kind->axles);
+    double low[2], high[2];
+    for (int side = 0; side < 2; side++) {
+        double least = HUGE_VAL, most = 0.0;
+        low[side] = HUGE_VAL, high[side] = 0.0;
+        for (int n = -2; n <= 2; n++) {
+            const struct vec3 wheel = {axle_at(kind, axle) + 0.5 * n * WHEEL * kind->height_m,
+                                       -sag_of(kind), (side ? 0.5 : -0.5) * kind->track_m};
+            const struct press press = press_of(surface, body, wheel);
+            least = maths_min(least, spring_jpkg(kind, &press));
+            most = maths_max(most, spring_jpkg(kind, &press));
+            low[side] = maths_min(low[side], maths_max(0.0, press.squeeze_m));
+            high[side] = maths_max(high[side], press.squeeze_m);
+        }
+        held->least += least;
+        held->most += most;
+    }
+    double apart = maths_max(0.0, maths_max(low[0] - high[1], low[1] - high[0]));
+    double most = maths_max(high[0] - low[1], high[1] - low[0]);
+    held->least += bar * square_of(apart);
+    held->most += bar * square_of(maths_max(0.0, most));
+}
+
 static void look_at_wheels(const struct surface *surface, struct body_look *body,
                            struct sprung_look *look)
 {
     const struct kind *kind = body->kind;
-    double bar = 0.5 * ROLL_BAR * square_of(TWO_PI * kind->heave_hz) / (2.0 * kind->axles);
+    struct held held = {0.0, 0.0};
     for (uint32_t axle = 0; axle < kind->axles; axle++) {
-        double squeeze[2];
+        add_axle(surface, body, axle, &held);
         for (int side = 0; side < 2; side++) {
             const struct vec3 wheel = {axle_at(kind, axle), -sag_of(kind),
                                        (side ? 0.5 : -0.5) * kind->track_m};
-            squeeze[side] = squeeze_of(surface, body, wheel);
-            look->spring_jpkg += spring_jpkg(kind, squeeze[side]);
             look->wheel_m = maths_min(look->wheel_m, height_of(surface, body, wheel));
         }
-        look->spring_jpkg +=
-            bar * square_of(maths_max(0.0, squeeze[0]) - maths_max(0.0, squeeze[1]));
     }
+    look->spring_jpkg = held.least;
+    look->spring_most_jpkg = held.most;
 }
 
 /* Returns how high a point is over the ground [m]. One in the ground beside a wall, such as the
@@ -132,21 +189,41 @@ static double clear_of(const struct surface *surface, struct vec3 at)
     return high;
 }
 
+/* Returns how high the fronts of the outer wheels are over the ground, at the height of the step
+ * that they climb: walls stand against them [m]. */
+static double rims_over(const struct surface *surface, const struct body_look *body)
+{
+    const struct kind *kind = body->kind;
+    double lowest = HUGE_VAL;
+    double front = maths_min(axle_at(kind, 0) + WHEEL * kind->height_m, 0.5 * kind->length_m);
+    for (uint32_t i = 0; i < 4; i++) {
+        const struct vec3 rim = {i & 1 ? front : -front, kind->step_m - sag_of(kind),
+                                 i & 2 ? 0.5 * kind->track_m : -0.5 * kind->track_m};
+        const struct vec3 at = vec3_add(body->named.at, rigid_pose_out(&body->now.pose, rim));
+        lowest = maths_min(lowest, at.y - surface_height(surface, at.x, at.z));
+    }
+    return lowest;
+}
+
 void sprung_body_look(const struct surface *surface, struct body_look *body)
 {
     struct sprung_look *look = &body->now.springs;
-    *look = (struct sprung_look){.wheel_m = HUGE_VAL, .shell_m = HUGE_VAL};
+    *look =
+        (struct sprung_look){.wheel_m = HUGE_VAL,
+                             .shell_m = HUGE_VAL,
+                             .water_m = surface_ford(surface, body->named.at.x, body->named.at.z)};
     for (uint32_t i = 0; i < SHELL; i++) {
         const struct vec3 own = rigid_pose_out(&body->now.pose, shell_point(body->kind, i));
         const struct vec3 at = vec3_add(body->named.at, own);
         look->shell_m = maths_min(look->shell_m, clear_of(surface, at));
     }
     look_at_wheels(surface, body, look);
+    look->rim_m = rims_over(surface, body);
 }
 
 /* --- motion ------------------------------------------------------------------------------------*/
 
-/* Returns kinetic energy, height and springs of the body over its mass [J/kg]. */
+/* Returns kinetic energy and height of the body over its mass [J/kg]. */
 static double energy_jpkg(const struct body_look *body, const struct motion_look *look)
 {
     const struct kind *kind = body->kind;
@@ -158,13 +235,15 @@ static double energy_jpkg(const struct body_look *body, const struct motion_look
                       (length + height) * square_of(spin.z)) /
                      24.0;
     double risen = look->pose.at.y + look->pose.up.y * kind->centre_height_m;
-    return 0.5 * vec3_dot(v, v) + turning + GRAVITY_MPS2 * risen + look->springs.spring_jpkg;
+    return 0.5 * vec3_dot(v, v) + turning + GRAVITY_MPS2 * risen;
 }
 
-/* Returns how high the lowest of wheels and shell is over the ground [m]. */
+/* Returns how high the lowest of wheels and shell is over the ground or the water of a ford [m]. */
 static double lowest_of(const struct motion_look *look)
 {
-    return maths_min(look->springs.wheel_m, look->springs.shell_m);
+    const struct sprung_look *springs = &look->springs;
+    return maths_min(springs->wheel_m, maths_min(springs->shell_m, springs->rim_m)) -
+           springs->water_m;
 }
 
 /* Returns how fast a point of the body is at most [m/s]. */
@@ -200,7 +279,7 @@ void sprung_body_measure(struct measures *measures, double dt_s, const struct bo
         measure_take(measures, MEASURE_OF_SHELL_UNDERGROUND,
                      maths_max(0.0, -body->now.springs.shell_m), &body->named, NULL);
     if (!body->known || body->commanded || body->blasts > 0 || body->struck > 0 || body->hits > 0 ||
-        body->touches || body->touched || !body->was->sprung)
+        body->presses > 0 || body->touches || body->touched || !body->was->sprung)
         return;
     const struct vec3 before = motion_look_centre_velocity(body->was, kind);
     const struct vec3 after = motion_look_centre_velocity(&body->now, kind);
@@ -211,8 +290,8 @@ void sprung_body_measure(struct measures *measures, double dt_s, const struct bo
     if (goes_with_ground(body->was) && goes_with_ground(&body->now))
         return;
     double engine = kind->power_w / kind->mass_kg * dt_s;
-    measure_take(
-        measures, MEASURE_OF_SPRUNG_ENERGY,
-        maths_max(0.0, energy_jpkg(body, &body->now) - energy_jpkg(body, body->was) - engine),
-        &body->named, NULL);
+    double given = body->now.springs.spring_jpkg - body->was->springs.spring_most_jpkg;
+    double gained = energy_jpkg(body, &body->now) - energy_jpkg(body, body->was) + given;
+    measure_take(measures, MEASURE_OF_SPRUNG_ENERGY, maths_max(0.0, gained - engine), &body->named,
+                 NULL);
 }

@@ -210,6 +210,18 @@ double surface_clearance(const struct surface *surface, const struct surface_rec
     return highest;
 }
 
+double surface_ford(const struct surface *surface, double x, double z)
+{
+    const struct earthworks *all = &surface->terrain->earthworks;
+    double depth = 0.0;
+    for (uint32_t i = 0; i < all->count; i++) {
+        const struct earthwork *work = &all->works[i];
+        if (work->shape == EARTHWORK_FORD && work_shape(work, x, z) < 0.0)
+            depth = maths_max(depth, -works_at(surface, x, z) - work->freeboard_m);
+    }
+    return depth;
+}
+
 bool surface_is_water(const struct surface *surface, double x, double z)
 {
     const struct terrain *terrain = surface->terrain;

@@ -48,6 +48,9 @@ struct surface_rectangle {
  * the craters at the middles of its sides and at its corners. */
 double surface_clearance(const struct surface *surface, const struct surface_rectangle *under);
 
+/* Returns the depth of a ford's water [m], 0 where there is none. */
+double surface_ford(const struct surface *surface, double x, double z);
+
 /* Returns true if there is water at the nearest post. */
 bool surface_is_water(const struct surface *surface, double x, double z);
 
