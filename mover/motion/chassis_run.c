@@ -17,6 +17,7 @@
     0.5 /* of the travel, by which the ground ahead is higher than the body's plane */
 #define FAST_SHARE 0.3 /* of the travel of a wheel, in a sub-step */
 
+#define NEAR_M   1.0 /* between a body and works or craters that cannot touch it in a frame */
 #define SCRAPE_M 0.1 /* a shell that is no higher may touch the ground */
 #define LEAST_LOAD                                                                                 \
     0.1                 /* of a wheel over its load at rest: one that bears less is off the ground \
@@ -289,6 +290,23 @@ static double find_load(struct chassis *chassis, struct mat3 *turn)
                            chassis->cratered);
 }
 
+/* Looks whether works or craters may be under the body in the sub-step: its wheels and its shell
+ * then look at them. */
+static void find_uneven(struct chassis *chassis)
+{
+    const struct step_context *context = chassis->context;
+    const struct rigid_body *body = &chassis->body;
+    const uint8_t marks = ground_marks_at(context->ground_marks, body->centre.x, body->centre.z);
+    const double reach =
+        chassis_shell_reach(chassis->kind) + NEAR_M + STEP_S * vec3_length(body->velocity);
+    bool uneven = marks & GROUND_MARKS_CRATER &&
+                  terrain_uneven_near(&context->world->terrain, context->craters, body->centre.x,
+                                      body->centre.z, reach);
+    if (uneven != chassis->cratered)
+        suspension_of(chassis->kind, uneven, &chassis->suspension);
+    chassis->cratered = uneven;
+}
+
 /* --- a frame
  * ------------------------------------------------------------------------------------*/
 
@@ -303,7 +321,7 @@ void chassis_run_begin(struct chassis *chassis, const struct step_context *conte
     chassis->desired = *desired;
     chassis->most_mps =
         maths_max(chassis->kind->max_speed_mps, 1e-9) * ground_vehicle_debris(context, i);
-    chassis->cratered = marks & GROUND_MARKS_CRATER;
+    chassis->cratered = false;
     chassis->littered = marks & GROUND_MARKS_DEBRIS;
     chassis->bent = terrain_cache_bend(&context->world->terrain, &context->terrain_entries[i],
                                        m->x[i], m->z[i]) > chassis_shell_bend(chassis->kind);
@@ -323,6 +341,7 @@ void chassis_run(struct chassis *chassis)
     int more = (int)ceil(dt_s / ROUGH_STEP_S - 1e-9);
     struct mat3 turn;
     for (int n = 0; n < (int)steps; n++) {
+        find_uneven(chassis);
         double load = find_load(chassis, &turn);
         want(chassis, &turn);
         chassis->rough = is_rough(chassis, &turn);

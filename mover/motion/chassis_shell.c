@@ -62,6 +62,11 @@ void chassis_shell_of(const struct kind *kind, const struct suspension *suspensi
             (struct vec3){n & 1 ? front : -front, suspension->reach_m, n & 2 ? wide : -wide};
 }
 
+double chassis_shell_reach(const struct kind *kind)
+{
+    return 0.5 * (kind->length_m + kind->width_m) + kind->height_m;
+}
+
 double chassis_shell_bend(const struct kind *kind)
 {
     double least = INFINITY;
@@ -275,7 +280,8 @@ static struct chassis_shell_push press(const struct chassis_shell *shell,
     for (uint32_t c = 0; c < contacts.count; c++)
         contacts.contact[c].gap_m = maths_max(contacts.contact[c].gap_m, -MOST_DEEP_M);
     ground_contacts_push(&contacts, body, dt_s, &push.velocity_mps, &push.spin_rps);
-    double fast = vec3_length(push.velocity_mps) + vec3_length(push.spin_rps) * kind->bound_m;
+    double fast =
+        vec3_length(push.velocity_mps) + vec3_length(push.spin_rps) * chassis_shell_reach(kind);
     double share = maths_min(1.0, PUSH_MOST_MPS / maths_max(fast, 1e-9));
     push.velocity_mps = vec3_scale(push.velocity_mps, share);
     push.spin_rps = vec3_scale(push.spin_rps, share);

@@ -32,6 +32,9 @@ struct chassis_shell_push {
     double strike_j;                    /* the part of it that upright ground took */
 };
 
+/* Returns a distance from the position that no point of shell and wheels passes [m]. */
+double chassis_shell_reach(const struct kind *kind);
+
 /* Returns the tangent by which the slopes of the ground under a vehicle of this kind must differ
  * before underside or ends of its shell get into it, where it stands in a single bend. */
 double chassis_shell_bend(const struct kind *kind);

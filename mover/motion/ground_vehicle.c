@@ -24,6 +24,7 @@
 #define LATERAL_SHARE 0.75 /* of the greatest lateral acceleration: below that of rough motion */
 #define LEAST_MPS     0.5  /* below it the drive force grows no more */
 #define PIVOT_PM      1e3  /* [1/m] tracks turn a vehicle on the spot */
+#define NEAR_M        1.0  /* between a body and works or craters that cannot be under it */
 #define LEAST_GAIN    0.1  /* [m/s2] a vehicle that can climb gains speed at least so fast */
 
 double ground_vehicle_debris(const struct step_context *context, uint32_t i)
@@ -42,6 +43,18 @@ void ground_vehicle_begin(struct ground_vehicle *batch, uint32_t frames)
     ground_pose_begin(&batch->pose);
 }
 
+/* Returns true if works or craters may be under the row in this frame. */
+static bool is_uneven_near(const struct step_context *context, const struct ground_vehicle *batch,
+                           int l)
+{
+    const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
+    const double speed = fabs(batch->vx.lane[l]) + fabs(batch->vz.lane[l]) +
+                         kind->acceleration_mps2 * BRAKES * context->dt_s;
+    return terrain_uneven_near(&context->world->terrain, context->craters, batch->pose.x.lane[l],
+                               batch->pose.z.lane[l],
+                               chassis_shell_reach(kind) + NEAR_M + 2.0 * context->dt_s * speed);
+}
+
 static void find_scars(const struct step_context *context, struct ground_vehicle *batch)
 {
     const struct ground_pose *pose = &batch->pose;
@@ -49,6 +62,8 @@ static void find_scars(const struct step_context *context, struct ground_vehicle
     ground_marks_find(context->ground_marks, &pose->x, &pose->z, &batch->pose.cratered, &debris);
     for (int l = 0; l < LANE_COUNT; l++) {
         batch->debris.lane[l] = 1.0;
+        if (l < batch->count && batch->pose.cratered.lane[l] && batch->frames == 1)
+            batch->pose.cratered.lane[l] = -(int64_t)is_uneven_near(context, batch, l);
         if (!debris.lane[l])
             continue;
         const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];

@@ -97,6 +97,26 @@ double crater_offset(const struct crater_index *index, double x, double z)
     return deepest < 0.0 ? deepest : highest;
 }
 
+bool crater_index_near(const struct crater_index *index, double x, double z, double reach_m)
+{
+    if (index->count == 0)
+        return false;
+    const struct gridsquare_box box =
+        gridsquare_box_of(&index->squares, x - reach_m, z - reach_m, x + reach_m, z + reach_m);
+    for (int32_t row = box.z0; row <= box.z1; row++) {
+        for (int32_t column = box.x0; column <= box.x1; column++) {
+            uint32_t link = index->head[gridsquare_index(&index->squares, column, row)];
+            for (; link != 0; link = index->links[link - 1].next) {
+                const struct crater *crater = &index->craters[index->links[link - 1].crater];
+                double own = (double)crater->radius_m * CRATER_RIM + reach_m;
+                if (fabs(crater->x - x) < own && fabs(crater->z - z) < own)
+                    return true;
+            }
+        }
+    }
+    return false;
+}
+
 double crater_footing_lift(double offset[3][3])
 {
     double middle = offset[1][1], front = offset[2][1], back = offset[0][1];

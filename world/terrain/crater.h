@@ -8,6 +8,7 @@
 
 #include "world/terrain/gridsquare.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 struct crater {
@@ -58,6 +59,9 @@ void crater_index_update(struct crater_index *index, uint32_t count);
 /* Returns what craters add to the height at (x, z) [m]: the deepest bowl, else the highest rim,
  * else 0. Does not depend on the order of the craters. */
 double crater_offset(const struct crater_index *index, double x, double z);
+
+/* Returns true if a crater or its rim may reach within a distance of (x, z) [m]. */
+bool crater_index_near(const struct crater_index *index, double x, double z, double reach_m);
 
 /* The rectangle on which a vehicle stands. */
 struct crater_footing {

@@ -50,8 +50,18 @@ struct earthworks {
     struct gridsquares squares;
 };
 
-/* The index covers one rectangle of gridsquares. Its first words say which. */
-enum { EARTHWORK_COLUMN, EARTHWORK_ROW, EARTHWORK_COLUMNS, EARTHWORK_ROWS, EARTHWORK_INDEX_HEAD };
+/* The index covers one rectangle of gridsquares. Its first words say which, into how many cells the
+ * side of a square is divided for points, a power of two, and at which word the list of cells
+ * begins: as that of squares, starts and then numbers of works. */
+enum {
+    EARTHWORK_COLUMN,
+    EARTHWORK_ROW,
+    EARTHWORK_COLUMNS,
+    EARTHWORK_ROWS,
+    EARTHWORK_SPLIT,
+    EARTHWORK_CELLS,
+    EARTHWORK_INDEX_HEAD
+};
 
 /* Builds the index on the heap, `words` long; the caller frees it. Without works it is NULL and 0
  * words long. Returns 0, or -1 with errno ENOMEM. */
@@ -70,6 +80,9 @@ bool earthwork_holds(const struct earthwork *work, double x, double z);
 
 /* Returns true if (x, z) is in the rectangle of any work. */
 bool earthwork_covers(const struct earthworks *works, double x, double z);
+
+/* Returns true if the rectangle of a work may reach within a distance of (x, z) [m]. */
+bool earthwork_near(const struct earthworks *works, double x, double z, double reach_m);
 
 /* Returns how far the work reaches from its middle to the east and to the south at most [m]. */
 double earthwork_reach_x(const struct earthwork *work);

@@ -62,6 +62,13 @@ double terrain_height(const struct terrain *terrain, const struct crater_index *
     return craters ? height + crater_offset(craters, x, z) : height;
 }
 
+bool terrain_uneven_near(const struct terrain *terrain, const struct crater_index *craters,
+                         double x, double z, double reach_m)
+{
+    return earthwork_near(&terrain->earthworks, x, z, reach_m) ||
+           (craters && crater_index_near(craters, x, z, reach_m));
+}
+
 double terrain_lift(const struct terrain *terrain, const struct crater_index *craters,
                     const struct crater_footing *footing)
 {

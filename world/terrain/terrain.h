@@ -51,6 +51,11 @@ double terrain_base_plane(const struct terrain *terrain, double x, double z, dou
 double terrain_height(const struct terrain *terrain, const struct crater_index *craters, double x,
                       double z);
 
+/* Returns true if craters or earthworks may reach within a distance of (x, z) [m]. craters may be
+ * NULL. */
+bool terrain_uneven_near(const struct terrain *terrain, const struct crater_index *craters,
+                         double x, double z, double reach_m);
+
 /* Returns by how much craters and earthworks lift a vehicle over the ground under its middle [m],
  * at least 0: see crater_lift(). craters may be NULL. */
 double terrain_lift(const struct terrain *terrain, const struct crater_index *craters,

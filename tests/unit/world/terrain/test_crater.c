@@ -117,6 +117,32 @@ static void test_the_index_gives_the_same_as_the_whole_list(void **state)
     crater_index_free(&index);
 }
 
+/* Where a crater changes the ground, it is near every point from which that is in reach. */
+static void test_craters_in_reach_are_near(void **state)
+{
+    static struct crater craters[40];
+    struct crater_index index;
+    uint64_t random = fixture_seed(43);
+    int far = 0;
+    (void)state;
+    for (int i = 0; i < 40; i++) {
+        craters[i] = random_crater(&random);
+        craters[i].x += fixture_uniform(&random, -900.0, 900.0);
+    }
+    index_of(&index, craters, 40);
+    for (int i = 0; i < 20000; i++) {
+        double x = fixture_uniform(&random, 24000.0, 26000.0), reach = 8.0;
+        double z = fixture_uniform(&random, 24850.0, 25150.0);
+        double to_x = x + fixture_uniform(&random, -5.6, 5.6);
+        double to_z = z + fixture_uniform(&random, -5.6, 5.6);
+        bool near = crater_index_near(&index, x, z, reach);
+        assert_true(near || crater_offset(&index, to_x, to_z) == 0.0);
+        far += !near;
+    }
+    assert_true(far > 5000);
+    crater_index_free(&index);
+}
+
 static void test_order_does_not_matter(void **state)
 {
     struct crater craters[MANY], shuffled[MANY];
@@ -279,6 +305,7 @@ int main(void)
         cmocka_unit_test(test_no_craters_no_change),
         cmocka_unit_test(test_overlap_is_the_deepest_bowl_else_the_highest_rim),
         cmocka_unit_test(test_the_index_gives_the_same_as_the_whole_list),
+        cmocka_unit_test(test_craters_in_reach_are_near),
         cmocka_unit_test(test_order_does_not_matter),
         cmocka_unit_test(test_craters_on_borders_are_found_from_every_side),
         cmocka_unit_test(test_index_grows_with_the_list_and_goes_back_with_it),

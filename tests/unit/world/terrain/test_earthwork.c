@@ -175,6 +175,28 @@ static void test_index_finds_every_work(void **state)
 
 /* Between two near points the height changes by no more than the steepest slopes of a rise and of a
  * dig together. */
+/* Where a work changes the ground, it is near every point from which that is in reach. */
+static void test_works_in_reach_are_near(void **state)
+{
+    uint64_t random = fixture_seed(42);
+    int far = 0;
+    (void)state;
+    works_scatter(works, WORKS, 24000.0, 26000.0, 0.4, &random);
+    struct earthworks all = works_index(works, WORKS);
+    for (int i = 0; i < 20000; i++) {
+        double x = fixture_uniform(&random, 23700.0, 26300.0), reach = 8.0;
+        double z = fixture_uniform(&random, 23700.0, 26300.0);
+        double sine, cosine, way = fixture_uniform(&random, 0.0, reach);
+        maths_sincos(fixture_uniform(&random, -3.0, 3.0), &sine, &cosine);
+        bool changed = earthwork_offset(&all, x + way * sine, z + way * cosine) != 0.0;
+        bool near = earthwork_near(&all, x, z, reach);
+        assert_true(near || !changed);
+        far += !near;
+    }
+    assert_true(far > 5000);
+    works_free(&all);
+}
+
 static void test_the_ground_is_continuous(void **state)
 {
     uint64_t random = fixture_seed(42);
@@ -275,6 +297,7 @@ int main(void)
         cmocka_unit_test(test_ramps_of_any_length_are_right),
         cmocka_unit_test(test_a_world_without_works_has_none),
         cmocka_unit_test(test_index_finds_every_work),
+        cmocka_unit_test(test_works_in_reach_are_near),
         cmocka_unit_test(test_the_ground_is_continuous),
         cmocka_unit_test(test_threads_agree),
         TEST(test_a_vehicle_drives_up_the_ramp),
