@@ -203,15 +203,16 @@ static double climb_of(const struct entities *m, uint32_t i, double pitch)
     return (m->vx[i] * sine - m->vz[i] * cosine) * pitch * (1.0 + pitch * pitch / 3.0);
 }
 
-/* Where a row was. */
-struct place {
+/* Where a row was before the frame. */
+struct row_before {
     double x, y, z, heading, pitch, roll;
 };
 
 /* Returns 0 if its shell is not in the ground where the ground bends or where works and craters may
  * be, and would not be in a frame; 1 if it would not be if it had kept its height, pitch and roll;
  * 2 if it was not where it was before. */
-static int enters_ground(const struct step_context *context, uint32_t i, const struct place *was)
+static int enters_ground(const struct step_context *context, uint32_t i,
+                         const struct row_before *was)
 {
     struct entities *m = context->m;
     struct terrain_cache_entry entry = {.held = 0};
@@ -297,7 +298,7 @@ static bool drive_one(const struct step_context *context, uint32_t i,
         x = wades ? x : m->x[i], z = wades ? z : m->z[i];
         vx = wades ? vx : 0.0, vz = wades ? vz : 0.0;
     }
-    const struct place was = {m->x[i], m->y[i], m->z[i], heading, pitch, m->roll[i]};
+    const struct row_before was = {m->x[i], m->y[i], m->z[i], heading, pitch, m->roll[i]};
     double y = standing_height(context, i, x, z), before = m->y[i], roll = m->roll[i];
     entities_set_velocity(m, i, (struct vec3){vx, (y - before) / context->dt_s, vz});
     entities_set_position(m, i, (struct vec3){x, y, z});
