@@ -50,11 +50,14 @@ double body_push_mobility(const struct response_context *context, uint32_t row, 
     return body.inverse_mass + vec3_dot(moment, rotation_apply(&body.inverse_inertia, moment));
 }
 
-/* The climb of a body that follows its slope with another velocity. */
+/* The climb of a body that follows its slope with another velocity. What rises or falls faster than
+ * a slope makes it does so on its springs, and goes on so. */
 static double climb(struct vec3 before, struct vec3 after)
 {
     double level = before.x * before.x + before.z * before.z;
-    return level > 0.0 ? before.y * (before.x * after.x + before.z * after.z) / level : 0.0;
+    return before.y * before.y < level
+               ? before.y * (before.x * after.x + before.z * after.z) / level
+               : before.y;
 }
 
 void body_push(struct response_context *context, uint32_t row, double time, struct vec3 point,

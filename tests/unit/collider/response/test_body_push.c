@@ -116,6 +116,17 @@ static void test_a_slowed_vehicle_keeps_to_its_slope(void **state)
     assert_true(near(velocity_of(row).x, 5.0, 1e-9) && near(velocity_of(row).y, 1.0, 1e-9));
 }
 
+/* One that stands and goes down on its springs was thrown up by 1e16 m/s. */
+static void test_a_push_throws_nothing_up_that_is_on_its_springs(void **state)
+{
+    uint32_t row = put("truck", 100.0, (struct vec3){1e-17, -0.16, 0.0});
+    double mass = steps_kind(&f, "truck")->mass_kg;
+    (void)state;
+    struct vec3 centre = path_at(&context.path[row], 0.0);
+    body_push(&context, row, 0.0, centre, (struct vec3){-0.3 * mass, 0.0, 0.0});
+    assert_true(near(velocity_of(row).x, -0.3, 1e-9) && near(velocity_of(row).y, -0.16, 1e-9));
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
@@ -124,6 +135,7 @@ int main(void)
         TEST(test_the_mobility_is_the_change_of_speed_at_the_point),
         TEST(test_the_ground_holds_a_truck_level),
         TEST(test_a_slowed_vehicle_keeps_to_its_slope),
+        TEST(test_a_push_throws_nothing_up_that_is_on_its_springs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
