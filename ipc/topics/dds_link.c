@@ -1,8 +1,9 @@
-/* The link to DDS: domain with an explicit configuration, participant, partition, bounded end. */
+/* The link to DDS: domain with an explicit configuration, participant, partitions, bounded end. */
 #include "ipc/topics/dds_link.h"
 
 #include "ipc/process/clock.h"
 #include "ipc/process/log.h"
+#include "ipc/segment/world_partition.h"
 #include "ipc/topics/dds_config.h"
 #include "ipc/topics/dds_datagrams.h"
 
@@ -79,11 +80,25 @@ static int configure(char *text, size_t bytes, const struct dds_link_options *op
     return dds_config_builtin(text, bytes, address, options->part, error);
 }
 
-/* Publisher and subscriber have the partition, and so has every reader and writer made in them. */
-static int join_partition(struct dds_link *link, const char *world, struct error_text *error)
+/* Returns true if the link is for a world of this user's runtime folder. Only a named network leads
+ * to others, and only while the folder has no world of the name. */
+static bool is_own(const struct dds_link_options *options, const struct segment_paths *paths)
 {
+    return (!options->interface && !options->config) || paths->object[0] != '\0';
+}
+
+/* Publisher and subscriber have the partitions, and so has every reader and writer made in them. */
+static int join_partitions(struct dds_link *link, const struct dds_link_options *options,
+                           const char *world, struct error_text *error)
+{
+    struct segment_paths paths;
+    char own[WORLD_PARTITION_MAX];
+    if (segment_paths(&paths, world, error) != 0 || world_partition_own(own, world, error) != 0)
+        return -1;
+    bool host = options->part == DDS_HOST;
+    const char *partition[] = {host || is_own(options, &paths) ? own : world, world};
     dds_qos_t *qos = dds_create_qos();
-    dds_qset_partition1(qos, world);
+    dds_qset_partition(qos, host ? 2 : 1, partition);
     link->publisher = dds_create_publisher(link->participant, qos, NULL);
     link->subscriber = dds_create_subscriber(link->participant, qos, NULL);
     dds_delete_qos(qos);
@@ -127,7 +142,7 @@ int dds_link_open(struct dds_link *link, const struct dds_link_options *options,
         (void)refuse(error, "participant", link->participant);
         goto err_domain;
     }
-    if (join_partition(link, world, error) != 0)
+    if (join_partitions(link, options, world, error) != 0)
         goto err_domain;
     free(config);
     library_log.quiet = options->quiet;

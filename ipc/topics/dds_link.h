@@ -1,4 +1,9 @@
-/* A process's link to DDS: its domain, its participant, and the partition of its world.
+/* A process's link to DDS: its domain, its participant, and the partitions of its world.
+ *
+ * A reporter has both partitions of its world (ipc/segment/world_partition.h). Any other process has
+ * that of the world in this user's runtime folder. If an interface or a configuration is named and
+ * the folder has no such world, it has the partition of the name, and so finds worlds of other
+ * machines and users.
  *
  * The configuration is given to Cyclone DDS explicitly, so that CYCLONEDDS_URI in the environment
  * changes nothing. */
@@ -39,7 +44,7 @@ struct dds_link {
 };
 
 /* Opens the link. Returns 0, or -1 with the reason: no such interface, a wrong configuration, no
- * socket. Blocks for some milliseconds. */
+ * socket, no runtime folder. Blocks for some milliseconds. */
 int dds_link_open(struct dds_link *link, const struct dds_link_options *options, const char *world,
                   struct error_text *error);
 

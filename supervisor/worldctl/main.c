@@ -41,7 +41,8 @@ static const struct verb verbs[] = {
     {"list", verb_list, 1,
      "[worlds | all | lost]     list this user's worlds; all: also the remains of dead ones; lost: "
      "files in /dev/shm that no name leads to"},
-    {"paths", verb_paths, 1, "[--world NAME] [name | lock | object]     print the world's paths"},
+    {"paths", verb_paths, 1,
+     "[--world NAME] [name | lock | object | partition]  print the world's paths"},
     {"remove", verb_remove, 0, "[--world NAME] [--force]     free a world's shared memory"},
     {"sweep", verb_sweep, 0, "[--world NAME]     remove what a dead process left under the name"},
     {"pid", verb_pid, 1, "[--world NAME] ROLE     pid of a role's live process"},

@@ -3,6 +3,7 @@
 
 #include "ipc/process/log.h"
 #include "ipc/segment/segment.h"
+#include "ipc/segment/world_partition.h"
 #include "recorder/replay/arguments.h"
 
 #include <stdbool.h>
@@ -45,11 +46,15 @@ int verb_list(const struct arguments *arguments)
 int verb_paths(const struct arguments *arguments)
 {
     struct segment_paths paths;
+    char partition[WORLD_PARTITION_MAX];
     struct error_text error;
-    if (segment_paths(&paths, arguments->world, &error) != 0)
+    if (segment_paths(&paths, arguments->world, &error) != 0 ||
+        world_partition_own(partition, arguments->world, &error) != 0)
         die_refused("%s", error.text);
-    const char *const rows[][2] = {
-        {"name", paths.name}, {"lock", paths.lock}, {"object", paths.object}};
+    const char *const rows[][2] = {{"name", paths.name},
+                                   {"lock", paths.lock},
+                                   {"object", paths.object},
+                                   {"partition", partition}};
     bool found = arguments->path == NULL;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         if (!arguments->path) {
@@ -60,7 +65,7 @@ int verb_paths(const struct arguments *arguments)
         }
     }
     if (!found)
-        die_usage("paths %s: there are name, lock, object", arguments->path);
+        die_usage("paths %s: there are name, lock, object, partition", arguments->path);
     return EXIT_OK;
 }
 
