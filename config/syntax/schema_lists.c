@@ -9,7 +9,9 @@
 #include "world/terrain/earthwork.h"
 
 static const struct key_choice behaviours[] = {
-    {NULL, BEHAVIOUR_IDLE, "The vehicle stands still. It reacts when it is fired upon."},
+    {NULL, BEHAVIOUR_IDLE,
+     "The vehicle stands still, a helicopter hovers, a jet circles. It reacts when it is "
+     "fired upon."},
     {NULL, BEHAVIOUR_HOLD,
      "The vehicle keeps its heading and speed and reacts to nothing. This makes planned "
      "collisions. "

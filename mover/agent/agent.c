@@ -32,6 +32,9 @@
 #define OVER_PLACE_M  6.0   /* and sets down from there */
 #define LEVEL_LEAST   0.6   /* of its usual height, the lowest level over its base */
 #define LEVEL_STEP    0.1   /* from level to level */
+#define HOLDING_RPS                                                                                \
+    0.052 /* an aeroplane without an order flies circles: 3 degrees/s, two minutes */
+#define HOLDING_SHARE 1.6 /* at so many times its stalling speed: 1.2 km of radius for a jet */
 
 /* An aircraft must bank before it turns and a ship's rudder is slow: they take this time for the
  * angle that is left, or they would swing about the heading that they want. */
@@ -288,6 +291,34 @@ static void drive_resupply(const struct step_context *context, uint32_t i, const
         land_at_base(context, i, desired);
 }
 
+static double settle_s(const struct kind *kind)
+{
+    return kind->domain == DOMAIN_AIR   ? SETTLE_AIR_S
+           : kind->domain == DOMAIN_SEA ? SETTLE_SEA_S
+                                        : 0;
+}
+
+/* The time [s] in which its steering completes a turn: that until its next decision, or more. */
+static double turn_s(const struct step_context *context, uint32_t i, const struct kind *kind)
+{
+    return maths_max(context->dt_s * (double)cruise_start_think_frames(context, i), settle_s(kind));
+}
+
+static bool is_aeroplane(const struct kind *kind)
+{
+    return kind->domain == DOMAIN_AIR && kind->min_speed_mps > 0.0;
+}
+
+/* An aeroplane cannot stop. Without an order it circles where it is, at its usual height. */
+static void fly_holding_turn(const struct step_context *context, uint32_t i,
+                             const struct kind *kind, struct desired_motion *desired)
+{
+    if (!is_aeroplane(kind))
+        return;
+    desired->speed_mps = HOLDING_SHARE * kind->min_speed_mps;
+    desired->heading_rad += HOLDING_RPS * turn_s(context, i, kind);
+}
+
 /* Keeps to the right of its route, unless it has a place of its own at its points. */
 static void keep_route(const struct step_context *context, uint32_t i,
                        struct desired_motion *desired)
@@ -306,6 +337,9 @@ static void drive_by_behaviour(const struct step_context *context, uint32_t i,
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     double cruise = CRUISE_SHARE * kind->max_speed_mps;
     switch ((enum behaviour)m->behaviour[i]) {
+    case BEHAVIOUR_IDLE:
+        fly_holding_turn(context, i, kind, desired);
+        break;
     case BEHAVIOUR_PATROL:
     case BEHAVIOUR_ROUTE:
         if (goal_arrived(context, i))
@@ -348,13 +382,6 @@ static void drive_by_behaviour(const struct step_context *context, uint32_t i,
 
 /* --- its controls ------------------------------------------------------------------------------*/
 
-static double settle_s(const struct kind *kind)
-{
-    return kind->domain == DOMAIN_AIR   ? SETTLE_AIR_S
-           : kind->domain == DOMAIN_SEA ? SETTLE_SEA_S
-                                        : 0;
-}
-
 static float throttle_for(const struct kind *kind, const struct desired_motion *desired)
 {
     return (float)(desired->speed_mps / maths_max(kind->max_speed_mps, 1e-9));
@@ -374,9 +401,7 @@ static void set_controls(const struct step_context *context, uint32_t i, const s
                          const struct desired_motion *desired)
 {
     struct entities *m = context->m;
-    double time_s =
-        maths_max(context->dt_s * (double)cruise_start_think_frames(context, i), settle_s(kind));
-    double turn = kind->turn_rate_rps * time_s;
+    double turn = kind->turn_rate_rps * turn_s(context, i, kind);
     double off = maths_wrap_half(desired->heading_rad - m->heading[i]);
     float throttle = throttle_for(kind, desired);
     bool holds = travels(m, i, kind) && throttle != 0.0f;
@@ -446,6 +471,8 @@ static void think(const struct step_context *context, uint32_t i, const struct k
     avoidance_steer(context, i, desired);
     if (kind->domain == DOMAIN_AIR && !desired->driven)
         aircraft_separation_keep(context, i, desired);
+    if (is_aeroplane(kind) && !desired->driven)
+        aircraft_separation_clear_ground(context, i, desired);
     if (disabled_drive(kind, m, i)) {
         desired->heading_rad = m->heading[i];
         desired->speed_mps = desired->turn = 0.0;

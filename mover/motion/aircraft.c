@@ -132,10 +132,10 @@ static inline void find_highest(const struct step_context *context, struct aircr
 
 /* Comments describe one aircraft. Each function treats the four of vector h. */
 
-/* Computes the desired speed and climb, and burns fuel for them. Without fuel a helicopter comes
- * down under its rotor. */
-static inline void want(struct aircraft *batch, int h, const f64x4 *ground, double dt_s,
-                        struct airframe *f)
+/* Computes the desired speed and climb, and burns fuel for them. sink: the rate at which the agent
+ * of an aeroplane may come down. Without fuel a helicopter comes down under its rotor. */
+static inline void want(struct aircraft *batch, int h, const f64x4 *ground, const f64x4 *sink,
+                        double dt_s, struct airframe *f)
 {
     const f64x4 none = SIMD_EVERY(0.0);
     f64x4 full = batch->full_mps.f64x4[h], most = batch->climb_rate.f64x4[h];
@@ -145,7 +145,8 @@ static inline void want(struct aircraft *batch, int h, const f64x4 *ground, doub
     /* A driver's speed is not clamped: helicopters also fly backwards. */
     f->wanted_mps = SIMD_CHOOSE(f->driven, batch->wanted_mps.f64x4[h], by_agent);
     f64x4 off = (*ground + batch->altitude.f64x4[h] - batch->y.f64x4[h]) * 0.8;
-    off = SIMD_CLAMP(off, least, most);
+    f64x4 lowest = SIMD_CHOOSE(f->aeroplane, SIMD_MAX(SIMD_NEGATIVE(*sink), least), least);
+    off = SIMD_CLAMP(off, lowest, most);
     four_masks level = batch->parked.f64x4[h] & (SIMD_ABS(off) < HOVER_MPS);
     off = SIMD_CHOOSE(level, none, off);
     f64x4 soft = SIMD_MAX(batch->y.f64x4[h] + batch->low.f64x4[h] - *ground, none);
@@ -193,9 +194,10 @@ static inline void snap(f64x4 *value, const f64x4 *wanted)
 static inline void push(struct airframe *f, double dt_s, f64x4 *speed, f64x4 *nose)
 {
     const f64x4 none = SIMD_EVERY(0.0);
-    f64x4 along, level;
+    f64x4 along, level, steepest;
     airframe_push(f, speed, dt_s, &along);
     airframe_tilt(f, &level, nose);
+    airframe_steepest(f, speed, dt_s, &steepest);
     f->up_mps += f->rising_mps2 * dt_s;
     snap(&f->up_mps, &f->wanted_up_mps);
     /* One that has no speed to fly with falls. */
@@ -203,6 +205,8 @@ static inline void push(struct airframe *f, double dt_s, f64x4 *speed, f64x4 *no
     *speed = SIMD_MAX(*speed + along * dt_s, falls);
     snap(speed, &f->wanted_mps);
     f64x4 high = *speed * UPRIGHT, low = SIMD_NEGATIVE(high);
+    high = SIMD_MIN(high, *speed * steepest);
+    high = SIMD_MAX(high, low);
     f64x4 steep = SIMD_CLAMP(f->up_mps, low, high);
     four_masks backwards = f->aeroplane & (f->forward_mps < 0.0);
     f->up_mps = SIMD_CHOOSE(f->aeroplane & ~backwards, steep, f->up_mps);
@@ -349,7 +353,7 @@ static inline void take_airframe(const struct aircraft *batch, int h, struct air
 /* The lanes between the steps of a move. */
 struct moving {
     struct airframe flight[LANE_FOURS];
-    union simd_lanes speed, rightward, through;
+    union simd_lanes speed, rightward, through, sink;
     struct lean lean;
 };
 
@@ -372,12 +376,17 @@ static inline void rise(struct aircraft *batch, const union simd_lanes *ground,
         f->nose_slope = nose_slope.f64x4[h];
         moving->speed.f64x4[h] = f->forward_mps * f->forward_mps + f->up_mps * f->up_mps;
         airframe_inflow(f, &moving->through.f64x4[h]);
+        f64x4 over = batch->y.f64x4[h] - ground->f64x4[h] - batch->altitude.f64x4[h];
+        airframe_pull_out(f, &moving->speed.f64x4[h], &over, &moving->sink.f64x4[h]);
     }
     roots(&moving->speed);
     roots(&moving->through);
+    roots(&moving->sink);
     for (int h = 0; h < LANE_FOURS; h++) {
         struct airframe *f = &moving->flight[h];
-        want(batch, h, &ground->f64x4[h], dt_s, f);
+        f64x4 slope = moving->speed.f64x4[h] * AIRFRAME_DESCENT;
+        f64x4 sink = SIMD_MIN(moving->sink.f64x4[h], slope);
+        want(batch, h, &ground->f64x4[h], &sink, dt_s, f);
         airframe_power(f, &moving->through.f64x4[h]);
         airframe_climb(f, &moving->speed.f64x4[h]);
         airframe_lift_off(f);

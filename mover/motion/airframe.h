@@ -36,6 +36,12 @@
  */
 #define AIRFRAME_SAFE 1.3
 
+/* Agents of aeroplanes descend by at most this share of their speed, 20 degrees, and so fast that
+ * this share of the lift over their weight ends the descent at the height that they want. */
+#define AIRFRAME_DESCENT  0.35
+#define AIRFRAME_PULL_OUT 0.5
+#define AIRFRAME_LEVELS   0.05 /* [g] by which any aeroplane levels out */
+
 #define AIRFRAME_ROLL_RPS   2.1     /* an aeroplane's rate of roll: 120 degrees/s */
 #define AIRFRAME_LAG_S      0.35    /* of a helicopter's attitude */
 #define AIRFRAME_TILT_SLOPE 0.57735 /* tan 30 degrees */
@@ -78,6 +84,7 @@
 #define AIRFRAME_SPOOL_S    5.0  /* a jet's engine, from idle to full thrust (14 CFR 33.73) */
 #define AIRFRAME_SLOW_S     3.0  /* and back */
 #define AIRFRAME_GOVERNOR_S 1.5  /* a helicopter's, both ways */
+#define AIRFRAME_UNLOADED   0.7  /* [g] with less lift an aeroplane banks as with this */
 #define AIRFRAME_DOWN       -0.8 /* [g] pushed over no harder: the crew stays in its seats */
 
 /* Four aircraft in a frame. */
@@ -197,6 +204,31 @@ static inline void airframe_lift(struct airframe *f, double dt_s)
     f->weight_mps2 = SIMD_MAX(g + f->rising_mps2, g * 0.05);
 }
 
+/* Returns the square of the rate of sink from which the lift levels an aeroplane out within a
+ * height of over [m]. square: of its speed. */
+static inline void airframe_pull_out(const struct airframe *f, const f64x4 *square,
+                                     const f64x4 *over, f64x4 *sink)
+{
+    const f64x4 one = SIMD_EVERY(1.0), least = SIMD_EVERY(AIRFRAME_LEVELS);
+    const f64x4 hardest = SIMD_EVERY(AIRFRAME_PULL);
+    f64x4 stall = SIMD_MAX(f->stall_mps, one);
+    f64x4 pull = (SIMD_MIN(*square / (stall * stall), f->load) - one) * AIRFRAME_PULL_OUT;
+    pull = SIMD_CLAMP(pull, least, hardest);
+    *sink = 2.0 * GRAVITY_MPS2 * pull * SIMD_MAX(*over, SIMD_EVERY(0.0));
+}
+
+/* Returns the sine of the steepest path to which its lift can bend an aeroplane's by the end of the
+ * frame. speed: along the path, before the frame. Lift is across the path, so on a steep path
+ * little of it is needed against the weight, and little of it lifts. */
+static inline void airframe_steepest(const struct airframe *f, const f64x4 *speed, double dt_s,
+                                     f64x4 *sine)
+{
+    const f64x4 g = SIMD_EVERY(GRAVITY_MPS2), one = SIMD_EVERY(1.0), none = SIMD_EVERY(0.0);
+    f64x4 fast = SIMD_MAX(*speed, one), level = f->forward_mps / fast;
+    f64x4 lifted = f->lift_most * SIMD_MAX(f->bank_cosine, none);
+    *sine = f->up_mps / fast + level * (lifted - level) * g * dt_s / fast;
+}
+
 /* Computes the wanted slope of the bank, and the rate of turn by the present bank. turn_slope: the
  * steepest bank's. */
 static inline void airframe_turn(struct airframe *f, double dt_s, f64x4 *bank)
@@ -209,7 +241,10 @@ static inline void airframe_turn(struct airframe *f, double dt_s, f64x4 *bank)
     f64x4 off = f->turn / lag_s, rate = f->turn * f->turn_rps;
     off = SIMD_CLAMP(off, least, most);
     rate = SIMD_CHOOSE(f->held | f->driven, rate, off);
-    f64x4 slope = rate * f->forward_mps / f->weight_mps2;
+    /* Wings that are nearly unloaded would need a steep bank for a gentle turn. */
+    f64x4 weight = f->weight_mps2, unloaded = SIMD_EVERY(AIRFRAME_UNLOADED * GRAVITY_MPS2);
+    weight = SIMD_CHOOSE(f->aeroplane, SIMD_MAX(weight, unloaded), weight);
+    f64x4 slope = rate * f->forward_mps / weight;
     /* A driver's full deflection is the steepest bank. */
     f64x4 high = SIMD_CHOOSE(f->driven, steepest * SIMD_ABS(f->turn), steepest);
     f64x4 low = SIMD_NEGATIVE(high);

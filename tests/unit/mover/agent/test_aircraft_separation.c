@@ -1,4 +1,4 @@
-/* Aircraft keep apart: head on, in a crowd, over their base. */
+/* Aircraft keep apart: head on, in a crowd, over their base; and from the ground. */
 #include "mover/agent/aircraft_separation.h"
 
 #include "tests/support/steps.h"
@@ -172,6 +172,67 @@ static void test_those_at_their_base_do_not_collide(void **state)
         assert_int_equal(steps_rows(&f).damage[row], DAMAGE_NONE);
 }
 
+#define ROUGH_JETS 40u
+
+/* Valleys between plateaus 800 m higher, whose walls of 50 degrees are steeper than any jet climbs.
+ */
+static double plateaus(double x, double z, const void *context)
+{
+    (void)context;
+    double across = fabs(fmod(x + 0.3 * z, 6000.0) - 3000.0);
+    return 200.0 + maths_clamp(1.2 * (across - 1200.0), 0.0, 800.0);
+}
+
+static void put_idle(const char *kind, uint64_t *random, double low_mps, double high_mps)
+{
+    double x = fixture_uniform(random, 20000.0, 30000.0);
+    double z = fixture_uniform(random, 20000.0, 30000.0);
+    double heading = fixture_uniform(random, 0.0, TWO_PI);
+    double speed = fixture_uniform(random, low_mps, high_mps);
+    double over = fixture_uniform(random, 500.0, 4000.0);
+    struct fixture_entity entity = {
+        .kind = kind,
+        .at = {x, steps_ground_at(&f, x, z) + over, z},
+        .velocity = {speed * maths_sin(heading), 0.0, -speed * maths_cos(heading)},
+        .heading_rad = heading};
+    uint32_t row = fixture_put(&f, entity);
+    struct entities e = steps_rows(&f);
+    e.behaviour[row] = e.order[row] = BEHAVIOUR_IDLE;
+}
+
+/* Without an order jets circle, helicopters hover. None comes near the ground, wherever and however
+ * fast it was when its order ended. */
+static void test_idle_aircraft_fly_on_over_mountains(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; };");
+    steps_ground(&f, plateaus, NULL);
+    for (uint64_t seed = 1; seed <= 4; seed++) {
+        uint64_t random = fixture_seed(seed);
+        double lowest[2] = {INFINITY, INFINITY}, farthest = 0.0, from_x[ROUGH_JETS],
+               from_z[ROUGH_JETS];
+        steps_empty(&f);
+        for (uint32_t n = 0; n < ROUGH_JETS; n++) {
+            put_idle(n % 5 ? "jet" : "helicopter", &random, n % 5 ? 75.0 : 0.0,
+                     n % 5 ? 277.0 : 70.0);
+            from_x[n] = steps_rows(&f).x[n];
+            from_z[n] = steps_rows(&f).z[n];
+        }
+        for (int frame = 0; frame < 240 * HZ; frame++) {
+            fixture_run(&f, 1);
+            for (uint32_t n = 0; n < ROUGH_JETS; n++) {
+                struct vec3 at = steps_position(&f, n);
+                double over = at.y - steps_ground_at(&f, at.x, at.z);
+                lowest[n % 5 == 0] = maths_min(lowest[n % 5 == 0], over);
+                farthest = maths_max(farthest, hypot(at.x - from_x[n], at.z - from_z[n]));
+            }
+        }
+        print_message("over the ground: jets %.0f m or more, helicopters %.0f m; %.0f m away\n",
+                      lowest[0], lowest[1], farthest);
+        assert_true(lowest[0] > 60.0 && lowest[1] > 20.0 && farthest < 12000.0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -180,6 +241,7 @@ int main(void)
         cmocka_unit_test_teardown(test_a_dense_herd_does_not_collide, close_world),
         cmocka_unit_test_teardown(test_one_that_may_roll_out_of_its_turn_is_kept_from, close_world),
         cmocka_unit_test_teardown(test_those_at_their_base_do_not_collide, close_world),
+        cmocka_unit_test_teardown(test_idle_aircraft_fly_on_over_mountains, close_world),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -146,6 +146,42 @@ static void test_a_hard_turn_costs_speed(void **state)
     assert_true(vec3_length(velocity_of(jet)) > 270.0);
 }
 
+/* The load [g] across the path of an aeroplane in a frame, which its wings must give. */
+static double lift_in_a_frame(uint32_t row)
+{
+    struct vec3 before = velocity_of(row);
+    fixture_run(&f, 1);
+    struct vec3 after = velocity_of(row), felt = vec3_scale(vec3_sub(after, before), hz);
+    felt.y += GRAVITY_MPS2;
+    struct vec3 path = vec3_add(before, after);
+    path = vec3_scale(path, 1.0 / vec3_length(path));
+    felt = vec3_sub(felt, vec3_scale(path, vec3_dot(felt, path)));
+    return vec3_length(felt) / GRAVITY_MPS2;
+}
+
+/* The stick pulled or turned at any speed, level, banked or in a steep climb: the lift is never
+ * more than the square of the speed over the stalling speed. */
+static void test_lift_follows_from_the_speed(void **state)
+{
+    static const double throttle[] = {0.0, 0.3, 1.0}, turn[] = {0.0, -1.0, 0.6};
+    (void)state;
+    double stall = steps_kind(&f, "jet")->min_speed_mps, worst = 0.0;
+    for (uint32_t n = 0; n < 27; n++) {
+        steps_empty(&f);
+        uint32_t jet = put("jet", 3000.0, n < 9 ? 80.0 : n < 18 ? 110.0 : 200.0, BEHAVIOUR_IDLE);
+        steps_drive(&f, jet, throttle[n % 3], turn[n / 3 % 3], 1.0);
+        for (int frame = 0; frame < (int)(60.0 * hz); frame++) {
+            double before = vec3_length(velocity_of(jet)), lift = lift_in_a_frame(jet);
+            double share = maths_max(before, vec3_length(velocity_of(jet))) / stall;
+            worst = maths_max(worst, lift - share * share);
+        }
+    }
+    print_message("lift over that of the speed: %.3f g\n", worst);
+    /* A path is never steeper than 76 degrees, so one that has stalled and falls is held by so
+     * much. */
+    assert_true(worst < 0.15);
+}
+
 static void test_below_its_stalling_speed_an_aeroplane_falls_until_it_is_faster(void **state)
 {
     (void)state;
@@ -429,6 +465,7 @@ int main(void)
         TEST(test_loads_stay_within_what_airframes_bear),
         TEST(test_a_turn_follows_from_the_load),
         TEST(test_a_hard_turn_costs_speed),
+        TEST(test_lift_follows_from_the_speed),
         TEST(test_below_its_stalling_speed_an_aeroplane_falls_until_it_is_faster),
         TEST(test_thrust_limits_the_climb),
         TEST(test_a_helicopter_pays_for_turns_and_climbs_with_speed),
