@@ -7,17 +7,20 @@
 #include "world/state.h"
 #include "world/world.h"
 
-#define AHEAD_S       4.0   /* how far ahead it looks for conflicts */
+#define AHEAD_S       3.0   /* how far ahead it looks for conflicts */
 #define SAMPLE_S      0.5   /* between two of the times at which it compares the courses */
+#define SAMPLES       7u    /* of them, up to AHEAD_S */
+#define SLOWEST_MPS   10.0  /* a slower one turns by its bank as at this speed */
 #define STEEPEST_RAD  1.4   /* a steeper bank counts as this one */
 #define BESIDE_M      8.0   /* gap at the sides */
 #define OVER_M        14.0  /* gap above and below */
 #define NEARING_S     1.5   /* the gap is larger by their nearing in this time */
 #define SPREAD        0.15  /* how far courses stray, as a share of the way until they meet */
-#define LEAD_S        0.5   /* who will be higher after this time is the higher one */
+#define LEAD_S        1.0   /* who will be higher after this time is the higher one */
 #define LEVEL_M       0.5   /* at the same height to this, the lower row is the higher one */
 #define FAR_M         150.0 /* aircraft that are further above or below are in nobody's way */
 #define LOW_SHARE     0.6   /* of its usual height, which it keeps above the ground */
+#define LOWEST_SHARE  0.3   /* the same of one that is lower: it does not climb below another */
 #define HOVER_LEVEL_M 0.25  /* between the heights at which those on hold are kept from others */
 #define HOVER_ROUNDED 0.1   /* of that: so far from a height they are at it */
 #define GROUND_S      3.0   /* flight keeps its height above the ground here and after this time */
@@ -36,63 +39,87 @@ struct clearance {
     double low, high;
 };
 
-/* Its acceleration [m/s2] towards its right in a turn, by its bank. */
-static double turning_mps2(const struct step_context *context, const struct entities *w, uint32_t i)
-{
-    double roll = cruise_roll(w, i, step_context_tick(context, w), context->dt_s), sine, cosine;
-    maths_sincos(maths_clamp(roll, -STEEPEST_RAD, STEEPEST_RAD), &sine, &cosine);
-    return GRAVITY_MPS2 * sine / cosine;
-}
-
-/* The course of row i: where it will be if it holds its bank. */
+/* Where a row will be, every SAMPLE_S from now on. */
 struct course {
-    double x, z, vx, vz, ax, az;
+    double x[SAMPLES], z[SAMPLES];
+    double vx, vz; /* now */
 };
 
-static struct course course_of(const struct step_context *context, uint32_t i)
+/* Its rate of turn [rad/s] by its bank, to the right. */
+static double turning_rps(const struct step_context *context, uint32_t i, double speed)
+{
+    const struct entities *w = &context->committed->entities;
+    double most = context->world->kinds[w->kind[i]].turn_rate_rps;
+    double roll = cruise_roll(w, i, step_context_tick(context, w), context->dt_s), sine, cosine;
+    maths_sincos(maths_clamp(roll, -STEEPEST_RAD, STEEPEST_RAD), &sine, &cosine);
+    double rate = GRAVITY_MPS2 * sine / (cosine * maths_max(speed, SLOWEST_MPS));
+    return maths_clamp(rate, -most, most);
+}
+
+/* The arc of row i if it holds this share of its bank, 0 or 1. */
+static void find_course(const struct step_context *context, uint32_t i, double share,
+                        struct course *course)
 {
     const struct entities *w = &context->committed->entities;
     const struct vec3 at = step_context_position(context, w, i);
     const struct vec3 velocity = step_context_velocity(context, w, i);
-    double right = turning_mps2(context, w, i), sine, cosine;
-    maths_sincos(step_context_heading(context, w, i), &sine, &cosine);
-    return (struct course){at.x, at.z, velocity.x, velocity.z, right * cosine, right * sine};
+    double speed = sqrt(velocity.x * velocity.x + velocity.z * velocity.z), sine, cosine;
+    double vx = velocity.x, vz = velocity.z, x = at.x, z = at.z;
+    maths_sincos(share * turning_rps(context, i, speed) * SAMPLE_S, &sine, &cosine);
+    course->vx = vx;
+    course->vz = vz;
+    for (uint32_t n = 0; n < SAMPLES; n++) {
+        course->x[n] = x;
+        course->z[n] = z;
+        double next_vx = vx * cosine - vz * sine, next_vz = vz * cosine + vx * sine;
+        x += 0.5 * SAMPLE_S * (vx + next_vx);
+        z += 0.5 * SAMPLE_S * (vz + next_vz);
+        vx = next_vx;
+        vz = next_vz;
+    }
 }
 
-/* Returns true if the courses come near each other within AHEAD_S. share: how much of their banks
- * they hold, 0 or 1. */
-static bool come_near(const struct course *own, const struct course *its, double beside,
-                      double share)
+/* Returns true if the courses come near each other. */
+static bool come_near(const struct course *own, const struct course *its, double beside)
 {
     double vx = its->vx - own->vx, vz = its->vz - own->vz;
     double spread = SPREAD * sqrt(vx * vx + vz * vz);
-    for (uint32_t n = 0; n * SAMPLE_S <= AHEAD_S; n++) {
-        double t = n * SAMPLE_S, half = 0.5 * share * t * t;
-        double most = beside + spread * maths_max(t, SAMPLE_S);
-        double dx = its->x - own->x + vx * t + (its->ax - own->ax) * half;
-        double dz = its->z - own->z + vz * t + (its->az - own->az) * half;
+    for (uint32_t n = 0; n < SAMPLES; n++) {
+        double most = beside + spread * SAMPLE_S * (n > 0 ? n : 1);
+        double dx = its->x[n] - own->x[n], dz = its->z[n] - own->z[n];
         if (dx * dx + dz * dz < most * most)
             return true;
     }
     return false;
 }
 
+/* The courses of the row that decides: with its bank, and when it rolls out of its turn. */
+struct courses {
+    struct course turning, straight;
+};
+
 /* Returns true if the other row comes near, with its bank or, of two that can hover, when both roll
  * out of their turns. Aeroplanes hold theirs for longer. */
 static bool meets(const struct step_context *context, uint32_t i, uint32_t other,
-                  const struct course *own)
+                  const struct courses *own)
 {
     const struct entities *w = &context->committed->entities;
     const double *reach = context->avoidance->reach_m;
     const struct kind *kinds = context->world->kinds;
-    const struct course its = course_of(context, other);
     bool nimble = kind_hovers(&kinds[w->kind[i]]) && kind_hovers(&kinds[w->kind[other]]);
     double beside = reach[w->kind[i]] + reach[w->kind[other]] + BESIDE_M;
-    return come_near(own, &its, beside, 1.0) || (nimble && come_near(own, &its, beside, 0.0));
+    struct course its;
+    find_course(context, other, 1.0, &its);
+    if (come_near(&own->turning, &its, beside))
+        return true;
+    if (!nimble)
+        return false;
+    find_course(context, other, 0.0, &its);
+    return come_near(&own->straight, &its, beside);
 }
 
 static void keep_from(const struct step_context *context, uint32_t i, uint32_t other,
-                      const struct course *own, struct clearance *clear)
+                      const struct courses *own, struct clearance *clear)
 {
     const struct entities *w = &context->committed->entities;
     const struct kind *kinds = context->world->kinds;
@@ -123,7 +150,9 @@ static void look_around(const struct step_context *context, uint32_t i, struct c
     const struct entities *w = &context->committed->entities;
     double speed = sqrt(w->vx[i] * w->vx[i] + w->vz[i] * w->vz[i]);
     double radius = aircraft_separation_reach(context, w->kind[i], speed);
-    const struct course own = course_of(context, i);
+    struct courses own;
+    find_course(context, i, 1.0, &own.turning);
+    find_course(context, i, 0.0, &own.straight);
     float x = (float)w->x[i], y = (float)w->y[i], z = (float)w->z[i];
     float square = (float)(radius * radius);
     struct neighbour_query query = neighbour_query_begin(
@@ -169,7 +198,8 @@ void aircraft_separation_keep(const struct step_context *context, uint32_t i,
     /* Between two it goes up: the higher one goes up, too, and the lower one may be near the
      * ground. */
     height = maths_max(maths_min(height, clear.high - ground), clear.low - ground);
-    desired->altitude_m = maths_max(height, maths_min(desired->altitude_m, LOW_SHARE * usual));
+    double low = maths_clamp(context->m->y[i] - ground, LOWEST_SHARE * usual, LOW_SHARE * usual);
+    desired->altitude_m = maths_max(height, maths_min(desired->altitude_m, low));
 }
 
 /* Returns the rate [m/s] at which row i must climb to be clear_m over each point of its course. */

@@ -1,6 +1,6 @@
 /* Aircraft keep apart by height, and aeroplanes from the ground before them.
  *
- * When an agent flies, it looks for other aircraft that come near it within a few seconds if both
+ * When an agent flies, it looks for other aircraft that come near it within three seconds if both
  * hold their speed, and their bank, which helicopters may also roll out of. Of two such aircraft
  * the higher one stays above and the lower one below. The lower one goes down by half of the gap,
  * as far as the ground allows; the higher one goes up until it has the whole gap below it. One

@@ -10,6 +10,7 @@
 #define DRIVES_MPS 1.0  /* it wants at least this speed */
 #define SLOW_MPS   0.3  /* and reaches less than this, */
 #define SLOW_SHARE 0.06 /* or than this share of it */
+#define WAY_SHARE  5.0  /* a ship needs the time of so much of that speed to reverse its way */
 #define SIDE_RAD   1.05 /* most off the way back */
 #define TRIES_S    3.0  /* who is stuck again tries so long */
 #define PERIOD_S   12.0 /* in each of these */
@@ -36,7 +37,10 @@ bool progress_stalled(const struct step_context *context, uint32_t i)
         return false;
     }
     uint32_t count = (m->stalled[i] & STALLED_COUNT) + 1u;
-    if (count * context->think_frames * context->dt_s < STALLED_S && count < STALLED_COUNT) {
+    double patience = STALLED_S;
+    if (kind->domain == DOMAIN_SEA)
+        patience += WAY_SHARE * least / maths_max(kind->acceleration_mps2, 0.01);
+    if (count * context->think_frames * context->dt_s < patience && count < STALLED_COUNT) {
         m->stalled[i] = (uint8_t)(before | count);
         return false;
     }

@@ -96,6 +96,7 @@ struct airframe {
     f64x4 forward_mps, up_mps, bank_slope, bank_cosine, nose_slope;
     /* What it wants. */
     f64x4 wanted_mps, wanted_up_mps, turn; /* turn: -1..1 when driven or held, else [rad] off */
+    f64x4 asked_up_mps;                    /* what it wants before the power limits it */
     f64x4 brake;                           /* 0..1 */
     f64x4 spool; /* 0..1: what its engine gives at most now; 1 unless driven */
     f64x4 power; /* 0..1: what an aeroplane's throttle allows its engine to give */
@@ -194,7 +195,7 @@ static inline void airframe_lift(struct airframe *f, double dt_s)
     f64x4 over, held;
     airframe_over(f, &over);
     /* An agent climbs first: over what is before it, and away from others. */
-    f64x4 climbs = f->per_climb * SIMD_MAX(f->wanted_up_mps, none) / SIMD_MAX(f->full_mps, one);
+    f64x4 climbs = f->per_climb * SIMD_MAX(f->asked_up_mps, none) / SIMD_MAX(f->full_mps, one);
     climbs = SIMD_CHOOSE(f->driven, none, climbs);
     held = (f->free_power - climbs) / f->per_load + AIRFRAME_TRADE * over - one;
     slope = SIMD_CHOOSE(f->aeroplane, slope, SIMD_MIN(slope, held));
@@ -289,6 +290,7 @@ static inline void airframe_push(struct airframe *f, const f64x4 *speed, double 
 static inline void airframe_lift_off(struct airframe *f)
 {
     f64x4 spare, over;
+    f->asked_up_mps = f->wanted_up_mps;
     airframe_spare(f, &spare);
     airframe_over(f, &over);
     f64x4 most = (spare / f->per_climb + AIRFRAME_ZOOM * over) * f->full_mps;

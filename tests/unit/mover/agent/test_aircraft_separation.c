@@ -138,6 +138,24 @@ static void test_one_that_may_roll_out_of_its_turn_is_kept_from(void **state)
     assert_true(steps_rows(&f).climb[row[1]] > 0.0f);
 }
 
+/* Of two that are lower than usual, the lower one does not climb towards the other to be as high as
+ * usual. */
+static void test_who_is_below_another_does_not_climb(void **state)
+{
+    (void)state;
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; };");
+    uint32_t low =
+        send("helicopter", (struct vec3){25000.0, FIXTURE_GROUND_M + 17.0, 25100.0}, 0.0);
+    (void)send("helicopter", (struct vec3){25000.0, FIXTURE_GROUND_M + 28.0, 24900.0}, PI);
+    double highest = 0.0;
+    for (int frame = 0; frame < 2 * HZ; frame++) {
+        fixture_run(&f, 1);
+        highest = maths_max(highest, steps_position(&f, low).y - FIXTURE_GROUND_M);
+    }
+    print_message("the lower one flies up to %.1f m\n", highest);
+    assert_true(highest < 19.0);
+}
+
 static double least_gap(uint32_t first, uint32_t end)
 {
     struct entities e = steps_rows(&f);
@@ -240,6 +258,7 @@ int main(void)
         cmocka_unit_test_teardown(test_a_crowd_on_patrol_does_not_collide, close_world),
         cmocka_unit_test_teardown(test_a_dense_herd_does_not_collide, close_world),
         cmocka_unit_test_teardown(test_one_that_may_roll_out_of_its_turn_is_kept_from, close_world),
+        cmocka_unit_test_teardown(test_who_is_below_another_does_not_climb, close_world),
         cmocka_unit_test_teardown(test_those_at_their_base_do_not_collide, close_world),
         cmocka_unit_test_teardown(test_idle_aircraft_fly_on_over_mountains, close_world),
     };

@@ -1,7 +1,7 @@
 /* Scripts: every step, by the clock and in sequence; interruptions; repetition. */
 #include "mover/agent/script_player.h"
 
-#include "tests/support/fixture.h"
+#include "tests/support/steps.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -259,6 +259,28 @@ static void test_controls_are_held_for_their_time(void **state)
     fixture_close(&f);
 }
 
+/* Its way through the water is lost slowly and gained slowly: it is not stuck meanwhile. */
+static void test_a_ship_goes_astern_for_its_script(void **state)
+{
+    (void)state;
+    open_script("jeep", "",
+                "{ throttle = 1.0; for_s = 20.0; }, { throttle = -1.0; for_s = 80.0; }");
+    steps_cover(&f, COVER_LAKE, 20000.0, 20000.0, 30000.0, 24900.0);
+    uint32_t ship = fixture_put(
+        &f, (struct fixture_entity){.kind = "ship", .at = {23000.0, FIXTURE_GROUND_M, 23000.0}});
+    struct entities e = steps_rows(&f);
+    e.behaviour[ship] = e.order[ship] = BEHAVIOUR_SCRIPT;
+    e.order_arg[ship] = e.order_arg[0];
+    run_s(20.0);
+    assert_true(now()->vz[ship] < -5.0);
+    run_s(75.0);
+    print_message("a ship with its throttle at -1 for 75 s goes astern with %.1f m/s\n",
+                  now()->vz[ship]);
+    assert_true(now()->vz[ship] > 5.0);
+    assert_int_equal(now()->behaviour[ship], BEHAVIOUR_SCRIPT);
+    fixture_close(&f);
+}
+
 static void test_aircraft_keep_the_height_of_their_steps(void **state)
 {
     (void)state;
@@ -388,6 +410,7 @@ int main(void)
         cmocka_unit_test(test_shots_are_fired_at_vehicles_and_points),
         cmocka_unit_test(test_who_aims_with_the_hull_turns_it),
         cmocka_unit_test(test_controls_are_held_for_their_time),
+        cmocka_unit_test(test_a_ship_goes_astern_for_its_script),
         cmocka_unit_test(test_aircraft_keep_the_height_of_their_steps),
         cmocka_unit_test(test_a_step_gives_it_back_to_its_agent),
         cmocka_unit_test(test_scripts_repeat),

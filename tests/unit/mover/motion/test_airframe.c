@@ -271,6 +271,24 @@ static void test_an_agent_climbs_before_it_banks(void **state)
     assert_true(velocity_of(row).y > 8.0 && fabs(steps_rows(&f).roll[row]) > 0.1);
 }
 
+/* One that is slow, and in the steepest turn that its engine bears, rolls out of it to climb. */
+static void test_an_agent_rolls_out_to_climb(void **state)
+{
+    (void)state;
+    uint32_t row = put("helicopter", 15.0, 23.0, BEHAVIOUR_PATROL);
+    struct entities e = steps_rows(&f);
+    e.roll[row] = 0.95f;
+    for (int frame = 0; frame < (int)(3.0 * hz); frame++) {
+        e = steps_rows(&f);
+        e.goal_x[row] = e.x[row] + 5000.0 * maths_sin(e.heading[row] + 2.5);
+        e.goal_z[row] = e.z[row] - 5000.0 * maths_cos(e.heading[row] + 2.5);
+        fixture_run(&f, 1);
+    }
+    print_message("from 54 degrees of bank, after 3 s: %.0f degrees, climbs %.1f m/s\n",
+                  fabs(steps_rows(&f).roll[row]) * DEG_PER_RAD, velocity_of(row).y);
+    assert_true(velocity_of(row).y > 8.0);
+}
+
 /* A jet turns harder than it can go on turning. */
 static void test_a_jet_sustains_less_than_it_pulls(void **state)
 {
@@ -470,6 +488,7 @@ int main(void)
         TEST(test_thrust_limits_the_climb),
         TEST(test_a_helicopter_pays_for_turns_and_climbs_with_speed),
         TEST(test_an_agent_climbs_before_it_banks),
+        TEST(test_an_agent_rolls_out_to_climb),
         TEST(test_a_jet_sustains_less_than_it_pulls),
         TEST(test_without_fuel_an_aeroplane_glides),
         TEST(test_a_helicopter_leans_before_it_gains_speed),
