@@ -189,21 +189,32 @@ static int find_after(const struct entry *entry, uint32_t key, const char *name,
                         "mission and of one of its phases");
 }
 
-static int link_phases(const struct entry *of, const char *member, uint32_t first)
+/* of: mission `index`. member: phases or reactions, of which the first is phase `first`. */
+static int link_phases(const struct entry *of, int index, const char *member, uint32_t first)
 {
     const config_setting_t *list = config_setting_get_member(of->setting, member);
+    const struct mission *own = &of->scenario->missions[index].mission;
+    struct key_table table = schema_phase;
+    char within[KEY_PATH_MAX];
     struct entry entry = {.scenario = of->scenario,
                           .keys = {.file = of->keys.file},
-                          .within = "missions.",
+                          .within = within,
                           .error = of->error};
+    snprintf(within, sizeof(within), "missions[%d].", index);
+    table.path = member;
     int length = list != NULL ? config_setting_length(list) : 0;
     for (int i = 0; i < length; i++) {
         struct phase_entry given;
         struct battle_phase *phase = &of->scenario->phases[first + (uint32_t)i].phase;
-        if (entry_read(&entry, &schema_phase, i, list, &given) != 0 ||
+        if (entry_read(&entry, &table, i, list, &given) != 0 ||
             find_after(&entry, PHASE_AFTER, given.until.after, &phase->until) != 0 ||
             find_after(&entry, PHASE_WHEN_AFTER, given.when.after, &phase->when) != 0)
             return -1;
+        if (phase->until.after_mission == (uint32_t)index &&
+            own->first_phase + phase->until.after_phase >= first + (uint32_t)i)
+            return entry_refuse(&entry, PHASE_AFTER,
+                                "is this phase, or one that comes after it, and so never ends "
+                                "before it; allowed: a phase of another mission");
     }
     return 0;
 }
@@ -226,10 +237,16 @@ static uint32_t count_phases(const config_setting_t *list)
     return count;
 }
 
-static int check_battle(const struct entry *entry)
+static int check_battle(const struct entry *entry, const config_setting_t *root)
 {
     const struct battle_params *battle = &entry->scenario->settings->params.battle;
-    const struct key_place place = {entry->keys.file, 0};
+    const config_setting_t *group = config_setting_get_member(root, "battle");
+    const config_setting_t *in_file =
+        group != NULL ? config_setting_get_member(group, "again_s") : NULL;
+    if (in_file == NULL)
+        in_file = group;
+    const struct key_place place = {entry->keys.file,
+                                    in_file != NULL ? (int)config_setting_source_line(in_file) : 0};
     char value[32];
     if (battle->again_s == 0.0 || battle->again_s > battle->end_s)
         return 0;
@@ -245,7 +262,7 @@ int missions_read(struct scenario *scenario, const config_setting_t *root, const
     struct entry entry = {
         .scenario = scenario, .keys = {.file = file, .skip = is_phases}, .error = error};
     int length = list != NULL ? entry_count(list, file, MISSIONS_MAX, error) : 0;
-    if (length < 0 || check_battle(&entry) != 0 ||
+    if (length < 0 || check_battle(&entry, root) != 0 ||
         read_objectives(scenario, config_setting_get_member(root, "objectives"), file, error) != 0)
         return -1;
     scenario->missions = entry_allocate((uint32_t)length, sizeof(*scenario->missions), file, error);
@@ -261,8 +278,8 @@ int missions_read(struct scenario *scenario, const config_setting_t *root, const
     for (int i = 0; i < length; i++) {
         const struct mission *mission = &scenario->missions[i].mission;
         entry.setting = config_setting_get_elem(list, (unsigned)i);
-        if (link_phases(&entry, "phases", mission->first_phase) != 0 ||
-            link_phases(&entry, "reactions", mission->first_phase + mission->phase_count) != 0)
+        if (link_phases(&entry, i, "phases", mission->first_phase) != 0 ||
+            link_phases(&entry, i, "reactions", mission->first_phase + mission->phase_count) != 0)
             return -1;
     }
     return 0;

@@ -477,6 +477,13 @@ static int store_route(const struct given *given, void *destination,
     return 0;
 }
 
+/* A whole number beyond 64 bits is read as a fraction (config/syntax/literals.h). */
+static bool too_large(const config_setting_t *setting)
+{
+    return setting->type == CONFIG_TYPE_FLOAT &&
+           fabs(config_setting_get_float(setting)) >= 9223372036854775808.0;
+}
+
 static int store_setting(const struct given *given, void *destination,
                          const config_setting_t *setting)
 {
@@ -488,7 +495,7 @@ static int store_setting(const struct given *given, void *destination,
             return refuse_value(given, "is not a boolean");
         return store_number(given, destination, config_setting_get_bool(setting) ? 1.0 : 0.0);
     case KEY_INTEGER:
-        if (!whole)
+        if (!whole && !too_large(setting))
             return refuse_value(given, "is not a whole number");
         return store_number(given, destination, number_of(setting));
     case KEY_NUMBER:

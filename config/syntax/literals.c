@@ -9,6 +9,7 @@
 /* Integers of at most so many digits fit 32 bits. */
 #define DECIMAL_DIGITS_SAFE 9
 #define HEX_DIGITS_SAFE     7
+#define DECIMAL_MOST        "9223372036854775807" /* of an integer of 64 bits */
 
 #define DECIMAL_DIGITS "0123456789"
 #define HEX_DIGITS     "0123456789abcdefABCDEF"
@@ -54,6 +55,14 @@ static size_t opaque_length(const char *text, bool *ends)
     return text[0] == '#' || (text[0] == '/' && text[1] == '/') ? strcspn(text, "\n") : 0;
 }
 
+/* Returns true if so many decimal digits are no integer of 64 bits. */
+static bool exceeds(const char *text, size_t digits)
+{
+    size_t zeros = strspn(text, "0");
+    size_t most = sizeof DECIMAL_MOST - 1, left = digits - (zeros < digits ? zeros : digits);
+    return left > most || (left == most && strncmp(text + zeros, DECIMAL_MOST, most) > 0);
+}
+
 static void copy_number(struct copying *copying)
 {
     const char *text = copying->from + (copying->from[0] == '+' || copying->from[0] == '-');
@@ -67,8 +76,12 @@ static void copy_number(struct copying *copying)
             end++;
     }
     copy(copying, end > copying->from ? (size_t)(end - copying->from) : 1);
-    if (whole && digits > (hex ? HEX_DIGITS_SAFE : DECIMAL_DIGITS_SAFE))
+    if (whole && !hex && exceeds(text, digits)) {
+        memcpy(copying->to, ".0", 2); /* it is read as a fraction, and not cut off */
+        copying->to += 2;
+    } else if (whole && digits > (hex ? HEX_DIGITS_SAFE : DECIMAL_DIGITS_SAFE)) {
         *copying->to++ = 'L';
+    }
 }
 
 /* Returns true if the array that begins at "[" has only numbers. */
@@ -116,7 +129,8 @@ void literals_measure(const char *text, struct literals_shape *shape)
 
 char *literals_widen(const char *text)
 {
-    /* A character is added after eight or more characters of a number, and one at the end. */
+    /* A character is added after eight or more characters of a number, two after nineteen or more,
+     * and one at the end. */
     size_t bytes = strlen(text);
     char *widened = malloc(bytes + bytes / 8 + 3);
     struct copying copying = {text, widened, false};

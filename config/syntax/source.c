@@ -6,6 +6,7 @@
 #include "config/syntax/schema.h"
 #include "world/runtime/checked_alloc.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -200,9 +201,53 @@ static void parse(void *context)
     parsing->result = config_read_string(parsing->config, parsing->text);
 }
 
+/* Copies a line of the text, without the space around it and with "..." for what has no room. */
+static void quote_line(const char *text, int line, char *quoted, size_t room)
+{
+    for (int n = 1; n < line && text != NULL; n++) {
+        text = strchr(text, '\n');
+        text = text != NULL ? text + 1 : NULL;
+    }
+    text = text != NULL ? text + strspn(text, " \t\r") : "";
+    size_t length = strcspn(text, "\n");
+    while (length > 0 && strchr(" \t\r", text[length - 1]) != NULL)
+        length--;
+    snprintf(quoted, room, "%.*s%s", (int)(length < room - 4 ? length : room - 4), text,
+             length < room - 4 ? "" : "...");
+}
+
+/* Returns true if the text has the word where a value may stand, as the 1.0 / 0.0 of a program
+ * prints it. */
+static bool has_value(const char *text, const char *word)
+{
+    const char *found = strcasestr(text, word);
+    while (found != NULL && (found == text || strchr(" =:,[(-+", found[-1]) == NULL))
+        found = strcasestr(found + 1, word);
+    return found != NULL && !isalpha((unsigned char)found[strlen(word)]);
+}
+
+/* Refuses what libconfig cannot read. It names the line alone. */
+static int refuse_syntax(const struct source *source, const config_t *config,
+                         struct error_text *error)
+{
+    const struct key_place place = {source->path, config_error_line(config)};
+    char quoted[100];
+    quote_line(source->text, place.line, quoted, sizeof quoted);
+    const char *what = config_error_text(config);
+    const char *right = "group = { key = value; key = value; };";
+    if (strcmp(what, "duplicate setting name") == 0) {
+        what = "a key that its group already has";
+        right = "each key once in a group";
+    } else if (has_value(quoted, "nan") || has_value(quoted, "inf")) {
+        right = "a finite number, as 1.5 or 2e3";
+    }
+    return key_table_refuse(error, place, NULL, NULL, "%s, at or before `%s`; right would be: %s",
+                            what, quoted, right);
+}
+
 int source_parse(const struct source *source, config_t *config, struct error_text *error)
 {
-    struct key_place place = {source->path, 0};
+    const struct key_place place = {source->path, 0};
     if (strlen(source->text) != source->bytes)
         return key_table_refuse(error, place, NULL, NULL, "is not text: it has a NUL byte");
     if (refuse_includes(source, error) != 0 || check_shape(source, error) != 0)
@@ -217,11 +262,7 @@ int source_parse(const struct source *source, config_t *config, struct error_tex
         memset(config, 0, sizeof(*config)); /* what it holds may be half made */
         return key_table_refuse(error, place, NULL, NULL, "no memory to read it");
     }
-    if (parsing.result != CONFIG_TRUE) {
-        place.line = config_error_line(config);
-        return key_table_refuse(error, place, NULL, NULL,
-                                "%s; right would be: group = { key = value; key = value; };",
-                                config_error_text(config));
-    }
+    if (parsing.result != CONFIG_TRUE)
+        return refuse_syntax(source, config, error);
     return 0;
 }

@@ -60,5 +60,5 @@ void scenario_load_generate(const struct scenario *scenario, struct world_build 
     if (placing_shown_ns > 0)
         (void)fputs("\r\033[K", stderr);
     if (result != 0)
-        die_refused("%s: %s", scenario->settings->params.scenario, error.text);
+        die_refused("%s", error.text);
 }

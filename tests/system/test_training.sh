@@ -63,6 +63,8 @@ check "a drive takes its jeep" grep -q 'you drive jeep (jeep 1)' shown
 check "the world still runs" runs training
 check "it stops" "$jolon" stop -w training
 
+told_once() { JOLON_RUNTIME_DIR=rel "$jolon" "$@" >told 2>&1; [ $? = 1 ] && equal "$(cat told)" "jolon: JOLON_RUNTIME_DIR=rel: must be an absolute path, as /run/jolon"; }
+for verb in drive console stop; do check "a wrong runtime folder is told once: $verb" told_once $verb; done
 refuses "a drive of a named vehicle without a world" 1 'there is no world "default"' "$jolon" drive tank --plain
 refuses "a drive in a named world that does not exist" 1 "there is no world \"$name\"" "$jolon" drive -w "$name" --plain
 

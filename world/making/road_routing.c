@@ -10,6 +10,7 @@
 
 #include <errno.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,8 +19,8 @@ struct laying {
     struct world_build *built;
     const struct road_graph *net;
     const struct scenario_group *group;
-    const char *key; /* of the route in the file, for messages */
-    bool open;       /* it does not lead back to its first point */
+    char key[64]; /* of the route in the file, for messages */
+    bool open;    /* it does not lead back to its first point */
     struct error_text *error;
     uint32_t room; /* of built->route_points */
 };
@@ -127,18 +128,31 @@ static int lay_route(struct laying *laying)
     return 0;
 }
 
+/* Sets the key to that of phase p of the scenario: "missions[1].reactions[0]". */
+static void name_phase(struct laying *laying, uint32_t p)
+{
+    const struct scenario *scenario = laying->built->scenario;
+    uint32_t m = 0;
+    while (m + 1 < scenario->mission_count && scenario->missions[m + 1].mission.first_phase <= p)
+        m++;
+    const struct mission *of = &scenario->missions[m].mission;
+    bool reacts = p - of->first_phase >= of->phase_count;
+    snprintf(laying->key, sizeof laying->key, "missions[%u].%s[%u]", m,
+             reacts ? "reactions" : "phases", p - of->first_phase - (reacts ? of->phase_count : 0));
+}
+
 /* The routes of missions are open. */
 static int lay_missions(struct laying *laying)
 {
     const struct scenario *scenario = laying->built->scenario;
     int result = 0;
-    laying->key = "missions.phases";
     laying->open = true;
     for (uint32_t p = 0; p < scenario->phase_count && result == 0; p++) {
         const struct scenario_phase *phase = &scenario->phases[p];
         const struct scenario_group group = {
             .route = phase->phase.route, .roads = phase->roads, .line = phase->line};
         laying->group = &group;
+        name_phase(laying, p);
         if (group.route != MISSION_NONE)
             result = lay_route(laying);
         laying->group = NULL;
@@ -150,7 +164,7 @@ int road_routing_build(struct world_build *built, struct error_text *error)
 {
     const struct scenario *scenario = built->scenario;
     struct road_graph net = {0};
-    struct laying laying = {.built = built, .net = &net, .key = "vehicles", .error = error};
+    struct laying laying = {.built = built, .net = &net, .error = error};
     int result = 0;
     bool roads = false;
     built->counts.routes = scenario->route_count;
@@ -164,6 +178,7 @@ int road_routing_build(struct world_build *built, struct error_text *error)
         return error_text_memory(error);
     for (uint32_t g = 0; g < scenario->group_count && result == 0; g++) {
         laying.group = &scenario->groups[g];
+        snprintf(laying.key, sizeof laying.key, "vehicles[%u]", g);
         if (laying.group->route != UINT32_MAX)
             result = lay_route(&laying);
     }

@@ -157,9 +157,11 @@ static int copy_step(const struct copy *copy, uint32_t index, double *altitude_m
     step->target_slot = SLOT_NONE;
     step->next_due = UINT32_MAX;
     if (name_index_find(copy->name_index, from->target, &step->target_slot) != 0)
-        return error_text_set(copy->error,
-                              "%s:%d: script \"%s\": fire = \"%s\": no vehicle has that name",
-                              file_of(copy), from->line, copy->from->name, from->target);
+        return error_text_set(
+            copy->error,
+            "%s:%d: script \"%s\": fire = \"%s\": no vehicle has that name; right would "
+            "be: a name that vehicles gives, of a group with a number: \"NAME-1\"",
+            file_of(copy), from->line, copy->from->name, from->target);
     if (step->type == STEP_BEHAVIOUR && give_order(copy, from, step) != 0)
         return -1;
     return check_ground(copy, from, step);

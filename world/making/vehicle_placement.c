@@ -254,16 +254,25 @@ static void form(struct vehicle_placement *placement, const struct scenario_grou
     built->counts.formations++;
 }
 
+/* The entry of vehicles that is being placed. */
+static uint32_t index_of(const struct vehicle_placement *placement)
+{
+    return (uint32_t)(placement->rank.group - placement->built->scenario->groups);
+}
+
 static int no_stand(const struct vehicle_placement *placement, uint32_t number)
 {
     const struct scenario *scenario = placement->built->scenario;
     const struct scenario_group *group = placement->rank.group;
+    const struct kind *kind = &scenario->kinds[group->kind];
     const struct area *area = &scenario->areas[group->area];
     return error_text_set(placement->error,
-                          "vehicles: no place for %s number %u of %u in area [%.0f, %.0f, %.0f, "
-                          "%.0f]: too crowded, or the wrong ground for its domain",
-                          scenario->kinds[group->kind].name, number, group->count, area->x0,
-                          area->z0, area->x1, area->z1);
+                          "%s:%d: vehicles[%u].area = [%.0f, %.0f, %.0f, %.0f]: no place for %s "
+                          "number %u of %u: too crowded, or the wrong ground; right would be: a "
+                          "larger area, one with more %s, or fewer vehicles",
+                          scenario->settings->params.scenario, group->line, index_of(placement),
+                          area->x0, area->z0, area->x1, area->z1, kind->name, number, group->count,
+                          kind->domain == DOMAIN_SEA ? "deep water" : "dry and gentle ground");
 }
 
 /* Checks whether the group's kind may be where the scenario puts it. As for the command spawn, a
@@ -278,10 +287,10 @@ static int check_ground(const struct vehicle_placement *placement)
         return 0;
     return error_text_set(
         placement->error,
-        "%s:%d: vehicles.at = [%.15g, %.15g]: a %s would stand %s; right would be: a "
+        "%s:%d: vehicles[%u].at = [%.15g, %.15g]: a %s would stand %s; right would be: a "
         "place %s",
-        scenario->settings->params.scenario, group->line, group->x, group->z, kind->name,
-        sails ? "on dry land" : "in the water", sails ? "on water" : "on land");
+        scenario->settings->params.scenario, group->line, index_of(placement), group->x, group->z,
+        kind->name, sails ? "on dry land" : "in the water", sails ? "on water" : "on land");
 }
 
 static int build_group(struct vehicle_placement *placement, const struct scenario_group *group)
@@ -298,9 +307,11 @@ static int build_group(struct vehicle_placement *placement, const struct scenari
             scenario->placing(slot, scenario->settings->params.initial_entities);
         if (slot >= scenario->settings->params.capacity)
             return error_text_set(placement->error,
-                                  "vehicles: more than world.capacity = %u; raise it (at most %u) "
-                                  "or lower a count",
-                                  scenario->settings->params.capacity, CAPACITY_MAX);
+                                  "%s:%d: vehicles[%u].count: more vehicles than world.capacity = "
+                                  "%u; raise it (at most %u) or lower a count",
+                                  scenario->settings->params.scenario, group->line,
+                                  index_of(placement), scenario->settings->params.capacity,
+                                  CAPACITY_MAX);
         if (find_stand(placement, slot, &stand) != 0)
             return no_stand(placement, i + 1);
         if (free_place_take(&placement->place, stand.x, stand.z,

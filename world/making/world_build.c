@@ -50,7 +50,8 @@ static int build_ground(struct world_build *built, struct error_text *error)
     }
     if (generate_hunter_liggett(built->posts, built->cover, side, scenario->settings->params.seed,
                                 built->roads, GENERATE_ROAD_MAX, &built->counts.road_points) != 0)
-        return error_text_set(error, "the ground could not be generated: %s", strerror(errno));
+        return error_text_set(error, "%s: the ground could not be generated: %s",
+                              scenario->settings->params.scenario, strerror(errno));
     return 0;
 }
 
@@ -99,16 +100,18 @@ static void list_objects(struct world_build *built, const struct terrain *terrai
 }
 
 /* Says why Table 1 could not be planted, by errno. */
-static int tell_objects(struct error_text *error)
+static int tell_objects(const char *file, struct error_text *error)
 {
     if (errno == EINVAL)
-        return error_text_set(error, "objects: a class of Table 1 has no kind in config/kinds");
+        return error_text_set(error, "%s: objects: a class of Table 1 has no kind in config/kinds",
+                              file);
     if (errno == ENOSPC)
-        return error_text_set(error,
-                              "objects.source = table1: the ground has no room for the %u objects "
-                              "of Table 1, which need %u gridsquares of dry land without roads; "
-                              "right would be file, none, or a list of objects",
-                              GENERATE_TABLE1_TOTAL, PLANT_PLACEMENT_SQUARES);
+        return error_text_set(
+            error,
+            "%s: objects.source = table1: the ground has no room for the %u objects "
+            "of Table 1, which need %u gridsquares of dry land without roads; "
+            "right would be file, none, or a list of objects",
+            file, GENERATE_TABLE1_TOTAL, PLANT_PLACEMENT_SQUARES);
     return error_text_memory(error);
 }
 
@@ -128,7 +131,7 @@ static int build_objects(struct world_build *built, struct error_text *error)
         generate_table1_objects(built->fixed, &terrain, scenario->kinds, scenario->kind_count,
                                 built->roads, built->counts.road_points,
                                 scenario->settings->params.seed) != 0)
-        return tell_objects(error);
+        return tell_objects(scenario->settings->params.scenario, error);
     if (fixed_index_build(&terrain.squares, built->fixed, count, scenario->kinds,
                           &built->reach_start, &built->reach) != 0)
         return error_text_memory(error);
@@ -155,6 +158,11 @@ static void begin_approach(struct fire_order *order, double hz)
     order->flight_s = (double)frames / hz;
 }
 
+#define NO_SUCH_NAME                                                                               \
+    "%s:%d: fires[%u].%s = \"%s\": no vehicle has that name; right would be: a name that "         \
+    "vehicles "                                                                                    \
+    "gives, of a group with a number: \"NAME-1\""
+
 static int build_fire(struct world_build *built, uint32_t index, const struct name_index *names,
                       struct error_text *error)
 {
@@ -175,11 +183,11 @@ static int build_fire(struct world_build *built, uint32_t index, const struct na
     order->x = from->x;
     order->z = from->z;
     if (name_index_find(names, from->shooter, &order->shooter_slot) != 0)
-        return error_text_set(error, "%s:%d: fires.shooter = \"%s\": no vehicle has that name",
-                              scenario->settings->params.scenario, from->line, from->shooter);
+        return error_text_set(error, NO_SUCH_NAME, scenario->settings->params.scenario, from->line,
+                              index, "shooter", from->shooter);
     if (name_index_find(names, from->target, &order->target_slot) != 0)
-        return error_text_set(error, "%s:%d: fires.target = \"%s\": no vehicle has that name",
-                              scenario->settings->params.scenario, from->line, from->target);
+        return error_text_set(error, NO_SUCH_NAME, scenario->settings->params.scenario, from->line,
+                              index, "target", from->target);
     if (order->shooter_slot == SLOT_NONE && scenario->kinds[order->kind].delivery == DELIVERY_ARC)
         begin_approach(order, scenario->settings->params.hz);
     return 0;

@@ -194,7 +194,7 @@ static const struct refusal refusals[] = {
     {"world = { capacity = 0x100000010; };", 1,
      "world.capacity = 4294967312: out of range; allowed: 16..1048576"},
     {"world = { seed = 99999999999999999999; };", 1,
-     "world.seed = 9223372036854775807: out of range; allowed: 0..9007199254740991"},
+     "world.seed = 1e+20: out of range; allowed: 0..9007199254740991"},
     {"world = { seed = -5000000000; };", 1,
      "world.seed = -5000000000: out of range; allowed: 0..9007199254740991"},
     /* Words, and words of later versions. */
@@ -384,8 +384,13 @@ static const struct refusal refusals[] = {
      2, "fires[0].shooter = \"A\": is a truck, which has no munition; right would be: ..."},
     /* Files in other languages. */
     {"world = {\n seed 7; };", 2,
-     "syntax error; right would be: group = { key = value; key = value; };"},
-    {"world = { seed = 1;\n seed = 2; };", 2, "duplicate setting name; right would be: ..."},
+     "syntax error, at or before `seed 7; };`; right would be: group = { key = value; key = value; "
+     "};"},
+    {"world = {\n hz = nan; };", 2,
+     "syntax error, at or before `hz = nan; };`; right would be: a finite number, as 1.5 or 2e3"},
+    {"world = { seed = 1;\n seed = 2; };", 2,
+     "a key that its group already has, at or before `seed = 2; };`; right would be: each key once "
+     "in a group"},
     {"\n  @include \"/etc/passwd\"\n", 2,
      "@include is not supported; right would be: the included text itself"},
 };

@@ -58,9 +58,17 @@ static const struct {
     {PHASES("{ name = \"a\"; order = \"hold\"; taken = \"hull\"; }"), 4,
      P0 "taken = \"hull\": is not the name of an objective; allowed: a name of objectives"},
     {PHASES("{ name = \"a\"; order = \"hold\"; after = \"lead\"; }"), 4,
-     "missions.phases[0].after = \"lead\": is no phase; allowed: \"mission.phase\""},
+     P0 "after = \"lead\": is no phase; allowed: \"mission.phase\""},
     {PHASES("{ name = \"a\"; order = \"hold\"; after = \"lead.b\"; }"), 4,
-     "missions.phases[0].after = \"lead.b\": is no phase; allowed: \"mission.phase\""},
+     P0 "after = \"lead.b\": is no phase; allowed: \"mission.phase\""},
+    {PHASES("{ name = \"a\"; order = \"hold\"; after = \"lead.a\"; }, { name = \"b\"; order = "
+            "\"hold\"; }"),
+     4, P0 "after = \"lead.a\": is this phase, or one that comes after it, and so never ends"},
+    {PHASES("{ name = \"a\"; order = \"hold\"; for_s = 1.0; after = \"lead.b\"; }, { name = \"b\"; "
+            "order = \"hold\"; }"),
+     4, P0 "after = \"lead.b\": is this phase, or one that comes after it, and so never ends"},
+    {REACTIONS("{ name = \"b\"; order = \"hold\"; for_s = 5.0; when_after = \"lead.none\"; }"), 4,
+     "missions[0].reactions[0].when_after = \"lead.none\": is no phase; allowed: "},
     {PHASES("{ name = \"a\"; order = \"hold\"; for_s = 1.0; not = \"for_s taken\"; }"), 4,
      P0 "not = \"for_s taken\": does not name conditions of this phase; allowed: the names"},
     {PHASES("{ name = \"a\"; order = \"hold\"; for_s = 1.0; not = \"for\"; }"), 4,
@@ -125,7 +133,7 @@ static const struct {
      2,
      "objectives[1].name = \"a\": is also the name of another objective; allowed: each name "
      "once"},
-    {"battle = { end_s = 300.0; again_s = 200.0; };", 0,
+    {"battle = {\n end_s = 300.0;\n again_s = 200.0; };", 3,
      "battle.again_s = 200: is not after battle.end_s; allowed: 0, or above 300"},
 };
 
@@ -189,8 +197,9 @@ static void test_conditions_are_read(void **state)
     if (quick_config_load(
             &s,
             PHASES("{ name = \"a\"; order = \"hold\"; for_s = 1.0; until_s = 2.0; arrived = 0.5; "
-                   "taken = \"hill\"; below = 0.25; after = \"lead.b\"; at_least_s = 3.0; },"
-                   "{ name = \"b\"; order = \"hold\"; lost = \"hill\"; enemy_in = \"hill\"; }"),
+                   "taken = \"hill\"; below = 0.25; at_least_s = 3.0; },"
+                   "{ name = \"b\"; order = \"hold\"; lost = \"hill\"; enemy_in = \"hill\"; "
+                   "after = \"lead.a\"; }"),
             NULL, &error) != 0)
         fail_msg("%s", error.text);
     const struct battle_phase *a = &s.phases[0].phase, *b = &s.phases[1].phase;
@@ -198,12 +207,12 @@ static void test_conditions_are_read(void **state)
                 a->until.below == 0.25 && a->at_least_s == 3.0);
     assert_int_equal(a->until.taken, 0);
     assert_int_equal(a->until.lost, MISSION_NONE);
-    assert_int_equal(a->until.after_mission, 0);
-    assert_int_equal(a->until.after_phase, 1);
+    assert_int_equal(a->until.after_mission, MISSION_NONE);
     assert_true(b->until.for_s < 0.0 && b->until.at_s < 0.0);
     assert_int_equal(b->until.lost, 0);
     assert_int_equal(b->until.enemy_in, 0);
-    assert_int_equal(b->until.after_mission, MISSION_NONE);
+    assert_int_equal(b->until.after_mission, 0);
+    assert_int_equal(b->until.after_phase, 0);
     assert_int_equal(s.missions[0].mission.force, FORCE_BLUE);
     scenario_free(&s);
 }

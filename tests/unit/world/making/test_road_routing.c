@@ -93,10 +93,10 @@ static void test_what_no_road_leads_to_is_refused(void **state)
 {
     (void)state;
     check_refusal("[100, 1000], [500, 1251]",
-                  ":5: vehicles.route: point 2, [500, 1251], is 251 m from the nearest road; "
+                  ":5: vehicles[0].route: point 2, [500, 1251], is 251 m from the nearest road; "
                   "allowed: up to 250 m; right would be: near [500, 1000]");
     check_refusal("[100, 1000], [9000, 9200]",
-                  ":5: vehicles.route: no road leads from point 1, [100, 1000], to point 2, [9000, "
+                  ":5: vehicles[0].route: no road leads from point 1, [100, 1000], to point 2, [9000, "
                   "9200]; right would be: points on roads that meet");
 }
 
@@ -109,7 +109,7 @@ static void test_ground_without_roads_is_refused(void **state)
                                 "[3, 4] ); } );");
     assert_int_equal(world_build_make(&built, &scenario, &error), -1);
     assert_non_null(strstr(error.text,
-                           "vehicles.roads = true: this ground has no roads; right would "
+                           "vehicles[0].roads = true: this ground has no roads; right would "
                            "be: terrain.source = \"generated\""));
     scenario_free(&scenario);
 }

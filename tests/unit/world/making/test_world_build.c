@@ -310,14 +310,14 @@ static void test_full_table_is_no_mistake(void **state)
 static void test_no_place_is_refused_with_kind_number_and_area(void **state)
 {
     static const char *const ship[] = {"ship", "number 1 of 2", "[1000, 2000, 3000, 4000]",
-                                       "wrong ground"};
+                                       "wrong ground; right would be: ", "deep water"};
     static const char *const ashore[] = {
-        "vehicles.at = [1000, 2000]: a ship would stand on dry land", "a place on water"};
+        ":4: vehicles[0].at = [1000, 2000]: a ship would stand on dry land", "a place on water"};
     static const char *const crowd[] = {"tank", "of 60", "crowded"};
     (void)state;
     check_refusal("vehicles = ( { kind = \"ship\"; count = 2; area = [1000.0, 2000.0, 3000.0, "
                   "4000.0]; } );",
-                  ship, 4);
+                  ship, 5);
     check_refusal("vehicles = ( { kind = \"ship\"; at = [1000.0, 2000.0]; } );", ashore, 2);
     check_refusal("vehicles = ( { kind = \"tank\"; count = 60; area = [1000.0, 2000.0, 1020.0, "
                   "2020.0]; } );",
@@ -358,11 +358,12 @@ static void test_scenario_that_does_not_fit_is_refused(void **state)
     scenario.settings->params.capacity = 20;
     snprintf(scenario.fires[0].shooter, sizeof scenario.fires[0].shooter, "nobody");
     assert_int_equal(world_build_make(&built, &scenario, &error), -1);
-    assert_non_null(strstr(error.text, "fires.shooter = \"nobody\""));
+    assert_non_null(strstr(
+        error.text, "fires[0].shooter = \"nobody\": no vehicle has that name; right would be: "));
     snprintf(scenario.fires[0].shooter, sizeof scenario.fires[0].shooter, "A-1");
     snprintf(scenario.fires[0].target, sizeof scenario.fires[0].target, "A-21");
     assert_int_equal(world_build_make(&built, &scenario, &error), -1);
-    assert_non_null(strstr(error.text, "fires.target = \"A-21\""));
+    assert_non_null(strstr(error.text, "fires[0].target = \"A-21\""));
     scenario_free(&scenario);
 }
 
