@@ -71,8 +71,9 @@ int ground_source_read(struct scenario_settings *settings, const char *scenario,
                                : key_table_refuse(error, place, GROUND_SOURCE_KEY, name,
                                                   "needs terrain.source = \"file\" beside it");
     if (name[0] == '\0')
-        return key_table_refuse(error, (struct key_place){scenario, 0}, "terrain.source", "file",
-                                "needs the path of a ground file as " GROUND_SOURCE_KEY);
+        return key_table_refuse(error, place, "terrain.source", "file",
+                                "needs a ground file; right would be: " GROUND_SOURCE_KEY
+                                " = \"NAME.ground\" beside it");
     if (!find(name, scenario, data_dir, place.line == 0, found))
         return key_table_refuse(error, place, GROUND_SOURCE_KEY, name,
                                 "no such file beside the scenario, here or in %s/grounds; jolon "

@@ -84,22 +84,15 @@ static int find_scenario(const char *data_dir, const char *path, char *found, si
 }
 
 /* Lists have readers of their own (read_lists()). */
-static bool is_list(const config_setting_t *setting)
-{
-    const char *name = config_setting_name(setting);
-    return strcmp(name, "vehicles") == 0 || strcmp(name, "fires") == 0 ||
-           strcmp(name, "scripts") == 0 || strcmp(name, "bases") == 0 ||
-           strcmp(name, "missions") == 0 || strcmp(name, "objectives") == 0 ||
-           strcmp(name, "earthworks") == 0 ||
-           (strcmp(name, "objects") == 0 && setting->type == CONFIG_TYPE_LIST);
-}
+static const char *const lists[] = {"vehicles",   "missions", "objectives", "scripts", "fires",
+                                    "earthworks", "objects",  "bases",      NULL};
 
 static int read_file(struct load *load)
 {
     struct key_reading keys = {.table = &schema_scenario,
                                .destination = load->scenario->settings,
                                .file = load->source.path,
-                               .skip = is_list};
+                               .lists = lists};
     const config_setting_t *root = config_root_setting(&load->config);
     const config_setting_t *objects = config_setting_get_member(root, "objects");
     if (key_table_read(&keys, root, "", "", load->error) != 0)
@@ -429,7 +422,9 @@ static int read_ground(struct load *load)
     double *const values[] = {&gateway->latitude_deg, &gateway->longitude_deg,
                               &gateway->undulation_m};
     double found[3];
-    struct key_place place = load->origin[key_table_find(&schema_scenario, GROUND_SOURCE_KEY)];
+    bool named = settings->ground_file[0] != '\0';
+    struct key_place place = load->origin[key_table_find(
+        &schema_scenario, named ? GROUND_SOURCE_KEY : "terrain.source")];
     if (ground_source_read(settings, load->source.path, load->data_dir, place, found,
                            load->error) != 0)
         return -1;

@@ -12,11 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool is_phases(const config_setting_t *setting)
-{
-    const char *name = config_setting_name(setting);
-    return strcmp(name, "phases") == 0 || strcmp(name, "reactions") == 0;
-}
+static const char *const mission_lists[] = {"phases", "reactions", NULL};
 
 /* --- objectives --------------------------------------------------------------------------------*/
 
@@ -118,7 +114,8 @@ static uint32_t find_mission(const struct scenario *scenario, const char *name, 
 
 static int count_list(const struct entry *entry, const config_setting_t *list, int max)
 {
-    return list != NULL ? entry_count(list, entry->keys.file, max, entry->error) : 0;
+    return list != NULL ? entry_count_within(entry->path, list, entry->keys.file, max, entry->error)
+                        : 0;
 }
 
 static int refuse_no_phases(const struct entry *entry)
@@ -260,7 +257,7 @@ int missions_read(struct scenario *scenario, const config_setting_t *root, const
 {
     const config_setting_t *list = config_setting_get_member(root, "missions");
     struct entry entry = {
-        .scenario = scenario, .keys = {.file = file, .skip = is_phases}, .error = error};
+        .scenario = scenario, .keys = {.file = file, .lists = mission_lists}, .error = error};
     int length = list != NULL ? entry_count(list, file, MISSIONS_MAX, error) : 0;
     if (length < 0 || check_battle(&entry, root) != 0 ||
         read_objectives(scenario, config_setting_get_member(root, "objectives"), file, error) != 0)

@@ -109,7 +109,8 @@ static int check_time(const struct entry *entry, const struct step_entry *given,
                       enum step_type type, double last_s)
 {
     if (type == STEP_ARRIVE && !entry_given(entry, STEP_KEY_AT))
-        return entry_refuse(entry, STEP_KEY_AT, "is missing; arrive needs the time of the arrival");
+        return entry_refuse(entry, STEP_KEY_AT,
+                            "is missing; right would be: at_s = SECONDS, the time of the arrival");
     if (entry_given(entry, STEP_KEY_AT) && entry_given(entry, STEP_KEY_AFTER))
         return entry_refuse(entry, STEP_KEY_AFTER, "stands beside at_s; allowed: one of the two");
     if (entry_given(entry, STEP_KEY_AT) && given->at_s < last_s)
@@ -173,7 +174,8 @@ static int read_steps(struct entry *script, const config_setting_t *list)
         .scenario = script->scenario, .keys = {.file = script->keys.file}, .error = script->error};
     char within[KEY_PATH_MAX];
     double last_s = 0.0;
-    int length = entry_count(list, entry.keys.file, SCRIPT_STEPS_MAX, entry.error);
+    int length =
+        entry_count_within(script->path, list, entry.keys.file, SCRIPT_STEPS_MAX, entry.error);
     if (length < 0)
         return -1;
     snprintf(within, sizeof(within), "%.60s.", script->path);
@@ -213,8 +215,10 @@ static int read_file(struct entry *entry, const char *name, XXH3_state_t *hash)
     int count = -1;
     earth_location_frame(&frame, &scenario->settings->params, scenario->settings->side_m);
     folder_of(entry->keys.file, folder, sizeof(folder));
-    if (source_read_in(&source, folder, name, WAYPOINTS_BYTES_MAX, entry->error) != 0)
-        return -1;
+    struct error_text reason;
+    if (source_read_in(&source, folder, name, WAYPOINTS_BYTES_MAX, &reason) != 0)
+        return entry_refuse(entry, SCRIPT_FILE, "%s; right would be: a file beside the scenario",
+                            reason.text);
     XXH3_64bits_update(hash, source.text, source.bytes);
     if (reserve_steps(scenario, waypoints_lines(source.text), source.path, entry->error) == 0)
         count =
@@ -226,10 +230,7 @@ static int read_file(struct entry *entry, const char *name, XXH3_state_t *hash)
     return 0;
 }
 
-static bool is_steps(const config_setting_t *setting)
-{
-    return strcmp(config_setting_name(setting), "steps") == 0;
-}
+static const char *const script_lists[] = {"steps", NULL};
 
 static int add_script(struct entry *entry, const struct script_entry *given, XXH3_state_t *hash)
 {
@@ -268,7 +269,7 @@ int scripts_read(struct scenario *scenario, const config_setting_t *list, const 
                  XXH3_state_t *hash, struct error_text *error)
 {
     struct entry entry = {
-        .scenario = scenario, .keys = {.file = file, .skip = is_steps}, .error = error};
+        .scenario = scenario, .keys = {.file = file, .lists = script_lists}, .error = error};
     int length = list != NULL ? entry_count(list, file, SCHEMA_SCRIPTS_MAX, error) : 0;
     if (length < 0)
         return -1;

@@ -79,19 +79,26 @@ int entry_read(struct entry *entry, const struct key_table *table, int index,
     return key_table_read(&entry->keys, setting, "", entry->path, entry->error);
 }
 
-int entry_count(const config_setting_t *list, const char *file, int max, struct error_text *error)
+int entry_count_within(const char *path, const config_setting_t *list, const char *file, int max,
+                       struct error_text *error)
 {
     const struct key_place place = {file, (int)config_setting_source_line(list)};
-    char value[80];
+    char value[80], shown[KEY_PATH_MAX + 24];
     key_table_value_text(list, value, sizeof(value));
+    snprintf(shown, sizeof(shown), "%s%s%s", path, path[0] == '\0' ? "" : ".",
+             config_setting_name(list));
     if (list->type != CONFIG_TYPE_LIST)
-        return key_table_refuse(error, place, config_setting_name(list), value,
+        return key_table_refuse(error, place, shown, value,
                                 "is not a list; allowed: ( { key = value; ... }, ... )");
     if (config_setting_length(list) > max)
-        return key_table_refuse(error, place, config_setting_name(list), value,
-                                "has %d entries; allowed: up to %d", config_setting_length(list),
-                                max);
+        return key_table_refuse(error, place, shown, value, "has %d entries; allowed: up to %d",
+                                config_setting_length(list), max);
     return config_setting_length(list);
+}
+
+int entry_count(const config_setting_t *list, const char *file, int max, struct error_text *error)
+{
+    return entry_count_within("", list, file, max, error);
 }
 
 void *entry_allocate(uint32_t count, size_t size, const char *file, struct error_text *error)

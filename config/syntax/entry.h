@@ -27,6 +27,10 @@ static inline bool entry_given(const struct entry *entry, uint32_t key)
 /* The number of entries of a list; -1 with the message when it is no list or too long. */
 int entry_count(const config_setting_t *list, const char *file, int max, struct error_text *error);
 
+/* The same for a list within an entry, whose path is in messages. */
+int entry_count_within(const char *path, const config_setting_t *list, const char *file, int max,
+                       struct error_text *error);
+
 /* Zeroed memory for count items, at least one; NULL with the message. */
 void *entry_allocate(uint32_t count, size_t size, const char *file, struct error_text *error);
 

@@ -567,6 +567,17 @@ static struct key key_of(const struct key_reading *reading, uint32_t index)
     return key;
 }
 
+/* Returns true if another function reads a top-level setting, as a list. */
+static bool is_list(const struct key_reading *reading, const config_setting_t *setting)
+{
+    const char *name = config_setting_name(setting);
+    for (uint32_t i = 0; reading->lists != NULL && reading->lists[i] != NULL; i++) {
+        if (strcmp(name, reading->lists[i]) == 0)
+            return setting->type == CONFIG_TYPE_LIST || !is_group(reading->table, name);
+    }
+    return false;
+}
+
 static int read_setting(struct key_reading *reading, const config_setting_t *setting,
                         const char *name, const char *shown, struct error_text *error)
 {
@@ -588,6 +599,10 @@ static int read_setting(struct key_reading *reading, const config_setting_t *set
         if (dot != NULL)
             snprintf(parent, sizeof(parent), "%.*s", (int)(dot - name), name);
         list_names(reading->table, parent, names, sizeof(names));
+        for (uint32_t i = 0; dot == NULL && reading->lists != NULL && reading->lists[i]; i++) {
+            if (!is_group(reading->table, reading->lists[i]))
+                append(names, sizeof(names), ", %s", reading->lists[i]);
+        }
         return key_table_refuse(error, place, shown, value, "unknown key; allowed here: %s", names);
     }
     if (setting->type != CONFIG_TYPE_GROUP)
@@ -612,7 +627,7 @@ int key_table_read(struct key_reading *reading, const config_setting_t *group, c
         const config_setting_t *child = config_setting_get_elem(group, (unsigned)i);
         const char *own = config_setting_name(child);
         char name[KEY_PATH_MAX], path[KEY_PATH_MAX + KEY_PATH_MAX];
-        if (prefix[0] == '\0' && reading->skip != NULL && reading->skip(child))
+        if (prefix[0] == '\0' && is_list(reading, child))
             continue;
         snprintf(name, sizeof(name), "%s%s%.40s", prefix, dot, own);
         snprintf(path, sizeof(path), "%s%s%.40s", shown, shown_dot, own);

@@ -118,8 +118,9 @@ struct key_reading {
     double side_m; /* of the world: the limit of points, areas and routes; 0: key.high */
     bool given[KEY_TABLE_MAX]; /* out: the file has this key */
     int line[KEY_TABLE_MAX];   /* out: of each key that the file has */
-    /* Returns true for a top-level setting that another function reads; NULL: there is none. */
-    bool (*skip)(const config_setting_t *setting);
+    /* The top-level lists that other functions read, NULL at the end; NULL: there are none. One may
+     * have the name of a group of the table. */
+    const char *const *lists;
 };
 
 /* Stores every setting of a group. prefix: the path of the group within the table, "" at its top.

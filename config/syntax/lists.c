@@ -164,6 +164,8 @@ static int check_fire(const struct entry *entry, const struct fire_entry *fire,
     if (entry_given(entry, FIRE_TARGET) && find_vehicle(named, fire->target) == NULL)
         return entry_refuse(entry, FIRE_TARGET,
                             "is not the name of a vehicle; allowed: a name of vehicles");
+    if (entry_given(entry, FIRE_TARGET) && strcmp(fire->target, fire->shooter) == 0)
+        return entry_refuse(entry, FIRE_TARGET, "is the shooter; allowed: another vehicle");
     if (entry_given(entry, FIRE_TARGET) == entry_given(entry, FIRE_POINT))
         return entry_refuse(entry, FIRE_TARGET,
                             "a shot needs a target or a point; allowed: one of the two");

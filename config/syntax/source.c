@@ -238,6 +238,10 @@ static int refuse_syntax(const struct source *source, const config_t *config,
     if (strcmp(what, "duplicate setting name") == 0) {
         what = "a key that its group already has";
         right = "each key once in a group";
+    } else if (quoted[0] == '\0') {
+        snprintf(quoted, sizeof quoted, "the end of the text");
+    } else if (has_value(quoted, "yes") || has_value(quoted, "no")) {
+        right = "true or false";
     } else if (has_value(quoted, "nan") || has_value(quoted, "inf")) {
         right = "a finite number, as 1.5 or 2e3";
     }
@@ -245,11 +249,21 @@ static int refuse_syntax(const struct source *source, const config_t *config,
                             what, quoted, right);
 }
 
+/* The line of the first NUL byte of a text. */
+static struct key_place nul_place(const struct source *source)
+{
+    struct key_place place = {source->path, 1};
+    for (const char *at = source->text; *at != '\0'; at++)
+        place.line += *at == '\n';
+    return place;
+}
+
 int source_parse(const struct source *source, config_t *config, struct error_text *error)
 {
     const struct key_place place = {source->path, 0};
     if (strlen(source->text) != source->bytes)
-        return key_table_refuse(error, place, NULL, NULL, "is not text: it has a NUL byte");
+        return key_table_refuse(error, nul_place(source), NULL, NULL,
+                                "has a NUL byte; right would be: text");
     if (refuse_includes(source, error) != 0 || check_shape(source, error) != 0)
         return -1;
     char *text = literals_widen(source->text);

@@ -222,7 +222,8 @@ static void test_refusals(void **state)
     (void)state;
     unlink(path);
     refused(TEXT, NULL, "battle.cfg:1: terrain.file = x.ground: no such file");
-    refused("terrain = { source = \"file\"; };", NULL, "needs the path of a ground file");
+    refused("terrain = { source = \"file\"; };", NULL,
+            "needs a ground file; right would be: terrain.file = ");
     refused("terrain = { file = \"x.ground\"; };", NULL, "needs terrain.source = \"file\"");
     put_ground(60000.0, 0.5);
     refused(TEXT, "terrain.side_m=50000",

@@ -56,7 +56,8 @@ static const struct refusal refusals[] = {
      "wind_mps, wind_from_deg"},
     {"\nwrold = { seed = 7; };", 2,
      "wrold = {...}: unknown key; allowed here: world, terrain, objects, collision, battle, "
-     "recorder, renderer, gateway"},
+     "recorder, renderer, gateway, "
+     "vehicles, missions, objectives, scripts, fires, earthworks, bases"},
     {"collision = { figure8 = { damage = 1; }; };", 1,
      "collision.figure8.damage = 1: unknown key; allowed here: fast_vehicle_mps, fast_fixed_mps, "
      "large_fixed_kg, measure, damage_high, damage_med, damage_low, mass_c1_kg, mass_c2_kg, "
@@ -280,7 +281,8 @@ static const struct refusal refusals[] = {
     {STEPS("{ go = [1, 2]; wait_s = 2; }"), 2,
      "scripts[0].steps[0].wait_s = 2: is a second action beside go; allowed: one action in a step"},
     {STEPS("{ arrive = [1, 2]; }"), 2,
-     "scripts[0].steps[0].at_s: is missing; arrive needs the time of the arrival"},
+     "scripts[0].steps[0].at_s: is missing; right would be: at_s = SECONDS, the time of the "
+     "arrival"},
     {STEPS("{ at_s = 5; stop = true; },\n{ at_s = 4; stop = true; }"), 3,
      "scripts[0].steps[1].at_s = 4: is before the time of an earlier step; allowed: from 5 on"},
     {STEPS("{ at_s = 5; after_s = 2; stop = true; }"), 2,
@@ -382,6 +384,19 @@ static const struct refusal refusals[] = {
     {"vehicles = ( { kind = \"truck\"; name = \"A\"; } );\nfires = ( { shooter = \"A\"; point = "
      "[1, 2]; } );",
      2, "fires[0].shooter = \"A\": is a truck, which has no munition; right would be: ..."},
+    {"scripts = (\n{ name = \"a\"; file = \"no.csv\"; } );", 2,
+     "scripts[0].file = \"no.csv\": ..."},
+    {"vehicles = ( { kind = \"tank\"; name = \"T\"; } );\nfires = ( { shooter = \"T\"; target = "
+     "\"T\"; } );",
+     2, "fires[0].target = \"T\": is the shooter; allowed: another vehicle"},
+    {"terrain = {\n source = \"file\"; };", 2,
+     "terrain.source = file: needs a ground file; right would be: terrain.file = \"NAME.ground\" "
+     "beside it"},
+    {"missions = (\n{ name = \"a\"; phases = 3; } );", 2,
+     "missions[0].phases = 3: is not a list; allowed: ( { key = value; ... }, ... )"},
+    {"missions = (\n{ name = \"a\"; phase = 3; } );", 2,
+     "missions[0].phase = 3: unknown key; allowed here: name, vehicles, off_map, force, phases, "
+     "reactions"},
     /* Files in other languages. */
     {"world = {\n seed 7; };", 2,
      "syntax error, at or before `seed 7; };`; right would be: group = { key = value; key = value; "
@@ -509,7 +524,7 @@ static void check_file(const char *path, const char *says)
     char want[sizeof(error.text)];
 
     assert_int_equal(loader_scenario(&s, QUICK_CONFIG_SHIPPED, path, NULL, 0, &error), -1);
-    snprintf(want, sizeof(want), "%s: %s", path, says);
+    snprintf(want, sizeof(want), "%s%s", path, says);
     check_message(want);
 }
 
@@ -519,20 +534,20 @@ static void test_file_refusals(void **state)
 
     (void)state;
     snprintf(path, sizeof(path), "%s/none.cfg", quick_config.folder);
-    check_file(path, "cannot be opened: No such file or directory");
-    check_file("no-such-battle", "no such scenario; right would be: a file, or a name from "
+    check_file(path, ": cannot be opened: No such file or directory");
+    check_file("no-such-battle", ": no such scenario; right would be: a file, or a name from "
                                  "config/scenarios");
-    check_file(quick_config.folder, "is a directory; allowed: a regular file");
-    check_file("/dev/zero", "is a device; allowed: a regular file");
+    check_file(quick_config.folder, ": is a directory; allowed: a regular file");
+    check_file("/dev/zero", ": is a device; allowed: a regular file");
     snprintf(path, sizeof(path), "%s/pipe", quick_config.folder);
     assert_int_equal(mkfifo(path, 0600), 0);
-    check_file(path, "is a pipe; allowed: a regular file");
+    check_file(path, ": is a pipe; allowed: a regular file");
     snprintf(path, sizeof(path), "%s/large", quick_config.folder);
     quick_config_write(path, "");
     assert_int_equal(truncate(path, (off_t)SCHEMA_SCENARIO_BYTES_MAX + 1), 0);
-    check_file(path, "has 4194305 bytes; allowed: up to 4194304");
+    check_file(path, ": has 4194305 bytes; allowed: up to 4194304");
     assert_int_equal(truncate(path, 100), 0);
-    check_file(path, "is not text: it has a NUL byte");
+    check_file(path, ":1: has a NUL byte; right would be: text");
 }
 
 /* --- kinds -------------------------------------------------------------------------------------*/
