@@ -1,8 +1,8 @@
 /* A process's link to DDS: its domain, its participant, and the partitions of its world.
  *
- * A reporter has both partitions of its world (ipc/segment/world_partition.h). Any other process has
- * that of the world in this user's runtime folder. If an interface or a configuration is named and
- * the folder has no such world, it has the partition of the name, and so finds worlds of other
+ * A reporter has both partitions of its world (ipc/segment/world_partition.h). Any other process
+ * has that of the world in this user's runtime folder. If an interface or a configuration is named
+ * and the folder has no such world, it has the partition of the name, and so finds worlds of other
  * machines and users.
  *
  * The configuration is given to Cyclone DDS explicitly, so that CYCLONEDDS_URI in the environment

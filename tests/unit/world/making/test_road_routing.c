@@ -95,9 +95,10 @@ static void test_what_no_road_leads_to_is_refused(void **state)
     check_refusal("[100, 1000], [500, 1251]",
                   ":5: vehicles[0].route: point 2, [500, 1251], is 251 m from the nearest road; "
                   "allowed: up to 250 m; right would be: near [500, 1000]");
-    check_refusal("[100, 1000], [9000, 9200]",
-                  ":5: vehicles[0].route: no road leads from point 1, [100, 1000], to point 2, [9000, "
-                  "9200]; right would be: points on roads that meet");
+    check_refusal(
+        "[100, 1000], [9000, 9200]",
+        ":5: vehicles[0].route: no road leads from point 1, [100, 1000], to point 2, [9000, "
+        "9200]; right would be: points on roads that meet");
 }
 
 static void test_ground_without_roads_is_refused(void **state)
