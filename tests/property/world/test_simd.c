@@ -217,11 +217,11 @@ static int enters_ground(const struct step_context *context, uint32_t i,
     struct entities *m = context->m;
     struct terrain_cache_entry entry = {.held = 0};
     double bend = terrain_cache_bend(&context->world->terrain, &entry, m->x[i], m->z[i]);
-    struct vec3 at = {m->x[i], m->y[i], m->z[i]}, next = at;
+    struct vec3 at = {m->x[i], m->y[i], m->z[i]};
     struct vec3 way = {m->vx[i] * context->dt_s, climb_of(m, i, m->pitch[i]) * context->dt_s,
                        m->vz[i] * context->dt_s};
     bool marked = ground_marks_at(context->ground_marks, was->x, was->z) & GROUND_MARKS_CRATER;
-    next = vec3_add(at, way);
+    const struct vec3 next = vec3_add(at, way);
     if ((bend <= chassis_shell_bend(&context->world->kinds[m->kind[i]]) && !marked) ||
         (shell_depth(context, i, at, m->pitch[i], m->roll[i]) <= 0.0 &&
          shell_depth(context, i, next, m->pitch[i], m->roll[i]) <= 0.0))
