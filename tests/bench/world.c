@@ -84,7 +84,8 @@ static void replace_groups(struct scenario *scenario, uint32_t vehicles, const s
 
 #define OVERRIDES_MAX 8
 
-/* overrides: room for OVERRIDES_MAX, of which count are set. */
+/* vehicles: for which the world needs room besides munitions; 0: the scenario says its capacity,
+ * by which agents take turns. overrides: room for OVERRIDES_MAX, of which count are set. */
 static void read_scenario(struct scenario *scenario, const char *path, uint32_t vehicles,
                           const char **overrides, int count)
 {
@@ -93,10 +94,11 @@ static void read_scenario(struct scenario *scenario, const char *path, uint32_t 
     uint32_t room = vehicles + vehicles / 4 + 4096;
     snprintf(capacity, sizeof capacity, "world.capacity=%u",
              room < CAPACITY_MAX ? room : CAPACITY_MAX);
-    overrides[count] = capacity;
+    if (vehicles > 0)
+        overrides[count++] = capacity;
     if (process_data_dir(data_dir, sizeof data_dir) != 0)
         die_refused("cannot find the data; set JOLON_DATA");
-    if (loader_scenario(scenario, data_dir, path, overrides, count + 1, &error) != 0)
+    if (loader_scenario(scenario, data_dir, path, overrides, count, &error) != 0)
         die_refused("%s", error.text);
 }
 
@@ -120,7 +122,8 @@ static void open_world(struct view *view, const char *path, uint32_t vehicles, u
 {
     const char *overrides[OVERRIDES_MAX];
     struct scenario scenario;
-    read_scenario(&scenario, path, vehicles + more, overrides, 0);
+    bool own = !crowd->shares && more == 0;
+    read_scenario(&scenario, path, own ? 0 : vehicles + more, overrides, 0);
     if (crowd->shares)
         replace_groups(&scenario, vehicles, crowd);
     build(view, &scenario);
