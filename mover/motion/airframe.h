@@ -76,6 +76,7 @@
 #define AIRFRAME_ZOOM        0.5 /* climb over V, for each u over AIRFRAME_BUCKET, by speed lost */
 #define AIRFRAME_TRADE       5.0 /* n^2 over the sustained, for the same */
 #define AIRFRAME_HOVERS      0.2 /* u up to which power limits the acceleration as at this u */
+#define AIRFRAME_GENTLE      0.03 /* square of the slope of a bank of 10 degrees */
 
 /* Near the ground a driver's helicopter sinks no faster than AIRFRAME_SOFT_MPS, and so much more
  * for each metre under it. */
@@ -174,6 +175,17 @@ static inline void airframe_over(const struct airframe *f, f64x4 *over)
     *over = SIMD_MAX(f->share - AIRFRAME_BUCKET, SIMD_EVERY(0.0));
 }
 
+/* The square of the slope of a bank that a helicopter's power holds beside an agent's climb
+ * [m/s]. */
+static inline void airframe_held(const struct airframe *f, const f64x4 *up_mps, f64x4 *held)
+{
+    const f64x4 none = SIMD_EVERY(0.0), one = SIMD_EVERY(1.0);
+    f64x4 over, climbs = f->per_climb * SIMD_MAX(*up_mps, none) / SIMD_MAX(f->full_mps, one);
+    climbs = SIMD_CHOOSE(f->driven, none, climbs);
+    airframe_over(f, &over);
+    *held = (f->free_power - climbs) / f->per_load + AIRFRAME_TRADE * over - one;
+}
+
 /* Computes the lift: the vertical acceleration, and the weight that a bank has to carry. */
 static inline void airframe_lift(struct airframe *f, double dt_s)
 {
@@ -192,12 +204,12 @@ static inline void airframe_lift(struct airframe *f, double dt_s)
     f64x4 carried = one + SIMD_MAX(rise, none) / g;
     f64x4 slope = f->lift_most / carried;
     slope = slope * slope - one;
-    f64x4 over, held;
-    airframe_over(f, &over);
-    /* An agent climbs first: over what is before it, and away from others. */
-    f64x4 climbs = f->per_climb * SIMD_MAX(f->asked_up_mps, none) / SIMD_MAX(f->full_mps, one);
-    climbs = SIMD_CHOOSE(f->driven, none, climbs);
-    held = (f->free_power - climbs) / f->per_load + AIRFRAME_TRADE * over - one;
+    /* An agent climbs first: over what is before it, and away from others. But it always turns. */
+    const f64x4 gentle = SIMD_EVERY(AIRFRAME_GENTLE);
+    f64x4 asked, given;
+    airframe_held(f, &f->asked_up_mps, &asked);
+    airframe_held(f, &f->wanted_up_mps, &given);
+    f64x4 held = SIMD_MAX(asked, SIMD_MIN(given, gentle));
     slope = SIMD_CHOOSE(f->aeroplane, slope, SIMD_MIN(slope, held));
     f->turn_slope = SIMD_MAX(slope, none); /* its square root is taken by lanes */
     f64x4 high = (f->lift_most * SIMD_MAX(f->bank_cosine, none) - one) * g;
