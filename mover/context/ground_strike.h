@@ -6,10 +6,10 @@
 #include "mover/context/serial_context.h"
 #include "world/entity/event.h"
 
-/* Counts a collision of row i with the ground, and tells it: at this place, along this normal, which
- * points from the row to the ground. The velocity before this frame gives the direction and the
- * closing speed. Returns the event's content, to which the caller adds; NULL if the frame has no
- * room for it. Serial. */
+/* Counts a collision of row i with the ground, and tells it: at this place, along this normal,
+ * which points from the row to the ground. The velocity before this frame gives the direction and
+ * the closing speed. Returns the event's content, to which the caller adds; NULL if the frame has
+ * no room for it. Serial. */
 struct event_collision *ground_strike_tell(struct serial_context *context, uint32_t i,
                                            struct vec3 at, struct vec3 normal,
                                            enum response response);

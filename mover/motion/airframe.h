@@ -73,9 +73,9 @@
 #define AIRFRAME_POWER       0.364
 #define AIRFRAME_LEAST_POWER 0.175 /* what level flight needs at AIRFRAME_BUCKET */
 #define AIRFRAME_BUCKET      0.45  /* u of the speed of least power */
-#define AIRFRAME_ZOOM        0.5 /* climb over V, for each u over AIRFRAME_BUCKET, by speed lost */
-#define AIRFRAME_TRADE       5.0 /* n^2 over the sustained, for the same */
-#define AIRFRAME_HOVERS      0.2 /* u up to which power limits the acceleration as at this u */
+#define AIRFRAME_ZOOM        0.5  /* climb over V, for each u over AIRFRAME_BUCKET, by speed lost */
+#define AIRFRAME_TRADE       5.0  /* n^2 over the sustained, for the same */
+#define AIRFRAME_HOVERS      0.2  /* u up to which power limits the acceleration as at this u */
 #define AIRFRAME_GENTLE      0.03 /* square of the slope of a bank of 10 degrees */
 
 /* Near the ground a driver's helicopter sinks no faster than AIRFRAME_SOFT_MPS, and so much more

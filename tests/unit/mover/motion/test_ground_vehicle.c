@@ -227,8 +227,9 @@ static void test_no_stretch_leads_through_a_hollow(void **state)
     assert_true(seen.deepest_m < 0.02);
 }
 
-/* Tanks that follow the ground lean over to a wall, from 11 to 55 cm beside them, and turn away from
- * it. Their corners do not get into it: they take to their springs before. They got 19 cm deep. */
+/* Tanks that follow the ground lean over to a wall, from 11 to 55 cm beside them, and turn away
+ * from it. Their corners do not get into it: they take to their springs before. They got 19 cm
+ * deep. */
 static void test_no_shell_turns_into_a_wall(void **state)
 {
     double deepest = -1.0;

@@ -210,27 +210,6 @@ static void test_a_wreck_at_rest_on_its_side(void **state)
     assert_true(fabs(check.measures.of[MEASURE_OF_WRECK_HEIGHT].worst - 0.002) < 1e-9);
 }
 
-/* Where bodies collide as spheres the corners of boxes touch the ground, and reach farther than the
- * hulls. */
-static void test_a_box_at_rest_on_its_side(void **state)
-{
-    struct kind *kind = steps_kind(&f, "tank");
-    double bound_m = kind->bound_m;
-    uint32_t tank = put("tank", MIDDLE, 100.0 + 0.5 * kind->width_m);
-    (void)state;
-    steps_rows(&f).state[tank] = ENTITY_WRECK;
-    steps_rows(&f).roll[tank] = HALF_PI;
-    steps_params(&f)->collision.shape = SHAPE_SPHERE;
-    kind->bound_m = 1.0;
-    begin();
-    rest(tank);
-    next();
-    is_good();
-    assert_true(check.measures.of[MEASURE_OF_WRECK_HEIGHT].worst < 1e-9);
-    steps_params(&f)->collision.shape = SHAPE_MODEL;
-    kind->bound_m = bound_m;
-}
-
 static void test_a_wreck_at_rest_in_the_air(void **state)
 {
     uint32_t tank = put_wreck(0.3);
@@ -783,7 +762,6 @@ int main(void)
         TEST(test_a_moving_world_is_good),
         TEST(test_a_tank_in_the_air),
         TEST(test_a_wreck_at_rest_on_its_side),
-        TEST(test_a_box_at_rest_on_its_side),
         TEST(test_a_wreck_at_rest_in_the_air),
         TEST(test_a_wreck_that_hangs_in_the_air),
         TEST(test_a_wreck_that_moves_has_no_clearance),
