@@ -1,5 +1,5 @@
-/* A world in which bodies collide as spheres: the corners of their boxes touch the ground, and reach
- * farther than the hulls. */
+/* A world in which bodies collide as spheres: the corners of their boxes touch the ground, and
+ * reach farther than the hulls. */
 #include "supervisor/physics/physics_check.h"
 
 #include "tests/support/steps.h"
