@@ -89,14 +89,6 @@ struct step {
 
 _Static_assert(BROAD_PHASE_ROWS_TAKEN == CHECKSUM_ROWS, "rows are taken by whole blocks");
 
-/* The columns from which the records of bodies follow. */
-#define POSE_COLUMNS                                                                               \
-    (COLUMN_BIT(x) | COLUMN_BIT(y) | COLUMN_BIT(z) | COLUMN_BIT(heading) | COLUMN_BIT(pitch) |     \
-     COLUMN_BIT(roll) | COLUMN_BIT(turret) | COLUMN_BIT(gun) | COLUMN_BIT(id) | COLUMN_BIT(kind) | \
-     COLUMN_BIT(state) | COLUMN_BIT(behaviour) | COLUMN_BIT(flags) | COLUMN_BIT(cruise_tick) |     \
-     COLUMN_BIT(cruise_rps) | COLUMN_BIT(cruise_mps2) | COLUMN_BIT(cruise_climb_mps2) |            \
-     COLUMN_BIT(cruise_pitch_rps) | COLUMN_BIT(cruise_roll_rps))
-
 /* Rows of a block that may move before they are taken for all, without and with rows that cruise,
  * which cost less if they are not taken. */
 #define FEW_MOVE       (CHECKSUM_ROWS / 4)

@@ -185,11 +185,17 @@ struct body_line body_motion_line_around(const struct body_motion *motion, uint3
     struct body_line line = line_until(motion, row, tick);
     double beside = motion->beside_m[n->kind[row]];
     double x = line.to.x - line.from.x, z = line.to.z - line.from.z, way_m = sqrt(x * x + z * z);
-    if (!(beside < reach_m) || !(way_m > 0.0)) {
+    if (!(beside < reach_m)) {
         line.around_m += reach_m;
         return line;
     }
-    double longer = sqrt(reach_m * reach_m - beside * beside) / way_m;
+    if (way_m > 0.0) {
+        x /= way_m, z /= way_m;
+    } else { /* it stands for what is left: no wider than while it moved */
+        maths_sincos(n->heading[row], &x, &z);
+        z = -z;
+    }
+    double longer = sqrt(reach_m * reach_m - beside * beside);
     line.around_m += beside + pair_filter_slack(motion->world) +
                      0.5 * fabs(n->cruise_rps[row]) * line.left_s * reach_m;
     line.from = (struct vec3){line.from.x - longer * x, line.from.y, line.from.z - longer * z};

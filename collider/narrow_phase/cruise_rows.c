@@ -2,6 +2,7 @@
 #include "collider/narrow_phase/cruise_rows.h"
 
 #include "collider/narrow_phase/contact_queue.h"
+#include "world/checksum.h"
 #include "world/state.h"
 #include "world/cruise_pose.h"
 #include "world/maths/sort.h"
@@ -132,6 +133,22 @@ static bool meet(const struct contact_input *input, const struct pair *pair)
     return meet_until(input, pair, UINT64_MAX, UINT64_MAX);
 }
 
+/* Returns true if a row moves in this frame, begins a stretch, or has a wider box. By the tables
+ * alone: a process that wrote the row in the frame before finds more pairs of it than a new one. */
+static bool comes(const struct contact_input *input, uint32_t row)
+{
+    const struct body_motion *motion = input->motion;
+    return input->broad->wider[row] != BODY_BOX_EXACT || !body_motion_old(motion, row) ||
+           (entities_differing(&motion->committed->entities, &motion->next->entities, row) &
+            POSE_COLUMNS) != 0;
+}
+
+/* Returns true if neither row of a pair comes anywhere: whether they meet was found before. */
+static bool both_stay(const struct contact_input *input, const struct pair *pair)
+{
+    return !comes(input, pair->a) && (pair->b & PAIR_FIXED || !comes(input, pair->b));
+}
+
 static bool has_cruising(const struct contact_input *input, const struct pair *pair)
 {
     return body_motion_cruises(input->motion, pair->a) ||
@@ -218,7 +235,8 @@ void cruise_rows_take_pairs(const struct contact_input *input, struct pair_list 
     ends->count = 0;
     for (uint32_t i = 0; i < pairs->count; i++) {
         const struct pair pair = pairs->pair[i];
-        if (has_cruising(input, &pair) && (!meet(input, &pair) || shorten_pair(input, &pair, ends)))
+        if (has_cruising(input, &pair) &&
+            (both_stay(input, &pair) || !meet(input, &pair) || shorten_pair(input, &pair, ends)))
             continue;
         pairs->pair[count++] = pair;
     }
