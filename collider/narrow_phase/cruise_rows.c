@@ -165,29 +165,35 @@ static bool may_shorten(const struct contact_input *input, uint32_t row)
            cruise_off(e->cruise_rps[row], e->cruise_mps2[row], left_s) <= CRUISE_OFF_M;
 }
 
-/* Returns the tick up to which the stretch of a pair's row a may go on (cuts_a), of its row b, or
- * of both, if the other one goes on to its end: that of this frame if they have to end now. It is
- * the last one to an eighth of the time. */
-static uint64_t last_apart(const struct contact_input *input, const struct pair *pair, bool cuts_a,
-                           bool cuts_b)
+/* Which stretches of a pair are made shorter; the other ones go on to their ends. */
+struct cut {
+    bool a, b;
+};
+
+static bool meet_if_cut(const struct contact_input *input, const struct pair *pair, struct cut cut,
+                        uint64_t tick)
+{
+    return meet_until(input, pair, cut.a ? tick : UINT64_MAX, cut.b ? tick : UINT64_MAX);
+}
+
+/* Returns the tick up to which the stretches that are cut may go on: that of this frame if they
+ * have to end now. It is the last one to an eighth of the time. */
+static uint64_t last_apart(const struct contact_input *input, const struct pair *pair,
+                           struct cut cut)
 {
     const uint64_t now = input->motion->next->head->tick;
-    uint64_t last = now, least = 0, most;
-    if (cuts_a)
-        last = end_of(input, pair->a);
-    if (cuts_b && end_of(input, pair->b) > last)
+    uint64_t last = cut.a ? end_of(input, pair->a) : now;
+    if (cut.b && end_of(input, pair->b) > last)
         last = end_of(input, pair->b);
-    for (most = last - now; least == 0 && most / 2 >= LEAST_TICKS;) {
-        uint64_t tick = now + most / 2;
-        if (meet_until(input, pair, cuts_a ? tick : UINT64_MAX, cuts_b ? tick : UINT64_MAX))
-            most /= 2;
-        else
-            least = most / 2;
+    uint64_t most = last - now, least = most / 2;
+    while (least >= LEAST_TICKS && meet_if_cut(input, pair, cut, now + least)) {
+        most = least;
+        least /= 2;
     }
-    for (uint64_t step = least / 2; step > least / 16 && step > 0; step /= 2) {
-        uint64_t tick = now + least + step;
-        if (least + step < most &&
-            !meet_until(input, pair, cuts_a ? tick : UINT64_MAX, cuts_b ? tick : UINT64_MAX))
+    if (least < LEAST_TICKS)
+        return now;
+    for (uint64_t step = least / 2; step > least / 16; step /= 2) {
+        if (least + step < most && !meet_if_cut(input, pair, cut, now + least + step))
             least += step;
     }
     return now + least;
@@ -209,10 +215,10 @@ static bool shorten_pair(const struct contact_input *input, const struct pair *p
     const uint64_t now = input->motion->next->head->tick;
     const bool moves_b = !(pair->b & PAIR_FIXED);
     const bool a = may_shorten(input, pair->a), b = moves_b && may_shorten(input, pair->b);
-    uint64_t a_tick = a ? last_apart(input, pair, true, false) : now;
-    uint64_t b_tick = b ? last_apart(input, pair, false, true) : now;
+    uint64_t a_tick = a ? last_apart(input, pair, (struct cut){.a = true}) : now;
+    uint64_t b_tick = b ? last_apart(input, pair, (struct cut){.b = true}) : now;
     if (a_tick == now && b_tick == now) {
-        uint64_t both = a && b ? last_apart(input, pair, true, true) : now;
+        uint64_t both = a && b ? last_apart(input, pair, (struct cut){true, true}) : now;
         note_end(ends, input, pair->a, both);
         if (moves_b)
             note_end(ends, input, pair->b, both);

@@ -11,17 +11,7 @@
 
 #include "collider/motion/pair_filter.h"
 
-#include "world/entity/entity.h"
-
 struct contact_input;
-
-/* The columns from which the records of bodies follow. */
-#define POSE_COLUMNS                                                                               \
-    (COLUMN_BIT(x) | COLUMN_BIT(y) | COLUMN_BIT(z) | COLUMN_BIT(heading) | COLUMN_BIT(pitch) |     \
-     COLUMN_BIT(roll) | COLUMN_BIT(turret) | COLUMN_BIT(gun) | COLUMN_BIT(id) | COLUMN_BIT(kind) | \
-     COLUMN_BIT(state) | COLUMN_BIT(behaviour) | COLUMN_BIT(flags) | COLUMN_BIT(cruise_tick) |     \
-     COLUMN_BIT(cruise_rps) | COLUMN_BIT(cruise_mps2) | COLUMN_BIT(cruise_climb_mps2) |            \
-     COLUMN_BIT(cruise_pitch_rps) | COLUMN_BIT(cruise_roll_rps))
 
 /* Ends the stretch of the row if it cruises in this frame. */
 void cruise_rows_stop(const struct contact_input *input, uint32_t row);

@@ -2,6 +2,7 @@
 #include "mover/agent/aircraft_separation.h"
 
 #include "mover/agent/avoidance.h"
+#include "mover/motion/aircraft.h"
 #include "mover/motion/kinematics.h"
 #include "world/entity/mass_properties.h"
 #include "world/state.h"
@@ -31,7 +32,6 @@
 #define CLEAR_SHARE 0.5 /* of the height that it wants, over the ground ahead */
 #define CLIMB_SHARE 0.3 /* of its speed: so fast it climbs for a long time */
 #define RATE_SHARE  0.5 /* and of its kind's rate of climb */
-#define FOLLOW_PS   0.8 /* its climb, for each metre that it is too low (mover/motion/aircraft.c) */
 #define MOST_TURN   PI  /* it looks no further around a turn */
 
 /* The heights [m] between which row i may fly. */
@@ -233,6 +233,6 @@ void aircraft_separation_clear_ground(const struct step_context *context, uint32
         return;
     /* From half of what it can to all of it the climb begins evenly. */
     double rate = maths_min(2.0 * needed - lasting, kind->climb_rate_mps);
-    double height = m->y[i] - ground_under(context, i) + rate / FOLLOW_PS;
+    double height = m->y[i] - ground_under(context, i) + rate / AIRCRAFT_FOLLOW_PS;
     desired->altitude_m = maths_max(desired->altitude_m, height);
 }

@@ -144,7 +144,7 @@ static inline void want(struct aircraft *batch, int h, const f64x4 *ground, cons
     f64x4 by_agent = SIMD_CLAMP(batch->wanted_mps.f64x4[h], slowest, full);
     /* A driver's speed is not clamped: helicopters also fly backwards. */
     f->wanted_mps = SIMD_CHOOSE(f->driven, batch->wanted_mps.f64x4[h], by_agent);
-    f64x4 off = (*ground + batch->altitude.f64x4[h] - batch->y.f64x4[h]) * 0.8;
+    f64x4 off = (*ground + batch->altitude.f64x4[h] - batch->y.f64x4[h]) * AIRCRAFT_FOLLOW_PS;
     f64x4 lowest = SIMD_CHOOSE(f->aeroplane, SIMD_MAX(SIMD_NEGATIVE(*sink), least), least);
     off = SIMD_CLAMP(off, lowest, most);
     four_masks level = batch->parked.f64x4[h] & (SIMD_ABS(off) < HOVER_MPS);

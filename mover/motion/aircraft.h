@@ -12,6 +12,9 @@
 #include "mover/context/step_context.h"
 #include "world/terrain/terrain_cache.h"
 
+/* An aircraft wants to climb so fast for each metre that it is too low [m/s]. */
+#define AIRCRAFT_FOLLOW_PS 0.8
+
 struct aircraft {
     int count;       /* lanes taken */
     uint32_t frames; /* by which the rows move: 1, or those of a stretch */

@@ -440,29 +440,34 @@ void ground_vehicle_ease(const struct step_context *context, uint32_t i,
         m->flags[i] &= (uint8_t)~ENTITY_FLAG_CHASSIS;
 }
 
+/* Returns height, pitch and roll of the ground where the row has moved to. */
+static struct vec3 ground_of(const struct ground_vehicle *batch, int l)
+{
+    return (struct vec3){batch->pose.y.lane[l], batch->pose.pitch.lane[l],
+                         batch->pose.roll.lane[l]};
+}
+
 /* Returns height, pitch and roll that the ground gives the row, which has moved. */
 static struct vec3 set_on(const struct step_context *context, const struct ground_vehicle *batch,
                           int l)
 {
     const uint32_t i = batch->row[l];
-    const struct vec3 ground = {batch->pose.y.lane[l], batch->pose.pitch.lane[l],
-                                batch->pose.roll.lane[l]};
+    const struct vec3 ground = ground_of(batch, l);
     return context->m->flags[i] & ENTITY_FLAG_CHASSIS ? eased(context, i, ground) : ground;
 }
 
 static void set_down(const struct step_context *context, const struct ground_vehicle *batch, int l)
 {
     struct entities *m = context->m;
+    const struct vec3 ground = ground_of(batch, l);
     uint32_t i = batch->row[l];
     if (m->flags[i] & ENTITY_FLAG_CHASSIS) {
-        const struct vec3 ground = {batch->pose.y.lane[l], batch->pose.pitch.lane[l],
-                                    batch->pose.roll.lane[l]};
         ground_vehicle_ease(context, i, ground);
         return;
     }
-    m->y[i] = batch->pose.y.lane[l];
-    m->pitch[i] = batch->pose.pitch.lane[l];
-    m->roll[i] = batch->pose.roll.lane[l];
+    m->y[i] = ground.x;
+    m->pitch[i] = ground.y;
+    m->roll[i] = ground.z;
 }
 
 /* Returns how fast a row climbs that leaves the ground with this pitch [m/s]. */

@@ -356,6 +356,28 @@ static void test_what_is_around_a_vehicle_only_shrinks(void **state)
     }
 }
 
+/* A vehicle that stands for what is left of its stretch is as wide as one that creeps. */
+static void test_a_line_without_length_is_no_wider(void **state)
+{
+    const double heading = 0.3;
+    (void)state;
+    begin();
+    uint32_t row =
+        fixture_put(&f, (struct fixture_entity){.kind = "tank", .at = {25000.0, 100.0, 26000.0}});
+    begin();
+    const uint64_t end = next->head->tick + 20;
+    const double reach_m = f.view.world.kinds[next->entities.kind[row]].reach_m + 0.01;
+    next->entities.heading[row] = heading;
+    next->entities.cruise_tick[row] = (uint32_t)end;
+    struct body_line stands = body_motion_line_around(motion, row, end, reach_m);
+    entities_set_velocity(&next->entities, row,
+                          (struct vec3){1e-3 * sin(heading), 0.0, -1e-3 * cos(heading)});
+    struct body_line creeps = body_motion_line_around(motion, row, end, reach_m);
+    assert_true(stands.around_m <= creeps.around_m && stands.around_m < reach_m);
+    assert_true(vec3_length(vec3_sub(stands.to, creeps.to)) < 1e-3);
+    assert_true(vec3_length(vec3_sub(stands.from, creeps.from)) < 1e-3);
+}
+
 int main(void)
 {
 #define TEST(function)                                                                             \
@@ -371,6 +393,8 @@ int main(void)
         TEST(test_a_stretch_in_place_rests_only_if_it_does_not_turn),
         TEST(test_what_is_around_a_stretch_only_shrinks),
         cmocka_unit_test_prestate_setup_teardown(test_what_is_around_a_vehicle_only_shrinks,
+                                                 open_models, fixture_teardown, &f),
+        cmocka_unit_test_prestate_setup_teardown(test_a_line_without_length_is_no_wider,
                                                  open_models, fixture_teardown, &f),
         TEST(test_bodies_have_their_kinds_hulls_at_their_size),
     };
