@@ -139,9 +139,13 @@ static void begin(struct storm *storm)
 
 static bool count_when_ready(struct storm *storm)
 {
-    if (!tested_set_wait_ready(&storm->set) ||
-        !recovery_monitor_wait(&storm->monitor, clock_now_ns() + RECOVERY_WAIT_NS)) {
-        error_text_set(&storm->injector.error, "not every role is ready again within 20 s");
+    if (tested_set_wait_ready(&storm->set, &storm->injector.error) != 0)
+        return false;
+    if (!recovery_monitor_wait(&storm->monitor, clock_now_ns() + RECOVERY_WAIT_NS)) {
+        error_text_set(&storm->injector.error,
+                       "all roles are ready, but no frame has come from some that were struck "
+                       "within %d s",
+                       (int)(RECOVERY_WAIT_NS / NS_PER_S));
         return false;
     }
     tested_set_count_descriptors(&storm->set);

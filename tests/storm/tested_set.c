@@ -273,21 +273,34 @@ static bool is_ready(const struct view *view, enum role role, uint64_t now)
            now - atomic_load(&slot->beat_ns) < HEARTBEAT_AGE_MAX_NS;
 }
 
-bool tested_set_wait_ready(const struct tested_set *set)
+/* Returns the first role that was there and is not ready, STRUCK_ROLES if there is none. */
+static int not_ready(const struct view *view)
+{
+    uint64_t now = clock_now_ns();
+    int role = 0;
+    while (role < STRUCK_ROLES &&
+           (atomic_load(&view->slot[role]->starts) == 0 || is_ready(view, (enum role)role, now)))
+        role++;
+    return role;
+}
+
+int tested_set_wait_ready(const struct tested_set *set, struct error_text *error)
 {
     uint64_t until = clock_now_ns() + READY_WAIT_NS;
-    int roles = STRUCK_ROLES;
     for (;;) {
+        int role = not_ready(&set->view);
+        if (role == STRUCK_ROLES)
+            return 0;
         uint64_t now = clock_now_ns();
-        int resting = 0;
-        for (int role = 0; role < roles; role++) {
-            bool there = atomic_load(&set->view.slot[role]->starts) > 0;
-            resting += !there || is_ready(&set->view, (enum role)role, now);
+        if (now > until || process_stopping()) {
+            const struct role_slot *slot = set->view.slot[role];
+            double age_s = 1e-9 * (double)(int64_t)(now - atomic_load(&slot->beat_ns));
+            return error_text_set(
+                error, "the %s (pid %d) is not ready again within %d s: it is %s, beat %.1f s ago",
+                role_name((enum role)role), (int)atomic_load(&slot->pid),
+                (int)(READY_WAIT_NS / NS_PER_S),
+                role_state_name((enum role_state)atomic_load(&slot->state)), age_s);
         }
-        if (resting == roles)
-            return true;
-        if (now > until || process_stopping())
-            return false;
         clock_sleep_until_ns(now + 5 * (uint64_t)NS_PER_MS);
     }
 }

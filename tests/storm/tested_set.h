@@ -40,9 +40,9 @@ bool tested_set_signal(int pidfd, int signal_number);
 /* Stores the pids of at most max children of a process and returns their number. Any thread. */
 int tested_set_children(int pid, int *children, int max);
 
-/* Waits at most 20 s until every started role is ready and has a fresh heartbeat. Returns false if
- * one is not. */
-bool tested_set_wait_ready(const struct tested_set *set);
+/* Waits at most 20 s until every started role is ready and has a fresh heartbeat. 0, or -1 and the
+ * role that is not. */
+int tested_set_wait_ready(const struct tested_set *set, struct error_text *error);
 
 /* Counts the supervisor's descriptors. All roles must be ready. */
 void tested_set_count_descriptors(struct tested_set *set);
