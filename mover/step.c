@@ -181,23 +181,47 @@ static void move_air(const struct step_context *context, struct batches *batches
     air->count = 0;
 }
 
-/* Moves aircraft by a stretch, and those that it refuses by one frame. */
+/* Moves aircraft by a stretch. Returns how many it refuses, and which. */
+static uint32_t stretch_aircraft(const struct step_context *context, struct batches *batches,
+                                 uint32_t refused[LANE_COUNT])
+{
+    struct aircraft *stretch = &batches->air_stretch;
+    uint32_t count = 0;
+    aircraft_move(context, stretch);
+    for (int l = 0; l < stretch->count; l++) {
+        if (stretch->refused.lane[l])
+            refused[count++] = stretch->row[l];
+        else
+            batches->motion[stretch->row[l] - batches->block->first] = MOTION_CRUISE;
+    }
+    stretch->count = 0;
+    return count;
+}
+
+/* Moves aircraft by a stretch, and those that it refuses by one frame; in a crowd by half of it,
+ * and so on, first. Elsewhere who cannot fly evenly for half a second has to look out in each turn.
+ */
 static void move_air_stretch(const struct step_context *context, struct batches *batches)
 {
     struct aircraft *stretch = &batches->air_stretch;
-    aircraft_move(context, stretch);
-    for (int l = 0; l < stretch->count; l++) {
-        uint32_t i = stretch->row[l];
-        struct desired_motion desired;
-        if (!stretch->refused.lane[l]) {
-            batches->motion[i - batches->block->first] = MOTION_CRUISE;
-            continue;
+    const uint32_t frames = stretch->frames;
+    uint32_t refused[LANE_COUNT], count = stretch_aircraft(context, batches, refused);
+    struct desired_motion desired;
+    while (count > 0 && cruise_start_crowd(context) && stretch->frames / 2 >= CRUISE_START_LEAST) {
+        aircraft_begin(stretch, stretch->frames / 2);
+        for (uint32_t n = 0; n < count; n++) {
+            agent_controls_motion(context, refused[n], &desired);
+            (void)aircraft_take(context, stretch, refused[n], &desired);
         }
-        agent_controls_motion(context, i, &desired);
-        if (aircraft_take(context, &batches->air, i, &desired))
+        count = stretch_aircraft(context, batches, refused);
+    }
+    for (uint32_t n = 0; n < count; n++) {
+        agent_controls_motion(context, refused[n], &desired);
+        if (aircraft_take(context, &batches->air, refused[n], &desired))
             move_air(context, batches);
     }
-    stretch->count = 0;
+    if (stretch->frames != frames)
+        aircraft_begin(stretch, frames);
 }
 
 static void move_course(const struct step_context *context, struct batches *batches)

@@ -8,6 +8,7 @@
 #define GROUP_BITS  4u   /* the least group has 16 rows */
 #define GROUPS_MOST 256u /* of rows that are not a block */
 #define TRY_FRAMES  10u  /* after so many frames rows that do not cruise try again */
+#define TRY_SOONER  5u   /* the same in a crowd */
 #define DECISIONS   4u   /* after so many decisions that changed nothing an agent looks again */
 #define NEAR_GOAL_M 40.0 /* nearer to its goal stretches are short: it decides when there */
 
@@ -50,13 +51,17 @@ static bool is_under_way(const struct entities *m, uint32_t i)
             m->behaviour[i] == BEHAVIOUR_FLEE);
 }
 
+bool cruise_start_crowd(const struct step_context *context)
+{
+    return context->think_frames >= context->cruise_short;
+}
+
 /* Returns true if the row avoids nothing and need not slow down, or would hold its way and its
- * speed for a stretch anyway: in a crowd agents decide less often than stretches begin. */
+ * speed for a stretch anyway. */
 static bool holds_its_way(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
-    return (m->dodge[i] == 0.0f && m->ease[i] == 0.0f) ||
-           context->think_frames >= context->cruise_short;
+    return (m->dodge[i] == 0.0f && m->ease[i] == 0.0f) || cruise_start_crowd(context);
 }
 
 /* Returns true if nothing has happened to the row, and it aims at nothing. */
@@ -89,24 +94,25 @@ static bool has_ended(const struct step_context *context, uint32_t i)
 }
 
 /* Returns the frames from this one to the group's next turn if row i may try to cruise now; else
- * 0. A row that something has stopped or that was refused tries again every TRY_FRAMES. Where
+ * 0. A row that something has stopped or that was refused tries again some frames later. Where
  * stretches are longer than decisions are apart, it does not decide before its turn: it tries a
  * stretch that ends before, and a longer one when it decides. */
 static uint32_t tries_for(const struct step_context *context, uint32_t i)
 {
     const bool lasts = context->cruise_frames > context->cruise_short;
+    const uint32_t again = cruise_start_crowd(context) ? TRY_SOONER : TRY_FRAMES;
     uint32_t since = since_turn(context, i);
     uint32_t left = context->cruise_frames - since;
     if (since == 0 || (left >= CRUISE_START_LEAST && has_ended(context, i)) ||
-        (lasts && left >= TRY_FRAMES && step_context_thinks(context, i)))
+        (lasts && left >= again && step_context_thinks(context, i)))
         return left;
-    if (since % TRY_FRAMES != 0)
+    if (since % again != 0)
         return 0;
     if (lasts) {
         uint32_t rest = context->think_frames - since_due(context, i, context->think_frames);
         left = rest < left ? rest : left;
     }
-    return left >= TRY_FRAMES ? left : 0;
+    return left >= again ? left : 0;
 }
 
 /* Returns the frames from this one to the next decision of row i's agent if it decides in this

@@ -28,6 +28,10 @@ uint32_t cruise_start_group_bits(uint32_t capacity);
  */
 uint32_t cruise_start_longest(double dt_s, uint32_t think_frames);
 
+/* Returns true in a crowd, whose agents decide less often than stretches begin: a stretch delays no
+ * decision. */
+bool cruise_start_crowd(const struct step_context *context);
+
 /* Returns how many frames a stretch has that row i may begin in this frame; 0: it may not. */
 uint32_t cruise_start_frames(const struct step_context *context, uint32_t i);
 

@@ -250,6 +250,37 @@ static void test_one_that_avoids_something_cruises_until_it_decides(void **state
 
 /* --- turns ------------------------------------------------------------------------------------*/
 
+/* Returns for how many of its first frames a helicopter cruises that gains speed. */
+static uint32_t cruised_of_helicopter(uint32_t decides_every)
+{
+    uint32_t cruised = 0;
+    fixture_close(&f);
+    open_with("world = { cruise = true; };");
+    f.stepper.mover.decides_every = decides_every;
+    uint32_t row = put("helicopter", 26000.0, BEHAVIOUR_PATROL);
+    struct entities e = steps_rows(&f);
+    e.y[row] += 80.0;
+    e.vz[row] = 0.0;
+    e.goal_x[row] = 26000.0;
+    e.goal_z[row] = 20000.0;
+    e.throttle[row] = 0.75f;
+    for (uint32_t i = 0; i < 8 * FRAMES; i++) {
+        fixture_run(&f, 1);
+        cruised += cruises(row);
+    }
+    return cruised;
+}
+
+/* Elsewhere it looks out in each of its turns instead. */
+static void test_in_a_crowd_aircraft_cruise_for_less_than_half_a_second(void **state)
+{
+    (void)state;
+    uint32_t crowd = cruised_of_helicopter(FRAMES + 2), alone = cruised_of_helicopter(0);
+    print_message("a helicopter that gains speed cruises for %u frames of %u in a crowd, else %u\n",
+                  crowd, 8 * FRAMES, alone);
+    assert_true(crowd > alone + FRAMES / 2);
+}
+
 static void test_groups_are_blocks_in_large_worlds(void **state)
 {
     (void)state;
@@ -274,6 +305,7 @@ int main(void)
         IN_WORLD(test_what_comes_into_its_way_ends_it),
         IN_WORLD(test_what_is_in_the_way_lets_none_begin),
         IN_WORLD(test_one_that_avoids_something_cruises_until_it_decides),
+        IN_WORLD(test_in_a_crowd_aircraft_cruise_for_less_than_half_a_second),
         cmocka_unit_test(test_groups_are_blocks_in_large_worlds),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
