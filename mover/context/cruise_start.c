@@ -76,13 +76,14 @@ static bool is_undisturbed(const struct step_context *context, uint32_t i)
 
 /* Returns true if row i's vehicle is where it can cruise: not one that is aground or has landed,
  * and not an aircraft that keeps from another one by its height
- * (mover/agent/aircraft_separation.h). */
+ * (mover/agent/aircraft_separation.h), unless it would not look out sooner anyway. */
 static bool cruises(const struct step_context *context, uint32_t i)
 {
     const struct entities *m = context->m;
     enum domain domain = (enum domain)context->world->kinds[m->kind[i]].domain;
     if (domain == DOMAIN_AIR)
-        return !(m->flags[i] & ENTITY_FLAG_LANDED) && m->climb[i] == 0.0f;
+        return !(m->flags[i] & ENTITY_FLAG_LANDED) &&
+               (m->climb[i] == 0.0f || cruise_start_crowd(context));
     return domain == DOMAIN_LAND || !(m->flags[i] & ENTITY_FLAG_AGROUND);
 }
 
