@@ -358,18 +358,24 @@ void body_motion_change(struct body_motion *motion, uint32_t row, const struct p
     motion->path[row] = *path;
 }
 
-static struct swept_body shape_of(const struct world *world, uint16_t kind, double scale)
+/* Turret and gun are at rest: turret.begins is not read. */
+static void put_shape(const struct world *world, uint16_t kind, double scale,
+                      struct swept_body *body)
 {
     const struct kind *k = &world->kinds[kind];
-    return (struct swept_body){
-        .hull = world->hulls + k->first_hull,
-        .hull_count = k->hull_count,
-        .outer = world->hulls + k->outer_hull,
-        .vertices = world->hull_vertices,
-        .planes = world->hull_planes,
-        .scale = scale,
-        .bound_m = scale * k->bound_m,
-    };
+    body->hull = world->hulls + k->first_hull;
+    body->hull_count = k->hull_count;
+    body->outer = world->hulls + k->outer_hull;
+    body->vertices = world->hull_vertices;
+    body->planes = world->hull_planes;
+    body->scale = scale;
+    body->bound_m = scale * k->bound_m;
+    body->turn = NULL;
+    body->turret.outer = NULL;
+    body->turret.outers = 0;
+    body->turret.turret_pivot = body->turret.gun_pivot = (struct vec3){0.0, 0.0, 0.0};
+    body->turret.turret = body->turret.gun = 0.0;
+    body->turret.turret_turn = body->turret.gun_turn = 0.0;
 }
 
 void body_motion_aim(const struct body_motion *motion, uint32_t row, double turret, double gun,
@@ -394,19 +400,26 @@ static void aim_as_before(const struct body_motion *motion, uint32_t row, struct
     body_motion_aim(motion, row, (double)e->turret[row], (double)e->gun[row], 0.0, 0.0, body);
 }
 
+void body_motion_put(const struct body_motion *motion, uint32_t row, struct free_turn *turn,
+                     struct swept_body *body)
+{
+    struct rotation_path rotation = body_motion_rotation(motion, row);
+    put_shape(motion->world, motion->next->entities.kind[row], 1.0, body);
+    body->path = motion->path[row];
+    body->from = rotation.from;
+    body->to = rotation.to;
+    if (rotation.turn.rotation.steps > 0) {
+        *turn = rotation.turn;
+        body->turn = turn;
+    }
+    aim_as_before(motion, row, body);
+}
+
 struct swept_body body_motion_body(const struct body_motion *motion, uint32_t row,
                                    struct free_turn *turn)
 {
-    struct swept_body body = shape_of(motion->world, motion->next->entities.kind[row], 1.0);
-    struct rotation_path rotation = body_motion_rotation(motion, row);
-    body.path = motion->path[row];
-    body.from = rotation.from;
-    body.to = rotation.to;
-    if (rotation.turn.rotation.steps > 0) {
-        *turn = rotation.turn;
-        body.turn = turn;
-    }
-    aim_as_before(motion, row, &body);
+    struct swept_body body = {.hull_count = 0};
+    body_motion_put(motion, row, turn, &body);
     return body;
 }
 
@@ -414,7 +427,8 @@ struct swept_body body_motion_fixed(const struct world *world, uint32_t object)
 {
     const struct fixed_object *fixed = &world->fixed[object];
     double scale = fixed_scale(fixed, &world->kinds[fixed->kind]);
-    struct swept_body body = shape_of(world, fixed->kind, scale);
+    struct swept_body body = {.hull_count = 0};
+    put_shape(world, fixed->kind, scale, &body);
     body.path.at = fixed_position(fixed);
     body.from = body.to = rotation_of(fixed_heading(fixed), 0.0, 0.0);
     return body;
@@ -427,14 +441,21 @@ struct swept_body body_motion_side(const struct body_motion *motion, uint32_t si
                              : body_motion_body(motion, side, turn);
 }
 
+void body_motion_put_standing(const struct body_motion *motion, const struct entities *entities,
+                              uint32_t row, struct swept_body *body)
+{
+    put_shape(motion->world, entities->kind[row], 1.0, body);
+    body->path = (struct path){.at = entities_position(entities, row)};
+    body->from = body->to = pose(motion, entities, row);
+    aim_as_before(motion, row, body);
+}
+
 struct swept_body body_motion_standing(const struct body_motion *motion,
                                        const struct entities *entities, uint32_t side)
 {
+    struct swept_body body = {.hull_count = 0};
     if (side & PAIR_FIXED)
         return body_motion_fixed(motion->world, side & ~PAIR_FIXED);
-    struct swept_body body = shape_of(motion->world, entities->kind[side], 1.0);
-    body.path.at = entities_position(entities, side);
-    body.from = body.to = pose(motion, entities, side);
-    aim_as_before(motion, side, &body);
+    body_motion_put_standing(motion, entities, side, &body);
     return body;
 }

@@ -189,6 +189,11 @@ struct swept_body body_motion_body(const struct body_motion *motion, uint32_t ro
                                    struct free_turn *turn);
 struct swept_body body_motion_fixed(const struct world *world, uint32_t object);
 
+/* Puts the row into *body, which lasts: what is not read of a body whose turret and gun are at rest
+ * (turret.begins) stays as it was. A body is large, and such a row is put in each frame. */
+void body_motion_put(const struct body_motion *motion, uint32_t row, struct free_turn *turn,
+                     struct swept_body *body);
+
 /* Returns one side of a pair: a row, or a fixed object with PAIR_FIXED. */
 struct swept_body body_motion_side(const struct body_motion *motion, uint32_t side,
                                    struct free_turn *turn);
@@ -197,6 +202,10 @@ struct swept_body body_motion_side(const struct body_motion *motion, uint32_t si
  * committed frame. */
 struct swept_body body_motion_standing(const struct body_motion *motion,
                                        const struct entities *entities, uint32_t side);
+
+/* Puts a row as it stands in a table into *body, as body_motion_put() does. */
+void body_motion_put_standing(const struct body_motion *motion, const struct entities *entities,
+                              uint32_t row, struct swept_body *body);
 
 /* Makes turret and gun of the row's body point and turn like this [rad]. Those of a kind without a
  * turret stay as they are. */

@@ -21,6 +21,9 @@ static void more_pairs(struct contact_queue *contacts)
     contacts->marks = reserve_grow(contacts->marks, held, more, sizeof *contacts->marks);
     contacts->impacts = reserve_grow(contacts->impacts, held, more, sizeof *contacts->impacts);
     contacts->known = reserve_grow(contacts->known, held, more, sizeof *contacts->known);
+    contacts->searched = reserve_grow(contacts->searched, held, more, sizeof *contacts->searched);
+    contacts->rested =
+        reserve_grow(contacts->rested, contacts->rested_count, more, sizeof *contacts->rested);
     contacts->due = reserve_grow(contacts->due, contacts->due_count, more, sizeof *contacts->due);
     contacts->rest = reserve_grow(contacts->rest, held, more, sizeof *contacts->rest);
     contacts->link = reserve_grow(contacts->link, contacts->link_count, 2 * (uint64_t)more,
@@ -40,6 +43,7 @@ uint32_t contact_pairs_add(struct contact_queue *contacts, struct pair pair)
     contacts->impacts[index] = (struct pair_impacts){0};
     contacts->known[index] =
         (struct pair_known){.before_m = PAIR_NOT_MEASURED, .version_a = UINT32_MAX};
+    contacts->searched[index] = 0;
     contacts->rest[index] = (struct rest_span){0, 0};
     link_row(contacts, pair.a, index);
     if (!(pair.b & PAIR_FIXED))

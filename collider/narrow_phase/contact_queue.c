@@ -42,6 +42,8 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
     contacts->marks = reserve_take(pairs, sizeof *contacts->marks);
     contacts->impacts = reserve_take(pairs, sizeof *contacts->impacts);
     contacts->known = reserve_take(pairs, sizeof *contacts->known);
+    contacts->searched = reserve_take(pairs, sizeof *contacts->searched);
+    contacts->rested = reserve_take(pairs, sizeof *contacts->rested);
     contacts->rest = reserve_take(pairs, sizeof *contacts->rest);
     contacts->rest_capacity = REST_POINTS_A_SLOT * world->params->contact_slots;
     contacts->rest_point = reserve_take(contacts->rest_capacity, sizeof *contacts->rest_point);
@@ -56,10 +58,11 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
     contacts->strays = calloc(rows, sizeof *contacts->strays);
     contacts->paired = calloc(rows, sizeof *contacts->paired);
     if (contacts->heap.contact && contacts->pair && contacts->met && contacts->swept &&
-        contacts->marks && contacts->impacts && contacts->known && contacts->rest &&
-        contacts->rest_point && contacts->due && contacts->due_row && contacts->link &&
-        contacts->head && contacts->version && contacts->strayed && contacts->strays &&
-        contacts->paired && pair_apart_init(&contacts->apart, world) == 0 &&
+        contacts->marks && contacts->impacts && contacts->known && contacts->searched &&
+        contacts->rested && contacts->rest && contacts->rest_point && contacts->due &&
+        contacts->due_row && contacts->link && contacts->head && contacts->version &&
+        contacts->strayed && contacts->strays && contacts->paired &&
+        pair_apart_init(&contacts->apart, world) == 0 &&
         axis_memory_init(&contacts->axes, world) == 0 &&
         alone_rows_init(&contacts->alone, world, workers) == 0 &&
         pair_list_init(&contacts->near, broad_phase_found_most(world)) == 0)
@@ -78,6 +81,8 @@ void contact_queue_free(struct contact_queue *contacts)
     reserve_free(contacts->marks);
     reserve_free(contacts->impacts);
     reserve_free(contacts->known);
+    reserve_free(contacts->searched);
+    reserve_free(contacts->rested);
     reserve_free(contacts->rest);
     reserve_free(contacts->rest_point);
     pair_apart_free(&contacts->apart);
@@ -107,7 +112,7 @@ void contact_queue_begin(struct contact_queue *contacts, const struct pair_list 
     contacts->pair_count = 0;
     contacts->stray_count = 0;
     contacts->change = 0;
-    contacts->rest_points = 0;
+    contacts->rest_points = contacts->rested_count = 0;
     contacts->due_count = contacts->due_rows = 0;
     for (uint32_t i = 0; i < list_count; i++) {
         for (uint32_t n = 0; n < lists[i].count; n++)
@@ -118,11 +123,12 @@ void contact_queue_begin(struct contact_queue *contacts, const struct pair_list 
 /* Remembers what a dear search has found that keeps a pair apart, or that it has found nothing. */
 static void remember(struct contact_queue *contacts, uint32_t index)
 {
-    const struct pair_known *known = &contacts->known[index];
-    if (known->searched > 0)
-        axis_memory_keep(&contacts->axes, &(struct remembered_axis){.pair = contacts->pair[index],
-                                                                    .axis = known->plane[0],
-                                                                    .failed = known->searched - 1});
+    uint32_t searched = contacts->searched[index];
+    if (searched > 0)
+        axis_memory_keep(&contacts->axes,
+                         &(struct remembered_axis){.pair = contacts->pair[index],
+                                                   .axis = contacts->known[index].plane[0],
+                                                   .failed = searched - 1});
 }
 
 void contact_queue_end(struct contact_queue *contacts)
@@ -154,7 +160,7 @@ static bool search_axis(struct contact_queue *contacts, uint32_t index, double f
                                   &known->stays_m);
     if (found)
         known->plane[0] = last.axis;
-    known->searched = found ? 1 : last.failed + 2;
+    contacts->searched[index] = found ? 1 : last.failed + 2;
     return found;
 }
 
@@ -405,6 +411,16 @@ uint32_t contact_queue_pair(struct contact_queue *contacts, const struct pair *p
 {
     uint32_t known = contact_pairs_find(contacts, pair);
     return known != 0 ? known - 1 : contact_pairs_add(contacts, *pair);
+}
+
+struct resting_known *contact_queue_rested(struct contact_queue *contacts, uint32_t pair)
+{
+    uint32_t *rested = &contacts->known[pair].rested;
+    if (*rested == 0) {
+        *rested = ++contacts->rested_count;
+        contacts->rested[*rested - 1] = (struct resting_known){.gap = 0};
+    }
+    return &contacts->rested[*rested - 1];
 }
 
 void contact_queue_rest(struct contact_queue *contacts, uint32_t pair,

@@ -68,27 +68,31 @@ struct pair_impacts {
 
 #define PAIR_NOT_MEASURED 1.0 /* [m] no gap of overlapping bodies */
 
-/* What the frame has found out about a pair. It follows from the committed frame and saves work; by
- * the normal the guard also chooses whom it sends back first. */
+/* What the frame has found out about a pair whose bodies are near enough to rest on each other. By
+ * the normal the guard chooses whom it sends back first. */
+struct resting_known {
+    double normal_x, normal_z; /* unit, from a to b: of the smallest gap of bodies that rest when
+                                  the frame begins; 0: they do not */
+    uint32_t gap; /* index + 1 into the gaps of resting contacts (collider/resting/resting.h), 0:
+                     there is none */
+    struct level_gap_memory memory;                       /* of their near hulls */
+    struct contact_load load[PERSISTENT_CONTACT_NEAREST]; /* of the pairs of hulls in memory */
+};
+
+/* What the frame has found out about any pair. It follows from the committed frame and saves work.
+ * Each pair has one, and most are of bodies that stay apart: it is small. */
 struct pair_known {
     struct vec3 plane[LEVEL_GAP_PLANES]; /* unit, from a to b: normals that may separate the bodies,
                                             the first one their outer hulls; 0: none known */
-    double normal_x, normal_z; /* unit, from a to b: of the smallest gap of bodies that rest when
-                                  the frame begins; 0: they do not */
-    double before_m;           /* their gap in the committed frame, 0 if they were apart, or
+    double before_m; /* their gap in the committed frame, 0 if they were apart, or
                                   PAIR_NOT_MEASURED */
-    double way_m;   /* of bodies that part: how far it is out of each other then; 0: not known */
-    double apart_m; /* they are apart by this at least when the frame begins; 0: not known */
-    uint32_t gap;   /* index + 1 into the gaps of resting contacts (collider/resting/resting.h), 0:
-                       they are not near enough for one */
-    struct level_gap_memory memory;                       /* of their near hulls */
-    struct contact_load load[PERSISTENT_CONTACT_NEAREST]; /* of the pairs of hulls in memory */
+    double way_m;    /* of bodies that part: how far it is out of each other then; 0: not known */
+    double apart_m;  /* they are apart by this at least when the frame begins; 0: not known */
+    uint32_t rested; /* index + 1 into contact_queue.rested, 0: they are not near enough */
     /* On these versions of their paths the bodies certainly stay apart until the frame's end, by at
      * least stays_m; version_a of UINT32_MAX: that is not known. */
     uint32_t version_a, version_b;
     double stays_m;
-    uint32_t searched; /* dear searches for an axis (axis_memory.h) since one has found it, and 1;
-                          0: the frame needed none */
 };
 
 struct contact_link {
@@ -123,7 +127,11 @@ struct contact_queue {
     uint8_t *marks;           /* [pair] of CONTACT_RESTS to CONTACT_HOLDS */
     struct pair_impacts *impacts; /* [pair] */
     struct pair_known *known;     /* [pair] */
-    struct rest_span *rest;       /* [pair] where its bodies rest on each other */
+    uint32_t *searched; /* [pair] dear searches for an axis (axis_memory.h) since one has found it,
+                           and 1; 0: the frame needed none */
+    struct resting_known *rested; /* [rested_count] in the order in which they were found */
+    uint32_t rested_count;
+    struct rest_span *rest; /* [pair] where its bodies rest on each other */
     struct rest_point *rest_point;
     uint32_t rest_points, rest_capacity;
     uint32_t change; /* changes so far in this frame */
@@ -176,6 +184,25 @@ bool contact_queue_stays_apart(const struct contact_queue *contacts, uint32_t pa
 
 /* Returns the index of a pair in contacts->pair, and adds it if it is missing. */
 uint32_t contact_queue_pair(struct contact_queue *contacts, const struct pair *pair);
+
+/* Returns what is known of a pair as one whose bodies may rest on each other: nothing at first. */
+struct resting_known *contact_queue_rested(struct contact_queue *contacts, uint32_t pair);
+
+/* Returns the same, or NULL if nothing is. */
+static inline const struct resting_known *
+contact_queue_knows_rested(const struct contact_queue *contacts, uint32_t pair)
+{
+    uint32_t rested = contacts->known[pair].rested;
+    return rested != 0 ? &contacts->rested[rested - 1] : NULL;
+}
+
+/* Returns where searches between the near hulls of a pair begin, or NULL. */
+static inline const struct level_gap_memory *
+contact_queue_memory(const struct contact_queue *contacts, uint32_t pair)
+{
+    const struct resting_known *rested = contact_queue_knows_rested(contacts, pair);
+    return rested ? &rested->memory : NULL;
+}
 
 /* Adds the pairs of a row with all bodies near its path, which may have left the box that the broad
  * phase has. resting: also those of two bodies that rest. Nothing is swept. */

@@ -24,19 +24,16 @@ void pair_apart_prepare(struct pair_apart *apart, const struct body_motion *moti
 {
     struct row_pose *pose = &apart->row[row];
     struct free_turn turn;
-    pose->body = body_motion_body(motion, row, &turn);
+    body_motion_put(motion, row, &turn, &pose->body);
     pose->freely = pose->body.turn != NULL;
     pose->body.turn = NULL; /* it points to this function's memory */
-    pose->from = rotation_matrix(pose->body.from);
-    pose->to = rotation_matrix(pose->body.to);
     pose->rate = rotation_rate(pose->body.from, pose->body.to);
     pose->spin_y = 0.0;
     if (pose->rate > 0.0 && pose->body.path.since < 1.0)
         pose->spin_y =
             rotation_speed(pose->body.from, pose->body.to, 0.0).y / (1.0 - pose->body.path.since);
     if (!pose->freely)
-        pose->side =
-            axis_side_of(&pose->body, &pose->from, &pose->to, pose->rate, pose->body.path.since);
+        axis_side_set(&pose->side, &pose->body, pose->rate, pose->body.path.since);
     pose->known = true;
 }
 
@@ -62,8 +59,7 @@ static bool spheres_stay(const struct swept_body *a, const struct swept_body *b,
 static struct row_pose fixed_pose(const struct pair_apart *apart, uint32_t object)
 {
     struct row_pose pose = {.body = body_motion_fixed(apart->world, object)};
-    pose.from = pose.to = rotation_matrix(pose.body.from);
-    pose.side = axis_side_of(&pose.body, &pose.from, &pose.to, 0.0, 0.0);
+    axis_side_set(&pose.side, &pose.body, 0.0, 0.0);
     return pose;
 }
 
@@ -74,7 +70,7 @@ static const struct axis_side *side_from(const struct row_pose *pose, double tim
 {
     if (time == pose->body.path.since)
         return &pose->side;
-    *room = axis_side_of(&pose->body, &pose->from, &pose->to, pose->rate, time);
+    axis_side_set(room, &pose->body, pose->rate, time);
     return room;
 }
 

@@ -7,10 +7,9 @@
 #include "collider/motion/pair_filter.h"
 #include "collider/narrow_phase/separating_axis.h"
 
-/* A row's body with its rotation at path.since and at 1. */
+/* A row's body. */
 struct row_pose {
     struct swept_body body;
-    struct mat3 from, to;
     struct axis_side side; /* from path.since on, unless it turns freely */
     double spin_y;         /* [rad a frame] about the vertical, at path.since */
     double rate;           /* rotation_rate() from one to the other */

@@ -12,25 +12,28 @@
 /* Of an arc with the acceleration c, the farthest distance from its chord is c t^2 / 8. */
 #define SAGITTA 0.125
 
-struct axis_side axis_side_of(const struct swept_body *body, const struct mat3 *from,
-                              const struct mat3 *to, double rate, double time)
+void axis_side_set(struct axis_side *side, const struct swept_body *body, double rate, double time)
 {
     double left = 1.0 - body->path.since, share = left > 0.0 ? (1.0 - time) / left : 0.0;
     bool parts = body->turret.outers > 0;
     struct hull_box around = parts ? turret_path_box_all(&body->turret)
                                    : (struct hull_box){body->outer->centre, body->outer->half};
-    struct axis_side side = {
-        .vertex = body->vertices + body->outer->first_vertex,
-        .count = parts ? 0 : body->outer->vertex_count,
-        .scale = body->scale,
-        .box = {vec3_scale(around.middle, body->scale), vec3_scale(around.half, body->scale)},
-        .at = {path_at(&body->path, time), path_at(&body->path, 1.0)},
-        .turn = {*from, *to},
-        .still = rate == 0.0 && vec3_dot(body->path.along, body->path.along) == 0.0,
-        .bend_m = SAGITTA * rate * rate * share * share * body->bound_m};
-    if (rate > 0.0 && share < 1.0)
-        side.turn[0] = rotation_matrix(rotation_between(body->from, body->to, 1.0 - share));
-    return side;
+    side->vertex = body->vertices + body->outer->first_vertex;
+    side->count = parts ? 0 : body->outer->vertex_count;
+    side->scale = body->scale;
+    side->box.middle = vec3_scale(around.middle, body->scale);
+    side->box.half = vec3_scale(around.half, body->scale);
+    side->at[0] = path_at(&body->path, time);
+    side->at[1] = path_at(&body->path, 1.0);
+    side->turn[0] = rotation_matrix(rate > 0.0 && share < 1.0
+                                        ? rotation_between(body->from, body->to, 1.0 - share)
+                                        : body->from);
+    if (rate > 0.0)
+        side->turn[1] = rotation_matrix(body->to);
+    else
+        side->turn[1] = side->turn[0];
+    side->still = rate == 0.0 && vec3_dot(body->path.along, body->path.along) == 0.0;
+    side->bend_m = SAGITTA * rate * rate * share * share * body->bound_m;
 }
 
 /* Returns how far the side's box reaches along the axis, at one end of the time, from the
@@ -114,6 +117,10 @@ static struct vec3 column(const struct mat3 *turn, int i)
     return (struct vec3){turn->m[0][i], turn->m[1][i], turn->m[2][i]};
 }
 
+/* Which axis of its bodies is tried as the n-th: along and across both, the line between them, and
+ * up at last, which seldom separates what stands on the ground. */
+static const int CANDIDATE[CANDIDATES] = {2, 0, 5, 3, 6, 1, 4};
+
 /* Returns the separation of the boxes along the axis that separates them most, or along the first
  * one along which it is enough. */
 static double find_by_boxes(const struct axis_side *a, const struct axis_side *b, double enough,
@@ -121,9 +128,10 @@ static double find_by_boxes(const struct axis_side *a, const struct axis_side *b
 {
     struct vec3 line = vec3_sub(b->at[0], a->at[0]);
     double length = vec3_length(line), most = -INFINITY;
-    for (int i = 0; i < CANDIDATES && most <= enough; i++) {
-        struct vec3 axis = i < 3   ? column(&a->turn[0], 2 - i)
-                           : i < 6 ? column(&b->turn[0], 5 - i)
+    for (int n = 0; n < CANDIDATES && most <= enough; n++) {
+        int i = CANDIDATE[n];
+        struct vec3 axis = i < 3   ? column(&a->turn[0], i)
+                           : i < 6 ? column(&b->turn[0], i - 3)
                                    : vec3_scale(line, length > 0.0 ? 1.0 / length : 0.0);
         if (vec3_dot(axis, line) < 0.0)
             axis = vec3_scale(axis, -1.0);

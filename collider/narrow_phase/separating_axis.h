@@ -17,18 +17,16 @@ struct axis_side {
     double scale;              /* of the vertices */
     struct hull_box box;       /* scaled */
     struct vec3 at[2];         /* [m, world] the position, which moves in a straight line */
-    struct mat3 turn[2];
+    struct mat3 turn[2];       /* how it is turned there */
     /* [m] at most: by how much a point is off the straight line between its two places, because it
      * moves on an arc. */
     double bend_m;
     bool still; /* both ends are the same */
 };
 
-/* Returns a body from `time` in [path.since, 1] to 1. from, to: the matrices of body->from and
- * body->to; rate: rotation_rate() of them. The body must not turn
- * freely. */
-struct axis_side axis_side_of(const struct swept_body *body, const struct mat3 *from,
-                              const struct mat3 *to, double rate, double time);
+/* Sets a side to a body from `time` in [path.since, 1] to 1. rate: rotation_rate() from body->from
+ * to body->to. The body must not turn freely. */
+void axis_side_set(struct axis_side *side, const struct swept_body *body, double rate, double time);
 
 /* Returns true if the outer hulls stay farther apart along the unit axis, which points from a to b,
  * than margin_m, all the time. */

@@ -177,8 +177,11 @@ static void collect(struct contact_table *table, const struct response_context *
         contact.flags = flags_of(contacts->marks[i]);
         contact.impacts = (uint16_t)impacts->count;
         contact.impulse_ns = impacts->impulse_ns;
-        memcpy(contact.nearest, contacts->known[i].memory.nearest, sizeof contact.nearest);
-        memcpy(contact.load, contacts->known[i].load, sizeof contact.load);
+        const struct resting_known *rested = contact_queue_knows_rested(contacts, i);
+        if (rested) {
+            memcpy(contact.nearest, rested->memory.nearest, sizeof contact.nearest);
+            memcpy(contact.load, rested->load, sizeof contact.load);
+        }
         table->touched[place_of(table, &contact)] = contact;
     }
 }

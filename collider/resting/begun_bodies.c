@@ -76,7 +76,7 @@ static void find_body(const struct job *job, uint32_t row)
     struct body_motion *motion = job->context->motion;
     struct begun_body *body = &job->bodies->body[row];
     body_motion_note_poses(motion, row);
-    body->body = body_motion_body(motion, row, &body->turn);
+    body_motion_put(motion, row, &body->turn, &body->body);
     body->began = level_gap_turn(&body->body, 0.0);
     body->rate = rotation_rate(body->body.from, body->body.to);
     body->capsule = deep_pair_capsule(job->context, row);

@@ -21,14 +21,15 @@ int contact_groups_init(struct contact_groups *groups, const struct world *world
     uint32_t rows = world->params->capacity;
     *groups = (struct contact_groups){.capacity = world->params->contact_slots};
     groups->pair = reserve_take(groups->capacity, sizeof *groups->pair);
+    groups->contact = reserve_take(groups->capacity, sizeof *groups->contact);
     groups->stirred = reserve_take(groups->capacity, sizeof *groups->stirred);
     groups->parent = calloc(rows, sizeof *groups->parent);
     groups->awake = calloc(rows, sizeof *groups->awake);
     groups->ground = calloc(rows, sizeof *groups->ground);
     groups->asked = reserve_take(rows, sizeof *groups->asked);
     groups->begun = reserve_take(rows, sizeof *groups->begun);
-    if (groups->pair && groups->stirred && groups->parent && groups->awake && groups->ground &&
-        groups->asked && groups->begun)
+    if (groups->pair && groups->contact && groups->stirred && groups->parent && groups->awake &&
+        groups->ground && groups->asked && groups->begun)
         return 0;
     contact_groups_free(groups);
     errno = ENOMEM;
@@ -38,6 +39,7 @@ int contact_groups_init(struct contact_groups *groups, const struct world *world
 void contact_groups_free(struct contact_groups *groups)
 {
     reserve_free(groups->pair);
+    reserve_free(groups->contact);
     reserve_free(groups->stirred);
     free(groups->parent);
     free(groups->awake);
@@ -254,8 +256,9 @@ static void join_pair(struct contact_groups *groups, struct pair pair)
     join(groups, pair.a, pair.b);
 }
 
-static void add(struct contact_groups *groups, struct pair pair)
+static void add(struct contact_groups *groups, struct pair pair, uint32_t contact)
 {
+    groups->contact[groups->count] = contact;
     groups->pair[groups->count++] = pair;
     join_pair(groups, pair);
 }
@@ -387,6 +390,7 @@ static void keep_awake(struct contact_groups *groups)
         bool awake = groups->awake[root_of(groups, one.a)] != 0;
         pair[i] = pair[kept];
         pair[kept] = one;
+        groups->contact[kept] = groups->contact[i];
         kept += awake;
     }
     for (uint32_t i = 0; i < all; i++)
@@ -500,7 +504,7 @@ void contact_groups_find(struct contact_groups *groups, struct response_context 
         if (!still_there(groups, context, contact))
             continue;
         struct pair pair = pair_of(contact);
-        add(groups, pair);
+        add(groups, pair, groups->stirred[i]);
         if (contact->flags & PERSISTENT_CONTACT_HOLDS)
             note_holding(groups, &pair);
         if (contact->flags & PERSISTENT_CONTACT_OVERLAPS)
@@ -537,7 +541,7 @@ void contact_groups_find_free(struct contact_groups *groups, struct response_con
             !is_free_pair(groups, context, contact))
             continue;
         struct pair pair = pair_of(contact);
-        add(groups, pair);
+        add(groups, pair, groups->stirred[i]);
         if (contact->flags & PERSISTENT_CONTACT_OVERLAPS)
             groups->awake[pair.a] = 1;
     }

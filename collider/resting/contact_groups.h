@@ -12,6 +12,7 @@ struct contact_groups {
     struct pair *pair; /* found: those of the table in its order, then those of new bodies */
     uint32_t count, capacity;
     uint32_t known;    /* the first so many are in the table; the others may begin overlapped */
+    uint32_t *contact; /* [known] which of the table's contacts they are */
     uint32_t *stirred; /* [contact_slots] contacts of the table whose bodies may be awake */
     uint32_t stirred_count;
     uint32_t *parent; /* [capacity of the world] union-find: row + 1, 0 for a row in no pair */

@@ -29,11 +29,10 @@
 /* A body at rest. */
 struct placed_body {
     struct swept_body body;
-    struct mat3 turn;
-    struct axis_side side;
-    struct vec3 moved; /* [m] from where it stood when the frame began */
-    double turned_m;   /* by rotation none of its points has moved farther since then */
-    double way_m;      /* none of its points is farther than this from where its path ended */
+    struct axis_side side; /* with the matrix of its rotation */
+    struct vec3 moved;     /* [m] from where it stood when the frame began */
+    double turned_m;       /* by rotation none of its points has moved farther since then */
+    double way_m;          /* none of its points is farther than this from where its path ended */
 };
 
 int end_guard_init(struct end_guard *guard, const struct world *world, struct thread_pool *workers)
@@ -85,9 +84,11 @@ void end_guard_free(struct end_guard *guard)
 static void stand(const struct body_motion *motion, const struct entities *e, uint32_t side,
                   struct placed_body *stands)
 {
-    stands->body = body_motion_standing(motion, e, side);
-    stands->turn = rotation_matrix(stands->body.from);
-    stands->side = axis_side_of(&stands->body, &stands->turn, &stands->turn, 0.0, 0.0);
+    if (side & PAIR_FIXED)
+        stands->body = body_motion_fixed(motion->world, side & ~PAIR_FIXED);
+    else
+        body_motion_put_standing(motion, e, side, &stands->body);
+    axis_side_set(&stands->side, &stands->body, 0.0, 0.0);
     stands->moved = (struct vec3){0.0, 0.0, 0.0};
     stands->turned_m = 0.0;
 }
@@ -136,44 +137,54 @@ static void stand_at_end(struct end_guard *guard, const struct response_context 
                         : INFINITY;
 }
 
+static struct turned_body turned(const struct placed_body *stands)
+{
+    return (struct turned_body){&stands->body, stands->side.turn[0]};
+}
+
 /* Returns the gap of two bodies: below 0 if they overlap, else 0 [m]. Spheres and the plane between
  * their outer hulls are asked first: both are proofs that no two hulls overlap. */
-static double gap_of(const struct placed_body *a, const struct placed_body *b,
-                     struct pair_known *known)
+static double gap_of(const struct contact_queue *contacts, uint32_t index,
+                     const struct placed_body *a, const struct placed_body *b)
 {
+    struct pair_known *known = &contacts->known[index];
     struct vec3 between = vec3_sub(b->body.path.at, a->body.path.at);
     double reach = a->body.bound_m + b->body.bound_m;
-    const struct turned_body turned_a = {&a->body, a->turn}, turned_b = {&b->body, b->turn};
     if (vec3_dot(between, between) > reach * reach)
         return 0.0;
     if (vec3_dot(known->plane[0], known->plane[0]) > 0.0 &&
         separating_axis_holds(&a->side, &b->side, known->plane[0], 0.0))
         return 0.0;
-    return level_gap_depth(&turned_a, &turned_b, known->plane, &known->memory);
+    const struct turned_body turned_a = turned(a), turned_b = turned(b);
+    return level_gap_depth(&turned_a, &turned_b, known->plane,
+                           contact_queue_memory(contacts, index));
 }
 
 /* Returns the gap of a pair at the end of the frame. */
 static double gap_after(const struct end_guard *guard, const struct response_context *context,
-                        const struct pair *pair, struct pair_known *known)
+                        uint32_t index)
 {
+    const struct contact_queue *contacts = context->contacts;
+    const struct pair *pair = &contacts->pair[index];
     struct placed_body fixed;
     if (!(pair->b & PAIR_FIXED))
-        return gap_of(&guard->stands[pair->a], &guard->stands[pair->b], known);
+        return gap_of(contacts, index, &guard->stands[pair->a], &guard->stands[pair->b]);
     stand(context->motion, &context->next->entities, pair->b, &fixed);
-    return gap_of(&guard->stands[pair->a], &fixed, known);
+    return gap_of(contacts, index, &guard->stands[pair->a], &fixed);
 }
 
 /* Returns the gap of a pair when the frame began, which is measured once. */
-static double gap_before(const struct response_context *context, const struct pair *pair,
-                         struct pair_known *known)
+static double gap_before(const struct response_context *context, uint32_t index)
 {
+    const struct pair *pair = &context->contacts->pair[index];
+    struct pair_known *known = &context->contacts->known[index];
     const struct entities *w = &context->motion->before;
     struct placed_body a, b;
     if (known->before_m != PAIR_NOT_MEASURED)
         return known->before_m;
     stand(context->motion, w, pair->a, &a);
     stand(context->motion, w, pair->b, &b);
-    known->before_m = gap_of(&a, &b, known);
+    known->before_m = gap_of(context->contacts, index, &a, &b);
     return known->before_m;
 }
 
@@ -215,13 +226,13 @@ static double come_of(const struct end_guard *guard, const struct pair *pair)
 /* Returns true if hulls that were near when the frame began are still separated by the planes
  * across their nearest points, and all others were farther apart than they have come since then. */
 static bool hulls_apart(const struct end_guard *guard, const struct pair *pair,
-                        const struct pair_known *known, double come_m)
+                        const struct resting_known *rested, double come_m)
 {
-    if (known->gap == 0 || pair->b & PAIR_FIXED)
+    if (!rested || rested->gap == 0 || pair->b & PAIR_FIXED)
         return false;
-    const struct resting_gap *gap = &guard->resting->gap[known->gap - 1];
+    const struct resting_gap *gap = &guard->resting->gap[rested->gap - 1];
     const struct placed_body *a = &guard->stands[pair->a], *b = &guard->stands[pair->b];
-    const struct turned_body turned_a = {&a->body, a->turn}, turned_b = {&b->body, b->turn};
+    const struct turned_body turned_a = turned(a), turned_b = turned(b);
     return come_m + APART_M < gap->margin_m &&
            level_gap_planes_hold(&turned_a, &turned_b, gap->gap, gap->count);
 }
@@ -244,14 +255,14 @@ static bool deeper(const struct end_guard *guard, const struct response_context 
     struct pair_known *known = &context->contacts->known[index];
     double come_m = come_of(guard, pair);
     if (come_m + APART_M < known->apart_m || proved_apart(guard, context, index) ||
-        hulls_apart(guard, pair, known, come_m))
+        hulls_apart(guard, pair, contact_queue_knows_rested(context->contacts, index), come_m))
         return false;
-    double after = gap_after(guard, context, pair, known);
+    double after = gap_after(guard, context, index);
     if (after >= -ROUNDING_M)
         return false;
     if (known->way_m > 0.0 && known->way_m <= SHALLOW_M)
         return true; /* see heed_ways() */
-    double before = gap_before(context, pair, known);
+    double before = gap_before(context, index);
     return (before > -RESTING_PARTS_M || held(context, pair)) && after < before - EXACT_M;
 }
 
@@ -437,18 +448,20 @@ static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t 
 }
 
 /* Returns how far a side of a pair has come along the pair's normal [m]. */
-static double come_along(const struct end_guard *guard, const struct pair_known *known,
+static double come_along(const struct end_guard *guard, const struct resting_known *rested,
                          uint32_t side)
 {
     const struct vec3 moved = side & PAIR_FIXED ? (struct vec3){0} : guard->stands[side].moved;
-    return moved.x * known->normal_x + moved.z * known->normal_z;
+    return moved.x * rested->normal_x + moved.z * rested->normal_z;
 }
 
 /* Returns the side of a pair that follows the other, which leaves it, or SLOT_NONE. */
 static uint32_t follower_of(const struct end_guard *guard, const struct pair *pair,
-                            const struct pair_known *known)
+                            const struct resting_known *rested)
 {
-    double a = come_along(guard, known, pair->a), b = come_along(guard, known, pair->b);
+    if (!rested)
+        return SLOT_NONE;
+    double a = come_along(guard, rested, pair->a), b = come_along(guard, rested, pair->b);
     if (a > 0.0 && b > 0.0)
         return pair->a;
     return a < 0.0 && b < 0.0 ? pair->b : SLOT_NONE;
@@ -460,7 +473,8 @@ static void mark_pair(struct end_guard *guard, const struct response_context *co
                       uint32_t index)
 {
     const struct pair *pair = &context->contacts->pair[index];
-    uint32_t follower = follower_of(guard, pair, &context->contacts->known[index]);
+    const struct contact_queue *contacts = context->contacts;
+    uint32_t follower = follower_of(guard, pair, contact_queue_knows_rested(contacts, index));
     if (follower != SLOT_NONE) {
         mark(guard, context, follower);
         if (guard->marked[follower])

@@ -217,10 +217,11 @@ static void keep_loads(const struct resting *resting, struct contact_queue *cont
                        const struct resting_pair *pair)
 {
     const struct level_contact *point = &resting->point[pair->first];
+    struct resting_known *rested = contact_queue_rested(contacts, pair->pair);
     if (pair->gap_m <= -RESTING_PARTS_M)
         return; /* along which normal they part does not last */
     for (uint32_t g = 0; g < pair->gaps && g < PERSISTENT_CONTACT_NEAREST; g++) {
-        struct contact_load *load = &contacts->known[pair->pair].load[g];
+        struct contact_load *load = &rested->load[g];
         for (uint32_t p = 0; p < pair->gap[g].points; p++, point++) {
             load->normal_ns[p] = (float)point->normal_ns;
             load->friction_ns[p] = (float)point->friction_ns;
@@ -240,6 +241,7 @@ static void take(struct resting *resting, struct response_context *context, cons
     struct resting_pair taken = {.first = resting->points,
                                  .gaps = gaps,
                                  .capsules = found->capsules,
+                                 .known = found->known != NULL,
                                  .holds =
                                      found->known && found->known->flags & PERSISTENT_CONTACT_HOLDS,
                                  .gap_m = gap[0].gap_m,
@@ -261,9 +263,10 @@ static void take(struct resting *resting, struct response_context *context, cons
         forget_bodies(resting, bodies);
         return;
     }
+    struct resting_known *rested = contact_queue_rested(context->contacts, taken.pair);
     context->contacts->known[taken.pair].plane[0] = gap[0].normal;
-    context->contacts->known[taken.pair].normal_x = gap[0].normal.x;
-    context->contacts->known[taken.pair].normal_z = gap[0].normal.z;
+    rested->normal_x = gap[0].normal.x;
+    rested->normal_z = gap[0].normal.z;
     resting->points += taken.count;
     resting->pair[resting->pairs++] = taken;
 }
@@ -386,12 +389,11 @@ static void mark(struct resting *resting, struct response_context *context)
         const struct resting_pair *pair = &resting->pair[i];
         const struct pair *bodies = &context->contacts->pair[pair->pair];
         uint8_t *marks = &context->contacts->marks[pair->pair];
-        bool known = contact_table_find(context, bodies->a, bodies->b) != NULL;
         bool bears = touches(resting, pair);
         keep_loads(resting, context->contacts, pair);
-        if (bears && !known && contact_table_begins(context, pair->pair + 1))
+        if (bears && !pair->known && contact_table_begins(context, pair->pair + 1))
             report(context, bodies, pair->gap);
-        if ((bears || known) && closing(resting, pair) < CONTACT_IMPACT_MPS)
+        if ((bears || pair->known) && closing(resting, pair) < CONTACT_IMPACT_MPS)
             rest(resting, context->contacts, pair);
         if (bears)
             *marks |= CONTACT_PRESSED;

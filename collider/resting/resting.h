@@ -34,6 +34,7 @@ struct resting_pair {
     uint32_t first, count; /* its points, those of each gap in turn */
     uint32_t gaps;
     bool capsules;               /* as in resting_gap */
+    bool known;                  /* it is in the committed table */
     bool holds;                  /* a frame ago it kept its bodies from moving */
     const struct level_gap *gap; /* the smallest, until the next frame */
     double gap_m;                /* the smallest, at the frame's beginning; below 0: overlap */

@@ -244,9 +244,8 @@ static void begin_gaps(struct resting *resting, const struct response_context *c
     make_room(resting, context->world, 0, resting->groups.count);
     last = resting->gap_before;
     for (uint32_t i = 0; i < resting->groups.known; i++) {
-        const struct pair *pair = &resting->groups.pair[i];
         struct resting_gap *gap = &resting->gap[i];
-        gap->known = contact_table_find(context, pair->a, pair->b);
+        gap->known = &context->motion->committed->contacts[resting->groups.contact[i]];
         gap->key = persistent_contact_key(gap->known);
         while (k < resting->before && last[k].key < gap->key)
             k++;
@@ -280,9 +279,10 @@ static void tell(struct resting *resting, const struct response_context *context
     known->apart_m = gap->apart_m;
     if (gap->count == 0)
         return;
+    struct resting_known *rested = contact_queue_rested(context->contacts, place - 1);
     gap->pair = place - 1;
-    known->gap = index + 1;
-    known->memory = gap->memory;
+    rested->gap = index + 1;
+    rested->memory = gap->memory;
     known->before_m = gap->pieces_m;
 }
 

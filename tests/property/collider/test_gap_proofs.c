@@ -86,7 +86,9 @@ static struct level_gap_memory random_memory(uint64_t *random)
 
 static struct axis_side side_of(const struct turned_body *turned)
 {
-    return axis_side_of(turned->body, &turned->turn, &turned->turn, 0.0, 0.0);
+    struct axis_side side;
+    axis_side_set(&side, turned->body, 0.0, 0.0);
+    return side;
 }
 
 /* Returns the depth of two bodies, after a comparison of all ways to find it. */

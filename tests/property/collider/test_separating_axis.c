@@ -52,8 +52,9 @@ static struct swept_body random_body(uint64_t *random, double since)
 
 static struct axis_side side_of(const struct swept_body *body, double time)
 {
-    struct mat3 from = rotation_matrix(body->from), to = rotation_matrix(body->to);
-    return axis_side_of(body, &from, &to, rotation_rate(body->from, body->to), time);
+    struct axis_side side;
+    axis_side_set(&side, body, rotation_rate(body->from, body->to), time);
+    return side;
 }
 
 static void test_row_23_what_is_not_swept_does_not_touch(void **state)

@@ -122,10 +122,9 @@ static bool plane_between(const struct swept_body *a, const struct swept_body *b
 {
     struct vec3 axis = {0.0, 0.0, 0.0};
     double apart;
-    struct mat3 a0 = rotation_matrix(a->from), a1 = rotation_matrix(a->to);
-    struct mat3 b0 = rotation_matrix(b->from), b1 = rotation_matrix(b->to);
-    struct axis_side side_a = axis_side_of(a, &a0, &a1, rotation_rate(a->from, a->to), 0.0);
-    struct axis_side side_b = axis_side_of(b, &b0, &b1, rotation_rate(b->from, b->to), 0.0);
+    struct axis_side side_a, side_b;
+    axis_side_set(&side_a, a, rotation_rate(a->from, a->to), 0.0);
+    axis_side_set(&side_b, b, rotation_rate(b->from, b->to), 0.0);
     return separating_axis_find(&side_a, &side_b, SKIN_M, true, &axis, &apart);
 }
 

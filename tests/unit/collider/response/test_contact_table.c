@@ -118,6 +118,13 @@ static void test_a_pressed_contact_keeps_its_beginning(void **state)
     assert_memory_equal(finish(1, 0), &right, sizeof right);
 }
 
+/* Returns what is known of a pair. */
+static struct resting_known *rested(uint32_t a, uint32_t b)
+{
+    uint32_t pair = contact_queue_pair(context.contacts, &(struct pair){a, b});
+    return contact_queue_rested(context.contacts, pair);
+}
+
 /* The next frame's search for the nearest points begins with what this one remembers. */
 static void test_what_the_hulls_remember_is_kept(void **state)
 {
@@ -128,8 +135,7 @@ static void test_what_the_hulls_remember_is_kept(void **state)
     know(0, 1, 7, TICK - 1)->nearest[0] = nearest; /* of the frame before */
     begin();
     press(0, 1, 0);
-    context.contacts->known[contact_queue_pair(context.contacts, &(struct pair){0, 1})]
-        .memory.nearest[1] = nearest;
+    rested(0, 1)->memory.nearest[1] = nearest;
     move(0);
     assert_memory_equal(finish(1, 0), &right, sizeof right);
 }
@@ -144,8 +150,7 @@ static void test_what_the_hulls_bear_is_kept_for_a_frame(void **state)
     know(2, 3, 7, TICK - 1)->load[0] = load;
     begin();
     press(0, 1, 0);
-    context.contacts->known[contact_queue_pair(context.contacts, &(struct pair){0, 1})].load[2] =
-        load;
+    rested(0, 1)->load[2] = load;
     const struct persistent_contact *contacts = finish(2, 0);
     assert_memory_equal(&contacts[0].load[1], &none, sizeof none);
     assert_memory_equal(&contacts[0].load[2], &load, sizeof load);

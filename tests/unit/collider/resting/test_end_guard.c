@@ -121,7 +121,7 @@ static void test_at_last_it_goes_back_all_the_way(void **state)
 static void follow(double behind_m, double before_m)
 {
     uint32_t rests = contact_queue_pair(context.contacts, &(struct pair){0, 1});
-    context.contacts->known[rests].normal_x = 1.0;
+    contact_queue_rested(context.contacts, rests)->normal_x = 1.0;
     move(0, behind_m);
     move(1, before_m);
     run(2, (uint32_t[]){0, 1});

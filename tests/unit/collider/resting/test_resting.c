@@ -102,11 +102,17 @@ static void test_a_truck_pushes_two_others_on(void **state)
     assert_true(fabs(context.path[2].along.x - e->vx[2] * world_dt_s(&f.view.world)) < 1e-9);
 }
 
+/* Returns what is known of a pair. */
+static const struct resting_known *rested(uint32_t a)
+{
+    uint32_t pair = contact_queue_pair(context.contacts, &(struct pair){a, a + 1});
+    return contact_queue_rested(context.contacts, pair);
+}
+
 /* Returns the loads that the hulls of a pair bear. */
 static const struct contact_load *loads(uint32_t a)
 {
-    uint32_t pair = contact_queue_pair(context.contacts, &(struct pair){a, a + 1});
-    return context.contacts->known[pair].load;
+    return rested(a)->load;
 }
 
 static double sum_of(const struct contact_load *load)
@@ -128,9 +134,8 @@ static void test_impulses_are_kept_for_the_next_frame(void **state)
     resting_solve(resting, &context);
     speed = context.next->entities.vx[1];
     assert_true(fabs(sum_of(loads(0)) - mass * speed) < 1e-4 * mass);
-    uint32_t pair = contact_queue_pair(context.contacts, &(struct pair){0, 1});
-    memcpy(contact->load, context.contacts->known[pair].load, sizeof contact->load);
-    memcpy(contact->nearest, context.contacts->known[pair].memory.nearest, sizeof contact->nearest);
+    memcpy(contact->load, loads(0), sizeof contact->load);
+    memcpy(contact->nearest, rested(0)->memory.nearest, sizeof contact->nearest);
     steps_respond_end(&context);
     steps_rows(&f).vx[0] = 0.0;
     begin();
