@@ -385,12 +385,15 @@ static uint32_t find(const struct body_pose *a, const struct body_pose *b, doubl
 }
 
 uint32_t level_gap_find(const struct swept_body *a, const struct swept_body *b, double time,
-                        double margin_m, struct level_gap *gap)
+                        double margin_m, const struct level_gap_memory *memory,
+                        struct level_gap *gap)
 {
     double apart_m;
-    struct level_gap_memory none = {0};
+    struct level_gap_memory kept = {0};
     struct body_pose pose_a = pose_at(a, time), pose_b = pose_at(b, time);
-    return find(&pose_a, &pose_b, time, margin_m, gap, LEVEL_GAPS_MAX, &apart_m, &none);
+    if (memory)
+        kept = *memory;
+    return find(&pose_a, &pose_b, time, margin_m, gap, LEVEL_GAPS_MAX, &apart_m, &kept);
 }
 
 uint32_t level_gap_find_more(const struct turned_body *a, const struct turned_body *b,

@@ -49,9 +49,11 @@ struct turned_body {
  * in [max(since), 1], smallest first. Returns how many there are; gap holds LEVEL_GAPS_MAX. The gap
  * along the normal is greater than the distance of hulls whose nearest points are not level, and so
  * may be above margin_m. Hulls that overlap part along the shallowest of the horizontal normals of
- * their faces, or of the line between the bodies' positions. */
+ * their faces, or of the line between the bodies' positions. memory: where searches begin, or NULL.
+ */
 uint32_t level_gap_find(const struct swept_body *a, const struct swept_body *b, double time,
-                        double margin_m, struct level_gap *gap);
+                        double margin_m, const struct level_gap_memory *memory,
+                        struct level_gap *gap);
 
 /* Returns how the body is turned at a time in [path.since, 1]. */
 struct mat3 level_gap_turn(const struct swept_body *body, double time);

@@ -2,6 +2,7 @@
 #include "collider/response/island_gather.h"
 
 #include "collider/geometry/level_gap.h"
+#include "collider/narrow_phase/contact_pairs.h"
 #include "collider/response/contact_impulse.h"
 #include "collider/response/path_change.h"
 #include "collider/response/response.h"
@@ -97,7 +98,8 @@ static void rest(struct response_context *context, const struct contact *contact
     struct swept_body a = body_motion_body(context->motion, pair.a, &turn_a);
     struct swept_body b = body_motion_side(context->motion, pair.b, &turn_b);
     struct vec3 at_a = path_at(&a.path, time), at_b = path_at(&b.path, time);
-    uint32_t gaps = level_gap_find(&a, &b, time, CONTACT_TOUCHING_M, gap);
+    uint32_t gaps = level_gap_find(&a, &b, time, CONTACT_TOUCHING_M,
+                                   contact_queue_memory(contacts, contact->pair - 1), gap);
     for (uint32_t g = 0; g < gaps; g++) {
         for (uint32_t p = 0; p < gap[g].points; p++) {
             struct vec3 at = gap[g].point[p];
@@ -196,7 +198,9 @@ static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t 
         const struct pair *pair = &job->behind[i];
         struct swept_body a = body_motion_body(motion, pair->a, &turn_a);
         struct swept_body b = body_motion_side(motion, pair->b, &turn_b);
-        uint32_t gaps = level_gap_find(&a, &b, job->time, CONTACT_TOUCHING_M, gap);
+        uint32_t index = contact_pairs_find(job->context->contacts, pair) - 1; /* it rests */
+        uint32_t gaps = level_gap_find(&a, &b, job->time, CONTACT_TOUCHING_M,
+                                       contact_queue_memory(job->context->contacts, index), gap);
         island->gap[i] = gaps > 0 ? gap[0] : (struct level_gap){.points = 0};
     }
     work_done();

@@ -211,7 +211,7 @@ static void test_a_memory_changes_no_gap(void **state)
             double apart;
             const struct turned_body turned_a = {&a, level_gap_turn(&a, 0.0)};
             const struct turned_body turned_b = {&b, level_gap_turn(&b, 0.0)};
-            uint32_t count = level_gap_find(&a, &b, 0.0, margin_m, cold);
+            uint32_t count = level_gap_find(&a, &b, 0.0, margin_m, NULL, cold);
             assert_int_equal(level_gap_find_more(&turned_a, &turned_b, margin_m, warm,
                                                  LEVEL_GAPS_MAX, &apart, &memory),
                              count);

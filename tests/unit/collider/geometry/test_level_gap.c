@@ -146,9 +146,9 @@ static void check(const struct swept_body *a, const struct swept_body *b)
 {
     struct level_gap gap[LEVEL_GAPS_MAX], back[LEVEL_GAPS_MAX];
     double right = expected(a, b);
-    uint32_t count = level_gap_find(a, b, 0.0, MARGIN_M, gap);
+    uint32_t count = level_gap_find(a, b, 0.0, MARGIN_M, NULL, gap);
     assert_int_equal(count, right <= MARGIN_M);
-    assert_int_equal(level_gap_find(b, a, 0.0, MARGIN_M, back), count);
+    assert_int_equal(level_gap_find(b, a, 0.0, MARGIN_M, NULL, back), count);
     assert_true(fabs(level_gap_least(a, b, 0.0, MARGIN_M) - maths_min(right, MARGIN_M)) < 1e-9);
     if (count == 0)
         return;
@@ -182,14 +182,14 @@ static void test_faces_touch_along_their_shared_edge(void **state)
     struct swept_body a = put(BOX, 1, (struct vec3){100, 0, 0}, HALF_PI);
     struct swept_body b = put(BOX, 1, (struct vec3){104.5, 0, 0.5}, HALF_PI);
     (void)state;
-    assert_int_equal(level_gap_find(&a, &b, 0.0, 1.0, gap), 1);
+    assert_int_equal(level_gap_find(&a, &b, 0.0, 1.0, NULL, gap), 1);
     assert_true(fabs(gap[0].gap_m - 0.5) < 1e-12 && gap[0].normal.x > 0.999999);
     assert_int_equal(gap[0].points, 2); /* z from -0.5 to 1 */
     double low = maths_min(gap[0].point[0].z, gap[0].point[1].z);
     double high = maths_max(gap[0].point[0].z, gap[0].point[1].z);
     assert_true(fabs(low + 0.5) < 0.01 && fabs(high - 1.0) < 0.01);
     b.from = b.to = rotation_of(HALF_PI + 0.6, 0.0, 0.0); /* a corner is foremost */
-    assert_int_equal(level_gap_find(&a, &b, 0.0, 1.0, gap), 1);
+    assert_int_equal(level_gap_find(&a, &b, 0.0, 1.0, NULL, gap), 1);
     assert_int_equal(gap[0].points, 1);
 }
 
@@ -201,10 +201,10 @@ static void test_a_corner_leaves_a_slanting_side_along_its_normal(void **state)
     struct swept_body a = put(BOX, 1, (struct vec3){2.0 - off, 0, 1.0 - off}, HALF_PI);
     struct swept_body b = put(WEDGE, 1, (struct vec3){0, 0, 0}, HALF_PI);
     (void)state;
-    assert_int_equal(level_gap_find(&a, &b, 0.0, 1.0, gap), 1);
+    assert_int_equal(level_gap_find(&a, &b, 0.0, 1.0, NULL, gap), 1);
     assert_true(fabs(gap[0].gap_m + 0.1) < 1e-9);
     assert_true(vec3_length(vec3_sub(gap[0].normal, (struct vec3){-half, 0, -half})) < 1e-9);
-    assert_int_equal(level_gap_find(&b, &a, 0.0, 1.0, gap), 1);
+    assert_int_equal(level_gap_find(&b, &a, 0.0, 1.0, NULL, gap), 1);
     assert_true(fabs(gap[0].gap_m + 0.1) < 1e-9);
     assert_true(vec3_length(vec3_sub(gap[0].normal, (struct vec3){half, 0, half})) < 1e-9);
 }
@@ -216,8 +216,8 @@ static void test_bodies_above_each_other_are_no_neighbours(void **state)
     struct swept_body a = put(BOX, 1, (struct vec3){0, 0, 0}, HALF_PI);
     struct swept_body b = put(BOX, 1, (struct vec3){0.5, 2.5, 0}, HALF_PI);
     (void)state;
-    assert_int_equal(level_gap_find(&a, &b, 0.0, 0.4, gap), 0);
-    assert_int_equal(level_gap_find(&a, &b, 0.0, 0.6, gap), 1);
+    assert_int_equal(level_gap_find(&a, &b, 0.0, 0.4, NULL, gap), 0);
+    assert_int_equal(level_gap_find(&a, &b, 0.0, 0.6, NULL, gap), 1);
     assert_true(gap[0].normal.x == 1.0 && gap[0].gap_m > 100.0);
 }
 
@@ -245,7 +245,7 @@ static void test_the_least_gap_is_that_of_the_deepest_hulls(void **state)
         struct vec3 at = {fixture_uniform(&random, -3.0, 7.0), fixture_uniform(&random, -2.1, 2.1),
                           fixture_uniform(&random, -3.0, 3.0)};
         struct swept_body b = put(BOX, 2, at, fixture_uniform(&random, 0.0, TWO_PI));
-        uint32_t count = level_gap_find(&a, &b, 0.0, 0.5, gap);
+        uint32_t count = level_gap_find(&a, &b, 0.0, 0.5, NULL, gap);
         double least = count > 0 ? maths_min(gap[0].gap_m, 0.5) : 0.5;
         assert_true(fabs(level_gap_least(&a, &b, 0.0, 0.5) - least) < 1e-9);
         assert_true(fabs(level_gap_least(&b, &a, 0.0, 0.5) - least) < 1e-9);
