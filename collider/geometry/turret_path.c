@@ -46,14 +46,15 @@ void turret_path_set(struct turret_path *path, double turret, double gun, double
     path->gun = gun;
     path->turret_turn = turret_turn;
     path->gun_turn = gun_turn;
-    for (uint32_t part = HULL_PART_TURRET; part < HULL_PART_COUNT; part++)
-        path->begins[part] = compute(path, part, 0.0);
+    path->turret_begins = compute(path, HULL_PART_TURRET, 0.0);
+    path->gun_begins = compute(path, HULL_PART_GUN, 0.0);
 }
 
 struct part_pose turret_path_pose(const struct turret_path *path, uint32_t part, double time)
 {
-    return turret_path_moves(path) ? compute(path, part, maths_clamp(time, 0.0, 1.0))
-                                   : path->begins[part];
+    if (turret_path_moves(path))
+        return compute(path, part, maths_clamp(time, 0.0, 1.0));
+    return part == HULL_PART_TURRET ? path->turret_begins : path->gun_begins;
 }
 
 struct part_motion turret_path_at(const struct turret_path *path, uint32_t part, double time)

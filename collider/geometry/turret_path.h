@@ -25,12 +25,12 @@ struct part_motion {
 };
 
 struct turret_path {
-    const struct hull *outer;                 /* [outers] one hull around each part */
-    uint32_t outers;                          /* 0: no part ever leaves its place in the model */
-    struct vec3 turret_pivot, gun_pivot;      /* [m] body axes */
-    double turret, gun;                       /* [rad] at the frame's beginning */
-    double turret_turn, gun_turn;             /* [rad] over the frame */
-    struct part_pose begins[HULL_PART_COUNT]; /* at the frame's beginning; of turret and gun */
+    const struct hull *outer;                   /* [outers] one hull around each part */
+    uint32_t outers;                            /* 0: no part ever leaves its place in the model */
+    struct vec3 turret_pivot, gun_pivot;        /* [m] body axes */
+    double turret, gun;                         /* [rad] at the frame's beginning */
+    double turret_turn, gun_turn;               /* [rad] over the frame */
+    struct part_pose turret_begins, gun_begins; /* at the frame's beginning */
 };
 
 /* How far the points of a hull move by turret and gun, at most. */

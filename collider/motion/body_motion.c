@@ -358,7 +358,7 @@ void body_motion_change(struct body_motion *motion, uint32_t row, const struct p
     motion->path[row] = *path;
 }
 
-/* Turret and gun are at rest: turret.begins is not read. */
+/* Turret and gun are at rest: where they begin is not read. */
 static void put_shape(const struct world *world, uint16_t kind, double scale,
                       struct swept_body *body)
 {

@@ -9,14 +9,20 @@
 
 int pair_apart_init(struct pair_apart *apart, const struct world *world)
 {
+    uint32_t rows = world->params->capacity;
     *apart = (struct pair_apart){.world = world,
-                                 .row = reserve_take(world->params->capacity, sizeof *apart->row)};
-    return apart->row ? 0 : -1;
+                                 .row = reserve_take(rows, sizeof *apart->row),
+                                 .known = reserve_take(rows, sizeof *apart->known)};
+    if (apart->row && apart->known)
+        return 0;
+    pair_apart_free(apart);
+    return -1;
 }
 
 void pair_apart_free(struct pair_apart *apart)
 {
     reserve_free(apart->row);
+    reserve_free(apart->known);
     *apart = (struct pair_apart){0};
 }
 
@@ -34,12 +40,6 @@ void pair_apart_prepare(struct pair_apart *apart, const struct body_motion *moti
             rotation_speed(pose->body.from, pose->body.to, 0.0).y / (1.0 - pose->body.path.since);
     if (!pose->freely)
         axis_side_set(&pose->side, &pose->body, pose->rate, pose->body.path.since);
-    pose->known = true;
-}
-
-void pair_apart_forget(struct pair_apart *apart, uint32_t row)
-{
-    apart->row[row].known = false;
 }
 
 /* Returns true if the spheres around two bodies stay apart. */

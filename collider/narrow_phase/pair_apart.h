@@ -14,12 +14,12 @@ struct row_pose {
     double spin_y;         /* [rad a frame] about the vertical, at path.since */
     double rate;           /* rotation_rate() from one to the other */
     bool freely;           /* it turns by no fixed axis, and only its sphere is tested */
-    bool known;            /* the row's path has not changed since */
 };
 
 struct pair_apart {
     const struct world *world;
     struct row_pose *row; /* [capacity of the world] */
+    uint8_t *known;       /* [capacity of the world] 1: the row's path has not changed since */
 };
 
 /* Returns 0, or -1 with errno ENOMEM. */
@@ -30,8 +30,8 @@ void pair_apart_free(struct pair_apart *apart);
  * caller has to prepare the row before anything asks for it. */
 static inline bool pair_apart_claims(struct pair_apart *apart, uint32_t row)
 {
-    bool known = apart->row[row].known;
-    apart->row[row].known = true;
+    bool known = apart->known[row];
+    apart->known[row] = 1;
     return !known;
 }
 
@@ -39,7 +39,10 @@ static inline bool pair_apart_claims(struct pair_apart *apart, uint32_t row)
 void pair_apart_prepare(struct pair_apart *apart, const struct body_motion *motion, uint32_t row);
 
 /* The row's path has changed, or the frame is over. */
-void pair_apart_forget(struct pair_apart *apart, uint32_t row);
+static inline void pair_apart_forget(struct pair_apart *apart, uint32_t row)
+{
+    apart->known[row] = 0;
+}
 
 /* Returns true if the hulls of the pair certainly stay farther apart than margin_m [m, >= 0] from
  * `time` to 1. False promises nothing. *axis may show it, and is kept for the next time (see

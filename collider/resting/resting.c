@@ -26,6 +26,7 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
     uint64_t pairs = world->params->contact_slots;
     *resting = (struct resting){.workers = workers, .capacity = world->params->contact_slots};
     resting->gap = reserve_take(pairs, sizeof *resting->gap);
+    resting->wide = reserve_take(RESTING_GAPS_MAX * (uint64_t)pairs, sizeof *resting->wide);
     resting->gap_before = reserve_take(pairs, sizeof *resting->gap_before);
     resting->put_off = reserve_take(pairs, sizeof *resting->put_off);
     resting->pair = reserve_take(pairs, sizeof *resting->pair);
@@ -42,7 +43,7 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
         crowds_init(&resting->crowds, world) == 0 &&
         parting_init(&resting->parting, rows + pairs, pairs * RESTING_POINTS_MAX) == 0 &&
         neighbours_init(&resting->neighbours, world) == 0 && level_exit_init(&resting->exit) == 0 &&
-        resting->gap && resting->gap_before && resting->put_off && resting->pair &&
+        resting->gap && resting->wide && resting->gap_before && resting->put_off && resting->pair &&
         resting->point && resting->body && resting->row && resting->pressed_ns && resting->stands &&
         resting->body_of && resting->moved && resting->leaving)
         return 0;
@@ -61,6 +62,7 @@ void resting_free(struct resting *resting)
     level_exit_free(&resting->exit);
     free(resting->leaving);
     reserve_free(resting->gap);
+    reserve_free(resting->wide);
     reserve_free(resting->gap_before);
     reserve_free(resting->put_off);
     reserve_free(resting->pair);

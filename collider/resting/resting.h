@@ -42,9 +42,9 @@ struct resting_pair {
 
 /* How the two bodies of a pair lie at the frame's beginning. */
 struct resting_gap {
-    struct level_gap gap[RESTING_GAPS_MAX]; /* smallest first; LEVEL_GAPS_MAX unless bodies part */
-    uint32_t count;
-    uint32_t pair;   /* index into contacts->pair, if there are gaps */
+    struct level_gap *gap; /* smallest first: in few, or in the row's own place in resting.wide */
+    uint32_t count;        /* at most LEVEL_GAPS_MAX are in few, and more only where bodies part */
+    uint32_t pair;         /* index into contacts->pair, if there are gaps */
     bool capsules;   /* it is so deep that it parts as capsules (collider/resting/deep_pair.h) */
     bool put_off;    /* it is measured when the crowds are known */
     bool spreads;    /* it parts with a crowd that spreads: its normal and its bounds are unknown */
@@ -61,6 +61,7 @@ struct resting_gap {
     struct level_gap_memory began;
     bool repeats;                     /* the same would be found again */
     const struct resting_gap *before; /* of the same pair in the frame before, or NULL */
+    struct level_gap few[LEVEL_GAPS_MAX];
 };
 
 /* The collider's own memory, kept from frame to frame. */
@@ -76,7 +77,8 @@ struct resting {
     struct resting_gap *gap; /* [groups.count] */
     struct resting_gap *gap_before; /* [before] of the table's pairs in the frame before, by key */
     uint32_t before;
-    uint32_t *put_off; /* gaps that are measured when the crowds are known */
+    struct level_gap *wide; /* [RESTING_GAPS_MAX * capacity] the lists that few has no room for */
+    uint32_t *put_off;      /* gaps that are measured when the crowds are known */
     struct resting_pair *pair;
     uint32_t pairs, capacity;
     struct level_contact *point;

@@ -18,6 +18,14 @@
 
 #define PAIRS_A_PIECE 4u
 
+/* Returns where the list of the index-th of the frame's gaps is. */
+static struct level_gap *list_of(const struct resting *resting, struct resting_gap *gap,
+                                 uint32_t index)
+{
+    return gap->count <= LEVEL_GAPS_MAX ? gap->few
+                                        : &resting->wide[(uint64_t)index * RESTING_GAPS_MAX];
+}
+
 /* Makes room for so many pairs. There may be more than contacts in the table, because bodies that
  * are new can overlap all others. Only the gaps of the first pairs are kept. */
 static void make_room(struct resting *resting, const struct world *world, uint32_t kept,
@@ -29,6 +37,12 @@ static void make_room(struct resting *resting, const struct world *world, uint32
     resting->gap = reserve_grow(resting->gap, kept, more, sizeof *resting->gap);
     resting->gap_before =
         reserve_grow(resting->gap_before, resting->before, more, sizeof *resting->gap_before);
+    resting->wide = reserve_grow(resting->wide, kept * (uint64_t)RESTING_GAPS_MAX,
+                                 more * RESTING_GAPS_MAX, sizeof *resting->wide);
+    for (uint32_t i = 0; i < kept; i++)
+        resting->gap[i].gap = list_of(resting, &resting->gap[i], i);
+    for (uint32_t i = 0; i < resting->before; i++)
+        resting->gap_before[i].gap = resting->gap_before[i].few; /* more are not taken again */
     resting->put_off = reserve_grow(resting->put_off, 0, more, sizeof *resting->put_off);
     resting->pair = reserve_grow(resting->pair, 0, more, sizeof *resting->pair);
     resting->point =
@@ -131,6 +145,14 @@ static void part_whole(const struct turned_body *a, const struct turned_body *b,
     gap->count = kept;
 }
 
+/* Keeps the list of gaps that was found. */
+static void keep_list(const struct resting *resting, uint32_t index, const struct level_gap *list)
+{
+    struct resting_gap *gap = &resting->gap[index];
+    gap->gap = list_of(resting, gap, index);
+    memcpy(gap->gap, list, gap->count * sizeof *list);
+}
+
 /* Measures a pair whose bodies are not so deep that they part as capsules. */
 static void measure_exactly(const struct gap_job *job, uint32_t index, const struct begun_body *a,
                             const struct begun_body *b)
@@ -138,6 +160,8 @@ static void measure_exactly(const struct gap_job *job, uint32_t index, const str
     struct resting_gap *gap = &job->resting->gap[index];
     const struct turned_body turned_a = {&a->body, a->began}, turned_b = {&b->body, b->began};
     double margin_m = margin_of(job, index, a, b);
+    struct level_gap list[RESTING_GAPS_MAX];
+    gap->gap = list;
     gap->put_off = false;
     gap->count = level_gap_find_more(&turned_a, &turned_b, margin_m, gap->gap, RESTING_GAPS_MAX,
                                      &gap->apart_m, &gap->memory);
@@ -151,6 +175,7 @@ static void measure_exactly(const struct gap_job *job, uint32_t index, const str
         gap->count = LEVEL_GAPS_MAX;
         gap->margin_m = 0.0;
     }
+    keep_list(job->resting, index, list);
 }
 
 /* Returns true if the pair may have overlapped a frame ago. */
@@ -169,6 +194,7 @@ static void measure_pair(const struct gap_job *job, uint32_t index)
     recall(job, pair, gap);
     gap->capsules = gap->put_off = gap->spreads = gap->repeats = false;
     gap->pieces_m = PAIR_NOT_MEASURED;
+    gap->gap = gap->few;
     if (!job->parts && take_before(gap))
         return;
     gap->apart_m = gap->margin_m = 0.0;
@@ -193,6 +219,7 @@ static bool is_deep_in_crowd(const struct begun_body *a, const struct begun_body
     if (!gap->capsules)
         return false;
     gap->count = 1;
+    gap->gap = gap->few;
     gap->gap[0] = (struct level_gap){.normal = {1.0, 0.0, 0.0},
                                      .gap_m = -DEEP_PAIR_M,
                                      .point = {vec3_lerp(a->body.path.at, b->body.path.at, 0.5)},
