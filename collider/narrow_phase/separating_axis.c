@@ -12,6 +12,14 @@
 /* Of an arc with the acceleration c, the farthest distance from its chord is c t^2 / 8. */
 #define SAGITTA 0.125
 
+/* Returns how far a point of the box is from the position at most. */
+static double box_bound(const struct hull_box *box)
+{
+    struct vec3 corner = {fabs(box->middle.x) + box->half.x, fabs(box->middle.y) + box->half.y,
+                          fabs(box->middle.z) + box->half.z};
+    return vec3_length(corner);
+}
+
 void axis_side_set(struct axis_side *side, const struct swept_body *body, double rate, double time)
 {
     double left = 1.0 - body->path.since, share = left > 0.0 ? (1.0 - time) / left : 0.0;
@@ -32,6 +40,7 @@ void axis_side_set(struct axis_side *side, const struct swept_body *body, double
         side->turn[1] = rotation_matrix(body->to);
     else
         side->turn[1] = side->turn[0];
+    side->turned_m = rate * share * box_bound(&side->box);
     side->still = rate == 0.0 && vec3_dot(body->path.along, body->path.along) == 0.0;
     side->bend_m = SAGITTA * rate * rate * share * share * body->bound_m;
 }
@@ -68,8 +77,16 @@ static double between(const struct axis_side *a, const struct axis_side *b, int 
     return vec3_dot(vec3_sub(b->at[end], a->at[end]), axis);
 }
 
+/* Returns a separation at the later end of the time that boxes or hulls have at least which are
+ * apart_m apart at the earlier one: the bodies have come so much nearer, and turned. */
+static double later(const struct axis_side *a, const struct axis_side *b, struct vec3 axis,
+                    double apart_m)
+{
+    return apart_m + between(a, b, 1, axis) - between(a, b, 0, axis) - a->turned_m - b->turned_m;
+}
+
 /* Returns the separation of the boxes along the axis, the lesser of both ends of the time. Less
- * than enough is exact only at one of them. */
+ * than enough is exact only at one of them, and more may be less than it is. */
 static double box_separation(const struct axis_side *a, const struct axis_side *b, struct vec3 axis,
                              double enough)
 {
@@ -77,6 +94,9 @@ static double box_separation(const struct axis_side *a, const struct axis_side *
     double apart = between(a, b, 0, axis) - box_reach(a, 0, axis) - box_reach(b, 0, back);
     if (apart <= enough || (a->still && b->still))
         return apart;
+    double least = maths_min(apart, later(a, b, axis, apart));
+    if (least > enough)
+        return least;
     return maths_min(apart, between(a, b, 1, axis) - box_reach(a, 1, axis) - box_reach(b, 1, back));
 }
 
@@ -97,12 +117,14 @@ static double separation(const struct axis_side *a, const struct axis_side *b, s
     double least = box_separation(a, b, axis, enough);
     if (least > enough)
         return least;
-    int ends = a->still && b->still ? 1 : 2;
-    least = INFINITY;
-    for (int end = 0; end < ends && least > enough; end++)
-        least = maths_min(least, between(a, b, end, axis) - hull_reach(a, end, axis) -
-                                     hull_reach(b, end, back));
-    return least;
+    double apart = between(a, b, 0, axis) - hull_reach(a, 0, axis) - hull_reach(b, 0, back);
+    if (apart <= enough || (a->still && b->still))
+        return apart;
+    least = maths_min(apart, later(a, b, axis, apart));
+    if (least > enough)
+        return least;
+    return maths_min(apart,
+                     between(a, b, 1, axis) - hull_reach(a, 1, axis) - hull_reach(b, 1, back));
 }
 
 bool separating_axis_holds(const struct axis_side *a, const struct axis_side *b, struct vec3 axis,

@@ -21,7 +21,8 @@ struct axis_side {
     /* [m] at most: by how much a point is off the straight line between its two places, because it
      * moves on an arc. */
     double bend_m;
-    bool still; /* both ends are the same */
+    double turned_m; /* at most: by how much a point of the box is moved by rotation alone */
+    bool still;      /* both ends are the same */
 };
 
 /* Sets a side to a body from `time` in [path.since, 1] to 1. rate: rotation_rate() from body->from
