@@ -190,7 +190,8 @@ struct swept_body body_motion_body(const struct body_motion *motion, uint32_t ro
 struct swept_body body_motion_fixed(const struct world *world, uint32_t object);
 
 /* Puts the row into *body, which lasts: what is not read of a body whose turret and gun are at rest
- * (where these parts begin) stays as it was. A body is large, and such a row is put in each frame. */
+ * (where these parts begin) stays as it was. A body is large, and such a row is put in each frame.
+ */
 void body_motion_put(const struct body_motion *motion, uint32_t row, struct free_turn *turn,
                      struct swept_body *body);
 
