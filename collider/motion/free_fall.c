@@ -3,6 +3,7 @@
 
 #include "world/entity/kind.h"
 #include "world/entity/mass_properties.h"
+#include "world/entity/wreck_drag.h"
 #include "world/state.h"
 #include "world/world.h"
 
@@ -11,12 +12,17 @@
 /* What is known of a row in a frame. */
 enum fall { FALL_UNKNOWN, FALL_FREE, FALL_NONE };
 
-static struct vec3 centre_velocity(const struct entities *e, const struct kind *kind, uint32_t row)
+static struct mat3 axes_of(const struct entities *e, uint32_t row)
 {
-    struct mat3 axes = rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+    return rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+}
+
+static struct vec3 centre_velocity(const struct entities *e, const struct kind *kind,
+                                   const struct mat3 *axes, uint32_t row)
+{
     struct vec3 up = {0.0, mass_properties_of(kind).centre_m, 0.0};
     struct vec3 spin = {e->spin_x[row], e->spin_y[row], e->spin_z[row]};
-    return vec3_add(entities_velocity(e, row), vec3_cross(spin, rotation_apply(&axes, up)));
+    return vec3_add(entities_velocity(e, row), vec3_cross(spin, rotation_apply(axes, up)));
 }
 
 bool free_fall_only(const struct body_motion *motion, uint32_t row)
@@ -25,7 +31,11 @@ bool free_fall_only(const struct body_motion *motion, uint32_t row)
     const struct kind *kind = &motion->world->kinds[n->kind[row]];
     if (!body_motion_old(motion, row) || w->state[row] != n->state[row])
         return false;
-    struct vec3 change = vec3_sub(centre_velocity(n, kind, row), centre_velocity(w, kind, row));
+    const struct mat3 from = axes_of(w, row), to = axes_of(n, row);
+    struct vec3 before = centre_velocity(w, kind, &from, row);
+    if (w->state[row] == ENTITY_WRECK)
+        before = wreck_drag_slow(kind, &from, before, world_dt_s(motion->world));
+    struct vec3 change = vec3_sub(centre_velocity(n, kind, &to, row), before);
     change.y += GRAVITY_MPS2 * world_dt_s(motion->world);
     return vec3_length(change) < ROUNDING_MPS;
 }

@@ -10,6 +10,7 @@
 #include "world/entity/free_rotation.h"
 #include "world/entity/mass_properties.h"
 #include "world/entity/persistent_contact.h"
+#include "world/entity/wreck_drag.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
 #include "world/runtime/work_done.h"
@@ -81,7 +82,7 @@ void free_bodies_free(struct free_bodies *bodies)
 
 /* --- bodies ------------------------------------------------------------------------------------*/
 
-/* A wreck begins as it was committed, with the fall of this frame. */
+/* A wreck begins as it was committed, with the drag and the fall of this frame. */
 static void begin_wreck(const struct response_context *context, struct free_side *side,
                         struct free_body *body)
 {
@@ -89,8 +90,12 @@ static void begin_wreck(const struct response_context *context, struct free_side
     uint32_t row = side->row;
     body->moved.spin = (struct vec3){w->spin_x[row], w->spin_y[row], w->spin_z[row]};
     side->fall = (struct vec3){0.0, -GRAVITY_MPS2 * world_dt_s(context->world), 0.0};
-    body->moved.velocity = vec3_add(
-        vec3_add(entities_velocity(w, row), vec3_cross(body->moved.spin, side->arm)), side->fall);
+    struct vec3 centre =
+        vec3_add(entities_velocity(w, row), vec3_cross(body->moved.spin, side->arm));
+    const struct mat3 turn = rotation_matrix(side->turn);
+    centre = wreck_drag_slow(&context->world->kinds[w->kind[row]], &turn, centre,
+                             world_dt_s(context->world));
+    body->moved.velocity = vec3_add(centre, side->fall);
 }
 
 /* Any other body begins with the motion that it has had so far in this frame. The path of a vehicle

@@ -277,11 +277,23 @@ static struct vec3 measured_velocity(const struct body_look *body, const struct 
     return level(look->velocity, body_measures_held(body));
 }
 
+/* Returns the change of velocity without what the air may have taken: of a wreck, any loss of its
+ * speed against the way that it goes. */
+static struct vec3 without_drag(const struct body_look *body, struct vec3 before,
+                                struct vec3 change)
+{
+    double square = vec3_dot(before, before), loss = -vec3_dot(change, before);
+    if (!body->was->wreck || square == 0.0 || loss <= 0.0)
+        return change;
+    return vec3_add(change, vec3_scale(before, maths_min(1.0, loss / square)));
+}
+
 static void measure_acceleration(struct measures *measures, double dt_s,
                                  const struct body_look *body)
 {
     struct vec3 before = measured_velocity(body, body->was);
     struct vec3 change = vec3_sub(measured_velocity(body, &body->now), before);
+    change = without_drag(body, before, change);
     double steered = body->now.wreck ? 0.0 : vec3_length(before) * body->kind->turn_rate_rps;
     measure_take(measures, MEASURE_OF_ACCELERATION,
                  maths_max(0.0, vec3_length(change) / dt_s - steered), &body->named, NULL);

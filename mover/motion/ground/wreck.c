@@ -6,6 +6,7 @@
 #include "mover/motion/kinematics.h"
 #include "mover/motion/sinking.h"
 #include "mover/motion/spin.h"
+#include "world/entity/wreck_drag.h"
 #include "world/state.h"
 #include "world/world.h"
 
@@ -110,11 +111,19 @@ static void tumble(const struct step_context *context, uint32_t i)
     if (context->m->flags[i] & ENTITY_FLAG_BROKEN)
         ground_contacts_break(&contacts);
     struct rigid_body body = rigid_body_take(context, i);
+    const struct mat3 turn = rotation_matrix(body.turn);
+    body.velocity = wreck_drag_slow(kind, &turn, body.velocity, context->dt_s);
     double steps = ground_body_steps(&body, &points, context->dt_s), dt_s = context->dt_s / steps;
+    double energy_j = rigid_body_energy(&body);
+    bool met = false;
     for (int n = 0; n < (int)steps; n++) {
         ground_contacts_find(&contacts, context, &points, &body, dt_s);
-        break_up(context, i, ground_body_step(&contacts, &body, 0.0, dt_s), &contacts);
+        double taken_j = ground_body_step(&contacts, &body, 0.0, dt_s);
+        break_up(context, i, taken_j, &contacts);
+        met |= taken_j > 0.0;
     }
+    if (met) /* a body that was lifted out of the ground falls again before the frame ends */
+        (void)rigid_body_limit_energy(&body, energy_j);
     rigid_body_put(context, i, &body);
     settle(context, i, ground_contacts_depth(&contacts));
 }

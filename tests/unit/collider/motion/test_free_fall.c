@@ -1,6 +1,7 @@
 /* Who falls freely in a frame, and what is left of the fall at a time. */
 #include "collider/motion/free_fall.h"
 #include "tests/support/steps.h"
+#include "world/entity/wreck_drag.h"
 #include "world/entity/mass_properties.h"
 
 #include <stdarg.h>
@@ -31,7 +32,8 @@ static int close_world(void **state)
     return 0;
 }
 
-/* A body in the air to which the frame has given this much speed downwards. */
+/* A body in the air to which the frame has given this much speed downwards, after the air has
+ * slowed it if it is a wreck. */
 static uint32_t put(const char *kind, enum entity_state state, double faster_mps)
 {
     uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kind,
@@ -39,7 +41,14 @@ static uint32_t put(const char *kind, enum entity_state state, double faster_mps
                                                            .velocity = {40.0, 3.0, 0.0}});
     steps_rows(&f).state[row] = (uint8_t)state;
     steps_respond(&f, &context);
-    context.next->entities.vy[row] -= faster_mps;
+    struct entities n = context.next->entities;
+    const struct mat3 axes = rotation_matrix(rotation_of(n.heading[row], 0.0, 0.0));
+    if (state == ENTITY_WRECK)
+        entities_set_velocity(&n, row,
+                              wreck_drag_slow(steps_kind(&f, kind), &axes,
+                                              entities_velocity(&n, row),
+                                              world_dt_s(&f.view.world)));
+    n.vy[row] -= faster_mps;
     return row;
 }
 

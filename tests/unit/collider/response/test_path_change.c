@@ -3,6 +3,7 @@
 #include "tests/support/steps.h"
 #include "world/entity/free_rotation.h"
 #include "world/entity/mass_properties.h"
+#include "world/entity/wreck_drag.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -91,6 +92,10 @@ static void test_a_falling_wreck_gains_no_energy(void **state)
     struct entities *e = &context.next->entities;
     double fall = GRAVITY_MPS2 * DT_S;
     steps_rows(&f).state[row] = e->state[row] = ENTITY_WRECK;
+    const struct mat3 axes = rotation_matrix(rotation_of(e->heading[row], 0.0, 0.0));
+    entities_set_velocity(
+        e, row,
+        wreck_drag_slow(steps_kind(&f, "helicopter"), &axes, entities_velocity(e, row), DT_S));
     e->vy[row] -= fall;
     struct vec3 at = {25001.5, 900.0, 25000.0},
                 velocity = path_change_velocity(&context, row, 0.25);
