@@ -132,6 +132,7 @@ static void go_together(struct parting *parting, const struct parting_input *inp
 {
     bool any = true;
     for (uint32_t i = 0; i < input->bodies; i++) {
+        parting->body[i].backs = 0;
         if (parting->body[i].goes)
             input->body[i].pushed =
                 (struct level_motion){parting->body[i].wish_x, parting->body[i].wish_z, 0.0};
@@ -208,7 +209,7 @@ static void part_others(struct parting *parting, const struct parting_input *inp
 static void mark_those_that_make_way(struct parting *parting, const struct parting_input *input)
 {
     for (uint32_t i = 0; i < input->bodies; i++)
-        parting->body[i].makes_way = parting->body[i].goes;
+        parting->body[i].makes_way = parting->body[i].goes && !parting->body[i].opens;
     for (uint32_t i = 0; i < input->pairs; i++) {
         const struct level_contact *point = &input->point[input->pair[i].first];
         if (input->pair[i].gap_m <= -RESTING_PARTS_M)
@@ -231,6 +232,20 @@ static void draw_back(struct parting *parting, const struct parting_input *input
     }
 }
 
+/* Lets all bodies go by their wishes. */
+static void go(struct parting *parting, const struct parting_input *input)
+{
+    go_together(parting, input);
+    for (uint32_t sweep = 0; sweep < SWEEPS; sweep++) {
+        for (uint32_t n = 0; n < input->bodies; n++) {
+            uint32_t i = in_turn(input, sweep, n);
+            if (parting->body[i].goes)
+                step(parting, input, i, parting->body[i].wish_x, parting->body[i].wish_z);
+        }
+        work_done();
+    }
+}
+
 void parting_run(struct parting *parting, const struct parting_input *input)
 {
     make_room(parting, input);
@@ -241,17 +256,14 @@ void parting_run(struct parting *parting, const struct parting_input *input)
             parting_wishes_limit(input, &input->body[i].pushed);
         return;
     }
+    parting_wishes_find_locked(parting, input);
     parting_wishes_make(parting, input);
     count_bounds(parting, input);
     add_bounds(parting, input);
-    go_together(parting, input);
-    for (uint32_t sweep = 0; sweep < SWEEPS; sweep++) {
-        for (uint32_t n = 0; n < input->bodies; n++) {
-            uint32_t i = in_turn(input, sweep, n);
-            if (parting->body[i].goes)
-                step(parting, input, i, parting->body[i].wish_x, parting->body[i].wish_z);
-        }
-        work_done();
+    go(parting, input);
+    if (parting_wishes_hindered(parting, input)) {
+        parting_wishes_make(parting, input);
+        go(parting, input);
     }
     draw_back(parting, input);
 }

@@ -2,7 +2,8 @@
  * displaced without a velocity, and no displacement brings two bodies deeper into each other.
  *
  * Sweeps over the points find how far each body would go. A crowd that has less room than
- * its bodies need spreads about its centre of mass instead: that parts every pair at once. Then
+ * its bodies need spreads about its centre of mass instead: that parts every pair at once. So does
+ * one that is locked: two of its bodies are deep in each other and did not move a frame ago. Then
  * each body in turn goes as far as its points allow, where all others are by then, several times.
  * So those at the edge go first, and those behind follow. At last those that only make way go back
  * as far as nobody needs it. Each intermediate state keeps the bounds of all points: the result
@@ -30,11 +31,16 @@ struct parting_body {
     bool parts;            /* of a root: two of its bodies are deep in each other */
     bool goes;             /* it belongs to such a group */
     bool spreads;          /* its crowd is dense */
+    bool opens;            /* it belongs to a crowd that is locked */
     bool back;             /* it passes a bound */
     bool makes_way;        /* it goes, and is deep in nothing */
     uint32_t backs;        /* how often it went back */
     double wish_x, wish_z; /* [m/s] how it would go */
     double light;          /* [kg^-0.5] root of its inverse mass */
+    /* Bodies in each other's way; the rest is of a root. */
+    uint32_t crowd;
+    bool locked;
+    double mass_kg, centre_x, centre_z, reach_m;
 };
 
 /* The body's speed along a direction is at least that of the other body along it, less the slack.

@@ -14,6 +14,15 @@
 /* Bodies that a contact kept from moving a frame ago go so much farther apart [m]. */
 #define LEANS_M 0.01
 
+/* Bodies of a crowd that are nearer hold each other up [m]. One that is locked becomes wider by so
+ * much of its width in a frame. */
+#define IN_THE_WAY_M 0.02
+#define OPENED       0.02
+#define OPENS_MPS    20.0
+
+/* Two bodies that part by less than this share of what they wish are locked. */
+#define HINDERED 0.25
+
 /* In masses that part light bodies would hold up heavy ones, as sweeps converge slowly between
  * them: displacements are shared by the roots of the masses, in so many sweeps over the points at
  * most. */
@@ -70,6 +79,107 @@ bool parting_wishes_group(struct parting *parting, const struct parting_input *i
 bool parting_wishes_parts(struct parting *parting, uint32_t body)
 {
     return parting->body[root_of(parting->body, body)].parts;
+}
+
+/* --- crowds that are locked --------------------------------------------------------------------*/
+
+static uint32_t crowd_of(struct parting_body *body, uint32_t i)
+{
+    while (body[i].crowd != i)
+        i = body[i].crowd = body[body[i].crowd].crowd;
+    return i;
+}
+
+/* Joins the bodies that are in each other's way. The lower root becomes that of both. */
+static void find_crowds(struct parting *parting, const struct parting_input *input)
+{
+    for (uint32_t i = 0; i < input->bodies; i++)
+        parting->body[i].crowd = i;
+    for (uint32_t i = 0; i < input->pairs; i++) {
+        const struct level_contact *point = &input->point[input->pair[i].first];
+        if (is_fixed(input, point->b) || input->pair[i].gap_m > IN_THE_WAY_M)
+            continue;
+        uint32_t a = crowd_of(parting->body, point->a), b = crowd_of(parting->body, point->b);
+        parting->body[a > b ? a : b].crowd = a > b ? b : a;
+    }
+}
+
+/* Marks the crowds with two bodies that are deep in each other and did not move a frame ago. */
+void parting_wishes_find_locked(struct parting *parting, const struct parting_input *input)
+{
+    find_crowds(parting, input);
+    for (uint32_t i = 0; i < input->pairs; i++) {
+        const struct resting_pair *pair = &input->pair[i];
+        const struct level_contact *point = &input->point[pair->first];
+        if (pair->holds && pair->gap_m <= -RESTING_PARTS_M && !is_fixed(input, point->b))
+            parting->body[crowd_of(parting->body, point->a)].locked = true;
+    }
+}
+
+bool parting_wishes_hindered(struct parting *parting, const struct parting_input *input)
+{
+    bool any = false;
+    for (uint32_t i = 0; i < input->pairs; i++) {
+        const struct resting_pair *pair = &input->pair[i];
+        const struct level_contact *point = &input->point[pair->first];
+        if (pair->gap_m > -RESTING_PARTS_M || is_fixed(input, point->b) ||
+            parting->body[point->a].spreads || parting->body[point->a].opens)
+            continue;
+        const struct level_motion *a = &input->body[point->a].pushed;
+        const struct level_motion *b = &input->body[point->b].pushed;
+        double along = (b->x - a->x) * point->normal_x + (b->z - a->z) * point->normal_z;
+        if (along >= HINDERED * point->part_mps)
+            continue;
+        parting->body[crowd_of(parting->body, point->a)].locked = true;
+        any = true;
+    }
+    return any;
+}
+
+/* Sets where a body of a crowd is from the crowd's centre of mass [m]. */
+static void from_centre(const struct parting_body *root, const struct parting_input *input,
+                        uint32_t i, double *x, double *z)
+{
+    const struct vec3 at = input->context->path[input->row[i]].at;
+    *x = at.x - root->centre_x / root->mass_kg;
+    *z = at.z - root->centre_z / root->mass_kg;
+}
+
+/* Finds the bodies, the centre and the reach of crowds that are locked. */
+static void measure_locked(struct parting *parting, const struct parting_input *input)
+{
+    double x, z;
+    for (uint32_t i = 0; i < input->bodies; i++) {
+        struct parting_body *root = &parting->body[crowd_of(parting->body, i)];
+        if (!root->locked || is_fixed(input, i) || parting->body[i].opens)
+            continue;
+        const struct vec3 at = input->context->path[input->row[i]].at;
+        double kg = 1.0 / input->body[i].inverse_mass;
+        parting->body[i].opens = true;
+        root->mass_kg += kg;
+        root->centre_x += kg * at.x;
+        root->centre_z += kg * at.z;
+    }
+    for (uint32_t i = 0; i < input->bodies; i++) {
+        struct parting_body *root = &parting->body[crowd_of(parting->body, i)];
+        if (!parting->body[i].opens)
+            continue;
+        from_centre(root, input, i, &x, &z);
+        root->reach_m = maths_max(root->reach_m, sqrt(x * x + z * z));
+    }
+}
+
+/* Sets the wish of a body whose crowd is locked: to go away from the crowd's centre of mass, the
+ * farther from it the faster. Bodies that a plane separates have their middles on both sides of it:
+ * so all gaps of the crowd widen at once, and by more than bodies lean otherwise where they go. */
+static void open_crowd(struct parting *parting, const struct parting_input *input, uint32_t i)
+{
+    const struct parting_body *root = &parting->body[crowd_of(parting->body, i)];
+    double rate = maths_min(OPENED / world_dt_s(input->context->world), OPENS_MPS / root->reach_m);
+    double x, z;
+    from_centre(root, input, i, &x, &z);
+    parting->body[i].wish_x = rate * x;
+    parting->body[i].wish_z = rate * z;
 }
 
 /* --- wishes ------------------------------------------------------------------------------------*/
@@ -153,15 +263,19 @@ static uint32_t list_points(struct parting *parting, const struct parting_input 
  * of all their points. */
 static void part_points(struct parting *parting, const struct parting_input *input)
 {
+    measure_locked(parting, input);
     for (uint32_t i = 0; i < input->bodies; i++) {
         struct parting_body *body = &parting->body[i];
         body->light = sqrt(input->body[i].inverse_mass);
         if (is_fixed(input, i) || !parting_wishes_parts(parting, i))
             continue;
         body->spreads = crowds_spreads(input->crowds, input->row[i]);
+        body->wish_x = body->wish_z = 0.0;
         if (body->spreads)
             crowds_spread(input->crowds, input->context, input->row[i], &body->wish_x,
                           &body->wish_z);
+        else if (body->opens)
+            open_crowd(parting, input, i);
         input->body[i].pushed = (struct level_motion){body->wish_x, body->wish_z, 0.0};
     }
     uint32_t count = list_points(parting, input);
@@ -182,7 +296,7 @@ static void make_wishes(struct parting *parting, const struct parting_input *inp
         struct parting_body *body = &parting->body[i];
         body->goes = !is_fixed(input, i) && parting_wishes_parts(parting, i);
         if (body->goes)
-            limit(&input->body[i].pushed, PUSHED_MOST_MPS);
+            limit(&input->body[i].pushed, body->opens ? OPENS_MPS : PUSHED_MOST_MPS);
         else
             parting_wishes_limit(input, &input->body[i].pushed);
         if (!body->goes || parting->body[i].spreads)

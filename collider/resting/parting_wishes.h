@@ -21,7 +21,14 @@ double parting_wishes_speed(const struct parting_input *input, const struct rest
  * its spin. */
 void parting_wishes_limit(const struct parting_input *input, struct level_motion *pushed);
 
-/* Sets goes, spreads and the wishes of all bodies that have been grouped. */
+/* Marks the crowds that are locked by what a frame ago stood still. Bodies must be grouped. */
+void parting_wishes_find_locked(struct parting *parting, const struct parting_input *input);
+
+/* Marks the crowds in which two bodies go apart by little of what they wish. Returns true if there
+ * are any that were not marked before: then all have other wishes. */
+bool parting_wishes_hindered(struct parting *parting, const struct parting_input *input);
+
+/* Sets goes, spreads, opens and the wishes of all bodies that have been grouped. */
 void parting_wishes_make(struct parting *parting, const struct parting_input *input);
 
 #endif
