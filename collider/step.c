@@ -247,10 +247,10 @@ static void collide_all(struct step *step, struct response_context *context)
         work_done();
     }
 
-    if (rest) {
+    if (context->functions->joint)
         end_guard_run(&collider->guard, &collider->resting, &collider->free, context);
+    if (rest)
         turret_guard_run(context);
-    }
     if (context->functions->joint)
         debris_push_step(context);
     remote_rows_settle(context, step->moved.entities);

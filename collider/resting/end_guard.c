@@ -2,6 +2,7 @@
 #include "collider/resting/end_guard.h"
 
 #include "collider/geometry/level_gap.h"
+#include "collider/motion/pair_filter.h"
 #include "collider/resting/ground_placement.h"
 #include "collider/resting/held_rest.h"
 #include "collider/response/path_change.h"
@@ -11,6 +12,7 @@
 #include "world/runtime/reserve.h"
 #include "world/runtime/thread_pool.h"
 #include "world/runtime/work_done.h"
+#include "world/terrain/fixed.h"
 #include "world/world.h"
 
 #include <errno.h>
@@ -33,6 +35,7 @@ struct placed_body {
     struct vec3 moved;     /* [m] from where it stood when the frame began */
     double turned_m;       /* by rotation none of its points has moved farther since then */
     double way_m;          /* none of its points is farther than this from where its path ended */
+    double sphere_m;       /* the radius of a body that collides as a sphere, else 0 */
 };
 
 int end_guard_init(struct end_guard *guard, const struct world *world, struct thread_pool *workers)
@@ -81,6 +84,16 @@ void end_guard_free(struct end_guard *guard)
 
 /* --- poses -------------------------------------------------------------------------------------*/
 
+/* Returns the radius of a body that collides as a sphere, else 0 [m]. */
+static double sphere_of(const struct body_motion *motion, const struct entities *e, uint32_t side)
+{
+    const struct world *world = motion->world;
+    if (motion->models)
+        return 0.0;
+    return side & PAIR_FIXED ? pair_filter_fixed_reach(world, &world->fixed[side & ~PAIR_FIXED])
+                             : world->kinds[e->kind[side]].radius_m;
+}
+
 static void stand(const struct body_motion *motion, const struct entities *e, uint32_t side,
                   struct placed_body *stands)
 {
@@ -89,6 +102,7 @@ static void stand(const struct body_motion *motion, const struct entities *e, ui
     else
         body_motion_put_standing(motion, e, side, &stands->body);
     axis_side_set(&stands->side, &stands->body, 0.0, 0.0);
+    stands->sphere_m = sphere_of(motion, e, side);
     stands->moved = (struct vec3){0.0, 0.0, 0.0};
     stands->turned_m = 0.0;
 }
@@ -150,6 +164,8 @@ static double gap_of(const struct contact_queue *contacts, uint32_t index,
     struct pair_known *known = &contacts->known[index];
     struct vec3 between = vec3_sub(b->body.path.at, a->body.path.at);
     double reach = a->body.bound_m + b->body.bound_m;
+    if (a->sphere_m > 0.0)
+        return maths_min(0.0, vec3_length(between) - a->sphere_m - b->sphere_m);
     if (vec3_dot(between, between) > reach * reach)
         return 0.0;
     if (vec3_dot(known->plane[0], known->plane[0]) > 0.0 &&
@@ -197,12 +213,12 @@ static bool on_path(const struct end_guard *guard, const struct response_context
 }
 
 /* Returns true if the sweep has shown that the bodies stay apart at the ends of their paths, and
- * none has gone so far back that they may not. */
+ * none has gone so far back that they may not. Of spheres it shows nothing. */
 static bool proved_apart(const struct end_guard *guard, const struct response_context *context,
                          uint32_t index)
 {
     const struct pair *pair = &context->contacts->pair[index];
-    if (!contact_queue_stays_apart(context->contacts, index))
+    if (!context->motion->models || !contact_queue_stays_apart(context->contacts, index))
         return false;
     if (on_path(guard, context, pair->a) && on_path(guard, context, pair->b))
         return true;
