@@ -429,19 +429,23 @@ double level_gap_least(const struct swept_body *a, const struct swept_body *b, d
     return margin_m;
 }
 
-bool level_gap_is_deeper(const struct swept_body *a, const struct swept_body *b, double time,
-                         double depth_m)
+bool level_gap_deepest(const struct turned_body *a, const struct turned_body *b, double least_m,
+                       double enough_m, struct level_gap *deepest)
 {
-    struct body_pose pose_a = pose_at(a, time), pose_b = pose_at(b, time);
-    struct body_pair bodies = body_pair_of(&pose_a, &pose_b, time);
+    const struct body_pose pose_a = {.body = a->body, .turn = a->turn};
+    const struct body_pose pose_b = {.body = b->body, .turn = b->turn};
+    struct body_pair bodies = body_pair_of(&pose_a, &pose_b, 0.0);
     struct box_view view = box_view_of(&pose_a.turn, &pose_b.turn, bodies.between, 0.0);
-    for (uint64_t near = box_view_near(&view, a, b); near != 0; near &= near - 1) {
+    uint64_t near = box_view_near(&view, a->body, b->body);
+    deepest->gap_m = -least_m;
+    for (; near != 0 && deepest->gap_m >= -enough_m; near &= near - 1) {
         struct level_gap one;
-        uint32_t bit = (uint32_t)__builtin_ctzll(near);
-        if (measure(&bodies, bit, -depth_m, false, &one) && one.gap_m < -depth_m)
-            return true;
+        bodies.last = bodies.line; /* the normals of other hulls are none of these */
+        if (measure(&bodies, (uint32_t)__builtin_ctzll(near), -least_m, false, &one) &&
+            one.gap_m < deepest->gap_m)
+            *deepest = one;
     }
-    return false;
+    return deepest->gap_m < -least_m;
 }
 
 double level_gap_depth(const struct turned_body *a, const struct turned_body *b,

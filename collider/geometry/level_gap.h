@@ -76,9 +76,11 @@ uint32_t level_gap_find_wider(const struct turned_body *a, const struct turned_b
 double level_gap_least(const struct swept_body *a, const struct swept_body *b, double time,
                        double margin_m);
 
-/* Returns true if one of those gaps is below -depth_m [m, > 0]. It ends at the first. */
-bool level_gap_is_deeper(const struct swept_body *a, const struct swept_body *b, double time,
-                         double depth_m);
+/* Finds the smallest of those gaps at the time 0 if it is below -least_m [m, > 0], or one that is
+ * below -enough_m [m, >= least_m], with which it ends. Returns false if none is. The gap has no
+ * points. Costs less than level_gap_find_more(). */
+bool level_gap_deepest(const struct turned_body *a, const struct turned_body *b, double least_m,
+                       double enough_m, struct level_gap *deepest);
 
 /* Returns the smallest of the gaps between bodies that stand still, if that is below 0, else 0: the
  * same to the bit as level_gap_least() with a margin of 0. plane: unit normals from a to b, or 0,

@@ -145,7 +145,9 @@ static bool are_deep(const struct begun_body *a, const struct begun_body *b, str
         if (in_a > 0.0 && in_b > 0.0 && in_a + in_b > depth_m)
             return true;
     }
-    return level_gap_is_deeper(&a->body, &b->body, 0.0, depth_m);
+    const struct turned_body turned_a = {&a->body, a->began}, turned_b = {&b->body, b->began};
+    struct level_gap deepest;
+    return level_gap_deepest(&turned_a, &turned_b, depth_m, depth_m, &deepest);
 }
 
 bool deep_pair_measure(const struct response_context *context, const struct pair *pair,

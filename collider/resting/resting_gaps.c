@@ -128,10 +128,6 @@ static void part_whole(const struct turned_body *a, const struct turned_body *b,
                        double margin_m, struct resting_gap *gap)
 {
     gap->pieces_m = gap->gap[0].gap_m;
-    if (gap->spreads) {
-        gap->count = 1; /* it is not bounded */
-        return;
-    }
     if (searched_m < margin_m)
         gap->count = level_gap_find_wider(a, b, margin_m, gap->gap, gap->count, RESTING_GAPS_MAX,
                                           &gap->memory);
@@ -167,7 +163,7 @@ static void measure_exactly(const struct gap_job *job, uint32_t index, const str
                                      &gap->apart_m, &gap->memory);
     gap->margin_m = gap->count < RESTING_GAPS_MAX ? margin_m : 0.0;
     gap->repeats = !job->parts && !is_deep(gap); /* parting changes gaps */
-    gap->spreads &= is_deep(gap);
+    gap->spreads = false;                        /* see is_deep_in_crowd() */
     if (is_deep(gap)) {
         gap->margin_m = 0.0;
         part_whole(&turned_a, &turned_b, margin_m, parting_margin(job, a, b), gap);
@@ -210,20 +206,27 @@ static void measure_pair(const struct gap_job *job, uint32_t index)
         measure_exactly(job, index, a, b);
 }
 
-/* Bodies of a crowd that spreads do not bound each other: of a pair that is as deep no more has to
- * be known. */
+/* Bodies of a crowd that spreads do not bound each other: of a pair that is deep only its depth has
+ * to be known, and only up to DEEP_PAIR_M. Returns false for any other pair. */
 static bool is_deep_in_crowd(const struct begun_body *a, const struct begun_body *b,
                              struct resting_gap *gap)
 {
-    gap->capsules = gap->spreads && level_gap_is_deeper(&a->body, &b->body, 0.0, DEEP_PAIR_M);
-    if (!gap->capsules)
+    const struct turned_body turned_a = {&a->body, a->began}, turned_b = {&b->body, b->began};
+    struct level_gap deepest;
+    if (!gap->spreads ||
+        !level_gap_deepest(&turned_a, &turned_b, RESTING_PARTS_M, DEEP_PAIR_M, &deepest))
         return false;
+    gap->capsules = deepest.gap_m < -DEEP_PAIR_M;
+    gap->put_off = false;
     gap->count = 1;
     gap->gap = gap->few;
-    gap->gap[0] = (struct level_gap){.normal = {1.0, 0.0, 0.0},
-                                     .gap_m = -DEEP_PAIR_M,
+    gap->gap[0] = (struct level_gap){.normal = deepest.normal,
+                                     .gap_m = maths_max(deepest.gap_m, -DEEP_PAIR_M),
                                      .point = {vec3_lerp(a->body.path.at, b->body.path.at, 0.5)},
-                                     .points = 1};
+                                     .points = 1,
+                                     .hulls = deepest.hulls};
+    if (!gap->capsules)
+        gap->pieces_m = deepest.gap_m;
     return true;
 }
 

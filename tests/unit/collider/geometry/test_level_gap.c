@@ -142,6 +142,22 @@ static double expected(const struct swept_body *a, const struct swept_body *b)
 
 /* --- boxes -------------------------------------------------------------------------------------*/
 
+/* The deepest of overlaps is told if it is deep enough, and exactly if it is not deeper than asked
+ * for. */
+static void check_deepest(const struct swept_body *a, const struct swept_body *b, double right)
+{
+    static const double least_m[] = {0.02, 0.3}, enough_m[] = {0.3, 0.3};
+    const struct turned_body turned_a = {a, level_gap_turn(a, 0.0)};
+    const struct turned_body turned_b = {b, level_gap_turn(b, 0.0)};
+    for (int i = 0; i < 2; i++) {
+        struct level_gap deepest;
+        assert_int_equal(level_gap_deepest(&turned_a, &turned_b, least_m[i], enough_m[i], &deepest),
+                         right < -least_m[i]);
+        if (right < -least_m[i] && right >= -enough_m[i])
+            assert_true(fabs(deepest.gap_m - right) < 1e-9);
+    }
+}
+
 static void check(const struct swept_body *a, const struct swept_body *b)
 {
     struct level_gap gap[LEVEL_GAPS_MAX], back[LEVEL_GAPS_MAX];
@@ -150,6 +166,7 @@ static void check(const struct swept_body *a, const struct swept_body *b)
     assert_int_equal(count, right <= MARGIN_M);
     assert_int_equal(level_gap_find(b, a, 0.0, MARGIN_M, NULL, back), count);
     assert_true(fabs(level_gap_least(a, b, 0.0, MARGIN_M) - maths_min(right, MARGIN_M)) < 1e-9);
+    check_deepest(a, b, right);
     if (count == 0)
         return;
     assert_true(fabs(gap[0].gap_m - right) < 1e-9 && fabs(back[0].gap_m - right) < 1e-9);
