@@ -10,7 +10,7 @@
 #define ROUNDING_MPS 1e-6
 
 /* What is known of a row in a frame. */
-enum fall { FALL_UNKNOWN, FALL_FREE, FALL_NONE };
+enum fall { FALL_UNKNOWN, FALL_FREE, FALL_NONE, FALL_AHEAD };
 
 static struct mat3 axes_of(const struct entities *e, uint32_t row)
 {
@@ -53,7 +53,13 @@ double free_fall_left_mps(const struct body_motion *motion, uint32_t row, double
     return *fall == FALL_FREE ? GRAVITY_MPS2 * world_dt_s(motion->world) * (1.0 - time) : 0.0;
 }
 
-void free_fall_end(const struct body_motion *motion, uint32_t row)
+void free_fall_ahead(const struct body_motion *motion, uint32_t row)
 {
-    motion->fall[row] = FALL_NONE;
+    motion->fall[row] = FALL_AHEAD;
+}
+
+double free_fall_unearned_mps(const struct body_motion *motion, uint32_t row, double time)
+{
+    return motion->fall[row] == FALL_AHEAD ? GRAVITY_MPS2 * world_dt_s(motion->world) * (1.0 - time)
+                                           : 0.0;
 }

@@ -13,7 +13,12 @@ bool free_fall_only(const struct body_motion *motion, uint32_t row);
  * row changes. */
 double free_fall_left_mps(const struct body_motion *motion, uint32_t row, double time);
 
-/* From now on the row does not fall freely in this frame. */
-void free_fall_end(const struct body_motion *motion, uint32_t row);
+/* Tells that from now on the row moves at the speed that its fall gives it until the frame's end.
+ */
+void free_fall_ahead(const struct body_motion *motion, uint32_t row);
+
+/* Returns how much of that speed a row has that it gets only after this time [m/s, >= 0]: if it
+ * stays where it is from then on, its weight has not done that work. */
+double free_fall_unearned_mps(const struct body_motion *motion, uint32_t row, double time);
 
 #endif

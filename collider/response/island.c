@@ -181,7 +181,7 @@ static bool drop_steering(const struct response_context *context, struct island_
         return false;
     if (fall > 0.0 && !body->stays) {
         body->fallen_mps = fall;
-        free_fall_end(context->motion, body->row);
+        free_fall_ahead(context->motion, body->row);
     }
     body->follows_spin = true;
     return true;

@@ -290,6 +290,9 @@ void path_change_leave(struct response_context *context, uint32_t row, double ti
         spin_on(context, row, grounded, (1.0 - time) * dt_s, &rotation, &spin_rps);
     spin_rps.y -= rotation.driven_rps;
     velocity.y -= fall;
+    if (stays && velocity.y < 0.0)
+        velocity.y =
+            maths_min(0.0, velocity.y + free_fall_unearned_mps(context->motion, row, time));
     table_set_spin(&context->writer, row, spin_rps);
     take_path(context, row, &path, &rotation, velocity);
     disturb(context, row);

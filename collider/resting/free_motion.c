@@ -257,7 +257,7 @@ static bool move(struct free_bodies *bodies, struct response_context *context, u
     if (side->piloted)
         return move_piloted(context, side, &bodies->body[index]);
     const struct free_side *root = &bodies->side[free_bodies_root(bodies, index)];
-    free_fall_end(context->motion, row);
+    free_fall_ahead(context->motion, row);
     bodies->owned[row] = 1;
     if (side->wreck)
         table_set_until_tick(&context->writer, row, until_tick(bodies, context, index));

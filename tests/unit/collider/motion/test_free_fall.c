@@ -65,8 +65,10 @@ static void test_the_rest_of_the_fall_is_left(void **state)
     context.next->entities.vx[row] = -7.0; /* by an impact: it falls on */
     assert_true(fabs(left(row, 0.25) - 0.75 * FALL) < 1e-12);
     assert_true(left(row, 1.0) == 0.0);
-    free_fall_end(context.motion, row);
+    assert_true(free_fall_unearned_mps(context.motion, row, 0.25) == 0.0);
+    free_fall_ahead(context.motion, row);
     assert_true(left(row, 0.25) == 0.0);
+    assert_true(fabs(free_fall_unearned_mps(context.motion, row, 0.25) - 0.75 * FALL) < 1e-12);
 }
 
 static void test_who_is_held_does_not_fall(void **state)
