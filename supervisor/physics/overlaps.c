@@ -299,8 +299,9 @@ static int look_at_pair(struct look *look, struct body_look *a, struct body_look
         a->parts += pair.since_start;
         b->parts += pair.since_start;
     }
-    if (pair.touch) {
+    if (pair.touch)
         a->touches = b->touches = true;
+    if (pair.touch || (last && last->touch)) { /* or did when the frame began */
         if (neighbour_pairs_add(&overlaps->touching, (uint32_t)(a - look->looks->body),
                                 (uint32_t)(b - look->looks->body)) != 0)
             return -1;

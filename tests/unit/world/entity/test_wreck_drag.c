@@ -27,12 +27,12 @@ static void test_the_side_that_faces_the_wind_counts(void **state)
 {
     (void)state;
     double per_m2 = 0.5 * 1.225 * 1.05 / 1200.0 * 50.0 * 0.1;
-    assert_true(near(slowed(&box, 0.0, (struct vec3){0.0, 0.0, -50.0}, 0.1),
-                     50.0 / (1.0 + 6.0 * per_m2)));
-    assert_true(near(slowed(&box, 0.0, (struct vec3){0.0, -50.0, 0.0}, 0.1),
-                     50.0 / (1.0 + 12.0 * per_m2)));
-    assert_true(near(slowed(&box, 0.0, (struct vec3){-50.0, 0.0, 0.0}, 0.1),
-                     50.0 / (1.0 + 8.0 * per_m2)));
+    assert_true(
+        near(slowed(&box, 0.0, (struct vec3){0.0, 0.0, -50.0}, 0.1), 50.0 / (1.0 + 6.0 * per_m2)));
+    assert_true(
+        near(slowed(&box, 0.0, (struct vec3){0.0, -50.0, 0.0}, 0.1), 50.0 / (1.0 + 12.0 * per_m2)));
+    assert_true(
+        near(slowed(&box, 0.0, (struct vec3){-50.0, 0.0, 0.0}, 0.1), 50.0 / (1.0 + 8.0 * per_m2)));
     assert_true(near(slowed(&box, HALF_PI, (struct vec3){0.0, 0.0, -50.0}, 0.1),
                      50.0 / (1.0 + 12.0 * per_m2)));
 }
