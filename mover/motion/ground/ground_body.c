@@ -29,16 +29,18 @@ double ground_body_step(struct ground_contacts *contacts, struct rigid_body *bod
     body->velocity.y -= fall;
     double impulse = ground_contacts_solve(contacts, body, dt_s);
     double taken = ground_contacts_taken(contacts, body);
+    const bool touches = impulse > 0.0 || ground_contacts_depth(contacts) > LIFT_DEPTH_M;
     if (impulse > 0.0) {
         ground_contacts_plough(contacts, body, impulse);
         ground_contacts_roll(contacts, body);
-        ground_contacts_push(contacts, body, dt_s, &push, &twist);
     } else {
         push.y = 0.5 * fall;
     }
+    if (touches)
+        ground_contacts_push(contacts, body, dt_s, &push, &twist);
     body->centre = vec3_add(body->centre, vec3_scale(vec3_add(body->velocity, push), dt_s));
     rigid_body_turn(body, twist, dt_s);
-    if (impulse > 0.0 && !rigid_body_limit_energy(body, energy) &&
+    if (touches && !rigid_body_limit_energy(body, energy) &&
         ground_contacts_depth(contacts) <= LIFT_DEPTH_M) {
         body->centre = before.centre; /* rounding alone has lifted it */
         body->turn = before.turn;

@@ -205,6 +205,32 @@ static void test_a_wreck_does_not_snap_into_the_slope_of_the_ground(void **state
     assert_true(rests(row));
 }
 
+static int open_bank(void **state)
+{
+    *state = &f;
+    fixture_open(&f, "earthworks = ( { shape = \"table\"; at = [25010.0, 25000.0];"
+                     " length_m = 40.0; width_m = 20.0; height_m = 1.5; edge_m = 0.2; } );");
+    return 0;
+}
+
+/* A truck that was destroyed beside a bank is in it with one side. It moves away from the bank, so
+ * that the ground gives it no impulse, and falls. */
+static void test_a_wreck_that_leaves_a_bank_gets_no_deeper(void **state)
+{
+    (void)state;
+    uint32_t row = put("truck", 101.2, (struct vec3){-1.0, -0.5, 0.0});
+    steps_rows(&f).heading[row] = 0.0;
+    steps_rows(&f).x[row] = 25000.4 - 0.5 * steps_kind(&f, "truck")->width_m;
+    double before = clearance_of(row);
+    assert_true(before < -0.29);
+    for (uint32_t frame = 0; frame < 20; frame++) {
+        double deep = clearance_of(row);
+        fixture_run(&f, 1);
+        assert_true(clearance_of(row) > maths_min(deep, -0.02) - 1e-9);
+    }
+    assert_true(clearance_of(row) > -0.02);
+}
+
 static void test_overturned_is_overturned(void **state)
 {
     static const double rolls[] = {PI, HALF_PI, -HALF_PI};
@@ -386,6 +412,8 @@ int main(void)
         TEST(test_drag_fits_the_kind_and_its_pose),
         TEST(test_a_wreck_that_is_lifted_out_of_the_ground_gains_no_speed),
         TEST(test_a_wreck_does_not_snap_into_the_slope_of_the_ground),
+        cmocka_unit_test_setup_teardown(test_a_wreck_that_leaves_a_bank_gets_no_deeper, open_bank,
+                                        fixture_teardown),
         TEST(test_overturned_is_overturned),
         TEST(test_a_jet_ploughs_to_a_halt_within_a_kilometre),
         TEST(test_friction_holds_a_wreck_on_a_slope_or_lets_it_go),
