@@ -250,7 +250,7 @@ static bool move(struct free_bodies *bodies, struct response_context *context, u
 {
     const struct free_side *side = &bodies->side[index];
     uint32_t row = side->row;
-    if (side->points == 0 || (side->wreck && !side->pressed))
+    if (side->points == 0 || (side->is_free && !side->piloted && !side->pressed))
         return false;
     if (!side->is_free)
         return move_held(context, side, &bodies->body[index]);
