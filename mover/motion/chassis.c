@@ -118,7 +118,8 @@ static bool lies_on_ground(const struct step_context *context, uint32_t i, bool 
         const struct vec3 at = {m->x[i], pose.y_m, m->z[i]};
         const struct mat3 turn =
             rotation_matrix(rotation_of(m->heading[i], pose.pitch_rad, pose.roll_rad));
-        if (chassis_shell_depth(terrain, context->craters, kind, at, &turn) > 0.0)
+        if (vehicle_shell_depth(terrain, context->craters, kind, VEHICLE_SHELL_ENDS, at, &turn) >
+            0.0)
             return false;
     }
     return fabs(m->y[i] - pose.y_m) <= CHASSIS_LIFT_M &&

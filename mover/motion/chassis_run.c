@@ -255,7 +255,7 @@ static bool ground_rises(const struct chassis *chassis, const struct mat3 *turn)
 static bool is_scraping(struct chassis *chassis, const struct mat3 *turn)
 {
     const bool uneven = chassis->cratered || chassis->bent;
-    for (unsigned n = 0; uneven && n < CHASSIS_SHELL_ENDS; n++) {
+    for (unsigned n = 0; uneven && n < VEHICLE_SHELL_ENDS; n++) {
         struct vec3 point = shell_of(chassis)->point[n];
         point.y -= chassis->body.inertia.centre_m;
         const struct vec3 at = vec3_add(chassis->body.centre, rotation_apply(turn, point));
@@ -298,7 +298,7 @@ static void find_uneven(struct chassis *chassis)
     const struct rigid_body *body = &chassis->body;
     const uint8_t marks = ground_marks_at(context->ground_marks, body->centre.x, body->centre.z);
     const double reach =
-        chassis_shell_reach(chassis->kind) + NEAR_M + STEP_S * vec3_length(body->velocity);
+        vehicle_shell_reach(chassis->kind) + NEAR_M + STEP_S * vec3_length(body->velocity);
     bool uneven = marks & GROUND_MARKS_CRATER &&
                   terrain_uneven_near(&context->world->terrain, context->craters, body->centre.x,
                                       body->centre.z, reach);

@@ -4,15 +4,7 @@
 #include "world/terrain/terrain.h"
 #include "world/world.h"
 
-#define BELLY_TRACKS 0.22 /* half length of the underside over the length: on tracks */
-#define BELLY_WHEELS 0.15 /* on wheels */
-#define SIDE_TRACKS  0.29 /* the same of the outer wheels beside which the sides have points */
-#define SIDE_WHEELS  0.34
-#define SIDE_HEIGHT                                                                                \
-    0.6 /* of the sides of tracks over the step that they climb: edges get under them */
-#define CLEARANCE   0.75 /* of the underside on wheels, at least, over the step that they climb */
-#define NOSE_HEIGHT 0.45 /* of the ends over the height */
-#define HARD_MPS    2.0  /* a shell that is hit more slowly takes no harm */
+#define HARD_MPS 2.0 /* a shell that is hit more slowly takes no harm */
 
 #define ROUNDS        3    /* of paths: impulses turn the points, and these meet other ground */
 #define HALVINGS      7    /* of a path, to find where it meets the ground */
@@ -27,72 +19,33 @@
 #define PUSHED_M      0.01  /* points this deep are pushed out though they bear nothing */
 #define SAME_FACE     0.95  /* cosine between the normals of one face */
 
-/* Returns point n of the shell of a kind, but for those before the outer wheels: one of four each
- * of the underside, of the ends, of the sides beside the outer wheels, in the middle of the
- * underside and of the ends, and of the roof. */
-static struct vec3 point_of(const struct kind *kind, uint32_t n)
-{
-    const double half = 0.5 * kind->length_m, nose = NOSE_HEIGHT * kind->height_m;
-    const double reach = suspension_reach(kind);
-    const double belly = kind->length_m * (kind->tracked ? BELLY_TRACKS : BELLY_WHEELS);
-    const double side = kind->length_m * (kind->tracked ? SIDE_TRACKS : SIDE_WHEELS);
-    const double under = maths_max(kind->travel_m, kind->tracked ? 0.0 : CLEARANCE * reach);
-    const double ends = maths_max(kind->travel_m, kind->tracked ? maths_min(nose, reach) : nose);
-    const struct vec3 corner[5] = {
-        {belly, under, 0.0},
-        {half, ends, 0.0},
-        {side, maths_max(under, kind->tracked ? SIDE_HEIGHT * reach : reach), 0.0},
-        {n & 2 ? half : belly, n & 2 ? ends : under, 0.0},
-        {half, kind->height_m, 0.0}};
-    const struct vec3 at = corner[n / 4];
-    const double wide = n / 4 == CHASSIS_SHELL_MIDDLE / 4 ? 0.0 : 0.5 * kind->width_m;
-    return (struct vec3){n & 1 ? at.x : -at.x, at.y, n & 2 ? wide : -wide};
-}
-
 void chassis_shell_of(const struct kind *kind, const struct suspension *suspension,
                       struct chassis_shell *shell)
 {
     const double front = maths_min(suspension->front_m, 0.5 * kind->length_m);
     const double wide = 0.5 * kind->track_m;
-    shell->count = kind->tracked ? CHASSIS_SHELL_WHEELS : CHASSIS_SHELL_POINTS;
-    for (uint32_t n = 0; n < CHASSIS_SHELL_WHEELS; n++)
-        shell->point[n] = point_of(kind, n);
-    for (uint32_t n = CHASSIS_SHELL_WHEELS; n < shell->count; n++)
+    shell->count = kind->tracked ? VEHICLE_SHELL_POINTS : CHASSIS_SHELL_POINTS;
+    for (uint32_t n = 0; n < VEHICLE_SHELL_POINTS; n++)
+        shell->point[n] = vehicle_shell_point(kind, n);
+    for (uint32_t n = VEHICLE_SHELL_POINTS; n < shell->count; n++)
         shell->point[n] =
             (struct vec3){n & 1 ? front : -front, suspension->reach_m, n & 2 ? wide : -wide};
-}
-
-double chassis_shell_reach(const struct kind *kind)
-{
-    return 0.5 * (kind->length_m + kind->width_m) + kind->height_m;
 }
 
 double chassis_shell_bend(const struct kind *kind)
 {
     double least = INFINITY;
-    for (uint32_t n = 0; n < CHASSIS_SHELL_ENDS; n += 4) {
-        struct vec3 point = point_of(kind, n);
+    for (uint32_t n = 0; n < VEHICLE_SHELL_ENDS; n += 4) {
+        struct vec3 point = vehicle_shell_point(kind, n);
         double away = sqrt(point.x * point.x + point.z * point.z);
         least = maths_min(least, 2.0 * point.y / maths_max(away, 1e-9));
     }
     return least;
 }
 
-double chassis_shell_depth(const struct terrain *terrain, const struct crater_index *craters,
-                           const struct kind *kind, struct vec3 at, const struct mat3 *turn)
-{
-    double deepest = -INFINITY;
-    for (uint32_t n = 0; n < CHASSIS_SHELL_ENDS; n++) {
-        struct vec3 point = vec3_add(at, rotation_apply(turn, point_of(kind, n)));
-        double ground = terrain_height(terrain, craters, point.x, point.z);
-        deepest = maths_max(deepest, ground - point.y);
-    }
-    return deepest;
-}
-
 void chassis_shell_follow(struct chassis_shell *shell, const struct suspension *suspension)
 {
-    for (uint32_t n = CHASSIS_SHELL_WHEELS; n < shell->count; n++) {
+    for (uint32_t n = VEHICLE_SHELL_POINTS; n < shell->count; n++) {
         uint32_t wheel = (n & 1 ? 0 : suspension->count - 2) + (n & 2 ? 1 : 0);
         double pressed = maths_min(suspension->wheel[wheel].squeeze_m, suspension->most_m);
         shell->point[n].y = suspension->reach_m + pressed - suspension->sag_m;
@@ -104,7 +57,7 @@ enum { LEFT_FIRST = 0, RIGHT_FIRST = 2 };
 
 static inline bool is_middle(uint32_t n)
 {
-    return n / 4 == CHASSIS_SHELL_MIDDLE / 4;
+    return n / 4 == VEHICLE_SHELL_MIDDLE / 4;
 }
 
 /* --- paths -------------------------------------------------------------------------------------*/
@@ -225,7 +178,7 @@ static bool sweep(struct ground_contacts *contacts, const struct chassis_shell *
         if (!sweep_point(contacts, ground, body, &inverse, arm, dt_s))
             continue;
         added = true;
-        if (k >= CHASSIS_SHELL_WHEELS)
+        if (k >= VEHICLE_SHELL_POINTS)
             let_roll(contacts, arm);
     }
     return added;
@@ -281,7 +234,7 @@ static struct chassis_shell_push press(const struct chassis_shell *shell,
         contacts.contact[c].gap_m = maths_max(contacts.contact[c].gap_m, -MOST_DEEP_M);
     ground_contacts_push(&contacts, body, dt_s, &push.velocity_mps, &push.spin_rps);
     double fast =
-        vec3_length(push.velocity_mps) + vec3_length(push.spin_rps) * chassis_shell_reach(kind);
+        vec3_length(push.velocity_mps) + vec3_length(push.spin_rps) * vehicle_shell_reach(kind);
     double share = maths_min(1.0, PUSH_MOST_MPS / maths_max(fast, 1e-9));
     push.velocity_mps = vec3_scale(push.velocity_mps, share);
     push.spin_rps = vec3_scale(push.spin_rps, share);

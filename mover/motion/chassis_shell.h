@@ -10,13 +10,11 @@
 
 #include "mover/motion/ground_contacts.h"
 #include "mover/motion/suspension.h"
+#include "world/vehicle_shell.h"
 
-/* Four points each of the underside, of the ends, of the sides beside the outer wheels, in the
- * middle of underside and ends, of the roof, and before the outer wheels. */
+/* Those of every shell (world/vehicle_shell.h), and on wheels four before the outer wheels, which
+ * rise with them. */
 #define CHASSIS_SHELL_POINTS 24u
-#define CHASSIS_SHELL_ENDS   8u  /* the first points are those of the underside and of the ends */
-#define CHASSIS_SHELL_MIDDLE 12u /* the four of the middle, which have no left and right */
-#define CHASSIS_SHELL_WHEELS 20u /* the last points rise with their wheels; tracks have none */
 
 struct chassis_shell {
     struct vec3 point[CHASSIS_SHELL_POINTS]; /* [m] body axes */
@@ -32,17 +30,9 @@ struct chassis_shell_push {
     double strike_j;                    /* the part of it that upright ground took */
 };
 
-/* Returns a distance from the position that no point of shell and wheels passes [m]. */
-double chassis_shell_reach(const struct kind *kind);
-
 /* Returns the tangent by which the slopes of the ground under a vehicle of this kind must differ
  * before underside or ends of its shell get into it, where it stands in a single bend. */
 double chassis_shell_bend(const struct kind *kind);
-
-/* Returns how deep the deepest point of underside and ends is in the ground [m], below 0 for a
- * height over it. craters: those that may be under the body, or NULL; at: the position. */
-double chassis_shell_depth(const struct terrain *terrain, const struct crater_index *craters,
-                           const struct kind *kind, struct vec3 at, const struct mat3 *turn);
 
 /* Finds the shell of a kind. Its underside is as high as the wheels can rise, and on wheels at
  * least 3/4 as high as the step that they climb. */

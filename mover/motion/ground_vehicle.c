@@ -52,7 +52,7 @@ static bool is_uneven_near(const struct step_context *context, const struct grou
                          kind->acceleration_mps2 * BRAKES * context->dt_s;
     return terrain_uneven_near(&context->world->terrain, context->craters, batch->pose.x.lane[l],
                                batch->pose.z.lane[l],
-                               chassis_shell_reach(kind) + NEAR_M + 2.0 * context->dt_s * speed);
+                               vehicle_shell_reach(kind) + NEAR_M + 2.0 * context->dt_s * speed);
 }
 
 static void find_scars(const struct step_context *context, struct ground_vehicle *batch)
@@ -503,17 +503,18 @@ static enum entry entry_of(const struct step_context *context, const struct grou
     const struct vec3 way = {batch->vx.lane[l] * dt_s, climb_of(batch, l, heading, stands.y) * dt_s,
                              batch->vz.lane[l] * dt_s};
     struct mat3 turn = rotation_matrix(rotation_of(heading, stands.y, stands.z));
-    if (chassis_shell_depth(terrain, craters, kind, at, &turn) <= 0.0 &&
-        chassis_shell_depth(terrain, craters, kind, vec3_add(at, way), &turn) <= 0.0)
+    if (vehicle_shell_depth(terrain, craters, kind, VEHICLE_SHELL_ENDS, at, &turn) <= 0.0 &&
+        vehicle_shell_depth(terrain, craters, kind, VEHICLE_SHELL_ENDS, vec3_add(at, way), &turn) <=
+            0.0)
         return STAYS_OUT;
     turn = rotation_matrix(rotation_of(heading, batch->pitch.lane[l], w->roll[i]));
     at.y = batch->y.lane[l] + climb_of(batch, l, heading, batch->pitch.lane[l]) * dt_s;
-    if (chassis_shell_depth(terrain, craters, kind, at, &turn) <= 0.0)
+    if (vehicle_shell_depth(terrain, craters, kind, VEHICLE_SHELL_ENDS, at, &turn) <= 0.0)
         return LEAVES_HERE;
     turn = rotation_matrix(rotation_of(m->heading[i], batch->pitch.lane[l], w->roll[i]));
     at = (struct vec3){m->x[i], batch->y.lane[l], m->z[i]};
-    return pose->cratered.lane[l] &&
-                   chassis_shell_depth(terrain, craters, kind, at, &turn) <= LEAVES_DEEP_M
+    return pose->cratered.lane[l] && vehicle_shell_depth(terrain, craters, kind, VEHICLE_SHELL_ENDS,
+                                                         at, &turn) <= LEAVES_DEEP_M
                ? LEAVES_BEFORE
                : STAYS_OUT;
 }

@@ -2,6 +2,7 @@
 #include "mover/motion/suspension.h"
 
 #include "world/terrain/terrain.h"
+#include "world/vehicle_shell.h"
 #include "world/world.h"
 
 #define DAMPING      0.35 /* share of the critical damping */
@@ -15,8 +16,6 @@
 #define LEANS_MOST   0.3  /* cosine: a wheel whose ray is flatter to the ground bears nothing */
 #define SLOPE_STEP_M 0.1  /* between the heights that give the slope of uneven ground */
 #define WHEEL_RADIUS 0.2  /* of a wheel over the height of its vehicle */
-#define BOW          0.21 /* length of the end of a track over the vehicle's */
-#define BOW_RISE     0.7  /* tangent of its slope */
 #define STEEPEST     3.0  /* tangent: a wheel rolls onto an edge as onto a slope like that */
 #define SAMPLES      9    /* points at which a wheel may touch uneven ground */
 #define EVEN_AXLES   3u   /* by which a track stands on even ground */
@@ -63,11 +62,6 @@ static void place_wheels(const struct kind *kind, struct suspension *suspension,
     }
 }
 
-double suspension_reach(const struct kind *kind)
-{
-    return kind->tracked ? maths_min(kind->step_m, BOW_RISE * BOW * kind->length_m) : kind->step_m;
-}
-
 void suspension_of(const struct kind *kind, bool uneven, struct suspension *suspension)
 {
     const bool fewer = kind->tracked && !uneven && kind->axles > EVEN_AXLES;
@@ -80,8 +74,8 @@ void suspension_of(const struct kind *kind, bool uneven, struct suspension *susp
     suspension->damper_nspm = 2.0 * DAMPING * kind->mass_kg * rate / count;
     suspension->ground_m = length;
     suspension->radius_m = WHEEL_RADIUS * kind->height_m;
-    suspension->bow_m = kind->tracked ? BOW * kind->length_m : 0.0;
-    suspension->reach_m = suspension_reach(kind);
+    suspension->bow_m = kind->tracked ? VEHICLE_SHELL_BOW * kind->length_m : 0.0;
+    suspension->reach_m = vehicle_shell_climbs(kind);
     place_wheels(kind, suspension, axles);
     double front = axle_place(kind, 0, length);
     suspension->wheelbase_m = front * kind->axles / (kind->axles - 1);
@@ -115,8 +109,8 @@ static double rim(const struct suspension *suspension, const struct wheel *wheel
 {
     double r = suspension->radius_m, d = fabs(ahead_m);
     if (wheel->bow * ahead_m > 0.0) {
-        *slope = BOW_RISE * wheel->bow;
-        return BOW_RISE * d;
+        *slope = VEHICLE_SHELL_BOW_RISE * wheel->bow;
+        return VEHICLE_SHELL_BOW_RISE * d;
     }
     double left = sqrt(maths_max(r * r - d * d, 1e-9));
     *slope = maths_clamp(ahead_m / left, -STEEPEST, STEEPEST);

@@ -59,9 +59,6 @@ struct suspension {
  * all of them. */
 void suspension_of(const struct kind *kind, bool uneven, struct suspension *suspension);
 
-/* Returns how much higher than under a wheel the ground before it may be: reach_m [m]. */
-double suspension_reach(const struct kind *kind);
-
 /* Finds which wheels touch the ground, and their loads. Returns the sum of the loads [N]. uneven:
  * there may be craters or earthworks under the body. */
 double suspension_load(struct suspension *suspension, const struct step_context *context,

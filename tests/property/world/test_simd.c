@@ -192,8 +192,8 @@ static double shell_depth(const struct step_context *context, uint32_t i, struct
 {
     const struct entities *m = context->m;
     struct mat3 turn = rotation_matrix(rotation_of(m->heading[i], pitch, roll));
-    return chassis_shell_depth(&context->world->terrain, context->craters,
-                               &context->world->kinds[m->kind[i]], at, &turn);
+    return vehicle_shell_depth(&context->world->terrain, context->craters,
+                               &context->world->kinds[m->kind[i]], VEHICLE_SHELL_ENDS, at, &turn);
 }
 
 static double climb_of(const struct entities *m, uint32_t i, double pitch)

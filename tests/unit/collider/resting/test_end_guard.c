@@ -3,6 +3,7 @@
 
 #include "collider/geometry/level_gap.h"
 #include "tests/support/steps.h"
+#include "world/vehicle_shell.h"
 
 #include <string.h>
 
@@ -15,6 +16,7 @@
 
 #define ROWS    4u
 #define WEST_M  25000.0
+#define BANK_M  25035.0 /* the foot of its western face */
 #define SLACK_M 1.1e-5
 
 static struct fixture f;
@@ -26,6 +28,8 @@ static int open_world(void **state)
 {
     (void)state;
     fixture_open(&f, "objects = ( { kind = \"building\"; at = [24986.0, 25000.0]; } );"
+                     "earthworks = ( { shape = \"table\"; at = [25040.0, 25000.0]; length_m = 12.0;"
+                     " width_m = 10.0; height_m = 2.0; edge_m = 0.25; } );"
                      "collision = { shape = \"model\"; };");
     for (uint32_t i = 0; i < ROWS; i++)
         fixture_put(&f, (struct fixture_entity){
@@ -238,6 +242,46 @@ static void test_a_driver_who_holds_the_course_keeps_its_speed(void **state)
     assert_true(next()->x[0] == WEST_M && next()->vx[0] == 90.0);
 }
 
+/* Puts the last tank beside the bank, on its springs, and moves it to the east in the frame. */
+static void move_beside_bank(double gap_m, double east_m)
+{
+    struct entities w = steps_rows(&f);
+    w.x[3] = next()->x[3] = BANK_M - 0.5 * steps_kind(&f, "tank")->width_m - gap_m;
+    w.flags[3] = next()->flags[3] = next()->flags[3] | ENTITY_FLAG_CHASSIS;
+    body_motion_compute(context.motion, 3);
+    move(3, east_m);
+    run(1, (uint32_t[]){3});
+}
+
+static double depth_in_bank(const struct entities *e)
+{
+    const struct mat3 turn = rotation_matrix(rotation_of(e->heading[3], e->pitch[3], e->roll[3]));
+    return vehicle_shell_depth(&f.view.world.terrain, NULL, steps_kind(&f, "tank"),
+                               VEHICLE_SHELL_POINTS, entities_position(e, 3), &turn);
+}
+
+/* Other bodies push a vehicle on its springs against a wall of the ground. */
+static void test_no_vehicle_ends_deeper_in_a_bank(void **state)
+{
+    (void)state;
+    move_beside_bank(0.05, 0.03);
+    assert_true(next()->x[3] == committed()->x[3] + 0.03); /* not as far as the bank */
+    move_beside_bank(0.05, 0.3);
+    assert_true(next()->x[3] > committed()->x[3] && next()->x[3] < committed()->x[3] + 0.1);
+    assert_true(depth_in_bank(next()) < 0.0101);
+}
+
+/* What is deep in a bank, because a bomb has thrown it there, may leave it. */
+static void test_a_vehicle_may_leave_a_bank(void **state)
+{
+    (void)state;
+    move_beside_bank(-0.15, 0.02);
+    assert_true(depth_in_bank(committed()) > 0.05);
+    assert_true(next()->x[3] == committed()->x[3]);
+    move_beside_bank(-0.15, -0.02);
+    assert_true(next()->x[3] == committed()->x[3] - 0.02);
+}
+
 /* --- what stays --------------------------------------------------------------------------------*/
 
 static void overlap(double depth_m)
@@ -363,6 +407,8 @@ int main(void)
         TEST(test_bodies_that_have_met_are_looked_at),
         TEST(test_a_wreck_goes_back_in_its_whole_pose),
         TEST(test_a_body_that_went_back_can_send_back_the_next),
+        TEST(test_no_vehicle_ends_deeper_in_a_bank),
+        TEST(test_a_vehicle_may_leave_a_bank),
         TEST(test_a_driver_who_holds_the_course_keeps_its_speed),
         TEST(test_an_overlap_may_last_but_not_grow),
         TEST(test_deep_overlaps_have_to_part_first),

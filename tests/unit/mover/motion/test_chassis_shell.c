@@ -101,12 +101,12 @@ static void test_points_rise_with_their_wheels(void **state)
     for (uint32_t i = 0; i < suspension.count; i++)
         suspension.wheel[i].squeeze_m = suspension.sag_m + 0.02 * i;
     chassis_shell_follow(&shell, &suspension);
-    for (uint32_t n = CHASSIS_SHELL_WHEELS; n < shell.count; n++) {
+    for (uint32_t n = VEHICLE_SHELL_POINTS; n < shell.count; n++) {
         uint32_t wheel = (shell.point[n].x > 0.0 ? 0u : 2u) + (shell.point[n].z > 0.0 ? 1u : 0u);
         assert_true(fabs(shell.point[n].y - suspension.reach_m - 0.02 * wheel) < 1e-12);
     }
     body_before("tank", 20.0, 0.0);
-    assert_int_equal(shell.count, CHASSIS_SHELL_WHEELS);
+    assert_int_equal(shell.count, VEHICLE_SHELL_POINTS);
 }
 
 /* A crater that changes the ground may wedge a body between its walls: it gets out upwards. */
@@ -141,9 +141,9 @@ static void test_a_wheel_in_the_ground_hardly_pushes_the_body(void **state)
     (void)state;
     struct rigid_body body = body_before("jeep", 0.0, 0.0);
     chassis_shell_follow(&shell, &suspension);
-    for (uint32_t n = 0; n < CHASSIS_SHELL_WHEELS; n++) /* only the wheels can touch it */
+    for (uint32_t n = 0; n < VEHICLE_SHELL_POINTS; n++) /* only the wheels can touch it */
         shell.point[n].x = 0.0;
-    for (uint32_t n = CHASSIS_SHELL_WHEELS; n < shell.count; n++)
+    for (uint32_t n = VEHICLE_SHELL_POINTS; n < shell.count; n++)
         shell.point[n].x = 0.5 * steps_kind(&f, "jeep")->length_m + 0.1;
     body.velocity.x = 3.0;
     struct chassis_shell_push push = press("jeep", &body);

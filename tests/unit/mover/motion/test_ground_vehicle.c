@@ -163,8 +163,8 @@ static double shell_depth(uint32_t row)
         cruise_pose_of(&f.view.world, NULL, &e, row, fixture_state(&f).head->tick);
     struct mat3 turn =
         rotation_matrix(rotation_of(pose.heading_rad, pose.pitch_rad, pose.roll_rad));
-    return chassis_shell_depth(&f.view.world.terrain, NULL, &f.view.world.kinds[e.kind[row]],
-                               pose.at, &turn);
+    return vehicle_shell_depth(&f.view.world.terrain, NULL, &f.view.world.kinds[e.kind[row]],
+                               VEHICLE_SHELL_ENDS, pose.at, &turn);
 }
 
 struct shells_seen {
