@@ -100,6 +100,23 @@ static void set_grip(const struct response_context *context, uint32_t row, struc
     body->grip_turn = left * 0.25 * kind->length_m;
 }
 
+/* Takes from the motion of a wreck's path what no velocity of its frame explains: the ground pushes
+ * it out of itself, which is no motion that others feel. */
+static void leave_out_push(const struct response_context *context, uint32_t row,
+                           struct level_motion *moved)
+{
+    const struct entities *w = body_motion_before(context->motion, row),
+                          *e = &context->next->entities;
+    double before = sqrt(w->vx[row] * w->vx[row] + w->vz[row] * w->vz[row]);
+    double after = sqrt(e->vx[row] * e->vx[row] + e->vz[row] * e->vz[row]);
+    double speed = sqrt(moved->x * moved->x + moved->z * moved->z);
+    double share = maths_min(1.0, maths_max(before, after) / maths_max(speed, 1e-9));
+    double rate = maths_max(fabs(w->spin_y[row]), fabs(e->spin_y[row]));
+    moved->x *= share;
+    moved->z *= share;
+    moved->spin = maths_clamp(moved->spin, -rate, rate);
+}
+
 void resting_level_body(const struct response_context *context, uint32_t row,
                         struct level_body *body)
 {
@@ -112,6 +129,8 @@ void resting_level_body(const struct response_context *context, uint32_t row,
                                 .inverse_moment = 1.0 / mass.moment.y,
                                 .moved = {along.x * hz, along.z * hz, 0.0}};
     body->moved.spin = -maths_wrap_half(e->heading[row] - w->heading[row]) * hz;
+    if (e->state[row] == ENTITY_WRECK)
+        leave_out_push(context, row, &body->moved);
     maths_sincos(e->heading[row], &body->forward_x, &body->forward_z);
     body->forward_z = -body->forward_z;
     set_grip(context, row, body);

@@ -7,6 +7,21 @@
 
 /* A body that has no energy for it is lifted out of the ground only from a greater depth [m]. */
 #define LIFT_DEPTH_M (2.0 * GROUND_CONTACTS_SLOP_M)
+#define LIFT_MPS     0.05 /* and so fast: the energy of its height comes from nothing */
+
+/* Lifts a body less that has no energy for it. depth_m: of its deepest point before it was. */
+static void lift_less(struct rigid_body *body, const struct rigid_body *before, double depth_m,
+                      double dt_s)
+{
+    double lifted = body->centre.y - before->centre.y, most = LIFT_MPS * dt_s;
+    if (depth_m <= LIFT_DEPTH_M) { /* rounding alone has lifted it */
+        body->centre = before->centre;
+        body->turn = before->turn;
+    } else if (lifted > most) {
+        body->centre = vec3_lerp(before->centre, body->centre, most / lifted);
+        body->turn = rotation_between(before->turn, body->turn, most / lifted);
+    }
+}
 
 double ground_body_steps(const struct rigid_body *body, const struct body_points *points,
                          double dt_s)
@@ -40,10 +55,7 @@ double ground_body_step(struct ground_contacts *contacts, struct rigid_body *bod
         ground_contacts_push(contacts, body, dt_s, &push, &twist);
     body->centre = vec3_add(body->centre, vec3_scale(vec3_add(body->velocity, push), dt_s));
     rigid_body_turn(body, twist, dt_s);
-    if (touches && !rigid_body_limit_energy(body, energy) &&
-        ground_contacts_depth(contacts) <= LIFT_DEPTH_M) {
-        body->centre = before.centre; /* rounding alone has lifted it */
-        body->turn = before.turn;
-    }
+    if (touches && !rigid_body_limit_energy(body, energy))
+        lift_less(body, &before, ground_contacts_depth(contacts), dt_s);
     return taken;
 }

@@ -284,6 +284,27 @@ static void test_a_new_body_takes_nothing_from_its_row(void **state)
     assert_int_equal(f.view.events[context.events.first].type, EVENT_COLLISION);
 }
 
+/* The ground pushes a wreck out of itself. What it touches must not take that for a motion. */
+static void test_what_the_ground_pushes_out_pushes_nothing(void **state)
+{
+    struct level_body body;
+    struct entities *e;
+    (void)state;
+    begin();
+    e = &context.next->entities;
+    e->x[0] += 0.04;
+    e->heading[0] += 0.01;
+    body_motion_compute(context.motion, 0);
+    resting_level_body(&context, 0, &body);
+    assert_true(fabs(body.moved.x - 0.04 * 60.0) < 1e-9 && body.moved.spin < -0.59);
+    e->state[0] = ENTITY_WRECK;
+    resting_level_body(&context, 0, &body);
+    assert_true(body.moved.x == 0.0 && body.moved.z == 0.0 && body.moved.spin == 0.0);
+    e->vx[0] = 0.3; /* and this is its motion */
+    resting_level_body(&context, 0, &body);
+    assert_true(fabs(body.moved.x - 0.3) < 1e-9);
+}
+
 int main(void)
 {
 #define TEST(function) cmocka_unit_test_setup_teardown(function, open_world, close_world)
@@ -298,6 +319,7 @@ int main(void)
         TEST(test_who_lies_on_a_side_is_no_disc),
         TEST(test_bodies_that_moved_find_their_new_neighbours),
         TEST(test_a_new_body_takes_nothing_from_its_row),
+        TEST(test_what_the_ground_pushes_out_pushes_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -231,6 +231,20 @@ static void test_a_wreck_that_leaves_a_bank_gets_no_deeper(void **state)
     assert_true(clearance_of(row) > -0.02);
 }
 
+/* A crater's rim has risen around it, or its vehicle stood in a bank. Each lift is energy that
+ * comes from nothing, and others may lie on it. */
+static void test_a_wreck_at_rest_is_lifted_slowly_out_of_the_ground(void **state)
+{
+    (void)state;
+    uint32_t row = put("truck", 99.7, (struct vec3){0.0, 0.0, 0.0});
+    for (uint32_t frame = 0; frame < 8 * HZ; frame++) {
+        double y = steps_rows(&f).y[row];
+        fixture_run(&f, 1);
+        assert_true(steps_rows(&f).y[row] - y < 0.051 / HZ);
+    }
+    assert_true(rests(row) && clearance_of(row) > -0.01);
+}
+
 static void test_overturned_is_overturned(void **state)
 {
     static const double rolls[] = {PI, HALF_PI, -HALF_PI};
@@ -414,6 +428,7 @@ int main(void)
         TEST(test_a_wreck_does_not_snap_into_the_slope_of_the_ground),
         cmocka_unit_test_setup_teardown(test_a_wreck_that_leaves_a_bank_gets_no_deeper, open_bank,
                                         fixture_teardown),
+        TEST(test_a_wreck_at_rest_is_lifted_slowly_out_of_the_ground),
         TEST(test_overturned_is_overturned),
         TEST(test_a_jet_ploughs_to_a_halt_within_a_kilometre),
         TEST(test_friction_holds_a_wreck_on_a_slope_or_lets_it_go),
