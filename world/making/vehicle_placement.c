@@ -13,6 +13,7 @@
 #include "world/making/script_build.h"
 #include "world/terrain/gridsquare.h"
 #include "world/terrain/rest_pose.h"
+#include "world/vehicle_shell.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -72,7 +73,10 @@ static void set_on_ground(const struct world_build *built, uint32_t slot)
     struct rest_pose pose =
         rest_pose_of(&terrain, NULL, kind, e->x[slot], e->z[slot], e->heading[slot]);
     if (rest_pose_bends(&terrain, kind, e->x[slot], e->z[slot], e->heading[slot], &clear_y_m)) {
-        pose = (struct rest_pose){.y_m = clear_y_m};
+        const struct mat3 level = rotation_matrix(rotation_of(e->heading[slot], 0.0, 0.0));
+        const struct vec3 at = {e->x[slot], clear_y_m, e->z[slot]};
+        double deep = vehicle_shell_depth(&terrain, NULL, kind, VEHICLE_SHELL_POINTS, at, &level);
+        pose = (struct rest_pose){.y_m = clear_y_m + maths_max(0.0, deep)};
         e->flags[slot] |= ENTITY_FLAG_CHASSIS;
     }
     e->y[slot] = pose.y_m;

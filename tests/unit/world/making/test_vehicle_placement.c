@@ -5,6 +5,7 @@
 
 #include "tests/support/fixture.h"
 #include "world/params.h"
+#include "world/vehicle_shell.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -201,6 +202,22 @@ static void test_edges_of_works_bear_no_vehicle_as_a_plane_does(void **state)
     fixture_close(&f);
 }
 
+/* A wall that is thinner than the distance of the heights under a vehicle, beside its wheels. */
+static void test_no_thin_wall_stands_in_a_vehicle(void **state)
+{
+    (void)state;
+    fixture_open(&f, "earthworks = ( { shape = \"table\"; at = [25000.0, 25000.0]; width_m = 30.0;"
+                     " length_m = 1.0; height_m = 2.0; edge_m = 0.45; } );"
+                     "vehicles = ( { kind = \"tank\"; at = [25000.0, 25002.3];"
+                     " heading_deg = 0.0; behaviour = \"idle\"; } );");
+    const struct entities e = fixture_state(&f).entities;
+    const struct mat3 level = rotation_matrix(rotation_of(e.heading[0], 0.0, 0.0));
+    double deep = vehicle_shell_depth(&f.view.world.terrain, NULL, &f.view.world.kinds[e.kind[0]],
+                                      VEHICLE_SHELL_POINTS, entities_position(&e, 0), &level);
+    assert_true(e.flags[0] & ENTITY_FLAG_CHASSIS && deep < 1e-9 && deep > -0.5);
+    fixture_close(&f);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -211,6 +228,7 @@ int main(void)
         cmocka_unit_test(test_a_base_is_amid_its_force),
         cmocka_unit_test(test_vehicles_stand_on_slopes),
         cmocka_unit_test(test_edges_of_works_bear_no_vehicle_as_a_plane_does),
+        cmocka_unit_test(test_no_thin_wall_stands_in_a_vehicle),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
