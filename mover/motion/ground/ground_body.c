@@ -7,19 +7,17 @@
 
 /* A body that has no energy for it is lifted out of the ground only from a greater depth [m]. */
 #define LIFT_DEPTH_M (2.0 * GROUND_CONTACTS_SLOP_M)
-#define LIFT_MPS     0.05 /* and so fast: the energy of its height comes from nothing */
+#define LIFT_MPS     0.008 /* and so fast: the energy of its height comes from nothing */
 
 /* Lifts a body less that has no energy for it. depth_m: of its deepest point before it was. */
 static void lift_less(struct rigid_body *body, const struct rigid_body *before, double depth_m,
                       double dt_s)
 {
-    double lifted = body->centre.y - before->centre.y, most = LIFT_MPS * dt_s;
     if (depth_m <= LIFT_DEPTH_M) { /* rounding alone has lifted it */
         body->centre = before->centre;
         body->turn = before->turn;
-    } else if (lifted > most) {
-        body->centre = vec3_lerp(before->centre, body->centre, most / lifted);
-        body->turn = rotation_between(before->turn, body->turn, most / lifted);
+    } else {
+        body->centre.y = maths_min(body->centre.y, before->centre.y + LIFT_MPS * dt_s);
     }
 }
 
