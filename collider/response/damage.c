@@ -7,6 +7,7 @@
 #include "collider/response/ground_event.h"
 #include "world/checksum.h"
 #include "world/entity/kind.h"
+#include "world/entity/overturned.h"
 #include "world/entity/remote.h"
 #include "world/params.h"
 #include "world/state.h"
@@ -14,11 +15,6 @@
 #include "world/world.h"
 
 #include <string.h>
-
-/* A vehicle that leans more lies on its side [cosine of 80 degrees]. */
-#define OVERTURNED_COSINE 0.17364817766693033
-/* One that leans less both lengthwise and sideways does not: cos(1)^2 is 0.29 [rad]. */
-#define UPRIGHT_RAD 1.0
 
 /* ENTITY_FLAG_CHASSIS in each of eight flags. */
 #define CHASSIS_OF_EIGHT (ENTITY_FLAG_CHASSIS * UINT64_C(0x0101010101010101))
@@ -132,14 +128,6 @@ static void fall(struct response_context *context, uint32_t row)
         tell_ground(context, row);
 }
 
-/* Returns true if a vehicle lies on its side or on its roof. */
-static bool lies_over(const struct entities *e, uint32_t row)
-{
-    bool upright = fabs(e->pitch[row]) < UPRIGHT_RAD && fabs(e->roll[row]) < UPRIGHT_RAD;
-    return e->state[row] == ENTITY_ACTIVE && !upright &&
-           maths_cos(e->pitch[row]) * maths_cos(e->roll[row]) < OVERTURNED_COSINE;
-}
-
 /* Returns true if any of rows first .. end - 1 is on its springs. */
 static bool overturned_rows(struct response_context *context, uint32_t first, uint32_t end)
 {
@@ -153,7 +141,7 @@ static bool overturned_rows(struct response_context *context, uint32_t first, ui
             if (!(e->flags[row] & ENTITY_FLAG_CHASSIS))
                 continue;
             sprung = true;
-            if (!lies_over(e, row)) {
+            if (e->state[row] != ENTITY_ACTIVE || !overturned(e->pitch[row], e->roll[row])) {
                 fall(context, row);
                 continue;
             }

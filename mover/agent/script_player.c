@@ -26,7 +26,7 @@ struct reading {
     const struct script_step *steps;
     const struct kind *kind;
     uint32_t i;
-    double now_s; /* simulated time at the end of the frame */
+    double begin_s, end_s; /* simulated time at the beginning and at the end of the frame */
 };
 
 static struct reading read_row(const struct step_context *context, uint32_t i)
@@ -39,7 +39,8 @@ static struct reading read_row(const struct step_context *context, uint32_t i)
         .steps = world->script_steps + script->first,
         .kind = &world->kinds[context->m->kind[i]],
         .i = i,
-        .now_s = (double)context->tick * context->dt_s,
+        .begin_s = (double)(context->tick - 1) * context->dt_s,
+        .end_s = (double)context->tick * context->dt_s,
     };
 }
 
@@ -53,9 +54,12 @@ static const struct script_step *step_of(const struct reading *r)
     return &r->steps[r->context->m->leg[r->i] % r->script->count];
 }
 
+/* Returns the time left until the step is due: an arrival at the end of a frame, and any other step
+ * at the beginning of the first frame that it acts in, whatever the rate. */
 static double seconds_to(const struct reading *r, const struct script_step *step)
 {
-    return step->at_s + (double)pass_of(r) * r->script->period_s - r->now_s;
+    double now_s = step->type == STEP_ARRIVE ? r->end_s : r->begin_s;
+    return step->at_s + (double)pass_of(r) * r->script->period_s - now_s;
 }
 
 /* Returns true if the time has come, rounded to frames. */
@@ -112,7 +116,7 @@ static bool cut_off(const struct reading *r)
     const struct script_step *step = step_of(r);
     uint32_t index = m->leg[r->i] % r->script->count, first = m->leg[r->i] - index;
     if (r->script->period_s > 0.0 &&
-        is_time(r, r->script->period_s - r->now_s + (double)pass_of(r) * r->script->period_s)) {
+        is_time(r, (double)(pass_of(r) + 1) * r->script->period_s - r->begin_s)) {
         begin(r, first + r->script->count);
         return true;
     }

@@ -4,6 +4,7 @@
 #include "mover/motion/chassis_run.h"
 #include "mover/motion/fording.h"
 #include "mover/motion/kinematics.h"
+#include "world/entity/overturned.h"
 #include "world/state.h"
 #include "world/terrain/rest_pose.h"
 #include "world/world.h"
@@ -190,19 +191,24 @@ static bool stays_pinned(const struct step_context *context, uint32_t i,
            desired->gear != GEAR_NEUTRAL && entities_still(m, i);
 }
 
-bool chassis_move(const struct step_context *context, uint32_t i,
-                  const struct desired_motion *desired)
+/* Notes the harm that the sub-step did. What leans too far in it is a wreck from the end of the
+ * frame on, even if it comes back: at another rate a frame would have ended there. */
+static void take_harm(const struct chassis *chassis, uint32_t i)
+{
+    struct entities *m = chassis->context->m;
+    if (chassis->fall_j + chassis->strike_j > 0.0)
+        m->harm_j[i] += FALL_HARM * chassis->fall_j + chassis->strike_j;
+    if (overturned(m->pitch[i], m->roll[i]))
+        m->harm_j[i] = maths_max(m->harm_j[i], chassis->kind->resistance_j);
+}
+
+/* Moves row i for a sub-step, the time of the context. Returns true if something blocks it. */
+static bool substep(const struct step_context *context, uint32_t i,
+                    const struct desired_motion *desired)
 {
     struct entities *m = context->m;
     struct chassis chassis;
     double x = m->x[i], z = m->z[i];
-    if (stays_pinned(context, i, desired)) {
-        if (!kinematics_parked(m, i))
-            (void)burn(context, i, &context->world->kinds[m->kind[i]], desired);
-        return false;
-    }
-    if (m->jolt_tick[i] == ENTITY_PINNED)
-        m->jolt_tick[i] = (uint32_t)context->tick;
     chassis_run_begin(&chassis, context, i, desired);
     if (!burn(context, i, chassis.kind, desired))
         chassis.most_mps = 0.0;
@@ -214,10 +220,31 @@ bool chassis_move(const struct step_context *context, uint32_t i,
         rigid_body_put(context, i, &chassis.body);
     if (desired->driven)
         m->dodge[i] = (float)chassis.drivetrain.wheel;
-    if (chassis.fall_j + chassis.strike_j > 0.0)
-        m->harm_j[i] += FALL_HARM * chassis.fall_j + chassis.strike_j;
+    take_harm(&chassis, i);
     bool blocked = stop_at_edge(context, i, x, z) || chassis.drowns;
     if (desired->driven || !is_calm(&chassis) || !lies_on_ground(context, i, chassis.cratered))
         m->jolt_tick[i] = (uint32_t)context->tick;
     return blocked || (desired->speed_mps != 0.0 && chassis.drivetrain.wanted_mps == 0.0);
+}
+
+bool chassis_move(const struct step_context *context, uint32_t i,
+                  const struct desired_motion *desired)
+{
+    struct entities *m = context->m;
+    const int count = (int)ceil(context->dt_s / CHASSIS_SUBSTEP_S - 1e-9);
+    if (stays_pinned(context, i, desired)) {
+        if (!kinematics_parked(m, i))
+            (void)burn(context, i, &context->world->kinds[m->kind[i]], desired);
+        return false;
+    }
+    if (m->jolt_tick[i] == ENTITY_PINNED)
+        m->jolt_tick[i] = (uint32_t)context->tick;
+    if (count == 1)
+        return substep(context, i, desired);
+    struct step_context shorter = *context;
+    shorter.dt_s = context->dt_s / count;
+    bool blocked = false;
+    for (int n = 0; n < count; n++)
+        blocked |= substep(&shorter, i, desired);
+    return blocked;
 }

@@ -1,4 +1,4 @@
-/* Springs, tyres and shell of a body, sub-step by sub-step. */
+/* Springs, tyres and shell of a body in a sub-step. */
 #include "mover/motion/chassis_run.h"
 
 #include "mover/motion/chassis.h"
@@ -9,9 +9,9 @@
 #include "world/terrain/terrain_cache.h"
 #include "world/world.h"
 
-/* Sub-steps are at most so long [s]: where all wheels bear, and where one is on its bump stop or
- * off the ground. */
-#define STEP_S       (1.0 / 60.0)
+/* A sub-step is cut into parts of at most this length where a wheel is on its bump stop or off the
+ * ground [s].
+ */
 #define ROUGH_STEP_S (1.0 / 240.0)
 #define RISE_SHARE                                                                                 \
     0.5 /* of the travel, by which the ground ahead is higher than the body's plane */
@@ -135,8 +135,7 @@ static bool is_drowning(const struct chassis *chassis, const struct mat3 *turn, 
            !fording_passable(context, chassis->kind, at.x + 8.0 * lead * x, at.z + 8.0 * lead * z);
 }
 
-/* --- a sub-step
- * ---------------------------------------------------------------------------------*/
+/* --- a part of a sub-step ----------------------------------------------------------------------*/
 
 /* Pushes the body up by its springs. Returns the normals of the ground, each by its load. */
 static struct vec3 push_up(struct chassis *chassis, const struct mat3 *inverse, double dt_s)
@@ -243,7 +242,7 @@ static void move(struct chassis *chassis, const struct mat3 *turn, double load_n
 static bool ground_rises(const struct chassis *chassis, const struct mat3 *turn)
 {
     const struct rigid_body *body = &chassis->body;
-    double way = forward_speed(chassis, turn) * STEP_S;
+    double way = forward_speed(chassis, turn) * CHASSIS_SUBSTEP_S;
     double ahead = way + (way < 0.0 ? -0.5 : 0.5) * chassis->kind->length_m;
     const struct vec3 point = {ahead, -body->inertia.centre_m, 0.0};
     struct vec3 at = vec3_add(body->centre, rotation_apply(turn, point));
@@ -272,9 +271,9 @@ static bool is_rough(struct chassis *chassis, const struct mat3 *turn)
     const struct suspension *suspension = &chassis->suspension;
     double least = LEAST_LOAD * suspension->spring_npm * suspension->sag_m;
     const struct vec3 up = {turn->m[0][1], turn->m[1][1], turn->m[2][1]};
-    bool rough =
-        -vec3_dot(chassis->body.velocity, up) * STEP_S > FAST_SHARE * chassis->kind->travel_m ||
-        ground_rises(chassis, turn) || is_scraping(chassis, turn);
+    bool rough = -vec3_dot(chassis->body.velocity, up) * CHASSIS_SUBSTEP_S >
+                     FAST_SHARE * chassis->kind->travel_m ||
+                 ground_rises(chassis, turn) || is_scraping(chassis, turn);
     for (uint32_t i = 0; i < suspension->count; i++) {
         chassis->level &= suspension->wheel[i].load_n > least;
         rough |= suspension->wheel[i].squeeze_m > suspension->most_m ||
@@ -297,8 +296,8 @@ static void find_uneven(struct chassis *chassis)
     const struct step_context *context = chassis->context;
     const struct rigid_body *body = &chassis->body;
     const uint8_t marks = ground_marks_at(context->ground_marks, body->centre.x, body->centre.z);
-    const double reach =
-        vehicle_shell_reach(chassis->kind) + NEAR_M + STEP_S * vec3_length(body->velocity);
+    const double reach = vehicle_shell_reach(chassis->kind) + NEAR_M +
+                         CHASSIS_SUBSTEP_S * vec3_length(body->velocity);
     bool uneven = marks & GROUND_MARKS_CRATER &&
                   terrain_uneven_near(&context->world->terrain, context->craters, body->centre.x,
                                       body->centre.z, reach);
@@ -307,8 +306,7 @@ static void find_uneven(struct chassis *chassis)
     chassis->cratered = uneven;
 }
 
-/* --- a frame
- * ------------------------------------------------------------------------------------*/
+/* --- all of it ---------------------------------------------------------------------------------*/
 
 void chassis_run_begin(struct chassis *chassis, const struct step_context *context, uint32_t i,
                        const struct desired_motion *desired)
@@ -336,22 +334,19 @@ void chassis_run_begin(struct chassis *chassis, const struct step_context *conte
 
 void chassis_run(struct chassis *chassis)
 {
-    double steps = ceil(chassis->context->dt_s / STEP_S - 1e-9);
-    double dt_s = chassis->context->dt_s / steps;
+    const double dt_s = chassis->context->dt_s;
     int more = (int)ceil(dt_s / ROUGH_STEP_S - 1e-9);
     struct mat3 turn;
-    for (int n = 0; n < (int)steps; n++) {
-        find_uneven(chassis);
-        double load = find_load(chassis, &turn);
-        want(chassis, &turn);
-        chassis->rough = is_rough(chassis, &turn);
-        chassis->drowns = is_drowning(chassis, &turn, load, dt_s);
-        int parts = chassis->rough ? more : 1;
-        for (int p = 0; p < parts; p++) {
-            if (p > 0)
-                load = find_load(chassis, &turn);
-            wheels(chassis, &turn, load, dt_s / parts);
-            move(chassis, &turn, load, dt_s / parts);
-        }
+    find_uneven(chassis);
+    double load = find_load(chassis, &turn);
+    want(chassis, &turn);
+    chassis->rough = is_rough(chassis, &turn);
+    chassis->drowns = is_drowning(chassis, &turn, load, dt_s);
+    int parts = chassis->rough ? more : 1;
+    for (int p = 0; p < parts; p++) {
+        if (p > 0)
+            load = find_load(chassis, &turn);
+        wheels(chassis, &turn, load, dt_s / parts);
+        move(chassis, &turn, load, dt_s / parts);
     }
 }

@@ -1,6 +1,7 @@
 /* Random manoeuvres at 10 and at 60 Hz: the same vehicles turn over. Controls change every fifth of
  * a second, so that both get the same at the same times. */
 #include "tests/support/steps.h"
+#include "world/entity/disabled.h"
 
 #include <stdarg.h>
 #include <stddef.h>
@@ -99,7 +100,7 @@ static struct ending drive(struct fixture *f, uint32_t hz, const struct manoeuvr
 static void test_10_and_60_hz_agree_on_what_turns_over(void **state)
 {
     uint64_t random = fixture_seed(14);
-    int over = 0, differ = 0, near = 0;
+    int over = 0, differ = 0, apart = 0;
     (void)state;
     fixture_open(&fast, WORKS);
     fixture_open(&slow, "world = { hz = 10; };" WORKS);
@@ -107,23 +108,168 @@ static void test_10_and_60_hz_agree_on_what_turns_over(void **state)
         struct manoeuvre drawn = draw(&random);
         struct ending a = drive(&fast, 60, &drawn), b = drive(&slow, 10, &drawn);
         over += a.over;
-        near += fabs(a.x - b.x) + fabs(a.z - b.z) < 0.1;
+        apart += !a.over && (a.x != b.x || a.z != b.z);
         if (a.over != b.over)
             printf("%d: %s at %.1f m/s: %s at 60 Hz, %s at 10 Hz\n", n, drawn.kind, drawn.mps,
                    a.over ? "over" : "upright", b.over ? "over" : "upright");
         differ += a.over != b.over;
     }
-    printf("%d of %d turn over; %d differ; %d end within 0.1 m\n", over, MANOEUVRES, differ, near);
+    printf("%d of %d turn over; %d differ; %d of the others end at other places\n", over,
+           MANOEUVRES, differ, apart);
     fixture_close(&fast);
     fixture_close(&slow);
     assert_int_equal(differ, 0);
+    assert_int_equal(apart, 0);
     assert_true(over > MANOEUVRES / 10 && over < MANOEUVRES * 9 / 10);
+}
+
+/* --- scripts -----------------------------------------------------------------------------------*/
+
+#define LANES    60
+#define LANE_M   200.0
+#define LANE_S   16
+#define PER_LANE 6 /* works */
+
+static char text[1 << 17];
+static size_t length;
+
+static void add(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+static void add(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    length += (size_t)vsnprintf(text + length, sizeof text - length, format, arguments);
+    va_end(arguments);
+    assert_true(length < sizeof text);
+}
+
+static double lane_east(int lane)
+{
+    return 20000.0 + LANE_M * (lane % 10);
+}
+
+static double lane_south(int lane)
+{
+    return 20000.0 + LANE_M * (double)(lane / 10);
+}
+
+/* Ramps, tables, trenches and washboards, many on top of one another, north of where the vehicle of
+ * the lane begins. */
+static void add_works(uint64_t *random, int lane)
+{
+    static const char *const shapes[] = {"ramp", "table", "trench", "washboard"};
+    for (int n = 0; n < PER_LANE; n++) {
+        int shape = (int)(fixture_random(random) % 4);
+        double size = fixture_uniform(random, 0.2, 2.0),
+               edge = size * fixture_uniform(random, 0.3, 1.0);
+        add("{ shape = \"%s\"; at = [%.2f, %.2f]; heading_deg = %.1f; length_m = %.2f; width_m = "
+            "%.2f; ",
+            shapes[shape], lane_east(lane) + fixture_uniform(random, -12.0, 12.0),
+            lane_south(lane) - 40.0 + fixture_uniform(random, -20.0, 20.0),
+            fixture_uniform(random, 0.0, 360.0), fixture_uniform(random, 3.0, 18.0) + 2.2 * edge,
+            fixture_uniform(random, 3.0, 14.0) + 2.2 * edge);
+        if (shape == 3)
+            add("height_m = %.2f; wave_m = %.2f; },\n", 0.2 * size,
+                fixture_uniform(random, 1.5, 8.0));
+        else
+            add("%s = %.3f; edge_m = %.3f; },\n", shape == 2 ? "depth_m" : "height_m", size, edge);
+    }
+}
+
+static void add_script(uint64_t *random, int lane)
+{
+    add("{ name = \"s%d\"; steps = ( { at_s = 0.4; throttle = 1.0; for_s = 4.0; }", lane);
+    for (double at_s = 4.4; at_s < LANE_S;) {
+        double for_s = 0.2 * (double)(2 + fixture_random(random) % 12);
+        add(", { at_s = %.1f; throttle = %.1f; steer = %.1f; climb = %d.0; for_s = %.1f; }", at_s,
+            fixture_random(random) % 3 ? 1.0 : fixture_uniform(random, -1.0, 1.0),
+            fixture_random(random) % 2 ? 0.0 : fixture_uniform(random, -1.0, 1.0),
+            fixture_random(random) % 6 ? 0 : 1, for_s);
+        at_s += for_s;
+    }
+    add(" ); },\n");
+}
+
+/* Returns lanes of works, each with a vehicle on a script. */
+static const char *lanes(uint64_t seed, uint32_t hz)
+{
+    static const char *const kinds[] = {"tank",      "carrier",       "jeep", "truck",
+                                        "hamburger", "attack-tomato", "flak", "howitzer"};
+    uint64_t random = seed;
+    length = 0;
+    add("world = { hz = %u; capacity = 64; };\nearthworks = (\n", hz);
+    for (int lane = 0; lane < LANES; lane++)
+        add_works(&random, lane);
+    length -= 2; /* the last comma */
+    add(" );\nscripts = (\n");
+    for (int lane = 0; lane < LANES; lane++)
+        add_script(&random, lane);
+    length -= 2;
+    add(" );\nvehicles = (\n");
+    for (int lane = 0; lane < LANES; lane++)
+        add("{ kind = \"%s\"; script = \"s%d\"; at = [%.1f, %.1f]; heading_deg = 0; },\n",
+            kinds[lane % 8], lane, lane_east(lane), lane_south(lane));
+    length -= 2;
+    add(" );\n");
+    return text;
+}
+
+static bool same(const struct entities *a, const struct entities *b, uint32_t i)
+{
+    return a->x[i] == b->x[i] && a->y[i] == b->y[i] && a->z[i] == b->z[i] && a->vx[i] == b->vx[i] &&
+           a->vy[i] == b->vy[i] && a->vz[i] == b->vz[i] && a->heading[i] == b->heading[i] &&
+           a->pitch[i] == b->pitch[i] && a->roll[i] == b->roll[i] && a->harm_j[i] == b->harm_j[i] &&
+           a->state[i] == b->state[i];
+}
+
+/* A script drives a vehicle over works to the same bit. That holds until something happens within a
+ * tenth of a second which acts from the next frame on: it backs off from what it has run into, its
+ * engine breaks, or it becomes a wreck. */
+static void test_scripts_drive_alike_to_the_bit(void **state)
+{
+    uint64_t seed = fixture_seed(14);
+    uint32_t compared = 0, over = 0, broken = 0;
+    bool done[LANES] = {false};
+    (void)state;
+    fixture_open(&fast, lanes(seed, 60));
+    fixture_open(&slow, lanes(seed, 10));
+    for (int tenth = 1; tenth <= 10 * LANE_S; tenth++) {
+        fixture_run(&fast, 6);
+        fixture_run(&slow, 1);
+        struct entities a = steps_rows(&fast), b = steps_rows(&slow);
+        for (uint32_t i = 0; i < LANES; i++) {
+            const struct kind *kind = &fast.view.world.kinds[a.kind[i]];
+            bool wreck = a.state[i] == ENTITY_WRECK || b.state[i] == ENTITY_WRECK;
+            bool breaks = disabled_drive(kind, &a, i) || disabled_drive(kind, &b, i);
+            if (done[i])
+                continue;
+            if (a.state[i] != b.state[i])
+                fail_msg("lane %u, a %s, at %.1f s: %s at 60 Hz, %s at 10 Hz", i, kind->name,
+                         0.1 * tenth, a.state[i] == ENTITY_WRECK ? "a wreck" : "upright",
+                         b.state[i] == ENTITY_WRECK ? "a wreck" : "upright");
+            over += wreck;
+            broken += breaks && !wreck;
+            done[i] = wreck || breaks || a.behaviour[i] != BEHAVIOUR_SCRIPT ||
+                      b.behaviour[i] != BEHAVIOUR_SCRIPT;
+            if (!done[i] && !same(&a, &b, i))
+                fail_msg("lane %u, a %s, at %.1f s: %.3g m apart", i, kind->name, 0.1 * tenth,
+                         hypot(a.x[i] - b.x[i], a.z[i] - b.z[i]));
+            compared += !done[i];
+        }
+    }
+    printf("%u rows compared, %u turn over, %u break down\n", compared, over, broken);
+    assert_true(compared > 10u * LANES * LANE_S / 2u);
+    assert_true(over > 0);
+    fixture_close(&fast);
+    fixture_close(&slow);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_10_and_60_hz_agree_on_what_turns_over),
+        cmocka_unit_test(test_scripts_drive_alike_to_the_bit),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

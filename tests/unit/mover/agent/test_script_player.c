@@ -193,6 +193,33 @@ static void test_a_wait_lasts_as_long_as_it_says(void **state)
     fixture_close(&f);
 }
 
+/* The first frame that a step acts in begins at its time, and the last one ends when it is over, at
+ * any rate. */
+static void test_a_step_acts_from_its_time_on_at_any_rate(void **state)
+{
+    static const char *const worlds[] = {"", "world = { hz = 10; };", "world = { hz = 20; };"};
+    static const uint32_t hz[] = {60, 10, 20};
+    (void)state;
+    for (int n = 0; n < 3; n++) {
+        char text[512];
+        snprintf(text, sizeof text,
+                 "%s scripts = ( { name = \"s\"; steps = ( { at_s = 0.4; throttle = 1.0; for_s = "
+                 "0.6; }, { at_s = 2.0; wait_s = 1.0; } ); } );\n"
+                 "vehicles = ( { kind = \"jeep\"; at = [25000.0, 25000.0]; script = \"s\"; } );",
+                 worlds[n]);
+        fixture_open(&f, text);
+        fixture_run(&f, 2 * hz[n] / 5);
+        assert_true(now()->throttle[0] == 0.0f && speed() == 0.0);
+        fixture_run(&f, 1);
+        assert_true(now()->throttle[0] == 1.0f && speed() > 0.0);
+        fixture_run(&f, 3 * hz[n] / 5 - 1);
+        assert_true(now()->throttle[0] == 1.0f);
+        fixture_run(&f, 1);
+        assert_true(now()->throttle[0] == 0.0f);
+        fixture_close(&f);
+    }
+}
+
 /* A step with a time begins at it, even if those before it have not ended. */
 static void test_a_time_cuts_off_the_steps_before_it(void **state)
 {
@@ -406,6 +433,7 @@ int main(void)
         cmocka_unit_test(test_a_helicopter_flies_through_its_point_at_its_time),
         cmocka_unit_test(test_one_step_follows_the_other),
         cmocka_unit_test(test_a_wait_lasts_as_long_as_it_says),
+        cmocka_unit_test(test_a_step_acts_from_its_time_on_at_any_rate),
         cmocka_unit_test(test_a_time_cuts_off_the_steps_before_it),
         cmocka_unit_test(test_shots_are_fired_at_vehicles_and_points),
         cmocka_unit_test(test_who_aims_with_the_hull_turns_it),
