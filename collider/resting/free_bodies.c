@@ -98,16 +98,19 @@ static void begin_wreck(const struct response_context *context, struct free_side
     body->moved.velocity = vec3_add(centre, side->fall);
 }
 
-/* Any other body begins with the motion that it has had so far in this frame. The path of a vehicle
- * in the air has the mean speed of the frame, which its weight makes faster until the end. */
+/* Any other body begins with the motion that it has had so far in this frame: that of its centre of
+ * mass, which goes straight while the body turns about it. The path of a vehicle in the air has the
+ * mean speed of the frame, which its weight makes faster until the end. */
 static void begin_moved(const struct response_context *context, struct free_side *side,
                         struct free_body *body)
 {
     double hz = 1.0 / world_dt_s(context->world);
     struct rotation_path turn = body_motion_rotation(context->motion, side->row);
     body->moved.spin = vec3_scale(rotation_speed(turn.from, turn.to, 0.0), hz);
-    body->moved.velocity = vec3_add(vec3_scale(context->path[side->row].along, hz),
-                                    vec3_cross(body->moved.spin, side->arm));
+    const struct mat3 axes = rotation_matrix(turn.to);
+    struct vec3 arm = rotation_apply(&axes, (struct vec3){0.0, side->mass.centre_m, 0.0});
+    body->moved.velocity =
+        vec3_scale(vec3_add(context->path[side->row].along, vec3_sub(arm, side->arm)), hz);
     if (side->is_free && free_fall_only(context->motion, side->row))
         body->moved.velocity.y -= 0.5 * GRAVITY_MPS2 * world_dt_s(context->world);
 }

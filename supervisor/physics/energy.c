@@ -7,7 +7,8 @@
 #include <stdlib.h>
 
 #define GRAVITY_MPS2 9.80665
-#define ROUNDING     1e-9 /* of the energy of a body */
+#define ROUNDING     1e-9          /* of the energy of a body */
+#define SHORT_S      (1.01 / 60.0) /* a frame in which nothing both rises and falls */
 
 int energy_make(struct energy *energy, uint32_t capacity)
 {
@@ -96,16 +97,18 @@ static double work_j(const struct body_look *body, bool held, double dt_s)
            weight_j(body, held) + steering;
 }
 
-/* Returns the work by which a wreck may have been pushed out of the ground [J]. It is what the rise
- * of its centre of mass took beyond its kinetic energy, at most a rise by the depth of its lowest
- * corner. */
-static double pushed_j(const struct body_look *body, double kinetic_before_j)
+/* Returns the work by which a wreck may have been pushed out of the ground [J]: at most a rise by
+ * the depth of its lowest corner. It is what the rise of its centre of mass took beyond its kinetic
+ * energy. In a frame longer than SHORT_S the wreck may have come down again. */
+static double pushed_j(const struct body_look *body, double kinetic_before_j, double dt_s)
 {
     double weight_n = body->kind->mass_kg * GRAVITY_MPS2;
+    double most_j = weight_n * maths_max(0.0, -body->was->lowest_m);
     if (!body->now.wreck || !body->was->wreck)
         return 0.0;
-    return maths_clamp(-weight_n * fall_m(body) - kinetic_before_j, 0.0,
-                       weight_n * maths_max(0.0, -body->was->lowest_m));
+    if (dt_s > SHORT_S)
+        return most_j;
+    return maths_clamp(-weight_n * fall_m(body) - kinetic_before_j, 0.0, most_j);
 }
 
 static void begin_share(struct energy_share *share, uint32_t index, const struct body_look *body,
@@ -121,7 +124,7 @@ static void begin_share(struct energy_share *share, uint32_t index, const struct
     bool held = body_measures_held(body);
     double now = kinetic_j(body->kind, &body->now, held);
     double before = kinetic_j(body->kind, body->was, held);
-    double work = work_j(body, held, dt_s) + pushed_j(body, before);
+    double work = work_j(body, held, dt_s) + pushed_j(body, before, dt_s);
     share->gain_j = now - before - work - ROUNDING * (now + before);
 }
 
