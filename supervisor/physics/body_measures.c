@@ -308,11 +308,13 @@ static bool slides_down(const struct body_look *body)
 }
 
 /* Engines bound the speed of what they drive. An explosion or another body may throw a body faster,
- * and it may fall or slide; it then is left out until it is slow again. */
+ * and it may fall or slide; it then is left out until it is slow again. The speed is that of the
+ * centre of mass: any other point of a wreck that turns over is faster and slower by turns. */
 static void measure_speed(struct measures *measures, struct body_look *body)
 {
     double top = maths_max(body->kind->max_speed_mps, LEAST_TOP);
-    double share = vec3_length(level(body->now.velocity, true)) / top;
+    struct vec3 velocity = motion_look_centre_velocity(&body->now, body->kind);
+    double share = vec3_length(level(velocity, true)) / top;
     bool faster = share > measure_bound(measures, MEASURE_OF_SPEED);
     body->thrown = faster && (body->thrown || body->blasts > 0 || body->struck > 0 ||
                               body->hits > 0 || slides_down(body));
