@@ -25,7 +25,7 @@ static const struct option_row rows[] = {
     {"timeout", "SECONDS", "how long to wait for a reply (default 5)", .real = &given.timeout_s,
      .low = 0.01, .high = 3600.0},
     COMMAND_ROUTE_OPTION_ROW(given.remote),
-    DDS_LINK_OPTION_ROWS(given.link),
+    DDS_LINK_READER_OPTION_ROWS(given.link),
     OPTION_ROWS_END};
 
 /* The commands' options, which the usage text describes. */
@@ -128,7 +128,7 @@ void ctl_parse(struct ctl_request *request, int argc, char **argv)
         .usage = usage,
         .rows = rows,
         .more = order_rows(),
-        .ending = "--dds-config, --interface and --domain go with --remote alone.\n"
+        .ending = "--dds-config, --interface, --domain and --partition go with --remote alone.\n"
                   "exit: 0 done, 1 refused or no reply, 2 usage\n",
         .plain = INT_MAX};
     struct error_text error;
@@ -137,9 +137,10 @@ void ctl_parse(struct ctl_request *request, int argc, char **argv)
     int count = option_table_read(&table, argc, argv);
     char **plain = argv + argc - count;
     struct dds_link_options *link = &given.link;
-    if (!given.remote && (link->config || link->interface || link->domain != DOMAIN_NONE))
-        die_usage("--dds-config, --interface and --domain are for commands over DDS; add "
-                  "--remote, or leave them out");
+    if (!given.remote &&
+        (link->config || link->interface || link->partition || link->domain != DOMAIN_NONE))
+        die_usage("--dds-config, --interface, --domain and --partition are for commands over DDS; "
+                  "add --remote, or leave them out");
     link->domain = link->domain == DOMAIN_NONE ? 0 : link->domain;
     given.lines = count == 1 && strcmp(plain[0], "-") == 0;
     bool options = false;

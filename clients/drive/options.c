@@ -21,7 +21,7 @@ static const struct option_row rows[] = {
      .flag = &given.plain},
     {"rate", "HZ", "updates a second of the screen (default 10) or the lines (default 1)",
      .real = &given.rate_hz, .low = 0.1, .high = 60.0},
-    DDS_LINK_OPTION_ROWS(given.link),
+    DDS_LINK_READER_OPTION_ROWS(given.link),
     COMMAND_ROUTE_OPTION_ROW(given.remote),
     OPTION_ROWS_END};
 

@@ -9,7 +9,7 @@ static const struct option_row rows[] = {
     OPTION_ROW_WORLD(given, segment_name_option),
     {"timeout", "SECONDS", "how long to wait for the world, and for a reply (default 30)",
      .real = &given.timeout_s, .low = 0.1, .high = 3600.0},
-    DDS_LINK_OPTION_ROWS(given.link),
+    DDS_LINK_READER_OPTION_ROWS(given.link),
     COMMAND_ROUTE_OPTION_ROW(given.remote),
     OPTION_ROWS_END};
 

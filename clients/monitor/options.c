@@ -19,7 +19,7 @@ static const struct option_row rows[] = {
     {"lines", NULL, "one status line a second, also on a terminal", .flag = &given.lines},
     {"rate", "HZ", "updates a second of the screen (default 5) or the lines (default 1)",
      .real = &given.rate_hz, .low = 0.01, .high = 20.0},
-    DDS_LINK_OPTION_ROWS(given.link),
+    DDS_LINK_READER_OPTION_ROWS(given.link),
     OPTION_ROWS_END};
 
 void options_parse(struct options *options, int argc, char **argv)

@@ -11,7 +11,8 @@
 
 #include <stdbool.h>
 
-#define WORLD_PARTITION_MAX (SEGMENT_NAME_MAX + 17) /* with the NUL */
+#define WORLD_PARTITION_DIGITS 16u                     /* hexadecimal, of FOLDER */
+#define WORLD_PARTITION_MAX    (SEGMENT_NAME_MAX + 17) /* with the NUL */
 
 /* Writes the partition NAME@FOLDER of a world of this user's runtime folder, which need not exist
  * yet. FOLDER is 16 hexadecimal digits that follow from the machine's boot and the folder's device

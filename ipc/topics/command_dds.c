@@ -27,7 +27,8 @@ static int wake_on_reply(struct command_dds *dds, struct error_text *error)
 static void send_command(void *self, const jolon_Command *command)
 {
     const struct command_dds *dds = self;
-    (void)dds_write(dds->commands, command);
+    if (dds_link_is_single(dds->link)) /* otherwise all worlds of the name would take it */
+        (void)dds_write(dds->commands, command);
 }
 
 static bool receive(void *self, jolon_CommandReply *reply)
@@ -52,7 +53,7 @@ static bool receive(void *self, jolon_CommandReply *reply)
 static bool reachable(void *self)
 {
     const struct command_dds *dds = self;
-    return dds_topics_readers(dds->commands, NULL) > 0;
+    return dds_link_is_single(dds->link) && dds_topics_readers(dds->commands, NULL) > 0;
 }
 
 static int descriptor(void *self)
@@ -67,6 +68,7 @@ int command_dds_open(struct command_dds *dds, const struct dds_link *link,
     static const struct command_transport transport = {send_command, receive, reachable,
                                                        descriptor};
     *command_link = (struct command_link){&transport, dds};
+    dds->link = link;
     dds->wakeup = eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC);
     if (dds->wakeup < 0)
         return error_text_set(error, "eventfd: %s", strerror(errno));

@@ -7,6 +7,7 @@
 #include "ipc/topics/dds_topics.h"
 
 struct command_dds {
+    const struct dds_link *link; /* the caller's */
     dds_entity_t replies, commands;
     int wakeup; /* an eventfd that a thread of Cyclone DDS writes when a reply comes */
 };

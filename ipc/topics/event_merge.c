@@ -18,8 +18,8 @@ _Static_assert(offsetof(jolon_ContactEndEvent, header) == 0, "header first");
 int event_merge_open(struct event_merge *merge, const struct dds_link *link,
                      event_merge_format *format, struct error_text *error)
 {
-    *merge =
-        (struct event_merge){.format = format, .settled_ns = clock_now_ns() + EVENT_MERGE_FIRST_NS};
+    *merge = (struct event_merge){
+        .link = link, .format = format, .settled_ns = clock_now_ns() + EVENT_MERGE_FIRST_NS};
     merge->seen = calloc(EVENT_MERGE_SEEN, sizeof *merge->seen);
     if (!merge->seen)
         return error_text_set(error, "out of memory for the numbers of events");
@@ -101,12 +101,13 @@ static bool keep(struct event_merge *merge, uint32_t topic, const void *event, u
 
 static bool take(struct event_merge *merge, uint64_t now_ns)
 {
+    const bool single = dds_link_is_single(merge->link);
     bool kept = true;
     for (uint32_t i = 0; i < EVENT_TOPIC_COUNT; i++) {
         struct samples from = {.reader = merge->reader[i],
                                .topic = (enum dds_topic)(TOPIC_EVENTS + i)};
         while (samples_next(&from))
-            kept = kept && keep(merge, i, from.sample, now_ns);
+            kept = kept && (!single || keep(merge, i, from.sample, now_ns));
     }
     return kept;
 }

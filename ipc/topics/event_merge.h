@@ -40,6 +40,7 @@ struct event_merge_seen {
 };
 
 struct event_merge {
+    const struct dds_link *link; /* the caller's */
     dds_entity_t reader[EVENT_TOPIC_COUNT];
     dds_entity_t waitset;
     event_merge_format *format;

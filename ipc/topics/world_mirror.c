@@ -168,9 +168,12 @@ static void check_world_writer(struct world_mirror *mirror)
 
 void world_mirror_take(struct world_mirror *mirror)
 {
+    const bool single = dds_link_is_single(mirror->link);
     for (int i = 0; i < mirror->readers; i++) {
         struct samples from = {.reader = mirror->reader[i], .topic = mirror->topic[i]};
         while (samples_next(&from)) {
+            if (!single)
+                continue; /* of which world it is cannot be told */
             take(mirror, mirror->topic[i], from.sample, from.writer);
             if (i == WORLD_MIRROR_WORLD)
                 mirror->world_writer = from.writer;

@@ -79,7 +79,8 @@ int world_mirror_open(struct world_mirror *mirror, const struct dds_link *link, 
                       enum world_mirror_entities entities, struct error_text *error);
 void world_mirror_close(struct world_mirror *mirror);
 
-/* Takes the samples that have come. Does not block. */
+/* Takes the samples that have come. None is taken from a link that is not single
+ * (dds_link_is_single()). Does not block. */
 void world_mirror_take(struct world_mirror *mirror);
 
 /* Waits for samples, at most until until_ns (CLOCK_MONOTONIC). */

@@ -54,7 +54,42 @@ check "the worlds have partitions of their own" eval \
 # --- those who know no more than the name --------------------------------------------------------------
 no_world() { ! at "$elsewhere" "$bin/jolon-monitor" -w "$name" --once --json; }
 check "a monitor of a folder without that world sees none" no_world
+partition() { at "$1" "$jolon" world paths -w "$name" partition; }
+names_both() { grep -q "$(partition "$here")" "$1" && grep -q "$(partition "$there")" "$1" && grep -q -- --partition "$1"; }
+refused() { ! at "$elsewhere" "$@" 2>told; }
+for reader in "monitor --once" "harness" "drive --plain --remote" "ctl --remote pause"; do
+    # shellcheck disable=SC2086
+    check "with an interface, ${reader%% *} is told of both worlds and takes none" \
+        eval 'refused "$bin/jolon-${reader%% *}" -w "$name" ${reader#"${reader%% *}"} --interface lo </dev/null >/dev/null && names_both told'
+done
+check "neither was paused" equal "$(paused "$here") $(paused "$there")" "False True"
+check "a monitor that is told which sees the one" is_duel "$elsewhere" --interface lo --partition "$(partition "$here")"
+check "and the other" is_training "$elsewhere" --interface lo --partition "$(partition "$there")"
+check "a command to the one reaches that alone" at "$elsewhere" "$bin/jolon-ctl" -w "$name" --remote --interface lo \
+    --partition "$(partition "$there")" resume
+check "the other still runs, too" equal "$(paused "$here") $(paused "$there")" "False False"
+check "a partition of another name is refused" eval \
+    'refused "$bin/jolon-monitor" -w "$name" --once --interface lo --partition "x@0123456789abcdef" && grep -q "is none of world" told'
 check "the first world stops" at "$here" "$jolon" stop -w "$name"
 check "a monitor with an interface sees the other user's world by its name" is_training "$elsewhere" --interface lo
+at "$elsewhere" "$bin/jolon-monitor" -w "$name" --json --interface lo >seen-one 2>told-one &
+readers=($!)
+check "so does one that goes on" eventually test -s seen-one
+check "a world of that name begins again" begin "$here" again duel
+sees_training() { [ "$(tail -n 1 seen-one | json entities)" -gt 2 ]; }
+sleep 2
+check "who reads one world stays with it" sees_training
+for world in "$here" "$there"; do check "a world stops" at "$world" "$jolon" stop -w "$name"; done
+
+# --- a reader that was there first ------------------------------------------------------------------------
+at "$elsewhere" "$bin/jolon-monitor" -w "$name" --lines --interface lo >lines 2>told-first &
+readers+=($!)
+check "a monitor waits for a world" eventually test -s lines
+check "two worlds begin" eval 'begin "$here" first duel && begin "$there" second training'
+check "it says that there are two" eventually grep -q 'takes none of them' told-first
+check "and names them" names_both told-first
+kill "${readers[@]}"
+wait "${readers[@]}"
+check "the one stops" at "$here" "$jolon" stop -w "$name"
 check "the other stops" at "$there" "$jolon" stop -w "$name"
 done_testing
