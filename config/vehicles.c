@@ -131,6 +131,27 @@ static uint32_t add_route(struct scenario *scenario, const config_setting_t *poi
     return scenario->route_count++;
 }
 
+/* Checks what the kind cannot do. */
+static int check_kind(const struct entry *entry, const struct vehicle_entry *vehicle,
+                      const struct kind *kind)
+{
+    if (vehicle->roads && kind->domain == DOMAIN_SEA)
+        return entry_refuse(entry, VEHICLE_ROADS,
+                            "is not for a %s; allowed: false, or a kind of land or air",
+                            kind->name);
+    if (entry_given(entry, VEHICLE_ALTITUDE) && kind->domain != DOMAIN_AIR)
+        return entry_refuse(entry, VEHICLE_ALTITUDE,
+                            "is not for a %s, which does not fly; right would be: an entry "
+                            "without it, or an aircraft",
+                            kind->name);
+    if (entry_given(entry, VEHICLE_SPEED) && vehicle->speed_mps < kind->min_speed_mps)
+        return entry_refuse(entry, VEHICLE_SPEED,
+                            "is too slow for a %s to fly; allowed: %.4g or more, or an entry "
+                            "without it",
+                            kind->name, kind->min_speed_mps);
+    return 0;
+}
+
 static int add_vehicle(struct entry *entry, struct vehicle_entry *vehicle)
 {
     struct scenario *scenario = entry->scenario;
@@ -143,10 +164,8 @@ static int add_vehicle(struct entry *entry, struct vehicle_entry *vehicle)
     group->kind = entry_kind(entry, VEHICLE_KIND, vehicle->kind, DOMAINS_VEHICLE);
     if (group->kind == KIND_NONE)
         return -1;
-    if (vehicle->roads && scenario->kinds[group->kind].domain == DOMAIN_SEA)
-        return entry_refuse(entry, VEHICLE_ROADS,
-                            "is not for a %s; allowed: false, or a kind of land or air",
-                            vehicle->kind);
+    if (check_kind(entry, vehicle, &scenario->kinds[group->kind]) != 0)
+        return -1;
     memcpy(group->name, vehicle->name, sizeof(group->name));
     memcpy(group->squad, vehicle->group, sizeof(group->squad));
     group->force = (uint8_t)vehicle->force;

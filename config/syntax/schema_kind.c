@@ -243,7 +243,7 @@ static const struct key kind_keys[] = {
                "Land vehicles: the share of `fuel_lps` that the engine burns while the vehicle "
                "stands. A gas turbine burns twice that of a piston engine."),
     WHOLE32("rounds", K, kind.rounds, 0, 1000000, "0",
-            .meaning = "The rounds of its munition at the start."),
+            .meaning = "The rounds of its munition at the start. An armed vehicle needs some."),
 };
 #undef K
 const struct key_table schema_kind = {"kind", kind_keys, COUNT(kind_keys),

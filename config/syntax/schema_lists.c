@@ -89,10 +89,12 @@ static const struct key vehicle_keys[] = {
     [VEHICLE_HEADING] =
         SCALED("heading_deg", V, heading_rad, -360, 360, RAD_PER_DEG, NULL, .unit = "degrees",
                .unset = "random", .meaning = "The heading, clockwise from north."),
-    [VEHICLE_SPEED] = NUMBER("speed_mps", V, speed_mps, 0, 3000, NULL, .unit = "m/s",
-                             .unset = "the kind's `min_speed_mps`",
-                             .meaning = "The speed at the start. With `hold` the vehicle keeps it, "
-                                        "even above the `max_speed_mps` of its kind."),
+    [VEHICLE_SPEED] =
+        NUMBER("speed_mps", V, speed_mps, 0, 3000, NULL, .unit = "m/s",
+               .unset = "the kind's `min_speed_mps`",
+               .meaning = "The speed at the start. With `hold` the vehicle keeps it, "
+                          "even above the `max_speed_mps` of its kind. An aeroplane has "
+                          "at least its `min_speed_mps`."),
     [VEHICLE_FIRE_AT_WILL] =
         BOOLEAN("fire_at_will", V, fire_at_will, STORE_U32, "false",
                 .meaning = "An older spelling: true is `engage = \"free\"`. The two keys must not "
@@ -155,10 +157,13 @@ static const struct key step_keys[] = {
     [STEP_KEY_FACE] =
         SCALED("face_deg", T, face_rad, -360, 360, RAD_PER_DEG, NULL, .unit = "degrees",
                .meaning = "The vehicle turns to this heading, clockwise from north."),
-    [STEP_KEY_STOP] = BOOLEAN("stop", T, stop, STORE_U32, NULL,
-                              .meaning = "true: the vehicle brakes until it stands."),
-    [STEP_KEY_WAIT] = NUMBER("wait_s", T, wait_s, 0, 1e7, NULL, .unit = "s",
-                             .meaning = "The vehicle stands for this long."),
+    [STEP_KEY_STOP] =
+        BOOLEAN("stop", T, stop, STORE_U32, NULL,
+                .meaning = "true: the vehicle brakes until it stands. An aeroplane cannot."),
+    [STEP_KEY_WAIT] =
+        NUMBER("wait_s", T, wait_s, 0, 1e7, NULL, .unit = "s",
+               .meaning = "The vehicle stands for this long. An aeroplane flies straight on "
+                          "at 1.3 times its `min_speed_mps`."),
     [STEP_KEY_FIRE] =
         TEXT("fire", T, fire, NULL,
              .meaning = "The vehicle fires one shot at the vehicle of this name, as soon as its "
@@ -182,11 +187,13 @@ static const struct key step_keys[] = {
                               .meaning = "The climb of an aircraft, also held for `for_s`; above 0 "
                                          "the hand brake of a land vehicle. It is "
                                          "positive upwards."),
-    [STEP_KEY_FOR] = NUMBER("for_s", T, for_s, 0, 1e7, NULL, .unit = "s",
+    [STEP_KEY_FOR] = NUMBER("for_s", T, for_s, 0.001, 1e7, NULL, .unit = "s",
                             .meaning = "How long the controls are held."),
     [STEP_KEY_SPEED] =
         NUMBER("speed_mps", T, speed_mps, 0.1, 3000, NULL, .unit = "m/s",
-               .unset = "three quarters of full speed", .meaning = "The speed of `go`."),
+               .unset = "three quarters of full speed",
+               .meaning = "The speed of `go`. No vehicle goes faster than its kind can, and no "
+                          "aeroplane more slowly than it flies."),
     [STEP_KEY_ALTITUDE] =
         NUMBER("altitude_m", T, altitude_m, 0, 20000, NULL, .unit = "m", .unset = "as before",
                .meaning = "The height of an aircraft above the ground from this step on. It stands "

@@ -139,6 +139,31 @@ static int give_order(const struct copy *copy, const struct scenario_step *from,
                                 file_of(copy), from->line, copy->from->name);
 }
 
+/* Checks whether the vehicle can stand, and whether it can fire, and at another one. */
+static int check_ability(const struct copy *copy, const struct scenario_step *from,
+                         const struct script_step *step)
+{
+    const struct kind *kind = &copy->built->scenario->kinds[copy->group->kind];
+    if (step->type == STEP_STOP && kind->min_speed_mps > 0.0)
+        return error_text_set(copy->error,
+                              "%s:%d: script \"%s\": stop = true: a %s cannot stand; right would "
+                              "be: wait_s, in which it flies straight on",
+                              file_of(copy), from->line, copy->from->name, kind->name);
+    if (step->type != STEP_FIRE && step->type != STEP_FIRE_AT)
+        return 0;
+    if (kind->munition == KIND_NONE)
+        return error_text_set(copy->error,
+                              "%s:%d: script \"%s\": a %s fires, which has no munition; right "
+                              "would be: an armed vehicle, or a script without this step",
+                              file_of(copy), from->line, copy->from->name, kind->name);
+    if (step->type == STEP_FIRE && step->target_slot == copy->slot)
+        return error_text_set(copy->error,
+                              "%s:%d: script \"%s\": fire = \"%s\": is the vehicle itself; right "
+                              "would be: another vehicle",
+                              file_of(copy), from->line, copy->from->name, from->target);
+    return 0;
+}
+
 static int copy_step(const struct copy *copy, uint32_t index, double *altitude_m,
                      struct script_step *step)
 {
@@ -164,7 +189,7 @@ static int copy_step(const struct copy *copy, uint32_t index, double *altitude_m
             file_of(copy), from->line, copy->from->name, from->target);
     if (step->type == STEP_BEHAVIOUR && give_order(copy, from, step) != 0)
         return -1;
-    return check_ground(copy, from, step);
+    return check_ability(copy, from, step) != 0 ? -1 : check_ground(copy, from, step);
 }
 
 /* Sets for each step the one that cuts it off. Returns the last begin time. */

@@ -384,6 +384,16 @@ static const struct refusal refusals[] = {
     {"vehicles = ( { kind = \"truck\"; name = \"A\"; } );\nfires = ( { shooter = \"A\"; point = "
      "[1, 2]; } );",
      2, "fires[0].shooter = \"A\": is a truck, which has no munition; right would be: ..."},
+    {"vehicles = (\n{ kind = \"jet\"; behaviour = \"hold\"; at = [25000, 25000];\n speed_mps = 0; "
+     "} );",
+     3,
+     "vehicles[0].speed_mps = 0: is too slow for a jet to fly; allowed: 70 or more, or an entry "
+     "without it"},
+    {"vehicles = (\n{ kind = \"tank\"; altitude_m = 5; } );", 2,
+     "vehicles[0].altitude_m = 5: is not for a tank, which does not fly; right would be: an entry "
+     "without it, or an aircraft"},
+    {"scripts = (\n{ name = \"a\"; steps = ( { throttle = 1.0; for_s = 0; } ); } );", 2,
+     "scripts[0].steps[0].for_s = 0: out of range; allowed: 0.001..10000000 s"},
     {"scripts = (\n{ name = \"a\"; file = \"no.csv\"; } );", 2,
      "scripts[0].file = \"no.csv\": ..."},
     {"vehicles = ( { kind = \"tank\"; name = \"T\"; } );\nfires = ( { shooter = \"T\"; target = "
@@ -600,10 +610,12 @@ static const struct refusal kind_refusals[] = {
      "min_speed_mps = 10: is above max_speed_mps; allowed: up to max_speed_mps"},
     {KIND_LAND "turn_rate_dps = 9; class = \"tree\";", 2,
      "class = tree: is only for fixed objects; allowed: with domain = \"fixed\""},
-    {KIND_LAND "turn_rate_dps = 9; munition = \"k\"; range_m = 5; reload_s = 1;", 2,
+    {KIND_LAND "turn_rate_dps = 9; munition = \"k\"; range_m = 5; reload_s = 1; rounds = 1;", 2,
      "munition = k: is not a munition; allowed: a kind with domain = \"munition\""},
-    {KIND_LAND "turn_rate_dps = 9; munition = \"x\"; range_m = 5; reload_s = 1;", 2,
+    {KIND_LAND "turn_rate_dps = 9; munition = \"x\"; range_m = 5; reload_s = 1; rounds = 1;", 2,
      "munition = x: unknown kind; allowed: a kind with domain = \"munition\""},
+    {KIND_LAND "turn_rate_dps = 9; munition = \"k\"; range_m = 5; reload_s = 1; rounds = 0;", 2,
+     "rounds = 0: is needed by an armed vehicle; allowed: above 0"},
     {KIND_LAND "turn_rate_dps = 9; munition = \"k\"; range_m = 0;", 2,
      "range_m = 0: is needed by an armed vehicle; allowed: above 0"},
     {KIND_BEGIN "domain = \"air\"; max_speed_mps = 9; acceleration_mps2 = 1; turn_rate_dps = 9;\n"

@@ -153,6 +153,17 @@ static void test_what_a_kind_cannot_do_is_refused(void **state)
                 "vehicles = ( { kind = \"tank\"; script = \"a\"; } );",
                 "script \"a\": behaviour = \"route\" has no route; right would be: route = ( [x, "
                 "z], [x, z] ) with the vehicle");
+    check_build("scripts = ( { name = \"a\"; steps = ( { fire_at = [25000, 25100]; } ); } );\n"
+                "vehicles = ( { kind = \"truck\"; script = \"a\"; } );",
+                "script \"a\": a truck fires, which has no munition; right would be: an armed "
+                "vehicle");
+    check_build(
+        "scripts = ( { name = \"a\"; steps = ( { fire = \"T\"; } ); } );\n"
+        "vehicles = ( { kind = \"tank\"; name = \"T\"; script = \"a\"; } );",
+        "script \"a\": fire = \"T\": is the vehicle itself; right would be: another vehicle");
+    check_build("scripts = ( { name = \"a\"; steps = ( { stop = true; } ); } );\n"
+                "vehicles = ( { kind = \"jet\"; script = \"a\"; } );",
+                "script \"a\": stop = true: a jet cannot stand; right would be: wait_s");
 }
 
 int main(void)
