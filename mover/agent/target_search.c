@@ -135,6 +135,14 @@ static void gather(const struct step_context *context, uint32_t i, const struct 
 
 /* --- the search --------------------------------------------------------------------------------*/
 
+/* Returns the tick of the look that is due now or next. An agent that may begin to cruise looks
+ * ahead of it, and does so again if the stretch is refused: it is one look all the same. */
+static uint64_t look_tick(const struct step_context *context, uint32_t i)
+{
+    uint32_t past = ((uint32_t)context->tick + context->m->id[i]) % context->look_frames;
+    return past == 0 ? context->tick : context->tick + context->look_frames - past;
+}
+
 /* Returns true if the crew finds the vehicle in this look. A look of T seconds finds it with
  * probability T / (T + mean), so that the time to find it is geometric, nearly exponential. */
 static bool finds(const struct step_context *context, uint32_t i, uint32_t other, double sight)
@@ -146,7 +154,7 @@ static bool finds(const struct step_context *context, uint32_t i, uint32_t other
     double mean_s = maths_clamp(SEARCH_MOST_S * share, SEARCH_LEAST_S, SEARCH_MOST_S);
     double look_s = (double)context->look_frames * context->dt_s;
     uint64_t pair = (uint64_t)w->id[i] << 32 | w->id[other];
-    return random_unit(context->world->params->seed, context->tick, pair, RANDOM_SEARCH) *
+    return random_unit(context->world->params->seed, look_tick(context, i), pair, RANDOM_SEARCH) *
                (look_s + mean_s) <
            look_s;
 }

@@ -127,6 +127,34 @@ static void test_no_crew_takes_a_wreck_or_what_is_out_of_reach(void **state)
     assert_int_equal(steps_rows(&f).target_slot[row], near);
 }
 
+/* An agent that may begin to cruise looks ahead of its turn, and again in each of the next tries if
+ * the stretch is refused. It finds in all of them what it finds in its turn, so that such agents
+ * find no enemy sooner than others. */
+static void test_looks_ahead_of_a_turn_are_one_look(void **state)
+{
+    struct step_context step;
+    struct serial_context context;
+    uint32_t found = 0, looks = 0;
+    uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
+    put("tank", 25000.0, 24000.0, FORCE_RED, BEHAVIOUR_HOLD);
+    (void)state;
+    fixture_run(&f, 1);
+    steps_serial_context(&f, &step, &context);
+    for (uint64_t look = 100; look < 200; look++) {
+        uint64_t turn = look * step.look_frames - steps_rows(&f).id[row];
+        step.tick = turn;
+        uint32_t target = target_search(&step, row, TARGET_SEARCH_CALM);
+        for (uint32_t ahead = 1; ahead < step.look_frames; ahead++) {
+            step.tick = turn - ahead;
+            assert_int_equal(target_search(&step, row, TARGET_SEARCH_CALM), target);
+        }
+        found += target != SLOT_NONE;
+        looks++;
+    }
+    print_message("%u of %u looks find the enemy\n", found, looks);
+    assert_true(found > looks / 20 && found < looks / 2);
+}
+
 int main(void)
 {
 #define TEST(function)                                                                             \
@@ -136,6 +164,7 @@ int main(void)
         TEST(test_crews_side_by_side_take_different_targets),
         TEST(test_a_crew_that_stands_looks_past_what_it_cannot_harm),
         TEST(test_no_crew_takes_a_wreck_or_what_is_out_of_reach),
+        TEST(test_looks_ahead_of_a_turn_are_one_look),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
