@@ -299,6 +299,11 @@ $(BIN)/jolon: supervisor/jolon
 # their vectors within one file only.
 $(call objects,$(addprefix renderer/scene/,terrain/terrain_colour.c terrain/terrain_block.c noise/value_noise_rows.c)): \
         CFLAGS_EXTRA = -O3 -fno-math-errno -fno-trapping-math
+# A heap's frame copies small structures without end, which gcc does by an instruction that begins
+# slowly if it is not told otherwise (docs/decisions/032-resting-contacts.md).
+UNROLLED = $(if $(and $(findstring gcc,$(CC)),$(filter x86_64-%,$(COMPILER))),-mstringop-strategy=unrolled_loop)
+$(call objects,$(call sources,$(addprefix collider/,geometry motion narrow_phase response resting solver))): \
+        CFLAGS_EXTRA = -O3 $(UNROLLED)
 $(call objects,$(KERNEL_SRC) tests/unit/renderer/soft/test_soft.c) $(KERNELS): CFLAGS_EXTRA = -Wno-psabi
 # What the topics say.
 $(call objects,$(TOPICS_SRC) $(call sources,reporter reporter/intake $(addprefix clients/,$(CLIENTS)) tests/* docs/examples) \
