@@ -6,14 +6,12 @@
 #include "collider/resting/ground_placement.h"
 #include "collider/resting/held_rest.h"
 #include "collider/response/path_change.h"
-#include "world/body_points.h"
 #include "world/entity/persistent_contact.h"
 #include "world/params.h"
 #include "world/runtime/reserve.h"
 #include "world/runtime/thread_pool.h"
 #include "world/runtime/work_done.h"
 #include "world/terrain/fixed.h"
-#include "world/vehicle_shell.h"
 #include "world/world.h"
 
 #include <errno.h>
@@ -23,8 +21,6 @@
 #define APART_M        1e-6 /* bodies that are farther apart than they can have come do not touch */
 #define EXACT_M        1e-8 /* error of a depth: less is no deepening of a greater depth */
 #define SHALLOW_M      0.3  /* a way out that is not longer is always measured at the frame's end */
-#define SINKS_M        0.02 /* as deep may a wreck at rest be in the ground */
-#define SHELL_SINKS_M  0.01 /* and the shell of a vehicle that another body pushes */
 #define PAIRS_A_PIECE  8u
 #define ROWS_A_PIECE   16u
 #define SENT_BACK_HALF 3u /* so often a row goes back by half, the next time all the way */
@@ -373,55 +369,6 @@ static void send_back(struct end_guard *guard, struct response_context *context,
     slow_down(context, row, keep);
 }
 
-/* Returns how high the lowest point of a row of a table is over the ground [m]. */
-static double clearance_of(const struct response_context *context, const struct entities *e,
-                           uint32_t row)
-{
-    struct body_points points;
-    body_points_of(context->world, e->kind[row], &points);
-    return body_points_clearance(context->world, context->input.detect.craters, &points,
-                                 entities_position(e, row),
-                                 rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
-}
-
-/* Returns how deep the shell of a vehicle is in the ground [m], below 0 for a height over it. */
-static double shell_depth_of(const struct response_context *context, const struct entities *e,
-                             uint32_t row)
-{
-    const struct mat3 turn =
-        rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
-    return vehicle_shell_depth(&context->world->terrain, context->input.detect.craters,
-                               &context->world->kinds[e->kind[row]], VEHICLE_SHELL_POINTS,
-                               entities_position(e, row), &turn);
-}
-
-/* Returns true for a vehicle on its springs whose shell ends the frame deeper in a work or a crater
- * than it began it: other bodies have pushed it against a wall. */
-static bool shell_sinks(const struct response_context *context, uint32_t row)
-{
-    const struct entities *w = &context->motion->before, *e = &context->next->entities;
-    const struct kind *kind = &context->world->kinds[e->kind[row]];
-    if (!terrain_uneven_near(&context->world->terrain, context->input.detect.craters, e->x[row],
-                             e->z[row], vehicle_shell_reach(kind)))
-        return false;
-    double now = shell_depth_of(context, e, row);
-    return now > SHELL_SINKS_M && now > shell_depth_of(context, w, row) + EXACT_M;
-}
-
-/* Returns true for a body that other bodies have driven deeper into the ground. */
-static bool sinks(const struct response_context *context, uint32_t row)
-{
-    const struct entities *w = &context->motion->before, *e = &context->next->entities;
-    if (context->world->kinds[e->kind[row]].domain == DOMAIN_SEA)
-        return false;
-    if (e->state[row] == ENTITY_ACTIVE && e->flags[row] & ENTITY_FLAG_CHASSIS)
-        return shell_sinks(context, row);
-    if (context->motion->change[row] == 0 || e->state[row] != ENTITY_WRECK)
-        return false;
-    double now = clearance_of(context, e, row);
-    return now < -SINKS_M && now < clearance_of(context, w, row) - EXACT_M;
-}
-
 /* Adds a row to those that have to go back, unless it is back already. */
 static void mark(struct end_guard *guard, const struct response_context *context, uint32_t row)
 {
@@ -575,7 +522,7 @@ static void mark_deeper(struct end_guard *guard, const struct response_context *
             mark_pair(guard, context, guard->pair[i].pair);
     }
     for (uint32_t i = 0; i < guard->count; i++) {
-        if (guarded(context, guard->row[i]) && sinks(context, guard->row[i]))
+        if (guarded(context, guard->row[i]) && ground_placement_sinks(context, guard->row[i]))
             mark(guard, context, guard->row[i]);
     }
 }

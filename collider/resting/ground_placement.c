@@ -1,8 +1,14 @@
-/* Heights under bodies that have been moved. */
+/* Heights under bodies that have been moved, and depths of those that have been pushed. */
 #include "collider/resting/ground_placement.h"
 
+#include "world/body_points.h"
 #include "world/terrain/rest_pose.h"
+#include "world/vehicle_shell.h"
 #include "world/world.h"
+
+#define SINKS_M       0.02 /* as deep may a wreck at rest be in the ground */
+#define SHELL_SINKS_M 0.01 /* and the shell of a vehicle that another body pushes */
+#define EXACT_M       1e-8 /* error of a depth: less is no deepening of a greater depth */
 
 void ground_placement_put(struct response_context *context, uint32_t row, struct vec3 at,
                           double heading_rad)
@@ -23,4 +29,52 @@ void ground_placement_put(struct response_context *context, uint32_t row, struct
     }
     table_set_position(&context->writer, row, at);
     table_set_heading(&context->writer, row, heading_rad);
+}
+
+/* Returns how high the lowest point of a row of a table is over the ground [m]. */
+static double clearance_of(const struct response_context *context, const struct entities *e,
+                           uint32_t row)
+{
+    struct body_points points;
+    body_points_of(context->world, e->kind[row], &points);
+    return body_points_clearance(context->world, context->input.detect.craters, &points,
+                                 entities_position(e, row),
+                                 rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+}
+
+/* Returns how deep the shell of a vehicle is in the ground [m], below 0 for a height over it. */
+static double shell_depth_of(const struct response_context *context, const struct entities *e,
+                             uint32_t row)
+{
+    const struct mat3 turn =
+        rotation_matrix(rotation_of(e->heading[row], e->pitch[row], e->roll[row]));
+    return vehicle_shell_depth(&context->world->terrain, context->input.detect.craters,
+                               &context->world->kinds[e->kind[row]], VEHICLE_SHELL_POINTS,
+                               entities_position(e, row), &turn);
+}
+
+/* Returns true for a vehicle on its springs whose shell ends the frame deeper in a work or a crater
+ * than it began it: other bodies have pushed it against a wall. */
+static bool shell_sinks(const struct response_context *context, uint32_t row)
+{
+    const struct entities *w = &context->motion->before, *e = &context->next->entities;
+    const struct kind *kind = &context->world->kinds[e->kind[row]];
+    if (!terrain_uneven_near(&context->world->terrain, context->input.detect.craters, e->x[row],
+                             e->z[row], vehicle_shell_reach(kind)))
+        return false;
+    double now = shell_depth_of(context, e, row);
+    return now > SHELL_SINKS_M && now > shell_depth_of(context, w, row) + EXACT_M;
+}
+
+bool ground_placement_sinks(const struct response_context *context, uint32_t row)
+{
+    const struct entities *w = &context->motion->before, *e = &context->next->entities;
+    if (context->world->kinds[e->kind[row]].domain == DOMAIN_SEA)
+        return false;
+    if (e->state[row] == ENTITY_ACTIVE && e->flags[row] & ENTITY_FLAG_CHASSIS)
+        return shell_sinks(context, row);
+    if (context->motion->change[row] == 0 || e->state[row] != ENTITY_WRECK)
+        return false;
+    double now = clearance_of(context, e, row);
+    return now < -SINKS_M && now < clearance_of(context, w, row) - EXACT_M;
 }

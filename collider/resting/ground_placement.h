@@ -1,4 +1,4 @@
-/* Sets bodies on the ground. */
+/* Sets bodies on the ground, and finds those that others have pushed into it. */
 #ifndef JOLON_COLLIDER_RESTING_GROUND_PLACEMENT_H
 #define JOLON_COLLIDER_RESTING_GROUND_PLACEMENT_H
 
@@ -9,5 +9,10 @@
  * vehicle on its springs, keep their pose and their height over the ground. */
 void ground_placement_put(struct response_context *context, uint32_t row, struct vec3 at,
                           double heading_rad);
+
+/* Returns true for a wreck, or a vehicle on its springs, that ends the frame deeper in the ground
+ * than it began it: other bodies have driven it there. Less than what solvers leave does not
+ * count. */
+bool ground_placement_sinks(const struct response_context *context, uint32_t row);
 
 #endif
