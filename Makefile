@@ -353,7 +353,7 @@ endef
 $(foreach test,$(UNIT_SRC) $(PROPERTY_SRC),$(eval $(call test_of,$(test))))
 $(BUILD)/tests/unit/supervisor/%: $(call libraries,sandbox)
 $(filter $(BUILD)/tests/unit/gateway/% $(BUILD)/tests/property/gateway/%,$(UNIT_TESTS) $(PROPERTY_TESTS)): $(call libraries,gateway)
-$(addprefix $(BUILD)/tests/unit/ipc/topics/test_,dds_datagrams samples command_text): $(call libraries,datagrams)
+$(addprefix $(BUILD)/tests/unit/,ipc/topics/test_dds_datagrams ipc/topics/test_samples ipc/topics/test_command_text ipc/topics/test_event_lines clients/drive/test_vehicle_choice): $(call libraries,datagrams)
 $(BUILD)/tests/unit/config/syntax/test_schema: $(OBJ)/docs/keys/key_tables.o
 $(addprefix $(BUILD)/tests/unit/,supervisor/ground/test_canvas supervisor/ground/test_convex_parts supervisor/ground/test_ground_write supervisor/ground/test_out_file config/test_ground_objects config/test_ground_source world/terrain/test_posts_write): $(GROUND_WRITER)
 $(BUILD)/tests/unit/supervisor/ground/test_map_cover: $(GROUND_COVER)
