@@ -17,8 +17,8 @@
 #define SECONDS 12
 #define FIELDS  4u
 #define CROWDS  4u
-#define CROWD   21u /* 21 and 22 are not clean if nothing keeps vehicles out of walls of the ground \
-                     */
+/* 21 and 22 are not clean if nothing keeps vehicles out of walls of the ground. */
+#define CROWD 21u
 
 /* A square with works, and vehicles in its middle. */
 struct field_plan {
