@@ -335,6 +335,20 @@ void ground_contacts_push(struct ground_contacts *contacts, const struct rigid_b
     *spin_rps = spin;
 }
 
+double ground_contacts_twist_share(const struct ground_contacts *contacts, struct vec3 velocity_mps,
+                                   struct vec3 spin_rps)
+{
+    double share = 1.0;
+    for (uint32_t i = 0; i < contacts->count; i++) {
+        const struct ground_contact *contact = &contacts->contact[i];
+        double rises = vec3_dot(velocity_mps, contact->axis[CONTACT_NORMAL]);
+        double turns = vec3_dot(spin_rps, contact->lever[CONTACT_NORMAL]);
+        if (contact->gap_m < -GROUND_CONTACTS_SLOP_M && turns < 0.0)
+            share = maths_min(share, maths_max(rises, 0.0) / -turns);
+    }
+    return share;
+}
+
 double ground_contacts_depth(const struct ground_contacts *contacts)
 {
     double deepest = 0.0;

@@ -76,6 +76,11 @@ void ground_contacts_roll(const struct ground_contacts *contacts, struct rigid_b
 void ground_contacts_push(struct ground_contacts *contacts, const struct rigid_body *body,
                           double dt_s, struct vec3 *velocity_mps, struct vec3 *spin_rps);
 
+/* Returns the share of a pseudo-spin, 0..1, that beside this pseudo-velocity brings no point deeper
+ * that is in the ground. */
+double ground_contacts_twist_share(const struct ground_contacts *contacts, struct vec3 velocity_mps,
+                                   struct vec3 spin_rps);
+
 /* Returns the greatest depth of a point that was found [m]. */
 double ground_contacts_depth(const struct ground_contacts *contacts);
 

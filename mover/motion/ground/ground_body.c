@@ -9,16 +9,23 @@
 #define LIFT_DEPTH_M (2.0 * GROUND_CONTACTS_SLOP_M)
 #define LIFT_MPS     0.008 /* and so fast: the energy of its height comes from nothing */
 
-/* Lifts a body less that has no energy for it. depth_m: of its deepest point before it was. */
-static void lift_less(struct rigid_body *body, const struct rigid_body *before, double depth_m,
+/* Lifts a body less that has no energy for it, and turns it less if that would bring a point
+ * deeper into the ground. solved: the body before it was moved. */
+static void lift_less(const struct ground_contacts *contacts, struct rigid_body *body,
+                      const struct rigid_body *solved, struct vec3 push, struct vec3 twist,
                       double dt_s)
 {
-    if (depth_m <= LIFT_DEPTH_M) { /* rounding alone has lifted it */
-        body->centre = before->centre;
-        body->turn = before->turn;
-    } else {
-        body->centre.y = maths_min(body->centre.y, before->centre.y + LIFT_MPS * dt_s);
+    struct rigid_body turned = *solved;
+    if (ground_contacts_depth(contacts) <= LIFT_DEPTH_M) { /* rounding alone has lifted it */
+        body->centre = solved->centre;
+        body->turn = solved->turn;
+        return;
     }
+    push.y = maths_min(push.y, LIFT_MPS);
+    double share = ground_contacts_twist_share(contacts, push, twist);
+    body->centre.y = maths_min(body->centre.y, solved->centre.y + LIFT_MPS * dt_s);
+    rigid_body_turn(&turned, vec3_scale(twist, share), dt_s);
+    body->turn = turned.turn;
 }
 
 double ground_body_steps(const struct rigid_body *body, const struct body_points *points,
@@ -37,7 +44,6 @@ double ground_body_step(struct ground_contacts *contacts, struct rigid_body *bod
     if (lift_mps2 > 0.0)
         energy += body->inertia.mass_kg * lift_mps2 * dt_s *
                   (maths_max(body->velocity.y, 0.0) + lift_mps2 * dt_s);
-    const struct rigid_body before = *body;
     struct vec3 push = {0.0, 0.0, 0.0}, twist = {0.0, 0.0, 0.0};
     body->velocity.y -= fall;
     double impulse = ground_contacts_solve(contacts, body, dt_s);
@@ -51,9 +57,10 @@ double ground_body_step(struct ground_contacts *contacts, struct rigid_body *bod
     }
     if (touches)
         ground_contacts_push(contacts, body, dt_s, &push, &twist);
+    const struct rigid_body solved = *body;
     body->centre = vec3_add(body->centre, vec3_scale(vec3_add(body->velocity, push), dt_s));
     rigid_body_turn(body, twist, dt_s);
     if (touches && !rigid_body_limit_energy(body, energy))
-        lift_less(body, &before, ground_contacts_depth(contacts), dt_s);
+        lift_less(contacts, body, &solved, push, twist, dt_s);
     return taken;
 }
