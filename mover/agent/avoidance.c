@@ -25,7 +25,6 @@
 #define HORIZON_M      12.0 /* added to the horizon */
 #define FARTHEST_M     600.0
 #define TALL_M         3.0   /* parts above this height are no obstacle for land vehicles */
-#define AROUND         0.42  /* tangent of 23 degrees: a patrol goes around steeper ground */
 #define GAP_M          1.0   /* gap to obstacles at the sides and ahead */
 #define AIR_GAP_M      8.0   /* the same in the air, and above and below */
 #define LOW_FLIGHT_M   40.0  /* above this height no fixed object is an obstacle */
@@ -483,16 +482,15 @@ static bool in_world(const struct step_context *context, double x, double z)
     return x > 0.0 && z > 0.0 && x < side_m && z < side_m;
 }
 
-/* Returns true only if the ground up to (x, z) is dry, without craters and no steeper than any
- * driver takes. */
+/* Returns true only if the ground up to (x, z) is dry, without craters and no steeper than the
+ * vehicle can climb. */
 static bool surely_passable(const struct step_context *context, uint32_t i, double x, double z)
 {
     const struct entities *m = context->m;
     struct gridsquare_box box =
         gridsquare_box_of(&context->world->terrain.squares, maths_min(m->x[i], x),
                           maths_min(m->z[i], z), maths_max(m->x[i], x), maths_max(m->z[i], z));
-    uint16_t most =
-        square_bounds_below_slope(maths_min(context->avoidance->slope[m->kind[i]], AROUND));
+    uint16_t most = square_bounds_below_slope(context->avoidance->slope[m->kind[i]]);
     return square_bounds_within(context->slopes, box, most) &&
            !ground_marks_within(context->ground_marks, box, GROUND_MARKS_CRATER);
 }
@@ -525,16 +523,12 @@ static double steepness(const struct step_context *context, uint32_t i, double x
 }
 
 /* Returns true if a land vehicle cannot get from one height to another within a way, up or down, or
- * would slide off the ground there. Where it stands on ground as steep it may go on. A patrol may
- * go anywhere, so it keeps off ground where a vehicle needs its springs, unless it is on such
- * ground. */
+ * would slide off the ground there. Where it stands on ground as steep it may go on. */
 static bool too_steep(const struct step_context *context, uint32_t i, double rise_m, double way_m,
                       double x, double z)
 {
     const struct entities *m = context->m;
     double most = context->avoidance->slope[m->kind[i]];
-    if (m->behaviour[i] == BEHAVIOUR_PATROL && steepness(context, i, m->x[i], m->z[i]) < AROUND)
-        most = maths_min(most, AROUND);
     if (fabs(rise_m) >= most * way_m)
         return true;
     double there = steepness(context, i, x, z);

@@ -18,6 +18,7 @@ static bool measure(const struct response_context *context, struct resting_gap *
 {
     const struct pair pair = {0, 1};
     struct begun_bodies begun;
+    found->gap = found->few;
     assert_int_equal(begun_bodies_init(&begun, context->world), 0);
     begun_bodies_list(&begun, 0);
     begun_bodies_list(&begun, 1);

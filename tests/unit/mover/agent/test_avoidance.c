@@ -341,30 +341,6 @@ static void test_nobody_drives_down_a_mountain_side(void **state)
     }
 }
 
-/* A bank across the way to the east, 150 m high, 27 degrees steep. */
-static double bank(double x, double z, const void *context)
-{
-    (void)z, (void)context;
-    return 100.0 + 0.5 * maths_clamp(x - 25000.0, 0.0, 300.0);
-}
-
-static void test_a_patrol_keeps_off_slopes_that_others_climb(void **state)
-{
-    uint32_t on_route = 0;
-    (void)state;
-    fixture_close(&f);
-    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; }; vehicles = ("
-                     "{ kind = \"tank\"; at = [24800.0, 25100.0]; heading_deg = 90.0;"
-                     " route = ([24800.0, 25100.0], [25600.0, 25100.0]); });");
-    steps_ground(&f, bank, NULL);
-    uint32_t patrol = send("tank", 24800.0, 24800.0, 25400.0, 24800.0);
-    for (int frame = 0; frame < 60 * HZ; frame++) {
-        fixture_run(&f, 1);
-        assert_true(steps_rows(&f).x[patrol] < 25005.0);
-    }
-    assert_true(steps_rows(&f).x[on_route] > 25050.0);
-}
-
 /* Two ridges across the way to the east, as steep as 60 degrees. */
 static double ridges(double x, double z, const void *context)
 {
@@ -448,7 +424,6 @@ int main(void)
         TEST(test_nobody_rams_a_row_of_parked_friends),
         TEST(test_who_must_give_way_does_not_turn_into_a_parked_friend),
         TEST(test_nobody_drives_down_a_mountain_side),
-        TEST(test_a_patrol_keeps_off_slopes_that_others_climb),
         TEST(test_aircraft_slow_down_for_ridges_that_they_have_to_climb),
         TEST(test_a_driver_is_left_alone),
         TEST(test_the_same_on_any_number_of_threads),
