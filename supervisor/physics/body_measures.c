@@ -9,6 +9,7 @@
 
 #define HELD_M         1e-3 /* a body that is no farther off the ground is on it */
 #define LEAST_DEPTH_M  0.05 /* a corner that is no higher over the ground touches it */
+#define SINKS_M        1e-4 /* a wreck that comes out slowly may turn a corner so much deeper */
 #define CLEARS         0.75 /* of the step that a vehicle climbs: its underside is so high */
 #define LEANING_RPS    3.0  /* an aircraft banks and pitches so fast */
 #define BOX_CORNERS    8u
@@ -135,7 +136,7 @@ static double way_of(const struct body_look *body, double reach_m, double dt_s)
 static void measure_sinking(struct measures *measures, const struct surface *surface,
                             const struct body_look *body)
 {
-    bool sinks = body->now.lowest_m < body->was->lowest_m &&
+    bool sinks = body->now.lowest_m < body->was->lowest_m - SINKS_M &&
                  !surface_is_water(surface, body->named.at.x, body->named.at.z);
     measure_take(measures, MEASURE_OF_WRECK_UNDERGROUND,
                  sinks ? maths_max(0.0, -body->now.lowest_m) : 0.0, &body->named, NULL);
