@@ -72,8 +72,8 @@ check "a partition of another name is refused" eval \
     'refused "$bin/jolon-monitor" -w "$name" --once --interface lo --partition "x@0123456789abcdef" && grep -q "is none of world" told'
 check "the first world stops" at "$here" "$jolon" stop -w "$name"
 check "a monitor with an interface sees the other user's world by its name" is_training "$elsewhere" --interface lo
-at "$elsewhere" "$bin/jolon-monitor" -w "$name" --json --interface lo >seen-one 2>told-one &
-readers=($!)
+JOLON_RUNTIME_DIR=$elsewhere "$bin/jolon-monitor" -w "$name" --json --interface lo >seen-one 2>told-one &
+readers=($!) # of the monitor itself, so that it can be ended
 check "so does one that goes on" eventually test -s seen-one
 check "a world of that name begins again" begin "$here" again duel
 sees_training() { [ "$(tail -n 1 seen-one | json entities)" -gt 2 ]; }
@@ -82,7 +82,7 @@ check "who reads one world stays with it" sees_training
 for world in "$here" "$there"; do check "a world stops" at "$world" "$jolon" stop -w "$name"; done
 
 # --- a reader that was there first ------------------------------------------------------------------------
-at "$elsewhere" "$bin/jolon-monitor" -w "$name" --lines --interface lo >lines 2>told-first &
+JOLON_RUNTIME_DIR=$elsewhere "$bin/jolon-monitor" -w "$name" --lines --interface lo >lines 2>told-first &
 readers+=($!)
 check "a monitor waits for a world" eventually test -s lines
 check "two worlds begin" eval 'begin "$here" first duel && begin "$there" second training'
