@@ -103,21 +103,30 @@ static void move_land(const struct step_context *context, struct batches *batche
     land->count = 0;
 }
 
+/* Empties a batch whose rows have been moved by a stretch. Returns how many were refused, and
+ * which; the others cruise. */
+static uint32_t take_refused(struct batches *batches, const uint32_t row[LANE_COUNT],
+                             const union lane_masks *refuses, int *lanes,
+                             uint32_t refused[LANE_COUNT])
+{
+    uint32_t count = 0;
+    for (int l = 0; l < *lanes; l++) {
+        if (refuses->lane[l])
+            refused[count++] = row[l];
+        else
+            batches->motion[row[l] - batches->block->first] = MOTION_CRUISE;
+    }
+    *lanes = 0;
+    return count;
+}
+
 /* Moves rows by a stretch. Returns how many it refuses, and which. */
 static uint32_t stretch_rows(const struct step_context *context, struct batches *batches,
                              uint32_t refused[LANE_COUNT])
 {
     struct ground_vehicle *stretch = &batches->stretch;
-    uint32_t count = 0;
     ground_vehicle_move(context, stretch);
-    for (int l = 0; l < stretch->count; l++) {
-        if (stretch->refused.lane[l])
-            refused[count++] = stretch->row[l];
-        else
-            batches->motion[stretch->row[l] - batches->block->first] = MOTION_CRUISE;
-    }
-    stretch->count = 0;
-    return count;
+    return take_refused(batches, stretch->row, &stretch->refused, &stretch->count, refused);
 }
 
 /* Moves rows by a stretch, those that it refuses by half of it, and so on, and those that a short
@@ -186,16 +195,8 @@ static uint32_t stretch_aircraft(const struct step_context *context, struct batc
                                  uint32_t refused[LANE_COUNT])
 {
     struct aircraft *stretch = &batches->air_stretch;
-    uint32_t count = 0;
     aircraft_move(context, stretch);
-    for (int l = 0; l < stretch->count; l++) {
-        if (stretch->refused.lane[l])
-            refused[count++] = stretch->row[l];
-        else
-            batches->motion[stretch->row[l] - batches->block->first] = MOTION_CRUISE;
-    }
-    stretch->count = 0;
-    return count;
+    return take_refused(batches, stretch->row, &stretch->refused, &stretch->count, refused);
 }
 
 /* Moves aircraft by a stretch, and those that it refuses by one frame; in a crowd by half of it,
