@@ -3,6 +3,7 @@
 #include "ipc/segment/segment_attach.h"
 #include "tests/support/fixture.h"
 #include "tests/support/image_file.h"
+#include "tests/support/scenario_text.h"
 #include "world/enum_names.h"
 #include "world/state.h"
 
@@ -20,61 +21,49 @@
 #define PARTS  3u    /* of a run; between two of them the processes start again */
 #define GROUPS 6
 
-struct draft {
-    char at[16384];
-    size_t used;
-};
-
-static void add(struct draft *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
-static void add(struct draft *text, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    int length = vsnprintf(text->at + text->used, sizeof text->at - text->used, format, arguments);
-    va_end(arguments);
-    assert_true(length >= 0 && text->used + (size_t)length < sizeof text->at);
-    text->used += (size_t)length;
-}
-
-static void add_condition(struct draft *text, uint64_t *seed, const char *when)
+static void add_condition(struct scenario_text *text, uint64_t *seed, const char *when)
 {
     switch (fixture_random(seed) % 5) {
     case 0:
-        add(text, "%staken = \"%c\"; ", when, (int)('x' + fixture_random(seed) % 2));
+        scenario_text_add(text, "%staken = \"%c\"; ", when, (int)('x' + fixture_random(seed) % 2));
         break;
     case 1:
-        add(text, "%slost = \"%c\"; ", when, (int)('x' + fixture_random(seed) % 2));
+        scenario_text_add(text, "%slost = \"%c\"; ", when, (int)('x' + fixture_random(seed) % 2));
         break;
     case 2:
-        add(text, "%sbelow = %.2f; ", when, fixture_uniform(seed, 0.3, 1.0));
+        scenario_text_add(text, "%sbelow = %.2f; ", when, fixture_uniform(seed, 0.3, 1.0));
         break;
     case 3:
-        add(text, "%senemy_in = \"%c\"; ", when, (int)('x' + fixture_random(seed) % 2));
+        scenario_text_add(text, "%senemy_in = \"%c\"; ", when,
+                          (int)('x' + fixture_random(seed) % 2));
         break;
     default:
-        add(text, "%safter = \"g%d.p0\"; ", when, (int)(fixture_random(seed) % GROUPS));
+        scenario_text_add(text, "%safter = \"g%d.p0\"; ", when,
+                          (int)(fixture_random(seed) % GROUPS));
         break;
     }
 }
 
-static void add_phase(struct draft *text, uint64_t *seed, int number)
+static void add_phase(struct scenario_text *text, uint64_t *seed, int number)
 {
     enum mission_order order = (enum mission_order)(fixture_random(seed) % MISSION_ORDER_COUNT);
-    add(text, "{ name = \"p%d\"; order = \"%s\"; ", number, mission_order_name(order));
+    scenario_text_add(text, "{ name = \"p%d\"; order = \"%s\"; ", number,
+                      mission_order_name(order));
     if (order != MISSION_HOLD && order != MISSION_RESERVE)
-        add(text, "objective = \"%c\"; ", (int)('x' + fixture_random(seed) % 2));
+        scenario_text_add(text, "objective = \"%c\"; ", (int)('x' + fixture_random(seed) % 2));
     if (fixture_random(seed) % 2)
-        add(text, "arrived = 0.5; ");
+        scenario_text_add(text, "arrived = 0.5; ");
     if (fixture_random(seed) % 2)
         add_condition(text, seed, "");
-    add(text, "for_s = %.1f; },", fixture_uniform(seed, 1.0, 20.0));
+    scenario_text_add(text, "for_s = %.1f; },", fixture_uniform(seed, 1.0, 20.0));
 }
 
-static void write_world(struct draft *text, uint64_t *seed)
+static void write_world(struct scenario_text *text, uint64_t *seed)
 {
     static const char *const kinds[] = {"tank", "carrier", "jeep", "helicopter"};
     text->used = 0;
-    add(text,
+    scenario_text_add(
+        text,
         "world = { hz = 30.0; seed = %d; capacity = 256; };"
         "battle = { end_s = 30.0; again_s = 40.0; };"
         "objectives = ( { name = \"x\"; area = [24800.0, 24800.0, 25100.0, 25200.0]; force = "
@@ -82,24 +71,25 @@ static void write_world(struct draft *text, uint64_t *seed)
         "vehicles = (",
         (int)(fixture_random(seed) % 1000));
     for (int g = 0; g < GROUPS; g++)
-        add(text,
+        scenario_text_add(
+            text,
             "{ group = \"g%d\"; kind = \"%s\"; count = 5; force = \"%s\"; area = [%d, 24600, "
             "%d, 25400]; },",
             g, kinds[fixture_random(seed) % 4], g % 2 ? "red" : "blue", g % 2 ? 25200 : 24500,
             g % 2 ? 25700 : 25000);
     text->used--;
-    add(text, "); missions = (");
+    scenario_text_add(text, "); missions = (");
     for (int g = 0; g < GROUPS; g++) {
-        add(text, "{ name = \"g%d\"; phases = (", g);
+        scenario_text_add(text, "{ name = \"g%d\"; phases = (", g);
         for (int p = 0; p < 3; p++)
             add_phase(text, seed, p);
         text->used--;
-        add(text, "); reactions = ( { name = \"r\"; order = \"hold\"; for_s = 4.0; ");
+        scenario_text_add(text, "); reactions = ( { name = \"r\"; order = \"hold\"; for_s = 4.0; ");
         add_condition(text, seed, "when_");
-        add(text, "} ); },");
+        scenario_text_add(text, "} ); },");
     }
     text->used--;
-    add(text, ");");
+    scenario_text_add(text, ");");
 }
 
 struct course {
@@ -131,7 +121,7 @@ static void check_same(const struct course *a, const struct course *b)
 static void test_threads_and_restarts_change_nothing(void **state)
 {
     static const uint32_t threads[][PARTS] = {{1, 1, 1}, {2, 2, 2}, {4, 4, 4}, {1, 4, 2}};
-    static struct draft text;
+    static struct scenario_text text;
     uint64_t seed = fixture_seed(39);
     uint32_t phases = 0;
     (void)state;
@@ -152,7 +142,7 @@ static void test_threads_and_restarts_change_nothing(void **state)
 /* A world that continues from an image of a frame in mid-phase goes the same way. */
 static void test_an_image_holds_the_missions(void **state)
 {
-    static struct draft text;
+    static struct scenario_text text;
     uint64_t seed = fixture_seed(40);
     (void)state;
     for (int round = 0; round < 2; round++) {

@@ -1,5 +1,6 @@
 /* Random manoeuvres at 10 and at 60 Hz: the same vehicles turn over. Controls change every fifth of
  * a second, so that both get the same at the same times. */
+#include "tests/support/scenario_text.h"
 #include "tests/support/steps.h"
 #include "world/entity/disabled.h"
 
@@ -130,19 +131,7 @@ static void test_10_and_60_hz_agree_on_what_turns_over(void **state)
 #define LANE_S   16
 #define PER_LANE 6 /* works */
 
-static char text[1 << 17];
-static size_t length;
-
-static void add(const char *format, ...) __attribute__((format(printf, 1, 2)));
-
-static void add(const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    length += (size_t)vsnprintf(text + length, sizeof text - length, format, arguments);
-    va_end(arguments);
-    assert_true(length < sizeof text);
-}
+static struct scenario_text text;
 
 static double lane_east(int lane)
 {
@@ -163,32 +152,37 @@ static void add_works(uint64_t *random, int lane)
         int shape = (int)(fixture_random(random) % 4);
         double size = fixture_uniform(random, 0.2, 2.0),
                edge = size * fixture_uniform(random, 0.3, 1.0);
-        add("{ shape = \"%s\"; at = [%.2f, %.2f]; heading_deg = %.1f; length_m = %.2f; width_m = "
+        scenario_text_add(
+            &text,
+            "{ shape = \"%s\"; at = [%.2f, %.2f]; heading_deg = %.1f; length_m = %.2f; width_m = "
             "%.2f; ",
             shapes[shape], lane_east(lane) + fixture_uniform(random, -12.0, 12.0),
             lane_south(lane) - 40.0 + fixture_uniform(random, -20.0, 20.0),
             fixture_uniform(random, 0.0, 360.0), fixture_uniform(random, 3.0, 18.0) + 2.2 * edge,
             fixture_uniform(random, 3.0, 14.0) + 2.2 * edge);
         if (shape == 3)
-            add("height_m = %.2f; wave_m = %.2f; },\n", 0.2 * size,
-                fixture_uniform(random, 1.5, 8.0));
+            scenario_text_add(&text, "height_m = %.2f; wave_m = %.2f; },\n", 0.2 * size,
+                              fixture_uniform(random, 1.5, 8.0));
         else
-            add("%s = %.3f; edge_m = %.3f; },\n", shape == 2 ? "depth_m" : "height_m", size, edge);
+            scenario_text_add(&text, "%s = %.3f; edge_m = %.3f; },\n",
+                              shape == 2 ? "depth_m" : "height_m", size, edge);
     }
 }
 
 static void add_script(uint64_t *random, int lane)
 {
-    add("{ name = \"s%d\"; steps = ( { at_s = 0.4; throttle = 1.0; for_s = 4.0; }", lane);
+    scenario_text_add(
+        &text, "{ name = \"s%d\"; steps = ( { at_s = 0.4; throttle = 1.0; for_s = 4.0; }", lane);
     for (double at_s = 4.4; at_s < LANE_S;) {
         double for_s = 0.2 * (double)(2 + fixture_random(random) % 12);
-        add(", { at_s = %.1f; throttle = %.1f; steer = %.1f; climb = %d.0; for_s = %.1f; }", at_s,
-            fixture_random(random) % 3 ? 1.0 : fixture_uniform(random, -1.0, 1.0),
+        scenario_text_add(
+            &text, ", { at_s = %.1f; throttle = %.1f; steer = %.1f; climb = %d.0; for_s = %.1f; }",
+            at_s, fixture_random(random) % 3 ? 1.0 : fixture_uniform(random, -1.0, 1.0),
             fixture_random(random) % 2 ? 0.0 : fixture_uniform(random, -1.0, 1.0),
             fixture_random(random) % 6 ? 0 : 1, for_s);
         at_s += for_s;
     }
-    add(" ); },\n");
+    scenario_text_add(&text, " ); },\n");
 }
 
 /* Returns lanes of works, each with a vehicle on a script. */
@@ -197,22 +191,23 @@ static const char *lanes(uint64_t seed, uint32_t hz)
     static const char *const kinds[] = {"tank",      "carrier",       "jeep", "truck",
                                         "hamburger", "attack-tomato", "flak", "howitzer"};
     uint64_t random = seed;
-    length = 0;
-    add("world = { hz = %u; capacity = 64; };\nearthworks = (\n", hz);
+    text.used = 0;
+    scenario_text_add(&text, "world = { hz = %u; capacity = 64; };\nearthworks = (\n", hz);
     for (int lane = 0; lane < LANES; lane++)
         add_works(&random, lane);
-    length -= 2; /* the last comma */
-    add(" );\nscripts = (\n");
+    text.used -= 2; /* the last comma */
+    scenario_text_add(&text, " );\nscripts = (\n");
     for (int lane = 0; lane < LANES; lane++)
         add_script(&random, lane);
-    length -= 2;
-    add(" );\nvehicles = (\n");
+    text.used -= 2;
+    scenario_text_add(&text, " );\nvehicles = (\n");
     for (int lane = 0; lane < LANES; lane++)
-        add("{ kind = \"%s\"; script = \"s%d\"; at = [%.1f, %.1f]; heading_deg = 0; },\n",
+        scenario_text_add(
+            &text, "{ kind = \"%s\"; script = \"s%d\"; at = [%.1f, %.1f]; heading_deg = 0; },\n",
             kinds[lane % 8], lane, lane_east(lane), lane_south(lane));
-    length -= 2;
-    add(" );\n");
-    return text;
+    text.used -= 2;
+    scenario_text_add(&text, " );\n");
+    return text.at;
 }
 
 static bool same(const struct entities *a, const struct entities *b, uint32_t i)

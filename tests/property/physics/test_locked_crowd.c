@@ -1,6 +1,6 @@
 /* The judge finds no jump and no growing overlap in a crowd that is locked and becomes wider as a
  * whole. SEED=n draws others, SEEDS=n judges so many. */
-#include "supervisor/physics/physics_check.h"
+#include "tests/support/judged.h"
 #include "tests/support/steps.h"
 #include "world/params.h"
 
@@ -40,14 +40,7 @@ static void judge(uint64_t seed)
     fixture_open(&f, "world = { capacity = 256; }; collision = { shape = \"model\"; };");
     steps_ground(&f, steps_waves, NULL);
     put(&random);
-    struct state now = fixture_state(&f);
-    assert_int_equal(physics_check_begin(&check, &f.view.world, &now), 0);
-    for (uint32_t frame = 0; frame < FRAMES; frame++) {
-        fixture_continue(&f, 1);
-        const struct physics_events events = {f.view.events, f.view.header->event_slots};
-        now = fixture_state(&f);
-        assert_int_equal(physics_check_frame(&check, &now, &events), 0);
-    }
+    judged_continue(&f, &check, FRAMES);
     print_message("seed %u: jump %g m, growth %g m\n", (unsigned)seed,
                   check.measures.of[MEASURE_OF_JUMP].worst,
                   check.measures.of[MEASURE_OF_OVERLAP_GROWTH].worst);

@@ -1,7 +1,7 @@
 /* Random crowds, columns and crossings at random frame rates, judged by the measures of
  * docs/collisions.md, "Bounds" (rows 36, 39, 46). SEED=n draws others, and SEEDS=n judges so many
  * seeds from that one on: 30 take three minutes. */
-#include "supervisor/physics/physics_check.h"
+#include "tests/support/judged.h"
 #include "tests/support/steps.h"
 #include "world/params.h"
 
@@ -87,14 +87,7 @@ static uint32_t count_bad(uint32_t scene, double hz)
 /* Judges a world for so many seconds. Returns how many measures are beyond their bounds. */
 static uint32_t judge(uint32_t scene, double hz, double seconds)
 {
-    struct state now = fixture_state(&f);
-    assert_int_equal(physics_check_begin(&check, &f.view.world, &now), 0);
-    for (uint32_t frame = 0; frame < (uint32_t)(seconds * hz); frame++) {
-        const struct physics_events events = {f.view.events, f.view.world.params->event_slots};
-        fixture_continue(&f, 1);
-        now = fixture_state(&f);
-        assert_int_equal(physics_check_frame(&check, &now, &events), 0);
-    }
+    judged_continue(&f, &check, (uint32_t)(seconds * hz));
     uint32_t bad = count_bad(scene, hz);
     physics_check_free(&check);
     return bad;

@@ -1,6 +1,7 @@
 /* Vehicles by scripts in fields of works that lie over each other, before the judge: scenes that
  * were not clean, and random fields at 60 and at 10 Hz. SEED=n SEEDS=m looks at other fields. */
 #include "supervisor/physics/physics_check.h"
+#include "tests/support/scenario_text.h"
 #include "tests/support/steps.h"
 #include "world/maths/random.h"
 #include "world/params.h"
@@ -32,8 +33,7 @@ static const struct field_plan crowded = {22.0, 8.0, 10, 16, 4}; /* all do */
 
 static struct fixture f;
 static struct physics_check check;
-static char text[1 << 16];
-static size_t length;
+static struct scenario_text text;
 static uint64_t state;
 
 #define FLAT                                                                                       \
@@ -110,48 +110,41 @@ static double draw(double low, double high)
     return low + (high - low) * (double)(fixture_random(&state) >> 11) * 0x1p-53;
 }
 
-static void add(const char *format, ...) __attribute__((format(printf, 1, 2)));
-
-static void add(const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    length += (size_t)vsnprintf(text + length, sizeof text - length, format, arguments);
-    va_end(arguments);
-    assert_true(length < sizeof text);
-}
-
 static void add_work(const struct field_plan *plan, bool last)
 {
     static const char *const shapes[] = {"table", "trench", "ramp", "washboard", "ford"};
     int shape = (int)draw(0.0, 4.999);
     double size = draw(0.1, 2.2), edge = maths_max(draw(0.2, 1.0) * size, 0.05);
     double across = draw(3.0, 16.0) + 2.2 * edge, along = draw(3.0, 20.0) + 2.2 * edge;
-    add("{ shape = \"%s\"; at = [%.2f, %.2f]; heading_deg = %.1f; length_m = %.2f; width_m = "
+    scenario_text_add(
+        &text,
+        "{ shape = \"%s\"; at = [%.2f, %.2f]; heading_deg = %.1f; length_m = %.2f; width_m = "
         "%.2f; ",
         shapes[shape], 25000.0 + draw(-plan->half_m, plan->half_m),
         25000.0 + draw(-plan->half_m, plan->half_m), draw(0.0, 360.0), shape == 4 ? 45.0 : along,
         shape == 4 ? across + 8.0 : across);
     if (shape == 4)
-        add("depth_m = %.2f; ", draw(0.1, 1.6));
+        scenario_text_add(&text, "depth_m = %.2f; ", draw(0.1, 1.6));
     else if (shape == 3)
-        add("height_m = %.2f; wave_m = %.2f; ", draw(0.03, 0.4), draw(1.5, 8.0));
+        scenario_text_add(&text, "height_m = %.2f; wave_m = %.2f; ", draw(0.03, 0.4),
+                          draw(1.5, 8.0));
     else
-        add("%s = %.3f; edge_m = %.3f; ", shape == 1 ? "depth_m" : "height_m", size, edge);
-    add("}%s\n", last ? " );" : ",");
+        scenario_text_add(&text, "%s = %.3f; edge_m = %.3f; ", shape == 1 ? "depth_m" : "height_m",
+                          size, edge);
+    scenario_text_add(&text, "}%s\n", last ? " );" : ",");
 }
 
 static void add_script(int number, bool last)
 {
-    add("{ name = \"s%d\"; steps = ( ", number);
+    scenario_text_add(&text, "{ name = \"s%d\"; steps = ( ", number);
     for (double at_s = 0.1; at_s < SECONDS;) {
         double for_s = draw(0.3, 2.5);
-        add("%s{ at_s = %.2f; throttle = %.1f; steer = %.2f; for_s = %.2f; }",
-            at_s > 0.1 ? ", " : "", at_s, draw(-0.6, 1.0),
-            draw(0.0, 1.0) < 0.5 ? 0.0 : draw(-1.0, 1.0), for_s);
+        scenario_text_add(&text, "%s{ at_s = %.2f; throttle = %.1f; steer = %.2f; for_s = %.2f; }",
+                          at_s > 0.1 ? ", " : "", at_s, draw(-0.6, 1.0),
+                          draw(0.0, 1.0) < 0.5 ? 0.0 : draw(-1.0, 1.0), for_s);
         at_s += for_s;
     }
-    add(" ); }%s\n", last ? " );" : ",");
+    scenario_text_add(&text, " ); }%s\n", last ? " );" : ",");
 }
 
 static const char *field(const struct field_plan *plan, uint64_t seed, double hz)
@@ -159,25 +152,28 @@ static const char *field(const struct field_plan *plan, uint64_t seed, double hz
     static const char *const kinds[] = {"tank",      "carrier",       "jeep", "truck",
                                         "hamburger", "attack-tomato", "flak", "howitzer"};
     state = seed;
-    length = 0;
-    add("world = { capacity = 64; seed = %u; hz = %.1f; };\n" FLAT "earthworks = (\n",
-        (unsigned)seed, hz);
+    text.used = 0;
+    scenario_text_add(&text,
+                      "world = { capacity = 64; seed = %u; hz = %.1f; };\n" FLAT "earthworks = (\n",
+                      (unsigned)seed, hz);
     for (int n = 0; n < plan->works; n++)
         add_work(plan, n + 1 == plan->works);
-    add("scripts = (\n");
+    scenario_text_add(&text, "scripts = (\n");
     for (int n = 0; n < plan->vehicles; n++)
         add_script(n, n + 1 == plan->vehicles);
-    add("vehicles = (\n");
+    scenario_text_add(&text, "vehicles = (\n");
     const double side = plan->apart_m / 4.0;
     const double west = 25000.0 - 0.5 * plan->apart_m * (plan->columns - 1);
     const double north = 25000.0 - plan->apart_m * ((double)plan->vehicles / plan->columns - 1.0);
     for (int n = 0; n < plan->vehicles; n++)
-        add("{ kind = \"%s\"; script = \"s%d\"; at = [%.2f, %.2f]; heading_deg = %.0f; }%s\n",
+        scenario_text_add(
+            &text,
+            "{ kind = \"%s\"; script = \"s%d\"; at = [%.2f, %.2f]; heading_deg = %.0f; }%s\n",
             kinds[(int)draw(0.0, 7.999)], n,
             west + plan->apart_m * (n % plan->columns) + draw(-side, side),
             north + 2.0 * plan->apart_m * (n / plan->columns) + draw(-side, side), draw(0.0, 359.0),
             n + 1 == plan->vehicles ? " );" : ",");
-    return text;
+    return text.at;
 }
 
 static void judge_fields(const struct field_plan *plan, const char *word, uint64_t first_usual,

@@ -1,5 +1,5 @@
 /* Jets' wrecks that fly into one another at 100 m/s hook into a pile and gain no energy. */
-#include "supervisor/physics/physics_check.h"
+#include "tests/support/judged.h"
 #include "tests/support/steps.h"
 #include "world/params.h"
 
@@ -52,14 +52,7 @@ static void test_who_stays_has_not_fallen(void **state)
                          "collision = { shape = \"model\"; };");
         put(&random);
         fixture_run(&f, 1);
-        struct state now = fixture_state(&f);
-        assert_int_equal(physics_check_begin(&check, &f.view.world, &now), 0);
-        for (uint32_t frame = 0; frame < FRAMES; frame++) {
-            fixture_continue(&f, 1);
-            const struct physics_events events = {f.view.events, f.view.header->event_slots};
-            now = fixture_state(&f);
-            assert_int_equal(physics_check_frame(&check, &now, &events), 0);
-        }
+        judged_continue(&f, &check, FRAMES);
         print_message("seed %u: %g J/kg\n", (unsigned)seed,
                       check.measures.of[MEASURE_OF_ENERGY].worst);
         assert_true(measure_good(&check.measures, MEASURE_OF_ENERGY));
