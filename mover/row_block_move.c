@@ -22,7 +22,7 @@
 /* The rows of a block that wait for their batch to fill up. */
 struct batches {
     const struct row_block *block;
-    uint8_t *motion; /* [CHECKSUM_ROWS] how each row moves, or has moved */
+    uint8_t *motion;                     /* [CHECKSUM_ROWS] how each row moves, or has moved */
     bool harmed;                         /* a hard landing has harmed a row */
     struct ground_vehicle land, stretch; /* moved by one frame, and by a stretch */
     struct aircraft air, air_stretch;

@@ -144,6 +144,31 @@ uint32_t steps_find(const struct fixture *fixture, uint32_t id)
     return entities_find(&state.entities, state.head->used, id);
 }
 
+uint32_t steps_put(struct fixture *fixture, const char *kind, struct vec3 at, enum force force,
+                   enum behaviour behaviour)
+{
+    uint32_t row = fixture_put(
+        fixture, (struct fixture_entity){
+                     .kind = kind, .at = at, .force = force, .behaviour = BEHAVIOUR_HOLD});
+    struct entities e = steps_rows(fixture);
+    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
+    return row;
+}
+
+void steps_threaten(const struct fixture *fixture, uint32_t row, uint32_t by)
+{
+    struct entities e = steps_rows(fixture);
+    e.threat_slot[row] = by;
+    e.threat_id[row] = e.id[by];
+}
+
+void steps_target(const struct fixture *fixture, uint32_t row, uint32_t target)
+{
+    struct entities e = steps_rows(fixture);
+    e.target_slot[row] = target;
+    e.target_id[row] = e.id[target];
+}
+
 void steps_empty(struct fixture *fixture)
 {
     struct view *view = &fixture->view;

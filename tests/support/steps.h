@@ -37,6 +37,16 @@ double steps_ground_at(const struct fixture *fixture, double x, double z);
 
 /* --- rows --------------------------------------------------------------------------------------*/
 
+/* Puts a vehicle that stands, with an agent whose order is this behaviour. Returns its row. */
+uint32_t steps_put(struct fixture *fixture, const char *kind, struct vec3 at, enum force force,
+                   enum behaviour behaviour);
+
+/* The row's agent hears that `by` has fired at it. */
+void steps_threaten(const struct fixture *fixture, uint32_t row, uint32_t by);
+
+/* Makes another row the target of a row's agent. */
+void steps_target(const struct fixture *fixture, uint32_t row, uint32_t target);
+
 /* Returns the columns of the committed frame, writable. */
 struct entities steps_rows(const struct fixture *fixture);
 double steps_speed(const struct fixture *fixture, uint32_t row);

@@ -25,11 +25,7 @@ static int open_world(void **state)
 
 static uint32_t put(const char *kind, double z, enum behaviour behaviour)
 {
-    struct fixture_entity entity = {.kind = kind, .at = {25000.0, 100.0, z}, .force = FORCE_RED};
-    uint32_t row = fixture_put(&f, entity);
-    struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
-    return row;
+    return steps_put(&f, kind, (struct vec3){25000.0, 100.0, z}, FORCE_RED, behaviour);
 }
 
 static bool rests(uint32_t row)

@@ -22,13 +22,7 @@ static int open_world(void **state)
 static uint32_t put(const char *kind, double x, double z, enum force force,
                     enum behaviour behaviour)
 {
-    uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kind,
-                                                           .at = {x, FIXTURE_GROUND_M, z},
-                                                           .force = force,
-                                                           .behaviour = BEHAVIOUR_HOLD});
-    struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
-    return row;
+    return steps_put(&f, kind, (struct vec3){x, FIXTURE_GROUND_M, z}, force, behaviour);
 }
 
 static enum behaviour behaviour_of(uint32_t row)
@@ -36,20 +30,11 @@ static enum behaviour behaviour_of(uint32_t row)
     return (enum behaviour)steps_rows(&f).behaviour[row];
 }
 
-/* It hears that another has fired at it. */
-static void threaten(uint32_t row, uint32_t by)
-{
-    struct entities e = steps_rows(&f);
-    e.threat_slot[row] = by;
-    e.threat_id[row] = e.id[by];
-}
-
 static void attack(uint32_t row, uint32_t target, double seconds)
 {
     struct entities e = steps_rows(&f);
     e.behaviour[row] = BEHAVIOUR_ATTACK;
-    e.target_slot[row] = target;
-    e.target_id[row] = e.id[target];
+    steps_target(&f, row, target);
     e.until_tick[row] = (uint32_t)(fixture_state(&f).head->tick + (uint64_t)(seconds * HZ));
     e.reload_tick[row] = UINT32_MAX; /* it holds its fire */
 }
@@ -101,7 +86,7 @@ static void test_row_9_courage_says_whether_it_fights_or_flees(void **state)
         steps_kind(&f, "tank")->courage = brave ? 1.0 : 0.0;
         uint32_t enemy = put("jeep", 25500.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
         uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_PATROL);
-        threaten(row, enemy);
+        steps_threaten(&f, row, enemy);
         fixture_run(&f, 1);
         enum behaviour to = brave ? BEHAVIOUR_ATTACK : BEHAVIOUR_FLEE;
         assert_int_equal(behaviour_of(row), to);
@@ -117,7 +102,7 @@ static void test_row_9_some_of_the_half_brave_fight_and_some_flee(void **state)
     steps_kind(&f, "jeep")->courage = 0.5;
     for (uint32_t n = 0; n < 50; n++) {
         row[n] = put("jeep", 24000.0 + 40.0 * n, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
-        threaten(row[n], enemy);
+        steps_threaten(&f, row[n], enemy);
     }
     fixture_run(&f, 1);
     for (uint32_t n = 0; n < 50; n++) {
@@ -135,8 +120,8 @@ static void test_row_9_an_unarmed_agent_flees_and_gets_away(void **state)
     (void)state;
     steps_kind(&f, "tank")->courage = 1.0;
     steps_rows(&f).flags[held] = ENTITY_FLAG_HOLD_FIRE;
-    threaten(unarmed, enemy);
-    threaten(held, enemy);
+    steps_threaten(&f, unarmed, enemy);
+    steps_threaten(&f, held, enemy);
     fixture_run(&f, (uint32_t)(25.0 * HZ));
     assert_int_equal(behaviour_of(unarmed), BEHAVIOUR_FLEE);
     assert_int_equal(behaviour_of(held), BEHAVIOUR_FLEE);
@@ -151,7 +136,7 @@ static void test_a_threat_from_the_dead_is_not_heard(void **state)
     uint32_t enemy = put("tank", 25500.0, 25000.0, FORCE_RED, BEHAVIOUR_HOLD);
     uint32_t row = put("tank", 25000.0, 25000.0, FORCE_BLUE, BEHAVIOUR_IDLE);
     (void)state;
-    threaten(row, enemy);
+    steps_threaten(&f, row, enemy);
     steps_rows(&f).state[enemy] = ENTITY_WRECK;
     fixture_run(&f, 2);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_IDLE);
@@ -232,7 +217,7 @@ static void test_another_shot_makes_the_fight_last_longer(void **state)
     (void)state;
     attack(row, enemy, 2.0);
     fixture_run(&f, (uint32_t)HZ);
-    threaten(row, enemy);
+    steps_threaten(&f, row, enemy);
     fixture_run(&f, (uint32_t)(3.0 * HZ));
     assert_int_equal(behaviour_of(row), BEHAVIOUR_ATTACK);
 }

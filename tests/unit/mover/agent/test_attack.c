@@ -26,22 +26,11 @@ static int open_world(void **state)
     return 0;
 }
 
-static uint32_t put(const char *kind, struct vec3 at, enum force force, enum behaviour behaviour)
-{
-    uint32_t row =
-        fixture_put(&f, (struct fixture_entity){
-                            .kind = kind, .at = at, .force = force, .behaviour = BEHAVIOUR_HOLD});
-    struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
-    return row;
-}
-
 static void attack(uint32_t row, uint32_t target)
 {
     struct entities e = steps_rows(&f);
     e.behaviour[row] = BEHAVIOUR_ATTACK;
-    e.target_slot[row] = target;
-    e.target_id[row] = e.id[target];
+    steps_target(&f, row, target);
     e.goal_x[row] = e.x[target];
     e.goal_z[row] = e.z[target];
     e.until_tick[row] = (uint32_t)(fixture_state(&f).head->tick + 300 * HZ);
@@ -54,9 +43,9 @@ static void put_jets(uint32_t *jet, uint32_t *target)
 {
     for (uint32_t n = 0; n < JETS; n++) {
         double x = 8000.0 + 12000.0 * (n % 4), z = 15000.0 + 20000.0 * (double)(n / 4);
-        target[n] = put("truck", (struct vec3){x, 100.0, z}, FORCE_RED, BEHAVIOUR_HOLD);
-        jet[n] =
-            put("jet", (struct vec3){x, 500.0, z - 1000.0 * (n + 1)}, FORCE_BLUE, BEHAVIOUR_IDLE);
+        target[n] = steps_put(&f, "truck", (struct vec3){x, 100.0, z}, FORCE_RED, BEHAVIOUR_HOLD);
+        jet[n] = steps_put(&f, "jet", (struct vec3){x, 500.0, z - 1000.0 * (n + 1)}, FORCE_BLUE,
+                           BEHAVIOUR_IDLE);
         struct entities e = steps_rows(&f);
         e.heading[jet[n]] = (double)n * TWO_PI / JETS;
         e.vx[jet[n]] = 250.0 * sin(e.heading[jet[n]]);
@@ -104,9 +93,9 @@ static void test_a_jet_extends_after_its_shot_and_flies_home_after_two(void **st
 static void test_a_helicopter_changes_sides_low_and_fires_from_above(void **state)
 {
     uint32_t target =
-        put("truck", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
-    uint32_t row =
-        put("helicopter", (struct vec3){25000.0, 145.0, 26500.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+        steps_put(&f, "truck", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row = steps_put(&f, "helicopter", (struct vec3){25000.0, 145.0, 26500.0}, FORCE_BLUE,
+                             BEHAVIOUR_IDLE);
     double low = INFINITY, fired_low = INFINITY;
     (void)state;
     steps_kind(&f, "truck")->resistance_j = 1e12;
@@ -131,9 +120,10 @@ static void test_a_helicopter_changes_sides_low_and_fires_from_above(void **stat
 static uint32_t flak_fires(const char *kind, double height, double distance)
 {
     steps_empty(&f);
-    uint32_t row = put("flak", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
-    put(kind, (struct vec3){25000.0, 100.0 + height, 25000.0 - distance}, FORCE_RED,
-        BEHAVIOUR_HOLD);
+    uint32_t row =
+        steps_put(&f, "flak", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    steps_put(&f, kind, (struct vec3){25000.0, 100.0 + height, 25000.0 - distance}, FORCE_RED,
+              BEHAVIOUR_HOLD);
     steps_rows(&f).flags[row] = ENTITY_FLAG_FIRE_AT_WILL;
     fixture_run(&f, 60 * HZ);
     return fixture_event_count(&f, EVENT_FIRE);
@@ -156,10 +146,10 @@ static void test_aircraft_evade_flak(void **state)
     for (int n = 0; n < 2; n++) {
         steps_empty(&f);
         steps_kind(&f, kinds[n])->courage = 1.0;
-        uint32_t flak =
-            put("flak", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
-        uint32_t row =
-            put(kinds[n], (struct vec3){25000.0, 500.0, 26000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+        uint32_t flak = steps_put(&f, "flak", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_RED,
+                                  BEHAVIOUR_HOLD);
+        uint32_t row = steps_put(&f, kinds[n], (struct vec3){25000.0, 500.0, 26000.0}, FORCE_BLUE,
+                                 BEHAVIOUR_IDLE);
         struct entities e = steps_rows(&f);
         e.threat_slot[row] = flak;
         e.threat_id[row] = e.id[flak];
@@ -179,8 +169,9 @@ static double silent_s(uint32_t seed)
     steps_params(&f)->seed = seed;
     steps_kind(&f, "tank")->courage = 1.0;
     uint32_t target =
-        put("truck", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
-    uint32_t row = put("tank", (struct vec3){25000.0, 100.0, 25800.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+        steps_put(&f, "truck", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row =
+        steps_put(&f, "tank", (struct vec3){25000.0, 100.0, 25800.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
     attack(row, target);
     steps_rows(&f).flags[row] = ENTITY_FLAG_STAND | ENTITY_FLAG_BURST;
     steps_rows(&f).reload_tick[row] = HZ; /* its agent decides first */
@@ -209,8 +200,9 @@ static void test_a_burst_silences_a_crew_for_ten_to_thirty_seconds(void **state)
 static void test_a_tank_fires_two_to_four_rounds_and_moves(void **state)
 {
     uint32_t target =
-        put("ship", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
-    uint32_t row = put("tank", (struct vec3){25000.0, 100.0, 25800.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+        steps_put(&f, "ship", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row =
+        steps_put(&f, "tank", (struct vec3){25000.0, 100.0, 25800.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
     uint32_t fired = 0, moves = 0;
     enum behaviour before = BEHAVIOUR_ATTACK;
     (void)state;
@@ -245,8 +237,10 @@ static void test_a_position_behind_a_crest_hides_the_hull(void **state)
     (void)state;
     steps_ground(&f, ridge, NULL);
     fixture_threads(&f, 1);
-    uint32_t enemy = put("tank", (struct vec3){25600.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
-    uint32_t row = put("tank", (struct vec3){25000.0, 102.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t enemy =
+        steps_put(&f, "tank", (struct vec3){25600.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row =
+        steps_put(&f, "tank", (struct vec3){25000.0, 102.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
     steps_rows(&f).heading[row] = HALF_PI;
     steps_serial_context(&f, &step, &context);
     goal_position(&step, row, enemy);
@@ -266,9 +260,11 @@ static void test_a_position_behind_a_crest_hides_the_hull(void **state)
 static enum behaviour fired_upon(uint32_t *row, uint32_t *enemy)
 {
     steps_kind(&f, "tank")->courage = 1.0;
-    *enemy = put("tank", (struct vec3){25600.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
-    *row = put("tank", (struct vec3){25000.0, steps_ground_at(&f, 25000.0, 25000.0), 25000.0},
-               FORCE_BLUE, BEHAVIOUR_IDLE);
+    *enemy =
+        steps_put(&f, "tank", (struct vec3){25600.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    *row = steps_put(&f, "tank",
+                     (struct vec3){25000.0, steps_ground_at(&f, 25000.0, 25000.0), 25000.0},
+                     FORCE_BLUE, BEHAVIOUR_IDLE);
     struct entities e = steps_rows(&f);
     e.heading[*row] = HALF_PI;
     e.threat_slot[*row] = *enemy;
@@ -322,16 +318,18 @@ static void test_a_crew_does_not_leave_a_place_that_hides_its_hull(void **state)
     (void)state;
     steps_ground(&f, ridge, NULL);
     fixture_threads(&f, 1);
-    uint32_t enemy =
-        put("tank", (struct vec3){25000.0 + far, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
-    uint32_t row = put("tank", (struct vec3){25000.0, 102.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t enemy = steps_put(&f, "tank", (struct vec3){25000.0 + far, 100.0, 25000.0}, FORCE_RED,
+                               BEHAVIOUR_HOLD);
+    uint32_t row =
+        steps_put(&f, "tank", (struct vec3){25000.0, 102.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
     steps_serial_context(&f, &step, &context);
     goal_position(&step, row, enemy);
     struct vec3 at = {step.m->goal_x[row], 0.0, step.m->goal_z[row]};
     at.y = steps_ground_at(&f, at.x, at.z);
     steps_empty(&f);
-    enemy = put("tank", (struct vec3){25000.0 + far, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
-    row = put("tank", at, FORCE_BLUE, BEHAVIOUR_IDLE);
+    enemy = steps_put(&f, "tank", (struct vec3){25000.0 + far, 100.0, 25000.0}, FORCE_RED,
+                      BEHAVIOUR_HOLD);
+    row = steps_put(&f, "tank", at, FORCE_BLUE, BEHAVIOUR_IDLE);
     steps_rows(&f).heading[row] = HALF_PI;
     steps_rows(&f).flags[row] |= ENTITY_FLAG_STAND;
     attack(row, enemy);
@@ -350,8 +348,10 @@ static void test_a_crew_that_flees_takes_the_nearest_cover(void **state)
     (void)state;
     steps_ground(&f, ridge, NULL);
     fixture_threads(&f, 1);
-    uint32_t enemy = put("tank", (struct vec3){25600.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
-    uint32_t row = put("jeep", (struct vec3){24920.0, 101.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t enemy =
+        steps_put(&f, "tank", (struct vec3){25600.0, 100.0, 25000.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row =
+        steps_put(&f, "jeep", (struct vec3){24920.0, 101.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
     steps_serial_context(&f, &step, &context);
     goal_cover(&step, row, enemy);
     double away = hypot(step.m->goal_x[row] - 24920.0, step.m->goal_z[row] - 25000.0);
@@ -369,8 +369,8 @@ static void test_another_burst_keeps_a_crew_in_cover(void **state)
     for (int burst = 0; burst < 2; burst++) {
         fixture_close(&f);
         open_world(NULL);
-        uint32_t row =
-            put("tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_FLEE);
+        uint32_t row = steps_put(&f, "tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE,
+                                 BEHAVIOUR_FLEE);
         struct entities e = steps_rows(&f);
         e.order[row] = BEHAVIOUR_IDLE;
         e.goal_x[row] = e.x[row];
@@ -389,10 +389,10 @@ static void test_another_burst_keeps_a_crew_in_cover(void **state)
 static void test_a_carrier_drives_to_where_its_rounds_penetrate(void **state)
 {
     (void)state;
-    uint32_t row =
-        put("carrier", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t row = steps_put(&f, "carrier", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE,
+                             BEHAVIOUR_IDLE);
     uint32_t target =
-        put("tank", (struct vec3){25000.0, 100.0, 23950.0}, FORCE_RED, BEHAVIOUR_HOLD);
+        steps_put(&f, "tank", (struct vec3){25000.0, 100.0, 23950.0}, FORCE_RED, BEHAVIOUR_HOLD);
     for (int frame = 0; frame < 60 * HZ; frame++) {
         attack(row, target);
         steps_rows(&f).reload_tick[row] =

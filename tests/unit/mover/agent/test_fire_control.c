@@ -31,16 +31,6 @@ static int close_world(void **state)
     return 0;
 }
 
-static uint32_t put(const char *kind, struct vec3 at, enum force force, enum behaviour behaviour)
-{
-    uint32_t row =
-        fixture_put(&f, (struct fixture_entity){
-                            .kind = kind, .at = at, .force = force, .behaviour = BEHAVIOUR_HOLD});
-    struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
-    return row;
-}
-
 /* --- targets -----------------------------------------------------------------------------------*/
 
 /* Puts a shooter and a target that is so far above and behind it, and asks about them. */
@@ -48,8 +38,9 @@ static bool ask(bool (*question)(const struct step_context *, uint32_t, uint32_t
                 const char *shooter, const char *target, double above_m, double behind_m)
 {
     const struct vec3 at = {25000.0, 100.0 + above_m, 25000.0 + behind_m};
-    uint32_t a = put(shooter, (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
-    uint32_t b = put(target, at, FORCE_RED, BEHAVIOUR_IDLE);
+    uint32_t a =
+        steps_put(&f, shooter, (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t b = steps_put(&f, target, at, FORCE_RED, BEHAVIOUR_IDLE);
     struct step_context step;
     struct serial_context context;
     steps_serial_context(&f, &step, &context);
@@ -80,8 +71,10 @@ static void test_no_tank_gun_suits_a_jet(void **state)
 /* A jet circles over a tank that fires at will, and even fires at it. */
 static void test_a_tank_fires_no_round_at_a_jet(void **state)
 {
-    uint32_t tank = put("tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
-    uint32_t jet = put("jet", (struct vec3){25000.0, 300.0, 26000.0}, FORCE_RED, BEHAVIOUR_PATROL);
+    uint32_t tank =
+        steps_put(&f, "tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t jet =
+        steps_put(&f, "jet", (struct vec3){25000.0, 300.0, 26000.0}, FORCE_RED, BEHAVIOUR_PATROL);
     struct entities e = steps_rows(&f);
     (void)state;
     e.flags[tank] |= ENTITY_FLAG_FIRE_AT_WILL | ENTITY_FLAG_STAND;
@@ -100,9 +93,10 @@ static void test_a_tank_fires_no_round_at_a_jet(void **state)
 static void test_a_fast_helicopter_is_no_target_for_a_tank_gun(void **state)
 {
     (void)state;
-    uint32_t a = put("tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
-    uint32_t b =
-        put("helicopter", (struct vec3){25000.0, 150.0, 25500.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t a =
+        steps_put(&f, "tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t b = steps_put(&f, "helicopter", (struct vec3){25000.0, 150.0, 25500.0}, FORCE_RED,
+                           BEHAVIOUR_HOLD);
     struct step_context step;
     struct serial_context context;
     steps_rows(&f).vx[b] = 50.0;
@@ -136,8 +130,10 @@ static void test_a_round_harms_what_it_may_penetrate(void **state)
 static uint32_t rounds_at_a_tank(const char *kind, bool shot, uint8_t flags,
                                  enum behaviour *behaviour)
 {
-    uint32_t row = put(kind, (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
-    uint32_t tank = put("tank", (struct vec3){25000.0, 100.0, 24400.0}, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row =
+        steps_put(&f, kind, (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t tank =
+        steps_put(&f, "tank", (struct vec3){25000.0, 100.0, 24400.0}, FORCE_RED, BEHAVIOUR_HOLD);
     struct entities e = steps_rows(&f);
     uint32_t before = e.rounds[row];
     if (steps_kind(&f, kind)->domain == DOMAIN_AIR)
@@ -193,8 +189,10 @@ static void test_a_tomato_charges_at_a_tank_without_a_shot(void **state)
 static double reach(const char *shooter, const char *target, double rounds_left)
 {
     steps_empty(&f);
-    uint32_t a = put(shooter, (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
-    uint32_t b = put(target, (struct vec3){25000.0, 400.0, 26000.0}, FORCE_RED, BEHAVIOUR_IDLE);
+    uint32_t a =
+        steps_put(&f, shooter, (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t b =
+        steps_put(&f, target, (struct vec3){25000.0, 400.0, 26000.0}, FORCE_RED, BEHAVIOUR_IDLE);
     struct step_context step;
     struct serial_context context;
     steps_serial_context(&f, &step, &context);
@@ -245,8 +243,10 @@ static void test_a_tank_fires_at_a_jeep_from_where_it_can_hit_it(void **state)
  */
 static enum behaviour with_kept_rounds(double away_m, uint8_t flags, uint32_t *fired)
 {
-    uint32_t row = put("tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
-    put("tank", (struct vec3){25000.0, 100.0, 25000.0 - away_m}, FORCE_RED, BEHAVIOUR_HOLD);
+    uint32_t row =
+        steps_put(&f, "tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    steps_put(&f, "tank", (struct vec3){25000.0, 100.0, 25000.0 - away_m}, FORCE_RED,
+              BEHAVIOUR_HOLD);
     struct entities e = steps_rows(&f);
     enum behaviour behaviour = BEHAVIOUR_IDLE;
     e.rounds[row] = 30;
@@ -284,7 +284,8 @@ static void test_the_reaction_has_a_least_time_and_the_kinds_median(void **state
 {
     enum { DRAWS = 4000 };
     static double time_s[DRAWS];
-    uint32_t row = put("tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t row =
+        steps_put(&f, "tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
     struct step_context step;
     struct serial_context context;
     (void)state;
@@ -303,7 +304,8 @@ static void test_the_reaction_has_a_least_time_and_the_kinds_median(void **state
 
 static void test_a_gun_that_loads_for_longer_is_not_loaded_sooner(void **state)
 {
-    uint32_t row = put("tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
+    uint32_t row =
+        steps_put(&f, "tank", (struct vec3){25000.0, 100.0, 25000.0}, FORCE_BLUE, BEHAVIOUR_IDLE);
     struct step_context step;
     struct serial_context context;
     (void)state;
@@ -323,9 +325,9 @@ static void test_crews_reply_after_a_human_time(void **state)
     steps_kind(&f, "tank")->reload_s = 1000.0; /* each crew fires once */
     for (uint32_t n = 0; n < CREWS; n++) {
         double x = 4000.0 + 6000.0 * (n % 8), z = 4000.0 + 6000.0 * (double)(n / 8);
-        uint32_t red = put("tank", (struct vec3){x, 100.0, z}, FORCE_RED, BEHAVIOUR_IDLE);
-        uint32_t blue =
-            put("tank", (struct vec3){x + 900.0, 100.0, z + 300.0}, FORCE_BLUE, BEHAVIOUR_HOLD);
+        uint32_t red = steps_put(&f, "tank", (struct vec3){x, 100.0, z}, FORCE_RED, BEHAVIOUR_IDLE);
+        uint32_t blue = steps_put(&f, "tank", (struct vec3){x + 900.0, 100.0, z + 300.0},
+                                  FORCE_BLUE, BEHAVIOUR_HOLD);
         struct entities e = steps_rows(&f);
         e.threat_slot[red] = blue, e.threat_id[red] = e.id[blue];
     }

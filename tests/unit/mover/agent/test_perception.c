@@ -25,12 +25,9 @@ static int open_world(void **state)
 static uint32_t put(const char *kind, double x, double z, enum force force,
                     enum behaviour behaviour, uint8_t flags)
 {
-    uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kind,
-                                                           .at = {x, steps_ground_at(&f, x, z), z},
-                                                           .force = force,
-                                                           .behaviour = BEHAVIOUR_HOLD});
+    const struct vec3 at = {x, steps_ground_at(&f, x, z), z};
+    uint32_t row = steps_put(&f, kind, at, force, behaviour);
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
     e.flags[row] = flags;
     e.reload_tick[row] = UINT32_MAX;
     return row;
@@ -58,13 +55,6 @@ static void told(uint32_t row, uint32_t nth, enum behaviour to, enum agent_reaso
         }
     }
     fail_msg("row %u has not changed its mind so often", row);
-}
-
-static void threaten(uint32_t row, uint32_t by)
-{
-    struct entities e = steps_rows(&f);
-    e.threat_slot[row] = by;
-    e.threat_id[row] = e.id[by];
 }
 
 /* --- seeing ------------------------------------------------------------------------------------*/
@@ -108,7 +98,7 @@ static void test_row_9_an_agent_shot_at_from_behind_a_hill_does_not_shoot_at_it(
     uint32_t enemy = put("tank", MIDDLE + 500.0, MIDDLE, FORCE_RED, BEHAVIOUR_HOLD, 0);
     steps_rows(&f).heading[row] = HALF_PI;
     steps_rows(&f).reload_tick[row] = 0;
-    threaten(row, enemy);
+    steps_threaten(&f, row, enemy);
     seconds(5.0);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_ATTACK);
     assert_int_equal(fixture_event_count(&f, EVENT_FIRE), 0);
@@ -170,8 +160,8 @@ static void test_row_9_orders_to_stand_and_to_hold_fire(void **state)
     uint32_t stands = put("tank", MIDDLE, MIDDLE, FORCE_BLUE, BEHAVIOUR_IDLE, ENTITY_FLAG_STAND);
     uint32_t both = put("tank", 25100.0, MIDDLE, FORCE_BLUE, BEHAVIOUR_IDLE,
                         ENTITY_FLAG_STAND | ENTITY_FLAG_HOLD_FIRE);
-    threaten(stands, enemy);
-    threaten(both, enemy);
+    steps_threaten(&f, stands, enemy);
+    steps_threaten(&f, both, enemy);
     fixture_run(&f, 1);
     assert_int_equal(behaviour_of(stands), BEHAVIOUR_ATTACK);
     assert_int_equal(behaviour_of(both), BEHAVIOUR_IDLE);
@@ -187,7 +177,7 @@ static void test_row_9_odds_of_one_to_six_are_too_many_for_most(void **state)
         uint32_t row = put("tank", x, MIDDLE, FORCE_BLUE, BEHAVIOUR_IDLE, 0), enemy = 0;
         for (int m = 0; m < 6; m++)
             enemy = put("tank", x + 30.0 * m, 24000.0, FORCE_RED, BEHAVIOUR_HOLD, 0);
-        threaten(row, enemy);
+        steps_threaten(&f, row, enemy);
     }
     seconds(4.0);
     for (uint32_t n = 0; n < 4; n++)
@@ -203,7 +193,7 @@ static void test_row_9_a_fleeing_agent_goes_where_it_is_not_seen(void **state)
     steps_kind(&f, "jeep")->courage = 0.0;
     uint32_t enemy = put("tank", MIDDLE - 900.0, MIDDLE, FORCE_RED, BEHAVIOUR_HOLD, 0);
     uint32_t row = put("jeep", MIDDLE - 260.0, MIDDLE, FORCE_BLUE, BEHAVIOUR_IDLE, 0);
-    threaten(row, enemy);
+    steps_threaten(&f, row, enemy);
     fixture_run(&f, 1);
     assert_int_equal(behaviour_of(row), BEHAVIOUR_FLEE);
     struct entities e = steps_rows(&f);

@@ -26,21 +26,8 @@ static int open_world(void **state)
 static uint32_t put(const char *kind, double height, double z, enum force force,
                     enum behaviour behaviour)
 {
-    uint32_t row =
-        fixture_put(&f, (struct fixture_entity){.kind = kind,
-                                                .at = {25000.0, FIXTURE_GROUND_M + height, z},
-                                                .force = force,
-                                                .behaviour = BEHAVIOUR_HOLD});
-    struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
-    return row;
-}
-
-static void threaten(uint32_t row, uint32_t by)
-{
-    struct entities e = steps_rows(&f);
-    e.threat_slot[row] = by;
-    e.threat_id[row] = e.id[by];
+    const struct vec3 at = {25000.0, FIXTURE_GROUND_M + height, z};
+    return steps_put(&f, kind, at, force, behaviour);
 }
 
 /* Puts a crew without courage that an enemy has fired at. */
@@ -48,7 +35,7 @@ static uint32_t put_target(const char *kind, uint32_t enemy)
 {
     steps_kind(&f, kind)->courage = 0.0;
     uint32_t row = put(kind, 0.0, 25600.0, FORCE_BLUE, BEHAVIOUR_IDLE);
-    threaten(row, enemy);
+    steps_threaten(&f, row, enemy);
     fixture_run(&f, 1);
     return row;
 }
@@ -120,7 +107,7 @@ static void test_launchers_are_loaded_for_three_minutes(void **state)
         fixture_run(&f, (uint32_t)(again ? (SMOKE_AGAIN_S - 20.0) * HZ : 20 * HZ));
         struct entities e = steps_rows(&f);
         e.behaviour[row] = e.order[row] = BEHAVIOUR_IDLE;
-        threaten(row, enemy);
+        steps_threaten(&f, row, enemy);
         fixture_run(&f, 2);
         assert_int_equal(steps_rows(&f).owner_slot[row] != first, again);
     }

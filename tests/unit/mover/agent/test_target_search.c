@@ -25,12 +25,8 @@ static int open_world(void **state)
 static uint32_t put(const char *kind, double x, double z, enum force force,
                     enum behaviour behaviour)
 {
-    uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kind,
-                                                           .at = {x, FIXTURE_GROUND_M, z},
-                                                           .force = force,
-                                                           .behaviour = BEHAVIOUR_HOLD});
+    uint32_t row = steps_put(&f, kind, (struct vec3){x, FIXTURE_GROUND_M, z}, force, behaviour);
     struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
     e.flags[row] = ENTITY_FLAG_FIRE_AT_WILL;
     e.reload_tick[row] = UINT32_MAX;
     return row;

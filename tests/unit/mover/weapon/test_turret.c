@@ -24,20 +24,7 @@ static int open_world(void **state)
 static uint32_t put(const char *kind, double x, double z, enum force force,
                     enum behaviour behaviour)
 {
-    uint32_t row = fixture_put(&f, (struct fixture_entity){.kind = kind,
-                                                           .at = {x, FIXTURE_GROUND_M, z},
-                                                           .force = force,
-                                                           .behaviour = BEHAVIOUR_PATROL});
-    struct entities e = steps_rows(&f);
-    e.behaviour[row] = e.order[row] = (uint8_t)behaviour;
-    return row;
-}
-
-static void aim_at(uint32_t row, uint32_t target)
-{
-    struct entities e = steps_rows(&f);
-    e.target_slot[row] = target;
-    e.target_id[row] = e.id[target];
+    return steps_put(&f, kind, (struct vec3){x, FIXTURE_GROUND_M, z}, force, behaviour);
 }
 
 static void train(uint32_t row, double traverse, double elevate)
@@ -138,7 +125,7 @@ static void test_no_turret_passes_its_rate_and_no_gun_its_limits(void **state)
         struct entities e = steps_rows(&f);
         for (uint32_t n = 0; n < 5; n++) {
             if (frame % 50 == 0)
-                aim_at(row[n], target[fixture_random(&random) % 3]);
+                steps_target(&f, row[n], target[fixture_random(&random) % 3]);
             turret[n] = e.turret[row[n]];
             gun[n] = e.gun[row[n]];
         }
@@ -172,7 +159,7 @@ static void test_at_rest_it_goes_back_ahead(void **state)
 /* The frame in which an attacker fires first at something in a direction; 0: in none of so many. */
 static uint32_t first_shot(uint32_t row, uint32_t target, uint32_t frames)
 {
-    aim_at(row, target);
+    steps_target(&f, row, target);
     struct entities e = steps_rows(&f);
     e.behaviour[row] = BEHAVIOUR_ATTACK;
     e.until_tick[row] = UINT32_MAX;

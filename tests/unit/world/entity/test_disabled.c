@@ -48,8 +48,7 @@ static void open_case(size_t n, enum behaviour behaviour)
     e.flags[row] = cases[n].flags;
     e.behaviour[row] = (uint8_t)behaviour;
     e.order[row] = BEHAVIOUR_IDLE;
-    e.target_slot[row] = target;
-    e.target_id[row] = e.id[target];
+    steps_target(&f, row, target);
 }
 
 static void test_what_a_driver_can_do(void **state)
