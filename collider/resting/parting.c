@@ -199,7 +199,8 @@ static void part_others(struct parting *parting, const struct parting_input *inp
 {
     for (uint32_t i = 0; i < input->points; i++) {
         if (input->point[i].apart_mps > 0.0 && !parting_wishes_parts(parting, input->point[i].a)) {
-            level_solver_part(input->body, input->point, input->points);
+            level_solver_part(input->lanes, input->body, input->bodies, input->point,
+                              input->points);
             return;
         }
     }

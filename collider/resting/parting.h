@@ -13,7 +13,7 @@
 
 #include "collider/response/response.h"
 #include "collider/resting/crowds.h"
-#include "collider/resting/level_solver.h"
+#include "collider/solver/level_solver.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -63,7 +63,8 @@ struct parting {
  * those of a pair beside each other. */
 struct parting_input {
     const struct response_context *context;
-    struct crowds *crowds; /* of all bodies that are deep in each other, measured */
+    struct crowds *crowds;     /* of all bodies that are deep in each other, measured */
+    struct level_lanes *lanes; /* the solver's */
     const uint32_t *row;
     struct level_body *body;
     struct level_contact *point;

@@ -3,7 +3,7 @@
 #ifndef JOLON_COLLIDER_RESTING_PARTING_WISHES_H
 #define JOLON_COLLIDER_RESTING_PARTING_WISHES_H
 
-#include "collider/resting/level_solver.h"
+#include "collider/solver/level_solver.h"
 #include "collider/resting/parting.h"
 
 #include <stdbool.h>

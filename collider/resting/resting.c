@@ -20,6 +20,8 @@
 
 #define ROUNDING_M 1e-6 /* smaller overlaps of the skins are rounding */
 
+#define POINTS_A_PAIR 2u /* most pairs have no more; else the lanes' arrays grow */
+
 int resting_init(struct resting *resting, const struct world *world, struct thread_pool *workers)
 {
     uint32_t rows = world->params->capacity;
@@ -42,6 +44,7 @@ int resting_init(struct resting *resting, const struct world *world, struct thre
         begun_bodies_init(&resting->begun, world) == 0 &&
         crowds_init(&resting->crowds, world) == 0 &&
         parting_init(&resting->parting, rows + pairs, pairs * RESTING_POINTS_MAX) == 0 &&
+        level_lanes_init(&resting->lanes, rows + pairs, POINTS_A_PAIR * pairs) == 0 &&
         neighbours_init(&resting->neighbours, world) == 0 && level_exit_init(&resting->exit) == 0 &&
         resting->gap && resting->wide && resting->gap_before && resting->put_off && resting->pair &&
         resting->point && resting->body && resting->row && resting->pressed_ns && resting->stands &&
@@ -58,6 +61,7 @@ void resting_free(struct resting *resting)
     begun_bodies_free(&resting->begun);
     crowds_free(&resting->crowds);
     parting_free(&resting->parting);
+    level_lanes_free(&resting->lanes);
     neighbours_free(&resting->neighbours);
     level_exit_free(&resting->exit);
     free(resting->leaving);
@@ -436,10 +440,12 @@ void resting_solve(struct resting *resting, struct response_context *context)
     parting_ways_find(resting, context);
     for (uint32_t i = 0; i < resting->groups.count; i++)
         take(resting, context, &resting->groups.pair[i], &resting->gap[i]);
-    level_solver_run(resting->body, resting->bodies, resting->point, resting->points);
+    level_solver_run(&resting->lanes, resting->body, resting->bodies, resting->point,
+                     resting->points);
     stop_in_walls(resting, context);
     parting_run(&resting->parting, &(struct parting_input){.context = context,
                                                            .crowds = &resting->crowds,
+                                                           .lanes = &resting->lanes,
                                                            .row = resting->row,
                                                            .body = resting->body,
                                                            .point = resting->point,

@@ -11,9 +11,9 @@
 #include "collider/resting/begun_bodies.h"
 #include "collider/resting/contact_groups.h"
 #include "collider/resting/crowds.h"
-#include "collider/resting/level_solver.h"
 #include "collider/resting/neighbours.h"
 #include "collider/resting/parting.h"
+#include "collider/solver/level_solver.h"
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -71,6 +71,7 @@ struct resting {
     struct begun_bodies begun;
     struct crowds crowds;
     struct parting parting;
+    struct level_lanes lanes;
     struct neighbours neighbours;
     struct level_exit exit;
     uint32_t *leaving;       /* [capacity of the world] pairs of the row that need a way out */

@@ -37,7 +37,7 @@ struct nearest_vertices {
 #define PERSISTENT_CONTACT_NEAREST 4u /* pairs of hulls that a contact remembers */
 
 /* The impulses that two hulls bore at the two ends of their contact, of which a short contact has
- * only the first. The solver begins there in the next frame (collider/resting/level_solver.h). */
+ * only the first. The solver begins there in the next frame (collider/solver/level_solver.h). */
 struct contact_load {
     float normal_ns[2];   /* along the normal, >= 0 */
     float friction_ns[2]; /* across it, to the left of the normal from a to b */

@@ -18,6 +18,7 @@
 static struct fixture f;
 static struct response_context context;
 static struct parting parting;
+static struct level_lanes lanes;
 static struct crowds crowds;
 static struct level_body body[BODIES];
 static struct level_contact point[2];
@@ -38,6 +39,7 @@ static int open_world(void **state)
     }
     steps_respond(&f, &context);
     assert_int_equal(parting_init(&parting, BODIES, 2), 0);
+    assert_int_equal(level_lanes_init(&lanes, BODIES, 2), 0);
     assert_int_equal(crowds_init(&crowds, &f.view.world), 0);
     double dt_s = world_dt_s(&f.view.world);
     point[0] = (struct level_contact){
@@ -47,6 +49,7 @@ static int open_world(void **state)
     pair[1] = (struct resting_pair){.first = 1, .count = 1, .gap_m = CONTACT_REST_M};
     input = (struct parting_input){.context = &context,
                                    .crowds = &crowds,
+                                   .lanes = &lanes,
                                    .row = row,
                                    .body = body,
                                    .point = point,
@@ -61,6 +64,7 @@ static int close_world(void **state)
 {
     (void)state;
     parting_free(&parting);
+    level_lanes_free(&lanes);
     crowds_free(&crowds);
     steps_respond_end(&context);
     fixture_close(&f);
@@ -133,7 +137,7 @@ static void test_recovery_moves_nobody_far_in_a_frame(void **state)
     (void)state;
     pair[0].gap_m = -0.9 * RESTING_PARTS_M;
     point[0].apart_mps = 2.0;
-    level_solver_run(body, 2, point, 1);
+    level_solver_run(&lanes, body, 2, point, 1);
     parting_run(&parting, &input);
     assert_true(fabs(body[0].pushed.x * world_dt_s(&f.view.world) + 0.006) < 1e-9);
     assert_true(fabs(body[1].pushed.x * world_dt_s(&f.view.world) - 0.006) < 1e-9);

@@ -11,9 +11,12 @@
  * is solved again with impulses that begin at 0 (cold start), by which energy never grows.
  *
  * Overlaps are recovered by a second set of velocities that moves bodies and leaves their momentum
- * alone (split impulses). So recovery adds no energy. Pure; any thread. */
-#ifndef JOLON_COLLIDER_RESTING_LEVEL_SOLVER_H
-#define JOLON_COLLIDER_RESTING_LEVEL_SOLVER_H
+ * alone (split impulses). So recovery adds no energy. Pure; any thread, each with lanes of its own.
+ */
+#ifndef JOLON_COLLIDER_SOLVER_LEVEL_SOLVER_H
+#define JOLON_COLLIDER_SOLVER_LEVEL_SOLVER_H
+
+#include "collider/solver/level_lanes.h"
 
 #include <stdint.h>
 
@@ -43,7 +46,6 @@ struct level_body {
      * heading and across it [N s], and about the vertical [N m s]. */
     double grip_along, grip_across, grip_turn;
     struct level_motion wanted; /* the solver's own: moved as it was given */
-    double along, across, turn; /* the solver's own: impulses of the ground so far */
 };
 
 struct level_contact {
@@ -66,11 +68,12 @@ struct level_contact {
 /* Solves the contacts. Linear and angular momentum change only by the ground's grip. The result
  * depends on the order of the contacts, which must be the caller's fixed one. A contact between two
  * fixed bodies bears nothing. */
-void level_solver_run(struct level_body *body, uint32_t bodies, struct level_contact *contact,
-                      uint32_t contacts);
+void level_solver_run(struct level_lanes *lanes, struct level_body *body, uint32_t bodies,
+                      struct level_contact *contact, uint32_t contacts);
 
 /* Recovers the overlaps of contacts that have been solved: sets the bodies' pushed. */
-void level_solver_part(struct level_body *body, struct level_contact *contact, uint32_t contacts);
+void level_solver_part(struct level_lanes *lanes, struct level_body *body, uint32_t bodies,
+                       struct level_contact *contact, uint32_t contacts);
 
 /* Returns the speed at which the bodies of a contact close at its point [m/s], below 0 if they
  * part. */

@@ -1,6 +1,6 @@
 /* Contacts of bodies in the plane: what they conserve, what they stop, and what the ground holds.
  */
-#include "collider/resting/level_solver.h"
+#include "collider/solver/level_solver.h"
 
 #include "tests/support/fixture.h"
 
@@ -15,6 +15,7 @@
 #define CONTACTS 8
 #define ROUNDS   2000
 
+static struct level_lanes lanes;
 static struct level_body body[BODIES];
 static struct level_contact contact[CONTACTS];
 static double at_x[BODIES], at_z[BODIES];
@@ -88,7 +89,7 @@ static void test_momentum_is_conserved_and_energy_never_grows(void **state)
     for (int round = 0; round < ROUNDS; round++) {
         draw(&random);
         struct sums before = sums_of(body);
-        level_solver_run(body, BODIES, contact, CONTACTS);
+        level_solver_run(&lanes, body, BODIES, contact, CONTACTS);
         struct sums after = sums_of(body);
         double scale = 1e-12 * 4e4 * 9.0 * 10.0 * BODIES; /* of the greatest momentum */
         assert_true(fabs(after.x - before.x) < scale && fabs(after.z - before.z) < scale);
@@ -111,7 +112,7 @@ static void test_a_warm_start_adds_no_energy(void **state)
             contact[i].friction_ns = fixture_uniform(&random, -2e5, 2e5);
         }
         struct sums before = sums_of(body);
-        level_solver_run(body, BODIES, contact, CONTACTS);
+        level_solver_run(&lanes, body, BODIES, contact, CONTACTS);
         struct sums after = sums_of(body);
         double scale = 1e-12 * 4e5 * 9.0 * 10.0 * BODIES;
         assert_true(fabs(after.x - before.x) < scale && fabs(after.z - before.z) < scale);
@@ -139,7 +140,7 @@ static double left_in_row(int frames, bool warm)
         row[ROW] = (struct level_body){.forward_x = 1.0};
         for (uint32_t i = 0; i < ROW; i++)
             between[i].normal_ns = warm ? between[i].normal_ns : 0.0;
-        level_solver_run(row, ROW + 1, between, ROW);
+        level_solver_run(&lanes, row, ROW + 1, between, ROW);
     }
     for (uint32_t i = 0; i < ROW; i++)
         most = maths_max(most, level_solver_closing(row, &between[i]));
@@ -162,7 +163,7 @@ static void test_friction_stays_within_its_cone(void **state)
         body[0].inverse_moment = body[1].inverse_moment = 1e-12;
         contact[0] = touch(0, 1);
         contact[0].friction = 0.5;
-        level_solver_run(body, 2, contact, 1);
+        level_solver_run(&lanes, body, 2, contact, 1);
         double left = fabs(body[0].moved.z - body[1].moved.z);
         assert_true(fabs(contact[0].normal_ns - 1000.0) < 1e-6);     /* 500 kg times 2 m/s */
         assert_true(i == 0 ? left < 1e-9 : fabs(left - 8.0) < 1e-9); /* 500 N s on 500 kg */
@@ -184,7 +185,7 @@ static double left_in_chain(bool from_first)
         body[BODIES - 1].moved.x = -1.0;
     for (uint32_t i = 0; i + 1 < BODIES; i++)
         contact[i] = touch(i, i + 1);
-    level_solver_run(body, BODIES, contact, BODIES - 1);
+    level_solver_run(&lanes, body, BODIES, contact, BODIES - 1);
     for (uint32_t i = 0; i + 1 < BODIES; i++)
         most = maths_max(most, level_solver_closing(body, &contact[i]));
     return most;
@@ -207,10 +208,10 @@ static void test_bodies_may_close_a_gap_but_not_more(void **state)
     body[1] = put(1000.0, 0.0, 0.0);
     contact[0] = touch(0, 1);
     contact[0].least_mps = -0.5;
-    level_solver_run(body, 2, contact, 1);
+    level_solver_run(&lanes, body, 2, contact, 1);
     assert_true(fabs(level_solver_closing(body, &contact[0]) - 0.5) < 1e-12);
     body[0].moved.x = 0.4, body[1].moved.x = 0.0;
-    level_solver_run(body, 2, contact, 1);
+    level_solver_run(&lanes, body, 2, contact, 1);
     assert_true(body[0].moved.x == 0.4 && body[1].moved.x == 0.0 && contact[0].normal_ns == 0.0);
 }
 
@@ -222,7 +223,7 @@ static void test_a_fixed_body_bears_all(void **state)
     contact[0] = contact[1] = touch(0, 1);
     contact[1].a = 1, contact[1].b = 2; /* two fixed bodies */
     body[2] = body[1];
-    level_solver_run(body, 3, contact, 2);
+    level_solver_run(&lanes, body, 3, contact, 2);
     assert_true(fabs(body[0].moved.x) < 1e-12 && body[1].moved.x == 0.0);
     assert_true(fabs(contact[0].normal_ns - 3000.0) < 1e-9 && contact[1].normal_ns == 0.0);
 }
@@ -237,7 +238,7 @@ static double pushed_at(double speed_mps)
     body[1] = put(1000.0, 0.0, 0.0);
     body[1].grip_along = 200.0;
     contact[0] = touch(0, 1);
-    level_solver_run(body, 2, contact, 1);
+    level_solver_run(&lanes, body, 2, contact, 1);
     return body[1].moved.x;
 }
 
@@ -257,13 +258,13 @@ static void test_grip_is_by_direction_and_holds_the_heading(void **state)
     body[1].grip_across = 200.0;
     contact[0] = touch(0, 1);
     contact[0].b_z = 1.0; /* off its centre */
-    level_solver_run(body, 2, contact, 1);
+    level_solver_run(&lanes, body, 2, contact, 1);
     assert_true(fabs(body[1].moved.x) < 1e-6 && fabs(body[1].moved.spin) > 0.01);
     body[0].moved = (struct level_motion){0.1, 0.0, 0.0};
     body[1].moved = (struct level_motion){0.0, 0.0, 0.0};
     contact[0].normal_ns = contact[0].friction_ns = 0.0;
     body[1].grip_turn = 400.0;
-    level_solver_run(body, 2, contact, 1);
+    level_solver_run(&lanes, body, 2, contact, 1);
     assert_true(fabs(body[1].moved.x) < 1e-6 && fabs(body[1].moved.spin) < 1e-6);
 }
 
@@ -276,8 +277,8 @@ static void test_recovery_leaves_velocities_alone(void **state)
     body[1] = put(3000.0, 0.0, 0.0);
     contact[0] = touch(0, 1);
     contact[0].apart_mps = 2.0;
-    level_solver_run(body, 2, contact, 1);
-    level_solver_part(body, contact, 1);
+    level_solver_run(&lanes, body, 2, contact, 1);
+    level_solver_part(&lanes, body, 2, contact, 1);
     assert_true(body[0].moved.x == 0.0 && body[1].moved.x == 0.0);
     assert_true(fabs(body[0].pushed.x + 1.5) < 1e-12); /* the lighter body goes further */
     assert_true(fabs(body[1].pushed.x - 0.5) < 1e-12);
@@ -292,10 +293,23 @@ static void test_recovery_pushes_no_body_into_the_next(void **state)
     contact[0] = touch(0, 1);
     contact[0].apart_mps = 1.0;
     contact[1] = touch(1, 2);
-    level_solver_run(body, 3, contact, 2);
-    level_solver_part(body, contact, 2);
+    level_solver_run(&lanes, body, 3, contact, 2);
+    level_solver_part(&lanes, body, 3, contact, 2);
     assert_true(body[1].pushed.x - body[0].pushed.x > 0.999);
     assert_true(body[2].pushed.x - body[1].pushed.x > -1e-3 && body[2].pushed.x > 0.3);
+}
+
+static int open_lanes(void **state)
+{
+    (void)state;
+    return level_lanes_init(&lanes, BODIES, CONTACTS); /* the row makes them grow */
+}
+
+static int close_lanes(void **state)
+{
+    (void)state;
+    level_lanes_free(&lanes);
+    return 0;
 }
 
 int main(void)
@@ -313,5 +327,5 @@ int main(void)
         cmocka_unit_test(test_recovery_leaves_velocities_alone),
         cmocka_unit_test(test_recovery_pushes_no_body_into_the_next),
     };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, open_lanes, close_lanes);
 }
