@@ -2,6 +2,7 @@
  * outline clipped by the other (Sutherland and Hodgman 1974), which is widened by the slack. */
 #include "collider/geometry/contact_manifold.h"
 
+#include "collider/geometry/vertex_reach.h"
 #include "world/entity/hull.h"
 
 #define MERGE_M    1e-6 /* nearer vertices are merged: an edge between them has no direction */
@@ -58,18 +59,11 @@ static void foremost(const struct convex *convex, struct vec3 origin, const stru
 {
     struct vec3 direction = vec3_scale(view->normal, side);
     struct vec3 own = rotation_back(&convex->turn, direction);
-    double ahead[HULL_VERTICES_MAX], furthest = -INFINITY;
-    uint32_t best = 0;
-    for (uint32_t i = 0; i < convex->count; i++) {
-        ahead[i] = vec3_dot(convex->vertex[i], own);
-        if (ahead[i] > furthest) {
-            furthest = ahead[i];
-            best = i;
-        }
-    }
+    double ahead[HULL_VERTICES_MAX];
+    uint32_t best = vertex_reach_each(convex->vertex, convex->count, own, ahead);
     struct vec3 most = gjk_vertex(convex, best);
     double edge = vec3_dot(most, direction) - slack_m;
-    double least = furthest - (slack_m + ROUNDING_M) / convex->scale;
+    double least = ahead[best] - (slack_m + ROUNDING_M) / convex->scale;
     struct vec3 at = vec3_sub(convex->at, origin);
     outline->count = 0;
     for (uint32_t i = 0; i < convex->count; i++) {

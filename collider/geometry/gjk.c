@@ -10,6 +10,8 @@
  * another corner. */
 #include "collider/geometry/gjk.h"
 
+#include "collider/geometry/vertex_reach.h"
+
 #define ROUNDS     64 /* of one search; most end after ten */
 #define SEARCHES   8 /* further searches, from the corners of a cube, if the first is not certain */
 #define NEAR_M     1e-13 /* accuracy of doubles for bodies of tens of metres */
@@ -54,15 +56,7 @@ struct vec3 gjk_vertex(const struct convex *convex, uint32_t vertex)
 uint32_t gjk_support(const struct convex *convex, struct vec3 direction, struct vec3 *point)
 {
     struct vec3 d = rotation_back(&convex->turn, direction);
-    double most = vec3_dot(convex->vertex[0], d);
-    uint32_t best = 0;
-    for (uint32_t i = 1; i < convex->count; i++) {
-        double reach = vec3_dot(convex->vertex[i], d);
-        if (reach > most) {
-            most = reach;
-            best = i;
-        }
-    }
+    uint32_t best = vertex_reach_first(convex->vertex, convex->count, d);
     *point = gjk_vertex(convex, best);
     return best;
 }

@@ -4,6 +4,7 @@
 #include "collider/geometry/box_view.h"
 #include "collider/geometry/contact_manifold.h"
 #include "collider/geometry/hull_separation.h"
+#include "collider/geometry/vertex_reach.h"
 
 #include <stddef.h>
 
@@ -469,10 +470,7 @@ static double reach_along(const struct turned_body *body, const struct hull *hul
 {
     struct vec3 own = rotation_back(&body->turn, normal);
     const struct vec3 *vertex = body->body->vertices + hull->first_vertex;
-    double most = vec3_dot(vertex[0], own);
-    for (uint32_t i = 1; i < hull->vertex_count; i++)
-        most = maths_max(most, vec3_dot(vertex[i], own));
-    return most * body->body->scale;
+    return vertex_reach_most(vertex, hull->vertex_count, own) * body->body->scale;
 }
 
 bool level_gap_planes_hold(const struct turned_body *a, const struct turned_body *b,

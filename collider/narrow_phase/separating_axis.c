@@ -4,6 +4,7 @@
 
 #include "collider/geometry/gjk.h"
 #include "collider/geometry/time_of_impact.h"
+#include "collider/geometry/vertex_reach.h"
 
 #define ROUNDING_M 1e-8 /* of positions 50 km from the origin, and of the distances of GJK */
 
@@ -60,15 +61,7 @@ static double hull_reach(const struct axis_side *side, int end, struct vec3 axis
     if (side->count == 0)
         return box_reach(side, end, axis);
     struct vec3 own = rotation_back(&side->turn[end], axis);
-    double most[4] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY};
-    uint32_t i = 0;
-    for (; i + 4 <= side->count; i += 4) {
-        for (uint32_t k = 0; k < 4; k++)
-            most[k] = maths_max(most[k], vec3_dot(side->vertex[i + k], own));
-    }
-    for (; i < side->count; i++)
-        most[0] = maths_max(most[0], vec3_dot(side->vertex[i], own));
-    return side->scale * maths_max(maths_max(most[0], most[1]), maths_max(most[2], most[3]));
+    return side->scale * vertex_reach_most(side->vertex, side->count, own);
 }
 
 static double between(const struct axis_side *a, const struct axis_side *b, int end,
