@@ -4,6 +4,11 @@
 #include "collider/narrow_phase/cruise_rows.h"
 #include "world/runtime/check.h"
 #include "world/runtime/reserve.h"
+#include "world/runtime/thread_pool.h"
+
+#include <string.h>
+
+#define PAIRS_A_PIECE 256u
 
 static void link_row(struct contact_queue *contacts, uint32_t row, uint32_t pair)
 {
@@ -31,23 +36,55 @@ static void more_pairs(struct contact_queue *contacts)
     contacts->pair_capacity = more;
 }
 
+/* Forgets what an earlier frame knew of pairs first .. end - 1. */
+static void forget_some(void *context, uint32_t first, uint32_t end, uint32_t worker)
+{
+    struct contact_queue *contacts = context;
+    uint32_t count = end - first;
+    (void)worker;
+    memset(&contacts->met[first], 0, count * sizeof *contacts->met);
+    memset(&contacts->swept[first], 0, count * sizeof *contacts->swept);
+    memset(&contacts->marks[first], 0, count * sizeof *contacts->marks);
+    memset(&contacts->impacts[first], 0, count * sizeof *contacts->impacts);
+    memset(&contacts->searched[first], 0, count * sizeof *contacts->searched);
+    memset(&contacts->rest[first], 0, count * sizeof *contacts->rest);
+    for (uint32_t i = first; i < end; i++)
+        contacts->known[i] =
+            (struct pair_known){.before_m = PAIR_NOT_MEASURED, .version_a = UINT32_MAX};
+}
+
+static void link_pair(struct contact_queue *contacts, uint32_t index)
+{
+    const struct pair *pair = &contacts->pair[index];
+    link_row(contacts, pair->a, index);
+    if (!(pair->b & PAIR_FIXED))
+        link_row(contacts, pair->b, index);
+}
+
+void contact_pairs_begin(struct contact_queue *contacts, const struct pair_list *lists,
+                         uint32_t list_count)
+{
+    contacts->pair_count = contacts->link_count = 0;
+    for (uint32_t i = 0; i < list_count; i++) {
+        while (lists[i].count > contacts->pair_capacity - contacts->pair_count)
+            more_pairs(contacts);
+        for (uint32_t n = 0; n < lists[i].count; n++)
+            contacts->pair[contacts->pair_count + n] = lists[i].pair[n];
+        contacts->pair_count += lists[i].count;
+    }
+    thread_pool_run(contacts->workers, forget_some, contacts, contacts->pair_count, PAIRS_A_PIECE);
+    for (uint32_t i = 0; i < contacts->pair_count; i++)
+        link_pair(contacts, i);
+}
+
 uint32_t contact_pairs_add(struct contact_queue *contacts, struct pair pair)
 {
     if (contacts->pair_count == contacts->pair_capacity)
         more_pairs(contacts);
     uint32_t index = contacts->pair_count++;
     contacts->pair[index] = pair;
-    contacts->met[index] = 0;
-    contacts->swept[index] = 0;
-    contacts->marks[index] = 0;
-    contacts->impacts[index] = (struct pair_impacts){0};
-    contacts->known[index] =
-        (struct pair_known){.before_m = PAIR_NOT_MEASURED, .version_a = UINT32_MAX};
-    contacts->searched[index] = 0;
-    contacts->rest[index] = (struct rest_span){0, 0};
-    link_row(contacts, pair.a, index);
-    if (!(pair.b & PAIR_FIXED))
-        link_row(contacts, pair.b, index);
+    forget_some(contacts, index, index + 1, 0);
+    link_pair(contacts, index);
     return index;
 }
 

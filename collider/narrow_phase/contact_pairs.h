@@ -1,10 +1,15 @@
-/* The pairs of a frame: which there are, and the search for those of a row. Pure; one thread. */
+/* The pairs of a frame: which there are, and the search for those of a row. Pure; one
+ * caller, and its workers. */
 #ifndef JOLON_COLLIDER_NARROW_PHASE_CONTACT_PAIRS_H
 #define JOLON_COLLIDER_NARROW_PHASE_CONTACT_PAIRS_H
 
 #include "collider/narrow_phase/contact_queue.h"
 
 #include <stdbool.h>
+
+/* Begins a frame with these lists of pairs, of which nothing is known yet. No row has any. */
+void contact_pairs_begin(struct contact_queue *contacts, const struct pair_list *lists,
+                         uint32_t list_count);
 
 /* Adds a pair that is not there yet, and returns its index. */
 uint32_t contact_pairs_add(struct contact_queue *contacts, struct pair pair);

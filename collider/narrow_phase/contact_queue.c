@@ -108,16 +108,11 @@ void contact_queue_begin(struct contact_queue *contacts, const struct pair_list 
     for (uint32_t i = 0; i < contacts->stray_count; i++)
         contacts->strays[contacts->strayed[i]] = 0;
     contacts->heap.count = 0;
-    contacts->link_count = 0;
-    contacts->pair_count = 0;
     contacts->stray_count = 0;
     contacts->change = 0;
     contacts->rest_points = contacts->rested_count = 0;
     contacts->due_count = contacts->due_rows = 0;
-    for (uint32_t i = 0; i < list_count; i++) {
-        for (uint32_t n = 0; n < lists[i].count; n++)
-            contact_pairs_add(contacts, lists[i].pair[n]);
-    }
+    contact_pairs_begin(contacts, lists, list_count);
 }
 
 /* Remembers what a dear search has found that keeps a pair apart, or that it has found nothing. */

@@ -15,15 +15,17 @@
 
 #include <string.h>
 
-#define GAPS_A_PIECE 4u
+#define GAPS_A_PIECE    4u
+#define TOUCHED_A_PIECE 32u
 
 int contact_table_init(struct contact_table *table, const struct world *world)
 {
     *table = (struct contact_table){.capacity = world->params->contact_slots};
     table->key = reserve_take(table->capacity, sizeof *table->key);
+    table->pair = reserve_take(table->capacity, sizeof *table->pair);
     table->touched = reserve_take(table->capacity, sizeof *table->touched);
     table->gap = reserve_take(table->capacity, sizeof *table->gap);
-    if (table->key && table->touched && table->gap)
+    if (table->key && table->pair && table->touched && table->gap)
         return 0;
     contact_table_free(table);
     return -1;
@@ -32,6 +34,7 @@ int contact_table_init(struct contact_table *table, const struct world *world)
 void contact_table_free(struct contact_table *table)
 {
     reserve_free(table->key);
+    reserve_free(table->pair);
     reserve_free(table->touched);
     reserve_free(table->gap);
     *table = (struct contact_table){0};
@@ -122,6 +125,7 @@ static void make_room(struct contact_table *table)
         return;
     uint32_t more = 2 * table->capacity + 1;
     table->key = reserve_grow(table->key, table->count, more, sizeof *table->key);
+    table->pair = reserve_grow(table->pair, table->count, more, sizeof *table->pair);
     table->touched = reserve_grow(table->touched, 0, more, sizeof *table->touched);
     table->capacity = more;
 }
@@ -135,6 +139,7 @@ static void list_keys(struct contact_table *table, const struct response_context
             continue;
         const struct persistent_contact contact = contact_of(context, pair->a, pair->b);
         make_room(table);
+        table->pair[table->count] = i;
         table->key[table->count++] = (struct contact_key){contact.a_id, contact.b_id};
     }
     sort_words(table->key, table->count);
@@ -162,28 +167,46 @@ static uint16_t flags_of(uint8_t marks)
                       (marks & CONTACT_HOLDS ? PERSISTENT_CONTACT_HOLDS : 0u));
 }
 
-static void collect(struct contact_table *table, const struct response_context *context)
+/* Returns the contact of a pair that has touched, as if it began in this frame. */
+static struct persistent_contact touched_of(const struct response_context *context, uint32_t index)
 {
     const struct contact_queue *contacts = context->contacts;
-    uint32_t tick = (uint32_t)context->next->head->tick;
-    list_keys(table, context);
-    for (uint32_t i = 0; i < contacts->pair_count; i++) {
-        if (!has_touched(context, i))
-            continue;
-        struct persistent_contact contact =
-            contact_of(context, contacts->pair[i].a, contacts->pair[i].b);
-        const struct pair_impacts *impacts = &contacts->impacts[i];
-        contact.begin_tick = contact.pressed_tick = tick;
-        contact.flags = flags_of(contacts->marks[i]);
-        contact.impacts = (uint16_t)impacts->count;
-        contact.impulse_ns = impacts->impulse_ns;
-        const struct resting_known *rested = contact_queue_knows_rested(contacts, i);
-        if (rested) {
-            memcpy(contact.nearest, rested->memory.nearest, sizeof contact.nearest);
-            memcpy(contact.load, rested->load, sizeof contact.load);
-        }
-        table->touched[place_of(table, &contact)] = contact;
+    const struct pair_impacts *impacts = &contacts->impacts[index];
+    const struct resting_known *rested = contact_queue_knows_rested(contacts, index);
+    struct persistent_contact contact =
+        contact_of(context, contacts->pair[index].a, contacts->pair[index].b);
+    contact.begin_tick = contact.pressed_tick = (uint32_t)context->next->head->tick;
+    contact.flags = flags_of(contacts->marks[index]);
+    contact.impacts = (uint16_t)impacts->count;
+    contact.impulse_ns = impacts->impulse_ns;
+    if (rested) {
+        memcpy(contact.nearest, rested->memory.nearest, sizeof contact.nearest);
+        memcpy(contact.load, rested->load, sizeof contact.load);
     }
+    return contact;
+}
+
+struct table_job {
+    struct contact_table *table;
+    const struct response_context *context;
+};
+
+/* Puts the contacts of touching pairs first .. end - 1 into their places. */
+static void collect_some(void *argument, uint32_t first, uint32_t end, uint32_t worker)
+{
+    const struct table_job *job = argument;
+    (void)worker;
+    for (uint32_t i = first; i < end; i++) {
+        struct persistent_contact contact = touched_of(job->context, job->table->pair[i]);
+        job->table->touched[place_of(job->table, &contact)] = contact;
+    }
+}
+
+static void collect(struct contact_table *table, const struct response_context *context)
+{
+    struct table_job job = {table, context};
+    list_keys(table, context);
+    thread_pool_run(context->contacts->workers, collect_some, &job, table->count, TOUCHED_A_PIECE);
 }
 
 /* --- what did not touch ------------------------------------------------------------------------*/
@@ -275,14 +298,9 @@ static void list_gaps(struct contact_table *table, const struct response_context
     }
 }
 
-struct gap_job {
-    struct contact_table *table;
-    const struct response_context *context;
-};
-
 static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t worker)
 {
-    const struct gap_job *job = argument;
+    const struct table_job *job = argument;
     const struct state *committed = job->context->motion->committed;
     (void)worker;
     for (uint32_t i = first; i < end; i++) {
@@ -294,7 +312,7 @@ static void measure_some(void *argument, uint32_t first, uint32_t end, uint32_t 
 
 static void measure_gaps(struct contact_table *table, const struct response_context *context)
 {
-    struct gap_job job = {table, context};
+    struct table_job job = {table, context};
     list_gaps(table, context);
     thread_pool_run(context->contacts->workers, measure_some, &job, table->gaps, GAPS_A_PIECE);
 }

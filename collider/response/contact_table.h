@@ -31,6 +31,7 @@ struct contact_gap {
 /* The pairs that touched in this frame, by their keys; the collider's own memory. */
 struct contact_table {
     struct contact_key *key;
+    uint32_t *pair; /* [count] their indices in the queue, in its order */
     struct persistent_contact *touched;
     uint32_t count, capacity;
     struct contact_gap *gap; /* of known contacts without a load whose bodies move */
