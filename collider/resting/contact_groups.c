@@ -523,15 +523,21 @@ void contact_groups_find(struct contact_groups *groups, struct response_context 
 void contact_groups_find_free(struct contact_groups *groups, struct response_context *context)
 {
     const struct state *committed = context->motion->committed;
-    groups->count = 0;
+    bool any = false;
+    groups->count = groups->known = 0;
     for (uint32_t i = 0; !context->contacts_sleep && i < committed->head->contact_count; i++) {
         const struct persistent_contact *contact = &committed->contacts[i];
         bool a = is_there(context, contact->a_row, contact->a_id);
         bool b = is_there(context, contact->b_row, contact->b_id);
+        any |= a && b && is_free_pair(groups, context, contact);
         if (a && !b)
             wake_wreck(context, contact->a_row);
         if (b && !a && !(contact->b_id & PERSISTENT_CONTACT_FIXED))
             wake_wreck(context, contact->b_row);
+    }
+    if (!any) {
+        forget_ground(groups);
+        return;
     }
     list_stirred(groups, context);
     for (uint32_t i = 0; i < groups->stirred_count; i++) {

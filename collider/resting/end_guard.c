@@ -394,7 +394,7 @@ static void add_pair(struct end_guard *guard, const struct contact_queue *contac
 }
 
 /* Lists the row's pairs, except those that are so deep that they part as capsules. A pair of two
- * rows that are looked at is listed once. */
+ * rows that are looked at is listed once. Only rows that are guarded are posed. */
 static void add_pairs_of(struct end_guard *guard, const struct response_context *context,
                          uint32_t row)
 {
@@ -407,7 +407,8 @@ static void add_pairs_of(struct end_guard *guard, const struct response_context 
         if (contacts->marks[index] & CONTACT_CAPSULES)
             continue;
         if (fixed ? !contact_groups_is_wall(context, other & ~PAIR_FIXED)
-                  : (guard->listed[other] && other < row) || !guarded(context, other))
+                  : (guard->listed[other] && other < row) ||
+                        !(guard->posed[other] || guarded(context, other)))
             continue;
         add_pair(guard, contacts, index);
     }

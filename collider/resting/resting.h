@@ -45,6 +45,7 @@ struct resting_gap {
     struct level_gap *gap; /* smallest first: in few, or in the row's own place in resting.wide */
     uint32_t count;        /* at most LEVEL_GAPS_MAX are in few, and more only where bodies part */
     uint32_t pair;         /* index into contacts->pair, if there are gaps */
+    uint32_t place;        /* index + 1 there of a pair that the search for pairs found, else 0 */
     bool capsules;   /* it is so deep that it parts as capsules (collider/resting/deep_pair.h) */
     bool put_off;    /* it is measured when the crowds are known */
     bool spreads;    /* it parts with a crowd that spreads: its normal and its bounds are unknown */

@@ -188,6 +188,7 @@ static void measure_pair(const struct gap_job *job, uint32_t index)
     struct resting_gap *gap = &job->resting->gap[index];
     struct begun_body fixed;
     recall(job, pair, gap);
+    gap->place = contact_pairs_find(job->context->contacts, pair);
     gap->capsules = gap->put_off = gap->spreads = gap->repeats = false;
     gap->pieces_m = PAIR_NOT_MEASURED;
     gap->gap = gap->few;
@@ -301,8 +302,9 @@ static void tell(struct resting *resting, const struct response_context *context
 {
     struct resting_gap *gap = &resting->gap[index];
     const struct pair *pair = &resting->groups.pair[index];
-    uint32_t place = gap->count > 0 ? contact_queue_pair(context->contacts, pair) + 1
-                                    : contact_pairs_find(context->contacts, pair);
+    uint32_t place = gap->place;
+    if (place == 0 && gap->count > 0)
+        place = contact_queue_pair(context->contacts, pair) + 1;
     if (place == 0)
         return;
     struct pair_known *known = &context->contacts->known[place - 1];
