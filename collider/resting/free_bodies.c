@@ -93,8 +93,10 @@ static void begin_wreck(const struct response_context *context, struct free_side
     struct vec3 centre =
         vec3_add(entities_velocity(w, row), vec3_cross(body->moved.spin, side->arm));
     const struct mat3 turn = rotation_matrix(side->turn);
-    centre = wreck_drag_slow(&context->world->kinds[w->kind[row]], &turn, centre,
-                             world_dt_s(context->world));
+    const struct kind *kind = &context->world->kinds[w->kind[row]];
+    centre = wreck_drag_slow(kind, &turn, centre, world_dt_s(context->world));
+    body->moved.spin =
+        wreck_drag_slow_spin(kind, &turn, body->moved.spin, world_dt_s(context->world));
     body->moved.velocity = vec3_add(centre, side->fall);
 }
 

@@ -101,6 +101,13 @@ static void settle(const struct step_context *context, uint32_t i, double depth_
     }
 }
 
+/* The air slows the spin at the end of the frame, so that the body has turned as a free one. */
+static void slow_spin(const struct kind *kind, struct rigid_body *body, double dt_s)
+{
+    const struct mat3 turn = rotation_matrix(body->turn);
+    body->spin = wreck_drag_slow_spin(kind, &turn, body->spin, dt_s);
+}
+
 static void tumble(const struct step_context *context, uint32_t i)
 {
     const struct kind *kind = &context->world->kinds[context->m->kind[i]];
@@ -124,6 +131,7 @@ static void tumble(const struct step_context *context, uint32_t i)
     }
     if (met) /* a body that was lifted out of the ground falls again before the frame ends */
         (void)rigid_body_limit_energy(&body, energy_j);
+    slow_spin(kind, &body, context->dt_s);
     rigid_body_put(context, i, &body);
     settle(context, i, ground_contacts_depth(&contacts));
 }

@@ -146,6 +146,25 @@ static void test_the_air_slows_a_wreck_at_any_rate(void **state)
     }
 }
 
+/* Of 20 rad/s about the vertical a jet has 15 after four seconds, at any rate of frames. */
+static void test_the_air_slows_a_spin(void **state)
+{
+    static const char *const rates[] = {"world = { hz = 10.0; };", "world = { hz = 60.0; };"};
+    double left[2];
+    (void)state;
+    for (int n = 0; n < 2; n++) {
+        fixture_close(&f);
+        fixture_open(&f, rates[n]);
+        uint32_t row = put("jet", 1500.0, (struct vec3){0.0, 0.0, 0.0});
+        steps_rows(&f).spin_y[row] = 20.0;
+        fixture_run(&f, (uint32_t)(4.0 * f.view.world.params->hz));
+        left[n] = fabs(steps_rows(&f).spin_y[row]);
+        print_message("jet: 20 -> %.2f rad/s\n", left[n]);
+        assert_true(left[n] > 14.0 && left[n] < 16.0);
+    }
+    assert_true(fabs(left[0] / left[1] - 1.0) < 1e-6);
+}
+
 /* A jet that flies on nose first keeps most of its speed; one that turns its side to the wind does
  * not, and a tank keeps more than either. */
 static void test_drag_fits_the_kind_and_its_pose(void **state)
@@ -424,6 +443,7 @@ int main(void)
         TEST(test_a_wreck_at_rest_stays_to_the_bit),
         TEST(test_the_air_slows_a_wreck_at_any_rate),
         TEST(test_drag_fits_the_kind_and_its_pose),
+        TEST(test_the_air_slows_a_spin),
         TEST(test_a_wreck_that_is_lifted_out_of_the_ground_gains_no_speed),
         TEST(test_a_wreck_does_not_snap_into_the_slope_of_the_ground),
         cmocka_unit_test_setup_teardown(test_a_wreck_that_leaves_a_bank_gets_no_deeper, open_bank,
