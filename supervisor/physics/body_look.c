@@ -46,6 +46,21 @@ struct vec3 motion_look_centre_velocity(const struct motion_look *look, const st
     return vec3_add(look->velocity, vec3_cross(look->spin, motion_look_centre(look, kind)));
 }
 
+struct vec3 motion_look_gyration(const struct kind *kind)
+{
+    double length = kind->length_m * kind->length_m, height = kind->height_m * kind->height_m;
+    double width = kind->width_m * kind->width_m;
+    return vec3_scale((struct vec3){height + width, length + width, length + height}, 1.0 / 12.0);
+}
+
+double motion_look_turning(const struct motion_look *look, const struct kind *kind)
+{
+    const struct vec3 gyration = motion_look_gyration(kind);
+    const struct vec3 spin = rigid_pose_in(&look->pose, look->spin);
+    return sqrt(gyration.x * spin.x * spin.x + gyration.y * spin.y * spin.y +
+                gyration.z * spin.z * spin.z);
+}
+
 static bool all_finite(const struct motion_look *look)
 {
     const struct vec3 *at = &look->pose.at, *v = &look->velocity, *w = &look->spin;

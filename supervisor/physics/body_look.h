@@ -76,7 +76,8 @@ struct body_look {
     uint32_t parts;   /* bodies and walls that it overlaps since one of the two was placed */
     uint32_t parted;  /* the same in the frame before */
     bool thrown;      /* an explosion, another body or a fall made it faster than an engine does */
-    bool spun;        /* the same of its spin, by an explosion or by what one has thrown */
+    bool spun;        /* the same of its spin, by an explosion, an impact of a fast body, or by
+                         what one has thrown */
     double buried_s;  /* left of the time in which its shell gets out of the ground after an
                          explosion or an impact */
     struct joined_bodies together;
@@ -107,6 +108,14 @@ struct vec3 motion_look_centre(const struct motion_look *look, const struct kind
 
 /* Returns the velocity of the centre of mass [m/s]. */
 struct vec3 motion_look_centre_velocity(const struct motion_look *look, const struct kind *kind);
+
+/* Returns the squares of the radii of gyration about the forward, up and right axes [m2]: kinds are
+ * boxes of uniform density. */
+struct vec3 motion_look_gyration(const struct kind *kind);
+
+/* Returns how fast the points of the body go about its centre of mass: the root of their mean
+ * square [m/s], so that the energy of rotation is half of its square times the mass. */
+double motion_look_turning(const struct motion_look *look, const struct kind *kind);
 
 /* Takes memory for the rows of a world. Returns 0, or -1 with errno ENOMEM. */
 int body_looks_make(struct body_looks *looks, uint32_t capacity);

@@ -20,6 +20,7 @@
 #define PARTING_MPS    20.0 /* bodies that part push others aside no faster */
 #define HOLDS          0.5  /* friction of tracks to their side on sand: no brake holds it there */
 #define LEAST_TOP      10.0 /* [m/s] top speed of kinds that hardly move by themselves */
+#define SLOW_SPIN      0.5  /* of the bound: what has been spun up is slow again */
 #define BURIED_S                                                                                   \
     0.2 /* [s] in which a shell gets out of the ground after an explosion or an impact */
 
@@ -308,28 +309,41 @@ static bool slides_down(const struct body_look *body)
     return body->now.sprung && -velocity.y > HOLDS * vec3_length(level(velocity, true));
 }
 
-/* Engines bound the speed of what they drive. An explosion or another body may throw a body faster,
- * and it may fall or slide; it then is left out until it is slow again. The speed is that of the
- * centre of mass: any other point of a wreck that turns over is faster and slower by turns. */
+/* Engines bound the speed of what they drive. A scenario may let a body begin faster, an explosion
+ * or another body may throw it faster, and it may fall or slide; it then is left out until it is
+ * slow again. The speed is that of the centre of mass: any other point of a wreck that turns over
+ * is faster and slower by turns. */
 static void measure_speed(struct measures *measures, struct body_look *body)
 {
     double top = maths_max(body->kind->max_speed_mps, LEAST_TOP);
     struct vec3 velocity = motion_look_centre_velocity(&body->now, body->kind);
     double share = vec3_length(level(velocity, true)) / top;
     bool faster = share > measure_bound(measures, MEASURE_OF_SPEED);
-    body->thrown = faster && (body->thrown || body->blasts > 0 || body->struck > 0 ||
-                              body->hits > 0 || slides_down(body));
+    body->thrown = faster && (body->thrown || !body->known || body->blasts > 0 ||
+                              body->struck > 0 || body->hits > 0 || slides_down(body));
     if (!body->thrown)
         measure_take(measures, MEASURE_OF_SPEED, share, &body->named, NULL);
 }
 
-/* Explosions spin bodies up, and so does what they have thrown. Such a body is left out until it is
- * slow again. */
+/* Returns true if an impact explains the body's spin. One at closing speed v with restitution e, at
+ * r from the centre of mass of a body whose radius of gyration is k, spins it up by at most
+ * v (1 + e) r / (k^2 + r^2). That is most at r = k, where the points of the body go about its
+ * centre at v (1 + e) / 2: at the speed of either body, if both come at the same one and nothing
+ * bounces. */
+static bool spun_by_impact(const struct body_look *body)
+{
+    return (body->struck > 0 || body->hits > 0) &&
+           motion_look_turning(&body->now, body->kind) <= body->together.fastest_mps;
+}
+
+/* Explosions spin bodies up, and so do fast bodies that strike them, and what these have thrown.
+ * Such a body is left out until it is slow again: without a torque its spin rises and falls as it
+ * turns, because its moments of inertia differ. */
 static void measure_spin(struct measures *measures, struct body_look *body)
 {
     double spin = vec3_length(body->now.spin);
-    bool faster = spin > measure_bound(measures, MEASURE_OF_SPIN);
-    body->spun = faster && (body->spun || body->blasts > 0 || body->thrown);
+    bool slow = spin <= SLOW_SPIN * measure_bound(measures, MEASURE_OF_SPIN);
+    body->spun = !slow && (body->spun || body->blasts > 0 || body->thrown || spun_by_impact(body));
     if (!body->spun)
         measure_take(measures, MEASURE_OF_SPIN, spin, &body->named, NULL);
 }

@@ -27,27 +27,15 @@ static double square(double value)
     return value * value;
 }
 
-/* Moments about the forward, up and right axes [kg m2]. */
-static struct vec3 moments(const struct kind *kind)
-{
-    double twelfth = kind->mass_kg / 12.0, length = square(kind->length_m);
-    double width = square(kind->width_m), height = square(kind->height_m);
-    return (struct vec3){twelfth * (height + width), twelfth * (length + width),
-                         twelfth * (length + height)};
-}
-
 /* Returns the kinetic energy [J]. Of a held body the vertical speed only follows the ground. */
 static double kinetic_j(const struct kind *kind, const struct motion_look *look, bool held)
 {
-    struct vec3 moment = moments(kind), v = look->velocity;
+    struct vec3 v = look->velocity;
     if (held)
-        return 0.5 * kind->mass_kg * (square(v.x) + square(v.z)) +
-               0.5 * moment.y * square(look->spin.y);
-    struct vec3 spin = rigid_pose_in(&look->pose, look->spin);
+        return 0.5 * kind->mass_kg *
+               (square(v.x) + square(v.z) + motion_look_gyration(kind).y * square(look->spin.y));
     v = motion_look_centre_velocity(look, kind);
-    return 0.5 * kind->mass_kg * vec3_dot(v, v) +
-           0.5 *
-               (moment.x * square(spin.x) + moment.y * square(spin.y) + moment.z * square(spin.z));
+    return 0.5 * kind->mass_kg * (vec3_dot(v, v) + square(motion_look_turning(look, kind)));
 }
 
 /* Returns how far the centre of mass has come down in a frame [m]. */
@@ -92,7 +80,7 @@ static double work_j(const struct body_look *body, bool held, double dt_s)
                     maths_max(fabs(body->now.pose.forward.y), fabs(body->was->pose.forward.y));
     }
     if (!body->was->wreck && (body->struck > 0 || body->touches || body->now.grounded))
-        steering = 0.5 * moments(kind).y * square(kind->turn_rate_rps);
+        steering = 0.5 * kind->mass_kg * motion_look_gyration(kind).y * square(kind->turn_rate_rps);
     return kind->mass_kg * (speed * push * dt_s + 0.5 * square(push * dt_s)) +
            weight_j(body, held) + steering;
 }
