@@ -493,7 +493,7 @@ void agent_direct(const struct step_context *context, uint32_t i, struct desired
 {
     const struct entities *m = context->m;
     if (agent_thinks_each_frame((enum behaviour)m->behaviour[i]) ||
-        step_context_thinks(context, i) || perception_event(context, i)) {
+        perception_decides(context, i) || perception_event(context, i)) {
         agent_think(context, i, desired);
         if (agent_thinks_each_frame((enum behaviour)m->behaviour[i]))
             return;

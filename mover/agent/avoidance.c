@@ -4,6 +4,7 @@
 #include "mover/agent/driving_pace.h"
 #include "mover/agent/earthwork_obstacles.h"
 #include "mover/agent/neighbour_lists.h"
+#include "mover/agent/perception.h"
 #include "mover/context/cruise_start.h"
 #include "mover/motion/kinematics.h"
 #include "mover/query/ground_marks.h"
@@ -727,7 +728,7 @@ void avoidance_steer(const struct step_context *context, uint32_t i, struct desi
             desired->heading_rad = m->heading[i]; /* it stops before it turns in place */
         return;
     }
-    if (step_context_thinks(context, i) || cruise_start_due(context, i, context->think_frames))
+    if (perception_decides(context, i) || cruise_start_due(context, i, context->think_frames))
         look_ahead(context, i, desired);
     desired->heading_rad = maths_wrap_turn(desired->heading_rad + (double)m->dodge[i]);
     desired->speed_mps *= 1.0 - (double)m->ease[i];

@@ -53,6 +53,13 @@ uint32_t perception_look_frames(const struct params *params, uint32_t used)
     return look_frames < think_frames ? think_frames : look_frames / think_frames * think_frames;
 }
 
+bool perception_decides(const struct step_context *context, uint32_t i)
+{
+    if (context->m->order[i] == BEHAVIOUR_SCRIPT)
+        return (context->tick - 1) % context->think_frames == 0;
+    return step_context_thinks(context, i);
+}
+
 static bool looks_now(const struct step_context *context, uint32_t i)
 {
     return ((uint32_t)context->tick + context->m->id[i]) % context->look_frames == 0 ||
@@ -183,7 +190,7 @@ static uint32_t notice_state(const struct step_context *context, uint32_t i)
         percepts |= PERCEPTION_BIT(ARRIVED);
     if (m->behaviour[i] == BEHAVIOUR_ATTACK && fire_control_salvo_over(context, i))
         percepts |= PERCEPTION_BIT(ROUNDS_FIRED);
-    if (step_context_thinks(context, i) && progress_stalled(context, i))
+    if (perception_decides(context, i) && progress_stalled(context, i))
         percepts |= PERCEPTION_BIT(STALLED);
     return percepts;
 }

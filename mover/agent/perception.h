@@ -21,6 +21,11 @@ struct notice {
 uint32_t perception_think_frames(const struct params *params, uint32_t used);
 uint32_t perception_look_frames(const struct params *params, uint32_t used);
 
+/* Returns true if the agent of row i decides in this frame in its turn. Those that follow a script
+ * all do so at once, in the first frame of each tenth of a second, so that they decide at the same
+ * times at any rate of frames. */
+bool perception_decides(const struct step_context *context, uint32_t i);
+
 /* Returns true if an event has happened to row i, so that it decides in this frame even if it is
  * not due. */
 bool perception_event(const struct step_context *context, uint32_t i);

@@ -55,16 +55,17 @@ bool progress_stuck(const struct step_context *context, uint32_t i)
 
 bool progress_rests(const struct step_context *context, uint32_t i)
 {
-    double periods =
-        ((double)context->tick * context->dt_s + (double)(context->m->id[i] % 12u)) / PERIOD_S;
+    double middle_s = ((double)context->tick - 0.5) * context->dt_s; /* of the frame */
+    double periods = (middle_s + (double)(context->m->id[i] % 12u)) / PERIOD_S;
     return progress_stuck(context, i) && periods - floor(periods) >= TRIES_S / PERIOD_S;
 }
 
 double progress_way_out(const struct step_context *context, uint32_t i, bool tried)
 {
     const struct entities *m = context->m;
+    uint64_t decision = (context->tick - 1) / context->think_frames; /* the same at any rate */
     double side =
-        random_between(context->world->params->seed, context->tick, m->id[i], RANDOM_STUCK, -1, 1);
+        random_between(context->world->params->seed, decision, m->id[i], RANDOM_STUCK, -1, 1);
     double back = m->heading[i] + (m->throttle[i] < 0.0f ? 0.0 : PI);
     return back + side * (tried ? PI : SIDE_RAD);
 }

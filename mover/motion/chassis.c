@@ -18,6 +18,7 @@
 #define PLACED_M 0.01
 
 /* A chassis is calm below these. */
+#define JOLT_S        0.1  /* a jolt counts for so long */
 #define CALM_MPS      0.15 /* speed off the ground */
 #define CALM_RPS      0.15 /* roll and pitch */
 #define CALM_SLIP_MPS 0.4  /* to the side */
@@ -64,6 +65,17 @@ static void take_slope(const struct step_context *context, uint32_t i)
     m->roll[i] = -slope_between(context, i, 0.0, 0.5 * kind->width_m);
 }
 
+/* Returns how long the row has been calm, in whole tenths of a second: a jolt counts for all of its
+ * tenth, so that a vehicle goes back to the ground at the same time at any rate of frames. */
+static double calm_s(const struct step_context *context, uint32_t i)
+{
+    const uint32_t frames = (uint32_t)maths_max(1.0, floor(JOLT_S / context->dt_s + 0.5));
+    uint32_t since = (uint32_t)context->tick - context->m->jolt_tick[i];
+    uint32_t into = (uint32_t)((context->tick - 1) % frames); /* of the present tenth */
+    uint32_t tenths = since > into ? (since - into + frames - 1) / frames : 0;
+    return ((double)(tenths * frames) + 0.5) * context->dt_s; /* no rounding decides */
+}
+
 bool chassis_takes(const struct step_context *context, uint32_t i, bool driven)
 {
     const struct entities *m = context->m;
@@ -75,8 +87,7 @@ bool chassis_takes(const struct step_context *context, uint32_t i, bool driven)
         chassis_disturb(context, i);
         take_slope(context, i);
     }
-    double calm = (double)((uint32_t)context->tick - m->jolt_tick[i]) * context->dt_s;
-    return driven || calm < CHASSIS_CALM_S || m->jolt_tick[i] == ENTITY_PINNED;
+    return driven || calm_s(context, i) < CHASSIS_CALM_S || m->jolt_tick[i] == ENTITY_PINNED;
 }
 
 /* --- rest and calm -----------------------------------------------------------------------------*/
@@ -242,9 +253,13 @@ bool chassis_move(const struct step_context *context, uint32_t i,
     if (count == 1)
         return substep(context, i, desired);
     struct step_context shorter = *context;
+    struct desired_motion now = *desired;
     shorter.dt_s = context->dt_s / count;
-    bool blocked = false;
-    for (int n = 0; n < count; n++)
-        blocked |= substep(&shorter, i, desired);
+    bool blocked = false, straight = desired->heading_rad == m->heading[i];
+    for (int n = 0; n < count; n++) {
+        if (straight) /* whoever wants no turn steers against none that its body makes */
+            now.heading_rad = m->heading[i];
+        blocked |= substep(&shorter, i, &now);
+    }
     return blocked;
 }
