@@ -16,6 +16,7 @@ struct terrain;
  * middle of underside and ends, and of the roof. */
 #define VEHICLE_SHELL_POINTS 20u
 #define VEHICLE_SHELL_ENDS   8u  /* the first points are those of the underside and of the ends */
+#define VEHICLE_SHELL_SIDES  12u /* and those of the sides */
 #define VEHICLE_SHELL_MIDDLE 12u /* the four of the middle, which have no left and right */
 
 #define VEHICLE_SHELL_BOW      0.21 /* length of the end of a track over the vehicle's */

@@ -35,7 +35,7 @@ void chassis_shell_of(const struct kind *kind, const struct suspension *suspensi
 double chassis_shell_bend(const struct kind *kind)
 {
     double least = INFINITY;
-    for (uint32_t n = 0; n < VEHICLE_SHELL_ENDS; n += 4) {
+    for (uint32_t n = 0; n < VEHICLE_SHELL_SIDES; n += 4) {
         struct vec3 point = vehicle_shell_point(kind, n);
         double away = sqrt(point.x * point.x + point.z * point.z);
         least = maths_min(least, 2.0 * point.y / maths_max(away, 1e-9));

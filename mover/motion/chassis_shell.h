@@ -31,7 +31,7 @@ struct chassis_shell_push {
 };
 
 /* Returns the tangent by which the slopes of the ground under a vehicle of this kind must differ
- * before underside or ends of its shell get into it, where it stands in a single bend. */
+ * before underside, ends or sides of its shell get into it, where it stands in a single bend. */
 double chassis_shell_bend(const struct kind *kind);
 
 /* Finds the shell of a kind. Its underside is as high as the wheels can rise, and on wheels at

@@ -487,9 +487,10 @@ enum entry { STAYS_OUT, LEAVES_HERE, LEAVES_BEFORE };
 /* Looks whether the row, which has moved, has a corner of its shell in the ground of a hollow, a
  * work or a crater, or would have one if it left the ground in the next frame. It then leaves the
  * ground here, if it has none in it so, or where it was before the frame. One that was put down in
- * the ground goes on until it is out. */
+ * the ground goes on until it is out. bends: the natural ground bends so much that the sides of the
+ * shell may get into it, too; works and craters lift a vehicle by its corners. */
 static enum entry entry_of(const struct step_context *context, const struct ground_vehicle *batch,
-                           int l)
+                           int l, bool bends)
 {
     const uint32_t i = batch->row[l];
     const struct entities *w = &context->committed->entities, *m = context->m;
@@ -497,24 +498,24 @@ static enum entry entry_of(const struct step_context *context, const struct grou
     const struct terrain *terrain = &context->world->terrain;
     const struct ground_pose *pose = &batch->pose;
     const struct crater_index *craters = pose->cratered.lane[l] ? context->craters : NULL;
+    const uint32_t points = bends ? VEHICLE_SHELL_SIDES : VEHICLE_SHELL_ENDS;
     const double heading = batch->heading.lane[l], dt_s = time_of(context, batch);
     const struct vec3 stands = set_on(context, batch, l);
     struct vec3 at = {pose->x.lane[l], stands.x, pose->z.lane[l]};
     const struct vec3 way = {batch->vx.lane[l] * dt_s, climb_of(batch, l, heading, stands.y) * dt_s,
                              batch->vz.lane[l] * dt_s};
     struct mat3 turn = rotation_matrix(rotation_of(heading, stands.y, stands.z));
-    if (vehicle_shell_depth(terrain, craters, kind, VEHICLE_SHELL_ENDS, at, &turn) <= 0.0 &&
-        vehicle_shell_depth(terrain, craters, kind, VEHICLE_SHELL_ENDS, vec3_add(at, way), &turn) <=
-            0.0)
+    if (vehicle_shell_depth(terrain, craters, kind, points, at, &turn) <= 0.0 &&
+        vehicle_shell_depth(terrain, craters, kind, points, vec3_add(at, way), &turn) <= 0.0)
         return STAYS_OUT;
     turn = rotation_matrix(rotation_of(heading, batch->pitch.lane[l], w->roll[i]));
     at.y = batch->y.lane[l] + climb_of(batch, l, heading, batch->pitch.lane[l]) * dt_s;
-    if (vehicle_shell_depth(terrain, craters, kind, VEHICLE_SHELL_ENDS, at, &turn) <= 0.0)
+    if (vehicle_shell_depth(terrain, craters, kind, points, at, &turn) <= 0.0)
         return LEAVES_HERE;
     turn = rotation_matrix(rotation_of(m->heading[i], batch->pitch.lane[l], w->roll[i]));
     at = (struct vec3){m->x[i], batch->y.lane[l], m->z[i]};
-    return pose->cratered.lane[l] && vehicle_shell_depth(terrain, craters, kind, VEHICLE_SHELL_ENDS,
-                                                         at, &turn) <= LEAVES_DEEP_M
+    return pose->cratered.lane[l] &&
+                   vehicle_shell_depth(terrain, craters, kind, points, at, &turn) <= LEAVES_DEEP_M
                ? LEAVES_BEFORE
                : STAYS_OUT;
 }
@@ -530,9 +531,10 @@ static inline void find_hollows(const struct step_context *context, struct groun
     if (!SIMD_ANY(any))
         return;
     for (int l = 0; l < batch->count; l++) {
-        if (!(bend.lane[l] > batch->bend.lane[l]) && !batch->pose.cratered.lane[l])
+        bool bends = bend.lane[l] > batch->bend.lane[l];
+        if (!bends && !batch->pose.cratered.lane[l])
             continue;
-        enum entry entry = entry_of(context, batch, l);
+        enum entry entry = entry_of(context, batch, l, bends);
         batch->rough.lane[l] |= -(int64_t)(entry != STAYS_OUT);
         batch->walled.lane[l] = -(int64_t)(entry == LEAVES_BEFORE);
     }

@@ -186,14 +186,14 @@ static void speeds_of(const struct entities *m, uint32_t i, double *forward, dou
     kinematics_along(m, i, sine, cosine, forward, rightward);
 }
 
-/* How deep the shell of row i is with this pose at a place. */
-static double shell_depth(const struct step_context *context, uint32_t i, struct vec3 at,
-                          double pitch, double roll)
+/* How deep the shell of row i is with this pose at a place: its first points. */
+static double shell_depth(const struct step_context *context, uint32_t i, uint32_t points,
+                          struct vec3 at, double pitch, double roll)
 {
     const struct entities *m = context->m;
     struct mat3 turn = rotation_matrix(rotation_of(m->heading[i], pitch, roll));
     return vehicle_shell_depth(&context->world->terrain, context->craters,
-                               &context->world->kinds[m->kind[i]], VEHICLE_SHELL_ENDS, at, &turn);
+                               &context->world->kinds[m->kind[i]], points, at, &turn);
 }
 
 static double climb_of(const struct entities *m, uint32_t i, double pitch)
@@ -221,18 +221,20 @@ static int enters_ground(const struct step_context *context, uint32_t i,
     struct vec3 way = {m->vx[i] * context->dt_s, climb_of(m, i, m->pitch[i]) * context->dt_s,
                        m->vz[i] * context->dt_s};
     bool marked = ground_marks_at(context->ground_marks, was->x, was->z) & GROUND_MARKS_CRATER;
+    const bool bends = bend > chassis_shell_bend(&context->world->kinds[m->kind[i]]);
+    const uint32_t points = bends ? VEHICLE_SHELL_SIDES : VEHICLE_SHELL_ENDS;
     const struct vec3 next = vec3_add(at, way);
-    if ((bend <= chassis_shell_bend(&context->world->kinds[m->kind[i]]) && !marked) ||
-        (shell_depth(context, i, at, m->pitch[i], m->roll[i]) <= 0.0 &&
-         shell_depth(context, i, next, m->pitch[i], m->roll[i]) <= 0.0))
+    if ((!bends && !marked) ||
+        (shell_depth(context, i, points, at, m->pitch[i], m->roll[i]) <= 0.0 &&
+         shell_depth(context, i, points, next, m->pitch[i], m->roll[i]) <= 0.0))
         return 0;
     at.y = was->y + climb_of(m, i, was->pitch) * context->dt_s;
-    if (shell_depth(context, i, at, was->pitch, was->roll) <= 0.0)
+    if (shell_depth(context, i, points, at, was->pitch, was->roll) <= 0.0)
         return 1;
     double heading = m->heading[i];
     m->heading[i] = was->heading;
-    double depth =
-        shell_depth(context, i, (struct vec3){was->x, was->y, was->z}, was->pitch, was->roll);
+    double depth = shell_depth(context, i, points, (struct vec3){was->x, was->y, was->z},
+                               was->pitch, was->roll);
     m->heading[i] = heading;
     return marked && depth <= 0.01 ? 2 : 0;
 }
