@@ -4,6 +4,7 @@
 #include "supervisor/physics/hull_shape.h"
 #include "supervisor/physics/sprung_body.h"
 #include "world/entity/kind.h"
+#include "world/terrain/terrain.h"
 
 #include <stddef.h>
 
@@ -11,6 +12,7 @@
 #define LEAST_DEPTH_M  0.05 /* a corner that is no higher over the ground touches it */
 #define SINKS_M        1e-4 /* a wreck that comes out slowly may turn a corner so much deeper */
 #define CLEARS         0.75 /* of the step that a vehicle climbs: its underside is so high */
+#define EDGE_M         1.0  /* a vehicle whose end is no farther from the edge of the world */
 #define LEANING_RPS    3.0  /* an aircraft banks and pitches so fast */
 #define BOX_CORNERS    8u
 #define FRAME_S        (1.0 / 60.0)
@@ -348,8 +350,22 @@ static void measure_spin(struct measures *measures, struct body_look *body)
         measure_take(measures, MEASURE_OF_SPIN, spin, &body->named, NULL);
 }
 
-void body_measures_motion(struct measures *measures, double dt_s, struct body_look *body)
+/* Returns true if the edge of the world may have stopped a land vehicle, which has its ends within
+ * the world: the edge is no wall that gives a contact. */
+static bool edge_stops(const struct ground_look *ground, const struct body_look *body)
 {
+    const double side_m = ground->surface->terrain->squares.world_m;
+    const struct vec3 at = body->was->pose.at;
+    double inside = maths_min(maths_min(at.x, side_m - at.x), maths_min(at.z, side_m - at.z));
+    return body->kind->domain == DOMAIN_LAND &&
+           inside < 0.5 * body->kind->length_m + ground->dt_s * vec3_length(body->was->velocity) +
+                        EDGE_M;
+}
+
+void body_measures_motion(struct measures *measures, const struct ground_look *ground,
+                          struct body_look *body)
+{
+    const double dt_s = ground->dt_s;
     measure_speed(measures, body);
     measure_spin(measures, body);
     bool pushed = body->blasts > 0 || body->struck > 0 || body->hits > 0;
@@ -363,6 +379,6 @@ void body_measures_motion(struct measures *measures, double dt_s, struct body_lo
         measure_jump(measures, dt_s, body);
     bool touches = body->touches || body->touched || body->now.grounded || body->was->grounded ||
                    body->now.sprung || body->was->sprung;
-    if (body->blasts == 0 && body->struck == 0 && !touches)
+    if (body->blasts == 0 && body->struck == 0 && !touches && !edge_stops(ground, body))
         measure_acceleration(measures, dt_s, body);
 }

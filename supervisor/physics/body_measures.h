@@ -30,7 +30,8 @@ void body_measures_rest(struct measures *measures, const struct ground_look *gro
                         const struct body_look *body);
 
 /* Measures speeds, jumps and accelerations. The body's explanations must be complete. */
-void body_measures_motion(struct measures *measures, double dt_s, struct body_look *body);
+void body_measures_motion(struct measures *measures, const struct ground_look *ground,
+                          struct body_look *body);
 
 /* Returns true if the ground or the water holds the body in this frame and held it before: its
  * vertical speed then only follows the ground. It holds no wrecks on land, which are rigid bodies.

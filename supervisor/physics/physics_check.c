@@ -130,7 +130,7 @@ static void look_at_motion(struct physics_check *check, const struct ground_look
         if (!looks->body[i].finite || looks->body[i].foreign)
             continue;
         body_measures_rest(&check->measures, ground, &looks->body[i]);
-        body_measures_motion(&check->measures, ground->dt_s, &looks->body[i]);
+        body_measures_motion(&check->measures, ground, &looks->body[i]);
     }
     energy_look(&check->energy, &check->measures, looks, &check->overlaps.touching, ground->dt_s);
 }

@@ -670,6 +670,26 @@ static void test_bodies_that_pressed_share_their_energy(void **state)
     assert_false(measure_good(&check.measures, MEASURE_OF_ENERGY));
 }
 
+/* The edge of the world stops a vehicle in a frame, and nothing else does. */
+static void test_the_edge_of_the_world_stops_a_vehicle(void **state)
+{
+    uint32_t tank = put("tank", 49996.0, 100.0);
+    (void)state;
+    steps_rows(&f).vx[tank] = 5.0;
+    begin();
+    now.entities.vx[tank] = 0.0;
+    next();
+    is_good();
+    now.entities.x[tank] = 49900.0;
+    now.entities.vx[tank] = 5.0;
+    add_event(EVENT_COMMAND)->command.entity = tank + 1;
+    next();
+    is_good();
+    now.entities.vx[tank] = 0.0;
+    next();
+    is_bad(MEASURE_OF_ACCELERATION, 300.0 - 5.0 * steps_kind(&f, "tank")->turn_rate_rps);
+}
+
 static void test_speed_and_spin(void **state)
 {
     uint32_t tank = put("tank", MIDDLE, 100.0);
@@ -846,6 +866,7 @@ int main(void)
         TEST(test_speed_and_spin),
         TEST(test_a_body_that_is_thrown),
         TEST(test_a_body_that_begins_fast),
+        TEST(test_the_edge_of_the_world_stops_a_vehicle),
         TEST(test_a_body_that_a_fast_one_spins_up),
         TEST(test_a_slow_body_spins_nothing_up),
         TEST(test_a_jump),
