@@ -124,7 +124,7 @@ HTTP_SRC     := $(call sources,ipc/http)
 TOPICS_SRC   := $(call sources,ipc/topics)
 # It stands in for functions of the C library, and so does the sandbox: only in who wants it.
 DATAGRAM_SRC := ipc/topics/dds_datagrams.c
-MOVER_SRC    := $(call sources,mover mover/* mover/motion/*)
+MOVER_SRC    := $(call sources,mover mover/* mover/motion/* mover/agent/*)
 COLLIDER_SRC := $(call sources,collider collider/*)
 RUNS_SRC     := $(call sources,recorder/log recorder/archive recorder/replay)
 RENDERER_SRC := $(filter-out renderer/video/%,$(call sources,renderer renderer/* renderer/scene/*))

@@ -5,6 +5,7 @@
 #include "mover/agent/attack.h"
 #include "mover/agent/avoidance.h"
 #include "mover/agent/fire_control.h"
+#include "mover/agent/flight/terrain_following.h"
 #include "mover/agent/formation_keeping.h"
 #include "mover/agent/goal.h"
 #include "mover/agent/landing_place.h"
@@ -411,10 +412,9 @@ static void set_controls(const struct step_context *context, uint32_t i, const s
     m->steer[i] = (float)maths_clamp(off / maths_max(turn, 1e-9), -1.0, 1.0);
     if (!holds || fabsf(throttle - m->throttle[i]) > SPEED_OFF)
         m->throttle[i] = throttle;
-    m->climb[i] =
-        (float)maths_clamp(desired->altitude_m / maths_max(kind->cruise_altitude_m, 1e-9) - 1.0,
-                           -1.0, 1.0) *
-        (kind->cruise_altitude_m > 0.0 ? 1.0f : 0.0f);
+    m->climb[i] = 0.0f;
+    if (kind->cruise_altitude_m > 0.0)
+        m->climb[i] = (float)maths_max(desired->altitude_m / kind->cruise_altitude_m - 1.0, -1.0);
 }
 
 void agent_controls_motion(const struct step_context *context, uint32_t i,
@@ -472,7 +472,7 @@ static void think(const struct step_context *context, uint32_t i, const struct k
     if (kind->domain == DOMAIN_AIR && !desired->driven)
         aircraft_separation_keep(context, i, desired);
     if (is_aeroplane(kind) && !desired->driven)
-        aircraft_separation_clear_ground(context, i, desired);
+        terrain_following_steer(context, i, desired);
     if (disabled_drive(kind, m, i)) {
         desired->heading_rad = m->heading[i];
         desired->speed_mps = desired->turn = 0.0;

@@ -2,7 +2,6 @@
 #include "mover/agent/aircraft_separation.h"
 
 #include "mover/agent/avoidance.h"
-#include "mover/motion/aircraft.h"
 #include "mover/motion/kinematics.h"
 #include "world/entity/mass_properties.h"
 #include "world/state.h"
@@ -25,14 +24,6 @@
 #define HOVER_LEVEL_M 0.25  /* between the heights at which those on hold are kept from others */
 #define HOVER_ROUNDED 0.1   /* of that: so far from a height they are at it */
 #define GROUND_S      3.0   /* flight keeps its height above the ground here and after this time */
-
-/* Ground that an aeroplane looks at: every LOOK_S along its course, LOOKS times. */
-#define LOOK_S      2.5
-#define LOOKS       12
-#define CLEAR_SHARE 0.5 /* of the height that it wants, over the ground ahead */
-#define CLIMB_SHARE 0.3 /* of its speed: so fast it climbs for a long time */
-#define RATE_SHARE  0.5 /* and of its kind's rate of climb */
-#define MOST_TURN   PI  /* it looks no further around a turn */
 
 /* The heights [m] between which row i may fly. */
 struct clearance {
@@ -200,39 +191,4 @@ void aircraft_separation_keep(const struct step_context *context, uint32_t i,
     height = maths_max(maths_min(height, clear.high - ground), clear.low - ground);
     double low = maths_clamp(context->m->y[i] - ground, LOWEST_SHARE * usual, LOW_SHARE * usual);
     desired->altitude_m = maths_max(height, maths_min(desired->altitude_m, low));
-}
-
-/* Returns the rate [m/s] at which row i must climb to be clear_m over each point of its course. */
-static double needed_climb(const struct step_context *context, uint32_t i, double clear_m)
-{
-    const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    const double side_m = context->world->terrain.squares.world_m;
-    double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]), rate = -INFINITY;
-    double turn = (double)m->steer[i] * kind->turn_rate_rps * LOOK_S;
-    double heading = maths_heading(m->vx[i], m->vz[i]), x = m->x[i], z = m->z[i], sine, cosine;
-    for (uint32_t n = 1; n <= LOOKS && fabs(turn) * n <= MOST_TURN; n++) {
-        maths_sincos(heading + (n - 0.5) * turn, &sine, &cosine);
-        x = maths_clamp(x + sine * speed * LOOK_S, 0.0, side_m);
-        z = maths_clamp(z - cosine * speed * LOOK_S, 0.0, side_m);
-        double over = kinematics_ground(context, x, z) + clear_m - m->y[i];
-        rate = maths_max(rate, over / (n * LOOK_S));
-    }
-    return rate;
-}
-
-void aircraft_separation_clear_ground(const struct step_context *context, uint32_t i,
-                                      struct desired_motion *desired)
-{
-    const struct entities *m = context->m;
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
-    double lasting = maths_min(CLIMB_SHARE * speed, RATE_SHARE * kind->climb_rate_mps);
-    double needed = needed_climb(context, i, CLEAR_SHARE * desired->altitude_m);
-    if (needed <= 0.5 * lasting)
-        return;
-    /* From half of what it can to all of it the climb begins evenly. */
-    double rate = maths_min(2.0 * needed - lasting, kind->climb_rate_mps);
-    double height = m->y[i] - ground_under(context, i) + rate / AIRCRAFT_FOLLOW_PS;
-    desired->altitude_m = maths_max(desired->altitude_m, height);
 }

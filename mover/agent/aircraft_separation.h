@@ -1,4 +1,4 @@
-/* Aircraft keep apart by height, and aeroplanes from the ground before them.
+/* Aircraft keep apart by height.
  *
  * When an agent flies, it looks for other aircraft that come near it within three seconds if both
  * hold their speed, and their bank, which helicopters may also roll out of. Of two such aircraft
@@ -15,11 +15,6 @@
 /* Changes the desired height of row i, an aircraft. */
 void aircraft_separation_keep(const struct step_context *context, uint32_t i,
                               struct desired_motion *desired);
-
-/* Raises the desired height of row i, an aeroplane, in time for ground that is steeper than it
- * climbs. The motion looks three seconds ahead (mover/motion/aircraft.h), a crew half a minute. */
-void aircraft_separation_clear_ground(const struct step_context *context, uint32_t i,
-                                      struct desired_motion *desired);
 
 /* Returns the radius [m] in which one of a kind at this speed is kept from others. */
 double aircraft_separation_reach(const struct step_context *context, uint32_t kind,

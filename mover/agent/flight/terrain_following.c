@@ -1,0 +1,164 @@
+/* Compares the climb that the ground ahead needs with the climb that an aeroplane has. */
+#include "mover/agent/flight/terrain_following.h"
+
+#include "mover/context/cruise_start.h"
+#include "mover/motion/aircraft.h"
+#include "mover/motion/airframe.h"
+#include "mover/motion/kinematics.h"
+#include "world/state.h"
+#include "world/terrain/gridsquare.h"
+#include "world/terrain/square_bounds.h"
+#include "world/world.h"
+
+#define LOOKS       16   /* places at which it looks at the ground */
+#define NEAR_S      0.6  /* between the first of them */
+#define FAR_SHARE   0.2  /* and between later ones, of the time that they are ahead */
+#define GROUND_S    3.0  /* flight keeps its height above the ground here and after this time */
+#define ROLLS_S     0.5  /* until its bank turns it */
+#define CLEAR_SHARE 0.5  /* of the height that it wants, over the ground ahead */
+#define STEEP_SHARE 0.35 /* of its speed: so fast it climbs and loses no speed that it needs */
+#define CLIMB_SHARE 0.8  /* and of its kind's rate of climb */
+#define BEGIN_SHARE 0.25 /* of this a script's begins to climb for the ground ahead */
+#define PULL_SHARE  0.8  /* of the pull-up that its lift allows */
+#define LEAST_PULL  0.05 /* [g] */
+#define LEVEL_LOAD  1.5  /* [share of its lift] that it needs while it turns */
+#define EDGE_S      9.0  /* the motion turns it back so long before the edge of the world */
+#define EDGE_M      50.0 /* and so far from it */
+
+/* An aeroplane before a decision. */
+struct flight {
+    const struct square_bounds *tops; /* of all that stands on the ground */
+    double x, y, z, up_mps, speed_mps;
+    double heading_rad; /* of its motion */
+    double clear_m;     /* over all that is ahead */
+    double pull_mps2;   /* the least that ends a descent */
+    double turn_rps;    /* the most while it climbs */
+    double late_s;      /* until a decision turns it */
+};
+
+static struct flight begin(const struct step_context *context, uint32_t i,
+                           const struct desired_motion *desired)
+{
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const double think_s = context->dt_s * (double)cruise_start_think_frames(context, i);
+    double speed = sqrt(m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i]);
+    double share = speed / maths_max(kind->min_speed_mps, 1.0);
+    double lift = maths_min(share * share, maths_max(kind->max_load, 1.0));
+    double pull = PULL_SHARE * maths_clamp(lift - 1.0, LEAST_PULL, AIRFRAME_PULL);
+    double load = maths_max(lift / LEVEL_LOAD, 1.0);
+    double turn = GRAVITY_MPS2 * sqrt(load * load - 1.0) / maths_max(speed, 1.0);
+    return (struct flight){
+        .tops = &context->line_of_sight->skyline,
+        .x = m->x[i],
+        .y = m->y[i] + think_s * maths_min(m->vy[i], 0.0),
+        .z = m->z[i],
+        .up_mps = m->vy[i],
+        .speed_mps = speed,
+        .heading_rad = maths_heading(m->vx[i], m->vz[i]),
+        .clear_m = CLEAR_SHARE * desired->altitude_m,
+        .pull_mps2 = GRAVITY_MPS2 * pull,
+        .turn_rps = maths_min(turn, kind->turn_rate_rps),
+        .late_s = think_s + ROLLS_S,
+    };
+}
+
+/* Returns the height [m] of all that stands in the gridsquare of a point. */
+static double top_at(const struct flight *flight, double x, double z)
+{
+    uint16_t bound = square_bounds_of(flight->tops, gridsquare_of(&flight->tops->squares, x, z));
+    return SQUARE_BOUNDS_LOWEST_M + SQUARE_BOUNDS_HEIGHT_M * bound;
+}
+
+/* Returns how much faster [m/s] than now it must climb to come as high in t seconds as with an even
+ * rate. It changes its climb at pull_mps2, and is lower until it has: with a change c and t seconds
+ * of pull p, c - c^2 / 2p = even - up_mps. Where that has no solution the pull is too weak, and the
+ * result is a change for which there is no time. */
+static double change_of_climb(const struct flight *flight, double even_mps, double t)
+{
+    double pulled = flight->pull_mps2 * t, change = even_mps - flight->up_mps;
+    if (change <= 0.0)
+        return change;
+    if (change >= 0.5 * pulled)
+        return 2.0 * change;
+    return pulled - sqrt(pulled * (pulled - 2.0 * change));
+}
+
+/* Returns the rate of climb [m/s] that is needed on the way that turns by off_rad, at a rate of
+ * turn_rps at most. */
+static double needed_climb(const struct flight *flight, double off_rad, double turn_rps)
+{
+    double rate = -INFINITY, x = flight->x, z = flight->z, t = 0.0, sine, cosine;
+    for (int n = 0; n < LOOKS; n++) {
+        double step = maths_max(NEAR_S, FAR_SHARE * t);
+        double turn = turn_rps * maths_max(t + 0.5 * step - flight->late_s, 0.0);
+        turn = maths_min(turn, fabs(off_rad));
+        maths_sincos(flight->heading_rad + (off_rad < 0.0 ? -turn : turn), &sine, &cosine);
+        x += sine * flight->speed_mps * step;
+        z -= cosine * flight->speed_mps * step;
+        t += step;
+        double even = (top_at(flight, x, z) + flight->clear_m - flight->y) / t;
+        rate = maths_max(rate, flight->up_mps + change_of_climb(flight, even, t));
+    }
+    return rate;
+}
+
+/* Returns true if the motion turns it back before the edge of the world. */
+static bool is_turned_back(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    const double first = EDGE_M, last = context->world->terrain.squares.world_m - EDGE_M;
+    double x = m->x[i] + EDGE_S * m->vx[i], z = m->z[i] + EDGE_S * m->vz[i];
+    return x < first || z < first || x > last || z > last;
+}
+
+/* Returns how far it turns [rad] to the first heading that needs no more than most_mps, or to the
+ * one that needs least. *needed: of the desired one, off_rad; then of that. */
+static double find_way(const struct flight *flight, double off_rad, double most_mps, double *needed)
+{
+    static const double turns[] = {0.0, 0.5, -0.5, 1.0, -1.0, 1.6, -1.6, 2.4, -2.4, PI};
+    double best = off_rad;
+    for (int n = 0; n < 10 && *needed > most_mps; n++) {
+        double off = maths_wrap_half(off_rad + turns[n]);
+        double rate = needed_climb(flight, off, flight->turn_rps);
+        if (rate < *needed) {
+            *needed = rate;
+            best = off;
+        }
+    }
+    return best;
+}
+
+/* The ground [m] above which the motion holds its height. */
+static double ground_under(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    double here = kinematics_ground(context, m->x[i], m->z[i]);
+    return maths_max(here, kinematics_ground(context, m->x[i] + GROUND_S * m->vx[i],
+                                             m->z[i] + GROUND_S * m->vz[i]));
+}
+
+/* An agent comes down no steeper than straight to over the next height, so that it need not climb
+ * hard again, and has time to keep from others. A script's jet comes down to the height that its
+ * author gives. */
+void terrain_following_steer(const struct step_context *context, uint32_t i,
+                             struct desired_motion *desired)
+{
+    const struct entities *m = context->m;
+    const struct kind *kind = &context->world->kinds[m->kind[i]];
+    const struct flight flight = begin(context, i, desired);
+    double most = maths_min(STEEP_SHARE * flight.speed_mps, CLIMB_SHARE * kind->climb_rate_mps);
+    double off = maths_wrap_half(desired->heading_rad - m->heading[i]);
+    double needed = needed_climb(&flight, off, flight.turn_rps), climb = needed;
+    if (needed > most && !is_turned_back(context, i)) {
+        desired->heading_rad = m->heading[i] + find_way(&flight, off, most, &needed);
+        climb = kind->climb_rate_mps;
+    }
+    if (m->behaviour[i] == BEHAVIOUR_SCRIPT)
+        climb = (climb - BEGIN_SHARE * most) / (1.0 - BEGIN_SHARE);
+    if (m->behaviour[i] == BEHAVIOUR_SCRIPT && climb <= 0.0)
+        return;
+    climb = maths_min(climb, kind->climb_rate_mps);
+    double height = m->y[i] - ground_under(context, i) + climb / AIRCRAFT_FOLLOW_PS;
+    desired->altitude_m = maths_max(desired->altitude_m, height);
+}

@@ -1,0 +1,143 @@
+/* Aircraft of agents and scripts fly over the White Mountains, and none of them strikes the ground
+ * or what stands on it. SEED=n begins with another seed, SEEDS=n runs so many of each. */
+#include "tests/support/fixture.h"
+#include "tests/support/steps.h"
+#include "world/world.h"
+
+#include <stdarg.h>
+#include <stddef.h>
+#include <setjmp.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#define HZ       20u
+#define SECONDS  300u
+#define JETS     20u
+#define POINTS   5
+#define HEIGHT_M 60.0 /* that the scripts give */
+
+static struct fixture f;
+
+static uint64_t seeds(void)
+{
+    const char *more = getenv("SEEDS");
+    return more ? strtoull(more, NULL, 10) : 6;
+}
+
+static void open_mountains(uint64_t seed, const char *groups)
+{
+    static char text[16384];
+    (void)snprintf(
+        text, sizeof text,
+        "world = { seed = %u; capacity = 256; hz = %u.0; };\n"
+        "terrain = { source = \"file\"; file = \"%s/grounds/white-mountains.ground\"; };\n"
+        "%s",
+        (unsigned)(seed & 0xffff), HZ, fixture_shipped_dir(), groups);
+    fixture_open(&f, text);
+}
+
+/* Returns how many of the first collisions of aircraft are with anything but another vehicle. */
+static uint32_t crashes(void)
+{
+    uint32_t count = 0;
+    for (uint32_t n = 0; n < fixture_event_count(&f, EVENT_COLLISION); n++) {
+        const struct event_collision *c = &fixture_event(&f, EVENT_COLLISION, n)->collision;
+        bool alone = c->b.fixed || c->b.id == 0;
+        if (f.view.world.kinds[c->a.kind].domain != DOMAIN_AIR || !alone || !c->begins)
+            continue;
+        print_message("%s %u at (%.0f, %.0f)\n", f.view.world.kinds[c->a.kind].name, c->a.id,
+                      c->point[0], c->point[2]);
+        count++;
+    }
+    return count;
+}
+
+/* Jets on patrol choose the next place when they are near the last one: they turn over valleys and
+ * towards slopes. */
+static void test_agents_do_not_fly_into_mountains(void **state)
+{
+    uint64_t seed = fixture_seed(1);
+    uint32_t struck = 0;
+    (void)state;
+    for (uint64_t n = 0; n < seeds(); n++) {
+        open_mountains(seed + n, "vehicles = (\n"
+                                 "  { kind = \"jet\"; count = 20;\n"
+                                 "    area = [19000.0, 26000.0, 29000.0, 36000.0]; },\n"
+                                 "  { kind = \"helicopter\"; count = 10;\n"
+                                 "    area = [19000.0, 26000.0, 29000.0, 36000.0]; } );");
+        fixture_continue(&f, SECONDS * HZ);
+        struck += crashes();
+        fixture_close(&f);
+    }
+    assert_int_equal(struck, 0);
+}
+
+/* Writes a script from place to place for each jet. */
+static void write_scripts(char *text, size_t size, uint64_t *random)
+{
+    int at = snprintf(text, size, "scripts = (");
+    for (uint32_t n = 0; n < JETS; n++) {
+        at += snprintf(text + at, size - (size_t)at, "%s{ name = \"s%u\"; repeat = true; steps = (",
+                       n ? ", " : "", n);
+        for (int point = 0; point < POINTS; point++)
+            at += snprintf(text + at, size - (size_t)at,
+                           "%s{ go = [%.1f, %.1f]; speed_mps = 200.0; altitude_m = %.1f; }",
+                           point ? ", " : "", fixture_uniform(random, 3000.0, 47000.0),
+                           fixture_uniform(random, 3000.0, 47000.0), HEIGHT_M);
+        at += snprintf(text + at, size - (size_t)at, "); }");
+    }
+    at += snprintf(text + at, size - (size_t)at, ");\nvehicles = (");
+    for (uint32_t n = 0; n < JETS; n++)
+        at += snprintf(text + at, size - (size_t)at,
+                       "%s{ kind = \"jet\"; script = \"s%u\"; altitude_m = 300.0; }", n ? ", " : "",
+                       n);
+    (void)snprintf(text + at, size - (size_t)at, ");");
+}
+
+static int by_size(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* They follow the ground as a jet can: low where it is even, and over each ridge in time. */
+static void test_scripted_jets_follow_the_ground(void **state)
+{
+    static double over[JETS * SECONDS];
+    static char groups[12288];
+    uint64_t seed = fixture_seed(1);
+    uint32_t struck = 0;
+    (void)state;
+    for (uint64_t n = 0; n < seeds(); n++) {
+        uint64_t random = seed + n;
+        uint32_t count = 0;
+        write_scripts(groups, sizeof groups, &random);
+        open_mountains(seed + n, groups);
+        for (uint32_t second = 0; second < SECONDS; second++) {
+            fixture_continue(&f, HZ);
+            for (uint32_t row = 0; row < JETS; row++) {
+                struct vec3 at = steps_position(&f, row);
+                over[count++] = at.y - steps_ground_at(&f, at.x, at.z);
+            }
+        }
+        struck += crashes();
+        qsort(over, count, sizeof over[0], by_size);
+        print_message("over the ground: 1 of 100 lower than %.0f m, half than %.0f m\n",
+                      over[count / 100], over[count / 2]);
+        assert_true(over[count / 100] > 0.3 * HEIGHT_M && over[count / 2] < 4.0 * HEIGHT_M);
+        fixture_close(&f);
+    }
+    assert_int_equal(struck, 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_agents_do_not_fly_into_mountains),
+        cmocka_unit_test(test_scripted_jets_follow_the_ground),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
