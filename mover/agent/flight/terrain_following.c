@@ -18,8 +18,7 @@
 #define CLEAR_SHARE 0.5  /* of the height that it wants, over the ground ahead */
 #define STEEP_SHARE 0.35 /* of its speed: so fast it climbs and loses no speed that it needs */
 #define CLIMB_SHARE 0.8  /* and of its kind's rate of climb */
-#define BEGIN_SHARE 0.25 /* of this a script's begins to climb for the ground ahead */
-#define PULL_SHARE  0.8  /* of the pull-up that its lift allows */
+#define PULL_SHARE  0.65 /* of the pull-up that its lift allows */
 #define LEAST_PULL  0.05 /* [g] */
 #define LEVEL_LOAD  1.5  /* [share of its lift] that it needs while it turns */
 #define EDGE_S      9.0  /* the motion turns it back so long before the edge of the world */
@@ -140,7 +139,7 @@ static double ground_under(const struct step_context *context, uint32_t i)
 
 /* An agent comes down no steeper than straight to over the next height, so that it need not climb
  * hard again, and has time to keep from others. A script's jet comes down to the height that its
- * author gives. */
+ * author gives as soon as it can. */
 void terrain_following_steer(const struct step_context *context, uint32_t i,
                              struct desired_motion *desired)
 {
@@ -154,8 +153,6 @@ void terrain_following_steer(const struct step_context *context, uint32_t i,
         desired->heading_rad = m->heading[i] + find_way(&flight, off, most, &needed);
         climb = kind->climb_rate_mps;
     }
-    if (m->behaviour[i] == BEHAVIOUR_SCRIPT)
-        climb = (climb - BEGIN_SHARE * most) / (1.0 - BEGIN_SHARE);
     if (m->behaviour[i] == BEHAVIOUR_SCRIPT && climb <= 0.0)
         return;
     climb = maths_min(climb, kind->climb_rate_mps);
