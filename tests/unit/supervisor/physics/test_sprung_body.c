@@ -118,18 +118,19 @@ static void test_a_shell_beside_a_step_is_as_deep_as_its_way_out(void **state)
 /* A crater throws earth over it, and another vehicle pushes it into a bank. */
 static void test_a_shell_gets_out_of_the_ground_after_an_explosion(void **state)
 {
+    const struct ground_look ground = {.dt_s = DT};
     struct measures measures = {.frame = 1};
     struct kind kind = {.domain = DOMAIN_LAND, .max_speed_mps = 20.0, .bound_m = 4.0};
     struct body_look body = {.kind = &kind, .now = {.sprung = true}, .blasts = 1};
     (void)state;
     body.now.springs.shell_m = -0.05;
-    body_measures_motion(&measures, DT, &body);
+    body_measures_motion(&measures, &ground, &body);
     body.blasts = 0;
     for (int frame = 0; frame < 11; frame++)
-        body_measures_motion(&measures, DT, &body);
+        body_measures_motion(&measures, &ground, &body);
     assert_true(measures.of[MEASURE_OF_SHELL_UNDERGROUND].worst == 0.0);
-    body_measures_motion(&measures, DT, &body);
-    body_measures_motion(&measures, DT, &body);
+    body_measures_motion(&measures, &ground, &body);
+    body_measures_motion(&measures, &ground, &body);
     assert_true(measures.of[MEASURE_OF_SHELL_UNDERGROUND].worst == 0.05);
 }
 
