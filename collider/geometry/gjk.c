@@ -216,19 +216,38 @@ static bool constrain(struct face *face, const struct corner *corner, struct vec
 /* The bounds of a distance found so far: the nearest simplex (upper bound) and the best separating
  * plane (lower bound). */
 struct known {
-    struct simplex simplex;
-    double square; /* of the simplex's distance */
+    struct simplex simplex[2]; /* the nearest one, and that of the search */
+    uint32_t nearest;          /* which is the nearest */
+    double square;             /* of its distance */
     struct vec3 normal;
     double apart;
     double enough; /* with a plane that separates the bodies by more the search ends */
 };
 
-static void keep(struct known *known, const struct simplex *simplex)
+/* Returns the simplex of the search. */
+static struct simplex *searched(struct known *known)
 {
+    return &known->simplex[1 - known->nearest];
+}
+
+/* Keeps the simplex of the search, which goes on, if it is nearer. */
+static void keep(struct known *known)
+{
+    const struct simplex *simplex = searched(known);
     if (!(simplex->face.square < known->square))
         return;
     known->square = simplex->face.square;
-    settle(&known->simplex, &simplex->face);
+    settle(&known->simplex[known->nearest], &simplex->face);
+}
+
+/* The same when the search is over. */
+static void keep_last(struct known *known)
+{
+    double square = searched(known)->face.square;
+    if (!(square < known->square))
+        return;
+    known->square = square;
+    known->nearest = 1 - known->nearest;
 }
 
 /* Returns true if a distance agrees with its lower bound. */
@@ -248,17 +267,16 @@ static bool far(const struct known *known)
 static void begin_warm(const struct convex *a, const struct convex *b,
                        const struct gjk_start *start, struct simplex *simplex)
 {
+    uint32_t last = start->count - 1;
     struct corner corner[3];
-    struct face face = {.count = (int)start->count};
+    simplex->face.count = (int)start->count;
     for (uint32_t i = 0; i < start->count; i++) {
-        corner[i] = corner_of(a, b, start->a[i], start->b[i]);
-        face.corner[start->count - 1 - i] = &corner[i];
+        simplex->corner[last - i] = corner[i] = corner_of(a, b, start->a[i], start->b[i]);
+        simplex->face.corner[last - i] = &simplex->corner[last - i];
     }
-    if (project(&face)) {
-        settle(simplex, &face);
+    if (project(&simplex->face))
         return;
-    }
-    face = (struct face){.corner[0] = &corner[0], .count = 1};
+    struct face face = {.corner[0] = &corner[0], .count = 1};
     (void)project(&face); /* always possible for a single point */
     settle(simplex, &face);
     for (uint32_t i = 1; i < start->count; i++)
@@ -284,40 +302,41 @@ static void search_once(const struct convex *a, const struct convex *b,
                         const struct gjk_start *start, struct known *known)
 {
     struct corner corner;
-    struct simplex simplex;
+    struct simplex *simplex = searched(known);
     int ties = 0;
-    begin(a, b, start, &simplex);
+    begin(a, b, start, simplex);
     for (int round = 0; round < ROUNDS; round++) {
-        double square = simplex.face.square, length = sqrt(square);
+        double square = simplex->face.square, length = sqrt(square);
         if (certain(length, known->apart, NEAR_M))
             break;
-        struct vec3 n = towards_origin(&simplex.face, length);
+        struct vec3 n = towards_origin(&simplex->face, length);
         corner = corner_along(a, b, n);
         double apart = -vec3_dot(n, corner.w);
         if (apart > known->apart) {
             known->apart = apart;
             known->normal = n;
         }
-        if (far(known) || certain(length, known->apart, NEAR_M) || holds(&simplex, &corner))
+        if (far(known) || certain(length, known->apart, NEAR_M) || holds(simplex, &corner))
             break;
-        if (add_corner(&simplex, &corner, square))
+        if (add_corner(simplex, &corner, square))
             continue;
-        keep(known, &simplex);
-        if (ties++ < TIES && add_corner(&simplex, &corner, square * (1.0 + TIE)))
+        keep(known);
+        if (ties++ < TIES && add_corner(simplex, &corner, square * (1.0 + TIE)))
             continue;
-        if (!constrain(&simplex.face, &corner, n))
+        if (!constrain(&simplex->face, &corner, n))
             break;
     }
-    keep(known, &simplex);
+    keep_last(known);
 }
 
 static struct gjk result(const struct convex *a, const struct convex *b, const struct known *known)
 {
-    struct gjk gjk = {.on_a = a->at, .on_b = b->at, .corners = (uint32_t)known->simplex.face.count};
-    for (int i = 0; i < known->simplex.face.count; i++) {
-        const struct corner *corner = &known->simplex.corner[i];
+    const struct simplex *nearest = &known->simplex[known->nearest];
+    struct gjk gjk = {.on_a = a->at, .on_b = b->at, .corners = (uint32_t)nearest->face.count};
+    for (int i = 0; i < nearest->face.count; i++) {
+        const struct corner *corner = &nearest->corner[i];
         gjk.corner[i] = corner->w;
-        double weight = known->simplex.face.weight[i];
+        double weight = nearest->face.weight[i];
         gjk.on_a = vec3_add(gjk.on_a, vec3_scale(gjk_vertex(a, corner->a), weight));
         gjk.on_b = vec3_add(gjk.on_b, vec3_scale(gjk_vertex(b, corner->b), weight));
     }
@@ -343,8 +362,12 @@ double gjk_most_apart(const struct gjk *gjk, struct vec3 normal)
 struct gjk gjk_distance_within(const struct convex *a, const struct convex *b, double limit_m,
                                struct gjk_start *start)
 {
-    struct known known = {
-        .square = INFINITY, .apart = -INFINITY, .enough = limit_m + GJK_OVERLAP_M + SURE_M};
+    struct known known;
+    known.nearest = 0;
+    known.square = INFINITY;
+    known.normal = (struct vec3){0.0, 0.0, 0.0};
+    known.apart = -INFINITY;
+    known.enough = limit_m + GJK_OVERLAP_M + SURE_M;
     search_once(a, b, start, &known);
     for (int other = 0;
          other < SEARCHES && !far(&known) && !certain(sqrt(known.square), known.apart, SURE_M);
@@ -353,10 +376,11 @@ struct gjk gjk_distance_within(const struct convex *a, const struct convex *b, d
             .guess = {other & 1 ? -1.0 : 1.0, other & 2 ? -1.0 : 1.0, other & 4 ? -1.0 : 1.0}};
         search_once(a, b, &elsewhere, &known);
     }
-    start->count = known.simplex.face.count < 4 ? (uint32_t)known.simplex.face.count : 0;
+    const struct simplex *nearest = &known.simplex[known.nearest];
+    start->count = nearest->face.count < 4 ? (uint32_t)nearest->face.count : 0;
     for (uint32_t i = 0; i < start->count; i++) {
-        start->a[i] = known.simplex.corner[i].a;
-        start->b[i] = known.simplex.corner[i].b;
+        start->a[i] = nearest->corner[i].a;
+        start->b[i] = nearest->corner[i].b;
     }
     struct gjk gjk = result(a, b, &known);
     if (far(&known))

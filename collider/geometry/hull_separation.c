@@ -119,42 +119,43 @@ struct body_pose body_pose_at(const struct rotation_path *rotation, double time)
     return pose;
 }
 
-/* Where a hull is at one time: its axes and its origin, relative to the body's position. */
-struct hull_pose {
-    struct convex convex;
-    struct vec3 spin, velocity; /* of the axes [rad a frame], of the origin [m a frame] */
+/* How a hull moves at one time: its axes [rad a frame], and its origin in its body [m a frame]. */
+struct hull_motion {
+    struct vec3 spin, velocity;
 };
 
 /* Turns the hull of a turret or a gun in its body. */
 static void turn_part(const struct swept_body *body, const struct hull *hull, double time,
-                      struct hull_pose *pose)
+                      struct convex *convex, struct hull_motion *motion)
 {
     struct part_motion part = turret_path_at(&body->turret, hull->part, time);
-    struct mat3 turn = pose->convex.turn;
-    pose->convex.turn = rotation_both(&turn, &part.pose.turn);
-    pose->convex.at = rotation_apply(&turn, vec3_scale(part.pose.at, body->scale));
-    pose->velocity = vec3_add(vec3_cross(pose->spin, pose->convex.at),
-                              rotation_apply(&turn, vec3_scale(part.velocity, body->scale)));
-    pose->spin = vec3_add(pose->spin, rotation_apply(&turn, part.spin));
+    struct mat3 turn = convex->turn;
+    convex->turn = rotation_both(&turn, &part.pose.turn);
+    convex->at = rotation_apply(&turn, vec3_scale(part.pose.at, body->scale));
+    motion->velocity = vec3_add(vec3_cross(motion->spin, convex->at),
+                                rotation_apply(&turn, vec3_scale(part.velocity, body->scale)));
+    motion->spin = vec3_add(motion->spin, rotation_apply(&turn, part.spin));
 }
 
-static struct hull_pose hull_pose_of(const struct body_pose *pose, const struct hull *hull,
-                                     double time)
+/* Puts a hull where it is at one time, relative to its body's position. */
+static struct hull_motion put_hull(const struct body_pose *pose, const struct hull *hull,
+                                   double time, struct convex *convex)
 {
     const struct swept_body *body = pose->body;
-    struct hull_pose own = {.convex = {.vertex = body->vertices + hull->first_vertex,
-                                       .count = hull->vertex_count,
-                                       .scale = body->scale,
-                                       .turn = pose->turn},
-                            .spin = pose->spin};
+    struct hull_motion motion = {.spin = pose->spin};
+    convex->vertex = body->vertices + hull->first_vertex;
+    convex->count = hull->vertex_count;
+    convex->scale = body->scale;
+    convex->turn = pose->turn;
+    convex->at = (struct vec3){0.0, 0.0, 0.0};
     if (turret_path_turns(&body->turret, hull))
-        turn_part(body, hull, time, &own);
-    return own;
+        turn_part(body, hull, time, convex, &motion);
+    return motion;
 }
 
-static struct vec3 centre_of(const struct hull_pose *pose, const struct hull *hull)
+static struct vec3 centre_of(const struct convex *convex, const struct hull *hull)
 {
-    return rotation_apply(&pose->convex.turn, vec3_scale(hull->centre, pose->convex.scale));
+    return rotation_apply(&convex->turn, vec3_scale(hull->centre, convex->scale));
 }
 
 struct vec3 hull_separation_at(const struct path *a, const struct path *b, double time)
@@ -168,19 +169,18 @@ struct relative_pose relative_pose_of(const struct body_pose *a, const struct hu
                                       const struct body_pose *b, const struct hull *hull_b,
                                       double time)
 {
-    struct hull_pose own_a = hull_pose_of(a, hull_a, time), own_b = hull_pose_of(b, hull_b, time);
+    struct relative_pose now;
+    struct hull_motion of_a = put_hull(a, hull_a, time, &now.a);
+    struct hull_motion of_b = put_hull(b, hull_b, time, &now.b);
     struct vec3 at = hull_separation_at(&a->body->path, &b->body->path, time);
-    struct relative_pose now = {.time = time,
-                                .a = own_a.convex,
-                                .b = own_b.convex,
-                                .spin_a = own_a.spin,
-                                .spin_b = own_b.spin,
-                                .velocity =
-                                    vec3_add(vec3_sub(b->body->path.along, a->body->path.along),
-                                             vec3_sub(own_b.velocity, own_a.velocity)),
-                                .centre_a = centre_of(&own_a, hull_a),
-                                .centre_b = centre_of(&own_b, hull_b)};
-    now.b.at = vec3_add(at, own_b.convex.at);
+    now.time = time;
+    now.spin_a = of_a.spin;
+    now.spin_b = of_b.spin;
+    now.velocity = vec3_add(vec3_sub(b->body->path.along, a->body->path.along),
+                            vec3_sub(of_b.velocity, of_a.velocity));
+    now.centre_a = centre_of(&now.a, hull_a);
+    now.centre_b = centre_of(&now.b, hull_b);
+    now.b.at = vec3_add(at, now.b.at);
     now.between = vec3_sub(now.b.at, now.a.at);
     now.towards = vec3_add(now.between, vec3_sub(now.centre_b, now.centre_a));
     now.centres_m = vec3_length(now.towards);
