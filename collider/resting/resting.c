@@ -162,26 +162,28 @@ static uint32_t fixed_body(struct resting *resting)
 
 /* --- points ------------------------------------------------------------------------------------*/
 
-static struct level_contact point_of(const struct response_context *context,
-                                     const struct pair *pair, const struct level_gap *gap,
-                                     struct vec3 at)
+/* Sets a point of a pair, which bears nothing yet. It is written where it stays: a copy of what has
+ * just been written in parts waits for it. */
+static void set_point(const struct response_context *context, const struct pair *pair,
+                      const struct level_gap *gap, struct vec3 at, struct level_contact *point)
 {
     const struct kind *ka = contact_impulse_kind(context, pair->a);
     const struct kind *kb = contact_impulse_kind(context, pair->b);
     double dt_s = world_dt_s(context->world), room = gap->gap_m - CONTACT_REST_M;
     struct vec3 a = context->path[pair->a].at;
     struct vec3 b = pair->b & PAIR_FIXED ? at : context->path[pair->b].at;
-    return (struct level_contact){
-        .normal_x = gap->normal.x,
-        .normal_z = gap->normal.z,
-        .a_x = at.x - a.x,
-        .a_z = at.z - a.z,
-        .b_x = at.x - b.x,
-        .b_z = at.z - b.z,
-        .least_mps = room > 0.0 ? -room / dt_s : 0.0,
-        .apart_mps =
-            room < -ROUNDING_M ? maths_min(-PARTING_SHARE * room / dt_s, PARTING_MPS) : 0.0,
-        .friction = sqrt(ka->friction * kb->friction)};
+    point->normal_x = gap->normal.x;
+    point->normal_z = gap->normal.z;
+    point->a_x = at.x - a.x;
+    point->a_z = at.z - a.z;
+    point->b_x = at.x - b.x;
+    point->b_z = at.z - b.z;
+    point->least_mps = room > 0.0 ? -room / dt_s : 0.0;
+    point->apart_mps =
+        room < -ROUNDING_M ? maths_min(-PARTING_SHARE * room / dt_s, PARTING_MPS) : 0.0;
+    point->friction = sqrt(ka->friction * kb->friction);
+    point->normal_ns = point->friction_ns = 0.0;
+    point->apart_ns = point->part_mps = 0.0;
 }
 
 /* Returns how fast the bodies of the pair close at most, at its points [m/s]. */
@@ -263,37 +265,38 @@ static void take(struct resting *resting, struct response_context *context, cons
     uint32_t bodies = resting->bodies;
     if (gaps == 0)
         return;
-    struct resting_pair taken = {.first = resting->points,
-                                 .gaps = gaps,
-                                 .capsules = found->capsules,
-                                 .known = found->known != NULL,
-                                 .holds =
-                                     found->known && found->known->flags & PERSISTENT_CONTACT_HOLDS,
-                                 .gap_m = gap[0].gap_m,
-                                 .gap = gap,
-                                 .pair = found->pair};
+    struct resting_pair *taken = &resting->pair[resting->pairs];
+    taken->first = resting->points;
+    taken->count = 0;
+    taken->gaps = gaps;
+    taken->capsules = found->capsules;
+    taken->known = found->known != NULL;
+    taken->holds = found->known && found->known->flags & PERSISTENT_CONTACT_HOLDS;
+    taken->gap_m = gap[0].gap_m;
+    taken->gap = gap;
+    taken->pair = found->pair;
     uint32_t body_a = body_for(resting, context, pair->a);
     uint32_t body_b =
         pair->b & PAIR_FIXED ? fixed_body(resting) : body_for(resting, context, pair->b);
     for (uint32_t g = 0; g < gaps; g++) {
-        struct level_contact *point = &resting->point[taken.first + taken.count];
+        struct level_contact *point = &resting->point[taken->first + taken->count];
         for (uint32_t p = 0; p < gap[g].points; p++) {
-            point[p] = point_of(context, pair, &gap[g], gap[g].point[p]);
+            set_point(context, pair, &gap[g], gap[g].point[p], &point[p]);
             point[p].a = body_a, point[p].b = body_b;
         }
         warm(found, &gap[g], point);
-        taken.count += gap[g].points;
+        taken->count += gap[g].points;
     }
-    if (taken.gap_m > -RESTING_PARTS_M && closing(resting, &taken) >= CONTACT_IMPACT_MPS) {
+    if (taken->gap_m > -RESTING_PARTS_M && closing(resting, taken) >= CONTACT_IMPACT_MPS) {
         forget_bodies(resting, bodies);
         return;
     }
-    struct resting_known *rested = contact_queue_rested(context->contacts, taken.pair);
-    context->contacts->known[taken.pair].plane[0] = gap[0].normal;
+    struct resting_known *rested = contact_queue_rested(context->contacts, taken->pair);
+    context->contacts->known[taken->pair].plane[0] = gap[0].normal;
     rested->normal_x = gap[0].normal.x;
     rested->normal_z = gap[0].normal.z;
-    resting->points += taken.count;
-    resting->pair[resting->pairs++] = taken;
+    resting->points += taken->count;
+    resting->pairs++;
 }
 
 /* Stops the bodies that are deep in walls: only the shortest way leads out, and any other motion
