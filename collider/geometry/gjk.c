@@ -363,6 +363,7 @@ struct gjk gjk_distance_within(const struct convex *a, const struct convex *b, d
                                struct gjk_start *start)
 {
     struct known known;
+    known.simplex[0].face.count = 0; /* the first search always finds a nearer one */
     known.nearest = 0;
     known.square = INFINITY;
     known.normal = (struct vec3){0.0, 0.0, 0.0};

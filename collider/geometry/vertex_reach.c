@@ -94,9 +94,8 @@ VECTOR_CLONES uint32_t vertex_reach_each(const struct vec3 *vertex, uint32_t cou
 VECTOR_CLONES double vertex_reach_most(const struct vec3 *vertex, uint32_t count,
                                        struct vec3 direction)
 {
-    double few[3];
     if (count < 4)
-        return few[find_among_few(vertex, count, direction, few)];
+        return vec3_dot(vertex[find_among_few(vertex, count, direction, NULL)], direction);
     const f64x4 x = SIMD_EVERY(direction.x), y = SIMD_EVERY(direction.y);
     const f64x4 z = SIMD_EVERY(direction.z);
     f64x4 lanes = SIMD_EVERY(-INFINITY);
