@@ -15,8 +15,9 @@
 /* Bodies whose capsules are nearer may overlap: most of them have square corners [m]. */
 #define NEAR_M 1.0
 
-/* A body that leans more does not cover the capsule [rad]. */
-#define STANDS_RAD 0.5
+/* A body whose up axis has a smaller upward part leans too much to cover the capsule: by 60
+ * degrees. */
+#define STANDS_UP 0.5
 
 /* Bodies at one place part as if they were so far apart, times the root of their ids [m]. */
 #define COINCIDENT_M 1e-4
@@ -24,11 +25,9 @@
 
 /* Returns true if the body covers its capsule. Aircraft do not, because they are fuselages with
  * wings and rotors, nor do ships, whose bows are narrow, nor does a wreck on its side. */
-static bool fills_capsule(const struct response_context *context, uint32_t row)
+static bool fills_capsule(const struct kind *kind, double up)
 {
-    const struct entities *e = &context->next->entities;
-    return context->world->kinds[e->kind[row]].domain == DOMAIN_LAND &&
-           fabs(e->pitch[row]) + fabs(e->roll[row]) <= STANDS_RAD;
+    return kind->domain == DOMAIN_LAND && up >= STANDS_UP;
 }
 
 void deep_pair_place(const struct response_context *context, uint32_t row, double *x, double *z)
@@ -45,11 +44,13 @@ struct capsule deep_pair_capsule(const struct response_context *context, uint32_
 {
     const struct entities *e = body_motion_before(context->motion, row);
     const struct kind *kind = contact_impulse_kind(context, row);
-    double sine, cosine, wide = maths_min(kind->width_m, kind->length_m);
-    if (!fills_capsule(context, row))
+    double sine, cosine, nose, side, wide = maths_min(kind->width_m, kind->length_m);
+    maths_sincos(e->pitch[row], &sine, &nose);
+    maths_sincos(e->roll[row], &sine, &side);
+    if (!fills_capsule(kind, nose * side))
         return (struct capsule){.radius_m = 0.0};
-    double half = 0.5 * DEEP * (kind->length_m - wide);
-    struct capsule capsule = {.radius_m = 0.5 * wide};
+    double half = 0.5 * DEEP * (kind->length_m - wide) * nose;
+    struct capsule capsule = {.radius_m = 0.5 * wide * nose * side};
     maths_sincos(e->heading[row], &sine, &cosine);
     capsule.along_x = half * sine;
     capsule.along_z = -half * cosine;
@@ -136,11 +137,11 @@ static double depth_within(const struct begun_body *begun, struct vec3 point)
  * be narrower than the capsule at its height: the bonnet of a truck, the trails of a howitzer.
  * Mostly a point over the middle is inside both, which proves it sooner than a search. */
 static bool are_deep(const struct begun_body *a, const struct begun_body *b, struct vec3 middle,
-                     double height_m, double depth_m)
+                     struct vec3 up, double height_m, double depth_m)
 {
     static const double share[] = {0.35, 0.5, 0.2, 0.65};
     for (uint32_t i = 0; i < sizeof share / sizeof *share; i++) {
-        struct vec3 point = {middle.x, middle.y + share[i] * height_m, middle.z};
+        struct vec3 point = vec3_add(middle, vec3_scale(up, share[i] * height_m));
         double in_a = depth_within(a, point), in_b = depth_within(b, point);
         if (in_a > 0.0 && in_b > 0.0 && in_a + in_b > depth_m)
             return true;
@@ -148,6 +149,12 @@ static bool are_deep(const struct begun_body *a, const struct begun_body *b, str
     const struct turned_body turned_a = {&a->body, a->began}, turned_b = {&b->body, b->began};
     struct level_gap deepest;
     return level_gap_deepest(&turned_a, &turned_b, depth_m, depth_m, &deepest);
+}
+
+/* Returns the body's own up axis, along which bodies on one slope stand above each other. */
+static struct vec3 up_of(const struct begun_body *body)
+{
+    return rotation_apply(&body->began, (struct vec3){0.0, 1.0, 0.0});
 }
 
 bool deep_pair_measure(const struct response_context *context, const struct pair *pair,
@@ -159,14 +166,15 @@ bool deep_pair_measure(const struct response_context *context, const struct pair
         return false;
     const struct kind *ka = contact_impulse_kind(context, pair->a);
     const struct kind *kb = contact_impulse_kind(context, pair->b);
-    double y_a = context->path[pair->a].at.y, y_b = context->path[pair->b].at.y;
-    struct vec3 normal, middle;
+    struct vec3 at_a = context->path[pair->a].at, at_b = context->path[pair->b].at;
+    struct vec3 up = vec3_lerp(up_of(a), up_of(b), 0.5), normal, middle;
     double gap = capsule_gap(&a->capsule, &b->capsule, &normal, &middle);
-    if (gap > (DEEP - 1.0) * radii || fabs(y_b - y_a) > DEEP * 0.5 * (ka->height_m + kb->height_m))
+    if (gap > (DEEP - 1.0) * radii ||
+        fabs(vec3_dot(vec3_sub(at_b, at_a), up)) > DEEP * 0.5 * (ka->height_m + kb->height_m))
         return false;
-    middle.y = 0.5 * (y_a + y_b);
+    middle.y = 0.5 * (at_a.y + at_b.y);
     double enough_m = gap < SURELY * DEEP_PAIR_M ? RESTING_PARTS_M : DEEP_PAIR_M;
-    if (!are_deep(a, b, middle, maths_min(ka->height_m, kb->height_m), enough_m))
+    if (!are_deep(a, b, middle, up, maths_min(ka->height_m, kb->height_m), enough_m))
         return false;
     found->count = 1;
     found->gap[0] =

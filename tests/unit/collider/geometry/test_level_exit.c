@@ -20,6 +20,7 @@
 #define STEPS      8 /* on the way, from each of which the rest has to be the way */
 #define LENGTH_M   2.0
 #define WIDTH_M    1.0
+#define FARTHER    1.7 /* so many times as far are boxes that bar the way */
 
 /* A box with half sides 1, 1 and 2 (across, up and along). */
 static const struct vec3 vertices[] = {{-2, -1, -1}, {2, -1, -1}, {-2, 1, -1}, {2, 1, -1},
@@ -213,6 +214,64 @@ static void test_no_way_leads_through_what_bars_it(void **state)
     assert_true(fabs(normal.x + 1.0) < 1e-9);
 }
 
+/* Returns the least separation of the body, moved against the normal, from others first .. end - 1.
+ */
+static double separation_from(const struct boxes *boxes, uint32_t first, uint32_t end,
+                              struct vec3 normal, double way_m)
+{
+    struct boxes some = {.body = boxes->body, .count = end - first};
+    for (uint32_t i = first; i < end; i++)
+        some.other[i - first] = boxes->other[i];
+    return separation_after(&some, normal, way_m);
+}
+
+/* Returns true if a body that goes so far against the normal meets none of the others from first
+ * on. */
+static bool passes(const struct boxes *boxes, uint32_t first, struct vec3 normal, double way_m)
+{
+    for (double far = 0.0; far < way_m; far += 0.2 * STEP_M) {
+        if (separation_from(boxes, first, boxes->count, normal, far) < -1e-6)
+            return false;
+    }
+    return true;
+}
+
+/* The last boxes bar the way: none leads through them, not even where a turn behind them is near,
+ * and along no direction that is free of them one is out sooner. */
+static void test_ways_around_what_bars_them_are_the_shortest(void **state)
+{
+    uint64_t random = fixture_seed(7);
+    uint32_t ways = 0;
+    (void)state;
+    for (uint32_t round = 0; round < ROUNDS; round++) {
+        struct boxes boxes = random_boxes(&random);
+        const uint32_t bars = boxes.count / 2;
+        struct vec3 normal = {0.0, 0.0, 0.0};
+        for (uint32_t i = bars; i < boxes.count; i++)
+            boxes.other[i].path.at = vec3_scale(boxes.other[i].path.at, FARTHER);
+        if (bars == 0 || separation_from(&boxes, bars, boxes.count, normal, 0.0) < 0.0)
+            continue;
+        level_exit_begin(&search);
+        for (uint32_t i = 0; i < boxes.count; i++)
+            level_exit_add(&search, &boxes.body, &boxes.other[i], i >= bars);
+        double way = level_exit_find(&search, true, &normal);
+        if (way == INFINITY)
+            continue;
+        ways++;
+        assert_true(separation_from(&boxes, 0, bars, normal, way) >= CLEAR_M - 1e-6);
+        assert_true(passes(&boxes, bars, normal, way));
+        for (uint32_t i = 0; i < DIRECTIONS; i++) {
+            struct vec3 along = {0.0, 0.0, 0.0};
+            maths_sincos(i * TWO_PI / DIRECTIONS, &along.x, &along.z);
+            for (double far = STEP_M; far < way - 1e-6; far += STEP_M)
+                assert_true(separation_from(&boxes, 0, bars, along, far) < CLEAR_M ||
+                            !passes(&boxes, bars, along, far));
+        }
+    }
+    print_message("%u ways\n", ways);
+    assert_true(ways > ROUNDS / 10);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -221,6 +280,7 @@ int main(void)
         cmocka_unit_test(test_a_body_leaves_two_boxes_where_they_meet),
         cmocka_unit_test(test_a_gap_that_is_too_narrow_is_no_way_out),
         cmocka_unit_test(test_no_way_leads_through_what_bars_it),
+        cmocka_unit_test(test_ways_around_what_bars_them_are_the_shortest),
     };
     return cmocka_run_group_tests(tests, open_search, close_search);
 }

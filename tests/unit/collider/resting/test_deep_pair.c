@@ -119,6 +119,35 @@ static void test_ships_are_measured_by_their_hulls(void **state)
     assert_true(measured("ship", 36.0, HALF_PI) == 0.0);
 }
 
+/* On a slope of 22 degrees vehicles that lean with it, to the front, to a side or to both, part as
+ * capsules as they do on the level. Each pair of a crowd was measured exactly instead, and one of
+ * 50 tanks took 4 s a frame. */
+static void test_bodies_on_a_slope_are_deep(void **state)
+{
+    static const double heading[] = {0.0, 0.8, HALF_PI, 2.5};
+    (void)state;
+    for (int n = 0; n < 4; n++) {
+        struct response_context context;
+        struct resting_gap found;
+        double sine, cosine;
+        maths_sincos(heading[n], &sine, &cosine);
+        fixture_open(&f, "collision = { shape = \"model\"; };");
+        steps_plane(&f, 0.4, 0.0);
+        for (int i = 0; i < 2; i++)
+            fixture_put(&f, (struct fixture_entity){.kind = "tank",
+                                                    .at = {25000.0 + i, 100.0 + 0.4 * i, 25000.0},
+                                                    .heading_rad = heading[n] + 0.5 * i});
+        fixture_continue(&f, 1); /* the ground turns them */
+        steps_respond(&f, &context);
+        const struct entities e = steps_rows(&f);
+        assert_true(cos(e.pitch[0]) * cos(e.roll[0]) < 0.94);
+        assert_true(measure(&context, &found));
+        assert_true(found.gap[0].gap_m < -1.5);
+        steps_respond_end(&context);
+        fixture_close(&f);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -127,6 +156,7 @@ int main(void)
         cmocka_unit_test(test_bodies_are_measured_as_they_begin_the_frame),
         cmocka_unit_test(test_bodies_that_are_apart_are_not_deep),
         cmocka_unit_test(test_ships_are_measured_by_their_hulls),
+        cmocka_unit_test(test_bodies_on_a_slope_are_deep),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
