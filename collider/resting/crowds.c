@@ -111,7 +111,9 @@ void crowds_measure(struct crowds *crowds, const struct response_context *contex
         struct crowds_body *root = &crowds->body[root_of(crowds->body, row)];
         double x, z;
         from_centre(root, context, row, &x, &z);
-        root->reach_m = maths_max(root->reach_m, sqrt(x * x + z * z));
+        double far = sqrt(x * x + z * z);
+        root->reach_m = maths_max(root->reach_m, far);
+        root->along_m = maths_max(root->along_m, far / deep_pair_level(context, row));
     }
     for (uint32_t i = 0; i < crowds->count; i++) {
         struct crowds_body *body = &crowds->body[crowds->row[i]];
@@ -135,7 +137,7 @@ void crowds_spread(struct crowds *crowds, const struct response_context *context
 {
     const struct crowds_body *root = &crowds->body[root_of(crowds->body, row)];
     double edge = maths_min(SPREAD_MPS, 0.5 * root->deepest_m / world_dt_s(context->world));
-    double rate = edge / root->reach_m, x, z;
+    double rate = edge / root->along_m, x, z;
     from_centre(root, context, row, &x, &z);
     *x_mps = rate * x;
     *z_mps = rate * z;

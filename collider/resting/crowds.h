@@ -18,6 +18,7 @@ struct crowds_body {
     uint32_t members;
     double deepest_m; /* of its pairs */
     double mass_kg, area_m2, centre_x, centre_z, reach_m;
+    double along_m; /* its reach along the ground, if that slopes towards the farthest body */
 };
 
 /* The collider's own memory. */

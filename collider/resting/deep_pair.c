@@ -40,6 +40,15 @@ void deep_pair_place(const struct response_context *context, uint32_t row, doubl
     *z = at.z + far * sine;
 }
 
+double deep_pair_level(const struct response_context *context, uint32_t row)
+{
+    const struct entities *e = body_motion_before(context->motion, row);
+    double sine, nose, side;
+    maths_sincos(e->pitch[row], &sine, &nose);
+    maths_sincos(e->roll[row], &sine, &side);
+    return maths_max(STANDS_UP, nose * side);
+}
+
 struct capsule deep_pair_capsule(const struct response_context *context, uint32_t row)
 {
     const struct entities *e = body_motion_before(context->motion, row);

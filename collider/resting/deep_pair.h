@@ -21,6 +21,9 @@ struct capsule {
     double radius_m;         /* 0: the body does not cover its capsule */
 };
 
+/* Returns which part of a way along the ground is level where the row leans with it: 0.5 to 1. */
+double deep_pair_level(const struct response_context *context, uint32_t row);
+
 /* Returns the capsule of a row as it stands when the frame begins: a body that turns fast points
  * elsewhere at its end. Aircraft, ships and wrecks on a side do not cover theirs. */
 struct capsule deep_pair_capsule(const struct response_context *context, uint32_t row);

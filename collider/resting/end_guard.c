@@ -20,7 +20,6 @@
 #define ROUNDING_M     1e-5 /* a depth up to this is none */
 #define APART_M        1e-6 /* bodies that are farther apart than they can have come do not touch */
 #define EXACT_M        1e-8 /* error of a depth: less is no deepening of a greater depth */
-#define SHALLOW_M      0.3  /* a way out that is not longer is always measured at the frame's end */
 #define PAIRS_A_PIECE  8u
 #define ROWS_A_PIECE   16u
 #define SENT_BACK_HALF 3u /* so often a row goes back by half, the next time all the way */
@@ -274,7 +273,7 @@ static bool deeper(const struct end_guard *guard, const struct response_context 
     double after = gap_after(guard, context, index);
     if (after >= -ROUNDING_M)
         return false;
-    if (known->way_m > 0.0 && known->way_m <= SHALLOW_M)
+    if (known->way_m > 0.0)
         return true; /* see heed_ways() */
     double before = gap_before(context, index);
     return (before > -RESTING_PARTS_M || held(context, pair)) && after < before - EXACT_M;
@@ -646,20 +645,29 @@ static bool any_deeper(struct end_guard *guard, const struct response_context *c
     return any;
 }
 
-/* Sets where a row would be if it had not made way. Returns false if it did not, or went back. */
+/* Returns how often the guard's rounds have sent a row back, which may have been drawn back since.
+ */
+static uint32_t times_back(const struct end_guard *guard, uint32_t row)
+{
+    return guard->drawn[row] ? guard->drawn[row] - 1u : guard->sent_back[row];
+}
+
+/* Sets where a row would be if it had not made way; of one that went back by half of its way, it is
+ * half of the way that it had without. Returns false if it did not make way, or has to stand where
+ * it began the frame. */
 static bool home_of(const struct end_guard *guard, const struct resting *resting,
                     const struct response_context *context, uint32_t index, struct vec3 *home)
 {
     const struct level_motion *pushed = &resting->body[index].pushed;
     uint32_t row = resting->row[index];
     if (row == SLOT_NONE || !resting->parting.body[index].makes_way || !guarded(context, row) ||
-        context->motion->change[row] != 0 || (guard->sent_back[row] != 0 && !guard->drawn[row]))
+        context->motion->change[row] != 0 || times_back(guard, row) > SENT_BACK_HALF)
         return false;
-    double dt_s = world_dt_s(context->world);
+    double dt_s = world_dt_s(context->world), keep = 1.0 / (1u << times_back(guard, row));
     const struct path *path = &context->path[row];
-    *home = vec3_add(path->at, path->along);
-    home->x -= pushed->x * dt_s;
-    home->z -= pushed->z * dt_s;
+    *home = vec3_add(path->at, vec3_scale(path->along, keep));
+    home->x -= pushed->x * keep * dt_s;
+    home->z -= pushed->z * keep * dt_s;
     return true;
 }
 
@@ -685,7 +693,8 @@ static bool draw_back(struct end_guard *guard, struct response_context *context,
     list_pose(guard, row);
     if (guard->sent_back[row] == 0)
         guard->touched[guard->touched_count++] = row;
-    guard->sent_back[row] = guard->drawn[row] = 1;
+    guard->drawn[row] = (uint8_t)(times_back(guard, row) + 1);
+    guard->sent_back[row] = guard->drawn[row] > 1 ? guard->drawn[row] - 1 : 1;
     double deep = ROOM_M / far, out = 1.0;
     if (try_at(guard, context, row, vec3_lerp(home, at, deep)))
         return true;

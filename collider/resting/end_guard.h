@@ -39,7 +39,8 @@ struct end_guard {
     uint8_t *listed;    /* [capacity of the world] 1: in row */
     uint8_t *marked;    /* [capacity of the world] 1: in back */
     uint8_t *sent_back; /* [capacity of the world] how often a row has gone back in this frame */
-    uint8_t *drawn;     /* [capacity of the world] 1: it had made way, and was drawn back */
+    uint8_t *drawn; /* [capacity of the world] 1 + how often it had gone back, if it had made way
+                       and was then drawn back, else 0 */
     struct drift_guard drifting;
     struct level_exit exit; /* a search for ways out of bodies */
 };

@@ -1,6 +1,7 @@
 /* Groups by union-find; wishes by sweeps over the points, or by spreading. */
 #include "collider/resting/parting_wishes.h"
 
+#include "collider/resting/deep_pair.h"
 #include "collider/resting/resting.h"
 #include "world/world.h"
 
@@ -18,7 +19,7 @@
  * much of its width in a frame. */
 #define IN_THE_WAY_M 0.02
 #define OPENED       0.02
-#define OPENS_MPS    20.0
+#define OPENS_MPS    20.0 /* along the ground */
 
 /* Two bodies that part by less than this share of what they wish are locked. */
 #define HINDERED 0.25
@@ -296,7 +297,9 @@ static void make_wishes(struct parting *parting, const struct parting_input *inp
         struct parting_body *body = &parting->body[i];
         body->goes = !is_fixed(input, i) && parting_wishes_parts(parting, i);
         if (body->goes)
-            limit(&input->body[i].pushed, body->opens ? OPENS_MPS : PUSHED_MOST_MPS);
+            limit(&input->body[i].pushed,
+                  body->opens ? OPENS_MPS * deep_pair_level(input->context, input->row[i])
+                              : PUSHED_MOST_MPS);
         else
             parting_wishes_limit(input, &input->body[i].pushed);
         if (!body->goes || parting->body[i].spreads)
