@@ -61,8 +61,9 @@ void level_exit_free(struct level_exit *search)
     *search = (struct level_exit){0};
 }
 
-void level_exit_begin(struct level_exit *search)
+void level_exit_begin(struct level_exit *search, struct exit_slope slope)
 {
+    search->slope = slope;
     search->outlines = search->edges = 0;
 }
 
@@ -214,15 +215,15 @@ static void add_outline(struct level_exit *search, const struct faces *faces, do
 static void take_face(struct level_exit *search, struct faces *faces, struct vec3 normal,
                       double separation_m)
 {
-    double level = sqrt(normal.x * normal.x + normal.z * normal.z);
+    double x = normal.x + normal.y * search->slope.east;
+    double z = normal.z + normal.y * search->slope.south;
+    double level = sqrt(x * x + z * z);
     faces->overlaps &= separation_m < 0.0;
     if (level < UPRIGHT)
         faces->meet &= separation_m < 0.0;
     else
-        search->plane[faces->count++] =
-            (struct exit_edge){.x = normal.x / level,
-                               .z = normal.z / level,
-                               .far_m = faces->clear_m - separation_m / level};
+        search->plane[faces->count++] = (struct exit_edge){
+            .x = x / level, .z = z / level, .far_m = faces->clear_m - separation_m / level};
 }
 
 /* Adds the outline of two hulls, unless they pass above each other. */
@@ -233,8 +234,9 @@ static void add_hulls(struct level_exit *search, const struct relative_pose *now
 {
     const struct hull_plane *a = body->planes + hull_a->first_plane;
     const struct hull_plane *b = other->planes + hull_b->first_plane;
-    if (hull_separation_now(now, (struct vec3){0.0, 1.0, 0.0}) >= 0.0 ||
-        hull_separation_now(now, (struct vec3){0.0, -1.0, 0.0}) >= 0.0)
+    const struct vec3 up = {-search->slope.east, 1.0, -search->slope.south};
+    if (hull_separation_now(now, up) >= 0.0 ||
+        hull_separation_now(now, vec3_scale(up, -1.0)) >= 0.0)
         return;
     make_room(search, hull_a->plane_count + hull_b->plane_count);
     struct faces faces = {.clear_m = bars ? 0.0 : CLEAR_M, .meet = true, .overlaps = true};
@@ -398,11 +400,12 @@ double level_exit_find(struct level_exit *search, bool bars, struct vec3 *normal
     return best.length_m;
 }
 
-double level_exit_of(struct level_exit *search, const struct swept_body *body,
-                     const struct swept_body *other, struct vec3 *normal)
+double level_exit_of(struct level_exit *search, struct exit_slope slope,
+                     const struct swept_body *body, const struct swept_body *other,
+                     struct vec3 *normal)
 {
     double had_m = -INFINITY, reach_m = REACH_M;
-    level_exit_begin(search);
+    level_exit_begin(search, slope);
     for (;;) {
         add_body(search, body, other, false, had_m, reach_m);
         double way_m = level_exit_find(search, false, normal);

@@ -1,5 +1,6 @@
-/* The shortest level way of a body out of others: out of all hulls of all of them, so that it does
- * not lead from one hull into the next. Pure; any thread, each with a search of its own.
+/* The shortest way on the map of a body out of others: out of all hulls of all of them, so that it
+ * does not lead from one hull into the next. On the way it rises as the ground does. Pure; any
+ * thread, each with a search of its own.
  *
  * Two hulls overlap while no face of either separates them. Where a body moves along a line they do
  * so for one interval of its way. On the map, the displacements at which two hulls overlap are a
@@ -46,6 +47,11 @@ struct exit_interval {
     double from, to;
 };
 
+/* How much the ground rises for each metre to the east and to the south. */
+struct exit_slope {
+    double east, south;
+};
+
 /* A search, which keeps its memory from one to the next. */
 struct level_exit {
     struct exit_edge *plane;          /* of two hulls, and their square */
@@ -53,6 +59,7 @@ struct level_exit {
     struct exit_outline *outline;
     struct exit_interval *covered; /* by each outline, of an edge */
     struct exit_edge *edge;
+    struct exit_slope slope;
     uint64_t plane_capacity, outline_capacity, edge_capacity;
     uint32_t outlines, edges;
 };
@@ -61,8 +68,8 @@ struct level_exit {
 int level_exit_init(struct level_exit *search);
 void level_exit_free(struct level_exit *search);
 
-/* Begins a search. */
-void level_exit_begin(struct level_exit *search);
+/* Begins a search for a way along ground of this slope. */
+void level_exit_begin(struct level_exit *search, struct exit_slope slope);
 
 /* Adds another body; both stand as they do at the beginning of the frame. bars: the way must not
  * lead through it. */
@@ -76,7 +83,8 @@ double level_exit_find(struct level_exit *search, bool bars, struct vec3 *normal
 
 /* Returns how far the body has to move to be out of one other, as above; nothing bars the way. Only
  * hulls within reach of the way are looked at, which costs a fifth. Begins a search of its own. */
-double level_exit_of(struct level_exit *search, const struct swept_body *body,
-                     const struct swept_body *other, struct vec3 *normal);
+double level_exit_of(struct level_exit *search, struct exit_slope slope,
+                     const struct swept_body *body, const struct swept_body *other,
+                     struct vec3 *normal);
 
 #endif

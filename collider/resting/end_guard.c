@@ -3,6 +3,7 @@
 
 #include "collider/geometry/level_gap.h"
 #include "collider/motion/pair_filter.h"
+#include "collider/resting/deep_pair.h"
 #include "collider/resting/ground_placement.h"
 #include "collider/resting/held_rest.h"
 #include "collider/response/path_change.h"
@@ -477,14 +478,26 @@ static void mark_pair(struct end_guard *guard, const struct response_context *co
         mark(guard, context, pair->b);
 }
 
+/* Returns true if the bodies of a pair part along the ground, and not along a level way. */
+static bool parts_along_ground(const struct end_guard *guard, const struct contact_queue *contacts,
+                               uint32_t index)
+{
+    const struct resting_known *rested = contact_queue_knows_rested(contacts, index);
+    return rested && rested->gap != 0 && guard->resting->gap[rested->gap - 1].along_ground;
+}
+
 /* Returns the length of the way of the pair's first body out of the other, in a table [m]. */
 static double way_out(struct end_guard *guard, const struct response_context *context,
-                      const struct entities *e, const struct pair *pair)
+                      const struct entities *e, uint32_t index)
 {
+    const struct pair *pair = &context->contacts->pair[index];
     const struct swept_body a = body_motion_standing(context->motion, e, pair->a);
     const struct swept_body b = body_motion_standing(context->motion, e, pair->b);
+    struct exit_slope slope = {0.0, 0.0};
     struct vec3 normal;
-    double way_m = level_exit_of(&guard->exit, &a, &b, &normal);
+    if (parts_along_ground(guard, context->contacts, index))
+        slope = ground_placement_slope(context, pair->a, pair->b);
+    double way_m = level_exit_of(&guard->exit, slope, &a, &b, &normal);
     return way_m < INFINITY ? way_m : 0.0;
 }
 
@@ -494,8 +507,7 @@ static double way_before(struct end_guard *guard, const struct response_context 
 {
     struct pair_known *known = &context->contacts->known[index];
     if (known->way_m == 0.0)
-        known->way_m =
-            way_out(guard, context, &context->motion->before, &context->contacts->pair[index]);
+        known->way_m = way_out(guard, context, &context->motion->before, index);
     return known->way_m;
 }
 
@@ -506,9 +518,8 @@ static void heed_ways(struct end_guard *guard, const struct response_context *co
 {
     for (uint32_t i = 0; i < guard->pair_count; i++) {
         struct guard_pair *one = &guard->pair[i];
-        const struct pair *pair = &context->contacts->pair[one->pair];
         if (one->deeper && context->contacts->marks[one->pair] & CONTACT_PARTS)
-            one->deeper = way_out(guard, context, &context->next->entities, pair) >
+            one->deeper = way_out(guard, context, &context->next->entities, one->pair) >
                           way_before(guard, context, one->pair) + EXACT_M;
     }
 }
@@ -620,8 +631,9 @@ static void mark_holding(const struct end_guard *guard, struct response_context 
 
 /* --- rows that made way ------------------------------------------------------------------------*/
 
-/* A body that has made way keeps so much of it [m]. Without any room a crowd on uneven ground
- * locks: bodies that lean differently where they go are in each other by a millimetre, and go back.
+/* A body that has made way keeps so much of it along the ground [m]. Without any room a crowd on
+ * uneven ground locks: bodies that lean differently where they go are in each other by a
+ * millimetre, and go back.
  */
 #define ROOM_M     0.009
 #define DRAWN_MOST 4  /* passes over all that have */
@@ -688,14 +700,15 @@ static bool draw_back(struct end_guard *guard, struct response_context *context,
     const struct entities *e = &context->next->entities;
     const struct vec3 at = entities_position(e, row), way = vec3_sub(at, home);
     double far = sqrt(way.x * way.x + way.z * way.z), pitch = e->pitch[row], roll = e->roll[row];
-    if (far <= ROOM_M + ROUNDING_M)
+    double room = ROOM_M * deep_pair_level(context, row);
+    if (far <= room + ROUNDING_M)
         return false;
     list_pose(guard, row);
     if (guard->sent_back[row] == 0)
         guard->touched[guard->touched_count++] = row;
     guard->drawn[row] = (uint8_t)(times_back(guard, row) + 1);
     guard->sent_back[row] = guard->drawn[row] > 1 ? guard->drawn[row] - 1 : 1;
-    double deep = ROOM_M / far, out = 1.0;
+    double deep = room / far, out = 1.0;
     if (try_at(guard, context, row, vec3_lerp(home, at, deep)))
         return true;
     for (uint32_t i = 0; i < HALVINGS; i++) {

@@ -31,6 +31,27 @@ void ground_placement_put(struct response_context *context, uint32_t row, struct
     table_set_heading(&context->writer, row, heading_rad);
 }
 
+static struct exit_slope slope_under(const struct response_context *context, uint32_t row)
+{
+    const struct entities *w = body_motion_before(context->motion, row);
+    if (context->world->kinds[w->kind[row]].domain == DOMAIN_SEA)
+        return (struct exit_slope){0.0, 0.0};
+    struct vec3 normal = terrain_normal(&context->world->terrain, context->input.detect.craters,
+                                        w->x[row], w->z[row]);
+    return (struct exit_slope){-normal.x / normal.y, -normal.z / normal.y};
+}
+
+struct exit_slope ground_placement_slope(const struct response_context *context, uint32_t a,
+                                         uint32_t b)
+{
+    struct exit_slope first = slope_under(context, a);
+    if (b & PAIR_FIXED)
+        return first;
+    struct exit_slope second = slope_under(context, b);
+    return (struct exit_slope){0.5 * (first.east + second.east),
+                               0.5 * (first.south + second.south)};
+}
+
 /* Returns how high the lowest point of a row of a table is over the ground [m]. */
 static double clearance_of(const struct response_context *context, const struct entities *e,
                            uint32_t row)

@@ -2,6 +2,7 @@
 #ifndef JOLON_COLLIDER_RESTING_GROUND_PLACEMENT_H
 #define JOLON_COLLIDER_RESTING_GROUND_PLACEMENT_H
 
+#include "collider/geometry/level_exit.h"
 #include "collider/response/response_context.h"
 
 /* Puts a row that the ground holds to this place on the map (at.y is ignored), with this heading. A
@@ -9,6 +10,11 @@
  * vehicle on its springs, keep their pose and their height over the ground. */
 void ground_placement_put(struct response_context *context, uint32_t row, struct vec3 at,
                           double heading_rad);
+
+/* Returns the slope of the ground under a pair when the frame begins: the mean of both sides, that
+ * of the first where the second is a fixed object, none on water. */
+struct exit_slope ground_placement_slope(const struct response_context *context, uint32_t a,
+                                         uint32_t b);
 
 /* Returns true for a wreck, or a vehicle on its springs, that ends the frame deeper in the ground
  * than it began it: other bodies have driven it there. Less than what solvers leave does not

@@ -2,12 +2,18 @@
 #include "collider/resting/parting_ways.h"
 
 #include "collider/geometry/level_exit.h"
+#include "collider/resting/ground_placement.h"
 #include "collider/resting/resting.h"
 #include "world/params.h"
 #include "world/world.h"
 
 /* Hulls that overlap less do not part by a way: contacts that bear loads may do so [m]. */
 #define SHALLOW_M 1e-3
+
+/* Bodies that are kept where they are try a way along the ground in one of so many frames: the
+ * guard keeps many bodies of a crowd from moving in a frame, of whom most can go a level way in
+ * another. */
+#define ALONG_GROUND_FRAMES 8u
 
 /* Walls are looked for as far as the way leads, so often at most. */
 #define LOOKS_MOST 4
@@ -30,7 +36,7 @@ static void add_walls(struct resting *resting, struct response_context *context,
     const struct contact_queue *contacts = context->contacts;
     struct free_turn turn_a, turn_b;
     const struct swept_body body = body_motion_body(context->motion, row, &turn_a);
-    level_exit_begin(&resting->exit);
+    level_exit_begin(&resting->exit, (struct exit_slope){0.0, 0.0});
     for (uint32_t link = contacts->head[row]; link != 0; link = contacts->link[link - 1].next) {
         const struct pair *pair = &contacts->pair[contacts->link[link - 1].pair];
         if (!(pair->b & PAIR_FIXED) || !contact_groups_is_wall(context, pair->b & ~PAIR_FIXED))
@@ -56,12 +62,16 @@ static double way_from_walls(struct resting *resting, struct response_context *c
 }
 
 static double way_from_body(struct resting *resting, const struct response_context *context,
-                            const struct pair *pair, struct vec3 *normal)
+                            const struct pair *pair, const struct resting_gap *gap,
+                            struct vec3 *normal)
 {
     struct free_turn turn_a, turn_b;
     const struct swept_body a = body_motion_body(context->motion, pair->a, &turn_a);
     const struct swept_body b = body_motion_side(context->motion, pair->b, &turn_b);
-    return level_exit_of(&resting->exit, &a, &b, normal);
+    struct exit_slope slope = {0.0, 0.0};
+    if (gap->along_ground)
+        slope = ground_placement_slope(context, pair->a, pair->b);
+    return level_exit_of(&resting->exit, slope, &a, &b, normal);
 }
 
 /* Counts for each row the pairs that need a way. */
@@ -89,8 +99,10 @@ static bool go(struct resting_gap *gap, double way, struct vec3 normal)
     return true;
 }
 
-/* Sets the way of a pair of bodies. Others may push those that overlap more than each other along
- * the way: their hulls that are near bound them too. Bodies of a crowd have no ways while it
+/* Sets the way of a pair of bodies: a level one, or now and then along the ground if the guard kept
+ * them where they were a frame ago. On a slope bodies rise and sink as they go, so that a level way
+ * may lead them deeper into each other. Others may push those that overlap more than each other
+ * along the way: their hulls that are near bound them too. Bodies of a crowd have no ways while it
  * spreads, nor as long as they part as capsules. */
 static void leave_body(struct resting *resting, const struct response_context *context,
                        uint32_t index)
@@ -101,7 +113,9 @@ static void leave_body(struct resting *resting, const struct response_context *c
     bool alone = resting->leaving[pair->a] == 1 && resting->leaving[pair->b] == 1;
     if (!alone && (!is_deep(gap) || gap->capsules || gap->spreads))
         return;
-    double way = way_from_body(resting, context, pair, &normal);
+    gap->along_ground = gap->known && gap->known->flags & PERSISTENT_CONTACT_HOLDS &&
+                        context->next->head->tick % ALONG_GROUND_FRAMES == 0;
+    double way = way_from_body(resting, context, pair, gap, &normal);
     if (!go(gap, way, normal))
         return;
     gap->count = alone ? 1 : gap->count;
@@ -131,7 +145,7 @@ void parting_ways_find(struct resting *resting, struct response_context *context
     bool any = false;
     for (uint32_t i = 0; i < resting->groups.count; i++) {
         resting->gap[i].leaves = needs_way(&resting->gap[i]);
-        resting->gap[i].went = false;
+        resting->gap[i].went = resting->gap[i].along_ground = false;
         any |= resting->gap[i].leaves;
     }
     if (!any)

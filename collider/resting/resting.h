@@ -54,6 +54,8 @@ struct resting_gap {
     double pieces_m; /* of a pair that parts by its pieces: their gap, else PAIR_NOT_MEASURED */
     bool leaves;     /* it needs a way out (collider/resting/parting_ways.h) */
     bool went;       /* and has been given it */
+    bool along_ground; /* the way rises with the ground, because bodies that tried a level one
+                          stayed */
     struct level_gap_memory memory;
     const struct persistent_contact *known; /* the pair's row in the committed table, or NULL */
     /* Of what it was measured: the pair's key in the table, the versions of its bodies

@@ -271,10 +271,12 @@ static void test_hulls_out_of_reach_change_no_way(void **state)
     for (uint32_t i = 0; i < PAIRS / 4; i++) {
         struct swept_body a = random_body(&random), b = random_body(&random);
         struct vec3 normal, same;
-        level_exit_begin(&search);
+        struct exit_slope slope = {fixture_uniform(&random, -0.5, 0.5),
+                                   fixture_uniform(&random, -0.5, 0.5)};
+        level_exit_begin(&search, slope);
         level_exit_add(&search, &a, &b, false);
         double way_m = level_exit_find(&search, false, &normal);
-        double same_m = level_exit_of(&search, &a, &b, &same);
+        double same_m = level_exit_of(&search, slope, &a, &b, &same);
         assert_true(same_m >= way_m - 1e-9 && (same_m < INFINITY || way_m == INFINITY));
         longer += same_m > way_m + 1e-9;
         ways += way_m < INFINITY && way_m > 0.5;

@@ -54,7 +54,7 @@ static double way_of(const struct entities *e, uint32_t i, uint32_t j)
     const struct swept_body a = body_motion_standing(motion, e, i);
     const struct swept_body b = body_motion_standing(motion, e, j);
     struct vec3 normal;
-    double way_m = level_exit_of(&way_out, &a, &b, &normal);
+    double way_m = level_exit_of(&way_out, (struct exit_slope){0.0, 0.0}, &a, &b, &normal);
     return way_m < INFINITY ? way_m : 0.0;
 }
 

@@ -33,6 +33,8 @@ static const struct hull box = {.vertex_count = 8,
                                 .half = {LENGTH_M, 1, WIDTH_M},
                                 .radius_m = 2.4494897427831781};
 
+static const struct exit_slope level = {0.0, 0.0};
+
 static struct level_exit search;
 
 static int open_search(void **state)
@@ -115,7 +117,7 @@ static double separation_after(const struct boxes *boxes, struct vec3 normal, do
 
 static double way_out(const struct boxes *boxes, struct vec3 *normal)
 {
-    level_exit_begin(&search);
+    level_exit_begin(&search, level);
     for (uint32_t i = 0; i < boxes->count; i++)
         level_exit_add(&search, &boxes->body, &boxes->other[i], false);
     return level_exit_find(&search, false, normal);
@@ -201,13 +203,42 @@ static void test_a_gap_that_is_too_narrow_is_no_way_out(void **state)
     assert_true(fabs(way_out(&boxes, &normal) - 0.11) < 1e-9);
 }
 
+/* Returns a box on ground that rises to the north by an angle, so far up it. */
+static struct swept_body put_on_slope(double up_m, double angle_rad)
+{
+    struct swept_body body = put(0.0, 0.0, 0.0);
+    double sine, cosine;
+    maths_sincos(angle_rad, &sine, &cosine);
+    body.from = body.to = rotation_of(0.0, angle_rad, 0.0);
+    body.path.at = (struct vec3){0.0, up_m * sine, -up_m * cosine};
+    return body;
+}
+
+/* Two boxes that lean with the ground are 1.5 m in each other along it. Level ways are longer, and
+ * who tried to go them on the ground came deeper into the other body. */
+static void test_a_way_along_a_slope_rises_with_it(void **state)
+{
+    const double angle = 0.4;
+    const struct swept_body body = put_on_slope(0.0, angle), other = put_on_slope(2.5, angle);
+    double sine, cosine;
+    struct vec3 normal = {0.0, 0.0, 0.0};
+    (void)state;
+    maths_sincos(angle, &sine, &cosine);
+    double way =
+        level_exit_of(&search, (struct exit_slope){0.0, -sine / cosine}, &body, &other, &normal);
+    assert_true(fabs(way - 1.5 * cosine - CLEAR_M) < 1e-9);
+    assert_true(fabs(normal.z + 1.0) < 1e-9);
+    assert_true(fabs(level_exit_of(&search, level, &body, &other, &normal) - 1.5 / cosine -
+                     CLEAR_M) < 1e-9);
+}
+
 static void test_no_way_leads_through_what_bars_it(void **state)
 {
     const struct swept_body body = put(0.0, 0.0, 0.0);
     const struct swept_body left = put(1.5, 0.0, 0.0), bar = put(-2.2, 0.0, 0.0);
     struct vec3 normal = {0.0, 0.0, 0.0};
     (void)state;
-    level_exit_begin(&search);
+    level_exit_begin(&search, level);
     level_exit_add(&search, &body, &left, false);
     level_exit_add(&search, &body, &bar, true);
     assert_true(fabs(level_exit_find(&search, true, &normal) - 3.51) < 1e-9);
@@ -251,7 +282,7 @@ static void test_ways_around_what_bars_them_are_the_shortest(void **state)
             boxes.other[i].path.at = vec3_scale(boxes.other[i].path.at, FARTHER);
         if (bars == 0 || separation_from(&boxes, bars, boxes.count, normal, 0.0) < 0.0)
             continue;
-        level_exit_begin(&search);
+        level_exit_begin(&search, level);
         for (uint32_t i = 0; i < boxes.count; i++)
             level_exit_add(&search, &boxes.body, &boxes.other[i], i >= bars);
         double way = level_exit_find(&search, true, &normal);
@@ -279,6 +310,7 @@ int main(void)
         cmocka_unit_test(test_the_rest_of_the_way_is_the_way_from_there),
         cmocka_unit_test(test_a_body_leaves_two_boxes_where_they_meet),
         cmocka_unit_test(test_a_gap_that_is_too_narrow_is_no_way_out),
+        cmocka_unit_test(test_a_way_along_a_slope_rises_with_it),
         cmocka_unit_test(test_no_way_leads_through_what_bars_it),
         cmocka_unit_test(test_ways_around_what_bars_them_are_the_shortest),
     };
