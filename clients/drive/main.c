@@ -10,9 +10,11 @@
 #include "ipc/process/log.h"
 #include "ipc/process/process.h"
 #include "ipc/segment/segment_attach.h"
+#include "ipc/segment/world_partition.h"
 #include "ipc/topics/command_route.h"
 
 #include <stdio.h>
+#include <string.h>
 #include <unistd.h>
 
 #define LEAVE_NS (1 * (uint64_t)NS_PER_S)
@@ -76,12 +78,22 @@ static void run(struct drive *drive)
     }
 }
 
-/* Refuses a world that is not on this machine. A remote world is waited for. */
+/* Refuses a world that is not in this user's runtime folder, where its commands would go. A remote
+ * world is waited for. */
 static int check_world(const struct options *options, struct error_text *error)
 {
+    const char *partition = options->link.partition;
+    char own[WORLD_PARTITION_MAX];
     struct view view;
     if (options->remote)
         return 0;
+    if (partition && world_partition_own(own, options->world, error) != 0)
+        return -1;
+    if (partition && strcmp(partition, own) != 0)
+        return error_text_set(error,
+                              "--partition %.64s: is a world of another runtime folder, which "
+                              "takes commands over DDS alone; right would be: --remote as well",
+                              partition);
     if (segment_attach(&view, options->world, ROLE_NONE, error) != 0)
         return -1;
     segment_detach(&view);

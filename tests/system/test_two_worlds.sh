@@ -70,6 +70,8 @@ check "a command to the one reaches that alone" at "$elsewhere" "$bin/jolon-ctl"
 check "the other still runs, too" equal "$(paused "$here") $(paused "$there")" "False False"
 check "a partition of another name is refused" eval \
     'refused "$bin/jolon-monitor" -w "$name" --once --interface lo --partition "x@0123456789abcdef" && grep -q "is none of world" told'
+check "a driver of another folder's world is told to command it over DDS" eval \
+    'refused "$bin/jolon-drive" -w "$name" --plain --interface lo --partition "$(partition "$there")" </dev/null >/dev/null && grep -q -- "--remote as well" told'
 check "the first world stops" at "$here" "$jolon" stop -w "$name"
 check "a monitor with an interface sees the other user's world by its name" is_training "$elsewhere" --interface lo
 JOLON_RUNTIME_DIR=$elsewhere "$bin/jolon-monitor" -w "$name" --json --interface lo >seen-one 2>told-one &
