@@ -169,7 +169,7 @@ static void take(const struct step_context *context, uint32_t i,
         m->target_slot[i] = m->target_id[i] = 0;
         goal_base(context, i);
         break;
-    case BEHAVIOUR_IDLE: /* without fuel it can neither fight nor flee */
+    case BEHAVIOUR_IDLE: /* without fuel, or stuck fast, it cannot carry out its order */
         m->order[i] = BEHAVIOUR_IDLE;
         m->target_slot[i] = m->target_id[i] = 0;
         break;

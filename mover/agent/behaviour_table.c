@@ -52,9 +52,11 @@
         ROW(B(ATTACK), P(NO_ROUNDS), 0, ORDER, AS(OUT_OF_ROUNDS), 0),                              \
         ROW(CALM | B(ATTACK), P(LOW_FUEL), P(STAND), TO(WITHDRAW), AS(LOW_FUEL), 0)
 
-/* It backs off from an obstacle that it ran into, or from where it is stuck, and then goes on. */
+/* It backs off from an obstacle that it ran into, or from where it is stuck, and then goes on. One
+ * that is stuck fast, as a jeep in a crater, gives up its order. */
 #define BUMPS                                                                                      \
     ROW(MOVING, P(BUMP), 0, TO(BACK_OFF), AS(COLLISION), BACK_OFF_S),                              \
+        ROW(MOVING, P(STUCK_FAST), 0, TO(IDLE), AS(STUCK), 0),                                     \
         ROW(MOVING, P(STALLED), 0, TO(BACK_OFF), AS(STUCK), WAY_OUT_S),                            \
         ROW(B(BACK_OFF), P(TIME_OVER) | P(TARGET) | P(ARMED) | P(BRAVE), 0, TO(ATTACK),            \
             AS(TIME_OVER), BEHAVIOUR_TABLE_FIGHT_S),                                               \

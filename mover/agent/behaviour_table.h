@@ -33,6 +33,7 @@ enum perceived {
     PERCEPT_STAND,        /* its orders are never to flee or withdraw, or it cannot drive */
     PERCEPT_SUPPRESSED,   /* event: a charge has burst near it, or air defence fires at it */
     PERCEPT_STALLED,      /* event: it has driven for some time and not got on */
+    PERCEPT_STUCK_FAST,   /* event: and has tried for minutes */
     PERCEPT_ROUNDS_FIRED, /* its salvo or its pass is over */
     PERCEPT_LOSSES,       /* it is fired upon, and half of its group, or its gun, is lost */
     PERCEPT_OUTGUNNED,    /* *its rounds cannot harm the enemy that fires at it or that it sees */

@@ -190,8 +190,11 @@ static uint32_t notice_state(const struct step_context *context, uint32_t i)
         percepts |= PERCEPTION_BIT(ARRIVED);
     if (m->behaviour[i] == BEHAVIOUR_ATTACK && fire_control_salvo_over(context, i))
         percepts |= PERCEPTION_BIT(ROUNDS_FIRED);
-    if (perception_decides(context, i) && progress_stalled(context, i))
+    if (perception_decides(context, i) && progress_stalled(context, i)) {
         percepts |= PERCEPTION_BIT(STALLED);
+        if (progress_gives_up(context, i))
+            percepts |= PERCEPTION_BIT(STUCK_FAST);
+    }
     return percepts;
 }
 

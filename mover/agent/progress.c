@@ -1,4 +1,4 @@
-/* Compares the speed of a vehicle with its throttle. */
+/* Compares the speed of a vehicle with its throttle, and finds those that wait for ever. */
 #include "mover/agent/progress.h"
 
 #include "world/maths/random.h"
@@ -10,9 +10,14 @@
 #define DRIVES_MPS 1.0  /* it wants at least this speed */
 #define SLOW_MPS   0.3  /* and reaches less than this, */
 #define SLOW_SHARE 0.06 /* or than this share of it */
+#define WAITS_S    20.0 /* a land vehicle waits so long where no way is free */
+#define WAITS_EASE 0.5f /* share of its speed that it gives up there */
+#define WAITS_TURN 8u   /* one of so many decisions counts */
+#define GIVES_UP   0.1  /* share of its tries after which one gives up: after two minutes */
 #define WAY_SHARE  5.0  /* a ship needs the time of so much of that speed to reverse its way */
 #define SIDE_RAD   1.05 /* most off the way back */
 #define TRIES_S    3.0  /* who is stuck again tries so long */
+#define TRIED_S    2.0  /* and such a try is in vain after this time */
 #define PERIOD_S   12.0 /* in each of these */
 
 /* The column stalled: a count of decisions, and how often the vehicle has been stuck since it last
@@ -20,37 +25,74 @@
 #define STALLED_COUNT 0x3fu
 #define STALLED_ONCE  0x40u /* it backs off */
 #define STALLED_AGAIN 0x80u /* it rests most of the time */
+#define STALLED_FAST  0xc0u /* it has given up */
+
+/* Returns how a vehicle is stuck after it has not got on once more. */
+static uint8_t stuck_again(const struct step_context *context, uint32_t i, uint8_t before)
+{
+    if (before == 0)
+        return STALLED_ONCE;
+    double draw = random_unit(context->world->params->seed, context->tick, context->m->id[i],
+                              RANDOM_GIVES_UP);
+    return before == STALLED_AGAIN && draw < GIVES_UP ? STALLED_FAST : STALLED_AGAIN;
+}
+
+/* Counts a decision. Returns true when they have taken every_s seconds each for patience_s. */
+static bool count_on(const struct step_context *context, uint32_t i, double every_s,
+                     double patience_s)
+{
+    struct entities *m = context->m;
+    uint8_t before = m->stalled[i] & (uint8_t)~STALLED_COUNT;
+    uint32_t count = (m->stalled[i] & STALLED_COUNT) + 1u;
+    if (count * every_s < patience_s && count < STALLED_COUNT) {
+        m->stalled[i] = (uint8_t)(before | count);
+        return false;
+    }
+    m->stalled[i] = stuck_again(context, i, before);
+    return true;
+}
+
+/* Returns true if a land vehicle would drive, and stands because no way before it is free. */
+static bool waits(const struct entities *m, uint32_t i, const struct kind *kind)
+{
+    return kind->domain == DOMAIN_LAND && m->behaviour[i] != BEHAVIOUR_DRIVEN &&
+           m->ease[i] > WAITS_EASE;
+}
 
 bool progress_stalled(const struct step_context *context, uint32_t i)
 {
     struct entities *m = context->m;
+    const double think_s = context->think_frames * context->dt_s;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
     double wanted = fabs((double)m->throttle[i]) * kind->max_speed_mps;
     double least = maths_max(SLOW_MPS, SLOW_SHARE * wanted);
-    uint8_t before = m->stalled[i] & (uint8_t)~STALLED_COUNT;
-    if (kind->domain == DOMAIN_AIR || wanted < DRIVES_MPS) {
-        m->stalled[i] = before;
+    bool drives = kind->domain != DOMAIN_AIR && wanted >= DRIVES_MPS;
+    if (!drives && !waits(m, i, kind)) {
+        m->stalled[i] &= (uint8_t)~STALLED_COUNT;
         return false;
     }
     if (m->vx[i] * m->vx[i] + m->vz[i] * m->vz[i] >= least * least) {
         m->stalled[i] = 0;
         return false;
     }
-    uint32_t count = (m->stalled[i] & STALLED_COUNT) + 1u;
-    double patience = STALLED_S;
+    if (!drives)
+        return (context->tick / context->think_frames + m->id[i]) % WAITS_TURN == 0 &&
+               count_on(context, i, WAITS_TURN * think_s,
+                        progress_stuck(context, i) ? TRIED_S : WAITS_S);
+    double patience = progress_stuck(context, i) ? TRIED_S : STALLED_S;
     if (kind->domain == DOMAIN_SEA)
         patience += WAY_SHARE * least / maths_max(kind->acceleration_mps2, 0.01);
-    if (count * context->think_frames * context->dt_s < patience && count < STALLED_COUNT) {
-        m->stalled[i] = (uint8_t)(before | count);
-        return false;
-    }
-    m->stalled[i] = before ? STALLED_AGAIN : STALLED_ONCE;
-    return true;
+    return count_on(context, i, think_s, patience);
 }
 
 bool progress_stuck(const struct step_context *context, uint32_t i)
 {
     return (context->m->stalled[i] & STALLED_AGAIN) != 0;
+}
+
+bool progress_gives_up(const struct step_context *context, uint32_t i)
+{
+    return (context->m->stalled[i] & STALLED_FAST) == STALLED_FAST;
 }
 
 bool progress_rests(const struct step_context *context, uint32_t i)

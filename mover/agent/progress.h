@@ -5,11 +5,16 @@
 #include "mover/context/step_context.h"
 
 /* Counts the decisions of row i's agent in which the vehicle drives and does not get on. Returns
- * true when that has lasted for 3 s, and counts from 0 again. For each decision once. */
+ * true when that has lasted for 3 s, or for 20 s where a land vehicle stands since no way before it
+ * is free, and counts from 0 again. For each decision once. */
 bool progress_stalled(const struct step_context *context, uint32_t i);
 
 /* Returns true if it was stuck twice or more without getting on in between. */
 bool progress_stuck(const struct step_context *context, uint32_t i);
+
+/* Returns true if it has tried to get on for about two minutes in vain: after each try of one that
+ * is stuck a random draw decides, so that those of a crowd do not give up together. */
+bool progress_gives_up(const struct step_context *context, uint32_t i);
 
 /* Returns true if it is stuck so, and stands: it tries to get on for 3 s in every 12 s, whatever it
  * wants. */

@@ -38,6 +38,7 @@ enum random_purpose {
     RANDOM_SEARCH,     /* mover: whether a crew finds an enemy in its view */
     RANDOM_SUPPRESSED, /* mover: for how long a burst keeps a crew from firing */
     RANDOM_STUCK,      /* mover: where a vehicle turns that does not get on */
+    RANDOM_GIVES_UP,   /* mover: whether such a vehicle gives up */
 };
 
 /* splitmix64's finaliser (Steele, Lea & Flood 2014). */

@@ -17,10 +17,10 @@
 #define P(name)  (1u << PERCEPT_##name)
 
 static const char *const names[PERCEPT_COUNT] = {
-    "no fuel",  "shot",    "bump",       "hurt",  "time over",   "target",
-    "gone",     "arrived", "lease over", "enemy", "outnumbered", "no rounds",
-    "low fuel", "armed",   "at will",    "stand", "suppressed",  "stalled",
-    "salvo",    "losses",  "outgunned",  "cover", "brave"};
+    "no fuel",  "shot",    "bump",       "hurt",      "time over",   "target",
+    "gone",     "arrived", "lease over", "enemy",     "outnumbered", "no rounds",
+    "low fuel", "armed",   "at will",    "stand",     "suppressed",  "stalled",
+    "stuck",    "salvo",   "losses",     "outgunned", "cover",       "brave"};
 
 static const char *said(uint32_t percepts)
 {
@@ -182,6 +182,7 @@ static const struct {
      0},
     {DOCTRINE_SOFT, BEHAVIOUR_ROUTE, P(STALLED), BEHAVIOUR_BACK_OFF, REASON_STUCK},
     {DOCTRINE_SOFT, BEHAVIOUR_BACK_OFF, P(STALLED), BEHAVIOUR_BACK_OFF, REASON_STUCK},
+    {DOCTRINE_SOFT, BEHAVIOUR_BACK_OFF, P(STALLED) | P(STUCK_FAST), BEHAVIOUR_IDLE, REASON_STUCK},
     {DOCTRINE_JET, BEHAVIOUR_ATTACK, P(ROUNDS_FIRED) | P(ARMED) | P(TARGET), BEHAVIOUR_WITHDRAW,
      REASON_ROUNDS_FIRED},
     {DOCTRINE_JET, BEHAVIOUR_ATTACK, P(SUPPRESSED) | P(SHOT) | P(ARMED) | P(BRAVE), BEHAVIOUR_FLEE,

@@ -173,24 +173,53 @@ static void test_it_is_stuck_when_it_drives_for_three_seconds_in_vain(void **sta
     assert_int_equal(decisions_until_stalled(0.0f, 0.0), 0); /* it stands */
 }
 
-/* A tank that nothing frees, such as one that hangs on a wreck, stands for more than half of the
- * time.
- */
-static void test_who_is_stuck_again_rests(void **state)
+/* No way before it is free, so that its agent does not even open the throttle. */
+static void test_it_is_stuck_when_it_waits_for_twenty_seconds(void **state)
 {
-    int drives = 0, rests = 0;
+    struct step_context step;
+    struct serial_context context;
+    uint32_t decisions = 1;
+    (void)state;
+    fixture_open(&f, WORLD);
+    uint32_t row =
+        fixture_put(&f, (struct fixture_entity){.kind = "truck", .at = {25000.0, 100.0, 25000.0}});
+    steps_serial_context(&f, &step, &context);
+    step.m->ease[row] = 1.0f;
+    while (decisions < 1000 && !progress_stalled(&step, row)) {
+        step.tick += step.think_frames;
+        decisions++;
+    }
+    double seconds = decisions * step.think_frames * step.dt_s;
+    assert_true(seconds > 19.0 && seconds < 21.0);
+    step.m->ease[row] = 0.4f; /* it only slows down */
+    for (decisions = 0; decisions < 1000; decisions++, step.tick += step.think_frames)
+        assert_false(progress_stalled(&step, row));
+}
+
+/* A truck that nothing frees, such as one that hangs on a wreck, stands for more than half of the
+ * time. In the end it gives up its order. */
+static void test_who_is_stuck_again_rests_and_gives_up(void **state)
+{
+    int drives = 0, rests = 0, seconds = 0;
     (void)state;
     fixture_open(&f, WORLD "vehicles = (" TRUCK("25000.0") ");");
-    for (int frame = 0; frame < 300 * HZ; frame++) {
-        fixture_run(&f, 1);
-        struct entities e = steps_rows(&f);
-        e.x[0] = e.z[0] = 25000.0;
-        e.vx[0] = e.vz[0] = 0.0;
-        drives += fabs((double)e.throttle[0]) > 0.15;
-        rests += fabs((double)e.throttle[0]) < 0.01;
+    for (; seconds < 600 && steps_rows(&f).behaviour[0] != BEHAVIOUR_IDLE; seconds++) {
+        for (int frame = 0; frame < HZ; frame++) {
+            fixture_run(&f, 1);
+            struct entities e = steps_rows(&f);
+            e.x[0] = e.z[0] = 25000.0;
+            e.vx[0] = e.vz[0] = 0.0;
+            drives += fabs((double)e.throttle[0]) > 0.15;
+            rests += fabs((double)e.throttle[0]) < 0.01;
+        }
     }
-    assert_true(rests > drives);
-    assert_true(drives > 30 * HZ); /* it tries again and again */
+    const struct event *last =
+        fixture_event(&f, EVENT_AGENT, fixture_event_count(&f, EVENT_AGENT) - 1);
+    print_message("gives up after %d s\n", seconds);
+    assert_int_equal(last->agent.to, BEHAVIOUR_IDLE);
+    assert_int_equal(last->agent.because, REASON_STUCK);
+    assert_true(seconds > 30 && seconds < 600);
+    assert_true(rests > drives && drives > 10 * HZ);
 }
 
 static void test_the_way_out_is_to_the_back(void **state)
@@ -253,7 +282,8 @@ int main(void)
         TEST(test_a_truck_gives_up_against_what_it_does_not_see),
         TEST(test_a_vehicle_drives_out_of_a_trench_or_gives_up),
         TEST(test_it_is_stuck_when_it_drives_for_three_seconds_in_vain),
-        TEST(test_who_is_stuck_again_rests),
+        TEST(test_it_is_stuck_when_it_waits_for_twenty_seconds),
+        TEST(test_who_is_stuck_again_rests_and_gives_up),
         TEST(test_the_way_out_is_to_the_back),
         TEST(test_nobody_pushes_for_long_under_fire),
     };
