@@ -376,6 +376,37 @@ static void test_aircraft_slow_down_for_ridges_that_they_have_to_climb(void **st
     assert_true(over[0] && over[1] && over[2] && over[3]);
 }
 
+/* It rises to the west as steeply as a helicopter climbs, and to the north more so. */
+static double corner(double x, double z, const void *context)
+{
+    (void)context;
+    return 100.0 + maths_clamp(0.2 * (25300.0 - x), 0.0, 300.0) +
+           maths_clamp(0.7 * (25000.0 - z), 0.0, 400.0);
+}
+
+/* Its goal is behind it, and the shorter turn leads over the steep side. */
+static void test_a_helicopter_slows_down_before_it_turns_over_a_slope(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    fixture_open(&f, "world = { seed = 1; capacity = 64; hz = 20.0; };"
+                     "collision = { shape = \"model\"; };");
+    steps_ground(&f, corner, NULL);
+    fixture_threads(&f, 1);
+    uint32_t row = send("helicopter", 25000.0, 25000.0, 28000.0, 24950.0);
+    struct entities e = steps_rows(&f);
+    e.y[row] = 160.0 + 45.0;
+    e.vx[row] = -56.0;
+    e.vy[row] = 11.0;
+    e.heading[row] = 1.5 * PI;
+    for (int frame = 0; frame < 60 * HZ; frame++) {
+        fixture_run(&f, 1);
+        if (steps_rows(&f).damage[row] != DAMAGE_NONE)
+            fail_msg("it strikes the ground after %.1f s", frame / (double)HZ);
+    }
+    assert_true(steps_rows(&f).x[row] > 26000.0); /* on its way */
+}
+
 static void test_a_driver_is_left_alone(void **state)
 {
     uint32_t row = send("tank", 25000.0, 25000.0, 25500.0, 25000.0);
@@ -425,6 +456,7 @@ int main(void)
         TEST(test_who_must_give_way_does_not_turn_into_a_parked_friend),
         TEST(test_nobody_drives_down_a_mountain_side),
         TEST(test_aircraft_slow_down_for_ridges_that_they_have_to_climb),
+        TEST(test_a_helicopter_slows_down_before_it_turns_over_a_slope),
         TEST(test_a_driver_is_left_alone),
         TEST(test_the_same_on_any_number_of_threads),
     };
