@@ -25,7 +25,7 @@
 #define EDGE_M      50.0 /* and so far from it */
 
 /* An aeroplane before a decision. */
-struct flight {
+struct climb_look {
     const struct square_bounds *tops; /* of all that stands on the ground */
     double x, y, z, up_mps, speed_mps;
     double heading_rad; /* of its motion */
@@ -35,8 +35,8 @@ struct flight {
     double late_s;      /* until a decision turns it */
 };
 
-static struct flight begin(const struct step_context *context, uint32_t i,
-                           const struct desired_motion *desired)
+static struct climb_look begin(const struct step_context *context, uint32_t i,
+                               const struct desired_motion *desired)
 {
     const struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
@@ -47,7 +47,7 @@ static struct flight begin(const struct step_context *context, uint32_t i,
     double pull = PULL_SHARE * maths_clamp(lift - 1.0, LEAST_PULL, AIRFRAME_PULL);
     double load = maths_max(lift / LEVEL_LOAD, 1.0);
     double turn = GRAVITY_MPS2 * sqrt(load * load - 1.0) / maths_max(speed, 1.0);
-    return (struct flight){
+    return (struct climb_look){
         .tops = &context->line_of_sight->skyline,
         .x = m->x[i],
         .y = m->y[i] + think_s * maths_min(m->vy[i], 0.0),
@@ -63,9 +63,9 @@ static struct flight begin(const struct step_context *context, uint32_t i,
 }
 
 /* Returns the height [m] of all that stands in the gridsquare of a point. */
-static double top_at(const struct flight *flight, double x, double z)
+static double top_at(const struct climb_look *look, double x, double z)
 {
-    uint16_t bound = square_bounds_of(flight->tops, gridsquare_of(&flight->tops->squares, x, z));
+    uint16_t bound = square_bounds_of(look->tops, gridsquare_of(&look->tops->squares, x, z));
     return SQUARE_BOUNDS_LOWEST_M + SQUARE_BOUNDS_HEIGHT_M * bound;
 }
 
@@ -73,9 +73,9 @@ static double top_at(const struct flight *flight, double x, double z)
  * rate. It changes its climb at pull_mps2, and is lower until it has: with a change c and t seconds
  * of pull p, c - c^2 / 2p = even - up_mps. Where that has no solution the pull is too weak, and the
  * result is a change for which there is no time. */
-static double change_of_climb(const struct flight *flight, double even_mps, double t)
+static double change_of_climb(const struct climb_look *look, double even_mps, double t)
 {
-    double pulled = flight->pull_mps2 * t, change = even_mps - flight->up_mps;
+    double pulled = look->pull_mps2 * t, change = even_mps - look->up_mps;
     if (change <= 0.0)
         return change;
     if (change >= 0.5 * pulled)
@@ -85,19 +85,19 @@ static double change_of_climb(const struct flight *flight, double even_mps, doub
 
 /* Returns the rate of climb [m/s] that is needed on the way that turns by off_rad, at a rate of
  * turn_rps at most. */
-static double needed_climb(const struct flight *flight, double off_rad, double turn_rps)
+static double needed_climb(const struct climb_look *look, double off_rad, double turn_rps)
 {
-    double rate = -INFINITY, x = flight->x, z = flight->z, t = 0.0, sine, cosine;
+    double rate = -INFINITY, x = look->x, z = look->z, t = 0.0, sine, cosine;
     for (int n = 0; n < LOOKS; n++) {
         double step = maths_max(NEAR_S, FAR_SHARE * t);
-        double turn = turn_rps * maths_max(t + 0.5 * step - flight->late_s, 0.0);
+        double turn = turn_rps * maths_max(t + 0.5 * step - look->late_s, 0.0);
         turn = maths_min(turn, fabs(off_rad));
-        maths_sincos(flight->heading_rad + (off_rad < 0.0 ? -turn : turn), &sine, &cosine);
-        x += sine * flight->speed_mps * step;
-        z -= cosine * flight->speed_mps * step;
+        maths_sincos(look->heading_rad + (off_rad < 0.0 ? -turn : turn), &sine, &cosine);
+        x += sine * look->speed_mps * step;
+        z -= cosine * look->speed_mps * step;
         t += step;
-        double even = (top_at(flight, x, z) + flight->clear_m - flight->y) / t;
-        rate = maths_max(rate, flight->up_mps + change_of_climb(flight, even, t));
+        double even = (top_at(look, x, z) + look->clear_m - look->y) / t;
+        rate = maths_max(rate, look->up_mps + change_of_climb(look, even, t));
     }
     return rate;
 }
@@ -113,13 +113,14 @@ static bool is_turned_back(const struct step_context *context, uint32_t i)
 
 /* Returns how far it turns [rad] to the first heading that needs no more than most_mps, or to the
  * one that needs least. *needed: of the desired one, off_rad; then of that. */
-static double find_way(const struct flight *flight, double off_rad, double most_mps, double *needed)
+static double find_way(const struct climb_look *look, double off_rad, double most_mps,
+                       double *needed)
 {
     static const double turns[] = {0.0, 0.5, -0.5, 1.0, -1.0, 1.6, -1.6, 2.4, -2.4, PI};
     double best = off_rad;
     for (int n = 0; n < 10 && *needed > most_mps; n++) {
         double off = maths_wrap_half(off_rad + turns[n]);
-        double rate = needed_climb(flight, off, flight->turn_rps);
+        double rate = needed_climb(look, off, look->turn_rps);
         if (rate < *needed) {
             *needed = rate;
             best = off;
@@ -145,12 +146,12 @@ void terrain_following_steer(const struct step_context *context, uint32_t i,
 {
     const struct entities *m = context->m;
     const struct kind *kind = &context->world->kinds[m->kind[i]];
-    const struct flight flight = begin(context, i, desired);
-    double most = maths_min(STEEP_SHARE * flight.speed_mps, CLIMB_SHARE * kind->climb_rate_mps);
+    const struct climb_look look = begin(context, i, desired);
+    double most = maths_min(STEEP_SHARE * look.speed_mps, CLIMB_SHARE * kind->climb_rate_mps);
     double off = maths_wrap_half(desired->heading_rad - m->heading[i]);
-    double needed = needed_climb(&flight, off, flight.turn_rps), climb = needed;
+    double needed = needed_climb(&look, off, look.turn_rps), climb = needed;
     if (needed > most && !is_turned_back(context, i)) {
-        desired->heading_rad = m->heading[i] + find_way(&flight, off, most, &needed);
+        desired->heading_rad = m->heading[i] + find_way(&look, off, most, &needed);
         climb = kind->climb_rate_mps;
     }
     if (m->behaviour[i] == BEHAVIOUR_SCRIPT && climb <= 0.0)
