@@ -11,6 +11,7 @@
 #define HELD_M         1e-3 /* a body that is no farther off the ground is on it */
 #define LEAST_DEPTH_M  0.05 /* a corner that is no higher over the ground touches it */
 #define SINKS_M        1e-4 /* a wreck that comes out slowly may turn a corner so much deeper */
+#define SLANTS         0.2  /* of the way by which it is pushed out */
 #define CLEARS         0.75 /* of the step that a vehicle climbs: its underside is so high */
 #define EDGE_M         1.0  /* a vehicle whose end is no farther from the edge of the world */
 #define LEANING_RPS    3.0  /* an aircraft banks and pitches so fast */
@@ -134,13 +135,23 @@ static double way_of(const struct body_look *body, double reach_m, double dt_s)
     return dt_s * (vec3_length(now->velocity) + vec3_length(now->spin) * reach_m);
 }
 
-/* Measures a wreck's depth in the ground if it has grown. One that a vehicle had may stay. Wrecks
- * sink in water. */
-static void measure_sinking(struct measures *measures, const struct surface *surface,
+/* Returns how far the ground may have pushed a body out of it, which gives no speed [m]. */
+static double pushed_m(const struct body_look *body, double dt_s)
+{
+    double speed = maths_max(vec3_length(body->now.velocity), vec3_length(body->was->velocity));
+    double way = vec3_length(vec3_sub(body->named.at, body->was->pose.at));
+    return maths_max(0.0, way - speed * dt_s);
+}
+
+/* Measures a wreck's depth in the ground if it has grown. One that a vehicle had may stay. Where
+ * the ground pushes out a wreck to the side, a corner that it leaves slantwise may get deeper below
+ * the surface first. Wrecks sink in water. */
+static void measure_sinking(struct measures *measures, const struct ground_look *ground,
                             const struct body_look *body)
 {
-    bool sinks = body->now.lowest_m < body->was->lowest_m - SINKS_M &&
-                 !surface_is_water(surface, body->named.at.x, body->named.at.z);
+    double slack = SINKS_M + SLANTS * pushed_m(body, ground->dt_s);
+    bool sinks = body->now.lowest_m < body->was->lowest_m - slack &&
+                 !surface_is_water(ground->surface, body->named.at.x, body->named.at.z);
     measure_take(measures, MEASURE_OF_WRECK_UNDERGROUND,
                  sinks ? maths_max(0.0, -body->now.lowest_m) : 0.0, &body->named, NULL);
 }
@@ -167,7 +178,7 @@ static void measure_corners(struct measures *measures, const struct ground_look 
     if (!placed && !surface_is_water(ground->surface, at.x, at.z))
         measure_take(measures, MEASURE_OF_UNDERGROUND, maths_max(0.0, depth), &body->named, NULL);
     if (body->known && body->now.wreck && body->was->wreck && !ground->fresh)
-        measure_sinking(measures, ground->surface, body);
+        measure_sinking(measures, ground, body);
 }
 
 /* Returns how high a vehicle stands over the ground under its middle. */

@@ -287,6 +287,22 @@ static void test_a_wreck_that_sinks(void **state)
     is_bad(MEASURE_OF_WRECK_UNDERGROUND, 0.71);
 }
 
+/* It has no speed while the ground pushes it out to the side. */
+static void test_a_wreck_that_comes_out_slantwise(void **state)
+{
+    uint32_t tank = put_wreck(-0.7);
+    (void)state;
+    begin();
+    now.entities.x[tank] += 0.009;
+    now.entities.y[tank] -= 0.001;
+    next();
+    is_good();
+    now.entities.x[tank] += 0.009;
+    now.entities.y[tank] -= 0.003;
+    next();
+    is_bad(MEASURE_OF_WRECK_UNDERGROUND, 0.704);
+}
+
 /* A blow of the ground explains any change of speed, but no gain of energy. */
 static void test_a_wreck_that_bounces(void **state)
 {
@@ -844,6 +860,7 @@ int main(void)
         TEST(test_a_wreck_under_the_ground),
         TEST(test_a_vehicle_is_placed_level),
         TEST(test_a_wreck_that_sinks),
+        TEST(test_a_wreck_that_comes_out_slantwise),
         TEST(test_a_wreck_that_bounces),
         TEST(test_the_energy_of_a_wreck_that_rolls),
         TEST(test_a_wreck_that_is_pushed_out),
