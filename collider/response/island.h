@@ -33,6 +33,7 @@ struct island_body {
     bool stays;           /* its pair may not meet again in this frame: it stays where it is */
     bool unmoved;         /* the contacts have not changed its motion */
     bool grounded;
+    bool flies;        /* an aircraft, or the wreck of one */
     bool follows_spin; /* it goes on by its velocity and spin alone, without its pilot's steering */
     double fallen_mps; /* what it takes at once of the fall in the rest of the frame */
     struct vec3 arm;   /* [m, world] from the position to the centre of mass */
