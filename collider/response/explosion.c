@@ -44,7 +44,8 @@ int charges_init(struct charges *charges, const struct world *world)
     *charges = (struct charges){.capacity = world->params->capacity};
     charges->charge = reserve_take(charges->capacity, sizeof *charges->charge);
     charges->pushed = reserve_take(charges->capacity, sizeof *charges->pushed);
-    if (charges->charge && charges->pushed &&
+    charges->is_pushed = reserve_take(charges->capacity / 64 + 1, sizeof *charges->is_pushed);
+    if (charges->charge && charges->pushed && charges->is_pushed &&
         pair_list_init(&charges->near, broad_phase_found_most(world)) == 0)
         return 0;
     charges_free(charges);
@@ -56,6 +57,7 @@ void charges_free(struct charges *charges)
 {
     reserve_free(charges->charge);
     reserve_free(charges->pushed);
+    reserve_free(charges->is_pushed);
     pair_list_free(&charges->near);
     *charges = (struct charges){0};
 }
@@ -93,6 +95,26 @@ static bool overturns(const struct response_context *context, uint32_t row, cons
            explosion_impulse_overturns(&context->world->kinds[e->kind[row]], own.x, own.z);
 }
 
+static void note_pushed(struct charges *charges, uint32_t row)
+{
+    uint64_t *word = &charges->is_pushed[row / 64], bit = (uint64_t)1 << row % 64;
+    if (*word & bit)
+        return;
+    *word |= bit;
+    charges->pushed[charges->pushed_count++] = row;
+}
+
+/* Finds the contacts of the new paths of the rows that explosions of this time have pushed. */
+static void sweep_pushed(struct response_context *context, double time)
+{
+    struct charges *charges = context->charges;
+    if (charges->pushed_count > 0)
+        path_change_swept(context, charges->pushed, charges->pushed_count, time);
+    for (uint32_t n = 0; n < charges->pushed_count; n++)
+        charges->is_pushed[charges->pushed[n] / 64] = 0;
+    charges->pushed_count = 0;
+}
+
 /* Pushes the row at this time, under the responses that know momentum. */
 static void push(struct response_context *context, const struct charge *charge, uint32_t row,
                  double time)
@@ -111,7 +133,7 @@ static void push(struct response_context *context, const struct charge *charge, 
     if (overturns(context, row, &target.turn, on_body.impulse_ns))
         damage_overturn(context, row);
     body_push(context, row, time, on_body.point, on_body.impulse_ns);
-    charges->pushed[charges->pushed_count++] = row;
+    note_pushed(charges, row);
 }
 
 /* Damages the row, if it is no wreck. */
@@ -207,14 +229,11 @@ static void explosion_one(struct response_context *context, const struct charge 
     double radius = EXPLOSION_RADIUS_M * maths_cbrt(charge->explosive_kg);
     const struct path still = {.at = charge->point};
     struct path_box box = pair_filter_path_box(&still, radius + pair_filter_slack(context->world));
-    struct charges *charges = context->charges;
-    struct pair_list *near = &charges->near;
-    near->count = charges->pushed_count = 0;
+    struct pair_list *near = &context->charges->near;
+    near->count = 0;
     find_rows(context, &box);
     for (uint32_t i = 0; i < near->count; i++)
         explosion_row(context, charge, radius, near->pair[i].a);
-    if (charges->pushed_count > 0)
-        path_change_swept(context, charges->pushed, charges->pushed_count, charge->time);
     alarm(context, charge, SUPPRESSION_REACH * radius);
     near->count = 0;
     broad_phase_query_fixed(context->broad, &context->input.detect, &box, near);
@@ -225,10 +244,13 @@ static void explosion_one(struct response_context *context, const struct charge 
 void explosion_all(struct response_context *context)
 {
     struct charges *charges = context->charges;
-    /* Explosions may add charges. Each body explodes once, so this ends. */
+    /* Explosions may add charges. Each body explodes once, so this ends. What a chain of them at
+     * one time pushes is swept once, from there. */
     for (uint32_t i = 0; i < charges->count; i++) {
         struct charge charge = charges->charge[i];
         explosion_one(context, &charge);
+        if (i + 1 == charges->count || charges->charge[i + 1].time != charge.time)
+            sweep_pushed(context, charge.time);
         work_done();
     }
     charges->count = 0;

@@ -20,7 +20,8 @@ struct charges {
     struct charge *charge;
     uint32_t count, capacity;
     struct pair_list near; /* the bodies within a radius */
-    uint32_t *pushed;      /* [capacity] the rows that one explosion pushes */
+    uint32_t *pushed;      /* [capacity] the rows that explosions of one time push */
+    uint64_t *is_pushed;   /* [capacity / 64] a bit for each of these */
     uint32_t pushed_count;
 };
 
