@@ -115,16 +115,17 @@ done
 # Its first four minutes, with fire, craters, crashes and wrecks. `make judge` looks at an hour.
 check "four minutes of the default world are within the bounds" "$physics_hour" "$bin" hunter-liggett 14400
 
-# --- a bound that is passed: a jeep that the scenario makes three times too fast ---------------------
-cat >fast.cfg <<'C'
-world = { name = "fast"; seed = 2; capacity = 64; };
+# --- a bound that is passed: a jeep on hold follows the ground over a steep edge, its nose in the ground ----
+cat >edge.cfg <<'C'
+world = { name = "edge"; seed = 2; capacity = 64; };
 terrain = { source = "flat"; height_m = 100.0; };
-vehicles = ( { kind = "jeep"; behaviour = "hold"; at = [25000.0, 25000.0]; speed_mps = 90.0; } );
+earthworks = ( { shape = "table"; at = [25030.0, 25000.0]; length_m = 20.0; width_m = 20.0; height_m = 6.0; edge_m = 0.75; } );
+vehicles = ( { kind = "jeep"; behaviour = "hold"; at = [25000.0, 25000.0]; heading_deg = 90.0; speed_mps = 20.0; } );
 C
-run fast fast.cfg 30
-replay fast/commands.log --physics >text
+run edge edge.cfg 180
+replay edge/commands.log --physics >text
 check "a bound that is passed gives exit code 1" equal $? 1
-check "the table says which, where and when" eval 'grep -q "^physics: BAD" text && grep -Eq "^speed .* BAD .* frame 0 .*; jeep 1 at \(25000" text'
+check "the table says which, where and when" eval 'grep -q "^physics: BAD" text && grep -Eq "^underground .* BAD .* frame [0-9]+ .*; jeep 1 at \(250" text'
 check "the other measures are good" eval '[ "$(grep -c BAD text)" = 2 ]'
 
 # --- wrong usage -------------------------------------------------------------------------------------
