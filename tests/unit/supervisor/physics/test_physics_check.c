@@ -686,26 +686,6 @@ static void test_bodies_that_pressed_share_their_energy(void **state)
     assert_false(measure_good(&check.measures, MEASURE_OF_ENERGY));
 }
 
-/* The edge of the world stops a vehicle in a frame, and nothing else does. */
-static void test_the_edge_of_the_world_stops_a_vehicle(void **state)
-{
-    uint32_t tank = put("tank", 49996.0, 100.0);
-    (void)state;
-    steps_rows(&f).vx[tank] = 5.0;
-    begin();
-    now.entities.vx[tank] = 0.0;
-    next();
-    is_good();
-    now.entities.x[tank] = 49900.0;
-    now.entities.vx[tank] = 5.0;
-    add_event(EVENT_COMMAND)->command.entity = tank + 1;
-    next();
-    is_good();
-    now.entities.vx[tank] = 0.0;
-    next();
-    is_bad(MEASURE_OF_ACCELERATION, 300.0 - 5.0 * steps_kind(&f, "tank")->turn_rate_rps);
-}
-
 static void test_speed_and_spin(void **state)
 {
     uint32_t tank = put("tank", MIDDLE, 100.0);
@@ -716,82 +696,6 @@ static void test_speed_and_spin(void **state)
     now.entities.spin_y[tank] = -30.0;
     next();
     is_bad(MEASURE_OF_SPEED, 3.0);
-    is_bad(MEASURE_OF_SPIN, 30.0);
-}
-
-static void test_a_body_that_is_thrown(void **state)
-{
-    uint32_t tank = put("tank", MIDDLE, 100.0);
-    double top = steps_kind(&f, "tank")->max_speed_mps;
-    (void)state;
-    begin();
-    struct event *event = add_event(EVENT_DETONATION);
-    event->detonation.point[0] = MIDDLE;
-    event->detonation.point[1] = 100.0;
-    event->detonation.point[2] = MIDDLE;
-    event->detonation.explosive_kg = 1.0f;
-    now.entities.vx[tank] = 3.0 * top;
-    next();
-    next();
-    assert_true(measure_good(&check.measures, MEASURE_OF_SPEED));
-    now.entities.vx[tank] = top;
-    next();
-    now.entities.vx[tank] = 3.0 * top;
-    next();
-    is_bad(MEASURE_OF_SPEED, 3.0);
-}
-
-static void test_a_body_that_begins_fast(void **state)
-{
-    uint32_t tank = put("tank", MIDDLE, 100.0);
-    (void)state;
-    steps_rows(&f).vx[tank] = 3.0 * steps_kind(&f, "tank")->max_speed_mps;
-    begin();
-    next();
-    assert_true(measure_good(&check.measures, MEASURE_OF_SPEED));
-}
-
-/* Gives the first of two tanks this spin in a frame in which both collide. */
-static void collide(uint32_t a, uint32_t b, double spin_rps)
-{
-    struct event *event = add_event(EVENT_COLLISION);
-    event->collision.a.id = a + 1;
-    event->collision.b.id = b + 1;
-    now.entities.spin_y[a] = spin_rps;
-    next();
-}
-
-/* At 30 rad/s the points of a tank go about its centre at 30 times its radius of gyration. */
-static void test_a_body_that_a_fast_one_spins_up(void **state)
-{
-    uint32_t a = put("tank", MIDDLE, 100.0), b = put("tank", MIDDLE + 10.0, 100.0);
-    const struct kind *kind = steps_kind(&f, "tank");
-    double square = kind->length_m * kind->length_m + kind->width_m * kind->width_m;
-    double speed = 30.0 * sqrt(square / 12.0);
-    (void)state;
-    steps_rows(&f).vx[b] = -1.01 * speed;
-    begin();
-    collide(a, b, 30.0);
-    assert_true(measure_good(&check.measures, MEASURE_OF_SPIN));
-    now.entities.spin_y[a] = 19.0; /* it turns freely, and its axes differ */
-    next();
-    now.entities.spin_y[a] = 21.0;
-    next();
-    assert_true(measure_good(&check.measures, MEASURE_OF_SPIN));
-    now.entities.spin_y[a] = 9.0;
-    next();
-    now.entities.spin_y[a] = 21.0;
-    next();
-    is_bad(MEASURE_OF_SPIN, 21.0);
-}
-
-static void test_a_slow_body_spins_nothing_up(void **state)
-{
-    uint32_t a = put("tank", MIDDLE, 100.0), b = put("tank", MIDDLE + 10.0, 100.0);
-    (void)state;
-    steps_rows(&f).vx[b] = -20.0;
-    begin();
-    collide(a, b, 30.0);
     is_bad(MEASURE_OF_SPIN, 30.0);
 }
 
@@ -881,11 +785,6 @@ int main(void)
         TEST(test_a_command_an_explosion_and_a_collision_explain_it),
         TEST(test_bodies_that_pressed_share_their_energy),
         TEST(test_speed_and_spin),
-        TEST(test_a_body_that_is_thrown),
-        TEST(test_a_body_that_begins_fast),
-        TEST(test_the_edge_of_the_world_stops_a_vehicle),
-        TEST(test_a_body_that_a_fast_one_spins_up),
-        TEST(test_a_slow_body_spins_nothing_up),
         TEST(test_a_jump),
         TEST(test_a_wreck_that_snaps),
         TEST(test_no_numbers_and_no_world),

@@ -1,0 +1,192 @@
+/* One body's motion: fast beginnings, what throws and spins it, and the edge of the world. */
+#include "supervisor/physics/body_measures.h"
+
+#include "supervisor/physics/physics_check.h"
+#include "tests/support/steps.h"
+#include "world/entity/event.h"
+#include "world/params.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#define MIDDLE 25000.0
+
+static struct fixture f;
+static struct physics_check check;
+static struct state now; /* the frame that the test writes by hand */
+
+static int open_world(void **state)
+{
+    (void)state;
+    fixture_open(&f, "");
+    return 0;
+}
+
+static int close_world(void **state)
+{
+    (void)state;
+    fixture_close(&f);
+    return 0;
+}
+
+static int end_check(void **state)
+{
+    (void)state;
+    physics_check_free(&check);
+    steps_empty(&f);
+    return 0;
+}
+
+/* A vehicle that faces east. */
+static uint32_t put(const char *kind, double x, double y)
+{
+    return fixture_put(
+        &f, (struct fixture_entity){.kind = kind, .at = {x, y, MIDDLE}, .heading_rad = HALF_PI});
+}
+
+static void begin(void)
+{
+    now = fixture_state(&f);
+    assert_int_equal(physics_check_begin(&check, &f.view.world, &now), 0);
+}
+
+static void next(void)
+{
+    const struct physics_events events = {f.view.events, f.view.world.params->event_slots};
+    now.head->frame++;
+    now.head->tick++;
+    assert_int_equal(physics_check_frame(&check, &now, &events), 0);
+}
+
+static struct event *add_event(enum event_type type)
+{
+    uint64_t sequence = now.head->event_end++;
+    struct event *event = &f.view.events[sequence & (f.view.world.params->event_slots - 1)];
+    *event = (struct event){.sequence = sequence, .type = type};
+    return event;
+}
+
+static void is_bad(enum measure_kind kind, double value)
+{
+    assert_true(fabs(check.measures.of[kind].worst - value) < 1e-9 * value);
+    assert_false(measure_good(&check.measures, kind));
+}
+
+static void is_good(void)
+{
+    assert_true(measures_good(&check.measures));
+}
+
+static void test_a_body_that_is_thrown(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 100.0);
+    double top = steps_kind(&f, "tank")->max_speed_mps;
+    (void)state;
+    begin();
+    struct event *event = add_event(EVENT_DETONATION);
+    event->detonation.point[0] = MIDDLE;
+    event->detonation.point[1] = 100.0;
+    event->detonation.point[2] = MIDDLE;
+    event->detonation.explosive_kg = 1.0f;
+    now.entities.vx[tank] = 3.0 * top;
+    next();
+    next();
+    assert_true(measure_good(&check.measures, MEASURE_OF_SPEED));
+    now.entities.vx[tank] = top;
+    next();
+    now.entities.vx[tank] = 3.0 * top;
+    next();
+    is_bad(MEASURE_OF_SPEED, 3.0);
+}
+
+/* The edge of the world stops a vehicle in a frame, and nothing else does. */
+static void test_the_edge_of_the_world_stops_a_vehicle(void **state)
+{
+    uint32_t tank = put("tank", 49996.0, 100.0);
+    (void)state;
+    steps_rows(&f).vx[tank] = 5.0;
+    begin();
+    now.entities.vx[tank] = 0.0;
+    next();
+    is_good();
+    now.entities.x[tank] = 49900.0;
+    now.entities.vx[tank] = 5.0;
+    add_event(EVENT_COMMAND)->command.entity = tank + 1;
+    next();
+    is_good();
+    now.entities.vx[tank] = 0.0;
+    next();
+    is_bad(MEASURE_OF_ACCELERATION, 300.0 - 5.0 * steps_kind(&f, "tank")->turn_rate_rps);
+}
+
+static void test_a_body_that_begins_fast(void **state)
+{
+    uint32_t tank = put("tank", MIDDLE, 100.0);
+    (void)state;
+    steps_rows(&f).vx[tank] = 3.0 * steps_kind(&f, "tank")->max_speed_mps;
+    begin();
+    next();
+    assert_true(measure_good(&check.measures, MEASURE_OF_SPEED));
+}
+
+/* Gives the first of two tanks this spin in a frame in which both collide. */
+static void collide(uint32_t a, uint32_t b, double spin_rps)
+{
+    struct event *event = add_event(EVENT_COLLISION);
+    event->collision.a.id = a + 1;
+    event->collision.b.id = b + 1;
+    now.entities.spin_y[a] = spin_rps;
+    next();
+}
+
+/* At 30 rad/s the points of a tank go about its centre at 30 times its radius of gyration. */
+static void test_a_body_that_a_fast_one_spins_up(void **state)
+{
+    uint32_t a = put("tank", MIDDLE, 100.0), b = put("tank", MIDDLE + 10.0, 100.0);
+    const struct kind *kind = steps_kind(&f, "tank");
+    double square = kind->length_m * kind->length_m + kind->width_m * kind->width_m;
+    double speed = 30.0 * sqrt(square / 12.0);
+    (void)state;
+    steps_rows(&f).vx[b] = -1.01 * speed;
+    begin();
+    collide(a, b, 30.0);
+    assert_true(measure_good(&check.measures, MEASURE_OF_SPIN));
+    now.entities.spin_y[a] = 19.0; /* it turns freely, and its axes differ */
+    next();
+    now.entities.spin_y[a] = 21.0;
+    next();
+    assert_true(measure_good(&check.measures, MEASURE_OF_SPIN));
+    now.entities.spin_y[a] = 9.0;
+    next();
+    now.entities.spin_y[a] = 21.0;
+    next();
+    is_bad(MEASURE_OF_SPIN, 21.0);
+}
+
+static void test_a_slow_body_spins_nothing_up(void **state)
+{
+    uint32_t a = put("tank", MIDDLE, 100.0), b = put("tank", MIDDLE + 10.0, 100.0);
+    (void)state;
+    steps_rows(&f).vx[b] = -20.0;
+    begin();
+    collide(a, b, 30.0);
+    is_bad(MEASURE_OF_SPIN, 30.0);
+}
+
+#define TEST(name) cmocka_unit_test_teardown(name, end_check)
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        TEST(test_a_body_that_is_thrown),
+        TEST(test_a_body_that_begins_fast),
+        TEST(test_the_edge_of_the_world_stops_a_vehicle),
+        TEST(test_a_body_that_a_fast_one_spins_up),
+        TEST(test_a_slow_body_spins_nothing_up),
+    };
+    return cmocka_run_group_tests(tests, open_world, close_world);
+}
