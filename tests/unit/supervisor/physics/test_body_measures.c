@@ -2,6 +2,7 @@
 #include "supervisor/physics/body_measures.h"
 
 #include "supervisor/physics/physics_check.h"
+#include "tests/support/judged.h"
 #include "tests/support/steps.h"
 #include "world/entity/event.h"
 #include "world/params.h"
@@ -50,34 +51,27 @@ static uint32_t put(const char *kind, double x, double y)
 
 static void begin(void)
 {
-    now = fixture_state(&f);
-    assert_int_equal(physics_check_begin(&check, &f.view.world, &now), 0);
+    judged_begin(&f, &check, &now);
 }
 
 static void next(void)
 {
-    const struct physics_events events = {f.view.events, f.view.world.params->event_slots};
-    now.head->frame++;
-    now.head->tick++;
-    assert_int_equal(physics_check_frame(&check, &now, &events), 0);
+    judged_next(&f, &check, &now);
 }
 
 static struct event *add_event(enum event_type type)
 {
-    uint64_t sequence = now.head->event_end++;
-    struct event *event = &f.view.events[sequence & (f.view.world.params->event_slots - 1)];
-    *event = (struct event){.sequence = sequence, .type = type};
-    return event;
+    return judged_event(&f, &now, type);
 }
 
 static void is_bad(enum measure_kind kind, double value)
 {
-    assert_true(fabs(check.measures.of[kind].worst - value) < 1e-9 * value);
-    assert_false(measure_good(&check.measures, kind));
+    judged_bad(&check, &now, kind, value);
 }
 
 static void is_good(void)
 {
+    judged_no_other_bad(&check, MEASURE_KINDS);
     assert_true(measures_good(&check.measures));
 }
 

@@ -1,6 +1,7 @@
 /* Each measure of the physics check, violated by hand by a known amount. */
 #include "supervisor/physics/physics_check.h"
 
+#include "tests/support/judged.h"
 #include "tests/support/steps.h"
 #include "world/entity/event.h"
 #include "world/entity/hull.h"
@@ -88,49 +89,33 @@ static uint32_t put(const char *kind, double x, double y)
 
 static void begin(void)
 {
-    now = fixture_state(&f);
-    assert_int_equal(physics_check_begin(&check, &f.view.world, &now), 0);
+    judged_begin(&f, &check, &now);
 }
 
 static void next(void)
 {
-    const struct physics_events events = {f.view.events, f.view.world.params->event_slots};
-    now.head->frame++;
-    now.head->tick++;
-    assert_int_equal(physics_check_frame(&check, &now, &events), 0);
+    judged_next(&f, &check, &now);
 }
 
 static struct event *add_event(enum event_type type)
 {
-    uint64_t sequence = now.head->event_end++;
-    struct event *event = &f.view.events[sequence & (f.view.world.params->event_slots - 1)];
-    *event = (struct event){.sequence = sequence, .type = type};
-    return event;
+    return judged_event(&f, &now, type);
 }
 
 /* The measure's worst value is this, and it is the only one beyond its bound, unless also says. */
 static void is_bad(enum measure_kind kind, double value)
 {
-    const struct measure *measure = &check.measures.of[kind];
-    if (fabs(measure->worst - value) > 1e-9 * maths_max(1.0, fabs(value)))
-        fail_msg("%s: %.15g instead of %.15g", measure_word(kind), measure->worst, value);
-    assert_false(measure_good(&check.measures, kind));
-    assert_int_equal(measure->frame, now.head->frame);
-    assert_false(measures_good(&check.measures));
+    judged_bad(&check, &now, kind, value);
 }
 
 static void no_other_is_bad(enum measure_kind kind)
 {
-    for (int i = 0; i < MEASURE_KINDS; i++) {
-        if (i != (int)kind && !measure_good(&check.measures, (enum measure_kind)i))
-            fail_msg("%s is bad, too: %g", measure_word((enum measure_kind)i),
-                     check.measures.of[i].worst);
-    }
+    judged_no_other_bad(&check, kind);
 }
 
 static void is_good(void)
 {
-    no_other_is_bad(MEASURE_KINDS);
+    judged_no_other_bad(&check, MEASURE_KINDS);
     assert_true(measures_good(&check.measures));
 }
 

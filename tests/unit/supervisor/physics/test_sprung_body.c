@@ -4,6 +4,7 @@
 
 #include "supervisor/physics/body_measures.h"
 #include "supervisor/physics/physics_check.h"
+#include "tests/support/judged.h"
 #include "tests/support/steps.h"
 #include "world/params.h"
 
@@ -56,10 +57,7 @@ static void begin(double height_m, double up_mps)
 
 static void next(void)
 {
-    const struct physics_events events = {f.view.events, f.view.world.params->event_slots};
-    now.head->frame++;
-    now.head->tick++;
-    assert_int_equal(physics_check_frame(&check, &now, &events), 0);
+    judged_next(&f, &check, &now);
 }
 
 static double worst(enum measure_kind kind)
