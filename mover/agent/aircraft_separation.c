@@ -2,6 +2,7 @@
 #include "mover/agent/aircraft_separation.h"
 
 #include "mover/agent/avoidance.h"
+#include "mover/motion/aircraft.h"
 #include "mover/motion/kinematics.h"
 #include "world/entity/mass_properties.h"
 #include "world/state.h"
@@ -23,7 +24,6 @@
 #define LOWEST_SHARE  0.3   /* the same of one that is lower: it does not climb below another */
 #define HOVER_LEVEL_M 0.25  /* between the heights at which those on hold are kept from others */
 #define HOVER_ROUNDED 0.1   /* of that: so far from a height they are at it */
-#define GROUND_S      3.0   /* flight keeps its height above the ground here and after this time */
 
 /* The heights [m] between which row i may fly. */
 struct clearance {
@@ -166,15 +166,6 @@ static void keep_levels(struct clearance *clear)
     clear->high = floor(clear->high / HOVER_LEVEL_M + HOVER_ROUNDED) * HOVER_LEVEL_M;
 }
 
-/* The ground [m] above which it holds its height. */
-static double ground_under(const struct step_context *context, uint32_t i)
-{
-    const struct entities *m = context->m;
-    double here = kinematics_ground(context, m->x[i], m->z[i]);
-    return maths_max(here, kinematics_ground(context, m->x[i] + GROUND_S * m->vx[i],
-                                             m->z[i] + GROUND_S * m->vz[i]));
-}
-
 void aircraft_separation_keep(const struct step_context *context, uint32_t i,
                               struct desired_motion *desired)
 {
@@ -185,7 +176,7 @@ void aircraft_separation_keep(const struct step_context *context, uint32_t i,
     if (kinematics_parked(context->m, i))
         keep_levels(&clear);
     double usual = context->world->kinds[context->m->kind[i]].cruise_altitude_m;
-    double ground = ground_under(context, i), height = desired->altitude_m;
+    double ground = aircraft_ground(context, i), height = desired->altitude_m;
     /* Between two it goes up: the higher one goes up, too, and the lower one may be near the
      * ground. */
     height = maths_max(maths_min(height, clear.high - ground), clear.low - ground);

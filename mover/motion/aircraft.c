@@ -45,9 +45,10 @@ static void take_kind(struct aircraft *batch, int l, const struct kind *kind)
     batch->tank.lane[l] = -(int64_t)(kind->fuel_l > 0.0);
 }
 
-/* Returns true if it flies towards an edge of the world that is near. */
-static bool leaves(const struct entities *m, uint32_t i, double side_m)
+bool aircraft_turns_back(const struct step_context *context, uint32_t i)
 {
+    const struct entities *m = context->m;
+    const double side_m = context->world->terrain.squares.world_m;
     double x = m->x[i] + m->vx[i] * EDGE_TURN_S, z = m->z[i] + m->vz[i] * EDGE_TURN_S;
     const double first = EDGE_LEAST_M, last = side_m - EDGE_LEAST_M;
     return x < first || z < first || x > last || z > last;
@@ -81,7 +82,7 @@ static void take_desired(const struct step_context *context, struct aircraft *ba
     batch->brake.lane[l] = desired->brake;
     batch->spool.lane[l] = desired->driven ? 1.0 - (double)m->dodge[i] : 1.0;
     batch->power.lane[l] = desired->driven ? desired->power : 1.0;
-    if (leaves(m, i, side_m))
+    if (aircraft_turns_back(context, i))
         turn_back(m, batch, l, side_m);
 }
 
@@ -113,7 +114,15 @@ bool aircraft_take(const struct step_context *context, struct aircraft *batch, u
     return batch->count == LANE_COUNT;
 }
 
-/* The higher of the ground here and ahead. */
+double aircraft_ground(const struct step_context *context, uint32_t i)
+{
+    const struct entities *m = context->m;
+    double here = kinematics_ground(context, m->x[i], m->z[i]);
+    return maths_max(here, kinematics_ground(context, m->x[i] + LOOK_AHEAD_S * m->vx[i],
+                                             m->z[i] + LOOK_AHEAD_S * m->vz[i]));
+}
+
+/* aircraft_ground() of a batch. */
 static inline void find_highest(const struct step_context *context, struct aircraft *batch,
                                 union simd_lanes *highest)
 {

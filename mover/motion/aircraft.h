@@ -36,6 +36,14 @@ struct aircraft {
     struct terrain_cache_entry idle;  /* of free lanes */
 };
 
+/* Returns true if row i flies towards an edge of the world that is near: it turns back, whatever
+ * its agent or its driver wants. */
+bool aircraft_turns_back(const struct step_context *context, uint32_t i);
+
+/* Returns the ground [m] above which row i holds its height: the higher of that under it and that
+ * where it will be in three seconds. */
+double aircraft_ground(const struct step_context *context, uint32_t i);
+
 /* Empties the batch. frames: by which its rows move. */
 void aircraft_begin(struct aircraft *batch, uint32_t frames);
 

@@ -4,8 +4,6 @@
 #include "mover/context/cruise_start.h"
 #include "mover/motion/aircraft.h"
 #include "mover/motion/airframe.h"
-#include "mover/motion/kinematics.h"
-#include "world/state.h"
 #include "world/terrain/gridsquare.h"
 #include "world/terrain/square_bounds.h"
 #include "world/world.h"
@@ -13,7 +11,6 @@
 #define LOOKS       16   /* places at which it looks at the ground */
 #define NEAR_S      0.6  /* between the first of them */
 #define FAR_SHARE   0.2  /* and between later ones, of the time that they are ahead */
-#define GROUND_S    3.0  /* flight keeps its height above the ground here and after this time */
 #define ROLLS_S     0.5  /* until its bank turns it */
 #define CLEAR_SHARE 0.5  /* of the height that it wants, over the ground ahead */
 #define STEEP_SHARE 0.35 /* of its speed: so fast it climbs and loses no speed that it needs */
@@ -21,8 +18,6 @@
 #define PULL_SHARE  0.65 /* of the pull-up that its lift allows */
 #define LEAST_PULL  0.05 /* [g] */
 #define LEVEL_LOAD  1.5  /* [share of its lift] that it needs while it turns */
-#define EDGE_S      9.0  /* the motion turns it back so long before the edge of the world */
-#define EDGE_M      50.0 /* and so far from it */
 
 /* An aeroplane before a decision. */
 struct climb_look {
@@ -102,15 +97,6 @@ static double needed_climb(const struct climb_look *look, double off_rad, double
     return rate;
 }
 
-/* Returns true if the motion turns it back before the edge of the world. */
-static bool is_turned_back(const struct step_context *context, uint32_t i)
-{
-    const struct entities *m = context->m;
-    const double first = EDGE_M, last = context->world->terrain.squares.world_m - EDGE_M;
-    double x = m->x[i] + EDGE_S * m->vx[i], z = m->z[i] + EDGE_S * m->vz[i];
-    return x < first || z < first || x > last || z > last;
-}
-
 /* Returns how far it turns [rad] to the first heading that needs no more than most_mps, or to the
  * one that needs least. *needed: of the desired one, off_rad; then of that. */
 static double find_way(const struct climb_look *look, double off_rad, double most_mps,
@@ -129,15 +115,6 @@ static double find_way(const struct climb_look *look, double off_rad, double mos
     return best;
 }
 
-/* The ground [m] above which the motion holds its height. */
-static double ground_under(const struct step_context *context, uint32_t i)
-{
-    const struct entities *m = context->m;
-    double here = kinematics_ground(context, m->x[i], m->z[i]);
-    return maths_max(here, kinematics_ground(context, m->x[i] + GROUND_S * m->vx[i],
-                                             m->z[i] + GROUND_S * m->vz[i]));
-}
-
 /* An agent comes down no steeper than straight to over the next height, so that it need not climb
  * hard again, and has time to keep from others. A script's jet comes down to the height that its
  * author gives as soon as it can. */
@@ -150,13 +127,13 @@ void terrain_following_steer(const struct step_context *context, uint32_t i,
     double most = maths_min(STEEP_SHARE * look.speed_mps, CLIMB_SHARE * kind->climb_rate_mps);
     double off = maths_wrap_half(desired->heading_rad - m->heading[i]);
     double needed = needed_climb(&look, off, look.turn_rps), climb = needed;
-    if (needed > most && !is_turned_back(context, i)) {
+    if (needed > most && !aircraft_turns_back(context, i)) {
         desired->heading_rad = m->heading[i] + find_way(&look, off, most, &needed);
         climb = kind->climb_rate_mps;
     }
     if (m->behaviour[i] == BEHAVIOUR_SCRIPT && climb <= 0.0)
         return;
     climb = maths_min(climb, kind->climb_rate_mps);
-    double height = m->y[i] - ground_under(context, i) + climb / AIRCRAFT_FOLLOW_PS;
+    double height = m->y[i] - aircraft_ground(context, i) + climb / AIRCRAFT_FOLLOW_PS;
     desired->altitude_m = maths_max(desired->altitude_m, height);
 }
