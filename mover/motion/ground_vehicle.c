@@ -6,6 +6,7 @@
 #include "mover/motion/chassis_shell.h"
 #include "mover/motion/drivetrain.h"
 #include "mover/motion/fording.h"
+#include "mover/motion/ground_stretch.h"
 #include "mover/motion/kinematics.h"
 #include "mover/motion/kinematics_simd.h"
 #include "mover/query/ground_debris.h"
@@ -26,6 +27,7 @@
 #define PIVOT_PM      1e3  /* [1/m] tracks turn a vehicle on the spot */
 #define NEAR_M        1.0  /* between a body and works or craters that cannot be under it */
 #define LEAST_GAIN    0.1  /* [m/s2] a vehicle that can climb gains speed at least so fast */
+#define HALF_WAYS     3    /* so often the speed half way of a stretch is found again */
 
 double ground_vehicle_debris(const struct step_context *context, uint32_t i)
 {
@@ -206,26 +208,39 @@ static inline void limit(struct ground_vehicle *batch, int h, f64x4 *wanted)
     *wanted = SIMD_CLAMP(*wanted, lowest, most);
 }
 
+/* The gain of speed that the engine gives at this speed [m/s2]. */
+static inline void pull(const struct ground_vehicle *batch, int h, const f64x4 *speed,
+                        const f64x4 *back, f64x4 *gain)
+{
+    const f64x4 slow = SIMD_EVERY(LEAST_MPS), least = SIMD_EVERY(LEAST_GAIN);
+    *gain = batch->power_wpkg.f64x4[h] / SIMD_MAX(*speed, slow) - *back;
+    *gain /= batch->gears.f64x4[h];
+    *gain = SIMD_MAX(*gain, least);
+    *gain = SIMD_MIN(*gain, batch->acceleration.f64x4[h]);
+}
+
 /* The speed along the heading after the step. Agents brake as hard as their kind can, and stop
- * before they drive the other way: brakes give no speed. */
-static inline void power(const struct ground_vehicle *batch, int h, const f64x4 *wanted,
-                         f64x4 *forward, double dt_s)
+ * before they drive the other way: brakes give no speed. In a stretch an engine pulls as it does
+ * half way: it gives less force at a higher speed. */
+static inline void power(struct ground_vehicle *batch, int h, const f64x4 *wanted, f64x4 *forward,
+                         double dt_s)
 {
     const f64x4 none = SIMD_EVERY(0.0), grip = SIMD_EVERY(GROUND_GRIP * GRAVITY_MPS2);
-    const f64x4 slow = SIMD_EVERY(LEAST_MPS), least = SIMD_EVERY(LEAST_GAIN);
-    f64x4 rate = batch->acceleration.f64x4[h], speed = SIMD_ABS(*forward);
+    f64x4 speed = SIMD_ABS(*forward);
     four_masks reverses = *wanted * *forward < none;
     four_masks braking = (SIMD_ABS(*wanted) < SIMD_ABS(*forward)) | reverses;
-    f64x4 hardest = BRAKES * rate, back;
+    f64x4 hardest = BRAKES * batch->acceleration.f64x4[h], back, gain;
     find_held_back(batch, h, wanted, &back);
     hardest = SIMD_MIN(hardest, grip);
-    f64x4 gain = batch->power_wpkg.f64x4[h] / SIMD_MAX(speed, slow) - back;
-    gain /= batch->gears.f64x4[h];
-    gain = SIMD_MAX(gain, least);
-    gain = SIMD_MIN(gain, rate);
+    pull(batch, h, &speed, &back, &gain);
+    for (int n = 0; n < HALF_WAYS && batch->frames > 1; n++) {
+        f64x4 middle = speed + 0.5 * dt_s * gain;
+        pull(batch, h, &middle, &back, &gain);
+    }
     f64x4 step = SIMD_CHOOSE(braking, hardest, gain) * dt_s;
     f64x4 aim = SIMD_CHOOSE(reverses, none, *wanted);
     kinematics_simd_approach(forward, &aim, &step);
+    batch->reaches.f64x4[h] = *forward == aim;
 }
 
 /* --- lanes -------------------------------------------------------------------------------------*/
@@ -235,18 +250,12 @@ struct ahead {
     union simd_lanes x, z, lead_x, lead_z;
 };
 
-/* The time by which the rows move. */
-static double time_of(const struct step_context *context, const struct ground_vehicle *batch)
-{
-    return context->dt_s * (double)batch->frames;
-}
-
 static inline void find_ahead(const struct step_context *context, struct ground_vehicle *batch,
                               const union simd_lanes *forward, union simd_lanes *rightward,
                               struct ahead *ahead)
 {
     const f64x4 none = SIMD_EVERY(0.0);
-    const double dt_s = time_of(context, batch);
+    const double dt_s = ground_vehicle_time_s(context, batch);
     const f64x4 grip = SIMD_EVERY(GROUND_GRIP * GRAVITY_MPS2 * dt_s);
     for (int h = 0; h < LANE_FOURS; h++) {
         f64x4 sine = batch->pose.sine.f64x4[h], cosine = batch->pose.cosine.f64x4[h];
@@ -268,7 +277,7 @@ static void find_arc_end(const struct step_context *context, struct ground_vehic
                          const union simd_lanes *before, const union simd_lanes *forward,
                          const union simd_lanes *heading, struct ahead *ahead)
 {
-    const double dt_s = time_of(context, batch);
+    const double dt_s = ground_vehicle_time_s(context, batch);
     union simd_lanes middle, sine, cosine;
     for (int l = 0; l < LANE_COUNT; l++) {
         double turned = maths_wrap_half(batch->heading.lane[l] - heading->lane[l]);
@@ -325,7 +334,7 @@ static inline void passable(const struct step_context *context, const struct gro
 static void brake_for_water(const struct step_context *context, struct ground_vehicle *batch,
                             const union simd_lanes *before, struct ahead *ahead)
 {
-    const double dt_s = time_of(context, batch);
+    const double dt_s = ground_vehicle_time_s(context, batch);
     for (int l = 0; l < batch->count; l++) {
         double sine = batch->pose.sine.lane[l], cosine = batch->pose.cosine.lane[l];
         double x = batch->pose.x.lane[l], z = batch->pose.z.lane[l], forward = before->lane[l];
@@ -355,7 +364,7 @@ static void brake_for_water(const struct step_context *context, struct ground_ve
 static void run_into_water(const struct step_context *context, struct ground_vehicle *batch,
                            const struct ahead *ahead, union lane_masks *stays)
 {
-    const double stops_mps = GROUND_GRIP * GRAVITY_MPS2 * time_of(context, batch);
+    const double stops_mps = GROUND_GRIP * GRAVITY_MPS2 * ground_vehicle_time_s(context, batch);
     for (int l = 0; l < batch->count; l++) {
         const struct kind *kind = &context->world->kinds[context->m->kind[batch->row[l]]];
         double vx = batch->vx.lane[l], vz = batch->vz.lane[l];
@@ -499,7 +508,7 @@ static enum entry entry_of(const struct step_context *context, const struct grou
     const struct ground_pose *pose = &batch->pose;
     const struct crater_index *craters = pose->cratered.lane[l] ? context->craters : NULL;
     const uint32_t points = bends ? VEHICLE_SHELL_SIDES : VEHICLE_SHELL_ENDS;
-    const double heading = batch->heading.lane[l], dt_s = time_of(context, batch);
+    const double heading = batch->heading.lane[l], dt_s = ground_vehicle_time_s(context, batch);
     const struct vec3 stands = set_on(context, batch, l);
     struct vec3 at = {pose->x.lane[l], stands.x, pose->z.lane[l]};
     const struct vec3 way = {batch->vx.lane[l] * dt_s, climb_of(batch, l, heading, stands.y) * dt_s,
@@ -524,7 +533,6 @@ static inline void find_hollows(const struct step_context *context, struct groun
 {
     union simd_lanes bend;
     four_masks any = {0};
-    memset(&batch->walled, 0, sizeof batch->walled);
     terrain_cache_bends(&batch->pose.ground, &bend);
     for (int h = 0; h < LANE_FOURS; h++)
         any |= (bend.f64x4[h] > batch->bend.f64x4[h]) | batch->pose.cratered.f64x4[h];
@@ -545,9 +553,10 @@ static inline void find_hollows(const struct step_context *context, struct groun
 static inline void find_rough(const struct step_context *context, struct ground_vehicle *batch,
                               const union simd_lanes *forward)
 {
-    const double dt_s = time_of(context, batch);
+    const double dt_s = ground_vehicle_time_s(context, batch);
     const f64x4 tilt = SIMD_EVERY(CHASSIS_TILT_RAD), step = SIMD_EVERY(CHASSIS_STEP_M);
     const f64x4 fall = SIMD_EVERY(GRAVITY_MPS2 * dt_s), lift = SIMD_EVERY(CHASSIS_LIFT_M);
+    memset(&batch->walled, 0, sizeof batch->walled);
     for (int h = 0; h < LANE_FOURS; h++) {
         f64x4 pitch = batch->pose.pitch.f64x4[h], roll = batch->pose.roll.f64x4[h];
         f64x4 drop = forward->f64x4[h] * (batch->pitch.f64x4[h] - pitch);
@@ -555,7 +564,8 @@ static inline void find_rough(const struct step_context *context, struct ground_
                                 (SIMD_ABS(roll) > tilt) | (batch->pose.step.f64x4[h] > step) |
                                 (batch->pose.lift.f64x4[h] > lift) | (drop > fall);
     }
-    find_hollows(context, batch);
+    if (batch->frames == 1)
+        find_hollows(context, batch);
 }
 
 /* Makes a row on rough ground a body on its springs, which goes on as before: an edge under it has
@@ -578,117 +588,13 @@ static void leave_rails(const struct step_context *context, const struct ground_
     m->spin_y[i] = -maths_wrap_half(turned_rad) / context->dt_s;
 }
 
-/* --- stretches ---------------------------------------------------------------------------------*/
-
-#define STRETCH_TURN_RAD 0.6 /* it turns by no more: the arc is within 8 % of its chord */
-#define STRETCH_GAIN_MPS 1.5 /* and gains or loses no more speed */
-#define STRETCH_OFF_M    0.5 /* the ground is no further off the line through its ends */
-
-/* Returns true if the row, which has moved by a stretch, came near ground that bends so much that a
- * shell may get into it. The patch of its place holds the ground half a post's spacing away. */
-static bool passes_hollow(const struct step_context *context, const struct ground_vehicle *batch,
-                          int l, double bend)
-{
-    const struct entities *m = context->m;
-    const struct terrain *terrain = &context->world->terrain;
-    const double x = batch->pose.x.lane[l], back_x = m->x[batch->row[l]] - x;
-    const double z = batch->pose.z.lane[l], back_z = m->z[batch->row[l]] - z;
-    const double way_m = sqrt(back_x * back_x + back_z * back_z);
-    const double looks = ceil(way_m / (0.5 * terrain->spacing_m));
-    struct terrain_cache_entry patch = {0};
-    for (double n = 1.0; n < looks && bend <= batch->bend.lane[l]; n += 1.0)
-        bend = terrain_cache_bend(terrain, &patch, x + back_x * n / looks, z + back_z * n / looks);
-    return bend > batch->bend.lane[l];
-}
-
-/* Returns true if there may be craters, earthworks or debris on the way of a row that has moved by
- * a stretch. */
-static bool passes_marks(const struct step_context *context, const struct ground_vehicle *batch,
-                         int l)
-{
-    const struct entities *m = context->m;
-    const double x = m->x[batch->row[l]], to_x = batch->pose.x.lane[l];
-    const double z = m->z[batch->row[l]], to_z = batch->pose.z.lane[l];
-    if (batch->frames <= context->cruise_short)
-        return batch->pose.cratered.lane[l] != 0 || batch->debris.lane[l] != 1.0;
-    struct gridsquare_box box =
-        gridsquare_box_of(&context->world->terrain.squares, maths_min(x, to_x), maths_min(z, to_z),
-                          maths_max(x, to_x), maths_max(z, to_z));
-    return ground_marks_within(context->ground_marks, box,
-                               GROUND_MARKS_CRATER | GROUND_MARKS_DEBRIS);
-}
-
-/* Returns true if the ground at this share of the way back from the end of a long stretch is not
- * such as that of a short one has to be at its end: it is too steep for a body that follows it, or
- * further above or below the line through the ends than the places of others may be off. */
-static bool is_uneven(const struct step_context *context, const struct ground_vehicle *batch, int l,
-                      double share)
-{
-    const struct entities *m = context->m;
-    const struct ground_pose *pose = &batch->pose;
-    const uint32_t i = batch->row[l];
-    const struct kind *kind = &context->world->kinds[m->kind[i]];
-    const struct terrain *terrain = &context->world->terrain;
-    const struct vec3 end = {pose->x.lane[l], pose->y.lane[l], pose->z.lane[l]};
-    const double turned = share * batch->turned.lane[l], way_s = share * time_of(context, batch);
-    const double heading = batch->heading.lane[l];
-    const double forward =
-        batch->vx.lane[l] * pose->sine.lane[l] - batch->vz.lane[l] * pose->cosine.lane[l];
-    const double arc_m = (forward - 0.5 * batch->gain_mps2.lane[l] * way_s) * way_s;
-    const struct vec3 at = cruise_end(end, heading, -turned, -arc_m);
-    const struct rest_pose stands =
-        rest_pose_of(terrain, context->craters, kind, at.x, at.z, heading - turned);
-    const double line_y = end.y + share * (m->y[i] - end.y);
-    return fabs(stands.pitch_rad) > CHASSIS_TILT_RAD || fabs(stands.roll_rad) > CHASSIS_TILT_RAD ||
-           fabs(stands.y_m - line_y) > STRETCH_OFF_M ||
-           cover_is_water(terrain_cover(terrain, at.x, at.z));
-}
-
-/* Returns true if a row that has moved by a long stretch passes ground that a short one refuses, or
- * if its way would be another one if it had to end earlier. */
-static bool passes_uneven(const struct step_context *context, const struct ground_vehicle *batch,
-                          int l)
-{
-    const uint32_t pieces = batch->frames / context->cruise_short;
-    const double dt_s = time_of(context, batch);
-    if (pieces > 1 &&
-        cruise_off(batch->turned.lane[l] / dt_s, batch->gain_mps2.lane[l], dt_s) > CRUISE_OFF_M)
-        return true;
-    for (uint32_t n = 1; n < pieces; n++) {
-        if (is_uneven(context, batch, l, (double)n / (double)pieces))
-            return true;
-    }
-    return false;
-}
-
-/* Finds the lanes that cannot be moved by a stretch. */
-static void refuse(const struct step_context *context, struct ground_vehicle *batch,
-                   const union simd_lanes *rightward)
-{
-    const struct entities *m = context->m;
-    const double dt_s = time_of(context, batch);
-    union simd_lanes bend;
-    terrain_cache_bends(&batch->pose.ground, &bend);
-    for (int l = 0; l < batch->count; l++) {
-        uint32_t i = batch->row[l];
-        double turned = fabs(batch->turned.lane[l]);
-        double gain = fabs(batch->gain_mps2.lane[l]) * dt_s;
-        double x = 0.5 * (m->x[i] + batch->pose.x.lane[l]);
-        double z = 0.5 * (m->z[i] + batch->pose.z.lane[l]);
-        bool easy = !batch->rough.lane[l] && !batch->blocked.lane[l] &&
-                    !passes_marks(context, batch, l) && turned <= STRETCH_TURN_RAD &&
-                    gain <= STRETCH_GAIN_MPS && rightward->lane[l] == 0.0 &&
-                    !passes_hollow(context, batch, l, bend.lane[l]) &&
-                    !cover_is_water(terrain_cover(&context->world->terrain, x, z)) &&
-                    !passes_uneven(context, batch, l);
-        batch->refused.lane[l] = easy ? 0 : -1;
-    }
-}
+/* --- rows
+ * ---------------------------------------------------------------------------------------*/
 
 static void write_rows(const struct step_context *context, const struct ground_vehicle *batch)
 {
     struct entities *m = context->m;
-    const double dt_s = time_of(context, batch);
+    const double dt_s = ground_vehicle_time_s(context, batch);
     for (int l = 0; l < batch->count; l++) {
         uint32_t i = batch->row[l];
         double turned = batch->heading.lane[l] - m->heading[i];
@@ -720,7 +626,7 @@ void ground_vehicle_move(const struct step_context *context, struct ground_vehic
 {
     union simd_lanes sine, cosine, forward, rightward, under_power, heading;
     struct ahead ahead;
-    const double dt_s = time_of(context, batch);
+    const double dt_s = ground_vehicle_time_s(context, batch);
     find_scars(context, batch);
     heading = batch->heading;
     maths_sincos_lanes(&batch->heading, &sine, &cosine);
@@ -748,6 +654,6 @@ void ground_vehicle_move(const struct step_context *context, struct ground_vehic
     ground_pose_find(context, &batch->pose);
     find_rough(context, batch, &under_power);
     if (batch->frames > 1)
-        refuse(context, batch, &rightward);
+        ground_stretch_refuse(context, batch, &rightward);
     write_rows(context, batch);
 }

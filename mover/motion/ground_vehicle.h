@@ -27,12 +27,19 @@ struct ground_vehicle {
     union lane_masks rough;  /* result: it leaves the ground that it follows */
     union lane_masks walled; /* rough, and its place would be in the ground: it keeps the old one */
     union lane_masks wades;  /* it comes to water too fast for its brakes */
-    union lane_masks blocked; /* result: water, a slope or the edge of the world blocks it */
-    union simd_lanes turned,
-        gain_mps2;            /* by which a stretch turns, and gains speed along its heading
-                               */
-    union lane_masks refused; /* result, of a stretch: the row was not moved */
+    union lane_masks blocked;   /* result: water, a slope or the edge of the world blocks it */
+    union lane_masks reaches;   /* it has the speed that it wants */
+    union simd_lanes turned;    /* by which a stretch turns */
+    union simd_lanes gain_mps2; /* and gains speed along its heading */
+    union lane_masks refused;   /* result, of a stretch: the row was not moved */
 };
+
+/* Returns the time by which the rows move. */
+static inline double ground_vehicle_time_s(const struct step_context *context,
+                                           const struct ground_vehicle *batch)
+{
+    return context->dt_s * (double)batch->frames;
+}
 
 /* Empties a batch of rows that move by so many frames. */
 void ground_vehicle_begin(struct ground_vehicle *batch, uint32_t frames);

@@ -22,7 +22,7 @@
 /* A stretch lasts for so long [s], in whole frames. In a world in which agents decide seldom, those
  * of land vehicles last for up to CRUISE_LONG_S (mover/context/cruise_start.h). */
 #define CRUISE_S      0.5
-#define CRUISE_LONG_S 2.0
+#define CRUISE_LONG_S 5.0
 
 /* Returns the frames of a stretch; 1: the frames are so long that none pays. */
 static inline uint32_t cruise_frames(double dt_s)
@@ -63,7 +63,7 @@ static inline double cruise_off(double rps, double mps2, double left_s)
 }
 
 /* A stretch is made shorter, and a long one begins, if its way is no further off [m]. */
-#define CRUISE_OFF_M 0.001
+#define CRUISE_OFF_M 0.004
 
 /* Returns the time from the tick to the end of the stretch [s]; 0 without one. */
 static inline double cruise_left_s(const struct entities *e, uint32_t i, uint64_t tick, double dt_s)

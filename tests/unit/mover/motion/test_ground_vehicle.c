@@ -224,7 +224,7 @@ static void test_no_shell_gets_into_the_ground_of_a_hollow(void **state)
     }
 }
 
-/* A stretch does not ask at each tick: it does not lead there. */
+/* A stretch looks at its whole way: it does not lead where a shell gets into the ground. */
 static void test_no_stretch_leads_through_a_hollow(void **state)
 {
     (void)state;
