@@ -26,6 +26,9 @@
 /* Of so many searches that find no axis between two bodies, one looks for their nearest points. */
 #define FAILED_A_SEARCH 8u
 
+/* Gaps of near bodies are remembered up to this [m]. */
+#define NEAR_M 0.3
+
 /* Room for the points of resting pairs. A pair for which there is none is swept always. */
 #define REST_POINTS_A_SLOT 8u
 
@@ -64,6 +67,7 @@ int contact_queue_init(struct contact_queue *contacts, const struct world *world
         contacts->strayed && contacts->strays && contacts->paired &&
         pair_apart_init(&contacts->apart, world) == 0 &&
         axis_memory_init(&contacts->axes, world) == 0 &&
+        gap_memory_init(&contacts->gaps, world) == 0 &&
         alone_rows_init(&contacts->alone, world, workers) == 0 &&
         pair_list_init(&contacts->near, broad_phase_found_most(world)) == 0)
         return 0;
@@ -87,6 +91,7 @@ void contact_queue_free(struct contact_queue *contacts)
     reserve_free(contacts->rest_point);
     pair_apart_free(&contacts->apart);
     axis_memory_free(&contacts->axes);
+    gap_memory_free(&contacts->gaps);
     reserve_free(contacts->due);
     reserve_free(contacts->due_row);
     reserve_free(contacts->link);
@@ -138,6 +143,7 @@ void contact_queue_end(struct contact_queue *contacts)
         contacts->head[pair.b] = 0;
         pair_apart_forget(&contacts->apart, pair.b);
     }
+    gap_memory_settle(&contacts->gaps);
 }
 
 /* --- finding -----------------------------------------------------------------------------------*/
@@ -159,6 +165,46 @@ static bool search_axis(struct contact_queue *contacts, uint32_t index, double f
     return found;
 }
 
+/* Returns true for two rows on the paths with which the frame began, and whose poses are known. */
+static bool may_remember(const struct contact_queue *contacts, const struct pair *pair, double from)
+{
+    return from == 0.0 && !(pair->b & PAIR_FIXED) && !contacts->apart.row[pair->a].freely &&
+           !contacts->apart.row[pair->b].freely;
+}
+
+/* Returns how far the points of a row come within the frame by rotation, at most [m]. */
+static double turned_m(const struct row_pose *pose)
+{
+    return pose->rate * pose->body.bound_m;
+}
+
+/* Returns true if bodies that were apart when the frame began, or when they were last measured, do
+ * not come as far. */
+static bool comes_short(struct contact_queue *contacts, uint32_t index, double from)
+{
+    const struct pair *pair = &contacts->pair[index];
+    struct pair_known *known = &contacts->known[index];
+    if (!may_remember(contacts, pair, from))
+        return false;
+    const struct row_pose *a = &contacts->apart.row[pair->a], *b = &contacts->apart.row[pair->b];
+    struct vec3 along = vec3_sub(b->body.path.along, a->body.path.along);
+    struct gap_bounds gap = gap_memory_recall(&contacts->gaps, pair, &a->body, &b->body);
+    known->apart_m = maths_max(known->apart_m, gap.least_m);
+    known->stays_m = known->apart_m - vec3_length(along) - turned_m(a) - turned_m(b);
+    return known->stays_m > 2.0 * SKIN_M;
+}
+
+/* Remembers how far bodies that do not meet are apart when the frame begins. */
+static void remember_gap(struct contact_queue *contacts, const struct pair *pair, double from)
+{
+    if (!may_remember(contacts, pair, from) || !gap_memory_wants(&contacts->gaps, pair))
+        return;
+    const struct swept_body *a = &contacts->apart.row[pair->a].body;
+    const struct swept_body *b = &contacts->apart.row[pair->b].body;
+    double gap_m = time_of_impact_gap_up_to(a, b, 0.0, NEAR_M);
+    gap_memory_note(&contacts->gaps, pair, a, b, gap_m, NEAR_M);
+}
+
 /* Returns true if the bodies of a pair certainly stay apart from a time on. */
 static bool stays_apart(struct contact_queue *contacts, uint32_t index, double from)
 {
@@ -166,7 +212,7 @@ static bool stays_apart(struct contact_queue *contacts, uint32_t index, double f
     struct pair_known *known = &contacts->known[index];
     if (!pair_apart_stays(&contacts->apart, pair, from, SKIN_M, false, &known->plane[0],
                           &known->stays_m) &&
-        !search_axis(contacts, index, from))
+        !comes_short(contacts, index, from) && !search_axis(contacts, index, from))
         return false;
     known->version_a = contacts->version[pair->a];
     known->version_b = pair->b & PAIR_FIXED ? 0 : contacts->version[pair->b];
@@ -208,9 +254,12 @@ static bool sweep_pair(struct contact_queue *contacts, const struct contact_inpu
                                 .pair = index + 1,
                                 .version_a = contacts->version[pair->a],
                                 .version_b = fixed ? 0 : contacts->version[pair->b]};
-    return narrow_phase_find(&input->detect, input->motion, input->through_fixed, pair, from,
-                             &contact->impact) &&
-           !(contacts->marks[index] & CONTACT_RESTS && contact_rests_on(input, contact));
+    if (narrow_phase_find(&input->detect, input->motion, input->through_fixed, pair, from,
+                          &contact->impact))
+        return !(contacts->marks[index] & CONTACT_RESTS && contact_rests_on(input, contact));
+    if (contacts->proves)
+        remember_gap(contacts, pair, from);
+    return false;
 }
 
 bool contact_queue_stays_apart(const struct contact_queue *contacts, uint32_t pair)

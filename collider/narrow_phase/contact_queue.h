@@ -7,6 +7,7 @@
 #include "collider/geometry/level_gap.h"
 #include "collider/narrow_phase/alone_rows.h"
 #include "collider/narrow_phase/axis_memory.h"
+#include "collider/narrow_phase/gap_memory.h"
 #include "collider/narrow_phase/narrow_phase.h"
 #include "collider/narrow_phase/pair_apart.h"
 #include "world/entity/table_write.h"
@@ -153,6 +154,7 @@ struct contact_queue {
     struct alone_rows alone;
     struct pair_apart apart;
     struct axis_memory axes;
+    struct gap_memory gaps;
     bool proves; /* pairs that certainly stay apart are not swept: bodies are hulls */
 };
 

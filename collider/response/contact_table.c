@@ -261,6 +261,29 @@ static double reach_of(const struct response_context *context, uint32_t side)
                : pair_filter_row_reach(&context->input.detect, side);
 }
 
+/* Returns true if the bounds of a gap show the same as the gap: whether the bodies touch, and
+ * whether they are so far apart that their contact may end. */
+static bool suffice(const struct gap_bounds *gap)
+{
+    return gap->least_m > CONTACT_TABLE_PARTED_M ||
+           (gap->least_m > CONTACT_TOUCHING_M && gap->most_m <= CONTACT_TABLE_PARTED_M);
+}
+
+/* Returns the gap of two models, or a bound of it that shows the same. */
+static double gap_of_models(const struct response_context *context,
+                            const struct persistent_contact *contact, const struct swept_body *a,
+                            const struct swept_body *b)
+{
+    struct gap_memory *gaps = &context->contacts->gaps;
+    const struct pair pair = {contact->a_row, side_b(contact)};
+    const struct gap_bounds known = gap_memory_recall(gaps, &pair, a, b);
+    if (suffice(&known))
+        return known.least_m;
+    double gap_m = time_of_impact_gap_up_to(a, b, 0.0, CONTACT_TABLE_PARTED_M);
+    gap_memory_note(gaps, &pair, a, b, gap_m, CONTACT_TABLE_PARTED_M);
+    return gap_m;
+}
+
 /* Returns how far the bodies are apart at the end of the frame, below 0 if they overlap [m]. Beyond
  * the gap at which a contact ends it says only that. */
 static double gap_at_end(const struct response_context *context,
@@ -272,7 +295,7 @@ static double gap_at_end(const struct response_context *context,
     struct swept_body body_a = body_motion_standing(motion, e, a);
     struct swept_body body_b = body_motion_standing(motion, e, b);
     struct vec3 between = vec3_sub(body_b.path.at, body_a.path.at);
-    return motion->models ? time_of_impact_gap_up_to(&body_a, &body_b, 0.0, CONTACT_TABLE_PARTED_M)
+    return motion->models ? gap_of_models(context, contact, &body_a, &body_b)
                           : vec3_length(between) - reach_of(context, a) - reach_of(context, b);
 }
 
